@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// Output that appears whole or not at all: written under a temporary name next to the target, renamed at the end.
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <cstdio>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+#include "sublimit/base/file_error.h"
+
+namespace sublimit {
+
+/// A file being written. Until `commit()` the target is as it was; without it the temporary is removed.
+///
+/// Errors name the target and say what the system said: ResourceError for a full disk, IoError for all else. An existing
+/// target keeps its permissions, a link stays a link to the same file. Devices and pipes are written in place.
+/// @note  Under a limit on file sizes the kernel sends SIGXFSZ, which kills: a program that wants the error instead ignores
+///        that signal. A killed program leaves its temporary, ".NAME.PID-N.tmp", behind.
+/// @note  No fsync: the rename is atomic for every process, not against power failure.
+class AtomicFile {
+ public:
+  explicit AtomicFile(const std::filesystem::path& target) : target_(target), destination_(target) {
+    if (!target.has_filename()) throw_file_error(target, "write", EISDIR, "name a file");
+    struct ::stat status {};
+    const bool exists = ::stat(target.c_str(), &status) == 0;
+    if (exists && S_ISDIR(status.st_mode)) throw_file_error(target, "write", EISDIR, "name a file in it");
+    if (exists && ::access(target.c_str(), W_OK) != 0) throw_file_error(target, "write", errno);
+    if (exists && !S_ISREG(status.st_mode)) {
+      file_ = ::open(target.c_str(), O_WRONLY | O_CLOEXEC);
+      if (file_ < 0) throw_file_error(target, "write", errno);
+      return;
+    }
+    std::error_code unresolved;
+    if (exists) destination_ = std::filesystem::canonical(target, unresolved);
+    if (unresolved) throw_file_error(target, "write", unresolved.value());
+    open_temporary();
+    if (exists) (void)!::fchmod(file_, status.st_mode & 07777);
+  }
+
+  AtomicFile(const AtomicFile&) = delete;
+  AtomicFile& operator=(const AtomicFile&) = delete;
+  ~AtomicFile() {
+    if (file_ >= 0) ::close(file_);
+    if (!temporary_.empty()) ::unlink(temporary_.c_str());
+  }
+
+  /// Appends bytes. Small pieces are gathered, large ones go straight through.
+  void write(std::string_view bytes) {
+    if (buffer_.size() + bytes.size() > buffer_size) flush();
+    if (bytes.size() >= buffer_size) {
+      write_through(bytes);
+    } else {
+      if (buffer_.capacity() < buffer_size) buffer_.reserve(buffer_size);
+      buffer_ += bytes;
+    }
+  }
+
+  /// Writes what is left and gives the file its name. Nothing may be written after.
+  void commit() {
+    flush();
+    // Some file systems report a full disk only here; the descriptor is gone whatever close says.
+    if (::close(std::exchange(file_, -1)) != 0) throw_file_error(target_, "write", errno);
+    if (temporary_.empty()) return;
+    if (std::rename(temporary_.c_str(), destination_.c_str()) != 0) throw_file_error(target_, "write", errno);
+    temporary_.clear();
+  }
+
+ private:
+  static constexpr std::size_t buffer_size = std::size_t{1} << 20;
+
+  void open_temporary() {
+    static std::atomic<unsigned> counter{0};
+    const std::string name = destination_.filename().string().substr(0, 200);  // room for the rest within 255 bytes
+    std::filesystem::path path;
+    do {
+      path = destination_;
+      path.replace_filename("." + name + "." + std::to_string(::getpid()) + "-" + std::to_string(counter++) + ".tmp");
+      file_ = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    } while (file_ < 0 && errno == EEXIST);
+    if (file_ < 0) {
+      throw_file_error(target_, "write", errno, errno == ENOENT ? "its directory must exist" : "");
+    }
+    temporary_ = std::move(path);
+  }
+
+  void flush() {
+    write_through(buffer_);
+    buffer_.clear();
+  }
+
+  void write_through(std::string_view bytes) {
+    while (!bytes.empty()) {
+      const ssize_t count = ::write(file_, bytes.data(), bytes.size());
+      if (count < 0 && errno == EINTR) continue;
+      if (count <= 0) throw_file_error(target_, "write", count < 0 ? errno : EIO);
+      bytes.remove_prefix(std::size_t(count));
+    }
+  }
+
+  std::filesystem::path target_;       // as the caller named it
+  std::filesystem::path destination_;  // with links resolved
+  std::filesystem::path temporary_;    // empty: written in place, or already renamed
+  int file_ = -1;
+  std::string buffer_;
+};
+
+}  // namespace sublimit

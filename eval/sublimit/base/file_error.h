@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// What the system said about a file, as one of our errors: a full disk is a lack of resources, all else is input/output.
+#include <cerrno>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <system_error>
+
+#include "sublimit/base/error.h"
+
+namespace sublimit {
+
+/// Throws "PATH: cannot ACTION: what the system says", then `remedy` if there is one.
+/// @param number  errno as the failed call left it
+/// @throws ResourceError  no space, quota or file size left;  IoError  anything else
+[[noreturn]] inline void throw_file_error(const std::filesystem::path& path, std::string_view action, int number,
+                                          std::string_view remedy = {}) {
+  std::string message = path.string() + ": cannot " + std::string(action) + ": " +
+                        std::generic_category().message(number);
+  if (number == ENOSPC || number == EFBIG || number == EDQUOT) {
+    throw ResourceError(message + "; free some space or write elsewhere");
+  }
+  if (!remedy.empty()) message += "; " + std::string(remedy);
+  throw IoError(message);
+}
+
+}  // namespace sublimit

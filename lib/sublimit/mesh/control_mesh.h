@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// A control mesh as a file or a caller gives it: positions, faces of any size, tags. Plain data; nothing derived.
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sublimit/types.h"
+
+namespace sublimit {
+
+/// What happens at the boundary (the names of OpenSubdiv's VtxBoundaryInterpolation).
+enum class Boundary {
+  none,             ///< faces that touch the boundary are holes
+  edge_only,        ///< boundary edges are sharp
+  edge_and_corner,  ///< boundary edges are sharp, vertices of a single face are corners
+};
+/// How the sharpness of a crease decays from level to level.
+enum class Creasing { uniform, chaikin };
+/// Weights of Catmull-Clark edge points next to triangles.
+enum class Triangles { catmark, smooth };
+
+struct ControlMesh {
+  Points positions;                   ///< #V x 3
+  std::vector<Index> face_sizes;      ///< corners of each face, >= 3
+  std::vector<Index> face_vertices;   ///< vertices of all faces, one after the other, counter-clockwise
+
+  struct Crease {
+    Index tail = 0, head = 0;
+    float sharpness = 0;  ///< levels; >= 10 is infinite
+  };
+  struct Corner {
+    Index vertex = 0;
+    float sharpness = 0;
+  };
+  std::vector<Crease> creases;  ///< the last entry for an edge wins
+  std::vector<Corner> corners;
+  std::vector<Index> holes;     ///< faces that are refined but are not part of the limit
+
+  /// Absent where the file says nothing; the defaults are edge_and_corner, uniform, catmark.
+  std::optional<Boundary> boundary;
+  std::optional<Creasing> creasing;
+  std::optional<Triangles> triangles;
+
+  std::vector<std::string> warnings;  ///< what the reader accepted but wants known, each with file:line
+
+  Index num_vertices() const { return static_cast<Index>(positions.rows()); }
+  Index num_faces() const { return static_cast<Index>(face_sizes.size()); }
+};
+
+}  // namespace sublimit

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// Wavefront OBJ with subdivision tags, read and written to the same bits.
+//
+// Taken: `v x y z` (what follows, a weight or colours, is dropped), `f` with its vertices as `a`, `a/b`, `a//c` or `a/b/c`,
+// negative ones counting backwards, faces of any size, lines continued by a backslash, and the tags
+//
+//     t NAME INTS/FLOATS/STRINGS  integers... floats... strings...        all ids count from 0, unlike those of `f`
+//
+//     crease 2/1/0 a b s          the edge between vertices a and b; more pairs may follow, with one sharpness or one each
+//     corner 1/1/0 v s            likewise
+//     hole 1/0/0 f                any number of faces
+//     interpolateboundary 1/0/0 n              0 none, 1 edge-and-corner, 2 edge-only
+//     creasemethod 0/0/1 normal|chaikin        and smoothtriangles 0/0/1 catmark|smooth
+//     facevaryinginterpolateboundary 1/0/0 n   0 to 5, and facevaryingpropagatecorners 1/0/0 n: checked, not kept
+//
+// Texture coordinates, normals, groups, materials, points and lines are skipped. Unknown keywords and tags and hierarchical
+// edits are skipped with a warning.
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "sublimit/mesh/control_mesh.h"
+#include "sublimit/mesh/write_mesh.h"
+
+namespace sublimit {
+
+/// The mesh in a file.
+/// @throws FormatError    what cannot be understood, with file:line and what would be right
+/// @throws InvalidMesh    what can, but is no mesh: indices out of range, tags of edges that no face has, no faces
+/// @throws IoError        missing, unreadable;  ResourceError  more than memory or 32-bit indices hold
+ControlMesh read_obj(const std::filesystem::path& path);
+
+/// As `read_obj`, from text; messages start with `name`. Takes memory in proportion to the text, whatever the text says.
+ControlMesh parse_obj(std::string_view text, std::string_view name);
+
+/// The text of a mesh and its tags. Numbers have the shortest form that reads back to the same bits; infinite sharpness
+/// is written as 10.
+/// @throws InvalidParameter  arrays that do not fit together;  InvalidMesh  positions or sharpness that are not finite
+std::string format_obj(const MeshOutput& mesh);
+
+/// `format_obj` into a file, which appears whole or not at all.
+void write_obj(const std::filesystem::path& path, const MeshOutput& mesh);
+
+}  // namespace sublimit

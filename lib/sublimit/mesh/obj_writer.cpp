@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+
+#include "sublimit/base/format_number.h"
+#include "sublimit/mesh/obj.h"
+
+namespace sublimit {
+namespace {
+
+void emit_rows(const char* keyword, const Points& rows, std::string& out, const Flush& flush) {
+  for (Eigen::Index row = 0; row < rows.rows(); ++row) {
+    out += keyword;
+    for (Eigen::Index i = 0; i < 3; ++i) {
+      out += ' ';
+      append_number(out, rows(row, i));
+    }
+    out += '\n';
+    flush(out);
+  }
+}
+
+void emit_faces(const MeshOutput& mesh, std::string& out, const Flush& flush) {
+  std::size_t first = 0;
+  for (const Index size : mesh.face_sizes) {
+    const std::size_t last = first + static_cast<std::size_t>(size);
+    const bool per_corner = !mesh.face_normals.empty();
+    bool normals = mesh.normals.rows() > 0;
+    for (std::size_t i = first; per_corner && i < last; ++i) normals = normals && mesh.face_normals[i] >= 0;
+    out += 'f';
+    for (std::size_t i = first; i < last; ++i) {
+      out += ' ';
+      append_number(out, mesh.face_vertices[i] + 1);
+      if (!normals) continue;
+      out += "//";
+      append_number(out, (per_corner ? mesh.face_normals : mesh.face_vertices)[i] + 1);
+    }
+    out += '\n';
+    first = last;
+    flush(out);
+  }
+}
+
+void append_sharpness(std::string& out, float sharpness) {
+  out += ' ';
+  append_number(out, std::isinf(sharpness) ? 10.0f : sharpness);
+  out += '\n';
+}
+
+void emit_tags(const MeshOutput& mesh, std::string& out, const Flush& flush) {
+  if (mesh.boundary) {
+    out += "t interpolateboundary 1/0/0 ";
+    switch (*mesh.boundary) {
+      case Boundary::none:
+        out += "0\n";
+        break;
+      case Boundary::edge_and_corner:
+        out += "1\n";
+        break;
+      case Boundary::edge_only:
+        out += "2\n";
+        break;
+    }
+  }
+  if (mesh.creasing) {
+    out += *mesh.creasing == Creasing::chaikin ? "t creasemethod 0/0/1 chaikin\n" : "t creasemethod 0/0/1 normal\n";
+  }
+  if (mesh.triangles) {
+    out += *mesh.triangles == Triangles::smooth ? "t smoothtriangles 0/0/1 smooth\n" : "t smoothtriangles 0/0/1 catmark\n";
+  }
+  for (const ControlMesh::Crease& crease : mesh.creases) {
+    out += "t crease 2/1/0 ";
+    append_number(out, crease.tail);
+    out += ' ';
+    append_number(out, crease.head);
+    append_sharpness(out, crease.sharpness);
+    flush(out);
+  }
+  for (const ControlMesh::Corner& corner : mesh.corners) {
+    out += "t corner 1/1/0 ";
+    append_number(out, corner.vertex);
+    append_sharpness(out, corner.sharpness);
+    flush(out);
+  }
+  for (const Index hole : mesh.holes) {
+    out += "t hole 1/0/0 ";
+    append_number(out, hole);
+    out += '\n';
+    flush(out);
+  }
+}
+
+void emit_obj(const MeshOutput& mesh, std::string& out, const Flush& flush) {
+  for (const std::string& comment : mesh.comments) {
+    out += "# ";
+    for (const char c : comment) {
+      if (c != '\r') out += c == '\n' ? std::string_view("\n# ") : std::string_view(&c, 1);
+    }
+    out += '\n';
+  }
+  emit_rows("v", mesh.positions, out, flush);
+  emit_rows("vn", mesh.normals, out, flush);
+  emit_faces(mesh, out, flush);
+  emit_tags(mesh, out, flush);
+}
+
+}  // namespace
+
+std::string format_obj(const MeshOutput& mesh) {
+  check_output(mesh, "OBJ");
+  std::string text;
+  emit_obj(mesh, text, [](std::string&) {});
+  return text;
+}
+
+void write_obj(const std::filesystem::path& path, const MeshOutput& mesh) {
+  check_output(mesh, path.string());
+  write_through_buffer(path, [&](std::string& buffer, const Flush& flush) { emit_obj(mesh, buffer, flush); });
+}
+
+}  // namespace sublimit

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// Object File Format (Geomview): text, `OFF`, its counts, then a line for each vertex and each face. The variants COFF,
+// NOFF, STOFF and their mixtures are read, for their positions; colours, normals and texture coordinates are dropped.
+#include <filesystem>
+#include <string_view>
+
+#include "sublimit/mesh/control_mesh.h"
+
+namespace sublimit {
+
+/// The mesh in a file; no tags.
+/// @throws FormatError  not text, not OFF, counts that the file is too short for;  InvalidMesh  indices out of range ...
+/// @throws IoError      missing, unreadable;  ResourceError  more than memory or 32-bit indices hold
+ControlMesh read_off(const std::filesystem::path& path);
+/// As `read_off`, from text; messages start with `name`.
+ControlMesh parse_off(std::string_view text, std::string_view name);
+
+}  // namespace sublimit

@@ -1,0 +1,361 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sublimit/mesh/topology.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "sublimit/base/error.h"
+#include "sublimit/base/parallel_for.h"
+#include "sublimit/mesh/topology_builder.h"
+
+namespace sublimit {
+namespace {
+
+std::string number(Index i) { return std::to_string(i); }
+
+void check(const MeshView& mesh) {
+  const auto total = static_cast<std::int64_t>(mesh.face_vertices.size());
+  if (total > std::numeric_limits<Index>::max() / 4)
+    throw ResourceError("the mesh has " + std::to_string(total) + " face corners; at most " +
+                        number(std::numeric_limits<Index>::max() / 4) + " fit 32-bit indices");
+  if (mesh.num_vertices < 0) throw InvalidMesh("negative number of vertices");
+  const auto check_size = [](Index size, Index face) {
+    if (size < 3)
+      throw InvalidMesh("face " + number(face) + " has " + number(size) + " corners; a face needs at least 3");
+  };
+  std::int64_t sum = 0;
+  if (mesh.face_sizes.empty()) {
+    if (total > 0) check_size(mesh.face_size, 0);
+    sum = std::int64_t{mesh.num_faces()} * mesh.face_size;
+  }
+  for (size_t f = 0; f < mesh.face_sizes.size(); ++f) {
+    check_size(mesh.face_sizes[f], static_cast<Index>(f));
+    sum += mesh.face_sizes[f];
+  }
+  if (sum != total)
+    throw InvalidMesh("the face sizes add up to " + std::to_string(sum) + " corners, but there are " +
+                      std::to_string(total));
+  for (std::int64_t i = 0; i < total; ++i)
+    if (mesh.face_vertices[i] < 0 || mesh.face_vertices[i] >= mesh.num_vertices)
+      throw InvalidMesh("corner " + std::to_string(i) + " names vertex " + number(mesh.face_vertices[i]) +
+                        "; the mesh has vertices 0 to " + number(mesh.num_vertices - 1));
+}
+
+/// Items 0..#keys-1 sorted by key, stable: bucket b holds items[start[b]] .. items[start[b+1]-1].
+struct Buckets {
+  std::vector<Index> start, items;
+  Buckets(const std::vector<Index>& key, Index num_buckets) : start(num_buckets + 1, 0), items(key.size()) {
+    for (const Index k : key) ++start[k + 1];
+    for (Index b = 0; b < num_buckets; ++b) start[b + 1] += start[b];
+    std::vector<Index> at(start.begin(), start.end() - 1);
+    for (size_t i = 0; i < key.size(); ++i) items[at[key[i]]++] = static_cast<Index>(i);
+  }
+  std::span<const Index> operator[](Index b) const { return {items.data() + start[b], size_t(start[b + 1] - start[b])}; }
+};
+
+/// Matches the corners of loose faces: which half-edges are twins, which share a non-manifold edge, which fans meet.
+class Matcher {
+ public:
+  explicit Matcher(const MeshView& mesh) : num_vertices_(mesh.num_vertices) {
+    b.tail.assign(mesh.face_vertices.begin(), mesh.face_vertices.end());
+    const auto count = static_cast<Index>(b.tail.size());
+    b.twin.assign(count, -1);
+    next_.resize(count);
+    face_.resize(count);
+    b.face_offsets.push_back(0);
+    for (Index f = 0, h = 0; f < mesh.num_faces(); ++f) {
+      const Index size = mesh.face_sizes.empty() ? mesh.face_size : mesh.face_sizes[f];
+      for (Index i = 0; i < size; ++i) next_[h + i] = h + (i + 1) % size;
+      std::fill_n(face_.begin() + h, size, f);
+      b.face_offsets.push_back(h += size);
+    }
+    match_edges();
+    find_fans();
+    list_repeated_vertices();
+  }
+
+  TopologyBuilder b;
+
+ private:
+  Index head(Index h) const { return b.tail[next_[h]]; }
+  Index prev(Index h) const {
+    const Index f = face_[h];
+    return h == b.face_offsets[f] ? b.face_offsets[f + 1] - 1 : h - 1;
+  }
+  std::string edge_name(Index h) const { return "(" + number(b.tail[h]) + "," + number(head(h)) + ")"; }
+  std::string faces_of(std::span<const Index> halves) const {
+    std::string names;
+    for (const Index h : halves) names += (names.empty() ? "" : ", ") + number(face_[h]);
+    return names;
+  }
+  void fault(Topology::Fault::Kind kind, std::string message) { b.faults.push_back({kind, std::move(message)}); }
+
+  // The rules of which half-edges make one edge are OpenSubdiv's (Vtr level from face-vertices), so that refined meshes
+  // agree with it: a loop (v,v) is always an edge of its own; an edge met again in the face that it was last used by gets
+  // a second instance, and both are non-manifold; otherwise all half-edges between two vertices share the first instance.
+  void match_edges() {
+    std::vector<Index> low(b.tail.size());
+    for (size_t h = 0; h < low.size(); ++h) low[h] = std::min(b.tail[h], head(static_cast<Index>(h)));
+    const Buckets at_vertex(low, num_vertices_);
+    nonmanifold_.assign(b.tail.size(), false);
+    std::vector<Index> halves;
+    for (Index v = 0; v < num_vertices_; ++v) {
+      halves.assign(at_vertex[v].begin(), at_vertex[v].end());
+      const auto high = [&](Index h) { return std::max(b.tail[h], head(h)); };
+      std::stable_sort(halves.begin(), halves.end(), [&](Index g, Index h) { return high(g) < high(h); });
+      for (auto first = halves.begin(); first != halves.end();) {
+        auto last = first;
+        while (last != halves.end() && high(*last) == high(*first)) ++last;
+        match_pair({&*first, static_cast<size_t>(last - first)});
+        first = last;
+      }
+    }
+    std::sort(b.nonmanifold_edges.begin(), b.nonmanifold_edges.end());
+  }
+
+  /// All half-edges between the same two vertices, ascending.
+  void match_pair(std::span<const Index> halves) {
+    using Kind = Topology::Fault::Kind;
+    if (b.tail[halves[0]] == head(halves[0])) {
+      for (const Index h : halves) {
+        add_nonmanifold({h});
+        fault(Kind::degenerate_edge, "face " + number(face_[h]) + " visits vertex " + number(b.tail[h]) +
+                                         " twice in a row; remove one corner");
+      }
+      return;
+    }
+    std::vector<Index> shared{halves[0]};
+    bool bad = false;
+    for (const Index h : halves.subspan(1)) {
+      if (face_[shared.back()] == face_[h]) {
+        bad = true;
+        add_nonmanifold({h});
+        fault(Kind::repeated_edge, "face " + number(face_[h]) + " uses edge " + edge_name(h) + " twice; split the face");
+        continue;
+      }
+      if (shared.size() == 1 && b.tail[shared[0]] == b.tail[h]) {
+        bad = true;
+        fault(Kind::inconsistent_winding, "faces " + number(face_[shared[0]]) + " and " + number(face_[h]) +
+                                              " use edge " + edge_name(h) + " in the same direction; flip one of them");
+      }
+      shared.push_back(h);
+    }
+    if (shared.size() > 2) {
+      bad = true;
+      fault(Kind::crowded_edge, "edge " + edge_name(shared[0]) + " is used by " + number(Index(shared.size())) +
+                                    " faces: " + faces_of(shared) + "; split it, or accept an infinitely sharp edge");
+    }
+    if (bad) {
+      add_nonmanifold(shared);
+    } else if (shared.size() == 2) {
+      b.twin[shared[0]] = shared[1];
+      b.twin[shared[1]] = shared[0];
+    }
+  }
+  void add_nonmanifold(const std::vector<Index>& halves) {
+    b.nonmanifold_edges.push_back(halves);
+    for (const Index h : halves) nonmanifold_[h] = true;
+  }
+
+  void find_fans() {
+    using Kind = Topology::Fault::Kind;
+    const Buckets corners(b.tail, num_vertices_);
+    b.outgoing.assign(num_vertices_, -1);
+    b.degree.resize(num_vertices_);
+    std::vector<bool> seen(b.tail.size(), false);
+    for (Index v = 0; v < num_vertices_; ++v) {
+      const std::span<const Index> outs = corners[v];
+      b.degree[v] = static_cast<Index>(outs.size());
+      if (outs.empty()) {
+        fault(Kind::isolated_vertex, "vertex " + number(v) + " belongs to no face");
+        continue;
+      }
+      TopologyBuilder::Fans fans{v, {}};
+      const auto walk = [&](Index start) {
+        fans.starts.push_back(start);
+        for (Index h = start; h >= 0 && !seen[h]; h = b.twin[prev(h)]) seen[h] = true;
+      };
+      bool bad_edge = false;
+      for (const Index h : outs) {
+        if (b.twin[h] < 0) walk(h);
+        bad_edge |= nonmanifold_[h] || nonmanifold_[prev(h)];
+      }
+      for (const Index h : outs)
+        if (!seen[h]) walk(h);
+      if (fans.starts.size() == 1 && !bad_edge) {
+        b.outgoing[v] = fans.starts[0];
+      } else {
+        if (fans.starts.size() > 1 && !bad_edge)
+          fault(Kind::several_fans, "the faces around vertex " + number(v) + " form " +
+                                        number(Index(fans.starts.size())) + " fans; split the vertex, or accept a corner");
+        b.nonmanifold_vertices.push_back(std::move(fans));
+      }
+    }
+  }
+
+  void list_repeated_vertices() {
+    std::vector<Index> seen_in(num_vertices_, -1);
+    for (Index h = 0; h < static_cast<Index>(b.tail.size()); ++h) {
+      const Index v = b.tail[h];
+      if (seen_in[v] == face_[h] && head(prev(h)) == v && b.tail[prev(h)] != v)
+        fault(Topology::Fault::Kind::repeated_vertex,
+              "face " + number(face_[h]) + " visits vertex " + number(v) + " more than once; split the face there");
+      seen_in[v] = face_[h];
+    }
+  }
+
+  Index num_vertices_;
+  std::vector<Index> next_, face_;
+  std::vector<bool> nonmanifold_;  // per half-edge
+};
+
+}  // namespace
+
+Topology::Topology(const MeshView& mesh) {
+  check(mesh);
+  *this = std::move(Matcher(mesh).b).build();
+}
+
+Topology TopologyBuilder::build() && {
+  Topology t;
+  t.uniform_ = uniform_face_size;
+  if (!face_offsets.empty()) {  // mixed, unless it turns out uniform
+    t.num_faces_ = static_cast<Index>(face_offsets.size()) - 1;
+    t.uniform_ = t.num_faces_ > 0 ? face_offsets[1] : 0;
+    for (Index f = 0; f < t.num_faces_; ++f)
+      if (face_offsets[f + 1] - face_offsets[f] != t.uniform_) t.uniform_ = 0;
+    if (!t.uniform_) {
+      t.face_.resize(tail.size());
+      for (Index f = 0; f < t.num_faces_; ++f)
+        std::fill(t.face_.begin() + face_offsets[f], t.face_.begin() + face_offsets[f + 1], f);
+      t.offsets_ = std::move(face_offsets);
+    }
+  } else {
+    t.num_faces_ = static_cast<Index>(tail.size()) / uniform_face_size;
+  }
+  t.tail_ = std::move(tail);
+  t.twin_ = std::move(twin);
+  t.vertex_out_ = std::move(outgoing);
+  t.degree_ = std::move(degree);
+  t.faults_ = std::move(faults);
+  number_edges(t, nonmanifold_edges);
+
+  for (Fans& fans : nonmanifold_vertices) {
+    std::vector<Index> edges;
+    for (const Index start : fans.starts) {
+      HalfEdge h{start};
+      do {
+        edges.push_back(index(t.edge(h)));
+        edges.push_back(index(t.edge(t.prev(h))));
+        h = t.ccw(h);
+      } while (exists(h) && h != HalfEdge{start});
+    }
+    std::sort(edges.begin(), edges.end());
+    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+    for (size_t i = 0, count = edges.size(); i < count; ++i)
+      if (t.tail(Edge{edges[i]}) == t.head(Edge{edges[i]})) edges.push_back(edges[i]);
+    std::sort(edges.begin(), edges.end());
+    t.vertex_out_[fans.vertex] = Topology::first_nonmanifold - static_cast<Index>(t.nonmanifold_vertices_.size());
+    t.nonmanifold_vertices_.push_back({std::move(fans.starts), std::move(edges)});
+  }
+  return t;
+}
+
+void TopologyBuilder::number_edges(Topology& t, const std::vector<std::vector<Index>>& groups) {
+  const auto count = static_cast<std::int64_t>(t.tail_.size());
+  t.edge_.resize(count);
+  // A half-edge opens a new edge unless its twin or, on a non-manifold edge, an earlier half-edge did.
+  std::vector<bool> later;
+  if (!groups.empty()) {
+    later.assign(count, false);
+    for (const auto& group : groups)
+      for (size_t i = 1; i < group.size(); ++i) later[group[i]] = true;
+  }
+  const auto opens = [&](std::int64_t h) {
+    return t.twin_[h] >= 0 ? h < t.twin_[h] : later.empty() || !later[h];
+  };
+  std::vector<Index> first_edge(num_blocks(count) + 1, 0);
+  parallel_for_blocks(count, [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
+    Index n = 0;
+    for (std::int64_t h = begin; h < end; ++h) n += opens(h);
+    first_edge[block + 1] = n;
+  });
+  for (size_t i = 1; i < first_edge.size(); ++i) first_edge[i] += first_edge[i - 1];
+  t.edge_half_.resize(first_edge.back());
+  parallel_for_blocks(count, [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
+    Index e = first_edge[block];
+    for (std::int64_t h = begin; h < end; ++h) {
+      if (!opens(h)) continue;
+      t.edge_half_[e] = static_cast<Index>(h);
+      t.edge_[h] = e;
+      if (t.twin_[h] >= 0) t.edge_[t.twin_[h]] = e;
+      ++e;
+    }
+  });
+  for (const auto& group : groups) {
+    for (const Index h : group) t.edge_[h] = t.edge_[group[0]];
+    t.nonmanifold_edges_.push_back({t.edge_[group[0]], group});
+  }
+  std::sort(t.nonmanifold_edges_.begin(), t.nonmanifold_edges_.end(),
+            [](const auto& a, const auto& b) { return a.edge < b.edge; });
+}
+
+const Topology::NonManifoldEdge* Topology::find_nonmanifold(Edge e) const {
+  if (nonmanifold_edges_.empty()) return nullptr;
+  const auto at = std::lower_bound(nonmanifold_edges_.begin(), nonmanifold_edges_.end(), index(e),
+                                   [](const NonManifoldEdge& a, Index b) { return a.edge < b; });
+  return at != nonmanifold_edges_.end() && at->edge == index(e) ? &*at : nullptr;
+}
+
+bool Topology::is_nonmanifold(Edge e) const { return find_nonmanifold(e) != nullptr; }
+
+bool Topology::is_boundary(Edge e) const {
+  if (exists(twin(half_edge(e)))) return false;
+  const NonManifoldEdge* shared = find_nonmanifold(e);
+  return !shared || shared->halves.size() == 1;
+}
+
+std::vector<HalfEdge> Topology::half_edges(Edge e) const {
+  std::vector<HalfEdge> halves{half_edge(e)};
+  if (exists(twin(halves[0]))) halves.push_back(twin(halves[0]));
+  if (const NonManifoldEdge* shared = find_nonmanifold(e)) {
+    halves.clear();
+    for (const Index h : shared->halves) halves.push_back(HalfEdge{h});
+  }
+  return halves;
+}
+
+bool Topology::is_boundary(Vertex v) const {
+  for (const Edge e : edges(v))
+    if (is_boundary(e)) return true;
+  return false;
+}
+
+std::vector<HalfEdge> Topology::fans(Vertex v) const {
+  const Index out = vertex_out_[index(v)];
+  std::vector<HalfEdge> starts;
+  if (out >= 0) starts.push_back(HalfEdge{out});
+  if (out <= first_nonmanifold)
+    for (const Index h : nonmanifold_vertices_[first_nonmanifold - out].fans) starts.push_back(HalfEdge{h});
+  return starts;
+}
+
+std::vector<Edge> Topology::edges(Vertex v) const {
+  std::vector<Edge> result;
+  const Index out = vertex_out_[index(v)];
+  if (out >= 0) {
+    HalfEdge h{out};
+    for (;;) {
+      result.push_back(edge(h));
+      const HalfEdge after = ccw(h);
+      if (!exists(after)) result.push_back(edge(prev(h)));
+      if (!exists(after) || after == HalfEdge{out}) break;
+      h = after;
+    }
+  } else if (out <= first_nonmanifold) {
+    for (const Index e : nonmanifold_vertices_[first_nonmanifold - out].edges) result.push_back(Edge{e});
+  }
+  return result;
+}
+
+}  // namespace sublimit

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// Connectivity of a polygon mesh as immutable half-edge arrays.
+//
+// A half-edge is a corner of a face: it starts at the corner's vertex and runs counter-clockwise to the next one; the
+// half-edges of a face are contiguous. Half-edges have twins only where the mesh is a manifold: two faces, consistently
+// wound. A non-manifold edge is one edge without twins, so walks around a vertex stay on one sheet (a fan), while vertices
+// and edges keep their identity: what the sheets share is welded by being the same element.
+#include <span>
+#include <string>
+#include <vector>
+
+#include "sublimit/mesh/mesh_view.h"
+#include "sublimit/types.h"
+
+namespace sublimit {
+
+class TopologyBuilder;
+
+class Topology {
+ public:
+  /// What a mesh has that a manifold has not. Accepted (design: non-manifold rules), but nothing is kept silent.
+  struct Fault {
+    enum class Kind {
+      isolated_vertex,
+      repeated_vertex,       ///< a face visits a vertex twice
+      degenerate_edge,       ///< a face visits a vertex twice in a row
+      repeated_edge,         ///< a face uses an edge twice
+      crowded_edge,          ///< more than two faces at an edge
+      inconsistent_winding,  ///< two faces use an edge in the same direction
+      several_fans,          ///< faces around a vertex are not one fan
+    };
+    Kind kind;
+    std::string message;  ///< what and where, e.g. "edge (4,9) is used by 3 faces: 1, 7, 12"
+  };
+
+  Topology() = default;
+
+  /// Connectivity of the faces of `mesh`.
+  ///
+  /// Edges are numbered by first appearance, walking the faces in order, corner by corner.
+  /// @throws InvalidMesh    a face with fewer than 3 corners, a vertex out of range, arrays that do not fit together
+  /// @throws ResourceError  more half-edges than 32-bit indices
+  /// @note  Faces that repeat a vertex, isolated vertices, non-manifold edges and vertices and inconsistent winding are
+  ///        accepted; `faults()` lists every one of them.
+  explicit Topology(const MeshView& mesh);
+
+  Index num_vertices() const { return static_cast<Index>(vertex_out_.size()); }
+  Index num_edges() const { return static_cast<Index>(edge_half_.size()); }
+  Index num_faces() const { return num_faces_; }
+  Index num_half_edges() const { return static_cast<Index>(tail_.size()); }
+  const std::vector<Fault>& faults() const { return faults_; }
+
+  // Faces.
+  Index size(Face f) const { return uniform_ ? uniform_ : offsets_[index(f) + 1] - offsets_[index(f)]; }
+  HalfEdge first(Face f) const { return HalfEdge{uniform_ ? uniform_ * index(f) : offsets_[index(f)]}; }
+  HalfEdge corner(Face f, Index i) const { return HalfEdge{index(first(f)) + i}; }
+  std::span<const Index> vertices(Face f) const { return {tail_.data() + index(first(f)), size_t(size(f))}; }
+  /// Size of all faces where they agree, else 0.
+  Index uniform_face_size() const { return uniform_; }
+
+  // Half-edges.
+  Face face(HalfEdge h) const { return Face{uniform_ ? index(h) / uniform_ : face_[index(h)]}; }
+  /// Position of a half-edge within its face.
+  Index corner_index(HalfEdge h) const { return index(h) - index(first(face(h))); }
+  HalfEdge next(HalfEdge h) const {
+    const Face f = face(h);
+    return index(h) + 1 < index(first(f)) + size(f) ? HalfEdge{index(h) + 1} : first(f);
+  }
+  HalfEdge prev(HalfEdge h) const {
+    const Face f = face(h);
+    return h == first(f) ? HalfEdge{index(h) + size(f) - 1} : HalfEdge{index(h) - 1};
+  }
+  HalfEdge twin(HalfEdge h) const { return HalfEdge{twin_[index(h)]}; }
+  Edge edge(HalfEdge h) const { return Edge{edge_[index(h)]}; }
+  Vertex tail(HalfEdge h) const { return Vertex{tail_[index(h)]}; }
+  Vertex head(HalfEdge h) const { return tail(next(h)); }
+  /// Whether a half-edge runs with its edge (from the edge's tail to its head). A loop (v,v) always does.
+  bool forward(HalfEdge h) const { return tail(h) == tail(edge(h)); }
+
+  // Edges. Their direction is that of their first half-edge.
+  HalfEdge half_edge(Edge e) const { return HalfEdge{edge_half_[index(e)]}; }
+  Vertex tail(Edge e) const { return tail(half_edge(e)); }
+  Vertex head(Edge e) const { return head(half_edge(e)); }
+  /// An edge of a single half-edge.
+  bool is_boundary(Edge e) const;
+  bool is_nonmanifold(Edge e) const;
+  /// All half-edges of an edge, ascending.
+  std::vector<HalfEdge> half_edges(Edge e) const;
+
+  // Vertices.
+  bool is_isolated(Vertex v) const { return vertex_out_[index(v)] == isolated; }
+  /// Faces around the vertex are not a single fan, or one of its edges is non-manifold.
+  bool is_nonmanifold(Vertex v) const { return vertex_out_[index(v)] <= first_nonmanifold; }
+  bool is_boundary(Vertex v) const;
+  /// Number of corners at the vertex (of incident faces, for a manifold).
+  Index num_faces(Vertex v) const { return degree_[index(v)]; }
+  /// First half-edge of a manifold vertex in counter-clockwise order: on the boundary the one without a twin, so that
+  /// `ccw` visits all; none for isolated and non-manifold vertices.
+  HalfEdge outgoing(Vertex v) const { return HalfEdge{std::max<Index>(vertex_out_[index(v)], -1)}; }
+  /// First half-edge of each fan at the vertex: one for a manifold vertex, none for an isolated one.
+  std::vector<HalfEdge> fans(Vertex v) const;
+  /// Next half-edge with the same tail, counter-clockwise, on the same sheet; none at a boundary.
+  HalfEdge ccw(HalfEdge h) const { return twin(prev(h)); }
+  /// Edges at the vertex; counter-clockwise for a manifold vertex, else ascending, loops (v,v) twice.
+  std::vector<Edge> edges(Vertex v) const;
+
+ private:
+  friend class TopologyBuilder;
+  static constexpr Index isolated = -1;
+  static constexpr Index first_nonmanifold = -2;
+  struct NonManifoldVertex {
+    std::vector<Index> fans, edges;
+  };
+  struct NonManifoldEdge {
+    Index edge;
+    std::vector<Index> halves;
+  };
+  const NonManifoldEdge* find_nonmanifold(Edge e) const;
+
+  Index num_faces_ = 0;
+  Index uniform_ = 0;            // face size, or 0 for mixed sizes
+  std::vector<Index> offsets_;   // mixed sizes: first half-edge of each face, and the end
+  std::vector<Index> face_;      // mixed sizes: face of each half-edge
+  std::vector<Index> tail_, twin_, edge_;
+  std::vector<Index> edge_half_;   // first half-edge of each edge
+  std::vector<Index> vertex_out_;  // half-edge, `isolated`, or first_nonmanifold - position in nonmanifold_vertices_
+  std::vector<Index> degree_;
+  std::vector<NonManifoldVertex> nonmanifold_vertices_;
+  std::vector<NonManifoldEdge> nonmanifold_edges_;  // ascending
+  std::vector<Fault> faults_;
+};
+
+}  // namespace sublimit

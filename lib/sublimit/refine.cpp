@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sublimit/refine.h"
+
+#include <unistd.h>
+
+#include <limits>
+#include <string>
+
+#include "sublimit/base/error.h"
+#include "sublimit/refine_impl.h"
+#include "sublimit/schemes.h"
+
+namespace sublimit {
+namespace {
+
+double physical_memory() {
+  return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
+}
+
+std::string in_words(double bytes) {
+  const char* units[] = {"bytes", "KB", "MB", "GB", "TB", "PB", "EB"};
+  int unit = 0;
+  while (bytes >= 1000 && unit < 6) {
+    bytes /= 1000;
+    ++unit;
+  }
+  const std::string number = std::to_string(bytes);
+  return number.substr(0, number.find('.') + 2) + " " + units[unit];
+}
+
+/// Elements of a level, as far as sizes go: faces grow by the split, whatever the connectivity.
+struct Counts {
+  double corners, faces, edges, vertices;
+  Counts next(Split split) const {
+    if (split == Split::ptq) return {4 * corners, 4 * faces, 2 * edges + corners, vertices + edges};
+    return {4 * corners, corners, 2 * edges + corners, vertices + faces + edges};
+  }
+  double bytes() const {
+    const double topology = 20 * corners + 12 * edges + 8 * vertices, sharpness = 4 * (edges + vertices);
+    return topology + sharpness + vertices * (8 * 12 + 24);  // about 8 nonzeros a row, and the positions
+  }
+};
+
+void check_levels(const Scheme<double>& scheme, const Topology& t, int levels) {
+  if (levels < 0) throw InvalidParameter("levels is " + std::to_string(levels) + "; it must be 0 or more");
+  const double bytes = predicted_bytes(scheme, t, levels), memory = physical_memory();
+  const std::string amount = std::to_string(levels) + " levels of " + std::to_string(t.num_faces()) + " faces take about " +
+                             in_words(bytes) + " of memory";
+  Counts counts{double(t.num_half_edges()), double(t.num_faces()), double(t.num_edges()), double(t.num_vertices())};
+  for (int k = 0; k < levels; ++k) {
+    for (const Step<double>& step : scheme.steps) counts = counts.next(step.split);
+    if (counts.corners > std::numeric_limits<Index>::max())
+      throw ResourceError(amount + ", and level " + std::to_string(k + 1) +
+                          " has more face corners than 32-bit indices count; use at most " + std::to_string(k));
+  }
+  if (bytes > memory)
+    throw ResourceError(amount + "; this machine has " + in_words(memory) + ". Use fewer levels or refine a subset");
+}
+
+/// Faces that share a vertex with `faces`, themselves included; ascending.
+std::vector<Index> with_neighbors(const Topology& t, std::span<const Index> faces) {
+  std::vector<Index> result(faces.begin(), faces.end());
+  for (const Index f : faces)
+    for (const Index v : t.vertices(Face{f}))
+      for (const HalfEdge start : t.fans(Vertex{v})) {
+        HalfEdge h = start;
+        do {
+          result.push_back(index(t.face(h)));
+          h = t.ccw(h);
+        } while (exists(h) && h != start);
+      }
+  std::sort(result.begin(), result.end());
+  result.erase(std::unique(result.begin(), result.end()), result.end());
+  return result;
+}
+
+SparseMatrix selected_rows(const SparseMatrix& S, const std::vector<Index>& rows) {
+  SparseMatrix result(static_cast<Index>(rows.size()), S.cols());
+  std::int64_t count = 0;
+  for (const Index r : rows) count += S.outerIndexPtr()[r + 1] - S.outerIndexPtr()[r];
+  result.resizeNonZeros(static_cast<Index>(count));
+  Index at = 0;
+  for (size_t i = 0; i < rows.size(); ++i) {
+    result.outerIndexPtr()[i] = at;
+    for (Index k = S.outerIndexPtr()[rows[i]]; k < S.outerIndexPtr()[rows[i] + 1]; ++k, ++at) {
+      result.innerIndexPtr()[at] = S.innerIndexPtr()[k];
+      result.valuePtr()[at] = S.valuePtr()[k];
+    }
+  }
+  result.outerIndexPtr()[rows.size()] = at;
+  return result;
+}
+
+SparseMatrix identity(Index size) {
+  SparseMatrix I(size, size);
+  I.setIdentity();
+  return I;
+}
+
+}  // namespace
+
+template LevelOf<double> control_level(const Scheme<double>&, const ControlMesh&, const SubdivisionOptions&);
+template LevelOf<double> next_level<double>(const Scheme<double>&, const LevelOf<double>&);
+
+std::vector<Level> refine(const Scheme<double>& scheme, const ControlMesh& mesh, int levels,
+                          const SubdivisionOptions& options, const std::function<void(int)>& progress) {
+  std::vector<Level> result;
+  result.push_back(control_level(scheme, mesh, options));
+  check_levels(scheme, result[0].topology(), levels);
+  result.reserve(levels + 1);
+  for (int k = 1; k <= levels; ++k) {
+    if (progress) progress(k);
+    result.push_back(next_level(scheme, result.back()));
+  }
+  return result;
+}
+
+SparseMatrix refinement_matrix(const std::vector<Level>& levels) {
+  if (levels.size() == 1) return identity(levels[0].topology().num_vertices());
+  SparseMatrix P = levels[1].S;
+  for (size_t k = 2; k < levels.size(); ++k) P = product(levels[k].S, P);
+  return P;
+}
+
+double predicted_bytes(const Scheme<double>& scheme, const Topology& t, int levels) {
+  Counts counts{double(t.num_half_edges()), double(t.num_faces()), double(t.num_edges()), double(t.num_vertices())};
+  double bytes = counts.bytes();
+  for (int k = 0; k < levels; ++k) {
+    for (const Step<double>& step : scheme.steps) counts = counts.next(step.split);
+    bytes += counts.bytes();
+  }
+  return bytes;
+}
+
+Subset subset(const Level& whole, std::span<const Index> chosen) {
+  const Topology& t = whole.topology();
+  for (const Index f : chosen)
+    if (f < 0 || f >= t.num_faces())
+      throw InvalidParameter("face " + std::to_string(f) + " does not exist; the level has " +
+                             std::to_string(t.num_faces()));
+  std::vector<Index> faces = with_neighbors(t, chosen);
+  std::vector<Index> complete = faces;  // faces of which every vertex has all its faces in the part
+  complete.assign(chosen.begin(), chosen.end());
+  // Chaikin sharpness at the far end of an edge depends on the edges around that end: one ring more.
+  if (whole.sharpness.creasing == Creasing::chaikin) {
+    complete = faces;
+    faces = with_neighbors(t, faces);
+  }
+
+  std::vector<Index> vertices, sizes, corners;
+  for (const Index f : faces) {
+    const std::span<const Index> of_face = t.vertices(Face{f});
+    sizes.push_back(t.size(Face{f}));
+    corners.insert(corners.end(), of_face.begin(), of_face.end());
+  }
+  vertices = corners;
+  std::sort(vertices.begin(), vertices.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  const auto position = [](const std::vector<Index>& list, Index i) {
+    return static_cast<Index>(std::lower_bound(list.begin(), list.end(), i) - list.begin());
+  };
+  for (Index& v : corners) v = position(vertices, v);
+
+  Subset part;
+  Level& level = part.level;
+  level.number = whole.number;
+  level.steps.emplace_back();
+  level.steps[0].topology = Topology({.num_vertices = static_cast<Index>(vertices.size()),
+                                      .face_vertices = corners,
+                                      .face_sizes = sizes});
+  const Topology& own = level.topology();
+  level.sharpness.creasing = whole.sharpness.creasing;
+  // The rim of the part is no boundary of the mesh: vertices there stay out of the next refinement, and any rule will do.
+  level.sharpness.vertex.assign(vertices.size(), infinite_sharpness);
+  for (const Index f : complete)
+    for (const Index v : t.vertices(Face{f})) level.sharpness.vertex[position(vertices, v)] = whole.sharpness.vertex[v];
+  level.sharpness.edge.resize(own.num_edges());
+  level.holes.resize(faces.size());
+  for (size_t i = 0; i < faces.size(); ++i) {
+    level.holes[i] = whole.holes[faces[i]];
+    for (Index k = 0; k < sizes[i]; ++k)
+      level.sharpness.edge[index(own.edge(own.corner(Face{Index(i)}, k)))] =
+          whole.sharpness.edge[index(t.edge(t.corner(Face{faces[i]}, k)))];
+  }
+  // An edge of the rim has lost a face; without this it would be asked for its smooth mask.
+  for (Index e = 0; e < own.num_edges(); ++e)
+    if (!exists(own.twin(own.half_edge(Edge{e})))) level.sharpness.edge[e] = infinite_sharpness;
+  level.S = selected_rows(identity(t.num_vertices()), vertices);
+  for (const Index f : chosen) part.faces.push_back(position(faces, f));
+  return part;
+}
+
+Subset refine(const Scheme<double>& scheme, const Subset& part) {
+  const Level refined = next_level(scheme, part.level);
+  std::vector<bool> is_chosen(part.level.topology().num_faces(), false);
+  for (const Index f : part.faces) is_chosen[f] = true;
+  std::vector<Index> children;
+  for (Index f = 0; f < refined.topology().num_faces(); ++f) {
+    Index parent = f;
+    for (auto step = refined.steps.rbegin(); step != refined.steps.rend(); ++step) parent = step->face_parent[parent];
+    if (is_chosen[parent]) children.push_back(f);
+  }
+  Subset result = subset(refined, children);
+  std::vector<Index> rows(result.level.S.innerIndexPtr(), result.level.S.innerIndexPtr() + result.level.S.nonZeros());
+  result.level.S = selected_rows(refined.S, rows);
+  return result;
+}
+
+std::pair<SparseMatrix, FaceMatrix> subdivide(const std::string& name, Index num_vertices, const FaceMatrix& F, int levels,
+                                              const SubdivisionOptions& options) {
+  const std::optional<Scheme<double>> scheme = find_scheme(name);
+  if (!scheme) throw InvalidOption("unknown scheme '" + name + "'; did you mean " + nearest_scheme_names(name, 1)[0] + "?");
+  Level level;
+  level.steps.emplace_back();
+  level.steps[0].topology = Topology(view<Eigen::Dynamic>(num_vertices, F));
+  const Boundary boundary = options.boundary.value_or(Boundary::edge_and_corner);
+  level.sharpness = initial_sharpness(level.topology(), {}, boundary, options.creasing.value_or(Creasing::uniform));
+  level.holes.assign(level.topology().num_faces(), false);
+  check_levels(*scheme, level.topology(), levels);
+  SparseMatrix P = identity(num_vertices);
+  for (int k = 0; k < levels; ++k) {
+    level = next_level(*scheme, level);
+    P = k == 0 ? level.S : product(level.S, P);
+  }
+  const Topology& t = level.topology();
+  const Index columns = levels == 0 ? static_cast<Index>(F.cols()) : t.uniform_face_size();
+  FaceMatrix faces(t.num_faces(), columns);
+  for (Index f = 0; f < t.num_faces(); ++f)
+    for (Index k = 0; k < columns; ++k) faces(f, k) = t.vertices(Face{f})[k];
+  return {std::move(P), std::move(faces)};
+}
+
+}  // namespace sublimit

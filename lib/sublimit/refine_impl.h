@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// Levels in any number type (refine.h has what they are); double is compiled into the library.
+#include <utility>
+
+#include "sublimit/refine.h"
+#include "sublimit/sparse_product.h"
+#include "sublimit/subdivision_matrix_impl.h"
+
+namespace sublimit {
+
+/// Whether the limit of a face depends on its own corners alone: edge points on the edge, vertices that stay.
+template <class T>
+bool needs_neighbors(const Scheme<T>& scheme) {
+  for (const Step<T>& step : scheme.steps) {
+    MaskTable<T> masks(step.masks, 0);
+    const std::vector<T>& vertex = masks.vertex(4, 4);
+    const std::vector<T>& edge = masks.edge(4, 4);
+    const auto zero = [](const T& w) { return w == T(0); };
+    if (!std::all_of(vertex.begin() + 1, vertex.end(), zero) || !std::all_of(edge.begin() + 2, edge.end(), zero)) return true;
+  }
+  return false;
+}
+
+template <class T>
+LevelOf<T> control_level(const Scheme<T>& scheme, const ControlMesh& mesh, const SubdivisionOptions& options) {
+  const Boundary boundary = options.boundary.value_or(mesh.boundary.value_or(Boundary::edge_and_corner));
+  const Creasing creasing = options.creasing.value_or(mesh.creasing.value_or(Creasing::uniform));
+  LevelOf<T> level;
+  level.steps.emplace_back();
+  level.steps[0].topology = Topology(view(mesh));
+  level.sharpness = initial_sharpness(level.topology(), mesh, boundary, creasing);
+  const bool holes_at_boundary = boundary == Boundary::none && needs_neighbors(scheme);
+  level.holes = initial_holes(level.topology(), mesh, holes_at_boundary ? boundary : Boundary::edge_only);
+  return level;
+}
+
+template <class T>
+LevelOf<T> next_level(const Scheme<T>& scheme, const LevelOf<T>& parent) {
+  LevelOf<T> child;
+  child.number = parent.number + 1;
+  const Topology* topology = &parent.topology();
+  Sharpness sharpness = parent.sharpness;
+  std::vector<bool> holes = parent.holes;
+  child.steps.reserve(scheme.steps.size());
+  for (const Step<T>& step : scheme.steps) {
+    Refinement refinement = refine(*topology, step.split);
+    Sharpness child_sharpness = refine(sharpness, *topology, refinement);
+    SparseMatrixOf<T> S =
+        subdivision_matrix(scheme, step, *topology, refinement, sharpness, child_sharpness, parent.number);
+    if (child.steps.empty()) {
+      child.S = std::move(S);
+    } else {
+      child.S = SparseMatrixOf<T>(S * child.S);
+    }
+    std::vector<bool> child_holes(refinement.topology.num_faces());
+    for (size_t f = 0; f < child_holes.size(); ++f) child_holes[f] = holes[refinement.face_parent[f]];
+    holes = std::move(child_holes);
+    sharpness = std::move(child_sharpness);
+    child.steps.push_back(std::move(refinement));
+    topology = &child.steps.back().topology;
+  }
+  child.sharpness = std::move(sharpness);
+  child.holes = std::move(holes);
+  return child;
+}
+
+}  // namespace sublimit

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+// Primal quadrilateral split. Corner h of a face becomes child face h, with the four half-edges
+//   side 0: vertex -> midpoint of edge(h)        side 1: midpoint of edge(h) -> face point
+//   side 2: face point -> midpoint of edge(prev h)   side 3: midpoint of edge(prev h) -> vertex
+// stored from position rotation(h) on, so that the children of a quad are oriented as their parent.
+#include <utility>
+
+#include "sublimit/splits/primal.h"
+
+namespace sublimit {
+namespace {
+
+struct Pqq {
+  const Topology& t;
+  Index rotation(Index h) const {
+    const Face f = t.face(HalfEdge{h});
+    return t.size(f) == 4 ? h - index(t.first(f)) : 0;
+  }
+  Index side(Index h, Index k) const { return 4 * h + ((k + rotation(h)) & 3); }
+  Index first_half(Index h) const { return side(h, 0); }
+  Index second_half(Index h) const { return side(index(t.next(HalfEdge{h})), 3); }
+};
+
+}  // namespace
+
+std::pair<HalfEdge, HalfEdge> pqq_halves(const Topology& parent, HalfEdge h) {
+  const Pqq pqq{parent};
+  return {HalfEdge{pqq.first_half(index(h))}, HalfEdge{pqq.second_half(index(h))}};
+}
+
+Refinement refine_pqq(const Topology& parent) {
+  const Pqq pqq{parent};
+  const Index corners = parent.num_half_edges();
+  Refinement r;
+  r.split = Split::pqq;
+  r.from_vertices = parent.num_vertices();
+  r.from_faces = parent.num_faces();
+  r.from_edges = parent.num_edges();
+  const size_t num_vertices = size_t(r.from_vertices) + r.from_faces + r.from_edges;
+
+  TopologyBuilder b;
+  b.uniform_face_size = 4;
+  b.tail.resize(4 * size_t(corners));
+  b.twin.resize(4 * size_t(corners));
+  b.outgoing.resize(num_vertices);
+  b.degree.resize(num_vertices);
+  r.face_parent.resize(corners);
+
+  const PrimalHalves halves(parent, [&](Index h) { return pqq.first_half(h); }, [&](Index h) { return pqq.second_half(h); });
+
+  parallel_for(parent.num_faces(), [&](std::int64_t i) {
+    const Face f{static_cast<Index>(i)};
+    const Index n = parent.size(f), begin = index(parent.first(f));
+    const Index face_point = index(r.child(f));
+    for (Index k = 0; k < n; ++k) {
+      const Index h = begin + k, next = begin + (k + 1 == n ? 0 : k + 1), prev = begin + (k == 0 ? n - 1 : k - 1);
+      r.face_parent[h] = index(f);
+      b.tail[pqq.side(h, 0)] = index(parent.tail(HalfEdge{h}));
+      b.tail[pqq.side(h, 1)] = index(r.child(parent.edge(HalfEdge{h})));
+      b.tail[pqq.side(h, 2)] = face_point;
+      b.tail[pqq.side(h, 3)] = index(r.child(parent.edge(HalfEdge{prev})));
+      b.twin[pqq.side(h, 1)] = pqq.side(next, 2);
+      b.twin[pqq.side(h, 2)] = pqq.side(prev, 1);
+      halves.set_twins(h, b.twin);
+    }
+    b.outgoing[face_point] = pqq.side(begin, 2);
+    b.degree[face_point] = n;
+  });
+  halves.set_fans(b, r, 2);
+  halves.set_nonmanifold(b, r);
+
+  r.topology = std::move(b).build();
+  set_edge_parents(r, parent, [&](HalfEdge child) -> std::pair<HalfEdge, bool> {
+    const Index h = index(child) / 4, side = (index(child) - pqq.rotation(h)) & 3;
+    if (side == 0) return {HalfEdge{h}, true};
+    if (side == 3) return {parent.prev(HalfEdge{h}), false};
+    return {no_half_edge, false};
+  });
+  return r;
+}
+
+}  // namespace sublimit

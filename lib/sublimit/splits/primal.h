@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// What the primal splits share: vertices and edges survive (an edge in two halves), so twins, fans and non-manifold
+// elements of the children follow from the parents' by arithmetic.
+#include <algorithm>
+#include <vector>
+
+#include "sublimit/base/parallel_for.h"
+#include "sublimit/mesh/topology_builder.h"
+#include "sublimit/splits/split.h"
+
+namespace sublimit {
+
+Refinement refine_pqq(const Topology& parent);
+Refinement refine_ptq(const Topology& parent);
+std::pair<HalfEdge, HalfEdge> pqq_halves(const Topology& parent, HalfEdge h);
+std::pair<HalfEdge, HalfEdge> ptq_halves(const Topology& parent, HalfEdge h);
+
+/// Children of parent half-edges in one primal split: `first(h)` runs along the first half of h (from its vertex), and
+/// `second(h)` along the second half (to its head).
+template <class First, class Second>
+class PrimalHalves {
+ public:
+  PrimalHalves(const Topology& parent, First first, Second second) : t_(parent), first_(first), second_(second) {}
+
+  /// Twins of the two children of every half-edge, in `twin`.
+  void set_twins(Index h, std::vector<Index>& twin) const {
+    const Index g = index(t_.twin(HalfEdge{h}));
+    twin[first_(h)] = g < 0 ? -1 : second_(g);
+    twin[second_(h)] = g < 0 ? -1 : first_(g);
+  }
+
+  /// Non-manifold edges and vertices of the child.
+  void set_nonmanifold(TopologyBuilder& b, const Refinement& r) const {
+    for (Index e = 0; e < t_.num_edges(); ++e) {
+      if (exists(t_.twin(t_.half_edge(Edge{e}))) || !t_.is_nonmanifold(Edge{e})) continue;
+      std::vector<Index> at_tail, at_head;
+      TopologyBuilder::Fans fans{index(r.child(Edge{e})), {}};
+      for (const HalfEdge h : t_.half_edges(Edge{e})) {
+        const bool forward = t_.forward(h);
+        (forward ? at_tail : at_head).push_back(first_(index(h)));
+        (forward ? at_head : at_tail).push_back(second_(index(h)));
+        fans.starts.push_back(second_(index(h)));
+      }
+      for (auto* group : {&at_tail, &at_head}) {
+        std::sort(group->begin(), group->end());
+        b.nonmanifold_edges.push_back(*group);
+      }
+      b.nonmanifold_vertices.push_back(std::move(fans));
+    }
+    for (Index v = 0; v < t_.num_vertices(); ++v) {
+      if (!t_.is_nonmanifold(Vertex{v})) continue;
+      TopologyBuilder::Fans fans{v, {}};
+      for (const HalfEdge h : t_.fans(Vertex{v})) fans.starts.push_back(first_(index(h)));
+      b.nonmanifold_vertices.push_back(std::move(fans));
+    }
+  }
+
+  /// Half-edge to start from and number of corners of the children of vertices and edges; `corners_at_edge` is the number
+  /// of child corners that one half-edge contributes at its edge's point.
+  void set_fans(TopologyBuilder& b, const Refinement& r, Index corners_at_edge) const {
+    parallel_for(t_.num_vertices(), [&](std::int64_t i) {
+      const Vertex v{static_cast<Index>(i)};
+      const HalfEdge h = t_.outgoing(v);
+      b.outgoing[i] = exists(h) ? first_(index(h)) : -1;
+      b.degree[i] = t_.num_faces(v);
+    });
+    parallel_for(t_.num_edges(), [&](std::int64_t i) {
+      const Edge e{static_cast<Index>(i)};
+      const HalfEdge h = t_.half_edge(e);
+      const Index child = index(r.child(e));
+      const bool interior = exists(t_.twin(h));
+      b.outgoing[child] = second_(index(h));
+      b.degree[child] = corners_at_edge * (interior ? 2 : static_cast<Index>(t_.half_edges(e).size()));
+    });
+  }
+
+ private:
+  const Topology& t_;
+  First first_;
+  Second second_;
+};
+
+/// `edge_parent` of every child edge, from its first half-edge by origin(child half-edge) -> {parent half-edge or none,
+/// whether it is the half at that half-edge's vertex}.
+template <class OriginOf>
+void set_edge_parents(Refinement& r, const Topology& parent, const OriginOf& origin) {
+  r.edge_parent.resize(r.topology.num_edges());
+  parallel_for(r.topology.num_edges(), [&](std::int64_t i) {
+    const auto [h, at_vertex] = origin(r.topology.half_edge(Edge{static_cast<Index>(i)}));
+    r.edge_parent[i] = -1;
+    if (exists(h)) r.edge_parent[i] = 2 * index(parent.edge(h)) + (at_vertex != parent.forward(h));
+  });
+}
+
+}  // namespace sublimit

@@ -1,0 +1,292 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// Assembly: lengths of the rows, then their entries, both in parallel blocks of rows and in order; no triplets.
+// Smooth rows take their weights from the mask table; the few sharp ones are blended from the rules of parent and child.
+#include <tbb/enumerable_thread_specific.h>
+
+#include <algorithm>
+#include <atomic>
+#include <limits>
+#include <numeric>
+#include <string>
+#include <type_traits>
+
+#include "sublimit/base/error.h"
+#include "sublimit/base/parallel_for.h"
+#include "sublimit/mask_table.h"
+#include "sublimit/subdivision_matrix.h"
+
+namespace sublimit {
+namespace assembly {
+
+/// Rows of one step, one at a time. Not shared between threads; the masks it evaluates are pure, so every instance makes
+/// the same rows.
+template <class T>
+class RowMaker {
+ public:
+  using Term = std::pair<Index, T>;
+
+  RowMaker(const Scheme<T>& scheme, const Step<T>& step, const Topology& parent, const Refinement& refinement,
+           const Sharpness& sharpness, const Sharpness& child_sharpness, int level,
+           const std::vector<std::uint8_t>& is_plain)
+      : t_(parent),
+        refinement_(refinement),
+        sharpness_(sharpness),
+        child_sharpness_(child_sharpness),
+        is_plain_(is_plain),
+        masks_(step.masks, level) {
+    const auto dense = [](const Stencil<T>& stencil) {
+      std::vector<T> weights(3, T(0));
+      for (const auto& [slot, weight] : stencil.terms()) weights[slot] = weight;
+      return weights;
+    };
+    crease_vertex_ = dense(scheme.creases.vertex(CreaseSite<T>(step.masks, level)));
+    crease_edge_ = dense(scheme.creases.edge(CreaseEdgeSite<T>(step.masks, level)));
+  }
+
+  /// Number of terms before coinciding points are merged and zeros dropped; exact for all but those.
+  Index length(Vertex v) {
+    if (!is_plain_[index(v)]) return static_cast<Index>(row(v).size());
+    if (t_.uniform_face_size()) return 1 + t_.num_faces(v) * (t_.uniform_face_size() - 2);
+    gather(t_, v, slots_);
+    return static_cast<Index>(slots_.size());
+  }
+  Index length(Edge e) {
+    const float s = sharpness_.edge[index(e)];
+    if (is_sharp(s)) return s >= 1 ? 2 : static_cast<Index>(row(e).size());
+    const HalfEdge h = t_.half_edge(e);
+    return t_.size(t_.face(h)) + t_.size(t_.face(t_.twin(h))) - 2;
+  }
+  Index length(Face f) { return t_.size(f); }
+
+  /// The row of the child of an element: columns ascending, zeros dropped. Valid until the next call.
+  const std::vector<Term>& row(Face f) {
+    gather(t_, f, slots_);
+    return finish(masks_.face(t_.size(f)));
+  }
+
+  const std::vector<Term>& row(Edge e) {
+    const float s = sharpness_.edge[index(e)];
+    if (!is_sharp(s)) {
+      gather(t_, e, slots_);
+      const HalfEdge h = t_.half_edge(e);
+      return finish(masks_.edge(t_.size(t_.face(h)), t_.size(t_.face(t_.twin(h)))));
+    }
+    row_.clear();
+    const T w = stays_sharp(e) ? T(1) : T(s);
+    for (const auto& [end, weight] : {Term{index(t_.tail(e)), crease_edge_[0]}, Term{index(t_.head(e)), crease_edge_[1]}})
+      row_.push_back({end, w * weight});
+    if (w != T(1)) {
+      gather(t_, e, slots_);
+      const HalfEdge h = t_.half_edge(e);
+      add(T(1) - w, masks_.edge(t_.size(t_.face(h)), t_.size(t_.face(t_.twin(h)))));
+    }
+    return merge();
+  }
+
+  const std::vector<Term>& row(Vertex v) {
+    if (is_plain_[index(v)]) return smooth_row(v);
+    const VertexSharpness around(t_, sharpness_, v);
+    const Rule rule = around.rule(), child_rule = around.child_rule();
+    row_.clear();
+    if (rule == child_rule) {
+      add_rule(T(1), rule, v, around.edges);
+    } else {
+      const T w(around.parent_weight());
+      add_rule(w, rule, v, around.edges);
+      add_rule(T(1) - w, child_rule, v, around.child_edges);
+    }
+    return merge();
+  }
+
+ private:
+  const std::vector<Term>& smooth_row(Vertex v) {
+    if (t_.uniform_face_size()) {
+      gather(t_, v, slots_);
+      return finish(masks_.vertex(t_.num_faces(v), t_.uniform_face_size()));
+    }
+    gather(t_, v, slots_, &sizes_);
+    return finish(masks_.vertex(sizes_));
+  }
+
+  void add_rule(const T& w, Rule rule, Vertex v, const std::vector<float>& edges) {
+    if (w == T(0)) return;
+    if (rule == Rule::corner) {
+      row_.push_back({index(v), w});
+    } else if (rule == Rule::crease) {
+      const std::vector<Edge> around = t_.edges(v);
+      const auto [first, last] = crease_ends(edges);
+      row_.push_back({index(v), w * crease_vertex_[0]});
+      row_.push_back({other_end(around[first], v), w * crease_vertex_[1]});
+      row_.push_back({other_end(around[last], v), w * crease_vertex_[2]});
+    } else {
+      gather(t_, v, slots_, &sizes_);
+      add(w, masks_.vertex(sizes_));
+    }
+  }
+
+  Index other_end(Edge e, Vertex v) const { return index(t_.tail(e) == v ? t_.head(e) : t_.tail(e)); }
+
+  /// An edge is a full crease while its sharpness is 1 or more, and under Chaikin creasing also where both its halves stay
+  /// sharp.
+  bool stays_sharp(Edge e) const {
+    if (sharpness_.edge[index(e)] >= 1) return true;
+    if (sharpness_.creasing == Creasing::uniform) return false;
+    const auto [first, second] = refinement_.halves(t_, t_.half_edge(e));
+    const auto sharp = [&](HalfEdge h) { return is_sharp(child_sharpness_.edge[index(refinement_.topology.edge(h))]); };
+    return sharp(first) && sharp(second);
+  }
+
+  void add(const T& factor, const std::vector<T>& weights) {
+    for (size_t i = 0; i < slots_.size(); ++i) row_.push_back({slots_[i], factor * weights[i]});
+  }
+  const std::vector<Term>& finish(const std::vector<T>& weights) {
+    row_.resize(slots_.size());
+    for (size_t i = 0; i < slots_.size(); ++i) {
+      row_[i].first = slots_[i];
+      row_[i].second = weights[i];
+    }
+    return merge();
+  }
+  const std::vector<Term>& merge() {
+    const auto less = [](const Term& a, const Term& b) { return a.first < b.first; };
+    if (row_.size() <= 24) {  // insertion sort: stable, and the fastest for the short rows that are nearly all
+      for (size_t i = 1; i < row_.size(); ++i) {
+        Term term = std::move(row_[i]);
+        size_t j = i;
+        for (; j > 0 && less(term, row_[j - 1]); --j) row_[j] = std::move(row_[j - 1]);
+        row_[j] = std::move(term);
+      }
+    } else {
+      std::stable_sort(row_.begin(), row_.end(), less);
+    }
+    size_t kept = 0;
+    for (size_t i = 0; i < row_.size(); ++i) {
+      if (kept > 0 && row_[kept - 1].first == row_[i].first) {
+        row_[kept - 1].second += row_[i].second;
+      } else {
+        if (kept > 0 && row_[kept - 1].second == T(0)) --kept;
+        if (kept != i) row_[kept] = std::move(row_[i]);
+        ++kept;
+      }
+    }
+    if (kept > 0 && row_[kept - 1].second == T(0)) --kept;
+    row_.resize(kept);
+    return row_;
+  }
+
+  const Topology& t_;
+  const Refinement& refinement_;
+  const Sharpness& sharpness_;
+  const Sharpness& child_sharpness_;
+  const std::vector<std::uint8_t>& is_plain_;
+  MaskTable<T> masks_;
+  std::vector<T> crease_vertex_, crease_edge_;
+  std::vector<Index> slots_, sizes_;
+  std::vector<Term> row_;
+};
+
+/// Per vertex: interior of a manifold, and neither it nor an edge of it is sharp.
+inline std::vector<std::uint8_t> plain_vertices(const Topology& t, const Sharpness& sharpness) {
+  std::vector<std::uint8_t> plain(t.num_vertices());
+  parallel_for(t.num_vertices(), [&](std::int64_t i) {
+    const Vertex v{static_cast<Index>(i)};
+    plain[i] = !is_sharp(sharpness.vertex[i]) && exists(t.outgoing(v)) && exists(t.twin(t.outgoing(v)));
+  });
+  for (Index e = 0; e < t.num_edges(); ++e)
+    if (is_sharp(sharpness.edge[e])) plain[index(t.tail(Edge{e}))] = plain[index(t.head(Edge{e}))] = 0;
+  return plain;
+}
+
+/// Moves the rows together that turned out shorter than planned (coinciding points on small meshes, weights of zero).
+template <class T>
+SparseMatrixOf<T> compacted(const SparseMatrixOf<T>& loose, const std::vector<Index>& lengths) {
+  SparseMatrixOf<T> tight(loose.rows(), loose.cols());
+  std::int64_t total = 0;
+  for (Index r = 0; r < loose.rows(); ++r) {
+    tight.outerIndexPtr()[r] = static_cast<Index>(total);
+    total += lengths[r];
+  }
+  tight.outerIndexPtr()[loose.rows()] = static_cast<Index>(total);
+  tight.resizeNonZeros(static_cast<Index>(total));
+  parallel_for(loose.rows(), [&](std::int64_t r) {
+    const Index from = loose.outerIndexPtr()[r], to = tight.outerIndexPtr()[r];
+    std::copy_n(loose.innerIndexPtr() + from, lengths[r], tight.innerIndexPtr() + to);
+    std::copy_n(loose.valuePtr() + from, lengths[r], tight.valuePtr() + to);
+  });
+  return tight;
+}
+
+/// Fills a matrix row by row: length_of(maker, r) plans, row_of(maker, r) delivers at most as many terms.
+template <class T, class MakeMaker, class LengthOf, class RowOf>
+SparseMatrixOf<T> assemble(Index rows, Index columns, const MakeMaker& make_maker, const LengthOf& length_of,
+                           const RowOf& row_of) {
+  tbb::enumerable_thread_specific<std::invoke_result_t<const MakeMaker&>> makers(make_maker);
+  std::vector<Index> lengths(rows);
+  std::vector<std::int64_t> start(num_blocks(rows) + 1, 0);
+  parallel_for_blocks(rows, [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
+    auto& maker = makers.local();
+    std::int64_t sum = 0;
+    for (std::int64_t r = begin; r < end; ++r) sum += lengths[r] = length_of(maker, static_cast<Index>(r));
+    start[block + 1] = sum;
+  });
+  std::partial_sum(start.begin(), start.end(), start.begin());
+  if (start.back() > std::numeric_limits<Index>::max())
+    throw ResourceError("the matrix would have " + std::to_string(start.back()) +
+                        " nonzeros, more than 32-bit indices count; use fewer levels or refine fewer faces");
+
+  SparseMatrixOf<T> S(rows, columns);
+  S.resizeNonZeros(static_cast<Index>(start.back()));
+  Index* const outer = S.outerIndexPtr();
+  outer[rows] = static_cast<Index>(start.back());
+  std::atomic<bool> loose = false;
+  parallel_for_blocks(rows, [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
+    auto& maker = makers.local();
+    std::int64_t at = start[block];
+    for (std::int64_t r = begin; r < end; ++r) {
+      outer[r] = static_cast<Index>(at);
+      Index* column = S.innerIndexPtr() + at;
+      T* value = S.valuePtr() + at;
+      at += lengths[r];
+      const auto& row = row_of(maker, static_cast<Index>(r));
+      for (const auto& [c, w] : row) {
+        *column++ = c;
+        *value++ = w;
+      }
+      if (static_cast<Index>(row.size()) != lengths[r]) {
+        lengths[r] = static_cast<Index>(row.size());
+        loose = true;
+      }
+    }
+  });
+  return loose ? compacted(S, lengths) : S;
+}
+
+}  // namespace assembly
+
+template <class T>
+SparseMatrixOf<T> subdivision_matrix(const Scheme<T>& scheme, const Step<T>& step, const Topology& parent,
+                                     const Refinement& refinement, const Sharpness& sharpness,
+                                     const Sharpness& child_sharpness, int level) {
+  const std::vector<std::uint8_t> plain = assembly::plain_vertices(parent, sharpness);
+  const auto visit = [&](Index r, const auto& body) {
+    switch (refinement.origin(Vertex{r})) {
+      case Refinement::Origin::vertex:
+        return body(Vertex{refinement.parent(Vertex{r})});
+      case Refinement::Origin::face:
+        return body(Face{refinement.parent(Vertex{r})});
+      default:
+        return body(Edge{refinement.parent(Vertex{r})});
+    }
+  };
+  using Maker = assembly::RowMaker<T>;
+  return assembly::assemble<T>(
+      refinement.topology.num_vertices(), parent.num_vertices(),
+      [&] { return Maker(scheme, step, parent, refinement, sharpness, child_sharpness, level, plain); },
+      [&](Maker& maker, Index r) { return visit(r, [&](auto element) { return maker.length(element); }); },
+      [&](Maker& maker, Index r) -> const std::vector<typename Maker::Term>& {
+        return *visit(r, [&](auto element) { return &maker.row(element); });
+      });
+}
+
+}  // namespace sublimit

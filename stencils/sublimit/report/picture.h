@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// Pictures of meshes as SVG: panels side by side, one camera, soft shading, hidden faces and lines left out. Only what a
+// depth buffer has seen is written, faces of one tone are merged into one outline, and coordinates are tenths of a pixel,
+// so that a limit surface of 20 000 faces takes some 100 KB.
+#include <Eigen/Core>
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "sublimit/types.h"
+
+namespace sublimit {
+
+/// Red, green, blue in 0..1 (sRGB).
+using Color = std::array<double, 3>;
+
+struct PictureMesh {
+  Points positions;                  ///< #V x 3
+  std::vector<Index> face_sizes;     ///< corners of each face, >= 3
+  std::vector<Index> face_vertices;  ///< vertices of all faces, one after the other, counter-clockwise
+
+  /// Either, both or none; without them (or where they are zero) a face is flat. Lengths do not matter. A normal that is far
+  /// from the one of its face belongs to the other side of a crease and is not used there.
+  Points vertex_normals;  ///< #V x 3
+  Points corner_normals;  ///< one row per entry of face_vertices
+
+  struct Line {
+    Index tail = 0, head = 0;
+    double strength = 1;  ///< 0..1: from thin amber to strong red
+  };
+  std::vector<Line> creases;
+  std::vector<Index> dots;  ///< vertices to mark
+
+  bool faces = true;       ///< false: lines and dots only, which hide nothing
+  bool wireframe = false;  ///< draw all edges
+  Color color = {.42, .60, .70};
+};
+
+struct Panel {
+  std::vector<PictureMesh> layers;
+  std::string caption;
+  std::string note;  ///< a second, smaller line
+};
+
+struct PictureOptions {
+  double panel_width = 400, panel_height = 370;  ///< pixels, captions not included
+  Eigen::Vector3d up = {0, 1, 0};
+  double azimuth = .45, elevation = .38;  ///< of the eye, radians; azimuth 0 sees +x to the right, and up is up
+  double distance = 5;                    ///< of the eye, in radii of the scene, > 1; 0: orthographic
+  bool ground_shadow = true;
+};
+
+/// The picture as the text of an SVG file.
+///
+/// Every panel shows the union of its layers; scale and camera are the same for all panels.
+/// @throws InvalidParameter  if coordinates or normals are not finite, arrays do not fit together, an index is outside, or
+///                           an option is outside its range
+/// @note  Deterministic: same build and input, same bytes.
+std::string svg_picture(const std::vector<Panel>& panels, const PictureOptions& options = {});
+
+}  // namespace sublimit

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// MESH.json next to MESH.obj: subdivision tags in the names of USD, for meshes from formats that have no tags, or to
+// override those of the file.
+//
+//     {"creaseIndices": [0, 1, 2, 4, 5],        chains of vertices, one after the other
+//      "creaseLengths": [3, 2],                 vertices in each chain, 2 or more
+//      "creaseSharpnesses": [2.5, 10],          one for each chain, or one for each edge
+//      "cornerIndices": [7], "cornerSharpnesses": [10],
+//      "holeIndices": [3],
+//      "interpolateBoundary": "none" | "edgeOnly" | "edgeAndCorner",
+//      "creaseMethod": "uniform" | "chaikin",
+//      "triangleSubdivisionRule": "catmullClark" | "smooth",
+//      "faceVaryingLinearInterpolation": "none" | "cornersOnly" | "cornersPlus1" | "cornersPlus2" | "boundaries" | "all"}
+//
+// Every key may be left out; one that is there replaces all tags of its kind. The last is checked, not kept.
+#include <filesystem>
+#include <optional>
+#include <string_view>
+
+#include "sublimit/mesh/control_mesh.h"
+
+namespace sublimit {
+
+/// The sidecar of a mesh file, if there is one: the same path with the extension .json.
+std::optional<std::filesystem::path> find_sidecar(const std::filesystem::path& mesh);
+
+/// Replaces tags of `mesh` by those in a file. Unknown keys become warnings of the mesh.
+/// @throws FormatError  not JSON, wrong types or lengths, ids out of range, creases where no face has an edge; the message
+///                      names the file, the key and the position. The mesh is then as it was.
+/// @throws IoError      missing, unreadable
+void apply_sidecar(ControlMesh& mesh, const std::filesystem::path& path);
+
+/// As `apply_sidecar`, from text; messages start with `name`.
+void apply_sidecar_text(ControlMesh& mesh, std::string_view text, std::string_view name);
+
+}  // namespace sublimit

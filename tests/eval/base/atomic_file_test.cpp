@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sublimit/base/atomic_file.h"
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+#include <string>
+
+#include "sublimit/base/read_file.h"
+#include "support/expect_error.h"
+#include "support/temporary_directory.h"
+
+namespace sublimit {
+namespace {
+
+using test::expect_error;
+
+TEST(AtomicFile, HoldsWhatWasWrittenInPiecesOfAnySize) {
+  const test::TemporaryDirectory directory;
+  std::string expected;
+  AtomicFile file(directory / "out");
+  for (const std::size_t size : {1u, 100u, 3000000u, 5u, 1048576u, 0u, 1048575u, 2u}) {
+    const std::string piece(size, static_cast<char>('a' + size % 26));
+    file.write(piece);
+    expected += piece;
+  }
+  file.commit();
+  EXPECT_EQ(read_file(directory / "out"), expected);
+  EXPECT_EQ(directory.num_files(), 1);
+}
+
+TEST(AtomicFile, TargetStaysAsItWasUntilCommit) {
+  const test::TemporaryDirectory directory;
+  const std::filesystem::path target = directory.write("out", "old");
+  {
+    AtomicFile file(target);
+    file.write(std::string(2000000, 'x'));
+    EXPECT_EQ(read_file(target), "old");
+    EXPECT_EQ(directory.num_files(), 2);
+  }
+  EXPECT_EQ(read_file(target), "old");
+  EXPECT_EQ(directory.num_files(), 1);
+
+  AtomicFile file(target);
+  file.write("new");
+  file.commit();
+  EXPECT_EQ(read_file(target), "new");
+  EXPECT_EQ(directory.num_files(), 1);
+}
+
+TEST(AtomicFile, EmptyFileIsAFile) {
+  const test::TemporaryDirectory directory;
+  AtomicFile(directory / "out").commit();
+  EXPECT_EQ(read_file(directory / "out"), "");
+}
+
+TEST(AtomicFile, KeepsPermissionsAndLinks) {
+  const test::TemporaryDirectory directory;
+  const std::filesystem::path target = directory.write("out", "old");
+  std::filesystem::permissions(target, std::filesystem::perms(0640));
+  std::filesystem::create_symlink("out", directory / "link");
+  AtomicFile file(directory / "link");
+  file.write("new");
+  file.commit();
+  EXPECT_TRUE(std::filesystem::is_symlink(directory / "link"));
+  EXPECT_EQ(read_file(target), "new");
+  EXPECT_EQ(std::filesystem::status(target).permissions(), std::filesystem::perms(0640));
+}
+
+TEST(AtomicFile, LongNamesHaveATemporaryToo) {
+  const test::TemporaryDirectory directory;
+  const std::string name(255, 'n');
+  AtomicFile(directory / name).commit();
+  EXPECT_TRUE(std::filesystem::exists(directory / name));
+}
+
+TEST(AtomicFile, DevicesAreWrittenInPlace) {
+  AtomicFile file("/dev/null");
+  file.write("gone");
+  file.commit();
+  EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
+}
+
+TEST(AtomicFile, SaysWhereItCannotWrite) {
+  const test::TemporaryDirectory directory;
+  directory.write("file", "");
+  expect_error<IoError>([&] { AtomicFile file(directory.path()); }, {directory.path().string(), "Is a directory"});
+  expect_error<IoError>([&] { AtomicFile file(directory.path().string() + "/"); }, {"Is a directory"});
+  expect_error<IoError>([&] { AtomicFile file(directory / "no/out"); },
+                        {(directory / "no/out").string() + ": cannot write", "No such file", "directory must exist"});
+  expect_error<IoError>([&] { AtomicFile file(directory / "file/out"); }, {"Not a directory"});
+  expect_error<IoError>([&] { AtomicFile file("/proc/out"); }, {"/proc/out: cannot write"});
+  EXPECT_EQ(directory.num_files(), 1);
+}
+
+TEST(AtomicFile, FullDeviceIsALackOfResources) {
+  expect_error<ResourceError>(
+      [] {
+        AtomicFile file("/dev/full");
+        file.write("text");
+        file.commit();
+      },
+      {"/dev/full: cannot write", "No space left on device"});
+}
+
+// Runs in a process of its own, with which the limit goes away.
+[[noreturn]] void write_beyond_limit(const std::filesystem::path& target) {
+  std::signal(SIGXFSZ, SIG_IGN);
+  const ::rlimit limit{.rlim_cur = 100000, .rlim_max = 100000};
+  ::setrlimit(RLIMIT_FSIZE, &limit);
+  int status = 0;
+  try {
+    AtomicFile file(target);
+    file.write(std::string(99999, 'x'));
+    file.write("xx");
+    file.commit();
+  } catch (const Error& error) {
+    std::fputs(error.what(), stderr);
+    status = exit_status(error.code());
+  }
+  ::_exit(status);
+}
+
+TEST(AtomicFileDeathTest, FullDiskLeavesTheOldFileAndNoTemporary) {
+  const test::TemporaryDirectory directory;
+  const std::filesystem::path target = directory.write("out", "old");
+  EXPECT_EXIT(write_beyond_limit(target), testing::ExitedWithCode(4), "out: cannot write: File too large");
+  EXPECT_EQ(read_file(target), "old");
+  EXPECT_EQ(directory.num_files(), 1);
+}
+
+TEST(ReadFile, GivesEveryByte) {
+  const test::TemporaryDirectory directory;
+  std::string bytes(300000, '\0');
+  for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<char>(i * 7);
+  EXPECT_EQ(read_file(directory.write("bytes", bytes)), bytes);
+  EXPECT_EQ(read_file(directory.write("empty", "")), "");
+  EXPECT_FALSE(read_file("/proc/self/status").empty());  // says that its size is 0
+}
+
+TEST(ReadFile, SaysWhatCannotBeRead) {
+  const test::TemporaryDirectory directory;
+  directory.write("file", "");
+  expect_error<IoError>([&] { read_file(directory / "no.obj"); }, {"no.obj: cannot read: No such file or directory"});
+  expect_error<IoError>([&] { read_file(directory.path()); }, {directory.path().string() + ": cannot read: Is a dir"});
+  expect_error<IoError>([&] { read_file(directory / "file/x"); }, {"Not a directory"});
+  expect_error<IoError>([&] { read_file(""); }, {"cannot read"});
+}
+
+}  // namespace
+}  // namespace sublimit

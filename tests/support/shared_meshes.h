@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// OpenSubdiv's regression shapes as OBJ files with tags, where a checkout has them beside it. Never part of the project.
+#include <cstdlib>
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace sublimit::testing {
+
+struct SharedMesh {
+  std::filesystem::path path;
+  std::string name;    ///< catmark_cube
+  std::string scheme;  ///< by the prefix of the name
+};
+
+inline std::vector<SharedMesh> shared_meshes() {
+  std::vector<SharedMesh> meshes;
+  if (!std::filesystem::is_directory(SUBLIMIT_SHARED_MESHES)) return meshes;
+  for (const auto& entry : std::filesystem::directory_iterator(SUBLIMIT_SHARED_MESHES)) {
+    if (entry.path().extension() != ".obj") continue;
+    const std::string name = entry.path().stem().string(), prefix = name.substr(0, name.find('_'));
+    meshes.push_back({entry.path(), name, prefix == "catmark" ? "catmull-clark" : prefix});
+  }
+  std::sort(meshes.begin(), meshes.end(), [](const auto& a, const auto& b) { return a.name < b.name; });
+  return meshes;
+}
+
+/// Whether this is the full sweep (ctest -L full).
+inline bool full_sweep() { return std::getenv("SUBLIMIT_FULL") != nullptr; }
+
+}  // namespace sublimit::testing

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// Tolerances with a cause and a name. Exact things are compared with EXPECT_EQ.
+#include <cmath>
+#include <limits>
+
+#include "sublimit/types.h"
+
+namespace sublimit::testing {
+
+inline constexpr double eps = std::numeric_limits<double>::epsilon();
+
+/// Sums of m terms of size `magnitude` (sum |w| * max |x|). Products of k levels: m = 4 k.
+inline double rounding(double terms, double magnitude = 1) { return 4 * terms * eps * magnitude; }
+
+/// Simple eigenvalues and eigenvectors of conditioning kappa.
+inline double eigen(double kappa = 1) { return 100 * eps * kappa; }
+
+/// Agreement with a reference that computes the same sums in another order, relative to the bounding box.
+inline constexpr double reference = 1e-13;
+/// Angles between normals, radians: cross products of tangents that are exact to a few ulps.
+inline constexpr double reference_angle = 1e-9;
+
+inline double diagonal(const Points& points) {
+  if (points.rows() == 0) return 0;
+  return (points.colwise().maxCoeff() - points.colwise().minCoeff()).norm();
+}
+
+}  // namespace sublimit::testing
