@@ -9,7 +9,7 @@
 
 #include "sublimit/base/error.h"
 
-namespace sublimit::test {
+namespace sublimit::testing {
 
 /// Expects `action` to throw exactly an `Expected` whose message has every one of `parts`.
 template <class Expected, class Action>
@@ -27,4 +27,4 @@ void expect_error(const Action& action, std::initializer_list<std::string_view> 
   }
 }
 
-}  // namespace sublimit::test
+}  // namespace sublimit::testing

@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-namespace sublimit::test {
+namespace sublimit::testing {
 
 class TemporaryDirectory {
  public:
@@ -41,4 +41,4 @@ class TemporaryDirectory {
   std::filesystem::path path_;
 };
 
-}  // namespace sublimit::test
+}  // namespace sublimit::testing

@@ -76,7 +76,7 @@ void check(const PictureOptions& o) {
 struct Frame {
   Vector3d half_center = Vector3d::Zero();
   double half_size = 1;
-  Vector3d local(const Vector3d& p) const { return (p / 2 - half_center) * (2 / half_size); }
+  Vector3d local(const Vector3d& p) const { return (p / 2 - half_center) / (half_size / 2); }
 };
 
 Frame frame_of(const std::vector<Panel>& panels) {
@@ -189,7 +189,7 @@ Scene scene_of(const Panel& panel, const Frame& frame, const Camera& camera) {
         Vector3d n = Vector3d::Zero();
         if (mesh.corner_normals.size() > 0) n = mesh.corner_normals.row(corner + i);
         if (n.isZero() && mesh.vertex_normals.size() > 0) n = mesh.vertex_normals.row(mesh.face_vertices[corner + i]);
-        n = camera.seen(n).stableNormalized();
+        n = camera.seen(n.stableNormalized());
         if (!(n.dot(face.normal) > std::cos(crease_angle))) n = face.normal;
         scene.corners[face.begin + i].normal = face.back ? Vector3d(-n) : n;
       }
@@ -232,6 +232,24 @@ class DepthBuffer {
         use(static_cast<std::size_t>(y) * width_ + x, static_cast<float>(a.near + u * (b.near - a.near) + v * (c.near - a.near)));
       }
     }
+  }
+  /// Every sample the nearest of itself and its eight neighbours.
+  std::vector<float> nearest_around() const {
+    std::vector<float> rows = near_, result(near_.size());
+    for (int y = 0; y < height_; ++y) {
+      for (int x = 0; x < width_; ++x) {
+        const std::size_t pixel = static_cast<std::size_t>(y) * width_ + x;
+        rows[pixel] = std::max({near_[pixel - (x > 0)], near_[pixel], near_[pixel + (x + 1 < width_)]});
+      }
+    }
+    for (int y = 0; y < height_; ++y) {
+      const std::size_t above = y > 0 ? width_ : 0, below = y + 1 < height_ ? width_ : 0;
+      for (int x = 0; x < width_; ++x) {
+        const std::size_t pixel = static_cast<std::size_t>(y) * width_ + x;
+        result[pixel] = std::max({rows[pixel - above], rows[pixel], rows[pixel + below]});
+      }
+    }
+    return result;
   }
   float near(std::size_t pixel) const { return near_[pixel]; }
   int face(std::size_t pixel) const { return face_[pixel]; }
@@ -452,21 +470,23 @@ class Outline {
   void add(const std::vector<Spot>& polygon) {
     for (std::size_t i = 0; i < polygon.size(); ++i) {
       const Spot a = polygon[i], b = polygon[(i + 1) % polygon.size()];
-      if (a != b) edges_.push_back({a, b});
+      if (a < b) segments_.push_back({a, b, 1});
+      if (b < a) segments_.push_back({b, a, -1});
     }
   }
   std::string data() {
-    cancel();
+    const std::vector<Step> edges = what_is_left();
     Path path;
-    std::vector<bool> used(edges_.size(), false);
-    for (std::size_t first = 0; first < edges_.size(); ++first) {
+    std::vector<bool> used(edges.size(), false);
+    for (std::size_t first = 0; first < edges.size(); ++first) {
       if (used[first]) continue;
       std::vector<Spot> loop;
-      for (std::size_t e = first; !used[e];) {
+      for (std::size_t e = first; !used[e];) {  // as many edges leave a point as arrive there, so the walk ends where it began
         used[e] = true;
-        loop.push_back(edges_[e].from);
-        e = static_cast<std::size_t>(std::lower_bound(edges_.begin(), edges_.end(), Step{edges_[e].to, lowest}) - edges_.begin());
-        while (e + 1 < edges_.size() && used[e] && edges_[e + 1].from == edges_[e].from) ++e;
+        loop.push_back(edges[e].from);
+        const auto starts_before = [](const Step& edge, Spot at) { return edge.from < at; };
+        e = static_cast<std::size_t>(std::lower_bound(edges.begin(), edges.end(), edges[e].to, starts_before) - edges.begin());
+        while (used[e] && e + 1 < edges.size() && edges[e + 1].from == edges[e].from) ++e;
       }
       write(path, loop);
     }
@@ -474,26 +494,28 @@ class Outline {
   }
 
  private:
+  struct Segment {
+    Spot low, high;
+    int uses = 1;  // from low to high less from high to low
+  };
   struct Step {
     Spot from, to;
     auto operator<=>(const Step&) const = default;
   };
-  static constexpr Spot lowest{std::numeric_limits<int>::min(), std::numeric_limits<int>::min()};
 
-  void cancel() {
-    const auto undirected = [](const Step& e) { return std::minmax({e.from, e.to}); };
-    std::sort(edges_.begin(), edges_.end(),
-              [&](const Step& e, const Step& f) { return std::pair(undirected(e), e.from) < std::pair(undirected(f), f.from); });
+  std::vector<Step> what_is_left() {
+    const auto before = [](const Segment& a, const Segment& b) { return a.low != b.low ? a.low < b.low : a.high < b.high; };
+    std::sort(segments_.begin(), segments_.end(), before);
     std::vector<Step> left;
-    for (std::size_t i = 0; i < edges_.size();) {
-      const auto edge = undirected(edges_[i]);
-      int surplus = 0;  // uses in the direction first -> second minus uses in the other
-      for (; i < edges_.size() && undirected(edges_[i]) == edge; ++i) surplus += edges_[i].from == edge.first ? 1 : -1;
-      for (; surplus > 0; --surplus) left.push_back({edge.first, edge.second});
-      for (; surplus < 0; ++surplus) left.push_back({edge.second, edge.first});
+    for (std::size_t i = 0; i < segments_.size();) {
+      const Segment first = segments_[i];
+      int uses = 0;
+      for (; i < segments_.size() && segments_[i].low == first.low && segments_[i].high == first.high; ++i) uses += segments_[i].uses;
+      for (; uses > 0; --uses) left.push_back({first.low, first.high});
+      for (; uses < 0; ++uses) left.push_back({first.high, first.low});
     }
     std::sort(left.begin(), left.end());
-    edges_ = std::move(left);
+    return left;
   }
 
   /// Leaves out points that are within a tenth of a pixel of the chord.
@@ -517,7 +539,7 @@ class Outline {
     path.close();
   }
 
-  std::vector<Step> edges_;
+  std::vector<Segment> segments_;
 };
 
 class PanelWriter {
@@ -559,19 +581,22 @@ class PanelWriter {
   // A face that nothing hides may be drawn after all others and in any order; so these are merged. What is hidden in part
   // is drawn before them, from far to near.
   void write_faces(std::string& svg) const {
+    const std::vector<float> nearest = buffer_.nearest_around();
     std::vector<int> partial;
     std::map<std::pair<bool, int>, std::vector<int>> whole;  // outside or not, layer: insides first, so that outlines stay clean
     for (int f = 0; f < static_cast<int>(scene_.faces.size()); ++f) {
       const SceneFace& face = scene_.faces[f];
       if (!face.solid) continue;
       int shown = 0, beside = 0, hidden = 0;
+      bool touched = false;  // by the outline of something in front, which must be drawn later
       triangles(face, [&](const Projected& a, const Projected& b, const Projected& c) {
         buffer_.scan(a, b, c, [&](std::size_t pixel, float near) {
           const bool ours = buffer_.face(pixel) == f, behind = buffer_.near(pixel) > near + surface_gap;
           ++(ours ? shown : behind ? hidden : beside);
+          touched |= nearest[pixel] > near + outline_gap;
         });
       });
-      if (shown > 0 && hidden == 0 && (!face.back || shown > beside)) {
+      if (shown > 0 && hidden == 0 && !touched && (!face.back || shown > beside)) {
         whole[{!face.back, face.layer}].push_back(f);
       } else if (shown > 0 || (beside > 0 && !face.back)) {
         partial.push_back(f);
@@ -579,7 +604,7 @@ class PanelWriter {
     }
     std::stable_sort(partial.begin(), partial.end(),
                      [&](int f, int g) { return scene_.faces[f].center.z() < scene_.faces[g].center.z(); });
-    svg += "<g stroke-width=\"6\">\n";
+    svg += "<g stroke-width=\"6\">\n";  // strokes of the same colour close the seams
     for (int f : partial) {
       const SceneFace& face = scene_.faces[f];
       std::vector<Spot> polygon;
@@ -724,8 +749,8 @@ class PanelWriter {
     svg += " d=\"" + data + "\"/>\n";
   }
 
-  static constexpr double line_gap = .005;
-  static constexpr double surface_gap = .002;  // nearer than this is the same surface; the scene has radius 1 to sqrt(3)
+  // Differences in depth, in a scene of radius 1 to sqrt(3), up to which two samples are taken to be on the same surface.
+  static constexpr double surface_gap = .002, line_gap = .005, outline_gap = .03;
 
   const Panel& panel_;
   const Camera& camera_;

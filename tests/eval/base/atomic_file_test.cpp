@@ -14,13 +14,11 @@
 #include "support/expect_error.h"
 #include "support/temporary_directory.h"
 
-namespace sublimit {
+namespace sublimit::testing {
 namespace {
 
-using test::expect_error;
-
 TEST(AtomicFile, HoldsWhatWasWrittenInPiecesOfAnySize) {
-  const test::TemporaryDirectory directory;
+  const TemporaryDirectory directory;
   std::string expected;
   AtomicFile file(directory / "out");
   for (const std::size_t size : {1u, 100u, 3000000u, 5u, 1048576u, 0u, 1048575u, 2u}) {
@@ -34,7 +32,7 @@ TEST(AtomicFile, HoldsWhatWasWrittenInPiecesOfAnySize) {
 }
 
 TEST(AtomicFile, TargetStaysAsItWasUntilCommit) {
-  const test::TemporaryDirectory directory;
+  const TemporaryDirectory directory;
   const std::filesystem::path target = directory.write("out", "old");
   {
     AtomicFile file(target);
@@ -53,13 +51,13 @@ TEST(AtomicFile, TargetStaysAsItWasUntilCommit) {
 }
 
 TEST(AtomicFile, EmptyFileIsAFile) {
-  const test::TemporaryDirectory directory;
+  const TemporaryDirectory directory;
   AtomicFile(directory / "out").commit();
   EXPECT_EQ(read_file(directory / "out"), "");
 }
 
 TEST(AtomicFile, KeepsPermissionsAndLinks) {
-  const test::TemporaryDirectory directory;
+  const TemporaryDirectory directory;
   const std::filesystem::path target = directory.write("out", "old");
   std::filesystem::permissions(target, std::filesystem::perms(0640));
   std::filesystem::create_symlink("out", directory / "link");
@@ -72,7 +70,7 @@ TEST(AtomicFile, KeepsPermissionsAndLinks) {
 }
 
 TEST(AtomicFile, LongNamesHaveATemporaryToo) {
-  const test::TemporaryDirectory directory;
+  const TemporaryDirectory directory;
   const std::string name(255, 'n');
   AtomicFile(directory / name).commit();
   EXPECT_TRUE(std::filesystem::exists(directory / name));
@@ -86,7 +84,7 @@ TEST(AtomicFile, DevicesAreWrittenInPlace) {
 }
 
 TEST(AtomicFile, SaysWhereItCannotWrite) {
-  const test::TemporaryDirectory directory;
+  const TemporaryDirectory directory;
   directory.write("file", "");
   expect_error<IoError>([&] { AtomicFile file(directory.path()); }, {directory.path().string(), "Is a directory"});
   expect_error<IoError>([&] { AtomicFile file(directory.path().string() + "/"); }, {"Is a directory"});
@@ -126,15 +124,15 @@ TEST(AtomicFile, FullDeviceIsALackOfResources) {
 }
 
 TEST(AtomicFileDeathTest, FullDiskLeavesTheOldFileAndNoTemporary) {
-  const test::TemporaryDirectory directory;
+  const TemporaryDirectory directory;
   const std::filesystem::path target = directory.write("out", "old");
-  EXPECT_EXIT(write_beyond_limit(target), testing::ExitedWithCode(4), "out: cannot write: File too large");
+  EXPECT_EXIT(write_beyond_limit(target), ::testing::ExitedWithCode(4), "out: cannot write: File too large");
   EXPECT_EQ(read_file(target), "old");
   EXPECT_EQ(directory.num_files(), 1);
 }
 
 TEST(ReadFile, GivesEveryByte) {
-  const test::TemporaryDirectory directory;
+  const TemporaryDirectory directory;
   std::string bytes(300000, '\0');
   for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<char>(i * 7);
   EXPECT_EQ(read_file(directory.write("bytes", bytes)), bytes);
@@ -143,7 +141,7 @@ TEST(ReadFile, GivesEveryByte) {
 }
 
 TEST(ReadFile, SaysWhatCannotBeRead) {
-  const test::TemporaryDirectory directory;
+  const TemporaryDirectory directory;
   directory.write("file", "");
   expect_error<IoError>([&] { read_file(directory / "no.obj"); }, {"no.obj: cannot read: No such file or directory"});
   expect_error<IoError>([&] { read_file(directory.path()); }, {directory.path().string() + ": cannot read: Is a dir"});
@@ -152,4 +150,4 @@ TEST(ReadFile, SaysWhatCannotBeRead) {
 }
 
 }  // namespace
-}  // namespace sublimit
+}  // namespace sublimit::testing

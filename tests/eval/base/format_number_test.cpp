@@ -10,7 +10,7 @@
 #include <random>
 #include <string>
 
-namespace sublimit {
+namespace sublimit::testing {
 namespace {
 
 // All bit patterns alike: every exponent, subnormals among them.
@@ -100,4 +100,4 @@ TEST(ParseNumber, RoundsWhatIsTooSmallToZero) {
 }
 
 }  // namespace
-}  // namespace sublimit
+}  // namespace sublimit::testing

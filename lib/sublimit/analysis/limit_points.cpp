@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sublimit/analysis/limit_points.h"
+
+#include <Eigen/Geometry>
+#include <Eigen/SVD>
+
+#include <algorithm>
+
+#include "sublimit/base/error.h"
+#include "sublimit/base/parallel_for.h"
+#include "sublimit/sparse_product.h"
+
+namespace sublimit {
+namespace {
+
+using Eigen::Vector3d;
+
+/// Rows of several matrices, in order, from one block of vertices.
+struct Rows {
+  std::vector<Index> columns, lengths;
+  std::vector<double> values;
+  void append(const LimitMasks::Mask& mask, const std::vector<Index>& vertices) {
+    static thread_local std::vector<std::pair<Index, double>> row;
+    row.clear();
+    for (size_t i = 0; i < vertices.size(); ++i)
+      if (mask[Eigen::Index(i)] != 0) row.push_back({vertices[i], mask[Eigen::Index(i)]});
+    std::stable_sort(row.begin(), row.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    Index length = 0;
+    for (const auto& [c, w] : row) {  // coinciding points add up
+      if (length > 0 && columns.back() == c) {
+        values.back() += w;
+        continue;
+      }
+      columns.push_back(c);
+      values.push_back(w);
+      ++length;
+    }
+    lengths.push_back(length);
+  }
+};
+
+SparseMatrix joined(const std::vector<Rows>& blocks, Index columns) {
+  Index rows = 0;
+  std::int64_t nonzeros = 0;
+  for (const Rows& block : blocks) {
+    rows += static_cast<Index>(block.lengths.size());
+    nonzeros += static_cast<std::int64_t>(block.columns.size());
+  }
+  SparseMatrix M(rows, columns);
+  if (nonzeros > std::numeric_limits<Index>::max()) throw ResourceError("limit rows: more nonzeros than 32-bit indices count");
+  M.resizeNonZeros(static_cast<Index>(nonzeros));
+  Index row = 0, at = 0;
+  for (const Rows& block : blocks) {
+    std::copy(block.columns.begin(), block.columns.end(), M.innerIndexPtr() + at);
+    std::copy(block.values.begin(), block.values.end(), M.valuePtr() + at);
+    for (const Index length : block.lengths) {
+      M.outerIndexPtr()[row++] = at;
+      at += length;
+    }
+  }
+  M.outerIndexPtr()[rows] = at;
+  return M;
+}
+
+LimitStatus generic_status(const LimitMasks& masks, const LimitMasks::Side& side, const CanonicalNeighborhood& type,
+                           Index regular_valence, Index regular_size) {
+  // Along a smooth crease the normal has a limit even where the normals inside have another.
+  const bool along_crease = masks.rule == Rule::crease && side.tangent1.squaredNorm() > 0;
+  if (side.plane == LimitMasks::Plane::no && !along_crease) return LimitStatus::undefined_normal;
+  if (masks.rule == Rule::crease || masks.rule == Rule::corner) return LimitStatus::crease;
+  bool regular = masks.rule == Rule::smooth && masks.steps == 0 && side.num_corners == regular_valence;
+  for (const auto& corner : type.fans[side.fan].corners) regular &= corner.face_size == regular_size;
+  return regular ? LimitStatus::regular : LimitStatus::extraordinary;
+}
+
+/// How the faces of a side turn around the vertex, twice the area that they sweep: tells the two sides of a plane apart.
+Vector3d turn_of(const LimitMatrices& limit, const Topology& t, Index side, const Points& points) {
+  const Vertex v{limit.side_vertex[side]};
+  const Vector3d centre = points.row(index(v));
+  Vector3d turn = Vector3d::Zero();
+  for (const HalfEdge start : t.fans(v)) {
+    HalfEdge h = start;
+    do {
+      const Vector3d a = points.row(index(t.head(h))), b = points.row(index(t.tail(t.prev(h))));
+      if (limit.corner_side[index(h)] == side) turn += (a - centre).cross(b - centre);
+      h = t.ccw(h);
+    } while (exists(h) && h != start);
+  }
+  return turn;
+}
+
+/// Normal from what the next modes add to degenerate tangents; zero if they do not settle it.
+Vector3d normal_of_higher_order(const Vector3d& t1, const Vector3d& t2, const std::vector<Vector3d>& higher, double scale,
+                                const Vector3d& area) {
+  Eigen::MatrixXd tangents(3, 2);
+  tangents << t1, t2;
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(tangents, Eigen::ComputeThinU);
+  const bool has_direction = svd.singularValues()[0] > 1e-9 * scale;
+  Vector3d direction = has_direction ? Vector3d(svd.matrixU().col(0)) : Vector3d::Zero();
+  Eigen::MatrixXd rest(3, higher.size());
+  for (size_t i = 0; i < higher.size(); ++i) rest.col(Eigen::Index(i)) = higher[i] - direction * direction.dot(higher[i]);
+  if (higher.empty()) return Vector3d::Zero();
+  const Eigen::JacobiSVD<Eigen::MatrixXd> span(rest, Eigen::ComputeThinU);
+  const auto sigma = [&](Eigen::Index i) { return i < span.singularValues().size() ? span.singularValues()[i] : 0.0; };
+  const Eigen::Index needed = has_direction ? 1 : 2;
+  if (sigma(needed - 1) <= 1e-9 * scale || sigma(needed) > 1e-6 * sigma(needed - 1)) return Vector3d::Zero();
+  Vector3d normal = has_direction ? direction.cross(Vector3d(span.matrixU().col(0)))
+                                  : Vector3d(span.matrixU().col(0)).cross(Vector3d(span.matrixU().col(1)));
+  normal.normalize();
+  const double turn = normal.dot(area);
+  if (std::abs(turn) <= 1e-9 * scale * scale) return Vector3d::Zero();
+  return turn > 0 ? normal : -normal;
+}
+
+}  // namespace
+
+const char* name(LimitStatus status) {
+  switch (status) {
+    case LimitStatus::regular:
+      return "regular";
+    case LimitStatus::extraordinary:
+      return "extraordinary";
+    case LimitStatus::crease:
+      return "crease";
+    case LimitStatus::hole:
+      return "hole";
+    default:
+      return "undefined-normal";
+  }
+}
+
+LimitMatrices limit_matrices(const Level& level, LimitMaskCache& cache) {
+  const Topology& t = level.topology();
+  const Scheme<double>& scheme = cache.scheme();
+  const Index regular_size = scheme.face_size() ? scheme.face_size() : 4, regular_valence = regular_size == 3 ? 6 : 4;
+  struct Block {
+    Rows position, tangent1, tangent2;
+    std::vector<Rows> second;
+    std::vector<Index> side_vertex;
+    std::vector<LimitStatus> status;
+    std::vector<std::pair<HalfEdge, Index>> corners;  // corner, side within the block
+  };
+  std::vector<Block> blocks(num_blocks(t.num_vertices()));
+  parallel_for_blocks(t.num_vertices(), [&](std::int64_t b, std::int64_t begin, std::int64_t end) {
+    Block& block = blocks[b];
+    for (std::int64_t i = begin; i < end; ++i) {
+      const NeighborhoodAt at = neighborhood(t, level.sharpness, Vertex{static_cast<Index>(i)});
+      const LimitMasks& masks = cache.masks(at.type);
+      block.position.append(masks.position, at.vertices);
+      for (const LimitMasks::Side& side : masks.sides) {
+        const Index number = static_cast<Index>(block.side_vertex.size());
+        block.tangent1.append(side.tangent1, at.vertices);
+        block.tangent2.append(side.tangent2, at.vertices);
+        while (block.second.size() < side.second_order.size()) {
+          block.second.emplace_back();
+          block.second.back().lengths.assign(number, 0);
+        }
+        for (size_t k = 0; k < block.second.size(); ++k) {
+          if (k < side.second_order.size()) {
+            block.second[k].append(side.second_order[k], at.vertices);
+          } else {
+            block.second[k].lengths.push_back(0);
+          }
+        }
+        bool hole = true;
+        const auto& corners = at.corners[side.fan];
+        for (Index c = 0; c < side.num_corners; ++c) {
+          const HalfEdge h = corners[(side.first_corner + c) % corners.size()];
+          hole &= level.holes[index(t.face(h))];
+          block.corners.push_back({h, number});
+        }
+        block.side_vertex.push_back(static_cast<Index>(i));
+        block.status.push_back(hole ? LimitStatus::hole
+                                    : generic_status(masks, side, at.type, regular_valence, regular_size));
+      }
+    }
+  });
+
+  LimitMatrices result;
+  result.corner_side.assign(t.num_half_edges(), -1);
+  std::vector<Rows> position, tangent1, tangent2;
+  size_t orders = 0;
+  for (const Block& block : blocks) orders = std::max(orders, block.second.size());
+  std::vector<std::vector<Rows>> second(orders);
+  for (Block& block : blocks) {
+    const Index first = static_cast<Index>(result.side_vertex.size());
+    for (const auto& [h, side] : block.corners) result.corner_side[index(h)] = first + side;
+    result.side_vertex.insert(result.side_vertex.end(), block.side_vertex.begin(), block.side_vertex.end());
+    result.status.insert(result.status.end(), block.status.begin(), block.status.end());
+    for (size_t k = 0; k < orders; ++k) {
+      if (k >= block.second.size()) block.second.emplace_back().lengths.assign(block.side_vertex.size(), 0);
+      second[k].push_back(std::move(block.second[k]));
+    }
+    position.push_back(std::move(block.position));
+    tangent1.push_back(std::move(block.tangent1));
+    tangent2.push_back(std::move(block.tangent2));
+  }
+  result.position = joined(position, t.num_vertices());
+  result.tangent1 = joined(tangent1, t.num_vertices());
+  result.tangent2 = joined(tangent2, t.num_vertices());
+  for (const auto& rows : second) result.second_order.push_back(joined(rows, t.num_vertices()));
+  return result;
+}
+
+LimitPoints limit_points(const LimitMatrices& limit, const Topology& topology, const Points& points) {
+  if (points.cols() != 3) throw InvalidParameter("limit points need 3 coordinates, not " + std::to_string(points.cols()));
+  LimitPoints result;
+  result.position = apply(limit.position, points);
+  result.status = limit.status;
+  const Points t1 = apply(limit.tangent1, points), t2 = apply(limit.tangent2, points);
+  std::vector<Points> higher;
+  for (const SparseMatrix& M : limit.second_order) higher.push_back(apply(M, points));
+  result.normal = Points::Zero(t1.rows(), 3);
+  parallel_for(t1.rows(), [&](std::int64_t s) {
+    if (result.status[s] == LimitStatus::undefined_normal) return;
+    const Vector3d a = t1.row(s), b = t2.row(s), cross = a.cross(b);
+    // How large the tangents would be if the points of the masks did not cancel: what "degenerate" is measured by.
+    double scale = 0;
+    for (const SparseMatrix* M : {&limit.tangent1, &limit.tangent2})
+      for (Index k = M->outerIndexPtr()[s]; k < M->outerIndexPtr()[s + 1]; ++k)
+        scale += std::abs(M->valuePtr()[k]) *
+                 (points.row(M->innerIndexPtr()[k]) - result.position.row(limit.side_vertex[s])).norm();
+    if (cross.norm() > 1e-12 * scale * scale) {
+      result.normal.row(s) = cross.normalized();
+      return;
+    }
+    std::vector<Vector3d> modes;
+    for (const Points& values : higher) modes.push_back(values.row(s));
+    const Vector3d normal =
+        normal_of_higher_order(a, b, modes, scale, turn_of(limit, topology, static_cast<Index>(s), points));
+    if (normal.isZero()) {
+      if (result.status[s] != LimitStatus::hole) result.status[s] = LimitStatus::undefined_normal;
+      return;
+    }
+    result.normal.row(s) = normal;
+  });
+  return result;
+}
+
+}  // namespace sublimit

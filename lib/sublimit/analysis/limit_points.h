@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// Limit positions and normals of all vertices of a level, as matrices over its points and as points.
+#include <vector>
+
+#include "sublimit/analysis/limit_masks.h"
+#include "sublimit/refine.h"
+
+namespace sublimit {
+
+enum class LimitStatus {
+  regular,           ///< smooth, of the scheme's regular valence
+  extraordinary,     ///< smooth otherwise, darts included
+  crease,            ///< on a crease, boundary or corner: tangents and normal are one-sided
+  hole,              ///< all faces of this side are holes
+  undefined_normal,  ///< there is no tangent plane, or these control points make it degenerate
+};
+/// The word of a status, as files and messages have it.
+const char* name(LimitStatus status);
+
+/// Rows over the points of one level. A vertex has one side, unless sharp edges or several fans cut its faces apart.
+struct LimitMatrices {
+  SparseMatrix position;            ///< L, #V x #V: x_inf = L * x
+  SparseMatrix tangent1, tangent2;  ///< #sides x #V
+  std::vector<SparseMatrix> second_order;  ///< the next modes, for sides whose tangents degenerate; rows may be empty
+  std::vector<Index> side_vertex;   ///< vertex of each side; ascending
+  std::vector<Index> corner_side;   ///< side of each half-edge (corner of a face)
+  std::vector<LimitStatus> status;  ///< of each side, for generic points
+};
+
+/// @throws AnalysisError  a neighbourhood without a limit
+LimitMatrices limit_matrices(const Level& level, LimitMaskCache& cache);
+
+struct LimitPoints {
+  Points position;                  ///< #V x 3
+  Points normal;                    ///< #sides x 3, unit length, zero where undefined
+  std::vector<LimitStatus> status;  ///< of each side, for these points
+};
+
+/// Normals follow the winding of the faces. Where the tangents degenerate, the next modes decide, if they span a plane.
+/// @param topology  of the level
+/// @param points    of the level, #V x 3
+/// @throws InvalidParameter  points of another shape
+LimitPoints limit_points(const LimitMatrices& limit, const Topology& topology, const Points& points);
+
+}  // namespace sublimit

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// Limits without eigenvectors: the faces around a vertex, refined again and again in 256-bit floats.
+#include "sublimit/refine.h"
+#include "sublimit/schemes.h"
+#include "support/precise.h"
+
+namespace sublimit::testing {
+
+using PrecisePoints = Eigen::Matrix<Precise, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// The ring around one vertex after many steps: part of the refined mesh and its points.
+struct RefinedRing {
+  Level level;           ///< topology of the part; the vertex is `vertex`
+  PrecisePoints points;
+  Vertex vertex{0};
+  std::vector<HalfEdge> corners;  ///< of the vertex in the part, fan by fan, in the order of those of the control mesh
+};
+
+/// Refines the faces around `v` of `level` by `steps` levels. Masks come from the scheme in 256-bit floats; the topology of
+/// each step is a subset of the mesh, so nothing is unfolded and nothing analysed.
+RefinedRing brute_force(const Scheme<Precise>& scheme, const Level& level, const Points& points, Vertex v, int steps);
+
+}  // namespace sublimit::testing
