@@ -7,6 +7,7 @@
 #include <string>
 
 #include "sublimit/base/error.h"
+#include "sublimit/mesh/topology_builder.h"
 #include "sublimit/refine_impl.h"
 #include "sublimit/schemes.h"
 
@@ -147,27 +148,39 @@ Subset subset(const Level& whole, std::span<const Index> chosen) {
     faces = with_neighbors(t, faces);
   }
 
-  std::vector<Index> vertices, sizes, corners;
+  // Corners of the part, by those of the whole: twins and non-manifold edges stay what they are.
+  TopologyBuilder b;
+  std::vector<Index> whole_half;
+  b.face_offsets = {0};
   for (const Index f : faces) {
-    const std::span<const Index> of_face = t.vertices(Face{f});
-    sizes.push_back(t.size(Face{f}));
-    corners.insert(corners.end(), of_face.begin(), of_face.end());
+    for (Index k = 0; k < t.size(Face{f}); ++k) whole_half.push_back(index(t.corner(Face{f}, k)));
+    b.face_offsets.push_back(static_cast<Index>(whole_half.size()));
   }
-  vertices = corners;
+  const auto position = [](const std::vector<Index>& list, Index i) {
+    const auto at = std::lower_bound(list.begin(), list.end(), i);
+    return at != list.end() && *at == i ? static_cast<Index>(at - list.begin()) : -1;
+  };
+  std::vector<Index> vertices;
+  for (const Index h : whole_half) vertices.push_back(index(t.tail(HalfEdge{h})));
   std::sort(vertices.begin(), vertices.end());
   vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-  const auto position = [](const std::vector<Index>& list, Index i) {
-    return static_cast<Index>(std::lower_bound(list.begin(), list.end(), i) - list.begin());
-  };
-  for (Index& v : corners) v = position(vertices, v);
+  for (size_t i = 0; i < whole_half.size(); ++i) {
+    const HalfEdge h{whole_half[i]};
+    b.tail.push_back(position(vertices, index(t.tail(h))));
+    b.twin.push_back(exists(t.twin(h)) ? position(whole_half, index(t.twin(h))) : -1);
+    if (exists(t.twin(h)) || !t.is_nonmanifold(t.edge(h))) continue;
+    std::vector<Index> group;
+    for (const HalfEdge g : t.half_edges(t.edge(h)))
+      if (const Index own_half = position(whole_half, index(g)); own_half >= 0) group.push_back(own_half);
+    if (group[0] == static_cast<Index>(i)) b.nonmanifold_edges.push_back(std::move(group));
+  }
+  b.find_fans(static_cast<Index>(vertices.size()));
 
   Subset part;
   Level& level = part.level;
   level.number = whole.number;
   level.steps.emplace_back();
-  level.steps[0].topology = Topology({.num_vertices = static_cast<Index>(vertices.size()),
-                                      .face_vertices = corners,
-                                      .face_sizes = sizes});
+  level.steps[0].topology = std::move(b).build();
   const Topology& own = level.topology();
   level.sharpness.creasing = whole.sharpness.creasing;
   // The rim of the part is no boundary of the mesh: vertices there stay out of the next refinement, and any rule will do.
@@ -178,7 +191,7 @@ Subset subset(const Level& whole, std::span<const Index> chosen) {
   level.holes.resize(faces.size());
   for (size_t i = 0; i < faces.size(); ++i) {
     level.holes[i] = whole.holes[faces[i]];
-    for (Index k = 0; k < sizes[i]; ++k)
+    for (Index k = 0; k < own.size(Face{Index(i)}); ++k)
       level.sharpness.edge[index(own.edge(own.corner(Face{Index(i)}, k)))] =
           whole.sharpness.edge[index(t.edge(t.corner(Face{faces[i]}, k)))];
   }
@@ -187,6 +200,7 @@ Subset subset(const Level& whole, std::span<const Index> chosen) {
     if (!exists(own.twin(own.half_edge(Edge{e})))) level.sharpness.edge[e] = infinite_sharpness;
   level.S = selected_rows(identity(t.num_vertices()), vertices);
   for (const Index f : chosen) part.faces.push_back(position(faces, f));
+  part.parents = std::move(faces);
   return part;
 }
 

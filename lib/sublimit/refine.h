@@ -63,6 +63,7 @@ double predicted_bytes(const Scheme<double>& scheme, const Topology& control, in
 struct Subset {
   Level level;               ///< the part, numbered on its own; S has a row per vertex, over those of where it came from
   std::vector<Index> faces;  ///< the chosen faces, in the part's numbers
+  std::vector<Index> parents;  ///< of every face of the part: its number in the whole, ascending
 };
 
 /// Part of a level. `level.S` of the result selects vertices of the whole.

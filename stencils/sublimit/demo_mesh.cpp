@@ -4,8 +4,8 @@
 #include <Eigen/Geometry>
 
 #include <cmath>
-#include <initializer_list>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 namespace sublimit {
@@ -15,16 +15,17 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using std::numbers::pi;
 
-constexpr float infinite = 10;    // sharpness from which a crease never decays
-constexpr int columns = 12;       // faces around the body
-constexpr int none = -1;          // a place of the grid where a tube leaves the body
+constexpr float infinite = 10;  // sharpness from which a crease never decays
+constexpr int columns = 12;     // faces around the body
+constexpr int none = -1;        // a place of the grid where a tube leaves the body
 
 using Loop = std::vector<Index>;  // vertices of a closed polygon
 
 class Builder {
  public:
+  /// Coordinates are rounded to four decimals: readable in a file, and the same on every platform.
   Index vertex(const Vector3d& p) {
-    points_.push_back(p);
+    points_.push_back(p.unaryExpr([](double x) { return std::round(1e4 * x) / 1e4 + 0.; }));  // + 0: no -0
     return static_cast<Index>(points_.size()) - 1;
   }
   const Vector3d& position(Index vertex) const { return points_[vertex]; }
@@ -32,7 +33,7 @@ class Builder {
     mesh_.face_sizes.push_back(static_cast<Index>(corners.size()));
     mesh_.face_vertices.insert(mesh_.face_vertices.end(), corners.begin(), corners.end());
   }
-  /// Quads between two loops of the same length; the outside is on the right of `from` when looking towards `to`.
+  /// Quads between two loops of the same length, both counter-clockwise seen from where `to` lies.
   void bridge(const Loop& from, const Loop& to) {
     for (std::size_t i = 0; i < from.size(); ++i) {
       const std::size_t j = (i + 1) % from.size();
@@ -87,7 +88,8 @@ struct Curve {
   }
 };
 
-/// The point with offsets `across` (in the plane of the curve, to its left), `side` (along z) and `along` from the curve.
+/// The point with offsets `across` (in the plane of the curve, to its left), `side` (along z) and `along` from the
+/// curve.
 Vector3d beside(const Curve& curve, double t, double across, double side, double along = 0) {
   const Vector2d d = curve.direction(t);
   const Vector2d p = curve.at(t) + across * Vector2d(-d.y(), d.x()) + along * d;
@@ -109,47 +111,46 @@ Loop halve(Builder& pot, const Loop& outer, double radius, double height) {
   return inner;
 }
 
-}  // namespace
+// Where the tubes leave the body: rows of faces, and the column of vertices in the middle of each hole.
+constexpr int spout_row = 5, handle_end_row = 6, handle_begin_row = 8;
+constexpr int front = 0, back = columns / 2;
 
-ControlMesh demo_mesh() {
-  Builder pot;
-
-  // Body: rings from the underside of the foot to the lid. The foot is sharp for ever, the rim rounds off after 2.5 levels.
+/// Rings of vertices from the underside of the foot to the lid, and the faces between them, less three holes. The foot
+/// is sharp for ever, the rim rounds off after 2.5 levels.
+std::vector<Loop> add_body(Builder& pot) {
   const std::vector<Ring> profile = {
-      {.56, .07},                          // underside
-      {.74, .00, 0, infinite},             // foot
+      {.56, .07},               // underside
+      {.74, .00, 0, infinite},  // foot
       {.78, .11, 0, infinite},
       {.66, .20},
-      {.98, .42},                          // belly
-      {1.14, .74, .14},                    // spout from here ...
+      {.98, .42},        // belly
+      {1.14, .74, .14},  // spout from here ...
       {1.13, 1.08, .16},
-      {1.00, 1.42, .16},                   // ... to here; here the handle ends
+      {1.00, 1.42, .16},  // ... to here; here the handle ends
       {.84, 1.74, .12},
-      {.70, 2.06, .12},                    // here it begins
-      {.61, 2.34},                         // neck
+      {.70, 2.06, .12},  // here it begins
+      {.61, 2.34},       // neck
       {.66, 2.52},
-      {.76, 2.58, 0, 2.5F},                // rim
+      {.76, 2.58, 0, 2.5F},  // rim
       {.76, 2.66, 0, 2.5F},
-      {.62, 2.67},                         // lid
+      {.62, 2.67},  // lid
       {.56, 2.80},
       {.34, 2.92},
   };
-  constexpr int spout_row = 5, handle_end_row = 6, handle_begin_row = 8;
   std::vector<Loop> rings;
   for (int r = 0; r < static_cast<int>(profile.size()); ++r) {
     const Ring& ring = profile[r];
     Loop loop;
     for (int k = 0; k < columns; ++k) {
-      const bool inside_spout = r == spout_row + 1 && k == 0;
+      const bool inside_spout = r == spout_row + 1 && k == front;
       loop.push_back(inside_spout ? none : pot.vertex(revolve(ring.radius, ring.height, column_angle(k, ring.pinch))));
     }
     if (ring.sharpness > 0) pot.crease(loop, ring.sharpness);
     rings.push_back(loop);
   }
-  constexpr int back = columns / 2;  // the column of vertices at -x
   for (int r = 0; r + 1 < static_cast<int>(rings.size()); ++r) {
     for (int k = 0; k < columns; ++k) {
-      const bool front_face = k == 0 || k == columns - 1, back_face = k == back || k == back - 1;
+      const bool front_face = k == front || k == columns - 1, back_face = k == back || k == back - 1;
       if (front_face && (r == spout_row || r == spout_row + 1)) continue;
       if (back_face && (r == handle_begin_row || r == handle_end_row)) continue;
       const int next = (k + 1) % columns;
@@ -157,7 +158,12 @@ ControlMesh demo_mesh() {
     }
   }
 
-  // Underside and lid: from twelve columns to six by a ring of pentagons, whose middle vertices have valence 3.
+  return rings;
+}
+
+/// Underside and lid go from twelve columns to six by a ring of pentagons, whose middle vertices have valence 3. The
+/// knob's tip is a corner of valence 6.
+void add_ends(Builder& pot, const std::vector<Loop>& rings) {
   const Loop bottom = halve(pot, Loop(rings.front().rbegin(), rings.front().rend()), .28, .10);
   pot.face(bottom);
   Loop knob = halve(pot, rings.back(), .14, 2.98);
@@ -170,11 +176,13 @@ ControlMesh demo_mesh() {
   const Index tip = pot.vertex({0, 3.44, 0});
   for (int k = 0; k < 6; ++k) pot.face({knob[k], knob[(k + 1) % 6], tip});
   pot.corner(tip, infinite);
+}
 
-  // Spout: a tube of eight sides out of the hole in the belly; its lip is the boundary of the surface.
-  const int s = spout_row, left = columns - 1;
-  Loop tube = {rings[s][left],      rings[s][0],     rings[s][1],        rings[s + 1][1],
-               rings[s + 2][1],     rings[s + 2][0], rings[s + 2][left], rings[s + 1][left]};
+/// A tube of eight sides out of the hole in the belly; its lip is the boundary of the surface.
+void add_spout(Builder& pot, const std::vector<Loop>& rings) {
+  const Loop &low = rings[spout_row], &middle = rings[spout_row + 1], &high = rings[spout_row + 2];
+  constexpr int left = columns - 1, right = 1;
+  Loop tube = {low[left], low[front], low[right], middle[right], high[right], high[front], high[left], middle[left]};
   const Curve spout = {{1.00, 1.02}, {1.94, .74}, {1.50, 2.10}, {2.12, 2.58}};
   constexpr int spout_rings = 8;
   for (int i = 1; i <= spout_rings; ++i) {
@@ -190,19 +198,20 @@ ControlMesh demo_mesh() {
     pot.bridge(tube, next);
     tube = next;
   }
+}
 
-  // Handle: a strap of six sides from one hole at the back to the other. The edges of its outside are creases that end
-  // on the way (darts), so that it grows softly out of the body.
+/// A strap of six sides from one hole at the back to the other. The edges of its outside are creases that end on the
+/// way (darts), so that it grows softly out of the body.
+void add_handle(Builder& pot, const std::vector<Loop>& rings) {
   const auto hole = [&](int row) {  // counter-clockwise from the lower left corner, seen from outside
     return Loop{rings[row][back - 1],     rings[row][back],     rings[row][back + 1],
                 rings[row + 1][back + 1], rings[row + 1][back], rings[row + 1][back - 1]};
   };
-  const Loop begin = hole(handle_begin_row), below = hole(handle_end_row);
-  const Loop end = {below[5], below[4], below[3], below[2], below[1], below[0]};  // the outside comes in from below
+  const Loop end = hole(handle_end_row);
   const Curve handle = {{-.74, 1.95}, {-1.95, 3.05}, {-2.62, .90}, {-1.08, 1.22}};
   constexpr int handle_rings = 9;
   constexpr double width = .15, thickness = .085;
-  tube = begin;
+  Loop tube = hole(handle_begin_row);
   for (int i = 1; i <= handle_rings; ++i) {
     const double t = static_cast<double>(i) / (handle_rings + 1);
     Loop next;
@@ -218,8 +227,17 @@ ControlMesh demo_mesh() {
     }
     tube = next;
   }
-  pot.bridge(tube, end);
+  pot.bridge(tube, Loop(end.rbegin(), end.rend()));  // the handle's outside comes in from below
+}
 
+}  // namespace
+
+ControlMesh demo_mesh() {
+  Builder pot;
+  const std::vector<Loop> rings = add_body(pot);
+  add_ends(pot, rings);
+  add_spout(pot, rings);
+  add_handle(pot, rings);
   return pot.take();
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// The asset that the program carries: a coffee pot, made here by revolving a profile and sweeping two tubes. It has what
-// real control meshes have and subdivision must get right: creases that are sharp, semi-sharp and ending, an open
+// The asset that the program carries: a coffee pot, made here by revolving a profile and sweeping two tubes. It has
+// what real control meshes have and subdivision must get right: creases that are sharp, semi-sharp and ending, an open
 // boundary, a pointed tip, extraordinary vertices, faces with three, five and six corners, a handle.
 #include "sublimit/mesh/control_mesh.h"
 

@@ -31,10 +31,12 @@ std::vector<Index> faces_at(const Topology& t, const std::vector<HalfEdge>& corn
 
 }  // namespace
 
-RefinedRing brute_force(const Scheme<Precise>& scheme, const Level& level, const Points& points, Vertex v, int steps) {
+std::vector<RefinedRing> brute_force(const Scheme<Precise>& scheme, const Level& level, const Points& points, Vertex v,
+                                     const std::vector<int>& depths) {
+  std::vector<RefinedRing> result;
   RefinedRing ring;
   std::vector<HalfEdge> corners = corners_at(level.topology(), v);
-  if (corners.empty()) return ring;
+  if (corners.empty()) return result;
   Subset part = subset(level, faces_at(level.topology(), corners));
   const auto selected = [](const SparseMatrix& S) {  // the one column of each row of a selection
     return std::vector<Index>(S.innerIndexPtr(), S.innerIndexPtr() + S.nonZeros());
@@ -46,29 +48,23 @@ RefinedRing brute_force(const Scheme<Precise>& scheme, const Level& level, const
   const auto position = [](const std::vector<Index>& list, Index i) {
     return Index(std::lower_bound(list.begin(), list.end(), i) - list.begin());
   };
-  // The same corners in the part: its faces keep their order and their corners.
-  const auto moved = [&](const Topology& from, const Topology& to, const std::vector<HalfEdge>& halves,
-                         const std::vector<Index>& from_vertices, Vertex centre) {
-    // Faces are found by their vertices in the whole: unique around one vertex unless faces coincide entirely.
-    std::vector<HalfEdge> result;
-    for (const HalfEdge h : halves) {
-      HalfEdge match = no_half_edge;
-      for (const HalfEdge g : corners_at(to, centre)) {
-        if (to.size(to.face(g)) != from.size(from.face(h))) continue;
-        bool same = true;
-        HalfEdge a = h, b = g;
-        for (Index k = 0; k < to.size(to.face(g)); ++k, a = from.next(a), b = to.next(b))
-          same &= from_vertices[index(to.tail(b))] == index(from.tail(a));
-        if (same) match = g;
-      }
-      result.push_back(match);
-    }
-    return result;
+  // The same corners in the part.
+  const auto moved = [&](const Topology& from, const Subset& to, std::vector<HalfEdge> halves) {
+    for (HalfEdge& h : halves)
+      h = to.level.topology().corner(Face{position(to.parents, index(from.face(h)))}, from.corner_index(h));
+    return halves;
   };
   Vertex centre{position(vertices, index(v))};
-  corners = moved(level.topology(), part.level.topology(), corners, vertices, centre);
+  corners = moved(level.topology(), part, corners);
 
-  for (int k = 0; k < steps; ++k) {
+  // Offsets from the vertex: rows sum to one, so they refine as points do, and keep their digits at any depth.
+  const auto recentre = [&](Vertex at) {
+    const Eigen::Matrix<Precise, 1, 3> moved_by = ring.points.row(index(at));
+    ring.position += moved_by;
+    for (Eigen::Index i = 0; i < ring.points.rows(); ++i) ring.points.row(i) -= moved_by;
+  };
+  recentre(centre);
+  for (int k = 1; k <= depths.back(); ++k) {
     LevelOf<Precise> from;
     from.number = part.level.number;
     from.steps = part.level.steps;
@@ -90,12 +86,16 @@ RefinedRing brute_force(const Scheme<Precise>& scheme, const Level& level, const
     for (size_t i = 0; i < vertices.size(); ++i) kept.row(Index(i)) = refined.row(vertices[i]);
     ring.points = std::move(kept);
     centre = Vertex{position(vertices, index(child))};
-    corners = moved(plain.topology(), part.level.topology(), corners, vertices, centre);
+    recentre(centre);
+    corners = moved(plain.topology(), part, corners);
+    if (std::find(depths.begin(), depths.end(), k) != depths.end()) {
+      ring.level = part.level;
+      ring.vertex = centre;
+      ring.corners = corners;
+      result.push_back(ring);
+    }
   }
-  ring.level = std::move(part.level);
-  ring.vertex = centre;
-  ring.corners = std::move(corners);
-  return ring;
+  return result;
 }
 
 }  // namespace sublimit::testing

@@ -12,13 +12,16 @@ using PrecisePoints = Eigen::Matrix<Precise, Eigen::Dynamic, Eigen::Dynamic, Eig
 /// The ring around one vertex after many steps: part of the refined mesh and its points.
 struct RefinedRing {
   Level level;           ///< topology of the part; the vertex is `vertex`
-  PrecisePoints points;
+  PrecisePoints points;  ///< offsets from `position`
+  Eigen::Matrix<Precise, 1, 3> position = Eigen::Matrix<Precise, 1, 3>::Zero();  ///< of the vertex
   Vertex vertex{0};
   std::vector<HalfEdge> corners;  ///< of the vertex in the part, fan by fan, in the order of those of the control mesh
 };
 
-/// Refines the faces around `v` of `level` by `steps` levels. Masks come from the scheme in 256-bit floats; the topology of
+/// Refines the faces around `v` of `level`. Masks come from the scheme in 256-bit floats; the topology of
 /// each step is a subset of the mesh, so nothing is unfolded and nothing analysed.
-RefinedRing brute_force(const Scheme<Precise>& scheme, const Level& level, const Points& points, Vertex v, int steps);
+/// @param depths  ascending numbers of levels; the result has a ring for each
+std::vector<RefinedRing> brute_force(const Scheme<Precise>& scheme, const Level& level, const Points& points, Vertex v,
+                                     const std::vector<int>& depths);
 
 }  // namespace sublimit::testing

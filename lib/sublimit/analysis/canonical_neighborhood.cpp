@@ -6,6 +6,8 @@
 #include <bit>
 #include <map>
 
+#include "sublimit/mesh/topology_builder.h"
+
 namespace sublimit {
 namespace {
 
@@ -16,6 +18,14 @@ float child_at_end(const Topology& t, const Sharpness& sharpness, Edge e, Vertex
   const std::vector<Edge> around = t.edges(end);
   const auto at = std::find(around.begin(), around.end(), e) - around.begin();
   return VertexSharpness(t, sharpness, end).child_edges[at];
+}
+
+/// Means of sharpness are float sums in the order of the edges, and three or more terms can round differently in another:
+/// such a ring keeps the mesh's own order.
+bool depends_on_order(const Topology& t, const Sharpness& sharpness, Vertex v) {
+  int terms = is_semi_sharp(sharpness.vertex[index(v)]);
+  for (const Edge e : t.edges(v)) terms += is_semi_sharp(sharpness.edge[index(e)]);
+  return terms > 2;
 }
 
 NeighborhoodAt walk(const Topology& t, const Sharpness& sharpness, Vertex v, const std::vector<HalfEdge>& starts) {
@@ -86,7 +96,7 @@ Rule CanonicalNeighborhood::rule() const {
 
 NeighborhoodAt neighborhood(const Topology& t, const Sharpness& sharpness, Vertex v, bool aligned) {
   std::vector<HalfEdge> starts = t.fans(v);
-  if (!aligned && starts.size() == 1 && exists(t.twin(starts[0]))) {
+  if (!aligned && starts.size() == 1 && exists(t.twin(starts[0])) && !depends_on_order(t, sharpness, v)) {
     // Least rotation of (face size, sharpness, child sharpness) around the vertex, by comparing sequences of words.
     std::vector<std::array<std::uint32_t, 3>> words;
     std::vector<HalfEdge> halves;
@@ -117,14 +127,36 @@ NeighborhoodAt neighborhood(const Topology& t, const Sharpness& sharpness, Verte
 }
 
 UnfoldedPatch unfold(const CanonicalNeighborhood& type) {
-  std::vector<Index> sizes, corners;
-  for (const auto& fan : type.fans)
+  // Faces of a fan are glued along their spokes, and nothing else is: what was not one sheet must not become one here.
+  TopologyBuilder b;
+  b.face_offsets = {0};
+  std::vector<std::vector<Index>> loose(type.spokes.size());  // half-edges without twin, by spoke
+  for (const auto& fan : type.fans) {
+    const Index first = static_cast<Index>(b.tail.size());
     for (const auto& corner : fan.corners) {
-      sizes.push_back(corner.face_size);
-      corners.insert(corners.end(), corner.slots.begin(), corner.slots.end());
+      b.tail.insert(b.tail.end(), corner.slots.begin(), corner.slots.end());
+      b.face_offsets.push_back(static_cast<Index>(b.tail.size()));
     }
+    b.twin.resize(b.tail.size(), -1);
+    const size_t n = fan.corners.size();
+    Index begin = first;
+    for (size_t c = 0; c < n; ++c) {
+      const Index end = begin + fan.corners[c].face_size;
+      if (c + 1 < n || fan.closed) {
+        const Index next = c + 1 < n ? end : first;
+        b.twin[end - 1] = next;
+        b.twin[next] = end - 1;
+      }
+      if (!fan.closed && c == 0) loose[fan.corners[c].spoke].push_back(begin);
+      if (!fan.closed && c + 1 == n) loose[fan.corners[c].next_spoke].push_back(end - 1);
+      begin = end;
+    }
+  }
+  for (const auto& halves : loose)
+    if (halves.size() > 1) b.nonmanifold_edges.push_back(halves);
+  b.find_fans(type.num_slots);
   UnfoldedPatch patch;
-  patch.topology = Topology({.num_vertices = type.num_slots, .face_vertices = corners, .face_sizes = sizes});
+  patch.topology = std::move(b).build();
   patch.sharpness.creasing = type.creasing;
   // The rim is where the patch ends, not the mesh: its rows are never used, and sharp ones need no neighbours.
   patch.sharpness.vertex.assign(patch.topology.num_vertices(), infinite_sharpness);

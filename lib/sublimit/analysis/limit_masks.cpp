@@ -66,8 +66,8 @@ std::optional<FourierBlocks> symmetric_blocks(const MatrixXd& A, const Canonical
 }
 
 VectorXd position_mask(const MatrixXd& A, const std::optional<FourierBlocks>& fourier) {
-  if (!fourier) {
-    const Slots slots = closure(A, {0});
+  const Slots slots = closure(A, {0});
+  if (!fourier || static_cast<Index>(slots.size()) < A.rows()) {
     return embedded(limit_weights(A(slots, slots)), slots, static_cast<Index>(A.rows()));
   }
   const VectorXd orbits = limit_weights(fourier->blocks[0].real());  // total weight of every orbit

@@ -70,7 +70,8 @@ class Matcher {
       b.face_offsets.push_back(h += size);
     }
     match_edges();
-    find_fans();
+    b.find_fans(num_vertices_);
+    list_faulty_vertices();
     list_repeated_vertices();
   }
 
@@ -157,39 +158,15 @@ class Matcher {
     for (const Index h : halves) nonmanifold_[h] = true;
   }
 
-  void find_fans() {
+  void list_faulty_vertices() {
     using Kind = Topology::Fault::Kind;
-    const Buckets corners(b.tail, num_vertices_);
-    b.outgoing.assign(num_vertices_, -1);
-    b.degree.resize(num_vertices_);
-    std::vector<bool> seen(b.tail.size(), false);
-    for (Index v = 0; v < num_vertices_; ++v) {
-      const std::span<const Index> outs = corners[v];
-      b.degree[v] = static_cast<Index>(outs.size());
-      if (outs.empty()) {
-        fault(Kind::isolated_vertex, "vertex " + number(v) + " belongs to no face");
-        continue;
-      }
-      TopologyBuilder::Fans fans{v, {}};
-      const auto walk = [&](Index start) {
-        fans.starts.push_back(start);
-        for (Index h = start; h >= 0 && !seen[h]; h = b.twin[prev(h)]) seen[h] = true;
-      };
-      bool bad_edge = false;
-      for (const Index h : outs) {
-        if (b.twin[h] < 0) walk(h);
-        bad_edge |= nonmanifold_[h] || nonmanifold_[prev(h)];
-      }
-      for (const Index h : outs)
-        if (!seen[h]) walk(h);
-      if (fans.starts.size() == 1 && !bad_edge) {
-        b.outgoing[v] = fans.starts[0];
-      } else {
-        if (fans.starts.size() > 1 && !bad_edge)
-          fault(Kind::several_fans, "the faces around vertex " + number(v) + " form " +
-                                        number(Index(fans.starts.size())) + " fans; split the vertex, or accept a corner");
-        b.nonmanifold_vertices.push_back(std::move(fans));
-      }
+    for (size_t v = 0; v < b.degree.size(); ++v)
+      if (b.degree[v] == 0) fault(Kind::isolated_vertex, "vertex " + std::to_string(v) + " belongs to no face");
+    for (const TopologyBuilder::Fans& fans : b.nonmanifold_vertices) {
+      const auto bad_edge = [&](Index h) { return nonmanifold_[h] || nonmanifold_[prev(h)]; };
+      if (fans.starts.size() > 1 && std::none_of(fans.starts.begin(), fans.starts.end(), bad_edge))
+        fault(Kind::several_fans, "the faces around vertex " + number(fans.vertex) + " form " +
+                                      number(Index(fans.starts.size())) + " fans; split the vertex, or accept a corner");
     }
   }
 
@@ -259,6 +236,43 @@ Topology TopologyBuilder::build() && {
     t.nonmanifold_vertices_.push_back({std::move(fans.starts), std::move(edges)});
   }
   return t;
+}
+
+void TopologyBuilder::find_fans(Index num_vertices) {
+  const auto count = static_cast<Index>(tail.size());
+  std::vector<Index> prev(count);
+  for (size_t f = 0; f + 1 < face_offsets.size(); ++f)
+    for (Index h = face_offsets[f]; h < face_offsets[f + 1]; ++h)
+      prev[h] = h == face_offsets[f] ? face_offsets[f + 1] - 1 : h - 1;
+  std::vector<bool> on_nonmanifold(count, false), seen(count, false);
+  for (const auto& group : nonmanifold_edges)
+    for (const Index h : group) on_nonmanifold[h] = true;
+
+  const Buckets corners(tail, num_vertices);
+  outgoing.assign(num_vertices, -1);
+  degree.assign(num_vertices, 0);
+  for (Index v = 0; v < num_vertices; ++v) {
+    const std::span<const Index> outs = corners[v];
+    degree[v] = static_cast<Index>(outs.size());
+    if (outs.empty()) continue;
+    Fans fans{v, {}};
+    const auto walk = [&](Index start) {
+      fans.starts.push_back(start);
+      for (Index h = start; h >= 0 && !seen[h]; h = twin[prev[h]]) seen[h] = true;
+    };
+    bool bad_edge = false;
+    for (const Index h : outs) {
+      if (twin[h] < 0) walk(h);
+      bad_edge |= on_nonmanifold[h] || on_nonmanifold[prev[h]];
+    }
+    for (const Index h : outs)
+      if (!seen[h]) walk(h);
+    if (fans.starts.size() == 1 && !bad_edge) {
+      outgoing[v] = fans.starts[0];
+    } else {
+      nonmanifold_vertices.push_back(std::move(fans));
+    }
+  }
 }
 
 void TopologyBuilder::number_edges(Topology& t, const std::vector<std::vector<Index>>& groups) {

@@ -24,6 +24,9 @@ class TopologyBuilder {
   std::vector<Fans> nonmanifold_vertices;
   std::vector<Topology::Fault> faults;
 
+  /// Sets outgoing, degree and nonmanifold_vertices from the other arrays (face_offsets among them).
+  void find_fans(Index num_vertices);
+
   /// Consumes the arrays.
   Topology build() &&;
 

@@ -20,9 +20,9 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr int supersampling = 5;   // depth samples per pixel and direction
-constexpr int units = 10;          // SVG units per pixel: one decimal without a decimal point
-constexpr int tones = 112;         // steps of a colour ramp; fewer would show as bands
+constexpr int supersampling = 5;  // depth samples per pixel and direction
+constexpr int units = 10;         // SVG units per pixel: one decimal without a decimal point
+constexpr int tones = 112;        // steps of a colour ramp; fewer would show as bands
 constexpr double crease_angle = 35 * std::numbers::pi / 180;  // normals further from the face's are the other side's
 
 // ---- Input
@@ -44,7 +44,8 @@ void check(const PictureMesh& mesh, int panel, int layer) {
     corners += static_cast<std::size_t>(size);
   }
   need(corners == mesh.face_vertices.size(), "face_sizes do not add up to the length of face_vertices");
-  need(std::all_of(mesh.face_vertices.begin(), mesh.face_vertices.end(), inside), "a face has a vertex that does not exist");
+  need(std::all_of(mesh.face_vertices.begin(), mesh.face_vertices.end(), inside),
+       "a face has a vertex that does not exist");
   need(std::all_of(mesh.dots.begin(), mesh.dots.end(), inside), "a dot is a vertex that does not exist");
   for (const PictureMesh::Line& line : mesh.creases) {
     need(inside(line.tail) && inside(line.head), "a crease has a vertex that does not exist");
@@ -52,7 +53,8 @@ void check(const PictureMesh& mesh, int panel, int layer) {
   }
   for (double c : mesh.color) need(c >= 0 && c <= 1, "a colour is outside 0..1");
   const auto normals = [&](const Points& n, Eigen::Index rows) {
-    need(n.size() == 0 || (n.rows() == rows && n.cols() == 3), "normals need 3 columns and one row per vertex or corner");
+    need(n.size() == 0 || (n.rows() == rows && n.cols() == 3),
+         "normals need 3 columns and one row per vertex or corner");
     need(n.allFinite(), "a normal is not finite");
   };
   normals(mesh.vertex_normals, count);
@@ -109,15 +111,16 @@ struct Projected {
 struct Camera {
   Eigen::Matrix3d axes;  // rows: right, up, towards the eye
   Vector3d up;
-  double distance;       // 0: orthographic
-  double scale = 1;      // pixels per unit at the centre
+  double distance;   // 0: orthographic
+  double scale = 1;  // pixels per unit at the centre
   Vector2d shift = Vector2d::Zero();
 
   explicit Camera(const PictureOptions& o) : up(o.up.normalized()), distance(o.distance * std::sqrt(3.)) {
     const Vector3d x = std::abs(up.x()) < .9 ? Vector3d::UnitX() : Vector3d::UnitZ();
     const Vector3d front = x.cross(up).normalized(), side = up.cross(front);
     const double elevation = std::clamp(o.elevation, -1.55, 1.55);
-    const Vector3d eye = std::cos(elevation) * (std::cos(o.azimuth) * front + std::sin(o.azimuth) * side) + std::sin(elevation) * up;
+    const Vector3d eye =
+        std::cos(elevation) * (std::cos(o.azimuth) * front + std::sin(o.azimuth) * side) + std::sin(elevation) * up;
     axes.row(2) = eye;
     axes.row(0) = up.cross(eye).normalized();
     axes.row(1) = eye.cross(Vector3d(axes.row(0)));
@@ -125,7 +128,8 @@ struct Camera {
   Vector3d seen(const Vector3d& p) const { return axes * p; }
   Projected project(const Vector3d& v) const {
     const double ratio = distance > 0 ? distance / (distance - v.z()) : 1;
-    return {scale * ratio * v.x() + shift.x(), -scale * ratio * v.y() + shift.y(), distance > 0 ? distance * ratio : v.z()};
+    return {scale * ratio * v.x() + shift.x(), -scale * ratio * v.y() + shift.y(),
+            distance > 0 ? distance * ratio : v.z()};
   }
   /// Is the outside of a plane with this normal at this point (both seen) towards the eye?
   bool faces_eye(const Vector3d& normal, const Vector3d& point) const {
@@ -142,8 +146,8 @@ struct SceneFace {
   Vector3d normal = Vector3d::Zero();  // of the side that is seen
   bool back = false;                   // that side is the inside
   bool solid = true, flat = true;
-  double light = 1;                    // how much of the sky it sees
-  double tone = 0;                     // at the centre, 0..tones - 1
+  double light = 1;  // how much of the sky it sees
+  double tone = 0;   // at the centre, 0..tones - 1
 };
 
 struct SceneCorner {
@@ -169,7 +173,8 @@ Scene scene_of(const Panel& panel, const Frame& frame, const Camera& camera) {
     const PictureMesh& mesh = panel.layers[l];
     const int first = static_cast<int>(scene.points.size());
     scene.first_point.push_back(first);
-    for (Eigen::Index v = 0; v < mesh.positions.rows(); ++v) scene.points.push_back(camera.seen(frame.local(mesh.positions.row(v))));
+    for (Eigen::Index v = 0; v < mesh.positions.rows(); ++v)
+      scene.points.push_back(camera.seen(frame.local(mesh.positions.row(v))));
     int corner = 0;
     for (Index size : mesh.face_sizes) {
       SceneFace face;
@@ -206,7 +211,9 @@ Scene scene_of(const Panel& panel, const Frame& frame, const Camera& camera) {
 class DepthBuffer {
  public:
   DepthBuffer(int width, int height)
-      : width_(width), height_(height), near_(static_cast<std::size_t>(width) * height, -std::numeric_limits<float>::infinity()),
+      : width_(width),
+        height_(height),
+        near_(static_cast<std::size_t>(width) * height, -std::numeric_limits<float>::infinity()),
         face_(near_.size(), -1) {}
 
   void draw(const Projected& a, const Projected& b, const Projected& c, int face) {
@@ -229,7 +236,8 @@ class DepthBuffer {
         const double u = ((px - a.x) * (c.y - a.y) - (py - a.y) * (c.x - a.x)) / area;
         const double v = ((b.x - a.x) * (py - a.y) - (b.y - a.y) * (px - a.x)) / area;
         if (u < 0 || v < 0 || u + v > 1) continue;
-        use(static_cast<std::size_t>(y) * width_ + x, static_cast<float>(a.near + u * (b.near - a.near) + v * (c.near - a.near)));
+        use(static_cast<std::size_t>(y) * width_ + x,
+            static_cast<float>(a.near + u * (b.near - a.near) + v * (c.near - a.near)));
       }
     }
   }
@@ -276,7 +284,8 @@ class DepthBuffer {
 
 /// Triangles of a face: two for a quad, a fan around the centre for more corners.
 template <class Use>
-void for_each_triangle(const Scene& scene, const SceneFace& face, const std::vector<Projected>& at, const Projected& center, Use use) {
+void for_each_triangle(const Scene& scene, const SceneFace& face, const std::vector<Projected>& at,
+                       const Projected& center, Use use) {
   const int size = face.end - face.begin;
   const auto corner = [&](int i) -> const Projected& { return at[scene.corners[face.begin + i % size].point]; };
   if (size <= 4) {
@@ -288,7 +297,8 @@ void for_each_triangle(const Scene& scene, const SceneFace& face, const std::vec
 
 // ---- Light
 
-/// How much of the sky every face sees: depth buffers from many directions, weighted by the cosine law and a brighter zenith.
+/// How much of the sky every face sees: depth buffers from many directions, weighted by the cosine law and a brighter
+/// zenith.
 void light_from_sky(Scene& scene, const Camera& camera) {
   constexpr int directions = 128, size = 256;
   std::vector<double> seen(scene.faces.size(), 0), all(scene.faces.size(), 0);
@@ -357,9 +367,12 @@ void light_from_sky(Scene& scene, const Camera& camera) {
 /// Tone of a point: a key light from the upper left, a fill from the right, the sky, a soft highlight.
 double tone(const Vector3d& point, const Vector3d& n, double light, bool back, const Camera& camera) {
   const Vector3d key = Vector3d(-.50, .62, .60).normalized(), fill = Vector3d(.85, .05, .5).normalized();
-  const Vector3d eye = camera.distance > 0 ? Vector3d(Vector3d(0, 0, camera.distance) - point).normalized() : Vector3d::UnitZ();
+  const Vector3d eye =
+      camera.distance > 0 ? Vector3d(Vector3d(0, 0, camera.distance) - point).normalized() : Vector3d::UnitZ();
   const double sky = .5 + .5 * n.dot(camera.seen(camera.up));
-  const auto shine = [&](const Vector3d& from, double width) { return std::pow(std::max(0., n.dot((from + eye).normalized())), width); };
+  const auto shine = [&](const Vector3d& from, double width) {
+    return std::pow(std::max(0., n.dot((from + eye).normalized())), width);
+  };
   const Vector3d window = Vector3d(-.85, .10, .75).normalized();
   const double value = .07 + light * (.20 * sky + .46 * std::max(0., n.dot(key)) + .12 * std::max(0., n.dot(fill)) +
                                       .28 * shine(key, 50) + .20 * shine(window, 45));
@@ -412,11 +425,20 @@ std::string escaped(std::string_view text) {
   std::string result;
   for (char c : text) {
     switch (c) {
-      case '&': result += "&amp;"; break;
-      case '<': result += "&lt;"; break;
-      case '>': result += "&gt;"; break;
-      case '"': result += "&quot;"; break;
-      default: result += static_cast<unsigned char>(c) < 32 ? ' ' : c;
+      case '&':
+        result += "&amp;";
+        break;
+      case '<':
+        result += "&lt;";
+        break;
+      case '>':
+        result += "&gt;";
+        break;
+      case '"':
+        result += "&quot;";
+        break;
+      default:
+        result += static_cast<unsigned char>(c) < 32 ? ' ' : c;
     }
   }
   return result;
@@ -464,7 +486,8 @@ class Path {
   Spot at_, start_;
 };
 
-/// Outline of the union of polygons that do not overlap and all turn the same way: edges used in both directions cancel.
+/// Outline of the union of polygons that do not overlap and all turn the same way: edges used in both directions
+/// cancel.
 class Outline {
  public:
   void add(const std::vector<Spot>& polygon) {
@@ -481,11 +504,13 @@ class Outline {
     for (std::size_t first = 0; first < edges.size(); ++first) {
       if (used[first]) continue;
       std::vector<Spot> loop;
-      for (std::size_t e = first; !used[e];) {  // as many edges leave a point as arrive there, so the walk ends where it began
+      for (std::size_t e = first;
+           !used[e];) {  // as many edges leave a point as arrive there, so the walk ends where it began
         used[e] = true;
         loop.push_back(edges[e].from);
         const auto starts_before = [](const Step& edge, Spot at) { return edge.from < at; };
-        e = static_cast<std::size_t>(std::lower_bound(edges.begin(), edges.end(), edges[e].to, starts_before) - edges.begin());
+        e = static_cast<std::size_t>(std::lower_bound(edges.begin(), edges.end(), edges[e].to, starts_before) -
+                                     edges.begin());
         while (used[e] && e + 1 < edges.size() && edges[e + 1].from == edges[e].from) ++e;
       }
       write(path, loop);
@@ -504,13 +529,16 @@ class Outline {
   };
 
   std::vector<Step> what_is_left() {
-    const auto before = [](const Segment& a, const Segment& b) { return a.low != b.low ? a.low < b.low : a.high < b.high; };
+    const auto before = [](const Segment& a, const Segment& b) {
+      return a.low != b.low ? a.low < b.low : a.high < b.high;
+    };
     std::sort(segments_.begin(), segments_.end(), before);
     std::vector<Step> left;
     for (std::size_t i = 0; i < segments_.size();) {
       const Segment first = segments_[i];
       int uses = 0;
-      for (; i < segments_.size() && segments_[i].low == first.low && segments_[i].high == first.high; ++i) uses += segments_[i].uses;
+      for (; i < segments_.size() && segments_[i].low == first.low && segments_[i].high == first.high; ++i)
+        uses += segments_[i].uses;
       for (; uses > 0; --uses) left.push_back({first.low, first.high});
       for (; uses < 0; ++uses) left.push_back({first.high, first.low});
     }
@@ -545,7 +573,9 @@ class Outline {
 class PanelWriter {
  public:
   PanelWriter(const Panel& panel, const Frame& frame, const Camera& camera, const PictureOptions& options)
-      : panel_(panel), camera_(camera), scene_(scene_of(panel, frame, camera)),
+      : panel_(panel),
+        camera_(camera),
+        scene_(scene_of(panel, frame, camera)),
         buffer_(static_cast<int>(std::ceil(options.panel_width * supersampling)),
                 static_cast<int>(std::ceil(options.panel_height * supersampling))) {
     light_from_sky(scene_, camera);
@@ -553,7 +583,8 @@ class PanelWriter {
     for (const Vector3d& p : scene_.points) at_.push_back(camera.project(p));
     for (int f = 0; f < static_cast<int>(scene_.faces.size()); ++f) {
       if (!scene_.faces[f].solid) continue;
-      triangles(scene_.faces[f], [&](const Projected& a, const Projected& b, const Projected& c) { buffer_.draw(a, b, c, f); });
+      triangles(scene_.faces[f],
+                [&](const Projected& a, const Projected& b, const Projected& c) { buffer_.draw(a, b, c, f); });
     }
   }
 
@@ -568,8 +599,9 @@ class PanelWriter {
   template <class Use>
   void triangles(const SceneFace& face, Use use) const {
     const auto fine = [](Projected p) { return Projected{p.x * supersampling, p.y * supersampling, p.near}; };
-    for_each_triangle(scene_, face, at_, camera_.project(face.center),
-                      [&](const Projected& a, const Projected& b, const Projected& c) { use(fine(a), fine(b), fine(c)); });
+    for_each_triangle(
+        scene_, face, at_, camera_.project(face.center),
+        [&](const Projected& a, const Projected& b, const Projected& c) { use(fine(a), fine(b), fine(c)); });
   }
 
   /// A point of a face on the paper, and its tone.
@@ -578,12 +610,13 @@ class PanelWriter {
     double tone = 0;
   };
 
-  // A face that nothing hides may be drawn after all others and in any order; so these are merged. What is hidden in part
-  // is drawn before them, from far to near.
+  // A face that nothing hides may be drawn after all others and in any order; so these are merged. What is hidden in
+  // part is drawn before them, from far to near.
   void write_faces(std::string& svg) const {
     const std::vector<float> nearest = buffer_.nearest_around();
     std::vector<int> partial;
-    std::map<std::pair<bool, int>, std::vector<int>> whole;  // outside or not, layer: insides first, so that outlines stay clean
+    std::map<std::pair<bool, int>, std::vector<int>>
+        whole;  // outside or not, layer: insides first, so that outlines stay clean
     for (int f = 0; f < static_cast<int>(scene_.faces.size()); ++f) {
       const SceneFace& face = scene_.faces[f];
       if (!face.solid) continue;
@@ -617,8 +650,8 @@ class PanelWriter {
     svg += "</g>\n";
   }
 
-  /// Smooth shading by terraces: for each tone the part of the faces that is at least as bright, over the darker ones. Nothing
-  /// has to fit edge to edge, so there are no seams.
+  /// Smooth shading by terraces: for each tone the part of the faces that is at least as bright, over the darker ones.
+  /// Nothing has to fit edge to edge, so there are no seams.
   void write_terraces(std::string& svg, int layer, bool back, const std::vector<int>& faces) const {
     std::array<Outline, tones> terraces;
     for (int f : faces) {
@@ -665,7 +698,8 @@ class PanelWriter {
   static Spot crossing(Shaded a, Shaded b, double level) {
     if (b.at < a.at) std::swap(a, b);
     const double t = (level - a.tone) / (b.tone - a.tone);
-    return {static_cast<int>(std::lround(a.at.x + t * (b.at.x - a.at.x))), static_cast<int>(std::lround(a.at.y + t * (b.at.y - a.at.y)))};
+    return {static_cast<int>(std::lround(a.at.x + t * (b.at.x - a.at.x))),
+            static_cast<int>(std::lround(a.at.y + t * (b.at.y - a.at.y)))};
   }
 
   void write_fill(std::string& svg, int layer, bool back, int tone, const std::string& data) const {
@@ -701,10 +735,12 @@ class PanelWriter {
     const int first = scene_.first_point[layer];
     std::map<double, Path> creases;
     for (const PictureMesh::Line& line : mesh.creases) {
-      add_visible(creases[line.strength], first + line.tail, first + line.head, faces_of(first + line.tail, first + line.head));
+      add_visible(creases[line.strength], first + line.tail, first + line.head,
+                  faces_of(first + line.tail, first + line.head));
     }
     for (const auto& [strength, path] : creases) {
-      write_stroke(svg, mix({.95, .62, .15}, {.80, .16, .12}, strength), static_cast<int>(std::lround(14 + 10 * strength)), 1, path.data());
+      write_stroke(svg, mix({.95, .62, .15}, {.80, .16, .12}, strength),
+                   static_cast<int>(std::lround(14 + 10 * strength)), 1, path.data());
     }
     Path dots;
     for (Index v : mesh.dots) {
@@ -744,12 +780,14 @@ class PanelWriter {
 
   void write_stroke(std::string& svg, const Color& color, int width, double opacity, const std::string& data) const {
     if (data.empty()) return;
-    svg += "<path fill=\"none\" stroke-linecap=\"round\" stroke=\"" + hex(color) + "\" stroke-width=\"" + std::to_string(width) + "\"";
+    svg += "<path fill=\"none\" stroke-linecap=\"round\" stroke=\"" + hex(color) + "\" stroke-width=\"" +
+           std::to_string(width) + "\"";
     if (opacity < 1) svg += " stroke-opacity=\"" + pixels(opacity) + "\"";
     svg += " d=\"" + data + "\"/>\n";
   }
 
-  // Differences in depth, in a scene of radius 1 to sqrt(3), up to which two samples are taken to be on the same surface.
+  // Differences in depth, in a scene of radius 1 to sqrt(3), up to which two samples are taken to be on the same
+  // surface.
   static constexpr double surface_gap = .002, line_gap = .005, outline_gap = .03;
 
   const Panel& panel_;
@@ -784,8 +822,8 @@ std::string ground_shadow(const Panel& panel, const Frame& frame, const Camera& 
   }
   const Projected middle = camera.project(camera.seen(center));
   const double across = 1.55 * radius * camera.scale;
-  return "<ellipse cx=\"" + pixels(middle.x) + "\" cy=\"" + pixels(middle.y) + "\" rx=\"" + pixels(across) + "\" ry=\"" +
-         pixels(across * rise) + "\" fill=\"url(#shadow)\"/>\n";
+  return "<ellipse cx=\"" + pixels(middle.x) + "\" cy=\"" + pixels(middle.y) + "\" rx=\"" + pixels(across) +
+         "\" ry=\"" + pixels(across * rise) + "\" fill=\"url(#shadow)\"/>\n";
 }
 
 /// Scale and shift with which everything of all panels fits, with a margin.
@@ -825,26 +863,32 @@ std::string svg_picture(const std::vector<Panel>& panels, const PictureOptions& 
   constexpr double border = 14, caption_height = 58;
   const double width = static_cast<double>(panels.size()) * options.panel_width + 2 * border;
   const double height = options.panel_height + caption_height + border;
-  std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + pixels(width) + " " + pixels(height) + "\" width=\"" +
-                    pixels(width) + "\" height=\"" + pixels(height) + "\" font-family=\"system-ui, sans-serif\" text-anchor=\"middle\">\n";
+  std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + pixels(width) + " " + pixels(height) +
+                    "\" width=\"" + pixels(width) + "\" height=\"" + pixels(height) +
+                    "\" font-family=\"system-ui, sans-serif\" text-anchor=\"middle\">\n";
   svg += "<rect width=\"100%\" height=\"100%\" rx=\"16\" fill=\"#f4f2ed\"/>\n";
   if (options.ground_shadow) {
-    svg += "<radialGradient id=\"shadow\"><stop offset=\".5\" stop-color=\"#3a3f55\" stop-opacity=\".42\"/>"
-           "<stop offset=\".75\" stop-color=\"#3a3f55\" stop-opacity=\".14\"/>"
-           "<stop offset=\"1\" stop-color=\"#3a3f55\" stop-opacity=\"0\"/></radialGradient>\n";
+    svg +=
+        "<radialGradient id=\"shadow\"><stop offset=\".5\" stop-color=\"#3a3f55\" stop-opacity=\".42\"/>"
+        "<stop offset=\".75\" stop-color=\"#3a3f55\" stop-opacity=\".14\"/>"
+        "<stop offset=\"1\" stop-color=\"#3a3f55\" stop-opacity=\"0\"/></radialGradient>\n";
   }
   for (std::size_t p = 0; p < panels.size(); ++p) {
     const Panel& panel = panels[p];
-    svg += "<g transform=\"translate(" + pixels(border + static_cast<double>(p) * options.panel_width) + " " + pixels(border) + ")\">\n";
+    svg += "<g transform=\"translate(" + pixels(border + static_cast<double>(p) * options.panel_width) + " " +
+           pixels(border) + ")\">\n";
     if (options.ground_shadow) svg += ground_shadow(panel, frame, camera);
     svg += "<g transform=\"scale(.1)\" stroke-linejoin=\"round\">\n";
     svg += PanelWriter(panel, frame, camera, options).write();
     svg += "</g>\n";
-    const std::string middle = pixels(options.panel_width / 2);
-    svg += "<text x=\"" + middle + "\" y=\"" + pixels(options.panel_height + 22) + "\" font-size=\"17\" font-weight=\"600\" fill=\"#2b2f38\">" +
-           escaped(panel.caption) + "</text>\n";
-    svg += "<text x=\"" + middle + "\" y=\"" + pixels(options.panel_height + 43) + "\" font-size=\"13\" fill=\"#6a6f7a\">" +
-           escaped(panel.note) + "</text>\n</g>\n";
+    const auto line = [&](double below, const char* style, const std::string& text) {
+      if (text.empty()) return;
+      svg += "<text x=\"" + pixels(options.panel_width / 2) + "\" y=\"" + pixels(options.panel_height + below) + "\" " +
+             style + ">" + escaped(text) + "</text>\n";
+    };
+    line(22, "font-size=\"17\" font-weight=\"600\" fill=\"#2b2f38\"", panel.caption);
+    line(43, "font-size=\"13\" fill=\"#6a6f7a\"", panel.note);
+    svg += "</g>\n";
   }
   svg += "</svg>\n";
   return svg;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Pictures of meshes as SVG: panels side by side, one camera, soft shading, hidden faces and lines left out. Only what a
-// depth buffer has seen is written, faces of one tone are merged into one outline, and coordinates are tenths of a pixel,
-// so that a limit surface of 20 000 faces takes some 100 KB.
+// Pictures of meshes as SVG: panels side by side, one camera, soft shading, hidden faces and lines left out. Only what
+// a depth buffer has seen is written, faces of one tone are merged into one outline, and coordinates are tenths of a
+// pixel, so that a limit surface of 20 000 faces takes some 200 KB.
 #include <Eigen/Core>
 
 #include <array>
@@ -21,8 +21,8 @@ struct PictureMesh {
   std::vector<Index> face_sizes;     ///< corners of each face, >= 3
   std::vector<Index> face_vertices;  ///< vertices of all faces, one after the other, counter-clockwise
 
-  /// Either, both or none; without them (or where they are zero) a face is flat. Lengths do not matter. A normal that is far
-  /// from the one of its face belongs to the other side of a crease and is not used there.
+  /// Either, both or none; without them (or where they are zero) a face is flat. Lengths do not matter. A normal that
+  /// is far from the one of its face belongs to the other side of a crease and is not used there.
   Points vertex_normals;  ///< #V x 3
   Points corner_normals;  ///< one row per entry of face_vertices
 
@@ -47,16 +47,16 @@ struct Panel {
 struct PictureOptions {
   double panel_width = 400, panel_height = 370;  ///< pixels, captions not included
   Eigen::Vector3d up = {0, 1, 0};
-  double azimuth = .45, elevation = .38;  ///< of the eye, radians; azimuth 0 sees +x to the right, and up is up
-  double distance = 5;                    ///< of the eye, in radii of the scene, > 1; 0: orthographic
+  double azimuth = .6, elevation = .36;  ///< of the eye, radians; azimuth 0 sees +x to the right, and up is up
+  double distance = 5;                   ///< of the eye, in radii of the scene, > 1; 0: orthographic
   bool ground_shadow = true;
 };
 
 /// The picture as the text of an SVG file.
 ///
 /// Every panel shows the union of its layers; scale and camera are the same for all panels.
-/// @throws InvalidParameter  if coordinates or normals are not finite, arrays do not fit together, an index is outside, or
-///                           an option is outside its range
+/// @throws InvalidParameter  if a coordinate or normal is not finite, arrays do not fit together, an index is outside
+///                           its array, or an option is outside its range
 /// @note  Deterministic: same build and input, same bytes.
 std::string svg_picture(const std::vector<Panel>& panels, const PictureOptions& options = {});
 
