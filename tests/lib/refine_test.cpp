@@ -2,7 +2,11 @@
 #include "sublimit/refine.h"
 
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
 
+#include <algorithm>
+
+#include "sublimit/analysis/limit_points.h"
 #include "sublimit/base/error.h"
 #include "sublimit/schemes.h"
 #include "sublimit/sparse_product.h"
@@ -23,6 +27,128 @@ TEST(Refine, CubeCornerIsAtFiveNinths) {
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(std::abs(x(v, c)), 5.0 / 9, rounding(7));
   for (Index f = 0; f < 6; ++f) EXPECT_NEAR(x.row(8 + f).cwiseAbs().maxCoeff(), 1, rounding(4));
   for (Index e = 0; e < 12; ++e) EXPECT_NEAR(x.row(14 + e).cwiseAbs().maxCoeff(), 0.75, rounding(6));
+}
+
+TEST(Refine, LevelZeroIsTheControlMesh) {
+  const std::vector<Level> levels = refine(catmull_clark_scheme, cube(), 0);
+  ASSERT_EQ(levels.size(), 1u);
+  EXPECT_EQ(levels[0].topology().num_faces(), 6);
+  EXPECT_EQ(apply(refinement_matrix(levels), cube().positions), cube().positions);
+}
+
+TEST(Refine, MatrixOfAllLevelsIsTheProductOfEach) {
+  for (const NamedMesh& named : tagged_meshes()) {
+    if (named.mesh.num_faces() > 30) continue;
+    const std::vector<Level> levels = refine(catmull_clark_scheme, named.mesh, 3);
+    Points x = named.mesh.positions;
+    for (int k = 1; k <= 3; ++k) x = apply(levels[k].S, x);
+    const Points y = apply(refinement_matrix(levels), named.mesh.positions);
+    EXPECT_LE((x - y).cwiseAbs().maxCoeff(), rounding(12 * 4, diagonal(named.mesh.positions))) << named.name;
+  }
+}
+
+TEST(Refine, ProductIsEigensProduct) {
+  const std::vector<Level> levels = refine(catmull_clark_scheme, jittered(torus(9, 7)), 2);
+  const SparseMatrix ours = product(levels[2].S, levels[1].S), theirs = levels[2].S * levels[1].S;
+  EXPECT_LE((ours - theirs).norm(), rounding(64));
+  for (Index r = 0; r < ours.rows(); ++r)
+    for (Index k = ours.outerIndexPtr()[r] + 1; k < ours.outerIndexPtr()[r + 1]; ++k)
+      EXPECT_LT(ours.innerIndexPtr()[k - 1], ours.innerIndexPtr()[k]);
+}
+
+// A subset has the rows that the whole mesh has: compare by the position of every vertex, for every rule.
+TEST(RefineSubset, HasTheRowsOfTheWhole) {
+  for (const NamedMesh& named : tagged_meshes()) {
+    if (named.mesh.num_faces() > 60) continue;
+    const std::vector<Level> levels = refine(catmull_clark_scheme, named.mesh, 2);
+    std::vector<Points> whole{named.mesh.positions};
+    for (int k = 1; k <= 2; ++k) whole.push_back(apply(levels[k].S, whole.back()));
+    const std::vector<Index> chosen{0, named.mesh.num_faces() / 2};
+    Subset part = subset(levels[0], chosen);
+    Points x = apply(part.level.S, whole[0]);
+    std::vector<Index> face_in_whole = part.parents;  // of the chosen faces' children, by provenance
+    std::vector<Index> chosen_in_whole;
+    for (const Index f : part.faces) chosen_in_whole.push_back(part.parents[f]);
+    for (int k = 1; k <= 2; ++k) {
+      part = refine(catmull_clark_scheme, part);
+      x = apply(part.level.S, x);
+      std::vector<Index> children;
+      for (Index f = 0; f < levels[k].topology().num_faces(); ++f)
+        if (std::find(chosen_in_whole.begin(), chosen_in_whole.end(), levels[k].steps[0].face_parent[f]) !=
+            chosen_in_whole.end())
+          children.push_back(f);
+      chosen_in_whole = children;
+      ASSERT_EQ(part.faces.size(), children.size()) << named.name;
+      for (size_t i = 0; i < children.size(); ++i) {
+        const auto own = part.level.topology().vertices(Face{part.faces[i]});
+        const auto theirs = levels[k].topology().vertices(Face{children[i]});
+        for (size_t c = 0; c < own.size(); ++c)
+          EXPECT_LE((x.row(own[c]) - whole[k].row(theirs[c])).norm(), rounding(64, diagonal(whole[0]))) << named.name;
+      }
+    }
+  }
+}
+
+TEST(Refine, TellsWhatCannotBe) {
+  EXPECT_THROW(refine(catmull_clark_scheme, cube(), -1), InvalidParameter);
+  try {
+    refine(catmull_clark_scheme, cube(), 40);
+    FAIL() << "40 levels were taken";
+  } catch (const ResourceError& error) {
+    EXPECT_NE(std::string(error.what()).find("memory"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("32-bit"), std::string::npos) << error.what();
+  }
+  EXPECT_THROW(refine(find_scheme("loop").value(), cube(), 1), UnsupportedTopology);
+  EXPECT_THROW(apply(SparseMatrix(3, 4), Points::Zero(5, 3)), InvalidParameter);
+  EXPECT_THROW(product(SparseMatrix(3, 4), SparseMatrix(3, 4)), InvalidParameter);
+  const std::vector<Level> levels = refine(catmull_clark_scheme, cube(), 0);
+  EXPECT_THROW(subset(levels[0], std::vector<Index>{6}), InvalidParameter);
+}
+
+TEST(Refine, HasTheSameBitsForAnyNumberOfThreads) {
+  const ControlMesh mesh = quads_from_triangles(jittered(triangle_torus(40, 30)));
+  const auto run = [&](int threads) {
+    tbb::global_control limit(tbb::global_control::max_allowed_parallelism, size_t(threads));
+    const SparseMatrix P = refinement_matrix(refine(catmull_clark_scheme, mesh, 2));
+    std::vector<double> bits(P.valuePtr(), P.valuePtr() + P.nonZeros());
+    bits.insert(bits.end(), P.innerIndexPtr(), P.innerIndexPtr() + P.nonZeros());
+    return bits;
+  };
+  EXPECT_EQ(run(1), run(4));
+}
+
+TEST(Subdivide, TakesAndGivesEigenMatrices) {
+  const ControlMesh mesh = icosahedron();
+  FaceMatrix F(20, 3);
+  for (Index i = 0; i < 60; ++i) F(i / 3, i % 3) = mesh.face_vertices[i];
+  const auto [S, F1] = subdivide("loop", 12, F, 2);
+  const std::vector<Level> levels = refine(find_scheme("loop").value(), mesh, 2);
+  EXPECT_EQ(F1.rows(), 320);
+  EXPECT_EQ((S - refinement_matrix(levels)).norm(), 0);
+  EXPECT_THROW(subdivide("lop", 12, F), InvalidOption);
+}
+
+TEST(Schemes, AreFoundByNameAndOffered) {
+  EXPECT_FALSE(find_scheme("catmul-clark").has_value());
+  EXPECT_EQ(nearest_scheme_names("catmul-clark", 1), std::vector<std::string>{"catmull-clark"});
+  EXPECT_EQ(nearest_scheme_names("catmull", 1), std::vector<std::string>{"catmull-clark"});
+  EXPECT_THROW(find_scheme("loop", {{"triangles", "smooth"}}), InvalidOption);
+  EXPECT_THROW(find_scheme("catmull-clark", {{"triangles", "round"}}), InvalidOption);
+  EXPECT_TRUE(find_scheme("catmull-clark", {{"triangles", "smooth"}}).has_value());
+}
+
+// Warped smoothly or not, degenerate control points are told apart: a cone's axis has no normal; a fold has one by its
+// next modes only if these span a plane.
+TEST(LimitPoints, DegenerateTangentsHaveAStatus) {
+  ControlMesh mesh = fan(6, 4);
+  LimitMaskCache cache(catmull_clark_scheme);
+  const Level level = control_level(catmull_clark_scheme, mesh);
+  const LimitMatrices limit = limit_matrices(level, cache);
+  const auto side = size_t(std::find(limit.side_vertex.begin(), limit.side_vertex.end(), 0) - limit.side_vertex.begin());
+  EXPECT_NE(limit_points(limit, level.topology(), mesh.positions).status[side], LimitStatus::undefined_normal);
+  mesh.positions.setZero();  // all points in one
+  EXPECT_EQ(limit_points(limit, level.topology(), mesh.positions).status[side], LimitStatus::undefined_normal);
+  EXPECT_TRUE(limit_points(limit, level.topology(), mesh.positions).normal.row(Index(side)).isZero());
 }
 
 }  // namespace

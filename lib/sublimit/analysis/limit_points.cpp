@@ -212,7 +212,7 @@ LimitPoints limit_points(const LimitMatrices& limit, const Topology& topology, c
   for (const SparseMatrix& M : limit.second_order) higher.push_back(apply(M, points));
   result.normal = Points::Zero(t1.rows(), 3);
   parallel_for(t1.rows(), [&](std::int64_t s) {
-    if (result.status[s] == LimitStatus::undefined_normal) return;
+    if (result.status[s] == LimitStatus::undefined_normal || result.status[s] == LimitStatus::hole) return;
     const Vector3d a = t1.row(s), b = t2.row(s), cross = a.cross(b);
     // How large the tangents would be if the points of the masks did not cancel: what "degenerate" is measured by.
     double scale = 0;
@@ -229,7 +229,7 @@ LimitPoints limit_points(const LimitMatrices& limit, const Topology& topology, c
     const Vector3d normal =
         normal_of_higher_order(a, b, modes, scale, turn_of(limit, topology, static_cast<Index>(s), points));
     if (normal.isZero()) {
-      if (result.status[s] != LimitStatus::hole) result.status[s] = LimitStatus::undefined_normal;
+      result.status[s] = LimitStatus::undefined_normal;
       return;
     }
     result.normal.row(s) = normal;
