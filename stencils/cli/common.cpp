@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "common.h"
+
+#include <fmt/core.h>
+#include <tbb/global_control.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cctype>
+#include <memory>
+#include <mutex>
+
+#include "sublimit/base/error.h"
+#include "sublimit/mesh/read_mesh.h"
+#include "sublimit/sidecar.h"
+
+namespace sublimit::cli {
+namespace {
+
+std::mutex directories_mutex;
+std::vector<std::string> directories;  // of outputs, for the one who cleans up after an interrupt
+
+/// The value that a word stands for; CLI11 has checked that it is one of them.
+template <class T>
+std::optional<T> meaning(const std::string& word, const std::vector<std::pair<std::string, T>>& words) {
+  for (const auto& [name, value] : words)
+    if (name == word) return value;
+  return std::nullopt;
+}
+
+SchemeOptions scheme_options(const Common& common, const ControlMesh& mesh) {
+  SchemeOptions options;
+  for (const std::string& text : common.options) {
+    const size_t equals = text.find('=');
+    if (equals == std::string::npos || equals == 0)
+      throw InvalidOption("--option " + text + ": write it as name=value");
+    options[text.substr(0, equals)] = text.substr(equals + 1);
+  }
+  if (!common.triangles.empty()) {
+    options["triangles"] = common.triangles;
+  } else if (mesh.triangles == Triangles::smooth && !options.contains("triangles")) {
+    // A tag of the file is for schemes that know it.
+    for (const OptionInfo& info : scheme_or_throw(common.scheme).options)
+      if (info.name == "triangles") options["triangles"] = "smooth";
+  }
+  return options;
+}
+
+void list(const std::vector<std::string>& messages, const char* kind, size_t most) {
+  for (size_t i = 0; i < std::min(messages.size(), most); ++i) fmt::print(stderr, "sublimit: {}: {}\n", kind, messages[i]);
+  if (messages.size() > most) fmt::print(stderr, "sublimit: {}: and {} more\n", kind, messages.size() - most);
+}
+
+}  // namespace
+
+void add_mesh(CLI::App& command, Common& common, bool scheme_required) {
+  command.add_option("MESH", common.mesh, "Control mesh: .obj (with tags), .ply or .off; MESH.json beside it overrides tags")
+      ->required();
+  auto* scheme = command.add_option("-s,--scheme", common.scheme, "Scheme (see `sublimit schemes`)");
+  if (scheme_required) scheme->required();
+  command.add_option("--boundary", common.boundary, "Boundary rule (default: the file's tag, else edge-and-corner)")
+      ->check(CLI::IsMember({"none", "edge-only", "edge-and-corner"}));
+  command.add_option("--creasing", common.creasing, "How sharpness decays (default: the file's tag, else uniform)")
+      ->check(CLI::IsMember({"uniform", "chaikin"}));
+  command.add_option("--triangles", common.triangles, "Catmull-Clark next to triangles (default: the file's tag, else catmark)")
+      ->check(CLI::IsMember({"catmark", "smooth"}));
+  command.add_option("--option", common.options, "An option of the scheme, name=value; may be repeated")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  command.add_option("--threads", common.threads, "Threads (default: all)")->check(CLI::Range(1, 4096));
+  command.add_flag("--quiet", common.quiet, "No warnings, no progress");
+  command.add_flag("--strict", common.strict, "Reject meshes that are accepted with a warning, naming each place");
+}
+
+Scheme<double> scheme_or_throw(const std::string& name, const SchemeOptions& options) {
+  if (std::optional<Scheme<double>> scheme = find_scheme(name, options)) return *std::move(scheme);
+  std::string offers;
+  for (const std::string& other : nearest_scheme_names(name)) offers += (offers.empty() ? "" : ", ") + other;
+  throw InvalidOption("unknown scheme '" + name + "'; the nearest are " + offers + " (`sublimit schemes` lists all)");
+}
+
+Loaded load(const Common& common) {
+  static std::unique_ptr<tbb::global_control> threads;
+  if (common.threads > 0)
+    threads = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, common.threads);
+  Loaded loaded;
+  if (!common.scheme.empty()) scheme_or_throw(common.scheme);  // a misspelt name is told before a large file is read
+  loaded.mesh = read_mesh(common.mesh);
+  if (const auto sidecar = find_sidecar(common.mesh)) apply_sidecar(loaded.mesh, *sidecar);
+  if (!common.scheme.empty()) loaded.scheme = scheme_or_throw(common.scheme, scheme_options(common, loaded.mesh));
+  loaded.rules.boundary = meaning<Boundary>(common.boundary, {{"none", Boundary::none},
+                                                              {"edge-only", Boundary::edge_only},
+                                                              {"edge-and-corner", Boundary::edge_and_corner}});
+  loaded.rules.creasing =
+      meaning<Creasing>(common.creasing, {{"uniform", Creasing::uniform}, {"chaikin", Creasing::chaikin}});
+  if (common.quiet && !common.strict) return loaded;
+  std::vector<std::string> faults;
+  const Topology topology(view(loaded.mesh));
+  for (const Topology::Fault& fault : topology.faults()) faults.push_back(fault.message);
+  if (common.strict && !faults.empty()) {
+    std::string all;
+    for (const std::string& fault : faults) all += "\n  " + fault;
+    throw InvalidMesh(common.mesh + ": not a clean manifold (--strict):" + all);
+  }
+  if (!common.quiet) {
+    list(loaded.mesh.warnings, "warning", 5);
+    for (std::string& fault : faults) fault = common.mesh + ": " + fault;
+    list(faults, "warning", 5);
+  }
+  return loaded;
+}
+
+void check_output_path(const std::string& path, const std::vector<std::string>& extensions) {
+  std::string extension = std::filesystem::path(path).extension().string(), names;
+  std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return std::tolower(c); });
+  for (const std::string& known : extensions) names += (names.empty() ? "" : " or ") + known;
+  if (!extensions.empty() && std::find(extensions.begin(), extensions.end(), extension) == extensions.end())
+    throw InvalidOption("cannot write " + path + ": its name must end in " + names);
+  const std::filesystem::path directory = std::filesystem::path(path).parent_path();
+  std::error_code ignored;
+  if (!directory.empty() && !std::filesystem::is_directory(directory, ignored))
+    throw IoError("cannot write " + path + ": " + directory.string() + " is not a directory");
+  if (::access(directory.empty() ? "." : directory.c_str(), W_OK) != 0)
+    throw IoError("cannot write " + path + ": its directory is not writable");
+  const std::lock_guard lock(directories_mutex);
+  directories.push_back(directory.empty() ? "." : directory.string());
+}
+
+std::vector<std::string> output_directories() {
+  const std::lock_guard lock(directories_mutex);
+  return directories;
+}
+
+Progress::Progress(bool quiet)
+    : shown_(!quiet && ::isatty(STDERR_FILENO)), active_(false), start_(std::chrono::steady_clock::now()) {}
+
+void Progress::step(const std::string& what) {
+  if (!shown_ || std::chrono::steady_clock::now() - start_ < std::chrono::seconds(1)) return;
+  fmt::print(stderr, "\r\033[K{} ...", what);
+  std::fflush(stderr);
+  active_ = true;
+}
+
+Progress::~Progress() {
+  if (active_) fmt::print(stderr, "\r\033[K");
+}
+
+}  // namespace sublimit::cli

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "common.h"
+#include "sublimit/base/atomic_file.h"
+#include "sublimit/base/error.h"
+#include "sublimit/demo_mesh.h"
+#include "sublimit/refined_mesh.h"
+#include "sublimit/report/picture.h"
+#include "sublimit/sparse_product.h"
+
+namespace sublimit::cli {
+namespace {
+
+struct Options {
+  std::string directory = "sublimit-demo";
+};
+
+/// A level with its wire, its creases by sharpness and, on the control mesh, dots at extraordinary vertices.
+PictureMesh wire_picture(const Level& level, const Points& points, bool dots) {
+  const Topology& t = level.topology();
+  PictureMesh picture;
+  picture.positions = points;
+  picture.wireframe = true;
+  for (Index f = 0; f < t.num_faces(); ++f) {
+    const auto corners = t.vertices(Face{f});
+    picture.face_sizes.push_back(t.size(Face{f}));
+    picture.face_vertices.insert(picture.face_vertices.end(), corners.begin(), corners.end());
+  }
+  for (Index e = 0; e < t.num_edges(); ++e) {
+    const float s = level.sharpness.edge[e];
+    if (!is_sharp(s) || t.is_boundary(Edge{e})) continue;
+    picture.creases.push_back({index(t.tail(Edge{e})), index(t.head(Edge{e})), is_infinite(s) ? 1 : s / 5.0});
+  }
+  for (Index v = 0; dots && v < t.num_vertices(); ++v) {
+    const HalfEdge h = t.outgoing(Vertex{v});
+    if (exists(h) && t.num_faces(Vertex{v}) != (exists(t.twin(h)) ? 4 : 2)) picture.dots.push_back(v);
+  }
+  return picture;
+}
+
+PictureMesh surface_picture(const MeshOutput& surface) {
+  PictureMesh picture;
+  picture.positions = surface.positions;
+  picture.face_sizes = surface.face_sizes;
+  picture.face_vertices = surface.face_vertices;
+  picture.corner_normals = Points::Zero(Index(surface.face_normals.size()), 3);
+  for (size_t c = 0; c < surface.face_normals.size(); ++c)
+    if (surface.face_normals[c] >= 0) picture.corner_normals.row(Index(c)) = surface.normals.row(surface.face_normals[c]);
+  return picture;
+}
+
+int run(const Options& options) {
+  const std::filesystem::path directory = options.directory;
+  std::error_code failed;
+  std::filesystem::create_directories(directory, failed);
+  if (failed) throw IoError("cannot make the directory " + options.directory + ": " + failed.message());
+  const auto path = [&](const char* name) { return (directory / name).string(); };
+  check_output_path(path("picture.svg"), {});
+
+  const ControlMesh mesh = demo_mesh();
+  const Scheme<double> scheme = scheme_or_throw("catmull-clark");
+  const std::vector<Level> levels = refine(scheme, mesh, 3);
+  std::vector<Points> points{mesh.positions};
+  for (size_t k = 1; k < levels.size(); ++k) points.push_back(apply(levels[k].S, points.back()));
+  LimitMaskCache cache(scheme);
+  const LimitMatrices limit = limit_matrices(levels[3], cache);
+  const LimitPoints at_limit = limit_points(limit, levels[3].topology(), points[3]);
+  const MeshOutput surface = limit_mesh(levels[3], limit, at_limit, Normals::per_corner);
+
+  write_mesh(path("control.obj"), output(mesh));
+  write_mesh(path("refined.obj"), refined_mesh(levels[2], points[2], mesh, {}, true));
+  write_mesh(path("limit.obj"), surface);
+  const std::string svg = svg_picture(
+      {{{wire_picture(levels[0], points[0], true)}, "control mesh", fmt::format("{} points", points[0].rows())},
+       {{wire_picture(levels[1], points[1], false)}, "one level", fmt::format("S is {} x {}", levels[1].S.rows(), levels[1].S.cols())},
+       {{surface_picture(surface)}, "exact limit", fmt::format("{} points and normals", at_limit.position.rows())}});
+  AtomicFile picture(path("picture.svg"));
+  picture.write(svg);
+  picture.commit();
+
+  const Topology& t = levels[0].topology();
+  const auto undefined = std::count(at_limit.status.begin(), at_limit.status.end(), LimitStatus::undefined_normal);
+  fmt::print("A coffee pot: {} vertices, {} faces of 3 to {} corners, {} creases, {} corner.\n", t.num_vertices(),
+             t.num_faces(), *std::max_element(mesh.face_sizes.begin(), mesh.face_sizes.end()), mesh.creases.size(),
+             mesh.corners.size());
+  fmt::print("Catmull-Clark's masks filled three matrices, one a level:\n");
+  for (int k = 1; k <= 3; ++k)
+    fmt::print("  x_{} = S_{} x_{}: S_{} is {} x {} with {} nonzeros\n", k, k - 1, k - 1, k - 1, levels[k].S.rows(),
+               levels[k].S.cols(), levels[k].S.nonZeros());
+  fmt::print("Eigenvectors of {} local matrices gave the exact limit of all {} points of level 3,\n", cache.num_types(),
+             at_limit.position.rows());
+  fmt::print("and {} normals, one for each side of a crease ({} have none).\n", limit.side_vertex.size(), undefined);
+  fmt::print("Files: {}, refined.obj (level 2, with the tags that are left),\n", path("control.obj"));
+  fmt::print("  limit.obj (points and normals on the surface), and the picture of all three:\n");
+  fmt::print("  {}\n", std::filesystem::absolute(directory / "picture.svg").string());
+  return 0;
+}
+
+}  // namespace
+
+Command add_demo(CLI::App& app) {
+  auto* command = app.add_subcommand("demo", "The whole chain on a mesh that the program carries");
+  auto options = std::make_shared<Options>();
+  command->add_option("DIR", options->directory, "Where the files go (default: sublimit-demo)");
+  command->footer("Examples:\n  sublimit demo\n  sublimit demo out/demo");
+  return [=] { return run(*options); };
+}
+
+}  // namespace sublimit::cli

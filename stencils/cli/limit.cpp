@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "common.h"
+#include "sublimit/refined_mesh.h"
+#include "sublimit/sparse_product.h"
+
+namespace sublimit::cli {
+namespace {
+
+struct Options {
+  Common common;
+  int levels = 0;
+  bool normals = false;
+  std::string output;
+};
+
+int run(const Options& options) {
+  check_output_path(options.output, {".obj", ".ply"});
+  const Loaded loaded = load(options.common);
+  Progress progress(options.common.quiet);
+  const std::vector<Level> levels =
+      refine(*loaded.scheme, loaded.mesh, options.levels, loaded.rules,
+             [&](int level) { progress.step(fmt::format("level {} of {}", level, options.levels)); });
+  Points points = loaded.mesh.positions;
+  for (size_t k = 1; k < levels.size(); ++k) points = apply(levels[k].S, points);
+  progress.step("limits");
+  LimitMaskCache cache(*loaded.scheme);
+  const LimitMatrices limit = limit_matrices(levels.back(), cache);
+  const LimitPoints at_limit = limit_points(limit, levels.back().topology(), points);
+  const bool obj = options.output.ends_with("j") || options.output.ends_with("J");
+  write_mesh(options.output, limit_mesh(levels.back(), limit, at_limit,
+                                        !options.normals ? Normals::none : obj ? Normals::per_corner : Normals::per_vertex));
+  if (!options.common.quiet) {
+    const auto without = std::count(at_limit.status.begin(), at_limit.status.end(), LimitStatus::undefined_normal);
+    fmt::print("{}: {} limit points of level {}, {} types of neighbourhood{}\n", options.output, at_limit.position.rows(),
+               options.levels, cache.num_types(),
+               without == 0 ? "" : fmt::format("; no normal at {} of {} sides of vertices", without, at_limit.status.size()));
+  }
+  return 0;
+}
+
+}  // namespace
+
+Command add_limit(CLI::App& app) {
+  auto* command = app.add_subcommand("limit", "Move the vertices of a level to the limit surface");
+  auto options = std::make_shared<Options>();
+  add_mesh(*command, options->common, true);
+  command->add_option("-l,--levels", options->levels, "Level whose vertices are moved (default 0, the control mesh)");
+  command->add_flag("--normals", options->normals,
+                    "Limit normals too: per corner in .obj (one for each side of a crease), per vertex in .ply");
+  command->add_option("-o,--output", options->output, "OUT.obj or OUT.ply; faces that are holes are left out")->required();
+  command->footer(
+      "Examples:\n"
+      "  sublimit limit cage.obj -s catmull-clark -l 3 --normals -o surface.obj\n"
+      "  sublimit limit cage.obj -s loop -o control_points_at_the_limit.ply");
+  return [=] { return run(*options); };
+}
+
+}  // namespace sublimit::cli

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+// The program `sublimit`: parses the command line, runs one subcommand, turns errors into exit statuses.
+#include <fmt/core.h>
+#include <pthread.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <new>
+#include <thread>
+
+#include "common.h"
+#include "sublimit/base/error.h"
+
+namespace {
+
+using namespace sublimit;
+
+/// Ctrl-C ends the program with status 130 and takes the temporaries of unfinished outputs along.
+void handle_interrupts() {
+  sigset_t interrupts;
+  sigemptyset(&interrupts);
+  sigaddset(&interrupts, SIGINT);
+  sigaddset(&interrupts, SIGTERM);
+  pthread_sigmask(SIG_BLOCK, &interrupts, nullptr);
+  std::thread([interrupts] {
+    int signal = 0;
+    sigwait(&interrupts, &signal);
+    const std::string mark = "." + std::to_string(::getpid()) + "-";
+    std::error_code ignored;
+    for (const std::string& directory : cli::output_directories())
+      for (const auto& entry : std::filesystem::directory_iterator(directory, ignored)) {
+        const std::string name = entry.path().filename().string();
+        if (name.starts_with(".") && name.ends_with(".tmp") && name.find(mark) != std::string::npos)
+          std::filesystem::remove(entry.path(), ignored);
+      }
+    _exit(130);
+  }).detach();
+}
+
+int guarded(const cli::Command& command) {
+  try {
+    return command();
+  } catch (const Error& error) {
+    fmt::print(stderr, "sublimit: {}\n", error.what());
+    return exit_status(error.code());
+  } catch (const std::bad_alloc&) {
+    fmt::print(stderr, "sublimit: out of memory; use fewer levels\n");
+    return exit_status(ErrorCode::resource_error);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "sublimit: a fault of ours: {}\n", error.what());
+    return 70;
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::signal(SIGXFSZ, SIG_IGN);  // a full disk is an error with a message, not the end
+  std::signal(SIGPIPE, SIG_IGN);
+  handle_interrupts();
+
+  CLI::App app("Subdivision surfaces as sparse matrices, and their exact limits.", "sublimit");
+  app.set_version_flag("--version", "sublimit " SUBLIMIT_VERSION);
+  app.require_subcommand(1);
+  app.footer(
+      "Examples:\n"
+      "  sublimit demo\n"
+      "  sublimit refine cage.obj -s catmull-clark -l 2 -o refined.obj\n"
+      "  sublimit limit cage.obj -s catmull-clark -l 3 --normals -o surface.ply\n"
+      "Exit status: 0 done; 2 bad command line; 3 bad input or unwritable output; 4 too little memory or disk;\n"
+      "70 a fault of ours; 130 interrupted.");
+  std::vector<std::pair<std::string, cli::Command>> commands{{"schemes", cli::add_schemes(app)},
+                                                             {"info", cli::add_info(app)},
+                                                             {"refine", cli::add_refine(app)},
+                                                             {"limit", cli::add_limit(app)},
+                                                             {"demo", cli::add_demo(app)}};
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
+  for (const auto& [name, command] : commands)
+    if (app.got_subcommand(name)) {
+      const int status = guarded(command);
+      std::fflush(stdout);
+      _exit(std::ferror(stdout) ? 3 : status);  // the thread that waits for interrupts has nothing to finish
+    }
+  return 2;
+}

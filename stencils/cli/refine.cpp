@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/core.h>
+
+#include "common.h"
+#include "sublimit/matrix_market.h"
+#include "sublimit/refined_mesh.h"
+#include "sublimit/sparse_product.h"
+
+namespace sublimit::cli {
+namespace {
+
+struct Options {
+  Common common;
+  int levels = 1;
+  std::string output, matrix;
+  bool no_tags = false;
+};
+
+int run(const Options& options) {
+  check_output_path(options.output, {".obj", ".ply"});
+  if (!options.matrix.empty()) check_output_path(options.matrix, {".mtx"});
+  const Loaded loaded = load(options.common);
+  Progress progress(options.common.quiet);
+  const std::vector<Level> levels =
+      refine(*loaded.scheme, loaded.mesh, options.levels, loaded.rules,
+             [&](int level) { progress.step(fmt::format("level {} of {}", level, options.levels)); });
+  Points points = loaded.mesh.positions;
+  for (size_t k = 1; k < levels.size(); ++k) points = apply(levels[k].S, points);
+  // The matrix first: if it does not fit, there is no mesh without its matrix.
+  if (!options.matrix.empty()) {
+    progress.step("multiplying");
+    write_matrix_market(options.matrix, refinement_matrix(levels));
+  }
+  progress.step("writing " + options.output);
+  write_mesh(options.output, refined_mesh(levels.back(), points, loaded.mesh, loaded.rules, !options.no_tags));
+  return 0;
+}
+
+}  // namespace
+
+Command add_refine(CLI::App& app) {
+  auto* command = app.add_subcommand("refine", "Refine a mesh");
+  auto options = std::make_shared<Options>();
+  add_mesh(*command, options->common, true);
+  command->add_option("-l,--levels", options->levels, "Levels of refinement")->required();
+  command->add_option("-o,--output", options->output, "OUT.obj (with tags, so that refining can go on) or OUT.ply")->required();
+  command->add_option("--matrix", options->matrix, "OUT.mtx: the stencils, new points = matrix * control points");
+  command->add_flag("--no-tags", options->no_tags, "Leave the tags out");
+  command->footer(
+      "Examples:\n"
+      "  sublimit refine cage.obj -s catmull-clark -l 2 -o refined.obj\n"
+      "  sublimit refine cage.obj -s loop -l 3 -o refined.ply --matrix stencils.mtx");
+  return [=] { return run(*options); };
+}
+
+}  // namespace sublimit::cli

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sublimit/refined_mesh.h"
+
+namespace sublimit {
+
+MeshOutput refined_mesh(const Level& level, const Points& points, const ControlMesh& control,
+                        const SubdivisionOptions& options, bool tags) {
+  const Topology& t = level.topology();
+  MeshOutput out;
+  out.positions = points;
+  for (Index f = 0; f < t.num_faces(); ++f) {
+    const auto corners = t.vertices(Face{f});
+    out.face_sizes.push_back(t.size(Face{f}));
+    out.face_vertices.insert(out.face_vertices.end(), corners.begin(), corners.end());
+  }
+  if (!tags) return out;
+  const Boundary boundary = options.boundary.value_or(control.boundary.value_or(Boundary::edge_and_corner));
+  out.boundary = boundary == Boundary::none ? Boundary::edge_only : boundary;
+  if (level.sharpness.creasing == Creasing::chaikin) out.creasing = Creasing::chaikin;
+  if (level.number == 0) out.triangles = control.triangles;
+  for (Index f = 0; f < t.num_faces(); ++f)
+    if (level.holes[f]) out.holes.push_back(f);
+  const Sharpness implied = initial_sharpness(t, {}, *out.boundary, level.sharpness.creasing);
+  for (Index e = 0; e < t.num_edges(); ++e)
+    if (level.sharpness.edge[e] > implied.edge[e])
+      out.creases.push_back({index(t.tail(Edge{e})), index(t.head(Edge{e})), level.sharpness.edge[e]});
+  for (Index v = 0; v < t.num_vertices(); ++v)
+    if (level.sharpness.vertex[v] > implied.vertex[v]) out.corners.push_back({v, level.sharpness.vertex[v]});
+  return out;
+}
+
+MeshOutput limit_mesh(const Level& level, const LimitMatrices& limit, const LimitPoints& points, Normals normals) {
+  const Topology& t = level.topology();
+  MeshOutput out;
+  out.positions = points.position;
+  for (Index f = 0; f < t.num_faces(); ++f) {
+    if (level.holes[f]) continue;
+    out.face_sizes.push_back(t.size(Face{f}));
+    for (Index k = 0; k < t.size(Face{f}); ++k) {
+      const HalfEdge h = t.corner(Face{f}, k);
+      out.face_vertices.push_back(index(t.tail(h)));
+      const Index side = limit.corner_side[index(h)];
+      if (normals == Normals::per_corner) out.face_normals.push_back(points.normal.row(side).isZero() ? -1 : side);
+    }
+  }
+  if (normals == Normals::per_corner) out.normals = points.normal;
+  if (normals == Normals::per_vertex) {
+    out.normals = Points::Zero(t.num_vertices(), 3);
+    for (size_t s = 0; s < limit.side_vertex.size(); ++s) out.normals.row(limit.side_vertex[s]) += points.normal.row(Index(s));
+    for (Index v = 0; v < t.num_vertices(); ++v)
+      if (out.normals.row(v).norm() > 1e-12) out.normals.row(v).normalize();
+  }
+  return out;
+}
+
+}  // namespace sublimit

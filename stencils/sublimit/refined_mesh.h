@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// Levels on their way to a file: refined meshes with the tags that are left, limit meshes with normals.
+#include "sublimit/analysis/limit_points.h"
+#include "sublimit/mesh/write_mesh.h"
+#include "sublimit/refine.h"
+
+namespace sublimit {
+
+/// A level as a mesh. With `tags`, refining what is read back goes on where this level stopped: sharpness and holes are
+/// written where connectivity does not imply them, and Boundary::none becomes edge-only with the holes that it made.
+/// @note  The middle of a non-manifold edge of two faces wound alike is a crease here and a corner to a reader, which cannot
+///        know better.
+MeshOutput refined_mesh(const Level& level, const Points& points, const ControlMesh& control,
+                        const SubdivisionOptions& options, bool tags);
+
+/// Limit positions, without the faces that are holes. Normals, if wanted, are per corner (each side of a crease has its own),
+/// or the mean of a vertex's sides where the format has one per vertex.
+enum class Normals { none, per_corner, per_vertex };
+MeshOutput limit_mesh(const Level& level, const LimitMatrices& limit, const LimitPoints& points, Normals normals);
+
+}  // namespace sublimit
