@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 // Masks as numbers, one evaluation per type of site. A mask depends on face sizes alone (sharpness is blended outside), so
-// a mesh of a million vertices asks a mask a handful of times; `gather` collects a site's vertices in the order of its slots.
+// a mesh of a million vertices asks a mask a handful of times; `visit_site` goes through a site's vertices in the order of its slots.
 #include <map>
 #include <vector>
 
@@ -45,11 +45,15 @@ class MaskTable {
     return weights;
   }
 
-  /// The same for a ring of equal faces.
+  /// Where all faces of a mesh have one size, types are found without a search.
   const Weights& vertex(Index valence, Index face_size) {
-    Weights& weights = at(rings_[face_size], valence);
+    Weights& weights = at(rings_, valence);
     if (weights.empty()) weights = vertex(std::vector<Index>(valence, face_size));
     return weights;
+  }
+  const Weights& uniform_edge(Index face_size) {
+    if (!uniform_edge_) uniform_edge_ = &edge(face_size, face_size);
+    return *uniform_edge_;
   }
 
  private:
@@ -68,35 +72,47 @@ class MaskTable {
   std::vector<Weights> faces_;
   std::map<std::pair<Index, Index>, Weights> edges_;
   std::map<std::vector<Index>, Weights> vertices_;
-  std::map<Index, std::vector<Weights>> rings_;
+  std::vector<Weights> rings_;
+  const Weights* uniform_edge_ = nullptr;
 };
 
-/// Vertices of a face, in the order of FaceSite's slots.
-inline void gather(const Topology& t, Face f, std::vector<Index>& slots) {
-  const std::span<const Index> corners = t.vertices(f);
-  slots.assign(corners.begin(), corners.end());
+/// Calls visit(vertex) for the vertices of a face, in the order of FaceSite's slots.
+template <class Visit>
+void visit_site(const Topology& t, Face f, const Visit& visit) {
+  for (const Index v : t.vertices(f)) visit(v);
 }
 
-/// Vertices around an interior edge, in the order of EdgeSite's slots.
-inline void gather(const Topology& t, Edge e, std::vector<Index>& slots) {
+/// The same around an interior edge, in the order of EdgeSite's slots.
+template <class Visit>
+void visit_site(const Topology& t, Edge e, const Visit& visit) {
   const HalfEdge left = t.half_edge(e), right = t.twin(left);
-  slots.assign({index(t.tail(left)), index(t.tail(right))});
+  visit(index(t.tail(left)));
+  visit(index(t.tail(right)));
   for (const HalfEdge side : {left, right})
-    for (HalfEdge h = t.next(t.next(side)); h != side; h = t.next(h)) slots.push_back(index(t.tail(h)));
+    for (HalfEdge h = t.next(t.next(side)); h != side; h = t.next(h)) visit(index(t.tail(h)));
 }
 
-/// Vertices around an interior vertex, in the order of Ring's slots; `face_sizes`, if given, receives the sizes.
-inline void gather(const Topology& t, Vertex v, std::vector<Index>& slots, std::vector<Index>* face_sizes = nullptr) {
-  slots.assign({index(v)});
-  if (face_sizes) face_sizes->clear();
+/// The same around an interior vertex, in the order of Ring's slots.
+template <class Visit>
+void visit_site(const Topology& t, Vertex v, const Visit& visit) {
+  visit(index(v));
   const HalfEdge start = t.outgoing(v);
   HalfEdge h = start;
   do {
     const HalfEdge last = t.prev(h);
-    for (HalfEdge g = t.next(h); g != last; g = t.next(g)) slots.push_back(index(t.tail(g)));
-    if (face_sizes) face_sizes->push_back(t.size(t.face(h)));
+    for (HalfEdge g = t.next(h); g != last; g = t.next(g)) visit(index(t.tail(g)));
     h = t.twin(last);
   } while (h != start);
+}
+
+/// Sizes of the faces around an interior vertex.
+inline void face_sizes_around(const Topology& t, Vertex v, std::vector<Index>& sizes) {
+  sizes.clear();
+  HalfEdge h = t.outgoing(v);
+  do {
+    sizes.push_back(t.size(t.face(h)));
+    h = t.ccw(h);
+  } while (h != t.outgoing(v));
 }
 
 }  // namespace sublimit

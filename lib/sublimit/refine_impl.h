@@ -40,28 +40,29 @@ LevelOf<T> next_level(const Scheme<T>& scheme, const LevelOf<T>& parent) {
   LevelOf<T> child;
   child.number = parent.number + 1;
   const Topology* topology = &parent.topology();
-  Sharpness sharpness = parent.sharpness;
-  std::vector<bool> holes = parent.holes;
+  const Sharpness* sharpness = &parent.sharpness;
+  const std::vector<bool>* holes = &parent.holes;
   child.steps.reserve(scheme.steps.size());
   for (const Step<T>& step : scheme.steps) {
     Refinement refinement = refine(*topology, step.split);
-    Sharpness child_sharpness = refine(sharpness, *topology, refinement);
+    Sharpness child_sharpness = refine(*sharpness, *topology, refinement);
     SparseMatrixOf<T> S =
-        subdivision_matrix(scheme, step, *topology, refinement, sharpness, child_sharpness, parent.number);
+        subdivision_matrix(scheme, step, *topology, refinement, *sharpness, child_sharpness, parent.number);
     if (child.steps.empty()) {
       child.S = std::move(S);
     } else {
       child.S = SparseMatrixOf<T>(S * child.S);
     }
-    std::vector<bool> child_holes(refinement.topology.num_faces());
-    for (size_t f = 0; f < child_holes.size(); ++f) child_holes[f] = holes[refinement.face_parent[f]];
-    holes = std::move(child_holes);
-    sharpness = std::move(child_sharpness);
+    std::vector<bool> child_holes(refinement.topology.num_faces(), false);
+    if (std::find(holes->begin(), holes->end(), true) != holes->end())
+      for (size_t f = 0; f < child_holes.size(); ++f) child_holes[f] = (*holes)[refinement.face_parent[f]];
+    child.holes = std::move(child_holes);
+    child.sharpness = std::move(child_sharpness);
     child.steps.push_back(std::move(refinement));
+    holes = &child.holes;
+    sharpness = &child.sharpness;
     topology = &child.steps.back().topology;
   }
-  child.sharpness = std::move(sharpness);
-  child.holes = std::move(holes);
   return child;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 // Sites: where a mask is applied, as the mask sees it. A site numbers the points of its neighbourhood (slots, in the order
-// in which `gather` of mask_table.h collects their vertices); the neighbourhood is unfolded, so points that coincide on a
+// in which `visit_site` of mask_table.h visits their vertices); the neighbourhood is unfolded, so points that coincide on a
 // small mesh are different slots here. A mask therefore depends on the type of the neighbourhood alone.
 #include <functional>
 #include <span>

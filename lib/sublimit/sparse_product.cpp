@@ -11,6 +11,7 @@
 
 #include "sublimit/base/error.h"
 #include "sublimit/base/parallel_for.h"
+#include "sublimit/uninitialized.h"
 
 namespace sublimit {
 namespace {
@@ -30,36 +31,54 @@ void apply_rows(const SparseMatrix& S, const double* in, double* out, std::int64
   }
 }
 
-/// One row of A * B at a time: sums in a dense array, of which the touched columns are listed.
+/// One row of A * B at a time. Sums stand in a dense array beside the row that last touched them. The rows of B are sorted,
+/// and neighbours share most columns: only what a row adds to those before it is put in order and merged.
 class RowProduct {
  public:
-  RowProduct(const SparseMatrix& A, const SparseMatrix& B) : A_(A), B_(B), sum_(B.cols()), touched_by_(B.cols(), -1) {}
+  RowProduct(const SparseMatrix& A, const SparseMatrix& B) : A_(A), B_(B), cells_(B.cols(), Cell{0, -1}) {}
 
+  /// Appends the row's columns, ascending, and their values.
   void append(Index r, std::vector<Index>& columns, std::vector<double>& values) {
-    const size_t begin = columns.size();
+    row_.clear();
     for (Index i = A_.outerIndexPtr()[r]; i < A_.outerIndexPtr()[r + 1]; ++i) {
-      const Index row = A_.innerIndexPtr()[i];
+      const Index row = A_.innerIndexPtr()[i], begin = B_.outerIndexPtr()[row], end = B_.outerIndexPtr()[row + 1];
       const double w = A_.valuePtr()[i];
-      for (Index k = B_.outerIndexPtr()[row]; k < B_.outerIndexPtr()[row + 1]; ++k) {
+      const size_t known = row_.size();
+      for (Index k = begin; k < end; ++k) {
         const Index c = B_.innerIndexPtr()[k];
-        if (touched_by_[c] != r) {
-          touched_by_[c] = r;
-          sum_[c] = w * B_.valuePtr()[k];
-          columns.push_back(c);
+        Cell& cell = cells_[c];
+        if (cell.row == r) {
+          cell.sum += w * B_.valuePtr()[k];
         } else {
-          sum_[c] += w * B_.valuePtr()[k];
+          cell = {w * B_.valuePtr()[k], r};
+          row_.push_back(c);
         }
       }
+      if (known > 0 && row_.size() > known && row_[known] < row_[known - 1]) {
+        merged_.resize(row_.size());
+        std::merge(row_.begin(), row_.begin() + Eigen::Index(known), row_.begin() + Eigen::Index(known), row_.end(),
+                   merged_.begin());
+        row_.swap(merged_);
+      }
     }
-    std::sort(columns.begin() + begin, columns.end());
-    for (size_t k = begin; k < columns.size(); ++k) values.push_back(sum_[columns[k]]);
+    const size_t at = columns.size();
+    columns.resize(at + row_.size());
+    values.resize(at + row_.size());
+    for (size_t k = 0; k < row_.size(); ++k) {
+      columns[at + k] = row_[k];
+      values[at + k] = cells_[row_[k]].sum;
+    }
   }
 
  private:
+  struct Cell {
+    double sum;
+    Index row;
+  };
   const SparseMatrix& A_;
   const SparseMatrix& B_;
-  std::vector<double> sum_;
-  std::vector<Index> touched_by_;
+  std::vector<Cell> cells_;
+  std::vector<Index> row_, merged_;
 };
 
 }  // namespace
@@ -85,20 +104,29 @@ SparseMatrix product(const SparseMatrix& A, const SparseMatrix& B) {
   if (A.cols() != B.rows())
     throw InvalidParameter("cannot multiply matrices of " + shape(Index(A.rows()), Index(A.cols())) + " and " +
                            shape(Index(B.rows()), Index(B.cols())));
-  struct Block {
+  struct Block {  // exactly as large as its rows
+    UninitializedVector<Index> columns;
+    UninitializedVector<double> values;
+  };
+  struct Worker {
+    RowProduct rows;
     std::vector<Index> columns;
     std::vector<double> values;
   };
   std::vector<Block> blocks(num_blocks(A.rows()));
   SparseMatrix P(A.rows(), B.cols());
   Index* const outer = P.outerIndexPtr();
-  tbb::enumerable_thread_specific<RowProduct> workers([&] { return RowProduct(A, B); });
+  tbb::enumerable_thread_specific<Worker> workers([&] { return Worker{RowProduct(A, B), {}, {}}; });
   parallel_for_blocks(A.rows(), [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
-    RowProduct& worker = workers.local();
+    Worker& worker = workers.local();
+    worker.columns.clear();
+    worker.values.clear();
     for (std::int64_t r = begin; r < end; ++r) {
-      outer[r] = static_cast<Index>(blocks[block].columns.size());  // within the block, for now
-      worker.append(static_cast<Index>(r), blocks[block].columns, blocks[block].values);
+      outer[r] = static_cast<Index>(worker.columns.size());  // within the block, at first
+      worker.rows.append(static_cast<Index>(r), worker.columns, worker.values);
     }
+    blocks[block].columns.assign(worker.columns.begin(), worker.columns.end());
+    blocks[block].values.assign(worker.values.begin(), worker.values.end());
   });
   std::vector<std::int64_t> start(blocks.size() + 1, 0);
   for (size_t b = 0; b < blocks.size(); ++b) start[b + 1] = start[b] + std::int64_t(blocks[b].columns.size());

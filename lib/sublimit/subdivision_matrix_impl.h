@@ -48,8 +48,9 @@ class RowMaker {
   Index length(Vertex v) {
     if (!is_plain_[index(v)]) return static_cast<Index>(row(v).size());
     if (t_.uniform_face_size()) return 1 + t_.num_faces(v) * (t_.uniform_face_size() - 2);
-    gather(t_, v, slots_);
-    return static_cast<Index>(slots_.size());
+    Index count = 0;
+    visit_site(t_, v, [&](Index) { ++count; });
+    return count;
   }
   Index length(Edge e) {
     const float s = sharpness_.edge[index(e)];
@@ -60,32 +61,21 @@ class RowMaker {
   Index length(Face f) { return t_.size(f); }
 
   /// The row of the child of an element: columns ascending, zeros dropped. Valid until the next call.
-  const std::vector<Term>& row(Face f) {
-    gather(t_, f, slots_);
-    return finish(masks_.face(t_.size(f)));
-  }
+  const std::vector<Term>& row(Face f) { return smooth_row(f, masks_.face(t_.size(f))); }
 
   const std::vector<Term>& row(Edge e) {
     const float s = sharpness_.edge[index(e)];
-    if (!is_sharp(s)) {
-      gather(t_, e, slots_);
-      const HalfEdge h = t_.half_edge(e);
-      return finish(masks_.edge(t_.size(t_.face(h)), t_.size(t_.face(t_.twin(h)))));
-    }
+    if (!is_sharp(s)) return smooth_row(e, smooth_weights(e));
     row_.clear();
     const T w = stays_sharp(e) ? T(1) : T(s);
     for (const auto& [end, weight] : {Term{index(t_.tail(e)), crease_edge_[0]}, Term{index(t_.head(e)), crease_edge_[1]}})
       row_.push_back({end, w * weight});
-    if (w != T(1)) {
-      gather(t_, e, slots_);
-      const HalfEdge h = t_.half_edge(e);
-      add(T(1) - w, masks_.edge(t_.size(t_.face(h)), t_.size(t_.face(t_.twin(h)))));
-    }
+    if (w != T(1)) add(e, T(1) - w, smooth_weights(e));
     return merge();
   }
 
   const std::vector<Term>& row(Vertex v) {
-    if (is_plain_[index(v)]) return smooth_row(v);
+    if (is_plain_[index(v)]) return smooth_row(v, smooth_weights(v));
     const VertexSharpness around(t_, sharpness_, v);
     const Rule rule = around.rule(), child_rule = around.child_rule();
     row_.clear();
@@ -100,13 +90,28 @@ class RowMaker {
   }
 
  private:
-  const std::vector<Term>& smooth_row(Vertex v) {
-    if (t_.uniform_face_size()) {
-      gather(t_, v, slots_);
-      return finish(masks_.vertex(t_.num_faces(v), t_.uniform_face_size()));
-    }
-    gather(t_, v, slots_, &sizes_);
-    return finish(masks_.vertex(sizes_));
+  const std::vector<T>& smooth_weights(Vertex v) {
+    if (t_.uniform_face_size()) return masks_.vertex(t_.num_faces(v), t_.uniform_face_size());
+    face_sizes_around(t_, v, sizes_);
+    return masks_.vertex(sizes_);
+  }
+  const std::vector<T>& smooth_weights(Edge e) {
+    if (t_.uniform_face_size()) return masks_.uniform_edge(t_.uniform_face_size());
+    const HalfEdge h = t_.half_edge(e);
+    return masks_.edge(t_.size(t_.face(h)), t_.size(t_.face(t_.twin(h))));
+  }
+
+  template <class Element>
+  const std::vector<Term>& smooth_row(Element element, const std::vector<T>& weights) {
+    row_.resize(weights.size());
+    Term* term = row_.data();
+    const T* weight = weights.data();
+    visit_site(t_, element, [&](Index v) {
+      term->first = v;
+      term->second = *weight++;
+      ++term;
+    });
+    return merge();
   }
 
   void add_rule(const T& w, Rule rule, Vertex v, const std::vector<float>& edges) {
@@ -120,8 +125,7 @@ class RowMaker {
       row_.push_back({other_end(around[first], v), w * crease_vertex_[1]});
       row_.push_back({other_end(around[last], v), w * crease_vertex_[2]});
     } else {
-      gather(t_, v, slots_, &sizes_);
-      add(w, masks_.vertex(sizes_));
+      add(v, w, smooth_weights(v));
     }
   }
 
@@ -137,16 +141,10 @@ class RowMaker {
     return sharp(first) && sharp(second);
   }
 
-  void add(const T& factor, const std::vector<T>& weights) {
-    for (size_t i = 0; i < slots_.size(); ++i) row_.push_back({slots_[i], factor * weights[i]});
-  }
-  const std::vector<Term>& finish(const std::vector<T>& weights) {
-    row_.resize(slots_.size());
-    for (size_t i = 0; i < slots_.size(); ++i) {
-      row_[i].first = slots_[i];
-      row_[i].second = weights[i];
-    }
-    return merge();
+  template <class Element>
+  void add(Element element, const T& factor, const std::vector<T>& weights) {
+    const T* weight = weights.data();
+    visit_site(t_, element, [&](Index v) { row_.push_back({v, factor * *weight++}); });
   }
   const std::vector<Term>& merge() {
     const auto less = [](const Term& a, const Term& b) { return a.first < b.first; };
@@ -160,8 +158,13 @@ class RowMaker {
     } else {
       std::stable_sort(row_.begin(), row_.end(), less);
     }
+    const auto odd = [&](size_t i) {  // coincides with the one before, or is nothing
+      return row_[i].second == T(0) || (i > 0 && row_[i].first == row_[i - 1].first);
+    };
     size_t kept = 0;
-    for (size_t i = 0; i < row_.size(); ++i) {
+    while (kept < row_.size() && !odd(kept)) ++kept;
+    if (kept == row_.size()) return row_;
+    for (size_t i = kept; i < row_.size(); ++i) {
       if (kept > 0 && row_[kept - 1].first == row_[i].first) {
         row_[kept - 1].second += row_[i].second;
       } else {
@@ -182,7 +185,7 @@ class RowMaker {
   const std::vector<std::uint8_t>& is_plain_;
   MaskTable<T> masks_;
   std::vector<T> crease_vertex_, crease_edge_;
-  std::vector<Index> slots_, sizes_;
+  std::vector<Index> sizes_;
   std::vector<Term> row_;
 };
 
@@ -200,7 +203,7 @@ inline std::vector<std::uint8_t> plain_vertices(const Topology& t, const Sharpne
 
 /// Moves the rows together that turned out shorter than planned (coinciding points on small meshes, weights of zero).
 template <class T>
-SparseMatrixOf<T> compacted(const SparseMatrixOf<T>& loose, const std::vector<Index>& lengths) {
+SparseMatrixOf<T> compacted(const SparseMatrixOf<T>& loose, const UninitializedVector<Index>& lengths) {
   SparseMatrixOf<T> tight(loose.rows(), loose.cols());
   std::int64_t total = 0;
   for (Index r = 0; r < loose.rows(); ++r) {
@@ -222,7 +225,7 @@ template <class T, class MakeMaker, class LengthOf, class RowOf>
 SparseMatrixOf<T> assemble(Index rows, Index columns, const MakeMaker& make_maker, const LengthOf& length_of,
                            const RowOf& row_of) {
   tbb::enumerable_thread_specific<std::invoke_result_t<const MakeMaker&>> makers(make_maker);
-  std::vector<Index> lengths(rows);
+  UninitializedVector<Index> lengths(rows);
   std::vector<std::int64_t> start(num_blocks(rows) + 1, 0);
   parallel_for_blocks(rows, [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
     auto& maker = makers.local();

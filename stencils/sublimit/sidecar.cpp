@@ -31,19 +31,16 @@ class Sidecar {
     std::vector<ControlMesh::Crease> creases = read_creases(mesh);
     std::vector<ControlMesh::Corner> corners = read_corners(mesh);
     std::vector<Index> holes = read_ids("holeIndices", mesh.num_faces(), "face");
-    const auto boundary = choice<Boundary>("interpolateBoundary", {{"none", Boundary::none},
-                                                                   {"edgeOnly", Boundary::edge_only},
-                                                                   {"edgeAndCorner", Boundary::edge_and_corner}});
+    const auto boundary = choice<Boundary>(
+        "interpolateBoundary",
+        {{"none", Boundary::none}, {"edgeOnly", Boundary::edge_only}, {"edgeAndCorner", Boundary::edge_and_corner}});
     const auto creasing =
         choice<Creasing>("creaseMethod", {{"uniform", Creasing::uniform}, {"chaikin", Creasing::chaikin}});
-    const auto triangles = choice<Triangles>("triangleSubdivisionRule", {{"catmullClark", Triangles::catmark},
-                                                                         {"smooth", Triangles::smooth}});
-    choice<int>("faceVaryingLinearInterpolation", {{"none", 0},
-                                                   {"cornersOnly", 1},
-                                                   {"cornersPlus1", 2},
-                                                   {"cornersPlus2", 3},
-                                                   {"boundaries", 4},
-                                                   {"all", 5}});
+    const auto triangles = choice<Triangles>("triangleSubdivisionRule",
+                                             {{"catmullClark", Triangles::catmark}, {"smooth", Triangles::smooth}});
+    choice<int>(
+        "faceVaryingLinearInterpolation",
+        {{"none", 0}, {"cornersOnly", 1}, {"cornersPlus1", 2}, {"cornersPlus2", 3}, {"boundaries", 4}, {"all", 5}});
     if (find("creaseIndices")) mesh.creases = std::move(creases);
     if (find("cornerIndices")) mesh.corners = std::move(corners);
     if (find("holeIndices")) mesh.holes = std::move(holes);
@@ -66,8 +63,8 @@ class Sidecar {
   static std::string entry(const std::string& key, std::size_t i) { return key + "[" + format_number(i) + "]"; }
 
   json parse(std::string_view text) const {
-    // Sidecars are lists in an object. A limit on depth keeps other files from growing a tree; keys that come twice would
-    // silently lose one of them.
+    // Sidecars are lists in an object. A limit on depth keeps other files from growing a tree; keys that come twice
+    // would silently lose one of them.
     std::unordered_set<std::string> keys;
     const auto watch = [&](int depth, json::parse_event_t event, json& value) {
       if (depth > 8) fail("nests deeper than any sidecar does");
@@ -80,8 +77,8 @@ class Sidecar {
       return json::parse(text.begin(), text.end(), watch);
     } catch (const json::parse_error& error) {
       const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(error.byte, text.size()));
-      throw FormatError(name_ + ":" + format_number(1 + std::count(text.begin(), end, '\n')) + ": not JSON: " +
-                        reason(error));
+      throw FormatError(name_ + ":" + format_number(1 + std::count(text.begin(), end, '\n')) +
+                        ": not JSON: " + reason(error));
     } catch (const json::exception& error) {
       fail("not JSON: " + reason(error));
     }
@@ -158,8 +155,7 @@ class Sidecar {
     for (std::size_t i = 0; i < lengths.size(); ++i) {
       const json& length = lengths[i];
       if (!length.is_number_unsigned() || length.get<std::uint64_t>() < 2) {
-        fail(entry("creaseLengths", i) + " is " + show(length) +
-             "; a chain should have 2 or more vertices");
+        fail(entry("creaseLengths", i) + " is " + show(length) + "; a chain should have 2 or more vertices");
       }
       if (length.get<std::uint64_t>() > ids.size() - used) {
         fail(entry("creaseLengths", i) + ": the chains need more vertices than the " + format_number(ids.size()) +
@@ -222,8 +218,7 @@ class Sidecar {
       if (value->is_string() && value->get_ref<const std::string&>() == value_name) return meaning;
       names += (names.empty() ? "" : ", ") + std::string(value_name);
     }
-    fail(key + " is " + show(*value) +
-         "; it should be one of " + names);
+    fail(key + " is " + show(*value) + "; it should be one of " + names);
   }
 
   void warn_unknown(ControlMesh& mesh) const {
@@ -234,7 +229,8 @@ class Sidecar {
       if (++count > most) continue;
       mesh.warnings.push_back(name_ + ": unknown key " + show(json(item.key())) + " ignored");
     }
-    if (count > most) mesh.warnings.push_back(name_ + ": " + format_number(count - most) + " more unknown keys ignored");
+    if (count > most)
+      mesh.warnings.push_back(name_ + ": " + format_number(count - most) + " more unknown keys ignored");
   }
 
   std::string name_;

@@ -3,6 +3,7 @@
 // MESH.json next to MESH.obj: subdivision tags in the names of USD, for meshes from formats that have no tags, or to
 // override those of the file.
 //
+// clang-format off
 //     {"creaseIndices": [0, 1, 2, 4, 5],        chains of vertices, one after the other
 //      "creaseLengths": [3, 2],                 vertices in each chain, 2 or more
 //      "creaseSharpnesses": [2.5, 10],          one for each chain, or one for each edge
@@ -12,6 +13,7 @@
 //      "creaseMethod": "uniform" | "chaikin",
 //      "triangleSubdivisionRule": "catmullClark" | "smooth",
 //      "faceVaryingLinearInterpolation": "none" | "cornersOnly" | "cornersPlus1" | "cornersPlus2" | "boundaries" | "all"}
+// clang-format on
 //
 // Every key may be left out; one that is there replaces all tags of its kind. The last is checked, not kept.
 #include <filesystem>
@@ -26,8 +28,8 @@ namespace sublimit {
 std::optional<std::filesystem::path> find_sidecar(const std::filesystem::path& mesh);
 
 /// Replaces tags of `mesh` by those in a file. Unknown keys become warnings of the mesh.
-/// @throws FormatError  not JSON, wrong types or lengths, ids out of range, creases where no face has an edge; the message
-///                      names the file, the key and the position. The mesh is then as it was.
+/// @throws FormatError  not JSON, wrong types or lengths, ids out of range, creases where no face has an edge; with
+///                      the file, the key and the position. The mesh is then as it was.
 /// @throws IoError      missing, unreadable
 void apply_sidecar(ControlMesh& mesh, const std::filesystem::path& path);
 

@@ -88,6 +88,7 @@ Differences compare_limits(const ControlMesh& mesh, const std::string& name, int
       ADD_FAILURE() << "vertex " << v << ": the reference's side was not found";
       continue;
     }
+    if (ours.status[side] == LimitStatus::hole) continue;  // not part of the limit, and without a normal
     d.normal = std::max(d.normal, angle(ours.normal.row(side), normal));
     ++d.normals;
     if (angle(ours.normal.row(side), normal) > reference_angle && d.normals < 100000) {

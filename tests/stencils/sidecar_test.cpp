@@ -75,8 +75,8 @@ TEST(Sidecar, EmptyListsRemoveTags) {
 }
 
 TEST(Sidecar, SharpnessesMayBePerEdge) {
-  const ControlMesh mesh = with(
-      R"({"creaseIndices": [0, 1, 2, 4, 5], "creaseLengths": [3, 2], "creaseSharpnesses": [1, 2, 3]})");
+  const ControlMesh mesh =
+      with(R"({"creaseIndices": [0, 1, 2, 4, 5], "creaseLengths": [3, 2], "creaseSharpnesses": [1, 2, 3]})");
   ASSERT_EQ(mesh.creases.size(), 3u);
   EXPECT_EQ(mesh.creases[0].sharpness, 1);
   EXPECT_EQ(mesh.creases[1].sharpness, 2);
@@ -153,7 +153,8 @@ TEST(Sidecar, SaysWhereItMakesNoSense) {
   expect_crease("[0, 1]", "[18446744073709551615]", "[1]", {"strip.json: creaseLengths[0]: the chains need more"});
   expect_crease("[0, 1, 2]", "[2]", "[1]", {"strip.json: creaseLengths add up to 2; creaseIndices has 3"});
   expect_crease("[0, 1, 2]", "[3, 2]", "[1, 1]", {"strip.json: creaseLengths[1]: the chains need more"});
-  expect_crease("[0, 1, 2]", "[3]", "[1, 2, 3]", {"strip.json: creaseSharpnesses has 3 values", "1, one for each chain, or 2"});
+  expect_crease("[0, 1, 2]", "[3]", "[1, 2, 3]",
+                {"strip.json: creaseSharpnesses has 3 values", "1, one for each chain, or 2"});
   expect_crease("[0, 1, 3]", "[3]", "[1]",
                 {"strip.json: creaseIndices[1]: no face has an edge between vertices 1 and 3"});
   expect_crease("[0, 9]", "[2]", "[1]", {"strip.json: creaseIndices[1]: vertex 9 is out of range"});
@@ -170,7 +171,8 @@ TEST(Sidecar, LeavesTheMeshAsItWasWhenItFails) {
   ControlMesh mesh = strip();
   expect_error<FormatError>(
       [&] {
-        apply_sidecar_text(mesh, R"({"holeIndices": [0], "interpolateBoundary": "edgeOnly", "x": 1, "cornerIndices": [9]})",
+        apply_sidecar_text(mesh,
+                           R"({"holeIndices": [0], "interpolateBoundary": "edgeOnly", "x": 1, "cornerIndices": [9]})",
                            "strip.json");
       },
       {"cornerIndices"});

@@ -20,10 +20,10 @@ namespace sublimit {
 
 /// A file being written. Until `commit()` the target is as it was; without it the temporary is removed.
 ///
-/// Errors name the target and say what the system said: ResourceError for a full disk, IoError for all else. An existing
-/// target keeps its permissions, a link stays a link to the same file. Devices and pipes are written in place.
-/// @note  Under a limit on file sizes the kernel sends SIGXFSZ, which kills: a program that wants the error instead ignores
-///        that signal. A killed program leaves its temporary, ".NAME.PID-N.tmp", behind.
+/// Errors name the target and say what the system said: ResourceError for a full disk, IoError for all else. An
+/// existing target keeps its permissions, a link stays a link to the same file. Devices and pipes are written in place.
+/// @note  Under a limit on file sizes the kernel sends SIGXFSZ, which kills: a program that wants the error instead
+///        ignores that signal. A killed program leaves its temporary, ".NAME.PID-N.tmp", behind.
 /// @note  No fsync: the rename is atomic for every process, not against power failure.
 class AtomicFile {
  public:

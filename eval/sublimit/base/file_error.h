@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// What the system said about a file, as one of our errors: a full disk is a lack of resources, all else is input/output.
+// What the system said about a file, as one of our errors: a full disk is a lack of resources, the rest is I/O.
 #include <cerrno>
 #include <filesystem>
 #include <string>
@@ -16,8 +16,8 @@ namespace sublimit {
 /// @throws ResourceError  no space, quota or file size left;  IoError  anything else
 [[noreturn]] inline void throw_file_error(const std::filesystem::path& path, std::string_view action, int number,
                                           std::string_view remedy = {}) {
-  std::string message = path.string() + ": cannot " + std::string(action) + ": " +
-                        std::generic_category().message(number);
+  std::string message =
+      path.string() + ": cannot " + std::string(action) + ": " + std::generic_category().message(number);
   if (number == ENOSPC || number == EFBIG || number == EDQUOT) {
     throw ResourceError(message + "; free some space or write elsewhere");
   }

@@ -13,7 +13,7 @@
 namespace sublimit {
 
 template <class T>
-concept Number = std::floating_point<T> || (std::integral<T> && !std::same_as<T, bool>);
+concept Number = std::floating_point<T> || std::integral<T>;
 
 /// Appends the shortest decimal form of `value` that reads back to the same bits ("0.1", "-0", "1e+300", "inf").
 template <Number T>
@@ -45,8 +45,8 @@ struct Parsed {
 
 namespace detail {
 
-/// Whether decimal text that is out of range is so because it is closer to zero than any number of its type: what counts
-/// is the power of ten of the first digit that is not zero.
+/// Whether decimal text that is out of range is too close to zero, not too far from it: what counts is the power of ten
+/// of the first digit that is not zero.
 inline bool is_tiny(std::string_view text) {
   std::int64_t power = 0;  // of the first non-zero digit; the exponent comes on top
   bool started = false, fraction = false;
@@ -74,8 +74,8 @@ inline bool is_tiny(std::string_view text) {
 
 /// The number that the whole of `text` spells. A leading '+' is taken; blanks, hexadecimal and partial numbers are not.
 ///
-/// "inf" and "nan" are numbers of a floating type: callers who want finite ones ask `std::isfinite`. What is closer to zero
-/// than the smallest number of the type is zero, as rounding has it.
+/// "inf" and "nan" are numbers of a floating type: callers who want finite ones ask `std::isfinite`. What is closer to
+/// zero than the smallest number of the type is zero, as rounding has it.
 template <Number T>
 Parsed<T> parse_number(std::string_view text) {
   if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);

@@ -8,7 +8,7 @@
 
 namespace sublimit {
 
-/// For each crease, whether some face has its two vertices next to each other. Linear in the mesh, memory by the creases.
+/// For each crease, whether some face has its two vertices next to each other. Linear time.
 /// @pre  sizes of faces fit their vertices
 std::vector<bool> along_edges(const ControlMesh& mesh, std::span<const ControlMesh::Crease> creases);
 

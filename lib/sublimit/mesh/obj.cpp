@@ -22,7 +22,8 @@ constexpr std::array<std::string_view, 20> skipped_keywords{
 
 class ObjReader {
  public:
-  ObjReader(std::string_view text, std::string_view name) : scanner_(text, name, TextScanner::Continuation::backslash) {}
+  ObjReader(std::string_view text, std::string_view name)
+      : scanner_(text, name, TextScanner::Continuation::backslash) {}
 
   ControlMesh read() {
     while (scanner_.next_line()) {
@@ -71,8 +72,8 @@ class ObjReader {
       slash = token.find('/', first);
       const std::string_view index = token.substr(first, slash - first);
       if (part == 2) {
-        throw FormatError(scanner_.place() + "corner " + quoted(token) + " has more than 3 indices; it should be 'a', " +
-                          "'a/b', 'a//c' or 'a/b/c'");
+        throw FormatError(scanner_.place() + "corner " + quoted(token) +
+                          " has more than 3 indices; it should be 'a', 'a/b', 'a//c' or 'a/b/c'");
       }
       if (!index.empty() && scanner_.integer(index, "index") == 0) zero_index();
     }

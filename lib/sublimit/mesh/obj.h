@@ -2,8 +2,9 @@
 #pragma once
 // Wavefront OBJ with subdivision tags, read and written to the same bits.
 //
-// Taken: `v x y z` (what follows, a weight or colours, is dropped), `f` with its vertices as `a`, `a/b`, `a//c` or `a/b/c`,
-// negative ones counting backwards, faces of any size, lines continued by a backslash, and the tags
+// Taken: `v x y z` (what follows, a weight or colours, is dropped), `f` with its vertices as `a`, `a/b`, `a//c` or
+// `a/b/c`, negative ones counting backwards, faces of any size, lines continued by a backslash, and the tags
+// clang-format off
 //
 //     t NAME INTS/FLOATS/STRINGS  integers... floats... strings...        all ids count from 0, unlike those of `f`
 //
@@ -13,9 +14,10 @@
 //     interpolateboundary 1/0/0 n              0 none, 1 edge-and-corner, 2 edge-only
 //     creasemethod 0/0/1 normal|chaikin        and smoothtriangles 0/0/1 catmark|smooth
 //     facevaryinginterpolateboundary 1/0/0 n   0 to 5, and facevaryingpropagatecorners 1/0/0 n: checked, not kept
+// clang-format on
 //
-// Texture coordinates, normals, groups, materials, points and lines are skipped. Unknown keywords and tags and hierarchical
-// edits are skipped with a warning.
+// Texture coordinates, normals, groups, materials, points and lines are skipped; unknown keywords, unknown tags and
+// hierarchical edits are skipped with a warning.
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -31,7 +33,7 @@ namespace sublimit {
 /// @throws IoError        missing, unreadable;  ResourceError  more than memory or 32-bit indices hold
 ControlMesh read_obj(const std::filesystem::path& path);
 
-/// As `read_obj`, from text; messages start with `name`. Takes memory in proportion to the text, whatever the text says.
+/// As `read_obj`, from text; messages start with `name`. Memory is in proportion to the text, whatever it says.
 ControlMesh parse_obj(std::string_view text, std::string_view name);
 
 /// The text of a mesh and its tags. Numbers have the shortest form that reads back to the same bits; infinite sharpness

@@ -74,7 +74,7 @@ T choice(const TextScanner& scanner, std::string_view token, const char* first, 
 
 struct TagForm {
   std::string_view name;
-  std::string_view right;  // an example
+  std::string_view right;     // an example
   int ints, floats, strings;  // how many there must be; -1: any number
 };
 constexpr TagForm forms[] = {
@@ -96,8 +96,10 @@ void require_counts(const TextScanner& scanner, const TagForm& form, const std::
     ok = ok && counts[0] >= each && counts[0] % each == 0 && (counts[1] == 1 || counts[1] == counts[0] / each);
   }
   if (ok) return;
-  malformed(scanner, form.name, "cannot have " + format_number(counts[0]) + " integers, " + format_number(counts[1]) +
-                                    " floats and " + format_number(counts[2]) + " strings", form.right);
+  malformed(scanner, form.name,
+            "cannot have " + format_number(counts[0]) + " integers, " + format_number(counts[1]) + " floats and " +
+                format_number(counts[2]) + " strings",
+            form.right);
 }
 
 }  // namespace
@@ -109,7 +111,8 @@ void ObjTags::read(TextScanner& scanner, ControlMesh& mesh) {
   if (name == "vertexedit" || name == "edgeedit" || name == "faceedit") {
     return skip(scanner, name, "hierarchical edits are not supported", mesh);
   }
-  const TagForm* form = std::find_if(std::begin(forms), std::end(forms), [&](const TagForm& f) { return f.name == name; });
+  const TagForm* form =
+      std::find_if(std::begin(forms), std::end(forms), [&](const TagForm& f) { return f.name == name; });
   if (form == std::end(forms)) return skip(scanner, name, "unknown tag", mesh);
 
   const std::array<std::int64_t, 3> counts = parse_counts(scanner, name, scanner.token(), form->right);
@@ -176,8 +179,9 @@ void ObjTags::skip(const TextScanner& scanner, std::string_view name, const char
 void ObjTags::check(const TextScanner& scanner, const ControlMesh& mesh) const {
   const auto check_id = [&](std::int64_t line, const char* tag, const char* what, Index id, Index count) {
     if (id < count) return;
-    throw InvalidMesh(scanner.place(line) + tag + ": " + what + " " + format_number(id) + " is out of range; the mesh has " +
-                      format_number(count) + " (ids in tags are 0 to " + format_number(count - 1) + ")");
+    throw InvalidMesh(scanner.place(line) + tag + ": " + what + " " + format_number(id) +
+                      " is out of range; the mesh has " + format_number(count) + " (ids in tags are 0 to " +
+                      format_number(count - 1) + ")");
   };
   for (std::size_t i = 0; i < mesh.creases.size(); ++i) {
     check_id(crease_lines_[i], "crease", "vertex", mesh.creases[i].tail, mesh.num_vertices());

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// The `t` lines of an OBJ file (their meaning: obj.h). They may come before the vertices and faces that they name, so what
-// they point at is checked at the end.
+// The `t` lines of an OBJ file (their meaning: obj.h). They may come before the vertices and faces that they name, so
+// what they point at is checked at the end.
 #include <cstdint>
 #include <string>
 #include <string_view>

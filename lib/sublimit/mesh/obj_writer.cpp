@@ -65,7 +65,8 @@ void emit_tags(const MeshOutput& mesh, std::string& out, const Flush& flush) {
     out += *mesh.creasing == Creasing::chaikin ? "t creasemethod 0/0/1 chaikin\n" : "t creasemethod 0/0/1 normal\n";
   }
   if (mesh.triangles) {
-    out += *mesh.triangles == Triangles::smooth ? "t smoothtriangles 0/0/1 smooth\n" : "t smoothtriangles 0/0/1 catmark\n";
+    out +=
+        *mesh.triangles == Triangles::smooth ? "t smoothtriangles 0/0/1 smooth\n" : "t smoothtriangles 0/0/1 catmark\n";
   }
   for (const ControlMesh::Crease& crease : mesh.creases) {
     out += "t crease 2/1/0 ";

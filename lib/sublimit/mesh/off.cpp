@@ -17,7 +17,7 @@ class OffReader {
 
   ControlMesh read() {
     read_header();
-    // The shortest lines are "0 0 0" and "3 0 0 0": a file too short for its counts is found out before memory is taken.
+    // The shortest lines are "0 0 0" and "3 0 0 0": a file too short for its counts shows before memory is taken.
     const Index vertices = read_count("vertices", 6);
     num_faces_ = read_count("faces", 8);
     if (const std::string_view edges = scanner_.token(); !edges.empty()) scanner_.integer(edges, "number of edges");
@@ -44,7 +44,8 @@ class OffReader {
       if (prefix.starts_with("N")) prefix.remove_prefix(1);
       if (prefix.empty()) return;
       if (prefix == "4" || prefix == "n" || prefix == "4n") {
-        throw FormatError(scanner_.place() + quoted(keyword) + " has points of other than 3 dimensions; 'OFF' can be read");
+        throw FormatError(scanner_.place() + quoted(keyword) +
+                          " has points of other than 3 dimensions; 'OFF' can be read");
       }
     }
     throw FormatError(scanner_.place() + "the file starts with " + quoted(keyword) + "; an OFF file starts with 'OFF'");

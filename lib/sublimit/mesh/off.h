@@ -10,7 +10,8 @@
 namespace sublimit {
 
 /// The mesh in a file; no tags.
-/// @throws FormatError  not text, not OFF, counts that the file is too short for;  InvalidMesh  indices out of range ...
+/// @throws FormatError  not text, not OFF, counts that the file is too short for
+/// @throws InvalidMesh  indices out of range, faces of fewer than 3 corners, infinite coordinates
 /// @throws IoError      missing, unreadable;  ResourceError  more than memory or 32-bit indices hold
 ControlMesh read_off(const std::filesystem::path& path);
 /// As `read_off`, from text; messages start with `name`.

@@ -56,16 +56,14 @@ class PlyReader {
   std::size_t find(const PlyElement& element, std::string_view name) const {
     const auto is_it = [&](const PlyProperty& property) { return property.name == name; };
     const auto found = std::find_if(element.properties.begin(), element.properties.end(), is_it);
-    if (found != element.properties.end() && std::find_if(found + 1, element.properties.end(), is_it) !=
-                                                 element.properties.end()) {
+    if (found != element.properties.end() &&
+        std::find_if(found + 1, element.properties.end(), is_it) != element.properties.end()) {
       fail(element, "element '" + element.name + "' has two properties " + quoted(name));
     }
     return static_cast<std::size_t>(found - element.properties.begin());
   }
 
-  void skip(const PlyProperty& property) {
-    values_.skip(property.type, property.length ? length(property) : 1);
-  }
+  void skip(const PlyProperty& property) { values_.skip(property.type, property.length ? length(property) : 1); }
 
   std::int64_t length(const PlyProperty& property) {
     const std::int64_t length = values_.integer(*property.length);
@@ -141,8 +139,8 @@ class PlyReader {
       const std::int64_t vertex = values_.integer(property.type);
       if (vertex < 0 || vertex >= num_vertices_) {
         throw InvalidMesh(values_.place() + "index " + format_number(vertex) + " of face " + format_number(face) +
-                          " is out of range; the file has " + format_number(num_vertices_) +
-                          " vertices, 0 to " + format_number(num_vertices_ - 1));
+                          " is out of range; the file has " + format_number(num_vertices_) + " vertices, 0 to " +
+                          format_number(num_vertices_ - 1));
       }
       mesh_.face_vertices.push_back(static_cast<Index>(vertex));
     }

@@ -2,8 +2,8 @@
 #pragma once
 // Polygon File Format (Stanford): text or binary of either byte order, numbers of any type.
 //
-// Read: `x`, `y`, `z` of the element `vertex` and the list `vertex_index` or `vertex_indices` of the element `face`; all
-// else is skipped. Written: binary little-endian, doubles, one normal per vertex; tags and holes have no place in it.
+// Read: `x`, `y`, `z` of the element `vertex` and the list `vertex_index` or `vertex_indices` of the element `face`;
+// all else is skipped. Written: binary little-endian, doubles, one normal per vertex. Tags have no place in it.
 #include <filesystem>
 #include <string>
 #include <string_view>

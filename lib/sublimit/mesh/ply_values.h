@@ -63,7 +63,8 @@ class PlyBinaryValues {
       : bytes_(bytes),
         name_(name),
         here_(static_cast<std::size_t>(header.size)),
-        swapped_((header.encoding == PlyHeader::Encoding::big_endian) == (std::endian::native == std::endian::little)) {}
+        swapped_((header.encoding == PlyHeader::Encoding::big_endian) == (std::endian::native == std::endian::little)) {
+  }
 
   void begin_row() {}
   void end_row() {}

@@ -165,11 +165,14 @@ std::vector<bool> initial_holes(const Topology& t, const ControlMesh& tags, Boun
 Sharpness refine(const Sharpness& sharpness, const Topology& parent, const Refinement& r) {
   Sharpness child;
   child.creasing = sharpness.creasing;
-  child.vertex.assign(r.topology.num_vertices(), 0);
-  child.edge.assign(r.topology.num_edges(), 0);
-  parallel_for(parent.num_vertices(), [&](std::int64_t v) { child.vertex[v] = decayed(sharpness.vertex[v]); });
+  child.vertex.resize(r.topology.num_vertices());
+  child.edge.resize(r.topology.num_edges());
+  parallel_for(r.topology.num_vertices(), [&](std::int64_t v) {
+    child.vertex[v] = v < parent.num_vertices() ? decayed(sharpness.vertex[v]) : 0;
+  });
   parallel_for(r.topology.num_edges(), [&](std::int64_t i) {
     const Index half = r.edge_parent[i];
+    child.edge[i] = 0;
     if (half < 0) return;
     const Edge e{half / 2};
     const float s = sharpness.edge[index(e)];

@@ -22,7 +22,7 @@ constexpr bool is_semi_sharp(float sharpness) { return is_sharp(sharpness) && !i
 
 /// Sharpness of every edge and vertex of one level.
 struct Sharpness {
-  std::vector<float> edge, vertex;
+  UninitializedVector<float> edge, vertex;
   Creasing creasing = Creasing::uniform;
 };
 

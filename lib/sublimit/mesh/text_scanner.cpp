@@ -43,9 +43,7 @@ bool TextScanner::at_continuation() const {
   return continued_ && *here_ == '\\' && (here_ + 1 == end_ || kind(here_[1]) == line_end);
 }
 
-void TextScanner::skip_line_end() {
-  here_ += *here_ == '\r' && here_ + 1 != end_ && here_[1] == '\n' ? 2 : 1;
-}
+void TextScanner::skip_line_end() { here_ += *here_ == '\r' && here_ + 1 != end_ && here_[1] == '\n' ? 2 : 1; }
 
 std::string_view TextScanner::token() {
   while (here_ != end_) {
@@ -107,9 +105,7 @@ T TextScanner::number(std::string_view token, std::string_view what) const {
   throw FormatError(place() + std::string(what) + " " + quoted(token) + " is not a number; it should be " + kind);
 }
 
-double TextScanner::real(std::string_view token, std::string_view what) const {
-  return number<double>(token, what);
-}
+double TextScanner::real(std::string_view token, std::string_view what) const { return number<double>(token, what); }
 float TextScanner::real_float(std::string_view token, std::string_view what) const {
   return number<float>(token, what);
 }
@@ -139,8 +135,9 @@ std::string quoted(std::string_view token) {
 }
 
 void require_text(std::string_view text, std::string_view name, std::string_view format) {
-  if (text.empty()) throw FormatError(std::string(name) + ": the file is empty; a mesh in " + std::string(format) +
-                                      " format is expected");
+  if (text.empty())
+    throw FormatError(std::string(name) + ": the file is empty; a mesh in " + std::string(format) +
+                      " format is expected");
   const std::size_t nul = text.find('\0');
   if (nul == std::string_view::npos) return;
   const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(nul), '\n');

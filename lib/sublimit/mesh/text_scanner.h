@@ -9,7 +9,7 @@
 
 namespace sublimit {
 
-/// Walks over text that outlives it. Tokens are separated by blanks; '#' starts a comment; lines end with LF, CRLF or CR.
+/// Walks over text that outlives it. Blanks separate tokens; '#' starts a comment; lines end with LF, CRLF or CR.
 class TextScanner {
  public:
   enum class Continuation {

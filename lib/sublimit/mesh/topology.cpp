@@ -44,7 +44,8 @@ void check(const MeshView& mesh) {
 /// Items 0..#keys-1 sorted by key, stable: bucket b holds items[start[b]] .. items[start[b+1]-1].
 struct Buckets {
   std::vector<Index> start, items;
-  Buckets(const std::vector<Index>& key, Index num_buckets) : start(num_buckets + 1, 0), items(key.size()) {
+  template <class Keys>
+  Buckets(const Keys& key, Index num_buckets) : start(num_buckets + 1, 0), items(key.size()) {
     for (const Index k : key) ++start[k + 1];
     for (Index b = 0; b < num_buckets; ++b) start[b + 1] += start[b];
     std::vector<Index> at(start.begin(), start.end() - 1);

@@ -12,6 +12,7 @@
 
 #include "sublimit/mesh/mesh_view.h"
 #include "sublimit/types.h"
+#include "sublimit/uninitialized.h"
 
 namespace sublimit {
 
@@ -60,14 +61,20 @@ class Topology {
   Index uniform_face_size() const { return uniform_; }
 
   // Half-edges.
-  Face face(HalfEdge h) const { return Face{uniform_ ? index(h) / uniform_ : face_[index(h)]}; }
+  Face face(HalfEdge h) const {  // divisions by constants: by a variable they would be what refinement waits for
+    if (uniform_ == 4) return Face{index(h) >> 2};
+    if (uniform_ == 3) return Face{index(h) / 3};
+    return Face{uniform_ ? index(h) / uniform_ : face_[index(h)]};
+  }
   /// Position of a half-edge within its face.
   Index corner_index(HalfEdge h) const { return index(h) - index(first(face(h))); }
   HalfEdge next(HalfEdge h) const {
+    if (uniform_ == 4) return HalfEdge{(index(h) & ~3) | ((index(h) + 1) & 3)};
     const Face f = face(h);
     return index(h) + 1 < index(first(f)) + size(f) ? HalfEdge{index(h) + 1} : first(f);
   }
   HalfEdge prev(HalfEdge h) const {
+    if (uniform_ == 4) return HalfEdge{(index(h) & ~3) | ((index(h) + 3) & 3)};
     const Face f = face(h);
     return h == first(f) ? HalfEdge{index(h) + size(f) - 1} : HalfEdge{index(h) - 1};
   }
@@ -122,10 +129,10 @@ class Topology {
   Index uniform_ = 0;            // face size, or 0 for mixed sizes
   std::vector<Index> offsets_;   // mixed sizes: first half-edge of each face, and the end
   std::vector<Index> face_;      // mixed sizes: face of each half-edge
-  std::vector<Index> tail_, twin_, edge_;
-  std::vector<Index> edge_half_;   // first half-edge of each edge
-  std::vector<Index> vertex_out_;  // half-edge, `isolated`, or first_nonmanifold - position in nonmanifold_vertices_
-  std::vector<Index> degree_;
+  UninitializedVector<Index> tail_, twin_, edge_;
+  UninitializedVector<Index> edge_half_;   // first half-edge of each edge
+  UninitializedVector<Index> vertex_out_;  // half-edge, `isolated`, or first_nonmanifold - position in nonmanifold_vertices_
+  UninitializedVector<Index> degree_;
   std::vector<NonManifoldVertex> nonmanifold_vertices_;
   std::vector<NonManifoldEdge> nonmanifold_edges_;  // ascending
   std::vector<Fault> faults_;

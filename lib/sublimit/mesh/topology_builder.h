@@ -3,6 +3,7 @@
 // The door through which a split makes a Topology: it knows the children's twins and fans from the parents', and hands the
 // arrays over; edges are numbered here.
 #include "sublimit/mesh/topology.h"
+#include "sublimit/uninitialized.h"
 
 namespace sublimit {
 
@@ -15,12 +16,12 @@ class TopologyBuilder {
 
   Index uniform_face_size = 0;      ///< or 0, then face_offsets
   std::vector<Index> face_offsets;  ///< #F + 1, mixed sizes only
-  std::vector<Index> tail;          ///< per half-edge
-  std::vector<Index> twin;          ///< per half-edge, -1 without one
+  UninitializedVector<Index> tail;  ///< per half-edge
+  UninitializedVector<Index> twin;  ///< per half-edge, -1 without one
   /// Half-edges of each non-manifold edge, ascending. Every other half-edge without twin is an edge of its own.
   std::vector<std::vector<Index>> nonmanifold_edges;
-  std::vector<Index> outgoing;      ///< per vertex: a half-edge (the one without twin, if any), -1 if isolated
-  std::vector<Index> degree;        ///< per vertex: number of corners
+  UninitializedVector<Index> outgoing;  ///< per vertex: a half-edge (the one without twin, if any), -1 if isolated
+  UninitializedVector<Index> degree;    ///< per vertex: number of corners
   std::vector<Fans> nonmanifold_vertices;
   std::vector<Topology::Fault> faults;
 

@@ -24,7 +24,7 @@ class PrimalHalves {
   PrimalHalves(const Topology& parent, First first, Second second) : t_(parent), first_(first), second_(second) {}
 
   /// Twins of the two children of every half-edge, in `twin`.
-  void set_twins(Index h, std::vector<Index>& twin) const {
+  void set_twins(Index h, UninitializedVector<Index>& twin) const {
     const Index g = index(t_.twin(HalfEdge{h}));
     twin[first_(h)] = g < 0 ? -1 : second_(g);
     twin[second_(h)] = g < 0 ? -1 : first_(g);

@@ -24,9 +24,9 @@ struct Refinement {
   /// in the parents' order. A group that the split does not make is empty.
   Index from_vertices = 0, from_faces = 0, from_edges = 0;
 
-  std::vector<Index> face_parent;  ///< parent face of every child face
+  UninitializedVector<Index> face_parent;  ///< parent face of every child face
   /// Per child edge: 2 e for the half of parent edge e at its tail, 2 e + 1 for the half at its head, -1 inside a face.
-  std::vector<Index> edge_parent;
+  UninitializedVector<Index> edge_parent;
 
   Vertex child(Vertex v) const { return Vertex{index(v)}; }
   Vertex child(Face f) const { return Vertex{from_vertices + index(f)}; }

@@ -68,8 +68,8 @@ TEST(ParseNumber, TakesEveryUsualSpelling) {
 }
 
 TEST(ParseNumber, TakesTheWholeTextOrNothing) {
-  for (const char* const text : {"", "+", "-", ".", "e5", "abc", "1x", "1 ", " 1", "1,5", "0x10", "1e", "1e+", "--1", "+-1",
-                                 "++1", "1.2.3"}) {
+  for (const char* const text :
+       {"", "+", "-", ".", "e5", "abc", "1x", "1 ", " 1", "1,5", "0x10", "1e", "1e+", "--1", "+-1", "++1", "1.2.3"}) {
     EXPECT_EQ(parse_number<double>(text).status, ParseStatus::malformed) << text;
     EXPECT_EQ(parse_number<float>(text).status, ParseStatus::malformed) << text;
     EXPECT_EQ(parse_number<std::int64_t>(text).status, ParseStatus::malformed) << text;

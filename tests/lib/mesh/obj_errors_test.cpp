@@ -90,8 +90,11 @@ TEST(ObjErrors, FilesThatAreNoMesh) {
   expect_errors<FormatError>({
       {"", {"a.obj: the file is empty"}},
       {std::string("v 0 0 0\nf\0", 10), {"a.obj:2: byte 9 is zero, so this is not a text OBJ file"}},
-      {"v 0 0 0\n\xff\xd8\xe0JFIF 1 2\n", {"a.obj:2: the line starts with '\\xff\\xd8\\xe0JFIF'", "not a text OBJ file"}},
-      {"\x7f" "ELF\n", {"a.obj:1: the line starts with '\\x7fELF'"}},
+      {"v 0 0 0\n\xff\xd8\xe0JFIF 1 2\n",
+       {"a.obj:2: the line starts with '\\xff\\xd8\\xe0JFIF'", "not a text OBJ file"}},
+      {"\x7f"
+       "ELF\n",
+       {"a.obj:1: the line starts with '\\x7fELF'"}},
   });
   expect_errors<InvalidMesh>({
       {"# nothing\n", {"a.obj: no vertices", "'v x y z'"}},
@@ -112,7 +115,8 @@ TEST(ObjErrors, LongTokensAreShortened) {
 TEST(ObjErrors, MalformedTags) {
   expect_errors<FormatError>({
       {square + "t\n", {"a.obj:6: tag '' has no name", "t NAME INTS/FLOATS/STRINGS"}},
-      {square + "t crease\n", {"a.obj:6: tag 'crease' has '' where its counts", "t crease 2/1/0 VERTEX VERTEX SHARPNESS"}},
+      {square + "t crease\n",
+       {"a.obj:6: tag 'crease' has '' where its counts", "t crease 2/1/0 VERTEX VERTEX SHARPNESS"}},
       {square + "t crease 2/1 0 1 2\n", {"a.obj:6: tag 'crease' has '2/1' where its counts"}},
       {square + "t crease 2/1/0/0 0 1 2\n", {"a.obj:6: tag 'crease' has '2/1/0/0'"}},
       {square + "t crease 2/-1/0 0 1 2\n", {"a.obj:6: tag 'crease' has '2/-1/0'"}},
@@ -147,7 +151,8 @@ TEST(ObjErrors, TagsThatPointNowhere) {
       {square + "t crease 2/1/0 0 4 2\n", {"a.obj:6: crease: vertex 4 is out of range", "0 to 3"}},
       {square + "t crease 2/1/0 -1 0 2\n", {"a.obj:6: vertex '-1' is out of range"}},
       {square + "t crease 2/1/0 0 5000000000 2\n", {"a.obj:6: vertex '5000000000' is out of range"}},
-      {"t crease 2/1/0 0 1 2\nt crease 2/1/0 0 2 2\n" + square, {"a.obj:2: crease: no face has an edge between vertices 0 and 2"}},
+      {"t crease 2/1/0 0 1 2\nt crease 2/1/0 0 2 2\n" + square,
+       {"a.obj:2: crease: no face has an edge between vertices 0 and 2"}},
       {square + "t crease 2/1/0 1 1 2\n", {"a.obj:6: crease: no face has an edge between vertices 1 and 1"}},
       {"t crease 4/1/0 0 1 3 1 2\n" + square, {"a.obj:1: crease: no face has an edge between vertices 3 and 1"}},
       {square + "t corner 1/1/0 4 2\n", {"a.obj:6: corner: vertex 4 is out of range", "0 to 3"}},

@@ -45,7 +45,8 @@ TEST(Obj, NegativeIndicesCountBackFromTheLastVertexSoFar) {
 }
 
 TEST(Obj, FacesAndTagsMayComeBeforeVertices) {
-  const ControlMesh mesh = parse_obj("t crease 2/1/0 2 0 3\nt hole 1/0/0 0\nf 1 2 3\nv 0 0 0\nv 1 0 0\nv 1 1 0\n", "a.obj");
+  const ControlMesh mesh =
+      parse_obj("t crease 2/1/0 2 0 3\nt hole 1/0/0 0\nf 1 2 3\nv 0 0 0\nv 1 0 0\nv 1 1 0\n", "a.obj");
   EXPECT_EQ(mesh.face_vertices, (Ids{0, 1, 2}));
   ASSERT_EQ(mesh.creases.size(), 1u);
   EXPECT_EQ(mesh.creases[0].tail, 2);

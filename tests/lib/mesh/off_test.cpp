@@ -42,9 +42,9 @@ TEST(Off, HeadersComeInManyForms) {
 
 TEST(Off, ColoursNormalsAndTextureCoordinatesAreDropped) {
   for (const char* const keyword : {"COFF", "NOFF", "CNOFF", "STOFF", "STCNOFF"}) {
-    const ControlMesh mesh = parse_off(std::string(keyword) + "\n3 1 0\n0 0 0 1 0 0 1\n1 0 0 255 0 0 255\n0 1 0 .5 .5\n" +
-                                           "3 0 1 2 0.1 0.2 0.3\n",
-                                       "a.off");
+    const ControlMesh mesh = parse_off(
+        std::string(keyword) + "\n3 1 0\n0 0 0 1 0 0 1\n1 0 0 255 0 0 255\n0 1 0 .5 .5\n" + "3 0 1 2 0.1 0.2 0.3\n",
+        "a.off");
     EXPECT_EQ(mesh.positions.row(1), Eigen::RowVector3d(1, 0, 0));
     EXPECT_EQ(mesh.face_vertices, (Ids{0, 1, 2}));
   }

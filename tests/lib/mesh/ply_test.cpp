@@ -69,10 +69,10 @@ TEST(Ply, ReadsBinaryOfEitherByteOrderAndAnyTypes) {
   for (const bool big : {false, true}) {
     Bytes data(big);
     const float tenth = 0.1f;
-    data << std::uint16_t{2} << std::int16_t{-1} << std::int16_t{-2};                               // skipped element
-    data << std::int8_t{-5} << tenth << 0.1 << std::uint8_t{2} << 1.0 << 2.0;                       // vertex 0
+    data << std::uint16_t{2} << std::int16_t{-1} << std::int16_t{-2};          // skipped element
+    data << std::int8_t{-5} << tenth << 0.1 << std::uint8_t{2} << 1.0 << 2.0;  // vertex 0
     data << std::int8_t{127} << 1.0f << std::numeric_limits<double>::denorm_min() << std::uint8_t{0};  // vertex 1
-    data << std::int8_t{0} << 0.0f << -0.0 << std::uint8_t{1} << 3.0;                               // vertex 2
+    data << std::int8_t{0} << 0.0f << -0.0 << std::uint8_t{1} << 3.0;                                  // vertex 2
     data << std::uint32_t{7} << std::uint32_t{3} << std::uint16_t{2} << std::uint16_t{1} << std::uint16_t{0};
     const ControlMesh mesh = parse_ply(header(big ? "binary_big_endian" : "binary_little_endian",
                                               "element strip 1\nproperty list ushort short data\n"
@@ -207,10 +207,10 @@ TEST(Ply, CountsTakeNoMemoryThatTheFileCannotFill) {
   // No properties: any number of vertices fits the file; they have no coordinates all the same.
   expect_error<FormatError>(
       [] {
-        parse_ply(header("ascii",
-                         "element vertex 2000000000\nelement face 1\nproperty list uchar int vertex_indices\n") +
-                      "3 0 1 2\n",
-                  "a.ply");
+        parse_ply(
+            header("ascii", "element vertex 2000000000\nelement face 1\nproperty list uchar int vertex_indices\n") +
+                "3 0 1 2\n",
+            "a.ply");
       },
       {"a.ply:4: element 'vertex' has no number 'x'"});
 }

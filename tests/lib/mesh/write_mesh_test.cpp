@@ -48,9 +48,8 @@ MeshOutput random_output(std::uint64_t seed, Index vertices, Index faces) {
 void add_tags(MeshOutput& mesh) {
   std::mt19937 random(7);
   for (std::size_t i = 0; i + 1 < 3; ++i) {
-    mesh.creases.push_back({.tail = mesh.face_vertices[i],
-                            .head = mesh.face_vertices[i + 1],
-                            .sharpness = float(random() % 1000) / 97});
+    mesh.creases.push_back(
+        {.tail = mesh.face_vertices[i], .head = mesh.face_vertices[i + 1], .sharpness = float(random() % 1000) / 97});
   }
   mesh.creases.push_back({.tail = mesh.face_vertices[0], .head = mesh.face_vertices[1], .sharpness = 1e-45f});
   mesh.corners = {{.vertex = 0, .sharpness = 0.1f}, {.vertex = 2, .sharpness = 12.5f}};
@@ -267,7 +266,8 @@ TEST(ReadMesh, ChoosesByExtensionInEitherCase) {
 TEST(ReadMesh, SaysWhatItCannotRead) {
   const TemporaryDirectory directory;
   directory.write("a.stl", "solid");
-  expect_error<FormatError>([&] { read_mesh(directory / "a.stl"); }, {"a.stl: unknown kind of mesh '.stl'", ".obj, .ply and .off"});
+  expect_error<FormatError>([&] { read_mesh(directory / "a.stl"); },
+                            {"a.stl: unknown kind of mesh '.stl'", ".obj, .ply and .off"});
   expect_error<IoError>([&] { read_mesh(directory / "b.stl"); }, {"b.stl: cannot read", "No such file"});
   expect_error<IoError>([&] { read_mesh(directory.path()); }, {"Is a directory"});
 }
