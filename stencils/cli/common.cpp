@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cctype>
 #include <memory>
-#include <mutex>
 
 #include "sublimit/base/error.h"
 #include "sublimit/mesh/read_mesh.h"
@@ -28,7 +27,8 @@ std::optional<T> meaning(const std::string& word, const std::vector<std::pair<st
   return std::nullopt;
 }
 
-SchemeOptions scheme_options(const Common& common, const ControlMesh& mesh) {
+/// The options on the command line.
+SchemeOptions given_options(const Common& common) {
   SchemeOptions options;
   for (const std::string& text : common.options) {
     const size_t equals = text.find('=');
@@ -36,14 +36,13 @@ SchemeOptions scheme_options(const Common& common, const ControlMesh& mesh) {
       throw InvalidOption("--option " + text + ": write it as name=value");
     options[text.substr(0, equals)] = text.substr(equals + 1);
   }
-  if (!common.triangles.empty()) {
-    options["triangles"] = common.triangles;
-  } else if (mesh.triangles == Triangles::smooth && !options.contains("triangles")) {
-    // A tag of the file is for schemes that know it.
-    for (const OptionInfo& info : scheme_or_throw(common.scheme).options)
-      if (info.name == "triangles") options["triangles"] = "smooth";
-  }
+  if (!common.triangles.empty()) options["triangles"] = common.triangles;
   return options;
+}
+
+bool knows(const Scheme<double>& scheme, const std::string& option) {
+  return std::any_of(scheme.options.begin(), scheme.options.end(),
+                     [&](const OptionInfo& info) { return info.name == option; });
 }
 
 void list(const std::vector<std::string>& messages, const char* kind, size_t most) {
@@ -52,6 +51,17 @@ void list(const std::vector<std::string>& messages, const char* kind, size_t mos
 }
 
 }  // namespace
+
+void add_run(CLI::App& command, Common& common) {
+  command.add_option("--threads", common.threads, "Threads (default: all)")->check(CLI::Range(1, 4096));
+  command.add_flag("--quiet", common.quiet, "No warnings, no progress");
+}
+
+void limit_threads(const Common& common) {
+  static std::unique_ptr<tbb::global_control> threads;
+  if (common.threads > 0)
+    threads = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, common.threads);
+}
 
 void add_mesh(CLI::App& command, Common& common, bool scheme_required) {
   command.add_option("MESH", common.mesh, "Control mesh: .obj (with tags), .ply or .off; MESH.json beside it overrides tags")
@@ -67,8 +77,7 @@ void add_mesh(CLI::App& command, Common& common, bool scheme_required) {
   command.add_option("--option", common.options, "An option of the scheme, name=value; may be repeated")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  command.add_option("--threads", common.threads, "Threads (default: all)")->check(CLI::Range(1, 4096));
-  command.add_flag("--quiet", common.quiet, "No warnings, no progress");
+  add_run(command, common);
   command.add_flag("--strict", common.strict, "Reject meshes that are accepted with a warning, naming each place");
 }
 
@@ -79,15 +88,21 @@ Scheme<double> scheme_or_throw(const std::string& name, const SchemeOptions& opt
   throw InvalidOption("unknown scheme '" + name + "'; the nearest are " + offers + " (`sublimit schemes` lists all)");
 }
 
-Loaded load(const Common& common) {
-  static std::unique_ptr<tbb::global_control> threads;
-  if (common.threads > 0)
-    threads = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, common.threads);
+Loaded load(const Common& common, Progress& progress) {
+  limit_threads(common);
   Loaded loaded;
-  if (!common.scheme.empty()) scheme_or_throw(common.scheme);  // a misspelt name is told before a large file is read
+  // A misspelt name is told before a large file is read.
+  SchemeOptions options = given_options(common);
+  if (!common.scheme.empty()) loaded.scheme = scheme_or_throw(common.scheme, options);
+  progress.step("reading " + common.mesh);
   loaded.mesh = read_mesh(common.mesh);
   if (const auto sidecar = find_sidecar(common.mesh)) apply_sidecar(loaded.mesh, *sidecar);
-  if (!common.scheme.empty()) loaded.scheme = scheme_or_throw(common.scheme, scheme_options(common, loaded.mesh));
+  if (const auto triangles = options.find("triangles"); triangles != options.end()) {
+    loaded.mesh.triangles = triangles->second == "smooth" ? Triangles::smooth : Triangles::catmark;
+  } else if (loaded.mesh.triangles == Triangles::smooth && loaded.scheme && knows(*loaded.scheme, "triangles")) {
+    options["triangles"] = "smooth";  // a tag of the file is for schemes that know it
+    loaded.scheme = scheme_or_throw(common.scheme, options);
+  }
   loaded.rules.boundary = meaning<Boundary>(common.boundary, {{"none", Boundary::none},
                                                               {"edge-only", Boundary::edge_only},
                                                               {"edge-and-corner", Boundary::edge_and_corner}});
@@ -102,6 +117,7 @@ Loaded load(const Common& common) {
     for (const std::string& fault : faults) all += "\n  " + fault;
     throw InvalidMesh(common.mesh + ": not a clean manifold (--strict):" + all);
   }
+  progress.step("");
   if (!common.quiet) {
     list(loaded.mesh.warnings, "warning", 5);
     for (std::string& fault : faults) fault = common.mesh + ": " + fault;
@@ -122,6 +138,9 @@ void check_output_path(const std::string& path, const std::vector<std::string>& 
     throw IoError("cannot write " + path + ": " + directory.string() + " is not a directory");
   if (::access(directory.empty() ? "." : directory.c_str(), W_OK) != 0)
     throw IoError("cannot write " + path + ": its directory is not writable");
+  if (std::filesystem::is_directory(path, ignored)) throw IoError("cannot write " + path + ": it is a directory; name a file");
+  if (std::filesystem::exists(path, ignored) && ::access(path.c_str(), W_OK) != 0)
+    throw IoError("cannot write " + path + ": the file that is there is not writable");
   const std::lock_guard lock(directories_mutex);
   directories.push_back(directory.empty() ? "." : directory.string());
 }
@@ -131,18 +150,44 @@ std::vector<std::string> output_directories() {
   return directories;
 }
 
-Progress::Progress(bool quiet)
-    : shown_(!quiet && ::isatty(STDERR_FILENO)), active_(false), start_(std::chrono::steady_clock::now()) {}
-
-void Progress::step(const std::string& what) {
-  if (!shown_ || std::chrono::steady_clock::now() - start_ < std::chrono::seconds(1)) return;
-  fmt::print(stderr, "\r\033[K{} ...", what);
-  std::fflush(stderr);
-  active_ = true;
+Progress::Progress(bool quiet) {
+  if (!quiet && ::isatty(STDERR_FILENO)) watcher_ = std::thread([this] { watch(); });
 }
 
 Progress::~Progress() {
-  if (active_) fmt::print(stderr, "\r\033[K");
+  if (!watcher_.joinable()) return;
+  {
+    const std::lock_guard lock(mutex_);
+    done_ = true;
+    clear();
+  }
+  woken_.notify_one();
+  watcher_.join();
+}
+
+void Progress::step(const std::string& what) {
+  const std::lock_guard lock(mutex_);
+  clear();
+  what_ = what;
+  start_ = std::chrono::steady_clock::now();
+}
+
+void Progress::watch() {
+  std::unique_lock lock(mutex_);
+  while (!woken_.wait_for(lock, std::chrono::milliseconds(250), [this] { return done_; })) {
+    const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start_;
+    if (what_.empty() || time.count() < 1) continue;
+    fmt::print(stderr, "\r\033[K{} ... {:.0f} s", what_, time.count());
+    std::fflush(stderr);
+    visible_ = true;
+  }
+}
+
+void Progress::clear() {
+  if (!visible_) return;
+  fmt::print(stderr, "\r\033[K");
+  std::fflush(stderr);
+  visible_ = false;
 }
 
 }  // namespace sublimit::cli

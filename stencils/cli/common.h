@@ -4,10 +4,13 @@
 #include <CLI/CLI.hpp>
 
 #include <chrono>
+#include <condition_variable>
 #include <filesystem>
 #include <functional>
+#include <mutex>
 #include <optional>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "sublimit/refine.h"
@@ -30,32 +33,45 @@ struct Loaded {
   SubdivisionOptions rules;
 };
 
-/// Adds them to a subcommand.
-void add_mesh(CLI::App& command, Common& common, bool scheme_required);
-
-/// Reads the mesh and its sidecar, prints warnings, and finds the scheme if one was named.
-Loaded load(const Common& common);
-
-/// The scheme of a name, or an InvalidOption that offers the nearest ones.
-Scheme<double> scheme_or_throw(const std::string& name, const SchemeOptions& options = {});
-
-/// Fails before any work if an output cannot be written: its extension, its directory. An empty list takes any extension.
-void check_output_path(const std::string& path, const std::vector<std::string>& extensions);
-
-/// Where outputs of this run go, as told to `check_output_path`.
-std::vector<std::string> output_directories();
-
-/// A line on stderr for steps that take longer than a second, if a person is looking.
+/// A line on stderr while a step takes longer than a second, if a person is looking.
 class Progress {
  public:
   explicit Progress(bool quiet);
   ~Progress();
+  /// A step begins; an empty one is nothing to tell.
   void step(const std::string& what);
 
  private:
-  bool shown_, active_;
+  void watch();
+  void clear();
+
+  std::mutex mutex_;
+  std::condition_variable woken_;
+  std::string what_;
   std::chrono::steady_clock::time_point start_;
+  bool done_ = false, visible_ = false;
+  std::thread watcher_;  // only where the line may be shown
 };
+
+/// Adds --threads and --quiet, then the rest, to a subcommand.
+void add_run(CLI::App& command, Common& common);
+void add_mesh(CLI::App& command, Common& common, bool scheme_required);
+
+/// Holds the rest of the run to --threads.
+void limit_threads(const Common& common);
+
+/// Reads the mesh and its sidecar, prints warnings, and finds the scheme if one was named.
+Loaded load(const Common& common, Progress& progress);
+
+/// The scheme of a name, or an InvalidOption that offers the nearest ones.
+Scheme<double> scheme_or_throw(const std::string& name, const SchemeOptions& options = {});
+
+/// Fails before any work if an output cannot be written: its extension, its directory, a file in its place that must not
+/// be touched. An empty list takes any extension.
+void check_output_path(const std::string& path, const std::vector<std::string>& extensions);
+
+/// Where outputs of this run go, as told to `check_output_path`.
+std::vector<std::string> output_directories();
 
 /// A subcommand: its options on an app, and what runs once they are parsed; returns the exit status.
 using Command = std::function<int()>;

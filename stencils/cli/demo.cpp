@@ -16,6 +16,7 @@ namespace sublimit::cli {
 namespace {
 
 struct Options {
+  Common common;
   std::string directory = "sublimit-demo";
 };
 
@@ -61,6 +62,9 @@ int run(const Options& options) {
   const auto path = [&](const char* name) { return (directory / name).string(); };
   check_output_path(path("picture.svg"), {});
 
+  limit_threads(options.common);
+  Progress progress(options.common.quiet);
+  progress.step("refining and taking limits");
   const ControlMesh mesh = demo_mesh();
   const Scheme<double> scheme = scheme_or_throw("catmull-clark");
   const std::vector<Level> levels = refine(scheme, mesh, 3);
@@ -81,6 +85,8 @@ int run(const Options& options) {
   AtomicFile picture(path("picture.svg"));
   picture.write(svg);
   picture.commit();
+  progress.step("");
+  if (options.common.quiet) return 0;
 
   const Topology& t = levels[0].topology();
   const auto undefined = std::count(at_limit.status.begin(), at_limit.status.end(), LimitStatus::undefined_normal);
@@ -106,6 +112,7 @@ Command add_demo(CLI::App& app) {
   auto* command = app.add_subcommand("demo", "The whole chain on a mesh that the program carries");
   auto options = std::make_shared<Options>();
   command->add_option("DIR", options->directory, "Where the files go (default: sublimit-demo)");
+  add_run(*command, options->common);
   command->footer("Examples:\n  sublimit demo\n  sublimit demo out/demo");
   return [=] { return run(*options); };
 }

@@ -56,10 +56,30 @@ Index num_boundary_loops(const Topology& t) {
   return loops;
 }
 
+// The rules in force: as asked for, else the file's tag, else the default.
+const char* word(std::optional<Boundary> asked, std::optional<Boundary> tag) {
+  switch (asked.value_or(tag.value_or(Boundary::edge_and_corner))) {
+    case Boundary::none:
+      return "none";
+    case Boundary::edge_only:
+      return "edge-only";
+    default:
+      return "edge-and-corner";
+  }
+}
+const char* word(std::optional<Creasing> asked, std::optional<Creasing> tag) {
+  return asked.value_or(tag.value_or(Creasing::uniform)) == Creasing::chaikin ? "chaikin" : "uniform";
+}
+const char* word(std::optional<Triangles> asked, std::optional<Triangles> tag) {
+  return asked.value_or(tag.value_or(Triangles::catmark)) == Triangles::smooth ? "smooth" : "catmark";
+}
+
 int run(const Common& common, bool as_json) {
   Common quiet = common;
   quiet.quiet = true;
-  const Loaded loaded = load(quiet);
+  Progress progress(common.quiet);
+  const Loaded loaded = load(quiet, progress);  // warnings and faults are what this subcommand prints
+  progress.step("");
   const ControlMesh& mesh = loaded.mesh;
   const Topology t(view(mesh));
   Histogram sizes, interior, boundary;
@@ -98,6 +118,9 @@ int run(const Common& common, bool as_json) {
               {"creases", mesh.creases.size()},
               {"corners", mesh.corners.size()},
               {"holes", mesh.holes.size()},
+              {"boundary", word(loaded.rules.boundary, mesh.boundary)},
+              {"creasing", word(loaded.rules.creasing, mesh.creasing)},
+              {"triangles", word(std::optional<Triangles>(), mesh.triangles)},
               {"warnings", mesh.warnings},
               {"faults", faults}};
     if (loaded.scheme) {
@@ -115,6 +138,8 @@ int run(const Common& common, bool as_json) {
   fmt::print("  boundary loops     {}\n", num_boundary_loops(t));
   fmt::print("  tags               {} creases, {} corners, {} holes\n", mesh.creases.size(), mesh.corners.size(),
              mesh.holes.size());
+  fmt::print("  rules              boundary {}, creasing {}, triangles {}\n", word(loaded.rules.boundary, mesh.boundary),
+             word(loaded.rules.creasing, mesh.creasing), word(std::optional<Triangles>(), mesh.triangles));
   if (loaded.scheme) {
     fmt::print("  {:<18} {}\n", loaded.scheme->name + ":", takes == "yes" ? "takes this mesh" : takes);
     for (size_t k = 0; k < cost.size(); ++k) fmt::print("    to level {}         about {:.1f} MB\n", k + 1, cost[k] / 1e6);

@@ -19,8 +19,8 @@ struct Options {
 
 int run(const Options& options) {
   check_output_path(options.output, {".obj", ".ply"});
-  const Loaded loaded = load(options.common);
   Progress progress(options.common.quiet);
+  const Loaded loaded = load(options.common, progress);
   const std::vector<Level> levels =
       refine(*loaded.scheme, loaded.mesh, options.levels, loaded.rules,
              [&](int level) { progress.step(fmt::format("level {} of {}", level, options.levels)); });
@@ -30,14 +30,15 @@ int run(const Options& options) {
   LimitMaskCache cache(*loaded.scheme);
   const LimitMatrices limit = limit_matrices(levels.back(), cache);
   const LimitPoints at_limit = limit_points(limit, levels.back().topology(), points);
+  progress.step("writing " + options.output);
   const bool obj = options.output.ends_with("j") || options.output.ends_with("J");
   write_mesh(options.output, limit_mesh(levels.back(), limit, at_limit,
                                         !options.normals ? Normals::none : obj ? Normals::per_corner : Normals::per_vertex));
+  progress.step("");
   if (!options.common.quiet) {
     const auto without = std::count(at_limit.status.begin(), at_limit.status.end(), LimitStatus::undefined_normal);
-    fmt::print("{}: {} limit points of level {}, {} types of neighbourhood{}\n", options.output, at_limit.position.rows(),
-               options.levels, cache.num_types(),
-               without == 0 ? "" : fmt::format("; no normal at {} of {} sides of vertices", without, at_limit.status.size()));
+    fmt::print("{}: {} limit points of level {}, {} types of neighbourhood, {} of {} vertex sides without a normal\n",
+               options.output, at_limit.position.rows(), options.levels, cache.num_types(), without, at_limit.status.size());
   }
   return 0;
 }

@@ -4,6 +4,7 @@
 #include <pthread.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <csignal>
 #include <new>
 #include <thread>
@@ -15,24 +16,39 @@ namespace {
 
 using namespace sublimit;
 
+constexpr int fault_of_ours = 70;
+
+std::atomic<bool> interrupted = false;
+
+/// Removes temporaries of unfinished outputs; whether there were any.
+bool remove_temporaries() {
+  const std::string mark = "." + std::to_string(::getpid()) + "-";
+  std::error_code ignored;
+  bool found = false;
+  for (const std::string& directory : cli::output_directories())
+    for (const auto& entry : std::filesystem::directory_iterator(directory, ignored)) {
+      const std::string name = entry.path().filename().string();
+      if (name.starts_with(".") && name.ends_with(".tmp") && name.find(mark) != std::string::npos)
+        found |= std::filesystem::remove(entry.path(), ignored);
+    }
+  return found;
+}
+
 /// Ctrl-C ends the program with status 130 and takes the temporaries of unfinished outputs along.
 void handle_interrupts() {
   sigset_t interrupts;
   sigemptyset(&interrupts);
-  sigaddset(&interrupts, SIGINT);
-  sigaddset(&interrupts, SIGTERM);
+  for (const int number : {SIGINT, SIGTERM}) {
+    struct sigaction action {};
+    ::sigaction(number, nullptr, &action);
+    if (action.sa_handler != SIG_IGN) sigaddset(&interrupts, number);  // nohup and `&` ask us not to care
+  }
   pthread_sigmask(SIG_BLOCK, &interrupts, nullptr);
   std::thread([interrupts] {
     int signal = 0;
-    sigwait(&interrupts, &signal);
-    const std::string mark = "." + std::to_string(::getpid()) + "-";
-    std::error_code ignored;
-    for (const std::string& directory : cli::output_directories())
-      for (const auto& entry : std::filesystem::directory_iterator(directory, ignored)) {
-        const std::string name = entry.path().filename().string();
-        if (name.starts_with(".") && name.ends_with(".tmp") && name.find(mark) != std::string::npos)
-          std::filesystem::remove(entry.path(), ignored);
-      }
+    while (sigwait(&interrupts, &signal) != 0) ::pause();  // only if there are none to wait for
+    interrupted = true;
+    while (remove_temporaries()) continue;  // the other threads may have begun another one
     _exit(130);
   }).detach();
 }
@@ -41,15 +57,19 @@ int guarded(const cli::Command& command) {
   try {
     return command();
   } catch (const Error& error) {
-    fmt::print(stderr, "sublimit: {}\n", error.what());
-    return exit_status(error.code());
+    if (interrupted) return 130;  // its temporary was taken away
+    const int status = exit_status(error.code());
+    fmt::print(stderr, "sublimit: {}{}\n", status == fault_of_ours ? "a fault of ours: " : "", error.what());
+    return status;
   } catch (const std::bad_alloc&) {
     fmt::print(stderr, "sublimit: out of memory; use fewer levels\n");
     return exit_status(ErrorCode::resource_error);
   } catch (const std::exception& error) {
     fmt::print(stderr, "sublimit: a fault of ours: {}\n", error.what());
-    return 70;
+  } catch (...) {
+    fmt::print(stderr, "sublimit: a fault of ours\n");
   }
+  return fault_of_ours;
 }
 
 }  // namespace
@@ -83,7 +103,8 @@ int main(int argc, char** argv) {
     if (app.got_subcommand(name)) {
       const int status = guarded(command);
       std::fflush(stdout);
-      _exit(std::ferror(stdout) ? 3 : status);  // the thread that waits for interrupts has nothing to finish
+      if (interrupted) _exit(130);
+      _exit(status == 0 && std::ferror(stdout) ? 3 : status);  // the thread that waits for interrupts has nothing to finish
     }
   return 2;
 }

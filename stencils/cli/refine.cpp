@@ -19,8 +19,8 @@ struct Options {
 int run(const Options& options) {
   check_output_path(options.output, {".obj", ".ply"});
   if (!options.matrix.empty()) check_output_path(options.matrix, {".mtx"});
-  const Loaded loaded = load(options.common);
   Progress progress(options.common.quiet);
+  const Loaded loaded = load(options.common, progress);
   const std::vector<Level> levels =
       refine(*loaded.scheme, loaded.mesh, options.levels, loaded.rules,
              [&](int level) { progress.step(fmt::format("level {} of {}", level, options.levels)); });

@@ -108,6 +108,9 @@ TEST(Ply, BinaryMayStartWithALineFeed) {
                             "element vertex 3\nproperty uchar x\nproperty uchar y\nproperty uchar z\n"
                             "element face 1\nproperty list uchar int vertex_indices\n");
   EXPECT_EQ(parse_ply(text + data.text, "a.ply").positions.row(0), Eigen::RowVector3d(10, 13, 10));
+  std::string cr = text;
+  std::replace(cr.begin(), cr.end(), '\n', '\r');
+  EXPECT_EQ(parse_ply(cr + data.text, "a.ply").positions.row(0), Eigen::RowVector3d(10, 13, 10));
   for (std::size_t i = 0; (i = text.find('\n', i)) != std::string::npos; i += 2) text.insert(i, 1, '\r');
   EXPECT_EQ(parse_ply(text + data.text, "a.ply").positions.row(0), Eigen::RowVector3d(10, 13, 10));
 }
