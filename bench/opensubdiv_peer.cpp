@@ -82,7 +82,8 @@ struct PeerRefiner::Implementation {
   std::unique_ptr<Far::TopologyRefiner> refiner;
 };
 
-PeerRefiner::PeerRefiner(const PeerMesh& mesh, int levels) : implementation_(std::make_unique<Implementation>()) {
+PeerRefiner::PeerRefiner(const PeerMesh& mesh, int levels, bool whole_last_level)
+    : implementation_(std::make_unique<Implementation>()) {
   if (levels < 0 || levels > 10) throw std::runtime_error("OpenSubdiv's stencil factory stops at level 10");
   Far::TopologyDescriptor descriptor;
   descriptor.numVertices = mesh.num_vertices;
@@ -101,7 +102,9 @@ PeerRefiner::PeerRefiner(const PeerMesh& mesh, int levels) : implementation_(std
   using Factory = Far::TopologyRefinerFactory<Far::TopologyDescriptor>;
   implementation_->refiner.reset(Factory::Create(descriptor, Factory::Options(scheme_type(mesh.scheme), sdc)));
   if (!implementation_->refiner) throw std::runtime_error("OpenSubdiv refuses the mesh");
-  implementation_->refiner->RefineUniform(Far::TopologyRefiner::UniformOptions(levels));
+  Far::TopologyRefiner::UniformOptions uniform(levels);
+  uniform.fullTopologyInLastLevel = whole_last_level;
+  implementation_->refiner->RefineUniform(uniform);
 }
 
 PeerRefiner::~PeerRefiner() = default;

@@ -1,193 +1,243 @@
 // SPDX-License-Identifier: Apache-2.0
-// Refinement against OpenSubdiv, in one run: topology, matrices and positions of all levels against Create + RefineUniform +
-// Interpolate, and P_k against StencilTableFactory. `refine_bench --ratios [repetitions]` takes turns and prints medians with
-// their spread and the ratios; otherwise Google Benchmark's own options hold.
+// Refinement against OpenSubdiv, in one run.
+//   BM_Refine        topology, S_k and positions of all levels   | Create + RefineUniform + PrimvarRefiner::Interpolate
+//   BM_StencilTable  P_k, the levels given                       | StencilTableFactory::Create, the refiner given
+//   BM_Baked         P_k from the control mesh                   | Create + RefineUniform + StencilTableFactory::Create
+// OpenSubdiv uses one thread, always. Of its last level it makes the face vertices only, where we make all of the topology;
+// BM_RefineWhole has it make all, too.
+//
+// `refine_bench --ratios [repetitions] [--keep-memory]` takes turns and prints medians with their spread and the ratios;
+// otherwise Google Benchmark's own options hold. --keep-memory: freed memory stays with the process, so that the kernel's
+// time for handing out pages is measured on neither side.
 #include <benchmark/benchmark.h>
+#include <malloc.h>
 #include <sched.h>
 #include <tbb/global_control.h>
 #include <tbb/info.h>
 
 #include <algorithm>
 #include <chrono>
+#include <climits>
 #include <cstdio>
 #include <cstring>
-#include <filesystem>
-#include <functional>
-#include <map>
+#include <memory>
 #include <string>
 
-#include "opensubdiv_peer.h"
-#include "sublimit/mesh/read_mesh.h"
+#include "bench_meshes.h"
 #include "sublimit/refine.h"
 #include "sublimit/schemes.h"
 #include "sublimit/sparse_product.h"
-#include "support/meshes.h"
 
+namespace sublimit::bench {
 namespace {
 
-using namespace sublimit;
-
-struct Case {
-  std::string name, scheme;
-  ControlMesh mesh;
+/// What a run made.
+struct Made {
+  double rows = 0, nonzeros = 0, bytes = 0;
 };
 
-/// A control mesh with the numbers of its elements shuffled as little as an exporter would: as made.
-std::vector<Case> cases() {
-  using namespace sublimit::testing;
-  std::vector<Case> list;
-  const std::filesystem::path car = std::filesystem::path(SUBLIMIT_SHARED_MESHES) / "catmark_car.obj";
-  if (std::filesystem::exists(car)) {
-    list.push_back({"car", "catmull-clark", read_mesh(car)});
-  } else {
-    std::fprintf(stderr, "refine_bench: NO %s: the car is not measured\n", car.c_str());
+struct Job {
+  const Case& mesh;
+  int levels;
+  Scheme<double> scheme;
+  PeerCase peer;
+  std::vector<Level> ours_given;            // for BM_StencilTable
+  std::unique_ptr<PeerRefiner> peer_given;
+
+  Job(const Case& c, int levels_, bool given) : mesh(c), levels(levels_), scheme(find_scheme(c.scheme).value()), peer(c) {
+    if (!given) return;
+    ours_given = refine(scheme, c.mesh, levels);
+    peer_given = std::make_unique<PeerRefiner>(peer.mesh, levels);
   }
-  list.push_back({"torus100k", "catmull-clark", torus(400, 250)});
-  list.push_back({"split_triangles100k", "catmull-clark", quads_from_triangles(triangle_torus(182, 92))});
-  list.push_back({"loop_torus100k", "loop", triangle_torus(250, 200)});
-  return list;
-}
-const std::vector<Case>& all_cases() {
-  static const std::vector<Case> list = cases();
-  return list;
-}
-
-bench::PeerMesh peer_mesh(const Case& c) {
-  static std::map<std::string, std::pair<std::vector<int>, std::vector<float>>> creases;
-  auto& [pairs, sharpness] = creases[c.name];
-  if (pairs.empty())
-    for (const auto& crease : c.mesh.creases) {
-      pairs.insert(pairs.end(), {crease.tail, crease.head});
-      sharpness.push_back(crease.sharpness);
-    }
-  bench::PeerMesh mesh;
-  mesh.scheme = c.scheme == "loop" ? bench::PeerScheme::loop : bench::PeerScheme::catmull_clark;
-  mesh.num_vertices = c.mesh.num_vertices();
-  mesh.face_sizes = c.mesh.face_sizes;
-  mesh.face_vertices = c.mesh.face_vertices;
-  mesh.crease_vertices = pairs;
-  mesh.crease_sharpness = sharpness;
-  return mesh;
-}
-
-// What is measured. Each returns something that depends on all of its work.
-double ours_refine(const Case& c, int levels) {
-  const std::vector<Level> refined = refine(find_scheme(c.scheme).value(), c.mesh, levels);
-  Points x = c.mesh.positions;
-  for (int k = 1; k <= levels; ++k) x = apply(refined[k].S, x);
-  return x(x.rows() / 2, 0);
-}
-double theirs_refine(const Case& c, int levels) {
-  const bench::PeerRefiner refiner(peer_mesh(c), levels);
-  return refiner.refine(std::span<const double>(c.mesh.positions.data(), size_t(c.mesh.positions.size()))).checksum;
-}
-
-struct Prepared {
-  std::vector<Level> levels;
-  std::unique_ptr<bench::PeerRefiner> refiner;
 };
-const Prepared& prepared(const Case& c, int levels) {
-  static std::string key;
-  static Prepared p;
-  const std::string wanted = c.name + std::to_string(levels);
-  if (key != wanted) {
-    p = {};
-    p.levels = refine(find_scheme(c.scheme).value(), c.mesh, levels);
-    p.refiner = std::make_unique<bench::PeerRefiner>(peer_mesh(c), levels);
-    key = wanted;
-  }
-  return p;
-}
-double ours_stencils(const Case& c, int levels) {
-  return double(refinement_matrix(prepared(c, levels).levels).nonZeros());
-}
-double theirs_stencils(const Case& c, int levels) {
-  return double(prepared(c, levels).refiner->stencils_double().weights);
+
+Made made_of(const SparseMatrix& S) {
+  const double rows = double(S.rows()), nonzeros = double(S.nonZeros());
+  return {rows, nonzeros, 12 * nonzeros + 4 * rows};
 }
 
+Made ours_refine(const Job& job) {
+  const std::vector<Level> levels = refine(job.scheme, job.mesh.mesh, job.levels);
+  std::vector<Points> positions;
+  Made all;
+  for (int k = 1; k <= job.levels; ++k) {
+    positions.push_back(apply(levels[k].S, k == 1 ? job.mesh.mesh.positions : positions.back()));
+    const Made made = made_of(levels[k].S);
+    all = {all.rows + made.rows, all.nonzeros + made.nonzeros, all.bytes + made.bytes + 24 * made.rows};
+  }
+  benchmark::DoNotOptimize(positions.back().data());
+  return all;
+}
+template <class Real, bool whole_last_level>
+Made theirs_refine(const Job& job) {
+  const Points& x = job.mesh.mesh.positions;
+  const std::vector<Real> positions(x.data(), x.data() + x.size());
+  const PeerRefiner refiner(job.peer.mesh, job.levels, whole_last_level);
+  const double rows = double(refiner.refine(std::span<const Real>(positions)).vertices);
+  return {rows, 0, 3 * sizeof(Real) * rows};
+}
+
+Made ours_stencils(const Job& job) { return made_of(refinement_matrix(job.ours_given)); }
+Made ours_baked(const Job& job) { return made_of(refinement_matrix(refine(job.scheme, job.mesh.mesh, job.levels))); }
+template <class Real>
+Made theirs_stencils(const PeerRefiner& refiner) {
+  const PeerStencils made = std::is_same_v<Real, float> ? refiner.stencils_float() : refiner.stencils_double();
+  const double rows = double(made.stencils), nonzeros = double(made.weights);
+  return {rows, nonzeros, (4 + sizeof(Real)) * nonzeros + 8 * rows};
+}
+template <class Real>
+Made theirs_stencils(const Job& job) {
+  return theirs_stencils<Real>(*job.peer_given);
+}
+Made theirs_baked(const Job& job) { return theirs_stencils<double>(PeerRefiner(job.peer.mesh, job.levels)); }
+
+using Run = Made (*)(const Job&);
 struct Measured {
   const char* name;
-  double (*ours)(const Case&, int);
-  double (*theirs)(const Case&, int);
+  bool given;  // levels or refiner, outside the clock
+  Run ours, theirs, theirs_float;
 };
-constexpr Measured measured[] = {{"refine", ours_refine, theirs_refine}, {"stencils", ours_stencils, theirs_stencils}};
+constexpr Measured measured[] = {
+    {"BM_Refine", false, ours_refine, theirs_refine<double, false>, theirs_refine<float, false>},
+    {"BM_RefineWhole", false, ours_refine, theirs_refine<double, true>, theirs_refine<float, true>},
+    {"BM_StencilTable", true, ours_stencils, theirs_stencils<double>, theirs_stencils<float>},
+    {"BM_Baked", false, ours_baked, theirs_baked, nullptr},
+};
 
-double write_bandwidth() {  // bytes per second of writing memory that is there already
+std::vector<int> thread_counts() {
+  const int all = tbb::info::default_concurrency();
+  return all == 1 ? std::vector<int>{1} : std::vector<int>{1, all};
+}
+
+/// A number of threads for us; one thread is pinned, so that the scheduler does not move it.
+class Threads {
+ public:
+  explicit Threads(int count) : limit_(tbb::global_control::max_allowed_parallelism, size_t(count)) {
+    sched_getaffinity(0, sizeof before_, &before_);
+    if (count > 1) return;
+    cpu_set_t last;
+    CPU_ZERO(&last);
+    for (int cpu = CPU_SETSIZE - 1; cpu >= 0 && CPU_COUNT(&last) == 0; --cpu)
+      if (CPU_ISSET(cpu, &before_)) CPU_SET(cpu, &last);
+    sched_setaffinity(0, sizeof last, &last);
+  }
+  ~Threads() { sched_setaffinity(0, sizeof before_, &before_); }
+  Threads(const Threads&) = delete;
+  Threads& operator=(const Threads&) = delete;
+
+ private:
+  tbb::global_control limit_;
+  cpu_set_t before_;
+};
+
+double seconds(const auto& work) {
+  const auto start = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// Bytes per second of writing memory that is there already.
+double write_bandwidth() {
   std::vector<char> block(size_t{1} << 28, 1);
   double best = 0;
-  for (int i = 0; i < 5; ++i) {
-    const auto start = std::chrono::steady_clock::now();
-    std::memset(block.data(), i, block.size());
-    benchmark::DoNotOptimize(block.data());
-    benchmark::ClobberMemory();
-    best = std::max(best, double(block.size()) / std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
-  }
+  for (int i = 0; i < 5; ++i)
+    best = std::max(best, double(block.size()) / seconds([&] {
+                            std::memset(block.data(), i, block.size());
+                            benchmark::DoNotOptimize(block.data());
+                            benchmark::ClobberMemory();
+                          }));
   return best;
 }
 
 int print_ratios(int repetitions) {
-  std::printf("write bandwidth, one thread: %.1f GB/s\n", write_bandwidth() / 1e9);
-  std::printf("%-9s %-20s %5s %7s %22s %22s %7s\n", "what", "mesh", "level", "threads", "ours ms (min..max)",
-              "OpenSubdiv ms", "ratio");
-  cpu_set_t all;
-  sched_getaffinity(0, sizeof all, &all);
-  for (const int threads : {1, int(tbb::info::default_concurrency())}) {
-    tbb::global_control limit(tbb::global_control::max_allowed_parallelism, size_t(threads));
-    if (threads == 1) {  // pinned, so that the scheduler does not move the one thread
-      cpu_set_t one;
-      CPU_ZERO(&one);
-      for (int cpu = 0; cpu < CPU_SETSIZE; ++cpu)
-        if (CPU_ISSET(cpu, &all)) {
-          CPU_SET(cpu, &one);
-          break;
-        }
-      sched_setaffinity(0, sizeof one, &one);
-    } else {
-      sched_setaffinity(0, sizeof all, &all);
-    }
+  std::printf("write bandwidth, one thread: %.1f GB/s; medians of %d in ms, (least..most)\n", write_bandwidth() / 1e9,
+              repetitions);
+  std::printf("%-16s%-17s%3s %3s %27s %27s %10s %6s %7s\n", "", "mesh", "lev", "thr", "ours", "OpenSubdiv double", "float",
+              "ratio", "Mrows/s");
+  const std::vector<Case> meshes = cases();
+  for (const int threads : thread_counts()) {
+    const Threads scope(threads);
     for (const Measured& m : measured)
-      for (const Case& c : all_cases())
+      for (const Case& c : meshes)
         for (const int levels : {2, 3}) {
-          std::vector<double> times[2];
-          for (int r = 0; r < repetitions; ++r)
-            for (const int who : {0, 1}) {
-              if (m.ours == ours_stencils) prepared(c, levels);
-              const auto start = std::chrono::steady_clock::now();
-              benchmark::DoNotOptimize((who == 0 ? m.ours : m.theirs)(c, levels));
-              times[who].push_back(1e3 * std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+          const Job job(c, levels, m.given);
+          std::vector<double> times[3];
+          Made made;
+          for (int r = -1; r < repetitions; ++r)  // the first turn warms up
+            for (int who = 0; who < 3; ++who) {
+              const Run run = who == 0 ? m.ours : who == 1 ? m.theirs : m.theirs_float;
+              if (!run) continue;
+              Made result;
+              const double ms = 1e3 * seconds([&] { result = run(job); });
+              if (who == 0) made = result;
+              if (r >= 0) times[who].push_back(ms);
             }
           for (auto& t : times) std::sort(t.begin(), t.end());
-          const auto median = [&](int who) { return times[who][times[who].size() / 2]; };
-          std::printf("%-9s %-20s %5d %7d %9.1f (%.1f..%.1f) %9.1f (%.1f..%.1f) %6.2fx\n", m.name, c.name.c_str(), levels, threads,
-                      median(0), times[0].front(), times[0].back(), median(1), times[1].front(), times[1].back(),
-                      median(1) / median(0));
+          const auto median = [&](int who) { return times[who].empty() ? 0 : times[who][times[who].size() / 2]; };
+          std::printf("%-16s%-17s%3d %3d %9.1f (%7.1f..%7.1f) %9.1f (%7.1f..%7.1f) %10.1f %5.2fx %7.1f\n", m.name,
+                      c.name.c_str(), levels, threads, median(0), times[0].front(), times[0].back(), median(1),
+                      times[1].front(), times[1].back(), median(2), median(1) / median(0), made.rows / median(0) / 1e3);
           std::fflush(stdout);
         }
   }
   return 0;
 }
 
-void register_benchmarks() {
+void register_benchmarks(const std::vector<Case>& meshes) {
+  benchmark::RegisterBenchmark("BM_WriteBandwidth", [](benchmark::State& state) {
+    std::vector<char> block(size_t{1} << 28, 1);
+    for (auto _ : state) {
+      std::memset(block.data(), int(state.iterations()), block.size());
+      benchmark::DoNotOptimize(block.data());
+      benchmark::ClobberMemory();
+    }
+    state.SetBytesProcessed(state.iterations() * std::int64_t(block.size()));
+  });
   for (const Measured& m : measured)
-    for (const Case& c : all_cases())
+    for (const Case& c : meshes)
       for (const int levels : {2, 3})
-        for (const auto& [who, run] : {std::pair("ours", m.ours), std::pair("opensubdiv", m.theirs)}) {
-          const std::string name =
-              std::string("BM_") + m.name + "/" + who + "/" + c.name + "/level:" + std::to_string(levels);
-          const auto work = run;
-          benchmark::RegisterBenchmark(name.c_str(), [&c, levels, work](benchmark::State& state) {
-            for (auto _ : state) benchmark::DoNotOptimize(work(c, levels));
-            state.counters["faces"] = c.mesh.num_faces();
-          })->Unit(benchmark::kMillisecond)->UseRealTime();
-        }
+        for (const auto& [who, run] :
+             {std::pair("ours", m.ours), std::pair("opensubdiv", m.theirs), std::pair("opensubdiv_float", m.theirs_float)})
+          for (const int threads : thread_counts()) {
+            if (!run || (run != m.ours && threads > 1)) continue;
+            const std::string name = std::string(m.name) + "/" + who + "/" + c.name + "/level:" + std::to_string(levels) +
+                                     "/threads:" + std::to_string(threads);
+            const auto work = [&c, levels, threads, given = m.given, run = run](benchmark::State& state) {
+              const Threads scope(threads);
+              const Job job(c, levels, given);
+              Made made;
+              for (auto _ : state) made = run(job);
+              state.counters["rows"] = benchmark::Counter(made.rows, benchmark::Counter::kIsIterationInvariantRate);
+              state.counters["nonzeros"] = made.nonzeros;
+              state.counters["bytes"] = benchmark::Counter(made.bytes, benchmark::Counter::kIsIterationInvariantRate);
+            };
+            benchmark::RegisterBenchmark(name.c_str(), work)->Unit(benchmark::kMillisecond)->UseRealTime();
+          }
 }
 
-}  // namespace
-
 int main(int argc, char** argv) {
-  if (argc > 1 && std::string(argv[1]) == "--ratios") return print_ratios(argc > 2 ? std::stoi(argv[2]) : 5);
-  register_benchmarks();
+  bool ratios = false;
+  int repetitions = 5;
+  for (int i = 1; i < argc; ++i) {
+    const std::string argument = argv[i];
+    if (argument == "--ratios") {
+      ratios = true;
+    } else if (argument == "--keep-memory") {
+      mallopt(M_MMAP_MAX, 0);
+      mallopt(M_TRIM_THRESHOLD, INT_MAX);
+    } else if (ratios) {
+      repetitions = std::stoi(argument);
+    }
+  }
+  if (ratios) return print_ratios(repetitions);
+  const std::vector<Case> meshes = cases();
+  register_benchmarks(meshes);
   benchmark::Initialize(&argc, argv);
   benchmark::RunSpecifiedBenchmarks();
   return 0;
 }
+
+}  // namespace
+}  // namespace sublimit::bench
+
+int main(int argc, char** argv) { return sublimit::bench::main(argc, argv); }

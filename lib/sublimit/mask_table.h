@@ -2,6 +2,7 @@
 #pragma once
 // Masks as numbers, one evaluation per type of site. A mask depends on face sizes alone (sharpness is blended outside), so
 // a mesh of a million vertices asks a mask a handful of times; `visit_site` goes through a site's vertices in the order of its slots.
+#include <algorithm>
 #include <map>
 #include <vector>
 
@@ -14,7 +15,10 @@ template <class T>
 class MaskTable {
  public:
   /// Weights by slot.
-  using Weights = std::vector<T>;
+  struct Weights : std::vector<T> {
+    using std::vector<T>::vector;
+    bool has_zeros = false;
+  };
 
   MaskTable(const Masks<T>& masks, int level) : masks_(&masks), level_(level) {}
 
@@ -64,6 +68,7 @@ class MaskTable {
   static Weights dense(const Stencil<T>& stencil, Index slots) {
     Weights weights(slots, T(0));
     for (const auto& [slot, weight] : stencil.terms()) weights[slot] = weight;
+    weights.has_zeros = std::find(weights.begin(), weights.end(), T(0)) != weights.end();
     return weights;
   }
 

@@ -118,8 +118,9 @@ std::vector<Level> refine(const Scheme<double>& scheme, const ControlMesh& mesh,
 
 SparseMatrix refinement_matrix(const std::vector<Level>& levels) {
   if (levels.size() == 1) return identity(levels[0].topology().num_vertices());
-  SparseMatrix P = levels[1].S;
-  for (size_t k = 2; k < levels.size(); ++k) P = product(levels[k].S, P);
+  if (levels.size() == 2) return levels[1].S;
+  SparseMatrix P = product(levels[2].S, levels[1].S);
+  for (size_t k = 3; k < levels.size(); ++k) product(levels[k].S, P).swap(P);
   return P;
 }
 
@@ -234,7 +235,7 @@ std::pair<SparseMatrix, FaceMatrix> subdivide(const std::string& name, Index num
   SparseMatrix P = identity(num_vertices);
   for (int k = 0; k < levels; ++k) {
     level = next_level(*scheme, level);
-    P = k == 0 ? level.S : product(level.S, P);
+    k == 0 ? P.swap(level.S) : product(level.S, P).swap(P);
   }
   const Topology& t = level.topology();
   const Index columns = levels == 0 ? static_cast<Index>(F.cols()) : t.uniform_face_size();

@@ -30,6 +30,20 @@ struct LevelOf {
   SparseMatrixOf<T> S;      ///< from the level before (empty for level 0): x_k = S * x_{k-1}
 
   const Topology& topology() const { return steps.back().topology; }
+
+  LevelOf() = default;
+  LevelOf(const LevelOf&) = default;
+  LevelOf& operator=(const LevelOf&) = default;
+  // Eigen 3.4 copies a sparse matrix where it could move it.
+  LevelOf(LevelOf&& other) noexcept { *this = std::move(other); }
+  LevelOf& operator=(LevelOf&& other) noexcept {
+    number = other.number;
+    steps = std::move(other.steps);
+    sharpness = std::move(other.sharpness);
+    holes = std::move(other.holes);
+    S.swap(other.S);
+    return *this;
+  }
 };
 using Level = LevelOf<double>;
 

@@ -49,9 +49,9 @@ LevelOf<T> next_level(const Scheme<T>& scheme, const LevelOf<T>& parent) {
     SparseMatrixOf<T> S =
         subdivision_matrix(scheme, step, *topology, refinement, *sharpness, child_sharpness, parent.number);
     if (child.steps.empty()) {
-      child.S = std::move(S);
+      child.S.swap(S);
     } else {
-      child.S = SparseMatrixOf<T>(S * child.S);
+      SparseMatrixOf<T>(S * child.S).swap(child.S);
     }
     std::vector<bool> child_holes(refinement.topology.num_faces(), false);
     if (std::find(holes->begin(), holes->end(), true) != holes->end())

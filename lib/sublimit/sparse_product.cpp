@@ -4,6 +4,7 @@
 #include <tbb/enumerable_thread_specific.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <limits>
 #include <numeric>
 #include <string>
@@ -31,54 +32,105 @@ void apply_rows(const SparseMatrix& S, const double* in, double* out, std::int64
   }
 }
 
-/// One row of A * B at a time. Sums stand in a dense array beside the row that last touched them. The rows of B are sorted,
-/// and neighbours share most columns: only what a row adds to those before it is put in order and merged.
+/// One row of A * B at a time. The rows of B that meet in a row of A belong to neighbouring points and share most columns: the
+/// longest of them gives the columns to start from, which in regular regions are all there are.
 class RowProduct {
  public:
-  RowProduct(const SparseMatrix& A, const SparseMatrix& B) : A_(A), B_(B), cells_(B.cols(), Cell{0, -1}) {}
+  RowProduct(const SparseMatrix& A, const SparseMatrix& B) : A_(A), B_(B), place_(B.cols(), 0) {}
 
-  /// Appends the row's columns, ascending, and their values.
-  void append(Index r, std::vector<Index>& columns, std::vector<double>& values) {
-    row_.clear();
+  Index length(Index r) {
+    start(r);
     for (Index i = A_.outerIndexPtr()[r]; i < A_.outerIndexPtr()[r + 1]; ++i) {
-      const Index row = A_.innerIndexPtr()[i], begin = B_.outerIndexPtr()[row], end = B_.outerIndexPtr()[row + 1];
+      const Row row = b_row(A_.innerIndexPtr()[i]);
+      if (same_columns(row)) continue;
+      for (Index k = 0; k < row.length; ++k)
+        if (place(row.columns[k]) >= count_) append(row.columns[k]);
+    }
+    return static_cast<Index>(count_);
+  }
+
+  /// Writes the row's columns, ascending, and their values; both have room for `length(r)`.
+  Index write(Index r, Index* columns, double* values) {
+    start(r);
+    std::copy_n(longest_.columns, longest_.length, columns);
+    std::fill_n(values, longest_.length, 0.0);
+    for (Index i = A_.outerIndexPtr()[r]; i < A_.outerIndexPtr()[r + 1]; ++i) {
+      const Row row = b_row(A_.innerIndexPtr()[i]);
       const double w = A_.valuePtr()[i];
-      const size_t known = row_.size();
-      for (Index k = begin; k < end; ++k) {
-        const Index c = B_.innerIndexPtr()[k];
-        Cell& cell = cells_[c];
-        if (cell.row == r) {
-          cell.sum += w * B_.valuePtr()[k];
-        } else {
-          cell = {w * B_.valuePtr()[k], r};
-          row_.push_back(c);
+      if (same_columns(row)) {
+        for (Index k = 0; k < row.length; ++k) values[k] += w * row.values[k];
+        continue;
+      }
+      for (Index k = 0; k < row.length; ++k) {
+        std::uint32_t at = place(row.columns[k]);
+        if (at >= count_) {
+          at = append(row.columns[k]);
+          columns[at] = row.columns[k];
+          values[at] = 0;
         }
-      }
-      if (known > 0 && row_.size() > known && row_[known] < row_[known - 1]) {
-        merged_.resize(row_.size());
-        std::merge(row_.begin(), row_.begin() + Eigen::Index(known), row_.begin() + Eigen::Index(known), row_.end(),
-                   merged_.begin());
-        row_.swap(merged_);
+        values[at] += w * row.values[k];
       }
     }
-    const size_t at = columns.size();
-    columns.resize(at + row_.size());
-    values.resize(at + row_.size());
-    for (size_t k = 0; k < row_.size(); ++k) {
-      columns[at + k] = row_[k];
-      values[at + k] = cells_[row_[k]].sum;
-    }
+    if (static_cast<Index>(count_) > longest_.length) put_in_order(columns, values);
+    return static_cast<Index>(count_);
   }
 
  private:
-  struct Cell {
-    double sum;
-    Index row;
+  struct Row {
+    const Index* columns;
+    const double* values;
+    Index length;
   };
+  Row b_row(Index r) const {
+    const Index begin = B_.outerIndexPtr()[r];
+    return {B_.innerIndexPtr() + begin, B_.valuePtr() + begin, B_.outerIndexPtr()[r + 1] - begin};
+  }
+  bool same_columns(const Row& row) const {
+    if (row.columns == longest_.columns) return true;
+    return row.length == longest_.length && std::equal(row.columns, row.columns + row.length, longest_.columns);
+  }
+
+  /// Places of the columns of the longest row of B that row r needs. Neighbouring rows mostly start from the same ones.
+  void start(Index r) {
+    Row longest{nullptr, nullptr, 0};
+    for (Index i = A_.outerIndexPtr()[r]; i < A_.outerIndexPtr()[r + 1]; ++i) {
+      const Row row = b_row(A_.innerIndexPtr()[i]);
+      if (row.length > longest.length) longest = row;
+    }
+    const bool same = static_cast<Index>(count_) == longest_.length && same_columns(longest);
+    longest_ = longest;
+    if (same) return;
+    base_ += count_;
+    count_ = 0;
+    if (base_ > std::numeric_limits<std::uint32_t>::max() - place_.size()) {
+      std::fill(place_.begin(), place_.end(), 0);
+      base_ = 1;
+    }
+    for (Index k = 0; k < longest.length; ++k) append(longest.columns[k]);
+  }
+  /// Where a column stands in the row; `count_` or more if it does not yet.
+  std::uint32_t place(Index column) const { return place_[column] - base_; }
+  std::uint32_t append(Index column) {
+    place_[column] = base_ + count_;
+    return count_++;
+  }
+
+  void put_in_order(Index* columns, double* values) {
+    const Index count = static_cast<Index>(count_), sorted = longest_.length;
+    columns_.assign(columns, columns + count);
+    values_.assign(values, values + count);
+    std::sort(columns_.begin() + sorted, columns_.end());
+    std::merge(columns_.begin(), columns_.begin() + sorted, columns_.begin() + sorted, columns_.end(), columns);
+    for (Index k = 0; k < count; ++k) values[k] = values_[place(columns[k])];
+  }
+
   const SparseMatrix& A_;
   const SparseMatrix& B_;
-  std::vector<Cell> cells_;
-  std::vector<Index> row_, merged_;
+  std::vector<std::uint32_t> place_;  // by column, from base_ on: what earlier rows left behind lies below it
+  std::uint32_t base_ = 1, count_ = 0;
+  Row longest_{nullptr, nullptr, 0};
+  std::vector<Index> columns_;
+  std::vector<double> values_;
 };
 
 }  // namespace
@@ -104,42 +156,27 @@ SparseMatrix product(const SparseMatrix& A, const SparseMatrix& B) {
   if (A.cols() != B.rows())
     throw InvalidParameter("cannot multiply matrices of " + shape(Index(A.rows()), Index(A.cols())) + " and " +
                            shape(Index(B.rows()), Index(B.cols())));
-  struct Block {  // exactly as large as its rows
-    UninitializedVector<Index> columns;
-    UninitializedVector<double> values;
-  };
-  struct Worker {
-    RowProduct rows;
-    std::vector<Index> columns;
-    std::vector<double> values;
-  };
-  std::vector<Block> blocks(num_blocks(A.rows()));
-  SparseMatrix P(A.rows(), B.cols());
-  Index* const outer = P.outerIndexPtr();
-  tbb::enumerable_thread_specific<Worker> workers([&] { return Worker{RowProduct(A, B), {}, {}}; });
+  tbb::enumerable_thread_specific<RowProduct> products([&] { return RowProduct(A, B); });
+  std::vector<std::int64_t> start(num_blocks(A.rows()) + 1, 0);
   parallel_for_blocks(A.rows(), [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
-    Worker& worker = workers.local();
-    worker.columns.clear();
-    worker.values.clear();
-    for (std::int64_t r = begin; r < end; ++r) {
-      outer[r] = static_cast<Index>(worker.columns.size());  // within the block, at first
-      worker.rows.append(static_cast<Index>(r), worker.columns, worker.values);
-    }
-    blocks[block].columns.assign(worker.columns.begin(), worker.columns.end());
-    blocks[block].values.assign(worker.values.begin(), worker.values.end());
+    RowProduct& rows = products.local();
+    for (std::int64_t r = begin; r < end; ++r) start[block + 1] += rows.length(static_cast<Index>(r));
   });
-  std::vector<std::int64_t> start(blocks.size() + 1, 0);
-  for (size_t b = 0; b < blocks.size(); ++b) start[b + 1] = start[b] + std::int64_t(blocks[b].columns.size());
+  std::partial_sum(start.begin(), start.end(), start.begin());
   if (start.back() > std::numeric_limits<Index>::max())
     throw ResourceError("the product would have " + std::to_string(start.back()) +
                         " nonzeros, more than 32-bit indices count; use fewer levels or refine fewer faces");
+  SparseMatrix P(A.rows(), B.cols());
   P.resizeNonZeros(static_cast<Index>(start.back()));
+  Index* const outer = P.outerIndexPtr();
   outer[A.rows()] = static_cast<Index>(start.back());
   parallel_for_blocks(A.rows(), [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
-    for (std::int64_t r = begin; r < end; ++r) outer[r] += static_cast<Index>(start[block]);
-    std::copy(blocks[block].columns.begin(), blocks[block].columns.end(), P.innerIndexPtr() + start[block]);
-    std::copy(blocks[block].values.begin(), blocks[block].values.end(), P.valuePtr() + start[block]);
-    blocks[block] = {};
+    RowProduct& rows = products.local();
+    Index at = static_cast<Index>(start[block]);
+    for (std::int64_t r = begin; r < end; ++r) {
+      outer[r] = at;
+      at += rows.write(static_cast<Index>(r), P.innerIndexPtr() + at, P.valuePtr() + at);
+    }
   });
   return P;
 }

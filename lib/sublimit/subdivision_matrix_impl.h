@@ -5,7 +5,6 @@
 #include <tbb/enumerable_thread_specific.h>
 
 #include <algorithm>
-#include <atomic>
 #include <limits>
 #include <numeric>
 #include <string>
@@ -25,6 +24,7 @@ template <class T>
 class RowMaker {
  public:
   using Term = std::pair<Index, T>;
+  using Weights = typename MaskTable<T>::Weights;
 
   RowMaker(const Scheme<T>& scheme, const Step<T>& step, const Topology& parent, const Refinement& refinement,
            const Sharpness& sharpness, const Sharpness& child_sharpness, int level,
@@ -60,12 +60,21 @@ class RowMaker {
   }
   Index length(Face f) { return t_.size(f); }
 
-  /// The row of the child of an element: columns ascending, zeros dropped. Valid until the next call.
-  const std::vector<Term>& row(Face f) { return smooth_row(f, masks_.face(t_.size(f))); }
+  /// Writes the row of the child of an element, columns ascending, zeros dropped; returns its length.
+  Index write(Face f, Index* columns, T* values) { return write_smooth(f, masks_.face(t_.size(f)), columns, values); }
+  Index write(Edge e, Index* columns, T* values) {
+    if (is_sharp(sharpness_.edge[index(e)])) return write(row(e), columns, values);
+    return write_smooth(e, smooth_weights(e), columns, values);
+  }
+  Index write(Vertex v, Index* columns, T* values) {
+    if (!is_plain_[index(v)]) return write(row(v), columns, values);
+    return write_smooth(v, smooth_weights(v), columns, values);
+  }
 
+ private:
+  /// Rows where something is sharp. Valid until the next call.
   const std::vector<Term>& row(Edge e) {
     const float s = sharpness_.edge[index(e)];
-    if (!is_sharp(s)) return smooth_row(e, smooth_weights(e));
     row_.clear();
     const T w = stays_sharp(e) ? T(1) : T(s);
     for (const auto& [end, weight] : {Term{index(t_.tail(e)), crease_edge_[0]}, Term{index(t_.head(e)), crease_edge_[1]}})
@@ -75,7 +84,6 @@ class RowMaker {
   }
 
   const std::vector<Term>& row(Vertex v) {
-    if (is_plain_[index(v)]) return smooth_row(v, smooth_weights(v));
     const VertexSharpness around(t_, sharpness_, v);
     const Rule rule = around.rule(), child_rule = around.child_rule();
     row_.clear();
@@ -89,29 +97,58 @@ class RowMaker {
     return merge();
   }
 
- private:
-  const std::vector<T>& smooth_weights(Vertex v) {
+  const Weights& smooth_weights(Vertex v) {
     if (t_.uniform_face_size()) return masks_.vertex(t_.num_faces(v), t_.uniform_face_size());
     face_sizes_around(t_, v, sizes_);
     return masks_.vertex(sizes_);
   }
-  const std::vector<T>& smooth_weights(Edge e) {
+  const Weights& smooth_weights(Edge e) {
     if (t_.uniform_face_size()) return masks_.uniform_edge(t_.uniform_face_size());
     const HalfEdge h = t_.half_edge(e);
     return masks_.edge(t_.size(t_.face(h)), t_.size(t_.face(t_.twin(h))));
   }
 
+  static Index write(const std::vector<Term>& row, Index* columns, T* values) {
+    for (const auto& [c, w] : row) {
+      *columns++ = c;
+      *values++ = w;
+    }
+    return static_cast<Index>(row.size());
+  }
+
   template <class Element>
-  const std::vector<Term>& smooth_row(Element element, const std::vector<T>& weights) {
-    row_.resize(weights.size());
-    Term* term = row_.data();
-    const T* weight = weights.data();
-    visit_site(t_, element, [&](Index v) {
-      term->first = v;
-      term->second = *weight++;
-      ++term;
-    });
-    return merge();
+  Index write_smooth(Element element, const Weights& weights, Index* columns, T* values) {
+    const size_t count = weights.size();
+    Index written = 0;  // unless ranking serves
+    if (count <= 4) written = write_ranked<4>(element, weights, columns, values);
+    else if (count <= 8) written = write_ranked<8>(element, weights, columns, values);
+    else if (count <= 12) written = write_ranked<12>(element, weights, columns, values);
+    else if (count <= 16) written = write_ranked<16>(element, weights, columns, values);
+    if (written) return written;
+    row_.clear();
+    add(element, T(1), weights);
+    return write(merge(), columns, values);
+  }
+
+  /// A row of up to N terms, or nothing if points coincide or weights are zero. The place of a column is the number of
+  /// smaller ones: comparisons without branches, which sorting would mispredict.
+  template <Index N, class Element>
+  Index write_ranked(Element element, const Weights& weights, Index* columns, T* values) const {
+    if (weights.has_zeros) return 0;
+    const Index count = static_cast<Index>(weights.size());
+    Index slots[N], rank[N] = {};
+    std::fill_n(slots, N, std::numeric_limits<Index>::max());
+    Index* slot = slots;
+    visit_site(t_, element, [&](Index v) { *slot++ = v; });
+    for (Index j = 0; j < N; ++j)  // all N: unrolled, the ranks stay in registers
+      for (Index i = 0; i < N; ++i) rank[i] += slots[j] < slots[i];
+    const Index pairs = std::accumulate(rank, rank + N, 0) - (N - count) * count;
+    if (pairs != count * (count - 1) / 2) return 0;  // some pair is equal
+    for (Index i = 0; i < count; ++i) {
+      columns[rank[i]] = slots[i];
+      values[rank[i]] = weights[i];
+    }
+    return count;
   }
 
   void add_rule(const T& w, Rule rule, Vertex v, const std::vector<float>& edges) {
@@ -142,7 +179,7 @@ class RowMaker {
   }
 
   template <class Element>
-  void add(Element element, const T& factor, const std::vector<T>& weights) {
+  void add(Element element, const T& factor, const Weights& weights) {
     const T* weight = weights.data();
     visit_site(t_, element, [&](Index v) { row_.push_back({v, factor * *weight++}); });
   }
@@ -201,36 +238,36 @@ inline std::vector<std::uint8_t> plain_vertices(const Topology& t, const Sharpne
   return plain;
 }
 
-/// Moves the rows together that turned out shorter than planned (coinciding points on small meshes, weights of zero).
+/// Moves the blocks of rows together where some turned out shorter than planned (coinciding points on small meshes,
+/// weights of zero): the block's nonzeros end at end[block] and not where the next block starts.
 template <class T>
-SparseMatrixOf<T> compacted(const SparseMatrixOf<T>& loose, const UninitializedVector<Index>& lengths) {
+SparseMatrixOf<T> compacted(const SparseMatrixOf<T>& loose, const std::vector<std::int64_t>& start,
+                            const std::vector<std::int64_t>& end) {
+  std::vector<std::int64_t> tight_start(start.size(), 0);
+  for (size_t b = 0; b < end.size(); ++b) tight_start[b + 1] = tight_start[b] + end[b] - start[b];
   SparseMatrixOf<T> tight(loose.rows(), loose.cols());
-  std::int64_t total = 0;
-  for (Index r = 0; r < loose.rows(); ++r) {
-    tight.outerIndexPtr()[r] = static_cast<Index>(total);
-    total += lengths[r];
-  }
-  tight.outerIndexPtr()[loose.rows()] = static_cast<Index>(total);
-  tight.resizeNonZeros(static_cast<Index>(total));
-  parallel_for(loose.rows(), [&](std::int64_t r) {
-    const Index from = loose.outerIndexPtr()[r], to = tight.outerIndexPtr()[r];
-    std::copy_n(loose.innerIndexPtr() + from, lengths[r], tight.innerIndexPtr() + to);
-    std::copy_n(loose.valuePtr() + from, lengths[r], tight.valuePtr() + to);
+  tight.resizeNonZeros(static_cast<Index>(tight_start.back()));
+  tight.outerIndexPtr()[loose.rows()] = static_cast<Index>(tight_start.back());
+  parallel_for_blocks(loose.rows(), [&](std::int64_t block, std::int64_t first, std::int64_t last) {
+    const std::int64_t from = start[block], to = tight_start[block], count = end[block] - from;
+    for (std::int64_t r = first; r < last; ++r)
+      tight.outerIndexPtr()[r] = loose.outerIndexPtr()[r] - static_cast<Index>(from - to);
+    std::copy_n(loose.innerIndexPtr() + from, count, tight.innerIndexPtr() + to);
+    std::copy_n(loose.valuePtr() + from, count, tight.valuePtr() + to);
   });
   return tight;
 }
 
-/// Fills a matrix row by row: length_of(maker, r) plans, row_of(maker, r) delivers at most as many terms.
-template <class T, class MakeMaker, class LengthOf, class RowOf>
+/// Fills a matrix row by row: length_of(maker, r) plans, write(maker, r, columns, values) writes at most as many terms.
+template <class T, class MakeMaker, class LengthOf, class Write>
 SparseMatrixOf<T> assemble(Index rows, Index columns, const MakeMaker& make_maker, const LengthOf& length_of,
-                           const RowOf& row_of) {
+                           const Write& write) {
   tbb::enumerable_thread_specific<std::invoke_result_t<const MakeMaker&>> makers(make_maker);
-  UninitializedVector<Index> lengths(rows);
   std::vector<std::int64_t> start(num_blocks(rows) + 1, 0);
   parallel_for_blocks(rows, [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
     auto& maker = makers.local();
     std::int64_t sum = 0;
-    for (std::int64_t r = begin; r < end; ++r) sum += lengths[r] = length_of(maker, static_cast<Index>(r));
+    for (std::int64_t r = begin; r < end; ++r) sum += length_of(maker, static_cast<Index>(r));
     start[block + 1] = sum;
   });
   std::partial_sum(start.begin(), start.end(), start.begin());
@@ -242,27 +279,18 @@ SparseMatrixOf<T> assemble(Index rows, Index columns, const MakeMaker& make_make
   S.resizeNonZeros(static_cast<Index>(start.back()));
   Index* const outer = S.outerIndexPtr();
   outer[rows] = static_cast<Index>(start.back());
-  std::atomic<bool> loose = false;
+  std::vector<std::int64_t> block_end(start.size() - 1);
   parallel_for_blocks(rows, [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
     auto& maker = makers.local();
-    std::int64_t at = start[block];
+    Index at = static_cast<Index>(start[block]);
     for (std::int64_t r = begin; r < end; ++r) {
-      outer[r] = static_cast<Index>(at);
-      Index* column = S.innerIndexPtr() + at;
-      T* value = S.valuePtr() + at;
-      at += lengths[r];
-      const auto& row = row_of(maker, static_cast<Index>(r));
-      for (const auto& [c, w] : row) {
-        *column++ = c;
-        *value++ = w;
-      }
-      if (static_cast<Index>(row.size()) != lengths[r]) {
-        lengths[r] = static_cast<Index>(row.size());
-        loose = true;
-      }
+      outer[r] = at;
+      at += write(maker, static_cast<Index>(r), S.innerIndexPtr() + at, S.valuePtr() + at);
     }
+    block_end[block] = at;
   });
-  return loose ? compacted(S, lengths) : S;
+  if (!std::equal(block_end.begin(), block_end.end(), start.begin() + 1)) compacted(S, start, block_end).swap(S);
+  return S;
 }
 
 }  // namespace assembly
@@ -287,8 +315,8 @@ SparseMatrixOf<T> subdivision_matrix(const Scheme<T>& scheme, const Step<T>& ste
       refinement.topology.num_vertices(), parent.num_vertices(),
       [&] { return Maker(scheme, step, parent, refinement, sharpness, child_sharpness, level, plain); },
       [&](Maker& maker, Index r) { return visit(r, [&](auto element) { return maker.length(element); }); },
-      [&](Maker& maker, Index r) -> const std::vector<typename Maker::Term>& {
-        return *visit(r, [&](auto element) { return &maker.row(element); });
+      [&](Maker& maker, Index r, Index* columns, T* values) {
+        return visit(r, [&](auto element) { return maker.write(element, columns, values); });
       });
 }
 

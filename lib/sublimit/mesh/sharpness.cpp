@@ -170,20 +170,20 @@ Sharpness refine(const Sharpness& sharpness, const Topology& parent, const Refin
   parallel_for(r.topology.num_vertices(), [&](std::int64_t v) {
     child.vertex[v] = v < parent.num_vertices() ? decayed(sharpness.vertex[v]) : 0;
   });
-  parallel_for(r.topology.num_edges(), [&](std::int64_t i) {
-    const Index half = r.edge_parent[i];
-    child.edge[i] = 0;
-    if (half < 0) return;
-    const Edge e{half / 2};
-    const float s = sharpness.edge[index(e)];
-    if (!is_semi_sharp(s) || sharpness.creasing == Creasing::uniform) {
-      child.edge[i] = decayed(s);
-      return;
-    }
-    const Vertex end = half % 2 == 0 ? parent.tail(e) : parent.head(e);
-    const std::vector<Edge> around = parent.edges(end);
-    const auto at = std::find(around.begin(), around.end(), e) - around.begin();
-    child.edge[i] = VertexSharpness(parent, sharpness, end).child_edges[at];
+  parallel_for(r.topology.num_edges(), [&](std::int64_t e) { child.edge[e] = 0; });
+  parallel_for(parent.num_edges(), [&](std::int64_t i) {
+    const Edge e{static_cast<Index>(i)};
+    const float s = sharpness.edge[i];
+    if (!is_sharp(s)) return;
+    const auto at = [&](Vertex end) {  // how the edge decays at one of its ends
+      if (!is_semi_sharp(s) || sharpness.creasing == Creasing::uniform) return decayed(s);
+      const std::vector<Edge> around = parent.edges(end);
+      const auto position = std::find(around.begin(), around.end(), e) - around.begin();
+      return VertexSharpness(parent, sharpness, end).child_edges[position];
+    };
+    const auto [at_tail, at_head] = r.halves(parent, parent.half_edge(e));
+    child.edge[index(r.topology.edge(at_tail))] = at(parent.tail(e));
+    child.edge[index(r.topology.edge(at_head))] = at(parent.head(e));
   });
   return child;
 }

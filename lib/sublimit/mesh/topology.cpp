@@ -292,7 +292,11 @@ void TopologyBuilder::number_edges(Topology& t, const std::vector<std::vector<In
   std::vector<Index> first_edge(num_blocks(count) + 1, 0);
   parallel_for_blocks(count, [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
     Index n = 0;
-    for (std::int64_t h = begin; h < end; ++h) n += opens(h);
+    if (later.empty()) {  // no twin, -1, is the largest unsigned number: nothing to branch on
+      for (std::int64_t h = begin; h < end; ++h) n += static_cast<std::uint32_t>(t.twin_[h]) > static_cast<std::uint32_t>(h);
+    } else {
+      for (std::int64_t h = begin; h < end; ++h) n += opens(h);
+    }
     first_edge[block + 1] = n;
   });
   for (size_t i = 1; i < first_edge.size(); ++i) first_edge[i] += first_edge[i - 1];

@@ -52,6 +52,9 @@ class Topology {
   Index num_half_edges() const { return static_cast<Index>(tail_.size()); }
   const std::vector<Fault>& faults() const { return faults_; }
 
+  /// Every edge and vertex is manifold.
+  bool is_manifold() const { return nonmanifold_vertices_.empty() && nonmanifold_edges_.empty(); }
+
   // Faces.
   Index size(Face f) const { return uniform_ ? uniform_ : offsets_[index(f) + 1] - offsets_[index(f)]; }
   HalfEdge first(Face f) const { return HalfEdge{uniform_ ? uniform_ * index(f) : offsets_[index(f)]}; }

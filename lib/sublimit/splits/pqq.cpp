@@ -54,14 +54,18 @@ Refinement refine_pqq(const Topology& parent) {
     const Index face_point = index(r.child(f));
     for (Index k = 0; k < n; ++k) {
       const Index h = begin + k, next = begin + (k + 1 == n ? 0 : k + 1), prev = begin + (k == 0 ? n - 1 : k - 1);
+      const auto twin = [&](Index g) { return index(parent.twin(HalfEdge{g})); };
+      const Index first = twin(h), second = twin(prev), rotation = n == 4 ? k : 0;
+      const Index tails[] = {index(parent.tail(HalfEdge{h})), index(r.child(parent.edge(HalfEdge{h}))), face_point,
+                             index(r.child(parent.edge(HalfEdge{prev})))};
+      const Index twins[] = {first < 0 ? -1 : pqq.second_half(first), pqq.side(next, 2), pqq.side(prev, 1),
+                             second < 0 ? -1 : pqq.first_half(second)};
+      for (Index side = 0; side < 4; ++side) {
+        const Index at = 4 * h + ((side + rotation) & 3);
+        b.tail[at] = tails[side];
+        b.twin[at] = twins[side];
+      }
       r.face_parent[h] = index(f);
-      b.tail[pqq.side(h, 0)] = index(parent.tail(HalfEdge{h}));
-      b.tail[pqq.side(h, 1)] = index(r.child(parent.edge(HalfEdge{h})));
-      b.tail[pqq.side(h, 2)] = face_point;
-      b.tail[pqq.side(h, 3)] = index(r.child(parent.edge(HalfEdge{prev})));
-      b.twin[pqq.side(h, 1)] = pqq.side(next, 2);
-      b.twin[pqq.side(h, 2)] = pqq.side(prev, 1);
-      halves.set_twins(h, b.twin);
     }
     b.outgoing[face_point] = pqq.side(begin, 2);
     b.degree[face_point] = n;
@@ -70,12 +74,7 @@ Refinement refine_pqq(const Topology& parent) {
   halves.set_nonmanifold(b, r);
 
   r.topology = std::move(b).build();
-  set_edge_parents(r, parent, [&](HalfEdge child) -> std::pair<HalfEdge, bool> {
-    const Index h = index(child) / 4, side = (index(child) - pqq.rotation(h)) & 3;
-    if (side == 0) return {HalfEdge{h}, true};
-    if (side == 3) return {parent.prev(HalfEdge{h}), false};
-    return {no_half_edge, false};
-  });
+  set_edge_parents(r, parent);
   return r;
 }
 

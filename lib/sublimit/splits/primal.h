@@ -32,6 +32,7 @@ class PrimalHalves {
 
   /// Non-manifold edges and vertices of the child.
   void set_nonmanifold(TopologyBuilder& b, const Refinement& r) const {
+    if (t_.is_manifold()) return;
     for (Index e = 0; e < t_.num_edges(); ++e) {
       if (exists(t_.twin(t_.half_edge(Edge{e}))) || !t_.is_nonmanifold(Edge{e})) continue;
       std::vector<Index> at_tail, at_head;
@@ -81,15 +82,14 @@ class PrimalHalves {
   Second second_;
 };
 
-/// `edge_parent` of every child edge, from its first half-edge by origin(child half-edge) -> {parent half-edge or none,
-/// whether it is the half at that half-edge's vertex}.
-template <class OriginOf>
-void set_edge_parents(Refinement& r, const Topology& parent, const OriginOf& origin) {
+/// `edge_parent` of every child edge, from the halves of the parents' edges; what they leave out lies inside a face.
+inline void set_edge_parents(Refinement& r, const Topology& parent) {
   r.edge_parent.resize(r.topology.num_edges());
-  parallel_for(r.topology.num_edges(), [&](std::int64_t i) {
-    const auto [h, at_vertex] = origin(r.topology.half_edge(Edge{static_cast<Index>(i)}));
-    r.edge_parent[i] = -1;
-    if (exists(h)) r.edge_parent[i] = 2 * index(parent.edge(h)) + (at_vertex != parent.forward(h));
+  parallel_for(r.topology.num_edges(), [&](std::int64_t i) { r.edge_parent[i] = -1; });
+  parallel_for(parent.num_edges(), [&](std::int64_t i) {
+    const auto [at_tail, at_head] = r.halves(parent, parent.half_edge(Edge{static_cast<Index>(i)}));
+    r.edge_parent[index(r.topology.edge(at_tail))] = static_cast<Index>(2 * i);
+    r.edge_parent[index(r.topology.edge(at_head))] = static_cast<Index>(2 * i + 1);
   });
 }
 

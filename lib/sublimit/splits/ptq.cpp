@@ -67,12 +67,7 @@ Refinement refine_ptq(const Topology& parent) {
   halves.set_nonmanifold(b, r);
 
   r.topology = std::move(b).build();
-  set_edge_parents(r, parent, [&](HalfEdge child) -> std::pair<HalfEdge, bool> {
-    const Index f = index(child) / 12, k = index(child) % 12 / 3, position = index(child) % 3;
-    if (k == 3 || position == (k + 1) % 3) return {no_half_edge, false};
-    if (position == k) return {HalfEdge{3 * f + k}, true};
-    return {HalfEdge{3 * f + (k + 2) % 3}, false};
-  });
+  set_edge_parents(r, parent);
   return r;
 }
 
