@@ -126,6 +126,19 @@ Loaded load(const Common& common, Progress& progress) {
   return loaded;
 }
 
+void naming_mesh(const Common& common, const std::function<void()>& body) {
+  const std::string place = common.mesh + ": " + common.scheme + ": ";
+  try {
+    body();
+  } catch (const InvalidMesh& error) {
+    throw InvalidMesh(place + error.what());
+  } catch (const UnsupportedTopology& error) {
+    throw UnsupportedTopology(place + error.what());
+  } catch (const AnalysisError& error) {
+    throw AnalysisError(place + error.what());
+  }
+}
+
 void check_output_path(const std::string& path, const std::vector<std::string>& extensions) {
   std::string extension = std::filesystem::path(path).extension().string(), names;
   std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return std::tolower(c); });

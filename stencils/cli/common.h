@@ -63,6 +63,9 @@ void limit_threads(const Common& common);
 /// Reads the mesh and its sidecar, prints warnings, and finds the scheme if one was named.
 Loaded load(const Common& common, Progress& progress);
 
+/// Runs `body`; what it finds wrong with the mesh is told with the names of mesh and scheme.
+void naming_mesh(const Common& common, const std::function<void()>& body);
+
 /// The scheme of a name, or an InvalidOption that offers the nearest ones.
 Scheme<double> scheme_or_throw(const std::string& name, const SchemeOptions& options = {});
 

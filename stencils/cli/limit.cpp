@@ -21,14 +21,17 @@ int run(const Options& options) {
   check_output_path(options.output, {".obj", ".ply"});
   Progress progress(options.common.quiet);
   const Loaded loaded = load(options.common, progress);
-  const std::vector<Level> levels =
-      refine(*loaded.scheme, loaded.mesh, options.levels, loaded.rules,
-             [&](int level) { progress.step(fmt::format("level {} of {}", level, options.levels)); });
+  std::vector<Level> levels;
+  LimitMatrices limit;
+  LimitMaskCache cache(*loaded.scheme);
+  naming_mesh(options.common, [&] {
+    levels = refine(*loaded.scheme, loaded.mesh, options.levels, loaded.rules,
+                    [&](int level) { progress.step(fmt::format("level {} of {}", level, options.levels)); });
+    progress.step("limits");
+    limit = limit_matrices(levels.back(), cache);
+  });
   Points points = loaded.mesh.positions;
   for (size_t k = 1; k < levels.size(); ++k) points = apply(levels[k].S, points);
-  progress.step("limits");
-  LimitMaskCache cache(*loaded.scheme);
-  const LimitMatrices limit = limit_matrices(levels.back(), cache);
   const LimitPoints at_limit = limit_points(limit, levels.back().topology(), points);
   progress.step("writing " + options.output);
   const bool obj = options.output.ends_with("j") || options.output.ends_with("J");

@@ -21,9 +21,11 @@ int run(const Options& options) {
   if (!options.matrix.empty()) check_output_path(options.matrix, {".mtx"});
   Progress progress(options.common.quiet);
   const Loaded loaded = load(options.common, progress);
-  const std::vector<Level> levels =
-      refine(*loaded.scheme, loaded.mesh, options.levels, loaded.rules,
-             [&](int level) { progress.step(fmt::format("level {} of {}", level, options.levels)); });
+  std::vector<Level> levels;
+  naming_mesh(options.common, [&] {
+    levels = refine(*loaded.scheme, loaded.mesh, options.levels, loaded.rules,
+                    [&](int level) { progress.step(fmt::format("level {} of {}", level, options.levels)); });
+  });
   Points points = loaded.mesh.positions;
   for (size_t k = 1; k < levels.size(); ++k) points = apply(levels[k].S, points);
   // The matrix first: if it does not fit, there is no mesh without its matrix.

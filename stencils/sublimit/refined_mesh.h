@@ -10,7 +10,8 @@ namespace sublimit {
 /// A level as a mesh. With `tags`, refining what is read back goes on where this level stopped: sharpness and holes are
 /// written where connectivity does not imply them, and Boundary::none becomes edge-only with the holes that it made.
 /// @note  The middle of a non-manifold edge of two faces wound alike is a crease here and a corner to a reader, which cannot
-///        know better.
+///        know better. Nor can it tell apart two edges that join the same two vertices: children of such meshes (a pillow of
+///        two triangles, a degenerate edge) are joined otherwise when read back.
 MeshOutput refined_mesh(const Level& level, const Points& points, const ControlMesh& control,
                         const SubdivisionOptions& options, bool tags);
 

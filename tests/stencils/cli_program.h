@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// The program as a child process, and what it said.
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <functional>
+#include <initializer_list>
+#include <iterator>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sublimit/base/read_file.h"
+#include "support/temporary_directory.h"
+
+namespace sublimit::testing {
+
+struct Outcome {
+  int status = -1;  ///< -1: killed by a signal
+  std::string out, err;
+};
+
+/// A run of the program that has begun.
+class Program {
+ public:
+  /// @param prepare  runs in the child before the program does: limits and the like, nothing that takes memory
+  /// @param error    where stderr goes instead of `Outcome::err`
+  explicit Program(const std::vector<std::string>& arguments, const std::function<void()>& prepare = {}, int error = -1)
+      : out_(std::tmpfile()), err_(std::tmpfile()) {
+    if (!out_ || !err_) throw std::runtime_error("no temporary files");
+    std::vector<char*> words{const_cast<char*>(SUBLIMIT_PROGRAM)};
+    for (const std::string& argument : arguments) words.push_back(const_cast<char*>(argument.c_str()));
+    words.push_back(nullptr);
+    id_ = ::fork();
+    if (id_ < 0) throw std::runtime_error("cannot fork");
+    if (id_ > 0) return;
+    ::dup2(::open("/dev/null", O_RDONLY), STDIN_FILENO);
+    ::dup2(::fileno(out_), STDOUT_FILENO);
+    ::dup2(error >= 0 ? error : ::fileno(err_), STDERR_FILENO);
+    if (prepare) prepare();
+    ::execv(SUBLIMIT_PROGRAM, words.data());
+    ::_exit(127);
+  }
+  Program(const Program&) = delete;
+  Program& operator=(const Program&) = delete;
+  ~Program() {
+    if (!waited_) wait();
+    std::fclose(out_);
+    std::fclose(err_);
+  }
+
+  pid_t id() const { return id_; }
+
+  Outcome wait() {
+    int status = 0;
+    while (::waitpid(id_, &status, 0) < 0 && errno == EINTR) continue;
+    waited_ = true;
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text(out_), text(err_)};
+  }
+
+ private:
+  static std::string text(std::FILE* file) {
+    std::string result;
+    char block[4096];
+    for (off_t at = 0;;) {
+      const ssize_t count = ::pread(::fileno(file), block, sizeof block, at);
+      if (count <= 0) return result;
+      result.append(block, size_t(count));
+      at += count;
+    }
+  }
+
+  std::FILE *out_, *err_;
+  pid_t id_ = -1;
+  bool waited_ = false;
+};
+
+inline Outcome sublimit(const std::vector<std::string>& arguments, const std::function<void()>& prepare = {}) {
+  return Program(arguments, prepare).wait();
+}
+
+inline void expect_parts(const std::string& text, std::initializer_list<std::string_view> parts) {
+  for (const std::string_view part : parts)
+    EXPECT_NE(text.find(part), std::string::npos) << "no '" << part << "' in:\n" << text;
+}
+
+/// Expects status 0, and nothing on stderr unless `warned`.
+inline Outcome expect_done(const Outcome& outcome, bool warned = false) {
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  if (!warned) {
+    EXPECT_EQ(outcome.err, "");
+  }
+  return outcome;
+}
+
+/// Expects a failure with this status and a message with every part.
+inline void expect_failure(const Outcome& outcome, int status, std::initializer_list<std::string_view> parts) {
+  EXPECT_EQ(outcome.status, status) << outcome.out << outcome.err;
+  EXPECT_EQ(outcome.out, "");
+  expect_parts(outcome.err, parts);
+}
+
+inline size_t count_of(std::string_view text, std::string_view part) {
+  size_t count = 0;
+  for (size_t at = text.find(part); at != std::string_view::npos; at = text.find(part, at + 1)) ++count;
+  return count;
+}
+
+}  // namespace sublimit::testing
