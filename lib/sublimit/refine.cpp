@@ -33,8 +33,24 @@ std::string in_words(double bytes) {
 struct Counts {
   double corners, faces, edges, vertices;
   Counts next(Split split) const {
-    if (split == Split::ptq) return {4 * corners, 4 * faces, 2 * edges + corners, vertices + edges};
-    return {4 * corners, corners, 2 * edges + corners, vertices + faces + edges};
+    switch (split) {
+      case Split::ptq:
+        return {4 * corners, 4 * faces, 2 * edges + corners, vertices + edges};
+      case Split::dqq:
+        return {2 * corners + 4 * edges, faces + edges + vertices, corners + 2 * edges, corners};
+      case Split::mid_edge:
+        return {2 * corners, faces + vertices, corners, edges};
+      case Split::sqrt3:
+        return {3 * corners, corners, edges + corners, vertices + faces};
+      case Split::dual:
+        return {corners, vertices, edges, faces};
+      case Split::quads:
+        return {4 * edges, edges, 2 * edges, vertices + faces};
+      case Split::keep:
+        return *this;
+      default:
+        return {4 * corners, corners, 2 * edges + corners, vertices + faces + edges};
+    }
   }
   double bytes() const {
     const double topology = 20 * corners + 12 * edges + 8 * vertices, sharpness = 4 * (edges + vertices);
@@ -49,7 +65,7 @@ void check_levels(const Scheme<double>& scheme, const Topology& t, int levels) {
                              in_words(bytes) + " of memory";
   Counts counts{double(t.num_half_edges()), double(t.num_faces()), double(t.num_edges()), double(t.num_vertices())};
   for (int k = 0; k < levels; ++k) {
-    for (const Step<double>& step : scheme.steps) counts = counts.next(step.split);
+    for (const Step<double>& step : scheme.steps_at(k, t)) counts = counts.next(step.split);
     if (counts.corners > std::numeric_limits<Index>::max())
       throw ResourceError(amount + ", and level " + std::to_string(k + 1) +
                           " has more face corners than 32-bit indices count; use at most " + std::to_string(k));
@@ -100,6 +116,32 @@ SparseMatrix identity(Index size) {
 
 }  // namespace
 
+void check_sharpness(const std::string& scheme, Sharpening sharpening, bool is_dual, const Topology& t,
+                     const Sharpness& sharpness, const ControlMesh& tags) {
+  if (sharpening == Sharpening::semi_sharp) return;
+  const auto refuse = [&](const std::string& what) {
+    const bool some = sharpening == Sharpening::sharp;
+    throw UnsupportedTopology(what + ": " + scheme +
+                              (some ? " has rules for infinite sharpness (>= 10) only; make it 10, "
+                                    : " has no rule for it; ") +
+                              "remove the tag (--no-creases), or use a scheme with semi-sharp creases: catmull-clark or loop");
+  };
+  for (Index i = 0; i < t.num_edges(); ++i) {
+    const Edge e{i};
+    const float s = sharpness.edge[i];
+    if (!is_sharp(s) || !exists(t.twin(t.half_edge(e)))) continue;
+    if (sharpening == Sharpening::boundary || !is_infinite(s))
+      refuse("sharp edge (" + std::to_string(index(t.tail(e))) + "," + std::to_string(index(t.head(e))) + ")");
+  }
+  for (const ControlMesh::Corner& corner : tags.corners) {
+    const Vertex v{corner.vertex};
+    const bool interior = exists(t.outgoing(v)) && exists(t.twin(t.outgoing(v)));
+    if (!is_sharp(corner.sharpness)) continue;
+    if (is_dual || (interior && sharpening == Sharpening::boundary) || !is_infinite(corner.sharpness))
+      refuse("corner " + std::to_string(corner.vertex));
+  }
+}
+
 template LevelOf<double> control_level(const Scheme<double>&, const ControlMesh&, const SubdivisionOptions&);
 template LevelOf<double> next_level<double>(const Scheme<double>&, const LevelOf<double>&);
 
@@ -128,7 +170,7 @@ double predicted_bytes(const Scheme<double>& scheme, const Topology& t, int leve
   Counts counts{double(t.num_half_edges()), double(t.num_faces()), double(t.num_edges()), double(t.num_vertices())};
   double bytes = counts.bytes();
   for (int k = 0; k < levels; ++k) {
-    for (const Step<double>& step : scheme.steps) counts = counts.next(step.split);
+    for (const Step<double>& step : scheme.steps_at(k, t)) counts = counts.next(step.split);
     bytes += counts.bytes();
   }
   return bytes;

@@ -13,6 +13,7 @@ namespace sublimit {
 template <class T>
 bool needs_neighbors(const Scheme<T>& scheme) {
   for (const Step<T>& step : scheme.steps) {
+    if (!step.masks.vertex || !step.masks.edge) return true;
     MaskTable<T> masks(step.masks, 0);
     const std::vector<T>& vertex = masks.vertex(4, 4);
     const std::vector<T>& edge = masks.edge(4, 4);
@@ -22,6 +23,10 @@ bool needs_neighbors(const Scheme<T>& scheme) {
   return false;
 }
 
+/// @throws UnsupportedTopology  sharpness that the scheme has no rule for
+void check_sharpness(const std::string& scheme, Sharpening sharpening, bool is_dual, const Topology& topology,
+                     const Sharpness& sharpness, const ControlMesh& tags);
+
 template <class T>
 LevelOf<T> control_level(const Scheme<T>& scheme, const ControlMesh& mesh, const SubdivisionOptions& options) {
   const Boundary boundary = options.boundary.value_or(mesh.boundary.value_or(Boundary::edge_and_corner));
@@ -30,6 +35,7 @@ LevelOf<T> control_level(const Scheme<T>& scheme, const ControlMesh& mesh, const
   level.steps.emplace_back();
   level.steps[0].topology = Topology(view(mesh));
   level.sharpness = initial_sharpness(level.topology(), mesh, boundary, creasing);
+  check_sharpness(scheme.name, scheme.sharpening, scheme.is_dual(), level.topology(), level.sharpness, mesh);
   const bool holes_at_boundary = boundary == Boundary::none && needs_neighbors(scheme);
   level.holes = initial_holes(level.topology(), mesh, holes_at_boundary ? boundary : Boundary::edge_only);
   return level;
@@ -42,9 +48,10 @@ LevelOf<T> next_level(const Scheme<T>& scheme, const LevelOf<T>& parent) {
   const Topology* topology = &parent.topology();
   const Sharpness* sharpness = &parent.sharpness;
   const std::vector<bool>* holes = &parent.holes;
-  child.steps.reserve(scheme.steps.size());
-  for (const Step<T>& step : scheme.steps) {
-    Refinement refinement = refine(*topology, step.split);
+  const std::vector<Step<T>> steps = scheme.steps_at(parent.number, *topology);
+  child.steps.reserve(steps.size());
+  for (const Step<T>& step : steps) {
+    Refinement refinement = refine(*topology, step.split, parent.number);
     Sharpness child_sharpness = refine(*sharpness, *topology, refinement);
     SparseMatrixOf<T> S =
         subdivision_matrix(scheme, step, *topology, refinement, *sharpness, child_sharpness, parent.number);
@@ -53,9 +60,7 @@ LevelOf<T> next_level(const Scheme<T>& scheme, const LevelOf<T>& parent) {
     } else {
       SparseMatrixOf<T>(S * child.S).swap(child.S);
     }
-    std::vector<bool> child_holes(refinement.topology.num_faces(), false);
-    if (std::find(holes->begin(), holes->end(), true) != holes->end())
-      for (size_t f = 0; f < child_holes.size(); ++f) child_holes[f] = (*holes)[refinement.face_parent[f]];
+    std::vector<bool> child_holes = refine_holes(*holes, *topology, refinement);
     child.holes = std::move(child_holes);
     child.sharpness = std::move(child_sharpness);
     child.steps.push_back(std::move(refinement));

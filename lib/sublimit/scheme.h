@@ -3,10 +3,10 @@
 // A scheme: masks and the split they belong to, nothing else. Everything that the library says about a scheme (refined
 // meshes, limits, tangents) is computed from the matrices that these masks fill. A scheme in a file of your own program
 // gets all that ours get.
-#include <map>
 #include <string>
 #include <vector>
 
+#include "sublimit/scheme_options.h"
 #include "sublimit/sites.h"
 #include "sublimit/splits/split.h"
 
@@ -17,25 +17,24 @@ template <class T>
 struct Step {
   Split split;
   Masks<T> masks;
+  CreaseMasks<T> creases = {};  ///< where they differ from the scheme's
+};
+
+/// What may be sharp besides the boundary.
+enum class Sharpening {
+  boundary,    ///< nothing: the scheme has no rule for sharp edges inside
+  sharp,       ///< edges and vertices that never get smooth: they cut the surface, each side has the boundary's rules
+  semi_sharp,  ///< any sharpness
 };
 
 /// What a scheme is said to do, each claim with its law in the tests.
 struct Claims {
-  int regular = 0;         ///< the limit is C^regular on regular meshes
-  int extraordinary = 0;   ///< and C^extraordinary at extraordinary points
-  int reproduces = 1;      ///< polynomials of this degree are reproduced on regular meshes
-  bool convex_hull = false;    ///< no negative weights
-  bool interpolates = false;   ///< old vertices stay
-  std::string limit;           ///< of regular meshes, in words
-};
-
-/// Options by name, as on the command line: `triangles=smooth`.
-using SchemeOptions = std::map<std::string, std::string>;
-
-/// An option that a scheme understands.
-struct OptionInfo {
-  std::string name;
-  std::vector<std::string> values;  ///< the first is the default
+  int regular = 0;            ///< the limit is C^regular on regular meshes
+  int extraordinary = 0;      ///< and C^extraordinary at extraordinary points
+  int reproduces = 1;         ///< polynomials of this degree are reproduced on regular meshes
+  bool convex_hull = false;   ///< no negative weights
+  bool interpolates = false;  ///< old vertices stay
+  std::string limit;          ///< of regular meshes, in words
 };
 
 template <class T>
@@ -46,15 +45,39 @@ struct Scheme {
   CreaseMasks<T> creases;
   Claims claims;
   std::vector<OptionInfo> options = {};
-  /// The masks repeat with this period in the level; 1 for stationary schemes.
+  /// The masks repeat with this period in the level; 1 for stationary schemes. Rotating schemes (sqrt3, mid_edge) have
+  /// 2: only then a neighbourhood lies as it lay before.
   int period = 1;
+  Sharpening sharpening = Sharpening::semi_sharp;
+  /// Corners of the faces it takes, 0 for any (or what its split takes).
+  int corners = 0;
+  /// Steps before those of level 0 where a control mesh has other faces than `corners`: they become such faces.
+  std::vector<Step<T>> preparation = {};
 
-  /// Corners of the faces it takes, 0 for any.
-  int face_size() const { return steps[0].split == Split::ptq ? 3 : 0; }
+  int face_size() const {
+    return corners                                                          ? (preparation.empty() ? corners : 0)
+           : steps[0].split == Split::ptq || steps[0].split == Split::sqrt3 ? 3
+                                                                            : 0;
+  }
+  /// Steps of one level.
+  std::vector<Step<T>> steps_at(int level, const Topology& topology) const {
+    if (level > 0 || preparation.empty() || topology.uniform_face_size() == corners) return steps;
+    std::vector<Step<T>> all = preparation;
+    all.insert(all.end(), steps.begin(), steps.end());
+    return all;
+  }
+  /// Masks look beyond the faces of their element.
+  bool is_wide() const {
+    for (const Step<T>& step : steps)
+      if (step.masks.wide_edge || step.masks.wide_face) return true;
+    return false;
+  }
+  /// A vertex has no child vertex: its limit is that of the face (or border edge) that it becomes.
+  bool is_dual() const {
+    for (const Step<T>& step : steps)
+      if (step.split == Split::dqq || step.split == Split::mid_edge || step.split == Split::dual) return true;
+    return false;
+  }
 };
-
-/// Value of an option, its default if absent.
-/// @throws InvalidOption  a value that is not among `info.values`
-std::string option(const SchemeOptions& options, const OptionInfo& info);
 
 }  // namespace sublimit

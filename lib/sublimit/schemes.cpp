@@ -9,12 +9,6 @@
 namespace sublimit {
 namespace {
 
-std::string joined(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
-  return text;
-}
-
 size_t edit_distance(const std::string& a, const std::string& b) {
   std::vector<size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), size_t{0});
@@ -31,23 +25,6 @@ size_t edit_distance(const std::string& a, const std::string& b) {
 }
 
 }  // namespace
-
-std::string option(const SchemeOptions& options, const OptionInfo& info) {
-  const auto at = options.find(info.name);
-  if (at == options.end()) return info.values.front();
-  if (std::find(info.values.begin(), info.values.end(), at->second) == info.values.end())
-    throw InvalidOption("option " + info.name + "=" + at->second + ": the value must be one of " + joined(info.values));
-  return at->second;
-}
-
-void check_options(const std::string& scheme, const std::vector<OptionInfo>& known, const SchemeOptions& given) {
-  std::vector<std::string> names;
-  for (const OptionInfo& info : known) names.push_back(info.name);
-  for (const auto& [name, value] : given)
-    if (std::find(names.begin(), names.end(), name) == names.end())
-      throw InvalidOption("scheme " + scheme + " has no option '" + name + "'; " +
-                          (names.empty() ? "it has none" : "it has " + joined(names)));
-}
 
 std::vector<std::string> nearest_scheme_names(const std::string& name, int count) {
   std::vector<std::string> names;

@@ -3,9 +3,17 @@
 // The registry: one line a scheme.
 #include <optional>
 
+#include "sublimit/schemes/averaging.h"
 #include "sublimit/schemes/bilinear.h"
+#include "sublimit/schemes/butterfly.h"
 #include "sublimit/schemes/catmull_clark.h"
+#include "sublimit/schemes/doo_sabin.h"
+#include "sublimit/schemes/interpolatory_sqrt3.h"
+#include "sublimit/schemes/kobbelt.h"
 #include "sublimit/schemes/loop.h"
+#include "sublimit/schemes/mid_edge.h"
+#include "sublimit/schemes/modified_butterfly.h"
+#include "sublimit/schemes/sqrt3.h"
 
 namespace sublimit {
 
@@ -21,6 +29,16 @@ inline constexpr SchemeEntry<T> registry[] = {
     {"catmull-clark", catmull_clark<T>},
     {"loop", loop<T>},
     {"loop-warren", loop_warren<T>},
+    {"doo-sabin", doo_sabin<T>},
+    {"doo-sabin-averaging", doo_sabin_averaging<T>},
+    {"mid-edge", mid_edge<T>},
+    {"mid-edge-habib-warren", mid_edge_habib_warren<T>},
+    {"averaging", averaging<T>},
+    {"butterfly", butterfly<T>},
+    {"modified-butterfly", modified_butterfly<T>},
+    {"sqrt3", sqrt3<T>},
+    {"interpolatory-sqrt3", interpolatory_sqrt3<T>},
+    {"kobbelt", kobbelt<T>},
 };
 
 /// Every scheme with its default options.
@@ -30,9 +48,6 @@ std::vector<Scheme<T>> all_schemes() {
   for (const SchemeEntry<T>& entry : registry<T>) schemes.push_back(entry.make({}));
   return schemes;
 }
-
-/// @throws InvalidOption  an option that a scheme of this name does not have
-void check_options(const std::string& scheme, const std::vector<OptionInfo>& known, const SchemeOptions& given);
 
 /// A scheme by name; nothing if there is none (`nearest_scheme_names` offers some).
 /// @throws InvalidOption  an unknown option, or a value outside its range

@@ -35,52 +35,131 @@ class RowMaker {
         child_sharpness_(child_sharpness),
         is_plain_(is_plain),
         masks_(step.masks, level) {
-    const auto dense = [](const Stencil<T>& stencil) {
-      std::vector<T> weights(3, T(0));
-      for (const auto& [slot, weight] : stencil.terms()) weights[slot] = weight;
-      return weights;
-    };
-    crease_vertex_ = dense(scheme.creases.vertex(CreaseSite<T>(step.masks, level)));
-    crease_edge_ = dense(scheme.creases.edge(CreaseEdgeSite<T>(step.masks, level)));
+    const CreaseMasks<T>& creases = step.creases.edge ? step.creases : scheme.creases;
+    if (creases.vertex) crease_vertex_ = dense(creases.vertex(CreaseSite<T>(step.masks, level)), 3);
+    for (const int before : {0, 1})
+      for (const int after : {0, 1})
+        crease_edge_[before][after] = dense(creases.edge(CreaseEdgeSite<T>(step.masks, level, before, after)), 4);
+    const auto& all = crease_edge_[1][1];
+    crease_is_wide_ = all[2] != T(0) || all[3] != T(0);
+    wide_edge_ = static_cast<bool>(step.masks.wide_edge);
+    wide_face_ = static_cast<bool>(step.masks.wide_face);
+    wide_borders_ = step.masks.wide_borders;
   }
 
   /// Number of terms before coinciding points are merged and zeros dropped; exact for all but those.
   Index length(Vertex v) {
     if (!is_plain_[index(v)]) return static_cast<Index>(row(v).size());
-    if (t_.uniform_face_size()) return 1 + t_.num_faces(v) * (t_.uniform_face_size() - 2);
-    Index count = 0;
-    visit_site(t_, v, [&](Index) { ++count; });
-    return count;
+    return smooth_weights(v).count();
   }
   Index length(Edge e) {
     const float s = sharpness_.edge[index(e)];
-    if (is_sharp(s)) return s >= 1 ? 2 : static_cast<Index>(row(e).size());
-    const HalfEdge h = t_.half_edge(e);
-    return t_.size(t_.face(h)) + t_.size(t_.face(t_.twin(h))) - 2;
+    if (has_crease_row(e)) return s >= 1 && !crease_is_wide_ ? 2 : static_cast<Index>(row(e).size());
+    return smooth_weights(e).count();
   }
-  Index length(Face f) { return t_.size(f); }
+  Index length(Face f) {
+    if (!wide_face_) return t_.size(f);
+    const Weights& weights = wide_weights(f);
+    return weights.on_edges.empty() ? weights.count() : static_cast<Index>(row(f, weights).size());
+  }
+  Index length(HalfEdge corner) { return masks_.corner(t_.size(t_.face(corner))).count(); }
+  /// A point on a half-edge without twin, `part` from its tail on.
+  struct Border {
+    HalfEdge half;
+    Index part, parts;
+  };
+  Index length(const Border& border) { return static_cast<Index>(row(border).size()); }
 
   /// Writes the row of the child of an element, columns ascending, zeros dropped; returns its length.
-  Index write(Face f, Index* columns, T* values) { return write_smooth(f, masks_.face(t_.size(f)), columns, values); }
+  Index write(Face f, Index* columns, T* values) {
+    if (!wide_face_) return write_smooth(f, masks_.face(t_.size(f)), columns, values);
+    const Weights& weights = wide_weights(f);
+    if (!weights.on_edges.empty()) return write(row(f, weights), columns, values);
+    return write_smooth(f, weights, columns, values);
+  }
   Index write(Edge e, Index* columns, T* values) {
-    if (is_sharp(sharpness_.edge[index(e)])) return write(row(e), columns, values);
+    if (has_crease_row(e)) return write(row(e), columns, values);
     return write_smooth(e, smooth_weights(e), columns, values);
   }
   Index write(Vertex v, Index* columns, T* values) {
     if (!is_plain_[index(v)]) return write(row(v), columns, values);
     return write_smooth(v, smooth_weights(v), columns, values);
   }
+  Index write(HalfEdge corner, Index* columns, T* values) {
+    return write_smooth(corner, masks_.corner(t_.size(t_.face(corner))), columns, values);
+  }
+  Index write(const Border& border, Index* columns, T* values) { return write(row(border), columns, values); }
 
  private:
+  static std::vector<T> dense(const Stencil<T>& stencil, size_t slots) {
+    std::vector<T> weights(slots, T(0));
+    for (const auto& [slot, weight] : stencil.terms()) weights[slot] = weight;
+    return weights;
+  }
+
+  bool has_crease_row(Edge e) const {
+    if (wide_borders_ && !exists(t_.twin(t_.half_edge(e)))) return false;
+    return is_sharp(sharpness_.edge[index(e)]);
+  }
+
   /// Rows where something is sharp. Valid until the next call.
   const std::vector<Term>& row(Edge e) {
-    const float s = sharpness_.edge[index(e)];
     row_.clear();
-    const T w = stays_sharp(e) ? T(1) : T(s);
-    for (const auto& [end, weight] : {Term{index(t_.tail(e)), crease_edge_[0]}, Term{index(t_.head(e)), crease_edge_[1]}})
-      row_.push_back({end, w * weight});
-    if (w != T(1)) add(e, T(1) - w, smooth_weights(e));
+    add_crease_edge(e, T(1));
     return merge();
+  }
+  const std::vector<Term>& row(const Border& border) {
+    row_.clear();
+    const Vertex tail = t_.tail(border.half), head = t_.head(border.half);
+    const bool near_tail = 2 * border.part < border.parts;
+    add_curve(T(1), t_.edge(border.half), near_tail ? tail : head, near_tail ? head : tail);
+    return merge();
+  }
+  const std::vector<Term>& row(Face f, const Weights& weights) {
+    row_.clear();
+    add(f, T(1), weights);
+    const Index size = t_.size(f);
+    for (Index i = 0; i < size; ++i) {
+      const HalfEdge h = t_.corner(f, i);
+      if (weights.on_edges[i] != T(0)) add_edge(t_.edge(h), weights.on_edges[i]);
+      if (weights.on_edges[size + i] != T(0))
+        add_edge(t_.edge(t_.next(t_.next(t_.twin(h)))), weights.on_edges[size + i]);
+    }
+    return merge();
+  }
+
+  void add_edge(Edge e, const T& factor) {
+    if (has_crease_row(e)) {
+      add_crease_edge(e, factor);
+    } else {
+      add(e, factor, smooth_weights(e));
+    }
+  }
+  void add_crease_edge(Edge e, const T& factor) {
+    const float s = sharpness_.edge[index(e)];
+    const T w = stays_sharp(e) ? T(1) : T(s);
+    add_curve(factor * w, e, t_.tail(e), t_.head(e));
+    if (w != T(1)) add(e, factor * (T(1) - w), smooth_weights(e));
+  }
+  /// The mask of a sharp edge, seen from `tail`.
+  void add_curve(const T& factor, Edge e, Vertex tail, Vertex head) {
+    Index before = -1, after = -1;
+    if (crease_is_wide_) {
+      before = along_curve(e, tail);
+      after = along_curve(e, head);
+    }
+    const std::vector<T>& weights = crease_edge_[before >= 0][after >= 0];
+    const Index ends[] = {index(tail), index(head), before, after};
+    for (int i = 0; i < 4; ++i)
+      if (ends[i] >= 0 && weights[i] != T(0)) row_.push_back({ends[i], factor * weights[i]});
+  }
+  /// The next vertex of a crease beyond one of its ends, -1 if the curve ends there.
+  Index along_curve(Edge e, Vertex end) const {
+    const VertexSharpness around(t_, sharpness_, end);
+    if (around.rule() != Rule::crease) return -1;
+    const std::vector<Edge> edges = t_.edges(end);
+    const auto [first, last] = crease_ends(around.edges);
+    return other_end(edges[first] == e ? edges[last] : edges[first], end);
   }
 
   const std::vector<Term>& row(Vertex v) {
@@ -103,9 +182,47 @@ class RowMaker {
     return masks_.vertex(sizes_);
   }
   const Weights& smooth_weights(Edge e) {
+    if (wide_edge_) {
+      const auto [tail, head] = shapes(e);
+      return masks_.wide_edge(t_.uniform_face_size(), tail, head);
+    }
     if (t_.uniform_face_size()) return masks_.uniform_edge(t_.uniform_face_size());
     const HalfEdge h = t_.half_edge(e);
     return masks_.edge(t_.size(t_.face(h)), t_.size(t_.face(t_.twin(h))));
+  }
+
+  bool is_cut(HalfEdge h) const { return !exists(t_.twin(h)) || is_sharp(sharpness_.edge[index(t_.edge(h))]); }
+  FanShape shape(HalfEdge h) const {
+    const Vertex v = t_.tail(h);
+    if (is_plain_[index(v)]) return {t_.num_faces(v), -1};
+    return fan_shape(t_, h, [&](HalfEdge g) { return is_cut(g); });
+  }
+  std::pair<FanShape, FanShape> shapes(Edge e) const {
+    const HalfEdge left = t_.half_edge(e), right = t_.twin(left);
+    if (exists(right)) return {shape(left), shape(right)};
+    FanShape head = shape(t_.next(left));  // of a border edge: the last one of its head's fan
+    ++head.start;
+    return {shape(left), head};
+  }
+  const Weights& wide_weights(Face f) {
+    shapes_.clear();
+    for (Index i = 0; i < t_.size(f); ++i) shapes_.push_back(shape(t_.corner(f, i)));
+    return masks_.wide_face(shapes_);
+  }
+  /// The vertices of an element's site, in the order of its slots. After `smooth_weights` or `wide_weights` of the element.
+  template <class Visit>
+  void visit_element(Edge e, const Visit& visit) const {
+    if (!wide_edge_) return visit_site(t_, e, visit);
+    const auto [tail, head] = shapes(e);
+    visit_wide_edge(t_, t_.half_edge(e), tail, head, visit);
+  }
+  template <class Visit>
+  void visit_element(Face f, const Visit& visit) const {
+    wide_face_ ? visit_wide_face(t_, f, shapes_, visit) : visit_site(t_, f, visit);
+  }
+  template <class Element, class Visit>
+  void visit_element(Element element, const Visit& visit) const {
+    visit_site(t_, element, visit);
   }
 
   static Index write(const std::vector<Term>& row, Index* columns, T* values) {
@@ -118,7 +235,7 @@ class RowMaker {
 
   template <class Element>
   Index write_smooth(Element element, const Weights& weights, Index* columns, T* values) {
-    const size_t count = weights.size();
+    const Index count = weights.count();
     Index written = 0;  // unless ranking serves
     if (count <= 4) written = write_ranked<4>(element, weights, columns, values);
     else if (count <= 8) written = write_ranked<8>(element, weights, columns, values);
@@ -130,23 +247,28 @@ class RowMaker {
     return write(merge(), columns, values);
   }
 
-  /// A row of up to N terms, or nothing if points coincide or weights are zero. The place of a column is the number of
-  /// smaller ones: comparisons without branches, which sorting would mispredict.
+  /// A row of up to N terms, or nothing if points coincide. The place of a column is the number of smaller ones:
+  /// comparisons without branches, which sorting would mispredict.
   template <Index N, class Element>
-  Index write_ranked(Element element, const Weights& weights, Index* columns, T* values) const {
-    if (weights.has_zeros) return 0;
-    const Index count = static_cast<Index>(weights.size());
+  Index write_ranked(Element element, const Weights& weights, Index* columns, T* values) {
+    const Index count = weights.count();
     Index slots[N], rank[N] = {};
     std::fill_n(slots, N, std::numeric_limits<Index>::max());
-    Index* slot = slots;
-    visit_site(t_, element, [&](Index v) { *slot++ = v; });
+    if (!weights.has_zeros) {
+      Index* slot = slots;
+      visit_element(element, [&](Index v) { *slot++ = v; });
+    } else {
+      gathered_.clear();
+      visit_element(element, [&](Index v) { gathered_.push_back(v); });
+      for (Index i = 0; i < count; ++i) slots[i] = gathered_[weights.kept[i]];
+    }
     for (Index j = 0; j < N; ++j)  // all N: unrolled, the ranks stay in registers
       for (Index i = 0; i < N; ++i) rank[i] += slots[j] < slots[i];
     const Index pairs = std::accumulate(rank, rank + N, 0) - (N - count) * count;
     if (pairs != count * (count - 1) / 2) return 0;  // some pair is equal
     for (Index i = 0; i < count; ++i) {
       columns[rank[i]] = slots[i];
-      values[rank[i]] = weights[i];
+      values[rank[i]] = weights.has_zeros ? weights[weights.kept[i]] : weights[i];
     }
     return count;
   }
@@ -181,7 +303,10 @@ class RowMaker {
   template <class Element>
   void add(Element element, const T& factor, const Weights& weights) {
     const T* weight = weights.data();
-    visit_site(t_, element, [&](Index v) { row_.push_back({v, factor * *weight++}); });
+    visit_element(element, [&](Index v) {
+      if (*weight != T(0)) row_.push_back({v, factor * *weight});
+      ++weight;
+    });
   }
   const std::vector<Term>& merge() {
     const auto less = [](const Term& a, const Term& b) { return a.first < b.first; };
@@ -221,8 +346,10 @@ class RowMaker {
   const Sharpness& child_sharpness_;
   const std::vector<std::uint8_t>& is_plain_;
   MaskTable<T> masks_;
-  std::vector<T> crease_vertex_, crease_edge_;
-  std::vector<Index> sizes_;
+  std::vector<T> crease_vertex_, crease_edge_[2][2];
+  bool crease_is_wide_ = false, wide_edge_ = false, wide_face_ = false, wide_borders_ = false;
+  std::vector<Index> sizes_, gathered_;
+  std::vector<FanShape> shapes_;
   std::vector<Term> row_;
 };
 
@@ -300,17 +427,22 @@ SparseMatrixOf<T> subdivision_matrix(const Scheme<T>& scheme, const Step<T>& ste
                                      const Refinement& refinement, const Sharpness& sharpness,
                                      const Sharpness& child_sharpness, int level) {
   const std::vector<std::uint8_t> plain = assembly::plain_vertices(parent, sharpness);
+  using Maker = assembly::RowMaker<T>;
   const auto visit = [&](Index r, const auto& body) {
+    const Index p = refinement.parent(Vertex{r});
     switch (refinement.origin(Vertex{r})) {
       case Refinement::Origin::vertex:
-        return body(Vertex{refinement.parent(Vertex{r})});
+        return body(Vertex{p});
       case Refinement::Origin::face:
-        return body(Face{refinement.parent(Vertex{r})});
+        return body(Face{p});
+      case Refinement::Origin::edge:
+        return body(Edge{p});
+      case Refinement::Origin::corner:
+        return body(HalfEdge{p});
       default:
-        return body(Edge{refinement.parent(Vertex{r})});
+        return body(typename Maker::Border{HalfEdge{p}, refinement.part(Vertex{r}), refinement.border_points});
     }
   };
-  using Maker = assembly::RowMaker<T>;
   return assembly::assemble<T>(
       refinement.topology.num_vertices(), parent.num_vertices(),
       [&] { return Maker(scheme, step, parent, refinement, sharpness, child_sharpness, level, plain); },

@@ -8,7 +8,6 @@
 namespace sublimit::cli {
 namespace {
 
-const char* split_name(Split split) { return split == Split::pqq ? "pqq" : "ptq"; }
 const char* faces(const Scheme<double>& scheme) { return scheme.face_size() == 3 ? "triangles" : "any"; }
 
 std::string other_claims(const Claims& claims) {
@@ -27,7 +26,7 @@ int run(bool as_json) {
     const Claims& claims = scheme.claims;
     if (as_json) {
       nlohmann::ordered_json steps = nlohmann::ordered_json::array(), options = nlohmann::ordered_json::object();
-      for (const Step<double>& step : scheme.steps) steps.push_back(split_name(step.split));
+      for (const Step<double>& step : scheme.steps) steps.push_back(name(step.split));
       for (const OptionInfo& info : scheme.options) options[info.name] = info.values;
       all.push_back({{"name", scheme.name},
                      {"kind", "surface"},
@@ -45,7 +44,7 @@ int run(bool as_json) {
       continue;
     }
     fmt::print("{:<15} {:<8} {:<6} {:<10} {:<18} C^{:<6} C^{:<12} {:<34} {}\n", scheme.name, "surface",
-               split_name(scheme.steps[0].split), faces(scheme), claims.limit, claims.regular, claims.extraordinary,
+               name(scheme.steps[0].split), faces(scheme), claims.limit, claims.regular, claims.extraordinary,
                other_claims(claims), scheme.source);
     for (const OptionInfo& info : scheme.options) {
       std::string values;

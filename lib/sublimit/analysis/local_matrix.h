@@ -57,6 +57,8 @@ LocalStep<T> local_step(const Scheme<T>& scheme, const CanonicalNeighborhood& ty
       case Refinement::Origin::edge:
         closed = patch.topology.tail(Edge{parent}) == Vertex{0} || patch.topology.head(Edge{parent}) == Vertex{0};
         break;
+      default:
+        break;
     }
     if (!closed) throw AnalysisError(scheme.name + ": the one-ring is not closed under refinement; more rings are needed");
     for (typename SparseMatrixOf<T>::InnerIterator it(S, index(v)); it; ++it)

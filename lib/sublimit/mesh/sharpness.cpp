@@ -167,10 +167,15 @@ Sharpness refine(const Sharpness& sharpness, const Topology& parent, const Refin
   child.creasing = sharpness.creasing;
   child.vertex.resize(r.topology.num_vertices());
   child.edge.resize(r.topology.num_edges());
+  const bool is_primal = r.split == Split::pqq || r.split == Split::ptq;
   parallel_for(r.topology.num_vertices(), [&](std::int64_t v) {
-    child.vertex[v] = v < parent.num_vertices() ? decayed(sharpness.vertex[v]) : 0;
+    child.vertex[v] = v < r.from_vertices ? decayed(sharpness.vertex[r.parent(Vertex{Index(v)})]) : 0;
   });
-  parallel_for(r.topology.num_edges(), [&](std::int64_t e) { child.edge[e] = 0; });
+  parallel_for(r.topology.num_edges(), [&](std::int64_t e) {
+    const bool is_border = !is_primal && !exists(r.topology.twin(r.topology.half_edge(Edge{Index(e)})));
+    child.edge[e] = is_border ? infinite_sharpness : 0;
+  });
+  if (!is_primal) return child;  // nothing but borders is sharp there
   parallel_for(parent.num_edges(), [&](std::int64_t i) {
     const Edge e{static_cast<Index>(i)};
     const float s = sharpness.edge[i];

@@ -8,15 +8,20 @@ namespace sublimit {
 
 template <class T>
 Scheme<T> bilinear(const SchemeOptions&) {
-  return {.name = "bilinear",
-          .source = "folklore",
-          .steps = {{.split = Split::pqq,
+  const Step<T> step{.split = Split::pqq,
                      .masks = {.vertex = [](const Ring<T>& v) { return v.center(); },
                                .edge = [](const EdgeSite<T>& e) { return (e.tail() + e.head()) / 2; },
-                               .face = [](const FaceSite<T>& f) { return f.centroid(); }}}},
+                               .face = [](const FaceSite<T>& f) { return f.centroid(); }}};
+  return {.name = "bilinear",
+          .source = "folklore",
+          .steps = {step},
           .creases = {.vertex = [](const CreaseSite<T>& v) { return v.center(); },
                       .edge = [](const CreaseEdgeSite<T>& e) { return (e.tail() + e.head()) / 2; }},
-          .claims = {.regular = 0, .extraordinary = 0, .reproduces = 1, .convex_hull = true, .interpolates = true,
+          .claims = {.regular = 0,
+                     .extraordinary = 0,
+                     .reproduces = 1,
+                     .convex_hull = true,
+                     .interpolates = true,
                      .limit = "bilinear patches"}};
 }
 

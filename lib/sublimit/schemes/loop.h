@@ -13,17 +13,20 @@ Scheme<T> loop_with(const char* name, const char* source, const Beta& beta) {
   return {.name = name,
           .source = source,
           .steps = {{.split = Split::ptq,
-                     .masks = {.vertex = [=](const Ring<T>& v) {
-                                 const T b = beta(v);
-                                 return (T(1) - b) * v.center() + b * v.neighbor_mean();
-                               },
-                               .edge = [](const EdgeSite<T>& e) {
-                                 return (3 * (e.tail() + e.head()) + e.left_face().corner(2) +
-                                         e.right_face().corner(2)) / 8;
-                               }}}},
+                     .masks = {.vertex =
+                                   [=](const Ring<T>& v) {
+                                     const T b = beta(v);
+                                     return (T(1) - b) * v.center() + b * v.neighbor_mean();
+                                   },
+                               .edge =
+                                   [](const EdgeSite<T>& e) {
+                                     return (3 * (e.tail() + e.head()) + e.left_face().corner(2) +
+                                             e.right_face().corner(2)) /
+                                            8;
+                                   }}}},
           .creases = cubic_bspline_creases<T>(),
-          .claims = {.regular = 2, .extraordinary = 1, .reproduces = 1, .convex_hull = true,
-                     .limit = "quartic box spline"}};
+          .claims = {
+              .regular = 2, .extraordinary = 1, .reproduces = 1, .convex_hull = true, .limit = "quartic box spline"}};
 }
 
 template <class T>

@@ -2,11 +2,10 @@
 // Primal triangular split. Triangle f = (v0 v1 v2) with midpoints m_i of the edges (v_i, v_i+1) becomes
 //   4f: (v0 m0 m2)   4f+1: (m0 v1 m1)   4f+2: (m2 m1 v2)   4f+3: (m1 m2 m0)
 // so that the corner children are oriented as their parent.
-#include <string>
 #include <utility>
 
-#include "sublimit/base/error.h"
 #include "sublimit/splits/primal.h"
+#include "sublimit/splits/sheets.h"
 
 namespace sublimit {
 namespace {
@@ -23,12 +22,7 @@ std::pair<HalfEdge, HalfEdge> ptq_halves(const Topology&, HalfEdge h) {
 }
 
 Refinement refine_ptq(const Topology& parent) {
-  if (parent.num_faces() > 0 && parent.uniform_face_size() != 3) {
-    Index f = 0;
-    while (parent.size(Face{f}) == 3) ++f;
-    throw UnsupportedTopology("face " + std::to_string(f) + " has " + std::to_string(parent.size(Face{f})) +
-                              " corners; this scheme takes triangles only: triangulate the mesh or use catmull-clark");
-  }
+  check_triangles(parent);
   Refinement r;
   r.split = Split::ptq;
   r.from_vertices = parent.num_vertices();

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// Dyn, Levin, Gregory 1990, "A butterfly subdivision scheme for surface interpolation with tension control".
+// Border: the four-point rule along it, so that the border curve does not depend on the inside; or, as an option, the
+// butterfly's own mask with virtual vertices: every border triangle continued to a parallelogram. The two agree at
+// regular border vertices. Inside, masks that reach over the border use the virtual vertices.
+#include "sublimit/scheme.h"
+
+namespace sublimit {
+
+/// What the butterfly and its modification share: steps, border, claims.
+template <class T, class Edge>
+Scheme<T> butterfly_with(const char* name, const char* source, const SchemeOptions& options,
+                         std::vector<OptionInfo> infos, const Ratio& g, const Edge& edge) {
+  const OptionInfo border{"boundary-rule", {"four-point", "virtual-vertex"}};
+  infos.push_back(border);
+  const Step<T> step{.split = Split::ptq,
+                     .masks = {.vertex = [](const Ring<T>& v) { return v.center(); },
+                               .wide_edge = edge,
+                               .wide_borders = option(options, border) == "virtual-vertex"}};
+  return {.name = name,
+          .source = source,
+          .steps = {step},
+          .creases = {.vertex = [](const CreaseSite<T>& v) { return v.center(); },
+                      .edge =
+                          [=](const CreaseEdgeSite<T>& e) {
+                            const T w = e.ratio(g.p, 16 * g.q);
+                            return (e.ratio(1, 2) + w) * (e.tail() + e.head()) - w * (e.before() + e.after());
+                          }},
+          .claims = {.regular = 1,
+                     .extraordinary = 0,
+                     .reproduces = g.p == g.q ? 3 : 1,
+                     .interpolates = true,
+                     .limit = "no closed form"},
+          .options = infos,
+          .sharpening = Sharpening::sharp};
+}
+
+template <class T>
+Scheme<T> butterfly(const SchemeOptions& options) {
+  const OptionInfo tension{
+      "tension", {"1"}, "16 w of the paper: 0 is piecewise linear, 1 reproduces cubics, more is bumpier"};
+  const Ratio g = ratio_option(options, tension, {0, 1}, {2, 1});
+  return butterfly_with<T>(
+      "butterfly",
+      "Dyn, Levin, Gregory 1990, A butterfly subdivision scheme for surface interpolation with tension control",
+      options, {tension}, g, [=](const WideEdgeSite<T>& e) {
+        const Ring<T>&a = e.tail_ring(), &b = e.head_ring();
+        const T w = e.ratio(g.p, 16 * g.q);
+        return e.ratio(1, 2) * (e.tail() + e.head()) + 2 * w * (a.continued(1) + a.continued(-1)) -
+               w * (a.continued(2) + a.continued(-2) + b.continued(2) + b.continued(-2));
+      });
+}
+
+}  // namespace sublimit

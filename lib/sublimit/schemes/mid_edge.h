@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// Peters, Reif 1997, "The simplest subdivision scheme for smoothing polyhedra": the midpoints of edges.
+// Habib, Warren 1999, "Edge and vertex insertion for a class of C1 subdivision surfaces": weights over the two faces of
+// an edge, such that two steps have the eigenvalues 1, 1/2, 1/2, 1/4, 1/4, 1/8 ... on an n-gon. Between two faces that
+// are no quadrilaterals (in the first two steps only) both add their difference to the midpoint; that completion is
+// ours. Border: two steps make Chaikin's points (see the split), so the limit ends in the quadratic B-spline of the
+// border polygon.
+#include "sublimit/scheme.h"
+
+namespace sublimit {
+
+template <class T, class Edge>
+Scheme<T> mid_edge_with(const char* name, const char* source, const Edge& edge) {
+  const Step<T> step{.split = Split::mid_edge, .masks = {.edge = edge}};
+  return {.name = name,
+          .source = source,
+          .steps = {step},
+          .creases = {.vertex = [](const CreaseSite<T>& v) { return v.center(); },
+                      .edge = [](const CreaseEdgeSite<T>& e) { return (e.tail() + e.head()) / 2; }},
+          .claims = {.regular = 1,
+                     .extraordinary = 1,
+                     .reproduces = 1,
+                     .convex_hull = true,
+                     .limit = "Zwart-Powell box spline"},
+          .period = 2,
+          .sharpening = Sharpening::boundary};
+}
+
+template <class T>
+Scheme<T> mid_edge(const SchemeOptions&) {
+  return mid_edge_with<T>("mid-edge", "Peters, Reif 1997, The simplest subdivision scheme for smoothing polyhedra",
+                          [](const EdgeSite<T>& e) { return (e.tail() + e.head()) / 2; });
+}
+
+template <class T>
+Scheme<T> mid_edge_habib_warren(const SchemeOptions&) {
+  // Point on the edge between corners 0 and 1 of an n-gon.
+  const auto on_face = [](const FaceSite<T>& f) {
+    const int n = f.size();
+    Stencil<T> point;
+    for (int i = 0; i < n; ++i) {
+      T weight(1), half(1);  // half: 2^-floor(j/2)
+      for (int j = 1; 2 * j < n; ++j) {
+        if (j % 2 == 0) half = half / 2;
+        const T root = j % 2 == 0 ? half : half * f.cos_2pi(1, 8);  // 2^(-j/2)
+        weight += 2 * root * f.cos_2pi(j * (2 * i - 1), 2 * n);
+      }
+      point += (weight / n) * f.corner(i);
+    }
+    return point;
+  };
+  Scheme<T> scheme = mid_edge_with<T>(
+      "mid-edge-habib-warren", "Habib, Warren 1999, Edge and vertex insertion for a class of C1 subdivision surfaces",
+      [=](const EdgeSite<T>& e) {
+        return on_face(e.left_face()) + on_face(e.right_face()) - (e.tail() + e.head()) / 2;
+      });
+  scheme.claims.convex_hull = false;
+  return scheme;
+}
+
+}  // namespace sublimit
