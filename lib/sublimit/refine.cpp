@@ -133,6 +133,9 @@ void check_sharpness(const std::string& scheme, Sharpening sharpening, bool is_d
     if (sharpening == Sharpening::boundary || !is_infinite(s))
       refuse("sharp edge (" + std::to_string(index(t.tail(e))) + "," + std::to_string(index(t.head(e))) + ")");
   }
+  for (Index v = 0; v < t.num_vertices() && sharpening == Sharpening::sharp; ++v)
+    if (VertexSharpness(t, sharpness, Vertex{v}).rule() == Rule::dart)
+      refuse("sharp edges that end inside, at vertex " + std::to_string(v));
   for (const ControlMesh::Corner& corner : tags.corners) {
     const Vertex v{corner.vertex};
     const bool interior = exists(t.outgoing(v)) && exists(t.twin(t.outgoing(v)));
@@ -176,75 +179,85 @@ double predicted_bytes(const Scheme<double>& scheme, const Topology& t, int leve
   return bytes;
 }
 
-Subset subset(const Level& whole, std::span<const Index> chosen) {
+Part part(const Level& whole, std::span<const Index> chosen, int rings) {
   const Topology& t = whole.topology();
-  for (const Index f : chosen)
-    if (f < 0 || f >= t.num_faces())
-      throw InvalidParameter("face " + std::to_string(f) + " does not exist; the level has " +
-                             std::to_string(t.num_faces()));
-  std::vector<Index> faces = with_neighbors(t, chosen);
-  std::vector<Index> complete = faces;  // faces of which every vertex has all its faces in the part
-  complete.assign(chosen.begin(), chosen.end());
-  // Chaikin sharpness at the far end of an edge depends on the edges around that end: one ring more.
-  if (whole.sharpness.creasing == Creasing::chaikin) {
-    complete = faces;
-    faces = with_neighbors(t, faces);
-  }
+  std::vector<Index> complete(chosen.begin(), chosen.end());  // faces of which every vertex has all its faces in the part
+  for (int k = 1; k < rings; ++k) complete = with_neighbors(t, complete);
+  Part part;
+  part.faces = with_neighbors(t, complete);
 
   // Corners of the part, by those of the whole: twins and non-manifold edges stay what they are.
   TopologyBuilder b;
-  std::vector<Index> whole_half;
   b.face_offsets = {0};
-  for (const Index f : faces) {
-    for (Index k = 0; k < t.size(Face{f}); ++k) whole_half.push_back(index(t.corner(Face{f}, k)));
-    b.face_offsets.push_back(static_cast<Index>(whole_half.size()));
+  for (const Index f : part.faces) {
+    for (Index k = 0; k < t.size(Face{f}); ++k) part.halves.push_back(index(t.corner(Face{f}, k)));
+    b.face_offsets.push_back(static_cast<Index>(part.halves.size()));
   }
   const auto position = [](const std::vector<Index>& list, Index i) {
     const auto at = std::lower_bound(list.begin(), list.end(), i);
     return at != list.end() && *at == i ? static_cast<Index>(at - list.begin()) : -1;
   };
-  std::vector<Index> vertices;
-  for (const Index h : whole_half) vertices.push_back(index(t.tail(HalfEdge{h})));
+  std::vector<Index>& vertices = part.vertices;
+  for (const Index h : part.halves) vertices.push_back(index(t.tail(HalfEdge{h})));
   std::sort(vertices.begin(), vertices.end());
   vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-  for (size_t i = 0; i < whole_half.size(); ++i) {
-    const HalfEdge h{whole_half[i]};
+  for (size_t i = 0; i < part.halves.size(); ++i) {
+    const HalfEdge h{part.halves[i]};
     b.tail.push_back(position(vertices, index(t.tail(h))));
-    b.twin.push_back(exists(t.twin(h)) ? position(whole_half, index(t.twin(h))) : -1);
+    b.twin.push_back(exists(t.twin(h)) ? position(part.halves, index(t.twin(h))) : -1);
     if (exists(t.twin(h)) || !t.is_nonmanifold(t.edge(h))) continue;
     std::vector<Index> group;
     for (const HalfEdge g : t.half_edges(t.edge(h)))
-      if (const Index own_half = position(whole_half, index(g)); own_half >= 0) group.push_back(own_half);
+      if (const Index own_half = position(part.halves, index(g)); own_half >= 0) group.push_back(own_half);
     if (group[0] == static_cast<Index>(i)) b.nonmanifold_edges.push_back(std::move(group));
   }
   b.find_fans(static_cast<Index>(vertices.size()));
 
-  Subset part;
   Level& level = part.level;
   level.number = whole.number;
   level.steps.emplace_back();
   level.steps[0].topology = std::move(b).build();
   const Topology& own = level.topology();
   level.sharpness.creasing = whole.sharpness.creasing;
-  // The rim of the part is no boundary of the mesh: vertices there stay out of the next refinement, and any rule will do.
+  // Vertices on the rim stay out of the next refinement, and any rule will do.
   level.sharpness.vertex.assign(vertices.size(), infinite_sharpness);
   for (const Index f : complete)
     for (const Index v : t.vertices(Face{f})) level.sharpness.vertex[position(vertices, v)] = whole.sharpness.vertex[v];
   level.sharpness.edge.resize(own.num_edges());
-  level.holes.resize(faces.size());
-  for (size_t i = 0; i < faces.size(); ++i) {
-    level.holes[i] = whole.holes[faces[i]];
+  level.holes.resize(part.faces.size());
+  for (size_t i = 0; i < part.faces.size(); ++i) {
+    level.holes[i] = whole.holes[part.faces[i]];
     for (Index k = 0; k < own.size(Face{Index(i)}); ++k)
       level.sharpness.edge[index(own.edge(own.corner(Face{Index(i)}, k)))] =
-          whole.sharpness.edge[index(t.edge(t.corner(Face{faces[i]}, k)))];
+          whole.sharpness.edge[index(t.edge(t.corner(Face{part.faces[i]}, k)))];
   }
   // An edge of the rim has lost a face; without this it would be asked for its smooth mask.
   for (Index e = 0; e < own.num_edges(); ++e)
     if (!exists(own.twin(own.half_edge(Edge{e})))) level.sharpness.edge[e] = infinite_sharpness;
-  level.S = selected_rows(identity(t.num_vertices()), vertices);
-  for (const Index f : chosen) part.faces.push_back(position(faces, f));
-  part.parents = std::move(faces);
   return part;
+}
+
+Subset subset(const Level& whole, std::span<const Index> chosen, int rings) {
+  const Topology& t = whole.topology();
+  for (const Index f : chosen)
+    if (f < 0 || f >= t.num_faces())
+      throw InvalidParameter("face " + std::to_string(f) + " does not exist; the level has " +
+                             std::to_string(t.num_faces()));
+  // Chaikin sharpness at the far end of an edge depends on the edges around that end: one ring more.
+  if (whole.sharpness.creasing == Creasing::chaikin) ++rings;
+  Part around = part(whole, chosen, rings);
+  Subset result;
+  for (const Index f : chosen)
+    result.faces.push_back(static_cast<Index>(std::lower_bound(around.faces.begin(), around.faces.end(), f) - around.faces.begin()));
+  result.level = std::move(around.level);
+  result.level.S = selected_rows(identity(t.num_vertices()), around.vertices);
+  result.parents = std::move(around.faces);
+  return result;
+}
+
+int rings_for_refinement(const Scheme<double>& scheme) {
+  // Dual splits lose the faces at the rim; wide masks see two rings of faces, Kobbelt's faces a third.
+  return scheme.is_wide() ? 4 : scheme.steps.size() > 1 ? 2 + static_cast<int>(scheme.steps.size()) : scheme.is_dual() ? 3 : scheme.period > 1 ? 2 : 1;
 }
 
 Subset refine(const Scheme<double>& scheme, const Subset& part) {
@@ -257,7 +270,7 @@ Subset refine(const Scheme<double>& scheme, const Subset& part) {
     for (auto step = refined.steps.rbegin(); step != refined.steps.rend(); ++step) parent = step->face_parent[parent];
     if (is_chosen[parent]) children.push_back(f);
   }
-  Subset result = subset(refined, children);
+  Subset result = subset(refined, children, rings_for_refinement(scheme));
   std::vector<Index> rows(result.level.S.innerIndexPtr(), result.level.S.innerIndexPtr() + result.level.S.nonZeros());
   result.level.S = selected_rows(refined.S, rows);
   return result;

@@ -73,6 +73,15 @@ SparseMatrix refinement_matrix(const std::vector<Level>& levels);
 /// Bytes of memory that `levels` levels take, about, matrices included.
 double predicted_bytes(const Scheme<double>& scheme, const Topology& control, int levels);
 
+/// Some faces of a level as a level of their own. Its rim is no boundary of the mesh, but takes a boundary's rules: what is made
+/// near it means nothing.
+struct Part {
+  Level level;  ///< without a matrix
+  std::vector<Index> faces, vertices, halves;  ///< their numbers in the whole, ascending
+};
+/// The faces and `rings` rings of faces around them.
+Part part(const Level& whole, std::span<const Index> faces, int rings);
+
 /// A part of a mesh: chosen faces with as many rings of faces around them as their next refinement needs.
 struct Subset {
   Level level;               ///< the part, numbered on its own; S has a row per vertex, over those of where it came from
@@ -81,8 +90,10 @@ struct Subset {
 };
 
 /// Part of a level. `level.S` of the result selects vertices of the whole.
+/// @param rings  of faces around them; `rings_for_refinement` says how many the scheme needs, 1 is enough for narrow primal ones
 /// @throws InvalidParameter  a face that does not exist
-Subset subset(const Level& level, std::span<const Index> faces);
+Subset subset(const Level& level, std::span<const Index> faces, int rings = 1);
+int rings_for_refinement(const Scheme<double>& scheme);
 
 /// The children of the chosen faces (all of them are chosen again), without touching the rest of the mesh. Rows of
 /// `level.S` are the rows that refining the whole mesh would give, over the vertices of `part`.

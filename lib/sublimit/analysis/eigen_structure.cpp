@@ -83,40 +83,69 @@ EigenStructure eigen_structure(const Eigen::MatrixXcd& A, int block, int leading
   return result;
 }
 
-std::optional<FourierBlocks> fourier_blocks(const Eigen::MatrixXd& A, int n) {
+namespace {
+
+/// exp(2 pi i turn/n), exact at quarter turns.
+Complex root_of_unity(long long turn, int n) {
+  const int k = static_cast<int>(turn % n);
+  return {Number<double>::cos_2pi(k, n), Number<double>::cos_2pi(4 * k - n, 4 * n)};
+}
+
+}  // namespace
+
+std::optional<FourierBlocks> fourier_blocks(const Eigen::MatrixXd& A, std::vector<std::vector<int>> orbits) {
   FourierBlocks result;
-  result.n = n;
-  if (n < 2 || (A.rows() - 1) % n != 0) return std::nullopt;
-  const int p = result.p = static_cast<int>(A.rows() - 1) / n;
-  const auto slot = [&](int s, int i) { return 1 + (s % n) * p + i; };
+  std::stable_partition(orbits.begin(), orbits.end(), [](const auto& orbit) { return orbit.size() == 1; });
+  for (const auto& orbit : orbits) {
+    if (orbit.size() == 1) ++result.fixed;
+    else if (result.n != 0 && result.n != static_cast<int>(orbit.size())) return std::nullopt;
+    else result.n = static_cast<int>(orbit.size());
+  }
+  const int n = result.n, fixed = result.fixed, size = static_cast<int>(orbits.size());
+  if (n < 2) return std::nullopt;
   const double tolerance = 64 * std::numeric_limits<double>::epsilon() * std::max(1.0, A.cwiseAbs().maxCoeff());
-  const auto same = [&](double a, double b) { return std::abs(a - b) <= tolerance; };
-  for (int s = 0; s < n; ++s)
-    for (int i = 0; i < p; ++i) {
-      if (!same(A(slot(s, i), 0), A(slot(0, i), 0)) || !same(A(0, slot(s, i)), A(0, slot(0, i)))) return std::nullopt;
-      for (int t = 0; t < n; ++t)
-        for (int j = 0; j < p; ++j)
-          if (!same(A(slot(s, i), slot(s + t, j)), A(slot(0, i), slot(t, j)))) return std::nullopt;
-    }
+  const auto at = [&](int i, int s) { return orbits[i][i < fixed ? 0 : s % n]; };
+  for (int i = 0; i < size; ++i)
+    for (int j = 0; j < size; ++j)
+      for (int s = 0; s < n; ++s)
+        for (int t = 0; t < n; ++t)
+          if (std::abs(A(at(i, s), at(j, s + t)) - A(at(i, 0), at(j, t))) > tolerance) return std::nullopt;
   for (int k = 0; k < n; ++k) {
-    const int centre = k == 0 ? 1 : 0;
-    Eigen::MatrixXcd B = Eigen::MatrixXcd::Zero(p + centre, p + centre);
-    for (int i = 0; i < p; ++i)
-      for (int j = 0; j < p; ++j)
-        for (int t = 0; t < n; ++t) {
-          const int turn = static_cast<int>(static_cast<long long>(k) * t % n);
-          const Complex w(Number<double>::cos_2pi(turn, n), Number<double>::cos_2pi(4 * turn - n, 4 * n));
-          B(centre + i, centre + j) += A(slot(0, i), slot(t, j)) * w;
+    const int first = k == 0 ? 0 : fixed;
+    Eigen::MatrixXcd B = Eigen::MatrixXcd::Zero(size - first, size - first);
+    for (int i = first; i < size; ++i)
+      for (int j = first; j < size; ++j) {
+        if (j < fixed) {
+          B(i, j) = A(at(i, 0), at(j, 0));
+          continue;
         }
-    if (k == 0) {
-      B(0, 0) = A(0, 0);
-      for (int i = 0; i < p; ++i) {
-        B(1 + i, 0) = A(slot(0, i), 0);
-        for (int s = 0; s < n; ++s) B(0, 1 + i) += A(0, slot(s, i));
+        for (int t = 0; t < n; ++t)
+          B(i - first, j - first) += A(at(i, 0), at(j, t)) * root_of_unity(static_cast<long long>(k) * t, n);
       }
-    }
     result.blocks.push_back(std::move(B));
   }
+  result.orbits = std::move(orbits);
+  return result;
+}
+
+std::optional<FourierBlocks> fourier_blocks(const Eigen::MatrixXd& A, int n) {
+  if (n < 2 || (A.rows() - 1) % n != 0) return std::nullopt;
+  const int p = static_cast<int>(A.rows() - 1) / n;
+  std::vector<std::vector<int>> orbits{{0}};
+  for (int i = 0; i < p; ++i) {
+    orbits.emplace_back();
+    for (int s = 0; s < n; ++s) orbits.back().push_back(1 + s * p + i);
+  }
+  return fourier_blocks(A, std::move(orbits));
+}
+
+Eigen::VectorXcd FourierBlocks::mask(int k, const Eigen::VectorXcd& l) const {
+  const int first = k == 0 ? 0 : fixed, size = static_cast<int>(orbits.size());
+  Eigen::VectorXcd result = Eigen::VectorXcd::Zero(fixed + n * (size - fixed));
+  for (int i = first; i < size; ++i)
+    for (int s = 0; s < static_cast<int>(orbits[i].size()); ++s)
+      result[orbits[i][s]] =
+          i < fixed ? l[i] : l[i - first] * std::conj(root_of_unity(static_cast<long long>(k) * s, n)) / static_cast<double>(n);
   return result;
 }
 

@@ -39,14 +39,22 @@ EigenStructure eigen_structure(const Eigen::MatrixXcd& matrix, int block = 0, in
 /// Left eigenvectors l^T A = value l^T (columns, an orthonormal basis of the null space of A^T - value).
 Eigen::MatrixXcd left_eigenvectors(const Eigen::MatrixXcd& A, std::complex<double> value);
 
-/// A matrix on a centre and n sectors of p points, slot 1 + s p + i for point i of sector s.
+/// A matrix that commutes with a rotation, taken apart. Slots are in orbits: n places that the rotation takes into each other, or
+/// a single one that stays.
 struct FourierBlocks {
-  int n = 0, p = 0;
-  /// Block k acts on the sectors' amplitudes x_i w^(k s), w = exp(2 pi i/n); block 0 has the centre first.
+  int n = 0;
+  std::vector<std::vector<int>> orbits;  ///< slots, sector by sector; those of size 1 first
+  int fixed = 0;                         ///< number of those
+  /// Block k acts on the orbits' amplitudes x_i w^(k s), w = exp(2 pi i/n); only block 0 has the fixed places.
   std::vector<Eigen::MatrixXcd> blocks;
+
+  /// Left eigenvector l of block k as a mask over the slots: sum_s sum_i l_i w^(-k s) x_(s,i) / n, and the fixed places'.
+  Eigen::VectorXcd mask(int k, const Eigen::VectorXcd& l) const;
 };
 
-/// Blocks of A, if it commutes with the shift of sectors (up to rounding).
+/// Blocks of A, if it commutes with the rotation (up to rounding).
+std::optional<FourierBlocks> fourier_blocks(const Eigen::MatrixXd& A, std::vector<std::vector<int>> orbits);
+/// The same where slot 0 is fixed and slot 1 + s p + i is place i of sector s.
 std::optional<FourierBlocks> fourier_blocks(const Eigen::MatrixXd& A, int n);
 
 /// All blocks' clusters together, by descending modulus.

@@ -8,10 +8,14 @@
 // Sources: Halstead, Kass, DeRose 1993; Reif 1995; Biermann, Levin, Zorin 2000 (boundaries, creases, corners).
 #include <tbb/concurrent_unordered_map.h>
 
+#include <map>
 #include <memory>
+#include <mutex>
+#include <optional>
 #include <vector>
 
 #include "sublimit/analysis/canonical_neighborhood.h"
+#include "sublimit/analysis/local_type.h"
 #include "sublimit/scheme.h"
 
 namespace sublimit {
@@ -45,6 +49,22 @@ struct LimitMasks {
 ///                        simple dominant eigenvalue 1
 LimitMasks limit_masks(const Scheme<double>& scheme, const CanonicalNeighborhood& type);
 
+/// The limit of a centre that is alone among regular points.
+struct LoneLimit {
+  LocalType type;
+  int depth = 0;                         ///< of the walk on a mesh that must have this signature
+  std::vector<std::uint32_t> signature;
+  std::vector<Index> slots;              ///< of that walk; the masks are over these
+  LimitMasks masks;                      ///< of one side
+};
+
+/// Limit masks of a type, or nothing where it does not have a child of its own type.
+/// @throws AnalysisError  no limit, as above
+std::optional<LoneLimit> lone_limit(const Scheme<double>& scheme, const LocalType& type);
+
+/// Everything at a vertex is known from its one-ring, any sharpness: primal schemes of one step with narrow masks.
+bool has_one_ring_limits(const Scheme<double>& scheme);
+
 /// Limit masks by signature, for one scheme. Shared between threads and meshes; grows by types, not by vertices.
 class LimitMaskCache {
  public:
@@ -52,9 +72,11 @@ class LimitMaskCache {
 
   /// The masks of this type, computed at the first request. The reference stays valid as long as the cache.
   const LimitMasks& masks(const CanonicalNeighborhood& type);
+  /// The same for lone centres; null where there is nothing.
+  const LoneLimit* lone(const LocalType& type);
 
   const Scheme<double>& scheme() const { return scheme_; }
-  size_t num_types() const { return types_.size(); }
+  size_t num_types() const { return types_.size() + lone_.size(); }
 
  private:
   struct Hash {
@@ -65,6 +87,8 @@ class LimitMaskCache {
     }
   };
   Scheme<double> scheme_;
+  std::mutex mutex_;  // of lone_
+  std::map<LocalType, std::optional<LoneLimit>> lone_;
   tbb::concurrent_unordered_map<std::vector<std::uint32_t>, std::shared_ptr<const LimitMasks>, Hash> types_;
 };
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sublimit/analysis/limit_points.h"
 
+#include "sublimit/analysis/limit_rows.h"
+
 #include <Eigen/Geometry>
 #include <Eigen/SVD>
 
@@ -36,6 +38,13 @@ struct Rows {
       ++length;
     }
     lengths.push_back(length);
+  }
+  void append(const LimitRows::Row& row) {
+    for (const auto& [c, w] : row) {
+      columns.push_back(c);
+      values.push_back(w);
+    }
+    lengths.push_back(static_cast<Index>(row.size()));
   }
 };
 
@@ -129,7 +138,79 @@ const char* name(LimitStatus status) {
   }
 }
 
+namespace {
+
+/// The general way: a centre for each fan of each vertex.
+LimitMatrices lone_limit_matrices(const Level& level, LimitMaskCache& cache) {
+  const Topology& t = level.topology();
+  const Scheme<double>& scheme = cache.scheme();
+  const auto is_cut = [&](HalfEdge h) { return !exists(t.twin(h)) || is_sharp(level.sharpness.edge[index(t.edge(h))]); };
+  std::vector<Centre> centres;
+  LimitMatrices result;
+  result.corner_side.assign(t.num_half_edges(), -1);
+  for (Index v = 0; v < t.num_vertices(); ++v)
+    for (HalfEdge start : t.fans(Vertex{v})) {
+      // Sharp edges cut a fan into sides; a closed one starts at the first of them.
+      const HalfEdge first = start;
+      if (exists(t.twin(start))) {
+        HalfEdge h = start;
+        while (!is_cut(h) && t.ccw(h) != first) h = t.ccw(h);
+        if (is_cut(h)) start = h;
+      }
+      HalfEdge h = start;
+      bool hole = true, begins = true;
+      do {
+        if (begins) {
+          centres.push_back({Centre::Kind::vertex, h});
+          result.side_vertex.push_back(v);
+          hole = true;
+        }
+        result.corner_side[index(h)] = static_cast<Index>(centres.size()) - 1;
+        hole &= level.holes[index(t.face(h))];
+        begins = is_cut(t.prev(h));
+        if (begins || t.ccw(h) == start) result.status.push_back(hole ? LimitStatus::hole : LimitStatus::regular);
+        h = t.ccw(h);
+      } while (exists(h) && h != start);
+    }
+  const std::vector<LimitRows> rows = limit_rows(level, cache, centres);
+
+  const Index regular = scheme.face_size() == 3 ? 6 : 4;
+  Rows position, tangent1, tangent2;
+  size_t orders = 0;
+  for (const LimitRows& row : rows) orders = std::max(orders, row.second_order.size());
+  std::vector<Rows> second(orders);
+  size_t side = 0;
+  for (Index v = 0; v < t.num_vertices(); ++v) {
+    if (side == rows.size() || result.side_vertex[side] != v) {
+      position.append(LimitRows::Row{{v, 1.0}});  // an isolated vertex
+      continue;
+    }
+    position.append(rows[side].position);
+    for (; side < rows.size() && result.side_vertex[side] == v; ++side) {
+      const LimitRows& row = rows[side];
+      tangent1.append(row.tangent1);
+      tangent2.append(row.tangent2);
+      for (size_t k = 0; k < orders; ++k) second[k].append(k < row.second_order.size() ? row.second_order[k] : LimitRows::Row{});
+      LimitStatus& status = result.status[side];
+      if (status == LimitStatus::hole) continue;
+      const bool closed = !row.type.open && row.type.kind != Centre::Kind::border;
+      status = row.plane == LimitMasks::Plane::no ? LimitStatus::undefined_normal
+               : !closed                          ? LimitStatus::crease
+               : row.type.faces == regular        ? LimitStatus::regular
+                                                  : LimitStatus::extraordinary;
+    }
+  }
+  result.position = joined({std::move(position)}, t.num_vertices());
+  result.tangent1 = joined({std::move(tangent1)}, t.num_vertices());
+  result.tangent2 = joined({std::move(tangent2)}, t.num_vertices());
+  for (Rows& part : second) result.second_order.push_back(joined({std::move(part)}, t.num_vertices()));
+  return result;
+}
+
+}  // namespace
+
 LimitMatrices limit_matrices(const Level& level, LimitMaskCache& cache) {
+  if (!has_one_ring_limits(cache.scheme())) return lone_limit_matrices(level, cache);
   const Topology& t = level.topology();
   const Scheme<double>& scheme = cache.scheme();
   const Index regular_size = scheme.face_size() ? scheme.face_size() : 4, regular_valence = regular_size == 3 ? 6 : 4;

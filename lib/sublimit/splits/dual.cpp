@@ -20,10 +20,12 @@ Refinement refine_dual(const Topology& t) {
   std::vector<Index> fans;
   UninitializedVector<Index> position(t.num_half_edges());  // child half-edge of each corner
   parallel_for(t.num_half_edges(), [&](std::int64_t h) { position[h] = -1; });
+  r.face_of_vertex.assign(t.num_vertices(), -1);
   for (Index i = 0; i < sheets.num_fans(); ++i) {
     const bool open = sheets.is_open(i);
     const Index size = sheets.fan_size(i) + (open ? 2 : 0);
     if (size < 3) continue;
+    r.face_of_vertex[index(t.tail(sheets.fan_start(i)))] = static_cast<Index>(fans.size());
     fans.push_back(i);
     HalfEdge h = sheets.fan_start(i);
     for (Index k = 0, at = b.face_offsets.back() + (open ? 1 : 0); k < sheets.fan_size(i); ++k, h = t.ccw(h))

@@ -44,6 +44,7 @@ struct Refinement {
   /// Child faces in this order: from faces (for sqrt3 from half-edges), from edges, from vertices.
   Index faces_from_faces = 0, faces_from_edges = 0;
 
+  std::vector<Index> face_of_vertex;  ///< dual: child face of each vertex, -1 where there is none (the last one's of several)
   UninitializedVector<Index> face_parent;  ///< a parent face of every child face: its own, or one at its edge or vertex
   /// Per child edge of a primal split: 2 e for the half of parent edge e at its tail, 2 e + 1 for the half at its head, -1
   /// inside a face.

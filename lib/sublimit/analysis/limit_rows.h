@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// Limit rows of any places of a level. Where a place is alone among regular points its masks are known by its type; elsewhere the
+// faces around it are refined, by the scheme's own matrices, until it is: L_k = L_{k+1} S_k.
+#include "sublimit/analysis/limit_masks.h"
+#include "sublimit/refine.h"
+
+namespace sublimit {
+
+/// Rows over the vertices of the level.
+struct LimitRows {
+  using Row = std::vector<std::pair<Index, double>>;  // columns ascending
+  Row position, tangent1, tangent2;
+  std::vector<Row> second_order;
+  LimitMasks::Plane plane = LimitMasks::Plane::yes;
+  LocalType type;  ///< once it is alone
+};
+
+/// @throws AnalysisError  a place that never comes to be alone (it is naming the vertex)
+std::vector<LimitRows> limit_rows(const Level& level, LimitMaskCache& cache, const std::vector<Centre>& centres);
+
+}  // namespace sublimit

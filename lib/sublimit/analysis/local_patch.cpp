@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sublimit/analysis/local_patch.h"
+
+namespace sublimit {
+
+bool is_corner(const Topology& t, const Sharpness& sharpness, Vertex v) {
+  return VertexSharpness(t, sharpness, v).rule() == Rule::corner;
+}
+
+LocalType local_type(const Topology& t, const Sharpness& sharpness, const Centre& centre, int level, int period) {
+  LocalType type;
+  type.kind = centre.kind;
+  type.phase = level % period;
+  type.faces = 0;
+  if (centre.kind == Centre::Kind::border) return type;
+  if (centre.kind == Centre::Kind::face) {
+    type.faces = t.size(t.face(centre.start));
+    return type;
+  }
+  const auto is_cut = [&](HalfEdge h) { return !exists(t.twin(h)) || is_sharp(sharpness.edge[index(t.edge(h))]); };
+  HalfEdge h = centre.start;
+  do {
+    ++type.faces;
+    const HalfEdge into = t.prev(h);
+    type.open = is_cut(into);
+    if (type.open) break;
+    h = t.twin(into);
+  } while (h != centre.start);
+  type.corner = type.open && is_corner(t, sharpness, t.tail(centre.start));
+  return type;
+}
+
+ControlMesh lone_fan(Index n, Index face_size, bool open) {
+  ControlMesh mesh;
+  const Index spokes = open ? n + 1 : n, step = face_size - 2;
+  mesh.positions = Points::Zero(1 + spokes * step, 3);
+  for (Index i = 0; i < n; ++i) {
+    mesh.face_sizes.push_back(face_size);
+    mesh.face_vertices.push_back(0);
+    for (Index k = 0; k <= step; ++k) mesh.face_vertices.push_back(1 + (open ? i * step + k : (i * step + k) % (n * step)));
+  }
+  return mesh;
+}
+
+}  // namespace sublimit

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// Local subdivision matrices of any scheme: a centre of one type, alone among regular points, refined until there are rings
+// enough, then over one whole period. Its matrix takes the points around the centre to those around its child.
+#include <algorithm>
+#include <optional>
+
+#include "sublimit/analysis/local_matrix.h"
+#include "sublimit/analysis/local_type.h"
+#include "sublimit/analysis/walk.h"
+#include "sublimit/refine_impl.h"
+
+namespace sublimit {
+
+template <class T>
+struct LocalPatch {
+  LocalType type;
+  int depth = 0;                    ///< of the walk that makes the slots and the signature
+  Walk places;                      ///< at that depth
+  std::vector<Index> slots;         ///< those of the smallest closed set
+  DenseMatrix<T> A;                 ///< over `slots`: one period
+  std::vector<std::vector<Index>> orbits;  ///< of a closed centre: positions in `slots`, rotated sector by sector
+  std::vector<Index> outline;       ///< of an open one: positions in `slots` of border points
+};
+
+/// n faces of a scheme's regular size around a vertex, alone.
+ControlMesh lone_fan(Index n, Index face_size, bool open);
+
+/// Local matrix of a type; nothing where a centre of this type does not have a child of its own type (a vertex in a dual scheme).
+/// @param rings  of points that the closed set shall hold at least; 1 is enough for tangents (0 for faces)
+/// @throws AnalysisError  no small closed set
+template <class T>
+std::optional<LocalPatch<T>> local_patch(const Scheme<T>& scheme, LocalType type, int rings = -1) {
+  constexpr int margin = 3;  // rings of points that masks may reach
+  const bool is_face = type.kind == Centre::Kind::face;
+  if (rings < 0) rings = is_face ? 0 : 1;
+  const bool open = type.open || type.kind == Centre::Kind::border;
+  const Index size = scheme.face_size() == 3 ? 3 : 4;
+  ControlMesh mesh = lone_fan(type.kind == Centre::Kind::border ? 2 : type.faces, size, open);
+  if (type.corner) mesh.corners.push_back({0, infinite_sharpness});
+  SubdivisionOptions options;
+  options.boundary = Boundary::edge_only;
+
+  LevelOf<T> level = control_level(scheme, mesh, options);
+  const Topology* t = &level.topology();
+  Centre centre{Centre::Kind::vertex, t->outgoing(Vertex{0})};
+  const auto advance = [&](SparseMatrixOf<T>* product) {
+    LevelOf<T> next = next_level(scheme, level);
+    const Topology* before = &level.topology();
+    for (const Refinement& step : next.steps) {
+      centre = child(centre, *before, step, level.number);
+      before = &step.topology;
+    }
+    if (product) {
+      if (product->rows() == 0) product->swap(next.S);
+      else SparseMatrixOf<T>(next.S * *product).swap(*product);
+    }
+    level = std::move(next);
+  };
+  // Growth of the rings from level to level: 2, sqrt 3 or sqrt 2.
+  const double growth = scheme.steps[0].split == Split::sqrt3 ? 1.7 : scheme.steps[0].split == Split::mid_edge ? 1.4 : 2;
+  int levels = type.phase;
+  for (double have = 1; have < rings + margin + 3 || levels < 2 * scheme.period; ) {
+    for (int k = 0; k < scheme.period; ++k) have *= growth;
+    levels += scheme.period;
+  }
+  for (int k = 0; k < levels; ++k) advance(nullptr);
+  const int deep = rings + margin;
+  LocalPatch<T> patch;
+  patch.type = local_type(level.topology(), level.sharpness, centre, level.number, scheme.period);
+  if (patch.type != type) return std::nullopt;
+  const Walk parent = walk(level.topology(), level.sharpness, centre, deep);
+  const HalfEdge turned = is_face ? level.topology().next(centre.start) : level.topology().ccw(centre.start);
+  const Walk rotated = open ? Walk{} : walk(level.topology(), level.sharpness, {centre.kind, turned}, deep);
+  const LevelOf<T> before = level;
+  const Centre before_centre = centre;
+  SparseMatrixOf<T> S;
+  for (int k = 0; k < scheme.period; ++k) advance(&S);
+  const Walk after = walk(level.topology(), level.sharpness, centre, deep);
+  if (local_type(level.topology(), level.sharpness, centre, level.number, scheme.period) != type) return std::nullopt;
+
+  std::vector<Index> slot_of(S.cols(), -1);
+  for (size_t s = 0; s < parent.vertices.size(); ++s) slot_of[parent.vertices[s]] = static_cast<Index>(s);
+  // The smallest closed set that holds the rings asked for.
+  const Index known = parent.ring_end.back();
+  std::vector<bool> in(known, false);
+  std::vector<Index> open_slots;
+  for (Index s = 0; s < parent.ring_end[rings]; ++s) open_slots.push_back(s);
+  while (!open_slots.empty()) {
+    const Index s = open_slots.back();
+    open_slots.pop_back();
+    if (in[s]) continue;
+    in[s] = true;
+    for (typename SparseMatrixOf<T>::InnerIterator it(S, after.vertices[s]); it; ++it) {
+      const Index column = slot_of[it.col()];
+      if (column < 0 || column >= parent.ring_end[deep - 1])
+        throw AnalysisError(scheme.name + ": a neighbourhood is not closed under refinement");
+      open_slots.push_back(column);
+    }
+  }
+  std::vector<Index> position(known, -1);
+  for (Index s = 0; s < known; ++s) {
+    if (!in[s]) continue;
+    position[s] = static_cast<Index>(patch.slots.size());
+    patch.slots.push_back(s);
+    while (patch.depth < deep && s >= parent.ring_end[patch.depth]) ++patch.depth;
+  }
+  ++patch.depth;
+  patch.places = walk(before.topology(), before.sharpness, before_centre, patch.depth);
+  const auto count = static_cast<Eigen::Index>(patch.slots.size());
+  patch.A.setZero(count, count);
+  for (Eigen::Index i = 0; i < count; ++i)
+    for (typename SparseMatrixOf<T>::InnerIterator it(S, after.vertices[patch.slots[i]]); it; ++it)
+      patch.A(i, position[slot_of[it.col()]]) = it.value();
+
+  if (open) {
+    for (Eigen::Index i = 0; i < count; ++i)
+      if (parent.on_border[patch.slots[i]]) patch.outline.push_back(static_cast<Index>(i));
+    return patch;
+  }
+  std::vector<Index> rotation(count);  // position of the same place, one sector on
+  for (Eigen::Index i = 0; i < count; ++i) rotation[i] = position[slot_of[rotated.vertices[patch.slots[i]]]];
+  std::vector<bool> seen(count, false);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    if (seen[i]) continue;
+    std::vector<Index> orbit;
+    for (Index p = static_cast<Index>(i); !seen[p]; p = rotation[p]) {
+      seen[p] = true;
+      orbit.push_back(p);
+    }
+    patch.orbits.push_back(std::move(orbit));
+  }
+  return patch;
+}
+
+}  // namespace sublimit

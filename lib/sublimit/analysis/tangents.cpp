@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sublimit/analysis/tangents.h"
+
+#include <Eigen/LU>
+#include <Eigen/QR>
+
+#include <algorithm>
+
+namespace sublimit {
+namespace {
+
+using Eigen::MatrixXcd;
+using Eigen::MatrixXd;
+using Eigen::VectorXcd;
+using Eigen::VectorXd;
+using Side = LimitMasks::Side;
+using Plane = LimitMasks::Plane;
+
+/// Two moduli this close (relative) decay at the same rate.
+constexpr double same_rate = 1e-9;
+
+/// Left eigenvector that takes the right one, scaled to be 1 at a slot, to 1: per unit of the edge to that slot.
+VectorXd per_unit(const EigenCluster& cluster, const Slots& slots, Index slot) {
+  const Eigen::Index at = std::find(slots.begin(), slots.end(), slot) - slots.begin();
+  const VectorXd l = made_real(cluster.left.col(0)), r = made_real(cluster.right.col(0));
+  const double taken = l.dot(r);
+  if (std::abs(taken) < 1e-8 || std::abs(r[at]) < 1e-8) return l[at] < 0 ? VectorXd(-l) : l;
+  return l * (r[at] / taken);
+}
+
+}  // namespace
+
+bool decays_like(double modulus, double lambda) { return modulus >= lambda * (1 - same_rate); }
+
+/// Slots that the given ones depend on, themselves included: the smallest closed set.
+Slots closure(const MatrixXd& A, const Slots& seed) {
+  std::vector<bool> in(A.rows(), false);
+  Slots open = seed, result;
+  while (!open.empty()) {
+    const Index i = open.back();
+    open.pop_back();
+    if (in[i]) continue;
+    in[i] = true;
+    result.push_back(i);
+    for (Index j = 0; j < A.cols(); ++j)
+      if (A(i, j) != 0) open.push_back(j);
+  }
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+VectorXd embedded(const VectorXd& weights, const Slots& slots, Index size) {
+  VectorXd mask = VectorXd::Zero(size);
+  for (size_t i = 0; i < slots.size(); ++i) mask[slots[i]] += weights[Eigen::Index(i)];
+  return mask;
+}
+
+/// A complex vector that is real up to a phase, turned real.
+VectorXd made_real(const VectorXcd& v) {
+  Eigen::Index largest = 0;
+  v.cwiseAbs().maxCoeff(&largest);
+  return (v * (std::conj(v[largest]) / std::abs(v[largest]))).real();
+}
+
+VectorXd position_mask(const MatrixXd& A, const Slots& centre, const std::optional<FourierBlocks>& fourier) {
+  const Slots slots = closure(A, centre);
+  if (!fourier || static_cast<Index>(slots.size()) < A.rows())
+    return embedded(limit_weights(A(slots, slots)), slots, static_cast<Index>(A.rows()));
+  return fourier->mask(0, limit_weights(fourier->blocks[0].real()).cast<std::complex<double>>()).real();
+}
+
+/// The whole ring of an interior vertex whose neighbourhood looks the same from every sector: the tangents are the cosine
+/// and the sine mask of block 1.
+void add_ring_tangents(Side& side, const FourierBlocks& fourier) {
+  const EigenStructure structure = eigen_structure(fourier);
+  const EigenCluster* first = nullptr;
+  for (const EigenCluster& cluster : structure.clusters)
+    if (cluster.block == 1 && !first) first = &cluster;
+  const double lambda = std::abs(first->value);
+  side.lambda1 = side.lambda2 = lambda;
+  VectorXcd l = first->left.col(0);
+  const VectorXcd r = first->right.col(0);
+  const std::complex<double> overlap = l.transpose() * r;
+  // Characteristic parameter: the end of the first edge is at distance 1.
+  if (std::abs(overlap) > 1e-8) l *= (std::abs(r[0]) > 1e-8 ? r[0] : 1.0) / overlap;
+  if (fourier.n == 2) {  // a digon: block 1 is real, and both tangents must come from it
+    side.tangent1 = fourier.mask(1, l).real();
+    side.tangent2 = first->left.cols() > 1 ? VectorXd(fourier.mask(1, first->left.col(1)).real())
+                                           : VectorXd::Zero(side.tangent1.size());
+    side.plane = Plane::no;
+  } else {
+    const VectorXcd mask = 2.0 * fourier.mask(1, l);
+    side.tangent1 = mask.real();
+    side.tangent2 = -mask.imag();
+    side.plane = first->is_jordan() ? Plane::slow : first->multiplicity > 1 ? Plane::no : Plane::yes;
+  }
+  double next = 0;
+  for (const EigenCluster& cluster : structure.clusters) {
+    const bool constant = cluster.block == 0 && std::abs(cluster.value - 1.0) < same_rate;
+    if (&cluster == first || constant || (fourier.n > 2 && cluster.block == fourier.n - 1 && std::abs(cluster.value) >= lambda * (1 - same_rate)))
+      continue;
+    const double modulus = std::abs(cluster.value);
+    if (decays_like(modulus, lambda)) side.plane = Plane::no;
+    if (next == 0) next = modulus;
+    if (modulus < next * (1 - same_rate) || 2 * cluster.block > fourier.n) continue;
+    for (Eigen::Index c = 0; c < cluster.left.cols(); ++c) {
+      const VectorXcd mask = fourier.mask(cluster.block, cluster.left.col(c));
+      for (const VectorXd& part : {VectorXd(mask.real()), VectorXd(mask.imag())})
+        if (part.norm() > 1e-9 * mask.norm()) side.second_order.push_back(part);
+    }
+  }
+}
+
+/// One side between two sharp edges. Its outline (the vertex and the ends of these edges) is a curve scheme of its own and
+/// gives the tangent along a crease, or the two tangents of a corner; the leading mode of the interior crosses a crease.
+void add_border_tangents(Side& side, const MatrixXd& whole, const Outline& outline, bool is_corner) {
+  const Index size = static_cast<Index>(whole.rows()), first = outline.first, last = outline.last;
+  const Slots &curve = outline.curve, &inner = outline.inner;
+  side.tangent1 = side.tangent2 = VectorXd::Zero(size);
+  Slots all = curve;
+  all.insert(all.end(), inner.begin(), inner.end());
+  if (whole(all, Eigen::all).cwiseAbs().sum() - whole(all, all).cwiseAbs().sum() > 1e-12) {
+    side.plane = Plane::no;  // the crease that passes here is not this side's outline
+    return;
+  }
+  const MatrixXd C = whole(curve, curve), B = whole(inner, curve), D = whole(inner, inner);
+  const EigenStructure interior = eigen_structure(D.cast<std::complex<double>>(), 0, 3);
+  const auto modulus = [&](size_t i) {
+    return i < interior.clusters.size() ? std::abs(interior.clusters[i].value) : 0.0;
+  };
+
+  if (is_corner) {
+    VectorXd* tangents[] = {&side.tangent1, &side.tangent2};
+    for (int i = 0; i < 2; ++i) {
+      const Index end = i == 0 ? first : last;
+      const Slots leg = closure(whole, {0, end});
+      const EigenStructure along = eigen_structure(whole(leg, leg).cast<std::complex<double>>());
+      *tangents[i] = embedded(per_unit(along.clusters[1], leg, end), leg, size);
+      (i == 0 ? side.lambda1 : side.lambda2) = std::abs(along.clusters[1].value);
+    }
+    const double lambda = std::min(side.lambda1, side.lambda2);
+    if (modulus(0) > lambda * (1 + same_rate)) side.plane = Plane::no;
+    if (std::abs(modulus(0) - lambda) <= lambda * same_rate) side.plane = Plane::slow;
+    for (const EigenCluster& cluster : interior.clusters) {
+      const VectorXd d = made_real(cluster.left.col(0));
+      side.second_order.push_back(embedded(d, inner, size));
+    }
+    return;
+  }
+
+  // Along: the left eigenvector of the outline's second eigenvalue, towards the first edge.
+  const EigenStructure modes = eigen_structure(C.cast<std::complex<double>>());
+  side.tangent1 = embedded(per_unit(modes.clusters[1], curve, first), curve, size);
+  side.lambda1 = std::abs(modes.clusters[1].value);
+  const EigenCluster& bending = modes.clusters[std::min<size_t>(2, modes.clusters.size() - 1)];
+  if (interior.clusters.empty()) {  // a single triangle: only the bend of the outline is left
+    VectorXd bend = embedded(made_real(bending.left.col(0)), curve, size);
+    side.tangent2 = bend[first] < 0 ? VectorXd(-bend) : bend;
+    side.lambda2 = std::abs(bending.value);
+    return;
+  }
+  // Across: (x, d) with d^T D = mu d^T and x^T (C - mu) = -d^T B.
+  const auto across = [&](const EigenCluster& cluster, VectorXd& mask) {
+    const double mu = cluster.value.real();
+    const VectorXd d = made_real(cluster.left.col(0));
+    const MatrixXd shifted = (C - mu * MatrixXd::Identity(C.rows(), C.cols())).transpose();
+    const VectorXd right = -(B.transpose() * d);
+    Eigen::CompleteOrthogonalDecomposition<MatrixXd> solver;
+    solver.setThreshold(1e-10);
+    solver.compute(shifted);
+    const VectorXd x = solver.solve(right);
+    mask = embedded(x, curve, size) + embedded(d, inner, size);
+    return (shifted * x - right).norm() <= 1e-9 * d.norm();
+  };
+  const EigenCluster& leading = interior.clusters[0];
+  side.lambda2 = std::abs(leading.value);
+  VectorXd mask;
+  const bool solvable = across(leading, mask);
+  // The leading mode is one-signed, its heights over the outline; the mask that takes it to a positive number points inwards.
+  const VectorXd d = made_real(leading.left.col(0)), heights = made_real(leading.right.col(0));
+  const double taken = d.dot(heights) * (heights.sum() < 0 ? -1 : 1);
+  const double inward = (std::abs(taken) > 1e-8 ? taken : d.sum()) < 0 ? -1 : 1;
+  if (solvable) {
+    side.tangent2 = inward * mask;
+  } else {
+    // A Jordan block with the outline's mode q of the same eigenvalue: it feeds the interior, k mu^k (d^T B q), and wins. So
+    // the surface leaves the crease in the direction of that mode.
+    for (const EigenCluster& mode : modes.clusters) {
+      if (std::abs(mode.value - leading.value) > cluster_tolerance) continue;
+      const VectorXd l = made_real(mode.left.col(0)), q = made_real(mode.right.col(0));
+      const double fed = inward * made_real(leading.left.col(0)).dot(B * q) / l.dot(q);
+      side.tangent2 = (fed < 0 ? -1 : 1) * embedded(l, curve, size);
+    }
+    side.second_order.push_back(inward * mask);
+  }
+  if (leading.multiplicity > 1) side.plane = Plane::no;
+  // The second sine mode against the tangent along the crease: slower, and interior normals keep an angle to the crease's.
+  if (modulus(1) > side.lambda1 * (1 + same_rate)) side.plane = Plane::no;
+  if (std::abs(modulus(1) - side.lambda1) <= side.lambda1 * same_rate) side.plane = Plane::slow;
+  for (size_t i = 1; i < interior.clusters.size(); ++i)
+    if (across(interior.clusters[i], mask)) side.second_order.push_back(mask);
+  side.second_order.push_back(embedded(made_real(bending.left.col(0)), curve, size));
+}
+
+void add_free_tangents(Side& side, const MatrixXd& A, const Slots& ring) {
+  const Index size = static_cast<Index>(A.rows());
+  const EigenStructure structure = eigen_structure(A.cast<std::complex<double>>(), 0, 6);
+  std::vector<VectorXd> left, right;
+  std::vector<double> moduli;
+  for (const EigenCluster& cluster : structure.clusters) {
+    if (std::abs(cluster.value - 1.0) < same_rate) continue;
+    for (Eigen::Index k = 0; k < cluster.left.cols(); ++k) {
+      left.push_back(made_real(cluster.left.col(k)));
+      right.push_back(made_real(cluster.right.col(k)));
+      moduli.push_back(std::abs(cluster.value));
+    }
+  }
+  side.tangent1 = side.tangent2 = VectorXd::Zero(size);
+  if (left.size() < 2) {
+    side.plane = Plane::no;
+    return;
+  }
+  MatrixXd L(size, 2), R(size, 2);
+  L << left[0], left[1];
+  R << right[0], right[1];
+  const Eigen::Matrix2d taken = L.transpose() * R;
+  if (std::abs(taken.determinant()) < 1e-9) side.plane = Plane::slow;
+  else L = L * taken.inverse().transpose();
+  double area = 0;  // of the characteristic map around the centre
+  for (size_t i = 0; i + 1 < ring.size(); ++i) {
+    const Eigen::RowVector2d a = R.row(ring[i]) - R.row(0), b = R.row(ring[i + 1]) - R.row(0);
+    area += a[0] * b[1] - a[1] * b[0];
+  }
+  side.tangent1 = L.col(0);
+  side.tangent2 = area < 0 ? VectorXd(-L.col(1)) : VectorXd(L.col(1));
+  side.lambda1 = moduli[0];
+  side.lambda2 = moduli[1];
+  for (size_t i = 2; i < left.size(); ++i) side.second_order.push_back(left[i]);
+  if (moduli.size() > 2 && decays_like(moduli[2], moduli[1])) side.plane = Plane::no;
+}
+
+}  // namespace sublimit
