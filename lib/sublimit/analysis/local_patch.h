@@ -34,6 +34,7 @@ std::optional<LocalPatch<T>> local_patch(const Scheme<T>& scheme, LocalType type
   constexpr int margin = 3;  // rings of points that masks may reach
   const bool is_face = type.kind == Centre::Kind::face;
   if (rings < 0) rings = is_face ? 0 : 1;
+  if (type.corner && scheme.is_dual()) return std::nullopt;  // dual schemes round corners
   const bool open = type.open || type.kind == Centre::Kind::border;
   const Index size = scheme.face_size() == 3 ? 3 : 4;
   ControlMesh mesh = lone_fan(type.kind == Centre::Kind::border ? 2 : type.faces, size, open);
