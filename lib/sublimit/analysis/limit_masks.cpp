@@ -106,6 +106,7 @@ void add_tangents_between_edges(Side& side, const MatrixXd& A, const CanonicalNe
     for (size_t i = 2; i < slots.size(); ++i)
       if (slots[i] != outline.last) outline.inner.push_back(slots[i]);
   }
+  outline.inner_ring = outline.inner;
   add_border_tangents(side, A, outline, rule == Rule::corner);
 }
 
@@ -275,6 +276,11 @@ std::optional<LoneLimit> lone_limit(const Scheme<double>& scheme, const LocalTyp
     outline.curve = patch->outline;
     for (Index i = 0; i < static_cast<Index>(patch->slots.size()); ++i)
       if (!std::binary_search(outline.curve.begin(), outline.curve.end(), i)) outline.inner.push_back(i);
+    outline.centre = centre;
+    // On a border edge: the other corners of its face, which the walk finds first.
+    const size_t near = type.kind == Centre::Kind::border ? 2 : ring.size();
+    for (const Index i : Slots(ring.begin(), ring.begin() + Index(std::min(near, ring.size()))))
+      if (!std::binary_search(outline.curve.begin(), outline.curve.end(), i)) outline.inner_ring.push_back(i);
     const bool on_vertex = type.kind == Centre::Kind::vertex;
     outline.first = 1;
     outline.last = on_vertex ? ring.back() : 0;

@@ -180,20 +180,66 @@ void add_border_tangents(Side& side, const MatrixXd& whole, const Outline& outli
   const VectorXd d = made_real(leading.left.col(0)), heights = made_real(leading.right.col(0));
   const double taken = d.dot(heights) * (heights.sum() < 0 ? -1 : 1);
   const double inward = (std::abs(taken) > 1e-8 ? taken : d.sum()) < 0 ? -1 : 1;
+  const auto shared = std::find_if(modes.clusters.begin(), modes.clusters.end(), [&](const EigenCluster& mode) {
+    return std::abs(mode.value - leading.value) <= cluster_tolerance;
+  });
+  const auto extended = [&](const EigenCluster& mode, Eigen::Index k) {  // a mode of the outline over the inner points
+    const VectorXd right = made_real(mode.right.col(k));
+    const MatrixXd shifted = D - mode.value.real() * MatrixXd::Identity(D.rows(), D.cols());
+    Eigen::CompleteOrthogonalDecomposition<MatrixXd> solver;
+    solver.setThreshold(1e-10);
+    solver.compute(shifted);
+    return VectorXd(embedded(right, curve, size) + embedded(solver.solve(-(B * right)), inner, size));
+  };
+  // How far points next to the centre stand off the outline. Those of a border edge lie beside its ends; around a vertex they lie
+  // elsewhere along the outline, and what a parabola along it does is taken off.
+  const auto height_of = [&](const VectorXd& values, const VectorXd& along) {
+    if (outline.centre.size() > 1) return values(outline.inner_ring).mean() - values(outline.centre).mean();
+    const VectorXd squares = along.cwiseAbs2();
+    MatrixXd parabola(curve.size(), 2);
+    parabola << VectorXd::Ones(std::ssize(curve)), squares(curve);
+    const Eigen::Vector2d fit = parabola.colPivHouseholderQr().solve(values(curve));
+    return (values - fit[1] * squares)(outline.inner_ring).mean() - fit[0];
+  };
+  if (solvable && shared != modes.clusters.end() && !outline.inner_ring.empty()) {
+    // The outline bends at the same rate, by its mode b, so that the mask is known up to multiples of b's: the one that does not
+    // see a bend that all points next to the centre follow alike gives the direction across.
+    const VectorXd along = extended(modes.clusters[1], 0), rise = embedded(heights, inner, size);
+    const Eigen::Index count = shared->geometric();
+    MatrixXd bends(size, count), takes(size, count);
+    for (Eigen::Index k = 0; k < count; ++k) {
+      const VectorXd bend = extended(*shared, k);
+      bends.col(k) = bend - rise * (height_of(bend, along) / height_of(rise, along));
+      takes.col(k) = embedded(made_real(shared->left.col(k)), curve, size);
+    }
+    const MatrixXd seen = bends.transpose() * takes;
+    const Eigen::FullPivLU<MatrixXd> lu(seen);
+    if (lu.isInvertible()) mask -= takes * lu.solve(bends.transpose() * mask);
+  }
   if (solvable) {
     side.tangent2 = inward * mask;
-  } else {
-    // A Jordan block with the outline's mode q of the same eigenvalue: it feeds the interior, k mu^k (d^T B q), and wins. So
-    // the surface leaves the crease in the direction of that mode.
-    for (const EigenCluster& mode : modes.clusters) {
-      if (std::abs(mode.value - leading.value) > cluster_tolerance) continue;
-      const VectorXd l = made_real(mode.left.col(0)), q = made_real(mode.right.col(0));
-      const double fed = inward * made_real(leading.left.col(0)).dot(B * q) / l.dot(q);
-      side.tangent2 = (fed < 0 ? -1 : 1) * embedded(l, curve, size);
+  } else if (shared != modes.clusters.end()) {
+    // A Jordan block with the outline's mode of the same eigenvalue: it feeds the interior, k mu^k, and wins. So the surface leaves
+    // the crease in the direction of that mode; to which side, some steps tell.
+    const VectorXd l = embedded(made_real(shared->left.col(0)), curve, size);
+    VectorXd fed = l;
+    for (size_t i = 0; i < 2 && i < modes.clusters.size(); ++i) {  // without the constant and the mode along
+      const VectorXd left = made_real(modes.clusters[i].left.col(0)), right = made_real(modes.clusters[i].right.col(0));
+      fed -= left.dot(fed(curve)) / left.dot(right) * extended(modes.clusters[i], 0);
     }
+    for (int k = 0; k < 10; ++k) fed = whole * fed / std::abs(leading.value);
+    const double height = fed(outline.inner_ring.empty() ? inner : outline.inner_ring).mean() - fed(outline.centre).mean();
+    side.tangent2 = (height < 0 ? -1 : 1) * l;
     side.second_order.push_back(inward * mask);
   }
   if (leading.multiplicity > 1) side.plane = Plane::no;
+  double lowest = 0, highest = 0;
+  for (const Index i : outline.inner_ring) {
+    const double height = heights[std::find(inner.begin(), inner.end(), i) - inner.begin()];
+    lowest = std::min(lowest, height);
+    highest = std::max(highest, height);
+  }
+  if (-lowest * highest > 1e-9) side.plane = Plane::no;  // a mode on both sides of the outline folds the surface
   // The second sine mode against the tangent along the crease: slower, and interior normals keep an angle to the crease's.
   if (modulus(1) > side.lambda1 * (1 + same_rate)) side.plane = Plane::no;
   if (std::abs(modulus(1) - side.lambda1) <= side.lambda1 * same_rate) side.plane = Plane::slow;

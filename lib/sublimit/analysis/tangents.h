@@ -32,6 +32,7 @@ void add_ring_tangents(LimitMasks::Side& side, const FourierBlocks& fourier);
 /// with the side on the left of the way from the centre to `first`.
 struct Outline {
   Slots curve, inner;
+  Slots centre{0}, inner_ring;  ///< the centre's own points, and the inner ones next to it
   Index first = 0, last = 0;
 };
 /// One side between two sharp edges. Its outline gives the tangent along a crease, or the two tangents of a corner (slot 0);
