@@ -60,18 +60,19 @@ struct Counts {
 
 void check_levels(const Scheme<double>& scheme, const Topology& t, int levels) {
   if (levels < 0) throw InvalidParameter("levels is " + std::to_string(levels) + "; it must be 0 or more");
-  const double bytes = predicted_bytes(scheme, t, levels), memory = physical_memory();
-  const std::string amount = std::to_string(levels) + " levels of " + std::to_string(t.num_faces()) + " faces take about " +
-                             in_words(bytes) + " of memory";
+  const std::string amount = std::to_string(levels) + " levels of " + std::to_string(t.num_faces()) + " faces";
   Counts counts{double(t.num_half_edges()), double(t.num_faces()), double(t.num_edges()), double(t.num_vertices())};
-  for (int k = 0; k < levels; ++k) {
+  double bytes = counts.bytes();
+  for (int k = 0; k < levels && t.num_faces() > 0; ++k) {
     for (const Step<double>& step : scheme.steps_at(k, t)) counts = counts.next(step.split);
+    bytes += counts.bytes();
     if (counts.corners > std::numeric_limits<Index>::max())
-      throw ResourceError(amount + ", and level " + std::to_string(k + 1) +
+      throw ResourceError(amount + " take more than " + in_words(bytes) + " of memory, and level " + std::to_string(k + 1) +
                           " has more face corners than 32-bit indices count; use at most " + std::to_string(k));
   }
-  if (bytes > memory)
-    throw ResourceError(amount + "; this machine has " + in_words(memory) + ". Use fewer levels or refine a subset");
+  if (bytes > physical_memory())
+    throw ResourceError(amount + " take about " + in_words(bytes) + " of memory; this machine has " +
+                        in_words(physical_memory()) + ". Use fewer levels or refine a subset");
 }
 
 /// Faces that share a vertex with `faces`, themselves included; ascending.

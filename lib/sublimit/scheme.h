@@ -40,10 +40,10 @@ struct Claims {
 template <class T>
 struct Scheme {
   std::string name;
-  std::string source;  ///< author, year, title
-  std::vector<Step<T>> steps;
+  std::string source;          ///< author, year, title
+  std::vector<Step<T>> steps;  ///< in templates written `{Step<T>{...}}`: g++ 12 fails on nested plain braces
   CreaseMasks<T> creases;
-  Claims claims;
+  Claims claims = {};
   std::vector<OptionInfo> options = {};
   /// The masks repeat with this period in the level; 1 for stationary schemes. Rotating schemes (sqrt3, mid_edge) have
   /// 2: only then a neighbourhood lies as it lay before.

@@ -314,26 +314,30 @@ class CreaseEdgeSite : public Site<T> {
   bool has_before_, has_after_;
 };
 
+/// A mask: from the site to the stencil of the new point.
+template <class T, class Site>
+using Mask = std::function<Stencil<T>(const Site&)>;
+
 /// The masks of one step; a group that the step's split does not make stays empty.
 template <class T>
 struct Masks {
-  std::function<Stencil<T>(const Ring<T>&)> vertex = {};
-  std::function<Stencil<T>(const EdgeSite<T>&)> edge = {};
-  std::function<Stencil<T>(const FaceSite<T>&)> face = {};
+  Mask<T, Ring<T>> vertex = {};
+  Mask<T, EdgeSite<T>> edge = {};
+  Mask<T, FaceSite<T>> face = {};
   /// Of a dual split, for the point at corner 0 of the face.
-  std::function<Stencil<T>(const FaceSite<T>&)> corner = {};
+  Mask<T, FaceSite<T>> corner = {};
   /// Instead of `edge` and `face`, where these need more of the mesh. A wide edge mask makes border points too, if
   /// `wide_borders`; else the crease masks do.
-  std::function<Stencil<T>(const WideEdgeSite<T>&)> wide_edge = {};
-  std::function<Stencil<T>(const WideFaceSite<T>&)> wide_face = {};
+  Mask<T, WideEdgeSite<T>> wide_edge = {};
+  Mask<T, WideFaceSite<T>> wide_face = {};
   bool wide_borders = false;
 };
 
 /// The masks along sharp edges and boundaries. A corner stays where it is.
 template <class T>
 struct CreaseMasks {
-  std::function<Stencil<T>(const CreaseSite<T>&)> vertex = {};
-  std::function<Stencil<T>(const CreaseEdgeSite<T>&)> edge = {};
+  Mask<T, CreaseSite<T>> vertex = {};
+  Mask<T, CreaseEdgeSite<T>> edge = {};
 };
 
 }  // namespace sublimit

@@ -1,5 +1,5 @@
-// A scheme that the library does not have, in a program that only links it: Catmull-Clark's topology, tensor-product masks with
-// weights 9/16, 3/8, 1/16 at every valence. It gets matrices and limits like any other.
+// A scheme that the library does not have, in a program that only links it: Catmull-Clark's topology, tensor-product
+// masks with weights 9/16, 3/8, 1/16 at every valence. It gets matrices and limits like any other.
 #include <sublimit/analysis/limit_points.h>
 #include <sublimit/refine.h>
 #include <sublimit/schemes/cubic_bspline_creases.h>
@@ -11,17 +11,19 @@ using namespace sublimit;
 
 template <class T>
 Scheme<T> my_averaging() {
-  return {.name = "my-averaging",
-          .source = "here",
-          .steps = {{.split = Split::pqq,
-                     .masks = {.vertex = [](const Ring<T>& v) {
-                                 return (v.center() + v.neighbor_mean() + 2 * v.face_point_mean()) / 4;
-                               },
-                               .edge = [](const EdgeSite<T>& e) {
-                                 return (e.tail() + e.head() + e.left_face().point() + e.right_face().point()) / 4;
-                               },
-                               .face = [](const FaceSite<T>& f) { return f.centroid(); }}}},
-          .creases = cubic_bspline_creases<T>()};
+  return {
+      .name = "my-averaging",
+      .source = "here",
+      .steps = {Step<T>{
+          .split = Split::pqq,
+          .masks = {
+              .vertex = [](const Ring<T>& v) { return (v.center() + v.neighbor_mean() + 2 * v.face_point_mean()) / 4; },
+              .edge =
+                  [](const EdgeSite<T>& e) {
+                    return (e.tail() + e.head() + e.left_face().point() + e.right_face().point()) / 4;
+                  },
+              .face = [](const FaceSite<T>& f) { return f.centroid(); }}}},
+      .creases = cubic_bspline_creases<T>()};
 }
 
 int main() {
@@ -33,8 +35,7 @@ int main() {
   const Scheme<double> scheme = my_averaging<double>();
   const std::vector<Level> levels = refine(scheme, cube, 2);
   LimitMaskCache cache(scheme);
-  const LimitPoints limit =
-      limit_points(limit_matrices(levels[0], cache), levels[0].topology(), cube.positions);
+  const LimitPoints limit = limit_points(limit_matrices(levels[0], cache), levels[0].topology(), cube.positions);
   const Eigen::RowVector3d corner = limit.position.row(7), normal = limit.normal.row(0);
   std::printf("%td points on level 2; the corner's limit is (%g, %g, %g)\n", levels[2].S.rows(), corner[0], corner[1],
               corner[2]);
