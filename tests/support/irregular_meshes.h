@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// Closed meshes without symmetry: all valences and face sizes, in all neighbourhoods.
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "support/meshes.h"
+
+namespace sublimit::testing {
+
+ControlMesh bipyramid(Index n);  ///< triangles; two vertices of valence n, n of valence 4
+
+/// Triangles, of which `flips` random edges have been flipped where valences stay from 3 to 10 and no edge is doubled.
+ControlMesh flipped(const ControlMesh& triangles, int flips, unsigned seed = 1);
+
+/// Up to `edges` random edges removed, their faces made one, where valences stay at least 3, faces get no more than 10
+/// corners, and no other vertex is common to both.
+ControlMesh merged(const ControlMesh& mesh, int edges, unsigned seed = 1);
+
+/// What schemes are compared with other libraries on: every vertex moved at random, valences (and faces of polygon
+/// meshes) of 3 to 10 in all combinations, one valence of 60, regular places too. The schemes' names are left empty.
+std::vector<NamedMesh> closed_triangle_meshes();
+std::vector<NamedMesh> closed_polygon_meshes();  ///< triangles, quads, polygons
+/// With borders, some of them with vertices of a single face.
+std::vector<NamedMesh> open_triangle_meshes();
+std::vector<NamedMesh> open_polygon_meshes();
+
+struct SchemeOnMesh {
+  std::string scheme, name;
+  ControlMesh mesh;
+  friend std::ostream& operator<<(std::ostream& out, const SchemeOnMesh& s) {
+    return out << s.scheme << " on " << s.name;
+  }
+};
+/// Every one of the schemes on every one of the meshes.
+std::vector<SchemeOnMesh> schemes_on(const std::vector<std::string>& schemes, const std::vector<NamedMesh>& meshes);
+
+}  // namespace sublimit::testing

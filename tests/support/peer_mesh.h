@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// A mesh as another library leaves it.
+#include <vector>
+
+#include "sublimit/types.h"
+
+namespace sublimit::testing {
+
+struct PeerMesh {
+  Points positions;
+  std::vector<Index> face_sizes, face_vertices;  ///< counter-clockwise
+  Index num_edges = 0;                           ///< as the library counts them
+};
+
+}  // namespace sublimit::testing
