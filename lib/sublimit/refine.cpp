@@ -67,8 +67,9 @@ void check_levels(const Scheme<double>& scheme, const Topology& t, int levels) {
     for (const Step<double>& step : scheme.steps_at(k, t)) counts = counts.next(step.split);
     bytes += counts.bytes();
     if (counts.corners > std::numeric_limits<Index>::max())
-      throw ResourceError(amount + " take more than " + in_words(bytes) + " of memory, and level " + std::to_string(k + 1) +
-                          " has more face corners than 32-bit indices count; use at most " + std::to_string(k));
+      throw ResourceError(amount + " take more than " + in_words(bytes) + " of memory, and level " +
+                          std::to_string(k + 1) + " has more face corners than 32-bit indices count; use at most " +
+                          std::to_string(k));
   }
   if (bytes > physical_memory())
     throw ResourceError(amount + " take about " + in_words(bytes) + " of memory; this machine has " +
@@ -122,17 +123,18 @@ void check_sharpness(const std::string& scheme, Sharpening sharpening, bool is_d
   if (sharpening == Sharpening::semi_sharp) return;
   const auto refuse = [&](const std::string& what) {
     const bool some = sharpening == Sharpening::sharp;
-    throw UnsupportedTopology(what + ": " + scheme +
-                              (some ? " has rules for infinite sharpness (>= 10) only; make it 10, "
-                                    : " has no rule for it; ") +
-                              "remove the tag (--no-creases), or use a scheme with semi-sharp creases: catmull-clark or loop");
+    throw UnsupportedTopology(
+        what + ": " + scheme +
+        (some ? " has rules for infinite sharpness (>= 10) only; make it 10, " : " has no rule for it; ") +
+        "remove the tag (--no-creases), or use a scheme with semi-sharp creases: catmull-clark or loop");
   };
   for (Index i = 0; i < t.num_edges(); ++i) {
     const Edge e{i};
     const float s = sharpness.edge[i];
     if (!is_sharp(s) || !exists(t.twin(t.half_edge(e)))) continue;
+    const auto [a, b] = std::minmax(index(t.tail(e)), index(t.head(e)));
     if (sharpening == Sharpening::boundary || !is_infinite(s))
-      refuse("sharp edge (" + std::to_string(index(t.tail(e))) + "," + std::to_string(index(t.head(e))) + ")");
+      refuse("sharp edge (" + std::to_string(a) + "," + std::to_string(b) + ")");
   }
   for (Index v = 0; v < t.num_vertices() && sharpening == Sharpening::sharp; ++v)
     if (VertexSharpness(t, sharpness, Vertex{v}).rule() == Rule::dart)
@@ -182,7 +184,8 @@ double predicted_bytes(const Scheme<double>& scheme, const Topology& t, int leve
 
 Part part(const Level& whole, std::span<const Index> chosen, int rings) {
   const Topology& t = whole.topology();
-  std::vector<Index> complete(chosen.begin(), chosen.end());  // faces of which every vertex has all its faces in the part
+  std::vector<Index> complete(chosen.begin(),
+                              chosen.end());  // faces of which every vertex has all its faces in the part
   for (int k = 1; k < rings; ++k) complete = with_neighbors(t, complete);
   Part part;
   part.faces = with_neighbors(t, complete);
@@ -249,7 +252,8 @@ Subset subset(const Level& whole, std::span<const Index> chosen, int rings) {
   Part around = part(whole, chosen, rings);
   Subset result;
   for (const Index f : chosen)
-    result.faces.push_back(static_cast<Index>(std::lower_bound(around.faces.begin(), around.faces.end(), f) - around.faces.begin()));
+    result.faces.push_back(
+        static_cast<Index>(std::lower_bound(around.faces.begin(), around.faces.end(), f) - around.faces.begin()));
   result.level = std::move(around.level);
   result.level.S = selected_rows(identity(t.num_vertices()), around.vertices);
   result.parents = std::move(around.faces);
@@ -258,7 +262,11 @@ Subset subset(const Level& whole, std::span<const Index> chosen, int rings) {
 
 int rings_for_refinement(const Scheme<double>& scheme) {
   // Dual splits lose the faces at the rim; wide masks see two rings of faces, Kobbelt's faces a third.
-  return scheme.is_wide() ? 4 : scheme.steps.size() > 1 ? 2 + static_cast<int>(scheme.steps.size()) : scheme.is_dual() ? 3 : scheme.period > 1 ? 2 : 1;
+  return scheme.is_wide()          ? 4
+         : scheme.steps.size() > 1 ? 2 + static_cast<int>(scheme.steps.size())
+         : scheme.is_dual()        ? 3
+         : scheme.period > 1       ? 2
+                                   : 1;
 }
 
 Subset refine(const Scheme<double>& scheme, const Subset& part) {
@@ -277,10 +285,11 @@ Subset refine(const Scheme<double>& scheme, const Subset& part) {
   return result;
 }
 
-std::pair<SparseMatrix, FaceMatrix> subdivide(const std::string& name, Index num_vertices, const FaceMatrix& F, int levels,
-                                              const SubdivisionOptions& options) {
+std::pair<SparseMatrix, FaceMatrix> subdivide(const std::string& name, Index num_vertices, const FaceMatrix& F,
+                                              int levels, const SubdivisionOptions& options) {
   const std::optional<Scheme<double>> scheme = find_scheme(name);
-  if (!scheme) throw InvalidOption("unknown scheme '" + name + "'; did you mean " + nearest_scheme_names(name, 1)[0] + "?");
+  if (!scheme)
+    throw InvalidOption("unknown scheme '" + name + "'; did you mean " + nearest_scheme_names(name, 1)[0] + "?");
   Level level;
   level.steps.emplace_back();
   level.steps[0].topology = Topology(view<Eigen::Dynamic>(num_vertices, F));

@@ -2,10 +2,10 @@
 #include "sublimit/scheme_options.h"
 
 #include <algorithm>
-#include <charconv>
+#include <cassert>
 #include <cstdint>
+#include <cstdlib>
 #include <numeric>
-#include <optional>
 
 #include "sublimit/base/error.h"
 
@@ -18,12 +18,20 @@ std::string joined(const std::vector<std::string>& words) {
   return text;
 }
 
-std::string in_words(Ratio r) {
-  return r.q == 1 ? std::to_string(r.p) : std::to_string(r.p) + "/" + std::to_string(r.q);
+// Masks have up to 16 times the denominator, and that is an int.
+constexpr std::int64_t largest_denominator = 100'000'000, largest_numerator = 1'000'000'000;
+
+std::optional<Ratio> reduced(std::int64_t p, std::int64_t q) {
+  const std::int64_t common = std::gcd(p, q);
+  p /= common;
+  q /= common;
+  if (std::abs(p) > largest_numerator || q > largest_denominator) return std::nullopt;
+  return Ratio{static_cast<int>(p), static_cast<int>(q)};
 }
 
 /// Digits with at most one point: the number times a power of ten.
 std::optional<Ratio> decimal(const std::string& text) {
+  constexpr std::int64_t enough = 100'000'000'000'000'000;
   std::int64_t p = 0, q = 1;
   bool point = false, digits = false;
   for (size_t i = text.starts_with('-') ? 1 : 0; i < text.size(); ++i) {
@@ -31,14 +39,13 @@ std::optional<Ratio> decimal(const std::string& text) {
       point = true;
       continue;
     }
-    if (text[i] < '0' || text[i] > '9' || p > 100'000'000 || q > 100'000'000) return std::nullopt;
+    if (text[i] < '0' || text[i] > '9' || p > enough || q > enough) return std::nullopt;
     p = 10 * p + (text[i] - '0');
     q *= point ? 10 : 1;
     digits = true;
   }
   if (!digits) return std::nullopt;
-  const std::int64_t common = std::gcd(p, q);
-  return Ratio{static_cast<int>((text[0] == '-' ? -p : p) / common), static_cast<int>(q / common)};
+  return reduced(text[0] == '-' ? -p : p, q);
 }
 
 std::optional<Ratio> parsed(const std::string& text) {
@@ -46,40 +53,44 @@ std::optional<Ratio> parsed(const std::string& text) {
   if (slash == std::string::npos) return decimal(text);
   const auto p = decimal(text.substr(0, slash)), q = decimal(text.substr(slash + 1));
   if (!p || !q || q->p <= 0 || p->q != 1 || q->q != 1) return std::nullopt;
-  const int common = std::gcd(p->p, q->p);
-  return Ratio{p->p / common, q->p / common};
+  return reduced(p->p, q->p);
+}
+
+[[noreturn]] void refuse(const OptionInfo& info, const std::string& value) {
+  throw InvalidOption("option " + info.name + "=" + value + ": the value must be " + allowed_values(info) +
+                      (info.meaning.empty() ? "" : "; " + info.meaning));
 }
 
 }  // namespace
 
+std::string to_string(Ratio r) { return std::to_string(r.p) + (r.q == 1 ? "" : "/" + std::to_string(r.q)); }
+
+std::string allowed_values(const OptionInfo& info) {
+  if (!info.range) return "one of " + joined(info.values);
+  return std::string(info.range->whole ? "a whole number" : "a number (like 0.75 or 3/4, at most 8 decimals)") +
+         " from " + to_string(info.range->low) + " to " + to_string(info.range->high);
+}
+
 std::string option(const SchemeOptions& options, const OptionInfo& info) {
   const auto at = options.find(info.name);
   if (at == options.end()) return info.values.front();
-  if (std::find(info.values.begin(), info.values.end(), at->second) == info.values.end())
-    throw InvalidOption("option " + info.name + "=" + at->second + ": the value must be one of " + joined(info.values));
+  if (std::find(info.values.begin(), info.values.end(), at->second) == info.values.end()) refuse(info, at->second);
   return at->second;
 }
 
-Ratio ratio_option(const SchemeOptions& options, const OptionInfo& info, Ratio low, Ratio high) {
+Ratio ratio_option(const SchemeOptions& options, const OptionInfo& info) {
   const auto at = options.find(info.name);
   const std::string text = at == options.end() ? info.values.front() : at->second;
   const std::optional<Ratio> number = parsed(text);
   const auto less = [](Ratio a, Ratio b) { return std::int64_t{a.p} * b.q < std::int64_t{b.p} * a.q; };
-  if (!number || less(*number, low) || less(high, *number))
-    throw InvalidOption("option " + info.name + "=" + text + ": the value must be a number (like 0.75 or 3/4) from " +
-                        in_words(low) + " to " + in_words(high) + "; " + info.meaning);
+  if (!number || less(*number, info.range->low) || less(info.range->high, *number)) refuse(info, text);
+  if (info.range->whole && number->q != 1) refuse(info, text);
   return *number;
 }
 
-int whole_option(const SchemeOptions& options, const OptionInfo& info, int low, int high) {
-  const auto at = options.find(info.name);
-  const std::string text = at == options.end() ? info.values.front() : at->second;
-  int number = 0;
-  const auto [end, failed] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (failed != std::errc{} || end != text.data() + text.size() || number < low || number > high)
-    throw InvalidOption("option " + info.name + "=" + text + ": the value must be a whole number from " +
-                        std::to_string(low) + " to " + std::to_string(high) + "; " + info.meaning);
-  return number;
+int whole_option(const SchemeOptions& options, const OptionInfo& info) {
+  assert(info.range && info.range->whole);
+  return ratio_option(options, info).p;
 }
 
 void check_options(const std::string& scheme, const std::vector<OptionInfo>& known, const SchemeOptions& given) {

@@ -10,6 +10,7 @@
 #include <memory>
 
 #include "sublimit/base/error.h"
+#include "sublimit/mesh/prepare.h"
 #include "sublimit/mesh/read_mesh.h"
 #include "sublimit/sidecar.h"
 
@@ -46,7 +47,8 @@ bool knows(const Scheme<double>& scheme, const std::string& option) {
 }
 
 void list(const std::vector<std::string>& messages, const char* kind, size_t most) {
-  for (size_t i = 0; i < std::min(messages.size(), most); ++i) fmt::print(stderr, "sublimit: {}: {}\n", kind, messages[i]);
+  for (size_t i = 0; i < std::min(messages.size(), most); ++i)
+    fmt::print(stderr, "sublimit: {}: {}\n", kind, messages[i]);
   if (messages.size() > most) fmt::print(stderr, "sublimit: {}: and {} more\n", kind, messages.size() - most);
 }
 
@@ -64,7 +66,9 @@ void limit_threads(const Common& common) {
 }
 
 void add_mesh(CLI::App& command, Common& common, bool scheme_required) {
-  command.add_option("MESH", common.mesh, "Control mesh: .obj (with tags), .ply or .off; MESH.json beside it overrides tags")
+  command
+      .add_option("MESH", common.mesh,
+                  "Control mesh: .obj (with tags), .ply or .off; MESH.json beside it overrides tags")
       ->required();
   auto* scheme = command.add_option("-s,--scheme", common.scheme, "Scheme (see `sublimit schemes`)");
   if (scheme_required) scheme->required();
@@ -72,11 +76,16 @@ void add_mesh(CLI::App& command, Common& common, bool scheme_required) {
       ->check(CLI::IsMember({"none", "edge-only", "edge-and-corner"}));
   command.add_option("--creasing", common.creasing, "How sharpness decays (default: the file's tag, else uniform)")
       ->check(CLI::IsMember({"uniform", "chaikin"}));
-  command.add_option("--triangles", common.triangles, "Catmull-Clark next to triangles (default: the file's tag, else catmark)")
+  command
+      .add_option("--triangles", common.triangles,
+                  "Catmull-Clark next to triangles (default: the file's tag, else catmark)")
       ->check(CLI::IsMember({"catmark", "smooth"}));
   command.add_option("--option", common.options, "An option of the scheme, name=value; may be repeated")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  command.add_flag("--triangulate", common.triangulate,
+                   "First cut every face into triangles, a fan from its first corner; tags are kept");
+  command.add_flag("--no-creases", common.no_creases, "First drop the crease and corner tags");
   add_run(command, common);
   command.add_flag("--strict", common.strict, "Reject meshes that are accepted with a warning, naming each place");
 }
@@ -97,15 +106,17 @@ Loaded load(const Common& common, Progress& progress) {
   progress.step("reading " + common.mesh);
   loaded.mesh = read_mesh(common.mesh);
   if (const auto sidecar = find_sidecar(common.mesh)) apply_sidecar(loaded.mesh, *sidecar);
+  if (common.triangulate) loaded.mesh = triangulated(loaded.mesh);
+  if (common.no_creases) loaded.mesh = without_creases(std::move(loaded.mesh));
   if (const auto triangles = options.find("triangles"); triangles != options.end()) {
     loaded.mesh.triangles = triangles->second == "smooth" ? Triangles::smooth : Triangles::catmark;
   } else if (loaded.mesh.triangles == Triangles::smooth && loaded.scheme && knows(*loaded.scheme, "triangles")) {
     options["triangles"] = "smooth";  // a tag of the file is for schemes that know it
     loaded.scheme = scheme_or_throw(common.scheme, options);
   }
-  loaded.rules.boundary = meaning<Boundary>(common.boundary, {{"none", Boundary::none},
-                                                              {"edge-only", Boundary::edge_only},
-                                                              {"edge-and-corner", Boundary::edge_and_corner}});
+  loaded.rules.boundary = meaning<Boundary>(
+      common.boundary,
+      {{"none", Boundary::none}, {"edge-only", Boundary::edge_only}, {"edge-and-corner", Boundary::edge_and_corner}});
   loaded.rules.creasing =
       meaning<Creasing>(common.creasing, {{"uniform", Creasing::uniform}, {"chaikin", Creasing::chaikin}});
   if (common.quiet && !common.strict) return loaded;
@@ -141,7 +152,8 @@ void naming_mesh(const Common& common, const std::function<void()>& body) {
 
 void check_output_path(const std::string& path, const std::vector<std::string>& extensions) {
   std::string extension = std::filesystem::path(path).extension().string(), names;
-  std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return std::tolower(c); });
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
   for (const std::string& known : extensions) names += (names.empty() ? "" : " or ") + known;
   if (!extensions.empty() && std::find(extensions.begin(), extensions.end(), extension) == extensions.end())
     throw InvalidOption("cannot write " + path + ": its name must end in " + names);
@@ -151,7 +163,8 @@ void check_output_path(const std::string& path, const std::vector<std::string>& 
     throw IoError("cannot write " + path + ": " + directory.string() + " is not a directory");
   if (::access(directory.empty() ? "." : directory.c_str(), W_OK) != 0)
     throw IoError("cannot write " + path + ": its directory is not writable");
-  if (std::filesystem::is_directory(path, ignored)) throw IoError("cannot write " + path + ": it is a directory; name a file");
+  if (std::filesystem::is_directory(path, ignored))
+    throw IoError("cannot write " + path + ": it is a directory; name a file");
   if (std::filesystem::exists(path, ignored) && ::access(path.c_str(), W_OK) != 0)
     throw IoError("cannot write " + path + ": the file that is there is not writable");
   const std::lock_guard lock(directories_mutex);

@@ -25,6 +25,7 @@ struct Common {
   std::vector<std::string> options;           ///< name=value
   int threads = 0;                            ///< 0: all
   bool quiet = false, strict = false;
+  bool triangulate = false, no_creases = false;
 };
 
 struct Loaded {
@@ -69,8 +70,8 @@ void naming_mesh(const Common& common, const std::function<void()>& body);
 /// The scheme of a name, or an InvalidOption that offers the nearest ones.
 Scheme<double> scheme_or_throw(const std::string& name, const SchemeOptions& options = {});
 
-/// Fails before any work if an output cannot be written: its extension, its directory, a file in its place that must not
-/// be touched. An empty list takes any extension.
+/// Fails before any work if an output cannot be written: its extension, its directory, a file in its place that must
+/// not be touched. An empty list takes any extension.
 void check_output_path(const std::string& path, const std::vector<std::string>& extensions);
 
 /// Where outputs of this run go, as told to `check_output_path`.

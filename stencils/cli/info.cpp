@@ -93,13 +93,11 @@ int run(const Common& common, bool as_json) {
   std::vector<double> cost;
   if (loaded.scheme) {
     try {
-      for (Index f = 0; loaded.scheme->face_size() && f < t.num_faces(); ++f)
-        if (t.size(Face{f}) != loaded.scheme->face_size())
-          throw UnsupportedTopology(fmt::format("no: face {} has {} corners, {} takes faces of {} only", f,
-                                                t.size(Face{f}), loaded.scheme->name, loaded.scheme->face_size()));
+      control_level(*loaded.scheme, mesh, loaded.rules);  // refuses tags that the scheme has no rule for
+      if (loaded.scheme->face_size() == 3) check_triangles(t);
       for (int level = 1; level <= 6; ++level) cost.push_back(predicted_bytes(*loaded.scheme, t, level));
     } catch (const UnsupportedTopology& error) {
-      takes = error.what();
+      takes = std::string("no: ") + error.what();
     }
   }
   if (as_json) {
@@ -138,11 +136,13 @@ int run(const Common& common, bool as_json) {
   fmt::print("  boundary loops     {}\n", num_boundary_loops(t));
   fmt::print("  tags               {} creases, {} corners, {} holes\n", mesh.creases.size(), mesh.corners.size(),
              mesh.holes.size());
-  fmt::print("  rules              boundary {}, creasing {}, triangles {}\n", word(loaded.rules.boundary, mesh.boundary),
-             word(loaded.rules.creasing, mesh.creasing), word(std::optional<Triangles>(), mesh.triangles));
+  fmt::print("  rules              boundary {}, creasing {}, triangles {}\n",
+             word(loaded.rules.boundary, mesh.boundary), word(loaded.rules.creasing, mesh.creasing),
+             word(std::optional<Triangles>(), mesh.triangles));
   if (loaded.scheme) {
     fmt::print("  {:<18} {}\n", loaded.scheme->name + ":", takes == "yes" ? "takes this mesh" : takes);
-    for (size_t k = 0; k < cost.size(); ++k) fmt::print("    to level {}         about {:.1f} MB\n", k + 1, cost[k] / 1e6);
+    for (size_t k = 0; k < cost.size(); ++k)
+      fmt::print("    to level {}         about {:.1f} MB\n", k + 1, cost[k] / 1e6);
   }
   for (const std::string& warning : mesh.warnings) fmt::print("  warning: {}\n", warning);
   constexpr size_t most = 20;

@@ -10,6 +10,18 @@ namespace {
 
 const char* faces(const Scheme<double>& scheme) { return scheme.face_size() == 3 ? "triangles" : "any"; }
 
+/// Edges are this many times shorter after a level.
+nlohmann::ordered_json arity(const Scheme<double>& scheme) {
+  switch (scheme.steps[0].split) {
+    case Split::sqrt3:
+      return "sqrt(3)";
+    case Split::mid_edge:
+      return "sqrt(2)";
+    default:
+      return 2;
+  }
+}
+
 std::string other_claims(const Claims& claims) {
   std::string text = fmt::format("degree {}", claims.reproduces);
   if (claims.interpolates) text += ", interpolates";
@@ -17,20 +29,41 @@ std::string other_claims(const Claims& claims) {
   return text;
 }
 
+nlohmann::ordered_json to_json(const OptionInfo& info) {
+  nlohmann::ordered_json json{{"default", info.values.front()}, {"meaning", info.meaning}};
+  if (info.range) {
+    json["type"] = info.range->whole ? "whole number" : "number";
+    json["from"] = to_string(info.range->low);
+    json["to"] = to_string(info.range->high);
+  } else {
+    json["type"] = "word";
+    json["values"] = info.values;
+  }
+  return json;
+}
+
+void print(const OptionInfo& info) {
+  std::string values;
+  for (const std::string& value : info.values) values += (values.empty() ? "" : "|") + value;
+  if (info.range) values = to_string(info.range->low) + ".." + to_string(info.range->high);
+  fmt::print("{:<21}   --option {}={} (default {}){}{}\n", "", info.name, values, info.values.front(),
+             info.meaning.empty() ? "" : ": ", info.meaning);
+}
+
 int run(bool as_json) {
   nlohmann::ordered_json all = nlohmann::ordered_json::array();
   if (!as_json)
-    fmt::print("{:<15} {:<8} {:<6} {:<10} {:<18} {:<8} {:<14} {:<34} {}\n", "scheme", "kind", "split", "faces",
+    fmt::print("{:<21} {:<8} {:<8} {:<10} {:<22} {:<8} {:<14} {:<34} {}\n", "scheme", "kind", "split", "faces",
                "regular limit", "regular", "extraordinary", "claims", "source");
   for (const Scheme<double>& scheme : all_schemes()) {
     const Claims& claims = scheme.claims;
     if (as_json) {
       nlohmann::ordered_json steps = nlohmann::ordered_json::array(), options = nlohmann::ordered_json::object();
       for (const Step<double>& step : scheme.steps) steps.push_back(name(step.split));
-      for (const OptionInfo& info : scheme.options) options[info.name] = info.values;
+      for (const OptionInfo& info : scheme.options) options[info.name] = to_json(info);
       all.push_back({{"name", scheme.name},
                      {"kind", "surface"},
-                     {"arity", 2},
+                     {"arity", arity(scheme)},
                      {"splits", steps},
                      {"faces", faces(scheme)},
                      {"limit", claims.limit},
@@ -43,22 +76,23 @@ int run(bool as_json) {
                      {"source", scheme.source}});
       continue;
     }
-    fmt::print("{:<15} {:<8} {:<6} {:<10} {:<18} C^{:<6} C^{:<12} {:<34} {}\n", scheme.name, "surface",
+    fmt::print("{:<21} {:<8} {:<8} {:<10} {:<22} C^{:<6} C^{:<12} {:<34} {}\n", scheme.name, "surface",
                name(scheme.steps[0].split), faces(scheme), claims.limit, claims.regular, claims.extraordinary,
                other_claims(claims), scheme.source);
-    for (const OptionInfo& info : scheme.options) {
-      std::string values;
-      for (const std::string& value : info.values) values += (values.empty() ? "" : "|") + value;
-      fmt::print("{:<15}   --option {}={} (default {})\n", "", info.name, values, info.values.front());
-    }
+    for (const OptionInfo& info : scheme.options) print(info);
   }
   if (as_json) {
     fmt::print("{}\n", all.dump(2));
     return 0;
   }
   fmt::print(
-      "\npqq: an n-gon becomes n quads; ptq: a triangle becomes four; both of arity 2. regular, extraordinary: smoothness of\n"
-      "the limit there; degree: of the polynomials that regular meshes reproduce; convex hull: no negative weights.\n");
+      "\npqq: an n-gon becomes n quads; ptq: a triangle becomes four; dqq: faces for faces, edges and vertices; these "
+      "are of\n"
+      "arity 2 (edges are half as long). mid-edge: faces for faces and vertices, arity sqrt(2); sqrt3: a triangle "
+      "becomes\n"
+      "three and old edges flip, arity sqrt(3). regular, extraordinary: smoothness of the limit there; degree: of the\n"
+      "polynomials that regular meshes reproduce; convex hull: no negative weights. Faces: --triangulate makes "
+      "triangles.\n");
   return 0;
 }
 

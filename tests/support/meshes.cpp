@@ -263,26 +263,6 @@ ControlMesh glued(const ControlMesh& a, const ControlMesh& b, const std::vector<
 
 ControlMesh disjoint_union(const ControlMesh& a, const ControlMesh& b) { return glued(a, b, {}, {}); }
 
-ControlMesh triangulated(const ControlMesh& mesh) {
-  ControlMesh result = mesh;
-  result.face_sizes.clear();
-  result.face_vertices.clear();
-  result.holes.clear();
-  Index first = 0;
-  for (Index f = 0; f < mesh.num_faces(); ++f) {
-    const bool hole = std::ranges::find(mesh.holes, f) != mesh.holes.end();
-    for (Index i = 1; i + 1 < mesh.face_sizes[f]; ++i) {
-      if (hole) result.holes.push_back(result.num_faces());
-      result.face_sizes.push_back(3);
-      for (const Index corner : {Index{0}, i, i + 1}) {
-        result.face_vertices.push_back(mesh.face_vertices[first + corner]);
-      }
-    }
-    first += mesh.face_sizes[f];
-  }
-  return result;
-}
-
 ControlMesh quads_from_triangles(const ControlMesh& mesh) {
   std::map<std::pair<Index, Index>, Index> midpoints;
   std::vector<Index> midpoint;  // per corner, of the edge that starts there

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "sublimit/mesh/control_mesh.h"
+#include "sublimit/mesh/prepare.h"
 
 namespace sublimit::testing {
 
@@ -42,8 +43,6 @@ ControlMesh disjoint_union(const ControlMesh& a, const ControlMesh& b);
 /// The same, with vertex `b_vertices[i]` of b made the vertex `a_vertices[i]` of a.
 ControlMesh glued(const ControlMesh& a, const ControlMesh& b, const std::vector<Index>& a_vertices,
                   const std::vector<Index>& b_vertices);
-/// Every face a fan of triangles from its first corner. Creases and holes are kept.
-ControlMesh triangulated(const ControlMesh& mesh);
 /// Every n-gon split into n quads at its centroid: from triangles, half of the vertices are extraordinary. Edge
 /// midpoints are numbered by first appearance. Creases and holes are kept.
 ControlMesh quads_from_triangles(const ControlMesh& mesh);

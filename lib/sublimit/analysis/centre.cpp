@@ -9,6 +9,7 @@ namespace sublimit {
 namespace {
 
 using Kind = Centre::Kind;
+using Origin = Refinement::Origin;
 
 /// The border half-edge that ends in a border vertex.
 HalfEdge border_into(const Topology& t, Vertex v) {
@@ -23,16 +24,25 @@ HalfEdge with_tail(const Topology& t, Face f, Vertex v) {
   throw AnalysisError("a face from a vertex has lost a corner");
 }
 
-/// The half-edge from the child of the tail of h to the point of a face at it.
-HalfEdge towards_face(const Topology& child, const Refinement& r, Vertex v, Face face) {
-  const HalfEdge start = child.outgoing(v);
-  HalfEdge h = start;
-  do {
-    const Vertex end = child.head(h);
-    if (r.origin(end) == Refinement::Origin::face && r.parent(end) == index(face)) return h;
-    h = child.ccw(h);
-  } while (exists(h) && h != start);
-  return start;
+/// The half-edge from child vertex v to a child of `parent`, in whichever fan; a border's part is the one at its tail.
+HalfEdge spoke(const Refinement& r, Vertex v, Origin origin, Index parent) {
+  const Topology& child = r.topology;
+  for (const HalfEdge start : child.fans(v)) {
+    HalfEdge h = start;
+    do {
+      const Vertex head = child.head(h);
+      const bool is_border = origin == Origin::border;
+      if (r.origin(head) == origin && r.parent(head) == parent && (!is_border || r.part(head) == 0)) return h;
+      h = child.ccw(h);
+    } while (exists(h) && h != start);
+  }
+  throw AnalysisError("a vertex has lost a neighbour");
+}
+
+/// Clockwise to the start of an open fan.
+HalfEdge first_of_fan(const Topology& t, HalfEdge h) {
+  while (exists(t.twin(h))) h = t.next(t.twin(h));
+  return h;
 }
 
 Vertex border_child(const Refinement& r, HalfEdge border, Index part) {
@@ -50,22 +60,30 @@ Centre of_vertex(const Topology& t, const Refinement& r, HalfEdge start, int lev
       return {Kind::vertex, r.halves(t, start).first};
     case Split::keep:
       return {Kind::vertex, start};
-    case Split::sqrt3:
-      if (open) return {Kind::vertex, child.outgoing(r.child(v))};
-      return {Kind::vertex, towards_face(child, r, r.child(v), t.face(level % 2 == 0 ? t.twin(start) : start))};
+    case Split::sqrt3: {
+      if (level % 2 == 0) return {Kind::vertex, HalfEdge{3 * index(start)}};
+      if (open) return {Kind::vertex, spoke(r, r.child(v), Origin::border, index(start))};
+      // A face that was cut from its border has no point, but the border's.
+      const HalfEdge opposite = t.next(start);
+      const bool cut = !exists(t.twin(opposite)) && exists(t.twin(t.next(opposite)));
+      return {Kind::vertex, cut ? spoke(r, r.child(v), Origin::border, index(opposite))
+                                : spoke(r, r.child(v), Origin::face, index(t.face(start)))};
+    }
     case Split::dqq:
       if (open) return {Kind::border, border_into(child, border_child(r, start, 0))};
       return {Kind::face, child.ccw(child.ccw(start))};
-    case Split::mid_edge:
-      if (!open) return {Kind::face, child.twin(t.prev(start))};
-      if (level % 2 == 1) return {Kind::border, border_into(child, r.child(t.edge(start)))};
-      return {Kind::vertex, child.outgoing(Vertex{static_cast<Index>(
-                                std::lower_bound(r.vertex_list.begin(), r.vertex_list.end(), index(v)) - r.vertex_list.begin())})};
+    case Split::mid_edge: {  // h stays the side of its face before the corner that it leads to
+      const HalfEdge side = t.prev(start), from_vertex = child.twin(side);
+      if (!open) return {Kind::face, from_vertex};
+      return {level % 2 == 0 ? Kind::vertex : Kind::border, exists(from_vertex) ? child.prev(from_vertex) : side};
+    }
     case Split::dual:
       if (open) return {Kind::border, border_into(child, border_child(r, start, 0))};
       return {Kind::face, with_tail(child, Face{r.face_of_vertex[index(v)]}, r.child(t.face(start)))};
-    default:
-      return {Kind::vertex, child.outgoing(r.child(v))};
+    default: {
+      const HalfEdge to_face = spoke(r, r.child(v), Origin::face, index(t.face(start)));
+      return {Kind::vertex, open ? first_of_fan(child, to_face) : to_face};
+    }
   }
 }
 
@@ -97,8 +115,10 @@ Centre of_border(const Topology& t, const Refinement& r, HalfEdge start) {
       return {Kind::vertex, child.outgoing(border_child(r, start, 0))};
     case Split::keep:
       return {Kind::border, start};
+    case Split::mid_edge:
+      return {Kind::vertex, child.outgoing(child.tail(start))};
     default:
-      return {Kind::vertex, child.outgoing(r.child(t.edge(start)))};
+      return {Kind::vertex, r.halves(t, start).second};
   }
 }
 

@@ -12,8 +12,11 @@ namespace sublimit {
 template <class T>
 Scheme<T> averaging(const SchemeOptions& options) {
   const OptionInfo info{
-      "degree", {"3"}, "the limit of regular meshes is a B-spline of this bidegree, smooth of one order less"};
-  const int degree = whole_option(options, info, 2, 9);
+      .name = "degree",
+      .values = {"3"},
+      .meaning = "the limit of regular meshes is a B-spline of this bidegree, smooth of one order less",
+      .range = OptionRange{{2, 1}, {9, 1}, true}};
+  const int degree = whole_option(options, info);
   const auto middle = [](const CreaseEdgeSite<T>& e) { return (e.tail() + e.head()) / 2; };
   const Step<T> bilinear{.split = Split::pqq,
                          .masks = {.vertex = [](const Ring<T>& v) { return v.center(); },

@@ -12,7 +12,9 @@ namespace sublimit {
 template <class T, class Edge>
 Scheme<T> butterfly_with(const char* name, const char* source, const SchemeOptions& options,
                          std::vector<OptionInfo> infos, const Ratio& g, const Edge& edge) {
-  const OptionInfo border{"boundary-rule", {"four-point", "virtual-vertex"}};
+  const OptionInfo border{.name = "boundary-rule",
+                          .values = {"four-point", "virtual-vertex"},
+                          .meaning = "the border as a curve of its own, or continued to parallelograms"};
   infos.push_back(border);
   const Step<T> step{.split = Split::ptq,
                      .masks = {.vertex = [](const Ring<T>& v) { return v.center(); },
@@ -38,9 +40,11 @@ Scheme<T> butterfly_with(const char* name, const char* source, const SchemeOptio
 
 template <class T>
 Scheme<T> butterfly(const SchemeOptions& options) {
-  const OptionInfo tension{
-      "tension", {"1"}, "16 w of the paper: 0 is piecewise linear, 1 reproduces cubics, more is bumpier"};
-  const Ratio g = ratio_option(options, tension, {0, 1}, {2, 1});
+  const OptionInfo tension{.name = "tension",
+                           .values = {"1"},
+                           .meaning = "16 w of the paper: 0 is piecewise linear, 1 reproduces cubics, more is bumpier",
+                           .range = OptionRange{{0, 1}, {2, 1}}};
+  const Ratio g = ratio_option(options, tension);
   return butterfly_with<T>(
       "butterfly",
       "Dyn, Levin, Gregory 1990, A butterfly subdivision scheme for surface interpolation with tension control",

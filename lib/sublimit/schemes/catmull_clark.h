@@ -10,7 +10,8 @@ namespace sublimit {
 
 template <class T>
 Scheme<T> catmull_clark(const SchemeOptions& options) {
-  const OptionInfo triangles{"triangles", {"catmark", "smooth"}};
+  const OptionInfo triangles{
+      .name = "triangles", .values = {"catmark", "smooth"}, .meaning = "weights of edge points next to triangles"};
   const bool smooth_triangles = option(options, triangles) == "smooth";
   return {
       .name = "catmull-clark",

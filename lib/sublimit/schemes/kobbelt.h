@@ -13,11 +13,15 @@ namespace sublimit {
 template <class T>
 Scheme<T> kobbelt(const SchemeOptions& options) {
   const OptionInfo tension{
-      "tension",
-      {"1"},
-      "0 is piecewise linear, 1 reproduces cubics; curves are smooth (C^1) below 3.08 (Hechler et al. 2009)"};
-  const OptionInfo quads{"quads", {"catmull-clark", "edges"}};
-  const Ratio g = ratio_option(options, tension, {0, 1}, {3, 1});
+      .name = "tension",
+      .values = {"1"},
+      .meaning = "0 is piecewise linear, 1 reproduces cubics; curves are smooth (C^1) below 3.08 (Hechler et al. 2009)",
+      .range = OptionRange{{0, 1}, {3, 1}}};
+  const OptionInfo quads{
+      .name = "quads",
+      .values = {"catmull-clark", "edges"},
+      .meaning = "how faces of other than four corners are cut first: n quads each, or a quad for each edge"};
+  const Ratio g = ratio_option(options, tension);
   const bool by_edges = option(options, quads) == "edges";
   const auto inner = [=](const auto& site) { return site.ratio(8 * g.q + g.p, 16 * g.q); };
   const auto outer = [=](const auto& site) { return site.ratio(g.p, 16 * g.q); };

@@ -9,8 +9,11 @@ namespace sublimit {
 
 template <class T>
 Scheme<T> modified_butterfly(const SchemeOptions& options) {
-  const OptionInfo info{"t", {"0"}, "weight of the two far points on the line of the edge: 0 is the eight-point mask"};
-  const Ratio t = ratio_option(options, info, {-1, 16}, {1, 16});
+  const OptionInfo info{.name = "t",
+                        .values = {"0"},
+                        .meaning = "weight of the two far points on the line of the edge: 0 is the eight-point mask",
+                        .range = OptionRange{{-1, 16}, {1, 16}}};
+  const Ratio t = ratio_option(options, info);
   const auto regular = [=](const WideEdgeSite<T>& e) {
     const Ring<T>&a = e.tail_ring(), &b = e.head_ring();
     const T far = e.ratio(t.p, t.q);

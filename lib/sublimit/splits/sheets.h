@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// What the dual splits and sqrt3 share: the mesh as sheets. Edges without twins are borders, a non-manifold edge is a border of
-// each of its faces, and the faces around a vertex come as fans.
+// What the dual splits and sqrt3 share: the mesh as sheets. Edges without twins are borders, a non-manifold edge is a
+// border of each of its faces, and the faces around a vertex come as fans.
 #include <algorithm>
 #include <vector>
 
@@ -17,9 +17,6 @@ Refinement refine_sqrt3(const Topology& parent, int level);
 Refinement refine_dual(const Topology& parent);
 Refinement refine_quads(const Topology& parent);
 Refinement refine_keep(const Topology& parent);
-
-/// @throws UnsupportedTopology  naming the first face that is not a triangle
-void check_triangles(const Topology& topology);
 
 class Sheets {
  public:

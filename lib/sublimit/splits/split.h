@@ -25,18 +25,19 @@ const char* name(Split split);
 
 /// One level of refinement: the child's connectivity and where every child element comes from.
 ///
-/// Dual splits (dqq, mid_edge, dual) and sqrt3 cut non-manifold edges into sheets: "border" below is a half-edge without twin.
+/// Dual splits (dqq, mid_edge, dual) and sqrt3 cut non-manifold edges into sheets: "border" below is a half-edge
+/// without twin.
 struct Refinement {
   /// corner: of a face, known by its half-edge; border: a point of a half-edge without twin.
   enum class Origin { vertex, face, edge, corner, border };
 
   Topology topology;  ///< of the child
 
-  /// Child vertices in this order: from vertices, faces, edges, corners, borders, each group in the parents' order. A group
-  /// that the split does not make is empty.
+  /// Child vertices in this order: from vertices, faces, edges, corners, borders, each group in the parents' order. A
+  /// group that the split does not make is empty.
   Index from_vertices = 0, from_faces = 0, from_edges = 0, from_corners = 0;
-  /// Parents where a group does not hold one child for each: vertices that mid_edge keeps, faces that sqrt3 does not cut from
-  /// their border, edges in sheets.
+  /// Parents where a group does not hold one child for each: vertices that mid_edge keeps, faces that sqrt3 does not
+  /// cut from their border, edges in sheets.
   std::vector<Index> vertex_list, face_list, edge_list;
   std::vector<Index> borders;  ///< half-edges without twin, ascending
   Index border_points = 0;     ///< for each of them, from its tail on
@@ -44,10 +45,11 @@ struct Refinement {
   /// Child faces in this order: from faces (for sqrt3 from half-edges), from edges, from vertices.
   Index faces_from_faces = 0, faces_from_edges = 0;
 
-  std::vector<Index> face_of_vertex;  ///< dual: child face of each vertex, -1 where there is none (the last one's of several)
+  std::vector<Index>
+      face_of_vertex;  ///< dual: child face of each vertex, -1 where there is none (the last one's of several)
   UninitializedVector<Index> face_parent;  ///< a parent face of every child face: its own, or one at its edge or vertex
-  /// Per child edge of a primal split: 2 e for the half of parent edge e at its tail, 2 e + 1 for the half at its head, -1
-  /// inside a face.
+  /// Per child edge of a primal split: 2 e for the half of parent edge e at its tail, 2 e + 1 for the half at its head,
+  /// -1 inside a face.
   UninitializedVector<Index> edge_parent;
 
   Vertex child(Vertex v) const { return Vertex{index(v)}; }
@@ -75,8 +77,8 @@ struct Refinement {
   /// Which of its half-edge's points a border child is: 0 at the tail.
   Index part(Vertex child) const { return (index(child) - first_border_child()) % border_points; }
 
-  /// The two child half-edges that a parent half-edge becomes in a primal split: from its vertex to the midpoint, and on to
-  /// its head.
+  /// The two child half-edges that a parent half-edge becomes in a primal split: from its vertex to the midpoint, and
+  /// on to its head.
   std::pair<HalfEdge, HalfEdge> halves(const Topology& parent, HalfEdge h) const;
 
   Split split = Split::pqq;
@@ -84,19 +86,25 @@ struct Refinement {
 
 /// One level of `split` applied to a mesh.
 ///
-/// Children of a face stand together, in the parents' order; a child keeps the orientation of its parent's corners: child i
-/// of a quad or triangle has the child of corner i at position i, child i of any other face has it at position 0, and the
-/// middle triangle has the midpoint opposite to corner i at position i. sqrt3: child h has the tail of half-edge h first.
-/// @param level  of the parent: sqrt3 leaves the boundary alone in even levels and trisects it in odd ones; mid_edge keeps
+/// Children of a face stand together, in the parents' order; a child keeps the orientation of its parent's corners:
+/// child i of a quad or triangle has the child of corner i at position i, child i of any other face has it at position
+/// 0, and the middle triangle has the midpoint opposite to corner i at position i. sqrt3: child h has the tail of
+/// half-edge h first.
+/// @param level  of the parent: sqrt3 leaves the boundary alone in even levels and trisects it in odd ones; mid_edge
+/// keeps
 ///               boundary vertices in even levels and cuts them off in odd ones
 /// @throws UnsupportedTopology  ptq, sqrt3 on a face that is not a triangle
 /// @throws ResourceError        more half-edges than 32-bit indices; checked before memory is taken
 Refinement refine(const Topology& parent, Split split, int level = 0);
 
+/// @throws UnsupportedTopology  naming the first face that is not a triangle
+void check_triangles(const Topology& topology);
+
 /// Corners of the child mesh: what `refine` would need, without doing it; of a mesh with borders at most.
 std::int64_t num_child_half_edges(const Topology& parent, Split split);
 
-/// Which children of holes are holes: faces from faces of holes, and faces from edges and vertices with holes all around.
+/// Which children of holes are holes: faces from faces of holes, and faces from edges and vertices with holes all
+/// around.
 std::vector<bool> refine_holes(const std::vector<bool>& holes, const Topology& parent, const Refinement& refinement);
 
 }  // namespace sublimit

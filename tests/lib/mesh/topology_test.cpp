@@ -3,50 +3,16 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <set>
 
 #include "sublimit/base/error.h"
 #include "sublimit/mesh/sharpness.h"
 #include "sublimit/splits/split.h"
+#include "support/broken_topology.h"
 #include "support/meshes.h"
 
 namespace sublimit::testing {
 namespace {
-
-/// What makes half-edge arrays a mesh; empty if all holds.
-std::string broken(const Topology& t) {
-  for (Index i = 0; i < t.num_half_edges(); ++i) {
-    const HalfEdge h{i}, g = t.twin(h);
-    if (t.prev(t.next(h)) != h || t.face(t.next(h)) != t.face(h)) return "next and prev disagree";
-    if (t.corner(t.face(h), t.corner_index(h)) != h) return "a corner is not where its index says";
-    if (exists(g) && (t.twin(g) != h || t.tail(g) != t.head(h) || t.head(g) != t.tail(h))) return "twins do not match";
-    if (exists(g) && t.edge(g) != t.edge(h)) return "twins are on different edges";
-    const std::vector<HalfEdge> halves = t.half_edges(t.edge(h));
-    if (std::find(halves.begin(), halves.end(), h) == halves.end()) return "an edge does not know its half-edge";
-  }
-  Index last = -1;
-  for (Index i = 0; i < t.num_half_edges(); ++i) {
-    const Index e = index(t.edge(HalfEdge{i}));
-    if (e > last + 1) return "edges are not numbered by first appearance";
-    last = std::max(last, e);
-  }
-  for (Index v = 0; v < t.num_vertices(); ++v) {
-    Index corners = 0;
-    std::set<Index> seen;
-    for (const HalfEdge start : t.fans(Vertex{v})) {
-      HalfEdge h = start;
-      do {
-        if (t.tail(h) != Vertex{v}) return "a fan leaves its vertex";
-        seen.insert(index(h));
-        ++corners;
-        h = t.ccw(h);
-      } while (exists(h) && h != start);
-    }
-    if (corners != t.num_faces(Vertex{v}) || seen.size() != size_t(corners)) return "fans do not visit every corner once";
-  }
-  return {};
-}
 
 TEST(Topology, IsConsistentOnEveryTestMeshAndItsRefinements) {
   for (const NamedMesh& named : tagged_meshes()) {

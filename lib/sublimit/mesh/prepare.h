@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// Control meshes made acceptable for schemes that take triangles only, or that have no rule for creases.
+#include "sublimit/mesh/control_mesh.h"
+
+namespace sublimit {
+
+/// Every face cut into triangles, a fan from its first corner: corners (0, i, i + 1) for i = 1 ... n - 2, in the face's
+/// place. Vertices, creases, corners and options stay; the triangles of a hole are holes.
+/// @throws InvalidMesh  connectivity that no scheme takes, a hole that names no face
+/// @note  Where a diagonal runs along an edge of other faces, that edge becomes non-manifold.
+ControlMesh triangulated(const ControlMesh& mesh);
+
+/// The mesh without its creases and corners. Boundaries stay what they are.
+ControlMesh without_creases(ControlMesh mesh);
+
+}  // namespace sublimit
