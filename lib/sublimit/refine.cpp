@@ -132,7 +132,7 @@ void check_sharpness(const std::string& scheme, Sharpening sharpening, bool is_d
     const Edge e{i};
     const float s = sharpness.edge[i];
     if (!is_sharp(s) || !exists(t.twin(t.half_edge(e)))) continue;
-    const auto [a, b] = std::minmax(index(t.tail(e)), index(t.head(e)));
+    const auto [a, b] = std::minmax({index(t.tail(e)), index(t.head(e))});
     if (sharpening == Sharpening::boundary || !is_infinite(s))
       refuse("sharp edge (" + std::to_string(a) + "," + std::to_string(b) + ")");
   }
