@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "sublimit/base/error.h"
+#include "sublimit/curve_schemes.h"
 
 namespace sublimit {
 namespace {
@@ -29,6 +29,7 @@ size_t edit_distance(const std::string& a, const std::string& b) {
 std::vector<std::string> nearest_scheme_names(const std::string& name, int count) {
   std::vector<std::string> names;
   for (const SchemeEntry<double>& entry : registry<double>) names.push_back(entry.name);
+  for (const CurveSchemeEntry<double>& entry : curve_registry<double>) names.push_back(entry.name);
   // A prefix ("catmull") counts as nearer than any misspelling.
   const auto distance = [&](const std::string& other) {
     return !name.empty() && other.starts_with(name) ? 0 : edit_distance(name, other);

@@ -9,6 +9,7 @@
 #include <cctype>
 #include <memory>
 
+#include "curves.h"
 #include "sublimit/base/error.h"
 #include "sublimit/mesh/prepare.h"
 #include "sublimit/mesh/read_mesh.h"
@@ -28,19 +29,6 @@ std::optional<T> meaning(const std::string& word, const std::vector<std::pair<st
   return std::nullopt;
 }
 
-/// The options on the command line.
-SchemeOptions given_options(const Common& common) {
-  SchemeOptions options;
-  for (const std::string& text : common.options) {
-    const size_t equals = text.find('=');
-    if (equals == std::string::npos || equals == 0)
-      throw InvalidOption("--option " + text + ": write it as name=value");
-    options[text.substr(0, equals)] = text.substr(equals + 1);
-  }
-  if (!common.triangles.empty()) options["triangles"] = common.triangles;
-  return options;
-}
-
 bool knows(const Scheme<double>& scheme, const std::string& option) {
   return std::any_of(scheme.options.begin(), scheme.options.end(),
                      [&](const OptionInfo& info) { return info.name == option; });
@@ -57,6 +45,18 @@ void list(const std::vector<std::string>& messages, const char* kind, size_t mos
 void add_run(CLI::App& command, Common& common) {
   command.add_option("--threads", common.threads, "Threads (default: all)")->check(CLI::Range(1, 4096));
   command.add_flag("--quiet", common.quiet, "No warnings, no progress");
+}
+
+SchemeOptions given_options(const Common& common) {
+  SchemeOptions options;
+  for (const std::string& text : common.options) {
+    const size_t equals = text.find('=');
+    if (equals == std::string::npos || equals == 0)
+      throw InvalidOption("--option " + text + ": write it as name=value");
+    options[text.substr(0, equals)] = text.substr(equals + 1);
+  }
+  if (!common.triangles.empty()) options["triangles"] = common.triangles;
+  return options;
 }
 
 void limit_threads(const Common& common) {
@@ -104,7 +104,12 @@ Loaded load(const Common& common, Progress& progress) {
   SchemeOptions options = given_options(common);
   if (!common.scheme.empty()) loaded.scheme = scheme_or_throw(common.scheme, options);
   progress.step("reading " + common.mesh);
-  loaded.mesh = read_mesh(common.mesh);
+  try {
+    loaded.mesh = read_mesh(common.mesh);
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::io_error) refuse_polygon(common);
+    throw;
+  }
   if (const auto sidecar = find_sidecar(common.mesh)) apply_sidecar(loaded.mesh, *sidecar);
   if (common.triangulate) loaded.mesh = triangulated(loaded.mesh);
   if (common.no_creases) loaded.mesh = without_creases(std::move(loaded.mesh));

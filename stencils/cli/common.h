@@ -58,6 +58,9 @@ class Progress {
 void add_run(CLI::App& command, Common& common);
 void add_mesh(CLI::App& command, Common& common, bool scheme_required);
 
+/// The scheme's options on the command line, by name.
+SchemeOptions given_options(const Common& common);
+
 /// Holds the rest of the run to --threads.
 void limit_threads(const Common& common);
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "common.h"
+#include "curves.h"
 #include "sublimit/refined_mesh.h"
 #include "sublimit/sparse_product.h"
 
@@ -13,11 +14,13 @@ namespace {
 struct Options {
   Common common;
   int levels = 0;
-  bool normals = false;
+  bool normals = false, closed = false;
   std::string output;
 };
 
 int run(const Options& options) {
+  if (is_curve_job(options.common))
+    return limit_curves({&options.common, options.levels, options.output, "", options.closed, options.normals});
   check_output_path(options.output, {".obj", ".ply"});
   Progress progress(options.common.quiet);
   const Loaded loaded = load(options.common, progress);
@@ -56,10 +59,14 @@ Command add_limit(CLI::App& app) {
   command->add_flag("--normals", options->normals,
                     "Limit normals too: per corner in .obj (one for each side of a crease), per vertex in .ply");
   command->add_option("-o,--output", options->output, "OUT.obj or OUT.ply; faces that are holes are left out")->required();
+  command->add_flag("--closed", options->closed, "Curves: a CSV has closed ones (an OBJ line that comes back is closed anyway)");
   command->footer(
       "Examples:\n"
       "  sublimit limit cage.obj -s catmull-clark -l 3 --normals -o surface.obj\n"
-      "  sublimit limit cage.obj -s loop -o control_points_at_the_limit.ply");
+      "  sublimit limit cage.obj -s loop -o control_points_at_the_limit.ply\n"
+      "Curves: MESH is a .csv of points or an .obj with lines, OUT a .csv or .obj; --normals adds unit tangents as columns\n"
+      "tx,ty,... of a .csv, empty where there is none:\n"
+      "  sublimit limit polygon.csv -s four-point -l 4 --normals -o curve.csv");
   return [=] { return run(*options); };
 }
 

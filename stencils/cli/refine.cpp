@@ -2,6 +2,7 @@
 #include <fmt/core.h>
 
 #include "common.h"
+#include "curves.h"
 #include "sublimit/matrix_market.h"
 #include "sublimit/refined_mesh.h"
 #include "sublimit/sparse_product.h"
@@ -13,10 +14,12 @@ struct Options {
   Common common;
   int levels = 1;
   std::string output, matrix;
-  bool no_tags = false;
+  bool no_tags = false, closed = false;
 };
 
 int run(const Options& options) {
+  if (is_curve_job(options.common))
+    return refine_curves({&options.common, options.levels, options.output, options.matrix, options.closed});
   check_output_path(options.output, {".obj", ".ply"});
   if (!options.matrix.empty()) check_output_path(options.matrix, {".mtx"});
   Progress progress(options.common.quiet);
@@ -41,17 +44,20 @@ int run(const Options& options) {
 }  // namespace
 
 Command add_refine(CLI::App& app) {
-  auto* command = app.add_subcommand("refine", "Refine a mesh");
+  auto* command = app.add_subcommand("refine", "Refine a mesh or curves");
   auto options = std::make_shared<Options>();
   add_mesh(*command, options->common, true);
   command->add_option("-l,--levels", options->levels, "Levels of refinement")->required();
   command->add_option("-o,--output", options->output, "OUT.obj (with tags, so that refining can go on) or OUT.ply")->required();
   command->add_option("--matrix", options->matrix, "OUT.mtx: the stencils, new points = matrix * control points");
   command->add_flag("--no-tags", options->no_tags, "Leave the tags out");
+  command->add_flag("--closed", options->closed, "Curves: a CSV has closed ones (an OBJ line that comes back is closed anyway)");
   command->footer(
       "Examples:\n"
       "  sublimit refine cage.obj -s catmull-clark -l 2 -o refined.obj\n"
-      "  sublimit refine cage.obj -s loop -l 3 -o refined.ply --matrix stencils.mtx");
+      "  sublimit refine cage.obj -s loop -l 3 -o refined.ply --matrix stencils.mtx\n"
+      "Curves: MESH is a .csv of points (a line each; a blank line begins another curve) or an .obj with lines, OUT a .csv or .obj:\n"
+      "  sublimit refine polygon.csv -s chaikin -l 3 --closed -o curve.csv");
   return [=] { return run(*options); };
 }
 

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "common.h"
+#include "sublimit/curve_schemes.h"
 
 namespace sublimit::cli {
 namespace {
@@ -50,6 +51,42 @@ void print(const OptionInfo& info) {
              info.meaning.empty() ? "" : ": ", info.meaning);
 }
 
+void add_curves(nlohmann::ordered_json& all) {
+  for (const CurveScheme<double>& scheme : all_curve_schemes()) {
+    const CurveClaims& claims = scheme.claims;
+    nlohmann::ordered_json options = nlohmann::ordered_json::object();
+    for (const OptionInfo& info : scheme.options) options[info.name] = to_json(info);
+    all.push_back({{"name", scheme.name},
+                   {"kind", "curve"},
+                   {"arity", 2},
+                   {"splits", {scheme.masks.dual() ? "dual" : "primal"}},
+                   {"limit", claims.limit},
+                   {"regular_continuity", claims.regular},
+                   {"exponent", claims.exponent},
+                   {"generates_degree", claims.generates},
+                   {"reproduces_degree", claims.reproduces},
+                   {"interpolates", claims.interpolates},
+                   {"convex_hull", claims.convex_hull},
+                   {"options", options},
+                   {"source", scheme.source}});
+  }
+}
+
+void print_curves() {
+  fmt::print("\n{:<19} {:<6} {:<7} {:<26} {:<8} {:<14} {:<34} {}\n", "scheme", "kind", "split", "limit", "smooth",
+             "exponent", "claims", "source");
+  for (const CurveScheme<double>& scheme : all_curve_schemes()) {
+    const CurveClaims& claims = scheme.claims;
+    std::string text = fmt::format("degree {}", claims.reproduces);
+    if (claims.generates != claims.reproduces) text += fmt::format(", generates {}", claims.generates);
+    if (claims.interpolates) text += ", interpolates";
+    if (claims.convex_hull) text += ", convex hull";
+    fmt::print("{:<19} {:<6} {:<7} {:<26} C^{:<6} {:<14} {:<34} {}\n", scheme.name, "curve",
+               scheme.masks.dual() ? "dual" : "primal", claims.limit, claims.regular, claims.exponent, text, scheme.source);
+    for (const OptionInfo& info : scheme.options) print(info);
+  }
+}
+
 int run(bool as_json) {
   nlohmann::ordered_json all = nlohmann::ordered_json::array();
   if (!as_json)
@@ -82,6 +119,7 @@ int run(bool as_json) {
     for (const OptionInfo& info : scheme.options) print(info);
   }
   if (as_json) {
+    add_curves(all);
     fmt::print("{}\n", all.dump(2));
     return 0;
   }
@@ -93,6 +131,7 @@ int run(bool as_json) {
       "three and old edges flip, arity sqrt(3). regular, extraordinary: smoothness of the limit there; degree: of the\n"
       "polynomials that regular meshes reproduce; convex hull: no negative weights. Faces: --triangulate makes "
       "triangles.\n");
+  print_curves();
   return 0;
 }
 

@@ -59,7 +59,7 @@ TEST(CliSchemes, ListsAll) {
   const std::string text = expect_done(sublimit({"schemes"})).out;
   const Json json = Json::parse(expect_done(sublimit({"schemes", "--json"})).out);
   const std::vector<Scheme<double>> schemes = all_schemes();
-  ASSERT_EQ(json.size(), schemes.size());
+  ASSERT_GE(json.size(), schemes.size());  // curve schemes follow
   for (size_t i = 0; i < schemes.size(); ++i) {
     EXPECT_EQ(json[i]["name"], schemes[i].name);
     EXPECT_EQ(json[i]["source"], schemes[i].source);

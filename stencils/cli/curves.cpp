@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "curves.h"
+
+#include <fmt/core.h>
+
+#include "sublimit/analysis/curve_limits.h"
+#include "sublimit/base/error.h"
+#include "sublimit/base/read_file.h"
+#include "sublimit/curve_schemes.h"
+#include "sublimit/matrix_market.h"
+#include "sublimit/mesh/file_extension.h"
+#include "sublimit/mesh/polygon_files.h"
+#include "sublimit/sparse_product.h"
+
+namespace sublimit::cli {
+namespace {
+
+std::string curve_scheme_names() {
+  std::string names;
+  for (const CurveSchemeEntry<double>& entry : curve_registry<double>)
+    names += (names.empty() ? "" : ", ") + std::string(entry.name);
+  return names;
+}
+
+CurveScheme<double> scheme_of(const Common& common) {
+  for (const auto& [name, value] : {std::pair("--boundary", common.boundary), std::pair("--creasing", common.creasing),
+                                    std::pair("--triangles", common.triangles)})
+    if (!value.empty()) throw InvalidOption(std::string(name) + " is for meshes; " + common.scheme + " refines curves");
+  return *find_curve_scheme(common.scheme, given_options(common));
+}
+
+ControlPolygon load_polygon(const CurveJob& job, Progress& progress) {
+  const Common& common = *job.common;
+  limit_threads(common);
+  const std::string extension = file_extension(common.mesh);
+  if (extension == ".ply" || extension == ".off")
+    throw UnsupportedTopology(common.mesh + ": a mesh; " + common.scheme +
+                              " refines curves, a .csv of points or the lines of an .obj");
+  progress.step("reading " + common.mesh);
+  ControlPolygon polygon = read_polygon(common.mesh);
+  if (job.closed)
+    for (ControlPolygon::Curve& curve : polygon.curves) curve.closed = true;
+  progress.step("");
+  if (!common.quiet)
+    for (const std::string& warning : polygon.warnings) fmt::print(stderr, "sublimit: warning: {}\n", warning);
+  return polygon;
+}
+
+/// OBJ holds no tangents and no points of more than three coordinates; told before anything is computed.
+void check_curve_output(const CurveJob& job) {
+  check_output_path(job.output, {".csv", ".obj"});
+  if (!job.matrix.empty()) check_output_path(job.matrix, {".mtx"});
+  if (job.tangents && file_extension(job.output) != ".csv")
+    throw InvalidOption("cannot write " + job.output + ": tangents are columns of a .csv");
+}
+
+struct Refined {
+  ControlPolygon polygon;
+  std::vector<CurveLevel> levels;
+  Points points;
+};
+
+Refined refined(const CurveJob& job, const CurveScheme<double>& scheme, Progress& progress) {
+  Refined result{load_polygon(job, progress), {}, {}};
+  if (file_extension(job.output) == ".obj" && result.polygon.dimension() > 3)
+    throw InvalidOption(fmt::format("cannot write {}: an .obj has points of 3 coordinates, these have {}; write a .csv",
+                                    job.output, result.polygon.dimension()));
+  naming_mesh(*job.common, [&] {
+    result.levels = refine(scheme, result.polygon, job.levels,
+                           [&](int level) { progress.step(fmt::format("level {} of {}", level, job.levels)); });
+  });
+  result.points = result.polygon.points;
+  for (const CurveLevel& level : result.levels) result.points = apply(level.S, result.points);
+  return result;
+}
+
+}  // namespace
+
+bool is_curve_job(const Common& common) {
+  for (const CurveSchemeEntry<double>& entry : curve_registry<double>)
+    if (common.scheme == entry.name) return true;
+  return false;
+}
+
+void refuse_polygon(const Common& common) {
+  const std::string extension = file_extension(common.mesh);
+  bool polygon = extension == ".csv";
+  if (extension == ".obj") {
+    const std::string text = read_file(common.mesh);
+    const auto has = [&](const char* start) {
+      return text.starts_with(start + 1) || text.find(start) != std::string::npos;
+    };
+    polygon = has("\nl ") && !has("\nf ");
+  }
+  if (polygon)
+    throw UnsupportedTopology(common.mesh + ": a polygon, no mesh; " +
+                              (common.scheme.empty() ? "" : common.scheme + " refines meshes, ") +
+                              "curve schemes are " + curve_scheme_names());
+}
+
+int refine_curves(const CurveJob& job) {
+  check_curve_output(job);
+  Progress progress(job.common->quiet);
+  const CurveScheme<double> scheme = scheme_of(*job.common);
+  const Refined curves = refined(job, scheme, progress);
+  if (!job.matrix.empty()) {
+    progress.step("multiplying");
+    write_matrix_market(job.matrix, refinement_matrix(curves.levels));
+  }
+  progress.step("writing " + job.output);
+  ControlPolygon result = refined_polygon(curves.levels.back(), curves.points);
+  result.columns = curves.polygon.columns;
+  write_polygon(job.output, result);
+  return 0;
+}
+
+int limit_curves(const CurveJob& job) {
+  check_curve_output(job);
+  Progress progress(job.common->quiet);
+  const CurveScheme<double> scheme = scheme_of(*job.common);
+  const Refined curves = refined(job, scheme, progress);
+  CurveLimits<double> limits;
+  naming_mesh(*job.common, [&] {
+    progress.step("limits");
+    limits = CurveAnalysis<double>(scheme).limits(curves.levels.back());
+  });
+  ControlPolygon result = refined_polygon(curves.levels.back(), apply(limits.position, curves.points));
+  Index without = 0;
+  if (job.tangents) {
+    result.tangents = apply(limits.first, curves.points);
+    for (Index i = 0; i < result.num_points(); ++i) {
+      const double length = result.tangents.row(i).norm();
+      const bool defined = limits.order[i] > 0 && length > 0;
+      without += !defined;
+      if (defined)
+        result.tangents.row(i) /= length;
+      else
+        result.tangents.row(i).setConstant(std::numeric_limits<double>::quiet_NaN());
+    }
+  } else {
+    result.columns = curves.polygon.columns;
+  }
+  progress.step("writing " + job.output);
+  write_polygon(job.output, result);
+  progress.step("");
+  if (!job.common->quiet)
+    fmt::print("{}: {} limit points of level {}{}\n", job.output, result.num_points(), job.levels,
+               job.tangents ? fmt::format(", {} without a tangent", without) : "");
+  return 0;
+}
+
+}  // namespace sublimit::cli

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// What `refine` and `limit` do when the scheme is one for curves.
+#include "common.h"
+
+namespace sublimit::cli {
+
+/// What a subcommand was asked for.
+struct CurveJob {
+  const Common* common;
+  int levels = 0;
+  std::string output, matrix;  ///< matrix may be empty
+  bool closed = false;         ///< a CSV has closed curves
+  bool tangents = false;       ///< of the limit, as columns
+};
+
+/// Whether `common.scheme` names a curve scheme.
+bool is_curve_job(const Common& common);
+
+/// For a file that is no mesh: fails with a word about curve schemes if it is a polygon.
+void refuse_polygon(const Common& common);
+
+int refine_curves(const CurveJob& job);
+int limit_curves(const CurveJob& job);
+
+}  // namespace sublimit::cli
