@@ -5,6 +5,9 @@
 
 #include "sublimit/schemes/chaikin.h"
 #include "sublimit/schemes/four_point.h"
+#include "sublimit/schemes/lane_riesenfeld.h"
+#include "sublimit/schemes/six_point.h"
+#include "sublimit/schemes/trigonometric_cubic.h"
 
 namespace sublimit {
 
@@ -17,7 +20,10 @@ struct CurveSchemeEntry {
 template <class T>
 inline constexpr CurveSchemeEntry<T> curve_registry[] = {
     {"chaikin", chaikin<T>},
+    {"lane-riesenfeld", lane_riesenfeld<T>},
     {"four-point", four_point<T>},
+    {"six-point", six_point<T>},
+    {"trigonometric-cubic", trigonometric_cubic<T>},
 };
 
 /// Every curve scheme with its default options.

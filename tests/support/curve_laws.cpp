@@ -28,7 +28,7 @@ std::vector<ControlPolygon> polygons_for(const Scheme& scheme) {
       polygons.push_back(polygon_through(points, closed));
     }
   ControlPolygon two = polygon_through(Points::Random(25, 3));
-  two.curves = {{{3, 1, 2, 0, 4, 20, 21, 22}, true}, {{5, 6, 7, 8, 9, 10, 11, 12, 3}, false}};
+  two.curves = {{{3, 1, 2, 0, 4, 20, 21, 22}, true}, {{5, 6, 7, 8, 9, 10, 11, 12, 3, 13, 14, 15}, false}};
   polygons.push_back(two);
   return polygons;
 }
@@ -173,7 +173,9 @@ std::string polynomials_are_reproduced_up_to_the_claim(const Scheme& scheme) {
 std::string ends_go_on(const Scheme& scheme) {
   if (!scheme.ends.beyond) return {};
   const Line line(scheme);
-  const bool reflected = scheme.options.empty() || scheme.options.back().values.back() != "cubic";
+  const CurveSite<double> first(0, scheme.ends, scheme.masks.dual(), 0, 40);
+  const Stencil<double> second_beyond = scheme.ends.beyond(CurveEnd<double>(first, true), 2);
+  const bool reflected = scheme.ends.points == 2 && second_beyond.terms().back() == std::pair<Index, double>(2, -1);
   std::vector<int> degrees;
   for (int degree = 0; degree < scheme.ends.points; ++degree) degrees.push_back(degree);
   if (reflected) degrees = {0, 1, 3, 5};
@@ -268,6 +270,14 @@ std::string published_values_hold(const Scheme& scheme) {
     if (g > 0 && std::abs(L.first.coeff(0, 31) - 8 / (4 * (4 - g))) > 1e-12)
       return "the derivative is not the published one";
   }
+  if (scheme.name == "trigonometric-cubic") {  // both levels are of the same circle: half angles
+    double cosine[2];
+    for (int k : {0, 1}) {
+      const double centre = scheme.masks.point(CurveSite<double>(k)).terms()[1].second;
+      cosine[k] = (4 * centre - 2) / (4 - 4 * centre);
+    }
+    if (std::abs(cosine[0] - (2 * cosine[1] * cosine[1] - 1)) > 1e-12) return "levels are of different angles";
+  }
   return {};
 }
 
@@ -299,6 +309,14 @@ std::vector<std::pair<std::string, SchemeOptions>> curve_scheme_names_and_option
       {"four-point", {{"tension", "1/2"}, {"ends", "linear"}}},
       {"four-point", {{"tension", "1.5"}, {"ends", "quadratic"}}},
       {"four-point", {{"tension", "0"}}},
+      {"lane-riesenfeld", {{"degree", "1"}}},
+      {"lane-riesenfeld", {{"degree", "4"}}},
+      {"lane-riesenfeld", {{"degree", "5"}, {"ends", "interpolate"}}},
+      {"lane-riesenfeld", {{"degree", "6"}, {"ends", "interpolate"}}},
+      {"lane-riesenfeld", {{"degree", "9"}}},
+      {"six-point", {{"ends", "linear"}}},
+      {"six-point", {{"ends", "cubic"}}},
+      {"trigonometric-cubic", {{"sides", "3"}, {"ends", "interpolate"}}},
   };
   all.insert(all.end(), std::begin(others), std::end(others));
   return all;

@@ -182,11 +182,15 @@ class CurveAnalysis {
     rows.offsets = std::move(offsets);
     rows.position = A.transpose() * fine.position;
     rows.first = T(2) * (A.transpose() * fine.first);
-    // Derivatives see no constants. Rounding would let the sum grow by 2 and 4 a step.
+    // Derivatives see no constants, and second ones nothing linear. Rounding would let these grow by 2 and 4 a step.
     rows.first -= rows.first.sum() * rows.position;
+    Vector x(rows.offsets.size());
+    for (Eigen::Index i = 0; i < x.size(); ++i) x[i] = T(static_cast<int>(rows.offsets[i])) / T(2);
+    if (x.size() > 0 && rows.has_first) rows.first /= rows.first.dot(x);
     for (int side : {0, 1}) {
       rows.second[side] = T(4) * (A.transpose() * fine.second[side]);
       rows.second[side] -= rows.second[side].sum() * rows.position;
+      if (x.size() > 0 && rows.has_first) rows.second[side] -= rows.second[side].dot(x) * rows.first;
     }
     return rows;
   }

@@ -89,10 +89,72 @@ TEST(CurveLimits, ChaikinEnds) {
   }
 }
 
-/// The limit and its derivatives at control points, from refinement alone: 400 levels in 256 bits, differences of the
+/// Uniform B-spline basis of a degree at x, centred at 0, by its recurrence (de Boor 1972).
+double basis(int degree, double x) {
+  if (degree == 0) return x >= -0.5 && x < 0.5 ? 1 : 0;
+  const double h = (degree + 1) / 2.0;
+  return ((x + h) * basis(degree - 1, x + 0.5) + (h - x) * basis(degree - 1, x - 0.5)) / degree;
+}
+
+TEST(CurveLimits, LaneRiesenfeldIsTheBSpline) {
+  for (int degree = 1; degree <= 9; ++degree) {
+    const CurveLimits<double> L = middle(*find_curve_scheme("lane-riesenfeld", {{"degree", std::to_string(degree)}}));
+    std::vector<double> value, slope;
+    for (int i = -degree; i <= degree; ++i) {
+      value.push_back(basis(degree, -i));
+      slope.push_back(basis(degree - 1, -i + 0.5) - basis(degree - 1, -i - 0.5));
+    }
+    SCOPED_TRACE(degree);
+    expect_row(L.position, value);
+    if (degree > 1) expect_row(L.first, slope, 4e-14);
+    EXPECT_EQ(L.order[0], degree == 1 ? 0 : 2);
+  }
+}
+
+TEST(CurveLimits, SixPointDerivative) {
+  const CurveLimits<double> L = middle(*find_curve_scheme("six-point"));
+  const double a = 272 / 365.0, b = -53 / 365.0, c = 16 / 1095.0, d = 1 / 2920.0;
+  expect_row(L.position, {1}, 0);
+  expect_row(L.first, {-d, -c, -b, -a, 0, a, b, c, d});
+  EXPECT_EQ(L.order[0], 2);
+  const std::vector<double> values = spectrum(*find_curve_scheme("six-point"));
+  for (const auto& [i, value] : {std::pair{0, 1.0}, {1, 0.5}, {2, 0.25}, {3, 9 / 64.0}, {4, 0.125}})
+    EXPECT_NEAR(values[i], value, 1e-9) << i;
+}
+
+TEST(CurveLimits, TrigonometricCubicMakesCircles) {
+  for (const int sides : {3, 4, 7, 24, 100000}) {
+    SCOPED_TRACE(sides);
+    // A third of the polygon may do for many sides; closed, of all sides, for few.
+    const Index count = std::min(sides, 60);
+    Points points(count, 2);
+    for (Index i = 0; i < count; ++i) {
+      const double angle = 2 * M_PI * i / sides;
+      points.row(i) << std::cos(angle), std::sin(angle);
+    }
+    const CurveScheme<double> scheme = *find_curve_scheme("trigonometric-cubic", {{"sides", std::to_string(sides)}});
+    const std::vector<CurveLevel> levels = refine(scheme, polygon_through(points, sides <= 60), 3);
+    CurveAnalysis<double> analysis(scheme);
+    const CurveLimits<double> L = analysis.limits(levels[3]);
+    const Points x = refinement_matrix(levels) * points, limit = L.position * x, first = L.first * x,
+                 second = L.second * x;
+    const double radius = limit.row(0).norm(), turn = 2 * M_PI / sides;
+    EXPECT_LT(radius, 1);
+    for (Index a = 0; a < x.rows(); ++a) {
+      EXPECT_NEAR(limit.row(a).norm(), radius, 1e-14);
+      if (sides == 100000) continue;  // below rounding
+      EXPECT_NEAR(first.row(a).norm(), turn * radius, 1e-13);
+      EXPECT_NEAR(first.row(a).dot(limit.row(a)), 0, 1e-13);
+      ASSERT_EQ(L.order[a], 2);
+      EXPECT_NEAR((second.row(a) + turn * turn * limit.row(a)).norm(), 0, 1e-11);
+    }
+  }
+}
+
+/// The limit and its derivatives at control points, from refinement alone: 250 levels in 256 bits, differences of the
 /// points next to the position.
 TEST(CurveLimits, EqualBruteForceIn256Bits) {
-  const Index size = 9;
+  const Index size = 11;
   std::mt19937 random(3);
   std::uniform_real_distribution<double> coordinate(-1, 1);
   Points points(size, 1);
@@ -108,7 +170,7 @@ TEST(CurveLimits, EqualBruteForceIn256Bits) {
       CurveAnalysis<double> analysis(scheme);
       const CurveLimits<double> L = analysis.limits(level);
       const CurveLayout& layout = analysis.layout();
-      for (Index a = 0; a < size; ++a) {
+      for (const Index a : {0, 1, 2, 5, 10}) {
         // Follow the position down: a window of points around it, which is all that the next level needs.
         Values values = points.col(0).cast<Precise>();
         CurveOutline outline = layout.control(size, closed);
@@ -125,7 +187,7 @@ TEST(CurveLimits, EqualBruteForceIn256Bits) {
         const auto nearest = [&](const CurveOutline& c, std::int64_t p) {  // the point there, or the one before
           return layout.is_dual() && !(at_start || at_end) ? layout.point(c, p - 1) : layout.point(c, p);
         };
-        const int depth = 400;
+        const int depth = 250;
         Values cut(window);
         const Index centre = at_start || at_end ? 0 : reach;
         for (Index i = 0; i < window; ++i) {
