@@ -5,16 +5,13 @@
 // pixel, so that a limit surface of 20 000 faces takes some 200 KB.
 #include <Eigen/Core>
 
-#include <array>
 #include <string>
 #include <vector>
 
+#include "sublimit/report/color.h"
 #include "sublimit/types.h"
 
 namespace sublimit {
-
-/// Red, green, blue in 0..1 (sRGB).
-using Color = std::array<double, 3>;
 
 struct PictureMesh {
   Points positions;                  ///< #V x 3
