@@ -176,6 +176,12 @@ void check_output_path(const std::string& path, const std::vector<std::string>& 
   directories.push_back(directory.empty() ? "." : directory.string());
 }
 
+void make_output_directory(const std::string& path) {
+  std::error_code failed;
+  std::filesystem::create_directories(path, failed);
+  if (failed) throw IoError("cannot make the directory " + path + ": " + failed.message());
+}
+
 std::vector<std::string> output_directories() {
   const std::lock_guard lock(directories_mutex);
   return directories;

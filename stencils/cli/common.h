@@ -77,6 +77,9 @@ Scheme<double> scheme_or_throw(const std::string& name, const SchemeOptions& opt
 /// not be touched. An empty list takes any extension.
 void check_output_path(const std::string& path, const std::vector<std::string>& extensions);
 
+/// Makes the directory of outputs, and those above it, where they are missing.
+void make_output_directory(const std::string& path);
+
 /// Where outputs of this run go, as told to `check_output_path`.
 std::vector<std::string> output_directories();
 

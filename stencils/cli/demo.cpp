@@ -9,7 +9,7 @@
 #include "sublimit/base/error.h"
 #include "sublimit/demo_mesh.h"
 #include "sublimit/refined_mesh.h"
-#include "sublimit/report/picture.h"
+#include "sublimit/report/picture_mesh.h"
 #include "sublimit/sparse_product.h"
 
 namespace sublimit::cli {
@@ -20,45 +20,20 @@ struct Options {
   std::string directory = "sublimit-demo";
 };
 
-/// A level with its wire, its creases by sharpness and, on the control mesh, dots at extraordinary vertices.
-PictureMesh wire_picture(const Level& level, const Points& points, bool dots) {
+/// The control mesh with dots at its extraordinary vertices.
+PictureMesh control_picture(const Level& level, const Points& points) {
   const Topology& t = level.topology();
-  PictureMesh picture;
-  picture.positions = points;
-  picture.wireframe = true;
-  for (Index f = 0; f < t.num_faces(); ++f) {
-    const auto corners = t.vertices(Face{f});
-    picture.face_sizes.push_back(t.size(Face{f}));
-    picture.face_vertices.insert(picture.face_vertices.end(), corners.begin(), corners.end());
-  }
-  for (Index e = 0; e < t.num_edges(); ++e) {
-    const float s = level.sharpness.edge[e];
-    if (!is_sharp(s) || t.is_boundary(Edge{e})) continue;
-    picture.creases.push_back({index(t.tail(Edge{e})), index(t.head(Edge{e})), is_infinite(s) ? 1 : s / 5.0});
-  }
-  for (Index v = 0; dots && v < t.num_vertices(); ++v) {
+  PictureMesh picture = wire_picture(level, points);
+  for (Index v = 0; v < t.num_vertices(); ++v) {
     const HalfEdge h = t.outgoing(Vertex{v});
     if (exists(h) && t.num_faces(Vertex{v}) != (exists(t.twin(h)) ? 4 : 2)) picture.dots.push_back(v);
   }
   return picture;
 }
 
-PictureMesh surface_picture(const MeshOutput& surface) {
-  PictureMesh picture;
-  picture.positions = surface.positions;
-  picture.face_sizes = surface.face_sizes;
-  picture.face_vertices = surface.face_vertices;
-  picture.corner_normals = Points::Zero(Index(surface.face_normals.size()), 3);
-  for (size_t c = 0; c < surface.face_normals.size(); ++c)
-    if (surface.face_normals[c] >= 0) picture.corner_normals.row(Index(c)) = surface.normals.row(surface.face_normals[c]);
-  return picture;
-}
-
 int run(const Options& options) {
   const std::filesystem::path directory = options.directory;
-  std::error_code failed;
-  std::filesystem::create_directories(directory, failed);
-  if (failed) throw IoError("cannot make the directory " + options.directory + ": " + failed.message());
+  make_output_directory(options.directory);
   const auto path = [&](const char* name) { return (directory / name).string(); };
   check_output_path(path("picture.svg"), {});
 
@@ -79,8 +54,10 @@ int run(const Options& options) {
   write_mesh(path("refined.obj"), refined_mesh(levels[2], points[2], mesh, {}, true));
   write_mesh(path("limit.obj"), surface);
   const std::string svg = svg_picture(
-      {{{wire_picture(levels[0], points[0], true)}, "control mesh", fmt::format("{} points", points[0].rows())},
-       {{wire_picture(levels[1], points[1], false)}, "one level", fmt::format("S is {} x {}", levels[1].S.rows(), levels[1].S.cols())},
+      {{{control_picture(levels[0], points[0])}, "control mesh", fmt::format("{} points", points[0].rows())},
+       {{wire_picture(levels[1], points[1])},
+        "one level",
+        fmt::format("S is {} x {}", levels[1].S.rows(), levels[1].S.cols())},
        {{surface_picture(surface)}, "exact limit", fmt::format("{} points and normals", at_limit.position.rows())}});
   AtomicFile picture(path("picture.svg"));
   picture.write(svg);

@@ -266,9 +266,30 @@ TEST(Picture, RejectsArraysThatDoNotFit) {
   }
 }
 
+TEST(Picture, PanelsGoInRows) {
+  const Panel panel{{square(1, 0)}, "a", ""};
+  PictureOptions options = from_the_front();
+  options.panel_width = options.panel_height = 100;
+  options.columns = 2;
+  const std::string svg = svg_picture({panel, panel, panel}, options);
+  EXPECT_TRUE(well_formed(svg));
+  EXPECT_NE(svg.find("viewBox=\"0 0 228 330\""), std::string::npos);  // two of 100 wide; two of 158 high; borders of 14
+  EXPECT_NE(svg.find("translate(114 14)"), std::string::npos);
+  EXPECT_NE(svg.find("translate(14 172)"), std::string::npos);
+}
+
+TEST(Picture, WhatIsInViewDecidesTheCamera) {
+  PictureOptions options = from_the_front();
+  options.in_view = square(2, 0).positions;
+  const auto panels = [](double size) { return std::vector<Panel>{{{square(size, 0)}, "", ""}}; };
+  EXPECT_EQ(svg_picture(panels(1), from_the_front()), svg_picture(panels(2), from_the_front()));
+  EXPECT_NE(svg_picture(panels(1), options), svg_picture(panels(2), options));
+  EXPECT_EQ(svg_picture(panels(2), options), svg_picture(panels(2), from_the_front()));
+}
+
 TEST(Picture, RejectsOptionsOutsideTheirRange) {
-  const std::vector<PictureOptions> wrong = {
-      {.panel_width = 0}, {.panel_height = 1e9}, {.up = Vector3d::Zero()}, {.azimuth = std::nan("")}, {.distance = 1}};
+  const std::vector<PictureOptions> wrong = {{.panel_width = 0},        {.panel_height = 1e9}, {.up = Vector3d::Zero()},
+                                             {.azimuth = std::nan("")}, {.distance = 1},       {.columns = -1}};
   for (const PictureOptions& options : wrong) {
     expect_error<InvalidParameter>([&] { svg_picture({}, options); }, {"picture"});
   }

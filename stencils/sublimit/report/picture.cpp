@@ -58,6 +58,9 @@ void check(const PictureOptions& o) {
   need(size(o.panel_width) && size(o.panel_height), "a panel's width and height are 16 to 4096 pixels");
   need(o.up.allFinite() && o.up.norm() > 0, "the direction up is not finite or zero");
   need(std::isfinite(o.azimuth) && std::isfinite(o.elevation), "azimuth and elevation must be finite");
+  need(o.columns >= 0, "columns cannot be negative");
+  need(o.in_view.rows() == 0 || (o.in_view.cols() == 3 && o.in_view.allFinite()),
+       "points in view need 3 finite columns");
   need(o.distance == 0 || (o.distance > 1 && o.distance <= 1e6), "distance must be 0 or greater than 1");
 }
 
@@ -68,13 +71,16 @@ std::string svg_picture(const std::vector<Panel>& panels, const PictureOptions& 
   for (int p = 0; p < static_cast<int>(panels.size()); ++p) {
     for (int l = 0; l < static_cast<int>(panels[p].layers.size()); ++l) check(panels[p].layers[l], p, l);
   }
-  const picture::Frame frame = picture::frame_of(panels);
+  const picture::Frame frame = picture::frame_of(panels, options);
   picture::Camera camera(options);
   fit(camera, panels, frame, options);
 
   constexpr double border = 14, caption_height = 58;
-  const double width = static_cast<double>(panels.size()) * options.panel_width + 2 * border;
-  const double height = options.panel_height + caption_height + border;
+  const std::size_t columns = options.columns > 0 ? static_cast<std::size_t>(options.columns) : panels.size();
+  const std::size_t rows = panels.empty() ? 1 : (panels.size() + columns - 1) / columns;
+  const double row_height = options.panel_height + caption_height;
+  const double width = static_cast<double>(std::min(columns, panels.size())) * options.panel_width + 2 * border;
+  const double height = static_cast<double>(rows) * row_height + border;
   std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + pixels(width) + " " + pixels(height) +
                     "\" width=\"" + pixels(width) + "\" height=\"" + pixels(height) +
                     "\" font-family=\"system-ui, sans-serif\" text-anchor=\"middle\">\n";
@@ -87,8 +93,8 @@ std::string svg_picture(const std::vector<Panel>& panels, const PictureOptions& 
   }
   for (std::size_t p = 0; p < panels.size(); ++p) {
     const Panel& panel = panels[p];
-    svg += "<g transform=\"translate(" + pixels(border + static_cast<double>(p) * options.panel_width) + " " +
-           pixels(border) + ")\">\n";
+    svg += "<g transform=\"translate(" + pixels(border + static_cast<double>(p % columns) * options.panel_width) + " " +
+           pixels(border + static_cast<double>(p / columns) * row_height) + ")\">\n";
     if (options.ground_shadow) svg += picture::ground_shadow(panel, frame, camera);
     svg += "<g transform=\"scale(.1)\" stroke-linejoin=\"round\">\n";
     const picture::SeenPanel seen(panel, frame, camera, options);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Pictures of meshes as SVG: panels side by side, one camera, soft shading, hidden faces and lines left out. Only what
+// Pictures of meshes as SVG: panels in rows, one camera, soft shading, hidden faces and lines left out. Only what
 // a depth buffer has seen is written, faces of one tone are merged into one outline, and coordinates are tenths of a
 // pixel, so that a limit surface of 20 000 faces takes some 200 KB.
 #include <Eigen/Core>
@@ -47,6 +47,9 @@ struct PictureOptions {
   double azimuth = .6, elevation = .36;  ///< of the eye, radians; azimuth 0 sees +x to the right, and up is up
   double distance = 5;                   ///< of the eye, in radii of the scene, > 1; 0: orthographic
   bool ground_shadow = true;
+  int columns = 0;  ///< panels in a row, 0: all
+  /// #x3, kept in view though nothing draws them: pictures of what lies within the same ones have the same camera.
+  Points in_view = {};
 };
 
 /// The picture as the text of an SVG file.

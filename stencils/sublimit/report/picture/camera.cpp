@@ -9,20 +9,30 @@
 
 namespace sublimit::picture {
 
-Frame frame_of(const std::vector<Panel>& panels) {
-  Vector3d low = Vector3d::Constant(std::numeric_limits<double>::infinity()), high = -low;
+namespace {
+
+/// Calls use(point) for everything that is shown.
+template <class Use>
+void for_each_point(const std::vector<Panel>& panels, const PictureOptions& options, const Use& use) {
   for (const Panel& panel : panels) {
     for (const PictureMesh& mesh : panel.layers) {
-      const auto add = [&](Index v) {
-        const Vector3d p = mesh.positions.row(v);
-        low = low.cwiseMin(p);
-        high = high.cwiseMax(p);
-      };
+      const auto add = [&](Index v) { use(Vector3d(mesh.positions.row(v))); };
       for (Index v : mesh.face_vertices) add(v);
       for (const PictureMesh::Line& line : mesh.creases) add(line.tail), add(line.head);
       for (Index v : mesh.dots) add(v);
     }
   }
+  for (Eigen::Index i = 0; i < options.in_view.rows(); ++i) use(Vector3d(options.in_view.row(i)));
+}
+
+}  // namespace
+
+Frame frame_of(const std::vector<Panel>& panels, const PictureOptions& options) {
+  Vector3d low = Vector3d::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  for_each_point(panels, options, [&](const Vector3d& p) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  });
   Frame frame;
   if (!(low.x() <= high.x())) return frame;  // nothing to show
   frame.half_center = low / 4 + high / 4;
@@ -44,18 +54,11 @@ Camera::Camera(const PictureOptions& o) : up(o.up.normalized()), distance(o.dist
 
 void fit(Camera& camera, const std::vector<Panel>& panels, const Frame& frame, const PictureOptions& options) {
   Vector2d low = Vector2d::Constant(std::numeric_limits<double>::infinity()), high = -low;
-  for (const Panel& panel : panels) {
-    for (const PictureMesh& mesh : panel.layers) {
-      const auto add = [&](Index v) {
-        const Projected p = camera.project(camera.seen(frame.local(mesh.positions.row(v))));
-        low = low.cwiseMin(Vector2d(p.x, p.y));
-        high = high.cwiseMax(Vector2d(p.x, p.y));
-      };
-      for (Index v : mesh.face_vertices) add(v);
-      for (const PictureMesh::Line& line : mesh.creases) add(line.tail), add(line.head);
-      for (Index v : mesh.dots) add(v);
-    }
-  }
+  for_each_point(panels, options, [&](const Vector3d& point) {
+    const Projected p = camera.project(camera.seen(frame.local(point)));
+    low = low.cwiseMin(Vector2d(p.x, p.y));
+    high = high.cwiseMax(Vector2d(p.x, p.y));
+  });
   const Vector2d size(options.panel_width, options.panel_height);
   const double margin = .06 * size.minCoeff();
   if (!(low.x() <= high.x())) return;

@@ -19,8 +19,8 @@ struct Frame {
   Vector3d local(const Vector3d& p) const { return (p / 2 - half_center) / (half_size / 2); }
 };
 
-/// The frame of everything that faces, lines and dots use.
-Frame frame_of(const std::vector<Panel>& panels);
+/// The frame of everything that faces, lines and dots use, and of what is to be in view.
+Frame frame_of(const std::vector<Panel>& panels, const PictureOptions& options);
 
 /// A point as the depth buffer wants it: pixels, y down, and a nearness that is linear on the screen.
 struct Projected {
