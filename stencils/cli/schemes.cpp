@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "common.h"
+#include "gallery.h"
 #include "sublimit/curve_schemes.h"
 
 namespace sublimit::cli {
@@ -141,8 +141,15 @@ Command add_schemes(CLI::App& app) {
   auto* command = app.add_subcommand("schemes", "Every scheme: split, faces, limit, smoothness, source");
   auto as_json = std::make_shared<bool>(false);
   command->add_flag("--json", *as_json, "As JSON");
-  command->footer("Examples:\n  sublimit schemes\n  sublimit schemes --json");
-  return [=] { return run(*as_json); };
+  const auto gallery = add_gallery(*command);
+  command->footer(
+      "Examples:\n  sublimit schemes\n  sublimit schemes --json\n"
+      "  sublimit schemes --gallery out/gallery    # then open out/gallery/index.html");
+  return [=] {
+    if (gallery->directory.empty()) return run(*as_json);
+    draw_gallery(*gallery, *as_json);
+    return *as_json ? run(true) : 0;
+  };
 }
 
 }  // namespace sublimit::cli

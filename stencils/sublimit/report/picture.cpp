@@ -56,8 +56,11 @@ void check(const PictureOptions& o) {
   };
   const auto size = [](double pixels) { return pixels >= 16 && pixels <= 4096; };
   need(size(o.panel_width) && size(o.panel_height), "a panel's width and height are 16 to 4096 pixels");
+  need(o.caption_size >= 4 && o.caption_size <= 100, "captions are 4 to 100 pixels");
   need(o.up.allFinite() && o.up.norm() > 0, "the direction up is not finite or zero");
   need(std::isfinite(o.azimuth) && std::isfinite(o.elevation), "azimuth and elevation must be finite");
+  need(o.sky_directions >= 1 && o.sky_directions <= 10'000, "the sky has 1 to 10000 directions");
+  need(o.tone_step >= 1 && o.tone_step <= 32, "the step of tones is 1 to 32");
   need(o.columns >= 0, "columns cannot be negative");
   need(o.in_view.rows() == 0 || (o.in_view.cols() == 3 && o.in_view.allFinite()),
        "points in view need 3 finite columns");
@@ -75,7 +78,8 @@ std::string svg_picture(const std::vector<Panel>& panels, const PictureOptions& 
   picture::Camera camera(options);
   fit(camera, panels, frame, options);
 
-  constexpr double border = 14, caption_height = 58;
+  const double border = 14, text = options.caption_size / 17;
+  const double caption_height = 58 * text;
   const std::size_t columns = options.columns > 0 ? static_cast<std::size_t>(options.columns) : panels.size();
   const std::size_t rows = panels.empty() ? 1 : (panels.size() + columns - 1) / columns;
   const double row_height = options.panel_height + caption_height;
@@ -101,13 +105,13 @@ std::string svg_picture(const std::vector<Panel>& panels, const PictureOptions& 
     write_faces(svg, seen);
     for (int l = 0; l < static_cast<int>(panel.layers.size()); ++l) write_lines(svg, seen, l);
     svg += "</g>\n";
-    const auto line = [&](double below, const char* style, const std::string& text) {
-      if (text.empty()) return;
-      svg += "<text x=\"" + pixels(options.panel_width / 2) + "\" y=\"" + pixels(options.panel_height + below) + "\" " +
-             style + ">" + escaped(text) + "</text>\n";
+    const auto line = [&](double below, double size, const char* style, const std::string& words) {
+      if (words.empty()) return;
+      svg += "<text x=\"" + pixels(options.panel_width / 2) + "\" y=\"" + pixels(options.panel_height + text * below) +
+             "\" font-size=\"" + pixels(text * size) + "\" " + style + ">" + escaped(words) + "</text>\n";
     };
-    line(22, "font-size=\"17\" font-weight=\"600\" fill=\"#2b2f38\"", panel.caption);
-    line(43, "font-size=\"13\" fill=\"#6a6f7a\"", panel.note);
+    line(22, 17, "font-weight=\"600\" fill=\"#2b2f38\"", panel.caption);
+    line(43, 13, "fill=\"#6a6f7a\"", panel.note);
     svg += "</g>\n";
   }
   svg += "</svg>\n";

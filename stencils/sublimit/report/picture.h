@@ -46,8 +46,11 @@ struct PictureOptions {
   Eigen::Vector3d up = {0, 1, 0};
   double azimuth = .6, elevation = .36;  ///< of the eye, radians; azimuth 0 sees +x to the right, and up is up
   double distance = 5;                   ///< of the eye, in radii of the scene, > 1; 0: orthographic
+  int sky_directions = 128;              ///< that light comes from: time, for less grain in hollows
+  int tone_step = 1;                     ///< smooth shading has every so manieth tone: small pictures need few
   bool ground_shadow = true;
-  int columns = 0;  ///< panels in a row, 0: all
+  double caption_size = 17;  ///< pixels; notes are smaller
+  int columns = 0;           ///< panels in a row, 0: all
   /// #x3, kept in view though nothing draws them: pictures of what lies within the same ones have the same camera.
   Points in_view = {};
 };

@@ -39,15 +39,15 @@ ControlMesh cut(const ControlMesh& quads, const First& first) {
   return mesh;
 }
 
-/// On a face, inscribed in the unit sphere.
+/// On a face, inscribed in the same sphere as the cube.
 ControlMesh tetrahedron() {
   ControlMesh mesh;
   mesh.positions.resize(4, 3);
-  const double r = std::sqrt(8.) / 3;
-  mesh.positions.row(0) << 0, 1, 0;
+  const double radius = std::sqrt(3.), r = std::sqrt(8.) / 3 * radius;
+  mesh.positions.row(0) << 0, radius, 0;
   for (int i = 0; i < 3; ++i) {
     const double angle = 2 * std::numbers::pi * i / 3;
-    mesh.positions.row(i + 1) << r * std::sin(angle), -1. / 3, r * std::cos(angle);
+    mesh.positions.row(i + 1) << r * std::sin(angle), -radius / 3, r * std::cos(angle);
   }
   mesh.face_sizes.assign(4, 3);
   mesh.face_vertices = {0, 1, 2, 0, 2, 3, 0, 3, 1, 1, 3, 2};
@@ -60,7 +60,7 @@ std::vector<Cage> cages() {
   const ControlMesh quads = cube();
   const auto even = [](Index, const Index* corners) { return std::popcount(static_cast<unsigned>(corners[0])) % 2; };
   const auto irregular = [](Index face, const Index*) { return face == 5 ? 1 : 0; };
-  return {{"cube", "Cube", quads},
+  return {{"cube", "Cube in quads", quads},
           {"cube-tetrahedral", "Cube in triangles, the diagonals on a tetrahedron", cut(quads, even)},
           {"cube-irregular", "Cube in triangles, the diagonals as they come", cut(quads, irregular)},
           {"tetrahedron", "Tetrahedron", tetrahedron()}};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// What the gallery refines: the cube as quads and cut into triangles in two ways, and the tetrahedron. All of them have
-// their centre at the origin, and as points the full symmetry of their solid.
+// What the gallery refines: the cube as quads and cut into triangles in two ways, and the tetrahedron. Their points lie
+// on one sphere about the origin and have the full symmetry of their solid.
 #include <Eigen/Core>
 
 #include <string>

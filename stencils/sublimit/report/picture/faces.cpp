@@ -35,9 +35,9 @@ svg::Spot crossing(Shaded a, Shaded b, double level) {
           static_cast<int>(std::lround(a.at.y + t * (b.at.y - a.at.y)))};
 }
 
-void add_terraces(std::array<Outline, tones>& terraces, const std::array<Shaded, 3>& triangle) {
+void add_terraces(std::array<Outline, tones>& terraces, int step, const std::array<Shaded, 3>& triangle) {
   const auto [low, high] = std::minmax({triangle[0].tone, triangle[1].tone, triangle[2].tone});
-  for (int t = 0; t < tones; ++t) {
+  for (int t = 0; t < tones; t += step) {
     const double level = t - .5;
     if (high <= level) break;
     std::vector<svg::Spot> polygon;
@@ -68,9 +68,9 @@ void write_terraces(std::string& svg, const SeenPanel& seen, int layer, bool bac
     for (int c = face.begin; c < face.end; ++c) {
       const Shaded a = shaded(seen, c), b = shaded(seen, seen.scene.next(face, c));
       if (back) {
-        add_terraces(terraces, {center, b, a});
+        add_terraces(terraces, seen.tone_step, {center, b, a});
       } else {
-        add_terraces(terraces, {center, a, b});
+        add_terraces(terraces, seen.tone_step, {center, a, b});
       }
     }
   }

@@ -15,8 +15,8 @@ namespace {
 
 /// How much of the sky every face sees: depth buffers from many directions, weighted by the cosine law and a brighter
 /// zenith.
-void light_from_sky(Scene& scene, const Camera& camera) {
-  constexpr int directions = 128, size = 256;
+void light_from_sky(Scene& scene, const Camera& camera, int directions) {
+  constexpr int size = 256;
   std::vector<double> seen(scene.faces.size(), 0), all(scene.faces.size(), 0);
   const Vector3d zenith = camera.seen(camera.up);
   std::vector<Projected> at(scene.points.size());
@@ -109,8 +109,8 @@ void set_tones(Scene& scene, const Camera& camera) {
 
 }  // namespace
 
-void light_scene(Scene& scene, const Camera& camera) {
-  light_from_sky(scene, camera);
+void light_scene(Scene& scene, const Camera& camera, int sky_directions) {
+  light_from_sky(scene, camera, sky_directions);
   set_tones(scene, camera);
 }
 

@@ -8,6 +8,6 @@ namespace sublimit::picture {
 constexpr int tones = 112;  ///< steps of a colour ramp; fewer would show as bands
 
 /// Sets `tone` of every face and corner.
-void light_scene(Scene& scene, const Camera& camera);
+void light_scene(Scene& scene, const Camera& camera, int sky_directions);
 
 }  // namespace sublimit::picture

@@ -27,6 +27,7 @@ struct SeenPanel {
 
   const Panel& panel;
   const Camera& camera;
+  int tone_step;
   Scene scene;
   DepthBuffer buffer;
   std::vector<Projected> at;  ///< of the scene's points

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "gallery.h"
+
+#include <fmt/core.h>
+
+#include <filesystem>
+
+#include "sublimit/report/gallery.h"
+
+namespace sublimit::cli {
+
+std::shared_ptr<GalleryRun> add_gallery(CLI::App& command) {
+  auto run = std::make_shared<GalleryRun>();
+  run->faces = GalleryOptions{}.faces;
+  auto* gallery = command.add_option("--gallery", run->directory,
+                                     "Draw cube and tetrahedron under every scheme, level by level and in the limit, "
+                                     "and measure what lecture notes say of them; DIR/index.html shows it");
+  gallery->type_name("DIR");
+  command.add_option("--gallery-faces", run->faces, "Least faces of the gallery's limit surfaces (default: 3000)")
+      ->needs(gallery)
+      ->check(CLI::Range(200, 200'000));
+  add_run(command, run->common);
+  return run;
+}
+
+void draw_gallery(const GalleryRun& run, bool silent) {
+  const std::filesystem::path index = std::filesystem::path(run.directory) / "index.html";
+  make_output_directory(run.directory);
+  check_output_path(index.string(), {});
+  limit_threads(run.common);
+  Progress progress(run.common.quiet);
+  const Gallery gallery = make_gallery({.faces = run.faces}, [&](int done, int total) {
+    progress.step(fmt::format("drawing and measuring, {} of {}", done, total));
+  });
+  progress.step("writing " + run.directory);
+  write_gallery(run.directory, gallery.files);
+  progress.step("");
+  if (run.common.quiet || silent) return;
+  fmt::print("{} pictures; {} of {} sentences from lecture notes are confirmed by measurements:\n  {}\n",
+             gallery.files.size() - 2, gallery.confirmed, gallery.statements, std::filesystem::absolute(index).string());
+}
+
+}  // namespace sublimit::cli
