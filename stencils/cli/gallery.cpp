@@ -12,9 +12,10 @@ namespace sublimit::cli {
 std::shared_ptr<GalleryRun> add_gallery(CLI::App& command) {
   auto run = std::make_shared<GalleryRun>();
   run->faces = GalleryOptions{}.faces;
-  auto* gallery = command.add_option("--gallery", run->directory,
-                                     "Draw cube and tetrahedron under every scheme, level by level and in the limit, "
-                                     "and measure what lecture notes say of them; DIR/index.html shows it");
+  auto* gallery =
+      command.add_option("--gallery", run->directory,
+                         "Draw cube and tetrahedron, an open and a closed polygon under every scheme, level by "
+                         "level, measure the limit surfaces; DIR/index.html shows it all");
   gallery->type_name("DIR");
   command.add_option("--gallery-faces", run->faces, "Least faces of the gallery's limit surfaces (default: 3000)")
       ->needs(gallery)
@@ -37,7 +38,8 @@ void draw_gallery(const GalleryRun& run, bool silent) {
   progress.step("");
   if (run.common.quiet || silent) return;
   fmt::print("{} pictures; {} of {} sentences from lecture notes are confirmed by measurements:\n  {}\n",
-             gallery.files.size() - 2, gallery.confirmed, gallery.statements, std::filesystem::absolute(index).string());
+             gallery.files.size() - 2, gallery.confirmed, gallery.statements,
+             std::filesystem::absolute(index).string());
 }
 
 }  // namespace sublimit::cli

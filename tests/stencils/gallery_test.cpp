@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "stencils/cli_program.h"
+#include "sublimit/curve_schemes.h"
 #include "sublimit/report/gallery/statements.h"
 #include "sublimit/schemes.h"
 #include "support/expect_error.h"
@@ -108,7 +109,7 @@ std::vector<std::string> shown(const std::string& html) {
   return files;
 }
 
-TEST(CliGallery, ShowsEverySchemeOnEveryCage) {
+TEST(CliGallery, ShowsEverySchemeOnEveryCageAndPolygon) {
   const TemporaryDirectory directory;
   const std::filesystem::path gallery = directory / "a" / "gallery";
   const std::vector<std::string> arguments{"schemes", "--gallery", gallery.string(), "--gallery-faces", "200"};
@@ -123,6 +124,14 @@ TEST(CliGallery, ShowsEverySchemeOnEveryCage) {
     for (const char* cage : {"cube-tetrahedral", "cube-irregular", "tetrahedron"})
       EXPECT_EQ(count_of(html, "src=\"" + scheme.name + "-" + cage + ".svg\""), 1u) << cage;
     surfaces += cages;
+  }
+  for (const CurveScheme<double>& scheme : all_curve_schemes()) {
+    SCOPED_TRACE(scheme.name);
+    EXPECT_EQ(count_of(html, "<h3>" + scheme.name + "</h3>"), 2u);
+    for (const char* polygon : {"open", "closed"}) {
+      EXPECT_EQ(count_of(html, "src=\"" + scheme.name + "-" + polygon + ".svg\""), 1u) << polygon;
+      EXPECT_EQ(count_of(read_file(gallery / (scheme.name + "-" + polygon + ".svg")), ">level "), 4u) << polygon;
+    }
   }
   const std::vector<std::string> files = shown(html);
   EXPECT_GE(files.size(), surfaces + 2);
@@ -156,7 +165,7 @@ TEST(CliGallery, ShowsEverySchemeOnEveryCage) {
   std::vector<std::string> again = arguments;
   again[2] = (directory / "again").string();
   again.insert(again.end(), {"--threads", "1", "--json"});
-  EXPECT_EQ(Json::parse(expect_done(sublimit(again)).out).size(), all_schemes().size());
+  EXPECT_EQ(Json::parse(expect_done(sublimit(again)).out).size(), all_schemes().size() + all_curve_schemes().size());
   EXPECT_EQ(read_file(directory / "again" / "index.html"), html);
   for (const std::string& file : files)
     EXPECT_EQ(read_file(directory / "again" / file), read_file(gallery / file)) << file;

@@ -13,6 +13,7 @@
 
 #include "sublimit/base/atomic_file.h"
 #include "sublimit/base/error.h"
+#include "sublimit/report/gallery/curves.h"
 #include "sublimit/report/gallery/page.h"
 #include "sublimit/schemes.h"
 
@@ -174,6 +175,9 @@ Gallery make_gallery(const GalleryOptions& options, const std::function<void(int
     for (const Work& w : work)
       if (w.cage == &cage) sections.back().rows.push_back(page_row(w, schemes[w.scheme].source));
   }
+  CurvePictures curves = curve_pictures(options.levels);
+  for (auto& [name, text] : curves.files) files.push_back({name, std::move(text)});
+  for (PageSection& section : curves.sections) sections.push_back(std::move(section));
   files.push_back({"measures.json", json(measured, decided)});
   files.push_back({"index.html", page("overview.svg", decided, sections)});
   Gallery result{std::move(files), 0, static_cast<int>(decided.size())};

@@ -11,7 +11,7 @@
 namespace sublimit {
 
 struct GalleryOptions {
-  int levels = 3;      ///< drawn before the limit, 0 to 5
+  int levels = 3;      ///< drawn, 0 to 5, and the limit of surfaces after them
   Index faces = 3000;  ///< at least, of the surfaces that are measured and drawn as limits; 200 to 200 000
 };
 

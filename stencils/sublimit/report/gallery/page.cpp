@@ -62,7 +62,7 @@ std::string row(const PageRow& row) {
                      escaped(row.source) + "</p><dl>";
   for (const auto& [what, value] : row.numbers) html += "<dt>" + escaped(what) + "</dt><dd>" + escaped(value) + "</dd>";
   return html + "</dl></div><img src=\"" + escaped(row.picture) + "\" alt=\"" + escaped(row.name) +
-         ", level by level and in the limit\"></div>\n";
+         ", level by level\"></div>\n";
 }
 
 std::string table(std::span<const Statement> statements) {

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sublimit/report/gallery/curves.h"
+
+#include <algorithm>
+
+#include "sublimit/curve_refine.h"
+#include "sublimit/curve_schemes.h"
+#include "sublimit/report/svg.h"
+
+namespace sublimit::gallery {
+namespace {
+
+using svg::escaped;
+using svg::pixels;
+
+constexpr double panel_width = 230, panel_height = 170, border = 14, margin = 16, caption_height = 44;
+
+struct NamedPolygon {
+  std::string name, title;
+  ControlPolygon polygon;
+};
+
+std::vector<NamedPolygon> polygons() {
+  Points open(7, 2), closed(7, 2);
+  open << 0, 0, .8, 2.6, 2, 2.6, 2.6, .4, 3.6, .4, 4.4, 2.8, 5.6, 1.2;
+  closed << 0, 0, 2.4, .7, 5, 0, 4.4, 2, 5, 3.4, 2.2, 2.3, .3, 3.4;
+  return {{"open", "Open polygon", polygon_through(open)}, {"closed", "Closed polygon", polygon_through(closed, true)}};
+}
+
+/// The points of levels 0, 1, ...
+std::vector<Points> points_of_levels(const CurveScheme<double>& scheme, const ControlPolygon& polygon, int levels) {
+  std::vector<Points> points;
+  for (const CurveLevel& level : refine(scheme, polygon, levels))
+    points.push_back(level.S * (points.empty() ? polygon.points : points.back()));
+  return points;
+}
+
+/// The plane onto the paper: the same for all schemes of a polygon.
+struct View {
+  Eigen::Array2d low = Eigen::Array2d::Constant(1e300), high = -low;
+
+  void extend(const Points& points) {
+    low = low.min(points.colwise().minCoeff().transpose().array());
+    high = high.max(points.colwise().maxCoeff().transpose().array());
+  }
+  svg::Spot spot(const Eigen::RowVector2d& p) const {
+    const Eigen::Array2d room(panel_width - 2 * margin, panel_height - 2 * margin);
+    const double scale = (room / (high - low)).minCoeff();
+    const Eigen::Array2d at = (p.transpose().array() - (low + high) / 2) * scale;
+    return svg::spot(panel_width / 2 + at.x(), panel_height / 2 - at.y());
+  }
+};
+
+std::string stroke(const Points& points, bool closed, const View& view, const char* style) {
+  svg::Path path;
+  path.move(view.spot(points.row(0)));
+  for (Eigen::Index i = 1; i < points.rows(); ++i) path.line(view.spot(points.row(i)));
+  if (closed) path.close();
+  return std::string("<path fill=\"none\" ") + style + " d=\"" + path.data() + "\"/>\n";
+}
+
+std::string dots(const Points& points, const View& view, const char* style) {
+  svg::Path path;
+  for (Eigen::Index i = 0; i < points.rows(); ++i) path.dot(view.spot(points.row(i)));
+  return std::string("<path fill=\"none\" stroke-linecap=\"round\" ") + style + " d=\"" + path.data() + "\"/>\n";
+}
+
+/// A panel a level: the control polygon in grey, the level over it.
+std::string picture(const std::vector<Points>& levels, const ControlPolygon& polygon, bool interpolates,
+                    const View& view) {
+  const bool closed = polygon.curves[0].closed;
+  const double width = static_cast<double>(levels.size()) * panel_width + 2 * border;
+  const double height = panel_height + caption_height + border;
+  std::string text = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + pixels(width) + " " + pixels(height) +
+                     "\" width=\"" + pixels(width) + "\" height=\"" + pixels(height) +
+                     "\" font-family=\"system-ui, sans-serif\" text-anchor=\"middle\">\n"
+                     "<rect width=\"100%\" height=\"100%\" rx=\"16\" fill=\"#f4f2ed\"/>\n";
+  const std::string color = interpolates ? "stroke=\"#9a6f45\"" : "stroke=\"#33658a\"";
+  for (size_t k = 0; k < levels.size(); ++k) {
+    text += "<g transform=\"translate(" + pixels(border + static_cast<double>(k) * panel_width) + " " + pixels(border) +
+            ")\">\n<g transform=\"scale(.1)\" stroke-linejoin=\"round\">\n";
+    text += stroke(polygon.points, closed, view, "stroke=\"#b9b4a8\" stroke-width=\"11\"");
+    text += dots(polygon.points, view, "stroke=\"#b9b4a8\" stroke-width=\"52\"");
+    text += stroke(levels[k], closed, view, (color + " stroke-width=\"18\"").c_str());
+    text += dots(levels[k], view, (color + " stroke-width=\"" + (k < 2 ? "46" : k == 2 ? "38" : "30") + "\"").c_str());
+    text += "</g>\n<text x=\"" + pixels(panel_width / 2) + "\" y=\"" + pixels(panel_height + 17) +
+            "\" font-size=\"13\" font-weight=\"600\" fill=\"#2b2f38\">level " + std::to_string(k) +
+            "</text>\n<text x=\"" + pixels(panel_width / 2) + "\" y=\"" + pixels(panel_height + 33) +
+            "\" font-size=\"9.9\" fill=\"#6a6f7a\">" + std::to_string(levels[k].rows()) + " points</text>\n</g>\n";
+  }
+  return text + "</svg>\n";
+}
+
+}  // namespace
+
+CurvePictures curve_pictures(int levels) {
+  CurvePictures result;
+  for (const NamedPolygon& named : polygons()) {
+    const std::vector<CurveScheme<double>> schemes = all_curve_schemes();
+    std::vector<std::vector<Points>> points;
+    View view;
+    for (const CurveScheme<double>& scheme : schemes) {
+      points.push_back(points_of_levels(scheme, named.polygon, levels));
+      for (const Points& level : points.back()) view.extend(level);
+    }
+    PageSection section{named.name, named.title, {}};
+    for (size_t s = 0; s < schemes.size(); ++s) {
+      const CurveClaims& claims = schemes[s].claims;
+      const std::string file = schemes[s].name + "-" + named.name + ".svg";
+      result.files.push_back({file, picture(points[s], named.polygon, claims.interpolates, view)});
+      section.rows.push_back({schemes[s].name,
+                              schemes[s].source,
+                              {{"limit", claims.limit}, {"smoothness", "C^" + std::to_string(claims.regular)}},
+                              file});
+    }
+    result.sections.push_back(std::move(section));
+  }
+  return result;
+}
+
+}  // namespace sublimit::gallery
