@@ -30,13 +30,17 @@ class CurveLayout {
  public:
   template <class T>
   explicit CurveLayout(const CurveScheme<T>& scheme, int level = 0)
-      : dual_(scheme.masks.dual()), kept_(static_cast<bool>(scheme.ends.beyond)), end_points_(scheme.ends.points) {
-    const CurveSite<T> site(level);
-    const Stencil<T> masks[] = {dual_ ? scheme.masks.before(site) : scheme.masks.point(site),
-                                dual_ ? scheme.masks.after(site) : scheme.masks.leg(site)};
+      : dual_(scheme.masks.dual()),
+        kept_(static_cast<bool>(scheme.ends.beyond)),
+        unknowns_(scheme.masks.unknowns()),
+        end_points_(scheme.ends.points) {
+    const CurveSite<T> site(level, unknowns_);
     for (int which : {0, 1}) {
-      low_[which] = masks[which].terms().front().first;
-      high_[which] = masks[which].terms().back().first;
+      for (int component = 0; component < unknowns_; ++component) {
+        const Stencil<T> mask = scheme.masks.child(which, component)(site);
+        low_[which] = std::min(low_[which], steps(mask.terms().front().first));
+        high_[which] = std::max(high_[which], steps(mask.terms().back().first));
+      }
       for (const int slot : {low_[which], high_[which]})
         radius_ = std::max(radius_, std::abs(child_offset(which) - 4 * slot));
     }
@@ -47,6 +51,10 @@ class CurveLayout {
   }
 
   bool is_dual() const { return dual_; }
+  /// At every point.
+  int unknowns() const { return unknowns_; }
+  /// Steps along the curve from a slot of a stencil.
+  int steps(Index slot) const { return (slot - (slot % unknowns_ + unknowns_) % unknowns_) / unknowns_; }
   /// End points stay, and are points of the limit.
   bool keeps_ends() const { return kept_; }
   /// A child looks no further than this: |X_child - 2 X_parent| <= radius. A neighbourhood of this radius refines to
@@ -111,7 +119,7 @@ class CurveLayout {
   int child_offset(int which) const { return dual_ ? 2 * which - 1 : 2 * which; }
 
   bool dual_, kept_;
-  int end_points_, radius_ = 0, start_ = 0;
+  int unknowns_, end_points_, radius_ = 0, start_ = 0;
   int low_[2] = {0, 0}, high_[2] = {0, 0};
 };
 

@@ -18,7 +18,7 @@ std::vector<CurveLevel> refine(const CurveScheme<double>& scheme, const ControlP
   if (levels < 0) throw InvalidParameter("levels is " + std::to_string(levels) + "; it must be 0 or more");
   std::vector<CurveLevel> result{control_level(scheme, polygon)};
   // Before memory is taken: the last level doubles `levels` times.
-  const double points = std::ldexp(result[0].num_points(), levels);
+  const double points = std::ldexp(result[0].num_points() * result[0].unknowns, levels);
   if (points * 8 > std::numeric_limits<Index>::max())
     throw ResourceError(std::to_string(levels) + " levels of " + std::to_string(result[0].num_points()) +
                         " points are more points than 32-bit indices can hold the weights of; use fewer levels");
@@ -35,9 +35,21 @@ SparseMatrix refinement_matrix(const std::vector<CurveLevel>& levels) {
   return P;
 }
 
-ControlPolygon refined_polygon(const CurveLevel& level, const Points& points) {
+Points unknowns(const CurveScheme<double>& scheme, const ControlPolygon& polygon) {
+  if (scheme.masks.unknowns() == 1) return polygon.points;
+  if (!polygon.has_tangents())
+    throw InvalidMesh("the points have no derivatives; " + scheme.name +
+                      " takes both, as columns x,y,dx,dy or x,y,z,dx,dy,dz of a .csv");
+  Points stacked(2 * polygon.num_points(), polygon.dimension());
+  for (Index i = 0; i < polygon.num_points(); ++i) {
+    stacked.row(2 * i) = polygon.points.row(i);
+    stacked.row(2 * i + 1) = polygon.tangents.row(i);
+  }
+  return stacked;
+}
+
+ControlPolygon curve_outlines(const CurveLevel& level) {
   ControlPolygon polygon;
-  polygon.points = points;
   Index start = 0;
   for (const CurveOutline& outline : level.curves) {
     ControlPolygon::Curve& curve = polygon.curves.emplace_back();
@@ -45,6 +57,17 @@ ControlPolygon refined_polygon(const CurveLevel& level, const Points& points) {
     curve.points.resize(outline.size);
     std::iota(curve.points.begin(), curve.points.end(), start);
     start += outline.size;
+  }
+  return polygon;
+}
+
+ControlPolygon refined_polygon(const CurveLevel& level, const Points& unknowns) {
+  ControlPolygon polygon = curve_outlines(level);
+  if (level.unknowns == 1) {
+    polygon.points = unknowns;
+  } else {
+    polygon.points = unknowns(Eigen::seq(0, Eigen::last, 2), Eigen::all);
+    polygon.tangents = unknowns(Eigen::seq(1, Eigen::last, 2), Eigen::all);
   }
   return polygon;
 }

@@ -22,6 +22,7 @@ using CurveMatrix = Eigen::SparseMatrix<T, Eigen::RowMajor, Index>;
 template <class T>
 struct CurveLevelOf {
   int number = 0;
+  int unknowns = 1;  ///< at every point; rows and columns of a point stand together
   std::vector<CurveOutline> curves;
   /// x_k = S x_{k-1}; for level 0 the choice of the curves' points from those of the control polygon.
   CurveMatrix<T> S;
@@ -63,51 +64,57 @@ class CurveRows {
   Index row_ = 0;
 };
 
-/// The matrix of one step: row i has the weights of child point i over the points of the curves of level `number`.
+/// The matrix of one step: row i has the weights of child point i over the points of the curves of level `number` (rows
+/// 2i and 2i + 1 of Hermite schemes: the point and its derivative).
 /// @throws ResourceError  more points than 32-bit indices count
 template <class T>
 CurveMatrix<T> curve_matrix(const CurveScheme<T>& scheme, const std::vector<CurveOutline>& parents, int number) {
   const CurveLayout layout(scheme, number);
   const auto& masks = scheme.masks;
-  const typename CurveMasks<T>::Mask* mask[] = {masks.dual() ? &masks.before : &masks.point,
-                                                masks.dual() ? &masks.after : &masks.leg};
-  const Stencil<T> inner[] = {(*mask[0])(CurveSite<T>(number)), (*mask[1])(CurveSite<T>(number))};
+  const Index unknowns = layout.unknowns();
+  std::vector<Stencil<T>> inner;  // by child and unknown
+  for (int which : {0, 1})
+    for (int component = 0; component < unknowns; ++component)
+      inner.push_back(masks.child(which, component)(CurveSite<T>(number, unknowns)));
   std::int64_t rows = 0, columns = 0;
   for (const CurveOutline& curve : parents) {
-    rows += 2 * std::int64_t{curve.size};
-    columns += curve.size;
+    rows += 2 * std::int64_t{curve.size} * unknowns;
+    columns += std::int64_t{curve.size} * unknowns;
   }
   if (rows * 8 > std::numeric_limits<Index>::max())
     throw ResourceError(std::to_string(rows) + " points of level " + std::to_string(number + 1) +
                         " are more than 32-bit indices can hold the weights of; use fewer levels");
   rows = 0;
-  for (const CurveOutline& curve : parents) rows += layout.child(curve).size;
+  for (const CurveOutline& curve : parents) rows += layout.child(curve).size * unknowns;
   CurveRows<T> S(static_cast<Index>(rows), static_cast<Index>(columns));
   Index start = 0;
   std::vector<std::pair<Index, T>> row;
   for (const CurveOutline& curve : parents) {
     const CurveOutline child = layout.child(curve);
     const Index margin = layout.keeps_ends() && layout.is_dual() ? 1 : 0;
-    for (Index j = 0; j < child.size; ++j) {
-      const auto [parent, which] = layout.source(curve, child, j);
+    for (Index j = 0; j < child.size * unknowns; ++j) {
+      const auto [parent, which] = layout.source(curve, child, j / unknowns);
       row.clear();
       if (which < 0) {
         row.push_back({start + parent, T(1)});
       } else {
-        const auto& terms = inner[which].terms();
-        const bool inside = parent + terms.front().first >= margin && parent + terms.back().first < curve.size - margin;
+        const int component = static_cast<int>(j % unknowns);
+        const auto& terms = inner[which * unknowns + component].terms();
+        const bool inside = parent + layout.steps(terms.front().first) >= margin &&
+                            parent + layout.steps(terms.back().first) < curve.size - margin;
         if (curve.closed || inside) {
+          const Index size = curve.size * unknowns;
           for (const auto& [slot, weight] : terms)
-            row.push_back({start + ((parent + slot) % curve.size + curve.size) % curve.size, weight});
+            row.push_back({start + ((parent * unknowns + slot) % size + size) % size, weight});
         } else {
           const Stencil<T> stencil =
-              (*mask[which])(CurveSite<T>(number, scheme.ends, layout.is_dual(), parent, curve.size));
+              masks.child(which, component)(CurveSite<T>(number, scheme.ends, layout.is_dual(), parent, curve.size));
           for (const auto& [slot, weight] : stencil.terms()) row.push_back({start + parent + slot, weight});
         }
       }
       S.append(row);
     }
-    start += curve.size;
+    start += curve.size * unknowns;
   }
   return S.finish();
 }
@@ -119,6 +126,7 @@ template <class T>
 CurveLevelOf<T> control_level(const CurveScheme<T>& scheme, const ControlPolygon& polygon) {
   const CurveLayout layout(scheme);
   CurveLevelOf<T> level;
+  level.unknowns = layout.unknowns();
   Index count = 0;
   for (const ControlPolygon::Curve& curve : polygon.curves) {
     const Index size = static_cast<Index>(curve.points.size()), least = layout.least_points(curve.closed);
@@ -132,13 +140,14 @@ CurveLevelOf<T> control_level(const CurveScheme<T>& scheme, const ControlPolygon
     count += size;
   }
   if (count == 0) throw InvalidMesh("there are no curves; a polygon is needed");
-  CurveRows<T> choice(count, polygon.num_points());
+  CurveRows<T> choice(count * level.unknowns, polygon.num_points() * level.unknowns);
   for (const ControlPolygon::Curve& curve : polygon.curves)
     for (const Index i : curve.points) {
       if (i < 0 || i >= polygon.num_points())
         throw InvalidMesh("a curve has point " + std::to_string(i) + "; there are points 0 to " +
                           std::to_string(polygon.num_points() - 1));
-      choice.append({{i, T(1)}});
+      for (int component = 0; component < level.unknowns; ++component)
+        choice.append({{i * level.unknowns + component, T(1)}});
     }
   level.S = choice.finish();
   return level;
@@ -150,6 +159,7 @@ template <class T>
 CurveLevelOf<T> next_level(const CurveScheme<T>& scheme, const CurveLevelOf<T>& parent) {
   CurveLevelOf<T> level;
   level.number = parent.number + 1;
+  level.unknowns = parent.unknowns;
   const CurveLayout layout(scheme, parent.number);
   level.S = curve_matrix(scheme, parent.curves, parent.number);
   for (const CurveOutline& curve : parent.curves) level.curves.push_back(layout.child(curve));
@@ -165,7 +175,14 @@ std::vector<CurveLevel> refine(const CurveScheme<double>& scheme, const ControlP
 /// Level k from the control points: S_{k-1} ... S_0 and the choice of level 0.
 SparseMatrix refinement_matrix(const std::vector<CurveLevel>& levels);
 
-/// Refined points as a polygon of their own.
-ControlPolygon refined_polygon(const CurveLevel& level, const Points& points);
+/// What the columns of a scheme's matrices stand for: the points, in a Hermite scheme each followed by its derivative.
+/// @throws InvalidMesh  a Hermite scheme and a polygon without tangents
+Points unknowns(const CurveScheme<double>& scheme, const ControlPolygon& polygon);
+
+/// The curves of a level, without points.
+ControlPolygon curve_outlines(const CurveLevel& level);
+
+/// Refined unknowns as a polygon of their own.
+ControlPolygon refined_polygon(const CurveLevel& level, const Points& unknowns);
 
 }  // namespace sublimit

@@ -4,7 +4,8 @@
 // limits, derivatives) is computed from the matrices that the masks fill.
 //
 // Primal schemes make a point for every point and one for every leg; dual ones two points for every point, a quarter of
-// a leg before and after it.
+// a leg before and after it. Hermite schemes have a second unknown at every point: the derivative, per leg of the
+// level.
 #include <functional>
 #include <string>
 #include <utility>
@@ -43,19 +44,22 @@ struct CurveEnds {
   int points = 1;  ///< points of the polygon that `beyond` needs
 };
 
-/// Where a mask is applied: a point and its neighbours along the curve. Slots of stencils are steps from that point;
-/// the neighbourhood is unfolded, so on a small closed polygon several slots may be one point.
+/// Where a mask is applied: a point and its neighbours along the curve. Slots of stencils are steps from that point
+/// (for Hermite schemes 2 steps, and 1 more for the derivative); the neighbourhood is unfolded, so on a small closed
+/// polygon several slots may be one point.
 template <class T>
 class CurveSite {
  public:
   /// A site away from ends.
-  explicit CurveSite(int level) : level_(level) {}
+  explicit CurveSite(int level, int unknowns = 1) : level_(level), unknowns_(unknowns) {}
   /// Point `at` of an open polygon.
   CurveSite(int level, const CurveEnds<T>& ends, bool dual, Index at, Index size)
       : level_(level), ends_(&ends), at_(at), size_(size), margin_(dual ? 1 : 0) {}
 
   /// The point i steps further along the curve.
-  Stencil<T> point(int i) const { return ends_ ? absolute(at_ + i) : Stencil<T>(i); }
+  Stencil<T> point(int i) const { return ends_ ? absolute(at_ + i) : Stencil<T>(unknowns_ * i); }
+  /// The derivative there, in a Hermite scheme.
+  Stencil<T> derivative(int i) const { return Stencil<T>(unknowns_ * i + 1); }
   /// Level of the parent, 0 for the control polygon.
   int level() const { return level_; }
   static T ratio(int p, int q) { return Number<T>::ratio(p, q); }
@@ -74,21 +78,29 @@ class CurveSite {
     return Stencil<T>(a - at_);
   }
 
-  int level_;
+  int level_, unknowns_ = 1;
   const CurveEnds<T>* ends_ = nullptr;
   Index at_ = 0, size_ = 0, margin_ = 0;
 };
 
-/// Two of these are given: `point` and `leg`, or `before` and `after`.
+/// Two of these are given: `point` and `leg`, or `before` and `after`; of a Hermite scheme the first four.
 template <class T>
 struct CurveMasks {
   using Mask = std::function<Stencil<T>(const CurveSite<T>&)>;
-  Mask point = {};   ///< primal: the child of point(0)
-  Mask leg = {};     ///< primal: the child of the leg from point(0) to point(1)
-  Mask before = {};  ///< dual: the child of point(0) on its leg from point(-1)
-  Mask after = {};   ///< dual: the child of point(0) on its leg to point(1)
+  Mask point = {};                                  ///< primal: the child of point(0)
+  Mask leg = {};                                    ///< primal: the child of the leg from point(0) to point(1)
+  Mask point_derivative = {}, leg_derivative = {};  ///< Hermite: the derivatives there, per leg of the child
+  Mask before = {};                                 ///< dual: the child of point(0) on its leg from point(-1)
+  Mask after = {};                                  ///< dual: the child of point(0) on its leg to point(1)
 
   bool dual() const { return static_cast<bool>(before); }
+  /// At every point: itself, and in a Hermite scheme the derivative.
+  int unknowns() const { return leg_derivative ? 2 : 1; }
+  /// The mask of unknown `component` of the two children that a point (and its leg) has.
+  const Mask& child(int which, int component = 0) const {
+    if (component == 1) return which == 0 ? point_derivative : leg_derivative;
+    return which == 0 ? (dual() ? before : point) : (dual() ? after : leg);
+  }
 };
 
 /// What a curve scheme is said to do, each claim with its law in the tests.
@@ -107,7 +119,7 @@ struct CurveScheme {
   std::string name;
   std::string source;  ///< author, year, title
   CurveMasks<T> masks;
-  CurveEnds<T> ends;
+  CurveEnds<T> ends = {};
   CurveClaims claims;
   std::vector<OptionInfo> options = {};
 };

@@ -5,6 +5,7 @@
 
 #include "sublimit/schemes/chaikin.h"
 #include "sublimit/schemes/four_point.h"
+#include "sublimit/schemes/hermite_merrien.h"
 #include "sublimit/schemes/lane_riesenfeld.h"
 #include "sublimit/schemes/six_point.h"
 #include "sublimit/schemes/trigonometric_cubic.h"
@@ -24,6 +25,7 @@ inline constexpr CurveSchemeEntry<T> curve_registry[] = {
     {"four-point", four_point<T>},
     {"six-point", six_point<T>},
     {"trigonometric-cubic", trigonometric_cubic<T>},
+    {"hermite-merrien", hermite_merrien<T>},
 };
 
 /// Every curve scheme with its default options.

@@ -29,7 +29,7 @@ CurveScheme<double> scheme_of(const Common& common) {
   return *find_curve_scheme(common.scheme, given_options(common));
 }
 
-ControlPolygon load_polygon(const CurveJob& job, Progress& progress) {
+ControlPolygon load_polygon(const CurveJob& job, const CurveScheme<double>& scheme, Progress& progress) {
   const Common& common = *job.common;
   limit_threads(common);
   const std::string extension = file_extension(common.mesh);
@@ -37,7 +37,7 @@ ControlPolygon load_polygon(const CurveJob& job, Progress& progress) {
     throw UnsupportedTopology(common.mesh + ": a mesh; " + common.scheme +
                               " refines curves, a .csv of points or the lines of an .obj");
   progress.step("reading " + common.mesh);
-  ControlPolygon polygon = read_polygon(common.mesh);
+  ControlPolygon polygon = read_polygon(common.mesh, scheme.masks.unknowns() > 1);
   if (job.closed)
     for (ControlPolygon::Curve& curve : polygon.curves) curve.closed = true;
   progress.step("");
@@ -57,20 +57,20 @@ void check_curve_output(const CurveJob& job) {
 struct Refined {
   ControlPolygon polygon;
   std::vector<CurveLevel> levels;
-  Points points;
+  Points unknowns;  ///< of the last level
 };
 
 Refined refined(const CurveJob& job, const CurveScheme<double>& scheme, Progress& progress) {
-  Refined result{load_polygon(job, progress), {}, {}};
+  Refined result{load_polygon(job, scheme, progress), {}, {}};
   if (file_extension(job.output) == ".obj" && result.polygon.dimension() > 3)
     throw InvalidOption(fmt::format("cannot write {}: an .obj has points of 3 coordinates, these have {}; write a .csv",
                                     job.output, result.polygon.dimension()));
   naming_mesh(*job.common, [&] {
     result.levels = refine(scheme, result.polygon, job.levels,
                            [&](int level) { progress.step(fmt::format("level {} of {}", level, job.levels)); });
+    result.unknowns = unknowns(scheme, result.polygon);
   });
-  result.points = result.polygon.points;
-  for (const CurveLevel& level : result.levels) result.points = apply(level.S, result.points);
+  for (const CurveLevel& level : result.levels) result.unknowns = apply(level.S, result.unknowns);
   return result;
 }
 
@@ -108,7 +108,7 @@ int refine_curves(const CurveJob& job) {
     write_matrix_market(job.matrix, refinement_matrix(curves.levels));
   }
   progress.step("writing " + job.output);
-  ControlPolygon result = refined_polygon(curves.levels.back(), curves.points);
+  ControlPolygon result = refined_polygon(curves.levels.back(), curves.unknowns);
   result.columns = curves.polygon.columns;
   write_polygon(job.output, result);
   return 0;
@@ -124,10 +124,11 @@ int limit_curves(const CurveJob& job) {
     progress.step("limits");
     limits = CurveAnalysis<double>(scheme).limits(curves.levels.back());
   });
-  ControlPolygon result = refined_polygon(curves.levels.back(), apply(limits.position, curves.points));
+  ControlPolygon result = curve_outlines(curves.levels.back());
+  result.points = apply(limits.position, curves.unknowns);
   Index without = 0;
   if (job.tangents) {
-    result.tangents = apply(limits.first, curves.points);
+    result.tangents = apply(limits.first, curves.unknowns);
     for (Index i = 0; i < result.num_points(); ++i) {
       const double length = result.tangents.row(i).norm();
       const bool defined = limits.order[i] > 0 && length > 0;

@@ -34,12 +34,15 @@ using Mask = CurveMasks<double>::Mask;
 
 /// Adds 1e-6 to one weight and takes it off the next one (balanced) or off nothing; symmetric: on both sides of the
 /// mask.
-Mask mutant(const Mask& mask, size_t term, int kind) {
+Mask mutant(const Mask& mask, int unknowns, size_t term, int kind) {
   return [=](const CurveSite<double>& site) {
     constexpr double delta = 1e-6;
     Stencil<double> stencil = mask(site);
-    const auto terms = mask(CurveSite<double>(site.level())).terms();
-    const auto add = [&](size_t i, double by) { stencil += by * site.point(terms[i % terms.size()].first); };
+    const auto terms = mask(CurveSite<double>(site.level(), unknowns)).terms();
+    const auto add = [&](size_t i, double by) {
+      const Index slot = terms[i % terms.size()].first;
+      stencil += by * (unknowns == 1 ? site.point(slot) : Stencil<double>(slot));
+    };
     add(term, delta);
     if (kind >= 1) add(term + 1, -delta);
     if (kind == 2) {
@@ -56,13 +59,14 @@ TEST(CurveMutants, EveryOneIsKilledByALaw) {
     const auto check = [&](Mask CurveMasks<double>::*which, const char* name) {
       const Mask mask = scheme.masks.*which;
       if (!mask) return;
-      const size_t count = mask(CurveSite<double>(0)).terms().size();
+      const int unknowns = scheme.masks.unknowns();
+      const size_t count = mask(CurveSite<double>(0, unknowns)).terms().size();
       for (size_t term = 0; term < count; ++term)
         for (const int kind : {0, 1, 2}) {
           if (kind > 0 && count == 1) continue;
           if (kind == 2 && (term + 1) % count == count - 1 - term) continue;  // adds nothing
           CurveScheme<double> changed = scheme;
-          changed.masks.*which = mutant(mask, term, kind);
+          changed.masks.*which = mutant(mask, unknowns, term, kind);
           ++mutants;
           EXPECT_NE(killer(changed), "") << described(scheme) << ": mask " << name << ", term " << term << ", kind "
                                          << kind;
@@ -70,6 +74,8 @@ TEST(CurveMutants, EveryOneIsKilledByALaw) {
     };
     check(&CurveMasks<double>::point, "point");
     check(&CurveMasks<double>::leg, "leg");
+    check(&CurveMasks<double>::point_derivative, "point_derivative");
+    check(&CurveMasks<double>::leg_derivative, "leg_derivative");
     check(&CurveMasks<double>::before, "before");
     check(&CurveMasks<double>::after, "after");
     if (!scheme.ends.beyond) continue;

@@ -48,6 +48,7 @@ TEST(CliCurves, ClosedObjStaysClosedAndTwiceOneIsOnceTwo) {
   const auto path = [&](const char* name) { return (directory / name).string(); };
   for (const CurveScheme<double>& scheme : all_curve_schemes()) {
     if (scheme.name == "trigonometric-cubic") continue;  // its masks depend on the level
+    if (scheme.masks.unknowns() > 1) continue;           // an OBJ has no derivatives
     SCOPED_TRACE(scheme.name);
     expect_done(sublimit({"refine", in, "-s", scheme.name, "-l", "1", "-o", path("a.obj")}));
     expect_done(sublimit({"refine", path("a.obj"), "-s", scheme.name, "-l", "1", "-o", path("b.obj")}));
@@ -73,6 +74,27 @@ TEST(CliCurves, LimitsWithTangents) {
   EXPECT_EQ(count_of(read_file(out), ",,\n"), 5u);  // a polygon has tangents at its ends alone
   expect_failure(sublimit({"limit", in, "-s", "chaikin", "--normals", "-o", (directory / "o.obj").string()}), 2,
                  {"o.obj", "tangents", ".csv"});
+}
+
+TEST(CliCurves, HermiteTakesDerivatives) {
+  const TemporaryDirectory directory;
+  const std::string in = directory.write("p.csv", "x,y,dx,dy\n0,0,1,0\n1,1,1,0\n2,0,1,0\n").string();
+  const auto path = [&](const char* name) { return (directory / name).string(); };
+  const auto refined = [&](const std::string& from, const char* levels, const char* to) {
+    expect_done(sublimit({"refine", from, "-s", "hermite-merrien", "-l", levels, "-o", path(to)}));
+  };
+  refined(in, "1", "a.csv");
+  EXPECT_EQ(read_file(path("a.csv")),
+            "x,y,dx,dy\n0,0,0.5,0\n0.5,0.5,0.5,0.75\n1,1,0.5,0\n1.5,0.5,0.5,-0.75\n2,0,0.5,0\n");
+  refined(path("a.csv"), "1", "b.csv");
+  refined(in, "2", "c.csv");
+  EXPECT_EQ(read_file(path("b.csv")), read_file(path("c.csv")));
+  expect_done(sublimit({"limit", in, "-s", "hermite-merrien", "-l", "0", "--normals", "-o", path("l.csv")}));
+  const Points tangents = read_polygon(path("l.csv"), true).tangents;
+  for (Index i = 0; i < 3; ++i) EXPECT_EQ(tangents.row(i), Eigen::RowVector2d(1, 0));
+  expect_refused("p.csv", "0,0\n1,1\n2,0\n", {"-s", "hermite-merrien"}, 3, {"p.csv", "x,y,tx,ty"});
+  expect_refused("p.csv", "x,y,dx,dy\n0,0,1,0\n1,1,1,0\n", {"-s", "hermite-merrien", "--option", "beta=1"}, 2,
+                 {"beta=1", "C^1", "0.99"});
 }
 
 TEST(CliCurves, SchemesListsThem) {

@@ -26,6 +26,7 @@ std::vector<ControlPolygon> polygons_for(const Scheme& scheme) {
       Points points(size, 2);
       for (double& value : points.reshaped()) value = coordinate(random);
       polygons.push_back(polygon_through(points, closed));
+      polygons.back().tangents = points.rowwise().reverse();
     }
   ControlPolygon two = polygon_through(Points::Random(25, 3));
   two.curves = {{{3, 1, 2, 0, 4, 20, 21, 22}, true}, {{5, 6, 7, 8, 9, 10, 11, 12, 3, 13, 14, 15}, false}};
@@ -36,8 +37,13 @@ std::vector<ControlPolygon> polygons_for(const Scheme& scheme) {
 std::string rows_sum_to_one(const Scheme& scheme) {
   for (const ControlPolygon& polygon : polygons_for(scheme))
     for (const CurveLevel& level : refine(scheme, polygon, 3)) {
-      const Eigen::VectorXd sums = level.S * Eigen::VectorXd::Ones(level.S.cols());
-      if ((sums.array() - 1).abs().maxCoeff() > rounding(16)) return "a row sums to " + std::to_string(sums.maxCoeff());
+      const auto ones = [&](Eigen::Index size) {  // points; derivatives are 0
+        Eigen::VectorXd one = Eigen::VectorXd::Zero(size);
+        for (Eigen::Index i = 0; i < size; i += level.unknowns) one[i] = 1;
+        return one;
+      };
+      const Eigen::VectorXd wrong = level.S * ones(level.S.cols()) - ones(level.S.rows());
+      if (wrong.cwiseAbs().maxCoeff() > rounding(16)) return "a row sum is off by " + std::to_string(wrong.maxCoeff());
     }
   return {};
 }
@@ -55,7 +61,7 @@ std::string counts_follow_the_layout(const Scheme& scheme) {
           return "an open curve with kept ends has " + std::to_string(to.size) + " points";
         count += to.size;
       }
-      if (levels[k].S.rows() != count) return "S has another number of rows than there are points";
+      if (levels[k].S.rows() != count * levels[k].unknowns) return "S has another number of rows than there are points";
     }
   }
   return {};
@@ -66,13 +72,19 @@ std::string curves_reversed_stay_themselves(const Scheme& scheme) {
     if (polygon.curves.size() != 1) continue;
     const bool closed = polygon.curves[0].closed;
     const CurveLevel level = refine(scheme, polygon, 1)[1];
-    const Dense S = level.S, mirrored = S.rowwise().reverse();
-    const Index rows = Index(S.rows()), turn = closed ? (scheme.masks.dual() ? 3 : 2) : 1;
-    for (Index r = 0; r < rows; ++r) {
-      const Index other = ((rows - turn - r) % rows + rows) % rows;
-      if ((S.row(r) - mirrored.row(other)).cwiseAbs().maxCoeff() > rounding(16))
-        return "row " + std::to_string(r) + " is not symmetric";
-    }
+    const Dense S = level.S;
+    const int unknowns = level.unknowns;
+    const Index rows = Index(S.rows()) / unknowns, columns = Index(S.cols()) / unknowns;
+    const Index turn = closed ? (scheme.masks.dual() ? 3 : 2) : 1;
+    for (Index r = 0; r < rows; ++r)
+      for (Index c = 0; c < columns; ++c)
+        for (int i = 0; i < unknowns; ++i)
+          for (int j = 0; j < unknowns; ++j) {  // derivatives change their sign
+            const Index other = ((rows - turn - r) % rows + rows) % rows;
+            const double mirrored = S(other * unknowns + i, (columns - 1 - c) * unknowns + j) * (i == j ? 1 : -1);
+            if (std::abs(S(r * unknowns + i, c * unknowns + j) - mirrored) > rounding(16))
+              return "point " + std::to_string(r) + " is not symmetric";
+          }
   }
   return {};
 }
@@ -80,11 +92,12 @@ std::string curves_reversed_stay_themselves(const Scheme& scheme) {
 std::string closed_curves_have_no_first_point(const Scheme& scheme) {
   for (const ControlPolygon& polygon : polygons_for(scheme)) {
     if (polygon.curves.size() != 1 || !polygon.curves[0].closed) continue;
-    const Dense S = refine(scheme, polygon, 1)[1].S;
-    const Index rows = Index(S.rows()), columns = Index(S.cols());
+    const CurveLevel level = refine(scheme, polygon, 1)[1];
+    const Dense S = level.S;
+    const Index rows = Index(S.rows()), columns = Index(S.cols()), unknowns = level.unknowns;
     for (Index r = 0; r < rows; ++r)
       for (Index c = 0; c < columns; ++c)
-        if (S((r + 2) % rows, (c + 1) % columns) != S(r, c))
+        if (S((r + 2 * unknowns) % rows, (c + unknowns) % columns) != S(r, c))
           return "a weight changes when the points are counted from another";
   }
   return {};
@@ -97,8 +110,12 @@ std::string claims_about_weights_hold(const Scheme& scheme) {
       for (SparseMatrix::InnerIterator it(level.S, r); it; ++it)
         if (scheme.claims.convex_hull && it.value() < 0) return "a weight is negative";
     if (polygon.curves.size() > 1) continue;
-    for (Index a = 0; a < level.S.cols() && scheme.claims.interpolates; ++a)
-      if (level.S.row(2 * a).nonZeros() != 1 || level.S.coeff(2 * a, a) != 1) return "an old point moves";
+    const Index unknowns = level.unknowns;
+    for (Index c = 0; c < level.S.cols() && scheme.claims.interpolates; ++c) {
+      const Index row = c + c - c % unknowns;  // a derivative is per leg, and legs are half as long
+      if (level.S.row(row).nonZeros() != 1 || level.S.coeff(row, c) != (c % unknowns == 0 ? 1 : 0.5))
+        return "an old point moves";
+    }
     const Index last = Index(level.S.rows()) - 1;
     if (!polygon.curves[0].closed && scheme.ends.beyond &&
         (level.S.coeff(0, 0) != 1 || level.S.coeff(last, level.S.cols() - 1) != 1))
@@ -119,14 +136,27 @@ struct Line {
   }
 };
 
-Eigen::VectorXd power(const Eigen::VectorXd& x, int degree) { return x.array().pow(degree); }
+/// x^degree; of Hermite schemes with its derivatives, per leg of this length.
+Eigen::VectorXd power(const Scheme& scheme, const Eigen::VectorXd& x, int degree, double leg = 1) {
+  if (scheme.masks.unknowns() == 1) return x.array().pow(degree);
+  Eigen::VectorXd both(2 * x.size());
+  for (Eigen::Index i = 0; i < x.size(); ++i) {
+    both[2 * i] = std::pow(x[i], degree);
+    both[2 * i + 1] = degree == 0 ? 0 : leg * degree * std::pow(x[i], degree - 1);
+  }
+  return both;
+}
 
 /// Whether points on a polynomial have children on a polynomial with the same leading term: differences of that order
 /// are the constant that they should be. (Limits then are polynomials, and only then.)
 double generation_defect(const Scheme& scheme, int degree) {
   const Line line(scheme);
   const double centre = line.x[20];
-  Eigen::VectorXd values = curve_matrix(scheme, {line.outline}, 0) * power(line.x.array() - centre, degree);
+  Eigen::VectorXd values = curve_matrix(scheme, {line.outline}, 0) * power(scheme, line.x.array() - centre, degree);
+  if (scheme.masks.unknowns() > 1) {  // differences see no derivatives; old points stay, so that children tell
+    const Eigen::VectorXd wrong = values - power(scheme, line.y.array() - centre, degree, 0.5);
+    return wrong.segment(wrong.size() / 2 - 12, 24).cwiseAbs().maxCoeff();
+  }
   std::vector<double> row;
   for (Index a = 0; a < line.child.size; ++a)
     if (std::abs(line.y[a] - centre) < 5) row.push_back(values[a]);
@@ -154,7 +184,7 @@ double reproduction_defect(const Scheme& scheme, int degree) {
   const CurveLimits<double> limit = analysis.limits(line.outline, 0, {line.layout.position(line.outline, middle)});
   // Not around the middle itself, where odd powers vanish.
   const Eigen::VectorXd x = line.x.array() - line.x[middle] + 0.5;
-  return std::abs((limit.position * power(x, degree))[0] - std::pow(0.5, degree));
+  return std::abs((limit.position * power(scheme, x, degree))[0] - std::pow(0.5, degree));
 }
 
 std::string polynomials_are_reproduced_up_to_the_claim(const Scheme& scheme) {
@@ -184,7 +214,7 @@ std::string ends_go_on(const Scheme& scheme) {
   const Stencil<double> mask[] = {masks.dual() ? masks.before(inside) : masks.point(inside),
                                   masks.dual() ? masks.after(inside) : masks.leg(inside)};
   for (const int degree : degrees) {
-    const Eigen::VectorXd values = curve_matrix(scheme, {line.outline}, 0) * power(line.x, degree);
+    const Eigen::VectorXd values = curve_matrix(scheme, {line.outline}, 0) * power(scheme, line.x, degree);
     for (Index a = 1; a < 12; ++a) {
       const auto [parent, which] = line.layout.source(line.outline, line.child, a);
       double truth = 0;  // of the mask on an endless line of points
@@ -232,12 +262,12 @@ std::string derivatives_fit_the_claim(const Scheme& scheme) {
   std::vector<std::int64_t> positions;
   for (Index a = 0; a < line.outline.size; ++a) positions.push_back(line.layout.position(line.outline, a));
   const CurveLimits<double> L = analysis.limits(line.outline, 0, positions);
-  const Eigen::VectorXd ones = Eigen::VectorXd::Ones(40);
+  const Eigen::VectorXd ones = power(scheme, line.x, 0), x = power(scheme, line.x, 1);
   for (Index a = 0; a < 40; ++a) {
     if (L.order[a] < std::min(scheme.claims.regular, 2)) return "point " + std::to_string(a) + " has no derivative";
-    if (L.order[a] > 0 && std::abs((L.first * line.x)[a] - 1) > rounding(256)) return "the derivative of x is not 1";
+    if (L.order[a] > 0 && std::abs((L.first * x)[a] - 1) > rounding(256)) return "the derivative of x is not 1";
     if (L.order[a] > 0 && std::abs((L.first * ones)[a]) > rounding(64)) return "the derivative of 1 is not 0";
-    if (L.order[a] > 1 && std::abs((L.second * line.x)[a]) > 1e-10) return "the second derivative of x is not 0";
+    if (L.order[a] > 1 && std::abs((L.second * x)[a]) > 1e-10) return "the second derivative of x is not 0";
   }
   return {};
 }
@@ -259,7 +289,7 @@ std::string spectrum_fits_the_claim(const Scheme& scheme) {
 
 /// Masks as printed, for the schemes whose masks nothing else determines.
 std::string published_values_hold(const Scheme& scheme) {
-  const Stencil<double> mask = (scheme.masks.dual() ? scheme.masks.after : scheme.masks.leg)(CurveSite<double>(0));
+  const Stencil<double> mask = scheme.masks.child(1)(CurveSite<double>(0, scheme.masks.unknowns()));
   if (scheme.name == "four-point") {
     const double w = -mask.terms().front().second, g = 16 * w;
     bool known = false;
@@ -269,6 +299,21 @@ std::string published_values_hold(const Scheme& scheme) {
     const CurveLimits<double> L = analysis.limits(analysis.layout().control(60, false), 0, {60});
     if (g > 0 && std::abs(L.first.coeff(0, 31) - 8 / (4 * (4 - g))) > 1e-12)
       return "the derivative is not the published one";
+  }
+  if (scheme.name == "hermite-merrien") {
+    const Stencil<double> slope = scheme.masks.child(1, 1)(CurveSite<double>(0, 2));
+    const auto weight = [](const Stencil<double>& stencil, Index slot) {
+      for (const auto& [at, value] : stencil.terms())
+        if (at == slot) return value;
+      return 0.0;
+    };
+    const double alpha = weight(mask, 3), beta = 4 * weight(slope, 1);
+    if (std::abs(weight(slope, 2) - (1 - beta) / 2) > 1e-12)
+      return "the shares of the middle's slope are not of one beta";
+    const double known[][2] = {{-1 / 8.0, -1 / 2.0}, {-1 / 8.0, -1}, {-0.2, 0.5}};
+    for (const auto& [a, b] : known)
+      if (std::abs(alpha - a) + std::abs(beta - b) < 1e-12) return {};
+    return "alpha is " + std::to_string(alpha) + ", beta " + std::to_string(beta);
   }
   if (scheme.name == "trigonometric-cubic") {  // both levels are of the same circle: half angles
     double cosine[2];
@@ -317,6 +362,8 @@ std::vector<std::pair<std::string, SchemeOptions>> curve_scheme_names_and_option
       {"six-point", {{"ends", "linear"}}},
       {"six-point", {{"ends", "cubic"}}},
       {"trigonometric-cubic", {{"sides", "3"}, {"ends", "interpolate"}}},
+      {"hermite-merrien", {{"beta", "-1"}}},
+      {"hermite-merrien", {{"alpha", "-0.2"}, {"beta", "0.5"}}},
   };
   all.insert(all.end(), std::begin(others), std::end(others));
   return all;

@@ -23,10 +23,18 @@ enum class CurveAnchor {
   end,     ///< the last one
 };
 
-/// A neighbourhood that refines to itself: x -> A x. Positions count in half legs from the anchor, inwards at an end.
+/// A row or column of a local matrix.
+struct CurveUnknown {
+  std::int64_t position;  ///< in half legs from the anchor, inwards at an end
+  int component = 0;      ///< 1: the derivative there, in a Hermite scheme
+
+  bool is_point() const { return component == 0; }
+};
+
+/// A neighbourhood that refines to itself: x -> A x.
 template <class T>
 struct CurveNeighborhood {
-  std::vector<std::int64_t> positions;  ///< ascending, of the rows and columns of A
+  std::vector<CurveUnknown> unknowns;  ///< of the rows and columns of A, ascending
   Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic> A;
 };
 
@@ -55,14 +63,18 @@ class CurveAnalysis {
     CurveNeighborhood<T> all;
     std::vector<Index> points, children;
     for (Index a = 0; a < canonical_.size / 2; ++a) {
-      points.push_back(a);
-      all.positions.push_back(layout_.position(canonical_, a) - at);
-      children.push_back(layout_.point(child, all.positions.back() + 2 * at));  // the same way from twice the anchor
+      const std::int64_t offset = layout_.position(canonical_, a) - at;
+      const Index child_point = layout_.point(child, offset + 2 * at);  // the same way from twice the anchor
+      for (int component = 0; component < layout_.unknowns(); ++component) {
+        all.unknowns.push_back({offset, component});
+        points.push_back(a * layout_.unknowns() + component);
+        children.push_back(child_point * layout_.unknowns() + component);
+      }
     }
     all.A = S(children, points);
     const std::vector<Index> kept = closure(all, -layout_.radius() - margin, layout_.radius() + margin);
     CurveNeighborhood<T> result;
-    for (const Index a : kept) result.positions.push_back(all.positions[a]);
+    for (const Index i : kept) result.unknowns.push_back(all.unknowns[i]);
     result.A = all.A(kept, kept);
     return result;
   }
@@ -81,8 +93,8 @@ class CurveAnalysis {
       fine.second = CurveMatrix<T>(fine.second * S);
       return fine;
     }
-    const Index count = static_cast<Index>(positions.size());
-    CurveRows<T> position(count, curve.size), first(count, curve.size), second(count, curve.size);
+    const Index count = static_cast<Index>(positions.size()), size = curve.size * layout_.unknowns();
+    CurveRows<T> position(count, size), first(count, size), second(count, size);
     CurveLimits<T> result;
     T legs(1);  // of this level in one of the control polygon
     for (int k = 0; k < level; ++k) legs *= T(2);
@@ -97,11 +109,10 @@ class CurveAnalysis {
         std::vector<std::pair<Index, T>> row;
         for (Eigen::Index i = 0; i < weights.size(); ++i) {
           if (weights[i] == T(0)) continue;
-          const Index at = static_cast<Index>(i);
-          const Index point = near_start ? at
-                              : near_end ? curve.size - 1 - at
-                                         : layout_.point(curve, p + rows.offsets[i]);
-          row.push_back({point, factor * weights[i]});
+          if (near_end)
+            row.push_back({size - layout_.unknowns() + reversed(Index(i)), sign(Index(i)) * factor * weights[i]});
+          else
+            row.push_back({near_start ? Index(i) : column(curve, rows.unknowns[i], p), factor * weights[i]});
         }
         return row;
       };
@@ -120,9 +131,8 @@ class CurveAnalysis {
   /// The limits of all points of a level, one curve after the other, over these points. Points beyond the start or end
   /// of the limit (free ends) get its start or end.
   CurveLimits<T> limits(const CurveLevelOf<T>& level) {
-    CurveRows<T> rows[] = {{level.num_points(), level.num_points()},
-                           {level.num_points(), level.num_points()},
-                           {level.num_points(), level.num_points()}};
+    const Index columns = level.num_points() * level.unknowns;
+    CurveRows<T> rows[] = {{level.num_points(), columns}, {level.num_points(), columns}, {level.num_points(), columns}};
     CurveLimits<T> result;
     Index start = 0;
     for (const CurveOutline& curve : level.curves) {
@@ -138,7 +148,7 @@ class CurveAnalysis {
           rows[i].append(row);
         }
       result.order.insert(result.order.end(), one.order.begin(), one.order.end());
-      start += curve.size;
+      start += curve.size * level.unknowns;
     }
     result.position = rows[0].finish();
     result.first = rows[1].finish();
@@ -155,7 +165,7 @@ class CurveAnalysis {
   /// Weights by offset from a position inside, or by point of the canonical curve from an end on. Derivatives per leg
   /// of the level, inwards at an end.
   struct Rows {
-    std::vector<std::int64_t> offsets;
+    std::vector<CurveUnknown> unknowns;
     Vector position, first;
     Vector second[2];  ///< from before and from behind; one of them if they agree
     bool has_first = false, has_second[2] = {false, false};
@@ -168,29 +178,70 @@ class CurveAnalysis {
     }
   };
 
-  /// S of the canonical curve; seen from its other end if `reversed`.
-  const Matrix& canonical_matrix(int level, bool reversed) {
-    const auto at = canonical_matrices_.find({level, reversed});
+  /// Column of an unknown of a curve around a position.
+  Index column(const CurveOutline& curve, const CurveUnknown& unknown, std::int64_t around) const {
+    return layout_.point(curve, around + unknown.position) * layout_.unknowns() + unknown.component;
+  }
+  /// Of unknown i counted from one end the index from the other end's unknowns on, and its sign: derivatives turn.
+  Index reversed(Index i) const {
+    const Index component = i % layout_.unknowns();
+    return component - (i - component);
+  }
+  T sign(Index i) const { return i % layout_.unknowns() == 0 ? T(1) : T(-1); }
+
+  /// Points that are 1 everywhere, and points at their own positions, in legs.
+  static Vector constant(const std::vector<CurveUnknown>& unknowns) {
+    Vector one(unknowns.size());
+    for (Eigen::Index i = 0; i < one.size(); ++i) one[i] = T(unknowns[i].is_point() ? 1 : 0);
+    return one;
+  }
+  static Vector linear(const std::vector<CurveUnknown>& unknowns) {
+    Vector x(unknowns.size());
+    for (Eigen::Index i = 0; i < x.size(); ++i)
+      x[i] = unknowns[i].is_point() ? T(static_cast<int>(unknowns[i].position)) / T(2) : T(1);
+    return x;
+  }
+
+  /// S of the canonical curve; seen from its other end if `from_end`.
+  const Matrix& canonical_matrix(int level, bool from_end) {
+    const auto at = canonical_matrices_.find({level, from_end});
     if (at != canonical_matrices_.end()) return at->second;
-    const Matrix S(curve_matrix(scheme_, {canonical_}, level));
-    return canonical_matrices_[{level, reversed}] = reversed ? Matrix(S.reverse()) : S;
+    Matrix S(curve_matrix(scheme_, {canonical_}, level));
+    if (from_end) {
+      const auto turned = [&](Eigen::Index size) {
+        std::vector<Index> order;
+        for (Index i = 0; i < size; ++i) order.push_back(static_cast<Index>(size) - layout_.unknowns() + reversed(i));
+        return order;
+      };
+      S = Matrix(S(turned(S.rows()), turned(S.cols())));
+      for (Eigen::Index i = 0; i < S.rows(); ++i)
+        for (Eigen::Index j = 0; j < S.cols(); ++j) S(i, j) *= sign(Index(i)) * sign(Index(j));
+    }
+    return canonical_matrices_[{level, from_end}] = S;
   }
 
   /// Rows pulled back through one step: A has their weights' points as rows.
-  static Rows pulled_back(const Rows& fine, const Matrix& A, std::vector<std::int64_t> offsets) {
+  Rows pulled_back(const Rows& fine, const Matrix& A, std::vector<CurveUnknown> unknowns) const {
     Rows rows = fine;
-    rows.offsets = std::move(offsets);
+    rows.unknowns = std::move(unknowns);
     rows.position = A.transpose() * fine.position;
     rows.first = T(2) * (A.transpose() * fine.first);
     // Derivatives see no constants, and second ones nothing linear. Rounding would let these grow by 2 and 4 a step.
-    rows.first -= rows.first.sum() * rows.position;
-    Vector x(rows.offsets.size());
-    for (Eigen::Index i = 0; i < x.size(); ++i) x[i] = T(static_cast<int>(rows.offsets[i])) / T(2);
-    if (x.size() > 0 && rows.has_first) rows.first /= rows.first.dot(x);
+    // Unknowns by point of the canonical curve have no positions here, and come a step or two after those that have.
+    Vector one(A.cols()), x(0);
+    if (rows.unknowns.empty()) {
+      for (Eigen::Index i = 0; i < one.size(); ++i) one[i] = T(i % layout_.unknowns() == 0 ? 1 : 0);
+    } else {
+      one = constant(rows.unknowns);
+      x = linear(rows.unknowns);
+    }
+    const bool linear_too = x.size() > 0 && rows.has_first;
+    rows.first -= rows.first.dot(one) * rows.position;
+    if (linear_too) rows.first /= rows.first.dot(x);
     for (int side : {0, 1}) {
       rows.second[side] = T(4) * (A.transpose() * fine.second[side]);
-      rows.second[side] -= rows.second[side].sum() * rows.position;
-      if (x.size() > 0 && rows.has_first) rows.second[side] -= rows.second[side].dot(x) * rows.first;
+      rows.second[side] -= rows.second[side].dot(one) * rows.position;
+      if (linear_too) rows.second[side] -= rows.second[side].dot(x) * rows.first;
     }
     return rows;
   }
@@ -209,28 +260,28 @@ class CurveAnalysis {
     Rows rows = eigen_rows(steps.back());
     if (anchor != CurveAnchor::inside && !rows_at_anchor(CurveAnchor::inside, level).has_second[0])
       rows.has_second[0] = rows.has_second[1] = false;  // a Taylor polynomial, but no derivative around the end
-    for (size_t i = steps.size() - 1; i-- > 0;) rows = pulled_back(rows, steps[i].A, steps[i].positions);
+    for (size_t i = steps.size() - 1; i-- > 0;) rows = pulled_back(rows, steps[i].A, steps[i].unknowns);
     return anchor_rows_[{anchor, level}] = rows;
   }
 
   /// Left eigenvectors of a local matrix for 1, 1/2 and 1/4, as far as the limit has derivatives.
   Rows eigen_rows(const CurveNeighborhood<T>& n) const {
     Rows rows;
-    rows.offsets = n.positions;
+    rows.unknowns = n.unknowns;
     rows.position = rows.first = rows.second[0] = rows.second[1] = Vector::Zero(n.A.rows());
     const std::vector<Index> points = closure(n, -layout_.radius(), layout_.radius());
     const Matrix A = n.A(points, points);
     const Eigen::Index size = A.rows();
-    Vector x(size);
-    for (Eigen::Index i = 0; i < size; ++i) x[i] = T(static_cast<int>(n.positions[points[i]])) / T(2);
-    std::optional<Vector> position = left_eigenvector(A, T(1), Vector::Ones(size));
+    std::vector<CurveUnknown> unknowns;
+    for (const Index i : points) unknowns.push_back(n.unknowns[i]);
+    std::optional<Vector> position = left_eigenvector(A, T(1), constant(unknowns));
     if (!position || eigenvalues_from(A, 1) != 1)
       throw AnalysisError(scheme_.name + ": eigenvalue 1 of a local matrix is not simple and dominant");
-    const std::optional<Vector> first = left_eigenvector(A, T(1) / T(2), x);
+    const std::optional<Vector> first = left_eigenvector(A, T(1) / T(2), linear(unknowns));
     rows.has_first = first && eigenvalues_from(A, 0.5) == 2;
     for (Eigen::Index i = 0; i < size; ++i) {
       // A point that stays is its own limit, to the last bit.
-      if (n.positions[points[i]] == 0 && A.row(i) == Vector::Unit(size, i).transpose())
+      if (unknowns[i].position == 0 && unknowns[i].is_point() && A.row(i) == Vector::Unit(size, i).transpose())
         position = Vector::Unit(size, i);
     }
     for (Eigen::Index i = 0; i < size; ++i) {
@@ -243,11 +294,11 @@ class CurveAnalysis {
 
   /// Points of a neighbourhood between two positions and those that they depend on, in order.
   static std::vector<Index> closure(const CurveNeighborhood<T>& n, std::int64_t from, std::int64_t to) {
-    const Index size = static_cast<Index>(n.positions.size());
+    const Index size = static_cast<Index>(n.unknowns.size());
     std::vector<bool> in(size, false);
     std::vector<Index> open, points;
     for (Index i = 0; i < size; ++i)
-      if (n.positions[i] >= from && n.positions[i] <= to) open.push_back(i);
+      if (n.unknowns[i].position >= from && n.unknowns[i].position <= to) open.push_back(i);
     while (!open.empty()) {
       const Index i = open.back();
       open.pop_back();
@@ -272,8 +323,9 @@ class CurveAnalysis {
 
   /// The second derivative seen from before (side 0) or behind: on the points that this side of the anchor depends on.
   bool second_derivative(const CurveNeighborhood<T>& n, int side, Vector& second) const {
-    const std::int64_t far = n.positions.back();
-    const bool at_end = n.positions.front() > -far / 2;
+    if (layout_.unknowns() > 1) return false;  // not looked for
+    const std::int64_t far = n.unknowns.back().position;
+    const bool at_end = n.unknowns.front().position > -far / 2;
     std::vector<Index> points = closure(n, side == 0 || at_end ? -far : 0, side == 0 && !at_end ? 0 : far);
     if (side == 0 && !at_end) std::reverse(points.begin(), points.end());  // away from the anchor
     const Matrix A = n.A(points, points);
@@ -354,7 +406,7 @@ class CurveAnalysis {
       rows = on_canonical(rows_inside(level, position % 2 != 0), canonical_, position);
     } else {
       const Rows fine = rows_near_end(level + 1, 2 * position, reversed);
-      rows = pulled_back(fine, canonical_matrix(level, reversed).topRows(canonical_.size), {});
+      rows = pulled_back(fine, canonical_matrix(level, reversed).topRows(canonical_.size * layout_.unknowns()), {});
     }
     return end_rows_[{level, position, reversed}] = rows;
   }
@@ -362,14 +414,15 @@ class CurveAnalysis {
   /// Rows by offset as rows by point of the canonical curve.
   Rows on_canonical(const Rows& rows, const CurveOutline& curve, std::int64_t at) const {
     Rows result = rows;
-    result.offsets.clear();
-    result.position = result.first = result.second[0] = result.second[1] = Vector::Zero(curve.size);
-    for (size_t i = 0; i < rows.offsets.size(); ++i) {
+    result.unknowns.clear();
+    result.position = result.first = result.second[0] = result.second[1] =
+        Vector::Zero(curve.size * layout_.unknowns());
+    for (size_t i = 0; i < rows.unknowns.size(); ++i) {
       const Eigen::Index row = Eigen::Index(i);
       if (rows.position[row] == T(0) && rows.first[row] == T(0) && rows.second[0][row] == T(0) &&
           rows.second[1][row] == T(0))
         continue;
-      const Index a = layout_.point(curve, at + rows.offsets[i]);
+      const Index a = column(curve, rows.unknowns[i], at);
       result.position[a] = rows.position[i];
       result.first[a] = rows.first[i];
       for (int side : {0, 1}) result.second[side][a] = rows.second[side][Eigen::Index(i)];
@@ -384,12 +437,12 @@ class CurveAnalysis {
   /// Rows by point of the canonical curve as rows by offset.
   Rows from_canonical(const Rows& rows, std::int64_t at) const {
     Rows result = rows;
-    result.offsets.clear();
+    result.unknowns.clear();
     std::vector<Index> kept;
-    for (Index a = 0; a < canonical_.size; ++a)
+    for (Index a = 0; a < canonical_.size * layout_.unknowns(); ++a)
       if (rows.position[a] != T(0) || rows.first[a] != T(0) || rows.second[0][a] != T(0) || rows.second[1][a] != T(0)) {
         kept.push_back(a);
-        result.offsets.push_back(layout_.position(canonical_, a) - at);
+        result.unknowns.push_back({layout_.position(canonical_, a / layout_.unknowns()) - at, a % layout_.unknowns()});
       }
     result.position = rows.position(kept);
     result.first = rows.first(kept);
