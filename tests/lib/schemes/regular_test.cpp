@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+// What all schemes have in common on regular meshes: polynomials of exactly the degree that they claim, and the spline
+// that their limit is said to be.
+#include <gtest/gtest.h>
+
+#include "sublimit/schemes.h"
+#include "support/regular_limit.h"
+#include "support/tolerance.h"
+
+namespace sublimit::testing {
+namespace {
+
+constexpr double spline = 1e-13;
+
+Generator tensor(int degree) {
+  return [=](double x, double y) { return cardinal_bspline(degree, x) * cardinal_bspline(degree, y); };
+}
+const BoxSpline quartic({{1, 0}, {0, 1}, {1, 1}}, {2, 2, 2});
+const BoxSpline zwart_powell({{1, 0}, {0, 1}, {1, 1}, {1, -1}}, {1, 1, 1, 1});
+
+// Values from the literature, so that what the schemes are compared with is known to be right.
+TEST(RegularLimit, SplinesHaveTheirTextbookValues) {
+  EXPECT_NEAR(cardinal_bspline(3, 0), 2.0 / 3, eigen());
+  EXPECT_NEAR(cardinal_bspline(4, 0), 115.0 / 192, eigen());
+  EXPECT_NEAR(cardinal_bspline(5, 0), 66.0 / 120, eigen());
+  EXPECT_NEAR(cardinal_bspline(5, 2), 1.0 / 120, eigen());
+  EXPECT_NEAR(quartic(0, 0), 1.0 / 2, eigen());
+  EXPECT_NEAR(quartic(1, 1), 1.0 / 12, eigen());
+  EXPECT_NEAR(quartic(1, -1), 0, eigen());
+  EXPECT_NEAR(zwart_powell(0, 0), 1.0 / 2, eigen());
+  EXPECT_NEAR(zwart_powell(1, 0), 1.0 / 8, eigen());
+  EXPECT_NEAR(zwart_powell(0.5, 0.5), 1.0 / 4, eigen());
+}
+
+TEST(RegularLimit, IsTheSplineOfTheScheme) {
+  const std::pair<const char*, Generator> expected[] = {
+      {"bilinear", tensor(1)},           {"doo-sabin", tensor(2)},   {"doo-sabin-averaging", tensor(2)},
+      {"catmull-clark", tensor(3)},      {"loop", quartic},          {"loop-warren", quartic},
+      {"mid-edge", zwart_powell},        {"mid-edge-habib-warren", zwart_powell}};
+  for (const auto& [name, generator] : expected)
+    EXPECT_LE(regular_limit_error(find_scheme(name).value(), generator), spline) << name;
+}
+
+TEST(RegularLimit, OfRepeatedAveragingIsTheBSplineOfItsDegree) {
+  for (int degree = 2; degree <= 9; ++degree)
+    EXPECT_LE(regular_limit_error(find_scheme("averaging", {{"degree", std::to_string(degree)}}).value(), tensor(degree)),
+              spline)
+        << degree;
+}
+
+// Of another degree it is not: the comparison can fail.
+TEST(RegularLimit, IsNoOtherSpline) {
+  EXPECT_GT(regular_limit_error(find_scheme("catmull-clark").value(), tensor(2)), 1e-2);
+  EXPECT_GT(regular_limit_error(find_scheme("mid-edge").value(), tensor(2)), 1e-2);
+}
+
+TEST(RegularMesh, PolynomialsOfTheClaimedDegreeAreReproducedAndNoMore) {
+  for (const Scheme<double>& scheme : all_schemes())
+    EXPECT_EQ(reproduced_degree(scheme), scheme.claims.reproduces) << scheme.name;
+  for (int degree = 2; degree <= 9; ++degree)
+    EXPECT_EQ(reproduced_degree(find_scheme("averaging", {{"degree", std::to_string(degree)}}).value()), 1) << degree;
+  for (const char* name : {"butterfly", "kobbelt"})
+    for (const char* tension : {"0", "1/2", "3/2"}) {
+      const Scheme<double> scheme = find_scheme(name, {{"tension", tension}}).value();
+      EXPECT_EQ(reproduced_degree(scheme), scheme.claims.reproduces) << name << " " << tension;
+    }
+  for (const char* t : {"-1/32", "1/64"}) {
+    const Scheme<double> scheme = find_scheme("modified-butterfly", {{"t", t}}).value();
+    EXPECT_EQ(reproduced_degree(scheme), scheme.claims.reproduces) << "t = " << t;
+  }
+}
+
+}  // namespace
+}  // namespace sublimit::testing
