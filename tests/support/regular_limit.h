@@ -12,7 +12,8 @@ namespace sublimit::testing {
 /// Uniform B-spline with its middle at 0, by Cox and de Boor.
 double cardinal_bspline(int degree, double x);
 
-/// Box spline with its middle at 0, by the recursion of de Boor and Hoellig; directions of the integer plane, none twice.
+/// Box spline with its middle at 0, by the recursion of de Boor and Hoellig; directions of the integer plane, none
+/// twice.
 class BoxSpline {
  public:
   using Directions = std::vector<std::pair<int, int>>;
@@ -27,8 +28,8 @@ class BoxSpline {
 /// phi of a control point's limit surface, from the control point.
 using Generator = std::function<double(double x, double y)>;
 
-/// Limits of the vertices of levels 0, 1 and 2 of a regular torus (triangles: with edges (1,0), (0,1) and (1,1)) against sums of
-/// phi(place - control point) over the control points: the largest difference of a weight.
+/// Limits of the vertices of levels 0, 1 and 2 of a regular torus (triangles: with edges (1,0), (0,1) and (1,1))
+/// against sums of phi(place - control point) over the control points: the largest difference of a weight.
 double regular_limit_error(const Scheme<double>& scheme, const Generator& phi);
 
 /// The largest degree up to 8 whose polynomials, taken at the places of a flat regular mesh, have in one step their own

@@ -31,7 +31,8 @@ ControlMesh lone_fan(Index n, Index face_size, bool open);
 /// @throws AnalysisError  no small closed set
 template <class T>
 std::optional<LocalPatch<T>> local_patch(const Scheme<T>& scheme, LocalType type, int rings = -1) {
-  constexpr int margin = 3;  // rings of points that masks may reach
+  // Rings of points that masks may reach. Steps of repeated averaging add up: degree 9 is closed with four rings.
+  const int margin = std::max(3, static_cast<int>(scheme.steps.size()) - 1);
   const bool is_face = type.kind == Centre::Kind::face;
   if (rings < 0) rings = is_face ? 0 : 1;
   if (type.corner && scheme.is_dual()) return std::nullopt;  // dual schemes round corners

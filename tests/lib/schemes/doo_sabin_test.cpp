@@ -76,14 +76,15 @@ TEST(DooSabin, RingSpectraMatchTheClosedForms) {
   }
 }
 
-// Two rings of corners: 1/4 and below, all known to the paper; block k, 2 <= k < n/2, has 1/4 twice with one eigenvector,
-// so curvature grows like a logarithm for n >= 5.
+// Two rings of corners: 1/4 and below, all known to the paper; block k, 2 <= k < n/2, has 1/4 twice with one
+// eigenvector, so curvature grows like a logarithm for n >= 5.
 TEST(DooSabin, QuarterIsDefectiveInTheSaddleBlocks) {
   for (int n = 3; n <= 20; ++n) {
     const LocalSpectrum ring("doo-sabin", n, 1);
     EXPECT_EQ(ring.staircase(1, ratio(1, 2)), std::vector<int>{1}) << n;
     EXPECT_NEAR(ring.largest_below(0.5), 0.25, closed_form) << n;
-    for (int k = 2; 2 * k < n; ++k) EXPECT_EQ(ring.staircase(k, ratio(1, 4)), (std::vector<int>{1, 2})) << n << " " << k;
+    for (int k = 2; 2 * k < n; ++k)
+      EXPECT_EQ(ring.staircase(k, ratio(1, 4)), (std::vector<int>{1, 2})) << n << " " << k;
   }
 }
 
@@ -126,8 +127,8 @@ TEST(DooSabin, LimitMasksAreCentroidAndFirstMode) {
   }
 }
 
-// A vertex becomes a face, and its limit is that face's centroid. Corner points of a face are (9 a + 3 b + 3 c + d)/16: at the
-// corner (1,1,1) of the cube (1, 1/2, 1/2) and so on, with the mean (2/3, 2/3, 2/3).
+// A vertex becomes a face, and its limit is that face's centroid. Corner points of a face are (9 a + 3 b + 3 c + d)/16:
+// at the corner (1,1,1) of the cube (1, 1/2, 1/2) and so on, with the mean (2/3, 2/3, 2/3).
 TEST(DooSabin, CubeCornersTendToTwoThirds) {
   for (const std::string name : {"doo-sabin", "doo-sabin-averaging"}) {
     const Scheme<double> scheme = find_scheme(name).value();
@@ -135,7 +136,8 @@ TEST(DooSabin, CubeCornersTendToTwoThirds) {
     LimitMaskCache cache(scheme);
     const LimitPoints limit = limit_points(limit_matrices(level, cache), level.topology(), cube().positions);
     EXPECT_LE((limit.position - cube().positions * (2.0 / 3)).norm(), eigen()) << name;
-    for (Index v = 0; v < 8; ++v) EXPECT_LE((limit.normal.row(v) - cube().positions.row(v).normalized()).norm(), eigen());
+    for (Index v = 0; v < 8; ++v)
+      EXPECT_LE((limit.normal.row(v) - cube().positions.row(v).normalized()).norm(), eigen());
   }
 }
 

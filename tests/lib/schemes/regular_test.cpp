@@ -33,18 +33,23 @@ TEST(RegularLimit, SplinesHaveTheirTextbookValues) {
 }
 
 TEST(RegularLimit, IsTheSplineOfTheScheme) {
-  const std::pair<const char*, Generator> expected[] = {
-      {"bilinear", tensor(1)},           {"doo-sabin", tensor(2)},   {"doo-sabin-averaging", tensor(2)},
-      {"catmull-clark", tensor(3)},      {"loop", quartic},          {"loop-warren", quartic},
-      {"mid-edge", zwart_powell},        {"mid-edge-habib-warren", zwart_powell}};
+  const std::pair<const char*, Generator> expected[] = {{"bilinear", tensor(1)},
+                                                        {"doo-sabin", tensor(2)},
+                                                        {"doo-sabin-averaging", tensor(2)},
+                                                        {"catmull-clark", tensor(3)},
+                                                        {"loop", quartic},
+                                                        {"loop-warren", quartic},
+                                                        {"mid-edge", zwart_powell},
+                                                        {"mid-edge-habib-warren", zwart_powell}};
   for (const auto& [name, generator] : expected)
     EXPECT_LE(regular_limit_error(find_scheme(name).value(), generator), spline) << name;
 }
 
 TEST(RegularLimit, OfRepeatedAveragingIsTheBSplineOfItsDegree) {
   for (int degree = 2; degree <= 9; ++degree)
-    EXPECT_LE(regular_limit_error(find_scheme("averaging", {{"degree", std::to_string(degree)}}).value(), tensor(degree)),
-              spline)
+    EXPECT_LE(
+        regular_limit_error(find_scheme("averaging", {{"degree", std::to_string(degree)}}).value(), tensor(degree)),
+        spline)
         << degree;
 }
 
