@@ -101,6 +101,16 @@ int LocalSpectrum::multiplicity(int k, const Precise& lambda) const {
   return steps.empty() ? 0 : steps.back();
 }
 
+std::vector<std::complex<double>> LocalSpectrum::power_sums(int k) const {
+  const Matrix& B = blocks_[wrapped(k)];
+  const Eigen::Index p = size(k);
+  std::vector<std::complex<double>> sums;
+  for (Matrix power = B; std::ssize(sums) < p; power = (power * B).eval())
+    sums.emplace_back(static_cast<double>(power.topLeftCorner(p, p).trace()),
+                      static_cast<double>(power.bottomLeftCorner(p, p).trace()));
+  return sums;
+}
+
 std::vector<double> LocalSpectrum::moduli(int k) const {
   const Matrix& B = blocks_[wrapped(k)];
   const Eigen::RealSchur<Matrix> schur(B, false);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Spectra of local matrices in 256-bit floats, Fourier block by Fourier block: multiplicities and Jordan blocks are rank
-// decisions with sixty digits to spare, so closed forms are compared as they are written.
+// Spectra of local matrices in 256-bit floats, Fourier block by Fourier block: multiplicities and Jordan blocks are
+// rank decisions with sixty digits to spare, so closed forms are compared as they are written.
+#include <complex>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,9 @@ class LocalSpectrum {
   /// one with two eigenvectors, {1, 2, 3} a Jordan block of size 3.
   std::vector<int> staircase(int k, const Precise& lambda) const;
   int multiplicity(int k, const Precise& lambda) const;
+  /// Sums of the j-th powers of the eigenvalues of block k, j = 1 ... size(k): what the eigenvalues are, however they
+  /// cluster.
+  std::vector<std::complex<double>> power_sums(int k) const;
   /// Moduli of the eigenvalues of block k, descending.
   std::vector<double> moduli(int k) const;
   /// Largest modulus of all blocks below `modulus`.

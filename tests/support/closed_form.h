@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// How the tests of the schemes hold spectra and limit masks to what is written in papers.
+#include <complex>
+#include <initializer_list>
+#include <string>
+#include <vector>
+
+#include "sublimit/analysis/limit_masks.h"
+#include "support/local_spectrum.h"
+
+namespace sublimit::testing {
+
+/// Spectra and limit masks against closed forms.
+inline constexpr double closed_form = 1e-12;
+/// What eight printed decimals can tell, and ratios with three.
+inline constexpr double eight_decimals = 5.1e-9, three_decimals = 5.1e-4;
+
+/// The limit of a lone vertex of valence n, or of a lone n-gon if the scheme is dual.
+LoneLimit lone_centre(const std::string& name, int n, const SchemeOptions& options = {});
+
+/// Block k has exactly these eigenvalues with these multiplicities, by ranks.
+void expect_eigenvalues(const LocalSpectrum& spectrum, int k, std::vector<Precise> values);
+
+/// The tangents span the plane of `cosines` and `sines` and turn as these do. Masks that reach less far are continued
+/// by zeros.
+void expect_tangents(const LimitMasks::Side& side, Eigen::VectorXd cosines, Eigen::VectorXd sines);
+/// The same for cos and sin of 2 pi s/n on n points, the first of which is `first`.
+void expect_first_mode(const LoneLimit& limit, int n, int first);
+
+/// lambda of valences 3, 4, ... as printed.
+void expect_table(const std::string& name, std::initializer_list<double> lambdas, const SchemeOptions& options = {});
+
+/// Block k of a local matrix, written down by hand: `points` places a sector.
+class HandBlock {
+ public:
+  HandBlock(int n, int k, int points) : n_(n), k_(k), B_(Eigen::MatrixXcd::Zero(points, points)) {}
+  /// The new point `row` of sector 0 has this weight on the old point `column` of a sector.
+  void add(int row, int column, int sector, double weight);
+  std::vector<std::complex<double>> power_sums() const;
+
+ private:
+  int n_, k_;
+  Eigen::MatrixXcd B_;
+};
+
+/// Block k has the eigenvalues of the one that was written by hand, and the 1 of a centre that stays.
+void expect_same_spectrum(const LocalSpectrum& spectrum, int k, const HandBlock& hand);
+
+}  // namespace sublimit::testing
