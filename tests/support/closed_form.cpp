@@ -31,24 +31,26 @@ void expect_eigenvalues(const LocalSpectrum& spectrum, int k, std::vector<Precis
         << static_cast<double>(value) << ", n = " << spectrum.n() << ", block " << k;
 }
 
-void expect_tangents(const LimitMasks::Side& side, Eigen::VectorXd cosines, Eigen::VectorXd sines) {
-  const Eigen::Index size = side.tangent1.size();
-  Eigen::MatrixXd expected = Eigen::MatrixXd::Zero(size, 2), ours(size, 2);
-  ASSERT_LE(cosines.size(), size);
-  expected.topRows(cosines.size()) << cosines, sines;
-  ours << side.tangent1, side.tangent2;
+void expect_tangents(const Eigen::VectorXd& tangent1, const Eigen::VectorXd& tangent2, const Eigen::VectorXd& cosines,
+                     const Eigen::VectorXd& sines) {
+  ASSERT_EQ(tangent1.size(), cosines.size());
+  Eigen::MatrixXd expected(cosines.size(), 2), ours(cosines.size(), 2);
+  expected << cosines, sines;
+  ours << tangent1, tangent2;
   const Eigen::Matrix2d within = expected.colPivHouseholderQr().solve(ours);
   EXPECT_LE((ours - expected * within).norm(), closed_form * ours.norm());
   EXPECT_GT(within.determinant(), 0);
 }
 
 void expect_first_mode(const LoneLimit& limit, int n, int first) {
-  Eigen::VectorXd cosines = Eigen::VectorXd::Zero(first + n), sines = cosines;
+  const LimitMasks::Side& side = limit.masks.sides.at(0);
+  Eigen::VectorXd cosines = Eigen::VectorXd::Zero(side.tangent1.size()), sines = cosines;
+  ASSERT_LE(first + n, cosines.size());
   for (int i = 0; i < n; ++i) {
     cosines[first + i] = std::cos(2 * pi * i / n);
     sines[first + i] = std::sin(2 * pi * i / n);
   }
-  expect_tangents(limit.masks.sides.at(0), cosines, sines);
+  expect_tangents(side.tangent1, side.tangent2, cosines, sines);
 }
 
 void expect_table(const std::string& name, std::initializer_list<double> lambdas, const SchemeOptions& options) {

@@ -13,8 +13,8 @@ namespace sublimit::testing {
 
 /// Spectra and limit masks against closed forms.
 inline constexpr double closed_form = 1e-12;
-/// What eight printed decimals can tell, and ratios with three.
-inline constexpr double eight_decimals = 5.1e-9, three_decimals = 5.1e-4;
+/// What eight printed decimals can tell, some of them cut off instead of rounded, and ratios with three.
+inline constexpr double eight_decimals = 1e-8, three_decimals = 5.1e-4;
 
 /// The limit of a lone vertex of valence n, or of a lone n-gon if the scheme is dual.
 LoneLimit lone_centre(const std::string& name, int n, const SchemeOptions& options = {});
@@ -22,10 +22,10 @@ LoneLimit lone_centre(const std::string& name, int n, const SchemeOptions& optio
 /// Block k has exactly these eigenvalues with these multiplicities, by ranks.
 void expect_eigenvalues(const LocalSpectrum& spectrum, int k, std::vector<Precise> values);
 
-/// The tangents span the plane of `cosines` and `sines` and turn as these do. Masks that reach less far are continued
-/// by zeros.
-void expect_tangents(const LimitMasks::Side& side, Eigen::VectorXd cosines, Eigen::VectorXd sines);
-/// The same for cos and sin of 2 pi s/n on n points, the first of which is `first`.
+/// The tangents span the plane of `cosines` and `sines` and turn as these do.
+void expect_tangents(const Eigen::VectorXd& tangent1, const Eigen::VectorXd& tangent2, const Eigen::VectorXd& cosines,
+                     const Eigen::VectorXd& sines);
+/// The same for cos and sin of 2 pi s/n on n points, the first of which is `first`, and nothing on others.
 void expect_first_mode(const LoneLimit& limit, int n, int first);
 
 /// lambda of valences 3, 4, ... as printed.

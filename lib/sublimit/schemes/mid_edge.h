@@ -40,11 +40,14 @@ Scheme<T> mid_edge_habib_warren(const SchemeOptions&) {
     const int n = f.size();
     Stencil<T> point;
     for (int i = 0; i < n; ++i) {
-      T weight(1), half(1);  // half: 2^-floor(j/2)
+      T weight(1), power(1);  // 2^-floor(j/2)
       for (int j = 1; 2 * j < n; ++j) {
-        if (j % 2 == 0) half = half / 2;
-        const T root = j % 2 == 0 ? half : half * f.cos_2pi(1, 8);  // 2^(-j/2)
-        weight += 2 * root * f.cos_2pi(j * (2 * i - 1), 2 * n);
+        if (j % 2 == 0) power = power / 2;
+        const int k = j * (2 * i - 1) % (2 * n);
+        // 2 * 2^(-j/2) cos(2 pi k/(2n)); the root of two as twice the cosine of an eighth of a turn, so that the
+        // weights of quadrilaterals are exactly 1/2, 1/2, 0, 0.
+        weight +=
+            power * (j % 2 == 0 ? 2 * f.cos_2pi(k, 2 * n) : f.cos_2pi(4 * k + n, 8 * n) + f.cos_2pi(4 * k - n, 8 * n));
       }
       point += (weight / n) * f.corner(i);
     }
