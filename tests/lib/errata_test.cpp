@@ -125,6 +125,8 @@ TEST(Errata, MidEdgeWithCentroidsOfExtraordinaryFacesLosesItsLeadingPair) {
     const LocalSpectrum plain("mid-edge", n, 1);
     EXPECT_GE(rings.leading(0), rings.leading(1) - closed_form) << n;
     EXPECT_LT(plain.leading(0), plain.leading(1)) << n;
+    EXPECT_EQ(plane(mid_edge_with_centroids<double>(), face_of(n)), Plane::no) << n;
+    EXPECT_EQ(plane(find_scheme("mid-edge").value(), face_of(n)), Plane::yes) << n;
   }
 }
 

@@ -270,6 +270,13 @@ std::optional<LoneLimit> lone_limit(const Scheme<double>& scheme, const LocalTyp
     if (!fourier) throw AnalysisError(scheme.name + ": a lone neighbourhood is not rotationally symmetric");
     masks.position = position_mask(patch->A, centre, fourier);
     add_ring_tangents(side, *fourier);
+    // What is around may decay as slowly as the tangents, and is not in the smallest closed set. Dense matrices of rings
+    // around polygons beyond 256 corners would be too large.
+    if (type.faces <= 256) {
+      const auto wider = local_patch(scheme, type, type.kind == Centre::Kind::face ? 1 : 2);
+      const auto blocks = wider ? fourier_blocks(wider->A, wider->orbits) : std::nullopt;
+      if (blocks) side.plane = std::max(side.plane, ring_plane(*blocks));
+    }
   } else {
     masks.position = position_mask(patch->A, centre, std::nullopt);
     Outline outline;

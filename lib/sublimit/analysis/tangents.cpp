@@ -111,6 +111,25 @@ void add_ring_tangents(Side& side, const FourierBlocks& fourier) {
   }
 }
 
+Plane ring_plane(const FourierBlocks& fourier) {
+  const EigenStructure structure = eigen_structure(fourier);
+  const EigenCluster* first = nullptr;
+  for (const EigenCluster& cluster : structure.clusters)
+    if (cluster.block == 1 && !first) first = &cluster;
+  // Chains of a cluster: one may be as long as all others leave it, the longest is at least the mean.
+  const auto longest = [](const EigenCluster& c) { return c.multiplicity - c.geometric() + 1; };
+  const int chain = (first->multiplicity + first->geometric() - 1) / first->geometric();
+  for (const EigenCluster& cluster : structure.clusters) {
+    const bool constant = cluster.block == 0 && std::abs(cluster.value - 1.0) < same_rate;
+    const bool conjugate = fourier.n > 2 && cluster.block == fourier.n - 1;
+    if (&cluster == first || constant || conjugate || !decays_like(std::abs(cluster.value), std::abs(first->value)))
+      continue;
+    const bool slower = std::abs(cluster.value) > std::abs(first->value) * (1 + same_rate);
+    if (slower || longest(cluster) >= chain) return Plane::no;
+  }
+  return first->is_jordan() ? Plane::slow : first->multiplicity > 1 ? Plane::no : Plane::yes;
+}
+
 /// One side between two sharp edges. Its outline (the vertex and the ends of these edges) is a curve scheme of its own and
 /// gives the tangent along a crease, or the two tangents of a corner; the leading mode of the interior crosses a crease.
 void add_border_tangents(Side& side, const MatrixXd& whole, const Outline& outline, bool is_corner) {

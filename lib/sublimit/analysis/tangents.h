@@ -28,6 +28,10 @@ Eigen::VectorXd position_mask(const Eigen::MatrixXd& A, const Slots& centre, con
 /// A closed ring that looks the same from every sector: the tangents are the cosine and the sine mask of block 1.
 void add_ring_tangents(LimitMasks::Side& side, const FourierBlocks& fourier);
 
+/// Is there a tangent plane, when all modes of a closed ring are looked at? The modes of block 1 with the largest modulus,
+/// and among these the longest Jordan chains, must be alone.
+LimitMasks::Plane ring_plane(const FourierBlocks& fourier);
+
 /// Where a side ends: the slots of the border curve and those inside; `first` and `last` are the centre's neighbours on the curve,
 /// with the side on the left of the way from the centre to `first`.
 struct Outline {
