@@ -5,7 +5,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <functional>
+#include <map>
+#include <numbers>
+#include <stdexcept>
 
 #include "sublimit/refine.h"
 #include "sublimit/schemes.h"
@@ -66,6 +70,79 @@ TEST(Averaging, BlockZeroIsTheRegularOneAtEveryValence) {
       EXPECT_GE(rings.multiplicity(0, ratio(1, 16)), 1) << d << " " << n;
     }
   }
+}
+
+/// Block k != 0 of a lone place, from the averages themselves: places are labelled (sector; x, y) in quarters of the
+/// old mesh's unit, x along the sector's edge, and a label beyond an axis is one of the sector there.
+class AveragedBlock {
+ public:
+  AveragedBlock(int degree, int n, int k, int points) : dual_(degree % 2 == 0), n_(n), k_(k), points_(points) {
+    rings_ = 1;
+    while ((dual_ ? rings_ * rings_ : rings_ * (rings_ + 1)) < points) ++rings_;
+  }
+  /// Row by row: the new point at a label lies at half of it in the old mesh.
+  std::vector<std::complex<double>> power_sums(int degree) {
+    Eigen::MatrixXcd B(points_, points_);
+    for (int i = 0; i < points_; ++i) {
+      const auto [x, y] = label(i);
+      B.row(i) = average(degree - 1, x / 2, y / 2);
+    }
+    std::vector<std::complex<double>> sums;
+    for (Eigen::MatrixXcd power = B; std::ssize(sums) < points_; power = (power * B).eval())
+      sums.push_back(power.trace());
+    return sums;
+  }
+
+ private:
+  using Row = Eigen::RowVectorXcd;
+  /// Old points: x = 1, 2 ... and y = 0, 1 ... in primal schemes, 1/2, 3/2 ... in dual ones.
+  std::pair<int, int> label(int i) const {
+    const int columns = dual_ ? rings_ : rings_ + 1, start = dual_ ? 2 : 4;
+    return {start + 4 * (i / columns), (dual_ ? 2 : 0) + 4 * (i % columns)};
+  }
+  /// Weights of what `count` averagings make at a place that has such a point.
+  Row average(int count, int x, int y) {
+    if (x == 0 && y == 0) return Row::Zero(points_);  // the same in every sector
+    if (x <= 0) return std::polar(1.0, 2 * std::numbers::pi * k_ / n_) * average(count, y, -x);
+    if (y < 0) return std::polar(1.0, -2 * std::numbers::pi * k_ / n_) * average(count, -y, x);
+    const auto found = known_.find({count, x, y});
+    if (found != known_.end()) return found->second;
+    return known_[{count, x, y}] = inside(count, x, y);
+  }
+  Row inside(int count, int x, int y) {
+    const auto mean = [&](int c, int dx, int dy) -> Row {
+      return (average(c, x + dx, y + dy) + average(c, x - dx, y + dy) + average(c, x + dx, y - dy) +
+              average(c, x - dx, y - dy)) /
+             4;
+    };
+    if (count > 0) return mean(count - 1, 1, 1);
+    const int old = dual_ ? 2 : 0, dx = (x - old) % 4 == 0 ? 0 : 2, dy = (y - old) % 4 == 0 ? 0 : 2;
+    if (dx > 0 || dy > 0) return mean(0, dx, dy);  // bilinear: a midpoint, or the middle of a face
+    Row row = Row::Zero(points_);
+    const int columns = dual_ ? rings_ : rings_ + 1, at = (x - (dual_ ? 2 : 4)) / 4 * columns + (y - old) / 4;
+    if (x > 4 * rings_ || y > 4 * rings_) throw std::logic_error("the rings are not closed");
+    row[at] = 1;
+    return row;
+  }
+  bool dual_;
+  int n_, k_, points_, rings_;
+  std::map<std::array<int, 3>, Row> known_;
+};
+
+TEST(Averaging, SpectraAreThoseOfTheAveragesByHand) {
+  for (int d = 2; d <= 9; ++d)
+    for (int n = 3; n <= 20; ++n) {
+      if (d > 5 && n != 3 && n != 5 && n != 8) continue;
+      const LocalSpectrum rings("averaging", n, d % 2, degree(d));
+      for (int k = 1; 2 * k <= n; ++k) {
+        const int points = rings.size(k);
+        const std::vector<std::complex<double>> ours = rings.power_sums(k);
+        const std::vector<std::complex<double>> expected = AveragedBlock(d, n, k, points).power_sums(d);
+        for (int j = 0; j < points; ++j)
+          EXPECT_LE(std::abs(ours[j] - expected[j]), closed_form)
+              << d << " " << n << " block " << k << " power " << j + 1;
+      }
+    }
 }
 
 // The limit mask is that of the B-spline in every sector, n sectors instead of four.
