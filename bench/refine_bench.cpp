@@ -10,20 +10,15 @@
 // otherwise Google Benchmark's own options hold. --keep-memory: freed memory stays with the process, so that the kernel's
 // time for handing out pages is measured on neither side.
 #include <benchmark/benchmark.h>
-#include <malloc.h>
-#include <sched.h>
-#include <tbb/global_control.h>
-#include <tbb/info.h>
 
 #include <algorithm>
-#include <chrono>
-#include <climits>
 #include <cstdio>
 #include <cstring>
 #include <memory>
 #include <string>
 
 #include "bench_meshes.h"
+#include "measuring.h"
 #include "sublimit/refine.h"
 #include "sublimit/schemes.h"
 #include "sublimit/sparse_product.h"
@@ -104,51 +99,6 @@ constexpr Measured measured[] = {
     {"BM_Baked", false, ours_baked, theirs_baked, nullptr},
 };
 
-std::vector<int> thread_counts() {
-  const int all = tbb::info::default_concurrency();
-  return all == 1 ? std::vector<int>{1} : std::vector<int>{1, all};
-}
-
-/// A number of threads for us; one thread is pinned, so that the scheduler does not move it.
-class Threads {
- public:
-  explicit Threads(int count) : limit_(tbb::global_control::max_allowed_parallelism, size_t(count)) {
-    sched_getaffinity(0, sizeof before_, &before_);
-    if (count > 1) return;
-    cpu_set_t last;
-    CPU_ZERO(&last);
-    for (int cpu = CPU_SETSIZE - 1; cpu >= 0 && CPU_COUNT(&last) == 0; --cpu)
-      if (CPU_ISSET(cpu, &before_)) CPU_SET(cpu, &last);
-    sched_setaffinity(0, sizeof last, &last);
-  }
-  ~Threads() { sched_setaffinity(0, sizeof before_, &before_); }
-  Threads(const Threads&) = delete;
-  Threads& operator=(const Threads&) = delete;
-
- private:
-  tbb::global_control limit_;
-  cpu_set_t before_;
-};
-
-double seconds(const auto& work) {
-  const auto start = std::chrono::steady_clock::now();
-  work();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-/// Bytes per second of writing memory that is there already.
-double write_bandwidth() {
-  std::vector<char> block(size_t{1} << 28, 1);
-  double best = 0;
-  for (int i = 0; i < 5; ++i)
-    best = std::max(best, double(block.size()) / seconds([&] {
-                            std::memset(block.data(), i, block.size());
-                            benchmark::DoNotOptimize(block.data());
-                            benchmark::ClobberMemory();
-                          }));
-  return best;
-}
-
 int print_ratios(int repetitions) {
   std::printf("write bandwidth, one thread: %.1f GB/s; medians of %d in ms, (least..most)\n", write_bandwidth() / 1e9,
               repetitions);
@@ -184,15 +134,7 @@ int print_ratios(int repetitions) {
 }
 
 void register_benchmarks(const std::vector<Case>& meshes) {
-  benchmark::RegisterBenchmark("BM_WriteBandwidth", [](benchmark::State& state) {
-    std::vector<char> block(size_t{1} << 28, 1);
-    for (auto _ : state) {
-      std::memset(block.data(), int(state.iterations()), block.size());
-      benchmark::DoNotOptimize(block.data());
-      benchmark::ClobberMemory();
-    }
-    state.SetBytesProcessed(state.iterations() * std::int64_t(block.size()));
-  });
+  register_write_bandwidth();
   for (const Measured& m : measured)
     for (const Case& c : meshes)
       for (const int levels : {2, 3})
@@ -216,20 +158,7 @@ void register_benchmarks(const std::vector<Case>& meshes) {
 }
 
 int main(int argc, char** argv) {
-  bool ratios = false;
-  int repetitions = 5;
-  for (int i = 1; i < argc; ++i) {
-    const std::string argument = argv[i];
-    if (argument == "--ratios") {
-      ratios = true;
-    } else if (argument == "--keep-memory") {
-      mallopt(M_MMAP_MAX, 0);
-      mallopt(M_TRIM_THRESHOLD, INT_MAX);
-    } else if (ratios) {
-      repetitions = std::stoi(argument);
-    }
-  }
-  if (ratios) return print_ratios(repetitions);
+  if (const int repetitions = repetitions_of_ratios(argc, argv)) return print_ratios(repetitions);
   const std::vector<Case> meshes = cases();
   register_benchmarks(meshes);
   benchmark::Initialize(&argc, argv);

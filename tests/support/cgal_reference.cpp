@@ -5,6 +5,7 @@
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/subdivision_method_3.h>
 
+#include <memory>
 #include <stdexcept>
 #include <vector>
 
@@ -14,7 +15,7 @@ namespace {
 using Point = CGAL::Simple_cartesian<double>::Point_3;
 using Mesh = CGAL::Surface_mesh<Point>;
 
-Mesh refined(const ControlMesh& control, CgalScheme scheme, int levels) {
+Mesh built(const ControlMesh& control) {
   Mesh mesh;
   std::vector<Mesh::Vertex_index> vertices, corners;
   for (Index v = 0; v < control.num_vertices(); ++v)
@@ -26,6 +27,10 @@ Mesh refined(const ControlMesh& control, CgalScheme scheme, int levels) {
     for (Index i = 0; i < size; ++i) corners.push_back(vertices[control.face_vertices[at++]]);
     if (mesh.add_face(corners) == Mesh::null_face()) throw std::runtime_error("CGAL does not take the mesh");
   }
+  return mesh;
+}
+
+void refine(Mesh& mesh, CgalScheme scheme, int levels) {
   namespace method = CGAL::Subdivision_method_3;
   const auto steps = CGAL::parameters::number_of_iterations(unsigned(levels));
   switch (scheme) {
@@ -48,7 +53,6 @@ Mesh refined(const ControlMesh& control, CgalScheme scheme, int levels) {
       method::Sqrt3_subdivision(mesh, steps);
       break;
   }
-  return mesh;
 }
 
 }  // namespace
@@ -63,7 +67,8 @@ std::optional<CgalScheme> cgal_scheme(const std::string& name) {
 }
 
 PeerMesh cgal_refine(const ControlMesh& control, CgalScheme scheme, int levels) {
-  Mesh mesh = refined(control, scheme, levels);
+  Mesh mesh = built(control);
+  refine(mesh, scheme, levels);
   mesh.collect_garbage();  // elements that were taken away leave gaps in the numbers
   PeerMesh result;
   result.positions.resize(Index(mesh.number_of_vertices()), 3);
@@ -79,8 +84,11 @@ PeerMesh cgal_refine(const ControlMesh& control, CgalScheme scheme, int levels) 
   return result;
 }
 
-std::size_t cgal_run(const ControlMesh& mesh, CgalScheme scheme, int levels) {
-  return refined(mesh, scheme, levels).number_of_vertices();
+std::function<std::size_t()> cgal_run(const ControlMesh& control, CgalScheme scheme, int levels) {
+  return [mesh = std::make_shared<Mesh>(built(control)), scheme, levels]() -> std::size_t {
+    refine(*mesh, scheme, levels);
+    return mesh->number_of_vertices();
+  };
 }
 
 }  // namespace sublimit::testing

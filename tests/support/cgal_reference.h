@@ -2,6 +2,7 @@
 #pragma once
 // CGAL's Subdivision_method_3, run live on a Surface_mesh of double points. The Surface_mesh is under the GPL: for
 // tests and benchmarks only.
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -19,7 +20,8 @@ std::optional<CgalScheme> cgal_scheme(const std::string& name);
 /// @throws std::runtime_error  a face that CGAL does not take
 PeerMesh cgal_refine(const ControlMesh& mesh, CgalScheme scheme, int levels);
 
-/// For benchmarks: the same, from arrays to CGAL's own mesh, which stays where it is; its number of vertices.
-std::size_t cgal_run(const ControlMesh& mesh, CgalScheme scheme, int levels);
+/// For benchmarks: CGAL's own mesh, built, and the call that refines it in place; to be made once. It returns the
+/// number of vertices; the mesh lives as long as the function.
+std::function<std::size_t()> cgal_run(const ControlMesh& mesh, CgalScheme scheme, int levels);
 
 }  // namespace sublimit::testing

@@ -11,6 +11,7 @@
 #include <OpenMesh/Tools/Subdivider/Uniform/Sqrt3T.hh>
 
 #include <algorithm>
+#include <memory>
 #include <stdexcept>
 
 namespace sublimit::testing {
@@ -57,36 +58,42 @@ PeerMesh copied(const Mesh& mesh) {
   return result;
 }
 
-/// Calls `use` with the refined mesh.
-template <class Mesh, template <class, class> class Subdivider, class Use>
-auto refined(const ControlMesh& control, int levels, const Use& use) {
-  Mesh mesh = built<Mesh>(control);
-  Subdivider<Mesh, double> subdivide;
-  if constexpr (requires { subdivide.init_weights(size_t{}); }) {
-    // Tables of weights reach to a fixed valence, and most subdividers read on beyond.
-    unsigned most = 0;
-    for (const auto v : mesh.vertices()) most = std::max(most, mesh.valence(v));
-    if (most >= 30) subdivide.init_weights(most + 1);
+/// A mesh and its subdivider, ready to run.
+template <class Mesh, template <class, class> class Subdivider>
+struct Refinable {
+  explicit Refinable(const ControlMesh& control) : mesh(built<Mesh>(control)) {
+    if constexpr (requires { subdivide.init_weights(size_t{}); }) {
+      // Tables of weights reach to a fixed valence, and most subdividers read on beyond.
+      unsigned most = 0;
+      for (const auto v : mesh.vertices()) most = std::max(most, mesh.valence(v));
+      if (most >= 30) subdivide.init_weights(most + 1);
+    }
   }
-  if (!subdivide(mesh, size_t(levels))) throw std::runtime_error("OpenMesh does not refine the mesh");
-  return use(mesh);
-}
+  /// In place.
+  const Mesh& refine(int levels) {
+    if (!subdivide(mesh, size_t(levels))) throw std::runtime_error("OpenMesh does not refine the mesh");
+    return mesh;
+  }
+  Mesh mesh;
+  Subdivider<Mesh, double> subdivide;
+};
 
+/// Calls `use` with a pointer to the Refinable.
 template <class Use>
-auto refined(const ControlMesh& control, OpenMeshScheme scheme, int levels, const Use& use) {
+auto with_refinable(const ControlMesh& control, OpenMeshScheme scheme, const Use& use) {
   switch (scheme) {
     case OpenMeshScheme::loop:
-      return refined<Triangles, Uniform::LoopT>(control, levels, use);
+      return use(std::make_shared<Refinable<Triangles, Uniform::LoopT>>(control));
     case OpenMeshScheme::sqrt3:
-      return refined<Triangles, Uniform::Sqrt3T>(control, levels, use);
+      return use(std::make_shared<Refinable<Triangles, Uniform::Sqrt3T>>(control));
     case OpenMeshScheme::modified_butterfly:
-      return refined<Triangles, Uniform::ModifiedButterflyT>(control, levels, use);
+      return use(std::make_shared<Refinable<Triangles, Uniform::ModifiedButterflyT>>(control));
     case OpenMeshScheme::interpolatory_sqrt3:
-      return refined<Triangles, Uniform::InterpolatingSqrt3LGT>(control, levels, use);
+      return use(std::make_shared<Refinable<Triangles, Uniform::InterpolatingSqrt3LGT>>(control));
     case OpenMeshScheme::catmull_clark:
-      return refined<Polygons, Uniform::CatmullClarkT>(control, levels, use);
+      return use(std::make_shared<Refinable<Polygons, Uniform::CatmullClarkT>>(control));
     case OpenMeshScheme::midpoint:
-      return refined<Polygons, Uniform::MidpointT>(control, levels, use);
+      return use(std::make_shared<Refinable<Polygons, Uniform::MidpointT>>(control));
   }
   throw std::runtime_error("no such scheme");
 }
@@ -104,14 +111,16 @@ std::optional<OpenMeshScheme> openmesh_scheme(const std::string& name) {
 }
 
 PeerMesh openmesh_refine(const ControlMesh& mesh, OpenMeshScheme scheme, int levels, OpenMeshNormals normals) {
-  const auto copy = [](const auto& refined_mesh) { return copied(refined_mesh); };
-  if (normals == OpenMeshNormals::twice) return refined(mesh, scheme, levels, copy);
+  if (normals == OpenMeshNormals::twice)
+    return with_refinable(mesh, scheme, [&](const auto& refinable) { return copied(refinable->refine(levels)); });
   if (scheme != OpenMeshScheme::loop) throw std::runtime_error("single normals are for Loop's scheme only");
-  return refined<TrianglesSingle, Uniform::LoopT>(mesh, levels, copy);
+  return copied(Refinable<TrianglesSingle, Uniform::LoopT>(mesh).refine(levels));
 }
 
-std::size_t openmesh_run(const ControlMesh& mesh, OpenMeshScheme scheme, int levels) {
-  return refined(mesh, scheme, levels, [](const auto& refined_mesh) { return refined_mesh.n_vertices(); });
+std::function<std::size_t()> openmesh_run(const ControlMesh& mesh, OpenMeshScheme scheme, int levels) {
+  return with_refinable(mesh, scheme, [&](const auto& refinable) -> std::function<std::size_t()> {
+    return [refinable, levels] { return refinable->refine(levels).n_vertices(); };
+  });
 }
 
 }  // namespace sublimit::testing

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 // OpenMesh's uniform subdividers, run live, in double throughout.
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -24,7 +25,8 @@ enum class OpenMeshNormals { twice, single };
 PeerMesh openmesh_refine(const ControlMesh& mesh, OpenMeshScheme scheme, int levels,
                          OpenMeshNormals normals = OpenMeshNormals::twice);
 
-/// For benchmarks: the same, from arrays to OpenMesh's own mesh, which stays where it is; its number of vertices.
-std::size_t openmesh_run(const ControlMesh& mesh, OpenMeshScheme scheme, int levels);
+/// For benchmarks: OpenMesh's own mesh, built, and the call that refines it in place; to be made once. It returns the
+/// number of vertices; the mesh lives as long as the function.
+std::function<std::size_t()> openmesh_run(const ControlMesh& mesh, OpenMeshScheme scheme, int levels);
 
 }  // namespace sublimit::testing
