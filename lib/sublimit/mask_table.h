@@ -4,6 +4,7 @@
 // a mesh of a million vertices asks a mask a handful of times; `visit_site` goes through a site's vertices in the order of its slots.
 #include <algorithm>
 #include <map>
+#include <span>
 #include <vector>
 
 #include "sublimit/mesh/topology.h"
@@ -146,6 +147,20 @@ class MaskTable {
   const Weights* uniform_edge_ = nullptr;
 };
 
+/// Calls visit(vertex) for the corners of a half-edge's face, from the `skip`-th after the half-edge's own on, `count` of
+/// them.
+template <class Visit>
+void visit_corners(const Topology& t, HalfEdge h, Index skip, Index count, const Visit& visit) {
+  const std::span<const Index> corners = t.vertices(t.face(h));
+  const Index size = static_cast<Index>(corners.size());
+  Index i = t.corner_index(h) + skip;
+  if (i >= size) i -= size;
+  for (Index k = 0; k < count; ++k) {
+    visit(corners[i]);
+    if (++i == size) i = 0;
+  }
+}
+
 /// Calls visit(vertex) for the vertices of a face, in the order of FaceSite's slots.
 template <class Visit>
 void visit_site(const Topology& t, Face f, const Visit& visit) {
@@ -158,8 +173,7 @@ void visit_site(const Topology& t, Edge e, const Visit& visit) {
   const HalfEdge left = t.half_edge(e), right = t.twin(left);
   visit(index(t.tail(left)));
   visit(index(t.tail(right)));
-  for (const HalfEdge side : {left, right})
-    for (HalfEdge h = t.next(t.next(side)); h != side; h = t.next(h)) visit(index(t.tail(h)));
+  for (const HalfEdge side : {left, right}) visit_corners(t, side, 2, t.size(t.face(side)) - 2, visit);
 }
 
 /// The same around an interior vertex, in the order of Ring's slots.
@@ -169,20 +183,15 @@ void visit_site(const Topology& t, Vertex v, const Visit& visit) {
   const HalfEdge start = t.outgoing(v);
   HalfEdge h = start;
   do {
-    const HalfEdge last = t.prev(h);
-    for (HalfEdge g = t.next(h); g != last; g = t.next(g)) visit(index(t.tail(g)));
-    h = t.twin(last);
+    visit_corners(t, h, 1, t.size(t.face(h)) - 2, visit);
+    h = t.ccw(h);
   } while (h != start);
 }
 
 /// The same for the corner of a face: FaceSite's slots from that corner on.
 template <class Visit>
 void visit_site(const Topology& t, HalfEdge corner, const Visit& visit) {
-  HalfEdge h = corner;
-  do {
-    visit(index(t.tail(h)));
-    h = t.next(h);
-  } while (h != corner);
+  visit_corners(t, corner, 0, t.size(t.face(corner)), visit);
 }
 
 /// Where rings are cut: at the boundary and along sharp edges. `is_cut(h)` for a half-edge.
@@ -209,10 +218,9 @@ template <class Visit>
 void visit_faces_ccw(const Topology& t, HalfEdge first, Index count, bool ends_known, const Visit& visit) {
   HalfEdge h = first;
   for (Index k = 0; k < count; ++k) {
-    const HalfEdge last = t.prev(h);
-    for (HalfEdge g = t.next(t.next(h)); g != last; g = t.next(g)) visit(index(t.tail(g)));
-    if (!(ends_known && k + 1 == count)) visit(index(t.tail(last)));
-    if (k + 1 < count) h = t.twin(last);
+    const bool end_known = ends_known && k + 1 == count;
+    visit_corners(t, h, 2, t.size(t.face(h)) - (end_known ? 3 : 2), visit);
+    if (k + 1 < count) h = t.ccw(h);
   }
 }
 /// Clockwise: `first` is the half-edge of the face nearest to the site; each face shows its corners from its first edge on.
@@ -220,8 +228,7 @@ template <class Visit>
 void visit_faces_cw(const Topology& t, HalfEdge first, Index count, const Visit& visit) {
   HalfEdge h = first;
   for (Index k = 0; k < count; ++k) {
-    const HalfEdge last = t.prev(h);
-    for (HalfEdge g = t.next(h); g != last; g = t.next(g)) visit(index(t.tail(g)));
+    visit_corners(t, h, 1, t.size(t.face(h)) - 2, visit);
     if (k + 1 < count) h = t.next(t.twin(h));
   }
 }
@@ -233,9 +240,8 @@ void visit_wide_edge(const Topology& t, HalfEdge left, FanShape tail, FanShape h
   const HalfEdge right = has_right ? t.twin(left) : no_half_edge;
   visit(index(t.tail(left)));
   visit(index(t.head(left)));
-  for (HalfEdge h = t.next(t.next(left)); h != left; h = t.next(h)) visit(index(t.tail(h)));
-  if (has_right)
-    for (HalfEdge h = t.next(t.next(right)); h != right; h = t.next(h)) visit(index(t.tail(h)));
+  visit_corners(t, left, 2, t.size(t.face(left)) - 2, visit);
+  if (has_right) visit_corners(t, right, 2, t.size(t.face(right)) - 2, visit);
   // The tail has the left face counter-clockwise, the head the right one.
   if (tail.is_closed()) {
     if (tail.faces > 2) visit_faces_ccw(t, t.twin(t.prev(left)), tail.faces - 2, true, visit);
@@ -258,8 +264,7 @@ void visit_wide_face(const Topology& t, Face f, const std::vector<FanShape>& sha
   for (const Index v : t.vertices(f)) visit(v);
   for (Index i = 0; i < size; ++i) {
     if (!shapes[i].is_closed() && shapes[i].right() == 0) continue;
-    const HalfEdge g = t.twin(t.corner(f, i));
-    for (HalfEdge h = t.next(t.next(g)); h != g; h = t.next(h)) visit(index(t.tail(h)));
+    visit_corners(t, t.twin(t.corner(f, i)), 2, size - 2, visit);
   }
   for (Index i = 0; i < size; ++i) {
     const FanShape& shape = shapes[i];
