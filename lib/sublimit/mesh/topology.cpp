@@ -100,16 +100,16 @@ class Matcher {
     for (size_t h = 0; h < low.size(); ++h) low[h] = std::min(b.tail[h], head(static_cast<Index>(h)));
     const Buckets at_vertex(low, num_vertices_);
     nonmanifold_.assign(b.tail.size(), false);
-    std::vector<Index> halves;
+    std::vector<std::pair<Index, Index>> halves;  // by their other vertex
+    std::vector<Index> pair;
     for (Index v = 0; v < num_vertices_; ++v) {
-      halves.assign(at_vertex[v].begin(), at_vertex[v].end());
-      const auto high = [&](Index h) { return std::max(b.tail[h], head(h)); };
-      std::stable_sort(halves.begin(), halves.end(), [&](Index g, Index h) { return high(g) < high(h); });
-      for (auto first = halves.begin(); first != halves.end();) {
-        auto last = first;
-        while (last != halves.end() && high(*last) == high(*first)) ++last;
-        match_pair({&*first, static_cast<size_t>(last - first)});
-        first = last;
+      halves.clear();
+      for (const Index h : at_vertex[v]) halves.push_back({std::max(b.tail[h], head(h)), h});
+      std::sort(halves.begin(), halves.end());
+      for (auto first = halves.begin(), at = first; first != halves.end(); first = at) {
+        pair.clear();
+        for (; at != halves.end() && at->first == first->first; ++at) pair.push_back(at->second);
+        match_pair(pair);
       }
     }
     std::sort(b.nonmanifold_edges.begin(), b.nonmanifold_edges.end());
@@ -126,32 +126,32 @@ class Matcher {
       }
       return;
     }
-    std::vector<Index> shared{halves[0]};
+    shared_.assign(1, halves[0]);
     bool bad = false;
     for (const Index h : halves.subspan(1)) {
-      if (face_[shared.back()] == face_[h]) {
+      if (face_[shared_.back()] == face_[h]) {
         bad = true;
         add_nonmanifold({h});
         fault(Kind::repeated_edge, "face " + number(face_[h]) + " uses edge " + edge_name(h) + " twice; split the face");
         continue;
       }
-      if (shared.size() == 1 && b.tail[shared[0]] == b.tail[h]) {
+      if (shared_.size() == 1 && b.tail[shared_[0]] == b.tail[h]) {
         bad = true;
-        fault(Kind::inconsistent_winding, "faces " + number(face_[shared[0]]) + " and " + number(face_[h]) +
+        fault(Kind::inconsistent_winding, "faces " + number(face_[shared_[0]]) + " and " + number(face_[h]) +
                                               " use edge " + edge_name(h) + " in the same direction; flip one of them");
       }
-      shared.push_back(h);
+      shared_.push_back(h);
     }
-    if (shared.size() > 2) {
+    if (shared_.size() > 2) {
       bad = true;
-      fault(Kind::crowded_edge, "edge " + edge_name(shared[0]) + " is used by " + number(Index(shared.size())) +
-                                    " faces: " + faces_of(shared) + "; split it, or accept an infinitely sharp edge");
+      fault(Kind::crowded_edge, "edge " + edge_name(shared_[0]) + " is used by " + number(Index(shared_.size())) +
+                                    " faces: " + faces_of(shared_) + "; split it, or accept an infinitely sharp edge");
     }
     if (bad) {
-      add_nonmanifold(shared);
-    } else if (shared.size() == 2) {
-      b.twin[shared[0]] = shared[1];
-      b.twin[shared[1]] = shared[0];
+      add_nonmanifold(shared_);
+    } else if (shared_.size() == 2) {
+      b.twin[shared_[0]] = shared_[1];
+      b.twin[shared_[1]] = shared_[0];
     }
   }
   void add_nonmanifold(const std::vector<Index>& halves) {
@@ -183,7 +183,7 @@ class Matcher {
   }
 
   Index num_vertices_;
-  std::vector<Index> next_, face_;
+  std::vector<Index> next_, face_, shared_;
   std::vector<bool> nonmanifold_;  // per half-edge
 };
 
@@ -241,38 +241,50 @@ Topology TopologyBuilder::build() && {
 
 void TopologyBuilder::find_fans(Index num_vertices) {
   const auto count = static_cast<Index>(tail.size());
-  std::vector<Index> prev(count);
-  for (size_t f = 0; f + 1 < face_offsets.size(); ++f)
-    for (Index h = face_offsets[f]; h < face_offsets[f + 1]; ++h)
-      prev[h] = h == face_offsets[f] ? face_offsets[f + 1] - 1 : h - 1;
-  std::vector<bool> on_nonmanifold(count, false), seen(count, false);
+  UninitializedVector<Index> prev(count);
+  parallel_for(std::ssize(face_offsets) - 1, [&](std::int64_t f) {
+    prev[face_offsets[f]] = face_offsets[f + 1] - 1;
+    for (Index h = face_offsets[f] + 1; h < face_offsets[f + 1]; ++h) prev[h] = h - 1;
+  });
+  std::vector<bool> on_nonmanifold(count, false);
   for (const auto& group : nonmanifold_edges)
     for (const Index h : group) on_nonmanifold[h] = true;
+  const auto at_bad_edge = [&](Index h) { return on_nonmanifold[h] || on_nonmanifold[prev[h]]; };
 
-  const Buckets corners(tail, num_vertices);
   outgoing.assign(num_vertices, -1);
   degree.assign(num_vertices, 0);
+  for (Index h = 0; h < count; ++h) {
+    Index& first = outgoing[tail[h]];
+    if (first < 0 || (twin[h] < 0 && twin[first] >= 0)) first = h;
+    ++degree[tail[h]];
+  }
+  const auto is_manifold = [&](Index start, Index corners) {
+    for (Index h = start, n = 1;; ++n) {
+      if (at_bad_edge(h)) return false;
+      h = twin[prev[h]];
+      if (h < 0 || h == start) return n == corners;
+    }
+  };
+  std::vector<std::uint8_t> is_simple(num_vertices);
+  parallel_for(num_vertices,
+               [&](std::int64_t v) { is_simple[v] = degree[v] == 0 || is_manifold(outgoing[v], degree[v]); });
+  if (std::count(is_simple.begin(), is_simple.end(), true) == num_vertices) return;
+
+  const Buckets corners(tail, num_vertices);
+  std::vector<bool> seen(count, false);
   for (Index v = 0; v < num_vertices; ++v) {
-    const std::span<const Index> outs = corners[v];
-    degree[v] = static_cast<Index>(outs.size());
-    if (outs.empty()) continue;
+    if (is_simple[v]) continue;
     Fans fans{v, {}};
     const auto walk = [&](Index start) {
       fans.starts.push_back(start);
       for (Index h = start; h >= 0 && !seen[h]; h = twin[prev[h]]) seen[h] = true;
     };
-    bool bad_edge = false;
-    for (const Index h : outs) {
+    for (const Index h : corners[v])
       if (twin[h] < 0) walk(h);
-      bad_edge |= on_nonmanifold[h] || on_nonmanifold[prev[h]];
-    }
-    for (const Index h : outs)
+    for (const Index h : corners[v])
       if (!seen[h]) walk(h);
-    if (fans.starts.size() == 1 && !bad_edge) {
-      outgoing[v] = fans.starts[0];
-    } else {
-      nonmanifold_vertices.push_back(std::move(fans));
-    }
+    outgoing[v] = -1;
+    nonmanifold_vertices.push_back(std::move(fans));
   }
 }
 
