@@ -20,7 +20,9 @@ class MaskTable {
     using std::vector<T>::vector;
     std::vector<Index> kept;
     bool has_zeros = false;
+    FanShape tail, head;      ///< of a wide edge: the rings as far as they are used
     std::vector<T> on_edges;  ///< weights of points on a face's edges and on the edges beyond, if any is used
+    const T& nonzero(Index i) const { return (*this)[has_zeros ? kept[i] : i]; }
     Index count() const { return static_cast<Index>(has_zeros ? kept.size() : this->size()); }
   };
 
@@ -71,12 +73,14 @@ class MaskTable {
     return weights;
   }
 
+  /// Of a vertex that stays, its own weight alone.
   const Weights& vertex(const std::vector<Index>& face_sizes) {
     Weights& weights = vertices_[face_sizes];
     if (weights.empty()) {
       Index slots = 1;
       for (const Index size : face_sizes) slots += size - 2;
       weights = dense(masks_->vertex(Ring<T>(*masks_, level_, face_sizes)), slots);
+      if (weights.kept == std::vector<Index>{0}) weights = finished(Weights(1, weights[0]));
     }
     return weights;
   }
@@ -113,8 +117,26 @@ class MaskTable {
   const Weights& wide_edge_of(Index face_size, FanShape tail, FanShape head) {
     Weights& weights = wide_edges_[{tail, head}];
     if (weights.empty()) {
-      const WideEdgeSite<T> site(*masks_, level_, face_size, tail, head);
-      weights = dense(masks_->wide_edge(site), site.num_slots());
+      const auto site = [&] { return WideEdgeSite<T>(*masks_, level_, face_size, tail, head); };
+      Weights all = dense(masks_->wide_edge(site()), site().num_slots());
+      // Points of a ring that have no weight need no visit. The head's stand last, the tail's behind the edge's own faces.
+      const auto leave_out = [&](FanShape& ring, auto first) {
+        const FanShape known = ring;
+        if (!known.is_closed()) return;
+        ring = {2, -1};
+        const Index kept = site().num_slots(), count = static_cast<Index>(all.size()) - kept;
+        const auto begin = first(count);
+        if (std::all_of(begin, begin + count, [](const T& w) { return w == T(0); })) {
+          all.erase(begin, begin + count);
+        } else {
+          ring = known;
+        }
+      };
+      leave_out(head, [&](Index count) { return all.end() - count; });
+      leave_out(tail, [&](Index) { return all.begin() + 2 * (face_size - 1); });
+      weights = finished(std::move(all));
+      weights.tail = tail;
+      weights.head = head;
     }
     return weights;
   }

@@ -209,19 +209,22 @@ class RowMaker {
     for (Index i = 0; i < t_.size(f); ++i) shapes_.push_back(shape(t_.corner(f, i)));
     return masks_.wide_face(shapes_);
   }
-  /// The vertices of an element's site, in the order of its slots. After `smooth_weights` or `wide_weights` of the element.
+  /// The vertices of an element's site, in the order of its slots. After `wide_weights` of a face.
   template <class Visit>
-  void visit_element(Edge e, const Visit& visit) const {
+  void visit_element(Edge e, const Weights& weights, const Visit& visit) const {
     if (!wide_edge_) return visit_site(t_, e, visit);
-    const auto [tail, head] = shapes(e);
-    visit_wide_edge(t_, t_.half_edge(e), tail, head, visit);
+    visit_wide_edge(t_, t_.half_edge(e), weights.tail, weights.head, visit);
   }
   template <class Visit>
-  void visit_element(Face f, const Visit& visit) const {
+  void visit_element(Face f, const Weights&, const Visit& visit) const {
     wide_face_ ? visit_wide_face(t_, f, shapes_, visit) : visit_site(t_, f, visit);
   }
+  template <class Visit>
+  void visit_element(Vertex v, const Weights& weights, const Visit& visit) const {
+    weights.size() == 1 ? visit(index(v)) : visit_site(t_, v, visit);
+  }
   template <class Element, class Visit>
-  void visit_element(Element element, const Visit& visit) const {
+  void visit_element(Element element, const Weights&, const Visit& visit) const {
     visit_site(t_, element, visit);
   }
 
@@ -235,40 +238,44 @@ class RowMaker {
 
   template <class Element>
   Index write_smooth(Element element, const Weights& weights, Index* columns, T* values) {
+    gather(element, weights);
     const Index count = weights.count();
     Index written = 0;  // unless ranking serves
-    if (count <= 4) written = write_ranked<4>(element, weights, columns, values);
-    else if (count <= 8) written = write_ranked<8>(element, weights, columns, values);
-    else if (count <= 12) written = write_ranked<12>(element, weights, columns, values);
-    else if (count <= 16) written = write_ranked<16>(element, weights, columns, values);
+    if (count <= 4) written = write_ranked<4>(weights, columns, values);
+    else if (count <= 8) written = write_ranked<8>(weights, columns, values);
+    else if (count <= 12) written = write_ranked<12>(weights, columns, values);
+    else if (count <= 16) written = write_ranked<16>(weights, columns, values);
     if (written) return written;
     row_.clear();
-    add(element, T(1), weights);
+    add_gathered(T(1), weights);
     return write(merge(), columns, values);
   }
 
-  /// A row of up to N terms, or nothing if points coincide. The place of a column is the number of smaller ones:
+  /// The vertices of an element whose weights are not zero, in `gathered_`; there is room for 16 behind them.
+  template <class Element>
+  void gather(Element element, const Weights& weights) {
+    if (gathered_.size() < weights.size() + 16) gathered_.resize(weights.size() + 16);
+    Index* slot = gathered_.data();
+    visit_element(element, weights, [&](Index v) { *slot++ = v; });
+    if (!weights.has_zeros) return;
+    for (Index i = 0; i < weights.count(); ++i) gathered_[i] = gathered_[weights.kept[i]];
+  }
+
+  /// A row of up to N gathered terms, or nothing if points coincide. The place of a column is the number of smaller ones:
   /// comparisons without branches, which sorting would mispredict.
-  template <Index N, class Element>
-  Index write_ranked(Element element, const Weights& weights, Index* columns, T* values) {
+  template <Index N>
+  Index write_ranked(const Weights& weights, Index* columns, T* values) {
     const Index count = weights.count();
+    std::fill_n(gathered_.begin() + count, N - count, std::numeric_limits<Index>::max());
     Index slots[N], rank[N] = {};
-    std::fill_n(slots, N, std::numeric_limits<Index>::max());
-    if (!weights.has_zeros) {
-      Index* slot = slots;
-      visit_element(element, [&](Index v) { *slot++ = v; });
-    } else {
-      gathered_.clear();
-      visit_element(element, [&](Index v) { gathered_.push_back(v); });
-      for (Index i = 0; i < count; ++i) slots[i] = gathered_[weights.kept[i]];
-    }
+    std::copy_n(gathered_.begin(), N, slots);
     for (Index j = 0; j < N; ++j)  // all N: unrolled, the ranks stay in registers
       for (Index i = 0; i < N; ++i) rank[i] += slots[j] < slots[i];
     const Index pairs = std::accumulate(rank, rank + N, 0) - (N - count) * count;
     if (pairs != count * (count - 1) / 2) return 0;  // some pair is equal
     for (Index i = 0; i < count; ++i) {
       columns[rank[i]] = slots[i];
-      values[rank[i]] = weights.has_zeros ? weights[weights.kept[i]] : weights[i];
+      values[rank[i]] = weights.nonzero(i);
     }
     return count;
   }
@@ -302,11 +309,11 @@ class RowMaker {
 
   template <class Element>
   void add(Element element, const T& factor, const Weights& weights) {
-    const T* weight = weights.data();
-    visit_element(element, [&](Index v) {
-      if (*weight != T(0)) row_.push_back({v, factor * *weight});
-      ++weight;
-    });
+    gather(element, weights);
+    add_gathered(factor, weights);
+  }
+  void add_gathered(const T& factor, const Weights& weights) {
+    for (Index i = 0; i < weights.count(); ++i) row_.push_back({gathered_[i], factor * weights.nonzero(i)});
   }
   const std::vector<Term>& merge() {
     const auto less = [](const Term& a, const Term& b) { return a.first < b.first; };
