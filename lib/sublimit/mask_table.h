@@ -119,7 +119,8 @@ class MaskTable {
     if (weights.empty()) {
       const auto site = [&] { return WideEdgeSite<T>(*masks_, level_, face_size, tail, head); };
       Weights all = dense(masks_->wide_edge(site()), site().num_slots());
-      // Points of a ring that have no weight need no visit. The head's stand last, the tail's behind the edge's own faces.
+      // Points of a ring that have no weight need no visit. The head's stand last, the tail's behind the edge's own
+      // faces.
       const auto leave_out = [&](FanShape& ring, auto first) {
         const FanShape known = ring;
         if (!known.is_closed()) return;
@@ -169,8 +170,8 @@ class MaskTable {
   const Weights* uniform_edge_ = nullptr;
 };
 
-/// Calls visit(vertex) for the corners of a half-edge's face, from the `skip`-th after the half-edge's own on, `count` of
-/// them.
+/// Calls visit(vertex) for the corners of a half-edge's face, from the `skip`-th after the half-edge's own on, `count`
+/// of them.
 template <class Visit>
 void visit_corners(const Topology& t, HalfEdge h, Index skip, Index count, const Visit& visit) {
   const std::span<const Index> corners = t.vertices(t.face(h));

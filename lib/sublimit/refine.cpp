@@ -97,7 +97,7 @@ SparseMatrix selected_rows(const SparseMatrix& S, const std::vector<Index>& rows
   SparseMatrix result(static_cast<Index>(rows.size()), S.cols());
   std::int64_t count = 0;
   for (const Index r : rows) count += S.outerIndexPtr()[r + 1] - S.outerIndexPtr()[r];
-  result.resizeNonZeros(static_cast<Index>(count));
+  resize_nonzeros(result, count);
   Index at = 0;
   for (size_t i = 0; i < rows.size(); ++i) {
     result.outerIndexPtr()[i] = at;

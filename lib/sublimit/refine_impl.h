@@ -9,6 +9,12 @@
 
 namespace sublimit {
 
+/// Of numbers other than double, which sparse_product.h has: by Eigen.
+template <class T>
+SparseMatrixOf<T> product(const SparseMatrixOf<T>& A, const SparseMatrixOf<T>& B) {
+  return A * B;
+}
+
 /// Whether the limit of a face depends on its own corners alone: edge points on the edge, vertices that stay.
 template <class T>
 bool needs_neighbors(const Scheme<T>& scheme) {
@@ -58,7 +64,7 @@ LevelOf<T> next_level(const Scheme<T>& scheme, const LevelOf<T>& parent) {
     if (child.steps.empty()) {
       child.S.swap(S);
     } else {
-      SparseMatrixOf<T>(S * child.S).swap(child.S);
+      product(S, child.S).swap(child.S);
     }
     std::vector<bool> child_holes = refine_holes(*holes, *topology, refinement);
     child.holes = std::move(child_holes);

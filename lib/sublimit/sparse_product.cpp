@@ -140,6 +140,7 @@ Points apply(const SparseMatrix& S, const Points& points) {
     throw InvalidParameter("a matrix of " + shape(Index(S.rows()), Index(S.cols())) + " needs " +
                            std::to_string(S.cols()) + " points, not " + std::to_string(points.rows()));
   Points result(S.rows(), points.cols());
+  prefer_huge_pages(result.data(), result.size() * sizeof(double));
   const Index channels = static_cast<Index>(points.cols());
   parallel_for_blocks(S.rows(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     if (channels == 3) return apply_rows<3>(S, points.data(), result.data(), begin, end);
@@ -167,7 +168,7 @@ SparseMatrix product(const SparseMatrix& A, const SparseMatrix& B) {
     throw ResourceError("the product would have " + std::to_string(start.back()) +
                         " nonzeros, more than 32-bit indices count; use fewer levels or refine fewer faces");
   SparseMatrix P(A.rows(), B.cols());
-  P.resizeNonZeros(static_cast<Index>(start.back()));
+  resize_nonzeros(P, start.back());
   Index* const outer = P.outerIndexPtr();
   outer[A.rows()] = static_cast<Index>(start.back());
   parallel_for_blocks(A.rows(), [&](std::int64_t block, std::int64_t begin, std::int64_t end) {

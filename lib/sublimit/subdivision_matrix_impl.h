@@ -14,6 +14,7 @@
 #include "sublimit/base/parallel_for.h"
 #include "sublimit/mask_table.h"
 #include "sublimit/subdivision_matrix.h"
+#include "sublimit/uninitialized.h"
 
 namespace sublimit {
 namespace assembly {
@@ -241,10 +242,14 @@ class RowMaker {
     gather(element, weights);
     const Index count = weights.count();
     Index written = 0;  // unless ranking serves
-    if (count <= 4) written = write_ranked<4>(weights, columns, values);
-    else if (count <= 8) written = write_ranked<8>(weights, columns, values);
-    else if (count <= 12) written = write_ranked<12>(weights, columns, values);
-    else if (count <= 16) written = write_ranked<16>(weights, columns, values);
+    if (count <= 4)
+      written = write_ranked<4>(weights, columns, values);
+    else if (count <= 8)
+      written = write_ranked<8>(weights, columns, values);
+    else if (count <= 12)
+      written = write_ranked<12>(weights, columns, values);
+    else if (count <= 16)
+      written = write_ranked<16>(weights, columns, values);
     if (written) return written;
     row_.clear();
     add_gathered(T(1), weights);
@@ -261,8 +266,8 @@ class RowMaker {
     for (Index i = 0; i < weights.count(); ++i) gathered_[i] = gathered_[weights.kept[i]];
   }
 
-  /// A row of up to N gathered terms, or nothing if points coincide. The place of a column is the number of smaller ones:
-  /// comparisons without branches, which sorting would mispredict.
+  /// A row of up to N gathered terms, or nothing if points coincide. The place of a column is the number of smaller
+  /// ones: comparisons without branches, which sorting would mispredict.
   template <Index N>
   Index write_ranked(const Weights& weights, Index* columns, T* values) {
     const Index count = weights.count();
@@ -380,7 +385,7 @@ SparseMatrixOf<T> compacted(const SparseMatrixOf<T>& loose, const std::vector<st
   std::vector<std::int64_t> tight_start(start.size(), 0);
   for (size_t b = 0; b < end.size(); ++b) tight_start[b + 1] = tight_start[b] + end[b] - start[b];
   SparseMatrixOf<T> tight(loose.rows(), loose.cols());
-  tight.resizeNonZeros(static_cast<Index>(tight_start.back()));
+  resize_nonzeros(tight, tight_start.back());
   tight.outerIndexPtr()[loose.rows()] = static_cast<Index>(tight_start.back());
   parallel_for_blocks(loose.rows(), [&](std::int64_t block, std::int64_t first, std::int64_t last) {
     const std::int64_t from = start[block], to = tight_start[block], count = end[block] - from;
@@ -410,7 +415,7 @@ SparseMatrixOf<T> assemble(Index rows, Index columns, const MakeMaker& make_make
                         " nonzeros, more than 32-bit indices count; use fewer levels or refine fewer faces");
 
   SparseMatrixOf<T> S(rows, columns);
-  S.resizeNonZeros(static_cast<Index>(start.back()));
+  resize_nonzeros(S, start.back());
   Index* const outer = S.outerIndexPtr();
   outer[rows] = static_cast<Index>(start.back());
   std::vector<std::int64_t> block_end(start.size() - 1);

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Vectors whose new elements are not set to zero: big arrays that a parallel loop fills anyway are then touched once, by the
-// thread that fills them.
+// Vectors whose new elements are not set to zero: big arrays that a parallel loop fills anyway are then touched once, by
+// the thread that fills them, and lie in huge pages where the system has some.
+#include <cstdint>
 #include <memory>
 #include <new>
 #include <utility>
 #include <vector>
+
+#include "sublimit/base/huge_pages.h"
 
 namespace sublimit {
 
@@ -19,6 +22,12 @@ struct UninitializedAllocator : std::allocator<T> {
   template <class U>
   UninitializedAllocator(const UninitializedAllocator<U>&) {}
 
+  T* allocate(std::size_t count) {
+    T* const data = std::allocator<T>::allocate(count);
+    prefer_huge_pages(data, count * sizeof(T));
+    return data;
+  }
+
   template <class U>
   void construct(U* at) noexcept {
     ::new (static_cast<void*>(at)) U;  // default-initialised: left as it is
@@ -31,5 +40,13 @@ struct UninitializedAllocator : std::allocator<T> {
 
 template <class T>
 using UninitializedVector = std::vector<T, UninitializedAllocator<T>>;
+
+/// Room for the entries of a sparse matrix, which are to be filled in.
+template <class Matrix>
+void resize_nonzeros(Matrix& matrix, std::int64_t count) {
+  matrix.resizeNonZeros(count);
+  prefer_huge_pages(matrix.innerIndexPtr(), count * sizeof(*matrix.innerIndexPtr()));
+  prefer_huge_pages(matrix.valuePtr(), count * sizeof(*matrix.valuePtr()));
+}
 
 }  // namespace sublimit

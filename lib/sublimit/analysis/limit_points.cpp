@@ -57,7 +57,7 @@ SparseMatrix joined(const std::vector<Rows>& blocks, Index columns) {
   }
   SparseMatrix M(rows, columns);
   if (nonzeros > std::numeric_limits<Index>::max()) throw ResourceError("limit rows: more nonzeros than 32-bit indices count");
-  M.resizeNonZeros(static_cast<Index>(nonzeros));
+  resize_nonzeros(M, nonzeros);
   Index row = 0, at = 0;
   for (const Rows& block : blocks) {
     std::copy(block.columns.begin(), block.columns.end(), M.innerIndexPtr() + at);

@@ -76,7 +76,7 @@ Refinement refine_keep(const Topology& t) {
   r.from_vertices = t.num_vertices();
   r.faces_from_faces = t.num_faces();
   r.face_parent.resize(t.num_faces());
-  for (Index f = 0; f < t.num_faces(); ++f) r.face_parent[f] = f;
+  parallel_for(t.num_faces(), [&](std::int64_t f) { r.face_parent[f] = static_cast<Index>(f); });
   return r;
 }
 

@@ -10,9 +10,9 @@
 namespace sublimit {
 namespace {
 
-// Child half-edge that runs along the first half of corner i of face f, and along the second half (in the child at corner
-// i + 1). Corner i of the child at corner i is its vertex.
-// Function objects, not functions: PrimalHalves calls them inline.
+// Child half-edge that runs along the first half of corner i of face f, and along the second half (in the child at
+// corner i + 1). Corner i of the child at corner i is its vertex. Function objects, not functions: PrimalHalves calls
+// them inline.
 constexpr auto first_half = [](Index h) { return 12 * (h / 3) + 4 * (h % 3); };
 constexpr auto second_half = [](Index h) { return 12 * (h / 3) + 3 * ((h + 1) % 3) + h % 3; };
 
