@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Vectors whose new elements are not set to zero: big arrays that a parallel loop fills anyway are then touched once, by
-// the thread that fills them, and lie in huge pages where the system has some.
+// Vectors whose new elements are not set to zero: big arrays that a parallel loop fills anyway are then touched once,
+// by the thread that fills them, and lie in huge pages where the system has some.
 #include <cstdint>
 #include <memory>
 #include <new>

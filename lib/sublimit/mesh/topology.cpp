@@ -258,12 +258,12 @@ void TopologyBuilder::find_fans(Index num_vertices) {
     if (first < 0 || (twin[h] < 0 && twin[first] >= 0)) first = h;
     ++degree[tail[h]];
   }
-  const auto is_manifold = [&](Index start, Index corners) {
-    for (Index h = start, n = 1;; ++n) {
-      if (at_bad_edge(h)) return false;
+  const auto is_manifold = [&](Index start, Index corners) {  // one walk comes past all corners, and no bad edge
+    for (Index h = start, n = 1; n <= corners && !at_bad_edge(h); ++n) {
       h = twin[prev[h]];
       if (h < 0 || h == start) return n == corners;
     }
+    return false;
   };
   std::vector<std::uint8_t> is_simple(num_vertices);
   parallel_for(num_vertices,
