@@ -20,18 +20,36 @@ struct NamedPolygon {
   ControlPolygon polygon;
 };
 
+/// For schemes that take derivatives: half the way from the point before to the one behind.
+void add_tangents(ControlPolygon& polygon) {
+  const Index n = polygon.num_points();
+  const bool closed = polygon.curves[0].closed;
+  polygon.tangents.resize(n, 2);
+  for (Index i = 0; i < n; ++i) {
+    const Index before = closed ? (i + n - 1) % n : std::max(i - 1, 0),
+                behind = closed ? (i + 1) % n : std::min(i + 1, n - 1);
+    polygon.tangents.row(i) = (polygon.points.row(behind) - polygon.points.row(before)) / 2;
+  }
+}
+
 std::vector<NamedPolygon> polygons() {
   Points open(7, 2), closed(7, 2);
   open << 0, 0, .8, 2.6, 2, 2.6, 2.6, .4, 3.6, .4, 4.4, 2.8, 5.6, 1.2;
   closed << 0, 0, 2.4, .7, 5, 0, 4.4, 2, 5, 3.4, 2.2, 2.3, .3, 3.4;
-  return {{"open", "Open polygon", polygon_through(open)}, {"closed", "Closed polygon", polygon_through(closed, true)}};
+  std::vector<NamedPolygon> both{{"open", "Open polygon", polygon_through(open)},
+                                 {"closed", "Closed polygon", polygon_through(closed, true)}};
+  for (NamedPolygon& named : both) add_tangents(named.polygon);
+  return both;
 }
 
 /// The points of levels 0, 1, ...
 std::vector<Points> points_of_levels(const CurveScheme<double>& scheme, const ControlPolygon& polygon, int levels) {
   std::vector<Points> points;
-  for (const CurveLevel& level : refine(scheme, polygon, levels))
-    points.push_back(level.S * (points.empty() ? polygon.points : points.back()));
+  Points x = unknowns(scheme, polygon);
+  for (const CurveLevel& level : refine(scheme, polygon, levels)) {
+    x = level.S * x;
+    points.push_back(refined_polygon(level, x).points);
+  }
   return points;
 }
 
