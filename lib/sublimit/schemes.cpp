@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "sublimit/curve_schemes.h"
+#include "sublimit/geometric_schemes.h"
 
 namespace sublimit {
 namespace {
@@ -30,6 +31,7 @@ std::vector<std::string> nearest_scheme_names(const std::string& name, int count
   std::vector<std::string> names;
   for (const SchemeEntry<double>& entry : registry<double>) names.push_back(entry.name);
   for (const CurveSchemeEntry<double>& entry : curve_registry<double>) names.push_back(entry.name);
+  for (const auto& entry : geometric_registry<ControlPolygon>) names.push_back(entry.name);
   // A prefix ("catmull") counts as nearer than any misspelling.
   const auto distance = [&](const std::string& other) {
     return !name.empty() && other.starts_with(name) ? 0 : edit_distance(name, other);

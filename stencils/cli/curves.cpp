@@ -7,6 +7,7 @@
 #include "sublimit/base/error.h"
 #include "sublimit/base/read_file.h"
 #include "sublimit/curve_schemes.h"
+#include "sublimit/geometric_schemes.h"
 #include "sublimit/matrix_market.h"
 #include "sublimit/mesh/file_extension.h"
 #include "sublimit/mesh/polygon_files.h"
@@ -19,17 +20,25 @@ std::string curve_scheme_names() {
   std::string names;
   for (const CurveSchemeEntry<double>& entry : curve_registry<double>)
     names += (names.empty() ? "" : ", ") + std::string(entry.name);
+  for (const auto& entry : geometric_registry<ControlPolygon>) names += ", " + std::string(entry.name);
   return names;
 }
 
-CurveScheme<double> scheme_of(const Common& common) {
+/// Options of the scheme, without those of meshes.
+SchemeOptions curve_options(const Common& common) {
   for (const auto& [name, value] : {std::pair("--boundary", common.boundary), std::pair("--creasing", common.creasing),
                                     std::pair("--triangles", common.triangles)})
     if (!value.empty()) throw InvalidOption(std::string(name) + " is for meshes; " + common.scheme + " refines curves");
-  return *find_curve_scheme(common.scheme, given_options(common));
+  return given_options(common);
 }
 
-ControlPolygon load_polygon(const CurveJob& job, const CurveScheme<double>& scheme, Progress& progress) {
+CurveScheme<double> scheme_of(const Common& common) {
+  return *find_curve_scheme(common.scheme, curve_options(common));
+}
+
+}  // namespace
+
+ControlPolygon load_polygon(const CurveJob& job, Progress& progress, bool tangents) {
   const Common& common = *job.common;
   limit_threads(common);
   const std::string extension = file_extension(common.mesh);
@@ -37,7 +46,7 @@ ControlPolygon load_polygon(const CurveJob& job, const CurveScheme<double>& sche
     throw UnsupportedTopology(common.mesh + ": a mesh; " + common.scheme +
                               " refines curves, a .csv of points or the lines of an .obj");
   progress.step("reading " + common.mesh);
-  ControlPolygon polygon = read_polygon(common.mesh, scheme.masks.unknowns() > 1);
+  ControlPolygon polygon = read_polygon(common.mesh, tangents);
   if (job.closed)
     for (ControlPolygon::Curve& curve : polygon.curves) curve.closed = true;
   progress.step("");
@@ -46,13 +55,14 @@ ControlPolygon load_polygon(const CurveJob& job, const CurveScheme<double>& sche
   return polygon;
 }
 
-/// OBJ holds no tangents and no points of more than three coordinates; told before anything is computed.
 void check_curve_output(const CurveJob& job) {
   check_output_path(job.output, {".csv", ".obj"});
   if (!job.matrix.empty()) check_output_path(job.matrix, {".mtx"});
   if (job.tangents && file_extension(job.output) != ".csv")
     throw InvalidOption("cannot write " + job.output + ": tangents are columns of a .csv");
 }
+
+namespace {
 
 struct Refined {
   ControlPolygon polygon;
@@ -61,7 +71,7 @@ struct Refined {
 };
 
 Refined refined(const CurveJob& job, const CurveScheme<double>& scheme, Progress& progress) {
-  Refined result{load_polygon(job, scheme, progress), {}, {}};
+  Refined result{load_polygon(job, progress, scheme.masks.unknowns() > 1), {}, {}};
   if (file_extension(job.output) == ".obj" && result.polygon.dimension() > 3)
     throw InvalidOption(fmt::format("cannot write {}: an .obj has points of 3 coordinates, these have {}; write a .csv",
                                     job.output, result.polygon.dimension()));
@@ -78,6 +88,8 @@ Refined refined(const CurveJob& job, const CurveScheme<double>& scheme, Progress
 
 bool is_curve_job(const Common& common) {
   for (const CurveSchemeEntry<double>& entry : curve_registry<double>)
+    if (common.scheme == entry.name) return true;
+  for (const auto& entry : geometric_registry<ControlPolygon>)
     if (common.scheme == entry.name) return true;
   return false;
 }
@@ -99,6 +111,8 @@ void refuse_polygon(const Common& common) {
 }
 
 int refine_curves(const CurveJob& job) {
+  if (const auto scheme = find_geometric_scheme(job.common->scheme, curve_options(*job.common)))
+    return refine_geometric(job, *scheme);
   check_curve_output(job);
   Progress progress(job.common->quiet);
   const CurveScheme<double> scheme = scheme_of(*job.common);
@@ -115,6 +129,8 @@ int refine_curves(const CurveJob& job) {
 }
 
 int limit_curves(const CurveJob& job) {
+  if (const auto scheme = find_geometric_scheme(job.common->scheme, curve_options(*job.common)))
+    return limit_geometric(job, *scheme);
   check_curve_output(job);
   Progress progress(job.common->quiet);
   const CurveScheme<double> scheme = scheme_of(*job.common);

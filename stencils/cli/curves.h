@@ -2,6 +2,7 @@
 #pragma once
 // What `refine` and `limit` do when the scheme is one for curves.
 #include "common.h"
+#include "sublimit/geometric_scheme.h"
 
 namespace sublimit::cli {
 
@@ -22,5 +23,13 @@ void refuse_polygon(const Common& common);
 
 int refine_curves(const CurveJob& job);
 int limit_curves(const CurveJob& job);
+
+/// The same for schemes without a matrix, which have tangents in their CSV.
+int refine_geometric(const CurveJob& job, const GeometricCurveScheme& scheme);
+int limit_geometric(const CurveJob& job, const GeometricCurveScheme& scheme);
+
+/// What both kinds share. OBJ holds no tangents and no points of more than three coordinates; told early.
+void check_curve_output(const CurveJob& job);
+ControlPolygon load_polygon(const CurveJob& job, Progress& progress, bool tangents = false);
 
 }  // namespace sublimit::cli

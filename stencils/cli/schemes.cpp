@@ -5,6 +5,7 @@
 
 #include "gallery.h"
 #include "sublimit/curve_schemes.h"
+#include "sublimit/geometric_schemes.h"
 
 namespace sublimit::cli {
 namespace {
@@ -70,6 +71,22 @@ void add_curves(nlohmann::ordered_json& all) {
                    {"options", options},
                    {"source", scheme.source}});
   }
+  for (const GeometricCurveScheme& scheme : all_geometric_schemes()) {
+    const GeometricClaims& claims = scheme.claims;
+    all.push_back({{"name", scheme.name},
+                   {"kind", "curve"},
+                   {"linear", false},
+                   {"arity", 2},
+                   {"splits", {"primal"}},
+                   {"limit", claims.limit},
+                   {"geometric_continuity", claims.regular},
+                   {"exponent", claims.exponent},
+                   {"reproduces", claims.reproduces},
+                   {"interpolates", claims.interpolates},
+                   {"convex_hull", false},
+                   {"options", nlohmann::ordered_json::object()},
+                   {"source", scheme.source}});
+  }
 }
 
 void print_curves() {
@@ -85,6 +102,13 @@ void print_curves() {
                scheme.masks.dual() ? "dual" : "primal", claims.limit, claims.regular, claims.exponent, text, scheme.source);
     for (const OptionInfo& info : scheme.options) print(info);
   }
+  for (const GeometricCurveScheme& scheme : all_geometric_schemes()) {
+    const GeometricClaims& claims = scheme.claims;
+    const std::string text = claims.reproduces + (claims.interpolates ? ", interpolates" : "") + ", not linear";
+    fmt::print("{:<19} {:<6} {:<7} {:<26} G^{:<6} {:<14} {:<34} {}\n", scheme.name, "curve", "primal", claims.limit,
+               claims.regular, claims.exponent, text, scheme.source);
+  }
+  fmt::print("\nNot linear: no matrix; points with unit tangents in a CSV x,y,tx,ty or x,y,z,tx,ty,tz. G: by arc length.\n");
 }
 
 int run(bool as_json) {

@@ -2,6 +2,7 @@
 #pragma once
 // Control polygons as a file or a caller gives them: points of any dimension and the curves that run through them.
 // Plain data.
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,8 @@ struct ControlPolygon {
   std::vector<Curve> curves;
 
   std::vector<std::string> columns;   ///< names of the coordinates, then of the tangents; empty if the file has none
+  std::string file;                   ///< where the points come from; empty if from no file, or one without lines
+  std::vector<std::int64_t> lines;    ///< of the points in that file
   std::vector<std::string> warnings;  ///< what the reader accepted but wants known, each with file:line
 
   Index num_points() const { return static_cast<Index>(points.rows()); }

@@ -42,10 +42,12 @@ class CsvReader {
       for (size_t i = 0; i < fields.size(); ++i) values_.push_back(number(fields[i], i));
       if (between) polygon_.curves.emplace_back();
       between = false;
+      polygon_.lines.push_back(line_);
       polygon_.curves.back().points.push_back(checked_index(num_points_++, name_, "points"));
     }
     if (num_points_ == 0)
       throw InvalidMesh(name_ + ": no points; write one a line, its coordinates separated by commas");
+    polygon_.file = name_;
     const Points all = Eigen::Map<const Points>(values_.data(), num_points_, columns_);
     polygon_.points = tangents_ ? Points(all.leftCols(columns_ / 2)) : all;
     if (tangents_) polygon_.tangents = all.rightCols(columns_ / 2);

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// Schemes that are not linear: no masks, no matrix, but a step from data to data and the limit in closed form. `Data`
+// is what the scheme refines: a ControlPolygon with tangents for curves, and whatever a scheme of surfaces needs.
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "sublimit/base/error.h"
+#include "sublimit/mesh/control_polygon.h"
+#include "sublimit/scheme_options.h"
+
+namespace sublimit {
+
+/// What such a scheme is said to do, each claim with its law in the tests.
+struct GeometricClaims {
+  int regular = 0;            ///< the limit is G^regular
+  bool interpolates = false;  ///< old data stay, bitwise
+  std::string reproduces;     ///< in words
+  std::string limit;          ///< in words
+  std::string exponent;       ///< Hoelder exponent of the limit by arc length, in words
+};
+
+template <class Data>
+struct GeometricScheme {
+  std::string name;
+  std::string source;  ///< author, year, title
+  /// Data fit for `refine` and `limit`.
+  /// @throws InvalidMesh, UnsupportedTopology  what the scheme cannot take, where, and what would be right
+  std::function<Data(Data)> checked;
+  std::function<Data(const Data&)> refine;  ///< one step, of checked or refined data
+  /// Data of level `levels`, on the exact limit of checked data.
+  std::function<Data(const Data&, int levels)> limit;
+  /// Notes worth telling about checked data: where the scheme fell back on another rule.
+  std::function<std::vector<std::string>(const Data&)> notes;
+  GeometricClaims claims;
+  std::vector<OptionInfo> options = {};
+};
+using GeometricCurveScheme = GeometricScheme<ControlPolygon>;
+
+/// Data of level `levels`.
+/// @param progress  called before each level with its number, if given
+template <class Data>
+Data refine(const GeometricScheme<Data>& scheme, const Data& data, int levels,
+            const std::function<void(int)>& progress = {}) {
+  if (levels < 0) throw InvalidParameter("levels is " + std::to_string(levels) + "; it must be 0 or more");
+  Data result = scheme.checked(data);
+  for (int k = 1; k <= levels; ++k) {
+    if (progress) progress(k);
+    result = scheme.refine(result);
+  }
+  return result;
+}
+
+}  // namespace sublimit

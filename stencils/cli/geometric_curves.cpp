@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// Curves by schemes without a matrix.
+#include <fmt/core.h>
+
+#include <cmath>
+#include <limits>
+
+#include "curves.h"
+#include "sublimit/base/error.h"
+#include "sublimit/mesh/polygon_files.h"
+
+namespace sublimit::cli {
+namespace {
+
+/// The checked polygon; says where the scheme falls back on another rule.
+ControlPolygon checked_polygon(const CurveJob& job, const GeometricCurveScheme& scheme, Progress& progress) {
+  if (job.levels < 0) throw InvalidParameter(fmt::format("levels is {}; it must be 0 or more", job.levels));
+  ControlPolygon polygon = scheme.checked(load_polygon(job, progress, true));
+  if (std::ldexp(polygon.num_points(), job.levels) > std::numeric_limits<Index>::max())
+    throw ResourceError(
+        fmt::format("{} levels of {} points are more points than 32-bit indices count; use fewer levels", job.levels,
+                    polygon.num_points()));
+  if (!job.common->quiet)
+    for (const std::string& note : scheme.notes(polygon))
+      fmt::print(stderr, "sublimit: note: {}: {}\n", job.common->mesh, note);
+  return polygon;
+}
+
+}  // namespace
+
+int refine_geometric(const CurveJob& job, const GeometricCurveScheme& scheme) {
+  check_curve_output(job);
+  if (!job.matrix.empty())
+    throw InvalidOption(fmt::format("cannot write {}: {} is not linear: there is no matrix", job.matrix, scheme.name));
+  Progress progress(job.common->quiet);
+  ControlPolygon result = refine(scheme, checked_polygon(job, scheme, progress), job.levels,
+                                 [&](int level) { progress.step(fmt::format("level {} of {}", level, job.levels)); });
+  progress.step("writing " + job.output);
+  write_polygon(job.output, result);
+  return 0;
+}
+
+int limit_geometric(const CurveJob& job, const GeometricCurveScheme& scheme) {
+  check_curve_output(job);
+  Progress progress(job.common->quiet);
+  const ControlPolygon polygon = checked_polygon(job, scheme, progress);
+  progress.step("limits");
+  ControlPolygon result = scheme.limit(polygon, job.levels);
+  if (!job.tangents) {
+    result.tangents.resize(0, 0);
+    if (!result.columns.empty()) result.columns.resize(result.dimension());
+  }
+  progress.step("writing " + job.output);
+  write_polygon(job.output, result);
+  progress.step("");
+  if (!job.common->quiet)
+    fmt::print("{}: {} limit points of level {}{}\n", job.output, result.num_points(), job.levels,
+               job.tangents ? ", 0 without a tangent" : "");
+  return 0;
+}
+
+}  // namespace sublimit::cli
