@@ -64,9 +64,11 @@ Vector3d CircularArc::centre() const {
 HermitePoint middle_of_arc(const HermitePoint& a, const HermitePoint& b) {
   const Vector3d chord = b.position - a.position, sum = a.tangent + b.tangent;
   const double width = chord.stableNorm();
+  const Vector3d rise = (a.tangent - b.tangent) / 2;
   const double cosine = width > 0 ? sum.dot(chord / width) / 2 : 1;
-  return {a.position + chord / 2 + (a.tangent - b.tangent) * (width / (4 * (1 + cosine))),
-          middle_tangent(a.tangent, b.tangent, chord, width)};
+  // 1/(1 + cosine); almost whole circles would lose digits in the sum.
+  const double inverse = cosine < 0 ? (1 - cosine) / rise.squaredNorm() : 1 / (1 + cosine);
+  return {a.position + chord / 2 + rise * (width / 2 * inverse), middle_tangent(a.tangent, b.tangent, chord, width)};
 }
 
 }  // namespace sublimit

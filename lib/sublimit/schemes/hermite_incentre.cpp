@@ -16,7 +16,8 @@ using Eigen::Vector3d;
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
 constexpr double pi = std::numbers::pi;
-constexpr double back_tolerance = 1e-6;  // radians: beyond it arcs would be 10^6 times larger than their leg
+constexpr double most_length = 1000;     // of a biarc in legs
+constexpr double whole_circle = 1e-4;    // radians between a half turn and pi: nearer, an arc is no arc any more
 constexpr double least_ratio = 1e-6;     // of angles: below it the incentre is that near to an end of the leg
 constexpr double unit_tolerance = 1e-6;  // of lengths of given tangents
 
@@ -54,7 +55,7 @@ EqualChords equal_chords(const HermitePoint& a, const HermitePoint& b, const Vec
           length};
 }
 
-HermitePoint fallback(const HermitePoint& a, const HermitePoint& b, const Vector3d& u, const Vector3d& n) {
+EqualChords shorter_equal_chords(const HermitePoint& a, const HermitePoint& b, const Vector3d& u, const Vector3d& n) {
   // In the plane of u and n, the angle from b's tangent to a's.
   const double su = a.tangent.dot(u), sn = a.tangent.dot(n), tu = b.tangent.dot(u), tn = b.tangent.dot(n);
   double sine = tu * sn - tn * su;
@@ -63,9 +64,9 @@ HermitePoint fallback(const HermitePoint& a, const HermitePoint& b, const Vector
   if (cosine < 0 && std::abs(sine) < 64 * eps) sine = su < 0 ? 0.0 : -0.0;
   const double turn = std::atan2(sine, cosine);
   const EqualChords principal = equal_chords(a, b, u, n, turn / 4);
-  if (std::abs(turn) < 1) return principal.joint;  // the other sense would turn by more than 5
+  if (std::abs(turn) < 1) return principal;  // the other sense would turn by more than 5
   const EqualChords other = equal_chords(a, b, u, n, (turn - std::copysign(2 * pi, turn)) / 4);
-  return other.length < principal.length * (1 - 1e-9) ? other.joint : principal.joint;
+  return other.length < principal.length * (1 - 1e-9) ? other : principal;
 }
 
 }  // namespace
@@ -78,20 +79,22 @@ LegStep incentre_step(const HermitePoint& a, const HermitePoint& b, double scale
   const Vector3d &s = a.tangent, &t = b.tangent;
   const double noise = 64 * eps * (1 + scale / l);  // of the direction of the leg
 
-  if ((s + u).norm() + (t + u).norm() < 2 * back_tolerance) return {LegKind::back, {a.position + leg / 2, u}};
   // Arcs before all else: refined data are arcs up to rounding, and angles of short legs are not to be trusted.
-  if ((t - reflected(s, u)).norm() <= noise && s.dot(u) > -1 + back_tolerance * back_tolerance / 4)
+  if ((t - reflected(s, u)).norm() <= noise && (s + u).norm() > whole_circle)
     return {LegKind::arc, middle_of_arc(a, b)};
+
+  const auto fallback = [&](LegKind kind, const Vector3d& n) -> LegStep {
+    const EqualChords biarc = shorter_equal_chords(a, b, u, n);
+    if (biarc.length > most_length) return {LegKind::back, {a.position + leg / 2, u}};
+    return {kind, biarc.joint};
+  };
 
   // The plane of the leg and the tangent that leaves it more.
   const Vector3d rise_s = across(s, u), rise_t = across(t, u);
   const bool by_s = rise_s.squaredNorm() >= rise_t.squaredNorm();
   const Vector3d &more = by_s ? rise_s : rise_t, &less = by_s ? rise_t : rise_s;
   Vector3d n = more.norm() > noise ? direction_across(more, u) : some_direction_across(u);
-  if (across(less, n).norm() > noise) {
-    const Vector3d difference = rise_s - rise_t;
-    return {LegKind::twisted, fallback(a, b, u, direction_across(difference, u))};
-  }
+  if (across(less, n).norm() > noise) return fallback(LegKind::twisted, direction_across(rise_s - rise_t, u));
   double alpha = angle(s, u, n), beta = -angle(t, u, n);
   if (pi - std::abs(alpha) <= noise) alpha = std::copysign(alpha, beta);
   if (pi - std::abs(beta) <= noise) beta = std::copysign(beta, alpha);
@@ -101,7 +104,8 @@ LegStep incentre_step(const HermitePoint& a, const HermitePoint& b, double scale
     n = -n;
   }
   if (std::min(alpha, beta) <= std::max(noise, least_ratio * std::max(alpha, beta)))
-    return {LegKind::inflection, fallback(a, b, u, n)};
+    return fallback(LegKind::inflection, n);
+  if (2 * pi - alpha - beta < 2 * pi / most_length) return {LegKind::back, {a.position + leg / 2, u}};
 
   // The incentre from the nearer end.
   const double sine = std::sin((alpha + beta) / 2);

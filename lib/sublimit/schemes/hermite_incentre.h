@@ -18,7 +18,8 @@
 // angles sigma and tau of the tangents from the leg, the point is seen from P under (sigma - tau)/4 and the new tangent
 // has the angle -(sigma + tau)/2. In space it is the rotation that takes one tangent to the other about an axis at
 // right angles to the leg; of its two senses the one with the shorter curve is taken. Where both tangents point
-// straight back along the leg there is no such biarc: such a leg is first halved, tangent along the leg.
+// straight back along the leg there is no such biarc, or it is longer than a thousand legs: such a leg is first halved,
+// the tangent of its middle being its direction.
 #include "sublimit/circular_arc.h"
 #include "sublimit/geometric_scheme.h"
 
@@ -29,7 +30,7 @@ enum class LegKind {
   convex,      ///< has an incentre
   inflection,  ///< angles on different sides of the leg, or one of them zero
   twisted,     ///< tangents and leg not in one plane
-  back,        ///< both tangents point back along the leg, to 1e-6
+  back,        ///< both tangents point back along the leg, nearly
 };
 
 /// One step of the scheme on one leg.

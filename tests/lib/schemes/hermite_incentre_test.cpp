@@ -256,7 +256,7 @@ TEST(HermiteIncentre, OldDataStayAndTangentsStayUnits) {
 
 TEST(HermiteIncentre, EveryPairOfAnglesConverges) {
   // Also zero, right, opposite, nearly so; in the plane and twisted out of it. Points close up, nothing runs away.
-  const double angles[] = {0, 1e-16, 1e-9, 1e-5, 0.3, pi / 2, 2, pi - 1e-5, pi - 1e-9, pi};
+  const double angles[] = {0, 1e-16, 1e-9, 1e-5, 0.3, pi / 2, 2, pi - 0.01, pi - 1e-5, pi - 1e-9, pi};
   for (const double a : angles)
     for (const double b : angles)
       for (const int sign : {1, -1})
@@ -269,9 +269,8 @@ TEST(HermiteIncentre, EveryPairOfAnglesConverges) {
           curve.tangents.row(1) = turn * direction(sign * b);
           const ControlPolygon fine = scheme.limit(scheme.checked(curve), 10);
           ASSERT_TRUE(fine.points.allFinite() && fine.tangents.allFinite());
-          const bool back = a > 3.1 && b > 3.1;
           const double size = diagonal(fine.points);
-          EXPECT_LE(size, back ? 1e7 : 40);
+          EXPECT_LE(size, 500);
           for (Index i = 0; i + 1 < fine.num_points(); ++i)
             EXPECT_LE((fine.points.row(i + 1) - fine.points.row(i)).norm(), 0.02 * size);
         }
