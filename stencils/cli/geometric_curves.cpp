@@ -31,7 +31,8 @@ ControlPolygon checked_polygon(const CurveJob& job, const GeometricCurveScheme& 
 int refine_geometric(const CurveJob& job, const GeometricCurveScheme& scheme) {
   check_curve_output(job);
   if (!job.matrix.empty())
-    throw InvalidOption(fmt::format("cannot write {}: {} is not linear: there is no matrix", job.matrix, scheme.name));
+    throw InvalidOption(
+        fmt::format("cannot write {}: {}: it is not linear: there is no matrix", job.matrix, scheme.name));
   Progress progress(job.common->quiet);
   ControlPolygon result = refine(scheme, checked_polygon(job, scheme, progress), job.levels,
                                  [&](int level) { progress.step(fmt::format("level {} of {}", level, job.levels)); });
