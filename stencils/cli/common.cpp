@@ -92,6 +92,10 @@ void add_mesh(CLI::App& command, Common& common, bool scheme_required) {
 
 Scheme<double> scheme_or_throw(const std::string& name, const SchemeOptions& options) {
   if (std::optional<Scheme<double>> scheme = find_scheme(name, options)) return *std::move(scheme);
+  Common common;
+  common.scheme = name;
+  if (is_curve_job(common))
+    throw InvalidOption(name + " refines curves; a scheme of surfaces is needed here (`sublimit schemes` lists all)");
   std::string offers;
   for (const std::string& other : nearest_scheme_names(name)) offers += (offers.empty() ? "" : ", ") + other;
   throw InvalidOption("unknown scheme '" + name + "'; the nearest are " + offers + " (`sublimit schemes` lists all)");

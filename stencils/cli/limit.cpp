@@ -21,6 +21,7 @@ struct Options {
 int run(const Options& options) {
   if (is_curve_job(options.common))
     return limit_curves({&options.common, options.levels, options.output, "", options.closed, options.normals});
+  scheme_or_throw(options.common.scheme, given_options(options.common));  // a misspelt name may be one of curves
   check_output_path(options.output, {".obj", ".ply"});
   Progress progress(options.common.quiet);
   const Loaded loaded = load(options.common, progress);

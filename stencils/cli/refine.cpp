@@ -20,6 +20,7 @@ struct Options {
 int run(const Options& options) {
   if (is_curve_job(options.common))
     return refine_curves({&options.common, options.levels, options.output, options.matrix, options.closed});
+  scheme_or_throw(options.common.scheme, given_options(options.common));  // a misspelt name may be one of curves
   check_output_path(options.output, {".obj", ".ply"});
   if (!options.matrix.empty()) check_output_path(options.matrix, {".mtx"});
   Progress progress(options.common.quiet);

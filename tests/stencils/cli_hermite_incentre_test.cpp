@@ -82,7 +82,9 @@ TEST(CliHermiteIncentre, HasNoMatrixAndIsListed) {
   expect_failure(sublimit({"refine", in, "-s", "hermite-incentre", "-l", "1", "-o", out, "--matrix",
                            (directory / "m.mtx").string()}),
                  2, {"m.mtx", "it is not linear: there is no matrix"});
-  expect_failure(sublimit({"refine", in, "-s", "hermite-incenter", "-l", "1", "-o", out}), 2, {"hermite-incentre"});
+  expect_failure(sublimit({"refine", in, "-s", "hermite-incenter", "-l", "1", "-o", (directory / "o.csv").string()}), 2,
+                 {"hermite-incentre"});
+  expect_failure(sublimit({"info", in, "-s", "hermite-incentre"}), 2, {"hermite-incentre refines curves"});
   expect_failure(sublimit({"refine", in, "-s", "hermite-incentre", "-l", "31", "-o", out}), 4, {"fewer levels"});
   expect_failure(sublimit({"refine", in, "-s", "hermite-incentre", "-l", "-1", "-o", out}), 2, {"-1"});
   EXPECT_EQ(directory.num_files(), 1);
