@@ -90,7 +90,7 @@ void add_curves(nlohmann::ordered_json& all) {
 }
 
 void print_curves() {
-  fmt::print("\n{:<19} {:<6} {:<7} {:<26} {:<8} {:<14} {:<34} {}\n", "scheme", "kind", "split", "limit", "smooth",
+  fmt::print("\n{:<19} {:<6} {:<7} {:<30} {:<8} {:<14} {:<34} {}\n", "scheme", "kind", "split", "limit", "smooth",
              "exponent", "claims", "source");
   for (const CurveScheme<double>& scheme : all_curve_schemes()) {
     const CurveClaims& claims = scheme.claims;
@@ -98,14 +98,14 @@ void print_curves() {
     if (claims.generates != claims.reproduces) text += fmt::format(", generates {}", claims.generates);
     if (claims.interpolates) text += ", interpolates";
     if (claims.convex_hull) text += ", convex hull";
-    fmt::print("{:<19} {:<6} {:<7} {:<26} C^{:<6} {:<14} {:<34} {}\n", scheme.name, "curve",
+    fmt::print("{:<19} {:<6} {:<7} {:<30} C^{:<6} {:<14} {:<34} {}\n", scheme.name, "curve",
                scheme.masks.dual() ? "dual" : "primal", claims.limit, claims.regular, claims.exponent, text, scheme.source);
     for (const OptionInfo& info : scheme.options) print(info);
   }
   for (const GeometricCurveScheme& scheme : all_geometric_schemes()) {
     const GeometricClaims& claims = scheme.claims;
     const std::string text = claims.reproduces + (claims.interpolates ? ", interpolates" : "") + ", not linear";
-    fmt::print("{:<19} {:<6} {:<7} {:<26} G^{:<6} {:<14} {:<34} {}\n", scheme.name, "curve", "primal", claims.limit,
+    fmt::print("{:<19} {:<6} {:<7} {:<30} G^{:<6} {:<14} {:<34} {}\n", scheme.name, "curve", "primal", claims.limit,
                claims.regular, claims.exponent, text, scheme.source);
   }
   fmt::print("\nNot linear: no matrix; points with unit tangents in a CSV x,y,tx,ty or x,y,z,tx,ty,tz. G: by arc length.\n");
@@ -114,7 +114,7 @@ void print_curves() {
 int run(bool as_json) {
   nlohmann::ordered_json all = nlohmann::ordered_json::array();
   if (!as_json)
-    fmt::print("{:<21} {:<8} {:<8} {:<10} {:<22} {:<8} {:<14} {:<34} {}\n", "scheme", "kind", "split", "faces",
+    fmt::print("{:<21} {:<8} {:<8} {:<10} {:<24} {:<8} {:<14} {:<34} {}\n", "scheme", "kind", "split", "faces",
                "regular limit", "regular", "extraordinary", "claims", "source");
   for (const Scheme<double>& scheme : all_schemes()) {
     const Claims& claims = scheme.claims;
@@ -137,7 +137,7 @@ int run(bool as_json) {
                      {"source", scheme.source}});
       continue;
     }
-    fmt::print("{:<21} {:<8} {:<8} {:<10} {:<22} C^{:<6} C^{:<12} {:<34} {}\n", scheme.name, "surface",
+    fmt::print("{:<21} {:<8} {:<8} {:<10} {:<24} C^{:<6} C^{:<12} {:<34} {}\n", scheme.name, "surface",
                name(scheme.steps[0].split), faces(scheme), claims.limit, claims.regular, claims.extraordinary,
                other_claims(claims), scheme.source);
     for (const OptionInfo& info : scheme.options) print(info);

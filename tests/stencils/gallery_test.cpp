@@ -10,6 +10,7 @@
 
 #include "stencils/cli_program.h"
 #include "sublimit/curve_schemes.h"
+#include "sublimit/geometric_schemes.h"
 #include "sublimit/report/gallery/statements.h"
 #include "sublimit/schemes.h"
 #include "support/expect_error.h"
@@ -125,12 +126,15 @@ TEST(CliGallery, ShowsEverySchemeOnEveryCageAndPolygon) {
       EXPECT_EQ(count_of(html, "src=\"" + scheme.name + "-" + cage + ".svg\""), 1u) << cage;
     surfaces += cages;
   }
-  for (const CurveScheme<double>& scheme : all_curve_schemes()) {
-    SCOPED_TRACE(scheme.name);
-    EXPECT_EQ(count_of(html, "<h3>" + scheme.name + "</h3>"), 2u);
+  std::vector<std::string> curves;
+  for (const CurveScheme<double>& scheme : all_curve_schemes()) curves.push_back(scheme.name);
+  for (const GeometricCurveScheme& scheme : all_geometric_schemes()) curves.push_back(scheme.name);
+  for (const std::string& scheme : curves) {
+    SCOPED_TRACE(scheme);
+    EXPECT_EQ(count_of(html, "<h3>" + scheme + "</h3>"), 2u);
     for (const char* polygon : {"open", "closed"}) {
-      EXPECT_EQ(count_of(html, "src=\"" + scheme.name + "-" + polygon + ".svg\""), 1u) << polygon;
-      EXPECT_EQ(count_of(read_file(gallery / (scheme.name + "-" + polygon + ".svg")), ">level "), 4u) << polygon;
+      EXPECT_EQ(count_of(html, "src=\"" + scheme + "-" + polygon + ".svg\""), 1u) << polygon;
+      EXPECT_EQ(count_of(read_file(gallery / (scheme + "-" + polygon + ".svg")), ">level "), 4u) << polygon;
     }
   }
   const std::vector<std::string> files = shown(html);
@@ -165,7 +169,8 @@ TEST(CliGallery, ShowsEverySchemeOnEveryCageAndPolygon) {
   std::vector<std::string> again = arguments;
   again[2] = (directory / "again").string();
   again.insert(again.end(), {"--threads", "1", "--json"});
-  EXPECT_EQ(Json::parse(expect_done(sublimit(again)).out).size(), all_schemes().size() + all_curve_schemes().size());
+  EXPECT_EQ(Json::parse(expect_done(sublimit(again)).out).size(),
+            all_schemes().size() + all_curve_schemes().size() + all_geometric_schemes().size());
   EXPECT_EQ(read_file(directory / "again" / "index.html"), html);
   for (const std::string& file : files)
     EXPECT_EQ(read_file(directory / "again" / file), read_file(gallery / file)) << file;

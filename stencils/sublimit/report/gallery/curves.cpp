@@ -5,6 +5,7 @@
 
 #include "sublimit/curve_refine.h"
 #include "sublimit/curve_schemes.h"
+#include "sublimit/geometric_schemes.h"
 #include "sublimit/report/svg.h"
 
 namespace sublimit::gallery {
@@ -42,15 +43,34 @@ std::vector<NamedPolygon> polygons() {
   return both;
 }
 
-/// The points of levels 0, 1, ...
-std::vector<Points> points_of_levels(const CurveScheme<double>& scheme, const ControlPolygon& polygon, int levels) {
-  std::vector<Points> points;
-  Points x = unknowns(scheme, polygon);
-  for (const CurveLevel& level : refine(scheme, polygon, levels)) {
-    x = level.S * x;
-    points.push_back(refined_polygon(level, x).points);
+/// A scheme's row.
+struct Shown {
+  std::string scheme, source, limit, smoothness;
+  bool interpolates = false;
+  std::vector<Points> levels;
+};
+
+std::vector<Shown> shown(const ControlPolygon& polygon, int levels) {
+  std::vector<Shown> all;
+  for (const CurveScheme<double>& scheme : all_curve_schemes()) {
+    const CurveClaims& claims = scheme.claims;
+    Shown one{scheme.name, scheme.source, claims.limit, "C^" + std::to_string(claims.regular), claims.interpolates, {}};
+    Points x = unknowns(scheme, polygon);
+    for (const CurveLevel& level : refine(scheme, polygon, levels)) {
+      x = level.S * x;
+      one.levels.push_back(refined_polygon(level, x).points);
+    }
+    all.push_back(std::move(one));
   }
-  return points;
+  ControlPolygon unit = polygon;
+  unit.tangents.rowwise().normalize();
+  for (const GeometricCurveScheme& scheme : all_geometric_schemes()) {
+    const GeometricClaims& claims = scheme.claims;
+    Shown one{scheme.name, scheme.source, claims.limit, "G^" + std::to_string(claims.regular), claims.interpolates, {}};
+    for (int k = 0; k <= levels; ++k) one.levels.push_back(refine(scheme, unit, k).points);
+    all.push_back(std::move(one));
+  }
+  return all;
 }
 
 /// The plane onto the paper: the same for all schemes of a polygon.
@@ -114,22 +134,15 @@ std::string picture(const std::vector<Points>& levels, const ControlPolygon& pol
 CurvePictures curve_pictures(int levels) {
   CurvePictures result;
   for (const NamedPolygon& named : polygons()) {
-    const std::vector<CurveScheme<double>> schemes = all_curve_schemes();
-    std::vector<std::vector<Points>> points;
+    const std::vector<Shown> all = shown(named.polygon, levels);
     View view;
-    for (const CurveScheme<double>& scheme : schemes) {
-      points.push_back(points_of_levels(scheme, named.polygon, levels));
-      for (const Points& level : points.back()) view.extend(level);
-    }
+    for (const Shown& one : all)
+      for (const Points& level : one.levels) view.extend(level);
     PageSection section{named.name, named.title, {}};
-    for (size_t s = 0; s < schemes.size(); ++s) {
-      const CurveClaims& claims = schemes[s].claims;
-      const std::string file = schemes[s].name + "-" + named.name + ".svg";
-      result.files.push_back({file, picture(points[s], named.polygon, claims.interpolates, view)});
-      section.rows.push_back({schemes[s].name,
-                              schemes[s].source,
-                              {{"limit", claims.limit}, {"smoothness", "C^" + std::to_string(claims.regular)}},
-                              file});
+    for (const Shown& one : all) {
+      const std::string file = one.scheme + "-" + named.name + ".svg";
+      result.files.push_back({file, picture(one.levels, named.polygon, one.interpolates, view)});
+      section.rows.push_back({one.scheme, one.source, {{"limit", one.limit}, {"smoothness", one.smoothness}}, file});
     }
     result.sections.push_back(std::move(section));
   }
