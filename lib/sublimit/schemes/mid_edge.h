@@ -3,8 +3,8 @@
 // Peters, Reif 1997, "The simplest subdivision scheme for smoothing polyhedra": the midpoints of edges.
 // Habib, Warren 1999, "Edge and vertex insertion for a class of C1 subdivision surfaces": weights over the two faces of
 // an edge, such that two steps have the eigenvalues 1, 1/2, 1/2, 1/4, 1/4, 1/8 ... on an n-gon. Between two faces that
-// are no quadrilaterals (in the first two steps only) both add their difference to the midpoint; that completion is
-// ours. Border: two steps make Chaikin's points (see the split), so the limit ends in the quadratic B-spline of the
+// are no quadrilaterals (in the first two steps only) it is the mean of what either asks for; that completion is ours.
+// Border: two steps make Chaikin's points (see the split), so the limit ends in the quadratic B-spline of the
 // border polygon.
 #include "sublimit/scheme.h"
 
@@ -56,7 +56,9 @@ Scheme<T> mid_edge_habib_warren(const SchemeOptions&) {
   Scheme<T> scheme = mid_edge_with<T>(
       "mid-edge-habib-warren", "Habib, Warren 1999, Edge and vertex insertion for a class of C1 subdivision surfaces",
       [=](const EdgeSite<T>& e) {
-        return on_face(e.left_face()) + on_face(e.right_face()) - (e.tail() + e.head()) / 2;
+        const FaceSite<T>&a = e.left_face(), &b = e.right_face();
+        if (a.size() != 4 && b.size() != 4) return (on_face(a) + on_face(b)) / 2;
+        return on_face(a.size() == 4 ? b : a);  // of a quadrilateral it is the midpoint
       });
   scheme.claims.convex_hull = false;
   return scheme;
