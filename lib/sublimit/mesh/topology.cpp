@@ -300,7 +300,8 @@ void TopologyBuilder::number_edges(Topology& t, const std::vector<std::vector<In
   }
   const bool all = later.empty();
   const auto opens = [&](std::int64_t h) {  // no twin, -1, is the largest unsigned number: nothing to branch on
-    return (static_cast<std::uint32_t>(t.twin_[h]) > static_cast<std::uint32_t>(h)) & (all || !later[h]);
+    const Index first = static_cast<std::uint32_t>(t.twin_[h]) > static_cast<std::uint32_t>(h);
+    return all || !later[h] ? first : 0;
   };
   std::vector<Index> first_edge(num_blocks(count) + 1, 0);
   parallel_for_blocks(count, [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
@@ -317,10 +318,10 @@ void TopologyBuilder::number_edges(Topology& t, const std::vector<std::vector<In
       n += opens(h);
     }
     for (Index i = 0, e = first_edge[block]; i < n; ++i, ++e) {
-      const Index h = openers[i], twin = t.twin_[h];
+      const Index h = openers[i], other = t.twin_[h];
       t.edge_half_[e] = h;
       t.edge_[h] = e;
-      if (twin >= 0) t.edge_[twin] = e;
+      if (other >= 0) t.edge_[other] = e;
     }
   });
   for (const auto& group : groups) {
