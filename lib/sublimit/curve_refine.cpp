@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "sublimit/base/memory.h"
 #include "sublimit/sparse_product.h"
 
 namespace sublimit {
@@ -18,10 +19,19 @@ std::vector<CurveLevel> refine(const CurveScheme<double>& scheme, const ControlP
   if (levels < 0) throw InvalidParameter("levels is " + std::to_string(levels) + "; it must be 0 or more");
   std::vector<CurveLevel> result{control_level(scheme, polygon)};
   // Before memory is taken: the last level doubles `levels` times.
+  const std::string amount =
+      std::to_string(levels) + " levels of " + std::to_string(result[0].num_points()) + " points";
   const double points = std::ldexp(result[0].num_points() * result[0].unknowns, levels);
   if (points * 8 > std::numeric_limits<Index>::max())
-    throw ResourceError(std::to_string(levels) + " levels of " + std::to_string(result[0].num_points()) +
-                        " points are more points than 32-bit indices can hold the weights of; use fewer levels");
+    throw ResourceError(amount + " are more points than 32-bit indices can hold the weights of; use fewer levels");
+  double terms =
+      0;  // of all masks; all levels together are twice the last, and rows are appended to arrays that double
+  for (int which : {0, 1})
+    for (int component = 0; component < result[0].unknowns; ++component)
+      terms += static_cast<double>(
+          scheme.masks.child(which, component)(CurveSite<double>(0, result[0].unknowns)).terms().size());
+  const double row = 2 * 1.5 * 12 * terms / (2 * result[0].unknowns) + 8;
+  check_memory(amount, points * (row + 3 * 8 * polygon.dimension()), "use fewer levels");
   for (int k = 1; k <= levels; ++k) {
     if (progress) progress(k);
     result.push_back(next_level(scheme, result.back()));

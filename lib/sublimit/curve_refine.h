@@ -131,11 +131,13 @@ CurveLevelOf<T> control_level(const CurveScheme<T>& scheme, const ControlPolygon
   for (const ControlPolygon::Curve& curve : polygon.curves) {
     const Index size = static_cast<Index>(curve.points.size()), least = layout.least_points(curve.closed);
     if (size < least)
-      throw UnsupportedTopology("curve " + std::to_string(level.curves.size()) + " has " + std::to_string(size) +
-                                (size == 1 ? " point; " : " points; ") + scheme.name + " needs at least " +
-                                std::to_string(least) +
-                                (curve.closed ? " points in a closed curve" : " points in an open curve") +
-                                (layout.end_points() > 2 && !curve.closed ? " (2 with --option ends=linear)" : ""));
+      throw UnsupportedTopology(
+          "curve " + std::to_string(level.curves.size()) + " has " + std::to_string(size) +
+          (size == 1 ? " point; " : " points; ") + scheme.name + " needs at least " + std::to_string(least) +
+          (curve.closed ? " points in a closed curve" : " points in an open curve") +
+          (layout.end_points() > 2 && !curve.closed             ? " (2 with --option ends=linear)"
+           : !layout.keeps_ends() && !curve.closed && least > 3 ? " (fewer with --option ends=interpolate)"
+                                                                : ""));
     level.curves.push_back(layout.control(size, curve.closed));
     count += size;
   }

@@ -1,33 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sublimit/refine.h"
 
-#include <unistd.h>
-
 #include <limits>
 #include <string>
 
 #include "sublimit/base/error.h"
+#include "sublimit/base/memory.h"
 #include "sublimit/mesh/topology_builder.h"
 #include "sublimit/refine_impl.h"
 #include "sublimit/schemes.h"
 
 namespace sublimit {
 namespace {
-
-double physical_memory() {
-  return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
-}
-
-std::string in_words(double bytes) {
-  const char* units[] = {"bytes", "KB", "MB", "GB", "TB", "PB", "EB"};
-  int unit = 0;
-  while (bytes >= 1000 && unit < 6) {
-    bytes /= 1000;
-    ++unit;
-  }
-  const std::string number = std::to_string(bytes);
-  return number.substr(0, number.find('.') + 2) + " " + units[unit];
-}
 
 /// Elements of a level, as far as sizes go: faces grow by the split, whatever the connectivity.
 struct Counts {
@@ -67,13 +51,11 @@ void check_levels(const Scheme<double>& scheme, const Topology& t, int levels) {
     for (const Step<double>& step : scheme.steps_at(k, t)) counts = counts.next(step.split);
     bytes += counts.bytes();
     if (counts.corners > std::numeric_limits<Index>::max())
-      throw ResourceError(amount + " take more than " + in_words(bytes) + " of memory, and level " +
+      throw ResourceError(amount + " take more than " + bytes_in_words(bytes) + " of memory, and level " +
                           std::to_string(k + 1) + " has more face corners than 32-bit indices count; use at most " +
                           std::to_string(k));
   }
-  if (bytes > physical_memory())
-    throw ResourceError(amount + " take about " + in_words(bytes) + " of memory; this machine has " +
-                        in_words(physical_memory()) + ". Use fewer levels or refine a subset");
+  check_memory(amount, bytes, "use fewer levels or refine a subset");
 }
 
 /// Faces that share a vertex with `faces`, themselves included; ascending.
@@ -121,8 +103,8 @@ SparseMatrix identity(Index size) {
 void check_sharpness(const std::string& scheme, Sharpening sharpening, bool is_dual, const Topology& t,
                      const Sharpness& sharpness, const ControlMesh& tags) {
   if (sharpening == Sharpening::semi_sharp) return;
-  const auto refuse = [&](const std::string& what) {
-    const bool some = sharpening == Sharpening::sharp;
+  const auto refuse = [&](const std::string& what, bool is_dart = false) {
+    const bool some = sharpening == Sharpening::sharp && !is_dart;
     throw UnsupportedTopology(
         what + ": " + scheme +
         (some ? " has rules for infinite sharpness (>= 10) only; make it 10, " : " has no rule for it; ") +
@@ -138,7 +120,7 @@ void check_sharpness(const std::string& scheme, Sharpening sharpening, bool is_d
   }
   for (Index v = 0; v < t.num_vertices() && sharpening == Sharpening::sharp; ++v)
     if (VertexSharpness(t, sharpness, Vertex{v}).rule() == Rule::dart)
-      refuse("sharp edges that end inside, at vertex " + std::to_string(v));
+      refuse("sharp edges that end inside, at vertex " + std::to_string(v) + " (a dart)", true);
   for (const ControlMesh::Corner& corner : tags.corners) {
     const Vertex v{corner.vertex};
     const bool interior = exists(t.outgoing(v)) && exists(t.twin(t.outgoing(v)));

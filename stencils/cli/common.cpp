@@ -53,7 +53,8 @@ SchemeOptions given_options(const Common& common) {
     const size_t equals = text.find('=');
     if (equals == std::string::npos || equals == 0)
       throw InvalidOption("--option " + text + ": write it as name=value");
-    options[text.substr(0, equals)] = text.substr(equals + 1);
+    if (!options.emplace(text.substr(0, equals), text.substr(equals + 1)).second)
+      throw InvalidOption("--option " + text + ": " + text.substr(0, equals) + " is given twice");
   }
   if (!common.triangles.empty()) options["triangles"] = common.triangles;
   return options;

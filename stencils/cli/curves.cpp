@@ -29,12 +29,13 @@ SchemeOptions curve_options(const Common& common) {
   for (const auto& [name, value] : {std::pair("--boundary", common.boundary), std::pair("--creasing", common.creasing),
                                     std::pair("--triangles", common.triangles)})
     if (!value.empty()) throw InvalidOption(std::string(name) + " is for meshes; " + common.scheme + " refines curves");
+  for (const auto& [name, given] :
+       {std::pair("--triangulate", common.triangulate), std::pair("--no-creases", common.no_creases)})
+    if (given) throw InvalidOption(std::string(name) + " is for meshes; " + common.scheme + " refines curves");
   return given_options(common);
 }
 
-CurveScheme<double> scheme_of(const Common& common) {
-  return *find_curve_scheme(common.scheme, curve_options(common));
-}
+CurveScheme<double> scheme_of(const Common& common) { return *find_curve_scheme(common.scheme, curve_options(common)); }
 
 }  // namespace
 
@@ -47,9 +48,18 @@ ControlPolygon load_polygon(const CurveJob& job, Progress& progress, bool tangen
                               " refines curves, a .csv of points or the lines of an .obj");
   progress.step("reading " + common.mesh);
   ControlPolygon polygon = read_polygon(common.mesh, tangents);
-  if (job.closed)
-    for (ControlPolygon::Curve& curve : polygon.curves) curve.closed = true;
+  for (size_t c = 0; job.closed && c < polygon.curves.size(); ++c) {
+    ControlPolygon::Curve& curve = polygon.curves[c];
+    curve.closed = true;
+    const auto point = [&](Index i) { return polygon.points.row(i); };
+    if (curve.points.size() > 3 && point(curve.points.front()) == point(curve.points.back())) {
+      curve.points.pop_back();
+      polygon.warnings.push_back(fmt::format(
+          "{}: curve {} ends in its first point; --closed joins them, and the last one is left out", common.mesh, c));
+    }
+  }
   progress.step("");
+  if (common.strict && !polygon.warnings.empty()) throw InvalidMesh(polygon.warnings.front());
   if (!common.quiet)
     for (const std::string& warning : polygon.warnings) fmt::print(stderr, "sublimit: warning: {}\n", warning);
   return polygon;
@@ -146,7 +156,7 @@ int limit_curves(const CurveJob& job) {
   if (job.tangents) {
     result.tangents = apply(limits.first, curves.unknowns);
     for (Index i = 0; i < result.num_points(); ++i) {
-      const double length = result.tangents.row(i).norm();
+      const double length = result.tangents.row(i).stableNorm();
       const bool defined = limits.order[i] > 0 && length > 0;
       without += !defined;
       if (defined)

@@ -7,6 +7,8 @@
 
 #include "curves.h"
 #include "sublimit/base/error.h"
+#include "sublimit/base/memory.h"
+#include "sublimit/mesh/file_extension.h"
 #include "sublimit/mesh/polygon_files.h"
 
 namespace sublimit::cli {
@@ -20,6 +22,8 @@ ControlPolygon checked_polygon(const CurveJob& job, const GeometricCurveScheme& 
     throw ResourceError(
         fmt::format("{} levels of {} points are more points than 32-bit indices count; use fewer levels", job.levels,
                     polygon.num_points()));
+  check_memory(fmt::format("{} levels of {} points", job.levels, polygon.num_points()),
+               std::ldexp(polygon.num_points(), job.levels) * (6 * 8.0 * polygon.dimension() + 16), "use fewer levels");
   if (!job.common->quiet)
     for (const std::string& note : scheme.notes(polygon))
       fmt::print(stderr, "sublimit: note: {}: {}\n", job.common->mesh, note);
@@ -38,6 +42,10 @@ int refine_geometric(const CurveJob& job, const GeometricCurveScheme& scheme) {
                                  [&](int level) { progress.step(fmt::format("level {} of {}", level, job.levels)); });
   progress.step("writing " + job.output);
   write_polygon(job.output, result);
+  progress.step("");
+  if (!job.common->quiet && file_extension(job.output) == ".obj")
+    fmt::print(stderr, "sublimit: note: {} has points alone; a .csv keeps the tangents, so that refining can go on\n",
+               job.output);
   return 0;
 }
 

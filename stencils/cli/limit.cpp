@@ -5,6 +5,7 @@
 
 #include "common.h"
 #include "curves.h"
+#include "sublimit/base/error.h"
 #include "sublimit/refined_mesh.h"
 #include "sublimit/sparse_product.h"
 
@@ -22,6 +23,8 @@ int run(const Options& options) {
   if (is_curve_job(options.common))
     return limit_curves({&options.common, options.levels, options.output, "", options.closed, options.normals});
   scheme_or_throw(options.common.scheme, given_options(options.common));  // a misspelt name may be one of curves
+  if (options.closed)
+    throw InvalidOption("--closed is for curves; " + options.common.scheme + " refines meshes");
   check_output_path(options.output, {".obj", ".ply"});
   Progress progress(options.common.quiet);
   const Loaded loaded = load(options.common, progress);

@@ -3,6 +3,7 @@
 
 #include "common.h"
 #include "curves.h"
+#include "sublimit/base/error.h"
 #include "sublimit/matrix_market.h"
 #include "sublimit/refined_mesh.h"
 #include "sublimit/sparse_product.h"
@@ -21,6 +22,8 @@ int run(const Options& options) {
   if (is_curve_job(options.common))
     return refine_curves({&options.common, options.levels, options.output, options.matrix, options.closed});
   scheme_or_throw(options.common.scheme, given_options(options.common));  // a misspelt name may be one of curves
+  if (options.closed)
+    throw InvalidOption("--closed is for curves; " + options.common.scheme + " refines meshes");
   check_output_path(options.output, {".obj", ".ply"});
   if (!options.matrix.empty()) check_output_path(options.matrix, {".mtx"});
   Progress progress(options.common.quiet);

@@ -20,7 +20,8 @@ void expect_refused(const std::string& name, const std::string& text, const std:
   const TemporaryDirectory directory;
   const std::string mesh = directory.write(name, text).string();
   for (const char* command : {"refine", "limit"}) {
-    std::vector<std::string> all{command, mesh, "-l", "1", "-o", (directory / "out.obj").string()};
+    std::vector<std::string> all{command, mesh, "-o", (directory / "out.obj").string()};
+    if (std::ranges::find(arguments, "-l") == arguments.end()) all.insert(all.end(), {"-l", "1"});
     all.insert(all.end(), arguments.begin(), arguments.end());
     SCOPED_TRACE(command + (" " + text.substr(0, 60)));
     const Outcome outcome = sublimit(all);
@@ -135,7 +136,61 @@ TEST(CliCurves, BadPoints) {
   expect_refused("p.csv", "0,0,0,0\n1,1,1,1\n2,0,0,0\n", {"-s", "chaikin"}, 2, {"out.obj", "3 coordinates", ".csv"});
 }
 
+TEST(CliCurves, AClosedPolygonMayComeBack) {
+  const TemporaryDirectory directory;
+  const std::string in = directory.write("p.csv", "0,0\n4,0\n4,4\n0,0\n").string(),
+                    out = (directory / "o.csv").string();
+  const Outcome outcome = sublimit({"refine", in, "-s", "chaikin", "-l", "1", "--closed", "-o", out});
+  EXPECT_EQ(outcome.status, 0);
+  expect_parts(outcome.err, {"p.csv", "curve 0", "first point", "left out"});
+  EXPECT_EQ(read_polygon(out).num_points(), 6);
+  expect_refused("p.csv", "0,0\n4,0\n4,4\n0,0\n", {"-s", "chaikin", "--closed", "--strict"}, 3,
+                 {"p.csv", "first point"});
+}
+
+TEST(CliCurves, SegmentsOfAnObjAreJoined) {
+  const TemporaryDirectory directory;
+  const std::string points = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n", out = (directory / "o.obj").string();
+  const auto refined = [&](const std::string& lines) {
+    const std::string in = directory.write("p.obj", points + lines).string();
+    expect_done(sublimit({"refine", in, "-s", "four-point", "--option", "ends=linear", "-l", "1", "-o", out}));
+    return read_polygon(out);
+  };
+  EXPECT_EQ(refined("l 1 2\nl 2 3\nl 3 4\nl 4 1\n").curves[0].closed, true);
+  EXPECT_EQ(refined("l 1 2\nl 2 3\nl 3 4\n").num_points(), 7);
+  EXPECT_EQ(refined("l 1 2\nl 3 4\n").curves.size(), 2u);
+  EXPECT_EQ(refined("l 1 2 3\nl 3 4\n").curves.size(), 2u);
+}
+
+TEST(CliCurves, TangentsOfAnySize) {
+  const TemporaryDirectory directory;
+  const std::string out = (directory / "o.csv").string();
+  for (const char* exponent : {"e160", "e-160", "e-290", "e300"}) {
+    std::string text;
+    for (const char* point : {"0,0", "1,2", "3,1", "4,0"}) {
+      const std::string word = point;
+      text += word.substr(0, 1) + exponent + "," + word.substr(2) + exponent + "\n";
+    }
+    const std::string in = directory.write("p.csv", text).string();
+    expect_done(sublimit({"limit", in, "-s", "chaikin", "-l", "1", "--normals", "-o", out, "--quiet"}));
+    const ControlPolygon curve = read_polygon(out, true);
+    for (Index i = 0; i < curve.num_points(); ++i) EXPECT_NEAR(curve.tangents.row(i).norm(), 1, 1e-15) << exponent;
+  }
+}
+
+TEST(CliCurves, TooManyPoints) {
+  for (const char* scheme : {"chaikin", "lane-riesenfeld"})
+    expect_refused("p.csv", zigzag, {"-s", scheme, "-l", "26"}, 4, {"26 levels of 7 points"});
+  const std::string curve = "0,0,1,0\n1,1,0,1\n";
+  expect_refused("p.csv", curve, {"-s", "hermite-incentre", "-l", "30"}, 4, {"30 levels of 2 points"});
+}
+
 TEST(CliCurves, BadOptions) {
+  const std::string triangle = "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n";
+  expect_refused("t.obj", triangle, {"-s", "loop", "--closed"}, 2, {"--closed is for curves", "loop"});
+  expect_refused("p.csv", zigzag, {"-s", "chaikin", "--triangulate"}, 2, {"--triangulate is for meshes"});
+  expect_refused("p.csv", zigzag, {"-s", "four-point", "--option", "tension=1", "--option", "tension=1"}, 2,
+                 {"tension is given twice"});
   expect_refused("p.csv", zigzag, {"-s", "four-point", "--option", "tension=4"}, 2, {"tension=4", "0 to 77/25", "C^1"});
   expect_refused("p.csv", zigzag, {"-s", "four-point", "--option", "tension=abc"}, 2, {"tension=abc", "a number"});
   expect_refused("p.csv", zigzag, {"-s", "four-point", "--option", "tension=2", "--option", "ends=cubic"}, 2,

@@ -114,7 +114,7 @@ TEST(CliNoCreases, IsWhatARefusedCreaseNeeds) {
     } else {
       infinite.expect_taken(scheme.name, {});
       semi_sharp.expect_refused(scheme.name, {"sharp edge (", "infinite", "make it 10", "--no-creases"});
-      dart.expect_refused(scheme.name, {"end inside", "vertex", "--no-creases"});
+      dart.expect_refused(scheme.name, {"end inside", "vertex", "a dart", "has no rule for it; remove"});
       dart.expect_taken(scheme.name, {"--no-creases"});
     }
     semi_sharp.expect_taken(scheme.name, {"--no-creases"});
@@ -175,11 +175,11 @@ TEST(CliOptions, NumbersOutsideTheirRangeAreToldTheRangeAndItsMeaning) {
        {"0", "2", "0.75", "3/4", ".5", "1.000000000000", "0.12345678"}},
       {"modified-butterfly",
        "t",
-       "from -1/16 to 1/16",
+       "from -1/32 to 1/32",
        "eight-point mask",
-       {"1/15", "-0.0626", "0.0626"},
-       {"1/16", "-1/16", "-0.0625", "0"}},
-      {"kobbelt", "tension", "from 0 to 3", "smooth (C^1) below 3.08", {"3.01", "-1"}, {"3", "1/3", "0"}},
+       {"1/31", "-0.0313", "0.0313"},
+       {"1/32", "-1/32", "-0.03125", "0"}},
+      {"kobbelt", "tension", "from 0 to 3", "C^1 below 3.08", {"3.01", "-1"}, {"3", "1/3", "0"}},
   };
   for (const Case& c : cases) {
     for (const std::string& value : c.refused)
@@ -208,7 +208,7 @@ TEST(CliOptions, WordsAndNamesThatAreUnknownAreToldTheKnownOnes) {
 
 TEST(CliOptions, AreListedWithRangeAndMeaning) {
   const std::string text = expect_done(sublimit({"schemes"})).out;
-  expect_parts(text, {"--option degree=2..9 (default 3): ", "--option t=-1/16..1/16 (default 0): ",
+  expect_parts(text, {"--option degree=2..9 (default 3): ", "--option t=-1/32..1/32 (default 0): ",
                       "--option quads=catmull-clark|edges (default catmull-clark): "});
   const Json json = Json::parse(expect_done(sublimit({"schemes", "--json"})).out);
   for (const Scheme<double>& scheme : all_schemes()) {

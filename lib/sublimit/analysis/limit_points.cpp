@@ -288,9 +288,14 @@ LimitPoints limit_points(const LimitMatrices& limit, const Topology& topology, c
   LimitPoints result;
   result.position = apply(limit.position, points);
   result.status = limit.status;
-  const Points t1 = apply(limit.tangent1, points), t2 = apply(limit.tangent2, points);
+  // Squares of huge or tiny tangents would leave the range of numbers; powers of two change no digit.
+  const double largest = points.size() > 0 ? points.cwiseAbs().maxCoeff() : 0;
+  const double unit = largest > 1e100 || (largest > 0 && largest < 1e-100) ? std::ldexp(1.0, -std::ilogb(largest)) : 1;
+  const Points scaled = unit == 1 ? Points() : Points(points * unit);
+  const Points& x = unit == 1 ? points : scaled;
+  const Points t1 = apply(limit.tangent1, x), t2 = apply(limit.tangent2, x);
   std::vector<Points> higher;
-  for (const SparseMatrix& M : limit.second_order) higher.push_back(apply(M, points));
+  for (const SparseMatrix& M : limit.second_order) higher.push_back(apply(M, x));
   result.normal = Points::Zero(t1.rows(), 3);
   parallel_for(t1.rows(), [&](std::int64_t s) {
     if (result.status[s] == LimitStatus::undefined_normal || result.status[s] == LimitStatus::hole) return;
@@ -300,7 +305,7 @@ LimitPoints limit_points(const LimitMatrices& limit, const Topology& topology, c
     for (const SparseMatrix* M : {&limit.tangent1, &limit.tangent2})
       for (Index k = M->outerIndexPtr()[s]; k < M->outerIndexPtr()[s + 1]; ++k)
         scale += std::abs(M->valuePtr()[k]) *
-                 (points.row(M->innerIndexPtr()[k]) - result.position.row(limit.side_vertex[s])).norm();
+                 (x.row(M->innerIndexPtr()[k]) - unit * result.position.row(limit.side_vertex[s])).norm();
     if (cross.norm() > 1e-12 * scale * scale) {
       result.normal.row(s) = cross.normalized();
       return;
@@ -308,7 +313,7 @@ LimitPoints limit_points(const LimitMatrices& limit, const Topology& topology, c
     std::vector<Vector3d> modes;
     for (const Points& values : higher) modes.push_back(values.row(s));
     const Vector3d normal =
-        normal_of_higher_order(a, b, modes, scale, turn_of(limit, topology, static_cast<Index>(s), points));
+        normal_of_higher_order(a, b, modes, scale, turn_of(limit, topology, static_cast<Index>(s), x));
     if (normal.isZero()) {
       result.status[s] = LimitStatus::undefined_normal;
       return;

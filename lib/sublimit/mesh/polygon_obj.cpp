@@ -57,7 +57,6 @@ class ObjCurveReader {
 
  private:
   void read_curve() {
-    lines_.push_back(scanner_.line());
     ControlPolygon::Curve curve;
     for (std::string_view token; !(token = scanner_.token()).empty();) {
       const std::int64_t so_far = std::int64_t(coordinates_.size() / 3);
@@ -72,11 +71,19 @@ class ObjCurveReader {
     if (curve.points.size() < 2)
       throw FormatError(scanner_.place() + "a line of " + format_number(curve.points.size()) +
                         " points; it should have at least 2");
-    if (curve.points.size() > 3 && curve.points.front() == curve.points.back()) {
-      curve.points.pop_back();
-      curve.closed = true;
+    const bool is_segment = curve.points.size() == 2;
+    if (is_segment && in_segments_ && polygon_.curves.back().points.back() == curve.points[0]) {
+      polygon_.curves.back().points.push_back(curve.points[1]);
+    } else {
+      lines_.push_back(scanner_.line());
+      polygon_.curves.push_back(std::move(curve));
     }
-    polygon_.curves.push_back(std::move(curve));
+    ControlPolygon::Curve& last = polygon_.curves.back();
+    if (last.points.size() > 3 && last.points.front() == last.points.back()) {
+      last.points.pop_back();
+      last.closed = true;
+    }
+    in_segments_ = is_segment && !last.closed;
   }
 
   TextScanner scanner_;
@@ -84,6 +91,7 @@ class ObjCurveReader {
   std::vector<double> coordinates_;
   std::vector<std::int64_t> lines_;  // of the curves
   std::int64_t faces_ = 0;
+  bool in_segments_ = false;  // the last curve is made of lines of two points each
 };
 
 }  // namespace
@@ -99,7 +107,8 @@ ControlPolygon read_polygon(const std::filesystem::path& path, bool tangents) {
   if (extension == ".obj" && tangents)
     throw FormatError(
         path.string() +
-        ": points with tangents are expected; give them as a .csv with columns x,y,tx,ty or x,y,z,tx,ty,tz");
+        ": points with tangents or derivatives are expected; give them as a .csv with columns x,y,tx,ty or "
+        "x,y,z,tx,ty,tz");
   if (extension == ".obj") return parse_polygon_obj(read_file(path), path.string());
   std::error_code error;
   const std::filesystem::file_status status = std::filesystem::status(path, error);

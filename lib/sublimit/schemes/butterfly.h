@@ -12,9 +12,10 @@ namespace sublimit {
 template <class T, class Edge>
 Scheme<T> butterfly_with(const char* name, const char* source, const SchemeOptions& options,
                          std::vector<OptionInfo> infos, const Ratio& g, const Edge& edge) {
-  const OptionInfo border{.name = "boundary-rule",
-                          .values = {"four-point", "virtual-vertex"},
-                          .meaning = "the border as a curve of its own, or continued to parallelograms"};
+  const OptionInfo border{
+      .name = "boundary-rule",
+      .values = {"four-point", "virtual-vertex"},
+      .meaning = "the border as a curve of its own, or continued to parallelograms, so that it depends on the inside"};
   infos.push_back(border);
   const Step<T> step{.split = Split::ptq,
                      .masks = {.vertex = [](const Ring<T>& v) { return v.center(); },
@@ -29,11 +30,12 @@ Scheme<T> butterfly_with(const char* name, const char* source, const SchemeOptio
                             const T w = e.ratio(g.p, 16 * g.q);
                             return (e.ratio(1, 2) + w) * (e.tail() + e.head()) - w * (e.before() + e.after());
                           }},
-          .claims = {.regular = 1,
+          .claims = {.regular = g.p > 0 && g.p < 2 * g.q ? 1 : 0,
                      .extraordinary = 0,
                      .reproduces = g.p == g.q ? 3 : 1,
+                     .convex_hull = g.p == 0,
                      .interpolates = true,
-                     .limit = "no closed form"},
+                     .limit = g.p > 0 ? "no closed form" : "the triangles"},
           .options = infos,
           .sharpening = Sharpening::sharp};
 }
@@ -42,7 +44,9 @@ template <class T>
 Scheme<T> butterfly(const SchemeOptions& options) {
   const OptionInfo tension{.name = "tension",
                            .values = {"1"},
-                           .meaning = "16 w of the paper: 0 is piecewise linear, 1 reproduces cubics, more is bumpier",
+                           .meaning =
+                               "16 w of the paper: 0 keeps the triangles, 1 reproduces cubics, at 2 a third eigenvalue "
+                               "of regular points is 1/2 and tangents are lost",
                            .range = OptionRange{{0, 1}, {2, 1}}};
   const Ratio g = ratio_option(options, tension);
   return butterfly_with<T>(

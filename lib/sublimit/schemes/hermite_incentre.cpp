@@ -272,7 +272,7 @@ std::vector<std::string> notes(const ControlPolygon& polygon) {
   };
   add(LegKind::inflection, "with angles on different sides or of zero");
   add(LegKind::twisted, "with tangents out of the plane");
-  add(LegKind::back, "with both tangents pointing back");
+  add(LegKind::back, "halved first, with both tangents pointing back");
   return {format_number(fell_back) + " of " + format_number(legs) +
           " legs have no incentre and become biarcs of equal chords (" + which + ")"};
 }

@@ -15,12 +15,16 @@ Scheme<T> kobbelt(const SchemeOptions& options) {
   const OptionInfo tension{
       .name = "tension",
       .values = {"1"},
-      .meaning = "0 is piecewise linear, 1 reproduces cubics; curves are smooth (C^1) below 3.08 (Hechler et al. 2009)",
+      .meaning =
+          "0 is piecewise linear, 1 reproduces cubics; curves are C^1 below 3.08 (Hechler et al. 2009), points of "
+          "valence 3 up to 3/2",
       .range = OptionRange{{0, 1}, {3, 1}}};
   const OptionInfo quads{
       .name = "quads",
       .values = {"catmull-clark", "edges"},
-      .meaning = "how faces of other than four corners are cut first: n quads each, or a quad for each edge"};
+      .meaning =
+          "how faces of other than four corners are cut first: n quads each, or a quad for each edge (a border "
+          "edge's has the edge's middle, which gets no normal)"};
   const Ratio g = ratio_option(options, tension);
   const bool by_edges = option(options, quads) == "edges";
   const auto inner = [=](const auto& site) { return site.ratio(8 * g.q + g.p, 16 * g.q); };
@@ -79,11 +83,12 @@ Scheme<T> kobbelt(const SchemeOptions& options) {
                           [=](const CreaseEdgeSite<T>& e) {
                             return inner(e) * (e.tail() + e.head()) - outer(e) * (e.before() + e.after());
                           }},
-          .claims = {.regular = 1,
-                     .extraordinary = 1,
+          .claims = {.regular = g.p > 0 ? 1 : 0,
+                     .extraordinary = g.p > 0 && 2 * g.p <= 3 * g.q ? 1 : 0,
                      .reproduces = g.p == g.q ? 3 : 1,
+                     .convex_hull = g.p == 0,
                      .interpolates = true,
-                     .limit = "no closed form"},
+                     .limit = g.p > 0 ? "no closed form" : "bilinear patches"},
           .options = {tension, quads},
           .sharpening = Sharpening::sharp,
           .corners = 4,

@@ -11,8 +11,10 @@ template <class T>
 Scheme<T> modified_butterfly(const SchemeOptions& options) {
   const OptionInfo info{.name = "t",
                         .values = {"0"},
-                        .meaning = "weight of the two far points on the line of the edge: 0 is the eight-point mask",
-                        .range = OptionRange{{-1, 16}, {1, 16}}};
+                        .meaning =
+                            "weight of the two far points on the line of the edge: 0 is the eight-point mask; a third "
+                            "eigenvalue of regular points reaches 1/2, and tangents are lost, at -1/16 and 1/24",
+                        .range = OptionRange{{-1, 32}, {1, 32}}};
   const Ratio t = ratio_option(options, info);
   const auto regular = [=](const WideEdgeSite<T>& e) {
     const Ring<T>&a = e.tail_ring(), &b = e.head_ring();
