@@ -31,7 +31,7 @@ std::vector<CurveLevel> refine(const CurveScheme<double>& scheme, const ControlP
       terms += static_cast<double>(
           scheme.masks.child(which, component)(CurveSite<double>(0, result[0].unknowns)).terms().size());
   const double row = 2 * 1.5 * 12 * terms / (2 * result[0].unknowns) + 8;
-  check_memory(amount, points * (row + 3 * 8 * polygon.dimension()), "use fewer levels");
+  check_memory(amount, points * (row + 7 * 8 * polygon.dimension()), "use fewer levels");
   for (int k = 1; k <= levels; ++k) {
     if (progress) progress(k);
     result.push_back(next_level(scheme, result.back()));

@@ -53,14 +53,10 @@ PictureOptions small_multiples() {
 }
 
 /// The limits of the cube, in triangles where the scheme wants them, and of the tetrahedron, in rows of seven.
-/// @param schemes    all if empty
-/// @param tone_step  decides the size of the file
-std::string overview(const std::vector<Work>& work, const std::vector<std::string>& schemes, int tone_step) {
+std::string overview(const std::vector<Work>& work) {
   std::vector<Panel> panels;
   for (const bool tetrahedron : {false, true})
     for (const Work& w : work) {
-      const std::string& name = w.exhibit.measured.scheme;
-      if (!schemes.empty() && std::find(schemes.begin(), schemes.end(), name) == schemes.end()) continue;
       const bool quads = std::any_of(work.begin(), work.end(), [&](const Work& other) {
         return other.scheme == w.scheme && other.cage->name == "cube";
       });
@@ -72,13 +68,9 @@ std::string overview(const std::vector<Work>& work, const std::vector<std::strin
   options.panel_height = 140;
   options.caption_size = 12;
   options.columns = 7;
-  options.tone_step = tone_step;
+  options.tone_step = 4;  // decides the size of the file
   return svg_picture(panels, options);
 }
-
-/// Those that lecture notes compare, for README.
-const std::vector<std::string> well_known{"catmull-clark",      "loop",  "doo-sabin", "mid-edge",
-                                          "modified-butterfly", "sqrt3", "kobbelt"};
 
 std::string percent(double x) { return fmt::format("{:.3g}\u00a0%", x < 1e-10 ? 0 : 100 * x); }
 
@@ -163,8 +155,7 @@ Gallery make_gallery(const GalleryOptions& options, const std::function<void(int
     files[i] = {work[i].picture(), svg_picture(work[i].exhibit.panels, picture)};
   });
   step();
-  files.push_back({"overview.svg", overview(work, {}, 3)});
-  files.push_back({"highlights.svg", overview(work, well_known, 4)});
+  files.push_back({"overview.svg", overview(work)});
 
   std::vector<Measured> measured;
   for (const Work& w : work) measured.push_back(w.exhibit.measured);
