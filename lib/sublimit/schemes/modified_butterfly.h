@@ -22,7 +22,7 @@ Scheme<T> modified_butterfly(const SchemeOptions& options) {
     return (e.ratio(1, 2) - far) * (e.tail() + e.head()) +
            (e.ratio(1, 8) + 2 * far) * (a.continued(1) + a.continued(-1)) -
            (e.ratio(1, 16) + far) * (a.continued(2) + a.continued(-2) + b.continued(2) + b.continued(-2)) +
-           far * (a.continued(3) + b.continued(3));
+           far / 2 * (a.continued(3) + a.continued(-3) + b.continued(3) + b.continued(-3));
   };
   const auto extraordinary = [](const Ring<T>& v) {
     const int k = v.valence();
