@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Laws that every scheme obeys, as functions: the tests run them over the registry, and over mutants, which must break one.
+// Laws that every scheme obeys, as functions: the tests run them over the registry with options, and over mutants,
+// which must break one.
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "sublimit/scheme.h"
@@ -15,5 +17,11 @@ struct Law {
 };
 
 const std::vector<Law>& laws();
+
+/// Names and options: every scheme with its default options, then with others that change its masks.
+std::vector<std::pair<std::string, SchemeOptions>> scheme_names_and_options();
+
+/// `butterfly --option tension=0`, as one writes it.
+std::string described(const std::pair<std::string, SchemeOptions>& variant);
 
 }  // namespace sublimit::testing
