@@ -253,6 +253,32 @@ std::string borders_are_refined_evenly(const Scheme<double>& scheme) {
   return most - least > rounding(64, 10) ? "an even border is refined unevenly" : "";
 }
 
+/// Two patches that share a border polygon meet without a gap: border points are made of border points, at irregular
+/// vertices too. Virtual vertices do not do that, and must be seen not to.
+std::string borders_depend_on_borders_alone(const Scheme<double>& scheme) {
+  const auto on_border = [](const Topology& t, Index v) {
+    return exists(t.outgoing(Vertex{v})) && !exists(t.twin(t.outgoing(Vertex{v})));
+  };
+  std::vector<ControlMesh> meshes = meshes_for(scheme);
+  for (Index faces = 1; faces <= 5; ++faces) meshes.push_back(open_fan(faces, takes_quads(scheme) ? 4 : 3, 2));
+  int border_points = 0, with_inside = 0;
+  for (const ControlMesh& mesh : meshes) {
+    const std::vector<Level> levels = refine(scheme, mesh, 2);
+    for (int k = 1; k <= 2; ++k)
+      for (Index r = 0; r < levels[k].S.rows(); ++r) {
+        if (!on_border(levels[k].topology(), r)) continue;
+        bool inside = false;
+        for (SparseMatrix::InnerIterator it(levels[k].S, r); it; ++it)
+          inside |= it.value() != 0 && !on_border(levels[k - 1].topology(), Index(it.col()));
+        ++border_points;
+        with_inside += inside;
+      }
+  }
+  if (border_points == 0) return "there is no border left";
+  if (scheme.steps[0].masks.wide_borders) return with_inside > 0 ? "" : "virtual vertices make a border of its own";
+  return with_inside == 0 ? "" : std::to_string(with_inside) + " border points depend on points inside";
+}
+
 std::string extraordinary_vertices_do_not_multiply(const Scheme<double>& scheme) {
   for (const ControlMesh& mesh : meshes_for(scheme)) {
     const std::vector<Level> levels = refine(scheme, mesh, 3);
@@ -461,6 +487,7 @@ const std::vector<Law>& laws() {
       {"ClaimsAboutWeightsHold", claims_about_weights_hold},
       {"ClaimedPolynomialsAreReproduced", claimed_polynomials_are_reproduced},
       {"BordersAreRefinedEvenly", borders_are_refined_evenly},
+      {"BordersDependOnBordersAlone", borders_depend_on_borders_alone},
       {"ExtraordinaryVerticesDoNotMultiply", extraordinary_vertices_do_not_multiply},
       {"LimitsAgreeBetweenLevels", limits_agree_between_levels},
       {"RegularSpectrumFitsTheClaim", regular_spectrum_fits_the_claim},
