@@ -5,8 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <map>
+#include <set>
 
 #include "sublimit/analysis/limit_points.h"
 #include "sublimit/base/error.h"
@@ -85,13 +84,26 @@ std::vector<std::string> scheme_names() {
   return names;
 }
 
+/// Meshes with a place whose neighbourhood never becomes that of a lone vertex (two edges between the same two vertices
+/// for one).
+std::set<std::string> meshes_without_limits(const std::string& scheme) {
+  if (scheme.starts_with("mid-edge")) return {"catmark_val2_back2back", "catmark_val2_nonman", "loop_val2_interior"};
+  std::set<std::string> names{"catmark_nonman_edges", "catmark_val2_nonman", "loop_nonman_edges", "loop_val2_interior"};
+  if (scheme == "averaging" || scheme == "kobbelt") return names;
+  names.insert(
+      {"catmark_nonman_quadpole64", "catmark_nonman_quadpole8", "catmark_val2_foldover", "catmark_val2_interior"});
+  if (full_sweep()) names.insert("catmark_nonman_quadpole360");  // too large for every day
+  if (scheme.ends_with("butterfly")) return names;
+  return {};
+}
+
 TEST_P(EveryScheme, TakesTheSharedMeshes) {
   if (shared_meshes().empty())
     GTEST_SKIP() << "NO SHARED MESHES at " << SUBLIMIT_SHARED_MESHES << ": 122 meshes are not refined";
   const Scheme<double> scheme = *find_scheme(GetParam());
   LimitMaskCache cache(scheme);
-  std::map<std::string, std::vector<std::string>> without_limits;  // by reason
-  int meshes = 0, without_tags = 0;
+  std::set<std::string> without_limits;
+  int meshes = 0;
   for (const SharedMesh& shared : shared_meshes()) {
     ControlMesh mesh = read_mesh(shared.path);
     if (mesh.num_faces() >= 400 && !full_sweep()) continue;
@@ -103,7 +115,6 @@ TEST_P(EveryScheme, TakesTheSharedMeshes) {
       levels = refine(scheme, mesh, 3);
     } catch (const UnsupportedTopology& refused) {
       EXPECT_NE(std::string(refused.what()).find("--no-creases"), std::string::npos) << refused.what();
-      ++without_tags;
       mesh = without_creases(mesh);
       ASSERT_NO_THROW(levels = refine(scheme, mesh, 3));
     }
@@ -116,16 +127,12 @@ TEST_P(EveryScheme, TakesTheSharedMeshes) {
       const LimitPoints points = limit_points(limit, levels[1].topology(), apply(levels[1].S, mesh.positions));
       EXPECT_TRUE(points.position.allFinite() && points.normal.allFinite());
     } catch (const AnalysisError& error) {
-      without_limits[error.what()].push_back(shared.name);
+      EXPECT_NE(std::string(error.what()).find("stays irregular under refinement"), std::string::npos) << error.what();
+      without_limits.insert(shared.name);
     }
   }
-  EXPECT_EQ(meshes, full_sweep() ? 122 : meshes);
-  std::printf("%s: %d meshes, %d of them without their tags\n", scheme.name.c_str(), meshes, without_tags);
-  for (const auto& [reason, names] : without_limits) {
-    std::printf("  no limits for %zu: %s\n   ", names.size(), reason.c_str());
-    for (const std::string& name : names) std::printf(" %s", name.c_str());
-    std::printf("\n");
-  }
+  EXPECT_EQ(meshes, full_sweep() ? 122 : 113);  // 113 have less than 400 faces
+  EXPECT_EQ(without_limits, meshes_without_limits(scheme.name));
 }
 
 INSTANTIATE_TEST_SUITE_P(Sweep, EveryScheme, ::testing::ValuesIn(scheme_names()), [](const auto& tested) {
