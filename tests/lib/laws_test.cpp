@@ -2,6 +2,8 @@
 // Every law over every scheme with its options, and every mutant of every mask killed by some law.
 #include <gtest/gtest.h>
 
+#include <map>
+
 #include "sublimit/schemes.h"
 #include "support/laws.h"
 
@@ -12,6 +14,18 @@ TEST(Laws, HoldForEveryScheme) {
   for (const auto& variant : scheme_names_and_options()) {
     const Scheme<double> scheme = *find_scheme(variant.first, variant.second);
     for (const Law& law : laws()) EXPECT_EQ(law.violation(scheme), "") << described(variant) << ": " << law.name;
+  }
+}
+
+// LimitsAgreeBetweenLevels compares all others. Bilinear surfaces have edges, mid-edge's two tangents of borders decay
+// alike, and the rest is a border vertex of many faces here and there.
+TEST(Laws, NormalsAreUndefinedAtKnownPlacesAlone) {
+  const std::map<std::string, int> expected{
+      {"bilinear", 659}, {"mid-edge", 174},         {"mid-edge-habib-warren", 174},
+      {"butterfly", 10}, {"modified-butterfly", 2}, {"kobbelt", 4}};
+  for (const Scheme<double>& scheme : all_schemes()) {
+    const auto known = expected.find(scheme.name);
+    EXPECT_EQ(num_undefined_normals(scheme), known == expected.end() ? 0 : known->second) << scheme.name;
   }
 }
 

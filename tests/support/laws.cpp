@@ -496,6 +496,21 @@ const std::vector<Law>& laws() {
   return all;
 }
 
+int num_undefined_normals(const Scheme<double>& scheme) {
+  int count = 0;
+  LimitMaskCache cache(scheme);
+  for (const ControlMesh& mesh : meshes_for(scheme)) {
+    const std::vector<Level> levels = refine(scheme, mesh, 1);
+    Points x = mesh.positions;
+    for (int k = 0; k < 2; ++k) {
+      if (k == 1) x = apply(levels[1].S, x);
+      const LimitPoints points = limit_points(limit_matrices(levels[k], cache), levels[k].topology(), x);
+      count += int(std::count(points.status.begin(), points.status.end(), LimitStatus::undefined_normal));
+    }
+  }
+  return count;
+}
+
 std::vector<std::pair<std::string, SchemeOptions>> scheme_names_and_options() {
   std::vector<std::pair<std::string, SchemeOptions>> all;
   for (const SchemeEntry<double>& entry : registry<double>) all.push_back({entry.name, {}});

@@ -18,6 +18,10 @@ struct Law {
 
 const std::vector<Law>& laws();
 
+/// Normals that limits_agree_between_levels cannot compare, because they are undefined: on levels 0 and 1 of its
+/// meshes.
+int num_undefined_normals(const Scheme<double>& scheme);
+
 /// Names and options: every scheme with its default options, then with others that change its masks.
 std::vector<std::pair<std::string, SchemeOptions>> scheme_names_and_options();
 

@@ -9,6 +9,7 @@
 #include "sublimit/analysis/limit_rows.h"
 #include "sublimit/schemes.h"
 #include "sublimit/sparse_product.h"
+#include "support/laws.h"
 #include "support/meshes.h"
 
 namespace sublimit::testing {
@@ -80,14 +81,63 @@ std::vector<ControlMesh> meshes_for(const Scheme<double>& scheme) {
           jittered(open_fan(3, 4, 2))};
 }
 
-class EverySchemeLimit : public ::testing::TestWithParam<std::string> {};
+using Variant = std::pair<std::string, SchemeOptions>;
+/// What is known of these meshes' limits.
+struct Expected {
+  const char* variant;
+  int without_normal;      ///< sides
+  double points, normals;  ///< what is refined is as close as this to the limits (radians)
+  int other_normals;       ///< sides whose normals are known not to be where refinement goes
+};
+constexpr double digits = 1e-14;  // of points, by rounding alone
+constexpr Expected expected[] = {
+    {"bilinear", 44, 0, 0, 0},
+    {"catmull-clark", 0, 2e-06, 0.02, 0},
+    {"loop", 0, 4e-08, 0.001, 0},
+    {"loop-warren", 0, 7e-08, 0.001, 0},
+    {"doo-sabin", 0, digits, 4e-08, 0},
+    {"doo-sabin-averaging", 0, digits, 2e-06, 0},
+    {"mid-edge", 56, digits, 3e-08, 0},
+    {"mid-edge-habib-warren", 56, digits, 4e-08, 0},
+    {"averaging", 0, 1e-07, 0.003, 0},
+    {"butterfly", 5, 0, 0.0005, 0},
+    {"modified-butterfly", 1, 0, 0.0005, 0},
+    {"sqrt3", 0, 3e-12, 0.0003, 0},
+    {"interpolatory-sqrt3", 0, 0, 0.001, 0},
+    {"kobbelt", 1, 0, 0.04, 0},
+    {"catmull-clark --option triangles=smooth", 0, 2e-06, 0.02, 0},
+    {"averaging --option degree=2", 0, digits, 2e-06, 0},
+    {"averaging --option degree=4", 0, 4e-08, 3e-06, 0},
+    {"averaging --option degree=5", 0, 1e-07, 0.001, 0},
+    {"averaging --option degree=6", 0, 5e-08, 3e-06, 0},
+    {"averaging --option degree=9", 0, 7e-08, 0.0004, 0},
+    {"butterfly --option tension=0", 55, 0, 0, 0},
+    {"butterfly --option tension=1/2", 5, 0, 0.04, 0},
+    // At creases inside, which have the four-point rule, the limits are those of a border with virtual vertices.
+    {"butterfly --option boundary-rule=virtual-vertex", 9, 0, 0.0005, 8},
+    {"modified-butterfly --option t=1/64", 1, 0, 0.0015, 0},
+    {"modified-butterfly --option t=-1/64", 0, 0, 0.02, 0},
+    {"modified-butterfly --option boundary-rule=virtual-vertex", 5, 0, 0.0005, 8},
+    {"kobbelt --option tension=0", 45, 0, 0, 0},
+    // At border vertices of a single face the border's bend decays by 0.427 a level (tension 1/2), slower than what
+    // leaves the border, 1/4: the bend decides the plane, and the limits say otherwise. At tension 3/2 it is a complex
+    // pair of modulus 0.306: faces turn over and over, and there is no normal.
+    {"kobbelt --option tension=1/2", 1, 0, 0.003, 4},
+    {"kobbelt --option tension=3/2", 1, 0, 1e-4, 4},
+    {"kobbelt --option quads=edges", 1, 0, 0.04, 0},
+};
+
+class EverySchemeLimit : public ::testing::TestWithParam<Variant> {};
 
 TEST_P(EverySchemeLimit, IsWhereRefinementGoes) {
-  const Scheme<double> scheme = find_scheme(GetParam()).value();
+  const Scheme<double> scheme = find_scheme(GetParam().first, GetParam().second).value();
+  const auto known = std::find_if(std::begin(expected), std::end(expected),
+                                  [](const Expected& row) { return row.variant == described(GetParam()); });
+  ASSERT_NE(known, std::end(expected)) << "what is expected of its limits?";
   double worst_point = 0, worst_normal = 0;
-  int sides = 0, undefined = 0;
+  int undefined = 0, elsewhere = 0;
   // Enough to converge, and not so many that the faces drown in rounding.
-  const int levels = 12 * scheme.period;
+  const int levels = (scheme.name == "kobbelt" ? 16 : 12) * scheme.period;
   for (const ControlMesh& mesh : meshes_for(scheme)) {
     const Level level = control_level(scheme, mesh);
     const Topology& t = level.topology();
@@ -105,7 +155,6 @@ TEST_P(EverySchemeLimit, IsWhereRefinementGoes) {
           h = t.ccw(h);
         } while (exists(h) && h != fan);
       }
-      ++sides;
       const Centre centre{Centre::Kind::vertex, start};
       const Seen far = refined(scheme, level, mesh.positions, centre, levels);
       // Positions shrink at least like 0.92 a level: mid-edge at a heptagon.
@@ -117,28 +166,28 @@ TEST_P(EverySchemeLimit, IsWhereRefinementGoes) {
       const Eigen::Vector3d normal = points.normal.row(s);
       const double angle = std::acos(std::clamp(normal.dot(far.normal), -1.0, 1.0));
       const double before = std::acos(std::clamp(normal.dot(near.normal), -1.0, 1.0));
-      EXPECT_TRUE(angle < 1e-4 || angle < 0.7 * before)
-          << "vertex " << limit.side_vertex[s] << " with " << t.num_vertices() << " others: " << before << " rad on the way, " << angle << " after " << levels
-          << " levels";
-      EXPECT_LT(angle, 0.3) << "vertex " << limit.side_vertex[s] << " with " << t.num_vertices() << " others";
+      if (angle >= 1e-4 && angle >= 0.7 * before) {
+        EXPECT_LE(++elsewhere, known->other_normals)
+            << "vertex " << limit.side_vertex[s] << " with " << t.num_vertices() - 1 << " others: " << before
+            << " rad on the way, " << angle << " after " << levels << " levels";
+        continue;
+      }
       worst_normal = std::max(worst_normal, angle);
     }
   }
-  EXPECT_LT(worst_point, 0.05);
-  std::printf("%-22s %3d sides, %2d without normal; after %d levels %.1e from the limit, normals within %.1e rad\n",
-              GetParam().c_str(), sides, undefined, levels, worst_point, worst_normal);
+  EXPECT_EQ(elsewhere, known->other_normals);
+  EXPECT_EQ(undefined, known->without_normal);
+  EXPECT_LE(worst_point, known->points);
+  EXPECT_LE(worst_normal, known->normals);
 }
 
-std::vector<std::string> names() {
-  std::vector<std::string> list;
-  for (const Scheme<double>& scheme : all_schemes()) list.push_back(scheme.name);
-  return list;
-}
-INSTANTIATE_TEST_SUITE_P(Registry, EverySchemeLimit, ::testing::ValuesIn(names()), [](const auto& parameter) {
-  std::string name = parameter.param;
-  std::replace(name.begin(), name.end(), '-', '_');
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(Registry, EverySchemeLimit, ::testing::ValuesIn(scheme_names_and_options()),
+                         [](const auto& parameter) {
+                           std::string name = described(parameter.param);
+                           std::replace_if(
+                               name.begin(), name.end(), [](char c) { return !std::isalnum(c); }, '_');
+                           return name;
+                         });
 
 }  // namespace
 }  // namespace sublimit::testing
