@@ -2,7 +2,16 @@
 #pragma once
 // Loops over blocks. The split into blocks depends on the range alone, never on the number of threads, so whatever is
 // computed per block has the same bits on every machine.
+#ifdef __SANITIZE_THREAD__
+// The thread sanitizer sees nothing of TBB's own synchronisation, which is not instrumented, and reports races in it.
+#include <atomic>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <vector>
+#else
 #include <tbb/parallel_for.h>
+#endif
 
 #include <algorithm>
 #include <cstdint>
@@ -25,7 +34,29 @@ void parallel_for_blocks(std::int64_t count, const Body& body, std::int64_t size
     if (blocks == 1) run(0);
     return;
   }
+#ifdef __SANITIZE_THREAD__
+  std::atomic<std::int64_t> next{0};
+  std::mutex mutex;
+  std::exception_ptr failure;
+  const auto work = [&] {
+    for (std::int64_t block; (block = next++) < blocks;) {
+      try {
+        run(block);
+      } catch (...) {
+        const std::lock_guard lock(mutex);
+        if (!failure) failure = std::current_exception();
+        next = blocks;
+      }
+    }
+  };
+  std::vector<std::thread> threads;
+  for (int i = 0; i < 3; ++i) threads.emplace_back(work);
+  work();
+  for (std::thread& thread : threads) thread.join();
+  if (failure) std::rethrow_exception(failure);
+#else
   tbb::parallel_for(std::int64_t{0}, blocks, run);
+#endif
 }
 
 /// Calls body(i) for every i of [0, count), in parallel.
