@@ -50,6 +50,19 @@ std::function<Stencil<double>(const Ring<double>&)> symmetric_mutant(std::functi
   return [=](const Ring<double>& site) { return mask(site) + 1e-6 * (site.center() - site.neighbor_mean()); };
 }
 
+/// The same along a border: between the two points that a site has on either side of its middle.
+std::function<Stencil<double>(const CreaseSite<double>&)> symmetric_mutant(Mask<double, CreaseSite<double>> mask) {
+  return [=](const CreaseSite<double>& site) {
+    return mask(site) + 1e-6 * (2 * site.center() - site.before() - site.after());
+  };
+}
+std::function<Stencil<double>(const CreaseEdgeSite<double>&)> symmetric_mutant(
+    Mask<double, CreaseEdgeSite<double>> mask) {
+  return [=](const CreaseEdgeSite<double>& site) {
+    return mask(site) + 1e-6 * (site.tail() + site.head() - site.before() - site.after());
+  };
+}
+
 std::string killer(const Scheme<double>& scheme) {
   for (const Law& law : laws()) {
     try {
@@ -138,10 +151,19 @@ TEST(Mutants, EveryOneIsKilledByALaw) {
                       const char* of = steps == &Scheme<double>::steps ? "step " : "preparation ";
                       check(of + std::to_string(i) + ": " + what, [&](Scheme<double>& s) { change((s.*steps)[i]); });
                     });
-    for (size_t i = 0; i < scheme.steps.size(); ++i)
-      if (scheme.steps[i].masks.vertex)
-        check("step " + std::to_string(i) + ": vertex mask, centre against neighbours",
-              [&](Scheme<double>& s) { s.steps[i].masks.vertex = symmetric_mutant(scheme.steps[i].masks.vertex); });
+    for (size_t i = 0; i < scheme.steps.size(); ++i) {
+      const Step<double>& step = scheme.steps[i];
+      const std::string at = "step " + std::to_string(i) + ": ";
+      if (step.masks.vertex)
+        check(at + "vertex mask, centre against neighbours",
+              [&](Scheme<double>& s) { s.steps[i].masks.vertex = symmetric_mutant(step.masks.vertex); });
+      if (step.creases.vertex)
+        check(at + "crease vertex mask, middle against neighbours",
+              [&](Scheme<double>& s) { s.steps[i].creases.vertex = symmetric_mutant(step.creases.vertex); });
+      if (step.split != Split::keep)
+        check(at + "crease edge mask, ends against neighbours",
+              [&](Scheme<double>& s) { s.steps[i].creases.edge = symmetric_mutant(step.creases.edge); });
+    }
   }
   RecordProperty("mutants", mutants);
   EXPECT_GT(mutants, 1000);
