@@ -252,6 +252,9 @@ void add_border_tangents(Side& side, const MatrixXd& whole, const Outline& outli
     side.second_order.push_back(inward * mask);
   }
   if (leading.multiplicity > 1) side.plane = Plane::no;
+  // The outline's bend decays slower than what leaves it: the surface is thinner than it is bent.
+  if (modes.clusters[1].multiplicity == 1 && std::abs(bending.value) > side.lambda2 * (1 + same_rate))
+    side.plane = Plane::no;
   double lowest = 0, highest = 0;
   for (const Index i : outline.inner_ring) {
     const double height = heights[std::find(inner.begin(), inner.end(), i) - inner.begin()];

@@ -15,7 +15,7 @@ Scheme<T> butterfly_with(const char* name, const char* source, const SchemeOptio
   const OptionInfo border{
       .name = "boundary-rule",
       .values = {"four-point", "virtual-vertex"},
-      .meaning = "the border as a curve of its own, or continued to parallelograms, so that it depends on the inside"};
+      .meaning = "the border as a curve of its own, or continued to parallelograms, so that it depends on the inside (and sharp edges have no rule)"};
   infos.push_back(border);
   const Step<T> step{.split = Split::ptq,
                      .masks = {.vertex = [](const Ring<T>& v) { return v.center(); },
@@ -37,7 +37,7 @@ Scheme<T> butterfly_with(const char* name, const char* source, const SchemeOptio
                      .interpolates = true,
                      .limit = g.p > 0 ? "no closed form" : "the triangles"},
           .options = infos,
-          .sharpening = Sharpening::sharp};
+          .sharpening = step.masks.wide_borders ? Sharpening::boundary : Sharpening::sharp};
 }
 
 template <class T>
