@@ -83,6 +83,9 @@ size_t num_terms(const Mask<double, Site>& mask, const std::vector<Site>& sites)
   return most;
 }
 
+/// Whether a step asks the rule of crease edges: not if it makes no points on edges, or continues borders virtually.
+bool refines_curves(const Step<double>& step) { return step.split != Split::keep && !step.masks.wide_borders; }
+
 /// Every term of every mask of a step, changed by itself and against the next one. Masks that its split does not make
 /// points with are left out.
 using Change = std::function<void(Step<double>&)>;
@@ -127,7 +130,7 @@ void each_mutant(const Step<double>& step, int face_size, int period,
     crease_edges.emplace_back(masks, level);
   }
   each("crease vertex", &S::creases, &C::vertex, num_terms(step.creases.vertex, crease_vertices));
-  if (step.split != Split::keep) each("crease edge", &S::creases, &C::edge, num_terms(step.creases.edge, crease_edges));
+  if (refines_curves(step)) each("crease edge", &S::creases, &C::edge, num_terms(step.creases.edge, crease_edges));
 }
 
 TEST(Mutants, EveryOneIsKilledByALaw) {
@@ -160,7 +163,7 @@ TEST(Mutants, EveryOneIsKilledByALaw) {
       if (step.creases.vertex)
         check(at + "crease vertex mask, middle against neighbours",
               [&](Scheme<double>& s) { s.steps[i].creases.vertex = symmetric_mutant(step.creases.vertex); });
-      if (step.split != Split::keep)
+      if (refines_curves(step))
         check(at + "crease edge mask, ends against neighbours",
               [&](Scheme<double>& s) { s.steps[i].creases.edge = symmetric_mutant(step.creases.edge); });
     }
