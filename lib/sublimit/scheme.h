@@ -31,7 +31,8 @@ enum class Sharpening {
 struct Claims {
   int regular = 0;            ///< the limit is C^regular on regular meshes
   int extraordinary = 0;      ///< and C^extraordinary at extraordinary points
-  int reproduces = 1;         ///< polynomials of this degree are reproduced on regular meshes
+  int generates = 1;          ///< polynomials up to this degree are limits of regular meshes
+  int reproduces = 1;         ///< they are the limits of their own values at the vertices
   bool convex_hull = false;   ///< no negative weights
   bool interpolates = false;  ///< old vertices stay
   std::string limit;          ///< of regular meshes, in words

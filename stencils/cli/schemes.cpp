@@ -26,6 +26,7 @@ nlohmann::ordered_json arity(const Scheme<double>& scheme) {
 
 std::string other_claims(const Claims& claims) {
   std::string text = fmt::format("degree {}", claims.reproduces);
+  if (claims.generates != claims.reproduces) text += fmt::format(", generates {}", claims.generates);
   if (claims.interpolates) text += ", interpolates";
   if (claims.convex_hull) text += ", convex hull";
   return text;
@@ -130,6 +131,7 @@ int run(bool as_json) {
                      {"limit", claims.limit},
                      {"regular_continuity", claims.regular},
                      {"extraordinary_continuity", claims.extraordinary},
+                     {"generates_degree", claims.generates},
                      {"reproduces_degree", claims.reproduces},
                      {"interpolates", claims.interpolates},
                      {"convex_hull", claims.convex_hull},

@@ -36,6 +36,7 @@ Scheme<T> averaging(const SchemeOptions& options) {
       .creases = {.edge = middle},
       .claims = {.regular = degree - 1,
                  .extraordinary = 1,
+                 .generates = degree,
                  .reproduces = 1,
                  .convex_hull = true,
                  .limit = "B-spline of bidegree " + std::to_string(degree)},

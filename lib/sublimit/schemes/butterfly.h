@@ -32,6 +32,7 @@ Scheme<T> butterfly_with(const char* name, const char* source, const SchemeOptio
                           }},
           .claims = {.regular = g.p > 0 && g.p < 2 * g.q ? 1 : 0,
                      .extraordinary = 0,
+                     .generates = g.p == g.q ? 3 : 1,
                      .reproduces = g.p == g.q ? 3 : 1,
                      .convex_hull = g.p == 0,
                      .interpolates = true,

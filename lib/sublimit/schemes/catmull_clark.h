@@ -34,7 +34,7 @@ Scheme<T> catmull_clark(const SchemeOptions& options) {
                                },
                            .face = [](const FaceSite<T>& f) { return f.centroid(); }}}},
       .creases = cubic_bspline_creases<T>(),
-      .claims = {.regular = 2, .extraordinary = 1, .reproduces = 1, .convex_hull = true, .limit = "bicubic B-spline"},
+      .claims = {.regular = 2, .extraordinary = 1, .generates = 3, .reproduces = 1, .convex_hull = true, .limit = "bicubic B-spline"},
       .options = {triangles}};
 }
 

@@ -54,7 +54,7 @@ Scheme<T> interpolatory_sqrt3(const SchemeOptions&) {
                       [](const CreaseEdgeSite<T>& e) {
                         return (60 * e.tail() + 30 * e.head() - 5 * e.before() - 4 * e.after()) / 81;
                       }},
-      .claims = {.regular = 1, .extraordinary = 1, .reproduces = 3, .interpolates = true, .limit = "no closed form"},
+      .claims = {.regular = 1, .extraordinary = 1, .generates = 3, .reproduces = 3, .interpolates = true, .limit = "no closed form"},
       .period = 2,
       .sharpening = Sharpening::boundary};
 }

@@ -85,6 +85,7 @@ Scheme<T> kobbelt(const SchemeOptions& options) {
                           }},
           .claims = {.regular = g.p > 0 ? 1 : 0,
                      .extraordinary = g.p > 0 && 2 * g.p <= 3 * g.q ? 1 : 0,
+                     .generates = g.p == g.q ? 3 : 1,
                      .reproduces = g.p == g.q ? 3 : 1,
                      .convex_hull = g.p == 0,
                      .interpolates = true,

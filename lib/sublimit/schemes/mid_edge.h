@@ -20,6 +20,7 @@ Scheme<T> mid_edge_with(const char* name, const char* source, const Edge& edge) 
                       .edge = [](const CreaseEdgeSite<T>& e) { return (e.tail() + e.head()) / 2; }},
           .claims = {.regular = 1,
                      .extraordinary = 1,
+                     .generates = 2,
                      .reproduces = 1,
                      .convex_hull = true,
                      .limit = "Zwart-Powell box spline"},
