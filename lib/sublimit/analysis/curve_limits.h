@@ -12,6 +12,7 @@
 #include <optional>
 #include <type_traits>
 
+#include "sublimit/analysis/closed_set.h"
 #include "sublimit/curve_refine.h"
 
 namespace sublimit {
@@ -162,7 +163,7 @@ class CurveAnalysis {
   using Matrix = Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic>;
   using Vector = Eigen::Matrix<T, Eigen::Dynamic, 1>;
 
-  /// Weights by offset from a position inside, or by point of the canonical curve from an end on. Derivatives per leg
+  /// Weights around a position inside (offsets from it), or over the whole canonical curve from an end on. Derivatives per leg
   /// of the level, inwards at an end.
   struct Rows {
     std::vector<CurveUnknown> unknowns;
@@ -189,6 +190,14 @@ class CurveAnalysis {
   }
   T sign(Index i) const { return i % layout_.unknowns() == 0 ? T(1) : T(-1); }
 
+  /// The unknowns of a curve's points, by position.
+  std::vector<CurveUnknown> unknowns_of(const CurveOutline& curve) const {
+    std::vector<CurveUnknown> unknowns;
+    for (Index a = 0; a < curve.size; ++a)
+      for (int component = 0; component < layout_.unknowns(); ++component)
+        unknowns.push_back({layout_.position(curve, a), component});
+    return unknowns;
+  }
   /// Points that are 1 everywhere, and points at their own positions, in legs.
   static Vector constant(const std::vector<CurveUnknown>& unknowns) {
     Vector one(unknowns.size());
@@ -221,27 +230,19 @@ class CurveAnalysis {
   }
 
   /// Rows pulled back through one step: A has their weights' points as rows.
-  Rows pulled_back(const Rows& fine, const Matrix& A, std::vector<CurveUnknown> unknowns) const {
+  static Rows pulled_back(const Rows& fine, const Matrix& A, std::vector<CurveUnknown> unknowns) {
     Rows rows = fine;
     rows.unknowns = std::move(unknowns);
     rows.position = A.transpose() * fine.position;
     rows.first = T(2) * (A.transpose() * fine.first);
     // Derivatives see no constants, and second ones nothing linear. Rounding would let these grow by 2 and 4 a step.
-    // Unknowns by point of the canonical curve have no positions here, and come a step or two after those that have.
-    Vector one(A.cols()), x(0);
-    if (rows.unknowns.empty()) {
-      for (Eigen::Index i = 0; i < one.size(); ++i) one[i] = T(i % layout_.unknowns() == 0 ? 1 : 0);
-    } else {
-      one = constant(rows.unknowns);
-      x = linear(rows.unknowns);
-    }
-    const bool linear_too = x.size() > 0 && rows.has_first;
+    const Vector one = constant(rows.unknowns), x = linear(rows.unknowns);
     rows.first -= rows.first.dot(one) * rows.position;
-    if (linear_too) rows.first /= rows.first.dot(x);
+    if (rows.has_first) rows.first /= rows.first.dot(x);
     for (int side : {0, 1}) {
       rows.second[side] = T(4) * (A.transpose() * fine.second[side]);
       rows.second[side] -= rows.second[side].dot(one) * rows.position;
-      if (linear_too) rows.second[side] -= rows.second[side].dot(x) * rows.first;
+      if (rows.has_first) rows.second[side] -= rows.second[side].dot(x) * rows.first;
     }
     return rows;
   }
@@ -294,22 +295,10 @@ class CurveAnalysis {
 
   /// Points of a neighbourhood between two positions and those that they depend on, in order.
   static std::vector<Index> closure(const CurveNeighborhood<T>& n, std::int64_t from, std::int64_t to) {
-    const Index size = static_cast<Index>(n.unknowns.size());
-    std::vector<bool> in(size, false);
-    std::vector<Index> open, points;
-    for (Index i = 0; i < size; ++i)
-      if (n.unknowns[i].position >= from && n.unknowns[i].position <= to) open.push_back(i);
-    while (!open.empty()) {
-      const Index i = open.back();
-      open.pop_back();
-      if (in[i]) continue;
-      in[i] = true;
-      for (Index j = 0; j < size; ++j)
-        if (n.A(i, j) != T(0)) open.push_back(j);
-    }
-    for (Index i = 0; i < size; ++i)
-      if (in[i]) points.push_back(i);
-    return points;
+    std::vector<Index> between;
+    for (size_t i = 0; i < n.unknowns.size(); ++i)
+      if (n.unknowns[i].position >= from && n.unknowns[i].position <= to) between.push_back(static_cast<Index>(i));
+    return closed_set(n.A, between);
   }
 
   /// Eigenvalues that are no smaller than `value` in modulus; pairs that rounding has split lie within 1e-7 of their
@@ -406,7 +395,8 @@ class CurveAnalysis {
       rows = on_canonical(rows_inside(level, position % 2 != 0), canonical_, position);
     } else {
       const Rows fine = rows_near_end(level + 1, 2 * position, reversed);
-      rows = pulled_back(fine, canonical_matrix(level, reversed).topRows(canonical_.size * layout_.unknowns()), {});
+      rows = pulled_back(fine, canonical_matrix(level, reversed).topRows(canonical_.size * layout_.unknowns()),
+                         unknowns_of(canonical_));
     }
     return end_rows_[{level, position, reversed}] = rows;
   }
@@ -414,7 +404,7 @@ class CurveAnalysis {
   /// Rows by offset as rows by point of the canonical curve.
   Rows on_canonical(const Rows& rows, const CurveOutline& curve, std::int64_t at) const {
     Rows result = rows;
-    result.unknowns.clear();
+    result.unknowns = unknowns_of(curve);
     result.position = result.first = result.second[0] = result.second[1] =
         Vector::Zero(curve.size * layout_.unknowns());
     for (size_t i = 0; i < rows.unknowns.size(); ++i) {
@@ -432,17 +422,17 @@ class CurveAnalysis {
   /// One step of the canonical curve, from `rows` at twice the position.
   Rows one_step(int level, std::int64_t at, const Rows& rows) {
     const CurveOutline child = layout_.child(canonical_);
-    return pulled_back(on_canonical(rows, child, 2 * at), canonical_matrix(level, false), {});
+    return pulled_back(on_canonical(rows, child, 2 * at), canonical_matrix(level, false), unknowns_of(canonical_));
   }
   /// Rows by point of the canonical curve as rows by offset.
   Rows from_canonical(const Rows& rows, std::int64_t at) const {
     Rows result = rows;
     result.unknowns.clear();
     std::vector<Index> kept;
-    for (Index a = 0; a < canonical_.size * layout_.unknowns(); ++a)
+    for (Index a = 0; a < Index(rows.unknowns.size()); ++a)
       if (rows.position[a] != T(0) || rows.first[a] != T(0) || rows.second[0][a] != T(0) || rows.second[1][a] != T(0)) {
         kept.push_back(a);
-        result.unknowns.push_back({layout_.position(canonical_, a / layout_.unknowns()) - at, a % layout_.unknowns()});
+        result.unknowns.push_back({rows.unknowns[a].position - at, rows.unknowns[a].component});
       }
     result.position = rows.position(kept);
     result.first = rows.first(kept);

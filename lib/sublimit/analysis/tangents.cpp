@@ -6,6 +6,8 @@
 
 #include <algorithm>
 
+#include "sublimit/analysis/closed_set.h"
+
 namespace sublimit {
 namespace {
 
@@ -28,26 +30,35 @@ VectorXd per_unit(const EigenCluster& cluster, const Slots& slots, Index slot) {
   return l * (r[at] / taken);
 }
 
+const EigenCluster& first_of_block_1(const EigenStructure& structure) {
+  return *std::find_if(structure.clusters.begin(), structure.clusters.end(),
+                       [](const EigenCluster& cluster) { return cluster.block == 1; });
+}
+
+bool is_constant(const EigenCluster& cluster) {
+  return cluster.block == 0 && std::abs(cluster.value - 1.0) < same_rate;
+}
+
+Plane ring_plane(const EigenStructure& structure, int n) {
+  if (n == 2) return Plane::no;  // block 1 is real: both tangents come from it
+  const EigenCluster& first = first_of_block_1(structure);
+  // Chains of a cluster: one may be as long as all others leave it, the longest is at least the mean.
+  const auto longest = [](const EigenCluster& c) { return c.multiplicity - c.geometric() + 1; };
+  const int chain = (first.multiplicity + first.geometric() - 1) / first.geometric();
+  for (const EigenCluster& cluster : structure.clusters) {
+    const bool conjugate = cluster.block == n - 1;
+    if (&cluster == &first || is_constant(cluster) || conjugate ||
+        !decays_like(std::abs(cluster.value), std::abs(first.value)))
+      continue;
+    const bool slower = std::abs(cluster.value) > std::abs(first.value) * (1 + same_rate);
+    if (slower || longest(cluster) >= chain) return Plane::no;
+  }
+  return first.is_jordan() ? Plane::slow : first.multiplicity > 1 ? Plane::no : Plane::yes;
+}
+
 }  // namespace
 
 bool decays_like(double modulus, double lambda) { return modulus >= lambda * (1 - same_rate); }
-
-/// Slots that the given ones depend on, themselves included: the smallest closed set.
-Slots closure(const MatrixXd& A, const Slots& seed) {
-  std::vector<bool> in(A.rows(), false);
-  Slots open = seed, result;
-  while (!open.empty()) {
-    const Index i = open.back();
-    open.pop_back();
-    if (in[i]) continue;
-    in[i] = true;
-    result.push_back(i);
-    for (Index j = 0; j < A.cols(); ++j)
-      if (A(i, j) != 0) open.push_back(j);
-  }
-  std::sort(result.begin(), result.end());
-  return result;
-}
 
 VectorXd embedded(const VectorXd& weights, const Slots& slots, Index size) {
   VectorXd mask = VectorXd::Zero(size);
@@ -63,7 +74,7 @@ VectorXd made_real(const VectorXcd& v) {
 }
 
 VectorXd position_mask(const MatrixXd& A, const Slots& centre, const std::optional<FourierBlocks>& fourier) {
-  const Slots slots = closure(A, centre);
+  const Slots slots = closed_set(A, centre);
   if (!fourier || static_cast<Index>(slots.size()) < A.rows())
     return embedded(limit_weights(A(slots, slots)), slots, static_cast<Index>(A.rows()));
   return fourier->mask(0, limit_weights(fourier->blocks[0].real()).cast<std::complex<double>>()).real();
@@ -73,9 +84,7 @@ VectorXd position_mask(const MatrixXd& A, const Slots& centre, const std::option
 /// and the sine mask of block 1.
 void add_ring_tangents(Side& side, const FourierBlocks& fourier) {
   const EigenStructure structure = eigen_structure(fourier);
-  const EigenCluster* first = nullptr;
-  for (const EigenCluster& cluster : structure.clusters)
-    if (cluster.block == 1 && !first) first = &cluster;
+  const EigenCluster* first = &first_of_block_1(structure);
   const double lambda = std::abs(first->value);
   side.lambda1 = side.lambda2 = lambda;
   VectorXcd l = first->left.col(0);
@@ -87,20 +96,17 @@ void add_ring_tangents(Side& side, const FourierBlocks& fourier) {
     side.tangent1 = fourier.mask(1, l).real();
     side.tangent2 = first->left.cols() > 1 ? VectorXd(fourier.mask(1, first->left.col(1)).real())
                                            : VectorXd::Zero(side.tangent1.size());
-    side.plane = Plane::no;
   } else {
     const VectorXcd mask = 2.0 * fourier.mask(1, l);
     side.tangent1 = mask.real();
     side.tangent2 = -mask.imag();
-    side.plane = first->is_jordan() ? Plane::slow : first->multiplicity > 1 ? Plane::no : Plane::yes;
   }
+  side.plane = ring_plane(structure, fourier.n);
   double next = 0;
   for (const EigenCluster& cluster : structure.clusters) {
-    const bool constant = cluster.block == 0 && std::abs(cluster.value - 1.0) < same_rate;
-    if (&cluster == first || constant || (fourier.n > 2 && cluster.block == fourier.n - 1 && std::abs(cluster.value) >= lambda * (1 - same_rate)))
-      continue;
     const double modulus = std::abs(cluster.value);
-    if (decays_like(modulus, lambda)) side.plane = Plane::no;
+    const bool conjugate = fourier.n > 2 && cluster.block == fourier.n - 1 && decays_like(modulus, lambda);
+    if (&cluster == first || is_constant(cluster) || conjugate) continue;
     if (next == 0) next = modulus;
     if (modulus < next * (1 - same_rate) || 2 * cluster.block > fourier.n) continue;
     for (Eigen::Index c = 0; c < cluster.left.cols(); ++c) {
@@ -111,24 +117,7 @@ void add_ring_tangents(Side& side, const FourierBlocks& fourier) {
   }
 }
 
-Plane ring_plane(const FourierBlocks& fourier) {
-  const EigenStructure structure = eigen_structure(fourier);
-  const EigenCluster* first = nullptr;
-  for (const EigenCluster& cluster : structure.clusters)
-    if (cluster.block == 1 && !first) first = &cluster;
-  // Chains of a cluster: one may be as long as all others leave it, the longest is at least the mean.
-  const auto longest = [](const EigenCluster& c) { return c.multiplicity - c.geometric() + 1; };
-  const int chain = (first->multiplicity + first->geometric() - 1) / first->geometric();
-  for (const EigenCluster& cluster : structure.clusters) {
-    const bool constant = cluster.block == 0 && std::abs(cluster.value - 1.0) < same_rate;
-    const bool conjugate = fourier.n > 2 && cluster.block == fourier.n - 1;
-    if (&cluster == first || constant || conjugate || !decays_like(std::abs(cluster.value), std::abs(first->value)))
-      continue;
-    const bool slower = std::abs(cluster.value) > std::abs(first->value) * (1 + same_rate);
-    if (slower || longest(cluster) >= chain) return Plane::no;
-  }
-  return first->is_jordan() ? Plane::slow : first->multiplicity > 1 ? Plane::no : Plane::yes;
-}
+Plane ring_plane(const FourierBlocks& fourier) { return ring_plane(eigen_structure(fourier), fourier.n); }
 
 /// One side between two sharp edges. Its outline (the vertex and the ends of these edges) is a curve scheme of its own and
 /// gives the tangent along a crease, or the two tangents of a corner; the leading mode of the interior crosses a crease.
@@ -152,7 +141,7 @@ void add_border_tangents(Side& side, const MatrixXd& whole, const Outline& outli
     VectorXd* tangents[] = {&side.tangent1, &side.tangent2};
     for (int i = 0; i < 2; ++i) {
       const Index end = i == 0 ? first : last;
-      const Slots leg = closure(whole, {0, end});
+      const Slots leg = closed_set(whole, {0, end});
       const EigenStructure along = eigen_structure(whole(leg, leg).cast<std::complex<double>>());
       *tangents[i] = embedded(per_unit(along.clusters[1], leg, end), leg, size);
       (i == 0 ? side.lambda1 : side.lambda2) = std::abs(along.clusters[1].value);

@@ -13,9 +13,6 @@ using Slots = std::vector<Index>;
 
 bool decays_like(double modulus, double lambda);
 
-/// Slots that the given ones depend on, themselves included: the smallest closed set.
-Slots closure(const Eigen::MatrixXd& A, const Slots& seed);
-
 /// Weights on some slots as a mask over `size` of them.
 Eigen::VectorXd embedded(const Eigen::VectorXd& weights, const Slots& slots, Index size);
 
