@@ -15,19 +15,9 @@ namespace {
 const std::string curve = "x,y,tx,ty\n1,0,0,1\n0,1,-1,0\n-1,3,-1,0\n";
 
 void expect_refused(const std::string& name, const std::string& text, std::initializer_list<std::string_view> parts,
-                    int status = 3, const std::vector<std::string>& more = {}) {
-  const TemporaryDirectory directory;
-  const std::string in = directory.write(name, text).string();
-  for (const char* command : {"refine", "limit"}) {
-    std::vector<std::string> all{command, in,  "-s", "hermite-incentre",
-                                 "-l",    "1", "-o", (directory / "o.csv").string()};
-    all.insert(all.end(), more.begin(), more.end());
-    SCOPED_TRACE(text);
-    const Outcome outcome = sublimit(all);
-    expect_failure(outcome, status, parts);
-    EXPECT_EQ(count_of(outcome.err, "\n"), 1u) << outcome.err;
-    EXPECT_EQ(directory.num_files(), 1);
-  }
+                    int status = 3, std::vector<std::string> more = {}) {
+  more.insert(more.end(), {"-s", "hermite-incentre"});
+  testing::expect_refused(name, text, more, status, parts, "o.csv");
 }
 
 TEST(CliHermiteIncentre, RefinesAndGoesOn) {

@@ -6,6 +6,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <functional>
 #include <initializer_list>
@@ -109,6 +110,24 @@ inline size_t count_of(std::string_view text, std::string_view part) {
   size_t count = 0;
   for (size_t at = text.find(part); at != std::string_view::npos; at = text.find(part, at + 1)) ++count;
   return count;
+}
+
+/// Runs `refine` and `limit` on a file of this name and text; they must fail and write nothing.
+inline void expect_refused(const std::string& name, const std::string& text, const std::vector<std::string>& arguments,
+                           int status, std::initializer_list<std::string_view> parts,
+                           const std::string& output = "out.obj") {
+  const TemporaryDirectory directory;
+  const std::string mesh = directory.write(name, text).string();
+  for (const char* command : {"refine", "limit"}) {
+    std::vector<std::string> all{command, mesh, "-o", (directory / output).string()};
+    if (std::ranges::find(arguments, "-l") == arguments.end()) all.insert(all.end(), {"-l", "1"});
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    SCOPED_TRACE(command + (" " + text.substr(0, 60)));
+    const Outcome outcome = sublimit(all);
+    expect_failure(outcome, status, parts);
+    EXPECT_EQ(count_of(outcome.err, "\n"), 1u) << outcome.err;
+    EXPECT_EQ(directory.num_files(), 1);
+  }
 }
 
 }  // namespace sublimit::testing

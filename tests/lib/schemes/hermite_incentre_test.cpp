@@ -19,6 +19,15 @@ const GeometricCurveScheme scheme = hermite_incentre({});
 
 /// Of arcs and refined points, relative to the curve's size: about 40 roundings in 15 levels.
 constexpr double curve_tolerance = 1e-14;
+/// The same of curves mapped, turned or reversed: their points are rounded before the first step, relative to their
+/// size.
+constexpr double moved_points = 1e-12, moved_tangents = 10 * moved_points;
+/// Of lengths that were divided by themselves.
+const double unit_length = rounding(1);
+/// Of angles of legs 2^-15 long, whose direction is a difference of points.
+constexpr double short_leg_angle = 0x1p15 * 2 * eps;
+/// Of differences over h: half the curvature times h, at most 6 of them.
+constexpr double difference_step = 1e-4, difference_error = difference_step / 100;
 
 Vector3d direction(double angle) { return {std::cos(angle), std::sin(angle), 0}; }
 
@@ -108,12 +117,12 @@ TEST(HermiteIncentre, CirclesStay) {
       const auto at = [&](double p) { return std::array{x0 + std::sin(p), -std::cos(p), p}; };
       const ControlPolygon curve = refine(scheme, plane_curve({at(0), at(turn)}), 6);
       // Rounded ends move a circle by their rounding over its sagitta, along its chord's perpendicular bisector.
-      const double tolerance = 1e-14 * (1 + x0) * (1 + 1 / std::abs(std::sin(turn / 2)));
+      const double tolerance = curve_tolerance * (1 + x0) * (1 + 1 / std::abs(std::sin(turn / 2)));
       for (Index i = 0; i < curve.num_points(); ++i) {
         const auto [x, y, p] = at(turn * i / 64);
         EXPECT_NEAR(curve.points(i, 0), x, tolerance);
         EXPECT_NEAR(curve.points(i, 1), y, tolerance);
-        EXPECT_LE((curve.tangents.row(i) - direction(p).head<2>().transpose()).norm(), 1e-15 * 8 + tolerance);
+        EXPECT_LE((curve.tangents.row(i) - direction(p).head<2>().transpose()).norm(), 8 * unit_length + tolerance);
       }
     }
 }
@@ -135,7 +144,7 @@ TEST(HermiteIncentre, AnglesHalveOnConvexCurves) {
   ControlPolygon curve = start;
   for (int k = 1; k <= 10; ++k) {
     curve = scheme.refine(curve);
-    EXPECT_NEAR(largest_angle(curve), std::ldexp(first, -k), 1e-11);
+    EXPECT_NEAR(largest_angle(curve), std::ldexp(first, -k), short_leg_angle);
   }
 }
 
@@ -153,13 +162,14 @@ TEST(HermiteIncentre, LimitIsGeometricallySmooth) {
           const double tiny = 0x1p-40, near = 1e-11 * arc.length() + rounding(8, 20);
           EXPECT_LE((arc.at(tiny).position - arc.start().position).norm(), near);
           EXPECT_LE((arc.at(1 - tiny).position - arc.end().position).norm(), near);
-          EXPECT_LE((arc.at(tiny).tangent - arc.start().tangent).norm(), 1e-10);
-          EXPECT_LE((arc.at(1 - tiny).tangent - arc.end().tangent).norm(), 1e-10);
+          EXPECT_LE((arc.at(tiny).tangent - arc.start().tangent).norm(), 100 * tiny);
+          EXPECT_LE((arc.at(1 - tiny).tangent - arc.end().tangent).norm(), 100 * tiny);
           for (const double x : {0.1, 0.4, 0.9}) {
-            const double h = 1e-4;
+            const double h = difference_step;
             const Vector3d d = (arc.at(x + h).position - arc.at(x - h).position) / (2 * h);
-            EXPECT_LE((d / arc.length() - arc.at(x).tangent).norm(), 1e-6);
-            EXPECT_NEAR((arc.at(x).position - arc.centre()).norm() / arc.radius(), 1, 1e-12 * (1 + 20 / arc.length()));
+            EXPECT_LE((d / arc.length() - arc.at(x).tangent).norm(), difference_error);
+            EXPECT_NEAR((arc.at(x).position - arc.centre()).norm() / arc.radius(), 1,
+                        moved_points * (1 + 20 / arc.length()));
           }
         }
 }
@@ -221,7 +231,7 @@ TEST(HermiteIncentre, SimilaritiesAndReversalCommute) {
     };
     // Positions move with the tangents' rounding times the size of the arcs, which turn back near 2 pi.
     expect_close(scheme.limit(scheme.checked(moved(polygon)), 4), moved(scheme.limit(polygon, 4)),
-                 1e-12 * factor * size * size, 1e-11 * size);
+                 moved_points * factor * size * size, moved_tangents * size);
 
     ControlPolygon back = polygon;
     std::reverse(back.curves[0].points.begin(), back.curves[0].points.end());
@@ -233,8 +243,8 @@ TEST(HermiteIncentre, SimilaritiesAndReversalCommute) {
     const Index n = forward.num_points(), last = polygon.curves[0].closed ? n - 16 : n - 1;
     for (Index i = 0; i < n; ++i) {
       const Index j = ((last - i) % n + n) % n;
-      EXPECT_LE((limit.points.row(i) - forward.points.row(j)).norm(), 1e-12 * size * size);
-      EXPECT_LE((limit.tangents.row(i) - forward.tangents.row(j)).norm(), 1e-11 * size);
+      EXPECT_LE((limit.points.row(i) - forward.points.row(j)).norm(), moved_points * size * size);
+      EXPECT_LE((limit.tangents.row(i) - forward.tangents.row(j)).norm(), moved_tangents * size);
     }
   }
 }
@@ -247,7 +257,7 @@ TEST(HermiteIncentre, OldDataStayAndTangentsStayUnits) {
         EXPECT_EQ(fine->points.row(8 * i), polygon.points.row(i));
         EXPECT_EQ(fine->tangents.row(8 * i), polygon.tangents.row(i));
       }
-    EXPECT_LE((child.tangents.rowwise().norm().array() - 1).abs().maxCoeff(), 1e-15);
+    EXPECT_LE((child.tangents.rowwise().norm().array() - 1).abs().maxCoeff(), unit_length);
     const ControlPolygon twice = refine(scheme, refine(scheme, polygon, 1), 2);
     EXPECT_EQ(twice.points, child.points);
     EXPECT_EQ(twice.tangents, child.tangents);
@@ -305,7 +315,7 @@ TEST(HermiteIncentre, RefusesWhatItCannotTake) {
   // Almost units are made units.
   polygon = leg(1, -1);
   polygon.tangents *= 1 + 1e-7;
-  EXPECT_NEAR(scheme.checked(polygon).tangents.row(0).norm(), 1, 1e-15);
+  EXPECT_NEAR(scheme.checked(polygon).tangents.row(0).norm(), 1, unit_length);
 }
 
 }  // namespace
