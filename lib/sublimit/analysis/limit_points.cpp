@@ -121,25 +121,6 @@ Vector3d normal_of_higher_order(const Vector3d& t1, const Vector3d& t2, const st
   return turn > 0 ? normal : -normal;
 }
 
-}  // namespace
-
-const char* name(LimitStatus status) {
-  switch (status) {
-    case LimitStatus::regular:
-      return "regular";
-    case LimitStatus::extraordinary:
-      return "extraordinary";
-    case LimitStatus::crease:
-      return "crease";
-    case LimitStatus::hole:
-      return "hole";
-    default:
-      return "undefined-normal";
-  }
-}
-
-namespace {
-
 /// The general way: a centre for each fan of each vertex.
 LimitMatrices lone_limit_matrices(const Level& level, LimitMaskCache& cache) {
   const Topology& t = level.topology();

@@ -4,19 +4,10 @@
 #include <vector>
 
 #include "sublimit/analysis/limit_masks.h"
+#include "sublimit/analysis/limit_status.h"
 #include "sublimit/refine.h"
 
 namespace sublimit {
-
-enum class LimitStatus {
-  regular,           ///< smooth, of the scheme's regular valence
-  extraordinary,     ///< smooth otherwise, darts included
-  crease,            ///< on a crease, boundary or corner: tangents and normal are one-sided
-  hole,              ///< all faces of this side are holes
-  undefined_normal,  ///< there is no tangent plane, or these control points make it degenerate
-};
-/// The word of a status, as files and messages have it.
-const char* name(LimitStatus status);
 
 /// Rows over the points of one level. A vertex has one side, unless sharp edges or several fans cut its faces apart.
 struct LimitMatrices {

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// What there is at a point of a limit surface, in one word.
+
+namespace sublimit {
+
+enum class LimitStatus {
+  regular,           ///< smooth, of the scheme's regular valence
+  extraordinary,     ///< smooth otherwise, darts included: characteristic tangents instead of natural derivatives
+  unbounded_second,  ///< the second derivatives are unbounded or not continuous
+  crease,            ///< on a crease, boundary or corner: tangents and normal are one-sided
+  hole,              ///< all faces of this side are holes
+  undefined_normal,  ///< there is no tangent plane, or these control points make it degenerate
+  outside,           ///< the parameters are outside the domain
+};
+/// The word of a status, as files and messages have it.
+const char* name(LimitStatus status);
+
+}  // namespace sublimit

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sublimit/limit/address.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sublimit/base/error.h"
+
+namespace sublimit {
+
+Addresses::Addresses(const Topology& t, bool triangles) : triangles_(triangles) {
+  const Index whole = triangles ? 3 : 4;
+  if (t.uniform_face_size() == whole) {
+    size_ = t.num_faces();
+    return;
+  }
+  first_.reserve(t.num_faces() + 1);
+  for (Index f = 0; f < t.num_faces(); ++f) {
+    first_.push_back(size_);
+    size_ += t.size(Face{f}) == whole ? 1 : t.size(Face{f});
+  }
+  first_.push_back(size_);
+}
+
+Addresses::Place Addresses::place(Index address) const {
+  if (first_.empty()) return {Face{address}, -1};
+  const Index f = static_cast<Index>(std::upper_bound(first_.begin(), first_.end(), address) - first_.begin()) - 1;
+  return {Face{f}, first_[f + 1] - first_[f] == 1 ? -1 : address - first_[f]};
+}
+
+namespace {
+
+Index squares_in_a_row(Index corners) { return static_cast<Index>(std::sqrt(double(corners - 1))) + 1; }
+
+}  // namespace
+
+BfrParameter to_bfr(Index corners, Index corner, double u, double v) {
+  const Index w = squares_in_a_row(corners);
+  return {double(corner % w) + u / 2, double(corner / w) + v / 2};
+}
+
+Sample from_bfr(Index corners, const BfrParameter& p) {
+  const Index w = squares_in_a_row(corners);
+  const double column = std::floor(p.u), row = std::floor(p.v);
+  const double u = 2 * (p.u - column), v = 2 * (p.v - row);
+  if (!(column >= 0 && column < w && row >= 0 && row * w + column < corners && u <= 1 && v <= 1))
+    throw InvalidParameter("(" + std::to_string(p.u) + ", " + std::to_string(p.v) + ") is in no square of a polygon of " +
+                           std::to_string(corners) + " corners; squares are half a unit wide, " + std::to_string(w) + " in a row");
+  return {static_cast<Index>(row * w + column), u, v};
+}
+
+}  // namespace sublimit

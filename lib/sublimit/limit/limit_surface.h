@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// The exact limit anywhere. A piece of the surface depends on the points around it alone; where it is a polynomial, its basis
+// is evaluated, elsewhere the place is followed through the children of the piece:
+//
+//   x(f,u,v) = b T_m ... T_1 x_0      T_i: blocks of S on the path; b: basis of a polynomial piece, or a limit mask
+//
+// Pieces are computed once a type of neighbourhood (piece_types.h).
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "sublimit/analysis/limit_status.h"
+#include "sublimit/limit/address.h"
+#include "sublimit/refine.h"
+
+namespace sublimit {
+
+class PieceTypes;
+
+/// Weights over control vertices of one place.
+struct LimitStencil {
+  LimitStatus status = LimitStatus::regular;
+  std::vector<Index> vertices;  ///< ascending
+  /// Rows: position, then du, dv, then duu, duv, dvv, as far as asked for and existing; one column per vertex. Position
+  /// weights sum to 1, derivatives' to 0.
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> weights;
+  /// Two rows along the tangent plane, their cross product along the normal: du and dv where these exist, characteristic
+  /// tangents at extraordinary vertices; none where there is no plane.
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> tangents;
+};
+
+/// What `evaluate` gives, row by row. Absent quantities are zero; `order` and `status` say what is there.
+struct LimitSamples {
+  Points position;            ///< #samples x 3
+  Points du, dv;              ///< order >= 1
+  Points duu, duv, dvv;       ///< order 2
+  Points normal;              ///< unit length, by the winding of faces; order >= 1
+  std::vector<LimitStatus> status;
+  std::vector<std::int8_t> order;  ///< derivatives that this row has: 0, 1 or 2
+};
+
+/// Curvature of the surface, by its first and second derivatives.
+struct Curvature {
+  double gauss = 0, mean = 0;     ///< mean > 0 where the surface bends towards its normal
+  double k1 = 0, k2 = 0;          ///< principal ones, k1 >= k2
+  Eigen::Vector3d direction1, direction2;  ///< of k1, k2: unit length, in the tangent plane
+};
+
+class LimitSurface {
+ public:
+  /// @param types  shared between surfaces of the same scheme, if given
+  /// @throws InvalidMesh, UnsupportedTopology  as refinement does
+  LimitSurface(const Scheme<double>& scheme, const ControlMesh& mesh, const SubdivisionOptions& options = {},
+               std::shared_ptr<PieceTypes> types = nullptr);
+  /// Of a level, with stencils over its vertices.
+  LimitSurface(const Scheme<double>& scheme, Level level, std::shared_ptr<PieceTypes> types = nullptr);
+  ~LimitSurface();
+  LimitSurface(LimitSurface&&) noexcept;
+  LimitSurface& operator=(LimitSurface&&) noexcept;
+
+  const Addresses& addresses() const;
+  const Level& level() const;
+
+  /// Finds the types of all pieces now, in parallel; else they are found at the first use.
+  void prepare() const;
+
+  /// Stencil of one place. Every request has an answer: what does not exist there is told by the status.
+  /// @param order  of derivatives: 0, 1 or 2
+  /// @throws InvalidParameter  a face that does not exist, parameters outside the domain or not finite, another order
+  LimitStencil stencil(const Sample& sample, int order = 0) const;
+
+  /// Points of the surface with derivatives and normals; in parallel.
+  /// @param points  of the level, #V x 3
+  LimitSamples evaluate(const Points& points, std::span<const Sample> samples, int order = 0) const;
+
+  /// N x N samples per address, ends included, row-major, u fastest; triangles N (N + 1) / 2. Shared points are computed once.
+  LimitSamples evaluate_grid(const Points& points, int N, int order = 0) const;
+  std::vector<Sample> grid(int N) const;
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+/// Curvature where first and second derivatives exist and the first ones span a plane; nothing elsewhere.
+std::optional<Curvature> curvature(const LimitSamples& samples, Index row);
+
+}  // namespace sublimit
