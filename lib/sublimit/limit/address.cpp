@@ -44,8 +44,9 @@ Sample from_bfr(Index corners, const BfrParameter& p) {
   const double column = std::floor(p.u), row = std::floor(p.v);
   const double u = 2 * (p.u - column), v = 2 * (p.v - row);
   if (!(column >= 0 && column < w && row >= 0 && row * w + column < corners && u <= 1 && v <= 1))
-    throw InvalidParameter("(" + std::to_string(p.u) + ", " + std::to_string(p.v) + ") is in no square of a polygon of " +
-                           std::to_string(corners) + " corners; squares are half a unit wide, " + std::to_string(w) + " in a row");
+    throw InvalidParameter("(" + std::to_string(p.u) + ", " + std::to_string(p.v) +
+                           ") is in no square of a polygon of " + std::to_string(corners) +
+                           " corners; squares are half a unit wide, " + std::to_string(w) + " in a row");
   return {static_cast<Index>(row * w + column), u, v};
 }
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Addresses on a limit surface, numbered as Ptex does: a quad is one square, any other polygon one square for each corner;
-// under schemes for triangles every triangle is one.
+// Addresses on a limit surface, numbered as Ptex does: a quad is one square, any other polygon one square for each
+// corner; under schemes for triangles every triangle is one.
 //
-// Quad: (0,0) at corner 0, (1,0) at corner 1, (0,1) at corner 3. Square i of a polygon: (0,0) at corner i, u towards the
-// middle of edge (i, i+1), v towards the middle of edge (i-1, i), (1,1) in the centre. Triangle: (0,0), (1,0), (0,1) at
-// corners 0, 1, 2.
+// Quad: (0,0) at corner 0, (1,0) at corner 1, (0,1) at corner 3. Square i of a polygon: (0,0) at corner i, u towards
+// the middle of edge (i, i+1), v towards the middle of edge (i-1, i), (1,1) in the centre. Triangle: (0,0), (1,0),
+// (0,1) at corners 0, 1, 2.
 #include <vector>
 
 #include "sublimit/scheme.h"

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// Limits of the places where pieces meet that are no polynomials: vertices of a level, and middles of its faces. Their
+// tangents are those of the characteristic map, or of one side of a crease.
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+
+#include "sublimit/analysis/limit_rows.h"
+#include "sublimit/analysis/limit_status.h"
+
+namespace sublimit {
+
+struct CornerLimit {
+  LimitStatus status = LimitStatus::extraordinary;
+  LimitRows rows;  ///< over the vertices of the level
+};
+
+/// Computed when asked for, kept, by threads together.
+class CornerLimits {
+ public:
+  CornerLimits(const Scheme<double>& scheme, const Level& level);
+  /// Null where there is no limit. A vertex is seen from the face of `centre.start`.
+  const CornerLimit* at(const Centre& centre) const;
+
+ private:
+  std::optional<CornerLimit> computed(const Centre& centre) const;
+  std::optional<CornerLimit> of_vertex(const Level& level, HalfEdge corner) const;
+
+  const Level& level_;
+  mutable LimitMaskCache masks_;
+  mutable std::mutex mutex_;
+  mutable std::map<std::pair<int, Index>, std::optional<CornerLimit>> known_;
+};
+
+}  // namespace sublimit

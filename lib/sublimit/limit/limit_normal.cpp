@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+// Normals of samples: of the two tangents, or, where control points make these degenerate, of what follows them.
+#include <Eigen/Geometry>
+
+#include <cmath>
+
+#include "sublimit/analysis/degenerate_normal.h"
+#include "sublimit/limit/limit_surface_parts.h"
+
+namespace sublimit {
+namespace {
+
+using Eigen::Vector3d;
+
+/// Natural derivatives that are parallel, on a side of the domain: the normal that the points inside tend to. To first
+/// order along the way (a, b) inwards it is a (xuu x xv + xu x xuv) + b (xuv x xv + xu x xvv).
+Vector3d one_sided_normal(const Points& rows, const Place& p, bool triangle, double scale) {
+  const auto d = [&](int k) { return Vector3d(rows.row(k)); };
+  const Vector3d along_u = d(3).cross(d(2)) + d(1).cross(d(4)), along_v = d(4).cross(d(2)) + d(1).cross(d(5));
+  const auto inwards = [&](double at_0, double at_1) { return at_0 == 0 ? 1 : at_1 == 0 ? -1 : 0; };
+  const int a = inwards(p.u, p.u1), b = triangle ? inwards(p.v, p.u1) : inwards(p.v, p.v1);
+  const double least = 1e-10 * scale * scale;
+  // Inside along one of the parameters there are two ways, with opposite normals: it must not matter.
+  if ((a == 0 && along_u.norm() > least) || (b == 0 && along_v.norm() > least)) return Vector3d::Zero();
+  const Vector3d n1 = a * along_u, n2 = b * along_v;
+  if (n1.norm() <= least && n2.norm() <= least) return Vector3d::Zero();
+  if (n1.norm() <= least || n2.norm() <= least) return (n1 + n2).normalized();
+  return n1.normalized().dot(n2.normalized()) > 1 - 1e-9 ? Vector3d((n1 + n2).normalized()) : Vector3d::Zero();
+}
+
+}  // namespace
+
+Vector3d LimitSurface::Parts::normal_of(const LimitStencil& s, const Points& local, const Sample& sample,
+                                        const Points& points) const {
+  if (s.tangents.rows() < 2) return Vector3d::Zero();
+  // Squares of huge or tiny tangents would leave the range of numbers; powers of two change no digit.
+  const Points centred = local.rowwise() - local.row(0);
+  const double largest = centred.size() > 0 ? centred.cwiseAbs().maxCoeff() : 0;
+  if (!(largest > 0)) return Vector3d::Zero();
+  const double unit = std::ldexp(1.0, -std::ilogb(largest));
+  const Points x = centred * unit;
+  Points tangents = s.tangents * x;
+  // How large the tangents would be if their terms did not cancel.
+  const Eigen::VectorXd sizes = s.tangents.cwiseAbs() * x.rowwise().norm();
+  const double scale1 = sizes[0], scale2 = sizes[1];
+  if (!(scale1 > 0) || !(scale2 > 0)) return Vector3d::Zero();
+  const Vector3d a = Vector3d(tangents.row(0)) / scale1, b = Vector3d(tangents.row(1)) / scale2, cross = a.cross(b);
+  if (cross.norm() > 1e-10 * a.norm() * b.norm() && cross.norm() > 1e-20) return cross.normalized();
+  const Target at = target(sample);
+  if (s.weights.rows() == 6) {
+    const Points rows = s.weights * x;
+    return one_sided_normal(rows, at.quarter >= 0 ? quad_place(sample.u, sample.v) : at.place, addresses.triangles(),
+                            std::max(scale1, scale2));
+  }
+  const std::optional<Centre> centre = this->centre(at);
+  if (!centre || s.tangents.rows() == 2) return Vector3d::Zero();
+  std::vector<Vector3d> higher;
+  for (Eigen::Index k = 2; k < tangents.rows(); ++k) higher.push_back(tangents.row(k));
+  // How the faces of this side turn around the place.
+  const Topology& t = level.topology();
+  Vector3d turn = Vector3d::Zero();
+  const auto add = [&](Index middle, Index from, Index to) {
+    const Vector3d p = points.row(middle), q = (Vector3d(points.row(from)) - p) * unit,
+                   r = (Vector3d(points.row(to)) - p) * unit;
+    turn += q.cross(r);
+  };
+  HalfEdge h = centre->start;
+  if (centre->kind == Centre::Kind::face) {
+    const std::span<const Index> polygon = t.vertices(t.face(h));
+    for (size_t i = 2; i < polygon.size(); ++i) add(polygon[0], polygon[i - 1], polygon[i]);
+  } else {
+    while (!cuts(h) && t.next(t.twin(h)) != centre->start) h = t.next(t.twin(h));  // clockwise to where the side begins
+    const HalfEdge first = h;
+    for (;;) {
+      add(index(t.tail(h)), index(t.head(h)), index(t.tail(t.prev(h))));
+      const HalfEdge into = t.prev(h);
+      if (cuts(into)) break;
+      h = t.twin(into);
+      if (h == first) break;
+    }
+  }
+  return degenerate_normal(tangents.row(0), tangents.row(1), higher, scale1 + scale2, turn);
+}
+
+}  // namespace sublimit

@@ -1,0 +1,322 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sublimit/limit/limit_patches.h"
+
+#include <Eigen/Geometry>
+
+#include <cmath>
+
+#include "sublimit/base/parallel_for.h"
+
+// The loops below are compiled for wide registers too, and the machine chooses; none of them fuses multiplications, so
+// all give the same bits.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_THREAD__) && \
+    !defined(__SANITIZE_ADDRESS__)
+#define SUBLIMIT_WIDE __attribute__((target_clones("avx2", "default")))
+#else
+#define SUBLIMIT_WIDE
+#endif
+
+namespace sublimit {
+namespace {
+
+/// x, y, z, 0.
+typedef double Vec4 __attribute__((vector_size(32), aligned(8), may_alias));
+
+struct Jet {
+  Vec4 p, u, v, uu, uv, vv;
+};
+
+/// Sum of coefficients[i, j] s^i t^j with derivatives by s and t.
+template <int Degree, bool Total, int Order>
+[[gnu::always_inline]] inline void horner(const double* coefficients, double s, double t, Jet& jet) {
+  const Vec4* c = reinterpret_cast<const Vec4*>(coefficients);
+  Vec4 p{}, p1{}, p2{}, q{}, q1{}, r{};
+  for (int i = Degree; i >= 0; --i) {
+    const int first = Total ? i * (Degree + 1) - i * (i - 1) / 2 : i * (Degree + 1), last = Total ? Degree - i : Degree;
+    Vec4 a = c[first + last], b{}, d{};
+    for (int j = last - 1; j >= 0; --j) {
+      if (Order >= 2) d = d * t + 2 * b;
+      if (Order >= 1) b = b * t + a;
+      a = a * t + c[first + j];
+    }
+    if (Order >= 2) {
+      p2 = p2 * s + 2 * p1;
+      q1 = q1 * s + q;
+      r = r * s + d;
+    }
+    if (Order >= 1) {
+      p1 = p1 * s + p;
+      q = q * s + b;
+    }
+    p = p * s + a;
+  }
+  jet.p = p;
+  if (Order >= 1) jet.u = p1, jet.v = q;
+  if (Order >= 2) jet.uu = p2, jet.uv = q1, jet.vv = r;
+}
+
+template <int Order>
+[[gnu::always_inline]] inline void evaluate_patch(const PatchTree& tree, const double* c, const Place& place,
+                                                  Jet& jet) {
+  const double s = 2 * place.u - 1, t = 2 * place.v - 1;
+  switch (tree.degree() + (tree.total() ? 10 : 0)) {
+    case 1:
+      horner<1, false, Order>(c, s, t, jet);
+      break;
+    case 2:
+      horner<2, false, Order>(c, s, t, jet);
+      break;
+    case 3:
+      horner<3, false, Order>(c, s, t, jet);
+      break;
+    case 4:
+      horner<4, false, Order>(c, s, t, jet);
+      break;
+    case 11:
+      horner<1, true, Order>(c, s, t, jet);
+      break;
+    case 12:
+      horner<2, true, Order>(c, s, t, jet);
+      break;
+    case 13:
+      horner<3, true, Order>(c, s, t, jet);
+      break;
+    default:
+      horner<4, true, Order>(c, s, t, jet);
+  }
+  if (Order >= 1) jet.u = 2 * jet.u, jet.v = 2 * jet.v;
+  if (Order >= 2) jet.uu = 4 * jet.uu, jet.uv = 4 * jet.uv, jet.vv = 4 * jet.vv;
+}
+
+template <int Order>
+[[gnu::always_inline]] inline void apply_chain(const PieceMap::Chain& c, Jet& jet) {
+  const Jet old = jet;
+  if (Order >= 1) {
+    jet.u = c.first[0][0] * old.u + c.first[0][1] * old.v;
+    jet.v = c.first[1][0] * old.u + c.first[1][1] * old.v;
+  }
+  if (Order >= 2) {
+    Vec4* second[3] = {&jet.uu, &jet.uv, &jet.vv};
+    for (int i = 0; i < 3; ++i)
+      *second[i] = c.second[i][0] * old.uu + c.second[i][1] * old.uv + c.second[i][2] * old.vv + c.bend[i][0] * old.u +
+                   c.bend[i][1] * old.v;
+  }
+}
+
+[[gnu::always_inline]] inline void store(const Vec4& x, double* row) {
+  row[0] = x[0];
+  row[1] = x[1];
+  row[2] = x[2];
+}
+
+/// `matrix` times the differences of a piece's points; the constants of all patches get slot 0.
+SUBLIMIT_WIDE void bind_patches(const RowMatrix& matrix, int patch_size, const double* from, double* out) {
+  const Eigen::Index rows = matrix.rows(), columns = matrix.cols();
+  const Vec4* differences = reinterpret_cast<const Vec4*>(from);  // the origin comes behind them
+  const Vec4& origin = differences[columns];
+  Vec4* c = reinterpret_cast<Vec4*>(out);
+  int in_patch = 0;
+  for (Eigen::Index i = 0; i < rows; ++i) {
+    const double* row = matrix.data() + i * columns;
+    Vec4 a{}, b{};
+    Eigen::Index j = 0;
+    for (; j + 1 < columns; j += 2) {
+      a += row[j] * differences[j];
+      b += row[j + 1] * differences[j + 1];
+    }
+    if (j < columns) a += row[j] * differences[j];
+    c[i] = in_patch == 0 ? a + b + origin : a + b;
+    if (++in_patch == patch_size) in_patch = 0;
+  }
+}
+
+}  // namespace
+
+/// What a loop over samples needs of everything else, by plain pointers.
+struct LimitPatches::Loop {
+  const LimitSurface::Parts& parts;
+  const LimitSurface::Parts::Pieces& pieces;
+  const std::int64_t* first;
+  const double* coefficients;
+  const std::uint8_t* sides;
+  bool second_jumps, dual;
+
+  void positions(std::span<const Sample> samples, std::int64_t begin, std::int64_t end, LimitSamples& out,
+                 std::vector<std::int64_t>& rest) const;
+  void first_derivatives(std::span<const Sample> samples, std::int64_t begin, std::int64_t end, bool normals,
+                         LimitSamples& out, std::vector<std::int64_t>& rest) const;
+  void second_derivatives(std::span<const Sample> samples, std::int64_t begin, std::int64_t end, bool normals,
+                          LimitSamples& out, std::vector<std::int64_t>& rest) const;
+
+  /// False: to be done the long way.
+  template <int Order>
+  [[gnu::always_inline]] bool row(const Sample& sample, bool normals, LimitSamples& out, std::int64_t i) const {
+    const LimitSurface::Parts::Target target = parts.target(sample);
+    const Index number = parts.number(sample, target);
+    const PatchTree& tree = *pieces.trees[number];
+    const PatchTree::Node* nodes = tree.nodes().data();
+    const PieceLink* links[8];
+    Place places[9];
+    int depth = 0;
+    const PatchTree::Node* node = nodes;
+    places[0] = target.place;
+    while (node->patch < 0) {
+      if (node->first_child < 0) return false;
+      int k = 0;
+      for (const PieceLink& link : *node->links) {
+        if (link.map.contains(places[depth])) {
+          links[depth] = &link;
+          break;
+        }
+        ++k;
+      }
+      if (k == int(node->links->size())) return false;
+      places[depth + 1] = links[depth]->map(places[depth]);
+      node = nodes + node->first_child + k;
+      ++depth;
+    }
+    const Place& place = places[depth];
+    const Place& p = target.place;
+    LimitStatus status = LimitStatus::regular;
+    const unsigned own_sides = sides[number];
+    if (own_sides != 0) {
+      const bool triangle = tree.total();
+      const unsigned on = (p.v == 0 ? 1u : 0u) | (p.u1 == 0 ? 2u : 0u) | ((triangle ? p.u == 0 : p.v1 == 0) ? 4u : 0u) |
+                          (!triangle && p.u == 0 ? 8u : 0u);
+      if (own_sides & on) status = LimitStatus::crease;
+      if (own_sides & 16) status = LimitStatus::hole;
+    }
+    int order = Order;
+    if (Order == 2 && second_jumps) {
+      const bool on_knot = tree.total() ? place.u == 0 || place.v == 0 || place.u1 == 0
+                                        : place.u1 == 0 || place.v1 == 0 || (!dual && (place.u == 0 || place.v == 0)) ||
+                                              (tree.halves() && place.u == place.v);
+      if (on_knot) {
+        order = 1;
+        if (status == LimitStatus::regular) status = LimitStatus::unbounded_second;
+      }
+    }
+    const int patch = tree.halves() ? 2 * (node->patch / 2) + (place.u < place.v ? 1 : 0) : node->patch;
+    Jet jet;
+    evaluate_patch<Order>(tree, coefficients + 4 * (first[number] + std::int64_t(patch) * tree.num_coefficients()),
+                          place, jet);
+    if (Order >= 1) {
+      while (depth-- > 0) apply_chain<Order>(links[depth]->map.chain(places[depth]), jet);
+      if (target.quarter >= 0)
+        apply_chain<Order>(quarter_map(target.quarter).chain(quad_place(sample.u, sample.v)), jet);
+      if (normals) {
+        const Vec4 a = jet.u, b = jet.v;
+        const double x = a[1] * b[2] - a[2] * b[1], y = a[2] * b[0] - a[0] * b[2], z = a[0] * b[1] - a[1] * b[0];
+        const double cross = x * x + y * y + z * z;
+        const double size = (a[0] * a[0] + a[1] * a[1] + a[2] * a[2]) * (b[0] * b[0] + b[1] * b[1] + b[2] * b[2]);
+        if (!(cross > 1e-20 * size) || !(size > 1e-280) || !(size < 1e280)) return false;
+        const double inverse = 1 / std::sqrt(cross);
+        double* n = out.normal.data() + 3 * i;
+        n[0] = x * inverse, n[1] = y * inverse, n[2] = z * inverse;
+      }
+    }
+    store(jet.p, out.position.data() + 3 * i);
+    if (Order >= 1) {
+      store(jet.u, out.du.data() + 3 * i);
+      store(jet.v, out.dv.data() + 3 * i);
+    }
+    if (Order >= 2 && order == 2) {
+      store(jet.uu, out.duu.data() + 3 * i);
+      store(jet.uv, out.duv.data() + 3 * i);
+      store(jet.vv, out.dvv.data() + 3 * i);
+    }
+    out.status[i] = status;
+    out.order[i] = static_cast<std::int8_t>(order);
+    return true;
+  }
+};
+
+LimitPatches::LimitPatches(const LimitSurface::Parts& parts, const Points& points)
+    : parts_(parts), points_(points), pieces_(parts.pieces()) {
+  const Index count = parts.num_pieces();
+  first_.resize(count + 1);
+  first_[0] = 0;
+  for (Index i = 0; i < count; ++i) first_[i + 1] = first_[i] + pieces_.trees[i]->matrix().rows();
+  coefficients_.resize(4 * first_.back());
+  sides_.resize(count);
+  const Topology& t = parts.level.topology();
+  parallel_for_blocks(
+      count,
+      [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+        std::vector<double> differences;
+        for (std::int64_t i = begin; i < end; ++i) {
+          const Piece piece = parts.piece(static_cast<Index>(i));
+          const PatchTree& tree = *pieces_.trees[i];
+          const Index* v = pieces_.vertices.data() + pieces_.first[i];
+          const auto n = pieces_.first[i + 1] - pieces_.first[i] - 1;
+          const double* x0 = points.data() + 3 * std::int64_t(v[0]);
+          differences.resize(4 * (n + 1));
+          for (std::int64_t j = 0; j < n; ++j) {
+            const double* x = points.data() + 3 * std::int64_t(v[j + 1]);
+            for (int k = 0; k < 3; ++k) differences[4 * j + k] = x[k] - x0[k];
+            differences[4 * j + 3] = 0;
+          }
+          for (int k = 0; k < 3; ++k) differences[4 * n + k] = x0[k];
+          differences[4 * n + 3] = 0;
+          bind_patches(tree.matrix(), tree.num_coefficients(), differences.data(),
+                       coefficients_.data() + 4 * first_[i]);
+          const auto cuts = [&](HalfEdge h) { return parts.cuts(h); };
+          HalfEdge h = piece.start;
+          std::uint8_t bits = parts.level.holes[index(t.face(h))] ? 16 : 0;
+          if (piece.kind == Piece::Kind::quad || piece.kind == Piece::Kind::triangle) {
+            for (int k = 0; k < (piece.kind == Piece::Kind::quad ? 4 : 3); ++k, h = t.next(h))
+              if (cuts(h)) bits |= static_cast<std::uint8_t>(1 << k);
+          } else {
+            if (cuts(h)) bits |= 1;
+            if (cuts(t.prev(h))) bits |= 8;
+          }
+          sides_[i] = bits;
+        }
+      },
+      256);
+}
+
+namespace {
+
+template <int Order, class Loop>
+[[gnu::always_inline]] inline void run(const Loop& loop, std::span<const Sample> samples, std::int64_t begin,
+                                       std::int64_t end, bool normals, LimitSamples& out,
+                                       std::vector<std::int64_t>& rest) {
+  for (std::int64_t i = begin; i < end; ++i)
+    if (!loop.template row<Order>(samples[i], normals, out, i)) rest.push_back(i);
+}
+
+}  // namespace
+
+SUBLIMIT_WIDE void LimitPatches::Loop::positions(std::span<const Sample> samples, std::int64_t begin, std::int64_t end,
+                                                 LimitSamples& out, std::vector<std::int64_t>& rest) const {
+  run<0>(*this, samples, begin, end, false, out, rest);
+}
+SUBLIMIT_WIDE void LimitPatches::Loop::first_derivatives(std::span<const Sample> samples, std::int64_t begin,
+                                                         std::int64_t end, bool normals, LimitSamples& out,
+                                                         std::vector<std::int64_t>& rest) const {
+  run<1>(*this, samples, begin, end, normals, out, rest);
+}
+SUBLIMIT_WIDE void LimitPatches::Loop::second_derivatives(std::span<const Sample> samples, std::int64_t begin,
+                                                          std::int64_t end, bool normals, LimitSamples& out,
+                                                          std::vector<std::int64_t>& rest) const {
+  run<2>(*this, samples, begin, end, normals, out, rest);
+}
+
+void LimitPatches::evaluate(std::span<const Sample> samples, std::int64_t begin, std::int64_t end, int order,
+                            bool normals, LimitSamples& out) const {
+  const Loop loop{parts_,
+                  pieces_,
+                  first_.data(),
+                  coefficients_.data(),
+                  sides_.data(),
+                  parts_.scheme.claims.regular < 2,
+                  parts_.scheme.is_dual()};
+  std::vector<std::int64_t> rest;
+  if (order == 0) loop.positions(samples, begin, end, out, rest);
+  if (order == 1) loop.first_derivatives(samples, begin, end, normals, out, rest);
+  if (order == 2) loop.second_derivatives(samples, begin, end, normals, out, rest);
+  for (const std::int64_t i : rest) parts_.evaluate_row(points_, samples[i], order, normals, out, i);
+}
+
+}  // namespace sublimit

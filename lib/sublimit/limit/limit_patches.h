@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// A limit surface with its points: patches as polynomials in space, evaluated many at a time.
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "sublimit/limit/limit_surface_parts.h"
+
+namespace sublimit {
+
+class LimitPatches {
+ public:
+  /// Finds the types of all pieces, and binds all patches to `points`, in parallel.
+  /// @param points  #V x 3
+  LimitPatches(const LimitSurface::Parts& parts, const Points& points);
+
+  /// Rows [begin, end) of `out`, whose other rows and absent quantities stay as they are.
+  void evaluate(std::span<const Sample> samples, std::int64_t begin, std::int64_t end, int order, bool normals,
+                LimitSamples& out) const;
+
+ private:
+  struct Loop;
+  const LimitSurface::Parts& parts_;
+  const Points& points_;
+  const LimitSurface::Parts::Pieces& pieces_;
+  std::vector<std::int64_t> first_;           // of a piece's coefficients
+  UninitializedVector<double> coefficients_;  // four for each: x, y, z, 0
+  std::vector<std::uint8_t> sides_;           // of a piece: bit k, side k cuts the surface; 16: a hole
+};
+
+}  // namespace sublimit

@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sublimit/limit/limit_surface.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "sublimit/analysis/limit_masks.h"
+#include "sublimit/base/error.h"
+#include "sublimit/base/parallel_for.h"
+#include "sublimit/limit/limit_patches.h"
+
+namespace sublimit {
+LimitSurface::LimitSurface(const Scheme<double>& scheme, const ControlMesh& mesh, const SubdivisionOptions& options,
+                           std::shared_ptr<PieceTypes> types)
+    : LimitSurface(scheme, control_level(scheme, mesh, options), std::move(types)) {}
+LimitSurface::LimitSurface(const Scheme<double>& scheme, Level level, std::shared_ptr<PieceTypes> types)
+    : parts_(std::make_unique<Parts>(scheme, std::move(level), std::move(types))) {}
+LimitSurface::~LimitSurface() = default;
+LimitSurface::LimitSurface(LimitSurface&&) noexcept = default;
+LimitSurface& LimitSurface::operator=(LimitSurface&&) noexcept = default;
+
+const Addresses& LimitSurface::addresses() const { return parts_->addresses; }
+const Level& LimitSurface::level() const { return parts_->level; }
+
+LimitStencil LimitSurface::Parts::stencil(const Sample& s, int order) const {
+  LimitStencil result;
+  const Target at = target(s);
+  std::vector<Index> vertices;
+  const PieceType* type = type_of(at.piece, vertices);
+  PieceRows found = piece_rows(*type, at.place, order);
+  const bool is_hole = level.holes[index(level.topology().face(at.piece.start))];
+  if (on_crease(at)) result.status = LimitStatus::crease;
+
+  // Rows over the vertices: what slot 0 has makes the sums right.
+  const auto columns = static_cast<Eigen::Index>(vertices.size());
+  RowMatrix rows(found.rows.rows(), columns);
+  rows.rightCols(columns - 1) = found.rows;
+  rows.col(0) = -found.rows.rowwise().sum();
+  rows(0, 0) += 1;
+  if (at.quarter >= 0 && found.order > 0) {
+    // As piece_rows does it from level to level.
+    apply_chain(quarter_map(at.quarter).chain(quad_place(s.u, s.v)), rows);
+  }
+  RowMatrix tangents;
+  if (found.order >= 1) tangents = rows.middleRows(1, 2);
+  if (order >= 2 && found.order < 2 && result.status == LimitStatus::regular)
+    result.status = LimitStatus::unbounded_second;
+  if (order >= 2 && found.order == 2 && found.on_knot && scheme.claims.regular < 2) {
+    rows.conservativeResize(3, columns);
+    if (result.status == LimitStatus::regular) result.status = LimitStatus::unbounded_second;
+  }
+
+  // Where the piece has no derivatives at a corner, its limit masks have tangents, perhaps.
+  std::vector<LimitRows::Row> masks;
+  if (found.at_corner && (order == 0 || found.order == 0)) {
+    const std::optional<Centre> centre = this->centre(at);
+    const CornerLimit* limit = centre ? corners.at(*centre) : nullptr;
+    if (limit) {
+      result.status = limit->status;
+      if (order >= 1 && limit->status != LimitStatus::undefined_normal) {
+        masks = {limit->rows.tangent1, limit->rows.tangent2};
+        masks.insert(masks.end(), limit->rows.second_order.begin(), limit->rows.second_order.end());
+      }
+    } else {
+      result.status = LimitStatus::undefined_normal;
+    }
+  }
+  if (is_hole) result.status = LimitStatus::hole;
+
+  // Columns ascending, those without weight left out.
+  std::vector<std::pair<Index, Eigen::Index>> sorted;
+  for (Eigen::Index j = 0; j < columns; ++j)
+    if (!rows.col(j).isZero(0)) sorted.push_back({vertices[j], j});
+  for (const LimitRows::Row& mask : masks)
+    for (const auto& [v, w] : mask)
+      if (std::find_if(sorted.begin(), sorted.end(), [&, v = v](const auto& e) { return e.first == v; }) ==
+          sorted.end())
+        sorted.push_back({v, -1});
+  std::sort(sorted.begin(), sorted.end());
+  const auto n = static_cast<Eigen::Index>(sorted.size());
+  result.weights = RowMatrix::Zero(rows.rows(), n);
+  result.tangents = RowMatrix::Zero(masks.empty() ? tangents.rows() : Eigen::Index(masks.size()), n);
+  for (Eigen::Index j = 0; j < n; ++j) {
+    result.vertices.push_back(sorted[j].first);
+    const Eigen::Index from = sorted[j].second;
+    if (from < 0) continue;
+    result.weights.col(j) = rows.col(from);
+    if (masks.empty() && tangents.rows() > 0) result.tangents.col(j) = tangents.col(from);
+  }
+  for (size_t i = 0; i < masks.size(); ++i)
+    for (const auto& [v, w] : masks[i]) {
+      const auto column = std::lower_bound(result.vertices.begin(), result.vertices.end(), v) - result.vertices.begin();
+      result.tangents(Eigen::Index(i), column) += w;
+    }
+  return result;
+}
+
+LimitStencil LimitSurface::stencil(const Sample& sample, int order) const {
+  if (order < 0 || order > 2)
+    throw InvalidParameter("derivatives of order " + std::to_string(order) + "; 0, 1 or 2 are known");
+  parts_->check(sample);
+  return parts_->stencil(sample, order);
+}
+
+void LimitSurface::prepare() const { parts_->pieces(); }
+
+namespace {
+
+void resize(LimitSamples& out, std::int64_t count, int order, bool normals) {
+  const auto sized = [&](Points& m, bool wanted) { m.resize(wanted ? count : 0, 3); };
+  sized(out.position, true);
+  sized(out.du, order >= 1);
+  sized(out.dv, order >= 1);
+  sized(out.duu, order >= 2);
+  sized(out.duv, order >= 2);
+  sized(out.dvv, order >= 2);
+  sized(out.normal, order >= 1 && normals);
+  out.status.resize(count);
+  out.order.resize(count);
+}
+
+void check_request(const Level& level, const Points& points, int order) {
+  if (order < 0 || order > 2)
+    throw InvalidParameter("derivatives of order " + std::to_string(order) + "; 0, 1 or 2 are known");
+  if (points.cols() != 3 || points.rows() != level.topology().num_vertices())
+    throw InvalidParameter("points are " + std::to_string(points.rows()) + " x " + std::to_string(points.cols()) +
+                           ", not " + std::to_string(level.topology().num_vertices()) + " x 3");
+}
+
+/// Samples in a block: some tens of microseconds.
+constexpr std::int64_t samples_per_block = 2048;
+
+}  // namespace
+
+void LimitSurface::Parts::evaluate_row(const Points& points, const Sample& sample, int order, bool normals,
+                                       LimitSamples& out, std::int64_t i) const {
+  for (Points* m : {&out.position, &out.du, &out.dv, &out.duu, &out.duv, &out.dvv, &out.normal})
+    if (m->rows() > 0) m->row(i).setZero();
+  out.order[i] = 0;
+  if (!is_inside(sample)) {
+    out.status[i] = LimitStatus::outside;
+    return;
+  }
+  const LimitStencil stencil = this->stencil(sample, order);
+  Points local(stencil.vertices.size(), 3);
+  for (size_t j = 0; j < stencil.vertices.size(); ++j) local.row(j) = points.row(stencil.vertices[j]);
+  const Points rows = stencil.weights * local;
+  Points* const targets[] = {&out.position, &out.du, &out.dv, &out.duu, &out.duv, &out.dvv};
+  for (Eigen::Index k = 0; k < rows.rows(); ++k) targets[k]->row(i) = rows.row(k);
+  out.status[i] = stencil.status;
+  out.order[i] = rows.rows() == 6 ? 2 : rows.rows() == 3 ? 1 : 0;
+  if (order == 0 || !normals || stencil.status == LimitStatus::undefined_normal) return;
+  const Eigen::Vector3d normal = normal_of(stencil, local, sample, points);
+  out.normal.row(i) = normal;
+  if (normal.isZero(0) && stencil.status != LimitStatus::hole) out.status[i] = LimitStatus::undefined_normal;
+}
+
+LimitSamples LimitSurface::evaluate(const Points& points, std::span<const Sample> samples, int order,
+                                    bool normals) const {
+  check_request(parts_->level, points, order);
+  LimitSamples out;
+  const auto count = static_cast<std::int64_t>(samples.size());
+  resize(out, count, order, normals);
+  // Patches pay once a piece has a few samples.
+  if (count >= 4 * std::int64_t(parts_->num_pieces())) {
+    const LimitPatches patches(*parts_, points);
+    parallel_for_blocks(
+        count,
+        [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+          patches.evaluate(samples, begin, end, order, normals, out);
+        },
+        samples_per_block);
+  } else {
+    parallel_for_blocks(
+        count,
+        [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+          for (std::int64_t i = begin; i < end; ++i) parts_->evaluate_row(points, samples[i], order, normals, out, i);
+        },
+        256);
+  }
+  return out;
+}
+
+BoundLimitSurface::BoundLimitSurface(const LimitSurface& surface, Points points) : points_(std::move(points)) {
+  check_request(surface.parts_->level, points_, 0);
+  patches_ = std::make_unique<LimitPatches>(*surface.parts_, points_);
+}
+BoundLimitSurface::~BoundLimitSurface() = default;
+
+void BoundLimitSurface::evaluate(std::span<const Sample> samples, int order, bool normals, LimitSamples& out) const {
+  if (order < 0 || order > 2)
+    throw InvalidParameter("derivatives of order " + std::to_string(order) + "; 0, 1 or 2 are known");
+  resize(out, static_cast<std::int64_t>(samples.size()), order, normals);
+  parallel_for_blocks(
+      static_cast<std::int64_t>(samples.size()),
+      [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+        patches_->evaluate(samples, begin, end, order, normals, out);
+      },
+      samples_per_block);
+}
+
+LimitSamples BoundLimitSurface::evaluate(std::span<const Sample> samples, int order, bool normals) const {
+  LimitSamples out;
+  evaluate(samples, order, normals, out);
+  return out;
+}
+
+std::vector<Sample> LimitSurface::grid(int N) const {
+  if (N < 2)
+    throw InvalidParameter("a grid of " + std::to_string(N) + " samples a side; there are 2 at least, the ends");
+  const bool triangles = parts_->addresses.triangles();
+  std::vector<Sample> samples;
+  const std::int64_t per_face = triangles ? std::int64_t(N) * (N + 1) / 2 : std::int64_t(N) * N;
+  samples.reserve(per_face * parts_->addresses.size());
+  for (Index f = 0; f < parts_->addresses.size(); ++f)
+    for (int j = 0; j < N; ++j)
+      for (int i = 0; i < (triangles ? N - j : N); ++i)
+        samples.push_back({f, double(i) / (N - 1), double(j) / (N - 1)});
+  if (triangles)  // sums of rounded fractions must not leave the triangle
+    for (Sample& s : samples)
+      if (s.u + s.v > 1) s.u = 1 - s.v;
+  return samples;
+}
+
+std::optional<Curvature> curvature(const LimitSamples& s, Index row) {
+  if (s.order[row] < 2 || s.duu.rows() == 0) return std::nullopt;
+  using Eigen::Vector3d;
+  const Vector3d xu = s.du.row(row), xv = s.dv.row(row), cross = xu.cross(xv);
+  const double E = xu.dot(xu), F = xu.dot(xv), G = xv.dot(xv), area2 = E * G - F * F;
+  if (!(cross.squaredNorm() > 1e-24 * E * G)) return std::nullopt;
+  const Vector3d n = cross.normalized();
+  const double L = n.dot(Vector3d(s.duu.row(row))), M = n.dot(Vector3d(s.duv.row(row))),
+               N = n.dot(Vector3d(s.dvv.row(row)));
+  // In an orthonormal frame of the tangent plane the second form is symmetric, and its eigenvectors are the directions.
+  const Vector3d e1 = xu / std::sqrt(E), e2 = n.cross(e1);
+  Eigen::Matrix2d J;  // parameters of e1, e2
+  const double a = xv.dot(e1), b = xv.dot(e2);
+  J << 1 / std::sqrt(E), -a / (b * std::sqrt(E)), 0, 1 / b;
+  Eigen::Matrix2d II;
+  II << L, M, M, N;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(J.transpose() * II * J);
+  Curvature c;
+  c.k1 = solver.eigenvalues()[1];
+  c.k2 = solver.eigenvalues()[0];
+  const Eigen::Matrix2d& V = solver.eigenvectors();
+  c.direction1 = V(0, 1) * e1 + V(1, 1) * e2;
+  c.direction2 = V(0, 0) * e1 + V(1, 0) * e2;
+  c.gauss = (L * N - M * M) / area2;
+  c.mean = (c.k1 + c.k2) / 2;
+  return c;
+}
+
+}  // namespace sublimit

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sublimit/limit/limit_surface_parts.h"
+
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <string>
+
+#include "sublimit/base/error.h"
+#include "sublimit/base/parallel_for.h"
+
+namespace sublimit {
+
+const PieceMap& quarter_map(int corner) {
+  static const std::array<PieceMap, 4> maps = [] {
+    using Axis = PieceMap::Axis;
+    std::array<PieceMap, 4> m;
+    m[0].axes = {Axis{0, Span::lower, false}, Axis{1, Span::lower, false}};
+    m[1].axes = {Axis{1, Span::lower, false}, Axis{0, Span::upper, true}};
+    m[2].axes = {Axis{0, Span::upper, true}, Axis{1, Span::upper, true}};
+    m[3].axes = {Axis{1, Span::upper, true}, Axis{0, Span::lower, false}};
+    return m;
+  }();
+  return maps[corner];
+}
+
+LimitSurface::Parts::Parts(const Scheme<double>& s, Level l, std::shared_ptr<PieceTypes> shared)
+    : scheme(s),
+      level(std::move(l)),
+      addresses(level.topology(), scheme.face_size() == 3),
+      types(shared && !shared->is_full() ? std::move(shared) : std::make_shared<PieceTypes>(scheme)),
+      corners(scheme, level) {
+  if (level.number % scheme.period != 0)
+    throw InvalidParameter(scheme.name + ": limits are taken from levels whose number is a multiple of " +
+                           std::to_string(scheme.period) + ", not from level " + std::to_string(level.number));
+}
+
+LimitSurface::Parts::Target LimitSurface::Parts::target(const Sample& s) const {
+  const Topology& t = level.topology();
+  const Addresses::Place at = addresses.place(s.face);
+  if (addresses.triangles()) return {{Kind::triangle, t.first(at.face)}, triangle_place(s.u, s.v)};
+  if (at.corner >= 0)
+    return {{scheme.is_dual() ? Kind::corner : Kind::cut, t.corner(at.face, at.corner)}, quad_place(s.u, s.v)};
+  const Place whole = quad_place(s.u, s.v);
+  if (!scheme.is_dual()) return {{Kind::quad, t.first(at.face)}, whole};
+  const int corner = s.v < 0.5 ? (s.u < 0.5 ? 0 : 1) : (s.u < 0.5 ? 3 : 2);
+  return {{Kind::corner, t.corner(at.face, corner)}, quarter_map(corner)(whole), corner};
+}
+
+void LimitSurface::Parts::check(const Sample& s) const {
+  if (s.face < 0 || s.face >= addresses.size())
+    throw InvalidParameter("face " + std::to_string(s.face) + " does not exist; there are " +
+                           std::to_string(addresses.size()) + (addresses.triangles() ? " triangles" : " squares"));
+  const bool inside = s.u >= 0 && s.v >= 0 && (addresses.triangles() ? s.u + s.v <= 1 : s.u <= 1 && s.v <= 1);
+  if (!inside)
+    throw InvalidParameter("(" + std::to_string(s.u) + ", " + std::to_string(s.v) + ") is outside the " +
+                           (addresses.triangles() ? "triangle u, v >= 0, u + v <= 1" : "square 0 <= u, v <= 1"));
+}
+
+bool LimitSurface::Parts::on_crease(const Target& target) const {
+  const Topology& t = level.topology();
+  const Place& p = target.place;
+  const HalfEdge h = target.piece.start;
+  switch (target.piece.kind) {
+    case Kind::triangle:
+      return (p.v == 0 && cuts(h)) || (p.u1 == 0 && cuts(t.next(h))) || (p.u == 0 && cuts(t.prev(h)));
+    case Kind::quad:
+      return (p.v == 0 && cuts(h)) || (p.u1 == 0 && cuts(t.next(h))) || (p.v1 == 0 && cuts(t.next(t.next(h)))) ||
+             (p.u == 0 && cuts(t.prev(h)));
+    default:
+      return (p.v == 0 && cuts(h)) || (p.u == 0 && cuts(t.prev(h)));
+  }
+}
+
+std::optional<Centre> LimitSurface::Parts::centre(const Target& target) const {
+  const Topology& t = level.topology();
+  const Place& p = target.place;
+  HalfEdge h = target.piece.start;
+  using Of = Centre::Kind;
+  switch (target.piece.kind) {
+    case Kind::triangle:
+      if (p.u == 0 && p.v == 0) return Centre{Of::vertex, h};
+      if (p.v == 0 && p.u1 == 0) return Centre{Of::vertex, t.next(h)};
+      if (p.u == 0 && p.u1 == 0) return Centre{Of::vertex, t.prev(h)};
+      return std::nullopt;
+    case Kind::quad:
+      if ((p.u != 0 && p.u1 != 0) || (p.v != 0 && p.v1 != 0)) return std::nullopt;
+      for (int turns = p.v == 0 ? (p.u == 0 ? 0 : 1) : (p.u == 0 ? 3 : 2); turns > 0; --turns) h = t.next(h);
+      return Centre{Of::vertex, h};
+    default:
+      if (p.u == 0 && p.v == 0) return Centre{Of::vertex, h};
+      if (p.u1 == 0 && p.v1 == 0) return Centre{Of::face, h};
+      return std::nullopt;
+  }
+}
+
+const PieceType* LimitSurface::Parts::type_of(const Piece& piece, std::vector<Index>& vertices) const {
+  static thread_local PieceWalker walker;
+  const PieceWalk& walk = walker.walk(level.topology(), level.sharpness, piece, types->rings(level.sharpness),
+                                      level.number % scheme.period);
+  vertices = walk.vertices;
+  return types->type(level, piece, walk);
+}
+
+Piece LimitSurface::Parts::piece(Index number) const {
+  const Topology& t = level.topology();
+  if (scheme.is_dual()) return {Kind::corner, HalfEdge{number}};
+  const Addresses::Place at = addresses.place(number);
+  if (at.corner >= 0) return {Kind::cut, t.corner(at.face, at.corner)};
+  return {addresses.triangles() ? Kind::triangle : Kind::quad, t.first(at.face)};
+}
+
+const LimitSurface::Parts::Pieces& LimitSurface::Parts::pieces() const {
+  // Isolated: a thread that waits in here must not take up work that comes back for the same pieces.
+  std::call_once(pieces_once_, [&] { tbb::this_task_arena::isolate([&] { find_pieces(); }); });
+  return pieces_;
+}
+
+void LimitSurface::Parts::find_pieces() const {
+  const Index count = num_pieces();
+  struct Block {
+    std::vector<Index> vertices, sizes;
+  };
+  std::vector<Block> blocks(num_blocks(count, 1024));
+  Pieces all;
+  all.types.resize(count);
+  parallel_for_blocks(
+      count,
+      [&](std::int64_t b, std::int64_t begin, std::int64_t end) {
+        std::vector<Index> vertices;
+        for (std::int64_t i = begin; i < end; ++i) {
+          all.types[i] = type_of(piece(static_cast<Index>(i)), vertices);
+          blocks[b].vertices.insert(blocks[b].vertices.end(), vertices.begin(), vertices.end());
+          blocks[b].sizes.push_back(static_cast<Index>(vertices.size()));
+        }
+      },
+      1024);
+  all.first.assign(1, 0);
+  for (const Block& block : blocks) {
+    all.vertices.insert(all.vertices.end(), block.vertices.begin(), block.vertices.end());
+    for (const Index size : block.sizes) all.first.push_back(all.first.back() + size);
+  }
+  std::vector<const PieceType*> distinct(all.types);
+  std::sort(distinct.begin(), distinct.end());
+  distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
+  std::vector<std::unique_ptr<const PatchTree>> trees(distinct.size());
+  parallel_for_blocks(
+      static_cast<std::int64_t>(distinct.size()),
+      [&](std::int64_t i, std::int64_t, std::int64_t) { trees[i] = std::make_unique<const PatchTree>(*distinct[i]); },
+      1);
+  for (size_t i = 0; i < distinct.size(); ++i) all.tree_of[distinct[i]] = std::move(trees[i]);
+  all.trees.resize(count);
+  parallel_for(count, [&](std::int64_t i) { all.trees[i] = all.tree_of.find(all.types[i])->second.get(); });
+  pieces_ = std::move(all);
+}
+
+}  // namespace sublimit

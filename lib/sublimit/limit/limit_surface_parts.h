@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// What a limit surface consists of: from addresses to pieces of a level, and their types.
+#include <mutex>
+#include <optional>
+
+#include "sublimit/limit/corner_limits.h"
+#include "sublimit/limit/limit_surface.h"
+#include "sublimit/limit/patch_tree.h"
+
+namespace sublimit {
+
+struct LimitSurface::Parts {
+  using Kind = Piece::Kind;
+  Scheme<double> scheme;
+  Level level;
+  Addresses addresses;
+  std::shared_ptr<PieceTypes> types;
+  CornerLimits corners;
+
+  Parts(const Scheme<double>& scheme, Level level, std::shared_ptr<PieceTypes> shared);
+
+  /// A piece, the place in it, and how the parameters of the address become those of the piece.
+  struct Target {
+    Piece piece;
+    Place place;
+    int quarter = -1;  ///< of a quadrilateral whose corners are pieces
+  };
+  Target target(const Sample& sample) const;
+  bool is_inside(const Sample& s) const {
+    return s.face >= 0 && s.face < addresses.size() && s.u >= 0 && s.v >= 0 &&
+           (addresses.triangles() ? s.u + s.v <= 1 : s.u <= 1 && s.v <= 1);
+  }
+  void check(const Sample& sample) const;
+  bool cuts(HalfEdge h) const {
+    const Topology& t = level.topology();
+    return !exists(t.twin(h)) || is_infinite(level.sharpness.edge[index(t.edge(h))]) || scheme.claims.regular == 0;
+  }
+  /// Whether sides that a place is on cut the surface.
+  bool on_crease(const Target& target) const;
+  /// The corner of a face of the level that a place is at, or its middle.
+  std::optional<Centre> centre(const Target& target) const;
+
+  const PieceType* type_of(const Piece& piece, std::vector<Index>& vertices) const;
+  LimitStencil stencil(const Sample& sample, int order) const;
+  /// Row i of `out`, by its stencil.
+  void evaluate_row(const Points& points, const Sample& sample, int order, bool normals, LimitSamples& out,
+                    std::int64_t i) const;
+
+  /// By the tangents, then by what the next terms add to degenerate ones; zero if they do not settle it.
+  /// @param local  the points of the stencil
+  Eigen::Vector3d normal_of(const LimitStencil& stencil, const Points& local, const Sample& sample,
+                            const Points& points) const;
+
+  /// Types and points of all pieces, once they are asked for. Pieces are numbered like addresses, or, where they are
+  /// corners of faces, like half-edges.
+  struct Pieces {
+    std::vector<const PieceType*> types;
+    std::vector<std::int64_t> first;  ///< into `vertices`, and the end
+    std::vector<Index> vertices;
+    std::vector<const PatchTree*> trees;
+    std::unordered_map<const PieceType*, std::unique_ptr<const PatchTree>> tree_of;
+  };
+  const Pieces& pieces() const;
+  Index num_pieces() const { return scheme.is_dual() ? level.topology().num_half_edges() : addresses.size(); }
+  Piece piece(Index number) const;
+  Index number(const Sample& sample, const Target& target) const {
+    return scheme.is_dual() ? index(target.piece.start) : sample.face;
+  }
+
+ private:
+  void find_pieces() const;
+  mutable std::once_flag pieces_once_;
+  mutable Pieces pieces_;
+};
+
+/// The quarter of a quadrilateral at one corner, in the square of the whole.
+const PieceMap& quarter_map(int corner);
+
+}  // namespace sublimit

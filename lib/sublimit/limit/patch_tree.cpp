@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sublimit/limit/patch_tree.h"
+
+namespace sublimit {
+namespace {
+
+constexpr int max_depth = 6;
+constexpr size_t max_nodes = 64;
+
+/// Monomials of T_i(s) T_j(t): rows by (i, j) of the monomial.
+RowMatrix monomials_of(const PolynomialBasis& basis) {
+  const int n = basis.degree() + 1;
+  RowMatrix T = RowMatrix::Zero(n, n);  // coefficient of s^row in T_column
+  for (int i = 0; i < n; ++i)
+    for (int k = 0; k < n; ++k) {
+      if (i < 2)
+        T(k, i) = k == i;
+      else
+        T(k, i) = (k > 0 ? 2 * T(k - 1, i - 1) : 0) - T(k, i - 2);
+    }
+  const auto numbered = [&](const auto& each) {
+    for (int i = 0, at = 0; i < n; ++i)
+      for (int j = 0; j < (basis.total() ? n - i : n); ++j, ++at) each(i, j, at);
+  };
+  RowMatrix M = RowMatrix::Zero(basis.size(), basis.size());
+  numbered(
+      [&](int i, int j, int row) { numbered([&](int k, int l, int column) { M(row, column) = T(i, k) * T(j, l); }); });
+  return M;
+}
+
+}  // namespace
+
+PatchTree::PatchTree(const PieceType& type) {
+  struct Open {
+    const PieceType* type;
+    PieceBlock block;  // from the root's points
+    int depth;
+  };
+  const auto n = type.num_slots() - 1;
+  std::vector<Open> open{{&type, {RowMatrix::Identity(n, n), Eigen::RowVectorXd::Zero(n)}, 0}};
+  nodes_.emplace_back();
+  std::vector<RowMatrix> patches;
+  RowMatrix monomials;
+  for (size_t at = 0; at < nodes_.size(); ++at) {
+    const Open here = open[at];  // a copy: `open` grows
+    if (const PiecePolynomial* p = here.type->polynomial()) {
+      if (p->basis.degree() > max_degree) continue;
+      if (monomials.size() == 0) {
+        monomials = monomials_of(p->basis);
+        degree_ = p->basis.degree();
+        total_ = p->basis.total();
+        halves_ = p->coefficients.size() > 1;
+        num_coefficients_ = p->basis.size();
+      }
+      nodes_[at].patch = static_cast<int>(patches.size());
+      for (const RowMatrix& C : p->coefficients) {
+        RowMatrix& M = patches.emplace_back(monomials * (C * here.block.D));
+        M.row(0) += here.block.origin;
+      }
+      continue;
+    }
+    if (here.depth == max_depth || nodes_.size() + 9 > max_nodes || type.types().has_no_polynomials()) continue;
+    nodes_[at].first_child = static_cast<int>(nodes_.size());
+    nodes_[at].links = &here.type->children();
+    for (const PieceLink& link : here.type->children()) {
+      nodes_.emplace_back();
+      open.push_back({link.type, here.block.then(link.block), here.depth + 1});
+    }
+  }
+  num_patches_ = static_cast<int>(patches.size());
+  matrix_.resize(num_patches_ * num_coefficients_, n);
+  for (int i = 0; i < num_patches_; ++i) matrix_.middleRows(i * num_coefficients_, num_coefficients_) = patches[i];
+}
+
+}  // namespace sublimit

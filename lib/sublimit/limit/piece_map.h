@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// Parameters of pieces, and how those of a parent become those of a child.
+#include <array>
+#include <cstdint>
+
+namespace sublimit {
+
+/// A place in a piece, by its distances from all sides: near every corner they are as exact as near (0,0).
+struct Place {
+  double u = 0, v = 0;
+  /// Quadrilaterals: 1 - u and 1 - v. Triangles: u1 = 1 - u - v.
+  double u1 = 1, v1 = 1;
+};
+inline Place quad_place(double u, double v) { return {u, v, 1 - u, 1 - v}; }
+inline Place triangle_place(double u, double v) { return {u, v, 1 - u - v, 0}; }
+
+/// How a coordinate x of the parent becomes one of its child.
+enum class Span : std::uint8_t {
+  whole,  ///< x
+  lower,  ///< 2 x
+  upper,  ///< 2 x - 1
+  // Across the border x = 0 of a dual scheme. The border's points stay on it and the first ones inside come four times
+  // as near, while all others come twice as near: rows of the parent's mesh lie at 0, 1, 2, ..., of the child's at 0,
+  // 1/4, 3/4, 5/4, ... Chaikin's limit, a straight leg up to 1/2 and then uniform quadratics, has this parameter: 4 t
+  // up to 1/8, then sqrt(8 t) - 1/2. In squares, half as wide as the rows are apart:
+  border,  ///< 4 x
+  beside,  ///< 4 sqrt(x) - 2
+  beyond,  ///< 4 sqrt(x) - 3
+  // Both sides are borders, and the corner is rounded: a triangle. X and Y as the three above give, in [0, 2].
+  wedge,
+};
+
+/// From the parameters of a piece to those of one of its children.
+struct PieceMap {
+  /// For each axis of a quadrilateral child: which one of the parent's, how, and whether it then runs backwards.
+  struct Axis {
+    std::uint8_t from = 0;
+    Span span = Span::whole;
+    bool reversed = false;
+  };
+  std::array<Axis, 2> axes{Axis{0}, Axis{1}};
+  /// Triangles: the child's barycentric coordinates (1-u-v, u, v) by the parent's.
+  bool is_triangle = false;
+  std::array<std::array<double, 3>, 3> barycentric{};
+
+  bool contains(const Place& parent) const;
+  Place operator()(const Place& parent) const;
+
+  /// What derivatives by the parent's parameters are in those by the child's.
+  struct Chain {
+    double first[2][2] = {};   ///< (u, v) from (u, v)
+    double second[3][3] = {};  ///< (uu, uv, vv) from (uu, uv, vv)
+    double bend[3][2] = {};    ///< (uu, uv, vv) from (u, v)
+  };
+  Chain chain(const Place& parent) const;
+};
+
+}  // namespace sublimit

@@ -1,0 +1,332 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sublimit/limit/piece_types.h"
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+
+#include "sublimit/analysis/limit_masks.h"
+#include "sublimit/base/error.h"
+#include "sublimit/limit/polynomial_search.h"
+#include "sublimit/sparse_product.h"
+
+namespace sublimit {
+namespace {
+
+/// Parameters of the corners of a piece, counter-clockwise.
+Place corner_place(Piece::Kind kind, int corner) {
+  if (kind == Piece::Kind::triangle) return triangle_place(corner == 1, corner == 2);
+  return quad_place(corner == 1 || corner == 2, corner >= 2);
+}
+
+/// The corner that a place is at, or -1.
+int corner_at(Piece::Kind kind, const Place& p) {
+  if (kind == Piece::Kind::triangle)
+    return p.u == 0 && p.v == 0 ? 0 : p.v == 0 && p.u1 == 0 ? 1 : p.u == 0 && p.u1 == 0 ? 2 : -1;
+  if ((p.u != 0 && p.u1 != 0) || (p.v != 0 && p.v1 != 0)) return -1;
+  return p.v == 0 ? (p.u == 0 ? 0 : 1) : (p.u == 0 ? 3 : 2);
+}
+
+int nearest_corner(Piece::Kind kind, const Place& p) {
+  if (kind == Piece::Kind::triangle) return p.u1 >= p.u && p.u1 >= p.v ? 0 : p.u >= p.v ? 1 : 2;
+  return p.v < 0.5 ? (p.u < 0.5 ? 0 : 1) : (p.u < 0.5 ? 3 : 2);
+}
+
+/// Factor of a map that only scales, as it lies; 0 of any other.
+double pure_scale(const PieceMap& map) {
+  if (!map.is_triangle)
+    for (int i = 0; i < 2; ++i)
+      if (map.axes[i].from != i || map.axes[i].reversed || map.axes[i].span > Span::upper) return 0;
+  const PieceMap::Chain c = map.chain(Place{});
+  return c.first[0][0] == c.first[1][1] && c.first[0][1] == 0 && c.first[1][0] == 0 ? c.first[0][0] : 0;
+}
+
+/// A basis of the null space of M by columns.
+Eigen::MatrixXd null_space(const Eigen::MatrixXd& M) {
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(M, Eigen::ComputeFullV);
+  const Eigen::VectorXd& sigma = svd.singularValues();
+  Eigen::Index rank = 0;
+  while (rank < sigma.size() && sigma[rank] > 1e-10 * sigma[0]) ++rank;
+  return svd.matrixV().rightCols(M.cols() - rank);
+}
+
+}  // namespace
+
+void apply_chain(const PieceMap::Chain& c, RowMatrix& rows) {
+  if (rows.rows() < 3) return;
+  const RowMatrix old = rows;
+  for (int i = 0; i < 2; ++i) rows.row(1 + i) = c.first[i][0] * old.row(1) + c.first[i][1] * old.row(2);
+  if (rows.rows() < 6) return;
+  for (int i = 0; i < 3; ++i)
+    rows.row(3 + i) = c.second[i][0] * old.row(3) + c.second[i][1] * old.row(4) + c.second[i][2] * old.row(5) +
+                      c.bend[i][0] * old.row(1) + c.bend[i][1] * old.row(2);
+}
+
+const PieceBlock& PieceLink::power(int i) const {
+  if (i == 0) return block;
+  std::call_once(once_[i], [&] { powers_[i] = power(i - 1).then(power(i - 1)); });
+  return powers_[i];
+}
+
+const std::deque<PieceLink>& PieceType::children() const {
+  std::call_once(children_once_, [&] {
+    const Scheme<double>& scheme = types_->scheme_;
+    std::vector<Level> levels;
+    levels.reserve(scheme.period);
+    SparseMatrix S;
+    std::vector<LevelStep> steps;
+    for (int k = 0; k < scheme.period; ++k) {
+      const Level& before = k == 0 ? local_ : levels.back();
+      levels.push_back(next_level(scheme, before));
+      for (const Refinement& step : levels.back().steps) steps.push_back({&step, before.number});
+      k == 0 ? S.swap(levels[0].S) : SparseMatrix(product(levels[k].S, S)).swap(S);
+    }
+    const Level& fine = levels.back();
+    std::vector<Index> slot_of(local_.topology().num_vertices(), -1);
+    for (size_t s = 0; s < slots_.size(); ++s) slot_of[slots_[s]] = static_cast<Index>(s);
+    PieceWalker walker;
+    std::deque<PieceLink> links;
+    for (const PieceChild& child : sublimit::children(piece_, local_.topology(), steps)) {
+      const PieceWalk& walk = walker.walk(fine.topology(), fine.sharpness, child.piece, types_->rings(fine.sharpness),
+                                          fine.number % scheme.period);
+      PieceLink& link = links.emplace_back();
+      link.map = child.map;
+      link.type = types_->type(fine, child.piece, walk);
+      link.repeats = link.type == this && pure_scale(link.map) != 0;
+      const auto rows = static_cast<Eigen::Index>(walk.vertices.size()),
+                 columns = static_cast<Eigen::Index>(slots_.size());
+      RowMatrix B = RowMatrix::Zero(rows, columns);
+      for (Eigen::Index i = 0; i < rows; ++i)
+        for (SparseMatrix::InnerIterator it(S, walk.vertices[i]); it; ++it) {
+          if (slot_of[it.col()] < 0) {
+            if (it.value() == 0) continue;
+            throw AnalysisError(scheme.name + ": a piece of the limit depends on points beyond " +
+                                std::to_string(types_->rings(fine.sharpness)) + " rings");
+          }
+          B(i, slot_of[it.col()]) = it.value();
+        }
+      link.block.origin = B.row(0).tail(columns - 1);
+      link.block.D = B.bottomRightCorner(rows - 1, columns - 1).rowwise() - link.block.origin;
+    }
+    children_ = std::move(links);
+  });
+  return children_;
+}
+
+const PieceLink& PieceType::child(const Place& place) const {
+  const std::deque<PieceLink>& all = children();
+  for (const PieceLink& link : all)
+    if (link.map.contains(place)) return link;
+  // Between two triangles by rounding: the one that it is least outside of.
+  const PieceLink* best = &all[0];
+  double least = 1e300;
+  for (const PieceLink& link : all) {
+    const Place p = link.map(place);
+    const double outside = -std::min({p.u, p.v, p.u1, kind_ == Piece::Kind::triangle ? 0 : p.v1});
+    if (outside < least) least = outside, best = &link;
+  }
+  return *best;
+}
+
+const PiecePolynomial* PieceType::polynomial() const {
+  const int state = polynomial_state_.load(std::memory_order_acquire);
+  if (state == 0) PolynomialSearch(*types_).decide(*this);
+  return polynomial_state_.load(std::memory_order_acquire) == 2 ? &*candidate_ : nullptr;
+}
+
+/// The types that a corner comes through, until it comes to one that has been there: a cycle, of one step but at the
+/// borders of dual schemes.
+struct PieceType::CornerPath {
+  struct Visit {
+    const PieceType* type;
+    int corner;
+    const PieceLink* link;
+    Place place;
+  };
+  std::vector<Visit> visits;
+  size_t first = 0;  // of the cycle
+
+  CornerPath(const PieceType* type, int corner) {
+    for (;;) {
+      first = 0;
+      while (first < visits.size() && !(visits[first].type == type && visits[first].corner == corner)) ++first;
+      if (first < visits.size()) return;
+      if (visits.size() > 64)
+        throw AnalysisError(type->types_->scheme_.name + ": a neighbourhood never comes to repeat itself");
+      const Place place = corner_place(type->kind_, corner);
+      const PieceLink& link = type->child(place);
+      visits.push_back({type, corner, &link, place});
+      corner = nearest_corner(link.type->kind_, link.map(place));
+      type = link.type;
+    }
+  }
+  PieceBlock cycle() const {
+    PieceBlock block = visits[first].link->block;
+    for (size_t i = first + 1; i < visits.size(); ++i) block = block.then(visits[i].link->block);
+    return block;
+  }
+};
+
+const Eigen::RowVectorXd& PieceType::corner_limit(int corner) const {
+  std::call_once(limit_once_[corner], [&] {
+    const CornerPath path(this, corner);
+    const PieceBlock cycle = path.cycle();
+    const auto n = cycle.D.rows();
+    // p = origin + p D.
+    const Eigen::PartialPivLU<Eigen::MatrixXd> lu((RowMatrix::Identity(n, n) - cycle.D).transpose());
+    RowMatrix row = lu.solve(cycle.origin.transpose()).transpose();
+    if (!row.allFinite() || row.cwiseAbs().maxCoeff() > 1e8)
+      throw AnalysisError(types_->scheme_.name + ": no limit where a neighbourhood repeats itself");
+    for (size_t i = path.first; i-- > 0;) row = path.visits[i].link->block.pulled_back(row);
+    corner_limits_[corner] = row;
+  });
+  return corner_limits_[corner];
+}
+
+const RowMatrix& PieceType::corner_rows(int corner) const {
+  std::call_once(corner_once_[corner], [&] {
+    const CornerPath path(this, corner);
+    const auto& [at, own, link, ignored] = path.visits[path.first];
+    // Derivatives: left eigenvectors of the inverse of the map's factor, by their values on the right ones, linear
+    // functions.
+    const double scale = path.visits.size() == path.first + 1 ? pure_scale(link->map) : 0;
+    RowMatrix rows = at->corner_limit(own);
+    if (scale != 0 && types_->scheme_.claims.regular >= 1) {
+      const auto n = link->block.D.rows();
+      const Eigen::MatrixXd shifted = link->block.D - RowMatrix::Identity(n, n) / scale;
+      const Eigen::MatrixXd left = null_space(shifted.transpose()), right = null_space(shifted);
+      const Eigen::MatrixXd pairing = left.transpose() * right;
+      if (left.cols() == 2 && right.cols() == 2 && std::abs(pairing.determinant()) > 1e-6) {
+        Eigen::Matrix2d values, places;  // of the linear functions at two other corners, from here
+        const int corners = at->kind_ == Piece::Kind::triangle ? 3 : 4;
+        const Place here = corner_place(at->kind_, own);
+        for (int i = 0; i < 2; ++i) {
+          const int other = (own + (i == 0 ? 1 : corners - 1)) % corners;
+          const Place there = corner_place(at->kind_, other);
+          places.row(i) << there.u - here.u, there.v - here.v;
+          values.row(i) = (at->corner_limit(other) - rows.row(0)) * right;
+        }
+        rows.conservativeResize(3, n);
+        rows.bottomRows(2) = places.inverse() * values * pairing.inverse() * left.transpose();
+      }
+    }
+    for (size_t i = path.first; i-- > 0;) {
+      rows = path.visits[i].link->block.pulled_back(rows);
+      apply_chain(path.visits[i].link->map.chain(path.visits[i].place), rows);
+    }
+    corner_rows_[corner] = std::move(rows);
+  });
+  return corner_rows_[corner];
+}
+
+PieceTypes::PieceTypes(const Scheme<double>& scheme, size_t max_types) : scheme_(scheme), max_types_(max_types) {
+  scheme_.preparation.clear();  // surfaces begin behind it
+}
+
+int PieceTypes::rings(const Sharpness& sharpness) const {
+  // Under Chaikin creasing the sharpness of an edge's far half depends on the edges around its far end.
+  if (has_one_ring_limits(scheme_)) return sharpness.creasing == Creasing::chaikin ? 2 : 1;
+  if (scheme_.steps.size() > 1) return static_cast<int>(scheme_.steps.size()) - 1;
+  if (scheme_.is_dual()) return scheme_.period;  // Habib and Warren's edges look at the corners beyond their ends
+  return 3;
+}
+
+size_t PieceTypes::size() const {
+  const std::shared_lock lock(mutex_);
+  return types_.size();
+}
+
+const PieceType* PieceTypes::find(const std::vector<std::uint32_t>& signature) const {
+  const std::shared_lock lock(mutex_);
+  const auto at = types_.find(signature);
+  return at == types_.end() ? nullptr : at->second.get();
+}
+
+const PieceType* PieceTypes::type(const Level& level, const Piece& piece, const PieceWalk& walk) {
+  if (const PieceType* known = find(walk.signature)) return known;
+  auto type = std::make_unique<PieceType>();
+  const Index face = index(level.topology().face(piece.start));
+  const bool narrow = has_one_ring_limits(scheme_);
+  // Masks near the rim of a part are not the mesh's: one more ring, where they look further.
+  const int rings =
+      this->rings(level.sharpness) + (narrow || (scheme_.is_dual() && scheme_.steps.size() == 1) ? 0 : scheme_.period);
+  Part around = part(level, std::span(&face, 1), rings);
+  const auto position = [](const std::vector<Index>& list, Index i) {
+    return static_cast<Index>(std::lower_bound(list.begin(), list.end(), i) - list.begin());
+  };
+  type->types_ = this;
+  type->kind_ = piece.kind;
+  type->decays_ = walk.decays;
+  type->piece_ = {piece.kind, HalfEdge{position(around.halves, index(piece.start))}};
+  for (const Index v : walk.vertices) type->slots_.push_back(position(around.vertices, v));
+  type->local_ = std::move(around.level);
+  const std::unique_lock lock(mutex_);
+  return types_.try_emplace(walk.signature, std::move(type)).first->second.get();
+}
+
+PieceRows piece_rows(const PieceType& root, Place place, int order, bool search) {
+  struct Step {
+    const PieceLink* link;
+    Place place;
+    int times;
+  };
+  // Below this many levels the rest of a cell is less than the rounding of its place.
+  constexpr int enough_halves = 54, enough_thirds = 35;
+  std::vector<Step> path;
+  const PieceType* type = &root;
+  PieceRows result;
+  for (int levels = 0;; ++levels) {
+    if (const PiecePolynomial* p = search ? type->polynomial() : type->known_polynomial()) {
+      result.rows = p->rows(place, order);
+      result.order = order;
+      const bool dual = type->kind() == Piece::Kind::corner;  // whose polynomials go on beyond the corner's own sides
+      result.on_knot = type->kind() == Piece::Kind::triangle
+                           ? place.u == 0 || place.v == 0 || place.u1 == 0
+                           : place.u1 == 0 || place.v1 == 0 || (!dual && (place.u == 0 || place.v == 0)) ||
+                                 (p->coefficients.size() > 1 && place.u == place.v);
+      break;
+    }
+    int corner = corner_at(type->kind(), place);
+    if (corner >= 0 || levels >= (type->children().size() == 9 ? enough_thirds : enough_halves)) {
+      result.at_corner = corner >= 0;
+      if (corner < 0) corner = nearest_corner(type->kind(), place);
+      if (order == 0) {
+        result.rows = type->corner_limit(corner);
+      } else {
+        const RowMatrix& rows = type->corner_rows(corner);
+        result.order = rows.rows() == 3 ? 1 : 0;
+        result.rows = rows;
+      }
+      break;
+    }
+    const PieceLink& link = type->child(place);
+    path.push_back({&link, place, 1});
+    place = link.map(place);
+    if (link.repeats)
+      while (path.back().times < 4095 && corner_at(type->kind(), place) < 0 && link.map.contains(place)) {
+        place = link.map(place);
+        ++path.back().times;
+      }
+    type = link.type;
+  }
+  for (auto step = path.rbegin(); step != path.rend(); ++step) {
+    const PieceLink& link = *step->link;
+    for (int i = 0; step->times >> i; ++i)
+      if (step->times >> i & 1) result.rows = link.power(i).pulled_back(result.rows);
+    if (result.order == 0) continue;
+    PieceMap::Chain chain = link.map.chain(step->place);
+    if (step->times > 1) {
+      const double factor = chain.first[0][0], once = std::pow(factor, step->times);
+      result.rows.middleRows(1, 2) *= once;
+      if (result.rows.rows() == 6) {
+        result.rows.bottomRows(3) *= once;
+        result.rows.bottomRows(3) *= once;
+      }
+      continue;
+    }
+    apply_chain(chain, result.rows);
+  }
+  return result;
+}
+
+}  // namespace sublimit

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// Types of pieces: what a piece of the limit is by its neighbourhood alone. A type knows its children and the block of
+// S that makes their points, or the polynomial that it is. Each is computed when it is first needed, once.
+#include <array>
+#include <atomic>
+#include <deque>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <shared_mutex>
+#include <unordered_map>
+
+#include "sublimit/limit/piece_polynomial.h"
+#include "sublimit/limit/piece_walk.h"
+#include "sublimit/refine.h"
+
+namespace sublimit {
+
+class PieceType;
+class PieceTypes;
+
+/// From points of a piece to those of its child, in differences: over x_j - x_0 for the slots j > 0, so that weights of
+/// positions sum to one and those of derivatives to zero whatever the rounding, which would grow like 2^k and 4^k with
+/// the depth.
+struct PieceBlock {
+  RowMatrix D;                ///< differences of the child from those of the parent
+  Eigen::RowVectorXd origin;  ///< slot 0 of the child less that of the parent
+
+  /// Position row, and derivative rows below it, of the child as rows of the parent.
+  RowMatrix pulled_back(const RowMatrix& rows) const {
+    RowMatrix result = rows * D;
+    result.row(0) += origin;
+    return result;
+  }
+  /// First this, then `next`.
+  PieceBlock then(const PieceBlock& next) const { return {next.D * D, origin + next.origin * D}; }
+};
+
+struct PieceLink {
+  const PieceType* type = nullptr;
+  PieceMap map;
+  PieceBlock block;
+  /// The child is of its parent's type, and as it lies: blocks of 1, 2, 4, ... steps in a row.
+  bool repeats = false;
+  const PieceBlock& power(int i) const;
+
+ private:
+  mutable std::array<std::once_flag, 12> once_;
+  mutable std::array<PieceBlock, 12> powers_;
+};
+
+class PieceType {
+ public:
+  Piece::Kind kind() const { return kind_; }
+  const PieceTypes& types() const { return *types_; }
+  /// Points that it depends on.
+  Index num_slots() const { return static_cast<Index>(slots_.size()); }
+  /// Its children, whether or not it is a polynomial.
+  const std::deque<PieceLink>& children() const;
+  /// The child that a place is in.
+  const PieceLink& child(const Place& place) const;
+  /// Null where it is no polynomial.
+  const PiecePolynomial* polynomial() const;
+  /// The same if it is known, without finding out.
+  const PiecePolynomial* known_polynomial() const {
+    return polynomial_state_.load(std::memory_order_acquire) == 2 ? &*candidate_ : nullptr;
+  }
+
+  /// Rows of what exists at a corner without any polynomial: the position, then u and v if the limit is differentiable.
+  /// Corners count counter-clockwise from (0,0).
+  /// @throws AnalysisError  no limit
+  const RowMatrix& corner_rows(int corner) const;
+  const Eigen::RowVectorXd& corner_limit(int corner) const;
+
+ private:
+  struct CornerPath;
+  friend class PieceTypes;
+  friend class PolynomialSearch;
+  PieceTypes* types_ = nullptr;
+  Piece::Kind kind_ = Piece::Kind::quad;
+  bool decays_ = false;  // finite sharpness: its children are others, and it is no polynomial
+  Level local_;
+  Piece piece_;
+  std::vector<Index> slots_;  // local vertex of each slot
+
+  mutable std::once_flag children_once_;
+  mutable std::deque<PieceLink> children_;
+  mutable std::atomic<int> polynomial_state_{0};  // 0: not known, 1: none, 2: there is one
+  mutable std::optional<PiecePolynomial> candidate_;
+  mutable bool has_candidate_ = false;
+  mutable std::array<std::once_flag, 4> limit_once_, corner_once_;
+  mutable std::array<Eigen::RowVectorXd, 4> corner_limits_;
+  mutable std::array<RowMatrix, 4> corner_rows_;
+};
+
+/// The types of one scheme, shared between surfaces and threads.
+class PieceTypes {
+ public:
+  /// @param max_types  a surface that needs more, when there are so many, keeps them for itself
+  explicit PieceTypes(const Scheme<double>& scheme, size_t max_types = size_t(1) << 16);
+
+  const Scheme<double>& scheme() const { return scheme_; }
+  /// Rings of faces around a piece that it depends on.
+  int rings(const Sharpness& sharpness) const;
+  size_t size() const;
+  bool is_full() const { return size() >= max_types_; }
+  /// No piece is a polynomial, as is known once a regular one has been looked at.
+  bool has_no_polynomials() const { return has_none_.load(std::memory_order_relaxed); }
+
+  /// The type of a piece, made if it is new.
+  /// @param walk  of the piece
+  const PieceType* type(const Level& level, const Piece& piece, const PieceWalk& walk);
+  /// The type with this signature, or null.
+  const PieceType* find(const std::vector<std::uint32_t>& signature) const;
+
+ private:
+  friend class PieceType;
+  friend class PolynomialSearch;
+  struct Hash {
+    size_t operator()(const std::vector<std::uint32_t>& words) const {
+      std::uint64_t h = 0xcbf29ce484222325u;  // FNV-1a by words
+      for (const std::uint32_t w : words) h = (h ^ w) * 0x100000001b3u;
+      return h ^ (h >> 29);
+    }
+  };
+  Scheme<double> scheme_;
+  size_t max_types_;
+  mutable std::shared_mutex mutex_;
+  std::unordered_map<std::vector<std::uint32_t>, std::unique_ptr<PieceType>, Hash> types_;
+  mutable std::recursive_mutex polynomials_;  // one search at a time
+  std::optional<PolynomialBasis> basis_;      // of the first regular piece's polynomial
+  bool halves_ = false, searched_ = false;    // regular pieces are cut along u = v; have been looked at
+  std::atomic<bool> has_none_{false};         // regular pieces are no polynomials
+};
+
+/// Derivative rows of a child become those of its parent.
+void apply_chain(const PieceMap::Chain& chain, RowMatrix& rows);
+
+/// Rows of a place over the slots of a piece, in differences.
+struct PieceRows {
+  RowMatrix rows;          ///< position, then u, v, then uu, uv, vv
+  int order = 0;           ///< derivatives that exist: 0, 1 or 2
+  bool at_corner = false;  ///< a corner where there is no polynomial: tangents come from elsewhere
+  bool on_knot = false;    ///< where polynomials of low smoothness meet
+};
+/// @param search  whether to find out if pieces are polynomials; else only what is known is used
+PieceRows piece_rows(const PieceType& type, Place place, int order, bool search = true);
+
+}  // namespace sublimit

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sublimit/limit/polynomial_search.h"
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace sublimit {
+namespace {
+
+constexpr int largest_degree = 10;
+/// Of coefficients and values, relative to the weights: a few hundred roundings.
+constexpr double tolerance = 1e-12;
+
+/// Chebyshev's points on [0, 1], moved to multiples of 1/1024 that are reached in ten steps.
+double node(int i, int count) {
+  const double x = 0.5 - 0.5 * std::cos(std::numbers::pi * (2 * i + 1) / (2 * count));
+  return std::round(x * 1024) / 1024;
+}
+
+bool is_regular(const PieceType& type) {
+  return std::all_of(type.children().begin(), type.children().end(),
+                     [&](const PieceLink& c) { return c.type == &type; });
+}
+
+}  // namespace
+
+void PolynomialSearch::decide(const PieceType& type) {
+  if (type.polynomial_state_.load() != 0) return;
+  if (types_.searched_ && !types_.basis_) {
+    type.polynomial_state_.store(1, std::memory_order_release);
+    return;
+  }
+  const bool is = verdict(type).polynomial;
+  type.polynomial_state_.store(is ? 2 : 1, std::memory_order_release);
+}
+
+PolynomialSearch::Verdict PolynomialSearch::verdict(const PieceType& type) {
+  const auto on_stack = std::find(stack_.begin(), stack_.end(), &type);
+  if (on_stack != stack_.end()) return {true, size_t(on_stack - stack_.begin())};
+  const size_t own = stack_.size();
+  if (const int state = type.polynomial_state_.load(); state != 0) return {state == 2, own};
+  Verdict result{!type.decays_, own};
+  stack_.push_back(&type);
+  if (result.polynomial)
+    for (const PieceLink& child : type.children()) {
+      if (child.type == &type) continue;
+      const Verdict v = verdict(*child.type);
+      result.lowest = std::min(result.lowest, v.lowest);
+      if (!v.polynomial) {
+        result.polynomial = false;
+        break;
+      }
+    }
+  if (result.polynomial) {
+    const PiecePolynomial* p = candidate(type);
+    result.polynomial = p && satisfies_refinement(type, *p);
+  }
+  stack_.pop_back();
+  // What rests on an assumption about a type below is not written down: it is found again when that one is known.
+  if (!result.polynomial || result.lowest >= own)
+    type.polynomial_state_.store(result.polynomial ? 2 : 1, std::memory_order_release);
+  if (!result.polynomial) result.lowest = own;
+  return result;
+}
+
+const PiecePolynomial* PolynomialSearch::candidate(const PieceType& type) {
+  if (type.has_candidate_) return type.candidate_ ? &*type.candidate_ : nullptr;
+  type.has_candidate_ = true;
+  const bool total = type.kind() == Piece::Kind::triangle;
+  if (!types_.basis_ && is_regular(type)) {
+    types_.searched_ = true;
+    for (int pieces = 1; pieces <= (total ? 1 : 2); ++pieces)
+      for (int degree = 1; degree <= (pieces == 1 ? largest_degree : 3); ++degree) {
+        const PolynomialBasis basis(degree, total);
+        std::optional<PiecePolynomial> p = interpolated(type, basis, pieces == 2);
+        if (!p || !satisfies_refinement(type, *p)) continue;
+        types_.basis_ = basis;
+        types_.halves_ = pieces == 2;
+        type.candidate_ = std::move(p);
+        return &*type.candidate_;
+      }
+    types_.has_none_ = true;
+    return nullptr;
+  }
+  if (types_.basis_) type.candidate_ = interpolated(type, *types_.basis_, types_.halves_);
+  return type.candidate_ ? &*type.candidate_ : nullptr;
+}
+
+std::optional<PiecePolynomial> PolynomialSearch::interpolated(const PieceType& type, const PolynomialBasis& basis,
+                                                              bool halves) const {
+  PiecePolynomial p{basis, {}};
+  const int n = basis.degree() + 1;
+  for (int half = 0; half < (halves ? 2 : 1); ++half) {
+    std::vector<Place> places;
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j < n; ++j) {
+        double u = node(i, n), v = node(j, n);
+        if (basis.total() || halves) v = std::round(u * v * 1024) / 1024;  // below the diagonal
+        if (basis.total()) u = 1 - u;  // a triangle's corners are (0,0), (1,0), (0,1)
+        if (half == 1) std::swap(u, v);
+        places.push_back(basis.total() ? triangle_place(u, v) : quad_place(u, v));
+      }
+    const auto count = static_cast<Eigen::Index>(places.size());
+    Eigen::MatrixXd values(count, basis.size());
+    RowMatrix rows(count, type.num_slots() - 1);
+    for (Eigen::Index k = 0; k < count; ++k) {
+      values.row(k) = basis.at(places[k].u, places[k].v, 0);
+      rows.row(k) = piece_rows(type, places[k], 0, false).rows.row(0);
+    }
+    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(values);
+    if (qr.rank() < basis.size()) return std::nullopt;
+    p.coefficients.push_back(qr.solve(rows));
+  }
+  return p;
+}
+
+bool PolynomialSearch::satisfies_refinement(const PieceType& type, const PiecePolynomial& p) {
+  const bool total = p.basis.total();
+  const int cells = (type.children().size() == 9 ? 3 : 2) * (p.basis.degree() + 2);
+  double size = 1;
+  for (const RowMatrix& C : p.coefficients) size = std::max(size, C.cwiseAbs().maxCoeff());
+  for (int i = 0; i < cells; ++i)
+    for (int j = 0; j < cells; ++j) {
+      const double u = (i + 0.37) / cells, v = (j + 0.61) / cells;
+      if (total && u + v >= 1) continue;
+      const Place at = total ? triangle_place(u, v) : quad_place(u, v);
+      const PieceLink& link = type.child(at);
+      const PiecePolynomial* fine = link.type == &type ? &p : candidate(*link.type);
+      if (!fine) return false;
+      const RowMatrix difference = p.rows(at, 0) - link.block.pulled_back(fine->rows(link.map(at), 0));
+      if (!(difference.cwiseAbs().maxCoeff() <= tolerance * size)) return false;
+    }
+  return true;
+}
+
+}  // namespace sublimit
