@@ -4,6 +4,9 @@
 #include <Eigen/Core>
 #include <Eigen/LU>
 
+#include <algorithm>
+#include <cmath>
+#include <string>
 #include <unordered_map>
 
 #include "sublimit/analysis/centre.h"
@@ -88,84 +91,92 @@ std::vector<PieceChild> of_triangle_in_four(HalfEdge start, const Topology& pare
           {{Kind::triangle, t.twin(t.next(g0))}, with(m2, m0, m1)}};
 }
 
+/// A triangle of some level between the parent and its children, and where its corners lie in the parent.
+struct Labelled {
+  HalfEdge first;
+  std::array<Eigen::RowVector3d, 3> corners;
+};
+
+/// The triangles of the next level whose corners are known from these: a vertex keeps its place, a face has its point in the
+/// middle, a border that is trisected has its points at thirds.
+std::vector<Labelled> next_triangles(const std::vector<Labelled>& triangles, const Topology& t, const Refinement& r) {
+  using Label = Eigen::RowVector3d;
+  std::unordered_map<Index, const Labelled*> of_face;
+  for (const Labelled& triangle : triangles) of_face.try_emplace(index(t.face(triangle.first)), &triangle);
+  std::unordered_map<Index, Index> point_of;  // child vertex of a face
+  for (Index k = r.from_vertices; k < r.from_vertices + r.from_faces; ++k) point_of[r.parent(Vertex{k})] = k;
+  std::vector<Labelled> result;
+  std::vector<Index> seen;
+  for (const Labelled& triangle : triangles) {
+    std::unordered_map<Index, Label> at;  // child vertices in and around it
+    const auto add_inside = [&](const Labelled& one) {
+      const Index f = index(t.face(one.first));
+      if (const auto k = point_of.find(f); k != point_of.end())
+        at[k->second] = (one.corners[0] + one.corners[1] + one.corners[2]) / 3;
+      HalfEdge side = one.first;
+      for (int i = 0; i < 3; ++i, side = t.next(side)) {
+        at[index(t.tail(side))] = one.corners[i];
+        if (exists(t.twin(side)) || r.border_points != 2) continue;
+        const auto rank = std::lower_bound(r.borders.begin(), r.borders.end(), index(side)) - r.borders.begin();
+        const Index p = r.first_border_child() + 2 * static_cast<Index>(rank);
+        at[p] = (2 * one.corners[i] + one.corners[(i + 1) % 3]) / 3;
+        at[p + 1] = (one.corners[i] + 2 * one.corners[(i + 1) % 3]) / 3;
+      }
+    };
+    HalfEdge side = triangle.first;
+    for (int i = 0; i < 3; ++i, side = t.next(side))
+      if (const HalfEdge g = t.twin(side); exists(g)) {
+        const auto known = of_face.find(index(t.face(g)));
+        const Label &a = triangle.corners[i], &b = triangle.corners[(i + 1) % 3], &c = triangle.corners[(i + 2) % 3];
+        add_inside(known != of_face.end() ? *known->second : Labelled{g, {b, a, a + b - c}});
+      }
+    add_inside(triangle);
+    for (const auto& [v, label] : at)
+      for (const HalfEdge fan : r.topology.fans(Vertex{v})) {
+        HalfEdge g = fan;
+        do {
+          Labelled found{g, {}};
+          HalfEdge k = g;
+          int known = 0;
+          for (int i = 0; i < 3; ++i, k = r.topology.next(k))
+            if (const auto place = at.find(index(r.topology.tail(k))); place != at.end())
+              found.corners[i] = place->second, ++known;
+          const Index f = index(r.topology.face(g));
+          if (known == 3 && std::find(seen.begin(), seen.end(), f) == seen.end()) {
+            seen.push_back(f);
+            result.push_back(found);
+          }
+          g = r.topology.ccw(g);
+        } while (exists(g) && g != fan);
+      }
+  }
+  return result;
+}
+
 /// Two steps of sqrt3: nine triangles, found by where their corners lie in the parent.
 std::vector<PieceChild> of_triangle_in_nine(HalfEdge start, const Topology& parent, std::span<const LevelStep> steps) {
-  using Label = Eigen::RowVector3d;
-  std::unordered_map<Index, Label> labels;  // of vertices of the level before; several if a mesh is glued to itself
-  std::vector<std::pair<HalfEdge, std::array<Label, 3>>>
-      triangles;  // of that level, each by a half-edge and its corners
   const Eigen::Matrix3d I = Eigen::Matrix3d::Identity();
-  triangles.push_back({start, {I.row(0), I.row(1), I.row(2)}});
+  std::vector<Labelled> triangles{{start, {I.row(0), I.row(1), I.row(2)}}};
   HalfEdge h = start;
   for (int i = 0; i < 3; ++i, h = parent.next(h))
     if (const HalfEdge g = parent.twin(h); exists(g)) {
-      const Label a = I.row(i), b = I.row((i + 1) % 3), c = I.row((i + 2) % 3);
+      const Eigen::RowVector3d a = I.row(i), b = I.row((i + 1) % 3), c = I.row((i + 2) % 3);
       triangles.push_back({g, {b, a, a + b - c}});
     }
   const Topology* before = &parent;
   for (const LevelStep& step : steps) {
-    const Refinement& r = *step.refinement;
-    const Topology& t = r.topology;
-    // Corners of the new triangles around each old one's half-edges, in its own chart.
-    std::vector<std::pair<HalfEdge, std::array<Label, 3>>> next;
-    for (const auto& [first, corners] : triangles) {
-      std::unordered_map<Index, Label> at;  // child vertices in this chart
-      const Label middle = (corners[0] + corners[1] + corners[2]) / 3;
-      HalfEdge side = first;
-      std::vector<Index> old;
-      for (int i = 0; i < 3; ++i, side = before->next(side)) {
-        const Index v = index(before->tail(side));
-        at[v] = corners[i];
-        old.push_back(v);
-        const Label& b = corners[(i + 1) % 3];
-        if (!exists(before->twin(side)) && r.border_points == 2) {
-          const auto rank = std::lower_bound(r.borders.begin(), r.borders.end(), index(side)) - r.borders.begin();
-          const Index p = r.first_border_child() + 2 * static_cast<Index>(rank);
-          at[p] = (2 * corners[i] + b) / 3;
-          at[p + 1] = (corners[i] + 2 * b) / 3;
-        }
-        // The point across this side, if there is one.
-        if (const HalfEdge g = before->twin(side); exists(g)) {
-          const Label c = corners[(i + 2) % 3], across = corners[i] + b - c;
-          const Index f = index(before->face(g));
-          for (Index k = r.from_vertices; k < r.from_vertices + r.from_faces; ++k)
-            if (r.parent(Vertex{k}) == f) at[k] = (corners[i] + b + across) / 3;
-        }
-      }
-      const Index own = index(before->face(first));
-      for (Index k = r.from_vertices; k < r.from_vertices + r.from_faces; ++k)
-        if (r.parent(Vertex{k}) == own) at[k] = middle;
-      // Faces all of whose corners are known here.
-      for (const auto& [v, label] : at)
-        for (const HalfEdge fan : t.fans(Vertex{v})) {
-          HalfEdge g = fan;
-          do {
-            std::array<Label, 3> found;
-            HalfEdge k = g;
-            int known = 0;
-            for (int i = 0; i < 3; ++i, k = t.next(k))
-              if (const auto place = at.find(index(t.tail(k))); place != at.end()) found[i] = place->second, ++known;
-            if (known == 3) next.push_back({g, found});
-            g = t.ccw(g);
-          } while (exists(g) && g != fan);
-        }
-    }
-    triangles = std::move(next);
-    before = &t;
+    triangles = next_triangles(triangles, *before, *step.refinement);
+    before = &step.refinement->topology;
   }
   std::vector<PieceChild> result;
-  std::vector<Index> seen;
-  for (const auto& [g, corners] : triangles) {
+  for (const auto& [first, corners] : triangles) {
     Eigen::Matrix3d C;
     C << corners[0], corners[1], corners[2];
-    const Label centre = C.colwise().mean();
-    if (centre.minCoeff() <= 0 || std::abs(C.determinant() - 1.0 / 9) > 1e-9) continue;
-    const Index f = index(before->face(g));
-    if (std::find(seen.begin(), seen.end(), f) != seen.end()) continue;
-    seen.push_back(f);
-    result.push_back({{Kind::triangle, g}, triangle_map(C)});
+    if (C.colwise().mean().minCoeff() <= 0 || std::abs(C.determinant() - 1.0 / 9) > 1e-9) continue;
+    result.push_back({{Kind::triangle, first}, triangle_map(C)});
   }
-  if (result.size() != 9) throw AnalysisError("nine triangles do not tile their parent");
+  if (result.size() != 9)
+    throw AnalysisError("a triangle has " + std::to_string(result.size()) + " children, not nine");
   return result;
 }
 
