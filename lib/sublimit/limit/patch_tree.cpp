@@ -37,7 +37,7 @@ PatchTree::PatchTree(const PieceType& type) {
     int depth;
   };
   const auto n = type.num_slots() - 1;
-  std::vector<Open> open{{&type, {RowMatrix::Identity(n, n), Eigen::RowVectorXd::Zero(n)}, 0}};
+  std::vector<Open> open{{&type, PieceBlock::identity(type.num_slots()), 0}};
   nodes_.emplace_back();
   std::vector<RowMatrix> patches;
   RowMatrix monomials;
@@ -54,12 +54,13 @@ PatchTree::PatchTree(const PieceType& type) {
       }
       nodes_[at].patch = static_cast<int>(patches.size());
       for (const RowMatrix& C : p->coefficients) {
-        RowMatrix& M = patches.emplace_back(monomials * (C * here.block.D));
-        M.row(0) += here.block.origin;
+        RowMatrix& M = patches.emplace_back(monomials * C);
+        M = here.block.pulled_back(M);
       }
       continue;
     }
     if (here.depth == max_depth || nodes_.size() + 9 > max_nodes || type.types().has_no_polynomials()) continue;
+    if (here.type->children()[0].block.is_large()) continue;
     nodes_[at].first_child = static_cast<int>(nodes_.size());
     nodes_[at].links = &here.type->children();
     for (const PieceLink& link : here.type->children()) {

@@ -62,6 +62,54 @@ void apply_chain(const PieceMap::Chain& c, RowMatrix& rows) {
                       c.bend[i][0] * old.row(1) + c.bend[i][1] * old.row(2);
 }
 
+namespace {
+
+constexpr Eigen::Index large = 96;  // slots
+
+}  // namespace
+
+PieceBlock::PieceBlock(const RowMatrix& B) : origin_(B.row(0).tail(B.cols() - 1)) {
+  if (std::max(B.rows(), B.cols()) > large) {
+    B_ = B.bottomRightCorner(B.rows() - 1, B.cols() - 1).sparseView(0, 0);
+  } else {
+    D_ = B.bottomRightCorner(B.rows() - 1, B.cols() - 1).rowwise() - origin_;
+  }
+}
+
+PieceBlock PieceBlock::identity(Eigen::Index slots) {
+  PieceBlock block;
+  block.D_ = RowMatrix::Identity(slots - 1, slots - 1);
+  block.origin_ = Eigen::RowVectorXd::Zero(slots - 1);
+  return block;
+}
+
+RowMatrix PieceBlock::differences() const {
+  if (!is_large()) return D_;
+  RowMatrix D = RowMatrix(B_);
+  return D.rowwise() - origin_;
+}
+
+RowMatrix PieceBlock::pulled_back(const RowMatrix& rows) const {
+  RowMatrix result;
+  if (is_large()) {
+    result = -rows.rowwise().sum() * origin_;
+    for (Eigen::Index i = 0; i < B_.rows(); ++i)
+      for (SparseMatrix::InnerIterator it(B_, i); it; ++it) result.col(it.col()) += rows.col(i) * it.value();
+  } else {
+    result = rows * D_;
+  }
+  result.row(0) += origin_;
+  return result;
+}
+
+PieceBlock PieceBlock::then(const PieceBlock& next) const {
+  PieceBlock block;
+  const RowMatrix D = differences();
+  block.D_ = next.differences() * D;
+  block.origin_ = origin_ + next.origin_ * D;
+  return block;
+}
+
 const PieceBlock& PieceLink::power(int i) const {
   if (i == 0) return block;
   std::call_once(once_[i], [&] { powers_[i] = power(i - 1).then(power(i - 1)); });
@@ -105,8 +153,7 @@ const std::deque<PieceLink>& PieceType::children() const {
           }
           B(i, slot_of[it.col()]) = it.value();
         }
-      link.block.origin = B.row(0).tail(columns - 1);
-      link.block.D = B.bottomRightCorner(rows - 1, columns - 1).rowwise() - link.block.origin;
+      link.block = PieceBlock(B);
     }
     children_ = std::move(links);
   });
@@ -171,11 +218,11 @@ const Eigen::RowVectorXd& PieceType::corner_limit(int corner) const {
   std::call_once(limit_once_[corner], [&] {
     const CornerPath path(this, corner);
     const PieceBlock cycle = path.cycle();
-    const auto n = cycle.D.rows();
+    const auto n = cycle.origin().size();
     // p = origin + p D.
-    const Eigen::PartialPivLU<Eigen::MatrixXd> lu((RowMatrix::Identity(n, n) - cycle.D).transpose());
-    RowMatrix row = lu.solve(cycle.origin.transpose()).transpose();
-    if (!row.allFinite() || row.cwiseAbs().maxCoeff() > 1e8)
+    const Eigen::PartialPivLU<Eigen::MatrixXd> lu((RowMatrix::Identity(n, n) - cycle.differences()).transpose());
+    RowMatrix row = lu.solve(cycle.origin().transpose()).transpose();
+    if (n > 0 && !(row.cwiseAbs().maxCoeff() < 1e8))
       throw AnalysisError(types_->scheme_.name + ": no limit where a neighbourhood repeats itself");
     for (size_t i = path.first; i-- > 0;) row = path.visits[i].link->block.pulled_back(row);
     corner_limits_[corner] = row;
@@ -191,9 +238,9 @@ const RowMatrix& PieceType::corner_rows(int corner) const {
     // functions.
     const double scale = path.visits.size() == path.first + 1 ? pure_scale(link->map) : 0;
     RowMatrix rows = at->corner_limit(own);
-    if (scale != 0 && types_->scheme_.claims.regular >= 1) {
-      const auto n = link->block.D.rows();
-      const Eigen::MatrixXd shifted = link->block.D - RowMatrix::Identity(n, n) / scale;
+    if (scale != 0 && types_->has_no_polynomials() && types_->scheme_.claims.regular >= 1 && !link->block.is_large()) {
+      const auto n = link->block.origin().size();
+      const Eigen::MatrixXd shifted = link->block.differences() - RowMatrix::Identity(n, n) / scale;
       const Eigen::MatrixXd left = null_space(shifted.transpose()), right = null_space(shifted);
       const Eigen::MatrixXd pairing = left.transpose() * right;
       if (left.cols() == 2 && right.cols() == 2 && std::abs(pairing.determinant()) > 1e-6) {
@@ -287,6 +334,7 @@ PieceRows piece_rows(const PieceType& root, Place place, int order, bool search)
       break;
     }
     int corner = corner_at(type->kind(), place);
+    if (corner >= 0 && type->child(place).type != type) corner = -1;  // it may become a polynomial yet
     if (corner >= 0 || levels >= (type->children().size() == 9 ? enough_thirds : enough_halves)) {
       result.at_corner = corner >= 0;
       if (corner < 0) corner = nearest_corner(type->kind(), place);
@@ -311,8 +359,12 @@ PieceRows piece_rows(const PieceType& root, Place place, int order, bool search)
   }
   for (auto step = path.rbegin(); step != path.rend(); ++step) {
     const PieceLink& link = *step->link;
-    for (int i = 0; step->times >> i; ++i)
-      if (step->times >> i & 1) result.rows = link.power(i).pulled_back(result.rows);
+    if (link.block.is_large()) {
+      for (int i = 0; i < step->times; ++i) result.rows = link.block.pulled_back(result.rows);
+    } else {
+      for (int i = 0; step->times >> i; ++i)
+        if (step->times >> i & 1) result.rows = link.power(i).pulled_back(result.rows);
+    }
     if (result.order == 0) continue;
     PieceMap::Chain chain = link.map.chain(step->place);
     if (step->times > 1) {

@@ -121,7 +121,7 @@ bool PolynomialSearch::satisfies_refinement(const PieceType& type, const PiecePo
   const bool total = p.basis.total();
   const int cells = (type.children().size() == 9 ? 3 : 2) * (p.basis.degree() + 2);
   double size = 1;
-  for (const RowMatrix& C : p.coefficients) size = std::max(size, C.cwiseAbs().maxCoeff());
+  for (const RowMatrix& C : p.coefficients) size = std::max(size, C.size() > 0 ? C.cwiseAbs().maxCoeff() : 0);
   for (int i = 0; i < cells; ++i)
     for (int j = 0; j < cells; ++j) {
       const double u = (i + 0.37) / cells, v = (j + 0.61) / cells;
@@ -131,7 +131,7 @@ bool PolynomialSearch::satisfies_refinement(const PieceType& type, const PiecePo
       const PiecePolynomial* fine = link.type == &type ? &p : candidate(*link.type);
       if (!fine) return false;
       const RowMatrix difference = p.rows(at, 0) - link.block.pulled_back(fine->rows(link.map(at), 0));
-      if (!(difference.cwiseAbs().maxCoeff() <= tolerance * size)) return false;
+      if (difference.size() > 0 && !(difference.cwiseAbs().maxCoeff() <= tolerance * size)) return false;
     }
   return true;
 }
