@@ -75,13 +75,13 @@ ControlMesh bipyramid(Index n) {
   return make_mesh(positions, faces);
 }
 
-ControlMesh flipped(const ControlMesh& triangles, int flips, unsigned seed) {
+ControlMesh flipped(const ControlMesh& triangles, int flips, unsigned seed, Index most) {
   Editable m(triangles, seed);
   for (int tries = 0, done = 0; done < flips && tries < 100 * flips; ++tries) {
     const auto [a, b] = m.pick();
     const Index f = m.face_of.at({a, b}), g = m.face_of.at({b, a});
     const Index c = m.face_at(a, b)[2], d = m.face_at(b, a)[2];
-    if (m.valence[a] == 3 || m.valence[b] == 3 || m.valence[c] == 10 || m.valence[d] == 10) continue;
+    if (m.valence[a] == 3 || m.valence[b] == 3 || m.valence[c] == most || m.valence[d] == most) continue;
     if (c == d || m.face_of.contains({c, d})) continue;
     m.face_of.erase({a, b});
     m.face_of.erase({b, a});
@@ -95,13 +95,13 @@ ControlMesh flipped(const ControlMesh& triangles, int flips, unsigned seed) {
   return m.mesh(triangles.positions);
 }
 
-ControlMesh merged(const ControlMesh& mesh, int edges, unsigned seed) {
+ControlMesh merged(const ControlMesh& mesh, int edges, unsigned seed, Index most) {
   Editable m(mesh, seed);
   for (int tries = 0, done = 0; done < edges && tries < 100 * edges; ++tries) {
     const auto [a, b] = m.pick();
     const Index f = m.face_of.at({a, b}), g = m.face_of.at({b, a});
     const std::vector<Index>&left = m.face_at(a, b), &right = m.face_at(b, a);
-    if (m.valence[a] == 3 || m.valence[b] == 3 || left.size() + right.size() > 12) continue;
+    if (m.valence[a] == 3 || m.valence[b] == 3 || Index(left.size() + right.size()) > most + 2) continue;
     const auto is_common = [&right = right](Index v) {
       return std::find(right.begin(), right.end(), v) != right.end();
     };

@@ -13,7 +13,6 @@
 #include "sublimit/refine.h"
 #include "sublimit/sparse_product.h"
 #include "support/meshes.h"
-#include "support/precise.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {
@@ -56,20 +55,24 @@ BoxSpline::BoxSpline(Directions directions, std::vector<int> multiplicities)
     : directions_(std::move(directions)), multiplicities_(std::move(multiplicities)) {}
 
 double BoxSpline::operator()(double x, double y) const {
+  // Pieces of a continuous spline agree on their common lines; a hair off them, none of the recursion's pieces is
+  // ambiguous.
+  return static_cast<double>(inside(Precise(x) + Precise("1e-40"), Precise(y) + Precise("1.7e-40")));
+}
+
+Precise BoxSpline::inside(const Precise& x, const Precise& y) const {
   double width = 0, height = 0;  // of the smallest box around the support
   for (size_t i = 0; i < directions_.size(); ++i) {
     width += multiplicities_[i] * std::abs(directions_[i].first);
     height += multiplicities_[i] * std::abs(directions_[i].second);
   }
-  if (2 * std::abs(x) > width || 2 * std::abs(y) > height) return 0;
+  if (abs(2 * x) > width || abs(2 * y) > height) return 0;
   using Vector = Eigen::Matrix<Precise, 2, 1>;
   using Counts = std::vector<int>;
   const size_t kinds = directions_.size();
   std::vector<Vector> xi;
   for (const auto& [a, b] : directions_) xi.push_back({Precise(a), Precise(b)});
-  // Pieces of a continuous spline agree on their common lines; a hair off them, none of the recursion's pieces is
-  // ambiguous.
-  Vector start{Precise(x) + Precise("1e-40"), Precise(y) + Precise("1.7e-40")};
+  Vector start{x, y};
   for (size_t i = 0; i < kinds; ++i) start += multiplicities_[i] * xi[i] / Precise(2);
 
   std::map<std::pair<Counts, Counts>, Precise> known;
@@ -105,7 +108,7 @@ double BoxSpline::operator()(double x, double y) const {
     }
     return known[{counts, shifts}] = result;
   };
-  return static_cast<double>(value(multiplicities_, Counts(kinds, 0)));
+  return value(multiplicities_, Counts(kinds, 0));
 }
 
 double regular_limit_error(const Scheme<double>& scheme, const Generator& phi) {

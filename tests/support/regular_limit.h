@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sublimit/scheme.h"
+#include "support/precise.h"
 
 namespace sublimit::testing {
 
@@ -19,6 +20,8 @@ class BoxSpline {
   using Directions = std::vector<std::pair<int, int>>;
   BoxSpline(Directions directions, std::vector<int> multiplicities);
   double operator()(double x, double y) const;
+  /// Strictly inside one of its polynomial pieces.
+  Precise inside(const Precise& x, const Precise& y) const;
 
  private:
   Directions directions_;
