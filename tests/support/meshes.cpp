@@ -752,6 +752,9 @@ std::vector<NamedMesh> tagged_meshes() {
   add_nonmanifold_surfaces(meshes);
   add_nonmanifold_tags(meshes);
   add_degenerate_faces(meshes);
+  ControlMesh triangle_dart = fan(3, 3, 2);  // a single mode is odd there
+  add_crease(triangle_dart, {0, 1}, 10);
+  meshes.add("dart_of_three_triangles", triangle_dart, triangle_schemes);
   return meshes.take();
 }
 

@@ -86,10 +86,13 @@ void add_tangents_by_reflection(Side& side, const MatrixXd& A, const CanonicalNe
   if ((side.tangent1.transpose() * picture)(0) < 0) side.tangent1 *= -1;
   if ((side.tangent2.transpose() * picture)(1) < 0) side.tangent2 *= -1;
   const double slower = std::min(side.lambda1, side.lambda2);
-  for (const EigenCluster* cluster : {&evens.clusters[2], &odds.clusters[1]}) {
-    if (decays_like(std::abs(cluster->value), slower)) side.plane = Plane::no;
-    side.second_order.push_back(mask(cluster == &odds.clusters[1] ? odd : even, *cluster));
-  }
+  const auto add_next = [&](const MatrixXd& basis, const std::vector<EigenCluster>& clusters, size_t at) {
+    if (at >= clusters.size()) return;  // three triangles around a dart have but one odd mode
+    if (decays_like(std::abs(clusters[at].value), slower)) side.plane = Plane::no;
+    side.second_order.push_back(mask(basis, clusters[at]));
+  };
+  add_next(even, evens.clusters, 2);
+  add_next(odd, odds.clusters, 1);
   if (evens.clusters[1].multiplicity > 1 || odds.clusters[0].multiplicity > 1) side.plane = Plane::no;
 }
 
@@ -218,8 +221,8 @@ LimitMasks limit_masks(const Scheme<double>& scheme, const CanonicalNeighborhood
     masks.position = VectorXd::Ones(1);
     return masks;
   }
-  // Sharpness below 10 is gone after 10 levels under uniform creasing, and under Chaikin's, which averages; one step more
-  // turns faces into the split's own.
+  // Sharpness below 10 is gone after 10 levels under uniform creasing, and under Chaikin's, which averages; one step
+  // more turns faces into the split's own.
   constexpr int enough = 32;
   CanonicalNeighborhood current = type;
   MatrixXd path = MatrixXd::Identity(type.num_slots, type.num_slots);
@@ -263,15 +266,16 @@ std::optional<LoneLimit> lone_limit(const Scheme<double>& scheme, const LocalTyp
   std::iota(centre.begin(), centre.end(), 0);
   Slots ring;  // around the centre, in the closed set
   for (Index s = patch->places.ring_end[0]; s < patch->places.ring_end[1]; ++s)
-    if (const auto at = std::lower_bound(patch->slots.begin(), patch->slots.end(), s); at != patch->slots.end() && *at == s)
+    if (const auto at = std::lower_bound(patch->slots.begin(), patch->slots.end(), s);
+        at != patch->slots.end() && *at == s)
       ring.push_back(static_cast<Index>(at - patch->slots.begin()));
   if (!open) {
     const auto fourier = fourier_blocks(patch->A, patch->orbits);
     if (!fourier) throw AnalysisError(scheme.name + ": a lone neighbourhood is not rotationally symmetric");
     masks.position = position_mask(patch->A, centre, fourier);
     add_ring_tangents(side, *fourier);
-    // What is around may decay as slowly as the tangents, and is not in the smallest closed set. Dense matrices of rings
-    // around polygons beyond 256 corners would be too large.
+    // What is around may decay as slowly as the tangents, and is not in the smallest closed set. Dense matrices of
+    // rings around polygons beyond 256 corners would be too large.
     if (type.faces <= 256) {
       const auto wider = local_patch(scheme, type, type.kind == Centre::Kind::face ? 1 : 2);
       const auto blocks = wider ? fourier_blocks(wider->A, wider->orbits) : std::nullopt;
