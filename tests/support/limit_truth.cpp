@@ -123,6 +123,12 @@ Guess guess(const Stage& stage) {
           p.scale * (x1 * (d - a) + x * (c - b))};
 }
 
+/// Rules change until sharpness is gone.
+bool is_decaying(const Level& level) {
+  return std::any_of(level.sharpness.edge.begin(), level.sharpness.edge.end(), is_semi_sharp) ||
+         std::any_of(level.sharpness.vertex.begin(), level.sharpness.vertex.end(), is_semi_sharp);
+}
+
 double largest(const Vector& v) { return static_cast<double>(Precise(v.cwiseAbs().maxCoeff())); }
 
 }  // namespace
@@ -172,7 +178,7 @@ TruePoint true_limit(const Scheme<Precise>& scheme, const Level& level, const Po
       if (before) {
         result.error = largest(now.position - before->position);
         result.first_error = std::max(largest(now.du - before->du), largest(now.dv - before->dv));
-        quiet = result.error <= options.accuracy * size ? quiet + 1 : 0;
+        quiet = !is_decaying(stage.level) && result.error <= options.accuracy * size ? quiet + 1 : 0;
         if (quiet >= 3 || result.levels >= options.most_levels) {
           result.position = now.position;
           if (spline.kind == Spline::Kind::none) {

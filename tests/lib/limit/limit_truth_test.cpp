@@ -7,11 +7,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <random>
 
 #include "sublimit/analysis/limit_points.h"
 #include "support/hard_meshes.h"
-#include "support/irregular_meshes.h"
+#include "support/places.h"
 #include "support/regular_limit.h"
 #include "support/tolerance.h"
 
@@ -34,6 +33,8 @@ struct Tested {
   Scheme<double> scheme;
   Scheme<Precise> precise;
   std::string name;
+  bool triangles() const { return scheme.face_size() == 3; }
+  bool is_polynomial() const { return !scheme.claims.limit.starts_with("no "); }
 };
 
 std::vector<Tested> schemes(bool polynomial_only = false) {
@@ -50,28 +51,19 @@ std::vector<Tested> schemes(bool polynomial_only = false) {
   return result;
 }
 
-bool takes_triangles(const Tested& t) { return t.scheme.face_size() == 3; }
-
-/// Random places, short binary numbers among them; away from the edges of triangles, so that neighbours of a place
-/// exist.
-std::vector<Sample> places(Index faces, bool triangles, int count, unsigned seed) {
-  std::mt19937 random(seed);
-  std::vector<Sample> result;
-  while (int(result.size()) < count) {
-    const auto binary = [&] { return double(1 + random() % 1022) / 1024; };
-    const double u = binary(), v = binary();
-    if (triangles && u + v >= 1023 / 1024.0) continue;
-    result.push_back({Index(random() % std::uint32_t(faces)), u, v});
-  }
-  return result;
-}
-
 Level level_of(const Tested& t, const ControlMesh& mesh) { return control_level(t.scheme, mesh, SubdivisionOptions{}); }
 
-/// Value and derivatives agree.
+/// With all that the scheme takes; even seeds with borders.
+ControlMesh hard_mesh(const Tested& t, unsigned seed) {
+  const Hardness hardness{.open = seed % 2 == 0,
+                          .sharp = t.scheme.sharpening == Sharpening::sharp,
+                          .semi_sharp = t.scheme.sharpening == Sharpening::semi_sharp};
+  return t.triangles() ? hard_triangles(seed, hardness) : hard_polygons(seed, hardness);
+}
+
+/// Value and derivatives agree, where both have them.
 void expect_same(const TruePoint& a, const TruePoint& b, const std::string& where) {
-  ASSERT_EQ(a.has_position, b.has_position) << where;
-  if (!a.has_position) return;
+  if (!a.has_position || !b.has_position) return;
   const double tolerance = a.is_exact && b.is_exact ? precise_rounding : refined_enough;
   EXPECT_LE(difference(a.position, b.position), tolerance) << where;
   if (!a.is_exact || !b.is_exact) return;
@@ -91,7 +83,7 @@ TEST(LimitTruth, IsASplineOnRegularMeshes) {
       zwart_powell({{1, 0}, {0, 1}, {1, 1}, {1, -1}}, {1, 1, 1, 1});
   const Index m = 12, n = 11;
   for (const Tested& t : schemes(true)) {
-    const bool triangles = takes_triangles(t);
+    const bool triangles = t.triangles();
     const ControlMesh mesh = jittered(triangles ? triangle_torus(m, n) : torus(m, n), 0.3);
     const Level level = level_of(t, mesh);
     const int degree = t.scheme.name == "bilinear" ? 1 : t.scheme.claims.regular + 1;
@@ -101,7 +93,7 @@ TEST(LimitTruth, IsASplineOnRegularMeshes) {
       return cardinal_bspline(degree, x) * cardinal_bspline(degree, y);
     };
     const auto wrapped = [](double x, double period) { return x - period * std::round(x / period); };
-    for (const Sample& s : places(level.topology().num_faces(), triangles, 6, 3)) {
+    for (const Sample& s : random_places(Addresses(level.topology(), triangles), 6, 3)) {
       // Vertex (i,j) has number i n + j; corners of faces tell where the place is.
       const auto corners = level.topology().vertices(Face{s.face});
       const Index a = corners[0], b = corners[1], c = corners[triangles ? 2 : 3];
@@ -124,22 +116,142 @@ TEST(LimitTruth, IsASplineOnRegularMeshes) {
 /// The regular pieces of hard meshes, borders and creases included, are the same from every level.
 TEST(LimitTruth, IsTheSameFromLaterLevelsAndWiderParts) {
   for (const Tested& t : schemes()) {
-    const bool triangles = takes_triangles(t);
+    const bool triangles = t.triangles();
     for (const unsigned seed : {1u, 2u}) {
-      Hardness hardness{.open = seed == 2};
-      if (t.scheme.sharpening == Sharpening::semi_sharp) hardness.semi_sharp = true;
-      if (t.scheme.sharpening == Sharpening::sharp) hardness.sharp = true;
-      const ControlMesh mesh = triangles ? hard_triangles(seed, hardness) : hard_polygons(seed, hardness);
+      const ControlMesh mesh = hard_mesh(t, seed);
       const Level level = level_of(t, mesh);
-      const Index faces = Addresses(level.topology(), triangles).size();
-      const bool is_polynomial = !t.scheme.claims.limit.starts_with("no ");
-      for (const Sample& s : places(faces, triangles, is_polynomial ? 12 : 2, seed)) {
+      for (const Sample& s : random_places(Addresses(level.topology(), triangles), t.is_polynomial() ? 12 : 2, seed)) {
         const TruePoint truth = true_limit(t.precise, level, mesh.positions, s);
         expect_same(
             truth, true_limit(t.precise, level, mesh.positions, s, {.least_levels = truth.levels + 2, .more_rings = 1}),
             words(t, s) + " seed " + std::to_string(seed) + " levels " + std::to_string(truth.levels));
       }
     }
+  }
+}
+
+/// Differences over 2^-30: their own error is that squared, times the next derivatives.
+TEST(LimitTruth, DerivativesAreLimitsOfDifferences) {
+  const double h = std::ldexp(1.0, -30);
+  const Precise step(h);
+  for (const Tested& t : schemes(true)) {
+    const ControlMesh mesh = hard_mesh(t, 3);
+    const Level level = level_of(t, mesh);
+    for (const Sample& s : random_places(Addresses(level.topology(), t.triangles()), 5, 7)) {
+      const auto at = [&](double u, double v) {
+        return true_limit(t.precise, level, mesh.positions, {s.face, s.u + u, s.v + v}).position;
+      };
+      const TruePoint truth = true_limit(t.precise, level, mesh.positions, s);
+      ASSERT_TRUE(truth.has_first) << words(t, s);
+      const Vector c = at(0, 0), e = at(h, 0), w = at(-h, 0), n = at(0, h), o = at(0, -h);
+      const Vector du = (e - w) / (2 * step), dv = (n - o) / (2 * step);
+      // First derivatives of C^1 schemes may bend here, of bilinear ones only in polygons' squares.
+      const double near = truth.has_second ? 1e-15 : 1e-7;
+      const double largest = 1 + size(truth.duu) + size(truth.dvv);
+      EXPECT_LE(difference(truth.du, du), near * largest) << words(t, s);
+      EXPECT_LE(difference(truth.dv, dv), near * largest) << words(t, s);
+      if (!truth.has_second) continue;
+      const Vector duu = (e - 2 * c + w) / (step * step), dvv = (n - 2 * c + o) / (step * step);
+      const Vector duv = (at(h, h) - at(h, -h) - at(-h, h) + at(-h, -h)) / (4 * step * step);
+      // The third derivatives of bicubic pieces jump.
+      EXPECT_LE(difference(truth.duu, duu), 1e-7 * largest) << words(t, s);
+      EXPECT_LE(difference(truth.duv, duv), 1e-7 * largest) << words(t, s);
+      EXPECT_LE(difference(truth.dvv, dvv), 1e-7 * largest) << words(t, s);
+    }
+  }
+}
+
+TEST(LimitTruth, EndsInTheLimitsOfVertices) {
+  for (const Tested& t : schemes())
+    for (const unsigned seed : {5u, 6u}) {
+      const ControlMesh mesh = hard_mesh(t, seed);
+      const Level level = level_of(t, mesh);
+      const Topology& topology = level.topology();
+      const Addresses addresses(topology, t.triangles());
+      LimitMaskCache cache(t.scheme);
+      // Masks of a level whose faces need no preparation.
+      const bool is_prepared = t.scheme.preparation.empty();
+      Level first = is_prepared ? level : next_level(t.scheme, level);
+      const Points points = is_prepared ? mesh.positions : Points(first.S * mesh.positions);
+      const Points limits = limit_points(limit_matrices(first, cache), first.topology(), points).position;
+      const Index count = topology.num_half_edges(), stride = t.is_polynomial() ? count / 9 : count / 3;
+      for (Index i = 0; i < count; i += stride) {
+        const TruePoint truth =
+            true_limit(t.precise, level, mesh.positions, from_corner(topology, addresses, HalfEdge{i}, 0, 0));
+        if (!truth.has_position) continue;
+        const Vector expected = limits.row(index(topology.tail(HalfEdge{i}))).transpose().cast<Precise>();
+        EXPECT_LE(difference(truth.position, expected), reference)
+            << t.name << " seed " << seed << " corner " << i << " error " << truth.error << " levels " << truth.levels;
+      }
+    }
+}
+
+TEST(LimitTruth, IsOneSurfaceAcrossEdges) {
+  for (const Tested& t : schemes())
+    for (const unsigned seed : {3u, 4u}) {
+      const ControlMesh mesh = hard_mesh(t, seed);
+      const Level level = level_of(t, mesh);
+      const Topology& topology = level.topology();
+      const Addresses addresses(topology, t.triangles());
+      const Index count = topology.num_half_edges();
+      for (Index i = 1; i < count; i += t.is_polynomial() ? count / 9 : count / 2) {
+        const HalfEdge h{i}, g = topology.twin(h);
+        if (!exists(g)) continue;
+        const TruePoint left = true_limit(t.precise, level, mesh.positions, on_edge(topology, addresses, h, 0.375));
+        const TruePoint right = true_limit(t.precise, level, mesh.positions, on_edge(topology, addresses, g, 0.625));
+        if (!left.has_position || !right.has_position) continue;
+        const double tolerance = left.is_exact && right.is_exact ? precise_rounding : refined_enough;
+        EXPECT_LE(difference(left.position, right.position), tolerance)
+            << t.name << " seed " << seed << " half-edge " << i;
+      }
+    }
+}
+
+/// Down to 2^-40 from an extraordinary vertex: positions come to its limit like the modulus of the next eigenvalue.
+TEST(LimitTruth, ComesToExtraordinaryVertices) {
+  for (const Tested& t : schemes(true)) {
+    const ControlMesh mesh = hard_mesh(t, 7);
+    const Level level = level_of(t, mesh);
+    const Topology& topology = level.topology();
+    const Addresses addresses(topology, t.triangles());
+    HalfEdge corner{0};
+    for (Index i = 0; i < topology.num_half_edges(); ++i)
+      if (topology.num_faces(topology.tail(HalfEdge{i})) > topology.num_faces(topology.tail(corner)))
+        corner = HalfEdge{i};
+    double before = 1e300;
+    const TruePoint vertex =
+        true_limit(t.precise, level, mesh.positions, from_corner(topology, addresses, corner, 0, 0));
+    for (const int k : {2, 10, 20, 40}) {
+      const double d = std::ldexp(1.0, -k);
+      const TruePoint truth =
+          true_limit(t.precise, level, mesh.positions, from_corner(topology, addresses, corner, d, d / 4));
+      EXPECT_TRUE(truth.is_exact);
+      EXPECT_LE(truth.levels, k + 8) << t.name;
+      const double distance = difference(truth.position, vertex.position);
+      EXPECT_LT(distance, before) << t.name << " at 2^-" << k;
+      before = distance;
+    }
+    EXPECT_LT(before, 1e-2) << t.name;
+  }
+}
+
+/// Regular borders of bidegree 2: control row i at parameter i. A point of level 1 beside the border, a quarter inside,
+/// ends at (r_0 + 6 r_1 + r_2)/8 of the rows 0, 1/4 and 3/4, which is 9/32 inside.
+TEST(LimitTruth, DualSurfacesStartInTheBorderRow) {
+  for (const char* name : {"doo-sabin", "doo-sabin-averaging"}) {
+    const Tested t{find_scheme(name).value(), find_scheme<Precise>(name).value(), name};
+    const ControlMesh mesh = grid(5, 4);
+    const Level level = level_of(t, mesh), first = next_level(t.scheme, level);
+    LimitMaskCache cache(t.scheme);
+    const Points limits =
+        limit_points(limit_matrices(first, cache), first.topology(), first.S * mesh.positions).position;
+    const HalfEdge corner = level.topology().corner(Face{2}, 0);  // beside the border from corner 0 to 1
+    ASSERT_FALSE(exists(level.topology().twin(corner)));
+    const TruePoint truth = true_limit(t.precise, level, mesh.positions, {2, 0.25, 9.0 / 32});
+    EXPECT_TRUE(truth.is_exact);
+    EXPECT_LE((truth.position.cast<double>().transpose() - limits.row(index(corner))).cwiseAbs().maxCoeff(),
+              rounding(64, 5));
+    EXPECT_FALSE(true_limit(t.precise, level, mesh.positions, {2, 0.25, 9.0 / 32}, {.least_levels = 1}).has_second);
   }
 }
 
