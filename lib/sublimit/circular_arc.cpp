@@ -51,6 +51,13 @@ double CircularArc::curvature() const {
   return plane && rise_.cross(chord_).z() < 0 ? -magnitude : magnitude;
 }
 
+Vector3d CircularArc::curvature_vector(double x) const {
+  if (straight() || width_ == 0) return Vector3d::Zero();
+  const double angle = (2 * x - 1) * half_turn_, sine = std::sin(half_turn_);
+  const Vector3d middle = middle_tangent(a_.tangent, b_.tangent, chord_, width_);
+  return -2 / width_ * (sine * std::sin(angle) * middle + std::cos(angle) * rise_);
+}
+
 double CircularArc::length() const { return straight() ? width_ : width_ * half_turn_ / std::sin(half_turn_); }
 
 double CircularArc::radius() const {

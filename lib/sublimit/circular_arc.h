@@ -24,6 +24,8 @@ class CircularArc {
   HermitePoint at(double x) const;
   /// 1/radius; in the plane negative where the arc turns right. 0 for a straight segment.
   double curvature() const;
+  /// Derivative of the tangent by length: towards the centre, 1/radius long; 0 for a straight segment.
+  Eigen::Vector3d curvature_vector(double x) const;
   double turn() const { return 2 * half_turn_; }  ///< angle between the end tangents, in [0, 2 pi)
   double length() const;
   bool straight() const { return sine_ == 0; }

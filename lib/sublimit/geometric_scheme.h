@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include "sublimit/base/error.h"
 #include "sublimit/mesh/control_polygon.h"
 #include "sublimit/scheme_options.h"
@@ -21,6 +23,15 @@ struct GeometricClaims {
   std::string exponent;       ///< Hoelder exponent of the limit by arc length, in words
 };
 
+/// A place on the limit of a leg.
+struct LegPlace {
+  Eigen::Vector3d position;
+  Eigen::Vector3d tangent;    ///< of length 1
+  Eigen::Vector3d curvature;  ///< derivative of the tangent by length
+};
+/// The limit of a leg over t in [0, 1]; where pieces meet inside, that of the piece before or behind.
+using LegCurve = std::function<LegPlace(double t, bool before)>;
+
 template <class Data>
 struct GeometricScheme {
   std::string name;
@@ -31,6 +42,8 @@ struct GeometricScheme {
   std::function<Data(const Data&)> refine;  ///< one step, of checked or refined data
   /// Data of level `levels`, on the exact limit of checked data.
   std::function<Data(const Data&, int levels)> limit;
+  /// The exact limit of checked data anywhere: of each curve, its legs in order.
+  std::function<std::vector<std::vector<LegCurve>>(const Data&)> legs;
   /// Notes worth telling about checked data: where the scheme fell back on another rule.
   std::function<std::vector<std::string>(const Data&)> notes;
   GeometricClaims claims;

@@ -289,6 +289,15 @@ double LegLimit::curvature(double x) const {
   return arcs[std::min(static_cast<size_t>(x * static_cast<double>(arcs.size())), arcs.size() - 1)].curvature();
 }
 
+LegPlace LegLimit::place(double x, bool before) const {
+  const double pieces = x * static_cast<double>(arcs.size());
+  size_t arc = std::min(static_cast<size_t>(pieces), arcs.size() - 1);
+  if (before && arc > 0 && static_cast<double>(arc) == pieces) --arc;
+  const double share = pieces - static_cast<double>(arc);
+  const HermitePoint p = arcs[arc].at(share);
+  return {p.position, p.tangent, arcs[arc].curvature_vector(share)};
+}
+
 std::vector<std::vector<LegLimit>> incentre_limit(const ControlPolygon& polygon) {
   const double scale = scale_of(polygon);
   std::vector<std::vector<LegLimit>> result(polygon.curves.size());
@@ -306,12 +315,27 @@ std::vector<std::vector<LegLimit>> incentre_limit(const ControlPolygon& polygon)
   return result;
 }
 
+namespace {
+
+std::vector<std::vector<LegCurve>> legs(const ControlPolygon& polygon) {
+  std::vector<std::vector<LegCurve>> result;
+  for (const std::vector<LegLimit>& curve : incentre_limit(polygon)) {
+    std::vector<LegCurve>& one = result.emplace_back();
+    for (const LegLimit& limit : curve)
+      one.push_back([limit](double t, bool before) { return limit.place(t, before); });
+  }
+  return result;
+}
+
+}  // namespace
+
 GeometricCurveScheme hermite_incentre(const SchemeOptions&) {
   return {.name = "hermite-incentre",
           .source = "incentre of leg and tangents, new tangent along the leg (unlike Deng, Wang 2010)",
           .checked = checked,
           .refine = refined,
           .limit = limit_points,
+          .legs = legs,
           .notes = notes,
           .claims = {.regular = 1,
                      .interpolates = true,

@@ -50,6 +50,8 @@ struct LegLimit {
   HermitePoint at(double x) const;
   /// Signed as in CircularArc; where two arcs meet that of the second.
   double curvature(double x) const;
+  /// Where two arcs meet, the end of the first (`before`) or the start of the second.
+  LegPlace place(double x, bool before) const;
 };
 
 /// The exact limit of a checked polygon: of each curve, its legs in order.
