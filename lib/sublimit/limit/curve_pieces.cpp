@@ -214,19 +214,24 @@ CurvePieces::RowL CurvePieces::value(int at, Real s) const {
   return value(type.child[c], 2 * s - c) * type.exact_B[c];
 }
 
-/// The polynomial of least degree through values at equal distances, if there is one.
+/// The polynomial through values at equal distances, if there is one.
 std::optional<CurvePieces::Polynomial> CurvePieces::polynomial(const std::vector<RowL>& values) const {
   const int last = static_cast<int>(values.size()) - 1;
   const Index width = static_cast<Index>(values[0].size());
-  const Real tolerance = 16 * Real(eps);
+  MatrixL best;
+  Real least = 16 * Real(eps);
   // Windows at ends are shorter, but their pieces no simpler.
-  for (int degree = 0; degree <= std::min(layout_.radius() * layout_.unknowns() + 2, most_degree); ++degree) {
+  const int highest = std::min(layout_.radius() * layout_.unknowns() + 2, most_degree);
+  // The leading terms of high degrees are small, so the first that fits need not be the one: it goes on as long as one
+  // of the next two (polynomials may be odd) fits better by far.
+  for (int degree = 0; degree <= highest && (best.rows() == 0 || degree <= best.rows() + 1); ++degree) {
     // Nodes near to Chebyshev's.
     std::vector<int> nodes;
-    for (int i = 0; i <= degree; ++i)
-      nodes.push_back(
-          degree == 0 ? 0 : static_cast<int>(std::lround(last * (1 - std::cos(std::numbers::pi * i / degree)) / 2)));
-    if (std::adjacent_find(nodes.begin(), nodes.end()) != nodes.end()) return std::nullopt;
+    for (int i = 0; i <= degree; ++i) {
+      const double share = degree == 0 ? 0 : (1 - std::cos(std::numbers::pi * i / degree)) / 2;
+      nodes.push_back(static_cast<int>(std::lround(last * share)));
+    }
+    if (std::adjacent_find(nodes.begin(), nodes.end()) != nodes.end()) break;
     MatrixL collocation(degree + 1, degree + 1), right(degree + 1, width);
     std::vector<Real> weights(degree + 1);
     const auto at = [&](int i) {
@@ -240,24 +245,27 @@ std::optional<CurvePieces::Polynomial> CurvePieces::polynomial(const std::vector
     MatrixL C = collocation.partialPivLu().solve(right);
     C.row(0) = values.front();
     C.row(degree) = values.back();
-    bool fits = true;
-    for (int i = 0; i <= last && fits; ++i) fits = (at(i) * C - values[i]).cwiseAbs().maxCoeff() <= tolerance;
-    if (!fits) continue;
-    C = C.unaryExpr([](Real x) { return std::abs(x) < Real(eps) / 16 ? Real(0) : x; });
-    Polynomial p;
-    p.degree = degree;
-    p.coefficients[0] = C.cast<double>();
-    for (int k = 1; k <= 2; ++k) {
-      if (degree < k) {
-        p.coefficients[k] = Matrix::Zero(1, width);
-        continue;
-      }
-      C = (Real(degree - k + 1) * (C.bottomRows(C.rows() - 1) - C.topRows(C.rows() - 1))).eval();
-      p.coefficients[k] = C.cast<double>();
-    }
-    return p;
+    Real error = 0;
+    for (int i = 0; i <= last && error <= least; ++i)
+      error = std::max(error, (at(i) * C - values[i]).cwiseAbs().maxCoeff());
+    if (error > least) continue;
+    best = C.unaryExpr([](Real x) { return std::abs(x) < Real(eps) / 16 ? Real(0) : x; });
+    least = error / 8;
   }
-  return std::nullopt;
+  if (best.rows() == 0) return std::nullopt;
+  Polynomial p;
+  p.degree = static_cast<int>(best.rows()) - 1;
+  p.coefficients[0] = best.cast<double>();
+  for (int k = 1; k <= 2; ++k) {
+    if (p.degree < k) {
+      p.coefficients[k] = Matrix::Zero(1, width);
+      continue;
+    }
+    const Eigen::Index rows = best.rows() - 1;
+    best = (Real(rows) * (best.bottomRows(rows) - best.topRows(rows))).eval();
+    p.coefficients[k] = best.cast<double>();
+  }
+  return p;
 }
 
 void CurvePieces::find_polynomials(int at) {
