@@ -12,6 +12,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "opensubdiv_refiner.h"
+
 namespace sublimit::bench {
 namespace {
 
@@ -78,13 +80,7 @@ PeerStencils stencils(const Far::TopologyRefiner& refiner) {
 
 }  // namespace
 
-struct PeerRefiner::Implementation {
-  std::unique_ptr<Far::TopologyRefiner> refiner;
-};
-
-PeerRefiner::PeerRefiner(const PeerMesh& mesh, int levels, bool whole_last_level)
-    : implementation_(std::make_unique<Implementation>()) {
-  if (levels < 0 || levels > 10) throw std::runtime_error("OpenSubdiv's stencil factory stops at level 10");
+std::unique_ptr<Far::TopologyRefiner> topology_refiner(const PeerMesh& mesh) {
   Far::TopologyDescriptor descriptor;
   descriptor.numVertices = mesh.num_vertices;
   descriptor.numFaces = static_cast<int>(mesh.face_sizes.size());
@@ -100,8 +96,20 @@ PeerRefiner::PeerRefiner(const PeerMesh& mesh, int levels, bool whole_last_level
   Sdc::Options sdc;
   sdc.SetVtxBoundaryInterpolation(Sdc::Options::VTX_BOUNDARY_EDGE_AND_CORNER);
   using Factory = Far::TopologyRefinerFactory<Far::TopologyDescriptor>;
-  implementation_->refiner.reset(Factory::Create(descriptor, Factory::Options(scheme_type(mesh.scheme), sdc)));
-  if (!implementation_->refiner) throw std::runtime_error("OpenSubdiv refuses the mesh");
+  std::unique_ptr<Far::TopologyRefiner> refiner(
+      Factory::Create(descriptor, Factory::Options(scheme_type(mesh.scheme), sdc)));
+  if (!refiner) throw std::runtime_error("OpenSubdiv refuses the mesh");
+  return refiner;
+}
+
+struct PeerRefiner::Implementation {
+  std::unique_ptr<Far::TopologyRefiner> refiner;
+};
+
+PeerRefiner::PeerRefiner(const PeerMesh& mesh, int levels, bool whole_last_level)
+    : implementation_(std::make_unique<Implementation>()) {
+  if (levels < 0 || levels > 10) throw std::runtime_error("OpenSubdiv's stencil factory stops at level 10");
+  implementation_->refiner = topology_refiner(mesh);
   Far::TopologyRefiner::UniformOptions uniform(levels);
   uniform.fullTopologyInLastLevel = whole_last_level;
   implementation_->refiner->RefineUniform(uniform);

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// Where all of OpenSubdiv begins: the connectivity of a mesh, not refined yet.
+#include <opensubdiv/far/topologyRefiner.h>
+
+#include <memory>
+
+#include "opensubdiv_peer.h"
+
+namespace sublimit::bench {
+
+/// @throws std::runtime_error  if OpenSubdiv refuses the mesh
+std::unique_ptr<OpenSubdiv::Far::TopologyRefiner> topology_refiner(const PeerMesh& mesh);
+
+}  // namespace sublimit::bench
