@@ -10,6 +10,8 @@
 #include <memory>
 #include <stdexcept>
 
+#include "support/opensubdiv_refiner.h"
+
 namespace sublimit::testing {
 namespace {
 
@@ -82,44 +84,10 @@ void require_indices_in_range(const ControlMesh& mesh) {
   for (const Index f : mesh.holes) require(f >= 0 && f < mesh.num_faces(), "a hole is out of range");
 }
 
-// A mesh to be refined in place. Vertices at more than one sheet, isolated ones (non-manifold to OpenSubdiv: corners
-// that stay where they are), repeated vertices and degenerate edges are all accepted by the factory. Of a repeated edge
-// in one face it makes a second, separate edge, as it does of every edge (v,v).
+// A mesh, refined in place.
 std::unique_ptr<Far::TopologyRefiner> refiner(const ControlMesh& mesh, const ReferenceOptions& options) {
   if (options.levels < 0 || options.levels > 15) throw std::runtime_error("OpenSubdiv refines 0 to 15 levels");
-  require_indices_in_range(mesh);
-
-  std::vector<Index> crease_vertices, corner_vertices;
-  std::vector<float> crease_sharpness, corner_sharpness;
-  for (const ControlMesh::Crease& crease : mesh.creases) {
-    crease_vertices.insert(crease_vertices.end(), {crease.tail, crease.head});
-    crease_sharpness.push_back(crease.sharpness);
-  }
-  for (const ControlMesh::Corner& corner : mesh.corners) {
-    corner_vertices.push_back(corner.vertex);
-    corner_sharpness.push_back(corner.sharpness);
-  }
-  Far::TopologyDescriptor descriptor;
-  descriptor.numVertices = mesh.num_vertices();
-  descriptor.numFaces = mesh.num_faces();
-  descriptor.numVertsPerFace = mesh.face_sizes.data();
-  descriptor.vertIndicesPerFace = mesh.face_vertices.data();
-  descriptor.numCreases = static_cast<int>(crease_sharpness.size());
-  descriptor.creaseVertexIndexPairs = crease_vertices.data();
-  descriptor.creaseWeights = crease_sharpness.data();
-  descriptor.numCorners = static_cast<int>(corner_sharpness.size());
-  descriptor.cornerVertexIndices = corner_vertices.data();
-  descriptor.cornerWeights = corner_sharpness.data();
-  descriptor.numHoles = static_cast<int>(mesh.holes.size());
-  descriptor.holeIndices = mesh.holes.data();
-
-  using Factory = Far::TopologyRefinerFactory<Far::TopologyDescriptor>;
-  listen_to_far();
-  std::unique_ptr<Far::TopologyRefiner> made(
-      Factory::Create(descriptor, Factory::Options(scheme_type(options.scheme), scheme_options(options))));
-  throw_far_errors();
-  if (!made) throw std::runtime_error("OpenSubdiv refuses the mesh and does not say why");
-
+  std::unique_ptr<Far::TopologyRefiner> made = reference_refiner(mesh, options);
   Far::TopologyRefiner::UniformOptions uniform(options.levels);
   uniform.fullTopologyInLastLevel = true;  // sharpness and limit masks need the edges
   made->RefineUniform(uniform);
@@ -228,6 +196,45 @@ void make_room_for_limit_masks(Far::TopologyRefiner& refiner) {
 }
 
 }  // namespace
+
+// Vertices at more than one sheet, isolated ones (non-manifold to OpenSubdiv: corners
+// that stay where they are), repeated vertices and degenerate edges are all accepted by the factory. Of a repeated edge
+// in one face it makes a second, separate edge, as it does of every edge (v,v).
+std::unique_ptr<Far::TopologyRefiner> reference_refiner(const ControlMesh& mesh, const ReferenceOptions& options) {
+  require_indices_in_range(mesh);
+
+  std::vector<Index> crease_vertices, corner_vertices;
+  std::vector<float> crease_sharpness, corner_sharpness;
+  for (const ControlMesh::Crease& crease : mesh.creases) {
+    crease_vertices.insert(crease_vertices.end(), {crease.tail, crease.head});
+    crease_sharpness.push_back(crease.sharpness);
+  }
+  for (const ControlMesh::Corner& corner : mesh.corners) {
+    corner_vertices.push_back(corner.vertex);
+    corner_sharpness.push_back(corner.sharpness);
+  }
+  Far::TopologyDescriptor descriptor;
+  descriptor.numVertices = mesh.num_vertices();
+  descriptor.numFaces = mesh.num_faces();
+  descriptor.numVertsPerFace = mesh.face_sizes.data();
+  descriptor.vertIndicesPerFace = mesh.face_vertices.data();
+  descriptor.numCreases = static_cast<int>(crease_sharpness.size());
+  descriptor.creaseVertexIndexPairs = crease_vertices.data();
+  descriptor.creaseWeights = crease_sharpness.data();
+  descriptor.numCorners = static_cast<int>(corner_sharpness.size());
+  descriptor.cornerVertexIndices = corner_vertices.data();
+  descriptor.cornerWeights = corner_sharpness.data();
+  descriptor.numHoles = static_cast<int>(mesh.holes.size());
+  descriptor.holeIndices = mesh.holes.data();
+
+  using Factory = Far::TopologyRefinerFactory<Far::TopologyDescriptor>;
+  listen_to_far();
+  std::unique_ptr<Far::TopologyRefiner> made(
+      Factory::Create(descriptor, Factory::Options(scheme_type(options.scheme), scheme_options(options))));
+  throw_far_errors();
+  if (!made) throw std::runtime_error("OpenSubdiv refuses the mesh and does not say why");
+  return made;
+}
 
 ReferenceOptions reference_options(const ControlMesh& mesh, const std::string& scheme, int levels) {
   ReferenceOptions options;
