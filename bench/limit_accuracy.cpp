@@ -20,6 +20,7 @@
 #include <string>
 #include <vector>
 
+#include "sublimit/limit/limit_surface.h"
 #include "sublimit/mesh/read_mesh.h"
 #include "support/compare_with_opensubdiv.h"
 #include "support/dyadic_limits.h"
@@ -56,6 +57,17 @@ Contender opensubdiv(const std::string& name, const LimitOptions& options) {
           }};
 }
 
+Contender ours() {
+  return {"ours", [](const ControlMesh& mesh, const std::vector<Sample>& places) {
+            const LimitSurface surface(testing::scheme_for(mesh, "catmull-clark"), mesh);
+            const LimitSamples made = surface.evaluate(mesh.positions, places, 1);
+            std::vector<Point> points;
+            for (Index i = 0; i < made.position.rows(); ++i)
+              points.push_back({made.position.row(i).transpose(), made.normal.row(i).transpose()});
+            return points;
+          }};
+}
+
 std::vector<Contender> contenders() {
   using testing::BfrLimit;
   using testing::FarLimit;
@@ -63,7 +75,8 @@ std::vector<Contender> contenders() {
           opensubdiv<BfrLimit>("Bfr, level 10", BfrLimit::Options{.smooth_level = 10, .sharp_level = 10}),
           opensubdiv<FarLimit>("Far, level 4", FarLimit::Options{.level = 4}),
           opensubdiv<FarLimit>("Far, default (level 10)", FarLimit::Options{.level = 10}),
-          opensubdiv<FarLimit>("Far, best", FarLimit::Options{.level = 10, .inf_sharp_patches = true})};
+          opensubdiv<FarLimit>("Far, best", FarLimit::Options{.level = 10, .inf_sharp_patches = true}),
+          ours()};
 }
 
 struct Errors {

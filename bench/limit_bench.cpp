@@ -8,9 +8,8 @@
 //   first      from connectivity: one point and its du and dv on every face
 //   file       from a file of some 500 faces to 10,000 points at random places; our reader for all
 // Others are Bfr (float, double), Far's PatchTable and PatchMap (float, double; level 4, sharp patches, Gregory end
-// caps) and Embree (float), see limit_peers.h. All write to memory that is there, but ours, which returns what it makes
-// and makes normals too. On one thread the processor's time is taken, on several that of the wall. The limit is the
-// time to write the doubles, at the bandwidth of one thread.
+// caps) and Embree (float), see limit_peers.h. All write to memory that is there. On one thread the processor's time is
+// taken, on several that of the wall. The limit is the time to write the doubles, at the bandwidth of one thread.
 //
 // `limit_bench --ratios [repetitions] [--keep-memory]` takes turns and prints medians with their spread and the ratio
 // of the best other to ours; otherwise Google Benchmark's own options hold. `--points N`: instead of a million; `--mesh
@@ -53,15 +52,14 @@ Options options(int& argc, char** argv) {
 }
 
 std::vector<LimitContender> contenders() {
-  return {{"Bfr float", bfr_float},
-          {"Bfr double", bfr_double},
-          {"Far float", far_float},
-          {"Far double", far_double},
+  return {{"ours", our_limits},     {"ours and normals", our_limits_and_normals},
+          {"Bfr float", bfr_float}, {"Bfr double", bfr_double},
+          {"Far float", far_float}, {"Far double", far_double},
           {"Embree float", embree}};
 }
 
 /// Contenders from here on are others, and whose positions the others' are compared with.
-constexpr size_t first_peer = 0, reference_contender = first_peer + 3;
+constexpr size_t first_peer = 2, reference_contender = first_peer + 3;
 
 std::filesystem::path shared_mesh(const std::string& name) {
   const std::filesystem::path path = std::filesystem::path(SUBLIMIT_SHARED_MESHES) / ("catmark_" + name + ".obj");
@@ -85,11 +83,6 @@ std::vector<Case> limit_cases(const std::string& only) {
 struct Pattern {
   std::string name;
   std::vector<Sample> places;
-  int grid = 0;
-
-  void give(LimitEvaluator& evaluator) const {
-    grid > 0 ? evaluator.set_grid(grid, places) : evaluator.set_places(places);
-  }
 };
 
 Index num_addresses(const ControlMesh& mesh) {
@@ -119,7 +112,7 @@ Pattern sorted(Pattern pattern) {
 Pattern gridded(const ControlMesh& mesh, int count) {
   const Index faces = num_addresses(mesh);
   const int N = std::max(2, int(std::lround(std::sqrt(double(count) / faces))));
-  Pattern pattern{"gridded", {}, N};
+  Pattern pattern{"gridded", {}};
   for (Index f = 0; f < faces; ++f)
     for (int j = 0; j < N; ++j)
       for (int i = 0; i < N; ++i) pattern.places.push_back({f, double(i) / (N - 1), double(j) / (N - 1)});
@@ -140,7 +133,7 @@ double timed(int threads, const auto& work) { return threads == 1 ? cpu_seconds(
 /// Seconds from connectivity to the points.
 double cold_seconds(LimitEvaluator& evaluator, const Pattern& pattern, int order, int threads) {
   evaluator.forget();
-  pattern.give(evaluator);
+  evaluator.set_places(pattern.places);
   return timed(threads, [&] {
     evaluator.start();
     evaluator.evaluate(order);
@@ -155,7 +148,7 @@ double file_seconds(const LimitContender& contender, const std::filesystem::path
   const double time = timed(threads, [&] {
     mesh.emplace(Case{"", "catmull-clark", read_mesh(path)});
     evaluator = contender.make(*mesh);
-    pattern.give(*evaluator);
+    evaluator->set_places(pattern.places);
     evaluator->start();
     evaluator->evaluate(0);
   });
@@ -169,7 +162,7 @@ void print_differences(const std::vector<LimitContender>& who, std::vector<std::
                        const Pattern& pattern, const ControlMesh& mesh) {
   const double box = (mesh.positions.colwise().maxCoeff() - mesh.positions.colwise().minCoeff()).norm();
   for (auto& e : evaluators) {
-    pattern.give(*e);
+    e->set_places(pattern.places);
     e->evaluate(0);
   }
   std::printf("  positions differ from those of %s by at most, over the bounding box:",
@@ -246,7 +239,7 @@ int print_ratios(int repetitions, const Options& options) {
       if (threads == 1) print_differences(who, evaluators, all.front(), c.mesh);
       for (const Pattern& p : all) {
         const double scale = 1e9 / double(p.places.size());
-        for (auto& e : evaluators) p.give(*e);
+        for (auto& e : evaluators) e->set_places(p.places);
         for (const int order : {0, 1, 2})
           print_row(row("prepared", p, order), take_turns(who.size(), repetitions, scale, [&](size_t i) {
                       return timed(threads, [&] { evaluators[i]->evaluate(order); });
@@ -294,7 +287,7 @@ void register_benchmarks(const std::vector<Case>& meshes, int points) {
                 evaluator->forget();
                 evaluator->start();
                 evaluator->prepare();
-                p->give(*evaluator);
+                evaluator->set_places(p->places);
                 for (auto _ : state)
                   state.SetIterationTime(cold ? cold_seconds(*evaluator, *p, order, threads)
                                               : timed(threads, [&] { evaluator->evaluate(order); }));

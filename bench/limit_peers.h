@@ -26,11 +26,6 @@ class LimitEvaluator {
 
   /// Where points are asked for. Outside the clock, once started.
   virtual void set_places(std::span<const Sample> places) = 0;
-  /// The places are the N x N grid of every address.
-  virtual void set_grid(int N, std::span<const Sample> places) {
-    static_cast<void>(N);
-    set_places(places);
-  }
   /// Positions and derivatives up to `order` at all places.
   virtual void evaluate(int order) = 0;
 
@@ -55,7 +50,8 @@ std::unique_ptr<LimitEvaluator> far_float(const Case& mesh);
 std::unique_ptr<LimitEvaluator> far_double(const Case& mesh);
 std::unique_ptr<LimitEvaluator> embree(const Case& mesh);
 
-/// Ours: `LimitSurface`; normals are computed too, from order 1 on.
+/// Ours: `LimitSurface`, prepared a `BoundLimitSurface`; without normals, as the others, and with them from order 1 on.
 std::unique_ptr<LimitEvaluator> our_limits(const Case& mesh);
+std::unique_ptr<LimitEvaluator> our_limits_and_normals(const Case& mesh);
 
 }  // namespace sublimit::bench
