@@ -49,19 +49,20 @@ Vector3d LimitSurface::Parts::normal_of(const LimitStencil& s, const Points& loc
   const Target at = target(sample);
   if (s.weights.rows() == 6) {
     const Points rows = s.weights * x;
-    return one_sided_normal(rows, at.quarter >= 0 ? quad_place(sample.u, sample.v) : at.place, addresses.triangles(),
-                            std::max(scale1, scale2));
+    return one_sided_normal(rows, at.map ? at.outer : at.place, addresses.triangles(), std::max(scale1, scale2));
   }
   const std::optional<Centre> centre = this->centre(at);
   if (!centre || s.tangents.rows() == 2) return Vector3d::Zero();
   std::vector<Vector3d> higher;
   for (Eigen::Index k = 2; k < tangents.rows(); ++k) higher.push_back(tangents.row(k));
   // How the faces of this side turn around the place.
-  const Topology& t = level.topology();
+  const Topology& t = base().topology();
+  const Points fine = prepared ? Points(prepared->S * points) : Points();
+  const Points& around = prepared ? fine : points;
   Vector3d turn = Vector3d::Zero();
   const auto add = [&](Index middle, Index from, Index to) {
-    const Vector3d p = points.row(middle), q = (Vector3d(points.row(from)) - p) * unit,
-                   r = (Vector3d(points.row(to)) - p) * unit;
+    const Vector3d p = around.row(middle), q = (Vector3d(around.row(from)) - p) * unit,
+                   r = (Vector3d(around.row(to)) - p) * unit;
     turn += q.cross(r);
   };
   HalfEdge h = centre->start;

@@ -202,8 +202,7 @@ struct LimitPatches::Loop {
                           place, jet);
     if (Order >= 1) {
       while (depth-- > 0) apply_chain<Order>(links[depth]->map.chain(places[depth]), jet);
-      if (target.quarter >= 0)
-        apply_chain<Order>(quarter_map(target.quarter).chain(quad_place(sample.u, sample.v)), jet);
+      if (target.map) apply_chain<Order>(target.map->chain(target.outer), jet);
       if (normals) {
         const Vec4 a = jet.u, b = jet.v;
         const double x = a[1] * b[2] - a[2] * b[1], y = a[2] * b[0] - a[0] * b[2], z = a[0] * b[1] - a[1] * b[0];
@@ -239,7 +238,9 @@ LimitPatches::LimitPatches(const LimitSurface::Parts& parts, const Points& point
   for (Index i = 0; i < count; ++i) first_[i + 1] = first_[i] + pieces_.trees[i]->matrix().rows();
   coefficients_.resize(4 * first_.back());
   sides_.resize(count);
-  const Topology& t = parts.level.topology();
+  const Topology& t = parts.base().topology();
+  const Points fine = parts.prepared ? Points(parts.prepared->S * points) : Points();
+  const Points& x_of = parts.prepared ? fine : points;
   parallel_for_blocks(
       count,
       [&](std::int64_t, std::int64_t begin, std::int64_t end) {
@@ -249,10 +250,10 @@ LimitPatches::LimitPatches(const LimitSurface::Parts& parts, const Points& point
           const PatchTree& tree = *pieces_.trees[i];
           const Index* v = pieces_.vertices.data() + pieces_.first[i];
           const auto n = pieces_.first[i + 1] - pieces_.first[i] - 1;
-          const double* x0 = points.data() + 3 * std::int64_t(v[0]);
+          const double* x0 = x_of.data() + 3 * std::int64_t(v[0]);
           differences.resize(4 * (n + 1));
           for (std::int64_t j = 0; j < n; ++j) {
-            const double* x = points.data() + 3 * std::int64_t(v[j + 1]);
+            const double* x = x_of.data() + 3 * std::int64_t(v[j + 1]);
             for (int k = 0; k < 3; ++k) differences[4 * j + k] = x[k] - x0[k];
             differences[4 * j + 3] = 0;
           }
@@ -262,7 +263,7 @@ LimitPatches::LimitPatches(const LimitSurface::Parts& parts, const Points& point
                        coefficients_.data() + 4 * first_[i]);
           const auto cuts = [&](HalfEdge h) { return parts.cuts(h); };
           HalfEdge h = piece.start;
-          std::uint8_t bits = parts.level.holes[index(t.face(h))] ? 16 : 0;
+          std::uint8_t bits = parts.base().holes[index(t.face(h))] ? 16 : 0;
           if (piece.kind == Piece::Kind::quad || piece.kind == Piece::Kind::triangle) {
             for (int k = 0; k < (piece.kind == Piece::Kind::quad ? 4 : 3); ++k, h = t.next(h))
               if (cuts(h)) bits |= static_cast<std::uint8_t>(1 << k);

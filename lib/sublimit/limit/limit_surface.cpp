@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <string>
 
 #include "sublimit/analysis/limit_masks.h"
@@ -32,7 +33,7 @@ LimitStencil LimitSurface::Parts::stencil(const Sample& s, int order) const {
   std::vector<Index> vertices;
   const PieceType* type = type_of(at.piece, vertices);
   PieceRows found = piece_rows(*type, at.place, order);
-  const bool is_hole = level.holes[index(level.topology().face(at.piece.start))];
+  const bool is_hole = base().holes[index(base().topology().face(at.piece.start))];
   if (on_crease(at)) result.status = LimitStatus::crease;
 
   // Rows over the vertices: what slot 0 has makes the sums right.
@@ -41,12 +42,19 @@ LimitStencil LimitSurface::Parts::stencil(const Sample& s, int order) const {
   rows.rightCols(columns - 1) = found.rows;
   rows.col(0) = -found.rows.rowwise().sum();
   rows(0, 0) += 1;
-  if (at.quarter >= 0 && found.order > 0) {
-    // As piece_rows does it from level to level.
-    apply_chain(quarter_map(at.quarter).chain(quad_place(s.u, s.v)), rows);
-  }
+  if (at.map && found.order > 0) apply_chain(at.map->chain(at.outer), rows);
   RowMatrix tangents;
-  if (found.order >= 1) tangents = rows.middleRows(1, 2);
+  if (found.order >= 1) {
+    tangents.resize(2, columns);
+    tangents.rightCols(columns - 1) = found.tangents;
+    tangents.col(0) = -found.tangents.rowwise().sum();
+    if (at.map) {  // a turn, or none
+      RowMatrix three(3, columns);
+      three << rows.row(0), tangents;
+      apply_chain(at.map->chain(at.outer), three);
+      tangents = three.bottomRows(2);
+    }
+  }
   if (order >= 2 && found.order < 2 && result.status == LimitStatus::regular)
     result.status = LimitStatus::unbounded_second;
   if (order >= 2 && found.order == 2 && found.on_knot && scheme.claims.regular < 2) {
@@ -71,31 +79,36 @@ LimitStencil LimitSurface::Parts::stencil(const Sample& s, int order) const {
   }
   if (is_hole) result.status = LimitStatus::hole;
 
-  // Columns ascending, those without weight left out.
-  std::vector<std::pair<Index, Eigen::Index>> sorted;
-  for (Eigen::Index j = 0; j < columns; ++j)
-    if (!rows.col(j).isZero(0)) sorted.push_back({vertices[j], j});
-  for (const LimitRows::Row& mask : masks)
-    for (const auto& [v, w] : mask)
-      if (std::find_if(sorted.begin(), sorted.end(), [&, v = v](const auto& e) { return e.first == v; }) ==
-          sorted.end())
-        sorted.push_back({v, -1});
-  std::sort(sorted.begin(), sorted.end());
-  const auto n = static_cast<Eigen::Index>(sorted.size());
-  result.weights = RowMatrix::Zero(rows.rows(), n);
-  result.tangents = RowMatrix::Zero(masks.empty() ? tangents.rows() : Eigen::Index(masks.size()), n);
-  for (Eigen::Index j = 0; j < n; ++j) {
-    result.vertices.push_back(sorted[j].first);
-    const Eigen::Index from = sorted[j].second;
-    if (from < 0) continue;
-    result.weights.col(j) = rows.col(from);
-    if (masks.empty() && tangents.rows() > 0) result.tangents.col(j) = tangents.col(from);
+  // Over the vertices of the level, columns ascending, those without weight left out.
+  std::map<Index, Eigen::VectorXd> of_vertex;  // weights, then tangents
+  const Eigen::Index num_weights = rows.rows(),
+                     num_tangents = masks.empty() ? tangents.rows() : Eigen::Index(masks.size());
+  const auto add = [&](Index v, Eigen::Index row, double weight) {
+    if (weight == 0) return;
+    const auto add_to = [&](Index column, double w) {
+      const auto [entry, is_new] = of_vertex.try_emplace(column);
+      if (is_new) entry->second.setZero(num_weights + num_tangents);
+      entry->second[row] += w;
+    };
+    if (!prepared) return add_to(v, weight);
+    for (SparseMatrix::InnerIterator it(prepared->S, v); it; ++it) add_to(static_cast<Index>(it.col()), weight * it.value());
+  };
+  for (Eigen::Index j = 0; j < columns; ++j) {
+    for (Eigen::Index i = 0; i < num_weights; ++i) add(vertices[j], i, rows(i, j));
+    if (masks.empty())
+      for (Eigen::Index i = 0; i < num_tangents; ++i) add(vertices[j], num_weights + i, tangents(i, j));
   }
   for (size_t i = 0; i < masks.size(); ++i)
-    for (const auto& [v, w] : masks[i]) {
-      const auto column = std::lower_bound(result.vertices.begin(), result.vertices.end(), v) - result.vertices.begin();
-      result.tangents(Eigen::Index(i), column) += w;
-    }
+    for (const auto& [v, weight] : masks[i]) add(v, num_weights + Eigen::Index(i), weight);
+  const auto n = static_cast<Eigen::Index>(of_vertex.size());
+  result.weights.resize(num_weights, n);
+  result.tangents.resize(num_tangents, n);
+  for (const auto& [v, column] : of_vertex) {
+    const auto j = static_cast<Eigen::Index>(result.vertices.size());
+    result.vertices.push_back(v);
+    result.weights.col(j) = column.head(num_weights);
+    result.tangents.col(j) = column.tail(num_tangents);
+  }
   return result;
 }
 

@@ -11,6 +11,9 @@
 
 namespace sublimit {
 
+namespace {
+
+/// The quarter of a quadrilateral at one corner, in the square of the whole.
 const PieceMap& quarter_map(int corner) {
   static const std::array<PieceMap, 4> maps = [] {
     using Axis = PieceMap::Axis;
@@ -24,12 +27,47 @@ const PieceMap& quarter_map(int corner) {
   return maps[corner];
 }
 
+/// The quarters as they lie.
+const PieceMap& aligned_quarter_map(int corner) {
+  static const std::array<PieceMap, 4> maps = [] {
+    using Axis = PieceMap::Axis;
+    std::array<PieceMap, 4> m;
+    for (int i = 0; i < 4; ++i)
+      m[i].axes = {Axis{0, i == 1 || i == 2 ? Span::upper : Span::lower, false},
+                   Axis{1, i >= 2 ? Span::upper : Span::lower, false}};
+    return m;
+  }();
+  return maps[corner];
+}
+
+std::optional<Level> prepared_level(const Scheme<double>& scheme, const Level& level) {
+  if (level.number > 0 || scheme.preparation.empty() || level.topology().uniform_face_size() == scheme.corners)
+    return std::nullopt;
+  if (scheme.preparation.size() != 1 || scheme.preparation[0].split != Split::pqq)
+    throw UnsupportedTopology(
+        scheme.name +
+        ": limits at any place are known of faces that are cut into one quadrilateral for each corner "
+        "first (--option quads=catmull-clark), not for each edge");
+  Scheme<double> first = scheme;
+  first.steps = scheme.preparation;
+  first.preparation.clear();
+  return next_level(first, level);
+}
+
+Scheme<double> without_preparation(Scheme<double> scheme) {
+  scheme.preparation.clear();
+  return scheme;
+}
+
+}  // namespace
+
 LimitSurface::Parts::Parts(const Scheme<double>& s, Level l, std::shared_ptr<PieceTypes> shared)
-    : scheme(s),
+    : scheme(without_preparation(s)),
       level(std::move(l)),
+      prepared(prepared_level(s, level)),
       addresses(level.topology(), scheme.face_size() == 3),
       types(shared && !shared->is_full() ? std::move(shared) : std::make_shared<PieceTypes>(scheme)),
-      corners(scheme, level) {
+      corners(scheme, base()) {
   if (level.number % scheme.period != 0)
     throw InvalidParameter(scheme.name + ": limits are taken from levels whose number is a multiple of " +
                            std::to_string(scheme.period) + ", not from level " + std::to_string(level.number));
@@ -38,13 +76,25 @@ LimitSurface::Parts::Parts(const Scheme<double>& s, Level l, std::shared_ptr<Pie
 LimitSurface::Parts::Target LimitSurface::Parts::target(const Sample& s) const {
   const Topology& t = level.topology();
   const Addresses::Place at = addresses.place(s.face);
+  if (prepared) {
+    // Children of a quadrilateral keep its corners' positions, those of a polygon's corner begin with it.
+    const Refinement& step = prepared->steps[0];
+    const Place whole = quad_place(s.u, s.v);
+    const int corner = at.corner >= 0 ? at.corner : s.v < 0.5 ? (s.u < 0.5 ? 0 : 1) : (s.u < 0.5 ? 3 : 2);
+    const HalfEdge child = step.halves(t, t.corner(at.face, corner)).first;
+    const HalfEdge start = step.topology.first(step.topology.face(child));
+    if (at.corner >= 0) return {{Kind::quad, start}, whole};
+    const PieceMap& map = aligned_quarter_map(corner);
+    return {{Kind::quad, start}, map(whole), &map, whole};
+  }
   if (addresses.triangles()) return {{Kind::triangle, t.first(at.face)}, triangle_place(s.u, s.v)};
   if (at.corner >= 0)
     return {{scheme.is_dual() ? Kind::corner : Kind::cut, t.corner(at.face, at.corner)}, quad_place(s.u, s.v)};
   const Place whole = quad_place(s.u, s.v);
   if (!scheme.is_dual()) return {{Kind::quad, t.first(at.face)}, whole};
   const int corner = s.v < 0.5 ? (s.u < 0.5 ? 0 : 1) : (s.u < 0.5 ? 3 : 2);
-  return {{Kind::corner, t.corner(at.face, corner)}, quarter_map(corner)(whole), corner};
+  const PieceMap& map = quarter_map(corner);
+  return {{Kind::corner, t.corner(at.face, corner)}, map(whole), &map, whole};
 }
 
 void LimitSurface::Parts::check(const Sample& s) const {
@@ -58,7 +108,7 @@ void LimitSurface::Parts::check(const Sample& s) const {
 }
 
 bool LimitSurface::Parts::on_crease(const Target& target) const {
-  const Topology& t = level.topology();
+  const Topology& t = base().topology();
   const Place& p = target.place;
   const HalfEdge h = target.piece.start;
   switch (target.piece.kind) {
@@ -73,7 +123,7 @@ bool LimitSurface::Parts::on_crease(const Target& target) const {
 }
 
 std::optional<Centre> LimitSurface::Parts::centre(const Target& target) const {
-  const Topology& t = level.topology();
+  const Topology& t = base().topology();
   const Place& p = target.place;
   HalfEdge h = target.piece.start;
   using Of = Centre::Kind;
@@ -96,14 +146,15 @@ std::optional<Centre> LimitSurface::Parts::centre(const Target& target) const {
 
 const PieceType* LimitSurface::Parts::type_of(const Piece& piece, std::vector<Index>& vertices) const {
   static thread_local PieceWalker walker;
-  const PieceWalk& walk = walker.walk(level.topology(), level.sharpness, piece, types->rings(level.sharpness),
-                                      level.number % scheme.period);
+  const PieceWalk& walk = walker.walk(base().topology(), base().sharpness, piece, types->rings(base().sharpness),
+                                      base().number % scheme.period);
   vertices = walk.vertices;
-  return types->type(level, piece, walk);
+  return types->type(base(), piece, walk);
 }
 
 Piece LimitSurface::Parts::piece(Index number) const {
-  const Topology& t = level.topology();
+  const Topology& t = base().topology();
+  if (prepared) return {Kind::quad, t.first(Face{number})};
   if (scheme.is_dual()) return {Kind::corner, HalfEdge{number}};
   const Addresses::Place at = addresses.place(number);
   if (at.corner >= 0) return {Kind::cut, t.corner(at.face, at.corner)};

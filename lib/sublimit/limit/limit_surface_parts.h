@@ -12,8 +12,11 @@ namespace sublimit {
 
 struct LimitSurface::Parts {
   using Kind = Piece::Kind;
-  Scheme<double> scheme;
+  Scheme<double> scheme;  ///< without preparation
   Level level;
+  /// The level that has the pieces, where a preparation comes first (its S is over the vertices of `level`).
+  std::optional<Level> prepared;
+  const Level& base() const { return prepared ? *prepared : level; }
   Addresses addresses;
   std::shared_ptr<PieceTypes> types;
   CornerLimits corners;
@@ -24,7 +27,8 @@ struct LimitSurface::Parts {
   struct Target {
     Piece piece;
     Place place;
-    int quarter = -1;  ///< of a quadrilateral whose corners are pieces
+    const PieceMap* map = nullptr;  ///< null: they are the same
+    Place outer = {};               ///< in the address, if there is a map
   };
   Target target(const Sample& sample) const;
   bool is_inside(const Sample& s) const {
@@ -33,8 +37,8 @@ struct LimitSurface::Parts {
   }
   void check(const Sample& sample) const;
   bool cuts(HalfEdge h) const {
-    const Topology& t = level.topology();
-    return !exists(t.twin(h)) || is_infinite(level.sharpness.edge[index(t.edge(h))]) || scheme.claims.regular == 0;
+    const Topology& t = base().topology();
+    return !exists(t.twin(h)) || is_infinite(base().sharpness.edge[index(t.edge(h))]) || scheme.claims.regular == 0;
   }
   /// Whether sides that a place is on cut the surface.
   bool on_crease(const Target& target) const;
@@ -62,10 +66,16 @@ struct LimitSurface::Parts {
     std::unordered_map<const PieceType*, std::unique_ptr<const PatchTree>> tree_of;
   };
   const Pieces& pieces() const;
-  Index num_pieces() const { return scheme.is_dual() ? level.topology().num_half_edges() : addresses.size(); }
+  Index num_pieces() const {
+    return prepared           ? prepared->topology().num_faces()
+           : scheme.is_dual() ? level.topology().num_half_edges()
+                              : addresses.size();
+  }
   Piece piece(Index number) const;
   Index number(const Sample& sample, const Target& target) const {
-    return scheme.is_dual() ? index(target.piece.start) : sample.face;
+    return prepared           ? index(prepared->topology().face(target.piece.start))
+           : scheme.is_dual() ? index(target.piece.start)
+                              : sample.face;
   }
 
  private:
@@ -73,8 +83,5 @@ struct LimitSurface::Parts {
   mutable std::once_flag pieces_once_;
   mutable Pieces pieces_;
 };
-
-/// The quarter of a quadrilateral at one corner, in the square of the whole.
-const PieceMap& quarter_map(int corner);
 
 }  // namespace sublimit

@@ -97,8 +97,8 @@ struct Labelled {
   std::array<Eigen::RowVector3d, 3> corners;
 };
 
-/// The triangles of the next level whose corners are known from these: a vertex keeps its place, a face has its point in the
-/// middle, a border that is trisected has its points at thirds.
+/// The triangles of the next level whose corners are known from these: a vertex keeps its place, a face has its point
+/// in the middle, a border that is trisected has its points at thirds.
 std::vector<Labelled> next_triangles(const std::vector<Labelled>& triangles, const Topology& t, const Refinement& r) {
   using Label = Eigen::RowVector3d;
   std::unordered_map<Index, const Labelled*> of_face;

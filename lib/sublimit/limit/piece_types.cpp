@@ -62,60 +62,6 @@ void apply_chain(const PieceMap::Chain& c, RowMatrix& rows) {
                       c.bend[i][0] * old.row(1) + c.bend[i][1] * old.row(2);
 }
 
-namespace {
-
-constexpr Eigen::Index large = 96;  // slots
-
-}  // namespace
-
-PieceBlock::PieceBlock(const RowMatrix& B) : origin_(B.row(0).tail(B.cols() - 1)) {
-  if (std::max(B.rows(), B.cols()) > large) {
-    B_ = B.bottomRightCorner(B.rows() - 1, B.cols() - 1).sparseView(0, 0);
-  } else {
-    D_ = B.bottomRightCorner(B.rows() - 1, B.cols() - 1).rowwise() - origin_;
-  }
-}
-
-PieceBlock PieceBlock::identity(Eigen::Index slots) {
-  PieceBlock block;
-  block.D_ = RowMatrix::Identity(slots - 1, slots - 1);
-  block.origin_ = Eigen::RowVectorXd::Zero(slots - 1);
-  return block;
-}
-
-RowMatrix PieceBlock::differences() const {
-  if (!is_large()) return D_;
-  RowMatrix D = RowMatrix(B_);
-  return D.rowwise() - origin_;
-}
-
-RowMatrix PieceBlock::pulled_back(const RowMatrix& rows) const {
-  RowMatrix result;
-  if (is_large()) {
-    result = -rows.rowwise().sum() * origin_;
-    for (Eigen::Index i = 0; i < B_.rows(); ++i)
-      for (SparseMatrix::InnerIterator it(B_, i); it; ++it) result.col(it.col()) += rows.col(i) * it.value();
-  } else {
-    result = rows * D_;
-  }
-  result.row(0) += origin_;
-  return result;
-}
-
-PieceBlock PieceBlock::then(const PieceBlock& next) const {
-  PieceBlock block;
-  const RowMatrix D = differences();
-  block.D_ = next.differences() * D;
-  block.origin_ = origin_ + next.origin_ * D;
-  return block;
-}
-
-const PieceBlock& PieceLink::power(int i) const {
-  if (i == 0) return block;
-  std::call_once(once_[i], [&] { powers_[i] = power(i - 1).then(power(i - 1)); });
-  return powers_[i];
-}
-
 const std::deque<PieceLink>& PieceType::children() const {
   std::call_once(children_once_, [&] {
     const Scheme<double>& scheme = types_->scheme_;
@@ -274,7 +220,8 @@ int PieceTypes::rings(const Sharpness& sharpness) const {
   // Under Chaikin creasing the sharpness of an edge's far half depends on the edges around its far end.
   if (has_one_ring_limits(scheme_)) return sharpness.creasing == Creasing::chaikin ? 2 : 1;
   if (scheme_.steps.size() > 1) return static_cast<int>(scheme_.steps.size()) - 1;
-  if (scheme_.is_dual()) return scheme_.period;  // Habib and Warren's edges look at the corners beyond their ends
+  if (scheme_.is_dual())
+    return scheme_.period == 1 ? 1 : 3;  // Habib and Warren's edges look at the corners beyond their ends
   return 3;
 }
 
@@ -357,26 +304,29 @@ PieceRows piece_rows(const PieceType& root, Place place, int order, bool search)
       }
     type = link.type;
   }
+  if (result.order > 0) result.tangents = result.rows.middleRows(1, 2);
   for (auto step = path.rbegin(); step != path.rend(); ++step) {
     const PieceLink& link = *step->link;
-    if (link.block.is_large()) {
-      for (int i = 0; i < step->times; ++i) result.rows = link.block.pulled_back(result.rows);
-    } else {
-      for (int i = 0; step->times >> i; ++i)
-        if (step->times >> i & 1) result.rows = link.power(i).pulled_back(result.rows);
-    }
-    if (result.order == 0) continue;
-    PieceMap::Chain chain = link.map.chain(step->place);
-    if (step->times > 1) {
-      const double factor = chain.first[0][0], once = std::pow(factor, step->times);
-      result.rows.middleRows(1, 2) *= once;
-      if (result.rows.rows() == 6) {
-        result.rows.bottomRows(3) *= once;
-        result.rows.bottomRows(3) *= once;
-      }
+    const PieceMap::Chain chain = result.order > 0 ? link.map.chain(step->place) : PieceMap::Chain{};
+    if (step->times == 1) {
+      result.rows = link.block.pulled_back(result.rows);
+      if (result.order == 0) continue;
+      RowMatrix three = RowMatrix::Zero(3, result.tangents.cols());
+      three.bottomRows(2) = result.tangents;
+      three = link.block.pulled_back(three);
+      apply_chain(chain, three);
+      result.tangents = three.bottomRows(2);
+      apply_chain(chain, result.rows);
       continue;
     }
-    apply_chain(chain, result.rows);
+    result.rows = link.repeated.pulled_back(result.rows, step->times);
+    if (result.order == 0) continue;
+    result.tangents = link.repeated.tangents_pulled_back(std::move(result.tangents), step->times);
+    const double factor = std::pow(chain.first[0][0], step->times);
+    result.rows.middleRows(1, 2) *= factor;
+    if (result.rows.rows() < 6) continue;
+    result.rows.bottomRows(3) *= factor;
+    result.rows.bottomRows(3) *= factor;
   }
   return result;
 }

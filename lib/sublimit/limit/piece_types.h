@@ -11,8 +11,8 @@
 #include <shared_mutex>
 #include <unordered_map>
 
-#include "sublimit/limit/piece_polynomial.h"
 #include "sublimit/limit/piece_walk.h"
+#include "sublimit/limit/repeated_block.h"
 #include "sublimit/refine.h"
 
 namespace sublimit {
@@ -20,46 +20,13 @@ namespace sublimit {
 class PieceType;
 class PieceTypes;
 
-/// From points of a piece to those of its child, in differences: over x_j - x_0 for the slots j > 0, so that weights of positions
-/// sum to one and those of derivatives to zero whatever the rounding, which would grow like 2^k and 4^k with the depth.
-class PieceBlock {
- public:
-  PieceBlock() = default;
-  /// Of the rows of S for the points of the child.
-  explicit PieceBlock(const RowMatrix& B);
-  static PieceBlock identity(Eigen::Index slots);
-
-  Eigen::Index child_slots() const { return D_.rows() + B_.rows() + 1; }
-  /// Slot 0 of the child less that of the parent.
-  const Eigen::RowVectorXd& origin() const { return origin_; }
-  /// Differences of the child from those of the parent.
-  RowMatrix differences() const;
-
-  /// Position row, and derivative rows below it, of the child as rows of the parent.
-  RowMatrix pulled_back(const RowMatrix& rows) const;
-  /// First this, then `next`.
-  PieceBlock then(const PieceBlock& next) const;
-
-  /// Around vertices of high valence blocks are kept sparse, and are not multiplied with each other.
-  bool is_large() const { return B_.rows() > 0; }
-
- private:
-  RowMatrix D_;
-  SparseMatrix B_;  // rows of S without those of slot 0: D = B - 1 origin
-  Eigen::RowVectorXd origin_;
-};
-
 struct PieceLink {
   const PieceType* type = nullptr;
   PieceMap map;
   PieceBlock block;
-  /// The child is of its parent's type, and as it lies: blocks of 1, 2, 4, ... steps in a row.
+  /// The child is of its parent's type, and as it lies.
   bool repeats = false;
-  const PieceBlock& power(int i) const;
-
- private:
-  mutable std::array<std::once_flag, 12> once_;
-  mutable std::array<PieceBlock, 12> powers_;
+  RepeatedBlock repeated{block};
 };
 
 class PieceType {
@@ -152,6 +119,7 @@ void apply_chain(const PieceMap::Chain& chain, RowMatrix& rows);
 /// Rows of a place over the slots of a piece, in differences.
 struct PieceRows {
   RowMatrix rows;          ///< position, then u, v, then uu, uv, vv
+  RowMatrix tangents;      ///< of order >= 1: two rows along the tangent plane, u and v but for factors that cancel
   int order = 0;           ///< derivatives that exist: 0, 1 or 2
   bool at_corner = false;  ///< a corner where there is no polynomial: tangents come from elsewhere
   bool on_knot = false;    ///< where polynomials of low smoothness meet
