@@ -24,7 +24,7 @@ struct Stage {
 int rings_around(const Scheme<Precise>& scheme) {
   // As rings_for_refinement; two levels at once need more.
   if (scheme.is_wide()) return scheme.period == 2 ? 7 : 4;
-  if (scheme.steps.size() > 1) return 2 + int(scheme.steps.size());
+  if (scheme.steps.size() > 1) return spline_of(scheme).degree / 2 + 2;  // every averaging takes one of the child's
   if (scheme.is_dual()) return scheme.period == 2 ? 5 : 3;
   return scheme.period == 2 ? 4 : 1;
 }
@@ -129,6 +129,19 @@ bool is_decaying(const Level& level) {
          std::any_of(level.sharpness.vertex.begin(), level.sharpness.vertex.end(), is_semi_sharp);
 }
 
+/// Not in an irregular vertex.
+bool has_regular_place(const Stage& stage) {
+  const Place& p = stage.place;
+  if ((p.x != 0 && p.x != 1) || (p.y != 0 && p.y != 1)) return true;
+  const bool right = p.x == 1, upper = p.y == 1;
+  const HalfEdge corner = along(stage.level.topology(), p.frame,
+                                p.cell == Place::Cell::triangle ? (right   ? 1
+                                                                   : upper ? 2
+                                                                           : 0)
+                                                                : (upper ? 3 - right : right));
+  return is_regular_corner(stage.level, corner, p.cell == Place::Cell::triangle ? 6 : 4);
+}
+
 double largest(const Vector& v) { return static_cast<double>(Precise(v.cwiseAbs().maxCoeff())); }
 
 }  // namespace
@@ -178,13 +191,15 @@ TruePoint true_limit(const Scheme<Precise>& scheme, const Level& level, const Po
       if (before) {
         result.error = largest(now.position - before->position);
         result.first_error = std::max(largest(now.du - before->du), largest(now.dv - before->dv));
-        quiet = !is_decaying(stage.level) && result.error <= options.accuracy * size ? quiet + 1 : 0;
+        const double slope = std::max(largest(now.du), largest(now.dv));
+        const bool has_slopes = spline.kind == Spline::Kind::none && has_regular_place(stage);
+        const bool settled = result.error <= options.accuracy * size &&
+                             (!has_slopes || result.first_error <= options.first_accuracy * slope);
+        quiet = settled && !is_decaying(stage.level) ? quiet + 1 : 0;
         if (quiet >= 3 || result.levels >= options.most_levels) {
           result.position = now.position;
-          if (spline.kind == Spline::Kind::none) {
-            result.du = now.du, result.dv = now.dv;
-            result.has_first = result.first_error <= 1e-6 * std::max(largest(now.du), largest(now.dv));
-          }
+          result.du = now.du, result.dv = now.dv;
+          result.has_first = has_slopes && quiet >= 3;
           return result;
         }
       }

@@ -22,7 +22,7 @@ struct TruePoint {
   /// Not where they jump inside the square: between pieces of the C^1 schemes.
   bool has_second = false;
   bool is_exact = false;   ///< a polynomial piece: right to about sixty digits
-  double error = 0;        ///< else: the last change of the position
+  double error = 0;        ///< else: the last change of the position, more than what is left
   double first_error = 0;  ///< and of the first derivatives
   int levels = 0;          ///< refinements that were taken
 };
@@ -31,7 +31,9 @@ struct TruthOptions {
   int least_levels = 0;  ///< go on where a piece is found before, to compare
   int more_rings = 0;    ///< keep more faces around the place than are needed, to compare
   int most_levels = 160;
-  double accuracy = 1e-24;  ///< of positions, relative to the points, where there is no piece
+  // Where there is no piece:
+  double accuracy = 1e-24;        ///< of positions, relative to the points
+  double first_accuracy = 1e-14;  ///< of first derivatives, relative to themselves; infinity where they are not wanted
 };
 
 /// @param level   control level: its topology and sharpness; its number must be even for schemes of period 2

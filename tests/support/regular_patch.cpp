@@ -342,6 +342,18 @@ bool is_among_quads(const Topology& t, HalfEdge h) {
 
 }  // namespace
 
+bool is_regular_corner(const Level& level, HalfEdge corner, Index valence) {
+  const Topology& t = level.topology();
+  const Vertex v = t.tail(corner);
+  if (is_smooth(level, v, valence)) return true;
+  if (!is_cut(level, v, Rule::crease)) return false;
+  HalfEdge h = corner;
+  for (Index k = 0; !is_barrier(level, h) && k < valence; ++k) h = t.next(t.twin(h));
+  Index count = 1;
+  for (; !is_barrier(level, t.prev(h)) && count <= valence; ++count) h = t.ccw(h);
+  return count == valence / 2;
+}
+
 Spline spline_of(const Scheme<Precise>& scheme) {
   const std::string& name = scheme.name;
   if (name == "bilinear") return {Spline::Kind::tensor, 1};

@@ -25,6 +25,10 @@ struct Spline {
 };
 Spline spline_of(const Scheme<Precise>& scheme);
 
+/// Is the vertex that a corner starts in, seen from the corner's face, like those of regular meshes: smooth with
+/// `valence` faces, or on a border or crease with half as many between sharp edges?
+bool is_regular_corner(const Level& level, HalfEdge corner, Index valence);
+
 /// Value and derivatives x, y, xx, xy, yy of a polynomial piece, one row each.
 struct PieceValues {
   Eigen::Matrix<Precise, 6, Eigen::Dynamic> rows;
