@@ -291,7 +291,9 @@ std::optional<PieceValues> quartic_piece(const Level& level, const PrecisePoints
     }
     if (count != (whole ? 6 : 3)) return std::nullopt;
   }
-  for (const auto& [at, first] : borders) {
+  for (const Border& border : borders) {
+    const Offset& at = border.at;
+    const int first = border.first;
     const auto point = [&](int k) -> const Row& { return known.at(sum(at, around[(first + k) % 6])); };
     const Row before = known.at(at) + point(3) - point(2), after = known.at(at) + point(0) - point(1);
     known.try_emplace(sum(at, around[(first + 4) % 6]), before);
@@ -387,8 +389,8 @@ std::optional<PieceValues> piece(const Spline& spline, const Level& level, const
   const Range range{{i - r, i + r - 1}, {j - r, j + r - 1}};
   if (spline.kind == Spline::Kind::zwart_powell) {
     const auto result = zwart_powell_piece(level, points, strays, range, base, x, y);
-    const HalfEdge around = turned_to(t, base, i, j);
-    return result && spline.looks_across && !is_among_quads(t, around) ? std::nullopt : result;
+    const HalfEdge leaving = turned_to(t, base, i, j);
+    return result && spline.looks_across && !is_among_quads(t, leaving) ? std::nullopt : result;
   }
   std::optional<PieceValues> result = tensor_piece(spline.degree, level, points, strays, range, base, x + half,
                                                    y + half, spline.degree == 2 && is_square);
