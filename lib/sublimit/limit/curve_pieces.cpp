@@ -31,7 +31,7 @@ void bernstein(int degree, Real y, Real* weights) {
 }  // namespace
 
 CurvePieces::CurvePieces(const CurveScheme<double>& scheme, int level, const std::vector<CurveOutline>& curves)
-    : scheme_(scheme), layout_(scheme), first_level_(level) {
+    : scheme_(scheme), layout_(scheme) {
   // The first piece whose window lies inside, and one more, whose neighbour does too.
   far_ = std::max(0, (layout_.begin() + layout_.radius() - 1) / 2);
   if (far_ > 0) ++far_;
@@ -62,6 +62,9 @@ CurvePieces::CurvePieces(const CurveScheme<double>& scheme, int level, const std
   for (int at = 0; at < num_types(); ++at) find_polynomials(at);
   for (int at = 0; at < num_types(); ++at) find_orders(at);
   for (Type& type : types_) make_powers(type);
+  first_types_.assign((far_ + 1) * (far_ + 1), -1);
+  for (const auto& [key, at] : numbers_)
+    if (key[2] == std::min(level, settled_)) first_types_[key[0] * (far_ + 1) + key[1]] = at;
 }
 
 Index CurvePieces::num_polynomial() const {
@@ -410,7 +413,8 @@ void CurvePieces::project(const Type& type, int derivatives, double* weights) co
 
 void CurvePieces::rows(const CurveOutline& curve, Index piece, double s, int order, bool one_sided,
                        PieceRows& result) const {
-  int at = curve.closed ? find(far_, far_, first_level_) : find(piece, num_pieces(curve) - 1 - piece, first_level_);
+  int at = curve.closed ? first_types_.back()
+                        : first_types_[clipped(piece) * (far_ + 1) + clipped(num_pieces(curve) - 1 - piece)];
   // Down, by the digits of s.
   result.path.clear();
   int end = -1;  // the vertex where the way ends

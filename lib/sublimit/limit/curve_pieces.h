@@ -126,9 +126,10 @@ class CurvePieces {
   CurveScheme<double> scheme_;
   CurveLayout layout_;
   Index far_ = 0, pad_ = 0;
-  int first_level_ = 0, settled_ = 0;
+  int settled_ = 0;  // the level from which on masks stay the same
   std::vector<Type> types_;
-  std::map<std::array<Index, 3>, int> numbers_;
+  std::map<std::array<Index, 3>, int> numbers_;  // by pieces before and after, and level
+  std::vector<int> first_types_;                 // of the first level, by pieces before and after
 };
 
 }  // namespace sublimit

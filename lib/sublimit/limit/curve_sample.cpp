@@ -21,16 +21,15 @@ CurveSamples::CurveSamples(Eigen::Index rows, Eigen::Index dimension, int deriva
 
 void CurveSamples::set_normal(Index row, double noise) {
   if (order[row] < 1) return;
-  const Eigen::RowVectorXd tangent = first.row(row);
-  const double speed = tangent.stableNorm();
+  const double speed = first.row(row).stableNorm();
   if (!(speed > noise)) {
     status[row] = LimitStatus::undefined_normal;
     return;
   }
-  if (tangent.size() == 2) normal.row(row) << -tangent[1] / speed, tangent[0] / speed;
-  if (tangent.size() != 3 || order[row] < 2) return;
-  const Eigen::RowVector3d u = tangent / speed, bend = second.row(row);
-  const Eigen::RowVector3d across = bend - bend.dot(u) * u;
+  if (first.cols() == 2) normal.row(row) << -first(row, 1) / speed, first(row, 0) / speed;
+  if (first.cols() != 3 || order[row] < 2) return;
+  const Eigen::RowVector3d along = first.row(row) / speed, bend = second.row(row);
+  const Eigen::RowVector3d across = bend - bend.dot(along) * along;
   const double length = across.stableNorm();
   if (length > 16 * std::numeric_limits<double>::epsilon() * bend.stableNorm()) normal.row(row) = across / length;
 }
