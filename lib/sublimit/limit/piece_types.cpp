@@ -222,7 +222,7 @@ int PieceTypes::rings(const Sharpness& sharpness) const {
   if (scheme_.steps.size() > 1) return static_cast<int>(scheme_.steps.size()) - 1;
   if (scheme_.is_dual())
     return scheme_.period == 1 ? 1 : 3;  // Habib and Warren's edges look at the corners beyond their ends
-  return 3;
+  return scheme_.steps[0].masks.wide_face ? 4 : 3;  // Kobbelt's face points are made of edge points around
 }
 
 size_t PieceTypes::size() const {
