@@ -91,7 +91,8 @@ LimitStencil LimitSurface::Parts::stencil(const Sample& s, int order) const {
       entry->second[row] += w;
     };
     if (!prepared) return add_to(v, weight);
-    for (SparseMatrix::InnerIterator it(prepared->S, v); it; ++it) add_to(static_cast<Index>(it.col()), weight * it.value());
+    for (SparseMatrix::InnerIterator it(prepared->S, v); it; ++it)
+      add_to(static_cast<Index>(it.col()), weight * it.value());
   };
   for (Eigen::Index j = 0; j < columns; ++j) {
     for (Eigen::Index i = 0; i < num_weights; ++i) add(vertices[j], i, rows(i, j));

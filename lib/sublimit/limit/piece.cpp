@@ -170,10 +170,18 @@ std::vector<PieceChild> of_triangle_in_nine(HalfEdge start, const Topology& pare
   }
   std::vector<PieceChild> result;
   for (const auto& [first, corners] : triangles) {
+    // As the parent lies, where a side is parallel to its first one: at a corner children then repeat their parents.
+    int begin = 0;
+    for (int i = 0; i < 3; ++i) {
+      const Eigen::RowVector3d side = corners[(i + 1) % 3] - corners[i];
+      if (std::abs(side[2]) < 1e-9 && std::abs(side[0] + side[1]) < 1e-9) begin = i;
+    }
+    HalfEdge h0 = first;
+    for (int i = 0; i < begin; ++i) h0 = before->next(h0);
     Eigen::Matrix3d C;
-    C << corners[0], corners[1], corners[2];
+    C << corners[begin], corners[(begin + 1) % 3], corners[(begin + 2) % 3];
     if (C.colwise().mean().minCoeff() <= 0 || std::abs(C.determinant() - 1.0 / 9) > 1e-9) continue;
-    result.push_back({{Kind::triangle, first}, triangle_map(C)});
+    result.push_back({{Kind::triangle, h0}, triangle_map(C)});
   }
   if (result.size() != 9)
     throw AnalysisError("a triangle has " + std::to_string(result.size()) + " children, not nine");

@@ -221,7 +221,7 @@ int PieceTypes::rings(const Sharpness& sharpness) const {
   if (has_one_ring_limits(scheme_)) return sharpness.creasing == Creasing::chaikin ? 2 : 1;
   if (scheme_.steps.size() > 1) return static_cast<int>(scheme_.steps.size()) - 1;
   if (scheme_.is_dual())
-    return scheme_.period == 1 ? 1 : 3;  // Habib and Warren's edges look at the corners beyond their ends
+    return scheme_.period == 1 ? 1 : 3;             // Habib and Warren's edges look at the corners beyond their ends
   return scheme_.steps[0].masks.wide_face ? 4 : 3;  // Kobbelt's face points are made of edge points around
 }
 
