@@ -38,15 +38,21 @@ class Sidecar {
         choice<Creasing>("creaseMethod", {{"uniform", Creasing::uniform}, {"chaikin", Creasing::chaikin}});
     const auto triangles = choice<Triangles>("triangleSubdivisionRule",
                                              {{"catmullClark", Triangles::catmark}, {"smooth", Triangles::smooth}});
-    choice<int>(
-        "faceVaryingLinearInterpolation",
-        {{"none", 0}, {"cornersOnly", 1}, {"cornersPlus1", 2}, {"cornersPlus2", 3}, {"boundaries", 4}, {"all", 5}});
+    using enum FaceVaryingInterpolation;
+    const auto face_varying =
+        choice<FaceVaryingInterpolation>("faceVaryingLinearInterpolation", {{"none", none},
+                                                                            {"cornersOnly", corners_only},
+                                                                            {"cornersPlus1", corners_plus1},
+                                                                            {"cornersPlus2", corners_plus2},
+                                                                            {"boundaries", boundaries},
+                                                                            {"all", all}});
     if (find("creaseIndices")) mesh.creases = std::move(creases);
     if (find("cornerIndices")) mesh.corners = std::move(corners);
     if (find("holeIndices")) mesh.holes = std::move(holes);
     if (boundary) mesh.boundary = boundary;
     if (creasing) mesh.creasing = creasing;
     if (triangles) mesh.triangles = triangles;
+    if (face_varying) mesh.face_varying_interpolation = face_varying;
     warn_unknown(mesh);
   }
 

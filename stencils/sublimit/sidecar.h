@@ -15,7 +15,7 @@
 //      "faceVaryingLinearInterpolation": "none" | "cornersOnly" | "cornersPlus1" | "cornersPlus2" | "boundaries" | "all"}
 // clang-format on
 //
-// Every key may be left out; one that is there replaces all tags of its kind. The last is checked, not kept.
+// Every key may be left out; one that is there replaces all tags of its kind.
 #include <filesystem>
 #include <optional>
 #include <string_view>

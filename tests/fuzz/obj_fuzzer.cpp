@@ -31,6 +31,13 @@ void require_same(const ControlMesh& a, const ControlMesh& b) {
   }
   require(a.face_sizes == b.face_sizes && a.face_vertices == b.face_vertices && a.holes == b.holes);
   require(a.boundary == b.boundary && a.creasing == b.creasing && a.triangles == b.triangles);
+  require(a.face_varying_interpolation == b.face_varying_interpolation &&
+          a.face_varying.size() == b.face_varying.size());
+  for (std::size_t c = 0; c < a.face_varying.size(); ++c) {
+    require(a.face_varying[c].indices == b.face_varying[c].indices);
+    require(a.face_varying[c].values.rows() == b.face_varying[c].values.rows());
+    require(a.face_varying[c].values == b.face_varying[c].values);
+  }
   require(a.creases.size() == b.creases.size() && a.corners.size() == b.corners.size());
   for (std::size_t i = 0; i < a.creases.size(); ++i) {
     require(a.creases[i].tail == b.creases[i].tail && a.creases[i].head == b.creases[i].head);

@@ -53,6 +53,7 @@ TEST(Sidecar, ReplacesEveryTag) {
   EXPECT_EQ(mesh.boundary, Boundary::edge_only);
   EXPECT_EQ(mesh.creasing, Creasing::uniform);
   EXPECT_EQ(mesh.triangles, Triangles::catmark);
+  EXPECT_EQ(mesh.face_varying_interpolation, FaceVaryingInterpolation::corners_plus1);
   EXPECT_TRUE(mesh.warnings.empty());
 }
 

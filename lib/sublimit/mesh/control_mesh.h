@@ -19,11 +19,21 @@ enum class Boundary {
 enum class Creasing { uniform, chaikin };
 /// Weights of Catmull-Clark edge points next to triangles.
 enum class Triangles { catmark, smooth };
+/// Where a face-varying channel is linear (the names of OpenSubdiv's FVarLinearInterpolation); each adds to the one
+/// before.
+enum class FaceVaryingInterpolation {
+  none,           ///< nowhere: seams are as smooth as boundaries
+  corners_only,   ///< values in a single face of their vertex stay
+  corners_plus1,  ///< three or more values of a vertex stay; of two, both while a crease meets the seam
+  corners_plus2,  ///< of two, both if one is in a single face; and the end of a seam inside
+  boundaries,     ///< along seams and boundaries
+  all,            ///< everywhere: bilinear
+};
 
 struct ControlMesh {
-  Points positions;                   ///< #V x 3
-  std::vector<Index> face_sizes;      ///< corners of each face, >= 3
-  std::vector<Index> face_vertices;   ///< vertices of all faces, one after the other, counter-clockwise
+  Points positions;                  ///< #V x 3
+  std::vector<Index> face_sizes;     ///< corners of each face, >= 3
+  std::vector<Index> face_vertices;  ///< vertices of all faces, one after the other, counter-clockwise
 
   struct Crease {
     Index tail = 0, head = 0;
@@ -35,12 +45,22 @@ struct ControlMesh {
   };
   std::vector<Crease> creases;  ///< the last entry for an edge wins
   std::vector<Corner> corners;
-  std::vector<Index> holes;     ///< faces that are refined but are not part of the limit
+  std::vector<Index> holes;  ///< faces that are refined but are not part of the limit
 
   /// Absent where the file says nothing; the defaults are edge_and_corner, uniform, catmark.
   std::optional<Boundary> boundary;
   std::optional<Creasing> creasing;
   std::optional<Triangles> triangles;
+
+  /// Values per corner of a face, such as texture coordinates: a vertex has one or, where the channel has a seam,
+  /// several.
+  struct FaceVarying {
+    std::string name;
+    Points values;               ///< #values x channels
+    std::vector<Index> indices;  ///< value of every corner, in the order of face_vertices
+  };
+  std::vector<FaceVarying> face_varying;
+  std::optional<FaceVaryingInterpolation> face_varying_interpolation;  ///< absent: all
 
   std::vector<std::string> warnings;  ///< what the reader accepted but wants known, each with file:line
 

@@ -16,9 +16,9 @@ namespace sublimit {
 namespace {
 
 // Statements that say nothing about the control mesh.
-constexpr std::array<std::string_view, 20> skipped_keywords{
-    "vn",     "vt", "vp",  "g",     "o",        "s",        "l",          "p",         "usemtl", "mtllib",
-    "usemap", "mg", "lod", "bevel", "c_interp", "d_interp", "shadow_obj", "trace_obj", "maplib", "call"};
+constexpr std::array<std::string_view, 19> skipped_keywords{
+    "vn", "vp",  "g",     "o",        "s",        "l",          "p",         "usemtl", "mtllib", "usemap",
+    "mg", "lod", "bevel", "c_interp", "d_interp", "shadow_obj", "trace_obj", "maplib", "call"};
 
 class ObjReader {
  public:
@@ -30,6 +30,8 @@ class ObjReader {
       const std::string_view keyword = scanner_.token();
       if (keyword == "v") {
         read_vertex();
+      } else if (keyword == "vt") {
+        read_texture_coordinates();
       } else if (keyword == "f") {
         read_face();
       } else if (keyword == "t") {
@@ -51,6 +53,18 @@ class ObjReader {
     ++num_vertices_;
   }
 
+  void read_texture_coordinates() {
+    std::size_t count = 0;
+    for (std::string_view token; count < 3 && !(token = scanner_.token()).empty(); ++count)
+      texture_.values.push_back(scanner_.finite(token, "texture coordinate"));
+    if (count == 0) scanner_.finite("", "texture coordinate");
+    for (std::string_view token; !(token = scanner_.token()).empty();)
+      scanner_.real(token, "number behind a texture coordinate");
+    texture_.values.resize(texture_.values.size() + 3 - count, 0);  // OBJ: absent ones are 0
+    texture_.columns = std::max(texture_.columns, count);
+    ++texture_.count;
+  }
+
   void read_face() {
     const std::int64_t line = scanner_.line();
     std::int64_t size = 0;
@@ -63,10 +77,11 @@ class ObjReader {
     mesh_.face_sizes.push_back(static_cast<Index>(size));
   }
 
-  // One corner: its vertex, then perhaps a texture coordinate and a normal, which are checked for form only.
+  // One corner: its vertex, then perhaps a texture coordinate and a normal, which is checked for form only.
   void read_corner(std::string_view token) {
     std::size_t slash = token.find('/');
     mesh_.face_vertices.push_back(vertex(scanner_.integer(token.substr(0, slash), "index")));
+    std::int64_t value = 0;  // none
     for (int part = 0; slash != std::string_view::npos; ++part) {
       const std::size_t first = slash + 1;
       slash = token.find('/', first);
@@ -75,8 +90,24 @@ class ObjReader {
         throw FormatError(scanner_.place() + "corner " + quoted(token) +
                           " has more than 3 indices; it should be 'a', 'a/b', 'a//c' or 'a/b/c'");
       }
-      if (!index.empty() && scanner_.integer(index, "index") == 0) zero_index();
+      if (index.empty()) continue;
+      const std::int64_t number = scanner_.integer(index, "index");
+      if (number == 0) zero_index();
+      if (part == 0) value = number;
     }
+    if (value != 0 || !texture_.corners.empty()) add_texture_corner(value);
+    if (value == 0 && texture_.line_without < 0) texture_.line_without = scanner_.line();
+  }
+
+  // The texture coordinate of the corner that was read last, 0 for none.
+  void add_texture_corner(std::int64_t number) {
+    texture_.corners.resize(mesh_.face_vertices.size() - 1, -1);  // those before the first that has one
+    texture_.corners.push_back(-1);
+    if (number == 0) return;
+    const std::int64_t index = number > 0 ? number - 1 : texture_.count + number;
+    if (number > texture_.most.index) texture_.most = {.index = number, .line = scanner_.line()};
+    if (index < 0 && texture_.beyond.line < 0) texture_.beyond = {.index = number, .line = scanner_.line()};
+    texture_.corners.back() = static_cast<Index>(std::clamp<std::int64_t>(index, 0, std::numeric_limits<Index>::max()));
   }
 
   Index vertex(std::int64_t index) {
@@ -122,10 +153,43 @@ class ObjReader {
     }
     mesh_.positions = Eigen::Map<const Points>(coordinates_.data(), vertices, 3);
     tags_.check(scanner_, mesh_);
+    finish_texture_coordinates();
+  }
+
+  void finish_texture_coordinates() {
+    if (texture_.count == 0 || texture_.corners.empty()) return;
+    const auto count = [&] { return format_number(texture_.count) + " texture coordinates"; };
+    if (texture_.most.index > texture_.count)
+      throw InvalidMesh(scanner_.place(texture_.most.line) + "texture coordinate " +
+                        format_number(texture_.most.index) + " is out of range; the file has " + count() + ", 1 to " +
+                        format_number(texture_.count));
+    if (texture_.beyond.line >= 0)
+      throw InvalidMesh(scanner_.place(texture_.beyond.line) + "texture coordinate " +
+                        format_number(texture_.beyond.index) +
+                        " counts back beyond the first so far; relative indices start at -1, the last one");
+    if (texture_.line_without >= 0) {
+      mesh_.warnings.push_back(
+          scanner_.place(texture_.line_without) +
+          "corners without texture coordinate, which others have; texture coordinates are dropped");
+      return;
+    }
+    const Index rows = checked_index(texture_.count, scanner_.name(), "texture coordinates");
+    mesh_.face_varying.push_back({.name = "uv",
+                                  .values = Eigen::Map<const Points>(texture_.values.data(), rows, 3)
+                                                .leftCols(static_cast<Eigen::Index>(texture_.columns)),
+                                  .indices = std::move(texture_.corners)});
   }
 
   struct Forward {
     std::int64_t index, line;
+  };
+  struct Texture {
+    std::vector<double> values;  // three each
+    std::int64_t count = 0;
+    std::size_t columns = 0;             // that some line has
+    std::vector<Index> corners;          // -1 for none; empty before the first
+    Forward most{0, -1}, beyond{0, -1};  // the largest index, and the first that counts back too far
+    std::int64_t line_without = -1;
   };
 
   TextScanner scanner_;
@@ -134,6 +198,7 @@ class ObjReader {
   std::vector<double> coordinates_;
   std::int64_t num_vertices_ = 0;
   std::vector<Forward> forward_;  // ascending
+  Texture texture_;
   std::unordered_set<std::string> unknown_;
 };
 

@@ -13,11 +13,14 @@
 //     hole 1/0/0 f                any number of faces
 //     interpolateboundary 1/0/0 n              0 none, 1 edge-and-corner, 2 edge-only
 //     creasemethod 0/0/1 normal|chaikin        and smoothtriangles 0/0/1 catmark|smooth
-//     facevaryinginterpolateboundary 1/0/0 n   0 to 5, and facevaryingpropagatecorners 1/0/0 n: checked, not kept
+//     facevaryinginterpolateboundary 1/0/0 n   0 none, 1 corners-only, 2 corners-plus1, 3 corners-plus2, 4 boundaries, 5 all
+//     facevaryingpropagatecorners 1/0/0 n      0 or 1: checked, not kept
 // clang-format on
 //
-// Texture coordinates, normals, groups, materials, points and lines are skipped; unknown keywords, unknown tags and
-// hierarchical edits are skipped with a warning.
+// Texture coordinates, `vt u [v [w]]`, become the face-varying channel "uv" where every corner of every face has one;
+// where only some have, none is kept, and a warning says so. Indices into a file without `vt` are skipped. Normals,
+// groups, materials, points and lines are skipped; unknown keywords, unknown tags and hierarchical edits are skipped
+// with a warning.
 #include <filesystem>
 #include <string>
 #include <string_view>

@@ -138,7 +138,9 @@ void ObjTags::read(TextScanner& scanner, ControlMesh& mesh) {
   } else if (name == "smoothtriangles") {
     mesh.triangles = choice(scanner, arguments.strings[0], "catmark", Triangles::catmark, "smooth", Triangles::smooth);
   } else if (name == "facevaryinginterpolateboundary") {
-    choice(scanner, arguments.ints[0], std::array{0, 1, 2, 3, 4, 5}, "facevaryinginterpolateboundary");
+    using enum FaceVaryingInterpolation;
+    constexpr std::array values{none, corners_only, corners_plus1, corners_plus2, boundaries, all};
+    mesh.face_varying_interpolation = choice(scanner, arguments.ints[0], values, "facevaryinginterpolateboundary");
   } else {
     choice(scanner, arguments.ints[0], std::array{0, 1}, "facevaryingpropagatecorners");
   }

@@ -44,12 +44,14 @@ MeshOutput output(const ControlMesh& mesh) {
           .face_sizes = mesh.face_sizes,
           .face_vertices = mesh.face_vertices,
           .face_normals = {},
+          .face_varying = mesh.face_varying,
           .creases = mesh.creases,
           .corners = mesh.corners,
           .holes = mesh.holes,
           .boundary = mesh.boundary,
           .creasing = mesh.creasing,
           .triangles = mesh.triangles,
+          .face_varying_interpolation = mesh.face_varying_interpolation,
           .comments = {}};
 }
 
@@ -71,6 +73,14 @@ void check_output(const MeshOutput& mesh, const std::string& name) {
   } else {
     require(mesh.face_normals.size() == mesh.face_vertices.size(), name, "there should be a normal for each corner");
     require(in_range(mesh.face_normals, -1, normals), name, "a normal of a corner is out of range");
+  }
+
+  for (const ControlMesh::FaceVarying& channel : mesh.face_varying) {
+    require(channel.indices.size() == mesh.face_vertices.size(), name,
+            "there should be a face-varying value for each corner");
+    require(in_range(channel.indices, 0, channel.values.rows()), name,
+            "a face-varying value of a corner is out of range");
+    check_finite(channel.values, name, "face-varying value");
   }
 
   for (const ControlMesh::Crease& crease : mesh.creases) {

@@ -20,6 +20,8 @@ struct MeshOutput {
   /// Normal of each corner, -1 for none. Empty: normals are per vertex, #N = #V.
   /// OBJ has no way to leave out one normal of a face, so it leaves out all normals of a face that lacks one.
   std::vector<Index> face_normals;
+  /// Values per corner; OBJ writes the first channel as `vt` and has room for one, of 1 to 3 columns; PLY for none.
+  std::vector<ControlMesh::FaceVarying> face_varying;
 
   // Tags, as in ControlMesh; PLY has no place for them.
   std::vector<ControlMesh::Crease> creases;
@@ -28,6 +30,7 @@ struct MeshOutput {
   std::optional<Boundary> boundary;
   std::optional<Creasing> creasing;
   std::optional<Triangles> triangles;
+  std::optional<FaceVaryingInterpolation> face_varying_interpolation;
 
   std::vector<std::string> comments;  ///< at the top of the file
 };

@@ -77,6 +77,25 @@ TEST(ObjErrors, IndicesThatPointNowhere) {
   });
 }
 
+TEST(ObjErrors, TextureCoordinates) {
+  expect_errors<FormatError>({
+      {square + "vt\n", {"a.obj:6: the line ends where texture coordinate should be"}},
+      {square + "vt 0 x\n", {"a.obj:6: texture coordinate 'x' is not a number"}},
+      {square + "vt 0 0 0 x\n", {"a.obj:6: number behind a texture coordinate 'x'"}},
+      {square + "vt 0 0\nf 1/0 2/1 3/1\n", {"a.obj:7: index 0", "count from 1"}},
+  });
+  expect_errors<InvalidMesh>({
+      {square + "vt 0 nan\n", {"a.obj:6: texture coordinate is 'nan'", "finite"}},
+      {square + "vt 0 0\nf 1/1 2/2 3/1\n",
+       {"a.obj:7: texture coordinate 2 is out of range", "1 texture coordinates, 1 to 1"}},
+      {square + "vt 0 0\nf 1/5 2/1 3/1\nf 1/1 2/7 3/4000000000\n",
+       {"a.obj:8: texture coordinate 4000000000 is out of range"}},
+      {square + "f 1/-1 2/-1 3/-1\nvt 0 0\n",
+       {"a.obj:6: texture coordinate -1 counts back beyond the first so far", "-1"}},
+      {square + "vt 0 0\nf 1/-1 2/-1 3/-2\n", {"a.obj:7: texture coordinate -2 counts back"}},
+  });
+}
+
 TEST(ObjErrors, FacesOfFewerThanThreeCorners) {
   expect_errors<InvalidMesh>({
       {square + "f 1 2\n", {"a.obj:6: face 1 has 2 corners", "at least 3"}},

@@ -124,7 +124,53 @@ TEST(Obj, ReadsEveryTag) {
   EXPECT_EQ(mesh.boundary, Boundary::edge_only);
   EXPECT_EQ(mesh.creasing, Creasing::chaikin);
   EXPECT_EQ(mesh.triangles, Triangles::smooth);
+  EXPECT_EQ(mesh.face_varying_interpolation, FaceVaryingInterpolation::all);
   EXPECT_TRUE(mesh.warnings.empty());
+}
+
+TEST(Obj, TheTagNamesEveryFaceVaryingInterpolation) {
+  using enum FaceVaryingInterpolation;
+  int number = 0;
+  for (const FaceVaryingInterpolation interpolation :
+       {none, corners_only, corners_plus1, corners_plus2, boundaries, all}) {
+    const std::string tag = "t facevaryinginterpolateboundary 1/0/0 " + format_number(number++) + "\n";
+    const ControlMesh mesh = parse_obj(square + tag, "a.obj");
+    EXPECT_EQ(mesh.face_varying_interpolation, interpolation);
+    EXPECT_NE(format_obj(output(mesh)).find(tag), std::string::npos);
+  }
+}
+
+TEST(Obj, TextureCoordinatesAreAChannel) {
+  const ControlMesh mesh = parse_obj(
+      "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0.5\nvt 1 2\nf 1/2 2/1 3/-1\nf 1/3/1 3/1/1 4/-2/1\n"
+      "vt 0.1 0.2 0.3 4\n",
+      "a.obj");
+  ASSERT_EQ(mesh.face_varying.size(), 1u);
+  EXPECT_EQ(mesh.face_varying[0].name, "uv");
+  Points values(3, 3);  // what a line leaves out is 0
+  values << 0.5, 0, 0, 1, 2, 0, 0.1, 0.2, 0.3;
+  EXPECT_EQ(mesh.face_varying[0].values, values);
+  EXPECT_EQ(mesh.face_varying[0].indices, (Ids{1, 0, 1, 2, 0, 0}));
+  EXPECT_TRUE(mesh.warnings.empty());
+
+  const ControlMesh again = parse_obj(format_obj(output(mesh)), "a.obj");
+  EXPECT_EQ(again.face_varying[0].values, values);
+  EXPECT_EQ(again.face_varying[0].indices, mesh.face_varying[0].indices);
+}
+
+TEST(Obj, TextureCoordinatesOfSomeCornersAreDropped) {
+  for (const char* const faces : {"f 1 2 3\nf 1/1 3/1 4/1\n", "f 1/1 2/1 3/1\nf 1 3/1 4/1\n", "f 1/1 2/1 3\nf 1 3 4\n",
+                                  "f 1/1 2/1 3//1\nf 1/1 3/1 4/1\n"}) {
+    const ControlMesh mesh = parse_obj("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\n" + std::string(faces), "a.obj");
+    EXPECT_EQ(mesh.num_faces(), 2);
+    EXPECT_TRUE(mesh.face_varying.empty());
+    ASSERT_EQ(mesh.warnings.size(), 1u) << faces;
+    const int line = std::string_view(faces).starts_with("f 1/1 2/1 3/1") ? 7 : 6;
+    EXPECT_EQ(mesh.warnings[0],
+              "a.obj:" + format_number(line) +
+                  ": corners without texture coordinate, which others have; texture coordinates are dropped");
+  }
+  EXPECT_TRUE(parse_obj("vt 0 0\n" + square, "a.obj").warnings.empty());  // no corner has any
 }
 
 TEST(Obj, OptionsAreAbsentWhereTheFileSaysNothing) {

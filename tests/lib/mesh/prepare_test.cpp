@@ -52,6 +52,23 @@ TEST(Prepare, TriangulatedKeepsSharpEdgesSharp) {
   EXPECT_EQ(sharp, 4);
 }
 
+TEST(Prepare, TriangulatedKeepsValuesAtTheirCorners) {
+  ControlMesh mesh = polygon_ring({5, 4, 3, 6, 4});
+  ControlMesh::FaceVarying channel{
+      .name = "uv", .values = Points::Zero(Index(mesh.face_vertices.size()), 2), .indices = {}};
+  for (Index i = 0; i < channel.values.rows(); ++i) {  // every corner its own value, which says where it is
+    channel.values(i, 0) = mesh.face_vertices[i];
+    channel.indices.push_back(i);
+  }
+  mesh.face_varying = {channel};
+  const ControlMesh cut = triangulated(mesh);
+  ASSERT_EQ(cut.face_varying[0].indices.size(), cut.face_vertices.size());
+  for (size_t i = 0; i < cut.face_vertices.size(); ++i)
+    EXPECT_EQ(cut.face_varying[0].values(cut.face_varying[0].indices[i], 0), cut.face_vertices[i]);
+  mesh.face_varying[0].indices.pop_back();
+  EXPECT_THROW(triangulated(mesh), InvalidMesh);
+}
+
 TEST(Prepare, TriangulatedRejectsWhatIsNoMesh) {
   ControlMesh mesh = cube();
   mesh.holes = {6};

@@ -175,6 +175,18 @@ TEST(WriteMesh, ControlMeshIsWrittenWithItsTags) {
   expect_same_tags(parse_obj(format_obj(output(mesh)), "b.obj"), output(mesh));
 }
 
+TEST(WriteMesh, ObjHasRoomForOneChannelOfThreeColumns) {
+  MeshOutput mesh = random_output(9, 10, 4);
+  const std::vector<Index> indices(mesh.face_vertices.size(), 0);
+  mesh.face_varying = {{"uv", Points::Zero(1, 4), indices}};
+  expect_error<InvalidParameter>([&] { format_obj(mesh); }, {"1 to 3 columns"});
+  mesh.face_varying = {{"uv", Points::Zero(1, 2), indices}, {"st", Points::Zero(1, 2), indices}};
+  expect_error<InvalidParameter>([&] { format_obj(mesh); }, {"one face-varying channel"});
+  mesh.face_varying.pop_back();
+  EXPECT_EQ(parse_obj(format_obj(mesh), "a.obj").face_varying.size(), 1u);
+  EXPECT_EQ(format_ply(mesh).find("uv"), std::string::npos);
+}
+
 TEST(WriteMesh, ArraysThatDoNotFitAreRefused) {
   const MeshOutput good = random_output(8, 10, 4);
   const auto expect = [&](const char* part, const std::function<void(MeshOutput&)>& spoil) {
@@ -185,6 +197,17 @@ TEST(WriteMesh, ArraysThatDoNotFitAreRefused) {
   };
   expect("3 columns", [](MeshOutput& mesh) { mesh.positions.conservativeResize(10, 2); });
   expect("a vertex of a face is out of range", [](MeshOutput& mesh) { mesh.face_vertices[3] = 10; });
+  const auto with_channel = [](MeshOutput& mesh, Index columns) {
+    mesh.face_varying.push_back({"uv", Points::Zero(1, columns), std::vector<Index>(mesh.face_vertices.size(), 0)});
+  };
+  expect("a face-varying value of a corner is out of range", [&](MeshOutput& mesh) {
+    with_channel(mesh, 2);
+    mesh.face_varying[0].indices[1] = 1;
+  });
+  expect("there should be a face-varying value for each corner", [&](MeshOutput& mesh) {
+    with_channel(mesh, 2);
+    mesh.face_varying[0].indices.pop_back();
+  });
   expect("a vertex of a face is out of range", [](MeshOutput& mesh) { mesh.face_vertices[3] = -1; });
   expect("add up", [](MeshOutput& mesh) { mesh.face_vertices.pop_back(); });
   expect("fewer than 3", [](MeshOutput& mesh) { mesh.face_sizes[0] = 2; });
