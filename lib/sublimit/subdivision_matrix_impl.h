@@ -164,7 +164,8 @@ class RowMaker {
   }
 
   const std::vector<Term>& row(Vertex v) {
-    const VertexSharpness around(t_, sharpness_, v);
+    VertexSharpness around(t_, sharpness_, v);
+    if (sharpness_.creasing == Creasing::chaikin) use_child_sharpness(v, around);
     const Rule rule = around.rule(), child_rule = around.child_rule();
     row_.clear();
     if (rule == child_rule) {
@@ -175,6 +176,19 @@ class RowMaker {
       add_rule(T(1) - w, child_rule, v, around.child_edges);
     }
     return merge();
+  }
+
+  /// Under Chaikin creasing an edge decays with those around it, of which a face-varying channel has not all: beyond its seams
+  /// the mesh goes on. What the edges became is known.
+  void use_child_sharpness(Vertex v, VertexSharpness& around) const {
+    if (refinement_.split != Split::pqq && refinement_.split != Split::ptq) return;
+    const std::vector<Edge> edges = t_.edges(v);
+    for (size_t i = 0; i < edges.size(); ++i) {
+      if (!is_semi_sharp(around.edges[i]) || t_.tail(edges[i]) == t_.head(edges[i])) continue;
+      const auto [at_tail, at_head] = refinement_.halves(t_, t_.half_edge(edges[i]));
+      const HalfEdge near = t_.tail(edges[i]) == v ? at_tail : at_head;
+      around.child_edges[i] = child_sharpness_.edge[index(refinement_.topology.edge(near))];
+    }
   }
 
   const Weights& smooth_weights(Vertex v) {
