@@ -59,6 +59,8 @@ Sdc::Options scheme_options(const ReferenceOptions& options) {
                                                               : Sdc::Options::CREASE_UNIFORM);
   sdc.SetTriangleSubdivision(options.triangles == Triangles::smooth ? Sdc::Options::TRI_SUB_SMOOTH
                                                                     : Sdc::Options::TRI_SUB_CATMARK);
+  if (options.face_varying)
+    sdc.SetFVarLinearInterpolation(static_cast<Sdc::Options::FVarLinearInterpolation>(*options.face_varying));
   return sdc;
 }
 
@@ -111,6 +113,22 @@ Points positions(const std::vector<Point>& points) {
   Points result(static_cast<Index>(points.size()), 3);
   for (Index v = 0; v < result.rows(); ++v) result.row(v) = points[v].x.transpose();
   return result;
+}
+
+// Values of any number of columns.
+struct Value {
+  Eigen::VectorXd x;
+  void Clear() { x.setZero(); }
+  void AddWithWeight(const Value& v, double weight) { x += weight * v.x; }
+};
+
+void add_values(const Far::TopologyLevel& level, const std::vector<Value>& values, ReferenceLevel& result) {
+  for (Index f = 0; f < level.GetNumFaces(); ++f) {
+    const Far::ConstIndexArray of_face = level.GetFaceFVarValues(f, 0);
+    for (int i = 0; i < of_face.size(); ++i) result.corner_value.push_back(of_face[i]);
+  }
+  result.values.resize(static_cast<Index>(values.size()), values[0].x.size());
+  for (Index i = 0; i < result.values.rows(); ++i) result.values.row(i) = values[i].x.transpose();
 }
 
 ReferenceLevel topology(const Far::TopologyLevel& level, bool first) {
@@ -227,6 +245,14 @@ std::unique_ptr<Far::TopologyRefiner> reference_refiner(const ControlMesh& mesh,
   descriptor.numHoles = static_cast<int>(mesh.holes.size());
   descriptor.holeIndices = mesh.holes.data();
 
+  Far::TopologyDescriptor::FVarChannel channel;
+  if (options.face_varying) {
+    channel.numValues = static_cast<int>(mesh.face_varying.at(0).values.rows());
+    channel.valueIndices = mesh.face_varying[0].indices.data();
+    descriptor.numFVarChannels = 1;
+    descriptor.fvarChannels = &channel;
+  }
+
   using Factory = Far::TopologyRefinerFactory<Far::TopologyDescriptor>;
   listen_to_far();
   std::unique_ptr<Far::TopologyRefiner> made(
@@ -251,8 +277,17 @@ std::vector<ReferenceLevel> reference_refine(const ControlMesh& mesh, const Refe
   const Far::PrimvarRefinerReal<double> primvars(*refined);
   std::vector<ReferenceLevel> levels;
   std::vector<Point> parent = points(mesh.positions);
+  std::vector<Value> values;
+  if (options.face_varying)
+    for (Index i = 0; i < mesh.face_varying[0].values.rows(); ++i) values.push_back({mesh.face_varying[0].values.row(i)});
   for (int k = 0; k <= options.levels; ++k) {
     const Far::TopologyLevel& level = refined->GetLevel(k);
+    if (k > 0 && options.face_varying) {
+      std::vector<Value> child(static_cast<std::size_t>(level.GetNumFVarValues(0)),
+                               Value{Eigen::VectorXd::Zero(values[0].x.size())});
+      primvars.InterpolateFaceVarying(k, values, child);
+      values = std::move(child);
+    }
     if (k > 0) {
       std::vector<Point> child(static_cast<std::size_t>(level.GetNumVertices()));
       primvars.Interpolate(k, parent, child);
@@ -260,6 +295,7 @@ std::vector<ReferenceLevel> reference_refine(const ControlMesh& mesh, const Refe
     }
     levels.push_back(topology(level, k == 0));
     levels.back().positions = positions(parent);
+    if (options.face_varying) add_values(level, values, levels.back());
     if (k < options.levels) add_children(level, refined->GetSchemeType(), levels.back());
   }
   return levels;

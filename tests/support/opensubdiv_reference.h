@@ -5,6 +5,7 @@
 // Edges carry no numbers here, since those of two libraries need not agree. What belongs to an edge is given per
 // corner: corner i (faces in order, corners in order) stands for the edge that starts there, as a half-edge does in
 // Topology. Corners whose edges OpenSubdiv holds to be one edge have the same child vertex, and only those.
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,8 @@ struct ReferenceOptions {
   Triangles triangles = Triangles::catmark;
   int levels = 1;         ///< 0 to 15, OpenSubdiv's four bits
   bool tangents = false;  ///< reference_limit only
+  /// With the first face-varying channel of the mesh; reference_refine only.
+  std::optional<FaceVaryingInterpolation> face_varying;
 };
 
 /// What the mesh itself asks for, and the defaults where it is silent.
@@ -31,6 +34,8 @@ struct ReferenceLevel {
   std::vector<char> face_hole;
   std::vector<float> vertex_sharpness;
   std::vector<float> corner_edge_sharpness;  ///< per corner
+  std::vector<Index> corner_value;           ///< per corner, if there is a face-varying channel: row of `values`
+  Points values;
 
   // The way to the next level; empty on the last one.
   std::vector<Index> vertex_child;        ///< child vertex of each vertex

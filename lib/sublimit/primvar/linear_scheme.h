@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// The linear scheme on another scheme's split: vertices stay, edges get midpoints, faces centroids. On pqq it is
+// bilinear subdivision; on ptq its limit is the triangles themselves.
+#include "sublimit/schemes/bilinear.h"
+
+namespace sublimit {
+
+/// Whether vertices and edges survive, so that something can be linear along them.
+constexpr bool is_primal(Split split) { return split == Split::pqq || split == Split::ptq || split == Split::keep; }
+
+template <class T>
+bool is_primal(const std::vector<Step<T>>& steps) {
+  return std::all_of(steps.begin(), steps.end(), [](const Step<T>& step) { return is_primal(step.split); });
+}
+
+/// @pre  every step is primal
+template <class T>
+Scheme<T> linear_scheme(const Scheme<T>& scheme) {
+  Scheme<T> linear = bilinear<T>({});
+  const Step<T> pqq = linear.steps[0];
+  const auto on_split = [&](const std::vector<Step<T>>& steps) {
+    std::vector<Step<T>> result;
+    for (const Step<T>& step : steps) {
+      result.push_back(pqq);
+      result.back().split = step.split;
+      if (step.split == Split::pqq) continue;
+      result.back().masks.face = {};
+      if (step.split == Split::keep) result.back().masks.edge = {};
+    }
+    return result;
+  };
+  const bool is_bilinear =
+      scheme.steps.size() == 1 && scheme.steps[0].split == Split::pqq && scheme.preparation.empty();
+  if (is_bilinear) return linear;
+  linear.name = "linear";
+  linear.steps = on_split(scheme.steps);
+  linear.preparation = on_split(scheme.preparation);
+  linear.corners = scheme.corners;
+  linear.claims.limit = "the faces";
+  return linear;
+}
+
+}  // namespace sublimit
