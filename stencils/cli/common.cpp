@@ -81,6 +81,12 @@ void add_mesh(CLI::App& command, Common& common, bool scheme_required) {
       .add_option("--triangles", common.triangles,
                   "Catmull-Clark next to triangles (default: the file's tag, else catmark)")
       ->check(CLI::IsMember({"catmark", "smooth"}));
+  command
+      .add_option(
+          "--face-varying", common.face_varying,
+          "Where texture coordinates are linear, by OpenSubdiv's names (default: the file's tag, else all, which is "
+          "OpenSubdiv's default)")
+      ->check(CLI::IsMember({"none", "corners-only", "corners-plus1", "corners-plus2", "boundaries", "all"}));
   command.add_option("--option", common.options, "An option of the scheme, name=value; may be repeated")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
@@ -129,6 +135,14 @@ Loaded load(const Common& common, Progress& progress) {
       {{"none", Boundary::none}, {"edge-only", Boundary::edge_only}, {"edge-and-corner", Boundary::edge_and_corner}});
   loaded.rules.creasing =
       meaning<Creasing>(common.creasing, {{"uniform", Creasing::uniform}, {"chaikin", Creasing::chaikin}});
+  using enum FaceVaryingInterpolation;
+  loaded.face_varying = meaning<FaceVaryingInterpolation>(common.face_varying, {{"none", none},
+                                                                                {"corners-only", corners_only},
+                                                                                {"corners-plus1", corners_plus1},
+                                                                                {"corners-plus2", corners_plus2},
+                                                                                {"boundaries", boundaries},
+                                                                                {"all", all}})
+                            .value_or(loaded.mesh.face_varying_interpolation.value_or(all));
   if (common.quiet && !common.strict) return loaded;
   std::vector<std::string> faults;
   const Topology topology(view(loaded.mesh));
@@ -145,6 +159,21 @@ Loaded load(const Common& common, Progress& progress) {
     list(faults, "warning", 5);
   }
   return loaded;
+}
+
+std::vector<FaceVaryingLevel> refined_channel(const Common& common, const Loaded& loaded,
+                                              const std::vector<Level>& levels, const std::string& output) {
+  const bool obj = output.ends_with("j") || output.ends_with("J");
+  if (loaded.mesh.face_varying.empty() || !obj) return {};
+  try {
+    return refine_face_varying(*loaded.scheme, loaded.face_varying, loaded.mesh.face_varying[0], levels);
+  } catch (const Error& error) {
+    const bool unable = error.code() == ErrorCode::unsupported_topology || error.code() == ErrorCode::invalid_option;
+    if (!unable || !common.face_varying.empty()) throw;
+    if (!common.quiet)
+      fmt::print(stderr, "sublimit: warning: {}: texture coordinates are left out: {}\n", common.mesh, error.what());
+    return {};
+  }
 }
 
 void naming_mesh(const Common& common, const std::function<void()>& body) {

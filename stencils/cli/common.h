@@ -13,6 +13,7 @@
 #include <thread>
 #include <vector>
 
+#include "sublimit/primvar/face_varying.h"
 #include "sublimit/refine.h"
 #include "sublimit/schemes.h"
 
@@ -21,9 +22,9 @@ namespace sublimit::cli {
 /// Options that every subcommand with a mesh and a scheme has.
 struct Common {
   std::string mesh, scheme;
-  std::string boundary, creasing, triangles;  ///< empty: the file's tags
-  std::vector<std::string> options;           ///< name=value
-  int threads = 0;                            ///< 0: all
+  std::string boundary, creasing, triangles, face_varying;  ///< empty: the file's tags
+  std::vector<std::string> options;                         ///< name=value
+  int threads = 0;                                          ///< 0: all
   bool quiet = false, strict = false;
   bool triangulate = false, no_creases = false;
 };
@@ -32,6 +33,7 @@ struct Loaded {
   ControlMesh mesh;
   std::optional<Scheme<double>> scheme;
   SubdivisionOptions rules;
+  FaceVaryingInterpolation face_varying = FaceVaryingInterpolation::all;
 };
 
 /// A line on stderr while a step takes longer than a second, if a person is looking.
@@ -66,6 +68,11 @@ void limit_threads(const Common& common);
 
 /// Reads the mesh and its sidecar, prints warnings, and finds the scheme if one was named.
 Loaded load(const Common& common, Progress& progress);
+
+/// Levels of the mesh's texture coordinates, if it has any and the output has room for them. Where the scheme cannot
+/// refine them they are dropped with a warning, unless --face-varying asks for them.
+std::vector<FaceVaryingLevel> refined_channel(const Common& common, const Loaded& loaded,
+                                              const std::vector<Level>& levels, const std::string& output);
 
 /// Runs `body`; what it finds wrong with the mesh is told with the names of mesh and scheme.
 void naming_mesh(const Common& common, const std::function<void()>& body);

@@ -27,7 +27,8 @@ std::string curve_scheme_names() {
 /// Options of the scheme, without those of meshes.
 SchemeOptions curve_options(const Common& common) {
   for (const auto& [name, value] : {std::pair("--boundary", common.boundary), std::pair("--creasing", common.creasing),
-                                    std::pair("--triangles", common.triangles)})
+                                    std::pair("--triangles", common.triangles),
+                                    std::pair("--face-varying", common.face_varying)})
     if (!value.empty()) throw InvalidOption(std::string(name) + " is for meshes; " + common.scheme + " refines curves");
   for (const auto& [name, given] :
        {std::pair("--triangulate", common.triangulate), std::pair("--no-creases", common.no_creases)})

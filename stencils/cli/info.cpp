@@ -74,6 +74,11 @@ const char* word(std::optional<Triangles> asked, std::optional<Triangles> tag) {
   return asked.value_or(tag.value_or(Triangles::catmark)) == Triangles::smooth ? "smooth" : "catmark";
 }
 
+const char* word(FaceVaryingInterpolation interpolation) {
+  constexpr const char* words[] = {"none", "corners-only", "corners-plus1", "corners-plus2", "boundaries", "all"};
+  return words[static_cast<int>(interpolation)];
+}
+
 int run(const Common& common, bool as_json) {
   Common quiet = common;
   quiet.quiet = true;
@@ -119,6 +124,8 @@ int run(const Common& common, bool as_json) {
               {"boundary", word(loaded.rules.boundary, mesh.boundary)},
               {"creasing", word(loaded.rules.creasing, mesh.creasing)},
               {"triangles", word(std::optional<Triangles>(), mesh.triangles)},
+              {"face_varying_channels", mesh.face_varying.size()},
+              {"face_varying", word(loaded.face_varying)},
               {"warnings", mesh.warnings},
               {"faults", faults}};
     if (loaded.scheme) {
@@ -139,6 +146,9 @@ int run(const Common& common, bool as_json) {
   fmt::print("  rules              boundary {}, creasing {}, triangles {}\n",
              word(loaded.rules.boundary, mesh.boundary), word(loaded.rules.creasing, mesh.creasing),
              word(std::optional<Triangles>(), mesh.triangles));
+  for (const ControlMesh::FaceVarying& channel : mesh.face_varying)
+    fmt::print("  face-varying       {}: {} values of {} numbers, interpolation {}\n", channel.name,
+               channel.values.rows(), channel.values.cols(), word(loaded.face_varying));
   if (loaded.scheme) {
     fmt::print("  {:<18} {}\n", loaded.scheme->name + ":", takes == "yes" ? "takes this mesh" : takes);
     for (size_t k = 0; k < cost.size(); ++k)

@@ -23,12 +23,13 @@ int run(const Options& options) {
   if (is_curve_job(options.common))
     return limit_curves({&options.common, options.levels, options.output, "", options.closed, options.normals});
   scheme_or_throw(options.common.scheme, given_options(options.common));  // a misspelt name may be one of curves
-  if (options.closed)
-    throw InvalidOption("--closed is for curves; " + options.common.scheme + " refines meshes");
+  if (options.closed) throw InvalidOption("--closed is for curves; " + options.common.scheme + " refines meshes");
   check_output_path(options.output, {".obj", ".ply"});
   Progress progress(options.common.quiet);
   const Loaded loaded = load(options.common, progress);
   std::vector<Level> levels;
+  std::vector<FaceVaryingLevel> channel;
+  Points limit_values;
   LimitMatrices limit;
   LimitMaskCache cache(*loaded.scheme);
   naming_mesh(options.common, [&] {
@@ -36,19 +37,29 @@ int run(const Options& options) {
                     [&](int level) { progress.step(fmt::format("level {} of {}", level, options.levels)); });
     progress.step("limits");
     limit = limit_matrices(levels.back(), cache);
+    channel = refined_channel(options.common, loaded, levels, options.output);
+    if (channel.empty()) return;
+    LimitMaskCache channel_cache(face_varying_scheme(*loaded.scheme, loaded.face_varying));
+    limit_values = apply(limit_matrices(channel.back().level, channel_cache).position,
+                         refined_values(channel, loaded.mesh.face_varying[0].values));
   });
   Points points = loaded.mesh.positions;
   for (size_t k = 1; k < levels.size(); ++k) points = apply(levels[k].S, points);
   const LimitPoints at_limit = limit_points(limit, levels.back().topology(), points);
   progress.step("writing " + options.output);
   const bool obj = options.output.ends_with("j") || options.output.ends_with("J");
-  write_mesh(options.output, limit_mesh(levels.back(), limit, at_limit,
-                                        !options.normals ? Normals::none : obj ? Normals::per_corner : Normals::per_vertex));
+  MeshOutput out = limit_mesh(levels.back(), limit, at_limit,
+                              !options.normals ? Normals::none
+                              : obj            ? Normals::per_corner
+                                               : Normals::per_vertex);
+  if (!channel.empty()) add_channel(out, channel.back(), loaded.mesh.face_varying[0].name, limit_values);
+  write_mesh(options.output, out);
   progress.step("");
   if (!options.common.quiet) {
     const auto without = std::count(at_limit.status.begin(), at_limit.status.end(), LimitStatus::undefined_normal);
     fmt::print("{}: {} limit points of level {}, {} types of neighbourhood, {} of {} vertex sides without a normal\n",
-               options.output, at_limit.position.rows(), options.levels, cache.num_types(), without, at_limit.status.size());
+               options.output, at_limit.position.rows(), options.levels, cache.num_types(), without,
+               at_limit.status.size());
   }
   return 0;
 }
@@ -62,16 +73,20 @@ Command add_limit(CLI::App& app) {
   command->add_option("-l,--levels", options->levels, "Level whose vertices are moved (default 0, the control mesh)");
   command->add_flag("--normals", options->normals,
                     "Limit normals too: per corner in .obj (one for each side of a crease), per vertex in .ply");
-  command->add_option("-o,--output", options->output, "OUT.obj or OUT.ply; faces that are holes are left out")->required();
-  command->add_flag("--closed", options->closed, "Curves: a CSV has closed ones (an OBJ line that comes back is closed anyway)");
+  command->add_option("-o,--output", options->output, "OUT.obj or OUT.ply; faces that are holes are left out")
+      ->required();
+  command->add_flag("--closed", options->closed,
+                    "Curves: a CSV has closed ones (an OBJ line that comes back is closed anyway)");
   command->footer(
       "Examples:\n"
       "  sublimit limit cage.obj -s catmull-clark -l 3 --normals -o surface.obj\n"
       "  sublimit limit cage.obj -s loop -o control_points_at_the_limit.ply\n"
-      "Curves: MESH is a .csv of points or an .obj with lines, OUT a .csv or .obj; --normals adds unit tangents as columns\n"
+      "Curves: MESH is a .csv of points or an .obj with lines, OUT a .csv or .obj; --normals adds unit tangents as "
+      "columns\n"
       "tx,ty,... of a .csv, empty where there is none:\n"
       "  sublimit limit polygon.csv -s four-point -l 4 --normals -o curve.csv\n"
-      "hermite-incentre takes points with unit tangents, x,y,tx,ty or x,y,z,tx,ty,tz; its points of a level are on the\n"
+      "hermite-incentre takes points with unit tangents, x,y,tx,ty or x,y,z,tx,ty,tz; its points of a level are on "
+      "the\n"
       "limit, and are placed on its exact arcs.");
   return [=] { return run(*options); };
 }

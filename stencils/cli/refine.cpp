@@ -22,16 +22,17 @@ int run(const Options& options) {
   if (is_curve_job(options.common))
     return refine_curves({&options.common, options.levels, options.output, options.matrix, options.closed});
   scheme_or_throw(options.common.scheme, given_options(options.common));  // a misspelt name may be one of curves
-  if (options.closed)
-    throw InvalidOption("--closed is for curves; " + options.common.scheme + " refines meshes");
+  if (options.closed) throw InvalidOption("--closed is for curves; " + options.common.scheme + " refines meshes");
   check_output_path(options.output, {".obj", ".ply"});
   if (!options.matrix.empty()) check_output_path(options.matrix, {".mtx"});
   Progress progress(options.common.quiet);
   const Loaded loaded = load(options.common, progress);
   std::vector<Level> levels;
+  std::vector<FaceVaryingLevel> channel;
   naming_mesh(options.common, [&] {
     levels = refine(*loaded.scheme, loaded.mesh, options.levels, loaded.rules,
                     [&](int level) { progress.step(fmt::format("level {} of {}", level, options.levels)); });
+    channel = refined_channel(options.common, loaded, levels, options.output);
   });
   Points points = loaded.mesh.positions;
   for (size_t k = 1; k < levels.size(); ++k) points = apply(levels[k].S, points);
@@ -41,7 +42,13 @@ int run(const Options& options) {
     write_matrix_market(options.matrix, refinement_matrix(levels));
   }
   progress.step("writing " + options.output);
-  write_mesh(options.output, refined_mesh(levels.back(), points, loaded.mesh, loaded.rules, !options.no_tags));
+  MeshOutput out = refined_mesh(levels.back(), points, loaded.mesh, loaded.rules, !options.no_tags);
+  if (!channel.empty()) {
+    add_channel(out, channel.back(), loaded.mesh.face_varying[0].name,
+                refined_values(channel, loaded.mesh.face_varying[0].values));
+    if (!options.no_tags) out.face_varying_interpolation = loaded.face_varying;
+  }
+  write_mesh(options.output, out);
   return 0;
 }
 
@@ -52,15 +59,19 @@ Command add_refine(CLI::App& app) {
   auto options = std::make_shared<Options>();
   add_mesh(*command, options->common, true);
   command->add_option("-l,--levels", options->levels, "Levels of refinement")->required();
-  command->add_option("-o,--output", options->output, "OUT.obj (with tags, so that refining can go on) or OUT.ply")->required();
+  command->add_option("-o,--output", options->output, "OUT.obj (with tags, so that refining can go on) or OUT.ply")
+      ->required();
   command->add_option("--matrix", options->matrix, "OUT.mtx: the stencils, new points = matrix * control points");
   command->add_flag("--no-tags", options->no_tags, "Leave the tags out");
-  command->add_flag("--closed", options->closed, "Curves: a CSV has closed ones (an OBJ line that comes back is closed anyway)");
+  command->add_flag("--closed", options->closed,
+                    "Curves: a CSV has closed ones (an OBJ line that comes back is closed anyway)");
   command->footer(
       "Examples:\n"
       "  sublimit refine cage.obj -s catmull-clark -l 2 -o refined.obj\n"
       "  sublimit refine cage.obj -s loop -l 3 -o refined.ply --matrix stencils.mtx\n"
-      "Curves: MESH is a .csv of points (a line each; a blank line begins another curve) or an .obj with lines, OUT a .csv or .obj:\n"
+      "  sublimit refine cage.obj -s catmull-clark -l 2 --face-varying boundaries -o refined.obj\n"
+      "Curves: MESH is a .csv of points (a line each; a blank line begins another curve) or an .obj with lines, OUT a "
+      ".csv or .obj:\n"
       "  sublimit refine polygon.csv -s chaikin -l 3 --closed -o curve.csv\n"
       "hermite-incentre takes and writes points with unit tangents, x,y,tx,ty or x,y,z,tx,ty,tz; it has no matrix.");
   return [=] { return run(*options); };

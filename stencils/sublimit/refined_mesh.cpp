@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sublimit/refined_mesh.h"
 
+#include "sublimit/base/error.h"
+
 namespace sublimit {
 
 MeshOutput refined_mesh(const Level& level, const Points& points, const ControlMesh& control,
@@ -46,11 +48,28 @@ MeshOutput limit_mesh(const Level& level, const LimitMatrices& limit, const Limi
   if (normals == Normals::per_corner) out.normals = points.normal;
   if (normals == Normals::per_vertex) {
     out.normals = Points::Zero(t.num_vertices(), 3);
-    for (size_t s = 0; s < limit.side_vertex.size(); ++s) out.normals.row(limit.side_vertex[s]) += points.normal.row(Index(s));
+    for (size_t s = 0; s < limit.side_vertex.size(); ++s)
+      out.normals.row(limit.side_vertex[s]) += points.normal.row(Index(s));
     for (Index v = 0; v < t.num_vertices(); ++v)
       if (out.normals.row(v).norm() > 1e-12) out.normals.row(v).normalize();
   }
   return out;
+}
+
+void add_channel(MeshOutput& out, const FaceVaryingLevel& channel, const std::string& name, const Points& values) {
+  const Topology& t = channel.level.topology();
+  const bool all = std::ssize(out.face_sizes) == t.num_faces();
+  ControlMesh::FaceVarying written{.name = name, .values = values, .indices = {}};
+  for (Index f = 0; f < t.num_faces(); ++f) {
+    if (!all && channel.level.holes[f]) continue;
+    const auto corners = t.vertices(Face{f});
+    written.indices.insert(written.indices.end(), corners.begin(), corners.end());
+  }
+  if (written.indices.size() != out.face_vertices.size())
+    throw InvalidParameter("channel '" + name +
+                           "' is of another level than the mesh: " + std::to_string(written.indices.size()) +
+                           " corners, not " + std::to_string(out.face_vertices.size()));
+  out.face_varying.push_back(std::move(written));
 }
 
 }  // namespace sublimit

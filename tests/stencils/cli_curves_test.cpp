@@ -108,6 +108,7 @@ TEST(CliCurves, WrongKindOfInput) {
   expect_refused("q.stl", "", {"-s", "chaikin"}, 3, {"'.stl'", ".csv and .obj"});
   expect_refused("p.csv", zigzag, {"-s", "chakin"}, 2, {"chakin", "chaikin", "sublimit schemes"});
   expect_refused("p.csv", zigzag, {"-s", "chaikin", "--boundary", "none"}, 2, {"--boundary", "meshes"});
+  expect_refused("p.csv", zigzag, {"-s", "chaikin", "--face-varying", "none"}, 2, {"--face-varying", "meshes"});
 }
 
 TEST(CliCurves, BadPoints) {
