@@ -80,8 +80,19 @@ std::optional<ReferencePoint> FarLimit::at(const Sample& place) const {
   for (int k = 0; k < vertices.size(); ++k)
     for (int row = 0; row < 6; ++row) sum[row].AddWithWeight(parts_->points[vertices[k]], w[row][k]);
   const Far::PatchParam parameter = parts_->table->GetPatchParam(*patch);
-  return ReferencePoint{
-      sum[0].x, sum[1].x, sum[2].x, sum[3].x, sum[4].x, sum[5].x, parameter.IsRegular(), parameter.GetDepth()};
+  // In triangles that lie upside down u and v run backwards, which second derivatives do not mind; Far 3.5 turns their
+  // sign all the same.
+  const bool upside_down =
+      parts_->refiner->GetSchemeType() == OpenSubdiv::Sdc::SCHEME_LOOP && parameter.IsTriangleRotated();
+  const double sign = upside_down ? -1 : 1;
+  return ReferencePoint{sum[0].x,
+                        sum[1].x,
+                        sum[2].x,
+                        sign * sum[3].x,
+                        sign * sum[4].x,
+                        sign * sum[5].x,
+                        parameter.IsRegular(),
+                        parameter.GetDepth()};
 }
 
 Points FarLimit::by_stencils(const std::vector<Sample>& places) const {

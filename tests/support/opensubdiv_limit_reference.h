@@ -29,7 +29,7 @@ class FarLimit {
   FarLimit(FarLimit&&) noexcept;
 
   /// Nothing in a hole. The squares of polygons of n sides have u and v half as long as ours: derivatives are twice
-  /// ours, second ones four times.
+  /// ours, second ones four times. The sign of its second derivatives in triangles upside down is put right.
   std::optional<ReferencePoint> at(const Sample& place) const;
 
   /// Positions by limit stencils, row by row; there must be none for holes.
