@@ -33,7 +33,7 @@ class LimitEvaluator {
   virtual Eigen::Vector3d position(size_t place) const = 0;
 };
 
-/// Who can be asked, and how accurate it is.
+/// Who can be asked.
 struct LimitContender {
   std::string name;
   std::unique_ptr<LimitEvaluator> (*make)(const Case&);
