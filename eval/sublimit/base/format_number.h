@@ -13,17 +13,17 @@
 namespace sublimit {
 
 template <class T>
-concept Number = std::floating_point<T> || std::integral<T>;
+concept PlainNumber = std::floating_point<T> || std::integral<T>;
 
 /// Appends the shortest decimal form of `value` that reads back to the same bits ("0.1", "-0", "1e+300", "inf").
-template <Number T>
+template <PlainNumber T>
 void append_number(std::string& out, T value) {
   char digits[64];  // the longest double has 24 characters
   const std::to_chars_result end = std::to_chars(digits, digits + sizeof digits, value);
   out.append(digits, end.ptr);
 }
 
-template <Number T>
+template <PlainNumber T>
 std::string format_number(T value) {
   std::string out;
   append_number(out, value);
@@ -36,7 +36,7 @@ enum class ParseStatus {
   too_large,  ///< a number beyond the largest of its type
 };
 
-template <Number T>
+template <PlainNumber T>
 struct Parsed {
   T value{};  ///< 0 unless `status` is ok
   ParseStatus status = ParseStatus::malformed;
@@ -76,7 +76,7 @@ inline bool is_tiny(std::string_view text) {
 ///
 /// "inf" and "nan" are numbers of a floating type: callers who want finite ones ask `std::isfinite`. What is closer to
 /// zero than the smallest number of the type is zero, as rounding has it.
-template <Number T>
+template <PlainNumber T>
 Parsed<T> parse_number(std::string_view text) {
   if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
   if (text.empty()) return {};
