@@ -11,6 +11,7 @@
 
 #include "curves.h"
 #include "sublimit/base/error.h"
+#include "sublimit/base/memory.h"
 #include "sublimit/mesh/prepare.h"
 #include "sublimit/mesh/read_mesh.h"
 #include "sublimit/sidecar.h"
@@ -210,6 +211,16 @@ void check_output_path(const std::string& path, const std::vector<std::string>& 
   directories.push_back(directory.empty() ? "." : directory.string());
 }
 
+void check_disk(const std::string& what, const std::string& path, double bytes, const std::string& advice) {
+  std::error_code failed;
+  if (std::filesystem::exists(path, failed) && !std::filesystem::is_regular_file(path, failed)) return;
+  const std::filesystem::path directory = std::filesystem::path(path).parent_path();
+  const auto room = static_cast<double>(std::filesystem::space(directory.empty() ? "." : directory, failed).available);
+  if (!failed && bytes > room)
+    throw ResourceError(what + " take about " + bytes_in_words(bytes) + " of disk; " + path + " has room for " +
+                        bytes_in_words(room) + "; " + advice);
+}
+
 void make_output_directory(const std::string& path) {
   std::error_code failed;
   std::filesystem::create_directories(path, failed);
@@ -241,6 +252,11 @@ void Progress::step(const std::string& what) {
   clear();
   what_ = what;
   start_ = std::chrono::steady_clock::now();
+}
+
+void Progress::note(const std::string& what) {
+  const std::lock_guard lock(mutex_);
+  what_ = what;
 }
 
 void Progress::watch() {

@@ -43,6 +43,8 @@ class Progress {
   ~Progress();
   /// A step begins; an empty one is nothing to tell.
   void step(const std::string& what);
+  /// Other words for a step that goes on.
+  void note(const std::string& what);
 
  private:
   void watch();
@@ -84,6 +86,12 @@ Scheme<double> scheme_or_throw(const std::string& name, const SchemeOptions& opt
 /// not be touched. An empty list takes any extension.
 void check_output_path(const std::string& path, const std::vector<std::string>& extensions);
 
+/// Fails before any work if a file of about so many bytes has no room beside `path`. Devices and pipes take any.
+/// @param what    the job, in the plural
+/// @param advice  what would need less
+/// @throws ResourceError
+void check_disk(const std::string& what, const std::string& path, double bytes, const std::string& advice);
+
 /// Makes the directory of outputs, and those above it, where they are missing.
 void make_output_directory(const std::string& path);
 
@@ -96,6 +104,7 @@ Command add_schemes(CLI::App& app);
 Command add_info(CLI::App& app);
 Command add_refine(CLI::App& app);
 Command add_limit(CLI::App& app);
+Command add_sample(CLI::App& app);
 Command add_demo(CLI::App& app);
 
 }  // namespace sublimit::cli

@@ -8,8 +8,11 @@
 #include "sublimit/base/atomic_file.h"
 #include "sublimit/base/error.h"
 #include "sublimit/demo_mesh.h"
+#include "sublimit/limit/limit_surface.h"
+#include "sublimit/random_samples.h"
 #include "sublimit/refined_mesh.h"
 #include "sublimit/report/picture_mesh.h"
+#include "sublimit/sample_files.h"
 #include "sublimit/sparse_product.h"
 
 namespace sublimit::cli {
@@ -53,6 +56,11 @@ int run(const Options& options) {
   write_mesh(path("control.obj"), output(mesh));
   write_mesh(path("refined.obj"), refined_mesh(levels[2], points[2], mesh, {}, true));
   write_mesh(path("limit.obj"), surface);
+  const LimitSurface anywhere(scheme, mesh);
+  RandomSamples places(anywhere.addresses(), 1000, 0);
+  const SampleSummary samples = write_samples(
+      path("samples.csv"), anywhere, mesh.positions,
+      [&](std::vector<Sample>& batch, size_t most) { places.read(batch, most); }, {.derivatives = 2});
   const std::string svg = svg_picture(
       {{{control_picture(levels[0], points[0])}, "control mesh", fmt::format("{} points", points[0].rows())},
        {{wire_picture(levels[1], points[1])},
@@ -77,8 +85,10 @@ int run(const Options& options) {
   fmt::print("Eigenvectors of {} local matrices gave the exact limit of all {} points of level 3,\n", cache.num_types(),
              at_limit.position.rows());
   fmt::print("and {} normals, one for each side of a crease ({} have none).\n", limit.side_vertex.size(), undefined);
+  fmt::print("Anywhere on the surface: {} random places with their derivatives ({}).\n", samples.num_samples,
+             samples.text());
   fmt::print("Files: {}, refined.obj (level 2, with the tags that are left),\n", path("control.obj"));
-  fmt::print("  limit.obj (points and normals on the surface), and the picture of all three:\n");
+  fmt::print("  limit.obj (points and normals on the surface), samples.csv, and the picture of all three meshes:\n");
   fmt::print("  {}\n", std::filesystem::absolute(directory / "picture.svg").string());
   return 0;
 }

@@ -7,6 +7,7 @@
 
 #include "common.h"
 #include "sublimit/base/error.h"
+#include "sublimit/limit/address.h"
 
 namespace sublimit::cli {
 namespace {
@@ -94,6 +95,8 @@ int run(const Common& common, bool as_json) {
     if (exists(h)) ++(exists(t.twin(h)) ? interior : boundary)[static_cast<Index>(t.edges(Vertex{v}).size())];
   }
   const Index euler = t.num_vertices() - t.num_edges() + t.num_faces();
+  const bool triangles = loaded.scheme && loaded.scheme->face_size() == 3;
+  const Addresses addresses(t, triangles);
   std::string takes = "yes";
   std::vector<double> cost;
   if (loaded.scheme) {
@@ -116,6 +119,7 @@ int run(const Common& common, bool as_json) {
               {"components", num_components(t)},
               {"boundary_loops", num_boundary_loops(t)},
               {"face_sizes", to_json(sizes)},
+              {"addresses", takes == "yes" ? Json(addresses.size()) : Json()},
               {"interior_valences", to_json(interior)},
               {"boundary_valences", to_json(boundary)},
               {"creases", mesh.creases.size()},
@@ -138,6 +142,9 @@ int run(const Common& common, bool as_json) {
   fmt::print("  {} vertices, {} edges, {} faces; Euler characteristic {}, {} component(s)\n", t.num_vertices(),
              t.num_edges(), t.num_faces(), euler, num_components(t));
   fmt::print("  face sizes         {}\n", to_text(sizes));
+  if (takes == "yes")
+    fmt::print("  addresses          faces 0 to {} of `sublimit sample`: {}\n", addresses.size() - 1,
+               triangles ? "the triangles" : "a quad is one, another polygon one a corner");
   fmt::print("  interior valences  {}\n", to_text(interior));
   fmt::print("  boundary valences  {}\n", to_text(boundary));
   fmt::print("  boundary loops     {}\n", num_boundary_loops(t));

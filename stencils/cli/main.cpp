@@ -62,7 +62,7 @@ int guarded(const cli::Command& command) {
     fmt::print(stderr, "sublimit: {}{}\n", status == fault_of_ours ? "a fault of ours: " : "", error.what());
     return status;
   } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "sublimit: out of memory; use fewer levels\n");
+    fmt::print(stderr, "sublimit: out of memory; use fewer levels or samples\n");
     return exit_status(ErrorCode::resource_error);
   } catch (const std::exception& error) {
     fmt::print(stderr, "sublimit: a fault of ours: {}\n", error.what());
@@ -87,12 +87,14 @@ int main(int argc, char** argv) {
       "  sublimit demo\n"
       "  sublimit refine cage.obj -s catmull-clark -l 2 -o refined.obj\n"
       "  sublimit limit cage.obj -s catmull-clark -l 3 --normals -o surface.ply\n"
+      "  sublimit sample cage.obj -s catmull-clark --random 1000 --derivatives 2 -o points.csv\n"
       "Exit status: 0 done; 2 bad command line; 3 bad input or unwritable output; 4 too little memory or disk;\n"
       "70 a fault of ours; 130 interrupted.");
   std::vector<std::pair<std::string, cli::Command>> commands{{"schemes", cli::add_schemes(app)},
                                                              {"info", cli::add_info(app)},
                                                              {"refine", cli::add_refine(app)},
                                                              {"limit", cli::add_limit(app)},
+                                                             {"sample", cli::add_sample(app)},
                                                              {"demo", cli::add_demo(app)}};
   try {
     app.parse(argc, argv);

@@ -3,6 +3,7 @@
 // The program as a child process, and what it said.
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -24,6 +25,7 @@ namespace sublimit::testing {
 struct Outcome {
   int status = -1;  ///< -1: killed by a signal
   std::string out, err;
+  long peak_kb = 0;  ///< of memory
 };
 
 /// A run of the program that has begun.
@@ -59,9 +61,10 @@ class Program {
 
   Outcome wait() {
     int status = 0;
-    while (::waitpid(id_, &status, 0) < 0 && errno == EINTR) continue;
+    rusage usage{};
+    while (::wait4(id_, &status, 0, &usage) < 0 && errno == EINTR) continue;
     waited_ = true;
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text(out_), text(err_)};
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text(out_), text(err_), usage.ru_maxrss};
   }
 
  private:

@@ -242,13 +242,13 @@ TEST(Program, DemoMakesItsFilesAndSaysWhere) {
   const TemporaryDirectory directory;
   const Outcome outcome = run({"demo", (directory / "demo").string()});
   EXPECT_EQ(outcome.status, 0) << outcome.text;
-  for (const char* file : {"control.obj", "refined.obj", "limit.obj", "picture.svg"})
+  for (const char* file : {"control.obj", "refined.obj", "limit.obj", "samples.csv", "picture.svg"})
     EXPECT_TRUE(std::filesystem::exists(directory / "demo" / file)) << file;
   EXPECT_LE(std::count(outcome.text.begin(), outcome.text.end(), '\n'), 11);
 }
 
 TEST(Program, HelpHasExamples) {
-  for (const char* command : {"schemes", "info", "refine", "limit", "demo"}) {
+  for (const char* command : {"schemes", "info", "refine", "limit", "sample", "demo"}) {
     const Outcome outcome = run({command, "--help"});
     EXPECT_EQ(outcome.status, 0);
     EXPECT_NE(outcome.text.find("Examples:"), std::string::npos) << command;

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sample.h"
+
+#include <fmt/core.h>
+
+#include <memory>
+
+#include "curves.h"
+#include "sublimit/base/error.h"
+#include "sublimit/base/format_number.h"
+#include "sublimit/base/memory.h"
+#include "sublimit/limit/piece_types.h"
+#include "sublimit/random_samples.h"
+#include "sublimit/sample_files.h"
+
+namespace sublimit::cli {
+namespace {
+
+struct Options {
+  SampleJob job;
+  std::string grid, random_count, seed;  // as given
+};
+
+/// A whole number on the command line. A larger one than any machine can count is the largest: it will be refused for
+/// what it takes.
+template <class T>
+T whole(const char* option, const std::string& text, T least, const char* valid) {
+  const Parsed<T> parsed = parse_number<T>(text);
+  const bool huge = parsed.status == ParseStatus::too_large && text[0] != '-';
+  if (huge && std::is_signed_v<T>) return std::numeric_limits<T>::max();
+  if (!parsed || parsed.value < least) throw InvalidOption(fmt::format("{} {}: it should be {}", option, text, valid));
+  return parsed.value;
+}
+
+SampleJob checked(const Options& options) {
+  SampleJob job = options.job;
+  const int places = !job.at.empty() + !options.grid.empty() + !options.random_count.empty();
+  if (places != 1)
+    throw InvalidOption(fmt::format("{} --at IN.csv, --grid N and --random N; one of them says where to sample",
+                                    places == 0 ? "none of" : "more than one of"));
+  if (!options.grid.empty())
+    job.grid = whole<std::int64_t>("--grid", options.grid, 2, "a whole number of samples a side, 2 or more");
+  if (!options.random_count.empty())
+    job.random_count = whole<std::int64_t>("--random", options.random_count, 0, "a whole number of samples, 0 or more");
+  if (!options.seed.empty()) {
+    if (!job.random_count) throw InvalidOption("--seed is for --random N");
+    job.seed = whole<std::uint64_t>("--seed", options.seed, 0, "a whole number from 0 to 2^64 - 1");
+  }
+  if (job.clamp && job.at.empty())
+    throw InvalidOption("--clamp is for --at IN.csv; no other places are outside the domain");
+  if (job.curvature && job.derivatives < 2) throw InvalidOption("--curvature needs --derivatives 2");
+  return job;
+}
+
+/// Samples whose number is known, before any is made.
+void check_size(const SampleJob& job, const std::string& what, double count, double bytes_of_memory,
+                SampleColumns columns) {
+  check_memory(what, bytes_of_memory, "use fewer");
+  check_disk(what, job.output, predicted_bytes(count, columns), "use fewer");
+}
+
+/// N x N samples a square, or N (N + 1) / 2 a triangle.
+SampleSource grid_source(const SampleJob& job, const LimitSurface& surface, SampleColumns columns) {
+  const double N = double(*job.grid), faces = surface.addresses().size();
+  const double count = faces * (surface.addresses().triangles() ? N * (N + 1) / 2 : N * N);
+  check_size(job, fmt::format("--grid {}: samples of {} faces", *job.grid, faces), count, count * sizeof(Sample),
+             columns);
+  auto samples = std::make_shared<std::vector<Sample>>(surface.grid(static_cast<int>(*job.grid)));
+  return [samples, next = size_t{0}](std::vector<Sample>& batch, size_t most) mutable {
+    const size_t end = std::min(samples->size(), next + most);
+    batch.assign(samples->begin() + std::ptrdiff_t(next), samples->begin() + std::ptrdiff_t(end));
+    next = end;
+  };
+}
+
+SampleSource random_source(const SampleJob& job, const LimitSurface& surface, SampleColumns columns) {
+  check_size(job, fmt::format("--random {}: samples", *job.random_count), double(*job.random_count), 0, columns);
+  return [samples = RandomSamples(surface.addresses(), *job.random_count, job.seed)](
+             std::vector<Sample>& batch, size_t most) mutable { samples.read(batch, most); };
+}
+
+int run(const Options& options) {
+  const SampleJob job = checked(options);
+  if (is_curve_job(job.common)) return sample_curves(job);
+  scheme_or_throw(job.common.scheme, given_options(job.common));  // a misspelt name may be one of curves
+  if (job.closed) throw InvalidOption("--closed is for curves; " + job.common.scheme + " refines meshes");
+  check_output_path(job.output, {".csv"});
+  const SampleColumns columns{job.derivatives, job.curvature};
+  std::unique_ptr<SampleReader> reader;  // a wrong header is told before a large mesh is read
+  if (!job.at.empty()) reader = std::make_unique<SampleReader>(job.at, job.clamp);
+  Progress progress(job.common.quiet);
+  const Loaded loaded = load(job.common, progress);
+  const auto types = std::make_shared<PieceTypes>(*loaded.scheme);
+  SampleSummary summary;
+  naming_mesh(job.common, [&] {
+    progress.step("sampling");
+    const LimitSurface surface(*loaded.scheme, loaded.mesh, loaded.rules, types);
+    SampleSource source;
+    if (reader) {
+      source = [&](std::vector<Sample>& batch, size_t most) { reader->read(batch, most, surface.addresses()); };
+    } else {
+      source = job.grid ? grid_source(job, surface, columns) : random_source(job, surface, columns);
+    }
+    summary = write_samples(job.output, surface, loaded.mesh.positions, source, columns,
+                            [&](std::int64_t done) { progress.note(fmt::format("sampling: {} done", done)); });
+  });
+  progress.step("");
+  if (!job.common.quiet) {
+    fmt::print("{}: {} samples", job.output, summary.num_samples);
+    if (summary.num_samples > 0) fmt::print(" ({}), {} types of pieces", summary.text(), types->size());
+    if (reader && reader->num_clamped() > 0) fmt::print(", {} moved to the rim of their face", reader->num_clamped());
+    fmt::print("\n");
+  }
+  return 0;
+}
+
+}  // namespace
+
+Command add_sample(CLI::App& app) {
+  auto* command = app.add_subcommand("sample", "The exact limit anywhere: points, derivatives, normals, curvature");
+  auto options = std::make_shared<Options>();
+  SampleJob& job = options->job;
+  add_mesh(*command, job.common, true);
+  command->add_option("--at", job.at, "Places from a CSV with the header face,u,v");
+  command->add_option("--grid", options->grid,
+                      "N x N places a face, ends included, u fastest; triangles N (N + 1) / 2");
+  command->add_option("--random", options->random_count, "N places, uniform over faces and parameters");
+  command->add_option("--seed", options->seed, "Of --random: the same places for a seed everywhere (default 0)");
+  command->add_option("--derivatives", job.derivatives, "0, 1: with columns xu,..., 2: with xuu,... too (default 0)")
+      ->check(CLI::Range(0, 2));
+  command->add_flag("--curvature", job.curvature,
+                    "Columns k1,k2,gauss,mean: principal curvatures k1 >= k2, Gauss and mean; needs --derivatives 2");
+  command->add_flag("--clamp", job.clamp,
+                    "Places of --at outside their face are moved to its rim (default: an error that names the row)");
+  command->add_option("-o,--output", job.output, "OUT.csv: face,u,v,status,x,y,z[,derivatives],nx,ny,nz")->required();
+  command->add_flag("--closed", job.closed,
+                    "Curves: a CSV has closed ones (an OBJ line that comes back is closed anyway)");
+  command->footer(
+      "Examples:\n"
+      "  sublimit sample cage.obj -s catmull-clark --grid 5 -o points.csv\n"
+      "  sublimit sample cage.obj -s loop --random 1000000 --seed 7 --derivatives 1 -o points.csv\n"
+      "  sublimit sample cage.obj -s catmull-clark --at places.csv --derivatives 2 --curvature -o points.csv\n"
+      "Faces are numbered from 0 as Ptex does. A quad is one face: (0,0) at its first corner, u towards the second, v\n"
+      "towards the last one. Any other polygon of n corners is n faces, one a corner: (0,0) at the corner, u towards "
+      "the\n"
+      "middle of the edge to the next corner, v towards the middle of the edge before, (1,1) in the centre. Under "
+      "schemes\n"
+      "for triangles a triangle is one face: (0,0), (1,0), (0,1) at its corners. `sublimit info MESH -s SCHEME` "
+      "counts\n"
+      "them. Derivatives are per unit of u and v.\n"
+      "Status: regular; extraordinary (a smooth corner of another valence: no derivatives, but a normal); "
+      "unbounded-second\n"
+      "(no second derivatives); crease (derivatives and normal of this face's side); hole; undefined-normal. What does "
+      "not\n"
+      "exist is an empty field.");
+  return [=] { return run(*options); };
+}
+
+}  // namespace sublimit::cli

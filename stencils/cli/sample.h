@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// What `sample` was asked for, for surfaces (sample.cpp) and curves (sample_curves.cpp).
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "common.h"
+
+namespace sublimit::cli {
+
+struct SampleJob {
+  Common common;
+  // One of these three says where.
+  std::string at;                    ///< a CSV; empty: not given
+  std::optional<std::int64_t> grid;  ///< samples a side, 2 at least
+  std::optional<std::int64_t> random_count;
+  std::uint64_t seed = 0;
+  int derivatives = 0;  ///< 0, 1 or 2
+  bool clamp = false, curvature = false;
+  bool closed = false;  ///< curves of a CSV
+  std::string output;
+};
+
+/// What `sample` does when the scheme is one for curves.
+int sample_curves(const SampleJob& job);
+
+}  // namespace sublimit::cli
