@@ -4,8 +4,8 @@
 namespace sublimit {
 namespace {
 
-constexpr int max_depth = 6;
-constexpr size_t max_nodes = 64;
+constexpr int max_depth = 8;  // LimitPatches::Loop follows no more
+constexpr size_t max_nodes = 1200;
 
 /// Monomials of T_i(s) T_j(t): rows by (i, j) of the monomial.
 RowMatrix monomials_of(const PolynomialBasis& basis) {
