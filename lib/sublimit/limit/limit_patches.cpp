@@ -160,20 +160,29 @@ struct LimitPatches::Loop {
     int depth = 0;
     const PatchTree::Node* node = nodes;
     places[0] = target.place;
+    double scale = 1;  // of derivatives, while children lie as their parents do
+    bool aligned = true;
     while (node->patch < 0) {
       if (node->first_child < 0) return false;
+      const Place& at = places[depth];
+      Place& next = places[depth + 1];
       int k = 0;
-      for (const PieceLink& link : *node->links) {
-        if (link.map.contains(places[depth])) {
-          links[depth] = &link;
-          break;
-        }
-        ++k;
+      if (node->in_four) {
+        const bool right = at.u > 0.5, up = at.v > 0.5;
+        k = right ? (up ? 2 : 1) : (up ? 3 : 0);
+        next.u1 = right ? 2 * at.u1 : 1 - 2 * at.u;
+        next.u = right ? 1 - next.u1 : 2 * at.u;
+        next.v1 = up ? 2 * at.v1 : 1 - 2 * at.v;
+        next.v = up ? 1 - next.v1 : 2 * at.v;
+        scale *= 2;
+      } else {
+        aligned = false;
+        while (k < int(node->links->size()) && !(*node->links)[k].map.contains(at)) ++k;
+        if (k == int(node->links->size())) return false;
+        next = (*node->links)[k].map(at);
       }
-      if (k == int(node->links->size())) return false;
-      places[depth + 1] = links[depth]->map(places[depth]);
+      links[depth++] = &(*node->links)[k];
       node = nodes + node->first_child + k;
-      ++depth;
     }
     const Place& place = places[depth];
     const Place& p = target.place;
@@ -201,7 +210,15 @@ struct LimitPatches::Loop {
     evaluate_patch<Order>(tree, coefficients + 4 * (first[number] + std::int64_t(patch) * tree.num_coefficients()),
                           place, jet);
     if (Order >= 1) {
-      while (depth-- > 0) apply_chain<Order>(links[depth]->map.chain(places[depth]), jet);
+      if (aligned) {
+        jet.u = scale * jet.u, jet.v = scale * jet.v;
+        if (Order >= 2) {
+          const double square = scale * scale;
+          jet.uu = square * jet.uu, jet.uv = square * jet.uv, jet.vv = square * jet.vv;
+        }
+      } else {
+        while (depth-- > 0) apply_chain<Order>(links[depth]->map.chain(places[depth]), jet);
+      }
       if (target.map) apply_chain<Order>(target.map->chain(target.outer), jet);
       if (normals) {
         const Vec4 a = jet.u, b = jet.v;

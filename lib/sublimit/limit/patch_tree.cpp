@@ -5,7 +5,7 @@ namespace sublimit {
 namespace {
 
 constexpr int max_depth = 8;  // LimitPatches::Loop follows no more
-constexpr size_t max_nodes = 1200;
+constexpr size_t max_nodes = 300;  // a piece at a semi-sharp crease has about 2^sharpness patches: 150 kB then
 
 /// Monomials of T_i(s) T_j(t): rows by (i, j) of the monomial.
 RowMatrix monomials_of(const PolynomialBasis& basis) {
@@ -26,6 +26,19 @@ RowMatrix monomials_of(const PolynomialBasis& basis) {
   numbered(
       [&](int i, int j, int row) { numbered([&](int k, int l, int column) { M(row, column) = T(i, k) * T(j, l); }); });
   return M;
+}
+
+/// Quadrilaterals in four, as their parent lies: the bits of the parameters tell the child.
+bool in_four(const std::deque<PieceLink>& links) {
+  if (links.size() != 4) return false;
+  for (size_t i = 0; i < 4; ++i) {
+    const PieceMap& map = links[i].map;
+    const Span u = i == 1 || i == 2 ? Span::upper : Span::lower, v = i >= 2 ? Span::upper : Span::lower;
+    if (map.is_triangle || map.axes[0].from != 0 || map.axes[1].from != 1 || map.axes[0].reversed ||
+        map.axes[1].reversed || map.axes[0].span != u || map.axes[1].span != v)
+      return false;
+  }
+  return true;
 }
 
 }  // namespace
@@ -63,6 +76,7 @@ PatchTree::PatchTree(const PieceType& type) {
     if (here.type->children()[0].block.is_large()) continue;
     nodes_[at].first_child = static_cast<int>(nodes_.size());
     nodes_[at].links = &here.type->children();
+    nodes_[at].in_four = in_four(here.type->children());
     for (const PieceLink& link : here.type->children()) {
       nodes_.emplace_back();
       open.push_back({link.type, here.block.then(link.block), here.depth + 1});

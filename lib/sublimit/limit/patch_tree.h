@@ -20,6 +20,7 @@ class PatchTree {
     int first_child = -1;                          ///< its children stand together
     int patch = -1;                                ///< number of its patch; neither: too deep
     const std::deque<PieceLink>* links = nullptr;  ///< to its children
+    bool in_four = false;  ///< these are the quarters of a quadrilateral, as it lies, counter-clockwise
   };
   const std::vector<Node>& nodes() const { return nodes_; }
   int num_patches() const { return num_patches_; }
