@@ -3,8 +3,10 @@
 // nothing.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 
 #include <cmath>
+#include <csignal>
 #include <cstdlib>
 
 #include <nlohmann/json.hpp>
@@ -366,6 +368,23 @@ TEST(CliSample, FullDiskLeavesNothing) {
   };
   expect_failure(on.run({"--random", "100000"}, "catmull-clark", fill_disk), 4, {"out.csv", "cannot write"});
   EXPECT_EQ(on.directory.num_files(), 1);
+}
+
+/// Places come through a pipe, so that the program is at work when it is told to end.
+TEST(CliSample, InterruptLeavesNothing) {
+  const Sampling on(cube());
+  const std::string pipe = (on.directory / "in.csv").string();
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  Program program({"sample", (on.directory / "mesh.obj").string(), "-s", "catmull-clark", "--at", pipe, "-o", on.out});
+  std::signal(SIGPIPE, SIG_IGN);  // a program that ends too early shows below
+  std::ofstream file(pipe);
+  file << "face,u,v\n";
+  for (int i = 0; i < 200'000; ++i) file << i % 6 << ",0.5,0.25\n";
+  file.flush();
+  EXPECT_EQ(on.directory.num_files(), 3);  // the output under its temporary name
+  ::kill(program.id(), SIGINT);
+  EXPECT_EQ(program.wait().status, 130);
+  EXPECT_EQ(on.directory.num_files(), 2);
 }
 
 TEST(CliSample, EverySchemeRuns) {

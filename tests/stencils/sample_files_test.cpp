@@ -108,6 +108,40 @@ TEST(SampleReader, NamesTheLineOfWhatIsWrong) {
   expect_error<IoError>([&] { read_all(directory.path(), 1); }, {"directory"});
 }
 
+/// Whatever the bytes, rows are read that are inside the domain, or an error says what is wrong.
+TEST(SampleReader, TakesAnyBytes) {
+  const TemporaryDirectory directory;
+  std::mt19937 random(9);
+  const std::string_view alphabet = "0123456789.,,,-+eE\r\n\n naif\x01\xff";
+  int read = 0;
+  for (int i = 0; i < 3000; ++i) {
+    std::string text = "face,u,v\n5,0.25,1\n0,0,0.5\n3,1e-3,1\n";
+    for (unsigned k = random() % 4; k > 0; --k) {
+      const size_t at = random() % text.size();
+      const char byte = alphabet[random() % alphabet.size()];
+      switch (random() % 3) {
+        case 0:
+          text[at] = byte;
+          break;
+        case 1:
+          text.insert(text.begin() + std::ptrdiff_t(at), byte);
+          break;
+        default:
+          text.resize(at + 1);
+      }
+    }
+    try {
+      for (const Sample& s : read_all(directory.write("in.csv", text), 2)) {
+        ASSERT_TRUE(s.face >= 0 && s.face < 6 && s.u >= 0 && s.u <= 1 && s.v >= 0 && s.v <= 1) << text;
+        ++read;
+      }
+    } catch (const FormatError& error) {
+      EXPECT_NE(std::string_view(error.what()).find("in.csv"), std::string_view::npos);
+    }
+  }
+  EXPECT_GT(read, 1000);
+}
+
 TEST(SampleReader, ClampsToTheNearestPlaceOfTheRim) {
   std::mt19937 random(5);
   const auto coordinate = [&] { return double(random() % 4001) / 1000 - 1.5; };
