@@ -197,6 +197,37 @@ TEST(CliSample, GridsAreRowMajorWithUFastest) {
     EXPECT_EQ(rows[2][1], "0.3333333333333333");
     EXPECT_EQ(rows[2][2], "0");
   }
+  // More than one batch.
+  const std::vector<Sample> grid = LimitSurface(find_scheme("catmull-clark").value(), prism(5)).grid(70);
+  ASSERT_GT(grid.size(), 70'000u);
+  const std::vector<Row> rows = squares.rows({"--grid", "70"});
+  ASSERT_EQ(rows.size(), grid.size() + 1);
+  for (size_t i = 0; i < grid.size(); ++i) {
+    const Sample s = sample_of(rows[i + 1]);
+    ASSERT_TRUE(s.face == grid[i].face && s.u == grid[i].u && s.v == grid[i].v) << i;
+  }
+}
+
+TEST(CliSample, RulesAreThoseAskedFor) {
+  const Sampling open(grid(4, 4)), creased(tagged_cube()), cage(cube());
+  const auto first = [](const Sampling& on, std::vector<std::string> rules) {
+    rules.insert(rules.end(), {"--at", on.at("face,u,v\n0,0.125,0.25\n")});
+    return on.rows(rules).at(1);
+  };
+  const Row ends = first(open, {});
+  EXPECT_EQ(first(open, {"--boundary", "edge-and-corner"}), ends);
+  EXPECT_NE(first(open, {"--boundary", "edge-only"}), ends);
+  EXPECT_EQ(first(open, {"--boundary", "none"})[3], "hole");
+  const auto all = [](const Sampling& on, std::vector<std::string> rules) {
+    rules.insert(rules.end(), {"--grid", "3"});
+    return on.rows(rules);
+  };
+  EXPECT_NE(all(creased, {}), all(creased, {"--no-creases"}));
+  EXPECT_EQ(all(creased, {}), all(creased, {"--creasing", "uniform"}));
+  EXPECT_EQ(all(cage, {"--triangulate"}).size(), 1u + 36 * 9);
+  EXPECT_NE(all(cage, {"--triangulate"}), all(cage, {"--triangulate", "--triangles", "smooth"}));
+  EXPECT_NE(open.rows({"--grid", "3", "--option", "degree=3"}, "averaging"),
+            open.rows({"--grid", "3", "--option", "degree=2"}, "averaging"));
 }
 
 TEST(CliSample, RandomPlacesBelongToTheSeed) {
