@@ -80,8 +80,8 @@ VectorXd position_mask(const MatrixXd& A, const Slots& centre, const std::option
   return fourier->mask(0, limit_weights(fourier->blocks[0].real()).cast<std::complex<double>>()).real();
 }
 
-/// The whole ring of an interior vertex whose neighbourhood looks the same from every sector: the tangents are the cosine
-/// and the sine mask of block 1.
+/// The whole ring of an interior vertex whose neighbourhood looks the same from every sector: the tangents are the
+/// cosine and the sine mask of block 1.
 void add_ring_tangents(Side& side, const FourierBlocks& fourier) {
   const EigenStructure structure = eigen_structure(fourier);
   const EigenCluster* first = &first_of_block_1(structure);
@@ -119,8 +119,9 @@ void add_ring_tangents(Side& side, const FourierBlocks& fourier) {
 
 Plane ring_plane(const FourierBlocks& fourier) { return ring_plane(eigen_structure(fourier), fourier.n); }
 
-/// One side between two sharp edges. Its outline (the vertex and the ends of these edges) is a curve scheme of its own and
-/// gives the tangent along a crease, or the two tangents of a corner; the leading mode of the interior crosses a crease.
+/// One side between two sharp edges. Its outline (the vertex and the ends of these edges) is a curve scheme of its own
+/// and gives the tangent along a crease, or the two tangents of a corner; the leading mode of the interior crosses a
+/// crease.
 void add_border_tangents(Side& side, const MatrixXd& whole, const Outline& outline, bool is_corner) {
   const Index size = static_cast<Index>(whole.rows()), first = outline.first, last = outline.last;
   const Slots &curve = outline.curve, &inner = outline.inner;
@@ -137,6 +138,20 @@ void add_border_tangents(Side& side, const MatrixXd& whole, const Outline& outli
     return i < interior.clusters.size() ? std::abs(interior.clusters[i].value) : 0.0;
   };
 
+  // Across: (x, d) with d^T D = mu d^T and x^T (C - mu) = -d^T B.
+  const auto across = [&](const EigenCluster& cluster, VectorXd& mask) {
+    const double mu = cluster.value.real();
+    const VectorXd d = made_real(cluster.left.col(0));
+    const MatrixXd shifted = (C - mu * MatrixXd::Identity(C.rows(), C.cols())).transpose();
+    const VectorXd right = -(B.transpose() * d);
+    Eigen::CompleteOrthogonalDecomposition<MatrixXd> solver;
+    solver.setThreshold(1e-10);
+    solver.compute(shifted);
+    const VectorXd x = solver.solve(right);
+    mask = embedded(x, curve, size) + embedded(d, inner, size);
+    return (shifted * x - right).norm() <= 1e-9 * d.norm();
+  };
+
   if (is_corner) {
     VectorXd* tangents[] = {&side.tangent1, &side.tangent2};
     for (int i = 0; i < 2; ++i) {
@@ -149,10 +164,9 @@ void add_border_tangents(Side& side, const MatrixXd& whole, const Outline& outli
     const double lambda = std::min(side.lambda1, side.lambda2);
     if (modulus(0) > lambda * (1 + same_rate)) side.plane = Plane::no;
     if (std::abs(modulus(0) - lambda) <= lambda * same_rate) side.plane = Plane::slow;
-    for (const EigenCluster& cluster : interior.clusters) {
-      const VectorXd d = made_real(cluster.left.col(0));
-      side.second_order.push_back(embedded(d, inner, size));
-    }
+    VectorXd mask;
+    for (const EigenCluster& cluster : interior.clusters)
+      if (across(cluster, mask)) side.second_order.push_back(mask);
     return;
   }
 
@@ -167,24 +181,12 @@ void add_border_tangents(Side& side, const MatrixXd& whole, const Outline& outli
     side.lambda2 = std::abs(bending.value);
     return;
   }
-  // Across: (x, d) with d^T D = mu d^T and x^T (C - mu) = -d^T B.
-  const auto across = [&](const EigenCluster& cluster, VectorXd& mask) {
-    const double mu = cluster.value.real();
-    const VectorXd d = made_real(cluster.left.col(0));
-    const MatrixXd shifted = (C - mu * MatrixXd::Identity(C.rows(), C.cols())).transpose();
-    const VectorXd right = -(B.transpose() * d);
-    Eigen::CompleteOrthogonalDecomposition<MatrixXd> solver;
-    solver.setThreshold(1e-10);
-    solver.compute(shifted);
-    const VectorXd x = solver.solve(right);
-    mask = embedded(x, curve, size) + embedded(d, inner, size);
-    return (shifted * x - right).norm() <= 1e-9 * d.norm();
-  };
   const EigenCluster& leading = interior.clusters[0];
   side.lambda2 = std::abs(leading.value);
   VectorXd mask;
   const bool solvable = across(leading, mask);
-  // The leading mode is one-signed, its heights over the outline; the mask that takes it to a positive number points inwards.
+  // The leading mode is one-signed, its heights over the outline; the mask that takes it to a positive number points
+  // inwards.
   const VectorXd d = made_real(leading.left.col(0)), heights = made_real(leading.right.col(0));
   const double taken = d.dot(heights) * (heights.sum() < 0 ? -1 : 1);
   const double inward = (std::abs(taken) > 1e-8 ? taken : d.sum()) < 0 ? -1 : 1;
@@ -199,8 +201,8 @@ void add_border_tangents(Side& side, const MatrixXd& whole, const Outline& outli
     solver.compute(shifted);
     return VectorXd(embedded(right, curve, size) + embedded(solver.solve(-(B * right)), inner, size));
   };
-  // How far points next to the centre stand off the outline. Those of a border edge lie beside its ends; around a vertex they lie
-  // elsewhere along the outline, and what a parabola along it does is taken off.
+  // How far points next to the centre stand off the outline. Those of a border edge lie beside its ends; around a
+  // vertex they lie elsewhere along the outline, and what a parabola along it does is taken off.
   const auto height_of = [&](const VectorXd& values, const VectorXd& along) {
     if (outline.centre.size() > 1) return values(outline.inner_ring).mean() - values(outline.centre).mean();
     const VectorXd squares = along.cwiseAbs2();
@@ -210,8 +212,8 @@ void add_border_tangents(Side& side, const MatrixXd& whole, const Outline& outli
     return (values - fit[1] * squares)(outline.inner_ring).mean() - fit[0];
   };
   if (solvable && shared != modes.clusters.end() && !outline.inner_ring.empty()) {
-    // The outline bends at the same rate, by its mode b, so that the mask is known up to multiples of b's: the one that does not
-    // see a bend that all points next to the centre follow alike gives the direction across.
+    // The outline bends at the same rate, by its mode b, so that the mask is known up to multiples of b's: the one that
+    // does not see a bend that all points next to the centre follow alike gives the direction across.
     const VectorXd along = extended(modes.clusters[1], 0), rise = embedded(heights, inner, size);
     const Eigen::Index count = shared->geometric();
     MatrixXd bends(size, count), takes(size, count);
@@ -227,8 +229,8 @@ void add_border_tangents(Side& side, const MatrixXd& whole, const Outline& outli
   if (solvable) {
     side.tangent2 = inward * mask;
   } else if (shared != modes.clusters.end()) {
-    // A Jordan block with the outline's mode of the same eigenvalue: it feeds the interior, k mu^k, and wins. So the surface leaves
-    // the crease in the direction of that mode; to which side, some steps tell.
+    // A Jordan block with the outline's mode of the same eigenvalue: it feeds the interior, k mu^k, and wins. So the
+    // surface leaves the crease in the direction of that mode; to which side, some steps tell.
     const VectorXd l = embedded(made_real(shared->left.col(0)), curve, size);
     VectorXd fed = l;
     for (size_t i = 0; i < 2 && i < modes.clusters.size(); ++i) {  // without the constant and the mode along
@@ -236,7 +238,8 @@ void add_border_tangents(Side& side, const MatrixXd& whole, const Outline& outli
       fed -= left.dot(fed(curve)) / left.dot(right) * extended(modes.clusters[i], 0);
     }
     for (int k = 0; k < 10; ++k) fed = whole * fed / std::abs(leading.value);
-    const double height = fed(outline.inner_ring.empty() ? inner : outline.inner_ring).mean() - fed(outline.centre).mean();
+    const double height =
+        fed(outline.inner_ring.empty() ? inner : outline.inner_ring).mean() - fed(outline.centre).mean();
     side.tangent2 = (height < 0 ? -1 : 1) * l;
     side.second_order.push_back(inward * mask);
   }
@@ -251,7 +254,8 @@ void add_border_tangents(Side& side, const MatrixXd& whole, const Outline& outli
     highest = std::max(highest, height);
   }
   if (-lowest * highest > 1e-9) side.plane = Plane::no;  // a mode on both sides of the outline folds the surface
-  // The second sine mode against the tangent along the crease: slower, and interior normals keep an angle to the crease's.
+  // The second sine mode against the tangent along the crease: slower, and interior normals keep an angle to the
+  // crease's.
   if (modulus(1) > side.lambda1 * (1 + same_rate)) side.plane = Plane::no;
   if (std::abs(modulus(1) - side.lambda1) <= side.lambda1 * same_rate) side.plane = Plane::slow;
   for (size_t i = 1; i < interior.clusters.size(); ++i)
@@ -281,8 +285,10 @@ void add_free_tangents(Side& side, const MatrixXd& A, const Slots& ring) {
   L << left[0], left[1];
   R << right[0], right[1];
   const Eigen::Matrix2d taken = L.transpose() * R;
-  if (std::abs(taken.determinant()) < 1e-9) side.plane = Plane::slow;
-  else L = L * taken.inverse().transpose();
+  if (std::abs(taken.determinant()) < 1e-9)
+    side.plane = Plane::slow;
+  else
+    L = L * taken.inverse().transpose();
   double area = 0;  // of the characteristic map around the centre
   for (size_t i = 0; i + 1 < ring.size(); ++i) {
     const Eigen::RowVector2d a = R.row(ring[i]) - R.row(0), b = R.row(ring[i + 1]) - R.row(0);

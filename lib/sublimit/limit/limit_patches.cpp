@@ -328,7 +328,7 @@ void LimitPatches::evaluate(std::span<const Sample> samples, std::int64_t begin,
                   first_.data(),
                   coefficients_.data(),
                   sides_.data(),
-                  parts_.scheme.claims.regular < 2,
+                  parts_.scheme.claims.regular == 1,
                   parts_.scheme.is_dual()};
   std::vector<std::int64_t> rest;
   if (order == 0) loop.positions(samples, begin, end, out, rest);

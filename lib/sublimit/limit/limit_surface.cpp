@@ -57,7 +57,7 @@ LimitStencil LimitSurface::Parts::stencil(const Sample& s, int order) const {
   }
   if (order >= 2 && found.order < 2 && result.status == LimitStatus::regular)
     result.status = LimitStatus::unbounded_second;
-  if (order >= 2 && found.order == 2 && found.on_knot && scheme.claims.regular < 2) {
+  if (order >= 2 && found.order == 2 && found.on_knot && scheme.claims.regular == 1) {
     rows.conservativeResize(3, columns);
     if (result.status == LimitStatus::regular) result.status = LimitStatus::unbounded_second;
   }
@@ -221,23 +221,6 @@ LimitSamples BoundLimitSurface::evaluate(std::span<const Sample> samples, int or
   LimitSamples out;
   evaluate(samples, order, normals, out);
   return out;
-}
-
-std::vector<Sample> LimitSurface::grid(int N) const {
-  if (N < 2)
-    throw InvalidParameter("a grid of " + std::to_string(N) + " samples a side; there are 2 at least, the ends");
-  const bool triangles = parts_->addresses.triangles();
-  std::vector<Sample> samples;
-  const std::int64_t per_face = triangles ? std::int64_t(N) * (N + 1) / 2 : std::int64_t(N) * N;
-  samples.reserve(per_face * parts_->addresses.size());
-  for (Index f = 0; f < parts_->addresses.size(); ++f)
-    for (int j = 0; j < N; ++j)
-      for (int i = 0; i < (triangles ? N - j : N); ++i)
-        samples.push_back({f, double(i) / (N - 1), double(j) / (N - 1)});
-  if (triangles)  // sums of rounded fractions must not leave the triangle
-    for (Sample& s : samples)
-      if (s.u + s.v > 1) s.u = 1 - s.v;
-  return samples;
 }
 
 std::optional<Curvature> curvature(const LimitSamples& s, Index row) {

@@ -6,6 +6,8 @@
 //   x(f,u,v) = b T_m ... T_1 x_0      T_i: blocks of S on the path; b: basis of a polynomial piece, or a limit mask
 //
 // Pieces are computed once a type of neighbourhood (piece_types.h).
+#include <Eigen/Geometry>
+
 #include <memory>
 #include <optional>
 #include <span>
@@ -81,10 +83,17 @@ class LimitSurface {
   LimitSamples evaluate(const Points& points, std::span<const Sample> samples, int order = 0,
                         bool normals = true) const;
 
-  /// N x N samples per address, ends included, row-major, u fastest; triangles N (N + 1) / 2. Shared points are
-  /// computed once.
-  LimitSamples evaluate_grid(const Points& points, int N, int order = 0) const;
+  /// N x N samples per address, ends included, row-major, u fastest; triangles N (N + 1) / 2. Points that squares share
+  /// have the same bits in all of them.
+  LimitSamples evaluate_grid(const Points& points, int N, int order = 0, bool normals = true) const;
+  /// Their places.
+  /// @throws InvalidParameter  N < 2
+  /// @throws ResourceError     more samples than memory can hold
   std::vector<Sample> grid(int N) const;
+
+  /// For each address a box that holds its part of the limit: of the Bernstein coefficients of polynomial pieces, of
+  /// the points elsewhere, widened where weights are negative.
+  std::vector<Eigen::AlignedBox3d> bounding_boxes(const Points& points) const;
 
  private:
   friend class LimitPatches;

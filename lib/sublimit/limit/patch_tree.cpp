@@ -4,7 +4,7 @@
 namespace sublimit {
 namespace {
 
-constexpr int max_depth = 8;  // LimitPatches::Loop follows no more
+constexpr int max_depth = 8;       // LimitPatches::Loop follows no more
 constexpr size_t max_nodes = 300;  // a piece at a semi-sharp crease has about 2^sharpness patches: 150 kB then
 
 /// Monomials of T_i(s) T_j(t): rows by (i, j) of the monomial.

@@ -192,8 +192,10 @@ std::vector<PieceChild> of_corner(HalfEdge h, const Topology& parent, std::span<
   const Topology& t = steps.back().refinement->topology;
   const HalfEdge face = followed({Centre::Kind::face, h}, parent, steps).start;
   const HalfEdge before = t.ccw(face), vertex = exists(before) ? t.ccw(before) : no_half_edge;
-  const HalfEdge edge = exists(vertex) ? t.ccw(vertex) : no_half_edge;
-  if (!exists(edge)) throw AnalysisError("a corner's point has not four faces");
+  HalfEdge edge = exists(vertex) ? t.ccw(vertex) : no_half_edge;
+  const bool folded = edge == face;  // two faces only at the corner, glued along two edges
+  if (folded) edge = vertex;
+  if (!exists(edge) || t.ccw(edge) != face) throw AnalysisError("a corner's point has not four faces");
   const bool border_u = !exists(parent.twin(parent.prev(h))), border_v = !exists(parent.twin(h));
   const Span far_u = border_u ? Span::beyond : Span::upper, near_u = border_u ? Span::beside : Span::lower;
   const Span far_v = border_v ? Span::beyond : Span::upper, near_v = border_v ? Span::beside : Span::lower;
@@ -205,9 +207,21 @@ std::vector<PieceChild> of_corner(HalfEdge h, const Topology& parent, std::span<
   };
   add(face, {0, far_u, false}, {1, far_v, false});
   add(before, {1, far_v, false}, {0, near_u, true});
-  add(vertex, {0, near_u, true}, {1, near_v, true});
+  if (!folded) add(vertex, {0, near_u, true}, {1, near_v, true});
   add(edge, {1, near_v, true}, {0, far_u, false});
+  if (folded) add(edge, {0, Span::fold, false}, {0, Span::fold, false});
   const bool rounded = border_u && border_v;
+  if (HalfEdge first = h; !border_u && !border_v) {  // clockwise to where the fan begins, if it is open
+    do first = parent.next(parent.twin(first));
+    while (exists(parent.twin(first)) && first != h);
+    if (!exists(parent.twin(first))) {
+      for (PieceChild& child : result) child.map.radial = true;
+      // The point on the border is the one before the corners' points, around their face.
+      HalfEdge at = vertex;
+      for (HalfEdge k = first; k != h; k = parent.ccw(k)) at = t.prev(at);
+      add(t.prev(at), {0, Span::spoke, false}, {0, Span::spoke, false});
+    }
+  }
   if (border_v) {  // the two at the border point of this edge, on either side of it
     const HalfEdge along = t.next(edge);
     add(along, {0, far_u, false}, {1, Span::border, false});

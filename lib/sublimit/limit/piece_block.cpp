@@ -6,7 +6,7 @@
 namespace sublimit {
 namespace {
 
-constexpr Eigen::Index large = 96;  // slots
+constexpr Eigen::Index large = 192;  // slots: a regular piece of kobbelt has 100
 
 }  // namespace
 

@@ -87,7 +87,27 @@ std::pair<Coordinate, Coordinate> wedge(const Place& p, int along) {
   return {{Y, one - Y}, {fraction, one - fraction}};
 }
 
+/// Both coordinates times (2 sqrt(r) - 1) / r, r the larger one.
+Coordinate radial_axis(const Place& p, int axis) {
+  const Jet x = parent_axis(p, axis).x, r = parent_axis(p, p.u >= p.v ? 0 : 1).x, one = Jet::constant(1);
+  if (r.value <= 0) return {Jet::constant(-1), Jet::constant(2)};
+  const double value = r.value, root = std::sqrt(value);
+  const Jet factor = r.under(2 / root - 1 / value, -1 / (value * root) + 1 / (value * value),
+                             1.5 / (value * value * root) - 2 / (value * value * value));
+  const Jet moved = x * factor;
+  return {moved, one - moved};
+}
+
 std::array<Coordinate, 2> mapped(const PieceMap& map, const Place& p) {
+  const Jet zero = Jet::constant(0), one = Jet::constant(1);
+  if (map.axes[0].span == Span::spoke) {
+    const Jet r = parent_axis(p, p.u >= p.v ? 0 : 1).x, along = r.under(4 * r.value, 4, 0);
+    return {Coordinate{along, one - along}, Coordinate{one, zero}};
+  }
+  if (map.axes[0].span == Span::fold) {
+    const Jet least = parent_axis(p, p.u <= p.v ? 0 : 1).x, back = least.under(2 * least.value, 2, 0);
+    return {Coordinate{one - back, back}, Coordinate{zero, one}};
+  }
   if (map.axes[0].span == Span::wedge) {
     // `from` of axis 0 says which parent axis runs away from the border that the piece's point is on.
     const auto [Y, fraction] = wedge(p, map.axes[0].from);
@@ -96,7 +116,8 @@ std::array<Coordinate, 2> mapped(const PieceMap& map, const Place& p) {
   }
   std::array<Coordinate, 2> result;
   for (int i = 0; i < 2; ++i) {
-    result[i] = spanned(parent_axis(p, map.axes[i].from), map.axes[i].span);
+    result[i] =
+        spanned(map.radial ? radial_axis(p, map.axes[i].from) : parent_axis(p, map.axes[i].from), map.axes[i].span);
     if (map.axes[i].reversed) std::swap(result[i].x, result[i].rest);
   }
   return result;
@@ -112,7 +133,7 @@ Place PieceMap::operator()(const Place& p) const {
       for (int j = 0; j < 3; ++j) child[i] += barycentric[i][j] * parent[j];
     return {child[1], child[2], child[0], 0};
   }
-  if (axes[0].span <= Span::upper && axes[1].span <= Span::upper) {  // nearly always
+  if (!radial && axes[0].span <= Span::upper && axes[1].span <= Span::upper) {  // nearly always
     Place child;
     for (int i = 0; i < 2; ++i) {
       double x = axes[i].from == 0 ? p.u : p.v, rest = axes[i].from == 0 ? p.u1 : p.v1;
@@ -129,6 +150,8 @@ Place PieceMap::operator()(const Place& p) const {
 }
 
 bool PieceMap::contains(const Place& p) const {
+  if (axes[0].span == Span::spoke && !is_triangle) return p.u <= 0.25 && p.v <= 0.25;
+  if (axes[0].span == Span::fold && !is_triangle) return p.u <= 0.5 && p.v <= 0.5;
   const Place child = (*this)(p);
   if (is_triangle) return child.u >= 0 && child.v >= 0 && child.u1 >= 0;
   return child.u >= 0 && child.v >= 0 && child.u1 >= 0 && child.v1 >= 0;

@@ -29,6 +29,11 @@ enum class Span : std::uint8_t {
   beyond,  ///< 4 sqrt(x) - 3
   // Both sides are borders, and the corner is rounded: a triangle. X and Y as the three above give, in [0, 2].
   wedge,
+  // Neither side is a border, but the corner is on one, among three faces and more. These become one face, with the
+  // corner in the middle of a side: r = max(u, v) goes from there to the middle of that face first, up to a quarter.
+  spoke,  ///< (4 r, 1)
+  // The corner has two faces only, which are glued: what would be a face between them is a line.
+  fold,  ///< (1 - 2 min(u, v), 0)
 };
 
 /// From the parameters of a piece to those of one of its children.
@@ -40,6 +45,7 @@ struct PieceMap {
     bool reversed = false;
   };
   std::array<Axis, 2> axes{Axis{0}, Axis{1}};
+  bool radial = false;  ///< of (u, v) (2 sqrt(r) - 1) / r instead of (u, v): beyond the first quarter of a spoke
   /// Triangles: the child's barycentric coordinates (1-u-v, u, v) by the parent's.
   bool is_triangle = false;
   std::array<std::array<double, 3>, 3> barycentric{};

@@ -296,9 +296,15 @@ PieceRows piece_rows(const PieceType& root, Place place, int order, bool search)
     }
     const PieceLink& link = type->child(place);
     path.push_back({&link, place, 1});
+    Place before = place;
     place = link.map(place);
     if (link.repeats)
       while (path.back().times < 4095 && corner_at(type->kind(), place) < 0 && link.map.contains(place)) {
+        if (place.u == before.u && place.v == before.v) {  // it stays where it is, between corners
+          path.back().times = levels = enough_halves;
+          break;
+        }
+        before = place;
         place = link.map(place);
         ++path.back().times;
       }

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+// Boxes around parts of the limit. A polynomial lies in the hull of its Bernstein coefficients; any other piece in the
+// hull of the points that it depends on, if no weight is negative. Where some are, a place has its weights' absolute
+// sum, at most `reach` times the points' distance from one of them.
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <cmath>
+
+#include "sublimit/base/error.h"
+#include "sublimit/base/parallel_for.h"
+#include "sublimit/limit/limit_surface_parts.h"
+
+namespace sublimit {
+namespace {
+
+/// Levels that are looked into before the points themselves bound a piece.
+constexpr int depth = 3;
+
+double binomial(int n, int k) {
+  double value = 1;
+  for (int i = 1; i <= k; ++i) value = value * (n - k + i) / i;
+  return std::round(value);
+}
+
+/// Bernstein coefficients from those of the basis, by interpolation at the nodes of the control net.
+Eigen::MatrixXd bernstein_from(const PolynomialBasis& basis) {
+  const int d = basis.degree();
+  Eigen::MatrixXd ours(basis.size(), basis.size()), theirs(basis.size(), basis.size());
+  int row = 0;
+  for (int i = 0; i <= d; ++i)
+    for (int j = 0; j <= (basis.total() ? d - i : d); ++j, ++row) {
+      const double u = double(i) / d, v = double(j) / d;
+      ours.row(row) = basis.at(u, v, 0);
+      int column = 0;
+      for (int k = 0; k <= d; ++k)
+        for (int l = 0; l <= (basis.total() ? d - k : d); ++l, ++column)
+          theirs(row, column) = basis.total() ? binomial(d, k) * binomial(d - k, l) * std::pow(u, k) * std::pow(v, l) *
+                                                    std::pow(1 - u - v, d - k - l)
+                                              : binomial(d, k) * std::pow(u, k) * std::pow(1 - u, d - k) *
+                                                    binomial(d, l) * std::pow(v, l) * std::pow(1 - v, d - l);
+    }
+  return theirs.fullPivLu().solve(ours);
+}
+
+/// How far the limit leaves the points, relative to their extent, where weights are negative: seen at the corners of
+/// descendants, and doubled for what lies between.
+double reach(const PieceType& type) {
+  double most = 0;
+  const int corners = type.kind() == Piece::Kind::triangle ? 3 : 4;
+  for (const PieceLink& link : type.children())
+    for (int c = 0; c < corners; ++c) {
+      const RowMatrix row = link.block.pulled_back(link.type->corner_limit(c));
+      const double own = 1 - row.sum();  // of slot 0
+      most = std::max(most, row.cwiseMin(0).cwiseAbs().sum() + std::max(0.0, -own));
+    }
+  return 2 * most;
+}
+
+class Boxes {
+ public:
+  explicit Boxes(bool convex) : convex_(convex) {}
+
+  void extend(Eigen::AlignedBox3d& box, const PieceType& type, const Points& points, int levels) const {
+    if (const PiecePolynomial* p = type.polynomial()) {
+      const Points differences = points.bottomRows(points.rows() - 1).rowwise() - points.row(0);
+      const Eigen::MatrixXd M = bernstein_from(p->basis);
+      for (const RowMatrix& C : p->coefficients) {
+        const Points net = M * (C * differences);
+        for (Eigen::Index i = 0; i < net.rows(); ++i) box.extend(Eigen::Vector3d(net.row(i) + points.row(0)));
+      }
+      return;
+    }
+    if (levels > 0) {
+      const Points differences = points.bottomRows(points.rows() - 1).rowwise() - points.row(0);
+      for (const PieceLink& link : type.children()) {
+        const RowMatrix D = link.block.differences();
+        Points child(D.rows() + 1, 3);
+        child.row(0) = points.row(0) + link.block.origin() * differences;
+        child.bottomRows(D.rows()) = (D * differences).rowwise() + child.row(0);
+        extend(box, *link.type, child, levels - 1);
+      }
+      return;
+    }
+    const Eigen::RowVector3d low = points.colwise().minCoeff(), high = points.colwise().maxCoeff();
+    const Eigen::RowVector3d margin = convex_ ? Eigen::RowVector3d::Zero().eval() : (reach(type) * (high - low)).eval();
+    box.extend(Eigen::Vector3d(low - margin));
+    box.extend(Eigen::Vector3d(high + margin));
+  }
+
+ private:
+  bool convex_;
+};
+
+}  // namespace
+
+std::vector<Eigen::AlignedBox3d> LimitSurface::bounding_boxes(const Points& points) const {
+  const Parts& parts = *parts_;
+  if (points.cols() != 3 || points.rows() != parts.level.topology().num_vertices())
+    throw InvalidParameter("boxes need a point of three coordinates for each vertex");
+  const Parts::Pieces& pieces = parts.pieces();
+  const Points fine = parts.prepared ? Points(parts.prepared->S * points) : Points();
+  const Points& x = parts.prepared ? fine : points;
+  const Boxes boxes(parts.scheme.claims.convex_hull);
+  std::vector<Eigen::AlignedBox3d> of_piece(parts.num_pieces());
+  parallel_for_blocks(
+      parts.num_pieces(),
+      [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+        for (std::int64_t i = begin; i < end; ++i) {
+          const std::int64_t first = pieces.first[i], count = pieces.first[i + 1] - first;
+          Points local(count, 3);
+          for (std::int64_t j = 0; j < count; ++j) local.row(j) = x.row(pieces.vertices[first + j]);
+          boxes.extend(of_piece[i], *pieces.types[i], local, depth);
+          // The hull is rounded as points of the surface are.
+          const Eigen::Vector3d size = of_piece[i].min().cwiseAbs().cwiseMax(of_piece[i].max().cwiseAbs());
+          of_piece[i].min() -= 1e-14 * size;
+          of_piece[i].max() += 1e-14 * size;
+        }
+      },
+      64);
+  std::vector<Eigen::AlignedBox3d> result(parts.addresses.size());
+  for (Index a = 0; a < parts.addresses.size(); ++a)
+    for (const double u : {0.25, 0.75})
+      for (const double v : {0.25, 0.75}) {  // the pieces of an address
+        if (parts.addresses.triangles() && u + v > 1) continue;
+        const Sample s{a, u, v};
+        result[a].extend(of_piece[parts.number(s, parts.target(s))]);
+      }
+  return result;
+}
+
+}  // namespace sublimit

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+// Grids: the same places on all squares or triangles. Points on sides belong to several of them, and get the same bits.
+#include <algorithm>
+#include <string>
+
+#include "sublimit/base/error.h"
+#include "sublimit/limit/limit_surface_parts.h"
+
+namespace sublimit {
+
+std::vector<Sample> LimitSurface::grid(int N) const {
+  if (N < 2)
+    throw InvalidParameter("a grid of " + std::to_string(N) + " samples a side; there are 2 at least, the ends");
+  const bool triangles = parts_->addresses.triangles();
+  const std::int64_t per_face = triangles ? std::int64_t(N) * (N + 1) / 2 : std::int64_t(N) * N;
+  const Index faces = parts_->addresses.size();
+  std::vector<Sample> samples;
+  if (double(per_face) * faces * sizeof(Sample) > double(samples.max_size()) / 2)
+    throw ResourceError("a grid of " + std::to_string(N) + " samples a side on " + std::to_string(faces) + " faces");
+  samples.reserve(per_face * faces);
+  for (Index f = 0; f < faces; ++f)
+    for (int j = 0; j < N; ++j)
+      for (int i = 0; i < (triangles ? N - j : N); ++i) {
+        const double u = double(i) / (N - 1), v = double(j) / (N - 1);
+        samples.push_back({f, triangles && u + v > 1 ? 1 - v : u, v});  // a rounded sum must not leave the triangle
+      }
+  return samples;
+}
+
+namespace {
+
+/// Calls share(row, key) for every sample on a side: equal keys, equal points. Keys count vertices, then places on
+/// edges in steps of half a sample (squares of polygons have half an edge each), then places between the squares of a
+/// polygon.
+template <class Share>
+void shared_places(const Topology& t, const Addresses& addresses, int N, const Share& share) {
+  const std::int64_t steps = 2 * std::int64_t(N - 1);
+  const auto on_edge = [&](HalfEdge h, std::int64_t from_tail) -> std::int64_t {
+    if (from_tail == 0) return index(t.tail(h));
+    if (from_tail == steps) return index(t.head(h));
+    return t.num_vertices() + index(t.edge(h)) * (steps - 1) + (t.forward(h) ? from_tail : steps - from_tail) - 1;
+  };
+  const std::int64_t first_inside = t.num_vertices() + std::int64_t(t.num_edges()) * (steps - 1);
+  // From the middle of an edge (0 is on the edge) to the middle of the face.
+  const auto on_spoke = [&](HalfEdge h, std::int64_t k) -> std::int64_t {
+    if (k == 0) return on_edge(h, N - 1);
+    if (k == N - 1) h = t.first(t.face(h));  // the middle is one
+    return first_inside + index(h) * std::int64_t(N) + k;
+  };
+  std::int64_t row = 0;
+  for (Index a = 0; a < addresses.size(); ++a) {
+    const Addresses::Place at = addresses.place(a);
+    const bool triangle = addresses.triangles();
+    for (int j = 0; j < N; ++j)
+      for (int i = 0; i < (triangle ? N - j : N); ++i, ++row) {
+        const int k = N - 1 - i - j;  // triangles: steps from the third side
+        if (at.corner >= 0) {
+          const HalfEdge h = t.corner(at.face, at.corner), before = t.prev(h);
+          if (j == 0)
+            share(row, on_edge(h, i));
+          else if (i == 0)
+            share(row, on_edge(before, steps - j));
+          else if (i == N - 1)
+            share(row, on_spoke(h, j));
+          else if (j == N - 1)
+            share(row, on_spoke(before, i));
+          continue;
+        }
+        const HalfEdge h = t.first(at.face);
+        if (j == 0)
+          share(row, on_edge(h, 2 * i));
+        else if (triangle && k == 0)
+          share(row, on_edge(t.next(h), 2 * j));
+        else if (!triangle && i == N - 1)
+          share(row, on_edge(t.next(h), 2 * j));
+        else if (!triangle && j == N - 1)
+          share(row, on_edge(t.next(t.next(h)), 2 * (N - 1 - i)));
+        else if (i == 0)
+          share(row, on_edge(t.prev(h), 2 * (N - 1 - j)));
+      }
+  }
+}
+
+}  // namespace
+
+LimitSamples LimitSurface::evaluate_grid(const Points& points, int N, int order, bool normals) const {
+  const std::vector<Sample> samples = grid(N);
+  LimitSamples result = evaluate(points, samples, order, normals);
+  const Topology& t = parts_->level.topology();
+  const std::int64_t keys =
+      t.num_vertices() + std::int64_t(t.num_edges()) * (2 * std::int64_t(N - 1) - 1) +
+      (t.uniform_face_size() == (parts_->addresses.triangles() ? 3 : 4) ? 0 : std::int64_t(t.num_half_edges()) * N);
+  std::vector<std::int64_t> owner(keys, -1);
+  shared_places(t, parts_->addresses, N, [&](std::int64_t row, std::int64_t key) {
+    std::int64_t& first = owner[key];
+    if (first < 0)
+      first = row;
+    else
+      result.position.row(row) = result.position.row(first);
+  });
+  return result;
+}
+
+}  // namespace sublimit
