@@ -114,7 +114,7 @@ TEST(SampleReader, TakesAnyBytes) {
   std::mt19937 random(9);
   const std::string_view alphabet = "0123456789.,,,-+eE\r\n\n naif\x01\xff";
   int read = 0;
-  for (int i = 0; i < 3000; ++i) {
+  for (int i = 0; i < 1000; ++i) {
     std::string text = "face,u,v\n5,0.25,1\n0,0,0.5\n3,1e-3,1\n";
     for (unsigned k = random() % 4; k > 0; --k) {
       const size_t at = random() % text.size();
@@ -139,7 +139,7 @@ TEST(SampleReader, TakesAnyBytes) {
       EXPECT_NE(std::string_view(error.what()).find("in.csv"), std::string_view::npos);
     }
   }
-  EXPECT_GT(read, 1000);
+  EXPECT_GT(read, 300);
 }
 
 TEST(SampleReader, ClampsToTheNearestPlaceOfTheRim) {
