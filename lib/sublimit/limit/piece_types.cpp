@@ -199,8 +199,20 @@ const RowMatrix& PieceType::corner_rows(int corner) const {
           places.row(i) << there.u - here.u, there.v - here.v;
           values.row(i) = (at->corner_limit(other) - rows.row(0)) * right;
         }
-        rows.conservativeResize(3, n);
-        rows.bottomRows(2) = places.inverse() * values * pairing.inverse() * left.transpose();
+        const Eigen::Matrix2d gradient = places.inverse() * values;
+        // They are linear in the parameters where the neighbourhood is regular; around an extraordinary vertex whose
+        // eigenvalue happens to be the same, they are not.
+        double deviation = 0;
+        for (const auto& [u, v] : {std::pair{0.5, 0.25}, {0.25, 0.5}, {0.5, 0.5}}) {
+          const Place there = corners == 3 ? triangle_place(u, v) : quad_place(u, v);
+          const Eigen::RowVector2d value = (piece_rows(*at, there, 0, false).rows.row(0) - rows.row(0)) * right;
+          const Eigen::RowVector2d linear = Eigen::RowVector2d(u - here.u, v - here.v) * gradient;
+          deviation = std::max(deviation, (value - linear).norm());
+        }
+        if (deviation < 1e-9 * gradient.norm()) {
+          rows.conservativeResize(3, n);
+          rows.bottomRows(2) = gradient * pairing.inverse() * left.transpose();
+        }
       }
     }
     for (size_t i = path.first; i-- > 0;) {
