@@ -24,21 +24,20 @@ std::string curve_scheme_names() {
   return names;
 }
 
-/// Options of the scheme, without those of meshes.
+CurveScheme<double> scheme_of(const Common& common) { return *find_curve_scheme(common.scheme, curve_options(common)); }
+
+}  // namespace
+
 SchemeOptions curve_options(const Common& common) {
-  for (const auto& [name, value] : {std::pair("--boundary", common.boundary), std::pair("--creasing", common.creasing),
-                                    std::pair("--triangles", common.triangles),
-                                    std::pair("--face-varying", common.face_varying)})
+  for (const auto& [name, value] :
+       {std::pair("--boundary", common.boundary), std::pair("--creasing", common.creasing),
+        std::pair("--triangles", common.triangles), std::pair("--face-varying", common.face_varying)})
     if (!value.empty()) throw InvalidOption(std::string(name) + " is for meshes; " + common.scheme + " refines curves");
   for (const auto& [name, given] :
        {std::pair("--triangulate", common.triangulate), std::pair("--no-creases", common.no_creases)})
     if (given) throw InvalidOption(std::string(name) + " is for meshes; " + common.scheme + " refines curves");
   return given_options(common);
 }
-
-CurveScheme<double> scheme_of(const Common& common) { return *find_curve_scheme(common.scheme, curve_options(common)); }
-
-}  // namespace
 
 ControlPolygon load_polygon(const CurveJob& job, Progress& progress, bool tangents) {
   const Common& common = *job.common;

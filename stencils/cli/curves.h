@@ -18,6 +18,10 @@ struct CurveJob {
 /// Whether `common.scheme` names a curve scheme.
 bool is_curve_job(const Common& common);
 
+/// Options of the scheme.
+/// @throws InvalidOption  options of meshes
+SchemeOptions curve_options(const Common& common);
+
 /// For a file that is no mesh: fails with a word about curve schemes if it is a polygon.
 void refuse_polygon(const Common& common);
 

@@ -1,12 +1,160 @@
 // SPDX-License-Identifier: Apache-2.0
+// Limits of curves anywhere, in a CSV:
+//
+//   in    segment,t
+//   out   segment,t,status,x,y[,z],[xt,yt,zt,[xtt,ytt,ztt,]]nx,ny[,nz]
+#include <fmt/core.h>
+
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <random>
+
+#include "curves.h"
 #include "sample.h"
+#include "sublimit/base/atomic_file.h"
 #include "sublimit/base/error.h"
+#include "sublimit/base/format_number.h"
+#include "sublimit/csv_rows.h"
+#include "sublimit/curve_schemes.h"
+#include "sublimit/geometric_schemes.h"
+#include "sublimit/limit/limit_curve.h"
 
 namespace sublimit::cli {
+namespace {
+
+constexpr size_t samples_per_batch = 65536;
+
+/// The next places: at most so many, fewer only at the end.
+using Source = std::function<std::vector<CurveSample>(size_t most)>;
+using Evaluation = std::function<CurveSamples(std::span<const CurveSample>)>;
+
+Source source_of(const SampleJob& job, Index segments, std::shared_ptr<CsvRows> rows) {
+  if (rows)
+    return [=, clamp = job.clamp](size_t most) {
+      const std::string valid = fmt::format("segments are 0 to {}", segments - 1);
+      std::vector<CurveSample> batch;
+      while (batch.size() < most && rows->next()) {
+        const std::int64_t segment = rows->integer(0, valid);
+        if (segment < 0 || segment >= segments)
+          throw FormatError(rows->place() + fmt::format("segment {} does not exist; {}", segment, valid));
+        double t = rows->finite(1);
+        if (!(t >= 0 && t <= 1)) {
+          if (!clamp)
+            throw FormatError(rows->place() + "t = " + format_number(t) +
+                              " is outside 0 <= t <= 1; --clamp moves such places to the ends");
+          t = t < 0 ? 0 : 1;
+        }
+        batch.push_back({static_cast<Index>(segment), t});
+      }
+      return batch;
+    };
+  if (job.grid)
+    return [N = *job.grid, count = *job.grid * segments, next = std::int64_t{0}](size_t most) mutable {
+      std::vector<CurveSample> batch;
+      for (; batch.size() < most && next < count; ++next)
+        batch.push_back({static_cast<Index>(next / N), double(next % N) / double(N - 1)});
+      return batch;
+    };
+  // As random_samples.h has it: the standard's distributions differ between platforms.
+  return [numbers = std::mt19937_64(job.seed), left = segments > 0 ? *job.random_count : 0,
+          segments](size_t most) mutable {
+    std::vector<CurveSample> batch;
+    for (; batch.size() < most && left > 0; --left) {
+      const auto segment = static_cast<Index>(numbers() % std::uint64_t(segments));
+      batch.push_back({segment, double(numbers() >> 11) * 0x1p-53});
+    }
+    return batch;
+  };
+}
+
+std::string coordinate(Index i, Index dimension) {
+  return dimension <= 3 ? std::string(1, "xyz"[i]) : fmt::format("x{}", i);
+}
+
+std::int64_t write(const SampleJob& job, Index dimension, const Source& source, const Evaluation& evaluate,
+                   Progress& progress) {
+  AtomicFile file(job.output);
+  std::string text = "segment,t,status";
+  const auto names = [&](const char* before, const char* behind) {
+    for (Index i = 0; i < dimension; ++i) text += fmt::format(",{}{}{}", before, coordinate(i, dimension), behind);
+  };
+  names("", "");
+  if (job.derivatives >= 1) names("", "t");
+  if (job.derivatives >= 2) names("", "tt");
+  if (dimension <= 3) names("n", "");
+  file.write(text + "\n");
+  std::int64_t written = 0;
+  for (;;) {
+    const std::vector<CurveSample> batch = source(samples_per_batch);
+    const CurveSamples found = evaluate(batch);
+    text.clear();
+    for (size_t i = 0; i < batch.size(); ++i) {
+      const auto row = static_cast<Eigen::Index>(i);
+      append_number(text, batch[i].segment);
+      text += ',';
+      append_number(text, batch[i].t);
+      text += ',';
+      text += name(found.status[i]);
+      const auto append = [&](const Points& m, bool exists) {
+        for (Index k = 0; k < dimension; ++k) {
+          text += ',';
+          if (exists && std::isfinite(m(row, k))) append_number(text, m(row, k));
+        }
+      };
+      append(found.position, true);
+      if (job.derivatives >= 1) append(found.first, found.order[i] >= 1);
+      if (job.derivatives >= 2) append(found.second, found.order[i] >= 2);
+      if (dimension <= 3) append(found.normal, !found.normal.row(row).isZero(0));
+      text += '\n';
+    }
+    file.write(text);
+    written += static_cast<std::int64_t>(batch.size());
+    if (batch.size() < samples_per_batch) break;
+    progress.note(fmt::format("sampling: {} done", written));
+  }
+  file.commit();
+  return written;
+}
+
+}  // namespace
 
 int sample_curves(const SampleJob& job) {
-  throw InvalidOption(job.common.scheme + " refines curves; `sample` takes schemes of surfaces (`sublimit schemes` " +
-                      "lists all), and `limit` gives the points of a level of curves");
+  if (job.curvature)
+    throw InvalidOption("--curvature is for surfaces; --derivatives 2 has what the curvature of a curve is made of");
+  check_output_path(job.output, {".csv"});
+  std::shared_ptr<CsvRows> rows;
+  if (!job.at.empty()) rows = std::make_shared<CsvRows>(job.at, std::vector<std::string>{"segment", "t"});
+  Progress progress(job.common.quiet);
+  const CurveJob curve_job{&job.common, 0, job.output, "", job.closed, false};
+  const SchemeOptions options = curve_options(job.common);
+  const auto geometric = find_geometric_scheme(job.common.scheme, options);
+  const auto linear = geometric ? std::nullopt : find_curve_scheme(job.common.scheme, options);
+  const ControlPolygon polygon =
+      load_polygon(curve_job, progress, geometric.has_value() || linear->masks.unknowns() > 1);
+  std::int64_t written = 0;
+  naming_mesh(job.common, [&] {
+    progress.step("sampling");
+    // Normals in the plane take one derivative, in space two.
+    const int order = std::max(job.derivatives, polygon.dimension() == 2 ? 1 : 2);
+    if (geometric) {
+      Index segments = 0;
+      for (const ControlPolygon::Curve& curve : polygon.curves)
+        segments += static_cast<Index>(curve.points.size()) - (curve.closed ? 0 : 1);
+      written = write(
+          job, polygon.dimension(), source_of(job, segments, rows),
+          [&](std::span<const CurveSample> batch) { return evaluate(*geometric, polygon, batch, order); }, progress);
+      return;
+    }
+    const LimitCurve curve(*linear, polygon);
+    const Points x = unknowns(*linear, polygon);
+    written = write(
+        job, polygon.dimension(), source_of(job, curve.num_segments(), rows),
+        [&](std::span<const CurveSample> batch) { return curve.evaluate(x, batch, order); }, progress);
+  });
+  progress.step("");
+  if (!job.common.quiet) fmt::print("{}: {} samples\n", job.output, written);
+  return 0;
 }
 
 }  // namespace sublimit::cli

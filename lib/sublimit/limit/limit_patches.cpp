@@ -151,6 +151,7 @@ struct LimitPatches::Loop {
   /// False: to be done the long way.
   template <int Order>
   [[gnu::always_inline]] bool row(const Sample& sample, bool normals, LimitSamples& out, std::int64_t i) const {
+    if (!parts.is_inside(sample)) return false;
     const LimitSurface::Parts::Target target = parts.target(sample);
     const Index number = parts.number(sample, target);
     const PatchTree& tree = *pieces.trees[number];
