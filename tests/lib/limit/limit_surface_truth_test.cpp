@@ -1,17 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// The limit surface against the truth: brute force in 256-bit floats (support/limit_truth.h).
-#include "sublimit/limit/limit_surface.h"
-
+// The limit surface against the truth (support/limit_truth.h), for every scheme, on meshes that have everything at
+// once: at random places, on edges, and towards irregular vertices down to 2^-40.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
+#include <cmath>
 #include <random>
+#include <sstream>
 
-#include "support/hard_meshes.h"
-#include "support/irregular_meshes.h"
+#include "sublimit/limit/limit_surface.h"
+#include "sublimit/mesh/read_mesh.h"
 #include "support/limit_truth.h"
-#include "support/meshes.h"
+#include "support/places.h"
+#include "support/shared_meshes.h"
+#include "support/tested_schemes.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {
@@ -19,17 +23,12 @@ namespace {
 
 using Vector = TruePoint::Vector;
 
-/// Largest errors that were seen: positions relative to the bounding box, the rest relative to what they measure.
-struct Errors {
-  double position = 0, normal = 0, first = 0, second = 0;
-  int places = 0, with_first = 0, with_second = 0;
-  std::string where;
-};
+/// Derivatives, relative to their own size.
+constexpr double first_tolerance = 1e-11, second_tolerance = 1e-9;
+/// Polynomials of degree 8 and 9 are interpolated, and derived twice at their ends.
+constexpr double second_tolerance_of_high_degrees = 1e-6;
 
-double relative(const Eigen::Vector3d& ours, const Vector& truth) {
-  const double size = double(truth.norm()), error = double((ours.cast<Precise>() - truth).norm());
-  return size == 0 ? error : error / size;
-}
+double error(const Eigen::Vector3d& ours, const Vector& truth) { return double((ours.cast<Precise>() - truth).norm()); }
 
 Eigen::Vector3d unit_normal(const Vector& du, const Vector& dv) {
   using Three = Eigen::Matrix<Precise, 3, 1>;
@@ -37,91 +36,176 @@ Eigen::Vector3d unit_normal(const Vector& du, const Vector& dv) {
   return (n / n.norm()).cast<double>();
 }
 
-class Comparison {
+/// A surface beside the truth. What was compared is counted, so that no test passes by comparing nothing.
+class Beside {
  public:
-  Comparison(const std::string& name, const SchemeOptions& options, const ControlMesh& mesh)
-      : truth_(*find_scheme<Precise>(name, options)), surface_(*find_scheme(name, options), mesh), points_(mesh.positions) {
-    box_ = (points_.colwise().maxCoeff() - points_.colwise().minCoeff()).norm();
-  }
+  Beside(const Scheme<double>& scheme, const Scheme<Precise>& precise, const ControlMesh& mesh)
+      : precise_(precise),
+        surface_(scheme, mesh),
+        points_(mesh.positions),
+        box_(diagonal(points_)),
+        smoothness_(scheme.claims.regular) {}
   const LimitSurface& surface() const { return surface_; }
+  const Topology& topology() const { return surface_.level().topology(); }
 
-  void add(const Sample& s) {
-    const LimitStencil ours = surface_.stencil(s, 2);
-    if (ours.status == LimitStatus::hole) return;
-    const TruePoint truth = true_limit(truth_, surface_.level(), points_, s);
-    Points local(ours.vertices.size(), 3);
-    for (size_t i = 0; i < ours.vertices.size(); ++i) local.row(i) = points_.row(ours.vertices[i]);
-    const Points rows = ours.weights * local;
-    const auto record = [&](double& worst, double error, double tolerance, const char* what) {
-      if (error > tolerance && !(error <= worst))
-        errors.where = std::string(what) + " at face " + std::to_string(s.face) + " (" + std::to_string(s.u) + ", " +
-                       std::to_string(s.v) + "), " + name(ours.status);
-      worst = std::max(worst, error);
+  void compare(const Sample& s) {
+    const LimitStencil stencil = surface_.stencil(s, 2);
+    if (stencil.status == LimitStatus::hole) return;
+    std::ostringstream where;
+    where.precision(17);
+    where << "square " << s.face << " (" << s.u << ", " << s.v << "), " << name(stencil.status);
+    SCOPED_TRACE(where.str());
+    const TruePoint truth = true_limit(precise_, surface_.level(), points_, s);
+    const LimitSamples ours = surface_.evaluate(points_, std::span(&s, 1), 2);
+    ++places;
+    if (truth.has_position) {
+      EXPECT_LE(error(ours.position.row(0), truth.position), reference * box_);
+    }
+    if (!truth.has_first) return;
+    EXPECT_GE(ours.order[0], 1);
+    if (ours.order[0] < 1) return;
+    ++first;
+    const double least = vanishing(stencil, 1, 2), first_error = std::max(first_tolerance, 10 * truth.first_error);
+    EXPECT_LE(error(ours.du.row(0), truth.du), first_error * double(truth.du.norm()) + least);
+    EXPECT_LE(error(ours.dv.row(0), truth.dv), first_error * double(truth.dv.norm()) + least);
+    const Eigen::Vector3d normal = unit_normal(truth.du, truth.dv);
+    if (normal.allFinite() && truth.is_exact) {
+      EXPECT_LE((Eigen::Vector3d(ours.normal.row(0)) - normal).norm(), reference_angle);
+    }
+    if (!truth.has_second) return;
+    // Where second derivatives jump, one-sided ones are not given; pieces with sharpness are cut in more places.
+    if (smoothness_ < 2 && ours.order[0] == 1 && (ours.status[0] == LimitStatus::crease || smoothness_ == 0)) return;
+    EXPECT_EQ(ours.order[0], 2);
+    if (ours.order[0] < 2) return;
+    ++second;
+    // Relative to the largest: single ones may vanish.
+    const double size = double(std::max({truth.duu.norm(), truth.duv.norm(), truth.dvv.norm()}));
+    const double least2 = vanishing(stencil, 3, 3);
+    const double tolerance = smoothness_ < 7 ? second_tolerance : second_tolerance_of_high_degrees;
+    const auto expect_close = [&](const Eigen::Vector3d& x, const Vector& y) {
+      EXPECT_LE(error(x, y), tolerance * size + least2);
     };
-    ++errors.places;
-    if (truth.has_position)
-      record(errors.position, double((Eigen::Vector3d(rows.row(0)).cast<Precise>() - truth.position).norm()) / box_, 1e-13, "position");
-    if (truth.has_first && rows.rows() >= 3) {
-      ++errors.with_first;
-      record(errors.first, std::max(relative(rows.row(1), truth.du), relative(rows.row(2), truth.dv)), 1e-11, "first");
-      const Eigen::Vector3d a = rows.row(1), b = rows.row(2);
-      record(errors.normal, (a.cross(b).normalized() - unit_normal(truth.du, truth.dv)).norm(), 1e-9, "normal");
-    }
-    if (truth.has_second && rows.rows() == 6) {
-      ++errors.with_second;
-      // Relative to the largest: single ones may vanish.
-      const Precise size = std::max({truth.duu.norm(), truth.duv.norm(), truth.dvv.norm()});
-      Precise error = 0;
-      const Vector* second[] = {&truth.duu, &truth.duv, &truth.dvv};
-      for (int k = 0; k < 3; ++k)
-        error = std::max<Precise>(error, (Eigen::Vector3d(rows.row(3 + k)).cast<Precise>() - *second[k]).norm());
-      record(errors.second, double(size == 0 ? error : Precise(error / size)), 1e-9, "second");
-    }
+    expect_close(ours.duu.row(0), truth.duu);
+    expect_close(ours.duv.row(0), truth.duv);
+    expect_close(ours.dvv.row(0), truth.dvv);
   }
 
-  Errors errors;
+  /// What rounding leaves of derivatives that vanish: of the terms that cancel, in the largest row of the order.
+  double vanishing(const LimitStencil& stencil, int first_row, int rows) const {
+    double largest = 0;
+    for (int row = first_row; row < first_row + rows; ++row) {
+      double terms = 0;
+      for (size_t j = 0; j < stencil.vertices.size(); ++j)
+        terms += std::abs(stencil.weights(row, Eigen::Index(j))) *
+                 (points_.row(stencil.vertices[j]) - points_.row(stencil.vertices[0])).norm();
+      largest = std::max(largest, terms);
+    }
+    return rounding(16, largest);
+  }
+
+  int places = 0, first = 0, second = 0;
 
  private:
-  Scheme<Precise> truth_;
+  Scheme<Precise> precise_;
   LimitSurface surface_;
   Points points_;
   double box_;
+  int smoothness_;
 };
 
-TEST(Explore, All) {
-  const char* only = std::getenv("ONLY");
-  const int count = std::getenv("COUNT") ? std::atoi(std::getenv("COUNT")) : 40;
-  for (const Scheme<double>& scheme : all_schemes()) {
-    if (only && scheme.name != only) continue;
-    const bool triangles = scheme.face_size() == 3;
-    for (int kind = 0; kind < 4; ++kind) {
-      Hardness hardness{kind >= 1, kind == 2, kind == 3};
-      if (kind >= 2 && scheme.sharpening == Sharpening::boundary) continue;
-      if (kind == 3 && scheme.sharpening != Sharpening::semi_sharp) continue;
-      const ControlMesh mesh = triangles ? hard_triangles(1, hardness) : hard_polygons(1, hardness);
-      try {
-        Comparison c(scheme.name, {}, mesh);
-        std::mt19937 rng(7);
-        std::uniform_real_distribution<double> U(0, 1);
-        for (int i = 0; i < count; ++i) {
-          Sample s{Index(rng() % c.surface().addresses().size()), U(rng), U(rng)};
-          if (i % 2) {
-            const double d = std::ldexp(1.0, -1 - int(rng() % 40));
-            s.u *= d, s.v *= d;
-          }
-          if (triangles && s.u + s.v > 1) s.u = 1 - s.u, s.v = 1 - s.v;
-          c.add(s);
-        }
-        const Errors& e = c.errors;
-        std::printf("%-22s kind %d faces %d: position %.1e first %.1e normal %.1e second %.1e  (%d %d %d) %s\n", scheme.name.c_str(),
-                    kind, int(mesh.num_faces()), e.position, e.first, e.normal, e.second, e.places, e.with_first, e.with_second, e.where.c_str());
-      } catch (const std::exception& e) {
-        std::printf("%-22s kind %d: %s\n", scheme.name.c_str(), kind, e.what());
-      }
-      std::fflush(stdout);
+class LimitSurfaceTruth : public ::testing::TestWithParam<TestedScheme> {
+ protected:
+  void SetUp() override {
+    scheme_ = GetParam().scheme();
+    precise_ = GetParam().scheme<Precise>();
+  }
+  bool triangles() const { return takes_triangles(scheme_); }
+  /// With pieces that are polynomials: their truth is quick.
+  bool quick() const { return has_polynomials(scheme_); }
+  int count(int quick_ones, int slow_ones) const {
+    return std::max(1, (quick() ? quick_ones : slow_ones) * (full_sweep() ? 10 : 1) / effort(scheme_));
+  }
+  std::vector<ControlMesh> meshes() const { return hard_meshes(scheme_, 1); }
+
+  Scheme<double> scheme_;
+  Scheme<Precise> precise_;
+};
+
+TEST_P(LimitSurfaceTruth, AtRandomPlaces) {
+  int second = 0;
+  for (const ControlMesh& mesh : meshes()) {
+    Beside beside(scheme_, precise_, mesh);
+    for (const Sample& s : random_places(beside.surface().addresses(), count(25, 2), 7)) beside.compare(s);
+    EXPECT_GE(beside.first, count(12, 1) / 4);
+    second += beside.second;
+  }
+  EXPECT_EQ(second > 0, quick());
+}
+
+TEST_P(LimitSurfaceTruth, OnEdges) {
+  for (const ControlMesh& mesh : meshes()) {
+    Beside beside(scheme_, precise_, mesh);
+    std::mt19937 random(3);
+    for (int i = 0; i < count(16, 2); ++i) {
+      const HalfEdge h{Index(random() % std::uint32_t(beside.topology().num_half_edges()))};
+      const double s = double(1 + random() % 63) / 64;
+      beside.compare(on_edge(beside.topology(), beside.surface().addresses(), h, s));
     }
   }
 }
+
+/// Every vertex is irregular somehow but for those of valence 4 (6) without anything sharp around.
+TEST_P(LimitSurfaceTruth, TowardsVertices) {
+  for (const ControlMesh& mesh : meshes()) {
+    Beside beside(scheme_, precise_, mesh);
+    const Topology& t = beside.topology();
+    std::mt19937 random(5);
+    for (int i = 0; i < count(40, 2);) {
+      const HalfEdge corner{Index(random() % std::uint32_t(t.num_half_edges()))};
+      const Vertex v = t.tail(corner);
+      if (!t.is_boundary(v) && t.num_faces(v) == (triangles() ? 6 : 4) && random() % 4 != 0) continue;
+      // All exponents in turn, along the diagonal, near one side, near the other, and on a side.
+      const double d = std::ldexp(1.0, quick() ? -1 - i % 40 : -1 - int(random() % 40));
+      const double directions[][2] = {{0.5, 0.5}, {0.625, 0.03125}, {0.0625, 0.75}, {0.5, 0}};
+      const auto& [a, b] = directions[i / 3 % 4];
+      beside.compare(from_corner(t, beside.surface().addresses(), corner, a * d, b * d));
+      ++i;
+    }
+  }
+}
+
+/// Dual schemes have their irregular places in the middle of faces, and n-gons theirs.
+TEST_P(LimitSurfaceTruth, TowardsCentresOfFaces) {
+  if (triangles()) GTEST_SKIP() << "triangles have regular centres";
+  for (const ControlMesh& mesh : meshes()) {
+    Beside beside(scheme_, precise_, mesh);
+    const Topology& t = beside.topology();
+    std::mt19937 random(9);
+    for (int i = 0; i < count(20, 1);) {
+      const HalfEdge corner{Index(random() % std::uint32_t(t.num_half_edges()))};
+      if (t.size(t.face(corner)) == 4) continue;
+      const double d = std::ldexp(1.0, quick() ? -1 - (2 * i + 1) % 40 : -1 - int(random() % 40));
+      const double a = i % 3 == 2 ? 0.125 : 1, b = i % 3 == 1 ? 0.25 : 0.5;
+      beside.compare(from_corner(t, beside.surface().addresses(), corner, 1 - a * d, 1 - b * d));
+      ++i;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Schemes, LimitSurfaceTruth, ::testing::ValuesIn(schemes_and_degrees()), test_name);
+
+class SharedMeshSurface : public ::testing::TestWithParam<SharedMesh> {};
+
+TEST_P(SharedMeshSurface, IsTheTruth) {
+  const ControlMesh mesh = read_mesh(GetParam().path);
+  if (mesh.num_faces() >= 400 && !full_sweep()) GTEST_SKIP() << "in the full sweep";
+  Beside beside(find_scheme(GetParam().scheme).value(), find_scheme<Precise>(GetParam().scheme).value(), mesh);
+  for (const Sample& s : random_places(beside.surface().addresses(), full_sweep() ? 40 : 4, 1)) beside.compare(s);
+}
+
+GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(SharedMeshSurface);
+INSTANTIATE_TEST_SUITE_P(Full, SharedMeshSurface, ::testing::ValuesIn(shared_meshes()),
+                         [](const auto& tested) { return tested.param.name; });
 
 }  // namespace
 }  // namespace sublimit::testing

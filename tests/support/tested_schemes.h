@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// Every registered scheme, and averaging with all its degrees: what the laws of limit surfaces run over.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "sublimit/schemes.h"
+#include "support/hard_meshes.h"
+
+namespace sublimit::testing {
+
+struct TestedScheme {
+  std::string name;
+  SchemeOptions options;
+
+  template <class T = double>
+  Scheme<T> scheme() const {
+    return find_scheme<T>(name, options).value();
+  }
+  friend std::ostream& operator<<(std::ostream& out, const TestedScheme& t) {
+    out << t.name;
+    for (const auto& [key, value] : t.options) out << " " << key << "=" << value;
+    return out;
+  }
+};
+
+inline std::vector<TestedScheme> schemes_and_degrees() {
+  std::vector<TestedScheme> tested;
+  for (const Scheme<double>& scheme : all_schemes())
+    if (scheme.name != "averaging") tested.push_back({scheme.name, {}});
+  for (int degree = 2; degree <= 9; ++degree) tested.push_back({"averaging", {{"degree", std::to_string(degree)}}});
+  return tested;
+}
+
+/// catmull_clark, averaging_5
+inline std::string test_name(const ::testing::TestParamInfo<TestedScheme>& info) {
+  std::string name = info.param.name;
+  std::replace(name.begin(), name.end(), '-', '_');
+  for (const auto& [key, value] : info.param.options) name += "_" + value;
+  return name;
+}
+
+inline bool takes_triangles(const Scheme<double>& scheme) { return scheme.face_size() == 3; }
+/// Its regular pieces are polynomials.
+inline bool has_polynomials(const Scheme<double>& scheme) { return !scheme.claims.limit.starts_with("no "); }
+
+/// So many times as long does the truth about it, or the first touch of a piece, take: long products of averages.
+inline int effort(const Scheme<double>& scheme) {
+  const int steps = static_cast<int>(scheme.steps.size());
+  return steps <= 2 ? 1 : steps * steps;
+}
+
+/// Closed, with borders, and with as much as may be sharp.
+inline std::vector<ControlMesh> hard_meshes(const Scheme<double>& scheme, unsigned seed) {
+  std::vector<Hardness> kinds{{}, {.open = true}};
+  if (scheme.sharpening != Sharpening::boundary) kinds.push_back({.open = true, .sharp = true});
+  if (scheme.sharpening == Sharpening::semi_sharp) kinds.push_back({.open = true, .semi_sharp = true});
+  std::vector<ControlMesh> meshes;
+  for (const Hardness& kind : kinds)
+    meshes.push_back(takes_triangles(scheme) ? hard_triangles(seed, kind) : hard_polygons(seed, kind));
+  return meshes;
+}
+
+}  // namespace sublimit::testing
