@@ -100,7 +100,7 @@ class Beside {
                  (points_.row(stencil.vertices[j]) - points_.row(stencil.vertices[0])).norm();
       largest = std::max(largest, terms);
     }
-    return rounding(16, largest);
+    return eigen(10) * largest;  // interpolation and two derivations cost digits
   }
 
   int places = 0, first = 0, second = 0;
