@@ -47,12 +47,33 @@ Vector3d LimitSurface::Parts::normal_of(const LimitStencil& s, const Points& loc
   const Vector3d a = Vector3d(tangents.row(0)) / scale1, b = Vector3d(tangents.row(1)) / scale2, cross = a.cross(b);
   if (cross.norm() > 1e-10 * a.norm() * b.norm() && cross.norm() > 1e-20) return cross.normalized();
   const Target at = target(sample);
-  if (s.weights.rows() == 6) {
-    const Points rows = s.weights * x;
-    return one_sided_normal(rows, at.map ? at.outer : at.place, addresses.triangles(), std::max(scale1, scale2));
+  if (s.weights.rows() >= 3) {
+    const LimitStencil second = s.weights.rows() == 6 ? s : stencil(sample, 2);
+    if (second.weights.rows() == 6) {
+      Points rows = Points::Zero(6, 3);
+      for (size_t j = 0; j < second.vertices.size(); ++j)
+        rows += second.weights.col(Eigen::Index(j)) * ((points.row(second.vertices[j]) - local.row(0)) * unit);
+      const Vector3d normal =
+          one_sided_normal(rows, at.map ? at.outer : at.place, addresses.triangles(), std::max(scale1, scale2));
+      if (!normal.isZero(0)) return normal;
+    }
   }
   const std::optional<Centre> centre = this->centre(at);
-  if (!centre || s.tangents.rows() == 2) return Vector3d::Zero();
+  if (!centre) return Vector3d::Zero();
+  if (s.tangents.rows() == 2) {
+    // Natural derivatives that are degenerate by the mesh: one triangle between two parts of a crease. Limit masks know
+    // more.
+    const CornerLimit* limit = corners.at(*centre);
+    if (!limit || limit->status == LimitStatus::undefined_normal) return Vector3d::Zero();
+    const Points fine = prepared ? Points(prepared->S * points) : Points();
+    const auto along = [&](const LimitRows::Row& row) {
+      Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
+      for (const auto& [v, weight] : row) sum += weight * (((prepared ? fine : points).row(v) - local.row(0)) * unit);
+      return Vector3d(sum);
+    };
+    const Vector3d t1 = along(limit->rows.tangent1), t2 = along(limit->rows.tangent2), n = t1.cross(t2);
+    return n.norm() > 1e-10 * t1.norm() * t2.norm() ? Vector3d(n.normalized()) : Vector3d::Zero();
+  }
   std::vector<Vector3d> higher;
   for (Eigen::Index k = 2; k < tangents.rows(); ++k) higher.push_back(tangents.row(k));
   // How the faces of this side turn around the place.
