@@ -237,7 +237,8 @@ struct LimitPatches::Loop {
       store(jet.u, out.du.data() + 3 * i);
       store(jet.v, out.dv.data() + 3 * i);
     }
-    if (Order >= 2 && order == 2) {
+    if (Order >= 2) {
+      if (order < 2) jet.uu = jet.uv = jet.vv = Vec4{};
       store(jet.uu, out.duu.data() + 3 * i);
       store(jet.uv, out.duv.data() + 3 * i);
       store(jet.vv, out.dvv.data() + 3 * i);

@@ -4,9 +4,11 @@
 #include <Eigen/Dense>
 
 #include <algorithm>
+#include <numeric>
 
 #include "sublimit/analysis/limit_masks.h"
 #include "sublimit/base/error.h"
+#include "sublimit/limit/canonical_part.h"
 #include "sublimit/limit/polynomial_search.h"
 #include "sublimit/sparse_product.h"
 
@@ -263,9 +265,11 @@ const PieceType* PieceTypes::type(const Level& level, const Piece& piece, const 
   type->types_ = this;
   type->kind_ = piece.kind;
   type->decays_ = walk.decays;
-  type->piece_ = {piece.kind, HalfEdge{position(around.halves, index(piece.start))}};
   for (const Index v : walk.vertices) type->slots_.push_back(position(around.vertices, v));
-  type->local_ = std::move(around.level);
+  CanonicalPart canonical = canonical_part(around.level, type->slots_);
+  type->local_ = std::move(canonical.level);
+  type->piece_ = {piece.kind, HalfEdge{canonical.half_edge[position(around.halves, index(piece.start))]}};
+  std::iota(type->slots_.begin(), type->slots_.end(), 0);
   const std::unique_lock lock(mutex_);
   return types_.try_emplace(walk.signature, std::move(type)).first->second.get();
 }
