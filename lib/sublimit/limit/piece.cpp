@@ -101,54 +101,63 @@ struct Labelled {
 /// in the middle, a border that is trisected has its points at thirds.
 std::vector<Labelled> next_triangles(const std::vector<Labelled>& triangles, const Topology& t, const Refinement& r) {
   using Label = Eigen::RowVector3d;
-  std::unordered_map<Index, const Labelled*> of_face;
-  for (const Labelled& triangle : triangles) of_face.try_emplace(index(t.face(triangle.first)), &triangle);
   std::unordered_map<Index, Index> point_of;  // child vertex of a face
   for (Index k = r.from_vertices; k < r.from_vertices + r.from_faces; ++k) point_of[r.parent(Vertex{k})] = k;
   std::vector<Labelled> result;
-  std::vector<Index> seen;
+  const auto add_known = [&](HalfEdge g, const std::unordered_map<Index, Label>& at) {
+    Labelled found{g, {}};
+    for (Label& corner : found.corners) {
+      const auto place = at.find(index(r.topology.tail(g)));
+      if (place == at.end()) return;
+      corner = place->second;
+      g = r.topology.next(g);
+    }
+    const auto centre = [](const Labelled& one) { return Label(one.corners[0] + one.corners[1] + one.corners[2]); };
+    for (const Labelled& other : result)
+      if (r.topology.face(other.first) == r.topology.face(found.first) && (centre(other) - centre(found)).norm() < 1e-9)
+        return;
+    result.push_back(found);
+  };
   for (const Labelled& triangle : triangles) {
-    std::unordered_map<Index, Label> at;  // child vertices in and around it
-    const auto add_inside = [&](const Labelled& one) {
-      const Index f = index(t.face(one.first));
-      if (const auto k = point_of.find(f); k != point_of.end())
-        at[k->second] = (one.corners[0] + one.corners[1] + one.corners[2]) / 3;
-      HalfEdge side = one.first;
-      for (int i = 0; i < 3; ++i, side = t.next(side)) {
-        at[index(t.tail(side))] = one.corners[i];
-        if (exists(t.twin(side)) || r.border_points != 2) continue;
-        const auto rank = std::lower_bound(r.borders.begin(), r.borders.end(), index(side)) - r.borders.begin();
-        const Index p = r.first_border_child() + 2 * static_cast<Index>(rank);
-        at[p] = (2 * one.corners[i] + one.corners[(i + 1) % 3]) / 3;
-        at[p + 1] = (one.corners[i] + 2 * one.corners[(i + 1) % 3]) / 3;
-      }
-    };
+    // Child vertices in it and across one of its sides; where a mesh is glued to itself, in it.
     HalfEdge side = triangle.first;
-    for (int i = 0; i < 3; ++i, side = t.next(side))
+    for (int i = 0; i < 3; ++i, side = t.next(side)) {
+      std::unordered_map<Index, Label> at;
+      const auto add_inside = [&](const Labelled& one) {
+        if (const auto k = point_of.find(index(t.face(one.first))); k != point_of.end())
+          at[k->second] = (one.corners[0] + one.corners[1] + one.corners[2]) / 3;
+        HalfEdge h = one.first;
+        for (int c = 0; c < 3; ++c, h = t.next(h)) {
+          at[index(t.tail(h))] = one.corners[c];
+          if (exists(t.twin(h)) || r.border_points != 2) continue;
+          const auto rank = std::lower_bound(r.borders.begin(), r.borders.end(), index(h)) - r.borders.begin();
+          const Index p = r.first_border_child() + 2 * static_cast<Index>(rank);
+          at[p] = (2 * one.corners[c] + one.corners[(c + 1) % 3]) / 3;
+          at[p + 1] = (one.corners[c] + 2 * one.corners[(c + 1) % 3]) / 3;
+        }
+      };
       if (const HalfEdge g = t.twin(side); exists(g)) {
-        const auto known = of_face.find(index(t.face(g)));
         const Label &a = triangle.corners[i], &b = triangle.corners[(i + 1) % 3], &c = triangle.corners[(i + 2) % 3];
-        add_inside(known != of_face.end() ? *known->second : Labelled{g, {b, a, a + b - c}});
+        Labelled across{g, {b, a, a + b - c}};
+        for (const Labelled& known : triangles) {  // at borders it may lie elsewhere than the lattice has it
+          if (t.face(known.first) != t.face(g)) continue;
+          int turn = 0;
+          for (HalfEdge h = known.first; h != g; h = t.next(h)) ++turn;
+          const Label &p = known.corners[turn], &q = known.corners[(turn + 1) % 3];
+          if ((p - b).norm() + (q - a).norm() < 1e-9) across.corners[2] = known.corners[(turn + 2) % 3];
+        }
+        add_inside(across);
       }
-    add_inside(triangle);
-    for (const auto& [v, label] : at)
-      for (const HalfEdge fan : r.topology.fans(Vertex{v})) {
-        HalfEdge g = fan;
-        do {
-          Labelled found{g, {}};
-          HalfEdge k = g;
-          int known = 0;
-          for (int i = 0; i < 3; ++i, k = r.topology.next(k))
-            if (const auto place = at.find(index(r.topology.tail(k))); place != at.end())
-              found.corners[i] = place->second, ++known;
-          const Index f = index(r.topology.face(g));
-          if (known == 3 && std::find(seen.begin(), seen.end(), f) == seen.end()) {
-            seen.push_back(f);
-            result.push_back(found);
-          }
-          g = r.topology.ccw(g);
-        } while (exists(g) && g != fan);
-      }
+      add_inside(triangle);
+      for (const auto& [v, label] : at)
+        for (const HalfEdge fan : r.topology.fans(Vertex{v})) {
+          HalfEdge g = fan;
+          do {
+            add_known(g, at);
+            g = r.topology.ccw(g);
+          } while (exists(g) && g != fan);
+        }
+    }
   }
   return result;
 }
