@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: Apache-2.0
+// Schemes that the library does not have get limit surfaces like any other: with polynomials where there are some, and
+// without where masks make none.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "sublimit/analysis/limit_points.h"
+#include "sublimit/limit/limit_surface.h"
+#include "sublimit/limit/piece_types.h"
+#include "sublimit/schemes.h"
+#include "sublimit/schemes/cubic_bspline_creases.h"
+#include "support/hard_meshes.h"
+#include "support/places.h"
+#include "support/tolerance.h"
+
+namespace sublimit::testing {
+namespace {
+
+/// Catmull-Clark's masks on regular meshes, but for what the vertex keeps: bicubic if that is 9/16, and else no
+/// polynomial.
+Scheme<double> leaning(double center) {
+  return {.name = "leaning",
+          .source = "here",
+          .steps = {Step<double>{
+              .split = Split::pqq,
+              .masks = {.vertex =
+                            [=](const Ring<double>& v) {
+                              // Six of the neighbours to one of the diagonals.
+                              return center * v.center() +
+                                     (1 - center) / 7 *
+                                         (4 * v.neighbor_mean() + 4 * v.face_centroid_mean() - v.center());
+                            },
+                        .edge =
+                            [](const EdgeSite<double>& e) {
+                              return (e.tail() + e.head() + e.left_face().point() + e.right_face().point()) / 4;
+                            },
+                        .face = [](const FaceSite<double>& f) { return f.centroid(); }}}},
+          .creases = cubic_bspline_creases<double>(),
+          .claims = {.regular = 1, .extraordinary = 1, .limit = "whatever it is"}};
+}
+
+RowMatrix dense(const LimitSurface& surface, const Sample& s, int order = 0) {
+  const LimitStencil stencil = surface.stencil(s, order);
+  RowMatrix rows = RowMatrix::Zero(stencil.weights.rows(), surface.level().topology().num_vertices());
+  for (size_t j = 0; j < stencil.vertices.size(); ++j) rows.col(stencil.vertices[j]) = stencil.weights.col(Index(j));
+  return rows;
+}
+
+double norm1(const RowMatrix& row) { return row.cwiseAbs().sum(); }
+
+/// L_k P_k at the vertices of level k that lie at multiples of 2^-k in a square, against stencils there.
+void expect_dyadic_limits(const Scheme<double>& scheme, const ControlMesh& mesh, int k, int stride) {
+  const LimitSurface surface(scheme, mesh);
+  const std::vector<Level> levels = refine(scheme, mesh, k);
+  LimitMaskCache cache(scheme);
+  const SparseMatrix limits = limit_matrices(levels[size_t(k)], cache).position * refinement_matrix(levels);
+  const Topology& t = surface.level().topology();
+  const bool triangles = surface.addresses().triangles();
+  for (Index i = 0; i < t.num_half_edges(); i += stride) {
+    const HalfEdge corner{i};
+    const bool quad = t.size(t.face(corner)) == 4;
+    // From a corner along its edge, k times to the first half: 2^-k of the edge away.
+    HalfEdge h = corner;
+    for (int j = 0; j < k; ++j) h = levels[size_t(j) + 1].steps[0].halves(levels[size_t(j)].topology(), h).first;
+    const Topology& fine = levels[size_t(k)].topology();
+    const HalfEdge next = fine.next(h), last = fine.next(next);
+    const double d = std::ldexp(quad || triangles ? 1.0 : 2.0, -k);
+    const auto expect_limit = [&](Vertex v, double a, double b) {
+      const RowMatrix x = dense(surface, from_corner(t, surface.addresses(), corner, a, b)),
+                      y = RowMatrix(limits.row(index(v)));
+      EXPECT_LE(norm1(x - y), reference * norm1(y)) << scheme.name << ", corner " << i << " + " << a << ", " << b;
+    };
+    expect_limit(fine.tail(h), 0, 0);
+    expect_limit(fine.tail(next), d, 0);
+    expect_limit(fine.tail(last), triangles ? 0 : d, d);
+    if (!triangles) expect_limit(fine.head(last), 0, d);
+  }
+}
+
+TEST(OwnScheme, WithPolynomialsIsCatmullClarkOnRegularMeshes) {
+  const ControlMesh mesh = torus(7, 6);
+  const LimitSurface own(leaning(9.0 / 16), mesh), known(find_scheme("catmull-clark").value(), mesh);
+  for (const Sample& s : random_places(own.addresses(), 30, 1)) {
+    const RowMatrix x = dense(own, s, 2), y = dense(known, s, 2);
+    ASSERT_EQ(x.rows(), 6);
+    for (int k = 0; k < 6; ++k) EXPECT_LE(norm1(x.row(k) - y.row(k)), eigen(10) * norm1(y.row(k)));
+  }
+}
+
+TEST(OwnScheme, WithoutPolynomialsEqualsRefinementAndLimitMasks) {
+  for (const double center : {0.5, 0.55, 0.6}) {
+    const auto types = std::make_shared<PieceTypes>(leaning(center));
+    const LimitSurface surface(leaning(center), torus(7, 6), {}, types);
+    surface.stencil({0, 0.25, 0.375}, 1);
+    EXPECT_TRUE(types->has_no_polynomials());
+    expect_dyadic_limits(leaning(center), hard_polygons(1), 3, 5);
+    expect_dyadic_limits(leaning(center), hard_polygons(2, {.open = true, .semi_sharp = true}), 3, 5);
+  }
+}
+
+TEST(OwnScheme, OfManyStepsIsTheRegisteredOneOfTheSameMasks) {
+  Scheme<double> quintic = find_scheme("averaging", {{"degree", "5"}}).value();
+  quintic.name = "my-quintic";
+  quintic.claims = {};
+  const ControlMesh mesh = hard_polygons(1, {.open = true});
+  const LimitSurface own(quintic, mesh), known(find_scheme("averaging", {{"degree", "5"}}).value(), mesh);
+  for (const Sample& s : random_places(own.addresses(), 12, 1)) {
+    const RowMatrix x = dense(own, s), y = dense(known, s);
+    EXPECT_LE(norm1(x - y), eigen(10) * norm1(y));
+  }
+}
+
+TEST(NonPolynomialLimits, AtDyadicPlacesEqualRefinementAndLimitMasks) {
+  for (const char* name : {"butterfly", "modified-butterfly"})
+    for (const bool open : {false, true})
+      expect_dyadic_limits(find_scheme(name).value(), hard_triangles(1, {.open = open}), 3, 17);
+  ControlMesh quads = quads_from_triangles(hard_triangles(1));
+  expect_dyadic_limits(find_scheme("kobbelt").value(), quads, 3, 17);
+}
+
+/// Of dyadic places ever nearer to a place the limits come to that of the place.
+TEST(NonPolynomialLimits, ConvergeAtRandomPlaces) {
+  std::vector<std::pair<Scheme<double>, ControlMesh>> cases;
+  for (const char* name : {"butterfly", "modified-butterfly", "sqrt3", "interpolatory-sqrt3"})
+    cases.emplace_back(find_scheme(name).value(), hard_triangles(1));
+  cases.emplace_back(find_scheme("kobbelt").value(), hard_polygons(1));
+  cases.emplace_back(leaning(0.55), hard_polygons(1));
+  for (const auto& [scheme, mesh] : cases) {
+    const LimitSurface surface(scheme, mesh);
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> unit(0.05, 0.45);
+    for (int i = 0; i < 5; ++i) {
+      const Sample s{Index(random() % std::uint32_t(surface.addresses().size())), unit(random), unit(random)};
+      const RowMatrix x = dense(surface, s);
+      for (const int k : {6, 12, 24, 48}) {
+        const double steps = std::ldexp(1.0, k);
+        const RowMatrix y = dense(surface, {s.face, std::floor(s.u * steps) / steps, std::floor(s.v * steps) / steps});
+        EXPECT_LE(norm1(x - y), 40 / steps + eigen(10)) << scheme.name << " " << s.face << " " << k;
+      }
+    }
+  }
+}
+
+/// Two steps of sqrt3 trisect edges: the child of a face is in its middle, and that of two neighbouring middles and a
+/// vertex at a third of an edge.
+TEST(NonPolynomialLimits, AtTriadicPlacesEqualRefinementAndLimitMasks) {
+  for (const char* name : {"sqrt3", "interpolatory-sqrt3"}) {
+    const Scheme<double> scheme = find_scheme(name).value();
+    const ControlMesh mesh = hard_triangles(1);
+    const LimitSurface surface(scheme, mesh);
+    const std::vector<Level> levels = refine(scheme, mesh, 2);
+    LimitMaskCache cache(scheme);
+    const SparseMatrix middles = limit_matrices(levels[1], cache).position * levels[1].S,
+                       thirds = limit_matrices(levels[2], cache).position * refinement_matrix(levels);
+    const Topology &t = levels[0].topology(), &one = levels[1].topology();
+    const Refinement &first = levels[1].steps.back(), &second = levels[2].steps.back();
+    const auto expect_same = [&](const Sample& s, const RowMatrix& y) {
+      const RowMatrix x = dense(surface, s);
+      EXPECT_LE(norm1(x - y), reference * norm1(y)) << name << " at " << s.face << ": " << s.u << ", " << s.v;
+    };
+    for (Index f = 0; f < t.num_faces(); f += 4)
+      expect_same({f, 1.0 / 3, 1.0 / 3}, RowMatrix(middles.row(index(first.child(Face{f})))));
+    for (Index g = 0; g < one.num_faces(); g += 5) {
+      // One vertex of level 0 and two middles.
+      const auto corners = one.vertices(Face{g});
+      Index vertex = -1, others[2] = {}, found = 0;
+      for (const Index v : corners)
+        (first.origin(Vertex{v}) == Refinement::Origin::vertex ? vertex : others[found++ % 2]) = v;
+      if (vertex < 0 || found != 2) continue;
+      // The half-edge of the first middle's face that leaves or meets the vertex and whose other side is the second.
+      const Face a{first.parent(Vertex{others[0]})}, b{first.parent(Vertex{others[1]})};
+      for (HalfEdge h = t.first(a);; h = t.next(h)) {
+        if (exists(t.twin(h)) && t.face(t.twin(h)) == b && (index(t.tail(h)) == vertex || index(t.head(h)) == vertex)) {
+          const double s = index(t.tail(h)) == vertex ? 1.0 / 3 : 2.0 / 3;
+          expect_same(on_edge(t, surface.addresses(), h, s), RowMatrix(thirds.row(index(second.child(Face{g})))));
+        }
+        if (t.next(h) == t.first(a)) break;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace sublimit::testing
