@@ -37,7 +37,7 @@ std::string wrong_with(const LimitStencil& s, int order) {
   if (!s.weights.allFinite() || !s.tangents.allFinite()) return "a weight is not finite";
   for (Eigen::Index k = 0; k < rows; ++k) {
     const double off = std::abs(s.weights.row(k).sum() - (k == 0 ? 1 : 0));
-    const double allowed = rounding(double(s.vertices.size()), s.weights.row(k).cwiseAbs().sum());
+    const double allowed = rounding(double(s.vertices.size()), 1 + s.weights.row(k).cwiseAbs().sum());
     if (!(off <= allowed))
       return "row " + std::to_string(k) + " has a sum off by " + std::to_string(off / eps) + " eps";
   }
