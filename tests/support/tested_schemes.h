@@ -28,11 +28,11 @@ struct TestedScheme {
   }
 };
 
-inline std::vector<TestedScheme> schemes_and_degrees() {
+inline std::vector<TestedScheme> schemes_and_degrees(int largest = 9) {
   std::vector<TestedScheme> tested;
   for (const Scheme<double>& scheme : all_schemes())
     if (scheme.name != "averaging") tested.push_back({scheme.name, {}});
-  for (int degree = 2; degree <= 9; ++degree) tested.push_back({"averaging", {{"degree", std::to_string(degree)}}});
+  for (int degree = 2; degree <= largest; ++degree) tested.push_back({"averaging", {{"degree", std::to_string(degree)}}});
   return tested;
 }
 

@@ -45,7 +45,7 @@ Vector3d LimitSurface::Parts::normal_of(const LimitStencil& s, const Points& loc
   const double scale1 = sizes[0], scale2 = sizes[1];
   if (!(scale1 > 0) || !(scale2 > 0)) return Vector3d::Zero();
   const Vector3d a = Vector3d(tangents.row(0)) / scale1, b = Vector3d(tangents.row(1)) / scale2, cross = a.cross(b);
-  if (cross.norm() > 1e-10 * a.norm() * b.norm() && cross.norm() > 1e-20) return cross.normalized();
+  if (cross.norm() > 1e-13 * a.norm() * b.norm() && cross.norm() > 1e-20) return cross.normalized();
   const Target at = target(sample);
   if (s.weights.rows() >= 3) {
     const LimitStencil second = s.weights.rows() == 6 ? s : stencil(sample, 2);
