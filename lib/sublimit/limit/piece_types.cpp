@@ -178,6 +178,20 @@ const Eigen::RowVectorXd& PieceType::corner_limit(int corner) const {
   return corner_limits_[corner];
 }
 
+bool PieceType::is_extraordinary(int corner) const {
+  if (kind_ != Piece::Kind::quad && kind_ != Piece::Kind::triangle) return false;
+  const Topology& t = local_.topology();
+  HalfEdge h = piece_.start;
+  for (int i = 0; i < corner; ++i) h = t.next(h);
+  const HalfEdge first = h;
+  Index valence = 0;
+  do {
+    ++valence;
+    h = t.ccw(h);
+  } while (exists(h) && h != first);
+  return exists(h) && valence != (kind_ == Piece::Kind::triangle ? 6 : 4);
+}
+
 const RowMatrix& PieceType::corner_rows(int corner) const {
   std::call_once(corner_once_[corner], [&] {
     const CornerPath path(this, corner);
@@ -186,7 +200,8 @@ const RowMatrix& PieceType::corner_rows(int corner) const {
     // functions.
     const double scale = path.visits.size() == path.first + 1 ? pure_scale(link->map) : 0;
     RowMatrix rows = at->corner_limit(own);
-    if (scale != 0 && types_->has_no_polynomials() && types_->scheme_.claims.regular >= 1 && !link->block.is_large()) {
+    if (scale != 0 && !at->is_extraordinary(own) && types_->has_no_polynomials() &&
+        types_->scheme_.claims.regular >= 1 && !link->block.is_large()) {
       const auto n = link->block.origin().size();
       const Eigen::MatrixXd shifted = link->block.differences() - RowMatrix::Identity(n, n) / scale;
       const Eigen::MatrixXd left = null_space(shifted.transpose()), right = null_space(shifted);

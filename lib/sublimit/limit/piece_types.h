@@ -54,6 +54,8 @@ class PieceType {
 
  private:
   struct CornerPath;
+  /// Inside, of another valence than regular meshes have: no parameter is natural there.
+  bool is_extraordinary(int corner) const;
   friend class PieceTypes;
   friend class PolynomialSearch;
   PieceTypes* types_ = nullptr;

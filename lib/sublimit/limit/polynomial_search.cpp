@@ -12,12 +12,44 @@ namespace {
 
 constexpr int largest_degree = 10;
 /// Of coefficients and values, relative to the weights: a few hundred roundings.
-constexpr double tolerance = 1e-12;
+constexpr double tolerance = 1e-12, rough_tolerance = 1e-8;
 
 /// Chebyshev's points on [0, 1], moved to multiples of 1/1024 that are reached in ten steps.
 double node(int i, int count) {
   const double x = 0.5 - 0.5 * std::cos(std::numbers::pi * (2 * i + 1) / (2 * count));
   return std::round(x * 1024) / 1024;
+}
+
+/// From this degree on second derivatives would lose too many digits: 4 d^4 roundings.
+constexpr int wide_degree = 6;
+using Wide = long double;
+using WideMatrix = Eigen::Matrix<Wide, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+WideMatrix wide_values(const PolynomialBasis& basis, const Place& p) {
+  std::vector<Wide> a{1, 2 * Wide(p.u) - 1}, b{1, 2 * Wide(p.v) - 1};
+  for (std::vector<Wide>* T : {&a, &b})
+    while (int(T->size()) <= basis.degree()) T->push_back(2 * (*T)[1] * T->back() - (*T)[T->size() - 2]);
+  WideMatrix row(1, basis.size());
+  for (int i = 0, k = 0; i <= basis.degree(); ++i)
+    for (int j = 0; j <= (basis.total() ? basis.degree() - i : basis.degree()); ++j) row(0, k++) = a[i] * b[j];
+  return row;
+}
+
+/// Limit row of a place that comes to a known polynomial or to a corner that repeats itself.
+WideMatrix wide_row(const PieceType& type, const Place& place) {
+  const PieceLink& link = type.child(place);
+  WideMatrix row;
+  if (const PiecePolynomial* p = type.known_polynomial()) {
+    const bool second = p->coefficients.size() > 1 && place.u < place.v;
+    return wide_values(p->basis, place) * p->coefficients[second ? 1 : 0].cast<Wide>();
+  }
+  const WideMatrix D = link.block.differences().cast<Wide>(), origin = link.block.origin().cast<Wide>();
+  const Place next = link.map(place);
+  if (link.type == &type && next.u == place.u && next.v == place.v) {
+    const WideMatrix I = WideMatrix::Identity(D.rows(), D.cols());
+    return Eigen::PartialPivLU<WideMatrix>((I - D).transpose()).solve(origin.transpose()).transpose();
+  }
+  return wide_row(*link.type, next) * D + origin;
 }
 
 bool is_regular(const PieceType& type) {
@@ -56,7 +88,7 @@ PolynomialSearch::Verdict PolynomialSearch::verdict(const PieceType& type) {
     }
   if (result.polynomial) {
     const PiecePolynomial* p = candidate(type);
-    result.polynomial = p && satisfies_refinement(type, *p);
+    result.polynomial = p && satisfies_refinement(type, *p, tolerance);
   }
   stack_.pop_back();
   // What rests on an assumption about a type below is not written down: it is found again when that one is known.
@@ -70,13 +102,18 @@ const PiecePolynomial* PolynomialSearch::candidate(const PieceType& type) {
   if (type.has_candidate_) return type.candidate_ ? &*type.candidate_ : nullptr;
   type.has_candidate_ = true;
   const bool total = type.kind() == Piece::Kind::triangle;
+  const auto found = [&](const PolynomialBasis& basis, bool halves) {
+    std::optional<PiecePolynomial> p = interpolated(type, basis, halves, false);
+    if (!p || total || halves || basis.degree() < wide_degree) return p;
+    return satisfies_refinement(type, *p, rough_tolerance) ? interpolated(type, basis, halves, true) : std::nullopt;
+  };
   if (!types_.basis_ && is_regular(type)) {
     types_.searched_ = true;
     for (int pieces = 1; pieces <= (total ? 1 : 2); ++pieces)
       for (int degree = 1; degree <= (pieces == 1 ? largest_degree : 3); ++degree) {
         const PolynomialBasis basis(degree, total);
-        std::optional<PiecePolynomial> p = interpolated(type, basis, pieces == 2);
-        if (!p || !satisfies_refinement(type, *p)) continue;
+        std::optional<PiecePolynomial> p = found(basis, pieces == 2);
+        if (!p || !satisfies_refinement(type, *p, tolerance)) continue;
         types_.basis_ = basis;
         types_.halves_ = pieces == 2;
         type.candidate_ = std::move(p);
@@ -85,12 +122,12 @@ const PiecePolynomial* PolynomialSearch::candidate(const PieceType& type) {
     types_.has_none_ = true;
     return nullptr;
   }
-  if (types_.basis_) type.candidate_ = interpolated(type, *types_.basis_, types_.halves_);
+  if (types_.basis_) type.candidate_ = found(*types_.basis_, types_.halves_);
   return type.candidate_ ? &*type.candidate_ : nullptr;
 }
 
 std::optional<PiecePolynomial> PolynomialSearch::interpolated(const PieceType& type, const PolynomialBasis& basis,
-                                                              bool halves) const {
+                                                              bool halves, bool wide) const {
   PiecePolynomial p{basis, {}};
   const int n = basis.degree() + 1;
   for (int half = 0; half < (halves ? 2 : 1); ++half) {
@@ -104,6 +141,15 @@ std::optional<PiecePolynomial> PolynomialSearch::interpolated(const PieceType& t
         places.push_back(basis.total() ? triangle_place(u, v) : quad_place(u, v));
       }
     const auto count = static_cast<Eigen::Index>(places.size());
+    if (wide) {
+      WideMatrix values(count, basis.size()), rows(count, type.num_slots() - 1);
+      for (Eigen::Index k = 0; k < count; ++k) {
+        values.row(k) = wide_values(basis, places[k]);
+        rows.row(k) = wide_row(type, places[k]);
+      }
+      p.coefficients.push_back(Eigen::PartialPivLU<WideMatrix>(values).solve(rows).cast<double>());
+      continue;
+    }
     Eigen::MatrixXd values(count, basis.size());
     RowMatrix rows(count, type.num_slots() - 1);
     for (Eigen::Index k = 0; k < count; ++k) {
@@ -117,7 +163,7 @@ std::optional<PiecePolynomial> PolynomialSearch::interpolated(const PieceType& t
   return p;
 }
 
-bool PolynomialSearch::satisfies_refinement(const PieceType& type, const PiecePolynomial& p) {
+bool PolynomialSearch::satisfies_refinement(const PieceType& type, const PiecePolynomial& p, double allowed) {
   const bool total = p.basis.total();
   const int cells = (type.children().size() == 9 ? 3 : 2) * (p.basis.degree() + 2);
   double size = 1;
@@ -131,7 +177,7 @@ bool PolynomialSearch::satisfies_refinement(const PieceType& type, const PiecePo
       const PiecePolynomial* fine = link.type == &type ? &p : candidate(*link.type);
       if (!fine) return false;
       const RowMatrix difference = p.rows(at, 0) - link.block.pulled_back(fine->rows(link.map(at), 0));
-      if (difference.size() > 0 && !(difference.cwiseAbs().maxCoeff() <= tolerance * size)) return false;
+      if (difference.size() > 0 && !(difference.cwiseAbs().maxCoeff() <= allowed * size)) return false;
     }
   return true;
 }

@@ -25,8 +25,9 @@ class PolynomialSearch {
   };
   Verdict verdict(const PieceType& type);
   const PiecePolynomial* candidate(const PieceType& type);
-  std::optional<PiecePolynomial> interpolated(const PieceType& type, const PolynomialBasis& basis, bool halves) const;
-  bool satisfies_refinement(const PieceType& type, const PiecePolynomial& p);
+  std::optional<PiecePolynomial> interpolated(const PieceType& type, const PolynomialBasis& basis, bool halves,
+                                              bool wide) const;
+  bool satisfies_refinement(const PieceType& type, const PiecePolynomial& p, double tolerance);
 
   PieceTypes& types_;
   std::unique_lock<std::recursive_mutex> lock_;

@@ -53,7 +53,9 @@ TEST(LimitGrid, SharedPointsHaveTheSameBits) {
       for (int k = 0; k < 3; ++k) key[k] = std::llround(p[k] / size * 1e9);
       const auto [at, is_new] = seen.try_emplace(key, p);
       shared += !is_new;
-      if (!is_new) EXPECT_EQ(at->second, p) << places[i].face << " " << places[i].u << " " << places[i].v;
+      if (!is_new) {
+        EXPECT_EQ(at->second, p) << places[i].face << " " << places[i].u << " " << places[i].v;
+      }
     }
     EXPECT_GT(shared, Index(places.size()) / 5);
   }
