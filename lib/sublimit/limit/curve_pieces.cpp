@@ -412,7 +412,7 @@ void CurvePieces::project(const Type& type, int derivatives, double* weights) co
 }
 
 void CurvePieces::rows(const CurveOutline& curve, Index piece, double s, int order, bool one_sided,
-                       PieceRows& result) const {
+                       CurvePieceRows& result) const {
   int at = curve.closed ? first_types_.back()
                         : first_types_[clipped(piece) * (far_ + 1) + clipped(num_pieces(curve) - 1 - piece)];
   // Down, by the digits of s.
@@ -470,7 +470,7 @@ void CurvePieces::rows(const CurveOutline& curve, Index piece, double s, int ord
   project(*type, derivatives, result.weights.data());
   // And back up.
   for (size_t i = result.path.size(); i-- > 0;) {
-    const PieceRows::Step& step = result.path[i];
+    const CurvePieceRows::Step& step = result.path[i];
     const Index from = type->width;
     type = &types_[step.piece];
     const Index width = type->width;

@@ -29,7 +29,7 @@ struct PieceWindow {
 };
 
 /// Weights over the unknowns of a window, and what there is.
-struct PieceRows {
+struct CurvePieceRows {
   int exists = 0;               ///< derivatives at the place: 0, 1 or 2
   bool kink = false;            ///< they are those from behind: the curve has a corner inside the piece
   Index width = 0;              ///< unknowns of the window
@@ -65,7 +65,7 @@ class CurvePieces {
   /// @param order      of derivatives that are wanted: 0, 1 or 2
   /// @param one_sided  at s = 0 and 1 those of the piece alone; else, at s = 0, those that it shares with the piece
   ///                   before. At s = 1 there are these alone.
-  void rows(const CurveOutline& curve, Index piece, double s, int order, bool one_sided, PieceRows& result) const;
+  void rows(const CurveOutline& curve, Index piece, double s, int order, bool one_sided, CurvePieceRows& result) const;
 
   Index num_types() const { return static_cast<Index>(types_.size()); }
   /// Types that are polynomials.

@@ -81,7 +81,7 @@ struct LimitCurve::Parts {
   }
 
   /// Rows at a place, as far as wanted and existing; the place they are of in the end, and the status.
-  LimitStatus rows(Place& place, int order, PieceRows& result) const {
+  LimitStatus rows(Place& place, int order, CurvePieceRows& result) const {
     const CurveOutline& curve = curves[place.curve];
     const Index count = pieces.num_pieces(curve);
     const auto ask = [&](bool one_sided, int derivatives) {
@@ -179,7 +179,7 @@ CurveStencil LimitCurve::stencil(const CurveSample& sample, int order) const {
   check_sample(sample, num_segments());
   check_order(order);
   Place place = parts_->place(sample);
-  PieceRows rows;
+  CurvePieceRows rows;
   CurveStencil result;
   result.status = parts_->rows(place, order, rows);
   const int derivatives = std::min(order, rows.exists);
@@ -209,7 +209,7 @@ CurveSamples LimitCurve::evaluate(const Points& unknowns, std::span<const CurveS
   parallel_for_blocks(
       count,
       [&](std::int64_t, std::int64_t begin, std::int64_t end) {
-        PieceRows rows;
+        CurvePieceRows rows;
         for (std::int64_t i = begin; i < end; ++i) {
           Place place = parts_->place(samples[i]);
           result.status[i] = parts_->rows(place, order, rows);
