@@ -175,8 +175,8 @@ TEST_P(LimitSurfaceEvaluation, TypesAreSharedBetweenSurfacesAndThreads) {
   EXPECT_EQ(types->size(), known);
 }
 
-// Degrees from 6 on have large types and nothing of their own here.
-INSTANTIATE_TEST_SUITE_P(Schemes, LimitSurfaceEvaluation, ::testing::ValuesIn(schemes_and_degrees(5)), test_name);
+// Degrees from 4 on have large types and nothing of their own here.
+INSTANTIATE_TEST_SUITE_P(Schemes, LimitSurfaceEvaluation, ::testing::ValuesIn(schemes_and_degrees(3)), test_name);
 
 TEST(PieceTypes, ThatAreFullLeaveASurfaceToItself) {
   const Scheme<double> scheme = find_scheme("catmull-clark").value();
