@@ -281,10 +281,16 @@ const PieceType* PieceTypes::type(const Level& level, const Piece& piece, const 
   type->kind_ = piece.kind;
   type->decays_ = walk.decays;
   for (const Index v : walk.vertices) type->slots_.push_back(position(around.vertices, v));
-  CanonicalPart canonical = canonical_part(around.level, type->slots_);
-  type->local_ = std::move(canonical.level);
-  type->piece_ = {piece.kind, HalfEdge{canonical.half_edge[position(around.halves, index(piece.start))]}};
-  std::iota(type->slots_.begin(), type->slots_.end(), 0);
+  type->piece_ = {piece.kind, HalfEdge{position(around.halves, index(piece.start))}};
+  if (walk.decays) {
+    // Means of sharpness are float sums in the order of the mesh, as the reference has them.
+    type->local_ = std::move(around.level);
+  } else {
+    CanonicalPart canonical = canonical_part(around.level, type->slots_);
+    type->local_ = std::move(canonical.level);
+    type->piece_.start = HalfEdge{canonical.half_edge[index(type->piece_.start)]};
+    std::iota(type->slots_.begin(), type->slots_.end(), 0);
+  }
   const std::unique_lock lock(mutex_);
   return types_.try_emplace(walk.signature, std::move(type)).first->second.get();
 }
