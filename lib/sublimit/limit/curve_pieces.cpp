@@ -130,7 +130,8 @@ int CurvePieces::settled_level(int level) const {
 void CurvePieces::make_blocks(int at) {
   const int level = types_[at].level;
   const CurveOutline curve = canonical(types_[at]), fine = layout_.child(curve);
-  const Index piece = canonical_piece(types_[at]), pieces = num_pieces(curve), unknowns = layout_.unknowns();
+  const Index piece = canonical_piece(types_[at]), unknowns = layout_.unknowns();
+  [[maybe_unused]] const Index pieces = num_pieces(curve);
   for (int c : {0, 1}) {
     const int child = add(2 * types_[at].before + c, 2 * types_[at].after + 1 - c, level + 1);
     types_[at].child[c] = child;
