@@ -368,7 +368,7 @@ TEST(CliSample, BadCommandLines) {
   refused({"--grid", "3", "--derivatives", "3"}, 2, {"derivatives", "3"});
   refused({"--grid", "3", "--closed"}, 2, {"--closed", "curves"});
   refused({"--grid", "3"}, 2, {"catmull-clarc", "catmull-clark"}, "catmull-clarc");
-  refused({"--grid", "3"}, 2, {"chaikin"}, "chaikin");
+  refused({"--grid", "3"}, 3, {"no curves"}, "chaikin");
   refused({"--grid", "3"}, 3, {"mesh.obj", "4 corners", "loop"}, "loop");
   refused({"--grid", "3", "--option", "tension=1"}, 2, {"tension", "catmull-clark"});
   refused({"--grid", "3", "--triangles", "smooth"}, 2, {"triangles", "bilinear"}, "bilinear");
