@@ -71,9 +71,9 @@ TEST(ChannelOfOpenSubdiv, TakesEveryOtherOfTurningValuesForANewOne) {
   // again, so that smooth corners (none) move; which ones depends on the face that it starts from.
   ControlMesh mesh = with_channel(grid(2, 2), {{1, 4}, {3, 4}, {4, 5}, {4, 7}});
   Index value[2] = {-1, -1};
-  for (const size_t corner : {2, 7, 13, 8}) {  // counter-clockwise
+  for (const size_t corner : {2, 7, 12, 9}) {  // counter-clockwise
     ASSERT_EQ(mesh.face_vertices[corner], 4);
-    Index& seen = value[corner == 7 || corner == 8];
+    Index& seen = value[corner == 7 || corner == 9];
     if (seen < 0) seen = mesh.face_varying[0].indices[corner];
     mesh.face_varying[0].indices[corner] = seen;
   }
