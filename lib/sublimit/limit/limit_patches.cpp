@@ -19,7 +19,7 @@
 namespace sublimit {
 namespace {
 
-/// x, y, z, 0.
+/// x, y, z, and anything.
 typedef double Vec4 __attribute__((vector_size(32), aligned(8), may_alias));
 
 struct Jet {
@@ -29,15 +29,17 @@ struct Jet {
 /// Sum of coefficients[i, j] s^i t^j with derivatives by s and t.
 template <int Degree, bool Total, int Order>
 [[gnu::always_inline]] inline void horner(const double* coefficients, double s, double t, Jet& jet) {
-  const Vec4* c = reinterpret_cast<const Vec4*>(coefficients);
+  const auto c = [coefficients](int k) -> const Vec4& {
+    return *reinterpret_cast<const Vec4*>(coefficients + 3 * k);  // and the x of the next one, which goes nowhere
+  };
   Vec4 p{}, p1{}, p2{}, q{}, q1{}, r{};
   for (int i = Degree; i >= 0; --i) {
     const int first = Total ? i * (Degree + 1) - i * (i - 1) / 2 : i * (Degree + 1), last = Total ? Degree - i : Degree;
-    Vec4 a = c[first + last], b{}, d{};
+    Vec4 a = c(first + last), b{}, d{};
     for (int j = last - 1; j >= 0; --j) {
       if (Order >= 2) d = d * t + 2 * b;
       if (Order >= 1) b = b * t + a;
-      a = a * t + c[first + j];
+      a = a * t + c(first + j);
     }
     if (Order >= 2) {
       p2 = p2 * s + 2 * p1;
@@ -114,7 +116,6 @@ SUBLIMIT_WIDE void bind_patches(const RowMatrix& matrix, int patch_size, const d
   const Eigen::Index rows = matrix.rows(), columns = matrix.cols();
   const Vec4* differences = reinterpret_cast<const Vec4*>(from);  // the origin comes behind them
   const Vec4& origin = differences[columns];
-  Vec4* c = reinterpret_cast<Vec4*>(out);
   int in_patch = 0;
   for (Eigen::Index i = 0; i < rows; ++i) {
     const double* row = matrix.data() + i * columns;
@@ -125,7 +126,7 @@ SUBLIMIT_WIDE void bind_patches(const RowMatrix& matrix, int patch_size, const d
       b += row[j + 1] * differences[j + 1];
     }
     if (j < columns) a += row[j] * differences[j];
-    c[i] = in_patch == 0 ? a + b + origin : a + b;
+    store(in_patch == 0 ? a + b + origin : a + b, out + 3 * i);
     if (++in_patch == patch_size) in_patch = 0;
   }
 }
@@ -135,11 +136,11 @@ SUBLIMIT_WIDE void bind_patches(const RowMatrix& matrix, int patch_size, const d
 /// What a loop over samples needs of everything else, by plain pointers.
 struct LimitPatches::Loop {
   const LimitSurface::Parts& parts;
-  const LimitSurface::Parts::Pieces& pieces;
-  const std::int64_t* first;
+  const Bound* bound;
   const double* coefficients;
-  const std::uint8_t* sides;
   bool second_jumps, dual;
+  bool one_to_one;  ///< pieces are the addresses
+  bool triangles;
 
   void positions(std::span<const Sample> samples, std::int64_t begin, std::int64_t end, LimitSamples& out,
                  std::vector<std::int64_t>& rest) const;
@@ -148,47 +149,84 @@ struct LimitPatches::Loop {
   void second_derivatives(std::span<const Sample> samples, std::int64_t begin, std::int64_t end, bool normals,
                           LimitSamples& out, std::vector<std::int64_t>& rest) const;
 
+  /// A piece, and the place in it.
+  struct At {
+    Index number;
+    Place place;
+    const PieceMap* map = nullptr;  ///< of derivatives, then
+    Place outer = {};
+  };
+  [[gnu::always_inline]] At at(const Sample& s) const {
+    if (one_to_one) return {s.face, triangles ? triangle_place(s.u, s.v) : quad_place(s.u, s.v)};
+    const LimitSurface::Parts::Target target = parts.target(s);
+    return {parts.number(s, target), target.place, target.map, target.outer};
+  }
+
+  // Memory for samples to come, where it is known without a search. Faces may not exist.
+  [[gnu::always_inline]] void fetch_piece(const Sample& s) const {
+    if (one_to_one && parts.is_inside(s)) __builtin_prefetch(bound + s.face);
+  }
+  [[gnu::always_inline]] void fetch_patch(const Sample& s) const {
+    if (!one_to_one || !parts.is_inside(s)) return;
+    const Bound& piece = bound[s.face];
+    const int patch = std::max<int>(0, piece.tree->cell(s.u, s.v).patch);
+    const double* c = coefficients + 3 * (piece.first + std::int64_t(patch) * piece.tree->num_coefficients());
+    for (int k = 0; k < 3 * piece.tree->num_coefficients(); k += 8) __builtin_prefetch(c + k);
+  }
+
   /// False: to be done the long way.
   template <int Order>
   [[gnu::always_inline]] bool row(const Sample& sample, bool normals, LimitSamples& out, std::int64_t i) const {
     if (!parts.is_inside(sample)) return false;
-    const LimitSurface::Parts::Target target = parts.target(sample);
-    const Index number = parts.number(sample, target);
-    const PatchTree& tree = *pieces.trees[number];
-    const PatchTree::Node* nodes = tree.nodes().data();
+    const At target = at(sample);
+    const Bound& piece = bound[target.number];
+    const PatchTree& tree = *piece.tree;
+    const PatchTree::Cell& cell = tree.cell(target.place.u, target.place.v);
+    // Quarters are cut off by the bits of the parameters, exactly.
     const PieceLink* links[8];
     Place places[9];
-    int depth = 0;
-    const PatchTree::Node* node = nodes;
     places[0] = target.place;
-    double scale = 1;  // of derivatives, while children lie as their parents do
+    int depth = 0, patch = cell.patch;
+    double scale = cell.size;  // of derivatives, while children lie as their parents do
     bool aligned = true;
-    while (node->patch < 0) {
-      if (node->first_child < 0) return false;
-      const Place& at = places[depth];
-      Place& next = places[depth + 1];
-      int k = 0;
-      if (node->in_four) {
-        const bool right = at.u > 0.5, up = at.v > 0.5;
-        k = right ? (up ? 2 : 1) : (up ? 3 : 0);
-        next.u1 = right ? 2 * at.u1 : 1 - 2 * at.u;
-        next.u = right ? 1 - next.u1 : 2 * at.u;
-        next.v1 = up ? 2 * at.v1 : 1 - 2 * at.v;
-        next.v = up ? 1 - next.v1 : 2 * at.v;
-        scale *= 2;
-      } else {
-        aligned = false;
-        while (k < int(node->links->size()) && !(*node->links)[k].map.contains(at)) ++k;
-        if (k == int(node->links->size())) return false;
-        next = (*node->links)[k].map(at);
+    const auto cut = [&](double& x, double& x1) {
+      const double n = scale * x, lower = std::max(0., std::ceil(n) - 1);
+      x1 = scale * x1 - (scale - 1 - lower);
+      x = n - lower;
+    };
+    cut(places[0].u, places[0].u1);
+    cut(places[0].v, places[0].v1);
+    if (patch < 0) {
+      const PatchTree::Node* nodes = tree.nodes().data();
+      const PatchTree::Node* node = nodes + cell.node;
+      while (node->patch < 0) {
+        if (node->first_child < 0) return false;
+        const Place& at = places[depth];
+        Place& next = places[depth + 1];
+        int k = 0;
+        if (node->in_four) {
+          const bool right = at.u > 0.5, up = at.v > 0.5;
+          k = right ? (up ? 2 : 1) : (up ? 3 : 0);
+          next.u1 = right ? 2 * at.u1 : 1 - 2 * at.u;
+          next.u = right ? 1 - next.u1 : 2 * at.u;
+          next.v1 = up ? 2 * at.v1 : 1 - 2 * at.v;
+          next.v = up ? 1 - next.v1 : 2 * at.v;
+          scale *= 2;
+        } else {
+          aligned = false;
+          while (k < int(node->links->size()) && !(*node->links)[k].map.contains(at)) ++k;
+          if (k == int(node->links->size())) return false;
+          next = (*node->links)[k].map(at);
+        }
+        links[depth++] = &(*node->links)[k];
+        node = nodes + node->first_child + k;
       }
-      links[depth++] = &(*node->links)[k];
-      node = nodes + node->first_child + k;
+      patch = node->patch;
     }
     const Place& place = places[depth];
     const Place& p = target.place;
     LimitStatus status = LimitStatus::regular;
-    const unsigned own_sides = sides[number];
+    const unsigned own_sides = piece.sides;
     if (own_sides != 0) {
       const bool triangle = tree.total();
       const unsigned on = (p.v == 0 ? 1u : 0u) | (p.u1 == 0 ? 2u : 0u) | ((triangle ? p.u == 0 : p.v1 == 0) ? 4u : 0u) |
@@ -206,10 +244,10 @@ struct LimitPatches::Loop {
         if (status == LimitStatus::regular) status = LimitStatus::unbounded_second;
       }
     }
-    const int patch = tree.halves() ? 2 * (node->patch / 2) + (place.u < place.v ? 1 : 0) : node->patch;
+    if (tree.halves()) patch = 2 * (patch / 2) + (place.u < place.v ? 1 : 0);
     Jet jet;
-    evaluate_patch<Order>(tree, coefficients + 4 * (first[number] + std::int64_t(patch) * tree.num_coefficients()),
-                          place, jet);
+    evaluate_patch<Order>(tree, coefficients + 3 * (piece.first + std::int64_t(patch) * tree.num_coefficients()), place,
+                          jet);
     if (Order >= 1) {
       if (aligned) {
         jet.u = scale * jet.u, jet.v = scale * jet.v;
@@ -226,7 +264,7 @@ struct LimitPatches::Loop {
         const double x = a[1] * b[2] - a[2] * b[1], y = a[2] * b[0] - a[0] * b[2], z = a[0] * b[1] - a[1] * b[0];
         const double cross = x * x + y * y + z * z;
         const double size = (a[0] * a[0] + a[1] * a[1] + a[2] * a[2]) * (b[0] * b[0] + b[1] * b[1] + b[2] * b[2]);
-        if (!(cross > 1e-20 * size) || !(size > 1e-280) || !(size < 1e280)) return false;
+        if (!is_sound_normal(cross, size)) return false;
         const double inverse = 1 / std::sqrt(cross);
         double* n = out.normal.data() + 3 * i;
         n[0] = x * inverse, n[1] = y * inverse, n[2] = z * inverse;
@@ -252,11 +290,15 @@ struct LimitPatches::Loop {
 LimitPatches::LimitPatches(const LimitSurface::Parts& parts, const Points& points)
     : parts_(parts), points_(points), pieces_(parts.pieces()) {
   const Index count = parts.num_pieces();
-  first_.resize(count + 1);
-  first_[0] = 0;
-  for (Index i = 0; i < count; ++i) first_[i + 1] = first_[i] + pieces_.trees[i]->matrix().rows();
-  coefficients_.resize(4 * first_.back());
-  sides_.resize(count);
+  bound_.resize(count);
+  std::int64_t size = 0;
+  for (Index i = 0; i < count; ++i) {
+    bound_[i].tree = pieces_.trees[i];
+    bound_[i].first = size;
+    size += pieces_.trees[i]->matrix().rows();
+  }
+  coefficients_.resize(3 * size + 1);
+  coefficients_[3 * size] = 0;
   const Topology& t = parts.base().topology();
   const Points fine = parts.prepared ? Points(parts.prepared->S * points) : Points();
   const Points& x_of = parts.prepared ? fine : points;
@@ -279,7 +321,7 @@ LimitPatches::LimitPatches(const LimitSurface::Parts& parts, const Points& point
           for (int k = 0; k < 3; ++k) differences[4 * n + k] = x0[k];
           differences[4 * n + 3] = 0;
           bind_patches(tree.matrix(), tree.num_coefficients(), differences.data(),
-                       coefficients_.data() + 4 * first_[i]);
+                       coefficients_.data() + 3 * bound_[i].first);
           const auto cuts = [&](HalfEdge h) { return parts.cuts(h); };
           HalfEdge h = piece.start;
           std::uint8_t bits = parts.base().holes[index(t.face(h))] ? 16 : 0;
@@ -290,7 +332,7 @@ LimitPatches::LimitPatches(const LimitSurface::Parts& parts, const Points& point
             if (cuts(h)) bits |= 1;
             if (cuts(t.prev(h))) bits |= 8;
           }
-          sides_[i] = bits;
+          bound_[i].sides = bits;
         }
       },
       256);
@@ -302,8 +344,12 @@ template <int Order, class Loop>
 [[gnu::always_inline]] inline void run(const Loop& loop, std::span<const Sample> samples, std::int64_t begin,
                                        std::int64_t end, bool normals, LimitSamples& out,
                                        std::vector<std::int64_t>& rest) {
-  for (std::int64_t i = begin; i < end; ++i)
+  constexpr std::int64_t patches_ahead = 6, pieces_ahead = 12;
+  for (std::int64_t i = begin; i < end; ++i) {
+    if (i + pieces_ahead < end) loop.fetch_piece(samples[i + pieces_ahead]);
+    if (i + patches_ahead < end) loop.fetch_patch(samples[i + patches_ahead]);
     if (!loop.template row<Order>(samples[i], normals, out, i)) rest.push_back(i);
+  }
 }
 
 }  // namespace
@@ -326,12 +372,12 @@ SUBLIMIT_WIDE void LimitPatches::Loop::second_derivatives(std::span<const Sample
 void LimitPatches::evaluate(std::span<const Sample> samples, std::int64_t begin, std::int64_t end, int order,
                             bool normals, LimitSamples& out) const {
   const Loop loop{parts_,
-                  pieces_,
-                  first_.data(),
+                  bound_.data(),
                   coefficients_.data(),
-                  sides_.data(),
                   parts_.scheme.claims.regular == 1,
-                  parts_.scheme.is_dual()};
+                  parts_.scheme.is_dual(),
+                  !parts_.prepared && !parts_.scheme.is_dual(),
+                  parts_.addresses.triangles()};
   std::vector<std::int64_t> rest;
   if (order == 0) loop.positions(samples, begin, end, out, rest);
   if (order == 1) loop.first_derivatives(samples, begin, end, normals, out, rest);

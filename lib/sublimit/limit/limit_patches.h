@@ -24,9 +24,13 @@ class LimitPatches {
   const LimitSurface::Parts& parts_;
   const Points& points_;
   const LimitSurface::Parts::Pieces& pieces_;
-  std::vector<std::int64_t> first_;           // of a piece's coefficients
-  UninitializedVector<double> coefficients_;  // four for each: x, y, z, 0
-  std::vector<std::uint8_t> sides_;           // of a piece: bit k, side k cuts the surface; 16: a hole
+  struct Bound {
+    const PatchTree* tree = nullptr;
+    std::int64_t first = 0;  // of its coefficients
+    std::uint8_t sides = 0;  // bit k: side k cuts the surface; 16: a hole
+  };
+  std::vector<Bound> bound_;                  // by piece
+  UninitializedVector<double> coefficients_;  // x, y, z each, and one more
 };
 
 }  // namespace sublimit

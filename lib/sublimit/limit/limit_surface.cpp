@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <string>
 
 #include "sublimit/analysis/limit_masks.h"
@@ -27,89 +26,90 @@ LimitSurface& LimitSurface::operator=(LimitSurface&&) noexcept = default;
 const Addresses& LimitSurface::addresses() const { return parts_->addresses; }
 const Level& LimitSurface::level() const { return parts_->level; }
 
-LimitStencil LimitSurface::Parts::stencil(const Sample& s, int order) const {
-  LimitStencil result;
-  const Target at = target(s);
-  std::vector<Index> vertices;
-  const PieceType* type = type_of(at.piece, vertices);
-  PieceRows found = piece_rows(*type, at.place, order);
-  const bool is_hole = base().holes[index(base().topology().face(at.piece.start))];
-  if (on_crease(at)) result.status = LimitStatus::crease;
-
-  // Rows over the vertices: what slot 0 has makes the sums right.
-  const auto columns = static_cast<Eigen::Index>(vertices.size());
-  RowMatrix rows(found.rows.rows(), columns);
-  rows.rightCols(columns - 1) = found.rows;
-  rows.col(0) = -found.rows.rowwise().sum();
-  rows(0, 0) += 1;
-  if (at.map && found.order > 0) apply_chain(at.map->chain(at.outer), rows);
-  RowMatrix tangents;
-  if (found.order >= 1) {
-    tangents.resize(2, columns);
-    tangents.rightCols(columns - 1) = found.tangents;
-    tangents.col(0) = -found.tangents.rowwise().sum();
-    if (at.map) {  // a turn, or none
-      RowMatrix three(3, columns);
-      three << rows.row(0), tangents;
-      apply_chain(at.map->chain(at.outer), three);
-      tangents = three.bottomRows(2);
+LimitSurface::Parts::Found LimitSurface::Parts::find(const Target& at, int order) const {
+  Found found;
+  const PieceType* type = type_of(at.piece, found.vertices);
+  PieceRows& rows = found.rows = piece_rows(*type, at.place, order);
+  if (on_crease(at)) found.status = LimitStatus::crease;
+  if (at.map && rows.order > 0) {
+    const PieceMap::Chain chain = at.map->chain(at.outer);
+    apply_chain(chain, rows.rows);
+    turn_tangents(chain, rows.tangents);
+  }
+  if (order >= 2 && (rows.order < 2 || (rows.on_knot && scheme.claims.regular == 1))) {
+    if (found.status == LimitStatus::regular) found.status = LimitStatus::unbounded_second;
+    if (rows.order == 2) {
+      rows.order = 1;
+      rows.rows.conservativeResize(3, Eigen::NoChange);
     }
   }
-  if (order >= 2 && found.order < 2 && result.status == LimitStatus::regular)
-    result.status = LimitStatus::unbounded_second;
-  if (order >= 2 && found.order == 2 && found.on_knot && scheme.claims.regular == 1) {
-    rows.conservativeResize(3, columns);
-    if (result.status == LimitStatus::regular) result.status = LimitStatus::unbounded_second;
-  }
-
   // Where the piece has no derivatives at a corner, its limit masks have tangents, perhaps.
-  std::vector<LimitRows::Row> masks;
-  if (found.at_corner && (order == 0 || found.order == 0)) {
+  if (rows.at_corner && rows.order == 0) {
     const std::optional<Centre> centre = this->centre(at);
     const CornerLimit* limit = centre ? corners.at(*centre) : nullptr;
-    if (limit) {
-      result.status = limit->status;
-      if (order >= 1 && limit->status != LimitStatus::undefined_normal) {
-        masks = {limit->rows.tangent1, limit->rows.tangent2};
-        masks.insert(masks.end(), limit->rows.second_order.begin(), limit->rows.second_order.end());
-      }
-    } else {
-      result.status = LimitStatus::undefined_normal;
+    found.status = limit ? limit->status : LimitStatus::undefined_normal;
+    if (order >= 1 && limit && limit->status != LimitStatus::undefined_normal) {
+      found.tangents = {limit->rows.tangent1, limit->rows.tangent2};
+      found.tangents.insert(found.tangents.end(), limit->rows.second_order.begin(), limit->rows.second_order.end());
     }
   }
-  if (is_hole) result.status = LimitStatus::hole;
+  if (base().holes[index(base().topology().face(at.piece.start))]) found.status = LimitStatus::hole;
+  return found;
+}
 
-  // Over the vertices of the level, columns ascending, those without weight left out.
-  std::map<Index, Eigen::VectorXd> of_vertex;  // weights, then tangents
-  const Eigen::Index num_weights = rows.rows(),
-                     num_tangents = masks.empty() ? tangents.rows() : Eigen::Index(masks.size());
-  const auto add = [&](Index v, Eigen::Index row, double weight) {
-    if (weight == 0) return;
-    const auto add_to = [&](Index column, double w) {
-      const auto [entry, is_new] = of_vertex.try_emplace(column);
-      if (is_new) entry->second.setZero(num_weights + num_tangents);
-      entry->second[row] += w;
-    };
-    if (!prepared) return add_to(v, weight);
-    for (SparseMatrix::InnerIterator it(prepared->S, v); it; ++it)
-      add_to(static_cast<Index>(it.col()), weight * it.value());
+LimitStencil LimitSurface::Parts::stencil(const Sample& s, int order) const {
+  Found found = find(target(s), order);
+  LimitStencil result;
+  result.status = found.status;
+  // Position, derivatives, tangents, one below the other: over the piece's vertices, slot 0 with what makes the sums
+  // right, and then those of the masks.
+  const RowMatrix &rows = found.rows.rows, &own_tangents = found.rows.tangents;
+  const Eigen::Index num_weights = rows.rows(), slots = rows.cols() + 1;
+  Eigen::Index columns = slots, row = num_weights;
+  for (const LimitRows::Row& mask : found.tangents) columns += Eigen::Index(mask.size());
+  const Eigen::Index num_tangents = own_tangents.rows() + Eigen::Index(found.tangents.size());
+  RowMatrix W = RowMatrix::Zero(num_weights + num_tangents, columns);
+  W.block(0, 1, num_weights, slots - 1) = rows;
+  if (own_tangents.rows() > 0) W.block(num_weights, 1, own_tangents.rows(), slots - 1) = own_tangents;
+  W.col(0) = -W.rowwise().sum();
+  W(0, 0) += 1;
+  Eigen::Index column = slots;
+  for (const LimitRows::Row& mask : found.tangents) {
+    for (const auto& [v, weight] : mask) {
+      found.vertices.push_back(v);
+      W(row, column++) = weight;
+    }
+    ++row;
+  }
+
+  // Over the vertices of the level, ascending, those without weight left out.
+  struct Term {
+    Index vertex;
+    Eigen::Index column;
+    double factor;
   };
+  std::vector<Term> terms;
+  terms.reserve(columns);
   for (Eigen::Index j = 0; j < columns; ++j) {
-    for (Eigen::Index i = 0; i < num_weights; ++i) add(vertices[j], i, rows(i, j));
-    if (masks.empty())
-      for (Eigen::Index i = 0; i < num_tangents; ++i) add(vertices[j], num_weights + i, tangents(i, j));
+    if (W.col(j).isZero(0)) continue;
+    if (!prepared)
+      terms.push_back({found.vertices[j], j, 1});
+    else
+      for (SparseMatrix::InnerIterator it(prepared->S, found.vertices[j]); it; ++it)
+        terms.push_back({static_cast<Index>(it.col()), j, it.value()});
   }
-  for (size_t i = 0; i < masks.size(); ++i)
-    for (const auto& [v, weight] : masks[i]) add(v, num_weights + Eigen::Index(i), weight);
-  const auto n = static_cast<Eigen::Index>(of_vertex.size());
-  result.weights.resize(num_weights, n);
-  result.tangents.resize(num_tangents, n);
-  for (const auto& [v, column] : of_vertex) {
-    const auto j = static_cast<Eigen::Index>(result.vertices.size());
-    result.vertices.push_back(v);
-    result.weights.col(j) = column.head(num_weights);
-    result.tangents.col(j) = column.tail(num_tangents);
+  std::stable_sort(terms.begin(), terms.end(), [](const Term& a, const Term& b) { return a.vertex < b.vertex; });
+  Eigen::MatrixXd sums(W.rows(), terms.size());
+  for (const Term& term : terms) {
+    if (result.vertices.empty() || result.vertices.back() != term.vertex) {
+      result.vertices.push_back(term.vertex);
+      sums.col(Eigen::Index(result.vertices.size()) - 1).setZero();
+    }
+    sums.col(Eigen::Index(result.vertices.size()) - 1) += term.factor * W.col(term.column);
   }
+  const auto n = static_cast<Eigen::Index>(result.vertices.size());
+  result.weights = sums.topLeftCorner(num_weights, n);
+  result.tangents = sums.bottomLeftCorner(num_tangents, n);
   return result;
 }
 
@@ -150,6 +150,30 @@ constexpr std::int64_t samples_per_block = 2048;
 
 }  // namespace
 
+bool LimitSurface::Parts::evaluate_plain_row(const Points& points, const Sample& sample, int order, bool normals,
+                                             LimitSamples& out, std::int64_t i) const {
+  if (prepared) return false;
+  const Found found = find(target(sample), order);
+  if (order > 0 && found.rows.order == 0) return false;
+  const auto n = found.rows.rows.cols();
+  Points differences(n, 3);
+  const Eigen::RowVector3d origin = points.row(found.vertices[0]);
+  for (Eigen::Index j = 0; j < n; ++j) differences.row(j) = points.row(found.vertices[j + 1]) - origin;
+  if (order > 0 && normals) {
+    const Points tangents = found.rows.tangents.lazyProduct(differences);
+    const Eigen::Vector3d a = tangents.row(0), b = tangents.row(1), cross = a.cross(b);
+    if (!is_sound_normal(cross.squaredNorm(), a.squaredNorm() * b.squaredNorm())) return false;
+    out.normal.row(i) = cross.normalized();
+  }
+  Points* const targets[] = {&out.position, &out.du, &out.dv, &out.duu, &out.duv, &out.dvv};
+  for (Eigen::Index k = 0; k < found.rows.rows.rows(); ++k)
+    targets[k]->row(i) = found.rows.rows.row(k).lazyProduct(differences);
+  out.position.row(i) += origin;
+  out.status[i] = found.status;
+  out.order[i] = static_cast<std::int8_t>(found.rows.order);
+  return true;
+}
+
 void LimitSurface::Parts::evaluate_row(const Points& points, const Sample& sample, int order, bool normals,
                                        LimitSamples& out, std::int64_t i) const {
   for (Points* m : {&out.position, &out.du, &out.dv, &out.duu, &out.duv, &out.dvv, &out.normal})
@@ -159,6 +183,7 @@ void LimitSurface::Parts::evaluate_row(const Points& points, const Sample& sampl
     out.status[i] = LimitStatus::outside;
     return;
   }
+  if (evaluate_plain_row(points, sample, order, normals, out, i)) return;
   const LimitStencil stencil = this->stencil(sample, order);
   Points local(stencil.vertices.size(), 3);
   for (size_t j = 0; j < stencil.vertices.size(); ++j) local.row(j) = points.row(stencil.vertices[j]);

@@ -101,8 +101,7 @@ void LimitSurface::Parts::check(const Sample& s) const {
   if (s.face < 0 || s.face >= addresses.size())
     throw InvalidParameter("face " + std::to_string(s.face) + " does not exist; there are " +
                            std::to_string(addresses.size()) + (addresses.triangles() ? " triangles" : " squares"));
-  const bool inside = s.u >= 0 && s.v >= 0 && (addresses.triangles() ? s.u + s.v <= 1 : s.u <= 1 && s.v <= 1);
-  if (!inside)
+  if (!is_inside(s))
     throw InvalidParameter("(" + std::to_string(s.u) + ", " + std::to_string(s.v) + ") is outside the " +
                            (addresses.triangles() ? "triangle u, v >= 0, u + v <= 1" : "square 0 <= u, v <= 1"));
 }

@@ -10,6 +10,13 @@
 
 namespace sublimit {
 
+/// Whether the cross product of two tangents is a normal without a closer look (`normal_of`).
+/// @param cross2    square of its length
+/// @param tangents2  product of the squares of theirs
+inline bool is_sound_normal(double cross2, double tangents2) {
+  return cross2 > 1e-20 * tangents2 && tangents2 > 1e-280 && tangents2 < 1e280;
+}
+
 struct LimitSurface::Parts {
   using Kind = Piece::Kind;
   Scheme<double> scheme;  ///< without preparation
@@ -46,6 +53,14 @@ struct LimitSurface::Parts {
   std::optional<Centre> centre(const Target& target) const;
 
   const PieceType* type_of(const Piece& piece, std::vector<Index>& vertices) const;
+  /// What there is at a place, over the vertices of its piece.
+  struct Found {
+    std::vector<Index> vertices;
+    PieceRows rows;                        ///< in differences, by the parameters of the address
+    std::vector<LimitRows::Row> tangents;  ///< by masks, where the piece has none: over vertices
+    LimitStatus status = LimitStatus::regular;
+  };
+  Found find(const Target& at, int order) const;
   LimitStencil stencil(const Sample& sample, int order) const;
   /// Row i of `out`, by its stencil.
   void evaluate_row(const Points& points, const Sample& sample, int order, bool normals, LimitSamples& out,
@@ -79,6 +94,9 @@ struct LimitSurface::Parts {
   }
 
  private:
+  /// The same where nothing is special; false: it is, and `out` is as it was.
+  bool evaluate_plain_row(const Points& points, const Sample& sample, int order, bool normals, LimitSamples& out,
+                          std::int64_t i) const;
   void find_pieces() const;
   mutable std::once_flag pieces_once_;
   mutable Pieces pieces_;

@@ -5,7 +5,7 @@ namespace sublimit {
 namespace {
 
 constexpr int max_depth = 8;       // LimitPatches::Loop follows no more
-constexpr size_t max_nodes = 300;  // a piece at a semi-sharp crease has about 2^sharpness patches: 150 kB then
+constexpr size_t max_nodes = 600;  // a piece at a semi-sharp crease has about 2^sharpness patches: 200 kB then
 
 /// Monomials of T_i(s) T_j(t): rows by (i, j) of the monomial.
 RowMatrix monomials_of(const PolynomialBasis& basis) {
@@ -51,6 +51,10 @@ PatchTree::PatchTree(const PieceType& type) {
   };
   const auto n = type.num_slots() - 1;
   std::vector<Open> open{{&type, PieceBlock::identity(type.num_slots()), 0}};
+  if (type.kind() == Piece::Kind::cut) {  // the corner of a face, and the child that it becomes, are one square
+    const PieceLink& only = type.children()[0];
+    open[0] = {only.type, only.block, 0};
+  }
   nodes_.emplace_back();
   std::vector<RowMatrix> patches;
   RowMatrix monomials;
@@ -85,6 +89,20 @@ PatchTree::PatchTree(const PieceType& type) {
   num_patches_ = static_cast<int>(patches.size());
   matrix_.resize(num_patches_ * num_coefficients_, n);
   for (int i = 0; i < num_patches_; ++i) matrix_.middleRows(i * num_coefficients_, num_coefficients_) = patches[i];
+  find_cells();
+}
+
+void PatchTree::find_cells() {
+  for (int j = 0; j < cells; ++j)
+    for (int i = 0; i < cells; ++i) {
+      Cell& cell = cells_[cells * j + i];
+      for (int bit = cell_levels - 1; bit >= 0 && nodes_[cell.node].in_four; --bit) {
+        const bool right = (i >> bit) & 1, up = (j >> bit) & 1;
+        cell.node = static_cast<std::int16_t>(nodes_[cell.node].first_child + (right ? (up ? 2 : 1) : (up ? 3 : 0)));
+        cell.size *= 2;
+      }
+      cell.patch = static_cast<std::int16_t>(nodes_[cell.node].patch);
+    }
 }
 
 }  // namespace sublimit

@@ -2,6 +2,10 @@
 #pragma once
 // The polynomial patches of a type, ready to be bound to points: the piece itself, or those of its descendants down to
 // some depth. What is deeper, towards extraordinary vertices, is left to `piece_rows`.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -23,6 +27,18 @@ class PatchTree {
     bool in_four = false;  ///< these are the quarters of a quadrilateral, as it lies, counter-clockwise
   };
   const std::vector<Node>& nodes() const { return nodes_; }
+  /// Where the descent of a place may begin: the deepest node, up to `cell_levels` quarterings below the root, that the
+  /// whole cell of the place is in.
+  struct Cell {
+    std::int16_t node = 0, patch = -1;  ///< and its patch
+    std::int32_t size = 1;              ///< of the root, in nodes like this one: 2^depth
+  };
+  static constexpr int cell_levels = 3, cells = 1 << cell_levels;  ///< along each side
+  /// @param u, v  in [0, 1]. Cells end with their upper sides, as `PieceType::child` has it.
+  const Cell& cell(double u, double v) const {
+    const auto row = [](double x) { return std::max(0, static_cast<int>(std::ceil(cells * x)) - 1); };
+    return cells_[cells * row(v) + row(u)];
+  }
   int num_patches() const { return num_patches_; }
   int num_coefficients() const { return num_coefficients_; }  ///< of a patch
   int degree() const { return degree_; }
@@ -33,7 +49,9 @@ class PatchTree {
   const RowMatrix& matrix() const { return matrix_; }
 
  private:
+  void find_cells();
   std::vector<Node> nodes_;
+  std::array<Cell, size_t(cells) * cells> cells_;
   int num_patches_ = 0, num_coefficients_ = 0, degree_ = 0;
   bool total_ = false, halves_ = false;
   RowMatrix matrix_;

@@ -31,15 +31,16 @@ RowMatrix PieceBlock::differences() const {
   return D.rowwise() - origin_;
 }
 
+RowMatrix PieceBlock::derivatives_pulled_back(const RowMatrix& rows) const {
+  if (!is_large()) return rows * D_;
+  RowMatrix result = -rows.rowwise().sum() * origin_;
+  for (Eigen::Index i = 0; i < B_.rows(); ++i)
+    for (SparseMatrix::InnerIterator it(B_, i); it; ++it) result.col(it.col()) += rows.col(i) * it.value();
+  return result;
+}
+
 RowMatrix PieceBlock::pulled_back(const RowMatrix& rows) const {
-  RowMatrix result;
-  if (is_large()) {
-    result = -rows.rowwise().sum() * origin_;
-    for (Eigen::Index i = 0; i < B_.rows(); ++i)
-      for (SparseMatrix::InnerIterator it(B_, i); it; ++it) result.col(it.col()) += rows.col(i) * it.value();
-  } else {
-    result = rows * D_;
-  }
+  RowMatrix result = derivatives_pulled_back(rows);
   result.row(0) += origin_;
   return result;
 }

@@ -24,6 +24,8 @@ class PieceBlock {
 
   /// Position row, and derivative rows below it, of the child as rows of the parent.
   RowMatrix pulled_back(const RowMatrix& rows) const;
+  /// Derivative rows alone.
+  RowMatrix derivatives_pulled_back(const RowMatrix& rows) const;
   /// First this, then `next`.
   PieceBlock then(const PieceBlock& next) const;
 

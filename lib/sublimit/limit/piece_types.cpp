@@ -64,6 +64,12 @@ void apply_chain(const PieceMap::Chain& c, RowMatrix& rows) {
                       c.bend[i][0] * old.row(1) + c.bend[i][1] * old.row(2);
 }
 
+void turn_tangents(const PieceMap::Chain& c, RowMatrix& tangents) {
+  if (tangents.rows() < 2) return;
+  const RowMatrix old = tangents;
+  for (int i = 0; i < 2; ++i) tangents.row(i) = c.first[i][0] * old.row(0) + c.first[i][1] * old.row(1);
+}
+
 const std::deque<PieceLink>& PieceType::children() const {
   std::call_once(children_once_, [&] {
     const Scheme<double>& scheme = types_->scheme_;
@@ -354,11 +360,8 @@ PieceRows piece_rows(const PieceType& root, Place place, int order, bool search)
     if (step->times == 1) {
       result.rows = link.block.pulled_back(result.rows);
       if (result.order == 0) continue;
-      RowMatrix three = RowMatrix::Zero(3, result.tangents.cols());
-      three.bottomRows(2) = result.tangents;
-      three = link.block.pulled_back(three);
-      apply_chain(chain, three);
-      result.tangents = three.bottomRows(2);
+      result.tangents = link.block.derivatives_pulled_back(result.tangents);
+      turn_tangents(chain, result.tangents);
       apply_chain(chain, result.rows);
       continue;
     }

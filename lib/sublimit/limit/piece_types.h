@@ -118,6 +118,9 @@ class PieceTypes {
 /// Derivative rows of a child become those of its parent.
 void apply_chain(const PieceMap::Chain& chain, RowMatrix& rows);
 
+/// The same for rows along u and v that turn, and may be scaled together.
+void turn_tangents(const PieceMap::Chain& chain, RowMatrix& tangents);
+
 /// Rows of a place over the slots of a piece, in differences.
 struct PieceRows {
   RowMatrix rows;          ///< position, then u, v, then uu, uv, vv

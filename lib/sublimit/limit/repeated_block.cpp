@@ -106,11 +106,7 @@ RowMatrix RepeatedBlock::pulled_back(const RowMatrix& rows, int times) const {
 
 RowMatrix RepeatedBlock::tangents_pulled_back(RowMatrix tangents, int times) const {
   if (block_.is_large()) {
-    for (int i = 0; i < times; ++i) {
-      RowMatrix three(3, tangents.cols());
-      three << RowMatrix::Zero(1, tangents.cols()), tangents;
-      tangents = block_.pulled_back(three).bottomRows(2);
-    }
+    for (int i = 0; i < times; ++i) tangents = block_.derivatives_pulled_back(tangents);
     return tangents;
   }
   const auto& all = stages();
