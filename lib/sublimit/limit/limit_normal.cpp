@@ -60,15 +60,16 @@ Vector3d LimitSurface::Parts::normal_of(const LimitStencil& s, const Points& loc
   }
   const std::optional<Centre> centre = this->centre(at);
   if (!centre) return Vector3d::Zero();
+  const Points fine = prepared ? Points(prepared->S * points) : Points();
+  const Points& around = prepared ? fine : points;
   if (s.tangents.rows() == 2) {
     // Natural derivatives that are degenerate by the mesh: one triangle between two parts of a crease. Limit masks know
     // more.
     const CornerLimit* limit = corners.at(*centre);
     if (!limit || limit->status == LimitStatus::undefined_normal) return Vector3d::Zero();
-    const Points fine = prepared ? Points(prepared->S * points) : Points();
     const auto along = [&](const LimitRows::Row& row) {
       Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
-      for (const auto& [v, weight] : row) sum += weight * (((prepared ? fine : points).row(v) - local.row(0)) * unit);
+      for (const auto& [v, weight] : row) sum += weight * ((around.row(v) - local.row(0)) * unit);
       return Vector3d(sum);
     };
     const Vector3d t1 = along(limit->rows.tangent1), t2 = along(limit->rows.tangent2), n = t1.cross(t2);
@@ -78,8 +79,6 @@ Vector3d LimitSurface::Parts::normal_of(const LimitStencil& s, const Points& loc
   for (Eigen::Index k = 2; k < tangents.rows(); ++k) higher.push_back(tangents.row(k));
   // How the faces of this side turn around the place.
   const Topology& t = base().topology();
-  const Points fine = prepared ? Points(prepared->S * points) : Points();
-  const Points& around = prepared ? fine : points;
   Vector3d turn = Vector3d::Zero();
   const auto add = [&](Index middle, Index from, Index to) {
     const Vector3d p = around.row(middle), q = (Vector3d(around.row(from)) - p) * unit,

@@ -228,18 +228,12 @@ struct LimitPatches::Loop {
     LimitStatus status = LimitStatus::regular;
     const unsigned own_sides = piece.sides;
     if (own_sides != 0) {
-      const bool triangle = tree.total();
-      const unsigned on = (p.v == 0 ? 1u : 0u) | (p.u1 == 0 ? 2u : 0u) | ((triangle ? p.u == 0 : p.v1 == 0) ? 4u : 0u) |
-                          (!triangle && p.u == 0 ? 8u : 0u);
-      if (own_sides & on) status = LimitStatus::crease;
-      if (own_sides & 16) status = LimitStatus::hole;
+      if (own_sides & LimitSurface::Parts::sides_at(p, tree.total())) status = LimitStatus::crease;
+      if (own_sides & LimitSurface::Parts::hole) status = LimitStatus::hole;
     }
     int order = Order;
     if (Order == 2 && second_jumps) {
-      const bool on_knot = tree.total() ? place.u == 0 || place.v == 0 || place.u1 == 0
-                                        : place.u1 == 0 || place.v1 == 0 || (!dual && (place.u == 0 || place.v == 0)) ||
-                                              (tree.halves() && place.u == place.v);
-      if (on_knot) {
+      if (is_on_knot(place, tree.total(), dual, tree.halves())) {
         order = 1;
         if (status == LimitStatus::regular) status = LimitStatus::unbounded_second;
       }
@@ -299,7 +293,6 @@ LimitPatches::LimitPatches(const LimitSurface::Parts& parts, const Points& point
   }
   coefficients_.resize(3 * size + 1);
   coefficients_[3 * size] = 0;
-  const Topology& t = parts.base().topology();
   const Points fine = parts.prepared ? Points(parts.prepared->S * points) : Points();
   const Points& x_of = parts.prepared ? fine : points;
   parallel_for_blocks(
@@ -322,17 +315,7 @@ LimitPatches::LimitPatches(const LimitSurface::Parts& parts, const Points& point
           differences[4 * n + 3] = 0;
           bind_patches(tree.matrix(), tree.num_coefficients(), differences.data(),
                        coefficients_.data() + 3 * bound_[i].first);
-          const auto cuts = [&](HalfEdge h) { return parts.cuts(h); };
-          HalfEdge h = piece.start;
-          std::uint8_t bits = parts.base().holes[index(t.face(h))] ? 16 : 0;
-          if (piece.kind == Piece::Kind::quad || piece.kind == Piece::Kind::triangle) {
-            for (int k = 0; k < (piece.kind == Piece::Kind::quad ? 4 : 3); ++k, h = t.next(h))
-              if (cuts(h)) bits |= static_cast<std::uint8_t>(1 << k);
-          } else {
-            if (cuts(h)) bits |= 1;
-            if (cuts(t.prev(h))) bits |= 8;
-          }
-          bound_[i].sides = bits;
+          bound_[i].sides = static_cast<std::uint8_t>(parts.sides(piece));
         }
       },
       256);

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sublimit/limit/limit_surface.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 
 #include "sublimit/analysis/limit_masks.h"
@@ -30,7 +28,8 @@ LimitSurface::Parts::Found LimitSurface::Parts::find(const Target& at, int order
   Found found;
   const PieceType* type = type_of(at.piece, found.vertices);
   PieceRows& rows = found.rows = piece_rows(*type, at.place, order);
-  if (on_crease(at)) found.status = LimitStatus::crease;
+  const unsigned sides = this->sides(at.piece);
+  if (sides & sides_at(at.place, at.piece.kind == Kind::triangle)) found.status = LimitStatus::crease;
   if (at.map && rows.order > 0) {
     const PieceMap::Chain chain = at.map->chain(at.outer);
     apply_chain(chain, rows.rows);
@@ -53,7 +52,7 @@ LimitSurface::Parts::Found LimitSurface::Parts::find(const Target& at, int order
       found.tangents.insert(found.tangents.end(), limit->rows.second_order.begin(), limit->rows.second_order.end());
     }
   }
-  if (base().holes[index(base().topology().face(at.piece.start))]) found.status = LimitStatus::hole;
+  if (sides & hole) found.status = LimitStatus::hole;
   return found;
 }
 
@@ -246,34 +245,6 @@ LimitSamples BoundLimitSurface::evaluate(std::span<const Sample> samples, int or
   LimitSamples out;
   evaluate(samples, order, normals, out);
   return out;
-}
-
-std::optional<Curvature> curvature(const LimitSamples& s, Index row) {
-  if (s.order[row] < 2 || s.duu.rows() == 0) return std::nullopt;
-  using Eigen::Vector3d;
-  const Vector3d xu = s.du.row(row), xv = s.dv.row(row), cross = xu.cross(xv);
-  const double E = xu.dot(xu), F = xu.dot(xv), G = xv.dot(xv), area2 = E * G - F * F;
-  if (!(cross.squaredNorm() > 1e-24 * E * G)) return std::nullopt;
-  const Vector3d n = cross.normalized();
-  const double L = n.dot(Vector3d(s.duu.row(row))), M = n.dot(Vector3d(s.duv.row(row))),
-               N = n.dot(Vector3d(s.dvv.row(row)));
-  // In an orthonormal frame of the tangent plane the second form is symmetric, and its eigenvectors are the directions.
-  const Vector3d e1 = xu / std::sqrt(E), e2 = n.cross(e1);
-  Eigen::Matrix2d J;  // parameters of e1, e2
-  const double a = xv.dot(e1), b = xv.dot(e2);
-  J << 1 / std::sqrt(E), -a / (b * std::sqrt(E)), 0, 1 / b;
-  Eigen::Matrix2d II;
-  II << L, M, M, N;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(J.transpose() * II * J);
-  Curvature c;
-  c.k1 = solver.eigenvalues()[1];
-  c.k2 = solver.eigenvalues()[0];
-  const Eigen::Matrix2d& V = solver.eigenvectors();
-  c.direction1 = V(0, 1) * e1 + V(1, 1) * e2;
-  c.direction2 = V(0, 0) * e1 + V(1, 0) * e2;
-  c.gauss = (L * N - M * M) / area2;
-  c.mean = (c.k1 + c.k2) / 2;
-  return c;
 }
 
 }  // namespace sublimit

@@ -80,7 +80,7 @@ LimitSurface::Parts::Target LimitSurface::Parts::target(const Sample& s) const {
     // Children of a quadrilateral keep its corners' positions, those of a polygon's corner begin with it.
     const Refinement& step = prepared->steps[0];
     const Place whole = quad_place(s.u, s.v);
-    const int corner = at.corner >= 0 ? at.corner : s.v < 0.5 ? (s.u < 0.5 ? 0 : 1) : (s.u < 0.5 ? 3 : 2);
+    const int corner = at.corner >= 0 ? at.corner : nearest_corner(s.u, s.v);
     const HalfEdge child = step.halves(t, t.corner(at.face, corner)).first;
     const HalfEdge start = step.topology.first(step.topology.face(child));
     if (at.corner >= 0) return {{Kind::quad, start}, whole};
@@ -92,7 +92,7 @@ LimitSurface::Parts::Target LimitSurface::Parts::target(const Sample& s) const {
     return {{scheme.is_dual() ? Kind::corner : Kind::cut, t.corner(at.face, at.corner)}, quad_place(s.u, s.v)};
   const Place whole = quad_place(s.u, s.v);
   if (!scheme.is_dual()) return {{Kind::quad, t.first(at.face)}, whole};
-  const int corner = s.v < 0.5 ? (s.u < 0.5 ? 0 : 1) : (s.u < 0.5 ? 3 : 2);
+  const int corner = nearest_corner(s.u, s.v);
   const PieceMap& map = quarter_map(corner);
   return {{Kind::corner, t.corner(at.face, corner)}, map(whole), &map, whole};
 }
@@ -106,19 +106,18 @@ void LimitSurface::Parts::check(const Sample& s) const {
                            (addresses.triangles() ? "triangle u, v >= 0, u + v <= 1" : "square 0 <= u, v <= 1"));
 }
 
-bool LimitSurface::Parts::on_crease(const Target& target) const {
+unsigned LimitSurface::Parts::sides(const Piece& piece) const {
   const Topology& t = base().topology();
-  const Place& p = target.place;
-  const HalfEdge h = target.piece.start;
-  switch (target.piece.kind) {
-    case Kind::triangle:
-      return (p.v == 0 && cuts(h)) || (p.u1 == 0 && cuts(t.next(h))) || (p.u == 0 && cuts(t.prev(h)));
-    case Kind::quad:
-      return (p.v == 0 && cuts(h)) || (p.u1 == 0 && cuts(t.next(h))) || (p.v1 == 0 && cuts(t.next(t.next(h)))) ||
-             (p.u == 0 && cuts(t.prev(h)));
-    default:
-      return (p.v == 0 && cuts(h)) || (p.u == 0 && cuts(t.prev(h)));
+  HalfEdge h = piece.start;
+  unsigned bits = base().holes[index(t.face(h))] ? hole : 0;
+  if (piece.kind == Kind::quad || piece.kind == Kind::triangle) {
+    for (int k = 0; k < (piece.kind == Kind::quad ? 4 : 3); ++k, h = t.next(h))
+      if (cuts(h)) bits |= 1u << k;
+  } else {
+    if (cuts(h)) bits |= 1;
+    if (cuts(t.prev(h))) bits |= 8;
   }
+  return bits;
 }
 
 std::optional<Centre> LimitSurface::Parts::centre(const Target& target) const {

@@ -47,8 +47,14 @@ struct LimitSurface::Parts {
     const Topology& t = base().topology();
     return !exists(t.twin(h)) || is_infinite(base().sharpness.edge[index(t.edge(h))]) || scheme.claims.regular == 0;
   }
-  /// Whether sides that a place is on cut the surface.
-  bool on_crease(const Target& target) const;
+  /// Sides of a piece that cut the surface: bit k for side k, from corner k on; `hole` for one in a hole.
+  unsigned sides(const Piece& piece) const;
+  static constexpr unsigned hole = 16;
+  /// Sides that a place is on, as bits.
+  static unsigned sides_at(const Place& p, bool triangle) {
+    return (p.v == 0 ? 1u : 0u) | (p.u1 == 0 ? 2u : 0u) | ((triangle ? p.u == 0 : p.v1 == 0) ? 4u : 0u) |
+           (!triangle && p.u == 0 ? 8u : 0u);
+  }
   /// The corner of a face of the level that a place is at, or its middle.
   std::optional<Centre> centre(const Target& target) const;
 

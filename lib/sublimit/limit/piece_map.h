@@ -15,6 +15,9 @@ struct Place {
 inline Place quad_place(double u, double v) { return {u, v, 1 - u, 1 - v}; }
 inline Place triangle_place(double u, double v) { return {u, v, 1 - u - v, 0}; }
 
+/// The corner of a square whose quarter a place is in, counter-clockwise from (0,0).
+inline int nearest_corner(double u, double v) { return v < 0.5 ? (u < 0.5 ? 0 : 1) : (u < 0.5 ? 3 : 2); }
+
 /// How a coordinate x of the parent becomes one of its child.
 enum class Span : std::uint8_t {
   whole,  ///< x

@@ -31,7 +31,7 @@ int corner_at(Piece::Kind kind, const Place& p) {
 
 int nearest_corner(Piece::Kind kind, const Place& p) {
   if (kind == Piece::Kind::triangle) return p.u1 >= p.u && p.u1 >= p.v ? 0 : p.u >= p.v ? 1 : 2;
-  return p.v < 0.5 ? (p.u < 0.5 ? 0 : 1) : (p.u < 0.5 ? 3 : 2);
+  return sublimit::nearest_corner(p.u, p.v);
 }
 
 /// Factor of a map that only scales, as it lies; 0 of any other.
@@ -316,11 +316,8 @@ PieceRows piece_rows(const PieceType& root, Place place, int order, bool search)
     if (const PiecePolynomial* p = search ? type->polynomial() : type->known_polynomial()) {
       result.rows = p->rows(place, order);
       result.order = order;
-      const bool dual = type->kind() == Piece::Kind::corner;  // whose polynomials go on beyond the corner's own sides
-      result.on_knot = type->kind() == Piece::Kind::triangle
-                           ? place.u == 0 || place.v == 0 || place.u1 == 0
-                           : place.u1 == 0 || place.v1 == 0 || (!dual && (place.u == 0 || place.v == 0)) ||
-                                 (p->coefficients.size() > 1 && place.u == place.v);
+      result.on_knot = is_on_knot(place, type->kind() == Piece::Kind::triangle, type->kind() == Piece::Kind::corner,
+                                  p->coefficients.size() > 1);
       break;
     }
     int corner = corner_at(type->kind(), place);

@@ -115,6 +115,13 @@ class PieceTypes {
   std::atomic<bool> has_none_{false};         // regular pieces are no polynomials
 };
 
+/// Whether a place is where polynomials meet: on a side of its piece, or on the line that cuts the piece in two.
+/// @param dual  pieces are corners of faces, whose polynomials go on beyond the corner's own sides
+inline bool is_on_knot(const Place& p, bool triangle, bool dual, bool halves) {
+  if (triangle) return p.u == 0 || p.v == 0 || p.u1 == 0;
+  return p.u1 == 0 || p.v1 == 0 || (!dual && (p.u == 0 || p.v == 0)) || (halves && p.u == p.v);
+}
+
 /// Derivative rows of a child become those of its parent.
 void apply_chain(const PieceMap::Chain& chain, RowMatrix& rows);
 

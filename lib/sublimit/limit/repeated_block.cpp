@@ -63,7 +63,6 @@ const std::vector<std::unique_ptr<RepeatedBlock::Stage>>& RepeatedBlock::stages(
       const Eigen::FullPivLU<Eigen::MatrixXd> lu(pairing);
       if (!lu.isInvertible() || lu.rcond() < 1e-8) return;
       auto stage = std::make_unique<Stage>();
-      stage->lambda = mean;
       stage->right = right;
       stage->left = lu.solve(left.transpose());
       stage->D = stages_.back()->D - mean * right * stage->left;

@@ -29,8 +29,7 @@ class RepeatedBlock {
  private:
   static constexpr int few = 6;  ///< times: not worth an eigenproblem
   struct Stage {
-    double lambda = 0;            ///< split off before this stage
-    Eigen::MatrixXd right, left;  ///< its eigenvectors, left * right = 1
+    Eigen::MatrixXd right, left;  ///< eigenvectors that were split off before it, left * right = 1
     RowMatrix D;
     mutable std::array<std::once_flag, 13> once;
     mutable std::array<RowMatrix, 13> powers;
