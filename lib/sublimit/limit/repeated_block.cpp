@@ -109,20 +109,22 @@ RowMatrix RepeatedBlock::tangents_pulled_back(RowMatrix tangents, int times) con
     return tangents;
   }
   const auto& all = stages();
-  size_t across = 0;
-  if (times >= few && all.size() > 1 && all[1]->right.cols() == 1) {
-    const double a = tangents.row(0).dot(all[1]->right.col(0)), b = tangents.row(1).dot(all[1]->right.col(0));
-    if (std::abs(a) >= std::abs(b)) {
-      if (a != 0) tangents.row(1) -= b / a * tangents.row(0);
-      across = 1;
-    } else {
-      tangents.row(0) -= a / b * tangents.row(1);
-      across = 2;
+  int across = -1;  // the row without that direction
+  if (times >= few && all.size() > 1) {
+    // What the rows have of the eigenvectors that shrink the least: one direction, or a plane.
+    const RowMatrix leading = tangents * all[1]->right;
+    const int most = leading.row(0).norm() >= leading.row(1).norm() ? 0 : 1, least = 1 - most;
+    const double square = leading.row(most).squaredNorm();
+    const double factor = square > 0 ? leading.row(least).dot(leading.row(most)) / square : 0;
+    const double rest = (leading.row(least) - factor * leading.row(most)).norm();
+    if (rest <= 1e-10 * leading.row(most).norm()) {
+      tangents.row(least) -= factor * tangents.row(most);
+      across = least;
     }
   }
   RowMatrix result(2, tangents.cols());
   for (int k = 0; k < 2; ++k) {
-    result.row(k) = shrunk(tangents.row(k), times, across == size_t(2 - k) ? 1 : 0);
+    result.row(k) = shrunk(tangents.row(k), times, across == k ? 1 : 0);
     const double size = result.row(k).norm();  // their lengths mean nothing
     if (size > 0) result.row(k) /= size;
   }
