@@ -4,10 +4,7 @@
 #include <Eigen/Core>
 #include <Eigen/LU>
 
-#include <algorithm>
 #include <cmath>
-#include <string>
-#include <unordered_map>
 
 #include "sublimit/analysis/centre.h"
 #include "sublimit/base/error.h"
@@ -91,109 +88,40 @@ std::vector<PieceChild> of_triangle_in_four(HalfEdge start, const Topology& pare
           {{Kind::triangle, t.twin(t.next(g0))}, with(m2, m0, m1)}};
 }
 
-/// A triangle of some level between the parent and its children, and where its corners lie in the parent.
-struct Labelled {
-  HalfEdge first;
-  std::array<Eigen::RowVector3d, 3> corners;
-};
-
-/// The triangles of the next level whose corners are known from these: a vertex keeps its place, a face has its point
-/// in the middle, a border that is trisected has its points at thirds.
-std::vector<Labelled> next_triangles(const std::vector<Labelled>& triangles, const Topology& t, const Refinement& r) {
-  using Label = Eigen::RowVector3d;
-  std::unordered_map<Index, Index> point_of;  // child vertex of a face
-  for (Index k = r.from_vertices; k < r.from_vertices + r.from_faces; ++k) point_of[r.parent(Vertex{k})] = k;
-  std::vector<Labelled> result;
-  const auto add_known = [&](HalfEdge g, const std::unordered_map<Index, Label>& at) {
-    Labelled found{g, {}};
-    for (Label& corner : found.corners) {
-      const auto place = at.find(index(r.topology.tail(g)));
-      if (place == at.end()) return;
-      corner = place->second;
-      g = r.topology.next(g);
-    }
-    const auto centre = [](const Labelled& one) { return Label(one.corners[0] + one.corners[1] + one.corners[2]); };
-    for (const Labelled& other : result)
-      if (r.topology.face(other.first) == r.topology.face(found.first) && (centre(other) - centre(found)).norm() < 1e-9)
-        return;
-    result.push_back(found);
-  };
-  for (const Labelled& triangle : triangles) {
-    // Child vertices in it and across one of its sides; where a mesh is glued to itself, in it.
-    HalfEdge side = triangle.first;
-    for (int i = 0; i < 3; ++i, side = t.next(side)) {
-      std::unordered_map<Index, Label> at;
-      const auto add_inside = [&](const Labelled& one) {
-        if (const auto k = point_of.find(index(t.face(one.first))); k != point_of.end())
-          at[k->second] = (one.corners[0] + one.corners[1] + one.corners[2]) / 3;
-        HalfEdge h = one.first;
-        for (int c = 0; c < 3; ++c, h = t.next(h)) {
-          at[index(t.tail(h))] = one.corners[c];
-          if (exists(t.twin(h)) || r.border_points != 2) continue;
-          const auto rank = std::lower_bound(r.borders.begin(), r.borders.end(), index(h)) - r.borders.begin();
-          const Index p = r.first_border_child() + 2 * static_cast<Index>(rank);
-          at[p] = (2 * one.corners[c] + one.corners[(c + 1) % 3]) / 3;
-          at[p + 1] = (one.corners[c] + 2 * one.corners[(c + 1) % 3]) / 3;
-        }
-      };
-      if (const HalfEdge g = t.twin(side); exists(g)) {
-        const Label &a = triangle.corners[i], &b = triangle.corners[(i + 1) % 3], &c = triangle.corners[(i + 2) % 3];
-        Labelled across{g, {b, a, a + b - c}};
-        for (const Labelled& known : triangles) {  // at borders it may lie elsewhere than the lattice has it
-          if (t.face(known.first) != t.face(g)) continue;
-          int turn = 0;
-          for (HalfEdge h = known.first; h != g; h = t.next(h)) ++turn;
-          const Label &p = known.corners[turn], &q = known.corners[(turn + 1) % 3];
-          if ((p - b).norm() + (q - a).norm() < 1e-9) across.corners[2] = known.corners[(turn + 2) % 3];
-        }
-        add_inside(across);
-      }
-      add_inside(triangle);
-      for (const auto& [v, label] : at)
-        for (const HalfEdge fan : r.topology.fans(Vertex{v})) {
-          HalfEdge g = fan;
-          do {
-            add_known(g, at);
-            g = r.topology.ccw(g);
-          } while (exists(g) && g != fan);
-        }
-    }
-  }
-  return result;
-}
-
-/// Two steps of sqrt3: nine triangles, found by where their corners lie in the parent.
+/// Two steps of sqrt3: nine triangles, as long as a third of the parent, six as it lies and three turned by half.
+///
+/// The first step joins the middle of the triangle to its corners and, across its sides, to the middles beyond; the
+/// second puts points at the thirds of the sides, where the first one's triangles have their middles, or on borders.
+/// Each half-edge of the first step is then one child, which begins with its tail (Refinement). So the children are
+/// known by half-edges alone, whatever the triangle is glued to.
 std::vector<PieceChild> of_triangle_in_nine(HalfEdge start, const Topology& parent, std::span<const LevelStep> steps) {
+  if (steps.size() != 2 || steps[1].refinement->split != Split::sqrt3 || steps[0].refinement->border_points != 0)
+    throw AnalysisError("triangles have nine children after two steps of sqrt3, the second of which trisects borders");
+  const Topology &middle = steps[0].refinement->topology, &t = steps[1].refinement->topology;
   const Eigen::Matrix3d I = Eigen::Matrix3d::Identity();
-  std::vector<Labelled> triangles{{start, {I.row(0), I.row(1), I.row(2)}}};
-  HalfEdge h = start;
-  for (int i = 0; i < 3; ++i, h = parent.next(h))
-    if (const HalfEdge g = parent.twin(h); exists(g)) {
-      const Eigen::RowVector3d a = I.row(i), b = I.row((i + 1) % 3), c = I.row((i + 2) % 3);
-      triangles.push_back({g, {b, a, a + b - c}});
-    }
-  const Topology* before = &parent;
-  for (const LevelStep& step : steps) {
-    triangles = next_triangles(triangles, *before, *step.refinement);
-    before = &step.refinement->topology;
-  }
+  const Eigen::RowVector3d centre = I.colwise().mean();
+  const auto begins = [](HalfEdge h) { return HalfEdge{3 * index(h)}; };  // its child
+  const HalfEdge sides[3] = {start, parent.next(start), parent.prev(start)};
   std::vector<PieceChild> result;
-  for (const auto& [first, corners] : triangles) {
-    // As the parent lies, where a side is parallel to its first one: at a corner children then repeat their parents.
-    int begin = 0;
-    for (int i = 0; i < 3; ++i) {
-      const Eigen::RowVector3d side = corners[(i + 1) % 3] - corners[i];
-      if (std::abs(side[2]) < 1e-9 && std::abs(side[0] + side[1]) < 1e-9) begin = i;
-    }
-    HalfEdge h0 = first;
-    for (int i = 0; i < begin; ++i) h0 = before->next(h0);
+  // Children lie as their parent does: at a corner they then repeat their parents.
+  const auto add = [&](HalfEdge h, int position, const Eigen::RowVector3d(&corners)[3]) {
     Eigen::Matrix3d C;
-    C << corners[begin], corners[(begin + 1) % 3], corners[(begin + 2) % 3];
-    if (C.colwise().mean().minCoeff() <= 0 || std::abs(C.determinant() - 1.0 / 9) > 1e-9) continue;
-    result.push_back({{Kind::triangle, h0}, triangle_map(C)});
+    for (int k = 0; k < 3; ++k) C.row((position + k) % 3) = corners[k];
+    for (int k = position; k % 3 != 0; ++k) h = t.next(h);
+    result.push_back({{Kind::triangle, h}, triangle_map(C)});
+  };
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3, k = (i + 2) % 3;
+    const auto third = [&](int from, int to) { return Eigen::RowVector3d((2 * I.row(from) + I.row(to)) / 3); };
+    const HalfEdge side = sides[i], before = sides[k], across = parent.twin(side), across_before = parent.twin(before);
+    const HalfEdge to_corner = middle.prev(begins(side));
+    const HalfEdge from_corner = exists(across_before) ? begins(across_before) : middle.next(begins(before));
+    add(begins(from_corner), i, {I.row(i), third(i, j), third(i, k)});
+    add(begins(to_corner), i, {centre, third(i, k), third(i, j)});
+    // A border's child begins on it.
+    const HalfEdge at_side = exists(across) ? begins(middle.next(begins(across))) : t.prev(begins(begins(side)));
+    add(at_side, k, {centre, third(i, j), third(j, i)});
   }
-  if (result.size() != 9)
-    throw AnalysisError("a triangle has " + std::to_string(result.size()) + " children, not nine");
   return result;
 }
 

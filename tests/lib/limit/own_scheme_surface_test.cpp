@@ -12,6 +12,8 @@
 #include "sublimit/schemes.h"
 #include "sublimit/schemes/cubic_bspline_creases.h"
 #include "support/hard_meshes.h"
+#include "support/limits_at_thirds.h"
+#include "support/meshes.h"
 #include "support/places.h"
 #include "support/tolerance.h"
 
@@ -143,43 +145,29 @@ TEST(NonPolynomialLimits, ConvergeAtRandomPlaces) {
   }
 }
 
-/// Two steps of sqrt3 trisect edges: the child of a face is in its middle, and that of two neighbouring middles and a
-/// vertex at a third of an edge.
 TEST(NonPolynomialLimits, AtTriadicPlacesEqualRefinementAndLimitMasks) {
-  for (const char* name : {"sqrt3", "interpolatory-sqrt3"}) {
-    const Scheme<double> scheme = find_scheme(name).value();
-    const ControlMesh mesh = hard_triangles(1);
-    const LimitSurface surface(scheme, mesh);
-    const std::vector<Level> levels = refine(scheme, mesh, 2);
-    LimitMaskCache cache(scheme);
-    const SparseMatrix middles = limit_matrices(levels[1], cache).position * levels[1].S,
-                       thirds = limit_matrices(levels[2], cache).position * refinement_matrix(levels);
-    const Topology &t = levels[0].topology(), &one = levels[1].topology();
-    const Refinement &first = levels[1].steps.back(), &second = levels[2].steps.back();
-    const auto expect_same = [&](const Sample& s, const RowMatrix& y) {
-      const RowMatrix x = dense(surface, s);
-      EXPECT_LE(norm1(x - y), reference * norm1(y)) << name << " at " << s.face << ": " << s.u << ", " << s.v;
-    };
-    for (Index f = 0; f < t.num_faces(); f += 4)
-      expect_same({f, 1.0 / 3, 1.0 / 3}, RowMatrix(middles.row(index(first.child(Face{f})))));
-    for (Index g = 0; g < one.num_faces(); g += 5) {
-      // One vertex of level 0 and two middles.
-      const auto corners = one.vertices(Face{g});
-      Index vertex = -1, others[2] = {}, found = 0;
-      for (const Index v : corners)
-        (first.origin(Vertex{v}) == Refinement::Origin::vertex ? vertex : others[found++ % 2]) = v;
-      if (vertex < 0 || found != 2) continue;
-      // The half-edge of the first middle's face that leaves or meets the vertex and whose other side is the second.
-      const Face a{first.parent(Vertex{others[0]})}, b{first.parent(Vertex{others[1]})};
-      for (HalfEdge h = t.first(a);; h = t.next(h)) {
-        if (exists(t.twin(h)) && t.face(t.twin(h)) == b && (index(t.tail(h)) == vertex || index(t.head(h)) == vertex)) {
-          const double s = index(t.tail(h)) == vertex ? 1.0 / 3 : 2.0 / 3;
-          expect_same(on_edge(t, surface.addresses(), h, s), RowMatrix(thirds.row(index(second.child(Face{g})))));
-        }
-        if (t.next(h) == t.first(a)) break;
-      }
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  const auto of_triangles = [&](const std::vector<std::vector<Index>>& triangles) {
+    std::vector<Eigen::Vector3d> points(5);
+    for (Eigen::Vector3d& x : points) x = {unit(random), unit(random), unit(random)};
+    return make_mesh(points, triangles);
+  };
+  const ControlMesh meshes[] = {hard_triangles(1),
+                                hard_triangles(2, {.open = true}),
+                                of_triangles({{0, 1, 2}}),                         // borders all around
+                                of_triangles({{0, 1, 2}, {2, 1, 3}}),              // two each
+                                of_triangles({{0, 1, 2}, {2, 1, 0}}),              // one neighbour, three times
+                                of_triangles({{0, 1, 2}, {1, 0, 2}, {2, 1, 3}}),   // and twice
+                                of_triangles({{0, 1, 0}, {0, 0, 2}}),              // glued to itself
+                                of_triangles({{0, 1, 2}, {1, 0, 3}, {0, 1, 4}}),   // three at an edge
+                                of_triangles({{0, 1, 2}, {0, 3, 4}, {1, 0, 3}}),   // two fans at a vertex
+                                of_triangles({{0, 1, 2}, {0, 2, 1}, {1, 2, 3}})};  // wound against each other
+  for (const char* name : {"sqrt3", "interpolatory-sqrt3"})
+    for (size_t i = 0; i < std::size(meshes); ++i) {
+      const Scheme<double> scheme = find_scheme(name).value();
+      EXPECT_EQ(wrong_at_thirds(LimitSurface(scheme, meshes[i]), scheme), "") << name << " on mesh " << i;
     }
-  }
 }
 
 }  // namespace
