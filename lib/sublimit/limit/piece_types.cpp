@@ -52,6 +52,27 @@ Eigen::MatrixXd null_space(const Eigen::MatrixXd& M) {
   return svd.matrixV().rightCols(M.cols() - rank);
 }
 
+/// Eigenvectors of one eigenvalue, left * right = 1.
+struct Eigenspace {
+  Eigen::MatrixXd left, right;
+};
+
+/// Nothing if the eigenvalue has not this multiplicity, or is defective.
+std::optional<Eigenspace> eigenspace(const Eigen::MatrixXd& D, double lambda, Eigen::Index multiplicity) {
+  const Eigen::MatrixXd shifted = D - lambda * Eigen::MatrixXd::Identity(D.rows(), D.cols());
+  const Eigen::MatrixXd left = null_space(shifted.transpose()), right = null_space(shifted);
+  if (left.cols() != multiplicity || right.cols() != multiplicity) return std::nullopt;
+  const Eigen::MatrixXd pairing = left.transpose() * right;
+  if (!(std::abs(pairing.determinant()) > 1e-6)) return std::nullopt;
+  return Eigenspace{pairing.inverse() * left.transpose(), right};
+}
+
+/// Homogeneous polynomials whose derivatives at 0 of this degree, (u, v) or (uu, uv, vv), are 1 each.
+Eigen::RowVectorXd monomials(int degree, double u, double v) {
+  if (degree == 1) return Eigen::RowVector2d(u, v);
+  return Eigen::RowVector3d(u * u / 2, u * v, v * v / 2);
+}
+
 }  // namespace
 
 void apply_chain(const PieceMap::Chain& c, RowMatrix& rows) {
@@ -198,53 +219,61 @@ bool PieceType::is_extraordinary(int corner) const {
   return exists(h) && valence != (kind_ == Piece::Kind::triangle ? 6 : 4);
 }
 
-const RowMatrix& PieceType::corner_rows(int corner) const {
+std::optional<PieceType::Modes> PieceType::modes(int corner, const Eigen::MatrixXd& D, double scale, int degree) const {
+  const auto space = eigenspace(D, std::pow(scale, -degree), degree + 1);
+  if (!space) return std::nullopt;
+  const int corners = kind_ == Piece::Kind::triangle ? 3 : 4;
+  const Place here = corner_place(kind_, corner);
+  const Eigen::RowVectorXd& origin = corner_limit(corner);
+  const auto there = [&](double u, double v) { return corners == 3 ? triangle_place(u, v) : quad_place(u, v); };
+  const auto value = [&](const Place& p) -> Eigen::RowVectorXd {
+    return (piece_rows(*this, p, 0, false).rows.row(0) - origin) * space->right;
+  };
+  const auto polynomials = [&](const Place& p) { return monomials(degree, p.u - here.u, p.v - here.v); };
+  // Their coefficients, by two other corners and the middle between these.
+  const Place a = corner_place(kind_, (corner + 1) % corners),
+              b = corner_place(kind_, (corner + corners - 1) % corners);
+  const Place known[] = {a, b, there((a.u + b.u) / 2, (a.v + b.v) / 2)};
+  Eigen::MatrixXd places(degree + 1, degree + 1), values(degree + 1, degree + 1);
+  for (int i = 0; i <= degree; ++i) {
+    places.row(i) = polynomials(known[i]);
+    values.row(i) = value(known[i]);
+  }
+  const Eigen::MatrixXd coefficients = places.inverse() * values;
+  // They are polynomials of the parameters where the neighbourhood is regular; around an extraordinary vertex whose
+  // eigenvalue happens to be the same, they are not.
+  for (const auto& [u, v] : {std::pair{0.5, 0.25}, {0.25, 0.5}, {0.5, 0.5}}) {
+    const Place p = there(u, v);
+    if (!((value(p) - polynomials(p) * coefficients).norm() < 1e-9 * coefficients.norm())) return std::nullopt;
+  }
+  return Modes{coefficients * space->left, space->right * coefficients.inverse()};
+}
+
+const PieceType::CornerRows& PieceType::corner(int corner) const {
   std::call_once(corner_once_[corner], [&] {
     const CornerPath path(this, corner);
     const auto& [at, own, link, ignored] = path.visits[path.first];
-    // Derivatives: left eigenvectors of the inverse of the map's factor, by their values on the right ones, linear
-    // functions.
     const double scale = path.visits.size() == path.first + 1 ? pure_scale(link->map) : 0;
-    RowMatrix rows = at->corner_limit(own);
-    if (scale != 0 && !at->is_extraordinary(own) && types_->has_no_polynomials() &&
-        types_->scheme_.claims.regular >= 1 && !link->block.is_large()) {
-      const auto n = link->block.origin().size();
-      const Eigen::MatrixXd shifted = link->block.differences() - RowMatrix::Identity(n, n) / scale;
-      const Eigen::MatrixXd left = null_space(shifted.transpose()), right = null_space(shifted);
-      const Eigen::MatrixXd pairing = left.transpose() * right;
-      if (left.cols() == 2 && right.cols() == 2 && std::abs(pairing.determinant()) > 1e-6) {
-        Eigen::Matrix2d values, places;  // of the linear functions at two other corners, from here
-        const int corners = at->kind_ == Piece::Kind::triangle ? 3 : 4;
-        const Place here = corner_place(at->kind_, own);
-        for (int i = 0; i < 2; ++i) {
-          const int other = (own + (i == 0 ? 1 : corners - 1)) % corners;
-          const Place there = corner_place(at->kind_, other);
-          places.row(i) << there.u - here.u, there.v - here.v;
-          values.row(i) = (at->corner_limit(other) - rows.row(0)) * right;
-        }
-        const Eigen::Matrix2d gradient = places.inverse() * values;
-        // They are linear in the parameters where the neighbourhood is regular; around an extraordinary vertex whose
-        // eigenvalue happens to be the same, they are not.
-        double deviation = 0;
-        for (const auto& [u, v] : {std::pair{0.5, 0.25}, {0.25, 0.5}, {0.5, 0.5}}) {
-          const Place there = corners == 3 ? triangle_place(u, v) : quad_place(u, v);
-          const Eigen::RowVector2d value = (piece_rows(*at, there, 0, false).rows.row(0) - rows.row(0)) * right;
-          const Eigen::RowVector2d linear = Eigen::RowVector2d(u - here.u, v - here.v) * gradient;
-          deviation = std::max(deviation, (value - linear).norm());
-        }
-        if (deviation < 1e-9 * gradient.norm()) {
-          rows.conservativeResize(3, n);
-          rows.bottomRows(2) = gradient * pairing.inverse() * left.transpose();
-        }
-      }
+    const int smoothness = types_->scheme_.claims.regular;
+    CornerRows result{at->corner_limit(own), {}};
+    RowMatrix& rows = result.rows;
+    if (scale != 0 && !at->is_extraordinary(own) && types_->has_no_polynomials() && smoothness >= 1 &&
+        !link->block.is_large()) {
+      const Eigen::MatrixXd D = link->block.differences();
+      const std::optional<Modes> linear = at->modes(own, D, scale, 1);
+      const std::optional<Modes> quadratic = linear && smoothness >= 2 ? at->modes(own, D, scale, 2) : std::nullopt;
+      rows.conservativeResize(quadratic ? 6 : linear ? 3 : 1, Eigen::NoChange);
+      if (linear) rows.middleRows(1, 2) = linear->derivatives;
+      if (quadratic) rows.bottomRows(3) = quadratic->derivatives;
+      if (linear && path.first == 0) result.linear = linear->functions;
     }
     for (size_t i = path.first; i-- > 0;) {
       rows = path.visits[i].link->block.pulled_back(rows);
       apply_chain(path.visits[i].link->map.chain(path.visits[i].place), rows);
     }
-    corner_rows_[corner] = std::move(rows);
+    corners_[corner] = std::move(result);
   });
-  return corner_rows_[corner];
+  return corners_[corner];
 }
 
 PieceTypes::PieceTypes(const Scheme<double>& scheme, size_t max_types) : scheme_(scheme), max_types_(max_types) {
@@ -303,6 +332,7 @@ const PieceType* PieceTypes::type(const Level& level, const Piece& piece, const 
 
 PieceRows piece_rows(const PieceType& root, Place place, int order, bool search) {
   struct Step {
+    const PieceType* from;
     const PieceLink* link;
     Place place;
     int times;
@@ -311,6 +341,7 @@ PieceRows piece_rows(const PieceType& root, Place place, int order, bool search)
   constexpr int enough_halves = 54, enough_thirds = 35;
   std::vector<Step> path;
   const PieceType* type = &root;
+  const PieceType::CornerRows* last = nullptr;
   PieceRows result;
   for (int levels = 0;; ++levels) {
     if (const PiecePolynomial* p = search ? type->polynomial() : type->known_polynomial()) {
@@ -328,14 +359,14 @@ PieceRows piece_rows(const PieceType& root, Place place, int order, bool search)
       if (order == 0) {
         result.rows = type->corner_limit(corner);
       } else {
-        const RowMatrix& rows = type->corner_rows(corner);
-        result.order = rows.rows() == 3 ? 1 : 0;
-        result.rows = rows;
+        last = &type->corner(corner);
+        result.order = std::min(order, last->order());
+        result.rows = last->rows.topRows(result.order == 0 ? 1 : result.order == 1 ? 3 : 6);
       }
       break;
     }
     const PieceLink& link = type->child(place);
-    path.push_back({&link, place, 1});
+    path.push_back({type, &link, place, 1});
     Place before = place;
     place = link.map(place);
     if (link.repeats)
@@ -351,6 +382,12 @@ PieceRows piece_rows(const PieceType& root, Place place, int order, bool search)
     type = link.type;
   }
   if (result.order > 0) result.tangents = result.rows.middleRows(1, 2);
+  // Second derivatives of linear functions vanish. What rounding leaves of them would grow by the scale with every step
+  // back. The functions are known of the type where the path ends, which is that of all regular pieces on it.
+  const auto without_linear = [&](const PieceType* of) {
+    if (of != type || !last || last->linear.size() == 0 || result.order < 2) return;
+    result.rows.bottomRows(3) -= result.rows.bottomRows(3) * last->linear * last->rows.middleRows(1, 2);
+  };
   for (auto step = path.rbegin(); step != path.rend(); ++step) {
     const PieceLink& link = *step->link;
     const PieceMap::Chain chain = result.order > 0 ? link.map.chain(step->place) : PieceMap::Chain{};
@@ -360,6 +397,7 @@ PieceRows piece_rows(const PieceType& root, Place place, int order, bool search)
       result.tangents = link.block.derivatives_pulled_back(result.tangents);
       turn_tangents(chain, result.tangents);
       apply_chain(chain, result.rows);
+      without_linear(step->from);
       continue;
     }
     result.rows = link.repeated.pulled_back(result.rows, step->times);
@@ -370,6 +408,7 @@ PieceRows piece_rows(const PieceType& root, Place place, int order, bool search)
     if (result.rows.rows() < 6) continue;
     result.rows.bottomRows(3) *= factor;
     result.rows.bottomRows(3) *= factor;
+    without_linear(step->from);
   }
   return result;
 }

@@ -46,14 +46,26 @@ class PieceType {
     return polynomial_state_.load(std::memory_order_acquire) == 2 ? &*candidate_ : nullptr;
   }
 
-  /// Rows of what exists at a corner without any polynomial: the position, then u and v if the limit is differentiable.
-  /// Corners count counter-clockwise from (0,0).
+  /// What exists at a corner without any polynomial. Corners count counter-clockwise from (0,0).
+  struct CornerRows {
+    RowMatrix rows;  ///< the position, then u and v, then uu, uv and vv, as often as the limit is differentiable
+    /// Differences of points whose limits are u and v on all of the piece, by columns; none where these are not known.
+    Eigen::MatrixXd linear;
+    int order() const { return rows.rows() == 6 ? 2 : rows.rows() == 3 ? 1 : 0; }
+  };
   /// @throws AnalysisError  no limit
-  const RowMatrix& corner_rows(int corner) const;
+  const CornerRows& corner(int corner) const;
   const Eigen::RowVectorXd& corner_limit(int corner) const;
 
  private:
   struct CornerPath;
+  /// Where blocks D to a corner repeat and scale, derivatives are left eigenvectors of scale^-degree: by their values
+  /// on the right ones, whose limits are homogeneous polynomials.
+  struct Modes {
+    Eigen::MatrixXd derivatives, functions;  ///< by rows; by columns, those whose only derivative is 1
+  };
+  /// Nothing where the limits are not so.
+  std::optional<Modes> modes(int corner, const Eigen::MatrixXd& D, double scale, int degree) const;
   /// Inside, of another valence than regular meshes have: no parameter is natural there.
   bool is_extraordinary(int corner) const;
   friend class PieceTypes;
@@ -72,7 +84,7 @@ class PieceType {
   mutable bool has_candidate_ = false;
   mutable std::array<std::once_flag, 4> limit_once_, corner_once_;
   mutable std::array<Eigen::RowVectorXd, 4> corner_limits_;
-  mutable std::array<RowMatrix, 4> corner_rows_;
+  mutable std::array<CornerRows, 4> corners_;
 };
 
 /// The types of one scheme, shared between surfaces and threads.
