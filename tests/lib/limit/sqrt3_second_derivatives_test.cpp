@@ -7,6 +7,7 @@
 
 #include <Eigen/Dense>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -16,6 +17,7 @@
 #include "support/hard_meshes.h"
 #include "support/meshes.h"
 #include "support/places.h"
+#include "support/precise.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {
@@ -125,6 +127,82 @@ TEST(SecondDerivativesOfSqrt3, AreSecondDifferencesAtRegularVertices) {
       }
     }
     EXPECT_GE(compared, 40);
+  }
+}
+
+/// The faces around the tail of a half-edge, again and again refined by one period in 256-bit floats.
+struct Surroundings {
+  Level level;
+  Eigen::Matrix<Precise, Eigen::Dynamic, 3> points;
+  HalfEdge start;
+
+  Surroundings refined(const Scheme<Precise>& scheme) const {
+    const Topology& t = level.topology();
+    std::vector<Index> faces;
+    HalfEdge h = start;
+    do {
+      faces.push_back(index(t.face(h)));
+      h = t.ccw(h);
+    } while (h != start);
+    std::sort(faces.begin(), faces.end());
+    const Subset part = subset(level, faces, 4);
+    const auto face = std::lower_bound(part.parents.begin(), part.parents.end(), index(t.face(start)));
+    const Topology& cut = part.level.topology();
+    h = cut.corner(Face{Index(face - part.parents.begin())}, t.corner_index(start));
+    LevelOf<Precise> whole;
+    whole.number = level.number;
+    whole.steps = part.level.steps;
+    whole.sharpness = part.level.sharpness;
+    whole.holes = part.level.holes;
+    const LevelOf<Precise> one = next_level(scheme, whole), two = next_level(scheme, one);
+    Surroundings result;
+    result.points = two.S * (one.S * (part.level.S.cast<Precise>() * points).eval()).eval();
+    result.level.number = two.number;
+    result.level.steps = two.steps;
+    result.level.sharpness = two.sharpness;
+    result.level.holes = two.holes;
+    result.start = HalfEdge{9 * index(cut.twin(cut.prev(h)))};  // the child at the same corner
+    return result;
+  }
+};
+
+/// 3^-k along an edge from an extraordinary vertex, where they grow or vanish like powers of the distance, relative to
+/// themselves.
+TEST(SecondDerivativesOfSqrt3, AreSecondDifferencesTowardsExtraordinaryVertices) {
+  const Scheme<Precise> precise = find_scheme<Precise>("sqrt3").value();
+  for (const Index n : {3, 4, 5, 7, 8, 12}) {
+    const ControlMesh mesh = jittered(fan(n, 3, 3), 0.2, 3);
+    const LimitSurface surface(sqrt3(), mesh);
+    const Topology& t = surface.level().topology();
+    const HalfEdge corner = t.outgoing(Vertex{0});
+    Surroundings around{surface.level(), mesh.positions.cast<Precise>(), corner};
+    for (int k = 1; k <= 26; ++k) {
+      around = around.refined(precise);
+      const Topology& fine = around.level.topology();
+      const Vertex beside = fine.head(around.start);
+      ASSERT_TRUE(is_regular(fine, beside));
+      // Clockwise around the neighbour, to what lies as the triangle at the corner.
+      HalfEdge h = fine.next(around.start);  // along v - u
+      h = fine.next(fine.twin(h));           // along v
+      h = fine.next(fine.twin(h));           // along u
+      const Eigen::Matrix<Precise, 3, 3> truth =
+          second_differences(fine, h).cast<Precise>() * around.points * pow(Precise(9), k);
+      const Sample s = from_corner(t, surface.addresses(), corner, std::pow(3.0, -k), 0);
+      const RowMatrix rows = dense(surface, s);
+      ASSERT_EQ(rows.rows(), 6) << words(s);
+      // By the parameters from the corner.
+      const Sample a = from_corner(t, surface.addresses(), corner, 1, 0),
+                   b = from_corner(t, surface.addresses(), corner, 0, 1),
+                   o = from_corner(t, surface.addresses(), corner, 0, 0);
+      const auto second = [&](const Sample& p, const Sample& q) {
+        const double pu = p.u - o.u, pv = p.v - o.v, qu = q.u - o.u, qv = q.v - o.v;
+        return RowMatrix(pu * qu * rows.row(3) + (pu * qv + pv * qu) * rows.row(4) + pv * qv * rows.row(5));
+      };
+      RowMatrix ours(3, 3);
+      ours << second(a, a) * mesh.positions, second(a, b) * mesh.positions, second(b, b) * mesh.positions;
+      const RowMatrix expected = truth.cast<double>();
+      EXPECT_LE((ours - expected).norm(), second_rounding * expected.norm()) << "valence " << n << " at 3^-" << k;
+    }
   }
 }
 
