@@ -305,9 +305,7 @@ int main(int argc, char** argv) {
   if (const int repetitions = repetitions_of_ratios(argc, argv)) return print_ratios(repetitions, given);
   const std::vector<Case> meshes = limit_cases(given.mesh);
   register_benchmarks(meshes, given.points);
-  benchmark::Initialize(&argc, argv);
-  benchmark::RunSpecifiedBenchmarks();
-  return 0;
+  return run_benchmarks(argc, argv);
 }
 
 }  // namespace

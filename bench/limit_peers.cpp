@@ -14,6 +14,7 @@
 #include <shared_mutex>
 #include <stdexcept>
 
+#include "opensubdiv_point.h"
 #include "opensubdiv_refiner.h"
 #include "sublimit/base/parallel_for.h"
 
@@ -201,15 +202,7 @@ class FarEvaluator : public LimitEvaluator {
   Eigen::Vector3d position(size_t place) const override { return results_.position(place); }
 
  private:
-  struct Point {
-    Real x, y, z;
-    void Clear() { x = y = z = 0; }
-    void AddWithWeight(const Point& p, Real weight) {
-      x += weight * p.x;
-      y += weight * p.y;
-      z += weight * p.z;
-    }
-  };
+  using Point = OpenSubdivPoint<Real>;
 
   template <int order>
   void evaluate() {

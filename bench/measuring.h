@@ -105,4 +105,12 @@ inline int repetitions_of_ratios(int argc, char** argv) {
   return repetitions;
 }
 
+/// Runs what is registered under Google Benchmark's own options. What was registered must live as long.
+/// @return  the exit status
+inline int run_benchmarks(int argc, char** argv) {
+  benchmark::Initialize(&argc, argv);
+  benchmark::RunSpecifiedBenchmarks();
+  return 0;
+}
+
 }  // namespace sublimit::bench

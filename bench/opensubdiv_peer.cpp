@@ -12,6 +12,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "opensubdiv_point.h"
 #include "opensubdiv_refiner.h"
 
 namespace sublimit::bench {
@@ -32,27 +33,16 @@ Sdc::SchemeType scheme_type(PeerScheme scheme) {
 }
 
 template <class Real>
-struct Point {
-  Real x, y, z;
-  void Clear() { x = y = z = 0; }
-  void AddWithWeight(const Point& p, Real weight) {
-    x += weight * p.x;
-    y += weight * p.y;
-    z += weight * p.z;
-  }
-};
-
-template <class Real>
 PeerPositions interpolate(const Far::TopologyRefiner& refiner, std::span<const Real> positions) {
   const int levels = refiner.GetMaxLevel();
   const auto control = static_cast<std::size_t>(refiner.GetLevel(0).GetNumVertices());
   if (positions.size() != 3 * control) throw std::runtime_error("three coordinates per control vertex are needed");
   const std::size_t refined = static_cast<std::size_t>(refiner.GetNumVerticesTotal()) - control;
-  const auto points = std::make_unique_for_overwrite<Point<Real>[]>(refined);
+  using Point = OpenSubdivPoint<Real>;
+  const auto points = std::make_unique_for_overwrite<Point[]>(refined);
 
-  static_assert(sizeof(Point<Real>) == 3 * sizeof(Real));
-  const auto* source = reinterpret_cast<const Point<Real>*>(positions.data());
-  Point<Real>* target = points.get();
+  const auto* source = reinterpret_cast<const Point*>(positions.data());
+  Point* target = points.get();
   const Far::PrimvarRefinerReal<Real> primvars(refiner);
   for (int k = 1; k <= levels; ++k) {
     primvars.Interpolate(k, source, target);

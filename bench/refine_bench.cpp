@@ -3,12 +3,12 @@
 //   BM_Refine        topology, S_k and positions of all levels   | Create + RefineUniform + PrimvarRefiner::Interpolate
 //   BM_StencilTable  P_k, the levels given                       | StencilTableFactory::Create, the refiner given
 //   BM_Baked         P_k from the control mesh                   | Create + RefineUniform + StencilTableFactory::Create
-// OpenSubdiv uses one thread, always. Of its last level it makes the face vertices only, where we make all of the topology;
-// BM_RefineWhole has it make all, too.
+// OpenSubdiv uses one thread, always. Of its last level it makes the face vertices only, where we make all of the
+// topology; BM_RefineWhole has it make all, too.
 //
-// `refine_bench --ratios [repetitions] [--keep-memory]` takes turns and prints medians with their spread and the ratios;
-// otherwise Google Benchmark's own options hold. --keep-memory: freed memory stays with the process, so that the kernel's
-// time for handing out pages is measured on neither side.
+// `refine_bench --ratios [repetitions] [--keep-memory]` takes turns and prints medians with their spread and the
+// ratios; otherwise Google Benchmark's own options hold. --keep-memory: freed memory stays with the process, so that
+// the kernel's time for handing out pages is measured on neither side.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -36,10 +36,11 @@ struct Job {
   int levels;
   Scheme<double> scheme;
   PeerCase peer;
-  std::vector<Level> ours_given;            // for BM_StencilTable
+  std::vector<Level> ours_given;  // for BM_StencilTable
   std::unique_ptr<PeerRefiner> peer_given;
 
-  Job(const Case& c, int levels_, bool given) : mesh(c), levels(levels_), scheme(find_scheme(c.scheme).value()), peer(c) {
+  Job(const Case& c, int levels_, bool given)
+      : mesh(c), levels(levels_), scheme(find_scheme(c.scheme).value()), peer(c) {
     if (!given) return;
     ours_given = refine(scheme, c.mesh, levels);
     peer_given = std::make_unique<PeerRefiner>(peer.mesh, levels);
@@ -102,8 +103,8 @@ constexpr Measured measured[] = {
 int print_ratios(int repetitions) {
   std::printf("write bandwidth, one thread: %.1f GB/s; medians of %d in ms, (least..most)\n", write_bandwidth() / 1e9,
               repetitions);
-  std::printf("%-16s%-17s%3s %3s %27s %27s %10s %6s %7s\n", "", "mesh", "lev", "thr", "ours", "OpenSubdiv double", "float",
-              "ratio", "Mrows/s");
+  std::printf("%-16s%-17s%3s %3s %27s %27s %10s %6s %7s\n", "", "mesh", "lev", "thr", "ours", "OpenSubdiv double",
+              "float", "ratio", "Mrows/s");
   const std::vector<Case> meshes = cases();
   for (const int threads : thread_counts()) {
     const Threads scope(threads);
@@ -138,12 +139,12 @@ void register_benchmarks(const std::vector<Case>& meshes) {
   for (const Measured& m : measured)
     for (const Case& c : meshes)
       for (const int levels : {2, 3})
-        for (const auto& [who, run] :
-             {std::pair("ours", m.ours), std::pair("opensubdiv", m.theirs), std::pair("opensubdiv_float", m.theirs_float)})
+        for (const auto& [who, run] : {std::pair("ours", m.ours), std::pair("opensubdiv", m.theirs),
+                                       std::pair("opensubdiv_float", m.theirs_float)})
           for (const int threads : thread_counts()) {
             if (!run || (run != m.ours && threads > 1)) continue;
-            const std::string name = std::string(m.name) + "/" + who + "/" + c.name + "/level:" + std::to_string(levels) +
-                                     "/threads:" + std::to_string(threads);
+            const std::string name = std::string(m.name) + "/" + who + "/" + c.name +
+                                     "/level:" + std::to_string(levels) + "/threads:" + std::to_string(threads);
             const auto work = [&c, levels, threads, given = m.given, run = run](benchmark::State& state) {
               const Threads scope(threads);
               const Job job(c, levels, given);
@@ -161,9 +162,7 @@ int main(int argc, char** argv) {
   if (const int repetitions = repetitions_of_ratios(argc, argv)) return print_ratios(repetitions);
   const std::vector<Case> meshes = cases();
   register_benchmarks(meshes);
-  benchmark::Initialize(&argc, argv);
-  benchmark::RunSpecifiedBenchmarks();
-  return 0;
+  return run_benchmarks(argc, argv);
 }
 
 }  // namespace

@@ -191,9 +191,7 @@ int main(int argc, char** argv) {
   const std::vector<Input> meshes = inputs();
   const std::vector<Job> all = jobs(meshes);
   register_benchmarks(all);
-  benchmark::Initialize(&argc, argv);
-  benchmark::RunSpecifiedBenchmarks();
-  return 0;
+  return run_benchmarks(argc, argv);
 }
 
 }  // namespace
