@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Limit masks. At a stationary neighbourhood with local subdivision matrix A the limit position of the centre is l0^T x, where
-// l0^T A = l0^T and l0^T 1 = 1; the tangents are the left eigenvectors of the subdominant pair. Where the neighbourhood is not
-// stationary yet (irregular faces, decaying sharpness) the masks of a later level are pulled back through the steps.
+// Limit masks. At a stationary neighbourhood with local subdivision matrix A the limit position of the centre is l0^T
+// x, where l0^T A = l0^T and l0^T 1 = 1; the tangents are the left eigenvectors of the subdominant pair. Where the
+// neighbourhood is not stationary yet (irregular faces, decaying sharpness) the masks of a later level are pulled back
+// through the steps.
 //
 // Infinitely sharp edges and boundaries cut the neighbourhood into sides, each with tangents of its own.
 // Sources: Halstead, Kass, DeRose 1993; Reif 1995; Biermann, Levin, Zorin 2000 (boundaries, creases, corners).
@@ -16,6 +17,7 @@
 
 #include "sublimit/analysis/canonical_neighborhood.h"
 #include "sublimit/analysis/local_type.h"
+#include "sublimit/analysis/signature_hash.h"
 #include "sublimit/scheme.h"
 
 namespace sublimit {
@@ -32,7 +34,7 @@ struct LimitMasks {
   };
   struct Side {
     Index fan = 0, first_corner = 0, num_corners = 0;  ///< corners of the neighbourhood's fan, counter-clockwise
-    Mask tangent1, tangent2;         ///< tangent1 x tangent2 is along the normal, per unit of the characteristic parameter
+    Mask tangent1, tangent2;  ///< tangent1 x tangent2 is along the normal, per unit of the characteristic parameter
     std::vector<Mask> second_order;  ///< the next modes, for control points that make the tangents degenerate
     Plane plane = Plane::yes;
     double lambda1 = 0, lambda2 = 0;  ///< moduli that the tangents shrink by in a step
@@ -45,17 +47,17 @@ struct LimitMasks {
 };
 
 /// Limit masks of a neighbourhood.
-/// @throws AnalysisError  no limit: the neighbourhood never becomes stationary, is not closed, or its matrix has not the
-///                        simple dominant eigenvalue 1
+/// @throws AnalysisError  no limit: the neighbourhood never becomes stationary, is not closed, or its matrix has not
+///                        the simple dominant eigenvalue 1
 LimitMasks limit_masks(const Scheme<double>& scheme, const CanonicalNeighborhood& type);
 
 /// The limit of a centre that is alone among regular points.
 struct LoneLimit {
   LocalType type;
-  int depth = 0;                         ///< of the walk on a mesh that must have this signature
+  int depth = 0;  ///< of the walk on a mesh that must have this signature
   std::vector<std::uint32_t> signature;
-  std::vector<Index> slots;              ///< of that walk; the masks are over these
-  LimitMasks masks;                      ///< of one side
+  std::vector<Index> slots;  ///< of that walk; the masks are over these
+  LimitMasks masks;          ///< of one side
 };
 
 /// Limit masks of a type, or nothing where it does not have a child of its own type.
@@ -79,17 +81,10 @@ class LimitMaskCache {
   size_t num_types() const { return types_.size() + lone_.size(); }
 
  private:
-  struct Hash {
-    size_t operator()(const std::vector<std::uint32_t>& words) const {
-      std::uint64_t h = 0xcbf29ce484222325u;  // FNV-1a by words
-      for (const std::uint32_t w : words) h = (h ^ w) * 0x100000001b3u;
-      return h ^ (h >> 29);
-    }
-  };
   Scheme<double> scheme_;
   std::mutex mutex_;  // of lone_
   std::map<LocalType, std::optional<LoneLimit>> lone_;
-  tbb::concurrent_unordered_map<std::vector<std::uint32_t>, std::shared_ptr<const LimitMasks>, Hash> types_;
+  tbb::concurrent_unordered_map<std::vector<std::uint32_t>, std::shared_ptr<const LimitMasks>, SignatureHash> types_;
 };
 
 }  // namespace sublimit

@@ -11,6 +11,7 @@
 #include <shared_mutex>
 #include <unordered_map>
 
+#include "sublimit/analysis/signature_hash.h"
 #include "sublimit/limit/piece_walk.h"
 #include "sublimit/limit/repeated_block.h"
 #include "sublimit/refine.h"
@@ -110,17 +111,10 @@ class PieceTypes {
  private:
   friend class PieceType;
   friend class PolynomialSearch;
-  struct Hash {
-    size_t operator()(const std::vector<std::uint32_t>& words) const {
-      std::uint64_t h = 0xcbf29ce484222325u;  // FNV-1a by words
-      for (const std::uint32_t w : words) h = (h ^ w) * 0x100000001b3u;
-      return h ^ (h >> 29);
-    }
-  };
   Scheme<double> scheme_;
   size_t max_types_;
   mutable std::shared_mutex mutex_;
-  std::unordered_map<std::vector<std::uint32_t>, std::unique_ptr<PieceType>, Hash> types_;
+  std::unordered_map<std::vector<std::uint32_t>, std::unique_ptr<PieceType>, SignatureHash> types_;
   mutable std::recursive_mutex polynomials_;  // one search at a time
   std::optional<PolynomialBasis> basis_;      // of the first regular piece's polynomial
   bool halves_ = false, searched_ = false;    // regular pieces are cut along u = v; have been looked at
