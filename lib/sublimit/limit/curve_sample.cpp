@@ -43,9 +43,4 @@ void check_sample(const CurveSample& sample, Index segments, std::int64_t row) {
     throw InvalidParameter(where + "t is " + format_number(sample.t) + "; it must be a number from 0 to 1");
 }
 
-void check_order(int order) {
-  if (order < 0 || order > 2)
-    throw InvalidParameter("order is " + format_number(order) + "; there are derivatives of order 0, 1 and 2");
-}
-
 }  // namespace sublimit

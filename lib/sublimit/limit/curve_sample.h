@@ -37,7 +37,5 @@ struct CurveSamples {
 /// @param row  of a list of samples, for the message; -1: of none
 /// @throws InvalidParameter  a segment that does not exist, t outside [0, 1] or not finite
 void check_sample(const CurveSample& sample, Index segments, std::int64_t row = -1);
-/// @throws InvalidParameter  not 0, 1 or 2
-void check_order(int order);
 
 }  // namespace sublimit

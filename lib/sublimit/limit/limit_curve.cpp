@@ -6,6 +6,7 @@
 
 #include "sublimit/base/parallel_for.h"
 #include "sublimit/limit/curve_pieces.h"
+#include "sublimit/limit/derivative_order.h"
 
 namespace sublimit {
 namespace {
