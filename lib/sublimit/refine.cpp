@@ -6,8 +6,8 @@
 
 #include "sublimit/base/error.h"
 #include "sublimit/base/memory.h"
-#include "sublimit/mesh/topology_builder.h"
 #include "sublimit/refine_impl.h"
+#include "sublimit/renumbered_level.h"
 #include "sublimit/schemes.h"
 
 namespace sublimit {
@@ -172,51 +172,30 @@ Part part(const Level& whole, std::span<const Index> chosen, int rings) {
   Part part;
   part.faces = with_neighbors(t, complete);
 
-  // Corners of the part, by those of the whole: twins and non-manifold edges stay what they are.
-  TopologyBuilder b;
-  b.face_offsets = {0};
+  RenumberedFaces order{.faces = part.faces, .offsets = {0}, .corners = {}};
   for (const Index f : part.faces) {
-    for (Index k = 0; k < t.size(Face{f}); ++k) part.halves.push_back(index(t.corner(Face{f}, k)));
-    b.face_offsets.push_back(static_cast<Index>(part.halves.size()));
+    for (Index k = 0; k < t.size(Face{f}); ++k) order.corners.push_back(index(t.corner(Face{f}, k)));
+    order.offsets.push_back(static_cast<Index>(order.corners.size()));
   }
   const auto position = [](const std::vector<Index>& list, Index i) {
     const auto at = std::lower_bound(list.begin(), list.end(), i);
     return at != list.end() && *at == i ? static_cast<Index>(at - list.begin()) : -1;
   };
   std::vector<Index>& vertices = part.vertices;
-  for (const Index h : part.halves) vertices.push_back(index(t.tail(HalfEdge{h})));
+  for (const Index h : order.corners) vertices.push_back(index(t.tail(HalfEdge{h})));
   std::sort(vertices.begin(), vertices.end());
   vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-  for (size_t i = 0; i < part.halves.size(); ++i) {
-    const HalfEdge h{part.halves[i]};
-    b.tail.push_back(position(vertices, index(t.tail(h))));
-    b.twin.push_back(exists(t.twin(h)) ? position(part.halves, index(t.twin(h))) : -1);
-    if (exists(t.twin(h)) || !t.is_nonmanifold(t.edge(h))) continue;
-    std::vector<Index> group;
-    for (const HalfEdge g : t.half_edges(t.edge(h)))
-      if (const Index own_half = position(part.halves, index(g)); own_half >= 0) group.push_back(own_half);
-    if (group[0] == static_cast<Index>(i)) b.nonmanifold_edges.push_back(std::move(group));
-  }
-  b.find_fans(static_cast<Index>(vertices.size()));
+  part.level = renumbered_level(
+      whole, order, static_cast<Index>(vertices.size()), [&](Index h) { return position(order.corners, h); },
+      [&](Index v) { return position(vertices, v); });
+  part.halves = std::move(order.corners);
 
   Level& level = part.level;
-  level.number = whole.number;
-  level.steps.emplace_back();
-  level.steps[0].topology = std::move(b).build();
   const Topology& own = level.topology();
-  level.sharpness.creasing = whole.sharpness.creasing;
   // Vertices on the rim stay out of the next refinement, and any rule will do.
   level.sharpness.vertex.assign(vertices.size(), infinite_sharpness);
   for (const Index f : complete)
     for (const Index v : t.vertices(Face{f})) level.sharpness.vertex[position(vertices, v)] = whole.sharpness.vertex[v];
-  level.sharpness.edge.resize(own.num_edges());
-  level.holes.resize(part.faces.size());
-  for (size_t i = 0; i < part.faces.size(); ++i) {
-    level.holes[i] = whole.holes[part.faces[i]];
-    for (Index k = 0; k < own.size(Face{Index(i)}); ++k)
-      level.sharpness.edge[index(own.edge(own.corner(Face{Index(i)}, k)))] =
-          whole.sharpness.edge[index(t.edge(t.corner(Face{part.faces[i]}, k)))];
-  }
   // An edge of the rim has lost a face; without this it would be asked for its smooth mask.
   for (Index e = 0; e < own.num_edges(); ++e)
     if (!exists(own.twin(own.half_edge(Edge{e})))) level.sharpness.edge[e] = infinite_sharpness;

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <tuple>
 
-#include "sublimit/mesh/topology_builder.h"
+#include "sublimit/renumbered_level.h"
 
 namespace sublimit {
 
@@ -40,43 +40,22 @@ CanonicalPart canonical_part(const Level& part, const std::vector<Index>& slots)
 
   CanonicalPart result;
   result.half_edge.resize(t.num_half_edges());
-  TopologyBuilder b;
-  b.face_offsets = {0};
-  Index at = 0;
+  RenumberedFaces order{.faces = {}, .offsets = {0}, .corners = {}};
   for (const Entry& entry : faces) {
     const auto size = static_cast<Index>(entry.corners.size());
     for (Index k = 0; k < size; ++k) {
-      result.half_edge[index(t.corner(Face{entry.face}, (entry.first + k) % size))] = at++;
-      b.tail.push_back(entry.corners[k]);
+      const HalfEdge h = t.corner(Face{entry.face}, (entry.first + k) % size);
+      result.half_edge[index(h)] = static_cast<Index>(order.corners.size());
+      order.corners.push_back(index(h));
     }
-    b.face_offsets.push_back(at);
+    order.faces.push_back(entry.face);
+    order.offsets.push_back(static_cast<Index>(order.corners.size()));
   }
-  b.twin.assign(t.num_half_edges(), -1);
-  for (Index h = 0; h < t.num_half_edges(); ++h)
-    if (const HalfEdge g = t.twin(HalfEdge{h}); exists(g)) b.twin[result.half_edge[h]] = result.half_edge[index(g)];
-  for (Index e = 0; e < t.num_edges(); ++e) {
-    if (exists(t.twin(t.half_edge(Edge{e}))) || !t.is_nonmanifold(Edge{e})) continue;
-    std::vector<Index> group;
-    for (const HalfEdge h : t.half_edges(Edge{e})) group.push_back(result.half_edge[index(h)]);
-    std::sort(group.begin(), group.end());
-    b.nonmanifold_edges.push_back(std::move(group));
-  }
-  std::sort(b.nonmanifold_edges.begin(), b.nonmanifold_edges.end());
-  b.find_fans(t.num_vertices());
-
-  Level& level = result.level;
-  level.number = part.number;
-  level.steps.emplace_back();
-  level.steps[0].topology = std::move(b).build();
-  const Topology& own = level.topology();
-  level.sharpness.creasing = part.sharpness.creasing;
-  level.sharpness.vertex.resize(t.num_vertices());
-  for (Index v = 0; v < t.num_vertices(); ++v) level.sharpness.vertex[number[v]] = part.sharpness.vertex[v];
-  level.sharpness.edge.resize(own.num_edges());
-  for (Index h = 0; h < t.num_half_edges(); ++h)
-    level.sharpness.edge[index(own.edge(HalfEdge{result.half_edge[h]}))] =
-        part.sharpness.edge[index(t.edge(HalfEdge{h}))];
-  for (const Entry& entry : faces) level.holes.push_back(part.holes[entry.face]);
+  result.level = renumbered_level(
+      part, order, t.num_vertices(), [&](Index h) { return result.half_edge[h]; }, [&](Index v) { return number[v]; });
+  UninitializedVector<float>& sharpness = result.level.sharpness.vertex;
+  sharpness.resize(t.num_vertices());
+  for (Index v = 0; v < t.num_vertices(); ++v) sharpness[number[v]] = part.sharpness.vertex[v];
   return result;
 }
 
