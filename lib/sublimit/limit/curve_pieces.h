@@ -15,10 +15,10 @@
 // unknowns.
 #include <array>
 #include <map>
-#include <optional>
 #include <vector>
 
 #include "sublimit/curve_refine.h"
+#include "sublimit/limit/curve_polynomial.h"
 
 namespace sublimit {
 
@@ -72,16 +72,11 @@ class CurvePieces {
   Index num_polynomial() const;
 
  private:
-  using Real = long double;  // for what is made once and used often
+  using Real = CurvePolynomial::Real;
   using MatrixL = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  using RowL = Eigen::Matrix<Real, 1, Eigen::Dynamic>;
-  using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  using RowL = CurvePolynomial::Row;
+  using Matrix = CurvePolynomial::Matrix;
 
-  /// Rows as Bernstein polynomials: of the position, of its first and of its second differences, times d and d (d - 1).
-  struct Polynomial {
-    int degree = 0;
-    std::array<Matrix, 3> coefficients;
-  };
   /// Limit and derivatives at a vertex.
   struct Vertex {
     int exists = -1;  // -1: nothing known
@@ -93,14 +88,14 @@ class CurvePieces {
     Index width = 0;
     std::array<int, 2> child{-1, -1};
     std::array<Matrix, 2> B;
-    std::array<MatrixL, 2> exact_B;         // with row sums to more digits
-    Eigen::VectorXd constant, linear;       // values of 1, and of x from the start of the piece in legs
-    Eigen::VectorXd slope;                  // linear less its value at unknown 0, per that at unknown 1
-    bool keeps_linear = true;               // and so do its children
-    std::array<RowL, 2> limit;              // position at s = 0 and 1, where B_0 or B_1 repeats
-    std::array<Vertex, 2> vertex;           // likewise, of types that are no polynomials
-    std::vector<Polynomial> polynomials;    // none, one, or one for each half
-    int start_order = 2, middle_order = 2;  // derivatives where it meets the piece before, and where two halves meet
+    std::array<MatrixL, 2> exact_B;            // with row sums to more digits
+    Eigen::VectorXd constant, linear;          // values of 1, and of x from the start of the piece in legs
+    Eigen::VectorXd slope;                     // linear less its value at unknown 0, per that at unknown 1
+    bool keeps_linear = true;                  // and so do its children
+    std::array<RowL, 2> limit;                 // position at s = 0 and 1, where B_0 or B_1 repeats
+    std::array<Vertex, 2> vertex;              // likewise, of types that are no polynomials
+    std::vector<CurvePolynomial> polynomials;  // none, one, or one for each half
+    int start_order = 2, middle_order = 2;     // derivatives where it meets the piece before, and where two halves meet
     std::array<std::vector<std::array<Matrix, 3>>, 2>
         powers;  // of the repeating blocks: by m, position and derivatives
   };
@@ -115,13 +110,11 @@ class CurvePieces {
   void make_blocks(int at);
   void make_limits(Type& type) const;
   RowL value(int at, Real s) const;
-  std::optional<Polynomial> polynomial(const std::vector<RowL>& values) const;
   void find_polynomials(int at);
   void find_orders(int at);
   void make_vertices(int at);
   void make_powers(Type& type) const;
   void project(const Type& type, int derivatives, double* weights) const;
-  static void evaluate(const Polynomial& p, double y, int derivatives, Index width, double* weights);
 
   CurveScheme<double> scheme_;
   CurveLayout layout_;
