@@ -15,6 +15,7 @@
 #include "sublimit/mesh/prepare.h"
 #include "sublimit/mesh/read_mesh.h"
 #include "sublimit/sidecar.h"
+#include "sublimit/sparse_product.h"
 
 namespace sublimit::cli {
 namespace {
@@ -160,6 +161,20 @@ Loaded load(const Common& common, Progress& progress) {
     list(faults, "warning", 5);
   }
   return loaded;
+}
+
+std::function<void(int)> telling_levels(Progress& progress, int count) {
+  return [&progress, count](int level) { progress.step(fmt::format("level {} of {}", level, count)); };
+}
+
+std::vector<Level> refined_levels(const Loaded& loaded, int count, Progress& progress) {
+  return refine(*loaded.scheme, loaded.mesh, count, loaded.rules, telling_levels(progress, count));
+}
+
+Points refined_points(const std::vector<Level>& levels, const Points& control) {
+  Points points = control;
+  for (size_t k = 1; k < levels.size(); ++k) points = apply(levels[k].S, points);
+  return points;
 }
 
 std::vector<FaceVaryingLevel> refined_channel(const Common& common, const Loaded& loaded,

@@ -71,6 +71,15 @@ void limit_threads(const Common& common);
 /// Reads the mesh and its sidecar, prints warnings, and finds the scheme if one was named.
 Loaded load(const Common& common, Progress& progress);
 
+/// What `refine` calls before each of `count` levels.
+std::function<void(int)> telling_levels(Progress& progress, int count);
+
+/// Levels 0 to `count` of the mesh.
+std::vector<Level> refined_levels(const Loaded& loaded, int count, Progress& progress);
+
+/// Points of the last level, from those of the first.
+Points refined_points(const std::vector<Level>& levels, const Points& control);
+
 /// Levels of the mesh's texture coordinates, if it has any and the output has room for them. Where the scheme cannot
 /// refine them they are dropped with a warning, unless --face-varying asks for them.
 std::vector<FaceVaryingLevel> refined_channel(const Common& common, const Loaded& loaded,

@@ -28,6 +28,15 @@ CurveScheme<double> scheme_of(const Common& common) { return *find_curve_scheme(
 
 }  // namespace
 
+void add_closed(CLI::App& command, bool& closed) {
+  command.add_flag("--closed", closed, "Curves: a CSV has closed ones (an OBJ line that comes back is closed anyway)");
+}
+
+void check_mesh_job(const Common& common, bool closed) {
+  scheme_or_throw(common.scheme, given_options(common));  // a misspelt name may be one of curves
+  if (closed) throw InvalidOption("--closed is for curves; " + common.scheme + " refines meshes");
+}
+
 SchemeOptions curve_options(const Common& common) {
   for (const auto& [name, value] :
        {std::pair("--boundary", common.boundary), std::pair("--creasing", common.creasing),
@@ -86,8 +95,7 @@ Refined refined(const CurveJob& job, const CurveScheme<double>& scheme, Progress
     throw InvalidOption(fmt::format("cannot write {}: an .obj has points of 3 coordinates, these have {}; write a .csv",
                                     job.output, result.polygon.dimension()));
   naming_mesh(*job.common, [&] {
-    result.levels = refine(scheme, result.polygon, job.levels,
-                           [&](int level) { progress.step(fmt::format("level {} of {}", level, job.levels)); });
+    result.levels = refine(scheme, result.polygon, job.levels, telling_levels(progress, job.levels));
     result.unknowns = unknowns(scheme, result.polygon);
   });
   for (const CurveLevel& level : result.levels) result.unknowns = apply(level.S, result.unknowns);

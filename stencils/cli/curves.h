@@ -18,6 +18,12 @@ struct CurveJob {
 /// Whether `common.scheme` names a curve scheme.
 bool is_curve_job(const Common& common);
 
+/// Adds --closed to a subcommand that takes curves too.
+void add_closed(CLI::App& command, bool& closed);
+/// For a job that is none of curves.
+/// @throws InvalidOption  no scheme of meshes has that name; it may be a misspelt one of curves. `closed` is for curves
+void check_mesh_job(const Common& common, bool closed);
+
 /// Options of the scheme.
 /// @throws InvalidOption  options of meshes
 SchemeOptions curve_options(const Common& common);

@@ -38,8 +38,8 @@ int refine_geometric(const CurveJob& job, const GeometricCurveScheme& scheme) {
     throw InvalidOption(
         fmt::format("cannot write {}: {}: it is not linear: there is no matrix", job.matrix, scheme.name));
   Progress progress(job.common->quiet);
-  ControlPolygon result = refine(scheme, checked_polygon(job, scheme, progress), job.levels,
-                                 [&](int level) { progress.step(fmt::format("level {} of {}", level, job.levels)); });
+  ControlPolygon result =
+      refine(scheme, checked_polygon(job, scheme, progress), job.levels, telling_levels(progress, job.levels));
   progress.step("writing " + job.output);
   write_polygon(job.output, result);
   progress.step("");

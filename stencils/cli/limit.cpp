@@ -5,7 +5,6 @@
 
 #include "common.h"
 #include "curves.h"
-#include "sublimit/base/error.h"
 #include "sublimit/refined_mesh.h"
 #include "sublimit/sparse_product.h"
 
@@ -22,8 +21,7 @@ struct Options {
 int run(const Options& options) {
   if (is_curve_job(options.common))
     return limit_curves({&options.common, options.levels, options.output, "", options.closed, options.normals});
-  scheme_or_throw(options.common.scheme, given_options(options.common));  // a misspelt name may be one of curves
-  if (options.closed) throw InvalidOption("--closed is for curves; " + options.common.scheme + " refines meshes");
+  check_mesh_job(options.common, options.closed);
   check_output_path(options.output, {".obj", ".ply"});
   Progress progress(options.common.quiet);
   const Loaded loaded = load(options.common, progress);
@@ -33,8 +31,7 @@ int run(const Options& options) {
   LimitMatrices limit;
   LimitMaskCache cache(*loaded.scheme);
   naming_mesh(options.common, [&] {
-    levels = refine(*loaded.scheme, loaded.mesh, options.levels, loaded.rules,
-                    [&](int level) { progress.step(fmt::format("level {} of {}", level, options.levels)); });
+    levels = refined_levels(loaded, options.levels, progress);
     progress.step("limits");
     limit = limit_matrices(levels.back(), cache);
     channel = refined_channel(options.common, loaded, levels, options.output);
@@ -43,8 +40,7 @@ int run(const Options& options) {
     limit_values = apply(limit_matrices(channel.back().level, channel_cache).position,
                          refined_values(channel, loaded.mesh.face_varying[0].values));
   });
-  Points points = loaded.mesh.positions;
-  for (size_t k = 1; k < levels.size(); ++k) points = apply(levels[k].S, points);
+  const Points points = refined_points(levels, loaded.mesh.positions);
   const LimitPoints at_limit = limit_points(limit, levels.back().topology(), points);
   progress.step("writing " + options.output);
   const bool obj = options.output.ends_with("j") || options.output.ends_with("J");
@@ -75,8 +71,7 @@ Command add_limit(CLI::App& app) {
                     "Limit normals too: per corner in .obj (one for each side of a crease), per vertex in .ply");
   command->add_option("-o,--output", options->output, "OUT.obj or OUT.ply; faces that are holes are left out")
       ->required();
-  command->add_flag("--closed", options->closed,
-                    "Curves: a CSV has closed ones (an OBJ line that comes back is closed anyway)");
+  add_closed(*command, options->closed);
   command->footer(
       "Examples:\n"
       "  sublimit limit cage.obj -s catmull-clark -l 3 --normals -o surface.obj\n"

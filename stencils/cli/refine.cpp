@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <fmt/core.h>
-
 #include "common.h"
 #include "curves.h"
-#include "sublimit/base/error.h"
 #include "sublimit/matrix_market.h"
 #include "sublimit/refined_mesh.h"
-#include "sublimit/sparse_product.h"
 
 namespace sublimit::cli {
 namespace {
@@ -21,8 +17,7 @@ struct Options {
 int run(const Options& options) {
   if (is_curve_job(options.common))
     return refine_curves({&options.common, options.levels, options.output, options.matrix, options.closed});
-  scheme_or_throw(options.common.scheme, given_options(options.common));  // a misspelt name may be one of curves
-  if (options.closed) throw InvalidOption("--closed is for curves; " + options.common.scheme + " refines meshes");
+  check_mesh_job(options.common, options.closed);
   check_output_path(options.output, {".obj", ".ply"});
   if (!options.matrix.empty()) check_output_path(options.matrix, {".mtx"});
   Progress progress(options.common.quiet);
@@ -30,12 +25,10 @@ int run(const Options& options) {
   std::vector<Level> levels;
   std::vector<FaceVaryingLevel> channel;
   naming_mesh(options.common, [&] {
-    levels = refine(*loaded.scheme, loaded.mesh, options.levels, loaded.rules,
-                    [&](int level) { progress.step(fmt::format("level {} of {}", level, options.levels)); });
+    levels = refined_levels(loaded, options.levels, progress);
     channel = refined_channel(options.common, loaded, levels, options.output);
   });
-  Points points = loaded.mesh.positions;
-  for (size_t k = 1; k < levels.size(); ++k) points = apply(levels[k].S, points);
+  const Points points = refined_points(levels, loaded.mesh.positions);
   // The matrix first: if it does not fit, there is no mesh without its matrix.
   if (!options.matrix.empty()) {
     progress.step("multiplying");
@@ -63,8 +56,7 @@ Command add_refine(CLI::App& app) {
       ->required();
   command->add_option("--matrix", options->matrix, "OUT.mtx: the stencils, new points = matrix * control points");
   command->add_flag("--no-tags", options->no_tags, "Leave the tags out");
-  command->add_flag("--closed", options->closed,
-                    "Curves: a CSV has closed ones (an OBJ line that comes back is closed anyway)");
+  add_closed(*command, options->closed);
   command->footer(
       "Examples:\n"
       "  sublimit refine cage.obj -s catmull-clark -l 2 -o refined.obj\n"

@@ -82,8 +82,7 @@ SampleSource random_source(const SampleJob& job, const LimitSurface& surface, Sa
 int run(const Options& options) {
   const SampleJob job = checked(options);
   if (is_curve_job(job.common)) return sample_curves(job);
-  scheme_or_throw(job.common.scheme, given_options(job.common));  // a misspelt name may be one of curves
-  if (job.closed) throw InvalidOption("--closed is for curves; " + job.common.scheme + " refines meshes");
+  check_mesh_job(job.common, job.closed);
   check_output_path(job.output, {".csv"});
   const SampleColumns columns{job.derivatives, job.curvature};
   std::unique_ptr<SampleReader> reader;  // a wrong header is told before a large mesh is read
@@ -133,8 +132,7 @@ Command add_sample(CLI::App& app) {
   command->add_flag("--clamp", job.clamp,
                     "Places of --at outside their face are moved to its rim (default: an error that names the row)");
   command->add_option("-o,--output", job.output, "OUT.csv: face,u,v,status,x,y,z[,derivatives],nx,ny,nz")->required();
-  command->add_flag("--closed", job.closed,
-                    "Curves: a CSV has closed ones (an OBJ line that comes back is closed anyway)");
+  add_closed(*command, job.closed);
   command->footer(
       "Examples:\n"
       "  sublimit sample cage.obj -s catmull-clark --grid 5 -o points.csv\n"

@@ -45,6 +45,12 @@ nlohmann::ordered_json to_json(const OptionInfo& info) {
   return json;
 }
 
+nlohmann::ordered_json to_json(const std::vector<OptionInfo>& options) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::object();
+  for (const OptionInfo& info : options) json[info.name] = to_json(info);
+  return json;
+}
+
 void print(const OptionInfo& info) {
   std::string values;
   for (const std::string& value : info.values) values += (values.empty() ? "" : "|") + value;
@@ -56,8 +62,6 @@ void print(const OptionInfo& info) {
 void add_curves(nlohmann::ordered_json& all) {
   for (const CurveScheme<double>& scheme : all_curve_schemes()) {
     const CurveClaims& claims = scheme.claims;
-    nlohmann::ordered_json options = nlohmann::ordered_json::object();
-    for (const OptionInfo& info : scheme.options) options[info.name] = to_json(info);
     all.push_back({{"name", scheme.name},
                    {"kind", "curve"},
                    {"arity", 2},
@@ -69,7 +73,7 @@ void add_curves(nlohmann::ordered_json& all) {
                    {"reproduces_degree", claims.reproduces},
                    {"interpolates", claims.interpolates},
                    {"convex_hull", claims.convex_hull},
-                   {"options", options},
+                   {"options", to_json(scheme.options)},
                    {"source", scheme.source}});
   }
   for (const GeometricCurveScheme& scheme : all_geometric_schemes()) {
@@ -120,9 +124,8 @@ int run(bool as_json) {
   for (const Scheme<double>& scheme : all_schemes()) {
     const Claims& claims = scheme.claims;
     if (as_json) {
-      nlohmann::ordered_json steps = nlohmann::ordered_json::array(), options = nlohmann::ordered_json::object();
+      nlohmann::ordered_json steps = nlohmann::ordered_json::array();
       for (const Step<double>& step : scheme.steps) steps.push_back(name(step.split));
-      for (const OptionInfo& info : scheme.options) options[info.name] = to_json(info);
       all.push_back({{"name", scheme.name},
                      {"kind", "surface"},
                      {"arity", arity(scheme)},
@@ -135,7 +138,7 @@ int run(bool as_json) {
                      {"reproduces_degree", claims.reproduces},
                      {"interpolates", claims.interpolates},
                      {"convex_hull", claims.convex_hull},
-                     {"options", options},
+                     {"options", to_json(scheme.options)},
                      {"source", scheme.source}});
       continue;
     }
