@@ -44,6 +44,14 @@ inline std::vector<TestedScheme> schemes_and_degrees(int largest = 9) {
   return tested;
 }
 
+/// Those of them that a law is about.
+template <class Wanted>
+std::vector<TestedScheme> schemes_and_degrees_if(const Wanted& wanted) {
+  std::vector<TestedScheme> tested = schemes_and_degrees();
+  std::erase_if(tested, [&](const TestedScheme& t) { return !wanted(t.scheme()); });
+  return tested;
+}
+
 /// catmull_clark, averaging_5
 inline std::string test_name(const ::testing::TestParamInfo<TestedScheme>& info) {
   std::string name = info.param.name;

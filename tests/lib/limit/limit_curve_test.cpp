@@ -25,8 +25,15 @@ namespace {
 constexpr double position_tolerance = 2e-14;
 /// Of the polynomials of splines: fewer roundings.
 constexpr double spline_tolerance = 1e-14;
-/// Relative to the derivative's own size.
-constexpr double first_tolerance = 1e-11, second_tolerance = 1e-9;
+/// Derivatives of splines take differences of their coefficients, which cost a digit, and of degree 15 are large sums.
+double spline_derivative_tolerance(double derivative) { return 10 * spline_tolerance + 1e-12 * std::abs(derivative); }
+/// Of points of size 1: a smaller derivative is a sum that cancels, and is as exact as one of this size.
+constexpr double cancelled = 1e-3;
+/// Points of six steps of arcs against the arcs themselves; tangents are directions of legs, then 1/64 as long.
+constexpr double refined_arcs = 1e-12, refined_tangents = 100 * refined_arcs;
+/// Central differences of the tangents of arcs: beside the step's square times the third power of the curvature, eps by
+/// the step.
+constexpr double difference_step = 1e-5, difference_error = 1e-8;
 
 using Variants = std::vector<std::pair<std::string, SchemeOptions>>;
 
@@ -164,7 +171,7 @@ TEST(LimitCurve, LaneRiesenfeldIsTheBSplineOfCoxAndDeBoor) {
           for (int k = 1; k <= std::min(order_of(stencil), degree); ++k) {
             if (knot && degree <= k) continue;  // one-sided: the sides of segments are tested below
             const double slope = double(spline(degree, at, at_end, k, x));
-            EXPECT_NEAR(value(stencil, data, k), slope, 10 * spline_tolerance + 1e-12 * std::abs(slope))
+            EXPECT_NEAR(value(stencil, data, k), slope, spline_derivative_tolerance(slope))
                 << segment << " " << t << " derivative " << k;
           }
         }
@@ -217,12 +224,12 @@ void expect_truth(const CurveScheme<double>& scheme, const CurveScheme<Precise>&
       if (stencil.status == LimitStatus::crease && t == 1 && segment < last + (closed ? 1 : 0)) continue;
       if (order_of(stencil) >= 1) {
         EXPECT_NEAR(value(stencil, points, 1), double(expected.first),
-                    first_tolerance * std::abs(double(expected.first)))
+                    first_derivative * std::abs(double(expected.first)))
             << segment << " " << t;
       }
       if (order_of(stencil) >= 2) {
         const double second = double(expected.second);
-        EXPECT_NEAR(value(stencil, points, 2), second, second_tolerance * std::max(1e-3, std::abs(second)))
+        EXPECT_NEAR(value(stencil, points, 2), second, second_derivative * std::max(cancelled, std::abs(second)))
             << segment << " " << t;
       }
     }
@@ -329,7 +336,7 @@ TEST(LimitCurve, IsTheSameFromTheNextLevel) {
           for (int k = 1; k <= std::min(order_of(a), order_of(b)); ++k) {
             const double expected = value(b, fine, k) * (1 << k);
             EXPECT_NEAR(value(a, coarse, k), expected,
-                        (k == 1 ? first_tolerance : second_tolerance) * std::max(1e-2, std::abs(expected)))
+                        (k == 1 ? first_derivative : second_derivative) * std::max(cancelled, std::abs(expected)))
                 << segment << " " << t << " derivative " << k;
           }
         }
@@ -414,9 +421,9 @@ TEST(LimitCurve, TrigonometricCubicMakesCirclesEverywhere) {
     for (Index i = 0; i < result.position.rows(); ++i) {
       const Eigen::RowVector2d p = result.position.row(i), first = result.first.row(i), second = result.second.row(i);
       EXPECT_NEAR(p.norm(), radius, spline_tolerance) << samples[i].t;
-      EXPECT_NEAR(first.norm(), turn * radius, first_tolerance);
-      EXPECT_NEAR((second + turn * turn * p).norm(), 0, second_tolerance);
-      EXPECT_NEAR((result.normal.row(i) + p / radius).norm(), 0, first_tolerance);  // inwards, left of the curve
+      EXPECT_NEAR(first.norm(), turn * radius, first_derivative);
+      EXPECT_NEAR((second + turn * turn * p).norm(), 0, second_derivative);
+      EXPECT_NEAR((result.normal.row(i) + p / radius).norm(), 0, first_derivative);  // inwards, left of the curve
       const double angle = turn * (samples[i].segment + samples[i].t);
       EXPECT_NEAR((p - radius * Eigen::RowVector2d(std::cos(angle), std::sin(angle))).norm(), 0, spline_tolerance);
       EXPECT_EQ(result.status[i], LimitStatus::regular);
@@ -568,7 +575,7 @@ TEST(LimitCurve, EvaluatesWhatItsStencilsSay) {
         const Eigen::Vector3d normal = result.normal.row(i), first = result.first.row(i), second = result.second.row(i);
         if (normal.norm() == 0) continue;  // straight
         EXPECT_NEAR(normal.norm(), 1, rounding(4));
-        EXPECT_NEAR(normal.dot(first) / first.norm(), 0, 1e-9);
+        EXPECT_NEAR(normal.dot(first) / first.norm(), 0, reference_angle);
         EXPECT_GT(normal.dot(second), 0);
       }
     }
@@ -657,20 +664,20 @@ TEST(GeometricLimitCurve, PassesThroughRefinedPoints) {
       for (Index i = 0; i < legs * 64; ++i) samples.push_back({i / 64, (i % 64) / 64.0});
       const CurveSamples result = evaluate(scheme, polygon, samples, 2);
       for (Index i = 0; i < legs * 64; ++i) {
-        EXPECT_LT((result.position.row(i) - fine.points.row(i)).norm(), 1e-12) << i;
-        EXPECT_LT((result.first.row(i) - fine.tangents.row(i)).norm(), 1e-10) << i;
-        EXPECT_NEAR(result.second.row(i).dot(result.first.row(i)), 0, 1e-12 * (1 + result.second.row(i).norm()));
+        EXPECT_LT((result.position.row(i) - fine.points.row(i)).norm(), refined_arcs) << i;
+        EXPECT_LT((result.first.row(i) - fine.tangents.row(i)).norm(), refined_tangents) << i;
+        EXPECT_NEAR(result.second.row(i).dot(result.first.row(i)), 0, refined_arcs * (1 + result.second.row(i).norm()));
       }
       EXPECT_EQ(result.status[0], closed ? LimitStatus::unbounded_second : LimitStatus::crease);
       EXPECT_EQ(result.status[64], LimitStatus::unbounded_second);  // arcs meet
       EXPECT_EQ(result.order[64], 1);
       // The vector of curvature is the difference of tangents by length.
-      const double h = 1e-5;
+      const double h = difference_step;
       const std::vector<CurveSample> three{{1, 0.2 - h}, {1, 0.2}, {1, 0.2 + h}};
       const CurveSamples near = evaluate(scheme, polygon, three, 2);
       const double length = (near.position.row(2) - near.position.row(0)).norm();
       EXPECT_LT(((near.first.row(2) - near.first.row(0)) / length - near.second.row(1)).norm(),
-                1e-8 * (1 + std::pow(near.second.row(1).norm(), 3)));
+                difference_error * (1 + std::pow(near.second.row(1).norm(), 3)));
     }
 }
 

@@ -19,6 +19,12 @@
 namespace sublimit::testing {
 namespace {
 
+/// Central differences over 2^-17, relative to the derivatives. Of polynomials, first ones are wrong by the square of
+/// the step and by eps by the step, where pieces meet by the step itself, and second ones by a digit more.
+constexpr double difference_error = 1e-6, second_difference_error = 10 * difference_error;
+/// Of limits that are no polynomials the derivatives are but a little better than continuous.
+constexpr double rough_difference_error = 1e-2;
+
 /// Rows of a stencil over all vertices of a level.
 RowMatrix dense(const LimitSurface& surface, const LimitStencil& s) {
   RowMatrix rows = RowMatrix::Zero(s.weights.rows(), surface.level().topology().num_vertices());
@@ -168,8 +174,7 @@ TEST_P(LimitSurfaceLaws, IsContinuousWherePiecesAreCut) {
   });
 }
 
-/// Central differences over 2^-17, away from what is dyadic. Of limits that are no polynomials the derivatives are but
-/// a little better than continuous.
+/// Away from what is dyadic.
 TEST_P(LimitSurfaceLaws, DerivativesAreDifferences) {
   const double h = std::ldexp(1.0, -17);
   on_hard_meshes([&](const LimitSurface& surface, const ControlMesh&) {
@@ -187,13 +192,14 @@ TEST_P(LimitSurfaceLaws, DerivativesAreDifferences) {
       const auto expect_close = [&](const RowMatrix& row, const RowMatrix& difference, double bound, const char* what) {
         EXPECT_LE(norm1(row - difference / (2 * h)), bound) << what << " at " << words(s);
       };
-      const double first = has_polynomials(scheme_) ? 1e-6 : 1e-2;
+      const double first = has_polynomials(scheme_) ? difference_error : rough_difference_error;
       const double first_size = norm1(x.row(1)) + norm1(x.row(2));
       expect_close(x.row(1), e.row(0) - w.row(0), first * first_size, "du");
       expect_close(x.row(2), n.row(0) - o.row(0), first * first_size, "dv");
       ++compared;
       if (x.rows() < 6 || e.rows() < 3 || w.rows() < 3 || n.rows() < 3 || o.rows() < 3) continue;
-      const double second = 1e-5 * (first_size + norm1(x.row(3)) + norm1(x.row(4)) + norm1(x.row(5)));
+      const double second =
+          second_difference_error * (first_size + norm1(x.row(3)) + norm1(x.row(4)) + norm1(x.row(5)));
       expect_close(x.row(3), e.row(1) - w.row(1), second, "duu");
       expect_close(x.row(4), e.row(2) - w.row(2), second, "duv");
       expect_close(x.row(4), n.row(1) - o.row(1), second, "dvu");
@@ -249,10 +255,16 @@ std::pair<HalfEdge, Eigen::Vector2d> child_place(const Topology& t, const Refine
   return {step.halves(t, corner).first, {2 * a, 2 * b}};
 }
 
-/// Stencils over level 1 times S are those over level 0: quadrilateral children of schemes that keep their vertices.
-TEST_P(LimitSurfaceLaws, IsTheSameFromTheNextLevel) {
-  if (scheme_.is_dual() || triangles() || !scheme_.preparation.empty())
-    GTEST_SKIP() << "children are not squares at corners";
+/// Of schemes that keep their vertices and have squares for children at every corner.
+class LimitSurfaceLawsOfSquares : public LimitSurfaceLaws {
+ public:
+  static bool hold(const Scheme<double>& scheme) {
+    return !scheme.is_dual() && !takes_triangles(scheme) && scheme.preparation.empty();
+  }
+};
+
+/// Stencils over level 1 times S are those over level 0.
+TEST_P(LimitSurfaceLawsOfSquares, IsTheSameFromTheNextLevel) {
   on_hard_meshes([&](const LimitSurface& surface, const ControlMesh&) {
     const Level next = next_level(scheme_, surface.level());
     const LimitSurface later(scheme_, next, types_);
@@ -274,6 +286,8 @@ TEST_P(LimitSurfaceLaws, IsTheSameFromTheNextLevel) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Schemes, LimitSurfaceLaws, ::testing::ValuesIn(schemes_and_degrees()), test_name);
+INSTANTIATE_TEST_SUITE_P(Schemes, LimitSurfaceLawsOfSquares,
+                         ::testing::ValuesIn(schemes_and_degrees_if(LimitSurfaceLawsOfSquares::hold)), test_name);
 
 }  // namespace
 }  // namespace sublimit::testing
