@@ -13,7 +13,6 @@
 //   DooSabin                  borders have no points and no faces: meshes shrink; all points that there are, are ours
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <set>
 
 #include "support/cgal_reference.h"
@@ -23,12 +22,6 @@
 
 namespace sublimit::testing {
 namespace {
-
-const auto name_of_test = [](const auto& tested) {
-  std::string name = tested.param.scheme + "_" + tested.param.name;
-  std::replace(name.begin(), name.end(), '-', '_');
-  return name;
-};
 
 Matching against_cgal(const std::string& scheme, CgalScheme peer, const ControlMesh& mesh, int levels,
                       Boundary boundary = Boundary::edge_only) {

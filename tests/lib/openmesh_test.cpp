@@ -26,7 +26,6 @@
 // them.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <set>
 
 #include "support/irregular_meshes.h"
@@ -36,12 +35,6 @@
 
 namespace sublimit::testing {
 namespace {
-
-const auto name_of_test = [](const auto& tested) {
-  std::string name = tested.param.scheme + "_" + tested.param.name;
-  std::replace(name.begin(), name.end(), '-', '_');
-  return name;
-};
 
 Matching against_openmesh(const std::string& scheme, OpenMeshScheme peer, const ControlMesh& mesh, int levels,
                           Boundary boundary = Boundary::edge_only) {

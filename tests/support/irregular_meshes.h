@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 // Closed meshes without symmetry: all valences and face sizes, in all neighbourhoods.
+#include <algorithm>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -35,5 +36,11 @@ struct SchemeOnMesh {
 };
 /// Every one of the schemes on every one of the meshes.
 std::vector<SchemeOnMesh> schemes_on(const std::vector<std::string>& schemes, const std::vector<NamedMesh>& meshes);
+/// Of a parameterised test: modified_butterfly_torus.
+inline constexpr auto name_of_test = [](const auto& tested) {
+  std::string name = tested.param.scheme + "_" + tested.param.name;
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+};
 
 }  // namespace sublimit::testing

@@ -9,6 +9,7 @@
 #include <Eigen/Geometry>
 
 #include <cmath>
+#include <limits>
 
 #include "sublimit/analysis/limit_points.h"
 #include "support/hard_meshes.h"
@@ -25,6 +26,13 @@ using Vector = TruePoint::Vector;
 constexpr double precise_rounding = 1e-40;
 /// Of the truth where there are no polynomial pieces, relative to the points.
 constexpr double refined_enough = 1e-16;
+/// Of its first derivatives there, relative to themselves: refined until they change by less (limit_truth.h).
+constexpr double refined_derivatives = 1e-12;
+/// Of differences over 2^-30, relative to second derivatives: the step's square times third derivatives a thousand
+/// times as large; the step times a hundred, where the derivative itself bends.
+constexpr double smooth_differences = 1e-15, bent_differences = 1e-7;
+/// Of points at 2^-40 from a vertex to it: 0.85^40 at the largest of the subdominant eigenvalues here, with room.
+constexpr double near_vertex = 1e-2;
 
 double difference(const Vector& a, const Vector& b) {
   return static_cast<double>(Precise((a - b).cwiseAbs().maxCoeff()));
@@ -70,7 +78,7 @@ void expect_same(const TruePoint& a, const TruePoint& b, const std::string& wher
   EXPECT_LE(difference(a.position, b.position), tolerance) << where;
   EXPECT_EQ(a.has_first, b.has_first) << where;
   if (!a.has_first) return;
-  const double first = a.is_exact && b.is_exact ? tolerance : 1e-12;
+  const double first = a.is_exact && b.is_exact ? tolerance : refined_derivatives;
   const auto relative = [&](const Vector& x, const Vector& y) {
     EXPECT_LE(difference(x, y), first * (1 + size(x))) << where;
   };
@@ -150,7 +158,7 @@ TEST(LimitTruth, DerivativesAreLimitsOfDifferences) {
       const Vector c = at(0, 0), e = at(h, 0), w = at(-h, 0), n = at(0, h), o = at(0, -h);
       const Vector du = (e - w) / (2 * step), dv = (n - o) / (2 * step);
       // First derivatives of C^1 schemes may bend here, of bilinear ones only in polygons' squares.
-      const double near = truth.has_second ? 1e-15 : 1e-7;
+      const double near = truth.has_second ? smooth_differences : bent_differences;
       const double largest = 1 + size(truth.duu) + size(truth.dvv);
       EXPECT_LE(difference(truth.du, du), near * largest) << words(t, s);
       EXPECT_LE(difference(truth.dv, dv), near * largest) << words(t, s);
@@ -158,9 +166,9 @@ TEST(LimitTruth, DerivativesAreLimitsOfDifferences) {
       const Vector duu = (e - 2 * c + w) / (step * step), dvv = (n - 2 * c + o) / (step * step);
       const Vector duv = (at(h, h) - at(h, -h) - at(-h, h) + at(-h, -h)) / (4 * step * step);
       // The third derivatives of bicubic pieces jump.
-      EXPECT_LE(difference(truth.duu, duu), 1e-7 * largest) << words(t, s);
-      EXPECT_LE(difference(truth.duv, duv), 1e-7 * largest) << words(t, s);
-      EXPECT_LE(difference(truth.dvv, dvv), 1e-7 * largest) << words(t, s);
+      EXPECT_LE(difference(truth.duu, duu), bent_differences * largest) << words(t, s);
+      EXPECT_LE(difference(truth.duv, duv), bent_differences * largest) << words(t, s);
+      EXPECT_LE(difference(truth.dvv, dvv), bent_differences * largest) << words(t, s);
     }
   }
 }
@@ -235,7 +243,7 @@ TEST(LimitTruth, ComesToExtraordinaryVertices) {
     for (Index i = 0; i < topology.num_half_edges(); ++i)
       if (topology.num_faces(topology.tail(HalfEdge{i})) > topology.num_faces(topology.tail(corner)))
         corner = HalfEdge{i};
-    double before = 1e300;
+    double before = std::numeric_limits<double>::infinity();
     const TruePoint vertex =
         true_limit(t.precise, level, mesh.positions, from_corner(topology, addresses, corner, 0, 0));
     for (const int k : {2, 10, 20, 40}) {
@@ -248,7 +256,7 @@ TEST(LimitTruth, ComesToExtraordinaryVertices) {
       EXPECT_LT(distance, before) << t.name << " at 2^-" << k;
       before = distance;
     }
-    EXPECT_LT(before, 1e-2) << t.name;
+    EXPECT_LT(before, near_vertex) << t.name;
   }
 }
 
