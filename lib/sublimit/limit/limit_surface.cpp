@@ -9,6 +9,7 @@
 #include "sublimit/analysis/limit_masks.h"
 #include "sublimit/base/error.h"
 #include "sublimit/base/parallel_for.h"
+#include "sublimit/limit/derivative_order.h"
 #include "sublimit/limit/limit_patches.h"
 
 namespace sublimit {
@@ -113,8 +114,7 @@ LimitStencil LimitSurface::Parts::stencil(const Sample& s, int order) const {
 }
 
 LimitStencil LimitSurface::stencil(const Sample& sample, int order) const {
-  if (order < 0 || order > 2)
-    throw InvalidParameter("derivatives of order " + std::to_string(order) + "; 0, 1 or 2 are known");
+  check_order(order);
   parts_->check(sample);
   return parts_->stencil(sample, order);
 }
@@ -137,8 +137,7 @@ void resize(LimitSamples& out, std::int64_t count, int order, bool normals) {
 }
 
 void check_request(const Level& level, const Points& points, int order) {
-  if (order < 0 || order > 2)
-    throw InvalidParameter("derivatives of order " + std::to_string(order) + "; 0, 1 or 2 are known");
+  check_order(order);
   if (points.cols() != 3 || points.rows() != level.topology().num_vertices())
     throw InvalidParameter("points are " + std::to_string(points.rows()) + " x " + std::to_string(points.cols()) +
                            ", not " + std::to_string(level.topology().num_vertices()) + " x 3");
@@ -230,8 +229,7 @@ BoundLimitSurface::BoundLimitSurface(const LimitSurface& surface, Points points)
 BoundLimitSurface::~BoundLimitSurface() = default;
 
 void BoundLimitSurface::evaluate(std::span<const Sample> samples, int order, bool normals, LimitSamples& out) const {
-  if (order < 0 || order > 2)
-    throw InvalidParameter("derivatives of order " + std::to_string(order) + "; 0, 1 or 2 are known");
+  check_order(order);
   resize(out, static_cast<std::int64_t>(samples.size()), order, normals);
   parallel_for_blocks(
       static_cast<std::int64_t>(samples.size()),
