@@ -115,7 +115,7 @@ TEST(RotatingSurfaces, AreWhatRefinementMakesOnTheSharedMeshes) {
     const auto types = std::make_shared<PieceTypes>(scheme, 4096);
     for (const SharedMesh& shared : shared_meshes()) {
       const ControlMesh mesh = without_creases(triangulated(read_mesh(shared.path)));
-      if (mesh.num_faces() >= (full_sweep() ? 2000 : 30)) continue;
+      if (mesh.num_faces() >= (full_sweep() ? 200 : 30)) continue;
       EXPECT_EQ(wrong_at_thirds(LimitSurface(scheme, mesh, {}, types), scheme), "") << name << " on " << shared.name;
     }
   }

@@ -47,9 +47,7 @@ inline std::string wrong_at_thirds(const LimitSurface& surface, const Scheme<dou
       const Index k = t.corner_index(corner);
       return Sample{index(t.face(corner)), k == 0 ? a : k == 1 ? 1 - a : 0, k == 0 ? 0 : k == 1 ? a : 1 - a};
     };
-    std::string wrong;
-    // Where several fans meet refinement leaves the vertex alone, which limit masks of closed fans do not know.
-    if (t.fans(t.tail(h)).size() == 1) wrong = difference(from(h, 0), corners, index(t.tail(h)));
+    std::string wrong = difference(from(h, 0), corners, index(t.tail(h)));
     if (wrong.empty() && t.corner_index(h) == 0)
       wrong = difference({index(t.face(h)), 1.0 / 3, 1.0 / 3}, middles, index(first.child(t.face(h))));
     if (wrong.empty()) wrong = difference(from(h, 1.0 / 3), thirds, third(h));

@@ -26,7 +26,7 @@ LocalType local_type(const Topology& t, const Sharpness& sharpness, const Centre
     if (type.open) break;
     h = t.twin(into);
   } while (h != centre.start);
-  type.corner = type.open && is_corner(t, sharpness, t.tail(centre.start));
+  type.corner = is_corner(t, sharpness, t.tail(centre.start));
   return type;
 }
 

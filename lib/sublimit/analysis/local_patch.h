@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Local subdivision matrices of any scheme: a centre of one type, alone among regular points, refined until there are rings
-// enough, then over one whole period. Its matrix takes the points around the centre to those around its child.
+// Local subdivision matrices of any scheme: a centre of one type, alone among regular points, refined until there are
+// rings enough, then over one whole period. Its matrix takes the points around the centre to those around its child.
 #include <algorithm>
 #include <optional>
 
@@ -15,18 +15,19 @@ namespace sublimit {
 template <class T>
 struct LocalPatch {
   LocalType type;
-  int depth = 0;                    ///< of the walk that makes the slots and the signature
-  Walk places;                      ///< at that depth
-  std::vector<Index> slots;         ///< those of the smallest closed set
-  DenseMatrix<T> A;                 ///< over `slots`: one period
+  int depth = 0;                           ///< of the walk that makes the slots and the signature
+  Walk places;                             ///< at that depth
+  std::vector<Index> slots;                ///< those of the smallest closed set
+  DenseMatrix<T> A;                        ///< over `slots`: one period
   std::vector<std::vector<Index>> orbits;  ///< of a closed centre: positions in `slots`, rotated sector by sector
-  std::vector<Index> outline;       ///< of an open one: positions in `slots` of border points
+  std::vector<Index> outline;              ///< of an open one: positions in `slots` of border points
 };
 
 /// n faces of a scheme's regular size around a vertex, alone.
 ControlMesh lone_fan(Index n, Index face_size, bool open);
 
-/// Local matrix of a type; nothing where a centre of this type does not have a child of its own type (a vertex in a dual scheme).
+/// Local matrix of a type; nothing where a centre of this type does not have a child of its own type (a vertex in a
+/// dual scheme).
 /// @param rings  of points that the closed set shall hold at least; 1 is enough for tangents (0 for faces)
 /// @throws AnalysisError  no small closed set
 template <class T>
@@ -38,12 +39,13 @@ std::optional<LocalPatch<T>> local_patch(const Scheme<T>& scheme, LocalType type
   if (type.corner && scheme.is_dual()) return std::nullopt;  // dual schemes round corners
   const bool open = type.open || type.kind == Centre::Kind::border;
   const Index size = scheme.face_size() == 3 ? 3 : 4;
-  ControlMesh mesh = lone_fan(type.kind == Centre::Kind::border ? 2 : type.faces, size, open);
-  if (type.corner) mesh.corners.push_back({0, infinite_sharpness});
+  const ControlMesh mesh = lone_fan(type.kind == Centre::Kind::border ? 2 : type.faces, size, open);
   SubdivisionOptions options;
   options.boundary = Boundary::edge_only;
 
   LevelOf<T> level = control_level(scheme, mesh, options);
+  if (type.corner)
+    level.sharpness.vertex[0] = infinite_sharpness;  // no tag: of vertices of several fans, under any scheme
   const Topology* t = &level.topology();
   Centre centre{Centre::Kind::vertex, t->outgoing(Vertex{0})};
   const auto advance = [&](SparseMatrixOf<T>* product) {
@@ -54,15 +56,19 @@ std::optional<LocalPatch<T>> local_patch(const Scheme<T>& scheme, LocalType type
       before = &step.topology;
     }
     if (product) {
-      if (product->rows() == 0) product->swap(next.S);
-      else SparseMatrixOf<T>(next.S * *product).swap(*product);
+      if (product->rows() == 0)
+        product->swap(next.S);
+      else
+        SparseMatrixOf<T>(next.S * *product).swap(*product);
     }
     level = std::move(next);
   };
   // Growth of the rings from level to level: 2, sqrt 3 or sqrt 2.
-  const double growth = scheme.steps[0].split == Split::sqrt3 ? 1.7 : scheme.steps[0].split == Split::mid_edge ? 1.4 : 2;
+  const double growth = scheme.steps[0].split == Split::sqrt3      ? 1.7
+                        : scheme.steps[0].split == Split::mid_edge ? 1.4
+                                                                   : 2;
   int levels = type.phase;
-  for (double have = 1; have < rings + margin + 3 || levels < 2 * scheme.period; ) {
+  for (double have = 1; have < rings + margin + 3 || levels < 2 * scheme.period;) {
     for (int k = 0; k < scheme.period; ++k) have *= growth;
     levels += scheme.period;
   }

@@ -9,7 +9,7 @@ namespace sublimit {
 /// @throws InvalidParameter  not 0, 1 or 2
 inline void check_order(int order) {
   if (order < 0 || order > 2)
-    throw InvalidParameter("order is " + format_number(order) + "; there are derivatives of order 0, 1 and 2");
+    throw InvalidParameter("order " + format_number(order) + ": there are derivatives of order 0, 1 and 2");
 }
 
 }  // namespace sublimit

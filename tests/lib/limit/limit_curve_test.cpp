@@ -600,7 +600,7 @@ TEST(LimitCurve, RefusesPlacesThatDoNotExist) {
   expect_error<InvalidParameter>([&] { limit.stencil({3, 1.5}); }, {"t is 1.5", "from 0 to 1"});
   expect_error<InvalidParameter>([&] { limit.stencil({3, -1e-300}); }, {"t is -1e-300"});
   expect_error<InvalidParameter>([&] { limit.stencil({3, nan}); }, {"t is nan"});
-  expect_error<InvalidParameter>([&] { limit.stencil({3, 0.5}, 3); }, {"order is 3"});
+  expect_error<InvalidParameter>([&] { limit.stencil({3, 0.5}, 3); }, {"order 3"});
   expect_error<InvalidParameter>([&] { limit.grid(1); }, {"2 or more"});
   expect_error<InvalidParameter>([&] { limit.first_segment(1); }, {"curve 1"});
   const std::vector<CurveSample> samples{{0, 0}, {3, 0.5}, {3, nan}};
