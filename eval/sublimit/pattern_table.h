@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// A baked table by patterns: a stencil depends on what its neighbourhood is like, and few kinds of neighbourhoods
+// occur. Each is one dense block of weights; a patch says which block, and which control points. Knows no scheme and no
+// mesh.
+//
+//   points of a patch = (chosen rows of its block) * (its control points)
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "sublimit/stencil_table.h"
+
+namespace sublimit {
+
+template <class Real>
+class PatternTable {
+ public:
+  /// A matrix, row by row.
+  struct Block {
+    std::int32_t rows = 0, columns = 0;
+    std::int64_t weights = 0;  ///< where it begins in `weights`
+  };
+  /// Patches of one block that make the same rows of it. They and their points follow those of the group before.
+  struct Group {
+    std::int32_t block = 0;
+    std::int32_t num_rows = 0;
+    std::int64_t rows = 0;  ///< where its rows begin in `rows`
+    std::int64_t num_patches = 0;
+  };
+  struct Arrays {
+    std::vector<Block> blocks;
+    std::vector<Real> weights;
+    std::vector<Group> groups;
+    std::vector<std::int32_t> rows;     ///< numbers of rows within a block
+    std::vector<std::int32_t> columns;  ///< control points of each patch, group by group
+    /// Where most types are rare: a step by rows that makes the points which patches are applied to.
+    std::optional<StencilTable<Real>> first;
+  };
+
+  PatternTable() = default;
+  /// @param num_control_points  points that the table is applied to
+  /// @throws InvalidParameter  arrays that do not fit together, a number out of range, a weight that is not finite
+  PatternTable(std::int32_t num_control_points, Arrays arrays);
+
+  std::int64_t num_points() const { return num_points_; }
+  std::int32_t num_control_points() const { return num_control_points_; }
+  const Arrays& arrays() const { return arrays_; }
+  /// Bytes of all arrays.
+  std::int64_t num_bytes() const;
+
+  /// new points = table * control points, in parallel, the same bits for any number of threads.
+  /// @param points    num_control_points x channels, interleaved
+  /// @param result    num_points x channels, interleaved; must not overlap `points`
+  /// @throws InvalidParameter  spans of the wrong length, channels < 1
+  void apply(std::span<const Real> points, int channels, std::span<Real> result) const;
+
+  /// The same by rows, sums of both steps taken. Columns of a row ascend; weights of zero are left out.
+  StencilTable<Real> expanded() const;
+
+ private:
+  std::int32_t num_control_points_ = 0;
+  std::int64_t num_points_ = 0;
+  Arrays arrays_;
+  struct Start {
+    std::int64_t patch = 0, columns = 0, point = 0;
+  };
+  std::vector<Start> starts_;  // of each group, and the end
+};
+
+extern template class PatternTable<float>;
+extern template class PatternTable<double>;
+
+}  // namespace sublimit

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tables by patterns are P_k, row by row, and every point of level k is in them once.
+#include "sublimit/bake.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+
+#include <random>
+
+#include "sublimit/mesh/prepare.h"
+#include "sublimit/mesh/read_mesh.h"
+#include "support/expect_error.h"
+#include "support/shared_meshes.h"
+#include "support/tested_schemes.h"
+#include "support/tolerance.h"
+
+namespace sublimit::testing {
+namespace {
+
+/// Where a piece lies in the lattice of the face that it comes from: a place (u, v) of it at origin + u a + v b.
+struct Frame {
+  Eigen::Vector2d origin, a, b;
+};
+
+/// Calls body(vertex of the last level, row of the lattice) for the corners of all faces that a face becomes.
+template <class Body>
+void for_each_corner(const std::vector<Level>& levels, size_t from, const Piece& piece, const Frame& frame,
+                     const Lattice& lattice, const Body& body) {
+  if (from + 1 == levels.size()) {
+    const Topology& t = levels.back().topology();
+    std::vector<Eigen::Vector2d> at{frame.origin, frame.origin + frame.a, frame.origin + frame.a + frame.b,
+                                    frame.origin + frame.b};
+    if (lattice.triangle) at.erase(at.begin() + 2);
+    HalfEdge h = piece.start;
+    for (const Eigen::Vector2d& p : at) {
+      body(t.tail(h), lattice.row(static_cast<Index>(std::lround(p[0])), static_cast<Index>(std::lround(p[1]))));
+      h = t.next(h);
+    }
+    return;
+  }
+  const LevelStep step{&levels[from + 1].steps[0], static_cast<int>(from)};
+  for (const PieceChild& child : children(piece, levels[from].topology(), std::span(&step, 1))) {
+    const auto image = [&](double u, double v) {
+      const Place p = child.map(lattice.triangle ? triangle_place(u, v) : quad_place(u, v));
+      return Eigen::Vector2d(p.u, p.v);
+    };
+    Eigen::Matrix2d M;
+    M << image(1, 0) - image(0, 0), image(0, 1) - image(0, 0);
+    const Eigen::Matrix2d inverse = M.inverse();
+    Eigen::Matrix2d axes;
+    axes << frame.a, frame.b;
+    const Frame inner{frame.origin - axes * inverse * image(0, 0), axes * inverse.col(0), axes * inverse.col(1)};
+    for_each_corner(levels, from + 1, child.piece, inner, lattice, body);
+  }
+}
+
+struct Difference {
+  double largest = 0;       ///< sum of |weights| that differ, over all rows
+  std::int64_t points = 0;  ///< of level k
+  bool one_to_one = true;
+};
+
+Difference compare_with_refinement(const BakedLevel& baked, const Scheme<double>& scheme, const ControlMesh& mesh,
+                                   int levels) {
+  Difference d;
+  const std::vector<Level> refined = refine(scheme, mesh, levels);
+  const SparseMatrix P = refinement_matrix(refined);
+  const StencilTable<double> table = baked.table.expanded();
+  d.points = P.rows();
+  std::vector<std::int64_t> point_of(P.rows(), -1), vertex_of(table.num_rows(), -1);
+  const size_t first = size_t(levels - baked.levels);
+  const Topology& t = refined[first].topology();
+  const double n = baked.lattice.n;
+  for (Index f = 0; f < t.num_faces(); ++f) {
+    const Piece piece{baked.lattice.triangle ? Piece::Kind::triangle : Piece::Kind::quad,
+                      t.corner(Face{f}, baked.turn[f])};
+    for_each_corner(refined, first, piece, {{0, 0}, {n, 0}, {0, n}}, baked.lattice, [&](Vertex v, Index row) {
+      const std::int64_t point = baked.point(Face{f}, row);
+      d.one_to_one &= point >= 0 && (point_of[index(v)] < 0 || point_of[index(v)] == point);
+      if (point < 0) return;
+      d.one_to_one &= vertex_of[point] < 0 || vertex_of[point] == index(v);
+      point_of[index(v)] = point;
+      vertex_of[point] = index(v);
+    });
+  }
+  std::int64_t alone = 0;
+  for (Index v = 0; v < P.rows(); ++v) {
+    if (point_of[v] < 0) {
+      ++alone;
+      continue;
+    }
+    std::map<Index, double> difference;
+    for (SparseMatrix::InnerIterator it(P, v); it; ++it) difference[static_cast<Index>(it.col())] += it.value();
+    for (auto k = table.offsets()[point_of[v]]; k < table.offsets()[point_of[v] + 1]; ++k)
+      difference[table.columns()[k]] -= table.weights()[k];
+    double sum = 0;
+    for (const auto& [column, weight] : difference) sum += std::abs(weight);
+    d.largest = std::max(d.largest, sum);
+  }
+  Index isolated = 0;
+  for (Index v = 0; v < t.num_vertices(); ++v) isolated += t.is_isolated(Vertex{v});
+  d.one_to_one &= alone == isolated && table.num_rows() == P.rows();
+  return d;
+}
+
+std::vector<TestedScheme> pattern_schemes() {
+  std::vector<TestedScheme> tested;
+  for (const Scheme<double>& scheme : all_schemes())
+    if (Patterns::is_possible(scheme)) tested.push_back({scheme.name, {}});
+  return tested;
+}
+
+class BakedLevels : public ::testing::TestWithParam<TestedScheme> {
+ protected:
+  void expect_refinement(Patterns& patterns, const ControlMesh& mesh, int levels) {
+    const BakedLevel baked = bake_level(patterns, mesh, levels);
+    const Difference d = compare_with_refinement(baked, scheme_, mesh, levels);
+    EXPECT_TRUE(d.one_to_one);
+    EXPECT_EQ(baked.statistics.points, d.points);
+    // Rows of up to 100 terms, in differences and not, k products.
+    EXPECT_LE(d.largest, rounding(10.0 * levels));
+  }
+  const Scheme<double> scheme_ = GetParam().scheme();
+};
+
+TEST_P(BakedLevels, AreRefinementOnHardMeshes) {
+  Patterns patterns(scheme_);
+  for (const ControlMesh& mesh : hard_meshes(scheme_, 4))
+    for (int levels = 1; levels <= 3; ++levels) {
+      SCOPED_TRACE("level " + std::to_string(levels));
+      expect_refinement(patterns, mesh, levels);
+    }
+}
+
+TEST_P(BakedLevels, AreRefinementOnTheSharedMeshes) {
+  if (shared_meshes().empty()) GTEST_SKIP() << "NO SHARED MESHES at " << SUBLIMIT_SHARED_MESHES;
+  Patterns patterns(scheme_);
+  for (const SharedMesh& shared : shared_meshes()) {
+    ControlMesh mesh = read_mesh(shared.path);
+    if (takes_triangles(scheme_)) mesh = triangulated(mesh);
+    if (scheme_.sharpening != Sharpening::semi_sharp) mesh = without_creases(mesh);
+    if (mesh.num_faces() >= (full_sweep() ? 1000 : 30)) continue;
+    SCOPED_TRACE(shared.name);
+    expect_refinement(patterns, mesh, 2);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Schemes, BakedLevels, ::testing::ValuesIn(pattern_schemes()), test_name);
+
+TEST(BakedLevel, AppliesWhatItExpandsTo) {
+  const Scheme<double> scheme = find_scheme("catmull-clark").value();
+  Patterns patterns(scheme);
+  for (const ControlMesh& mesh : {torus(5, 7), hard_polygons(2, {.open = true, .semi_sharp = true})}) {
+    const BakedLevel baked = bake_level(patterns, mesh, 2);
+    const StencilTable<double> rows = baked.table.expanded();
+    const auto channels = 3;
+    std::vector<double> by_rows(size_t(rows.num_rows()) * channels), by_patterns(by_rows.size());
+    const std::span points(mesh.positions.data(), size_t(mesh.positions.size()));
+    rows.apply(points, channels, by_rows);
+    baked.table.apply(points, channels, by_patterns);
+    double largest = 0;
+    for (size_t i = 0; i < by_rows.size(); ++i) largest = std::max(largest, std::abs(by_rows[i] - by_patterns[i]));
+    EXPECT_LE(largest, rounding(8, mesh.positions.cwiseAbs().maxCoeff()));
+    const std::vector<double> before = by_patterns;
+    baked.table.apply(points, channels, by_patterns);
+    EXPECT_EQ(by_patterns, before);
+  }
+}
+
+TEST(BakedLevel, OfARegularMeshIsOneBlock) {
+  Patterns patterns(find_scheme("catmull-clark").value());
+  const BakedLevel baked = bake_level(patterns, torus(12, 9), 3);
+  EXPECT_EQ(baked.statistics.types, 1);
+  EXPECT_EQ(baked.statistics.points, 12 * 9 * 64);
+  EXPECT_EQ(baked.table.arrays().columns.size(), 12u * 9 * 16);
+}
+
+/// The dictionary outlives meshes: nothing is new in the second one, and no rotation makes a type.
+TEST(BakedLevel, KnowsTypesFromBefore) {
+  Patterns patterns(find_scheme("catmull-clark").value());
+  bake_level(patterns, cube(), 2);
+  EXPECT_EQ(patterns.num_types(), 1u);
+  bake_level(patterns, torus(9, 9), 2);
+  EXPECT_EQ(patterns.num_types(), 2u);
+  bake_level(patterns, torus(11, 8), 2);
+  EXPECT_EQ(patterns.num_types(), 2u);
+}
+
+TEST(BakedLevel, BadRequestsAreErrors) {
+  expect_error<InvalidParameter>([] { Patterns(find_scheme("doo-sabin").value()); }, {"doo-sabin", "four"});
+  Patterns patterns(find_scheme("catmull-clark").value());
+  expect_error<InvalidParameter>([&] { bake_level(patterns, cube(), 0); }, {"level 0", "1 or more"});
+  const BakedLevel baked = bake_level(patterns, cube(), 1);
+  std::vector<double> few(3 * 7), out(size_t(baked.table.num_points()) * 3);
+  expect_error<InvalidParameter>([&] { baked.table.apply(few, 3, out); }, {"points holds 21", "8 x 3"});
+}
+
+}  // namespace
+}  // namespace sublimit::testing
