@@ -87,14 +87,19 @@ std::int64_t PatternTable<Real>::num_bytes() const {
 }
 
 template <class Real>
-void PatternTable<Real>::apply(std::span<const Real> points, int channels, std::span<Real> result) const {
-  const auto check = [&](const char* name, size_t size, std::int64_t rows) {
+void PatternTable<Real>::check(std::span<const Real> points, int channels, std::span<const Real> result) const {
+  const auto check_size = [&](const char* name, size_t size, std::int64_t rows) {
     if (channels < 1 || std::int64_t(size) != product(rows, channels))
       fail(std::string(name) + " holds " + std::to_string(size) + " numbers; " + std::to_string(rows) + " x " +
            std::to_string(channels) + " channels are needed");
   };
-  check("points", points.size(), num_control_points_);
-  check("result", result.size(), num_points_);
+  check_size("points", points.size(), num_control_points_);
+  check_size("result", result.size(), num_points_);
+}
+
+template <class Real>
+void PatternTable<Real>::apply(std::span<const Real> points, int channels, std::span<Real> result) const {
+  check(points, channels, result);
   const Arrays& a = arrays_;
   std::vector<Real> made;
   if (a.first) {
@@ -102,31 +107,24 @@ void PatternTable<Real>::apply(std::span<const Real> points, int channels, std::
     a.first->apply(points, channels, made);
     points = made;
   }
-  parallel_for_blocks(
-      starts_.back().patch,
-      [&](std::int64_t, std::int64_t begin, std::int64_t end) {
-        size_t g = size_t(std::upper_bound(starts_.begin(), starts_.end(), begin,
-                                           [](std::int64_t patch, const Start& s) { return patch < s.patch; }) -
-                          starts_.begin()) -
-                   1;
-        for (std::int64_t patch = begin; patch < end; ++patch) {
-          while (patch >= starts_[g + 1].patch) ++g;
-          const Group& group = a.groups[g];
-          const Block& block = a.blocks[group.block];
-          const std::int64_t rank = patch - starts_[g].patch;
-          const std::int32_t* columns = a.columns.data() + starts_[g].columns + rank * block.columns;
-          Real* out = result.data() + (starts_[g].point + rank * group.num_rows) * channels;
-          for (std::int32_t i = 0; i < group.num_rows; ++i, out += channels) {
-            const Real* weights =
-                a.weights.data() + block.weights + std::int64_t{a.rows[group.rows + i]} * block.columns;
-            std::fill_n(out, channels, Real(0));
-            for (std::int32_t k = 0; k < block.columns; ++k) {
-              const Real* in = points.data() + std::int64_t{columns[k]} * channels;
-              for (int c = 0; c < channels; ++c) out[c] += weights[k] * in[c];
-            }
-          }
+  const auto apply_run = [&](size_t g, std::int64_t first, std::int64_t count) {
+    const Group& group = a.groups[g];
+    const Block& block = a.blocks[group.block];
+    const std::int64_t rank = first - starts_[g].patch;
+    const std::int32_t* columns = a.columns.data() + starts_[g].columns + rank * block.columns;
+    Real* out = result.data() + (starts_[g].point + rank * group.num_rows) * channels;
+    for (; count > 0; --count, columns += block.columns)
+      for (std::int32_t i = 0; i < group.num_rows; ++i, out += channels) {
+        const Real* weights = a.weights.data() + block.weights + std::int64_t{a.rows[group.rows + i]} * block.columns;
+        std::fill_n(out, channels, Real(0));
+        for (std::int32_t k = 0; k < block.columns; ++k) {
+          const Real* in = points.data() + std::int64_t{columns[k]} * channels;
+          for (int c = 0; c < channels; ++c) out[c] += weights[k] * in[c];
         }
-      },
+      }
+  };
+  parallel_for_blocks(
+      num_patches(), [&](std::int64_t, std::int64_t begin, std::int64_t end) { for_each_run(begin, end, apply_run); },
       256);
 }
 

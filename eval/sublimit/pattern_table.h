@@ -5,6 +5,7 @@
 // mesh.
 //
 //   points of a patch = (chosen rows of its block) * (its control points)
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -56,6 +57,27 @@ class PatternTable {
   /// @throws InvalidParameter  spans of the wrong length, channels < 1
   void apply(std::span<const Real> points, int channels, std::span<Real> result) const;
 
+  /// What `apply` throws for, alone.
+  void check(std::span<const Real> points, int channels, std::span<const Real> result) const;
+
+  std::int64_t num_patches() const { return starts_.empty() ? 0 : starts_.back().patch; }
+  /// Where a group begins.
+  struct Start {
+    std::int64_t patch = 0, columns = 0, point = 0;
+  };
+  std::span<const Start> starts() const { return starts_; }  ///< of each group, and the end
+  /// Calls body(group, first patch, number of patches) for the groups that patches [begin, end) are of.
+  template <class Body>
+  void for_each_run(std::int64_t begin, std::int64_t end, const Body& body) const {
+    const auto after = std::upper_bound(starts_.begin(), starts_.end(), begin,
+                                        [](std::int64_t patch, const Start& s) { return patch < s.patch; });
+    for (auto g = static_cast<size_t>(after - starts_.begin()) - 1; begin < end; ++g) {
+      const std::int64_t last = std::min(end, starts_[g + 1].patch);
+      if (last > begin) body(g, begin, last - begin);
+      begin = std::max(begin, last);
+    }
+  }
+
   /// The same by rows, sums of both steps taken. Columns of a row ascend; weights of zero are left out.
   StencilTable<Real> expanded() const;
 
@@ -63,10 +85,7 @@ class PatternTable {
   std::int32_t num_control_points_ = 0;
   std::int64_t num_points_ = 0;
   Arrays arrays_;
-  struct Start {
-    std::int64_t patch = 0, columns = 0, point = 0;
-  };
-  std::vector<Start> starts_;  // of each group, and the end
+  std::vector<Start> starts_;
 };
 
 extern template class PatternTable<float>;

@@ -23,8 +23,8 @@ StencilTable<Real>::StencilTable(std::int32_t num_control_points, std::vector<st
     fail("offsets must ascend from 0");
   const auto entries = static_cast<std::int64_t>(columns_.size());
   if (offsets_.back() != entries || weights_.size() != columns_.size())
-    fail("the offsets end at " + std::to_string(offsets_.back()) + ", with " + std::to_string(entries) + " columns and " +
-         std::to_string(weights_.size()) + " weights; all three must agree");
+    fail("the offsets end at " + std::to_string(offsets_.back()) + ", with " + std::to_string(entries) +
+         " columns and " + std::to_string(weights_.size()) + " weights; all three must agree");
   for (std::int64_t k = 0; k < entries; ++k) {
     if (columns_[k] < 0 || columns_[k] >= num_control_points_)
       fail("entry " + std::to_string(k) + " names control point " + std::to_string(columns_[k]) + " of " +

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// A baked table of stencils: rows of weights over control points, applied every frame. Knows no scheme and no mesh; plain
-// arrays in, plain arrays out.
+// A baked table of stencils: rows of weights over control points, applied every frame. Knows no scheme and no mesh;
+// plain arrays in, plain arrays out.
 #include <cstdint>
 #include <span>
 #include <vector>

@@ -8,8 +8,10 @@
 
 #include <random>
 
+#include "sublimit/kernels/apply_patches.h"
 #include "sublimit/mesh/prepare.h"
 #include "sublimit/mesh/read_mesh.h"
+#include "sublimit/pattern_evaluator.h"
 #include "support/expect_error.h"
 #include "support/shared_meshes.h"
 #include "support/tested_schemes.h"
@@ -166,6 +168,88 @@ TEST(BakedLevel, AppliesWhatItExpandsTo) {
     baked.table.apply(points, channels, by_patterns);
     EXPECT_EQ(by_patterns, before);
   }
+}
+
+template <class Real>
+PatternTable<Real> converted(const PatternTable<double>& table) {
+  const auto& a = table.arrays();
+  typename PatternTable<Real>::Arrays b;
+  for (const auto& block : a.blocks) b.blocks.push_back({block.rows, block.columns, block.weights});
+  for (const auto& g : a.groups) b.groups.push_back({g.block, g.num_rows, g.rows, g.num_patches});
+  b.weights.assign(a.weights.begin(), a.weights.end());
+  b.rows = a.rows;
+  b.columns = a.columns;
+  if (a.first) {
+    const StencilTable<double>& f = *a.first;
+    b.first.emplace(f.num_control_points(), std::vector<std::int64_t>(f.offsets().begin(), f.offsets().end()),
+                    std::vector<std::int32_t>(f.columns().begin(), f.columns().end()),
+                    std::vector<Real>(f.weights().begin(), f.weights().end()));
+  }
+  return PatternTable<Real>(table.num_control_points(), std::move(b));
+}
+
+/// Columns of random numbers in [-1, 1].
+template <class Real>
+std::vector<Real> random_numbers(size_t count) {
+  std::mt19937 random(11);
+  std::vector<Real> numbers(count);
+  for (Real& x : numbers) x = Real(int(random() % 2001) - 1000) / 1000;
+  return numbers;
+}
+
+template <class Real>
+void expect_the_evaluator_is_the_table(const PatternTable<double>& in_double) {
+  const PatternTable<Real> table = converted<Real>(in_double);
+  for (const bool reproducible : {false, true})
+    for (const int channels : {1, 2, 3, 4, 7}) {
+      SCOPED_TRACE(std::to_string(channels) + " channels");
+      const PatternEvaluator<Real> evaluator(table, {.reproducible = reproducible});
+      const std::vector<Real> points = random_numbers<Real>(size_t(table.num_control_points()) * size_t(channels));
+      std::vector<Real> expected(size_t(table.num_points()) * size_t(channels)), found(expected.size());
+      table.apply(points, channels, expected);
+      evaluator.apply(points, channels, found);
+      double largest = 0;
+      for (size_t i = 0; i < found.size(); ++i) largest = std::max(largest, double(std::abs(found[i] - expected[i])));
+      EXPECT_LE(largest, rounding(8) * double(std::numeric_limits<Real>::epsilon()) / eps);
+      // The scalar kernel adds in the same order, and nothing is fused.
+      if (reproducible) {
+        EXPECT_EQ(found, expected);
+      }
+    }
+}
+
+TEST(PatternEvaluator, AppliesTheTable) {
+  for (const char* name : {"catmull-clark", "loop"}) {
+    const Scheme<double> scheme = find_scheme(name).value();
+    Patterns patterns(scheme);
+    for (const ControlMesh& mesh : hard_meshes(scheme, 3))
+      for (int levels = 1; levels <= 3; ++levels) {
+        SCOPED_TRACE(std::string(name) + ", level " + std::to_string(levels));
+        const BakedLevel baked = bake_level(patterns, mesh, levels);
+        expect_the_evaluator_is_the_table<float>(baked.table);
+        expect_the_evaluator_is_the_table<double>(baked.table);
+      }
+  }
+}
+
+/// Every kind of registers that this machine has, scalar emulation included.
+TEST(PatternEvaluator, ReproducibleBitsAreThoseOfEveryTarget) {
+  Patterns patterns(find_scheme("catmull-clark").value());
+  const BakedLevel baked = bake_level(patterns, hard_polygons(5, {.open = true}), 3);
+  const PatternEvaluator<double> evaluator(baked.table, {.reproducible = true});
+  const std::vector<double> points = random_numbers<double>(size_t(baked.table.num_control_points()) * 3);
+  std::vector<double> expected(size_t(baked.table.num_points()) * 3), found(expected.size());
+  evaluator.apply(points, 3, expected);
+  int targets = 0;
+  for (const std::int64_t target : kernels::targets()) {
+    kernels::use_target(target);
+    std::fill(found.begin(), found.end(), 0.0);
+    evaluator.apply(points, 3, found);
+    EXPECT_EQ(found, expected) << target;
+    ++targets;
+  }
+  kernels::use_target(0);
+  EXPECT_GE(targets, 1);
 }
 
 TEST(BakedLevel, OfARegularMeshIsOneBlock) {
