@@ -167,6 +167,22 @@ StencilTable<Real> PatternTable<Real>::expanded() const {
   return StencilTable<Real>(num_control_points_, std::move(offsets), std::move(columns), std::move(weights));
 }
 
+PatternTable<float> in_float(const PatternTable<double>& table) {
+  const PatternTable<double>::Arrays& a = table.arrays();
+  PatternTable<float>::Arrays b;
+  for (const auto& block : a.blocks) b.blocks.push_back({block.rows, block.columns, block.weights});
+  for (const auto& g : a.groups) b.groups.push_back({g.block, g.num_rows, g.rows, g.num_patches});
+  b.weights.assign(a.weights.begin(), a.weights.end());
+  b.rows = a.rows;
+  b.columns = a.columns;
+  if (a.first)
+    b.first.emplace(a.first->num_control_points(),
+                    std::vector<std::int64_t>(a.first->offsets().begin(), a.first->offsets().end()),
+                    std::vector<std::int32_t>(a.first->columns().begin(), a.first->columns().end()),
+                    std::vector<float>(a.first->weights().begin(), a.first->weights().end()));
+  return PatternTable<float>(table.num_control_points(), std::move(b));
+}
+
 template class PatternTable<float>;
 template class PatternTable<double>;
 

@@ -88,6 +88,9 @@ class PatternTable {
   std::vector<Start> starts_;
 };
 
+/// In the other precision: weights are rounded.
+PatternTable<float> in_float(const PatternTable<double>& table);
+
 extern template class PatternTable<float>;
 extern template class PatternTable<double>;
 

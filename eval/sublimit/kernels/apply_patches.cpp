@@ -44,7 +44,7 @@ HWY_INLINE void rows_of_three(D d, const Patches<Real>& p, const std::int32_t* o
     } else {
       HWY_ALIGN Real rest[3 * hn::MaxLanes(d)];
       hn::StoreInterleaved3(x[v], y[v], z[v], d, rest);
-      std::copy_n(rest, 3 * (p.rows - row), out + std::int64_t{row} * 3);
+      std::copy_n(rest, 3 * std::clamp(p.rows - row, 0, lanes), out + std::int64_t{row} * 3);
     }
   }
 }

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tables of level k, made and applied, against OpenSubdiv's in one run. In float, x y z interleaved, uniform levels.
+//   bake    mesh in memory to table ready to apply, with an empty dictionary of types and with one that knows them all
+//           | Create + RefineUniform + StencilTableFactory::Create
+//   apply   | Osd::CpuEvaluator, Far::StencilTable::UpdateValues, Eigen's row-major sparse product of the same table;
+//           ranges of stencils over the threads
+// The limit of `apply` is the time to write the points at the bandwidth of one thread; of OpenSubdiv's bake one thread
+// is all that it uses. What both make is compared point by point before anything is timed.
+//
+// `table_bench --ratios [repetitions] [--keep-memory]` takes turns and prints medians with their spread and ratios;
+// otherwise Google Benchmark's own options hold.
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include "bench_meshes.h"
+#include "measuring.h"
+#include "opensubdiv_table.h"
+#include "sublimit/bake.h"
+#include "sublimit/pattern_evaluator.h"
+#include "sublimit/schemes.h"
+
+namespace sublimit::bench {
+namespace {
+
+/// A table ready to be applied.
+struct OurTable {
+  BakeStatistics statistics;
+  PatternTable<float> table;
+  std::optional<PatternEvaluator<float>> evaluator;
+  OurTable(Patterns& patterns, const ControlMesh& mesh, int levels) {
+    const BakedLevel baked = bake_level(patterns, mesh, levels);
+    statistics = baked.statistics;
+    table = in_float(baked.table);
+    evaluator.emplace(table);
+  }
+  OurTable(const OurTable&) = delete;
+};
+
+std::vector<float> control_points(const Case& c) {
+  return {c.mesh.positions.data(), c.mesh.positions.data() + c.mesh.positions.size()};
+}
+
+/// Largest distance between the sorted coordinates x + 2 y + 3 z of both: orders differ.
+double distance(const std::vector<float>& a, const std::vector<float>& b) {
+  const auto sorted = [](const std::vector<float>& p) {
+    std::vector<double> key;
+    for (size_t i = 0; i + 2 < p.size(); i += 3) key.push_back(p[i] + 2.0 * p[i + 1] + 3.0 * p[i + 2]);
+    std::sort(key.begin(), key.end());
+    return key;
+  };
+  const std::vector<double> x = sorted(a), y = sorted(b);
+  if (x.size() != y.size()) return INFINITY;
+  double largest = 0;
+  for (size_t i = 0; i < x.size(); ++i) largest = std::max(largest, std::abs(x[i] - y[i]));
+  return largest;
+}
+
+struct Contender {
+  const char* name;
+  std::function<void()> run;
+};
+
+struct Spread {
+  double median, least, most;
+};
+
+/// In turns; the first turn warms up.
+std::vector<Spread> measure(const std::vector<Contender>& contenders, int repetitions) {
+  std::vector<std::vector<double>> times(contenders.size());
+  for (int r = -1; r < repetitions; ++r)
+    for (size_t i = 0; i < contenders.size(); ++i) {
+      const double s = seconds(contenders[i].run);
+      if (r >= 0) times[i].push_back(s);
+    }
+  std::vector<Spread> result;
+  for (auto& t : times) {
+    std::sort(t.begin(), t.end());
+    result.push_back({t[t.size() / 2], t.front(), t.back()});
+  }
+  return result;
+}
+
+void print_row(const std::string& what, const Case& c, int levels, int threads, double unit,
+               const std::vector<Contender>& contenders, int repetitions, size_t ours) {
+  const std::vector<Spread> spreads = measure(contenders, repetitions);
+  std::printf("%-6s %-16s L%d %d  ", what.c_str(), c.name.c_str(), levels, threads);
+  double best_peer = INFINITY;
+  for (size_t i = 0; i < spreads.size(); ++i) {
+    const Spread& s = spreads[i];
+    std::printf("%s %.2f (%.2f..%.2f)  ", contenders[i].name, s.median * unit, s.least * unit, s.most * unit);
+    if (i >= ours) best_peer = std::min(best_peer, s.median);
+  }
+  std::printf(" best peer : ours");
+  for (size_t i = 0; i < ours; ++i) std::printf(" %.2f", best_peer / spreads[i].median);
+  std::printf("\n");
+  std::fflush(stdout);
+}
+
+std::vector<Case> all_cases() {
+  std::vector<Case> list = cases();
+  for (const char* name : {"catmark_bishop", "catmark_rook", "catmark_pawn", "catmark_righthanded"}) {
+    const auto path = std::filesystem::path(SUBLIMIT_SHARED_MESHES) / (std::string(name) + ".obj");
+    if (std::filesystem::exists(path)) list.push_back({std::string(name).substr(8), "catmull-clark", read_mesh(path)});
+  }
+  return list;
+}
+
+int print_ratios(int repetitions) {
+  const double bandwidth = write_bandwidth();
+  std::printf("write bandwidth, one thread: %.1f GB/s, %.2f ns a point; medians of %d (least..most)\n", bandwidth / 1e9,
+              12e9 / bandwidth, repetitions);
+  const std::vector<Case> meshes = all_cases();
+  for (const Case& c : meshes)
+    for (const int levels : {2, 3}) {
+      const PeerCase peer(c);
+      const Scheme<double> scheme = find_scheme(c.scheme).value();
+      Patterns known(scheme);
+      const OurTable ours(known, c.mesh, levels);
+      const PeerTable theirs(peer.mesh, levels);
+      const std::vector<float> points = control_points(c);
+      std::vector<float> made(size_t(ours.table.num_points()) * 3), by_osd(theirs.num_points() * 3),
+          by_far(by_osd.size()), by_eigen(by_osd.size());
+      ours.evaluator->apply(points, 3, made);
+      theirs.apply_osd(points, by_osd);
+      theirs.apply_far(points, by_far);
+      theirs.apply_eigen(points, by_eigen);
+      std::printf(
+          "%s level %d: %d faces, %d types, %d groups, %lld points; %.2f MB (and %.2f to apply) : %.2f MB; differ by "
+          "%.0e, %.0e, %.0e\n",
+          c.name.c_str(), levels, ours.statistics.faces, ours.statistics.types, ours.statistics.groups,
+          static_cast<long long>(ours.statistics.points), double(ours.table.num_bytes()) / 1e6,
+          double(ours.evaluator->num_bytes()) / 1e6, double(theirs.num_bytes()) / 1e6, distance(made, by_osd),
+          distance(by_osd, by_far), distance(by_osd, by_eigen));
+      for (const int threads : thread_counts()) {
+        const Threads scope(threads);
+        print_row("bake", c, levels, threads, 1e3,
+                  {{"ms: empty", [&] { const OurTable t(*std::make_unique<Patterns>(scheme), c.mesh, levels); }},
+                   {"known", [&] { const OurTable t(known, c.mesh, levels); }},
+                   {"OpenSubdiv", [&] { const PeerTable t(peer.mesh, levels); }}},
+                  repetitions, 2);
+        print_row("apply", c, levels, threads, 1e9 / double(ours.table.num_points()),
+                  {{"ns: ours", [&] { ours.evaluator->apply(points, 3, made); }},
+                   {"Osd", [&] { theirs.apply_osd(points, by_osd); }},
+                   {"Far", [&] { theirs.apply_far(points, by_far); }},
+                   {"Eigen", [&] { theirs.apply_eigen(points, by_eigen); }}},
+                  std::max(repetitions, 9), 1);
+      }
+    }
+  return 0;
+}
+
+int main(int argc, char** argv) {
+  if (const int repetitions = repetitions_of_ratios(argc, argv)) return print_ratios(repetitions);
+  register_write_bandwidth();
+  const std::vector<Case> meshes = all_cases();
+  for (const Case& c : meshes)
+    for (const int threads : thread_counts()) {
+      const std::string of = "/" + c.name + "/level:3/threads:" + std::to_string(threads);
+      benchmark::RegisterBenchmark(("BM_Bake" + of).c_str(),
+                                   [&c, threads](benchmark::State& state) {
+                                     const Threads scope(threads);
+                                     for (auto _ : state) {
+                                       Patterns patterns(find_scheme(c.scheme).value());
+                                       const OurTable table(patterns, c.mesh, 3);
+                                     }
+                                   })
+          ->Unit(benchmark::kMillisecond)
+          ->UseRealTime();
+      benchmark::RegisterBenchmark(("BM_Apply" + of).c_str(),
+                                   [&c, threads](benchmark::State& state) {
+                                     const Threads scope(threads);
+                                     Patterns patterns(find_scheme(c.scheme).value());
+                                     const OurTable ours(patterns, c.mesh, 3);
+                                     const std::vector<float> points = control_points(c);
+                                     std::vector<float> made(size_t(ours.table.num_points()) * 3);
+                                     for (auto _ : state) ours.evaluator->apply(points, 3, made);
+                                     state.SetItemsProcessed(state.iterations() * ours.table.num_points());
+                                   })
+          ->Unit(benchmark::kMillisecond)
+          ->UseRealTime();
+    }
+  return run_benchmarks(argc, argv);
+}
+
+}  // namespace
+}  // namespace sublimit::bench
+
+int main(int argc, char** argv) { return sublimit::bench::main(argc, argv); }
