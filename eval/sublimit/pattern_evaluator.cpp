@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sublimit/pattern_evaluator.h"
 
+#include <memory>
+
 #include "sublimit/base/parallel_for.h"
 #include "sublimit/kernels/apply_patches.h"
 
@@ -28,11 +30,12 @@ template <class Real>
 void PatternEvaluator<Real>::apply(std::span<const Real> points, int channels, std::span<Real> result) const {
   table_.check(points, channels, result);
   const auto& a = table_.arrays();
-  std::vector<Real> made;
+  std::unique_ptr<Real[]> made;
   if (a.first) {
-    made.resize(size_t(a.first->num_rows()) * size_t(channels));
-    a.first->apply(points, channels, made);
-    points = made;
+    const auto count = size_t(a.first->num_rows()) * size_t(channels);
+    made = std::make_unique_for_overwrite<Real[]>(count);
+    a.first->apply(points, channels, {made.get(), count});
+    points = {made.get(), count};
   }
   // Some tens of microseconds each.
   constexpr std::int64_t patches_per_block = 256;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <string>
 #include <utility>
 
@@ -101,11 +102,12 @@ template <class Real>
 void PatternTable<Real>::apply(std::span<const Real> points, int channels, std::span<Real> result) const {
   check(points, channels, result);
   const Arrays& a = arrays_;
-  std::vector<Real> made;
+  std::unique_ptr<Real[]> made;
   if (a.first) {
-    made.resize(size_t(a.first->num_rows()) * size_t(channels));
-    a.first->apply(points, channels, made);
-    points = made;
+    const auto count = size_t(a.first->num_rows()) * size_t(channels);
+    made = std::make_unique_for_overwrite<Real[]>(count);
+    a.first->apply(points, channels, {made.get(), count});
+    points = {made.get(), count};
   }
   const auto apply_run = [&](size_t g, std::int64_t first, std::int64_t count) {
     const Group& group = a.groups[g];

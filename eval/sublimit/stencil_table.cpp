@@ -42,12 +42,30 @@ void StencilTable<Real>::apply(std::span<const Real> points, int channels, std::
   };
   check("points", points.size(), num_control_points_);
   check("result", result.size(), num_rows());
-  parallel_for(num_rows(), [&](std::int64_t r) {
-    Real* const out = result.data() + r * channels;
-    std::fill_n(out, channels, Real(0));
-    for (std::int64_t k = offsets_[r]; k < offsets_[r + 1]; ++k) {
-      const Real* const in = points.data() + std::int64_t{columns_[k]} * channels;
-      for (int c = 0; c < channels; ++c) out[c] += weights_[k] * in[c];
+  // Sums in registers where the number of channels is known.
+  const auto apply_rows = [&]<int Known>(std::int64_t begin, std::int64_t end) {
+    for (std::int64_t r = begin; r < end; ++r) {
+      Real sums[Known];
+      std::fill_n(sums, Known, Real(0));
+      for (std::int64_t k = offsets_[r]; k < offsets_[r + 1]; ++k) {
+        const Real* const in = points.data() + std::int64_t{columns_[k]} * Known;
+        for (int c = 0; c < Known; ++c) sums[c] += weights_[k] * in[c];
+      }
+      std::copy_n(sums, Known, result.data() + r * Known);
+    }
+  };
+  parallel_for_blocks(num_rows(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    if (channels == 1) return apply_rows.template operator()<1>(begin, end);
+    if (channels == 2) return apply_rows.template operator()<2>(begin, end);
+    if (channels == 3) return apply_rows.template operator()<3>(begin, end);
+    if (channels == 4) return apply_rows.template operator()<4>(begin, end);
+    for (std::int64_t r = begin; r < end; ++r) {
+      Real* const out = result.data() + r * channels;
+      std::fill_n(out, channels, Real(0));
+      for (std::int64_t k = offsets_[r]; k < offsets_[r + 1]; ++k) {
+        const Real* const in = points.data() + std::int64_t{columns_[k]} * channels;
+        for (int c = 0; c < channels; ++c) out[c] += weights_[k] * in[c];
+      }
     }
   });
 }
