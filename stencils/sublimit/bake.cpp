@@ -2,8 +2,8 @@
 #include "sublimit/bake.h"
 
 #include <algorithm>
-#include <numeric>
 #include <string>
+#include <tuple>
 
 #include "sublimit/base/error.h"
 #include "sublimit/base/parallel_for.h"
@@ -18,25 +18,6 @@ StencilTable<double> as_table(const SparseMatrix& S) {
                               std::vector<std::int32_t>(S.innerIndexPtr(), S.innerIndexPtr() + entries),
                               std::vector<double>(S.valuePtr(), S.valuePtr() + entries));
 }
-
-/// The half-edge of each edge and vertex whose face has its points: the first one.
-class Owners {
- public:
-  explicit Owners(const Topology& t) : t_(t), of_vertex_(t.num_vertices(), -1) {
-    for (Index h = t.num_half_edges(); h-- > 0;) of_vertex_[index(t.tail(HalfEdge{h}))] = h;
-  }
-  HalfEdge of(Edge e) const { return t_.half_edge(e); }
-  HalfEdge of(Vertex v) const { return HalfEdge{of_vertex_[index(v)]}; }
-  /// Whether a half-edge runs as the one that has its edge does.
-  bool runs_along(HalfEdge h) const {
-    const HalfEdge first = of(t_.edge(h));
-    return h == first || (t_.twin(h) != first && t_.tail(h) == t_.tail(first));
-  }
-
- private:
-  const Topology& t_;
-  std::vector<Index> of_vertex_;
-};
 
 }  // namespace
 
@@ -57,8 +38,7 @@ BakedLevel bake_level(Patterns& patterns, const ControlMesh& mesh, int levels, c
   }
   const Topology& t = baked.level.topology();
   const Index num_faces = t.num_faces();
-  baked.lattice = {Index{1} << baked.levels, sides == 3};
-  const Lattice& lattice = baked.lattice;
+  const Lattice lattice{Index{1} << baked.levels, sides == 3};
 
   // Types, in parallel.
   std::vector<Patterns::Match> matches(num_faces);
@@ -70,32 +50,22 @@ BakedLevel bake_level(Patterns& patterns, const ControlMesh& mesh, int levels, c
       },
       1024);
 
-  // Which sides and corners of its type a face has: bits k and 4 + k.
-  const Owners owners(t);
-  struct Patch {
-    Index block, have, face;
-  };
+  // Blocks, in the order in which faces meet them.
   std::unordered_map<const PieceType*, Index> block_of;
   std::vector<const PieceType*> types;
+  struct Patch {
+    Index block = 0;
+    std::uint8_t share = 0;
+    Index face = 0;
+  };
   std::vector<Patch> patches(num_faces);
-  baked.turn.resize(num_faces);
+  std::vector<std::int8_t> turn(num_faces);
   for (Index f = 0; f < num_faces; ++f) {
     const auto [block, is_new] = block_of.try_emplace(matches[f].type, static_cast<Index>(types.size()));
     if (is_new) types.push_back(matches[f].type);
-    baked.turn[f] = static_cast<std::int8_t>(matches[f].turn);
-    Index have = 0;
-    for (int k = 0; k < sides; ++k) {
-      const HalfEdge h = t.corner(Face{f}, (matches[f].turn + k) % sides);
-      if (owners.of(t.edge(h)) == h) have |= Index{1} << k;
-      if (owners.of(t.tail(h)) == h) have |= Index{16} << k;
-    }
-    patches[f] = {block->second, have, f};
+    patches[f] = {block->second, 0, f};
+    turn[f] = static_cast<std::int8_t>(matches[f].turn);
   }
-  std::sort(patches.begin(), patches.end(), [](const Patch& a, const Patch& b) {
-    return std::tie(a.block, a.have, a.face) < std::tie(b.block, b.have, b.face);
-  });
-
-  // Blocks.
   std::vector<const RowMatrix*> rows(types.size());
   parallel_for_blocks(
       static_cast<std::int64_t>(types.size()),
@@ -107,40 +77,32 @@ BakedLevel bake_level(Patterns& patterns, const ControlMesh& mesh, int levels, c
   }
 
   // Groups, and the points that faces have.
-  baked.points.assign(std::int64_t(num_faces) * lattice.size(), -1);
+  baked.points = LatticePoints(t, lattice, std::move(turn));
+  for (Patch& patch : patches) patch.share = baked.points.share(Face{patch.face});
+  std::sort(patches.begin(), patches.end(), [](const Patch& a, const Patch& b) {
+    return std::tie(a.block, a.share, a.face) < std::tie(b.block, b.share, b.face);
+  });
+  size_t num_columns = 0;
+  for (const Patterns::Match& match : matches) num_columns += match.vertices.size();
+  arrays.columns.reserve(num_columns);
   std::int64_t next = 0;
   for (size_t at = 0; at < patches.size();) {
-    const auto [block, have, ignored] = patches[at];
-    PatternTable<double>::Group group{block, 0, static_cast<std::int64_t>(arrays.rows.size()), 0};
-    lattice.for_each_inner([&](Index row) { arrays.rows.push_back(row); });
-    for (int k = 0; k < sides; ++k)
-      for (Index s = 1; s < lattice.n && (have >> k & 1); ++s) arrays.rows.push_back(lattice.on_side(k, s));
-    for (int k = 0; k < sides; ++k)
-      if (have >> (4 + k) & 1) arrays.rows.push_back(lattice.on_side(k, 0));
-    group.num_rows = static_cast<std::int32_t>(static_cast<std::int64_t>(arrays.rows.size()) - group.rows);
-    for (; at < patches.size() && patches[at].block == block && patches[at].have == have; ++at, ++group.num_patches) {
+    const auto [block, share, ignored] = patches[at];
+    const std::vector<std::int32_t> own = baked.points.rows(share);
+    PatternTable<double>::Group group{block, static_cast<std::int32_t>(own.size()),
+                                      static_cast<std::int64_t>(arrays.rows.size()), 0};
+    for (; at < patches.size() && patches[at].block == block && patches[at].share == share; ++at) {
       const Index f = patches[at].face;
+      baked.points.set_first(Face{f}, next);
+      next += group.num_rows;
+      if (group.num_rows == 0) continue;  // level 1 of a first step by rows: all corners are others'
       arrays.columns.insert(arrays.columns.end(), matches[f].vertices.begin(), matches[f].vertices.end());
-      std::int64_t* own = baked.points.data() + std::int64_t(f) * lattice.size();
-      for (std::int32_t i = 0; i < group.num_rows; ++i) own[arrays.rows[group.rows + i]] = next++;
+      ++group.num_patches;
     }
+    if (group.num_patches == 0) continue;
+    arrays.rows.insert(arrays.rows.end(), own.begin(), own.end());
     arrays.groups.push_back(group);
   }
-  // Sides and corners that other faces have.
-  parallel_for(num_faces, [&](std::int64_t f) {
-    const Face face{static_cast<Index>(f)};
-    std::int64_t* own = baked.points.data() + f * lattice.size();
-    const auto side_of = [&](HalfEdge h) { return (t.corner_index(h) - baked.turn[index(t.face(h))] + sides) % sides; };
-    for (int k = 0; k < sides; ++k) {
-      const HalfEdge h = t.corner(face, (baked.turn[f] + k) % sides);
-      if (const HalfEdge first = owners.of(t.edge(h)); first != h)
-        for (Index s = 1; s < lattice.n; ++s)
-          own[lattice.on_side(k, s)] =
-              baked.point(t.face(first), lattice.on_side(side_of(first), owners.runs_along(h) ? s : lattice.n - s));
-      if (const HalfEdge first = owners.of(t.tail(h)); first != h)
-        own[lattice.on_side(k, 0)] = baked.point(t.face(first), lattice.on_side(side_of(first), 0));
-    }
-  });
   // Isolated vertices stay where they are.
   PatternTable<double>::Group alone{static_cast<std::int32_t>(arrays.blocks.size()), 1,
                                     static_cast<std::int64_t>(arrays.rows.size()), 0};

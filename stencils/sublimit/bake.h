@@ -25,13 +25,11 @@ struct BakeStatistics {
 struct BakedLevel {
   PatternTable<double> table;
   BakeStatistics statistics;
-  Level level;  ///< that has the patterns: 0, or 1
-  int levels;   ///< from there to level k
-  Lattice lattice;
-  /// Point of the table at a point of a face's lattice, whose first corner is corner `turn` of the face.
-  std::int64_t point(Face face, Index row) const { return points[std::int64_t(index(face)) * lattice.size() + row]; }
-  std::vector<std::int64_t> points;  ///< #faces x lattice.size()
-  std::vector<std::int8_t> turn;     ///< of each face
+  Level level;     ///< that has the patterns: 0, or 1
+  int levels = 0;  ///< from there to level k
+  LatticePoints points;
+  /// Point of the table at a point of a face's lattice.
+  std::int64_t point(Face face, Index row) const { return points.point(level.topology(), face, row); }
 };
 
 /// @param patterns  of the scheme; types that it does not know yet are added

@@ -8,11 +8,6 @@
 
 namespace sublimit {
 
-Index Lattice::on_side(int k, Index s) const {
-  if (triangle) return k == 0 ? row(s, 0) : k == 1 ? row(n - s, s) : row(0, n - s);
-  return k == 0 ? row(s, 0) : k == 1 ? row(n, s) : k == 2 ? row(n - s, n) : row(0, n - s);
-}
-
 bool Patterns::is_possible(const Scheme<double>& scheme) {
   return scheme.steps.size() == 1 && scheme.period == 1 &&
          (scheme.steps[0].split == Split::pqq || scheme.steps[0].split == Split::ptq);

@@ -9,41 +9,10 @@
 #include <mutex>
 #include <shared_mutex>
 
+#include "sublimit/lattice_points.h"
 #include "sublimit/limit/piece_types.h"
 
 namespace sublimit {
-
-/// Points of level k on a face, both ends of all sides included.
-///
-/// Quadrilaterals: (i, j) with i, j <= n = 2^k at the parameters (i, j) / n; triangles: i + j <= n. Rows by j, then i.
-struct Lattice {
-  Index n = 1;
-  bool triangle = false;
-  Index size() const { return triangle ? (n + 1) * (n + 2) / 2 : (n + 1) * (n + 1); }
-  Index row(Index i, Index j) const { return triangle ? j * (n + 1) - j * (j - 1) / 2 + i : j * (n + 1) + i; }
-  int num_sides() const { return triangle ? 3 : 4; }
-  /// The point s steps along side k, from its first corner.
-  Index on_side(int k, Index s) const;
-  /// Calls body(row) for all points inside.
-  template <class Body>
-  void for_each_inner(const Body& body) const {
-    for (Index j = 1; j < n; ++j)
-      for (Index i = 1; i < (triangle ? n - j : n); ++i) body(row(i, j));
-  }
-  /// Calls body({a, b, c, d} or {a, b, c, -1}), counter-clockwise, for all cells.
-  template <class Body>
-  void for_each_cell(const Body& body) const {
-    for (Index j = 0; j < n; ++j)
-      for (Index i = 0; i < (triangle ? n - j : n); ++i) {
-        if (!triangle) {
-          body(std::array{row(i, j), row(i + 1, j), row(i + 1, j + 1), row(i, j + 1)});
-          continue;
-        }
-        body(std::array{row(i, j), row(i + 1, j), row(i, j + 1), Index{-1}});
-        if (i + j < n - 1) body(std::array{row(i + 1, j), row(i + 1, j + 1), row(i, j + 1), Index{-1}});
-      }
-  }
-};
 
 /// A dictionary of the types of one scheme, shared between meshes and threads. It outlives them.
 class Patterns {

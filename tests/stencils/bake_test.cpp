@@ -73,11 +73,11 @@ Difference compare_with_refinement(const BakedLevel& baked, const Scheme<double>
   std::vector<std::int64_t> point_of(P.rows(), -1), vertex_of(table.num_rows(), -1);
   const size_t first = size_t(levels - baked.levels);
   const Topology& t = refined[first].topology();
-  const double n = baked.lattice.n;
+  const double n = baked.points.lattice().n;
   for (Index f = 0; f < t.num_faces(); ++f) {
-    const Piece piece{baked.lattice.triangle ? Piece::Kind::triangle : Piece::Kind::quad,
-                      t.corner(Face{f}, baked.turn[f])};
-    for_each_corner(refined, first, piece, {{0, 0}, {n, 0}, {0, n}}, baked.lattice, [&](Vertex v, Index row) {
+    const Piece piece{baked.points.lattice().triangle ? Piece::Kind::triangle : Piece::Kind::quad,
+                      t.corner(Face{f}, baked.points.turn(Face{f}))};
+    for_each_corner(refined, first, piece, {{0, 0}, {n, 0}, {0, n}}, baked.points.lattice(), [&](Vertex v, Index row) {
       const std::int64_t point = baked.point(Face{f}, row);
       d.one_to_one &= point >= 0 && (point_of[index(v)] < 0 || point_of[index(v)] == point);
       if (point < 0) return;
