@@ -55,11 +55,13 @@ const PieceWalk& PieceWalker::walk(const Topology& t, const Sharpness& sharpness
     for (; next < end; ++next) {
       const Vertex v{walk_.vertices[next]};
       const float own = sharpness.vertex[index(v)];
+      // Inside a mesh there is one fan, and it is closed.
+      const bool inside = !t.is_nonmanifold(v) && exists(t.twin(t.outgoing(v)));
       const auto fan = [&](HalfEdge from) {
         // Clockwise to the first half-edge of the fan, if it is open.
         HalfEdge first = from;
         std::uint32_t back = 0;
-        while (exists(t.twin(first))) {
+        while (!inside && exists(t.twin(first))) {
           first = t.next(t.twin(first));
           if (first == from) break;
           ++back;
