@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sublimit/pattern_evaluator.h"
 
-#include <memory>
-
 #include "sublimit/base/parallel_for.h"
 #include "sublimit/kernels/apply_patches.h"
 
@@ -31,12 +29,7 @@ void PatternEvaluator<Real>::apply(std::span<const Real> points, int channels, s
   table_.check(points, channels, result);
   const auto& a = table_.arrays();
   std::unique_ptr<Real[]> made;
-  if (a.first) {
-    const auto count = size_t(a.first->num_rows()) * size_t(channels);
-    made = std::make_unique_for_overwrite<Real[]>(count);
-    a.first->apply(points, channels, {made.get(), count});
-    points = {made.get(), count};
-  }
+  points = table_.inputs(points, channels, made);
   // Some tens of microseconds each.
   constexpr std::int64_t patches_per_block = 256;
   parallel_for_blocks(

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <memory>
 #include <string>
 #include <utility>
 
@@ -99,16 +98,21 @@ void PatternTable<Real>::check(std::span<const Real> points, int channels, std::
 }
 
 template <class Real>
+std::span<const Real> PatternTable<Real>::inputs(std::span<const Real> points, int channels,
+                                                 std::unique_ptr<Real[]>& made) const {
+  if (!arrays_.first) return points;
+  const auto count = size_t(arrays_.first->num_rows()) * size_t(channels);
+  made = std::make_unique_for_overwrite<Real[]>(count);
+  arrays_.first->apply(points, channels, {made.get(), count});
+  return {made.get(), count};
+}
+
+template <class Real>
 void PatternTable<Real>::apply(std::span<const Real> points, int channels, std::span<Real> result) const {
   check(points, channels, result);
   const Arrays& a = arrays_;
   std::unique_ptr<Real[]> made;
-  if (a.first) {
-    const auto count = size_t(a.first->num_rows()) * size_t(channels);
-    made = std::make_unique_for_overwrite<Real[]>(count);
-    a.first->apply(points, channels, {made.get(), count});
-    points = {made.get(), count};
-  }
+  points = inputs(points, channels, made);
   const auto apply_run = [&](size_t g, std::int64_t first, std::int64_t count) {
     const Group& group = a.groups[g];
     const Block& block = a.blocks[group.block];

@@ -7,6 +7,7 @@
 //   points of a patch = (chosen rows of its block) * (its control points)
 #include <algorithm>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -59,6 +60,10 @@ class PatternTable {
 
   /// What `apply` throws for, alone.
   void check(std::span<const Real> points, int channels, std::span<const Real> result) const;
+
+  /// Points that patches are applied to: those given, or what the first step makes of them.
+  /// @param made  keeps these
+  std::span<const Real> inputs(std::span<const Real> points, int channels, std::unique_ptr<Real[]>& made) const;
 
   std::int64_t num_patches() const { return starts_.empty() ? 0 : starts_.back().patch; }
   /// Where a group begins.
