@@ -11,6 +11,9 @@
 namespace sublimit {
 namespace {
 
+/// A face has four million points then.
+constexpr int last_level = 11;
+
 StencilTable<double> as_table(const SparseMatrix& S) {
   const auto entries = static_cast<size_t>(S.nonZeros());
   return StencilTable<double>(static_cast<std::int32_t>(S.cols()),
@@ -22,7 +25,9 @@ StencilTable<double> as_table(const SparseMatrix& S) {
 }  // namespace
 
 BakedLevel bake_level(Patterns& patterns, const ControlMesh& mesh, int levels, const SubdivisionOptions& options) {
-  if (levels < 1) throw InvalidParameter("level " + std::to_string(levels) + " of a table; 1 or more is right");
+  if (levels < 1 || levels > last_level)
+    throw InvalidParameter("level " + std::to_string(levels) + " of a table; 1 to " + std::to_string(last_level) +
+                           " are right");
   const Scheme<double>& scheme = patterns.scheme();
   BakedLevel baked;
   PatternTable<double>::Arrays arrays;

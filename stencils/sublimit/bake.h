@@ -33,7 +33,7 @@ struct BakedLevel {
 };
 
 /// @param patterns  of the scheme; types that it does not know yet are added
-/// @param levels    k >= 1
+/// @param levels    k, from 1 to 11
 /// @throws InvalidParameter, InvalidMesh, UnsupportedTopology  as refinement does
 BakedLevel bake_level(Patterns& patterns, const ControlMesh& mesh, int levels, const SubdivisionOptions& options = {});
 
