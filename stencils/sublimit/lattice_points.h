@@ -2,7 +2,6 @@
 #pragma once
 // Who has which point: points on a side or at a corner belong to one of the faces there, the others look them up, so
 // that every point is made once.
-#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -26,19 +25,6 @@ struct Lattice {
   void for_each_inner(const Body& body) const {
     for (Index j = 1; j < n; ++j)
       for (Index i = 1; i < (triangle ? n - j : n); ++i) body(row(i, j));
-  }
-  /// Calls body({a, b, c, d} or {a, b, c, -1}), counter-clockwise, for all cells.
-  template <class Body>
-  void for_each_cell(const Body& body) const {
-    for (Index j = 0; j < n; ++j)
-      for (Index i = 0; i < (triangle ? n - j : n); ++i) {
-        if (!triangle) {
-          body(std::array{row(i, j), row(i + 1, j), row(i + 1, j + 1), row(i, j + 1)});
-          continue;
-        }
-        body(std::array{row(i, j), row(i + 1, j), row(i, j + 1), Index{-1}});
-        if (i + j < n - 1) body(std::array{row(i + 1, j), row(i + 1, j + 1), row(i, j + 1), Index{-1}});
-      }
   }
 };
 
