@@ -31,9 +31,9 @@ struct OurTable {
   PatternTable<float> table;
   std::optional<PatternEvaluator<float>> evaluator;
   OurTable(Patterns& patterns, const ControlMesh& mesh, int levels) {
-    const BakedLevel baked = bake_level(patterns, mesh, levels);
+    const Baked baked = bake_level(patterns, mesh, levels);
     statistics = baked.statistics;
-    table = in_float(baked.table);
+    table = in_float(baked.table.table);
     evaluator.emplace(table);
   }
   OurTable(const OurTable&) = delete;

@@ -14,13 +14,16 @@ PatternEvaluator<Real>::PatternEvaluator(const PatternTable<Real>& table, Option
     const auto& block = a.blocks[group.block];
     const std::int32_t stride =
         (group.num_rows + kernels::row_multiple - 1) / kernels::row_multiple * kernels::row_multiple;
-    const auto begin = static_cast<std::int64_t>(weights_.size());
-    packed_.push_back({begin, stride});
-    weights_.resize(size_t(begin) + size_t(stride) * size_t(block.columns), Real(0));
-    for (std::int32_t k = 0; k < block.columns; ++k)
-      for (std::int32_t i = 0; i < group.num_rows; ++i)
-        weights_[begin + std::int64_t{k} * stride + i] =
-            a.weights[block.weights + std::int64_t{a.rows[group.rows + i]} * block.columns + k];
+    packed_.push_back({static_cast<std::int64_t>(weights_.size()), stride});
+    for (int q = 0; q < a.quantities; ++q) {
+      const auto begin = weights_.size();
+      weights_.resize(begin + size_t(stride) * size_t(block.columns), Real(0));
+      const Real* matrix = a.weights.data() + block.weights + q * std::int64_t{block.rows} * block.columns;
+      for (std::int32_t k = 0; k < block.columns; ++k)
+        for (std::int32_t i = 0; i < group.num_rows; ++i)
+          weights_[begin + size_t(k) * size_t(stride) + size_t(i)] =
+              matrix[std::int64_t{a.rows[group.rows + i]} * block.columns + k];
+    }
   }
 }
 
@@ -40,19 +43,26 @@ void PatternEvaluator<Real>::apply(std::span<const Real> points, int channels, s
           const auto& block = a.blocks[group.block];
           const auto& start = table_.starts()[g];
           kernels::Patches<Real> patches;
-          patches.weights = weights_.data() + packed_[g].weights;
           patches.stride = packed_[g].stride;
           patches.columns = block.columns;
           patches.rows = group.num_rows;
           patches.control_points = a.columns.data() + start.columns + (first - start.patch) * block.columns;
           patches.count = count;
           patches.points = points.data();
-          patches.result = result.data() + (start.point + (first - start.patch) * group.num_rows) * channels;
           patches.channels = channels;
-          kernels::apply_patches(patches, !options_.reproducible);
+          const bool placed = !a.patch_points.empty();
+          patches.patch_points = placed ? a.patch_points.data() + first : nullptr;
+          const std::int64_t point = placed ? 0 : table_.first_point(g, first);
+          for (int q = 0; q < a.quantities; ++q) {
+            patches.weights = weights_.data() + packed_[g].weights +
+                              q * std::int64_t{packed_[g].stride} * std::int64_t{block.columns};
+            patches.result = result.data() + (q * table_.num_points() + point) * channels;
+            kernels::apply_patches(patches, !options_.reproducible);
+          }
         });
       },
       patches_per_block);
+  table_.apply_rest(points, channels, result);
 }
 
 template class PatternEvaluator<float>;

@@ -26,7 +26,7 @@ class PatternEvaluator {
 
  private:
   struct Packed {
-    std::int64_t weights = 0;  // where they begin
+    std::int64_t weights = 0;  // where they begin, quantity after quantity
     std::int32_t stride = 0;
   };
   const PatternTable<Real>& table_;

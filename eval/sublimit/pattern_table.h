@@ -5,6 +5,8 @@
 // mesh.
 //
 //   points of a patch = (chosen rows of its block) * (its control points)
+//
+// A point may have derivatives beside its position. All quantities of a point have the same columns.
 #include <algorithm>
 #include <cstdint>
 #include <memory>
@@ -19,7 +21,7 @@ namespace sublimit {
 template <class Real>
 class PatternTable {
  public:
-  /// A matrix, row by row.
+  /// As many matrices as there are quantities, one after the other, each row by row.
   struct Block {
     std::int32_t rows = 0, columns = 0;
     std::int64_t weights = 0;  ///< where it begins in `weights`
@@ -32,13 +34,21 @@ class PatternTable {
     std::int64_t num_patches = 0;
   };
   struct Arrays {
+    /// Of a point: 1 is its position; 3 the derivatives along u and v too; 6 those along uu, uv and vv as well.
+    int quantities = 1;
     std::vector<Block> blocks;
-    std::vector<Real> weights;
+    SharedArray<Real> weights;
     std::vector<Group> groups;
-    std::vector<std::int32_t> rows;     ///< numbers of rows within a block
-    std::vector<std::int32_t> columns;  ///< control points of each patch, group by group
-    /// Where most types are rare: a step by rows that makes the points which patches are applied to.
+    SharedArray<std::int32_t> rows;     ///< numbers of rows within a block
+    SharedArray<std::int32_t> columns;  ///< control points of each patch, group by group
+    /// Where the points of each patch begin; empty: each patch's follow those of the patch before.
+    SharedArray<std::int64_t> patch_points;
+    /// Pairs (to, from): a point that lies on several patches is made once, and its position copied at the end.
+    SharedArray<std::int32_t> copies;
+    /// Where most types are rare: a step by rows that makes the points which all else is applied to.
     std::optional<StencilTable<Real>> first;
+    /// Points of no patch: after all others, a row for each; all positions first, then all derivatives along u, ...
+    std::optional<StencilTable<Real>> rest;
   };
 
   PatternTable() = default;
@@ -48,13 +58,14 @@ class PatternTable {
 
   std::int64_t num_points() const { return num_points_; }
   std::int32_t num_control_points() const { return num_control_points_; }
+  int quantities() const { return arrays_.quantities; }
   const Arrays& arrays() const { return arrays_; }
   /// Bytes of all arrays.
   std::int64_t num_bytes() const;
 
   /// new points = table * control points, in parallel, the same bits for any number of threads.
   /// @param points    num_control_points x channels, interleaved
-  /// @param result    num_points x channels, interleaved; must not overlap `points`
+  /// @param result    quantities x num_points x channels, interleaved: all positions first; must not overlap `points`
   /// @throws InvalidParameter  spans of the wrong length, channels < 1
   void apply(std::span<const Real> points, int channels, std::span<Real> result) const;
 
@@ -64,6 +75,18 @@ class PatternTable {
   /// Points that patches are applied to: those given, or what the first step makes of them.
   /// @param made  keeps these
   std::span<const Real> inputs(std::span<const Real> points, int channels, std::unique_ptr<Real[]>& made) const;
+
+  /// What is left when all patches have their points: points of no patch, copies.
+  /// @param inputs  of patches
+  void apply_rest(std::span<const Real> inputs, int channels, std::span<Real> result) const;
+
+  /// Where the points of a patch begin.
+  /// @param group  that it is of
+  std::int64_t first_point(size_t group, std::int64_t patch) const {
+    return arrays_.patch_points.empty()
+               ? starts_[group].point + (patch - starts_[group].patch) * arrays_.groups[group].num_rows
+               : arrays_.patch_points[patch];
+  }
 
   std::int64_t num_patches() const { return starts_.empty() ? 0 : starts_.back().patch; }
   /// Where a group begins.
@@ -83,7 +106,8 @@ class PatternTable {
     }
   }
 
-  /// The same by rows, sums of both steps taken. Columns of a row ascend; weights of zero are left out.
+  /// The same by rows, quantities x num_points of them, sums of both steps taken. Columns of a row ascend; weights of
+  /// zero are left out.
   StencilTable<Real> expanded() const;
 
  private:
@@ -94,6 +118,7 @@ class PatternTable {
 };
 
 /// In the other precision: weights are rounded.
+StencilTable<float> in_float(const StencilTable<double>& table);
 PatternTable<float> in_float(const PatternTable<double>& table);
 
 extern template class PatternTable<float>;

@@ -12,8 +12,8 @@
 namespace sublimit {
 
 template <class Real>
-StencilTable<Real>::StencilTable(std::int32_t num_control_points, std::vector<std::int64_t> offsets,
-                                 std::vector<std::int32_t> columns, std::vector<Real> weights)
+StencilTable<Real>::StencilTable(std::int32_t num_control_points, SharedArray<std::int64_t> offsets,
+                                 SharedArray<std::int32_t> columns, SharedArray<Real> weights)
     : num_control_points_(num_control_points),
       offsets_(std::move(offsets)),
       columns_(std::move(columns)),
@@ -42,32 +42,37 @@ void StencilTable<Real>::apply(std::span<const Real> points, int channels, std::
   };
   check("points", points.size(), num_control_points_);
   check("result", result.size(), num_rows());
+  parallel_for_blocks(num_rows(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    apply_rows(points.data(), channels, begin, end, result.data() + begin * channels);
+  });
+}
+
+template <class Real>
+void StencilTable<Real>::apply_rows(const Real* points, int channels, std::int64_t begin, std::int64_t end,
+                                    Real* out) const {
   // Sums in registers where the number of channels is known.
-  const auto apply_rows = [&]<int Known>(std::int64_t begin, std::int64_t end) {
-    for (std::int64_t r = begin; r < end; ++r) {
+  const auto apply_known = [&]<int Known>() {
+    for (std::int64_t r = begin; r < end; ++r, out += Known) {
       Real sums[Known];
       std::fill_n(sums, Known, Real(0));
       for (std::int64_t k = offsets_[r]; k < offsets_[r + 1]; ++k) {
-        const Real* const in = points.data() + std::int64_t{columns_[k]} * Known;
+        const Real* const in = points + std::int64_t{columns_[k]} * Known;
         for (int c = 0; c < Known; ++c) sums[c] += weights_[k] * in[c];
       }
-      std::copy_n(sums, Known, result.data() + r * Known);
+      std::copy_n(sums, Known, out);
     }
   };
-  parallel_for_blocks(num_rows(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
-    if (channels == 1) return apply_rows.template operator()<1>(begin, end);
-    if (channels == 2) return apply_rows.template operator()<2>(begin, end);
-    if (channels == 3) return apply_rows.template operator()<3>(begin, end);
-    if (channels == 4) return apply_rows.template operator()<4>(begin, end);
-    for (std::int64_t r = begin; r < end; ++r) {
-      Real* const out = result.data() + r * channels;
-      std::fill_n(out, channels, Real(0));
-      for (std::int64_t k = offsets_[r]; k < offsets_[r + 1]; ++k) {
-        const Real* const in = points.data() + std::int64_t{columns_[k]} * channels;
-        for (int c = 0; c < channels; ++c) out[c] += weights_[k] * in[c];
-      }
+  if (channels == 1) return apply_known.template operator()<1>();
+  if (channels == 2) return apply_known.template operator()<2>();
+  if (channels == 3) return apply_known.template operator()<3>();
+  if (channels == 4) return apply_known.template operator()<4>();
+  for (std::int64_t r = begin; r < end; ++r, out += channels) {
+    std::fill_n(out, channels, Real(0));
+    for (std::int64_t k = offsets_[r]; k < offsets_[r + 1]; ++k) {
+      const Real* const in = points + std::int64_t{columns_[k]} * channels;
+      for (int c = 0; c < channels; ++c) out[c] += weights_[k] * in[c];
     }
-  });
+  }
 }
 
 template class StencilTable<float>;

@@ -4,7 +4,8 @@
 // plain arrays in, plain arrays out.
 #include <cstdint>
 #include <span>
-#include <vector>
+
+#include "sublimit/shared_array.h"
 
 namespace sublimit {
 
@@ -19,14 +20,15 @@ class StencilTable {
   /// @param columns  control point of each entry
   /// @param weights  weight of each entry, finite
   /// @throws InvalidParameter  arrays that do not fit together, a column out of range, a weight that is not finite
-  StencilTable(std::int32_t num_control_points, std::vector<std::int64_t> offsets, std::vector<std::int32_t> columns,
-               std::vector<Real> weights);
+  StencilTable(std::int32_t num_control_points, SharedArray<std::int64_t> offsets, SharedArray<std::int32_t> columns,
+               SharedArray<Real> weights);
 
   std::int64_t num_rows() const { return offsets_.empty() ? 0 : static_cast<std::int64_t>(offsets_.size()) - 1; }
   std::int32_t num_control_points() const { return num_control_points_; }
-  std::span<const std::int64_t> offsets() const { return offsets_; }
-  std::span<const std::int32_t> columns() const { return columns_; }
-  std::span<const Real> weights() const { return weights_; }
+  const SharedArray<std::int64_t>& offsets() const { return offsets_; }
+  const SharedArray<std::int32_t>& columns() const { return columns_; }
+  const SharedArray<Real>& weights() const { return weights_; }
+  std::int64_t num_bytes() const { return offsets_.num_bytes() + columns_.num_bytes() + weights_.num_bytes(); }
 
   /// new points = table * control points, in parallel, the same bits for any number of threads.
   /// @param points    num_control_points x channels, interleaved
@@ -34,11 +36,15 @@ class StencilTable {
   /// @throws InvalidParameter  spans of the wrong length, channels < 1
   void apply(std::span<const Real> points, int channels, std::span<Real> result) const;
 
+  /// The same for rows [begin, end), on this thread, without a check.
+  /// @param result  (end - begin) x channels
+  void apply_rows(const Real* points, int channels, std::int64_t begin, std::int64_t end, Real* result) const;
+
  private:
   std::int32_t num_control_points_ = 0;
-  std::vector<std::int64_t> offsets_;
-  std::vector<std::int32_t> columns_;
-  std::vector<Real> weights_;
+  SharedArray<std::int64_t> offsets_;
+  SharedArray<std::int32_t> columns_;
+  SharedArray<Real> weights_;
 };
 
 extern template class StencilTable<float>;

@@ -9,7 +9,7 @@
 #include <mutex>
 #include <shared_mutex>
 
-#include "sublimit/lattice_points.h"
+#include "sublimit/face_lattices.h"
 #include "sublimit/limit/piece_types.h"
 
 namespace sublimit {

@@ -61,11 +61,11 @@ TEST(PatternTable, RefusesArraysThatDoNotFit) {
     change(a);
     expect_error<InvalidParameter>([&] { PatternTable<double>(3, a); }, words);
   };
-  expect_refused([](Arrays& a) { a.columns[1] = 3; }, {"control point 3", "there are 3"});
-  expect_refused([](Arrays& a) { a.columns[1] = -1; }, {"control point -1"});
-  expect_refused([](Arrays& a) { a.columns.pop_back(); }, {"columns from 4, 1 of them", "there are 4"});
-  expect_refused([](Arrays& a) { a.columns.push_back(0); }, {"patches have 5 columns", "there are 6"});
-  expect_refused([](Arrays& a) { a.rows[0] = 2; }, {"row 2", "there are 2"});
+  expect_refused([](Arrays& a) { a.columns = {0, 3, 1, 2, 2}; }, {"control point 3", "there are 3"});
+  expect_refused([](Arrays& a) { a.columns = {0, -1, 1, 2, 2}; }, {"control point -1"});
+  expect_refused([](Arrays& a) { a.columns = {0, 1, 1, 2}; }, {"columns from 4, 1 of them", "there are 4"});
+  expect_refused([](Arrays& a) { a.columns = {0, 1, 1, 2, 2, 0}; }, {"patches have 5 columns", "there are 6"});
+  expect_refused([](Arrays& a) { a.rows = {2, 0, 0}; }, {"row 2", "there are 2"});
   expect_refused([](Arrays& a) { a.groups[1].rows = 3; }, {"rows from 3", "there are 3"});
   expect_refused([](Arrays& a) { a.groups[1].block = 2; }, {"block 2", "there are 2"});
   expect_refused([](Arrays& a) { a.groups[0].num_patches = -1; }, {"columns"});
@@ -73,7 +73,7 @@ TEST(PatternTable, RefusesArraysThatDoNotFit) {
   expect_refused([](Arrays& a) { a.groups[0].num_rows = -1; }, {"rows"});
   expect_refused([](Arrays& a) { a.blocks[0].columns = 1 << 30; }, {"weights"});
   expect_refused([](Arrays& a) { a.blocks[1].weights = -1; }, {"weights from -1"});
-  expect_refused([](Arrays& a) { a.weights[3] = std::numeric_limits<double>::infinity(); }, {"not finite"});
+  expect_refused([](Arrays& a) { a.weights = {0.5, 0.5, 0.25, std::numeric_limits<double>::infinity(), 1}; }, {"not finite"});
   expect_refused(
       [](Arrays& a) {
         a.first.emplace(2, std::vector<std::int64_t>{0}, std::vector<std::int32_t>{}, std::vector<double>{});

@@ -6,10 +6,13 @@
 
 #include <Eigen/LU>
 
+#include <array>
+#include <map>
 #include <random>
 
 #include "sublimit/analysis/limit_masks.h"
 #include "sublimit/kernels/apply_patches.h"
+#include "sublimit/limit/address.h"
 #include "sublimit/mesh/prepare.h"
 #include "sublimit/mesh/read_mesh.h"
 #include "sublimit/pattern_evaluator.h"
@@ -21,23 +24,24 @@
 namespace sublimit::testing {
 namespace {
 
-/// Where a piece lies in the lattice of the face that it comes from: a place (u, v) of it at origin + u a + v b.
+/// Where a piece lies in an address: a place (u, v) of it at origin + u a + v b.
 struct Frame {
   Eigen::Vector2d origin, a, b;
 };
 
-/// Calls body(vertex of the last level, row of the lattice) for the corners of all faces that a face becomes.
+/// Calls body(vertex of the last level, place in the address) for the corners of all faces that a piece becomes.
 template <class Body>
 void for_each_corner(const std::vector<Level>& levels, size_t from, const Piece& piece, const Frame& frame,
-                     const Lattice& lattice, const Body& body) {
+                     const Body& body) {
+  const bool triangle = piece.kind == Piece::Kind::triangle;
   if (from + 1 == levels.size()) {
     const Topology& t = levels.back().topology();
     std::vector<Eigen::Vector2d> at{frame.origin, frame.origin + frame.a, frame.origin + frame.a + frame.b,
                                     frame.origin + frame.b};
-    if (lattice.triangle) at.erase(at.begin() + 2);
+    if (triangle) at.erase(at.begin() + 2);
     HalfEdge h = piece.start;
     for (const Eigen::Vector2d& p : at) {
-      body(t.tail(h), lattice.row(static_cast<Index>(std::lround(p[0])), static_cast<Index>(std::lround(p[1]))));
+      body(t.tail(h), p);
       h = t.next(h);
     }
     return;
@@ -45,7 +49,7 @@ void for_each_corner(const std::vector<Level>& levels, size_t from, const Piece&
   const LevelStep step{&levels[from + 1].steps[0], static_cast<int>(from)};
   for (const PieceChild& child : children(piece, levels[from].topology(), std::span(&step, 1))) {
     const auto image = [&](double u, double v) {
-      const Place p = child.map(lattice.triangle ? triangle_place(u, v) : quad_place(u, v));
+      const Place p = child.map(triangle ? triangle_place(u, v) : quad_place(u, v));
       return Eigen::Vector2d(p.u, p.v);
     };
     Eigen::Matrix2d M;
@@ -54,8 +58,36 @@ void for_each_corner(const std::vector<Level>& levels, size_t from, const Piece&
     Eigen::Matrix2d axes;
     axes << frame.a, frame.b;
     const Frame inner{frame.origin - axes * inverse * image(0, 0), axes * inverse.col(0), axes * inverse.col(1)};
-    for_each_corner(levels, from + 1, child.piece, inner, lattice, body);
+    for_each_corner(levels, from + 1, child.piece, inner, body);
   }
+}
+
+/// Vertex of the last level at each place of the addresses where there is one, by (address, 2^k u, 2^k v).
+std::map<std::array<Index, 3>, Index> vertices_by_place(const std::vector<Level>& levels, bool triangles) {
+  std::map<std::array<Index, 3>, Index> vertices;
+  const Topology& t = levels[0].topology();
+  const Addresses addresses(t, triangles);
+  const double n = std::ldexp(1.0, static_cast<int>(levels.size()) - 1);
+  for (Index a = 0; a < addresses.size(); ++a) {
+    const Addresses::Place at = addresses.place(a);
+    const Piece piece = at.corner >= 0 ? Piece{Piece::Kind::cut, t.corner(at.face, at.corner)}
+                                       : Piece{triangles ? Piece::Kind::triangle : Piece::Kind::quad, t.first(at.face)};
+    for_each_corner(levels, 0, piece, {{0, 0}, {n, 0}, {0, n}}, [&](Vertex v, const Eigen::Vector2d& p) {
+      vertices[{a, static_cast<Index>(std::lround(p[0])), static_cast<Index>(std::lround(p[1]))}] = index(v);
+    });
+  }
+  return vertices;
+}
+
+/// Where a table knows no addresses: sorted images of random points agree.
+double distance_of_sorted_images(const StencilTable<double>& table, const SparseMatrix& P) {
+  const Eigen::VectorXd x = Eigen::VectorXd::Random(P.cols());
+  Eigen::VectorXd a = P * x, b(table.num_rows());
+  if (a.size() != b.size()) return INFINITY;
+  table.apply({x.data(), size_t(x.size())}, 1, {b.data(), size_t(b.size())});
+  std::sort(a.begin(), a.end());
+  std::sort(b.begin(), b.end());
+  return (a - b).cwiseAbs().maxCoeff();
 }
 
 struct Difference {
@@ -64,29 +96,36 @@ struct Difference {
   bool one_to_one = true;
 };
 
-Difference compare_with_refinement(const BakedLevel& baked, const Scheme<double>& scheme, const ControlMesh& mesh,
+Difference compare_with_refinement(const Baked& baked, const Scheme<double>& scheme, const ControlMesh& mesh,
                                    int levels) {
   Difference d;
   const std::vector<Level> refined = refine(scheme, mesh, levels);
   const SparseMatrix P = refinement_matrix(refined);
-  const StencilTable<double> table = baked.table.expanded();
+  const StencilTable<double> table = baked.table.table.expanded();
+  const FaceLattices& lattices = *baked.table.lattices;
   d.points = P.rows();
-  std::vector<std::int64_t> point_of(P.rows(), -1), vertex_of(table.num_rows(), -1);
-  const size_t first = size_t(levels - baked.levels);
-  const Topology& t = refined[first].topology();
-  const double n = baked.points.lattice().n;
-  for (Index f = 0; f < t.num_faces(); ++f) {
-    const Piece piece{baked.points.lattice().triangle ? Piece::Kind::triangle : Piece::Kind::quad,
-                      t.corner(Face{f}, baked.points.turn(Face{f}))};
-    for_each_corner(refined, first, piece, {{0, 0}, {n, 0}, {0, n}}, baked.points.lattice(), [&](Vertex v, Index row) {
-      const std::int64_t point = baked.point(Face{f}, row);
-      d.one_to_one &= point >= 0 && (point_of[index(v)] < 0 || point_of[index(v)] == point);
-      if (point < 0) return;
-      d.one_to_one &= vertex_of[point] < 0 || vertex_of[point] == index(v);
-      point_of[index(v)] = point;
-      vertex_of[point] = index(v);
-    });
+  if (!lattices.has_addresses()) {
+    d.largest = distance_of_sorted_images(table, P);
+    return d;
   }
+  std::vector<std::int64_t> point_of(P.rows(), -1), vertex_of(table.num_rows(), -1);
+  const Topology& t = refined[0].topology();
+  const std::map<std::array<Index, 3>, Index> vertices = vertices_by_place(refined, lattices.lattice().triangle);
+  const double n = std::ldexp(1.0, levels);
+  for (Index f = 0; f < lattices.num_faces(); ++f)
+    lattices.lattice().for_each([&](Index i, Index j) {
+      const FaceLattices::Parameters p = lattices.parameters(f, i, j);
+      const auto at = vertices.find({lattices.place(f).address, static_cast<Index>(std::lround(n * p.u)),
+                                     static_cast<Index>(std::lround(n * p.v))});
+      const std::int64_t point = lattices.point(f, lattices.lattice().row(i, j));
+      d.one_to_one &= point >= 0 && at != vertices.end();
+      if (!d.one_to_one) return;
+      const Index v = at->second;
+      d.one_to_one &= point_of[v] < 0 || point_of[v] == point;
+      d.one_to_one &= vertex_of[point] < 0 || vertex_of[point] == v;
+      point_of[v] = point;
+      vertex_of[point] = v;
+    });
   std::int64_t alone = 0;
   for (Index v = 0; v < P.rows(); ++v) {
     if (point_of[v] < 0) {
@@ -117,7 +156,7 @@ std::vector<TestedScheme> pattern_schemes() {
 class BakedLevels : public ::testing::TestWithParam<TestedScheme> {
  protected:
   void expect_refinement(Patterns& patterns, const ControlMesh& mesh, int levels) {
-    const BakedLevel baked = bake_level(patterns, mesh, levels);
+    const Baked baked = bake_level(patterns, mesh, levels);
     const Difference d = compare_with_refinement(baked, scheme_, mesh, levels);
     EXPECT_TRUE(d.one_to_one);
     EXPECT_EQ(baked.statistics.points, d.points);
@@ -156,18 +195,18 @@ TEST(BakedLevel, AppliesWhatItExpandsTo) {
   const Scheme<double> scheme = find_scheme("catmull-clark").value();
   Patterns patterns(scheme);
   for (const ControlMesh& mesh : {torus(5, 7), hard_polygons(2, {.open = true, .semi_sharp = true})}) {
-    const BakedLevel baked = bake_level(patterns, mesh, 2);
-    const StencilTable<double> rows = baked.table.expanded();
+    const Baked baked = bake_level(patterns, mesh, 2);
+    const StencilTable<double> rows = baked.table.table.expanded();
     const auto channels = 3;
     std::vector<double> by_rows(size_t(rows.num_rows()) * channels), by_patterns(by_rows.size());
     const std::span points(mesh.positions.data(), size_t(mesh.positions.size()));
     rows.apply(points, channels, by_rows);
-    baked.table.apply(points, channels, by_patterns);
+    baked.table.table.apply(points, channels, by_patterns);
     double largest = 0;
     for (size_t i = 0; i < by_rows.size(); ++i) largest = std::max(largest, std::abs(by_rows[i] - by_patterns[i]));
     EXPECT_LE(largest, rounding(8, mesh.positions.cwiseAbs().maxCoeff()));
     const std::vector<double> before = by_patterns;
-    baked.table.apply(points, channels, by_patterns);
+    baked.table.table.apply(points, channels, by_patterns);
     EXPECT_EQ(by_patterns, before);
   }
 }
@@ -208,9 +247,9 @@ TEST(PatternEvaluator, AppliesTheTable) {
     for (const ControlMesh& mesh : hard_meshes(scheme, 3))
       for (int levels = 1; levels <= 3; ++levels) {
         SCOPED_TRACE(std::string(name) + ", level " + std::to_string(levels));
-        const BakedLevel baked = bake_level(patterns, mesh, levels);
-        expect_the_evaluator_is_the_table(in_float(baked.table));
-        expect_the_evaluator_is_the_table(baked.table);
+        const Baked baked = bake_level(patterns, mesh, levels);
+        expect_the_evaluator_is_the_table(in_float(baked.table.table));
+        expect_the_evaluator_is_the_table(baked.table.table);
       }
   }
 }
@@ -218,10 +257,10 @@ TEST(PatternEvaluator, AppliesTheTable) {
 /// Every kind of registers that this machine has, scalar emulation included.
 TEST(PatternEvaluator, ReproducibleBitsAreThoseOfEveryTarget) {
   Patterns patterns(find_scheme("catmull-clark").value());
-  const BakedLevel baked = bake_level(patterns, hard_polygons(5, {.open = true}), 3);
-  const PatternEvaluator<double> evaluator(baked.table, {.reproducible = true});
-  const std::vector<double> points = random_numbers<double>(size_t(baked.table.num_control_points()) * 3);
-  std::vector<double> expected(size_t(baked.table.num_points()) * 3), found(expected.size());
+  const Baked baked = bake_level(patterns, hard_polygons(5, {.open = true}), 3);
+  const PatternEvaluator<double> evaluator(baked.table.table, {.reproducible = true});
+  const std::vector<double> points = random_numbers<double>(size_t(baked.table.table.num_control_points()) * 3);
+  std::vector<double> expected(size_t(baked.table.table.num_points()) * 3), found(expected.size());
   evaluator.apply(points, 3, expected);
   int targets = 0;
   for (const std::int64_t target : kernels::targets()) {
@@ -237,10 +276,10 @@ TEST(PatternEvaluator, ReproducibleBitsAreThoseOfEveryTarget) {
 
 TEST(BakedLevel, OfARegularMeshIsOneBlock) {
   Patterns patterns(find_scheme("catmull-clark").value());
-  const BakedLevel baked = bake_level(patterns, torus(12, 9), 3);
+  const Baked baked = bake_level(patterns, torus(12, 9), 3);
   EXPECT_EQ(baked.statistics.types, 1);
   EXPECT_EQ(baked.statistics.points, 12 * 9 * 64);
-  EXPECT_EQ(baked.table.arrays().columns.size(), 12u * 9 * 16);
+  EXPECT_EQ(baked.table.table.arrays().columns.size(), 12u * 9 * 16);
 }
 
 /// The dictionary outlives meshes: nothing is new in the second one, and no rotation makes a type.
@@ -260,10 +299,11 @@ TEST(BakedLevel, BadRequestsAreErrors) {
   expect_error<InvalidParameter>([&] { bake_level(patterns, cube(), 0); }, {"level 0", "1 to 11"});
   expect_error<InvalidParameter>([&] { bake_level(patterns, cube(), 12); }, {"level 12", "1 to 11"});
   Patterns of_triangles(find_scheme("loop").value());
-  expect_error<UnsupportedTopology>([&] { bake_level(of_triangles, cube(), 1); }, {"face 0 has 4 corners", "triangulate"});
-  const BakedLevel baked = bake_level(patterns, cube(), 1);
-  std::vector<double> few(3 * 7), out(size_t(baked.table.num_points()) * 3);
-  expect_error<InvalidParameter>([&] { baked.table.apply(few, 3, out); }, {"points holds 21", "8 x 3"});
+  expect_error<UnsupportedTopology>([&] { bake_level(of_triangles, cube(), 1); },
+                                    {"face 0 has 4 corners", "triangulate"});
+  const Baked baked = bake_level(patterns, cube(), 1);
+  std::vector<double> few(3 * 7), out(size_t(baked.table.table.num_points()) * 3);
+  expect_error<InvalidParameter>([&] { baked.table.table.apply(few, 3, out); }, {"points holds 21", "8 x 3"});
 }
 
 }  // namespace

@@ -74,8 +74,8 @@ void apply(const Patches<Real>& p) {
   const hn::ScalableTag<Real> d;
   const auto lanes = static_cast<std::int32_t>(hn::Lanes(d));
   const std::int32_t* own = p.control_points;
-  Real* out = p.result;
-  for (std::int64_t i = 0; i < p.count; ++i, own += p.columns, out += std::int64_t{p.rows} * p.channels) {
+  for (std::int64_t i = 0; i < p.count; ++i, own += p.columns) {
+    Real* const out = p.result + (p.patch_points ? p.patch_points[i] : i * p.rows) * p.channels;
     // Four registers of each of x, y, z: with the points and the weights they fill what there is.
     const auto chunk = [&]<int Vectors>(std::int32_t first) {
       if (p.channels == 3)

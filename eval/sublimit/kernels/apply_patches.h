@@ -15,8 +15,9 @@ struct Patches {
   const std::int32_t* control_points = nullptr;  ///< `columns` for each patch
   std::int64_t count = 0;
   const Real* points = nullptr;
-  Real* result = nullptr;  ///< `rows` points for each patch
-  int channels = 3;        ///< of points and result, interleaved
+  Real* result = nullptr;                      ///< `rows` points for each patch
+  const std::int64_t* patch_points = nullptr;  ///< if given: where those of each patch begin, counted from `result`
+  int channels = 3;                            ///< of points and result, interleaved
 };
 inline constexpr std::int32_t row_multiple = 16;  // lanes of the widest registers
 
