@@ -30,6 +30,24 @@ std::int32_t Lattice::on_side(int k, std::int32_t s) const {
   return k == 0 ? row(s, 0) : k == 1 ? row(n, s) : k == 2 ? row(n - s, n) : row(0, n - s);
 }
 
+AddressParameters address_parameters(const Lattice& lattice, const LatticePlace& place, std::int32_t i,
+                                     std::int32_t j) {
+  const std::int32_t n = lattice.n;
+  // Turned lattices begin at another corner.
+  if (lattice.triangle) {
+    const std::int32_t by_corner[3] = {n - i - j, i, j};
+    return {double(by_corner[(4 - place.turn) % 3]) / n, double(by_corner[(5 - place.turn) % 3]) / n};
+  }
+  for (int k = 0; k < place.turn; ++k) {
+    std::swap(i, j);
+    i = n - i;
+  }
+  const double u = double(i) / n, v = double(j) / n;
+  if (place.quarter < 0) return {u, v};
+  const bool right = place.quarter == 1 || place.quarter == 2, up = place.quarter >= 2;
+  return {u / 2 + (right ? 0.5 : 0), v / 2 + (up ? 0.5 : 0)};
+}
+
 std::uint8_t FaceLattices::share(const Arrays& a, std::int32_t face) {
   const int sides = a.lattice.num_sides();
   int share = 0;
@@ -124,22 +142,6 @@ std::int64_t FaceLattices::point(std::int32_t face, std::int32_t row) const {
 LatticePlace FaceLattices::place(std::int32_t face) const {
   const std::uint8_t place = arrays_.places[face];
   return {arrays_.addresses[face], static_cast<std::int8_t>(place & 7), static_cast<std::int8_t>((place >> 3) - 1)};
-}
-
-FaceLattices::Parameters FaceLattices::parameters(std::int32_t face, std::int32_t i, std::int32_t j) const {
-  const auto [address, turn, quarter] = place(face);
-  const std::int32_t n = lattice().n;
-  // Turned lattices begin at another corner.
-  if (lattice().triangle) {
-    const std::int32_t by_corner[3] = {n - i - j, i, j};
-    return {double(by_corner[(4 - turn) % 3]) / n, double(by_corner[(5 - turn) % 3]) / n};
-  }
-  std::int32_t x = i, y = j;
-  for (int k = 0; k < turn; ++k) std::swap(x, y), x = n - x;
-  double u = double(x) / n, v = double(y) / n;
-  if (quarter < 0) return {u, v};
-  const bool right = quarter == 1 || quarter == 2, up = quarter >= 2;
-  return {u / 2 + (right ? 0.5 : 0), v / 2 + (up ? 0.5 : 0)};
 }
 
 }  // namespace sublimit

@@ -48,6 +48,13 @@ struct LatticePlace {
   std::int8_t quarter = -1;  ///< -1: all of the address
 };
 
+/// (u, v) in an address.
+struct AddressParameters {
+  double u = 0, v = 0;
+};
+/// Those of the point (i, j) of a lattice.
+AddressParameters address_parameters(const Lattice& lattice, const LatticePlace& place, std::int32_t i, std::int32_t j);
+
 class FaceLattices {
  public:
   /// By face, then by side or corner of its lattice.
@@ -82,10 +89,9 @@ class FaceLattices {
   /// Where a point is, if addresses are known: (u, v) of the address of a face.
   bool has_addresses() const { return !arrays_.addresses.empty(); }
   LatticePlace place(std::int32_t face) const;
-  struct Parameters {
-    double u = 0, v = 0;
-  };
-  Parameters parameters(std::int32_t face, std::int32_t i, std::int32_t j) const;
+  AddressParameters parameters(std::int32_t face, std::int32_t i, std::int32_t j) const {
+    return address_parameters(lattice(), place(face), i, j);
+  }
 
  private:
   struct RowPlace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// From a mesh to a table of its level k, without refining it.
+// From a mesh to a table: of its level k, of that level's limit, of grids or lists of places on the limit.
 #include "sublimit/baked_table.h"
 #include "sublimit/limit/address.h"
 #include "sublimit/patterns.h"
@@ -8,25 +8,15 @@
 
 namespace sublimit {
 
-/// What became of the faces of a mesh.
-struct BakeStatistics {
-  Index faces = 0;   ///< that have patterns
-  Index types = 0;   ///< of their neighbourhoods, rotations not counted
-  Index blocks = 0;  ///< matrices in the table
-  Index groups = 0;  ///< of patches that make the same rows of the same block
-  std::int64_t points = 0;
-  std::int64_t bytes = 0;      ///< of the table
-  bool first_by_rows = false;  ///< level 1 is made by rows, and has the patterns
+/// How a table is made. All of them make the same points, to rounding; the order of points may differ.
+enum class BakeMethod {
+  automatic,           ///< the first of these that is possible, but the second where most types would be rare
+  patterns,            ///< a block for each type of neighbourhood
+  rows_then_patterns,  ///< level 1 by rows, then a block for each type on it
+  rows,                ///< a row for each point
 };
-
-/// A table with what its making told.
-///
-/// Points of tables by patterns stand face by face, in the order of the table: those inside a face, then those of its
-/// sides and corners that no other face has already, then isolated vertices.
-struct Baked {
-  BakedTable<double> table;
-  BakeStatistics statistics;
-};
+/// "patterns", "rows then patterns", "rows".
+const char* name(BakeMethod method);
 
 /// What points a table is to make.
 struct BakeRequest {
@@ -35,19 +25,45 @@ struct BakeRequest {
   int grid = 0;                 ///< N, of `grid`, 2 to 2048
   std::vector<Sample> samples;  ///< of `samples`
   int derivatives = 0;          ///< of the limit: 0, 1 or 2
+  BakeMethod method = BakeMethod::automatic;
 };
 
-/// A table of any linear scheme: by patterns where the scheme has them, by rows elsewhere; `statistics` tells.
+/// What became of the faces of a mesh.
+struct BakeStatistics {
+  BakeMethod method = BakeMethod::rows;  ///< that was taken
+  Index faces = 0;                       ///< that have patterns
+  Index types = 0;                       ///< of their neighbourhoods, rotations not counted
+  Index blocks = 0;                      ///< matrices in the table
+  Index groups = 0;                      ///< of patches that make the same rows of the same block
+  std::int64_t points = 0;
+  std::int64_t bytes = 0;  ///< of the table
+};
+
+/// A table with what its making told.
+///
+/// Points of levels by patterns stand face by face, in the order of the table: those inside a face, then those of its
+/// sides and corners that no other face has already, then isolated vertices. By rows they stand in the order of
+/// refinement. Those of grids and samples are as they were asked for.
+///
+/// At vertices of a level the derivatives are those of the face that has the point; at extraordinary vertices, and by
+/// rows, two tangents that span the plane. Statuses tell what there is.
+struct Baked {
+  BakedTable<double> table;
+  BakeStatistics statistics;
+};
+
+/// A table of any linear scheme.
 /// @param patterns  of the scheme; types that it does not know yet are added
-/// @throws InvalidParameter     a request outside these ranges, derivatives of a level, a place outside its address
+/// @throws InvalidParameter     a request outside these ranges, derivatives of a level, a place outside its address, a
+///                              method that is not possible
 /// @throws InvalidMesh, UnsupportedTopology  as refinement does
 /// @throws ResourceError        more points than memory, predicted before it is taken
+/// @note  Types on which finite sharpness matters keep the order of sums of the mesh that they were met in first; but
+///        for these, and for all with a fresh dictionary, the same request gives the same bits.
 Baked bake(Patterns& patterns, const ControlMesh& mesh, const BakeRequest& request,
            const SubdivisionOptions& options = {});
 
-/// @param patterns  of the scheme; types that it does not know yet are added
-/// @param levels    k, from 1 to 11
-/// @throws InvalidParameter, InvalidMesh, UnsupportedTopology  as refinement does
+/// Level k, from 1 to 11.
 Baked bake_level(Patterns& patterns, const ControlMesh& mesh, int levels, const SubdivisionOptions& options = {});
 
 }  // namespace sublimit

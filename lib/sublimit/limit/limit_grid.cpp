@@ -33,7 +33,7 @@ namespace {
 /// edges in steps of half a sample (squares of polygons have half an edge each), then places between the squares of a
 /// polygon.
 template <class Share>
-void shared_places(const Topology& t, const Addresses& addresses, int N, const Share& share) {
+void for_each_shared_place(const Topology& t, const Addresses& addresses, int N, const Share& share) {
   const std::int64_t steps = 2 * std::int64_t(N - 1);
   const auto on_edge = [&](HalfEdge h, std::int64_t from_tail) -> std::int64_t {
     if (from_tail == 0) return index(t.tail(h));
@@ -83,21 +83,28 @@ void shared_places(const Topology& t, const Addresses& addresses, int N, const S
 
 }  // namespace
 
-LimitSamples LimitSurface::evaluate_grid(const Points& points, int N, int order, bool normals) const {
-  const std::vector<Sample> samples = grid(N);
-  LimitSamples result = evaluate(points, samples, order, normals);
-  const Topology& t = parts_->level.topology();
+std::vector<std::pair<std::int64_t, std::int64_t>> shared_grid_places(const Topology& t, const Addresses& addresses,
+                                                                      int N) {
   const std::int64_t keys =
       t.num_vertices() + std::int64_t(t.num_edges()) * (2 * std::int64_t(N - 1) - 1) +
-      (t.uniform_face_size() == (parts_->addresses.triangles() ? 3 : 4) ? 0 : std::int64_t(t.num_half_edges()) * N);
+      (t.uniform_face_size() == (addresses.triangles() ? 3 : 4) ? 0 : std::int64_t(t.num_half_edges()) * N);
   std::vector<std::int64_t> owner(keys, -1);
-  shared_places(t, parts_->addresses, N, [&](std::int64_t row, std::int64_t key) {
+  std::vector<std::pair<std::int64_t, std::int64_t>> pairs;
+  for_each_shared_place(t, addresses, N, [&](std::int64_t row, std::int64_t key) {
     std::int64_t& first = owner[key];
     if (first < 0)
       first = row;
     else
-      result.position.row(row) = result.position.row(first);
+      pairs.push_back({row, first});
   });
+  return pairs;
+}
+
+LimitSamples LimitSurface::evaluate_grid(const Points& points, int N, int order, bool normals) const {
+  const std::vector<Sample> samples = grid(N);
+  LimitSamples result = evaluate(points, samples, order, normals);
+  for (const auto& [row, first] : shared_grid_places(parts_->level.topology(), parts_->addresses, N))
+    result.position.row(row) = result.position.row(first);
   return result;
 }
 

@@ -44,8 +44,10 @@ LimitSurface::Parts::Found LimitSurface::Parts::find(const Target& at, int order
     }
   }
   // Where the piece has no derivatives at a corner, its limit masks have tangents, perhaps.
-  if (rows.at_corner && rows.order == 0) {
-    const std::optional<Centre> centre = this->centre(at);
+  const std::optional<Centre> centre = rows.at_corner && rows.order == 0 ? this->centre(at) : std::nullopt;
+  // Inside, where rounding ends the descent of a place at thirds at a corner, the position is all that was asked for.
+  const bool is_deep = !centre && order == 0;
+  if (rows.at_corner && rows.order == 0 && !is_deep) {
     const CornerLimit* limit = centre ? corners.at(*centre) : nullptr;
     found.status = limit ? limit->status : LimitStatus::undefined_normal;
     if (order >= 1 && limit && limit->status != LimitStatus::undefined_normal) {

@@ -11,6 +11,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "sublimit/analysis/limit_status.h"
@@ -100,6 +101,10 @@ class LimitSurface {
   friend class BoundLimitSurface;
   std::unique_ptr<Parts> parts_;
 };
+
+/// Pairs of rows of a grid, a later one and the first one, that are the same point.
+std::vector<std::pair<std::int64_t, std::int64_t>> shared_grid_places(const Topology& topology,
+                                                                      const Addresses& addresses, int N);
 
 /// A surface with its points, for many evaluations.
 class BoundLimitSurface {

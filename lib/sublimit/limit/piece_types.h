@@ -9,6 +9,7 @@
 #include <mutex>
 #include <optional>
 #include <shared_mutex>
+#include <span>
 #include <unordered_map>
 
 #include "sublimit/analysis/signature_hash.h"
@@ -36,6 +37,12 @@ class PieceType {
   const PieceTypes& types() const { return *types_; }
   /// Points that it depends on.
   Index num_slots() const { return static_cast<Index>(slots_.size()); }
+  /// Some finite sharpness matters: sums of it are taken in the order of the mesh that the type was met in first.
+  bool decays() const { return decays_; }
+  /// The piece among the points around it, the rim of which means nothing, and the vertices that are its slots.
+  const Level& level() const { return local_; }
+  const Piece& piece() const { return piece_; }
+  std::span<const Index> slots() const { return slots_; }
   /// Its children, whether or not it is a polynomial.
   const std::deque<PieceLink>& children() const;
   /// The child that a place is in.
