@@ -13,58 +13,12 @@
 #include "sublimit/face_owners.h"
 #include "sublimit/face_places.h"
 #include "sublimit/limit/limit_surface.h"
+#include "sublimit/piece_matches.h"
 
 namespace sublimit {
 namespace {
 
 using Arrays = PatternTable<double>::Arrays;
-
-/// Pieces of a level, their types, and where their lattices lie.
-struct Pieces {
-  std::vector<Patterns::Match> matches;
-  std::vector<LatticePlace> places;  ///< or none
-  Index count() const { return static_cast<Index>(matches.size()); }
-  std::vector<std::int8_t> turns() const {
-    std::vector<std::int8_t> turns;
-    for (const Patterns::Match& match : matches) turns.push_back(static_cast<std::int8_t>(match.turn));
-    return turns;
-  }
-};
-
-/// Those that are known in parallel, then each new type by the first piece that has it.
-template <class PieceAt>
-std::vector<Patterns::Match> matches_of(Patterns& patterns, const Level& level, Index count, const PieceAt& piece_at) {
-  std::vector<Patterns::Match> matches(count);
-  constexpr std::int64_t per_block = 1024;
-  std::vector<std::vector<Index>> unknown(num_blocks(count, per_block));
-  const auto find = [&](Index i, std::vector<Index>& missing) {
-    matches[i] = patterns.find(level, piece_at(i));
-    if (!matches[i].type) missing.push_back(i);
-  };
-  parallel_for_blocks(
-      count,
-      [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
-        for (std::int64_t i = begin; i < end; ++i) find(static_cast<Index>(i), unknown[block]);
-      },
-      per_block);
-  std::vector<Index> rest;
-  for (const std::vector<Index>& part : unknown) rest.insert(rest.end(), part.begin(), part.end());
-  // A new type settles many of the others.
-  while (!rest.empty()) {
-    const size_t some = std::min<size_t>(rest.size(), 64);
-    for (size_t i = 0; i < some; ++i) matches[rest[i]] = patterns.match(level, piece_at(rest[i]));
-    std::vector<std::vector<Index>> left(num_blocks(std::int64_t(rest.size() - some), per_block));
-    parallel_for_blocks(
-        std::int64_t(rest.size() - some),
-        [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
-          for (std::int64_t i = begin; i < end; ++i) find(rest[some + size_t(i)], left[block]);
-        },
-        per_block);
-    rest.clear();
-    for (const std::vector<Index>& part : left) rest.insert(rest.end(), part.begin(), part.end());
-  }
-  return matches;
-}
 
 /// Blocks of a table, in the order in which pieces meet them, made in parallel.
 class Blocks {
@@ -105,7 +59,10 @@ class Blocks {
         },
         1);
     if (std::find(made.begin(), made.end(), nullptr) != made.end()) return false;
+    size_t size = 0;
+    for (const RowMatrix* W : made) size += size_t(W->size());
     std::vector<double> weights;
+    weights.reserve(size);
     for (const RowMatrix* W : made) {
       arrays.blocks.push_back({rows, static_cast<std::int32_t>(W->cols()), static_cast<std::int64_t>(weights.size())});
       weights.insert(weights.end(), W->data(), W->data() + W->size());
@@ -130,38 +87,66 @@ class Blocks {
   Index last_ = 0;
 };
 
-struct Patch {
-  Index block = 0;
-  std::uint8_t share = 0;  // of a lattice; of grids: 1 for a hole
-  Index piece = 0;
-};
-
-/// Groups, and the control points of their patches.
+/// Patches by block and share, those of a group in the order of their pieces.
 class Groups {
  public:
-  void begin(Index block, std::span<const std::int32_t> own) {
-    group_ = {block, static_cast<std::int32_t>(own.size()), static_cast<std::int64_t>(rows.size()), 0};
-    rows.insert(rows.end(), own.begin(), own.end());
+  /// @param share  of a piece: what it has of its block's rows
+  Groups(const PieceMatches& pieces, std::span<const Index> block, std::span<const std::uint8_t> share) {
+    const Index count = pieces.count();
+    std::unordered_map<std::int64_t, Index> numbers;
+    std::int64_t last = -1;
+    Index number = -1;
+    for (Index i = 0; i < count; ++i) {
+      const std::int64_t key = std::int64_t{block[i]} * 256 + share[i];
+      if (key != last) {
+        const auto [at, is_new] = numbers.try_emplace(key, static_cast<Index>(groups.size()));
+        if (is_new) groups.push_back({block[i], share[i], {}});
+        number = at->second;
+        last = key;
+      }
+      groups[number].pieces.push_back(i);
+    }
+    std::sort(groups.begin(), groups.end(),
+              [](const Group& a, const Group& b) { return std::tie(a.block, a.share) < std::tie(b.block, b.share); });
   }
-  void add(std::span<const Index> vertices) {
-    columns.insert(columns.end(), vertices.begin(), vertices.end());
-    ++group_.num_patches;
-  }
-  void end() {
-    if (group_.num_patches > 0)
-      groups.push_back(group_);
-    else
-      rows.resize(size_t(group_.rows));
-  }
-  std::vector<PatternTable<double>::Group> groups;
-  std::vector<std::int32_t> rows, columns;
 
- private:
-  PatternTable<double>::Group group_;
+  struct Group {
+    Index block;
+    std::uint8_t share;
+    std::vector<Index> pieces;
+  };
+  std::vector<Group> groups;
 };
 
-bool by_block(const Patch& a, const Patch& b) {
-  return std::tie(a.block, a.share, a.piece) < std::tie(b.block, b.share, b.piece);
+/// Control points of all patches, those of isolated points last.
+std::vector<std::int32_t> all_columns(const PieceMatches& pieces, const Groups& groups, std::span<const Index> alone) {
+  struct Run {
+    std::int64_t first;  // where its control points begin
+    const Index* pieces;
+    std::int64_t count;
+  };
+  constexpr std::int64_t per_run = 1024;
+  std::vector<Run> runs;
+  std::int64_t next = 0;
+  for (const Groups::Group& group : groups.groups)
+    for (size_t at = 0; at < group.pieces.size(); at += per_run) {
+      const std::int64_t count = std::min<std::int64_t>(per_run, std::int64_t(group.pieces.size() - at));
+      runs.push_back({next, group.pieces.data() + at, count});
+      next += count * std::int64_t(pieces.vertices(group.pieces[at]).size());
+    }
+  std::vector<std::int32_t> columns(size_t(next) + alone.size());
+  parallel_for_blocks(
+      std::int64_t(runs.size()),
+      [&](std::int64_t r, std::int64_t, std::int64_t) {
+        std::int32_t* out = columns.data() + runs[r].first;
+        for (std::int64_t i = 0; i < runs[r].count; ++i) {
+          const std::span<const Index> vertices = pieces.vertices(runs[r].pieces[i]);
+          out = std::copy(vertices.begin(), vertices.end(), out);
+        }
+      },
+      1);
+  std::copy(alone.begin(), alone.end(), columns.begin() + next);
+  return columns;
 }
 
 /// Vertices of level k, or their limits: points are shared between faces.
@@ -187,21 +172,20 @@ std::optional<Baked> bake_lattices(Patterns& patterns, const Level& control, con
   const Lattice lattice{Index{1} << levels, sides == 3};
   const auto kind = sides == 3 ? Piece::Kind::triangle : Piece::Kind::quad;
 
-  Pieces pieces;
-  pieces.matches = matches_of(patterns, level, t.num_faces(), [&](Index f) { return Piece{kind, t.first(Face{f})}; });
-  const std::vector<std::int8_t> turn = pieces.turns();
+  const PieceMatches pieces(patterns, level, t.num_faces(), [&](Index f) { return Piece{kind, t.first(Face{f})}; });
+  std::vector<std::int8_t> turn(t.num_faces());
+  for (Index f = 0; f < t.num_faces(); ++f) turn[f] = static_cast<std::int8_t>(pieces.turn(f));
+  std::vector<LatticePlace> places;
   if (!first_by_rows)
-    pieces.places = places_of_faces(turn);
-  else if (auto places = places_of_children(scheme, control, level, turn))
-    pieces.places = std::move(*places);
-  if (request.derivatives > 0 && pieces.places.empty() && t.num_faces() > 0) return std::nullopt;
+    places = places_of_faces(turn);
+  else if (auto of_children = places_of_children(scheme, control, level, turn))
+    places = std::move(*of_children);
+  if (request.derivatives > 0 && places.empty() && t.num_faces() > 0) return std::nullopt;
 
   Blocks blocks;
-  FaceLattices::Arrays lattices = face_owners(t, lattice, turn);
-  std::vector<Patch> patches(t.num_faces());
+  std::vector<Index> block_of(t.num_faces());
   for (Index f = 0; f < t.num_faces(); ++f)
-    patches[f] = {blocks.add({pieces.matches[f].type, request.derivatives > 0 ? pieces.places[f] : LatticePlace{}}), 0,
-                  f};
+    block_of[f] = blocks.add({&pieces.type(f), request.derivatives > 0 ? places[f] : LatticePlace{}});
   const double bytes = blocks.num_bytes(double(arrays.quantities) * lattice.size());
   if (bytes > most_bytes) return std::nullopt;
   check_memory(std::to_string(blocks.keys().size()) + " blocks of level " + std::to_string(request.level), 4 * bytes,
@@ -221,64 +205,57 @@ std::optional<Baked> bake_lattices(Patterns& patterns, const Level& control, con
           &patterns.limit_block(*blocks.keys()[b].type, lattice, blocks.keys()[b].place, false, request.derivatives)
                ->status;
 
-  // Groups, and the points that faces have.
-  parallel_for(t.num_faces(),
-               [&](std::int64_t f) { patches[f].share = FaceLattices::share(lattices, static_cast<Index>(f)); });
-  std::sort(patches.begin(), patches.end(), by_block);
-  Groups groups;
+  // Groups, and the points that faces have. Isolated vertices stay where they are.
+  FaceLattices::Arrays lattices = face_owners(t, lattice, turn);
+  std::vector<std::uint8_t> share(t.num_faces());
+  parallel_for(t.num_faces(), [&](std::int64_t f) { share[f] = FaceLattices::share(lattices, static_cast<Index>(f)); });
+  Groups groups(pieces, block_of, share);
+  std::vector<std::int32_t> rows;
   std::vector<std::uint8_t> row_status;
   std::vector<std::int64_t> first_points(t.num_faces());
   std::int64_t next = 0;
-  for (size_t at = 0; at < patches.size();) {
-    const auto [block, share, ignored] = patches[at];
-    const std::vector<std::int32_t> own = FaceLattices::rows(lattice, share);
-    groups.begin(block, own);
-    for (; at < patches.size() && patches[at].block == block && patches[at].share == share; ++at) {
-      const Index f = patches[at].piece;
+  for (Groups::Group& group : groups.groups) {
+    const std::vector<std::int32_t> own = FaceLattices::rows(lattice, group.share);
+    for (const Index f : group.pieces) {
       first_points[f] = next;
       next += std::int64_t(own.size());
-      if (!own.empty()) groups.add(pieces.matches[f].vertices);  // level 1 of a first step: all corners may be others'
     }
-    groups.end();
+    if (own.empty()) group.pieces.clear();  // level 1 of a first step: all corners may be others'
+    if (group.pieces.empty()) continue;
+    arrays.groups.push_back({group.block, static_cast<std::int32_t>(own.size()), static_cast<std::int64_t>(rows.size()),
+                             std::int64_t(group.pieces.size())});
+    rows.insert(rows.end(), own.begin(), own.end());
     if (has_status)
-      for (size_t i = row_status.size(); i < groups.rows.size(); ++i)
-        row_status.push_back((*status[block])[groups.rows[i]]);
+      for (const std::int32_t row : own) row_status.push_back((*status[group.block])[row]);
   }
-  // Isolated vertices stay where they are.
-  Index alone = -1;
+  std::vector<Index> alone;
   for (Index v = 0; v < t.num_vertices(); ++v)
-    if (t.is_isolated(Vertex{v})) {
-      if (alone < 0) {
-        alone = static_cast<Index>(arrays.blocks.size());
-        std::vector<double> weights(arrays.weights.begin(), arrays.weights.end());
-        arrays.blocks.push_back({1, 1, static_cast<std::int64_t>(weights.size())});
-        weights.push_back(1);
-        weights.resize(weights.size() + size_t(arrays.quantities) - 1, 0.0);
-        arrays.weights = std::move(weights);
-        const std::int32_t only = 0;
-        groups.begin(alone, {&only, 1});
-      }
-      groups.add({&v, 1});
-    }
-  if (alone >= 0) {
-    groups.end();
+    if (t.is_isolated(Vertex{v})) alone.push_back(v);
+  if (!alone.empty()) {
+    std::vector<double> weights(arrays.weights.begin(), arrays.weights.end());
+    arrays.groups.push_back({static_cast<std::int32_t>(arrays.blocks.size()), 1, static_cast<std::int64_t>(rows.size()),
+                             std::int64_t(alone.size())});
+    arrays.blocks.push_back({1, 1, static_cast<std::int64_t>(weights.size())});
+    weights.push_back(1);
+    weights.resize(weights.size() + size_t(arrays.quantities) - 1, 0.0);
+    arrays.weights = std::move(weights);
+    rows.push_back(0);
     if (has_status) row_status.push_back(std::uint8_t(LimitStatus::undefined_normal));
   }
-  arrays.groups = std::move(groups.groups);
-  arrays.rows = std::move(groups.rows);
-  arrays.columns = std::move(groups.columns);
+  arrays.columns = all_columns(pieces, groups, alone);
+  arrays.rows = std::move(rows);
   baked.table.row_status = std::move(row_status);
   baked.table.table = PatternTable<double>(control.topology().num_vertices(), std::move(arrays));
 
-  if (!pieces.places.empty()) {
+  if (!places.empty()) {
     std::vector<std::int32_t> addresses;
-    std::vector<std::uint8_t> places;
-    for (const LatticePlace& place : pieces.places) {
+    std::vector<std::uint8_t> codes;
+    for (const LatticePlace& place : places) {
       addresses.push_back(place.address);
-      places.push_back(static_cast<std::uint8_t>(place.turn + 8 * (place.quarter + 1)));
+      codes.push_back(static_cast<std::uint8_t>(place.turn + 8 * (place.quarter + 1)));
     }
     lattices.addresses = std::move(addresses);
-    lattices.places = std::move(places);
+    lattices.places = std::move(codes);
   }
   lattices.first_points = std::move(first_points);
   if (std::find(level.holes.begin(), level.holes.end(), true) != level.holes.end())
@@ -302,18 +279,17 @@ std::optional<Baked> bake_grids(Patterns& patterns, const Level& control, const 
   arrays.quantities = request.derivatives == 0 ? 1 : request.derivatives == 1 ? 3 : 6;
   if (double(addresses.size()) * lattice.size() > std::numeric_limits<std::int32_t>::max()) return std::nullopt;
 
-  Pieces pieces;
-  pieces.matches = matches_of(patterns, control, addresses.size(), [&](Index address) {
+  const PieceMatches pieces(patterns, control, addresses.size(), [&](Index address) {
     const Addresses::Place at = addresses.place(address);
     if (at.corner >= 0) return Piece{Piece::Kind::cut, t.corner(at.face, at.corner)};
     return Piece{addresses.triangles() ? Piece::Kind::triangle : Piece::Kind::quad, t.first(at.face)};
   });
   Blocks blocks;
-  std::vector<Patch> patches(addresses.size());
+  std::vector<Index> block_of(addresses.size());
+  std::vector<std::uint8_t> is_hole(addresses.size());
   for (Index a = 0; a < addresses.size(); ++a) {
-    const LatticePlace place{a, static_cast<std::int8_t>(pieces.matches[a].turn), -1};
-    const bool hole = control.holes[index(addresses.place(a).face)];
-    patches[a] = {blocks.add({pieces.matches[a].type, place}), static_cast<std::uint8_t>(hole), a};
+    block_of[a] = blocks.add({&pieces.type(a), {a, static_cast<std::int8_t>(pieces.turn(a)), -1}});
+    is_hole[a] = control.holes[index(addresses.place(a).face)];
   }
   const double bytes = blocks.num_bytes(double(arrays.quantities) * lattice.size());
   if (bytes > most_bytes) return std::nullopt;
@@ -328,31 +304,25 @@ std::optional<Baked> bake_grids(Patterns& patterns, const Level& control, const 
   });
   if (!made) return std::nullopt;
 
-  std::sort(patches.begin(), patches.end(), by_block);
-  std::vector<std::int32_t> all(lattice.size());
-  for (std::int32_t i = 0; i < lattice.size(); ++i) all[i] = i;
-  Groups groups;
+  const Groups groups(pieces, block_of, is_hole);
+  std::vector<std::int32_t> rows;
   std::vector<std::uint8_t> row_status;
   std::vector<std::int64_t> patch_points;
-  for (size_t at = 0; at < patches.size();) {
-    const auto [block, hole, ignored] = patches[at];
-    groups.begin(block, all);
-    for (; at < patches.size() && patches[at].block == block && patches[at].share == hole; ++at) {
-      groups.add(pieces.matches[patches[at].piece].vertices);
-      patch_points.push_back(std::int64_t{patches[at].piece} * lattice.size());
-    }
-    groups.end();
-    const std::vector<std::uint8_t>& status = limit_block(blocks.keys()[block])->status;
-    for (const std::uint8_t s : status) row_status.push_back(hole ? std::uint8_t(LimitStatus::hole) : s);
+  for (const Groups::Group& group : groups.groups) {
+    arrays.groups.push_back(
+        {group.block, lattice.size(), static_cast<std::int64_t>(rows.size()), std::int64_t(group.pieces.size())});
+    for (const Index a : group.pieces) patch_points.push_back(std::int64_t{a} * lattice.size());
+    for (std::int32_t i = 0; i < lattice.size(); ++i) rows.push_back(i);
+    const std::vector<std::uint8_t>& status = limit_block(blocks.keys()[group.block])->status;
+    for (const std::uint8_t s : status) row_status.push_back(group.share ? std::uint8_t(LimitStatus::hole) : s);
   }
   std::vector<std::int32_t> copies;
   for (const auto& [to, from] : shared_grid_places(t, addresses, request.grid)) {
     copies.push_back(static_cast<std::int32_t>(to));
     copies.push_back(static_cast<std::int32_t>(from));
   }
-  arrays.groups = std::move(groups.groups);
-  arrays.rows = std::move(groups.rows);
-  arrays.columns = std::move(groups.columns);
+  arrays.rows = std::move(rows);
+  arrays.columns = all_columns(pieces, groups, {});
   arrays.patch_points = std::move(patch_points);
   arrays.copies = std::move(copies);
   if (std::any_of(row_status.begin(), row_status.end(), [](std::uint8_t s) { return s != 0; }))

@@ -44,19 +44,25 @@ class Walks {
 
 }  // namespace
 
-Patterns::Match Patterns::find(const Level& level, const Piece& piece) const {
+bool Patterns::find(const Level& level, const Piece& piece, Match& match) const {
   const Walks walk(*types_, level, piece);
   const PieceWalk* own = &walk(0);
-  const std::shared_lock lock(mutex_);
-  const auto known = turned_.find(own->signature);
-  if (known == turned_.end()) return {};
-  const Turned found = known->second;
+  Turned found;
+  {
+    const std::shared_lock lock(mutex_);
+    const auto known = turned_.find(own->signature);
+    if (known == turned_.end()) return false;
+    found = known->second;
+  }
   if (found.turn != 0) own = &walk(found.turn);
-  return {found.type, found.turn, own->vertices};
+  match.type = found.type;
+  match.turn = found.turn;
+  match.vertices = own->vertices;
+  return true;
 }
 
 Patterns::Match Patterns::match(const Level& level, const Piece& piece) {
-  if (Match known = find(level, piece); known.type) return known;
+  if (Match known; find(level, piece, known)) return known;
   // New: the least of its rotations is the type; the next face may be seen from any of them.
   const Walks walk(*types_, level, piece);
   const int turns = num_turns(piece.kind);

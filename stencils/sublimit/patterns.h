@@ -29,8 +29,9 @@ class Patterns {
     std::vector<Index> vertices;  ///< points that it depends on
   };
   Match match(const Level& level, const Piece& piece);
-  /// The same if the type is known; else `type` is null.
-  Match find(const Level& level, const Piece& piece) const;
+  /// The same if the type is known already.
+  /// @param match  keeps its memory from call to call
+  bool find(const Level& level, const Piece& piece, Match& match) const;
 
   /// Rows of `Lattice{2^levels}` over the points of a type: weights sum to one.
   const RowMatrix& rows(const PieceType& type, int levels);
@@ -54,8 +55,8 @@ class Patterns {
 
  private:
   struct Turned {
-    const PieceType* type;
-    int turn;
+    const PieceType* type = nullptr;
+    int turn = 0;
   };
   enum class Ends { points, limits };  // what the corners of the last level are
   RowMatrix made_rows(const PieceType& type, int levels, Ends ends);
