@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sublimit/table_file.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cstring>
 #include <limits>
@@ -13,109 +14,10 @@
 #include "sublimit/base/mapped_file.h"
 #include "sublimit/check_table.h"
 #include "sublimit/safetensors.h"
+#include "sublimit/table_tensors.h"
 
 namespace sublimit {
 namespace {
-
-constexpr const char* format_word = "sublimit-table";
-constexpr int schema_version = 1;
-/// One quantity after the other, each for all points.
-constexpr const char* order_word = "quantity,point";
-const std::string option_prefix = "option.";
-
-const char* quantity_words(int quantities) {
-  return quantities == 1 ? "x" : quantities == 3 ? "x xu xv" : "x xu xv xuu xuv xvv";
-}
-const char* shape_word(bool triangles) { return triangles ? "triangle" : "quadrilateral"; }
-
-// Writing.
-
-class TableWriter {
- public:
-  template <class Real>
-  void add(const BakedTable<Real>& table) {
-    const typename PatternTable<Real>::Arrays& a = table.table.arrays();
-    for (const auto& block : a.blocks) blocks_.insert(blocks_.end(), {block.rows, block.columns, block.weights});
-    for (const auto& g : a.groups) groups_.insert(groups_.end(), {g.block, g.num_rows, g.rows, g.num_patches});
-    add("blocks", std::span<const std::int64_t>(blocks_), 3);
-    add("groups", std::span<const std::int64_t>(groups_), 4);
-    add("weights", a.weights.span());
-    add("rows", a.rows.span());
-    add("columns", a.columns.span());
-    add("patch_points", a.patch_points.span());
-    add("copies", a.copies.span(), 2);
-    if (a.first) add("first.", *a.first);
-    if (a.rest) add("rest.", *a.rest);
-    if (table.lattices) add(table.lattices->arrays());
-    add("faces.sizes", table.faces.sizes.span());
-    add("faces.corners", table.faces.corners.span());
-    add("addresses.faces", table.addresses.faces.span());
-    add("addresses.parameters", table.addresses.parameters.span(), 2);
-    add("row_status", table.row_status.span());
-    add("rest_status", table.rest_status.span());
-
-    const TableInfo& info = table.info;
-    auto& m = file.metadata;
-    m["format"] = format_word;
-    m["schema"] = std::to_string(schema_version);
-    m["order"] = order_word;
-    m["precision"] = name(dtype_of<Real>());
-    m["quantities"] = quantity_words(a.quantities);
-    m["control_points"] = std::to_string(table.table.num_control_points());
-    m["points"] = std::to_string(table.table.num_points());
-    m["rows"] = name(info.rows);
-    m["level"] = std::to_string(info.level);
-    m["grid"] = std::to_string(info.grid);
-    m["addresses"] = shape_word(info.triangles);
-    if (!info.scheme.empty()) m["scheme"] = info.scheme;
-    if (!info.tool.empty()) m["tool"] = info.tool;
-    for (const auto& [key, value] : info.options) m[option_prefix + key] = value;
-    if (info.topology_hash != 0) {
-      char digits[16];
-      const std::to_chars_result end = std::to_chars(digits, digits + 16, info.topology_hash, 16);
-      m["topology_hash"] = std::string(size_t(digits + 16 - end.ptr), '0') + std::string(digits, end.ptr);
-    }
-    for (const std::string& status : info.statuses) {
-      std::string& words = m["statuses"];
-      words += (words.empty() ? "" : " ") + status;
-    }
-  }
-
-  Safetensors file;
-
- private:
-  /// Arrays without entries are left out.
-  template <class T>
-  void add(const std::string& name, std::span<const T> items, std::int64_t columns = 1) {
-    if (items.empty()) return;
-    std::vector<std::int64_t> shape{std::int64_t(items.size()) / columns};
-    if (columns != 1) shape.push_back(columns);
-    file.tensors.push_back(tensor(name, items, std::move(shape)));
-  }
-  template <class Real>
-  void add(const std::string& prefix, const StencilTable<Real>& table) {
-    add(prefix + "offsets", table.offsets().span());
-    add(prefix + "columns", table.columns().span());
-    add(prefix + "weights", table.weights().span());
-  }
-  void add(const FaceLattices::Arrays& a) {
-    const int sides = a.lattice.num_sides();
-    add("lattices.side_faces", a.side_faces.span(), sides);
-    add("lattices.side_places", a.side_places.span(), sides);
-    add("lattices.corner_faces", a.corner_faces.span(), sides);
-    add("lattices.corner_places", a.corner_places.span(), sides);
-    add("lattices.first_points", a.first_points.span());
-    add("lattices.addresses", a.addresses.span());
-    add("lattices.places", a.places.span());
-    add("lattices.holes", a.holes.span());
-    file.metadata["lattice"] = std::to_string(a.lattice.n);
-    file.metadata["lattice_shape"] = shape_word(a.lattice.triangle);
-  }
-
-  std::vector<std::int64_t> blocks_, groups_;
-};
-
-// Reading.
 
 class TableReader {
  public:
@@ -123,11 +25,12 @@ class TableReader {
       : file_(std::move(file)), name_(name), owner_(std::move(owner)), options_(options) {}
 
   AnyTable table() const {
-    if (text("format") != format_word) fail("its metadata has no format = " + std::string(format_word));
-    if (const auto schema = number("schema", 1, 1'000'000); schema > schema_version)
+    if (text("format") != table_words::format) fail("its metadata has no format = " + std::string(table_words::format));
+    if (const auto schema = number("schema", 1, 1'000'000); schema > table_words::schema_version)
       fail("its schema is " + std::to_string(schema) + ", written by " + text("tool", "another program") + "; up to " +
-           std::to_string(schema_version) + " are known here: a newer sublimit reads it");
-    if (text("order", order_word) != order_word) fail("metadata: order is '" + text("order") + "', not " + order_word);
+           std::to_string(table_words::schema_version) + " are known here: a newer sublimit reads it");
+    if (text("order", table_words::order) != table_words::order)
+      fail("metadata: order is '" + text("order") + "', not " + table_words::order);
     const std::string precision = text("precision");
     if (precision != "F32" && precision != "F64") fail("metadata: precision is '" + precision + "', not F32 or F64");
     if (precision == "F32") return table<float>();
@@ -175,11 +78,15 @@ class TableReader {
     const SharedArray<std::int64_t> blocks = array<std::int64_t>("blocks", 3),
                                     groups = array<std::int64_t>("groups", 4);
     a.blocks.reserve(blocks.size() / 3);
-    for (size_t i = 0; i < blocks.size(); i += 3)
+    for (size_t i = 0; i < blocks.size(); i += 3) {
+      // Rows of no weights would be as many as anybody likes, and so would patches of no control points.
+      if (blocks[i] > std::int64_t(a.weights.size()))
+        fail("'blocks' has " + std::to_string(blocks[i]) + " rows; there are " + std::to_string(a.weights.size()) +
+             " weights");
       a.blocks.push_back({index(blocks[i], "'blocks'"), index(blocks[i + 1], "'blocks'"), blocks[i + 2]});
+    }
     a.groups.reserve(groups.size() / 4);
     for (size_t i = 0; i < groups.size(); i += 4) {
-      // Patches of no control points would be as many as anybody likes.
       if (groups[i + 3] > std::int64_t(a.columns.size()))
         fail("'groups' has " + std::to_string(groups[i + 3]) + " patches; there are " +
              std::to_string(a.columns.size()) + " columns");
@@ -226,15 +133,16 @@ class TableReader {
     TableInfo info;
     info.scheme = text("scheme");
     info.tool = text("tool");
-    for (auto at = file_.metadata.lower_bound(option_prefix);
-         at != file_.metadata.end() && at->first.starts_with(option_prefix); ++at)
-      info.options.emplace(at->first.substr(option_prefix.size()), at->second);
+    const std::string prefix = table_words::option_prefix;
+    for (auto at = file_.metadata.lower_bound(prefix); at != file_.metadata.end() && at->first.starts_with(prefix);
+         ++at)
+      info.options.emplace(at->first.substr(prefix.size()), at->second);
     const std::optional<TableRows> rows = table_rows(text("rows"));
     if (!rows) fail("metadata: rows is '" + text("rows") + "'; level, limit, grid and samples are right");
     info.rows = *rows;
     info.level = static_cast<int>(number("level", 0, 30, "0"));
     info.grid = static_cast<int>(number("grid", 0, 4097, "0"));
-    info.triangles = is_triangle("addresses");
+    info.triangles = is_triangle("address_shape");
     if (const std::string hash = text("topology_hash"); !hash.empty()) {
       const std::from_chars_result end =
           std::from_chars(hash.data(), hash.data() + hash.size(), info.topology_hash, 16);
@@ -253,16 +161,17 @@ class TableReader {
   int quantities() const {
     const std::string words = text("quantities");
     for (const int n : {1, 3, 6})
-      if (words == quantity_words(n)) return n;
-    fail("metadata: quantities is '" + words + "'; '" + quantity_words(1) + "', '" + quantity_words(3) + "' and '" +
-         quantity_words(6) + "' are right");
+      if (words == table_words::quantities(n)) return n;
+    fail("metadata: quantities is '" + words + "'; '" + table_words::quantities(1) + "', '" +
+         table_words::quantities(3) + "' and '" + table_words::quantities(6) + "' are right");
   }
 
   bool is_triangle(const std::string& key) const {
-    const std::string word = text(key, shape_word(false));
-    if (word != shape_word(false) && word != shape_word(true))
-      fail("metadata: " + key + " is '" + word + "', not " + shape_word(false) + " or " + shape_word(true));
-    return word == shape_word(true);
+    const std::string word = text(key, table_words::shape(false));
+    if (word != table_words::shape(false) && word != table_words::shape(true))
+      fail("metadata: " + key + " is '" + word + "', not " + table_words::shape(false) + " or " +
+           table_words::shape(true));
+    return word == table_words::shape(true);
   }
 
   std::string text(const std::string& key, const std::string& otherwise = "") const {
@@ -323,9 +232,7 @@ class TableReader {
 template <class Real>
 void save_table(const std::filesystem::path& path, const BakedTable<Real>& table) {
   check_table(table);
-  TableWriter writer;
-  writer.add(table);
-  write_safetensors(path, std::move(writer.file));
+  write_safetensors(path, TableTensors(table).file());
 }
 
 AnyTable load_table(std::span<const std::byte> bytes, const std::string& name, std::shared_ptr<const void> owner,

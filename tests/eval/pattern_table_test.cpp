@@ -73,7 +73,11 @@ TEST(PatternTable, RefusesArraysThatDoNotFit) {
   expect_refused([](Arrays& a) { a.groups[0].num_rows = -1; }, {"rows"});
   expect_refused([](Arrays& a) { a.blocks[0].columns = 1 << 30; }, {"weights"});
   expect_refused([](Arrays& a) { a.blocks[1].weights = -1; }, {"weights from -1"});
-  expect_refused([](Arrays& a) { a.weights = {0.5, 0.5, 0.25, std::numeric_limits<double>::infinity(), 1}; }, {"not finite"});
+  expect_refused(
+      [](Arrays& a) {
+        a.weights = {0.5, 0.5, 0.25, std::numeric_limits<double>::infinity(), 1};
+      },
+      {"not finite"});
   expect_refused(
       [](Arrays& a) {
         a.first.emplace(2, std::vector<std::int64_t>{0}, std::vector<std::int32_t>{}, std::vector<double>{});

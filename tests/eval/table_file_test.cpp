@@ -194,7 +194,7 @@ TEST_F(ChangedFile, IsRefusedForItsMetadata) {
   expect("rows", "columns", {"rows is 'columns'"});
   expect("rows", "grid", {"a grid of 0"});
   expect("level", "31", {"level is '31'"});
-  expect("addresses", "round", {"addresses is 'round'"});
+  expect("address_shape", "round", {"address_shape is 'round'"});
   expect("topology_hash", "12", {"topology_hash is '12'"});
   expect("topology_hash", "00c0ffee1234567g", {"topology_hash"});
   expect("statuses", "regular", {"row_status has the status 1; there are 1"});
@@ -211,7 +211,7 @@ TEST_F(ChangedFile, IsRefusedForItsArrays) {
   const auto expect_without = [&](const std::string& name, std::initializer_list<std::string_view> words) {
     expect_refused([&](Safetensors& f) { erase(f, name); }, words);
   };
-  expect_without("weights", {"weights from 0"});
+  expect_without("weights", {"'blocks' has 9 rows; there are 0 weights"});
   expect_without("blocks", {"block 0 does not exist"});
   expect_without("groups", {"0 patches"});
   expect_without("columns", {"'groups' has 1 patches; there are 0 columns"});
@@ -228,7 +228,8 @@ TEST_F(ChangedFile, IsRefusedForItsArrays) {
   expect("groups", 1, huge, {"'groups' has the number 9223372036854775807"});
   expect("groups", 0, std::int64_t{-1}, {"'groups' has the number -1"});
   expect("groups", 2, huge, {"rows from 9223372036854775807"});
-  expect("blocks", 0, std::int64_t{2147483647}, {"weights from 0"});
+  expect("blocks", 0, std::int64_t{2147483647}, {"'blocks' has 2147483647 rows; there are 108 weights"});
+  expect("blocks", 0, std::int64_t{10}, {"weights from 0"});
   expect("blocks", 2, huge, {"weights from 9223372036854775807"});
   expect("weights", 5, std::numeric_limits<float>::quiet_NaN(), {"not finite"});
   expect("rest.weights", 0, std::numeric_limits<float>::infinity(), {"'rest.*'", "not finite"});
