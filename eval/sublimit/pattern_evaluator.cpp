@@ -1,68 +1,353 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sublimit/pattern_evaluator.h"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "sublimit/base/error.h"
 #include "sublimit/base/parallel_for.h"
 #include "sublimit/kernels/apply_patches.h"
+#include "sublimit/kernels/apply_rows.h"
 
 namespace sublimit {
+namespace {
+
+// Some tens of microseconds each.
+constexpr std::int64_t patches_per_block = 256, rows_per_block = 2048;
+
+constexpr int most_channels = 64;
+
+[[noreturn]] void fail(const std::string& what) { throw InvalidParameter("evaluation: " + what); }
+
+/// a + b * c of numbers that are not negative, or the largest number.
+std::int64_t sum_of_product(std::int64_t a, std::int64_t b, std::int64_t c) {
+  std::int64_t product = 0, sum = 0;
+  if (__builtin_mul_overflow(b, c, &product) || __builtin_add_overflow(a, product, &sum))
+    return std::numeric_limits<std::int64_t>::max();
+  return sum;
+}
+
+/// A layout of so many points without zeros in it.
+struct Layout {
+  kernels::Strides strides;
+  std::int64_t frame = 0;
+  std::int64_t length = 0;  ///< numbers from the first to the last one
+};
+
+Layout resolved(const char* name, const PointLayout& layout, std::int64_t points, int channels, int frames) {
+  const auto overlap = [&] {
+    fail(std::string(name) + " overlap with strides of " + std::to_string(layout.point) + " from point to point, " +
+         std::to_string(layout.channel) + " from channel to channel, " + std::to_string(layout.frame) +
+         " from frame to frame; there are " + std::to_string(points) + " points, " + std::to_string(channels) +
+         " channels and " + std::to_string(frames) + " frames");
+  };
+  if (layout.point < 0 || layout.channel < 1 || layout.frame < 0) overlap();
+  Layout result;
+  result.strides = {layout.point == 0 ? sum_of_product(0, channels, layout.channel) : layout.point, layout.channel};
+  const auto [point, channel] = result.strides;
+  if (points == 0) return result;
+  const std::int64_t of_point = sum_of_product(1, channels - 1, channel),
+                     of_channel = sum_of_product(1, points - 1, point);
+  if (point < of_point && channel < of_channel) overlap();
+  const std::int64_t of_frame = sum_of_product(of_channel, channels - 1, channel);
+  const std::int64_t dense = point < of_point ? sum_of_product(0, channels, channel) : sum_of_product(0, points, point);
+  result.frame = layout.frame == 0 ? dense : layout.frame;
+  if (frames > 1 && result.frame < of_frame) overlap();
+  result.length = sum_of_product(of_frame, frames - 1, result.frame);
+  return result;
+}
+
+template <class Real>
+void check_length(const char* name, std::span<const Real> numbers, const Layout& layout) {
+  if (std::int64_t(numbers.size()) < layout.length)
+    fail(std::string(name) + " hold " + std::to_string(numbers.size()) + " numbers; " + std::to_string(layout.length) +
+         " are needed");
+}
+
+/// t, b, n as `kernels::apply_frames` makes them, of one point.
+template <class Real>
+struct TangentFrame {
+  Real t[3], b[3], n[3];
+  TangentFrame(const Real* along_u, const Real* along_v) {
+    Real v[3];
+    set_unit(along_u, t);
+    set_unit(along_v, v);
+    cross(t, v, b);
+    set_unit(b, n);
+    if (!(n[0] * n[0] + n[1] * n[1] + n[2] * n[2] > 0)) std::fill_n(t, 3, Real(0)), std::fill_n(n, 3, Real(0));
+    cross(n, t, b);
+  }
+
+ private:
+  static void cross(const Real* a, const Real* b, Real* n) {
+    for (int c = 0; c < 3; ++c) {
+      const int i = (c + 1) % 3, j = (c + 2) % 3;
+      n[c] = a[i] * b[j] - a[j] * b[i];
+    }
+  }
+  static void set_unit(const Real* a, Real* unit) {
+    const Real largest = std::max(std::max(std::abs(a[0]), std::abs(a[1])), std::abs(a[2])),
+               scale = largest > 0 ? largest : Real(1);
+    for (int c = 0; c < 3; ++c) unit[c] = a[c] / scale;
+    const Real square = unit[0] * unit[0] + unit[1] * unit[1] + unit[2] * unit[2],
+               length = std::sqrt(square > 0 ? square : Real(1));
+    for (int c = 0; c < 3; ++c) unit[c] /= length;
+  }
+};
+
+template <class Real>
+kernels::Rows<Real> rows_of(const StencilTable<Real>& table, std::int64_t begin, std::int64_t end) {
+  kernels::Rows<Real> rows;
+  rows.offsets = table.offsets().data() + begin;
+  rows.columns = table.columns().data();
+  rows.weights = table.weights().data();
+  rows.num_rows = end - begin;
+  rows.num_points = table.num_control_points();
+  return rows;
+}
+
+}  // namespace
+
+template <class Real>
+struct PatternEvaluator<Real>::Layouts {
+  Layout given;   // points of the caller
+  Layout inputs;  // points that patches are applied to
+  Layout results;
+};
 
 template <class Real>
 PatternEvaluator<Real>::PatternEvaluator(const PatternTable<Real>& table, Options options)
-    : table_(table), options_(options) {
-  const auto& a = table.arrays();
-  for (const auto& group : a.groups) {
-    const auto& block = a.blocks[group.block];
-    const std::int32_t stride =
-        (group.num_rows + kernels::row_multiple - 1) / kernels::row_multiple * kernels::row_multiple;
-    packed_.push_back({static_cast<std::int64_t>(weights_.size()), stride});
-    for (int q = 0; q < a.quantities; ++q) {
-      const auto begin = weights_.size();
-      weights_.resize(begin + size_t(stride) * size_t(block.columns), Real(0));
-      const Real* matrix = a.weights.data() + block.weights + q * std::int64_t{block.rows} * block.columns;
-      for (std::int32_t k = 0; k < block.columns; ++k)
-        for (std::int32_t i = 0; i < group.num_rows; ++i)
-          weights_[begin + size_t(k) * size_t(stride) + size_t(i)] =
-              matrix[std::int64_t{a.rows[group.rows + i]} * block.columns + k];
-    }
+    : table_(table),
+      options_(options),
+      packed_(table),
+      buffers_(std::make_unique<BufferPool<Real>>()) {}
+
+template <class Real>
+auto PatternEvaluator<Real>::check(const Evaluation<Real>& e) const -> Layouts {
+  if (e.channels < 1 || e.channels > most_channels)
+    fail(std::to_string(e.channels) + " channels; 1 to " + std::to_string(most_channels) + " are right");
+  if (e.frames < 0) fail(std::to_string(e.frames) + " frames");
+  Layouts layouts;
+  layouts.given = resolved("points", e.point_layout, table_.num_control_points(), e.channels, e.frames);
+  layouts.results = resolved("results", e.result_layout, table_.num_points(), e.channels, e.frames);
+  const auto& first = table_.arrays().first;
+  layouts.inputs = first ? resolved("points", {}, first->num_rows(), e.channels, e.frames) : layouts.given;
+  if (e.frames == 0) return layouts;
+  check_length("points", e.points, layouts.given);
+  const auto check_result = [&](const char* name, std::span<const Real> numbers) {
+    if (!numbers.empty()) check_length(name, numbers, layouts.results);
+  };
+  static constexpr std::array names{"positions",         "derivatives along u", "derivatives along v",
+                                    "derivatives by uu", "derivatives by uv",   "derivatives by vv"};
+  for (size_t q = 0; q < names.size(); ++q) {
+    check_result(names[q], e.quantities[q]);
+    if (!e.quantities[q].empty() && int(q) >= table_.quantities())
+      fail(std::string(names[q]) + " of a table with " + std::to_string(table_.quantities()) + " quantities");
   }
+  check_result("tangents", e.tangents);
+  check_result("bitangents", e.bitangents);
+  check_result("normals", e.normals);
+  if (e.tangents.empty() && e.bitangents.empty() && e.normals.empty()) return layouts;
+  if (table_.quantities() < 3) fail("tangent frames of a table without derivatives");
+  if (e.channels != 3) fail("tangent frames of " + std::to_string(e.channels) + " channels; they need 3");
+  return layouts;
+}
+
+template <class Real>
+std::int64_t PatternEvaluator<Real>::num_inputs(const Evaluation<Real>& e) const {
+  check(e);
+  return table_.arrays().first ? table_.arrays().first->num_rows() * e.channels * e.frames : 0;
+}
+
+template <class Real>
+void PatternEvaluator<Real>::apply_first(const Evaluation<Real>& e, const Layouts& layouts,
+                                         std::span<Real> inputs) const {
+  const auto& first = table_.arrays().first;
+  if (!first) return;
+  const std::int64_t blocks = num_blocks(first->num_rows(), rows_per_block);
+  parallel_for_blocks(
+      blocks * e.frames,
+      [&](std::int64_t task, std::int64_t, std::int64_t) {
+        const std::int64_t frame = task / blocks, begin = task % blocks * rows_per_block;
+        auto rows = rows_of(*first, begin, std::min(first->num_rows(), begin + rows_per_block));
+        rows.points = e.points.data() + frame * layouts.given.frame;
+        rows.in = layouts.given.strides;
+        rows.result = inputs.data() + frame * layouts.inputs.frame + begin * layouts.inputs.strides.point;
+        rows.out = layouts.inputs.strides;
+        rows.channels = e.channels;
+        kernels::apply_rows(rows, !options_.reproducible);
+      },
+      1);
+}
+
+template <class Real>
+void PatternEvaluator<Real>::apply_run(const Evaluation<Real>& e, const Layouts& layouts, const Real* points, int frame,
+                                       size_t g, std::int64_t first, std::int64_t count) const {
+  const auto& a = table_.arrays();
+  const auto& group = a.groups[g];
+  const auto& start = table_.starts()[g];
+  const auto packed = packed_.group(g);
+  kernels::Patches<Real> patches;
+  patches.stride = packed.stride;
+  patches.rows = packed.rows;
+  patches.columns = a.blocks[group.block].columns;
+  patches.num_rows = group.num_rows;
+  patches.control_points = a.columns.data() + start.columns + (first - start.patch) * patches.columns;
+  patches.count = count;
+  patches.points = points;
+  patches.in = layouts.inputs.strides;
+  patches.out = layouts.results.strides;
+  const bool placed = !a.patch_points.empty();
+  patches.patch_points = placed ? a.patch_points.data() + first : nullptr;
+  patches.channels = e.channels;
+  const std::int64_t point = placed ? 0 : table_.first_point(g, first);
+  const auto result = [&](std::span<Real> all) {
+    return all.empty() ? nullptr : all.data() + frame * layouts.results.frame + point * layouts.results.strides.point;
+  };
+  const auto of_quantity = [&](int q) {
+    kernels::Patches<Real> of = patches;
+    of.weights = packed.weights + q * packed.quantity;
+    of.result = result(e.quantities[q]);
+    return of;
+  };
+  const kernels::TangentFrames<Real> frames{result(e.tangents), result(e.bitangents), result(e.normals)};
+  const bool framed = frames.tangents || frames.bitangents || frames.normals;
+  for (int q = 0; q < a.quantities; ++q)
+    if (!e.quantities[q].empty() && !(framed && (q == 1 || q == 2)))
+      kernels::apply_patches(of_quantity(q), !options_.reproducible);
+  if (framed) kernels::apply_frames(of_quantity(1), of_quantity(2), frames, !options_.reproducible);
+}
+
+template <class Real>
+void PatternEvaluator<Real>::apply_patches(const Evaluation<Real>& e, const Layouts& layouts,
+                                           std::span<const Real> inputs, std::int64_t begin, std::int64_t end) const {
+  const std::span<const Real> points = table_.arrays().first ? inputs : e.points;
+  const std::int64_t blocks = num_blocks(end - begin, patches_per_block);
+  parallel_for_blocks(
+      blocks * e.frames,
+      [&](std::int64_t task, std::int64_t, std::int64_t) {
+        const std::int64_t frame = task / blocks, first = begin + task % blocks * patches_per_block;
+        table_.for_each_run(first, std::min(end, first + patches_per_block),
+                            [&](size_t g, std::int64_t patch, std::int64_t count) {
+                              apply_run(e, layouts, points.data() + frame * layouts.inputs.frame,
+                                        static_cast<int>(frame), g, patch, count);
+                            });
+      },
+      1);
+}
+
+/// Of the points of no patch with numbers [begin, end) among these.
+template <class Real>
+void PatternEvaluator<Real>::apply_frames_of_rest(const Evaluation<Real>& e, const Layouts& layouts, const Real* points,
+                                                  int frame, std::int64_t begin, std::int64_t end) const {
+  const StencilTable<Real>& rest = *table_.arrays().rest;
+  const std::int64_t count = rest.num_rows() / table_.quantities(), before = table_.num_points() - count;
+  const auto [point_stride, channel_stride] = layouts.results.strides;
+  for (std::int64_t i = begin; i < end; ++i) {
+    Real derivatives[2][3];
+    for (int q = 1; q < 3; ++q) {
+      auto rows = rows_of(rest, q * count + i, q * count + i + 1);
+      rows.points = points;
+      rows.in = layouts.inputs.strides;
+      rows.result = derivatives[q - 1];
+      kernels::apply_rows(rows, !options_.reproducible);
+    }
+    const TangentFrame<Real> made(derivatives[0], derivatives[1]);
+    const auto put = [&, at = frame * layouts.results.frame + (before + i) * point_stride, step = channel_stride](
+                         std::span<Real> all, const Real* unit) {
+      for (int c = 0; c < 3 && !all.empty(); ++c) all[size_t(at + c * step)] = unit[c];
+    };
+    put(e.tangents, made.t), put(e.bitangents, made.b), put(e.normals, made.n);
+  }
+}
+
+template <class Real>
+void PatternEvaluator<Real>::apply_rest(const Evaluation<Real>& e, const Layouts& layouts,
+                                        std::span<const Real> inputs) const {
+  const auto& a = table_.arrays();
+  const bool framed = !e.tangents.empty() || !e.bitangents.empty() || !e.normals.empty();
+  if (a.rest) {
+    const std::int64_t count = a.rest->num_rows() / a.quantities, before = table_.num_points() - count,
+                       blocks = num_blocks(count, rows_per_block);
+    parallel_for_blocks(
+        blocks * e.frames,
+        [&](std::int64_t task, std::int64_t, std::int64_t) {
+          const std::int64_t frame = task / blocks, begin = task % blocks * rows_per_block,
+                             end = std::min(count, begin + rows_per_block);
+          const Real* const points = (a.first ? inputs : e.points).data() + frame * layouts.inputs.frame;
+          for (int q = 0; q < a.quantities; ++q) {
+            if (e.quantities[q].empty()) continue;
+            auto rows = rows_of(*a.rest, q * count + begin, q * count + end);
+            rows.points = points;
+            rows.in = layouts.inputs.strides;
+            rows.result = e.quantities[q].data() + frame * layouts.results.frame +
+                          (before + begin) * layouts.results.strides.point;
+            rows.out = layouts.results.strides;
+            rows.channels = e.channels;
+            kernels::apply_rows(rows, !options_.reproducible);
+          }
+          if (framed) apply_frames_of_rest(e, layouts, points, static_cast<int>(frame), begin, end);
+        },
+        1);
+  }
+  if (e.quantities[0].empty()) return;
+  const std::int32_t* const pairs = a.copies.data();
+  const auto [point, channel] = layouts.results.strides;
+  for (int frame = 0; frame < e.frames; ++frame) {
+    Real* const positions = e.quantities[0].data() + frame * layouts.results.frame;
+    parallel_for(static_cast<std::int64_t>(a.copies.size() / 2), [&, point = point, channel = channel](std::int64_t i) {
+      Real* const to = positions + pairs[2 * i] * point;
+      const Real* const from = positions + pairs[2 * i + 1] * point;
+      for (int c = 0; c < e.channels; ++c) to[c * channel] = from[c * channel];
+    });
+  }
+}
+
+template <class Real>
+void PatternEvaluator<Real>::apply_first(const Evaluation<Real>& e, std::span<Real> inputs) const {
+  const Layouts layouts = check(e);
+  if (table_.arrays().first) check_length<Real>("inputs", inputs, layouts.inputs);
+  apply_first(e, layouts, inputs);
+}
+
+template <class Real>
+void PatternEvaluator<Real>::apply_patches(const Evaluation<Real>& e, std::span<const Real> inputs, std::int64_t begin,
+                                           std::int64_t end) const {
+  const Layouts layouts = check(e);
+  if (table_.arrays().first) check_length("inputs", inputs, layouts.inputs);
+  if (begin < 0 || begin > end || end > num_patches())
+    fail("patches from " + std::to_string(begin) + " up to " + std::to_string(end) + "; there are " +
+         std::to_string(num_patches()));
+  apply_patches(e, layouts, inputs, begin, end);
+}
+
+template <class Real>
+void PatternEvaluator<Real>::apply_rest(const Evaluation<Real>& e, std::span<const Real> inputs) const {
+  const Layouts layouts = check(e);
+  if (table_.arrays().first) check_length("inputs", inputs, layouts.inputs);
+  apply_rest(e, layouts, inputs);
+}
+
+template <class Real>
+void PatternEvaluator<Real>::apply(const Evaluation<Real>& e) const {
+  const Layouts layouts = check(e);
+  const auto made = buffers_->take(table_.arrays().first ? size_t(layouts.inputs.length) : 0);
+  apply_first(e, layouts, made.span());
+  apply_patches(e, layouts, made.span(), 0, num_patches());
+  apply_rest(e, layouts, made.span());
 }
 
 template <class Real>
 void PatternEvaluator<Real>::apply(std::span<const Real> points, int channels, std::span<Real> result) const {
   table_.check(points, channels, result);
-  const auto& a = table_.arrays();
-  std::unique_ptr<Real[]> made;
-  points = table_.inputs(points, channels, made);
-  // Some tens of microseconds each.
-  constexpr std::int64_t patches_per_block = 256;
-  parallel_for_blocks(
-      table_.num_patches(),
-      [&](std::int64_t, std::int64_t begin, std::int64_t end) {
-        table_.for_each_run(begin, end, [&](size_t g, std::int64_t first, std::int64_t count) {
-          const auto& group = a.groups[g];
-          const auto& block = a.blocks[group.block];
-          const auto& start = table_.starts()[g];
-          kernels::Patches<Real> patches;
-          patches.stride = packed_[g].stride;
-          patches.columns = block.columns;
-          patches.rows = group.num_rows;
-          patches.control_points = a.columns.data() + start.columns + (first - start.patch) * block.columns;
-          patches.count = count;
-          patches.points = points.data();
-          patches.channels = channels;
-          const bool placed = !a.patch_points.empty();
-          patches.patch_points = placed ? a.patch_points.data() + first : nullptr;
-          const std::int64_t point = placed ? 0 : table_.first_point(g, first);
-          for (int q = 0; q < a.quantities; ++q) {
-            patches.weights = weights_.data() + packed_[g].weights +
-                              q * std::int64_t{packed_[g].stride} * std::int64_t{block.columns};
-            patches.result = result.data() + (q * table_.num_points() + point) * channels;
-            kernels::apply_patches(patches, !options_.reproducible);
-          }
-        });
-      },
-      patches_per_block);
-  table_.apply_rest(points, channels, result);
+  Evaluation<Real> e;
+  e.channels = channels;
+  e.points = points;
+  const size_t quantity = result.size() / size_t(table_.quantities());
+  for (int q = 0; q < table_.quantities(); ++q) e.quantities[q] = result.subspan(q * quantity, quantity);
+  apply(e);
 }
 
 template class PatternEvaluator<float>;

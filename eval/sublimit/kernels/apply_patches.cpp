@@ -2,6 +2,8 @@
 #include "sublimit/kernels/apply_patches.h"
 
 #include <algorithm>
+#include <bit>
+#include <cstring>
 
 // Compiled once for each kind of registers.
 #undef HWY_TARGET_INCLUDE
@@ -19,83 +21,244 @@ HWY_INLINE V mul_add(V a, V b, V sum) {
   return hn::Add(hn::Mul(a, b), sum);
 }
 
-/// `Vectors` registers of rows from `first` on, of one patch: x, y, z.
-template <int Vectors, bool Contract, class D, class Real = hn::TFromD<D>>
-HWY_INLINE void rows_of_three(D d, const Patches<Real>& p, const std::int32_t* own, std::int32_t first, Real* out) {
-  const auto lanes = static_cast<std::int32_t>(hn::Lanes(d));
-  using V = hn::Vec<D>;
-  V x[Vectors], y[Vectors], z[Vectors];
-  for (int v = 0; v < Vectors; ++v) x[v] = y[v] = z[v] = hn::Zero(d);
-  const Real* weights = p.weights + first;
-  for (std::int32_t k = 0; k < p.columns; ++k, weights += p.stride) {
-    const Real* point = p.points + std::int64_t{own[k]} * 3;
-    const V px = hn::Set(d, point[0]), py = hn::Set(d, point[1]), pz = hn::Set(d, point[2]);
-    for (int v = 0; v < Vectors; ++v) {
-      const V w = hn::LoadU(d, weights + v * lanes);
-      x[v] = mul_add<Contract>(w, px, x[v]);
-      y[v] = mul_add<Contract>(w, py, y[v]);
-      z[v] = mul_add<Contract>(w, pz, z[v]);
-    }
+/// `Channels` channels of as many rows as there are lanes.
+template <int Channels, class V>
+struct Values {
+  V of[Channels];
+};
+
+/// sums[i][v] = rows[v] of the weights * control points of patch i, of channels from `points` on. Several patches share
+/// what is read of the weights, and keep the multipliers busy where there are few rows.
+template <int Count, int Vectors, int Channels, bool Contract, class D, class Real = hn::TFromD<D>,
+          class V = hn::Vec<D>>
+HWY_INLINE void sum(D d, const Patches<Real>& p, const Real* weights, const Real* points, const std::int32_t* own,
+                    const PackedRows* rows, Values<Channels, V> (*sums)[Vectors]) {
+  const Real* at[Vectors];
+  const std::int32_t* control_points[Count];
+  for (int v = 0; v < Vectors; ++v) at[v] = weights + rows[v].first;
+  for (int i = 0; i < Count; ++i) {
+    control_points[i] = own + i * p.columns;
+    for (int v = 0; v < Vectors; ++v)
+      for (int c = 0; c < Channels; ++c) sums[i][v].of[c] = hn::Zero(d);
   }
-  for (int v = 0; v < Vectors; ++v) {
-    const std::int32_t row = first + v * lanes;
-    if (row + lanes <= p.rows) {
-      hn::StoreInterleaved3(x[v], y[v], z[v], d, out + std::int64_t{row} * 3);
-    } else {
-      HWY_ALIGN Real rest[3 * hn::MaxLanes(d)];
-      hn::StoreInterleaved3(x[v], y[v], z[v], d, rest);
-      std::copy_n(rest, 3 * std::clamp(p.rows - row, 0, lanes), out + std::int64_t{row} * 3);
+  std::int64_t offset = 0;
+  for (std::int32_t k = 0; k < p.columns; ++k, offset += p.stride) {
+    V w[Vectors];
+    for (int v = 0; v < Vectors; ++v) w[v] = hn::LoadU(d, at[v] + offset);
+    for (int i = 0; i < Count; ++i) {
+      const Real* const point = points + control_points[i][k] * p.in.point;
+      for (int c = 0; c < Channels; ++c) {
+        const V value = hn::Set(d, point[c * p.in.channel]);
+        for (int v = 0; v < Vectors; ++v) sums[i][v].of[c] = mul_add<Contract>(w[v], value, sums[i][v].of[c]);
+      }
     }
   }
 }
 
-template <int Vectors, bool Contract, class D, class Real = hn::TFromD<D>>
-HWY_INLINE void rows_of_any(D d, const Patches<Real>& p, const std::int32_t* own, std::int32_t first, Real* out) {
+template <class D, class V, class Real>
+HWY_INLINE void store_interleaved(D d, const Values<1, V>& x, Real* out) {
+  hn::StoreU(x.of[0], d, out);
+}
+template <class D, class V, class Real>
+HWY_INLINE void store_interleaved(D d, const Values<2, V>& x, Real* out) {
+  hn::StoreInterleaved2(x.of[0], x.of[1], d, out);
+}
+template <class D, class V, class Real>
+HWY_INLINE void store_interleaved(D d, const Values<3, V>& x, Real* out) {
+  hn::StoreInterleaved3(x.of[0], x.of[1], x.of[2], d, out);
+}
+template <class D, class V, class Real>
+HWY_INLINE void store_interleaved(D d, const Values<4, V>& x, Real* out) {
+  hn::StoreInterleaved4(x.of[0], x.of[1], x.of[2], x.of[3], d, out);
+}
+
+/// Rows that are taken go to `out`, the first point of their patch.
+template <int Channels, class D, class Real = hn::TFromD<D>, class V = hn::Vec<D>>
+HWY_INLINE void store(D d, Values<Channels, V> x, const PackedRows& rows, const Patches<Real>& p, Real* out) {
   const auto lanes = static_cast<std::int32_t>(hn::Lanes(d));
-  using V = hn::Vec<D>;
-  for (int channel = 0; channel < p.channels; ++channel) {
-    V x[Vectors];
-    for (int v = 0; v < Vectors; ++v) x[v] = hn::Zero(d);
-    const Real* weights = p.weights + first;
-    for (std::int32_t k = 0; k < p.columns; ++k, weights += p.stride) {
-      const V value = hn::Set(d, p.points[std::int64_t{own[k]} * p.channels + channel]);
-      for (int v = 0; v < Vectors; ++v) x[v] = mul_add<Contract>(hn::LoadU(d, weights + v * lanes), value, x[v]);
-    }
-    HWY_ALIGN Real made[Vectors * hn::MaxLanes(d)];
-    for (int v = 0; v < Vectors; ++v) hn::StoreU(x[v], d, made + v * lanes);
-    const std::int32_t count = std::min(Vectors * lanes, p.rows - first);
-    Real* to = out + std::int64_t{first} * p.channels + channel;
-    for (std::int32_t i = 0; i < count; ++i, to += p.channels) *to = made[i];
+  const std::int32_t count = std::popcount(rows.taken);
+  if (rows.taken & (rows.taken + 1)) {  // else they are the first ones
+    std::uint8_t bits[8] = {};
+    std::memcpy(bits, &rows.taken, sizeof rows.taken);
+    const auto mask = hn::LoadMaskBits(d, bits);
+    for (int c = 0; c < Channels; ++c) x.of[c] = hn::Compress(x.of[c], mask);
   }
+  out += rows.to * p.out.point;
+  if (p.out.channel == 1 && p.out.point == Channels) {
+    // What is too much is overwritten by the rows that follow, unless it is another patch's.
+    if (rows.to + lanes <= p.num_rows) return store_interleaved(d, x, out);
+    HWY_ALIGN Real made[Channels * hn::MaxLanes(d)];
+    store_interleaved(d, x, made);
+#if HWY_TARGET <= HWY_AVX3 && HWY_ARCH_X86
+    for (int c = 0; c < Channels; ++c) {
+      const std::int32_t left = std::clamp(count * Channels - c * lanes, 0, lanes);
+      hn::BlendedStore(hn::Load(d, made + c * lanes), hn::FirstN(d, size_t(left)), d, out + c * lanes);
+    }
+#else
+    std::copy_n(made, Channels * count, out);
+#endif
+    return;
+  }
+  HWY_ALIGN Real made[hn::MaxLanes(d)];
+  for (int c = 0; c < Channels; ++c) {
+    Real* to = out + c * p.out.channel;
+    if (p.out.point == 1 && rows.to + lanes <= p.num_rows) {
+      hn::StoreU(x.of[c], d, to);
+      continue;
+    }
+    hn::Store(x.of[c], d, made);
+    for (std::int32_t i = 0; i < count; ++i, to += p.out.point) *to = made[i];
+  }
+}
+
+/// Where the points of a patch begin, counted from the result.
+template <class Real>
+HWY_INLINE std::int64_t first_number(const Patches<Real>& p, std::int64_t patch) {
+  return (p.patch_points ? p.patch_points[patch] : patch * p.num_rows) * p.out.point;
+}
+
+/// `Count` patches from `first` on, `Vectors` registers of rows.
+template <int Count, int Vectors, int Channels, bool Contract, class D, class Real = hn::TFromD<D>>
+HWY_INLINE void patches(D d, const Patches<Real>& p, int channel, std::int64_t first, const PackedRows* rows) {
+  Values<Channels, hn::Vec<D>> sums[Count][Vectors];
+  sum<Count, Vectors, Channels, Contract>(d, p, p.weights, p.points + channel * p.in.channel,
+                                          p.control_points + first * p.columns, rows, sums);
+  for (int i = 0; i < Count; ++i) {
+    Real* const out = p.result + channel * p.out.channel + first_number(p, first + i);
+    for (int v = 0; v < Vectors; ++v) store<Channels>(d, sums[i][v], rows[v], p, out);
+  }
+}
+
+/// Calls body(rows) with all rows, by registers of this width.
+template <class D, class Real, class Body>
+HWY_INLINE void for_each_part(D d, const Patches<Real>& p, const Body& body) {
+  const auto lanes = static_cast<std::int32_t>(hn::Lanes(d));
+  if (lanes == row_multiple) return body(p.rows);
+  // Some at a time, so that there is nothing to allocate.
+  constexpr size_t some = 16;
+  PackedRows part[some * row_multiple];
+  for (size_t begin = 0; begin < p.rows.size(); begin += some) {
+    size_t count = 0;
+    for (const PackedRows& rows : p.rows.subspan(begin, std::min(some, p.rows.size() - begin))) {
+      std::int32_t to = rows.to;
+      for (std::int32_t lane = 0; lane < row_multiple; lane += lanes) {
+        const std::uint32_t taken = rows.taken >> lane & ((1u << lanes) - 1);
+        if (taken) part[count++] = {rows.first + lane, to, taken};
+        to += std::popcount(taken);
+      }
+    }
+    body(std::span<const PackedRows>(part, count));
+  }
+}
+
+/// Channels from `channel` on; as many registers as there are for them, the points and the weights.
+template <int Channels, bool Contract, class D, class Real = hn::TFromD<D>>
+HWY_NOINLINE void apply_channels(D d, const Patches<Real>& p, int channel) {
+  constexpr int Most = Channels == 4 ? 3 : 4;
+  for_each_part(d, p, [&](std::span<const PackedRows> rows) {
+    std::int64_t i = 0;
+    if constexpr (Channels == 3) {
+      if (rows.size() == 1)
+        for (; i + 4 <= p.count; i += 4) patches<4, 1, Channels, Contract>(d, p, channel, i, rows.data());
+      if (rows.size() == 2)
+        for (; i + 2 <= p.count; i += 2) patches<2, 2, Channels, Contract>(d, p, channel, i, rows.data());
+    }
+    for (; i < p.count; ++i) {
+      const PackedRows* at = rows.data();
+      size_t left = rows.size();
+      for (; left >= Most; left -= Most, at += Most) patches<1, Most, Channels, Contract>(d, p, channel, i, at);
+      if (Channels == 3 && left == 3) {
+        patches<1, 3, Channels, Contract>(d, p, channel, i, at);
+      } else if (Channels == 3 && left == 2) {
+        patches<1, 2, Channels, Contract>(d, p, channel, i, at);
+      } else {
+        for (; left > 0; --left, ++at) patches<1, 1, Channels, Contract>(d, p, channel, i, at);
+      }
+    }
+  });
 }
 
 template <bool Contract, class Real>
 void apply(const Patches<Real>& p) {
   const hn::ScalableTag<Real> d;
-  const auto lanes = static_cast<std::int32_t>(hn::Lanes(d));
-  const std::int32_t* own = p.control_points;
-  for (std::int64_t i = 0; i < p.count; ++i, own += p.columns) {
-    Real* const out = p.result + (p.patch_points ? p.patch_points[i] : i * p.rows) * p.channels;
-    // Four registers of each of x, y, z: with the points and the weights they fill what there is.
-    const auto chunk = [&]<int Vectors>(std::int32_t first) {
-      if (p.channels == 3)
-        rows_of_three<Vectors, Contract>(d, p, own, first, out);
-      else
-        rows_of_any<Vectors, Contract>(d, p, own, first, out);
-    };
-    std::int32_t first = 0;
-    for (; p.rows - first > 3 * lanes; first += 4 * lanes) chunk.template operator()<4>(first);
-    if (p.rows - first > 2 * lanes)
-      chunk.template operator()<3>(first);
-    else if (p.rows - first > lanes)
-      chunk.template operator()<2>(first);
-    else if (p.rows > first)
-      chunk.template operator()<1>(first);
-  }
+  int channel = 0;
+  for (; p.channels - channel > 4; channel += 4) apply_channels<4, Contract>(d, p, channel);
+  const int left = p.channels - channel;
+  if (left == 4) apply_channels<4, Contract>(d, p, channel);
+  if (left == 3) apply_channels<3, Contract>(d, p, channel);
+  if (left == 2) apply_channels<2, Contract>(d, p, channel);
+  if (left == 1) apply_channels<1, Contract>(d, p, channel);
 }
 
 void apply_float(const Patches<float>& p, bool contract) { contract ? apply<true>(p) : apply<false>(p); }
 void apply_double(const Patches<double>& p, bool contract) { contract ? apply<true>(p) : apply<false>(p); }
+
+template <bool Contract, class V>
+HWY_INLINE V dot(const Values<3, V>& a, const Values<3, V>& b) {
+  return mul_add<Contract>(a.of[2], b.of[2], mul_add<Contract>(a.of[1], b.of[1], hn::Mul(a.of[0], b.of[0])));
+}
+
+template <class V>
+HWY_INLINE Values<3, V> cross(const Values<3, V>& a, const Values<3, V>& b) {
+  // Never contracted: u x u is zero then.
+  Values<3, V> n;
+  for (int c = 0; c < 3; ++c) {
+    const int i = (c + 1) % 3, j = (c + 2) % 3;
+    n.of[c] = hn::Sub(hn::Mul(a.of[i], b.of[j]), hn::Mul(a.of[j], b.of[i]));
+  }
+  return n;
+}
+
+/// Divided by the largest of its magnitudes, so that squares neither overflow nor vanish, and then by its length. Zero
+/// stays zero.
+template <bool Contract, class D, class V = hn::Vec<D>>
+HWY_INLINE Values<3, V> unit(D d, Values<3, V> a) {
+  const V zero = hn::Zero(d), one = hn::Set(d, hn::TFromD<D>(1));
+  const V largest = hn::Max(hn::Max(hn::Abs(a.of[0]), hn::Abs(a.of[1])), hn::Abs(a.of[2]));
+  const V scale = hn::IfThenElse(hn::Gt(largest, zero), largest, one);
+  for (int c = 0; c < 3; ++c) a.of[c] = hn::Div(a.of[c], scale);
+  const V square = dot<Contract>(a, a), length = hn::Sqrt(hn::IfThenElse(hn::Gt(square, zero), square, one));
+  for (int c = 0; c < 3; ++c) a.of[c] = hn::Div(a.of[c], length);
+  return a;
+}
+
+template <bool Contract, class Real>
+void frames(const Patches<Real>& p, const Patches<Real>& q, const TangentFrames<Real>& f) {
+  const hn::ScalableTag<Real> d;
+  using V = hn::Vec<decltype(d)>;
+  const auto apply_rows = [&](const PackedRows& rows, std::int64_t patch) {
+    const std::int64_t begin = first_number(p, patch);
+    const std::int32_t* const own = p.control_points + patch * p.columns;
+    Values<3, V> sums[2][1];
+    sum<1, 1, 3, Contract>(d, p, p.weights, p.points, own, &rows, sums);
+    sum<1, 1, 3, Contract>(d, p, q.weights, p.points, own, &rows, sums + 1);
+    const Values<3, V>&u = sums[0][0], &v = sums[1][0];
+    if (p.result) store<3>(d, u, rows, p, p.result + begin);
+    if (q.result) store<3>(d, v, rows, p, q.result + begin);
+    // Directions first: their cross product is not too large or small to be normalised.
+    Values<3, V> t = unit<Contract>(d, u), n = unit<Contract>(d, cross(t, unit<Contract>(d, v)));
+    const V size = dot<Contract>(n, n);  // one, zero, or no number
+    const auto valid = hn::Gt(size, hn::Zero(d));
+    for (int c = 0; c < 3; ++c) {
+      t.of[c] = hn::IfThenElseZero(valid, t.of[c]);
+      n.of[c] = hn::IfThenElseZero(valid, n.of[c]);
+    }
+    if (f.tangents) store<3>(d, t, rows, p, f.tangents + begin);
+    if (f.bitangents) store<3>(d, cross(n, t), rows, p, f.bitangents + begin);
+    if (f.normals) store<3>(d, n, rows, p, f.normals + begin);
+  };
+  for_each_part(d, p, [&](std::span<const PackedRows> all) {
+    for (std::int64_t i = 0; i < p.count; ++i)
+      for (const PackedRows& rows : all) apply_rows(rows, i);
+  });
+}
+
+void frames_float(const Patches<float>& u, const Patches<float>& v, const TangentFrames<float>& f, bool contract) {
+  contract ? frames<true>(u, v, f) : frames<false>(u, v, f);
+}
+void frames_double(const Patches<double>& u, const Patches<double>& v, const TangentFrames<double>& f, bool contract) {
+  contract ? frames<true>(u, v, f) : frames<false>(u, v, f);
+}
 
 }  // namespace sublimit::kernels::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
@@ -105,12 +268,22 @@ namespace sublimit::kernels {
 
 HWY_EXPORT(apply_float);
 HWY_EXPORT(apply_double);
+HWY_EXPORT(frames_float);
+HWY_EXPORT(frames_double);
 
 void apply_patches(const Patches<float>& patches, bool contract) {
   HWY_DYNAMIC_DISPATCH(apply_float)(patches, contract);
 }
 void apply_patches(const Patches<double>& patches, bool contract) {
   HWY_DYNAMIC_DISPATCH(apply_double)(patches, contract);
+}
+void apply_frames(const Patches<float>& along_u, const Patches<float>& along_v, const TangentFrames<float>& frames,
+                  bool contract) {
+  HWY_DYNAMIC_DISPATCH(frames_float)(along_u, along_v, frames, contract);
+}
+void apply_frames(const Patches<double>& along_u, const Patches<double>& along_v, const TangentFrames<double>& frames,
+                  bool contract) {
+  HWY_DYNAMIC_DISPATCH(frames_double)(along_u, along_v, frames, contract);
 }
 
 std::vector<std::int64_t> targets() { return hwy::SupportedAndGeneratedTargets(); }
