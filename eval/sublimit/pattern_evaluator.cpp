@@ -122,6 +122,7 @@ PatternEvaluator<Real>::PatternEvaluator(const PatternTable<Real>& table, Option
     : table_(table),
       options_(options),
       packed_(table),
+      transpose_(table),
       buffers_(std::make_unique<BufferPool<Real>>()) {}
 
 template <class Real>
@@ -348,6 +349,11 @@ void PatternEvaluator<Real>::apply(std::span<const Real> points, int channels, s
   const size_t quantity = result.size() / size_t(table_.quantities());
   for (int q = 0; q < table_.quantities(); ++q) e.quantities[q] = result.subspan(q * quantity, quantity);
   apply(e);
+}
+
+template <class Real>
+void PatternEvaluator<Real>::apply_transpose(std::span<const Real> values, int channels, std::span<Real> result) const {
+  transpose_.apply(values, channels, result, !options_.reproducible, *buffers_);
 }
 
 template class PatternEvaluator<float>;

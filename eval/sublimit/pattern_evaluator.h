@@ -4,7 +4,7 @@
 #include "sublimit/evaluation.h"
 #include "sublimit/packed_blocks.h"
 #include "sublimit/pattern_table.h"
-#include "sublimit/base/buffer_pool.h"
+#include "sublimit/pattern_transpose.h"
 
 namespace sublimit {
 
@@ -45,7 +45,16 @@ class PatternEvaluator {
   /// Points of no patch, and points that are copies of others.
   void apply_rest(const Evaluation<Real>& evaluation, std::span<const Real> inputs) const;
 
-  /// Bytes that this takes besides the table.
+  /// result = sum over quantities of (their rows)^T * values: gradients with regard to control points. Copies count for
+  /// what they copy. Sums in one order, so the same bits for any number of threads; those of `reproducible` too.
+  /// @param values  quantities x num_points x channels, interleaved, as `apply` makes; or the first ones of the
+  ///                quantities alone
+  /// @param result  num_control_points x channels, interleaved; overwritten
+  /// @throws InvalidParameter  spans of the wrong length, channels < 1
+  /// @note  The first call prepares lists as large as the table's columns, which stay.
+  void apply_transpose(std::span<const Real> values, int channels, std::span<Real> result) const;
+
+  /// Bytes that this takes besides the table; memory of `apply_transpose` is not counted.
   std::int64_t num_bytes() const { return packed_.num_bytes(); }
 
  private:
@@ -64,6 +73,7 @@ class PatternEvaluator {
   const PatternTable<Real>& table_;
   Options options_;
   PackedBlocks<Real> packed_;
+  PatternTranspose<Real> transpose_;
   std::unique_ptr<BufferPool<Real>> buffers_;
 };
 

@@ -35,7 +35,7 @@ TEST(Allocation, OfTheSecondApplyIsNone) {
   ASSERT_LE(table.num_patches(), 256);
   const PatternEvaluator<float> evaluator(table);
   const std::vector<float> points = random_numbers<float>(size_t(table.num_control_points()) * 3, 1);
-  std::vector<float> made(size_t(table.num_points()) * 9), normals(made.size() / 3);
+  std::vector<float> made(size_t(table.num_points()) * 9), normals(made.size() / 3), transposed(points.size());
   Evaluation<float> evaluation;
   evaluation.points = points;
   evaluation.normals = normals;
@@ -43,6 +43,7 @@ TEST(Allocation, OfTheSecondApplyIsNone) {
     const std::int64_t before = allocations;
     evaluator.apply(points, 3, made);
     evaluator.apply(evaluation);
+    evaluator.apply_transpose(made, 3, transposed);
     return allocations - before;
   };
   EXPECT_GT(run(), 0) << "the counter does not count";

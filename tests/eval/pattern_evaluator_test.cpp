@@ -183,9 +183,14 @@ TEST(PatternEvaluator, ServesManyThreadsAtOnce) {
   const Case<float> of(options, 3);
   const PatternEvaluator<float> evaluator(of.table);
   const std::vector<float> expected = of.made(evaluator);
+  std::vector<float> transposed(of.points.size());
+  evaluator.apply_transpose(expected, 3, transposed);
   std::atomic<int> different = 0;
   tbb::parallel_for(0, 64, [&](int) {
     if (of.made(evaluator) != expected) ++different;
+    std::vector<float> again(of.points.size());
+    evaluator.apply_transpose(expected, 3, again);
+    if (again != transposed) ++different;
   });
   EXPECT_EQ(different, 0);
 }
@@ -331,6 +336,70 @@ TEST(PatternEvaluator, HasFramesOfZeroWhereDerivativesAreAlongALine) {
   for (size_t i = 3; i < 6; ++i) EXPECT_EQ(made.results[i], std::vector<float>(of.quantity(), 0.f));
 }
 
+template <class Real>
+void expect_transpose(const RandomTable& options, int channels, bool reproducible) {
+  const Case<Real> of(options, channels);
+  const PatternEvaluator<Real> evaluator(of.table, {.reproducible = reproducible});
+  const std::vector<Real> Sx = of.made(evaluator), y = random_numbers<Real>(of.size(), 5);
+  std::vector<Real> Sty(of.points.size(), Real(-77));
+  evaluator.apply_transpose(y, channels, Sty);
+  for (int c = 0; c < channels; ++c) {
+    long double left = 0, right = 0, size = 0;
+    for (size_t i = size_t(c); i < Sx.size(); i += size_t(channels)) {
+      left += static_cast<long double>(Sx[i]) * y[i];
+      size += std::abs(static_cast<long double>(Sx[i]) * y[i]);
+    }
+    for (size_t i = size_t(c); i < Sty.size(); i += size_t(channels))
+      right += static_cast<long double>(of.points[i]) * Sty[i];
+    EXPECT_NEAR(double(left), double(right), rounding_of<Real>(most_terms) * double(size + 1))
+        << "seed " << options.seed << ", channel " << c << " of " << channels;
+  }
+}
+
+TEST(PatternEvaluator, HasATranspose) {
+  for (const std::int64_t target : kernels::targets()) {
+    const Target scope(target);
+    for (const RandomTable& options : random_tables())
+      for (const int channels : {1, 3, 5})
+        for (const bool reproducible : {false, true}) {
+          expect_transpose<double>(options, channels, reproducible);
+          expect_transpose<float>(options, channels, reproducible);
+        }
+  }
+}
+
+TEST(PatternEvaluator, TransposesThePositionsAlone) {
+  RandomTable options;
+  options.quantities = 3;
+  options.copies = options.first = options.rest = true;
+  const Case<double> of(options, 3);
+  const PatternEvaluator<double> evaluator(of.table);
+  std::vector<double> y = random_numbers<double>(of.quantity(), 5), alone(of.points.size()), all(of.points.size());
+  evaluator.apply_transpose(y, 3, alone);
+  y.resize(of.size(), 0.0);
+  evaluator.apply_transpose(y, 3, all);
+  EXPECT_EQ(alone, all);
+}
+
+TEST(PatternEvaluator, TransposesWithTheSameBitsEverywhere) {
+  RandomTable options;
+  options.quantities = 3;
+  options.blocks = 60;
+  options.copies = options.first = options.rest = true;
+  const Case<float> of(options, 3);
+  const std::vector<float> y = random_numbers<float>(of.size(), 5);
+  std::vector<float> expected;
+  for (const std::int64_t target : kernels::targets())
+    for (const size_t threads : {1, 4}) {
+      const Target scope(target);
+      const tbb::global_control some(tbb::global_control::max_allowed_parallelism, threads);
+      std::vector<float> made(of.points.size());
+      PatternEvaluator<float>(of.table, {.reproducible = true}).apply_transpose(y, 3, made);
+      if (expected.empty()) expected = made;
+      EXPECT_EQ(made, expected);
+    }
+}
+
 TEST(PatternEvaluator, RefusesWhatDoesNotFit) {
   RandomTable options;
   options.quantities = 3;
@@ -358,6 +427,9 @@ TEST(PatternEvaluator, RefusesWhatDoesNotFit) {
   expect_refused([](E& e) { e.point_layout.point = std::int64_t{1} << 62; }, {"points hold 150"});
   expect_refused([](E& e) { e.channels = 2; }, {"tangent frames of 2 channels"});
   std::vector<float> few(5);
+  expect_error<InvalidParameter>([&] { evaluator.apply_transpose(few, 3, few); }, {"values hold 5"});
+  expect_error<InvalidParameter>([&] { evaluator.apply_transpose(std::vector<float>(of.size()), 3, few); },
+                                 {"result holds 5"});
   All<float> made(of);
   expect_error<InvalidParameter>([&] { evaluator.apply_patches(made.evaluation, {}, 0, evaluator.num_patches() + 1); },
                                  {"patches from 0"});
