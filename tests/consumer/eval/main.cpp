@@ -3,7 +3,10 @@
 
 #include <vector>
 
+extern "C" int use_from_c(void);
+
 int main() {
+  if (use_from_c() != 0) return 1;
   // One row: the midpoint of two control points.
   const sublimit::StencilTable<float> table(2, {0, 2}, {0, 1}, {0.5f, 0.5f});
   const std::vector<float> points{0, 0, 0, 2, 4, 6};

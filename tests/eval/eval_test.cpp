@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sublimit/eval.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <new>
+#include <string>
+#include <thread>
+
+#include "sublimit/baked_table.h"
+#include "sublimit/base/error.h"
+#include "sublimit/eval_handle.h"
+
+extern "C" {
+const char* check_rows();
+const char* check_patterns();
+const char* check_misuse();
+}
+
+namespace sublimit::testing {
+namespace {
+
+TEST(EvalInC, AppliesRows) { EXPECT_STREQ(check_rows(), nullptr); }
+TEST(EvalInC, AppliesPatterns) { EXPECT_STREQ(check_patterns(), nullptr); }
+TEST(EvalInC, RefusesMisuse) { EXPECT_STREQ(check_misuse(), nullptr); }
+
+template <class Thrown>
+sublimit_status status_of(const Thrown& thrown) {
+  return c::guarded([&] { throw thrown; });
+}
+
+TEST(EvalInC, HasAStatusForEveryError) {
+  EXPECT_EQ(status_of(InvalidMesh("a")), SUBLIMIT_INVALID_MESH);
+  EXPECT_EQ(status_of(UnsupportedTopology("a")), SUBLIMIT_UNSUPPORTED_TOPOLOGY);
+  EXPECT_EQ(status_of(InvalidOption("a")), SUBLIMIT_INVALID_OPTION);
+  EXPECT_EQ(status_of(InvalidParameter("a")), SUBLIMIT_INVALID_PARAMETER);
+  EXPECT_EQ(status_of(FormatError("a")), SUBLIMIT_FORMAT_ERROR);
+  EXPECT_EQ(status_of(AnalysisError("a")), SUBLIMIT_ANALYSIS_ERROR);
+  EXPECT_EQ(status_of(IoError("a")), SUBLIMIT_IO_ERROR);
+  EXPECT_EQ(status_of(ResourceError("what it says")), SUBLIMIT_RESOURCE_ERROR);
+  EXPECT_STREQ(sublimit_last_error(), "what it says");
+  EXPECT_EQ(status_of(std::bad_alloc()), SUBLIMIT_BAD_ALLOC);
+  EXPECT_STREQ(sublimit_last_error(), "out of memory");
+  EXPECT_EQ(status_of(std::logic_error("a")), SUBLIMIT_UNKNOWN_ERROR);
+  EXPECT_EQ(status_of(7), SUBLIMIT_UNKNOWN_ERROR);
+}
+
+TEST(EvalInC, KeepsTheLastErrorOfEachThread) {
+  EXPECT_EQ(status_of(IoError("of this thread")), SUBLIMIT_IO_ERROR);
+  std::string there;
+  std::thread([&] {
+    there = sublimit_last_error();
+    status_of(IoError("of that thread"));
+  }).join();
+  EXPECT_EQ(there, "");
+  EXPECT_STREQ(sublimit_last_error(), "of this thread");
+}
+
+TEST(EvalInC, CutsLongMessages) {
+  EXPECT_EQ(status_of(IoError(std::string(5000, 'a'))), SUBLIMIT_IO_ERROR);
+  EXPECT_EQ(std::string(sublimit_last_error()), std::string(1023, 'a'));
+}
+
+TEST(EvalInC, TellsWhatATableIs) {
+  BakedTable<float> baked;
+  PatternTable<float>::Arrays arrays;
+  arrays.blocks = {{1, 1, 0}};
+  arrays.weights = {1};
+  arrays.groups = {{0, 1, 0, 4}};
+  arrays.rows = {0};
+  arrays.columns = {0, 1, 2, 3};
+  baked.table = PatternTable<float>(4, std::move(arrays));
+  baked.info.scheme = "catmull-clark";
+  baked.info.topology_hash = 12;
+  baked.faces = {{4}, {0, 1, 2, 3}};
+  sublimit_table* table = nullptr;
+  ASSERT_EQ(c::guarded([&] { c::hand_out(std::move(baked), 0, &table); }), SUBLIMIT_OK);
+  EXPECT_STREQ(sublimit_table_scheme(table), "catmull-clark");
+  EXPECT_EQ(sublimit_table_topology_hash(table), 12u);
+  std::int64_t faces = 0, corners = 0;
+  ASSERT_EQ(sublimit_table_faces(table, &faces, &corners, nullptr, nullptr), SUBLIMIT_OK);
+  EXPECT_EQ(faces, 1);
+  EXPECT_EQ(corners, 4);
+  std::array<std::int32_t, 1> sizes{};
+  std::array<std::int32_t, 4> vertices{};
+  ASSERT_EQ(sublimit_table_faces(table, &faces, &corners, sizes.data(), vertices.data()), SUBLIMIT_OK);
+  EXPECT_EQ(sizes[0], 4);
+  EXPECT_EQ(vertices, (std::array<std::int32_t, 4>{0, 1, 2, 3}));
+  corners = 3;
+  EXPECT_EQ(sublimit_table_faces(table, &faces, &corners, sizes.data(), vertices.data()), SUBLIMIT_INVALID_PARAMETER);
+  EXPECT_STREQ(sublimit_last_error(), "corners has room for 3 numbers; 4 are needed");
+  EXPECT_EQ(sublimit_topology_hash(4, sizes.data(), 1, vertices.data(), 4), topology_hash(4, sizes, vertices));
+  sublimit_table_free(table);
+}
+
+}  // namespace
+}  // namespace sublimit::testing
