@@ -24,38 +24,45 @@ using Arrays = PatternTable<double>::Arrays;
 class Blocks {
  public:
   struct Key {
-    const PieceType* type = nullptr;
+    const Pattern* pattern = nullptr;
     LatticePlace place;  ///< where it matters: its turn and quarter
     bool operator==(const Key& other) const {
-      return type == other.type && place.turn == other.place.turn && place.quarter == other.place.quarter;
+      return pattern == other.pattern && place.turn == other.place.turn && place.quarter == other.place.quarter;
     }
   };
-  Index add(const Key& key) {
+  /// @param piece  that has it
+  Index add(const Key& key, Index piece) {
     if (!keys_.empty() && keys_[last_] == key) return last_;  // on large meshes most are like the one before
     const auto [at, is_new] = numbers_.try_emplace(key, static_cast<Index>(keys_.size()));
-    if (is_new) keys_.push_back(key);
+    if (is_new) {
+      keys_.push_back(key);
+      pieces_.push_back(piece);
+    }
     return last_ = at->second;
   }
   Index num_types() const {
-    std::vector<const PieceType*> types;
-    for (const Key& key : keys_) types.push_back(key.type);
-    std::sort(types.begin(), types.end());
-    return static_cast<Index>(std::unique(types.begin(), types.end()) - types.begin());
+    std::vector<size_t> numbers;
+    for (const Key& key : keys_) numbers.push_back(key.pattern->number);
+    std::sort(numbers.begin(), numbers.end());
+    return static_cast<Index>(std::unique(numbers.begin(), numbers.end()) - numbers.begin());
   }
   const std::vector<Key>& keys() const { return keys_; }
+  Index count() const { return static_cast<Index>(keys_.size()); }
+  /// The first piece that has it.
+  Index piece(Index block) const { return pieces_[block]; }
 
   /// @param rows       points of a block
-  /// @param make       weights of a key, or null: those of types whose sums have an order are asked for in turn
+  /// @param make       weights of a block, or null: those of types whose sums have an order are asked for in turn
   /// @return  false if one is null
   template <class Make>
   bool fill(Arrays& arrays, std::int32_t rows, const Make& make) const {
     std::vector<const RowMatrix*> made(keys_.size());
-    for (size_t i = 0; i < keys_.size(); ++i)
-      if (keys_[i].type->decays()) made[i] = make(keys_[i]);
+    for (Index i = 0; i < count(); ++i)
+      if (keys_[i].pattern->decays) made[i] = make(i);
     parallel_for_blocks(
         static_cast<std::int64_t>(keys_.size()),
         [&](std::int64_t i, std::int64_t, std::int64_t) {
-          if (!made[i]) made[i] = make(keys_[i]);
+          if (!made[i]) made[i] = make(static_cast<Index>(i));
         },
         1);
     if (std::find(made.begin(), made.end(), nullptr) != made.end()) return false;
@@ -72,18 +79,19 @@ class Blocks {
   }
   double num_bytes(double rows) const {
     double bytes = 0;
-    for (const Key& key : keys_) bytes += rows * key.type->num_slots() * sizeof(double);
+    for (const Key& key : keys_) bytes += rows * key.pattern->num_slots * sizeof(double);
     return bytes;
   }
 
  private:
   struct Hash {
     size_t operator()(const Key& key) const {
-      return std::hash<const PieceType*>()(key.type) + 31 * size_t(8 * (key.place.quarter + 1) + key.place.turn);
+      return key.pattern->number * 128 + size_t(8 * (key.place.quarter + 1) + key.place.turn);
     }
   };
   std::unordered_map<Key, Index, Hash> numbers_;
   std::vector<Key> keys_;
+  std::vector<Index> pieces_;
   Index last_ = 0;
 };
 
@@ -172,7 +180,8 @@ std::optional<Baked> bake_lattices(Patterns& patterns, const Level& control, con
   const Lattice lattice{Index{1} << levels, sides == 3};
   const auto kind = sides == 3 ? Piece::Kind::triangle : Piece::Kind::quad;
 
-  const PieceMatches pieces(patterns, level, t.num_faces(), [&](Index f) { return Piece{kind, t.first(Face{f})}; });
+  const auto piece_at = [&](Index f) { return Piece{kind, t.first(Face{f})}; };
+  const PieceMatches pieces(patterns, level, t.num_faces(), piece_at);
   std::vector<std::int8_t> turn(t.num_faces());
   for (Index f = 0; f < t.num_faces(); ++f) turn[f] = static_cast<std::int8_t>(pieces.turn(f));
   std::vector<LatticePlace> places;
@@ -185,25 +194,26 @@ std::optional<Baked> bake_lattices(Patterns& patterns, const Level& control, con
   Blocks blocks;
   std::vector<Index> block_of(t.num_faces());
   for (Index f = 0; f < t.num_faces(); ++f)
-    block_of[f] = blocks.add({&pieces.type(f), request.derivatives > 0 ? places[f] : LatticePlace{}});
+    block_of[f] = blocks.add({&pieces.pattern(f), request.derivatives > 0 ? places[f] : LatticePlace{}}, f);
   const double bytes = blocks.num_bytes(double(arrays.quantities) * lattice.size());
   if (bytes > most_bytes) return std::nullopt;
   check_memory(std::to_string(blocks.keys().size()) + " blocks of level " + std::to_string(request.level), 4 * bytes,
                "use fewer levels");
+  const bool has_status = limit && request.derivatives > 0;
   std::vector<const std::vector<std::uint8_t>*> status(blocks.keys().size(), nullptr);
-  const bool made = blocks.fill(arrays, lattice.size(), [&](const Blocks::Key& key) -> const RowMatrix* {
-    if (!limit) return &patterns.rows(*key.type, levels);
-    if (request.derivatives == 0) return &patterns.limit_rows(*key.type, levels);
-    const Patterns::LimitBlock* block = patterns.limit_block(*key.type, lattice, key.place, false, request.derivatives);
-    return block ? &block->weights : nullptr;
+  const bool made = blocks.fill(arrays, lattice.size(), [&](Index b) -> const RowMatrix* {
+    const auto& [pattern, place] = blocks.keys()[b];
+    const Index f = blocks.piece(b);
+    const Patterns::Example example{level, piece_at(f), pieces.turn(f)};
+    if (!limit) return &patterns.rows(*pattern, example, levels);
+    if (request.derivatives == 0) return &patterns.limit_rows(*pattern, example, levels);
+    const Patterns::LimitBlock* block =
+        patterns.limit_block(*pattern, example, {lattice, place, false, request.derivatives});
+    if (!block) return nullptr;
+    status[b] = &block->status;
+    return &block->weights;
   });
   if (!made) return std::nullopt;
-  const bool has_status = limit && request.derivatives > 0;
-  if (has_status)
-    for (size_t b = 0; b < status.size(); ++b)
-      status[b] =
-          &patterns.limit_block(*blocks.keys()[b].type, lattice, blocks.keys()[b].place, false, request.derivatives)
-               ->status;
 
   // Groups, and the points that faces have. Isolated vertices stay where they are.
   FaceLattices::Arrays lattices = face_owners(t, lattice, turn);
@@ -279,27 +289,31 @@ std::optional<Baked> bake_grids(Patterns& patterns, const Level& control, const 
   arrays.quantities = request.derivatives == 0 ? 1 : request.derivatives == 1 ? 3 : 6;
   if (double(addresses.size()) * lattice.size() > std::numeric_limits<std::int32_t>::max()) return std::nullopt;
 
-  const PieceMatches pieces(patterns, control, addresses.size(), [&](Index address) {
+  const auto piece_at = [&](Index address) {
     const Addresses::Place at = addresses.place(address);
     if (at.corner >= 0) return Piece{Piece::Kind::cut, t.corner(at.face, at.corner)};
     return Piece{addresses.triangles() ? Piece::Kind::triangle : Piece::Kind::quad, t.first(at.face)};
-  });
+  };
+  const PieceMatches pieces(patterns, control, addresses.size(), piece_at);
   Blocks blocks;
   std::vector<Index> block_of(addresses.size());
   std::vector<std::uint8_t> is_hole(addresses.size());
   for (Index a = 0; a < addresses.size(); ++a) {
-    block_of[a] = blocks.add({&pieces.type(a), {a, static_cast<std::int8_t>(pieces.turn(a)), -1}});
+    block_of[a] = blocks.add({&pieces.pattern(a), {a, static_cast<std::int8_t>(pieces.turn(a)), -1}}, a);
     is_hole[a] = control.holes[index(addresses.place(a).face)];
   }
   const double bytes = blocks.num_bytes(double(arrays.quantities) * lattice.size());
   if (bytes > most_bytes) return std::nullopt;
   check_memory(std::to_string(blocks.keys().size()) + " blocks of " + std::to_string(lattice.size()) + " places",
                4 * bytes, "use fewer places");
-  const auto limit_block = [&](const Blocks::Key& key) {
-    return patterns.limit_block(*key.type, lattice, key.place, true, request.derivatives);
+  const auto limit_block = [&](Index b) {
+    const auto& [pattern, place] = blocks.keys()[b];
+    const Index a = blocks.piece(b);
+    return patterns.limit_block(*pattern, {control, piece_at(a), pieces.turn(a)},
+                                {lattice, place, true, request.derivatives});
   };
-  const bool made = blocks.fill(arrays, lattice.size(), [&](const Blocks::Key& key) -> const RowMatrix* {
-    const Patterns::LimitBlock* block = limit_block(key);
+  const bool made = blocks.fill(arrays, lattice.size(), [&](Index b) -> const RowMatrix* {
+    const Patterns::LimitBlock* block = limit_block(b);
     return block ? &block->weights : nullptr;
   });
   if (!made) return std::nullopt;
@@ -313,7 +327,7 @@ std::optional<Baked> bake_grids(Patterns& patterns, const Level& control, const 
         {group.block, lattice.size(), static_cast<std::int64_t>(rows.size()), std::int64_t(group.pieces.size())});
     for (const Index a : group.pieces) patch_points.push_back(std::int64_t{a} * lattice.size());
     for (std::int32_t i = 0; i < lattice.size(); ++i) rows.push_back(i);
-    const std::vector<std::uint8_t>& status = limit_block(blocks.keys()[group.block])->status;
+    const std::vector<std::uint8_t>& status = limit_block(group.block)->status;
     for (const std::uint8_t s : status) row_status.push_back(group.share ? std::uint8_t(LimitStatus::hole) : s);
   }
   std::vector<std::int32_t> copies;

@@ -11,7 +11,8 @@ namespace sublimit {
 void write_matrix_market(const std::filesystem::path& path, const SparseMatrix& matrix) {
   AtomicFile file(path);
   std::string line = "%%MatrixMarket matrix coordinate real general\n";
-  for (const auto number : {std::int64_t(matrix.rows()), std::int64_t(matrix.cols()), std::int64_t(matrix.nonZeros())}) {
+  for (const auto number :
+       {std::int64_t(matrix.rows()), std::int64_t(matrix.cols()), std::int64_t(matrix.nonZeros())}) {
     append_number(line, number);
     line += ' ';
   }

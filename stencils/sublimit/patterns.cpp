@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <utility>
 
 #include "sublimit/base/error.h"
 #include "sublimit/type_limits.h"
@@ -55,10 +57,22 @@ bool Patterns::find(const Level& level, const Piece& piece, Match& match) const 
     found = known->second;
   }
   if (found.turn != 0) own = &walk(found.turn);
-  match.type = found.type;
+  if (own->vertices.size() != size_t(found.pattern->num_slots))
+    throw FormatError("dictionary: a pattern is of " + std::to_string(found.pattern->num_slots) +
+                      " points, but pieces of its type have " + std::to_string(own->vertices.size()));
+  match.pattern = found.pattern;
   match.turn = found.turn;
   match.vertices = own->vertices;
   return true;
+}
+
+const Pattern& Patterns::add_pattern(Piece::Kind kind, Index num_slots, bool decays) {
+  Pattern& pattern = patterns_.emplace_back();
+  pattern.number = patterns_.size() - 1;
+  pattern.kind = kind;
+  pattern.num_slots = num_slots;
+  pattern.decays = decays;
+  return pattern;
 }
 
 Patterns::Match Patterns::match(const Level& level, const Piece& piece) {
@@ -76,14 +90,25 @@ Patterns::Match Patterns::match(const Level& level, const Piece& piece) {
   const int least = static_cast<int>(std::min_element(signatures.begin(), signatures.end()) - signatures.begin());
   const PieceType* type = types_->type(level, walk.piece(least), walk(least));
   const std::unique_lock lock(mutex_);
-  if (turned_.try_emplace(signatures[least], Turned{type, 0}).second) ++num_types_;
+  if (const auto known = turned_.find(signatures[least]); known != turned_.end())  // another thread was faster
+    return {known->second.pattern, least, vertices[least]};
+  const Pattern& pattern = add_pattern(piece.kind, type->num_slots(), type->decays());
+  pattern.type = type;
   for (int turn = 0; turn < turns; ++turn)
-    turned_.try_emplace(signatures[turn], Turned{type, (least - turn + turns) % turns});
-  return {type, least, vertices[least]};
+    turned_.try_emplace(signatures[turn], Turned{&pattern, (least - turn + turns) % turns});
+  return {&pattern, least, vertices[least]};
+}
+
+const PieceType& Patterns::type(const Pattern& pattern, const Example& example) {
+  if (const PieceType* known = pattern.type) return *known;
+  const Walks walk(*types_, example.level, example.piece);
+  const PieceType* type = types_->type(example.level, walk.piece(example.turn), walk(example.turn));
+  pattern.type = type;
+  return *type;
 }
 
 const RowMatrix& Patterns::differences(const PieceType& type, int levels, Ends ends) {
-  const RowsKey key{&type, levels, ends};
+  const std::tuple key{&type, levels, ends};
   {
     const std::lock_guard lock(rows_mutex_);
     if (const auto known = differences_.find(key); known != differences_.end()) return *known->second;
@@ -128,13 +153,13 @@ RowMatrix Patterns::made_rows(const PieceType& type, int levels, Ends ends) {
   return R;
 }
 
-const RowMatrix& Patterns::whole_rows(const PieceType& type, int levels, Ends ends) {
-  const RowsKey key{&type, levels, ends};
+const RowMatrix& Patterns::whole_rows(const Pattern& pattern, const Example& example, int levels, Ends ends) {
+  const std::tuple key{pattern.number, levels, ends};
   {
     const std::lock_guard lock(rows_mutex_);
     if (const auto known = rows_.find(key); known != rows_.end()) return *known->second;
   }
-  const RowMatrix& D = differences(type, levels, ends);
+  const RowMatrix& D = differences(type(pattern, example), levels, ends);
   auto made = std::make_unique<RowMatrix>(D.rows(), D.cols() + 1);
   made->rightCols(D.cols()) = D;
   made->col(0) = 1 - D.rowwise().sum().array();
@@ -142,21 +167,24 @@ const RowMatrix& Patterns::whole_rows(const PieceType& type, int levels, Ends en
   return *rows_.try_emplace(key, std::move(made)).first->second;
 }
 
-const RowMatrix& Patterns::rows(const PieceType& type, int levels) { return whole_rows(type, levels, Ends::points); }
-
-const RowMatrix& Patterns::limit_rows(const PieceType& type, int levels) {
-  return whole_rows(type, levels, Ends::limits);
+const RowMatrix& Patterns::rows(const Pattern& pattern, const Example& example, int levels) {
+  return whole_rows(pattern, example, levels, Ends::points);
 }
 
-const Patterns::LimitBlock* Patterns::limit_block(const PieceType& type, const Lattice& lattice,
-                                                  const LatticePlace& place, bool by_address, int derivatives) {
-  const LimitKey key{&type, lattice.n, place.turn, place.quarter, by_address, derivatives};
+const RowMatrix& Patterns::limit_rows(const Pattern& pattern, const Example& example, int levels) {
+  return whole_rows(pattern, example, levels, Ends::limits);
+}
+
+const Patterns::LimitBlock* Patterns::limit_block(const Pattern& pattern, const Example& example,
+                                                  const LimitRequest& request) {
+  const auto& [lattice, place, by_address, derivatives] = request;
+  const LimitKey key{pattern.number, lattice.n, place.turn, place.quarter, by_address, derivatives};
   {
     const std::lock_guard lock(rows_mutex_);
     if (const auto known = limits_.find(key); known != limits_.end()) return known->second.get();
   }
   std::unique_ptr<const LimitBlock> made;
-  if (std::optional<LimitBlock> block = limits_of_type(types_, type, lattice, place, by_address, derivatives))
+  if (std::optional<LimitBlock> block = limits_of_type(types_, type(pattern, example), request))
     made = std::make_unique<const LimitBlock>(std::move(*block));
   const std::lock_guard lock(rows_mutex_);
   return limits_.try_emplace(key, std::move(made)).first->second.get();
@@ -164,7 +192,57 @@ const Patterns::LimitBlock* Patterns::limit_block(const PieceType& type, const L
 
 size_t Patterns::num_types() const {
   const std::shared_lock lock(mutex_);
-  return num_types_;
+  return patterns_.size();
+}
+
+std::vector<Patterns::Stored> Patterns::stored() const {
+  const std::shared_lock lock(mutex_);
+  const std::lock_guard rows_lock(rows_mutex_);
+  std::vector<Stored> all(patterns_.size());
+  for (const Pattern& pattern : patterns_) {
+    all[pattern.number].kind = pattern.kind;
+    all[pattern.number].num_slots = pattern.num_slots;
+    all[pattern.number].decays = pattern.decays;
+  }
+  for (const auto& [words, turned] : turned_) all[turned.pattern->number].signatures.push_back({turned.turn, words});
+  for (Stored& one : all)  // the same file whatever the order of a hash table
+    std::sort(one.signatures.begin(), one.signatures.end(),
+              [](const auto& a, const auto& b) { return std::tie(a.turn, a.words) < std::tie(b.turn, b.words); });
+  for (const auto& [key, rows] : rows_)
+    all[std::get<0>(key)].rows.push_back({std::get<1>(key), std::get<2>(key), *rows});
+  for (const auto& [key, block] : limits_) {
+    if (!block) continue;
+    const auto& [number, n, turn, quarter, by_address, derivatives] = key;
+    const bool triangle = all[number].kind == Piece::Kind::triangle;
+    all[number].limits.push_back({{{n, triangle},
+                                   {0, static_cast<std::int8_t>(turn), static_cast<std::int8_t>(quarter)},
+                                   by_address,
+                                   derivatives},
+                                  *block});
+  }
+  return all;
+}
+
+void Patterns::add(Stored stored) {
+  const std::unique_lock lock(mutex_);
+  const Pattern* pattern = nullptr;
+  for (const Stored::Signature& signature : stored.signatures)
+    if (const auto known = turned_.find(signature.words); known != turned_.end()) pattern = known->second.pattern;
+  if (pattern && pattern->num_slots != stored.num_slots) return;
+  if (!pattern) {
+    pattern = &add_pattern(stored.kind, stored.num_slots, stored.decays);
+    for (Stored::Signature& signature : stored.signatures)
+      turned_.try_emplace(std::move(signature.words), Turned{pattern, signature.turn});
+  }
+  const std::lock_guard rows_lock(rows_mutex_);
+  for (Stored::Rows& rows : stored.rows)
+    rows_.try_emplace({pattern->number, rows.levels, rows.ends},
+                      std::make_unique<const RowMatrix>(std::move(rows.weights)));
+  for (Stored::Limits& limits : stored.limits) {
+    const LimitRequest& r = limits.request;
+    limits_.try_emplace({pattern->number, r.lattice.n, r.place.turn, r.place.quarter, r.by_address, r.derivatives},
+                        std::make_unique<const LimitBlock>(std::move(limits.block)));
+  }
 }
 
 }  // namespace sublimit

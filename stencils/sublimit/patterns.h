@@ -5,6 +5,8 @@
 // blocks of S between them, and no mesh is refined:
 //
 //   R_k(type)  =  R_{k-1}(child type) * block     on the child's share of the face
+#include <atomic>
+#include <deque>
 #include <map>
 #include <mutex>
 #include <optional>
@@ -15,6 +17,16 @@
 
 namespace sublimit {
 
+/// A type of neighbourhood, by what is known of it.
+struct Pattern {
+  size_t number = 0;  ///< in the order in which they were met
+  Piece::Kind kind = Piece::Kind::quad;
+  Index num_slots = 0;  ///< points that it depends on
+  bool decays = false;  ///< some finite sharpness matters (`PieceType::decays`)
+  /// Null for one from a file, until more than the file has is asked for.
+  mutable std::atomic<const PieceType*> type{nullptr};
+};
+
 /// A dictionary of the types of one scheme, shared between meshes and threads. It outlives them.
 class Patterns {
  public:
@@ -24,54 +36,95 @@ class Patterns {
 
   /// The type of a piece's neighbourhood; that of a whole face is the same for all rotations of it.
   struct Match {
-    const PieceType* type = nullptr;
-    int turn = 0;                 ///< the face's corner that is the type's first one
+    const Pattern* pattern = nullptr;
+    int turn = 0;                 ///< the face's corner that is the pattern's first one
     std::vector<Index> vertices;  ///< points that it depends on
   };
   Match match(const Level& level, const Piece& piece);
   /// The same if the type is known already.
   /// @param match  keeps its memory from call to call
+  /// @throws FormatError  a dictionary from a file that is not of this scheme
   bool find(const Level& level, const Piece& piece, Match& match) const;
 
-  /// Rows of `Lattice{2^levels}` over the points of a type: weights sum to one.
-  const RowMatrix& rows(const PieceType& type, int levels);
+  /// A piece that a pattern is of, for what is not known yet: as it lies, and how it is turned.
+  struct Example {
+    const Level& level;
+    Piece piece;
+    int turn = 0;
+  };
+  /// Rows of `Lattice{2^levels}` over the points of a pattern: weights sum to one.
+  const RowMatrix& rows(const Pattern& pattern, const Example& example, int levels);
   /// The same of the points' limits.
-  const RowMatrix& limit_rows(const PieceType& type, int levels);
+  const RowMatrix& limit_rows(const Pattern& pattern, const Example& example, int levels);
 
   /// Limits with derivatives along u and v of the address that a lattice lies in.
   struct LimitBlock {
     RowMatrix weights;  ///< quantity after quantity (1, 3 or 6), a row a point each; what does not exist is zero
     std::vector<std::uint8_t> status;  ///< LimitStatus of each point, but for holes
   };
-  /// @param place  turn and quarter matter; `by_address`: points in the order of the address, else of the lattice
-  /// @return  null where limit masks reach beyond the points of the type
-  const LimitBlock* limit_block(const PieceType& type, const Lattice& lattice, const LatticePlace& place,
-                                bool by_address, int derivatives);
+  struct LimitRequest {
+    Lattice lattice;
+    LatticePlace place;       ///< turn and quarter matter
+    bool by_address = false;  ///< points in the order of the address, else of the lattice
+    int derivatives = 0;
+  };
+  /// @return  null where limit masks reach beyond the points of the pattern
+  const LimitBlock* limit_block(const Pattern& pattern, const Example& example, const LimitRequest& request);
 
   const Scheme<double>& scheme() const { return scheme_; }
   const std::shared_ptr<PieceTypes>& types() const { return types_; }
   /// Types that faces have had, rotations not counted.
   size_t num_types() const;
 
+  /// What the corners of the last level are.
+  enum class Ends { points, limits };
+  /// All that is known of a pattern, as files keep it.
+  struct Stored {
+    Piece::Kind kind = Piece::Kind::quad;
+    Index num_slots = 0;
+    bool decays = false;
+    struct Signature {
+      int turn = 0;
+      std::vector<std::uint32_t> words;
+    };
+    std::vector<Signature> signatures;  ///< of pieces that are turned so
+    struct Rows {
+      int levels = 0;
+      Ends ends = Ends::points;
+      RowMatrix weights;
+    };
+    std::vector<Rows> rows;
+    struct Limits {
+      LimitRequest request;
+      LimitBlock block;
+    };
+    std::vector<Limits> limits;
+  };
+  std::vector<Stored> stored() const;
+  /// Adds what was stored; what is known already stays.
+  void add(Stored stored);
+
  private:
   struct Turned {
-    const PieceType* type = nullptr;
+    const Pattern* pattern = nullptr;
     int turn = 0;
   };
-  enum class Ends { points, limits };  // what the corners of the last level are
+  const PieceType& type(const Pattern& pattern, const Example& example);
   RowMatrix made_rows(const PieceType& type, int levels, Ends ends);
   const RowMatrix& differences(const PieceType& type, int levels, Ends ends);
-  const RowMatrix& whole_rows(const PieceType& type, int levels, Ends ends);
+  const RowMatrix& whole_rows(const Pattern& pattern, const Example& example, int levels, Ends ends);
+  const Pattern& add_pattern(Piece::Kind kind, Index num_slots, bool decays);
   Scheme<double> scheme_;
   std::shared_ptr<PieceTypes> types_;
-  mutable std::shared_mutex mutex_;
+  mutable std::shared_mutex mutex_;  // of the patterns and their signatures
+  std::deque<Pattern> patterns_;
   std::unordered_map<std::vector<std::uint32_t>, Turned, SignatureHash> turned_;
-  size_t num_types_ = 0;
-  std::mutex rows_mutex_;
-  using RowsKey = std::tuple<const PieceType*, int, Ends>;
-  std::map<RowsKey, std::unique_ptr<const RowMatrix>> differences_, rows_;
-  /// Type, cells a side, turn, quarter, order of points, derivatives.
-  using LimitKey = std::tuple<const PieceType*, std::int32_t, int, int, bool, int>;
+  mutable std::mutex rows_mutex_;
+  std::map<std::tuple<const PieceType*, int, Ends>, std::unique_ptr<const RowMatrix>> differences_;
+  /// By number of the pattern, levels, ends.
+  std::map<std::tuple<size_t, int, Ends>, std::unique_ptr<const RowMatrix>> rows_;
+  /// By number of the pattern, cells a side, turn, quarter, order of points, derivatives.
+  using LimitKey = std::tuple<size_t, std::int32_t, int, int, bool, int>;
   std::map<LimitKey, std::unique_ptr<const LimitBlock>> limits_;
 };
 

@@ -15,7 +15,7 @@ constexpr std::int64_t per_chunk = 1024;
 /// The type of regular faces, if walks find their points in the order of `RegularFaces`: found by looking at one.
 struct RegularType {
   std::optional<RegularFaces> faces;
-  const PieceType* type = nullptr;
+  const Pattern* pattern = nullptr;
 
   RegularType(Patterns& patterns, const Level& level, Index count, const std::function<Piece(Index)>& piece_at) {
     const int corners = level.topology().uniform_face_size();
@@ -25,11 +25,11 @@ struct RegularType {
       return;
     faces.emplace(level, corners);
     std::vector<Index> points(size_t(faces->num_points()));
-    for (Index f = 0; f < count && !type; ++f) {
+    for (Index f = 0; f < count && !pattern; ++f) {
       if (!faces->points(Face{f}, points.data())) continue;
       const Patterns::Match match = patterns.match(level, piece_at(f));
       if (match.turn != 0 || match.vertices != points) return;
-      type = match.type;
+      pattern = match.pattern;
     }
   }
 };
@@ -38,7 +38,7 @@ struct RegularType {
 
 void PieceMatches::set(Index i, size_t chunk, const Patterns::Match& match) {
   std::vector<Index>& own = chunks_[chunk];
-  matches_[i] = {match.type, static_cast<std::int32_t>(chunk), static_cast<std::int32_t>(own.size()),
+  matches_[i] = {match.pattern, static_cast<std::int32_t>(chunk), static_cast<std::int32_t>(own.size()),
                  static_cast<std::int8_t>(match.turn)};
   own.insert(own.end(), match.vertices.begin(), match.vertices.end());
 }
@@ -61,9 +61,9 @@ PieceMatches::PieceMatches(Patterns& patterns, const Level& level, Index count,
         chunks_[chunk].reserve(16 * size_t(end - begin));
         Index points[16];
         for (auto i = static_cast<Index>(begin); i < end; ++i) {
-          if (regular.type && regular.faces->points(Face{i}, points)) {
+          if (regular.pattern && regular.faces->points(Face{i}, points)) {
             std::vector<Index>& own = chunks_[chunk];
-            matches_[i] = {regular.type, static_cast<std::int32_t>(chunk), static_cast<std::int32_t>(own.size()), 0};
+            matches_[i] = {regular.pattern, static_cast<std::int32_t>(chunk), static_cast<std::int32_t>(own.size()), 0};
             own.insert(own.end(), points, points + regular.faces->num_points());
           } else if (!find(patterns, level, piece_at(i), i, size_t(chunk))) {
             unknown[chunk].push_back(i);

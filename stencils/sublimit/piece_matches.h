@@ -15,16 +15,16 @@ class PieceMatches {
   PieceMatches(Patterns& patterns, const Level& level, Index count, const std::function<Piece(Index)>& piece_at);
 
   Index count() const { return static_cast<Index>(matches_.size()); }
-  const PieceType& type(Index i) const { return *matches_[i].type; }
-  /// The corner of the piece that is the type's first one.
+  const Pattern& pattern(Index i) const { return *matches_[i].pattern; }
+  /// The corner of the piece that is the pattern's first one.
   int turn(Index i) const { return matches_[i].turn; }
   std::span<const Index> vertices(Index i) const {
-    return {chunks_[matches_[i].chunk].data() + matches_[i].first, size_t(matches_[i].type->num_slots())};
+    return {chunks_[matches_[i].chunk].data() + matches_[i].first, size_t(matches_[i].pattern->num_slots)};
   }
 
  private:
   struct Match {
-    const PieceType* type = nullptr;
+    const Pattern* pattern = nullptr;
     std::int32_t chunk = 0, first = 0;
     std::int8_t turn = 0;
   };

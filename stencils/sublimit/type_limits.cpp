@@ -34,8 +34,8 @@ PieceMap lattice_map(const LatticePlace& place, bool triangle) {
 }  // namespace
 
 std::optional<Patterns::LimitBlock> limits_of_type(const std::shared_ptr<PieceTypes>& types, const PieceType& type,
-                                                   const Lattice& lattice, const LatticePlace& place, bool by_address,
-                                                   int derivatives) {
+                                                   const Patterns::LimitRequest& request) {
+  const auto& [lattice, place, by_address, derivatives] = request;
   Level level = type.level();
   level.holes.assign(level.holes.size(), false);  // of the mesh that the type was met in first
   const LimitSurface::Parts surface(types->scheme(), std::move(level), types);
@@ -49,14 +49,15 @@ std::optional<Patterns::LimitBlock> limits_of_type(const std::shared_ptr<PieceTy
   block.weights = RowMatrix::Zero(quantities * count, type.num_slots());
   block.status.resize(size_t(count));
   bool beyond = false;
-  lattice.for_each([&](Index i, Index j) {
-    const LatticePlace own = by_address ? LatticePlace{0, 0, place.quarter} : place;
-    const AddressParameters p = address_parameters(lattice, own, i, j);
+  const LatticePlace own = by_address ? LatticePlace{0, 0, place.quarter} : place;
+  request.lattice.for_each([&](Index i, Index j) {
+    const Lattice& all = request.lattice;
+    const AddressParameters p = address_parameters(all, own, i, j);
     LimitSurface::Parts::Target target{type.piece(), {}, &map, {}};
-    target.outer = lattice.triangle ? triangle_place(p.u, p.v) : quad_place(p.u, p.v);
+    target.outer = all.triangle ? triangle_place(p.u, p.v) : quad_place(p.u, p.v);
     target.place = map(target.outer);
-    const LimitSurface::Parts::Found found = surface.find(target, derivatives);
-    const Eigen::Index row = lattice.row(i, j);
+    const LimitSurface::Parts::Found found = surface.find(target, request.derivatives);
+    const Eigen::Index row = all.row(i, j);
     block.status[size_t(row)] = static_cast<std::uint8_t>(found.status);
     const auto add = [&](Eigen::Index quantity, Index vertex, double weight) {
       if (weight == 0) return;
@@ -72,7 +73,7 @@ std::optional<Patterns::LimitBlock> limits_of_type(const std::shared_ptr<PieceTy
       add(q, found.vertices[0], (q == 0 ? 1 : 0) - rows.row(q).sum());
     }
     // Where there are no natural derivatives, two tangents that span the plane.
-    if (derivatives > 0 && rows.rows() == 1 && found.tangents.size() >= 2)
+    if (request.derivatives > 0 && rows.rows() == 1 && found.tangents.size() >= 2)
       for (Eigen::Index q = 1; q <= 2; ++q)
         for (const auto& [vertex, weight] : found.tangents[q - 1]) add(q, vertex, weight);
   });

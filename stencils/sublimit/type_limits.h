@@ -10,7 +10,6 @@ namespace sublimit {
 
 /// @return  nothing where limit masks reach beyond the points of the type
 std::optional<Patterns::LimitBlock> limits_of_type(const std::shared_ptr<PieceTypes>& types, const PieceType& type,
-                                                   const Lattice& lattice, const LatticePlace& place, bool by_address,
-                                                   int derivatives);
+                                                   const Patterns::LimitRequest& request);
 
 }  // namespace sublimit
