@@ -27,4 +27,23 @@ class PeerTable {
   std::unique_ptr<Implementation> implementation_;
 };
 
+/// N x N places on each address face of the limit with both first derivatives, in float.
+class PeerLimitTable {
+ public:
+  /// Create + RefineAdaptive (level 4, sharp patches) + LimitStencilTableFactory::Create.
+  PeerLimitTable(const PeerMesh& mesh, int N);
+  ~PeerLimitTable();
+
+  std::size_t num_points() const;
+  std::size_t num_bytes() const;
+  /// Positions, then derivatives along u, then along v. Osd::CpuEvaluator::EvalStencils.
+  void apply_osd(std::span<const float> points, std::span<float> result) const;
+  /// Far::LimitStencilTable::UpdateValues and UpdateDerivs.
+  void apply_far(std::span<const float> points, std::span<float> result) const;
+
+ private:
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
 }  // namespace sublimit::bench

@@ -4,18 +4,23 @@
 //           | Create + RefineUniform + StencilTableFactory::Create
 //   apply   | Osd::CpuEvaluator, Far::StencilTable::UpdateValues, Eigen's row-major sparse product of the same table;
 //           ranges of stencils over the threads
+//   grid    8 x 8 places on each address of the limit with both first derivatives, applied
+//           | LimitStencilTable by Osd::CpuEvaluator and by Far's loop; Bfr, Far's patches and Embree (float), prepared
 // The limit of `apply` is the time to write the points at the bandwidth of one thread; of OpenSubdiv's bake one thread
 // is all that it uses. What both make is compared point by point before anything is timed.
 //
 // `table_bench --ratios [repetitions] [--keep-memory]` takes turns and prints medians with their spread and ratios;
-// otherwise Google Benchmark's own options hold.
+// SUBLIMIT_BENCH_CASE=NAME
+// takes one mesh. Otherwise Google Benchmark's own options hold.
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <functional>
 #include <memory>
 #include <optional>
 
 #include "bench_meshes.h"
+#include "limit_peers.h"
 #include "measuring.h"
 #include "opensubdiv_table.h"
 #include "sublimit/bake.h"
@@ -30,8 +35,10 @@ struct OurTable {
   BakeStatistics statistics;
   PatternTable<float> table;
   std::optional<PatternEvaluator<float>> evaluator;
-  OurTable(Patterns& patterns, const ControlMesh& mesh, int levels) {
-    const Baked baked = bake_level(patterns, mesh, levels);
+  OurTable(Patterns& patterns, const ControlMesh& mesh, int levels)
+      : OurTable(patterns, mesh, BakeRequest{.rows = TableRows::level, .level = levels}) {}
+  OurTable(Patterns& patterns, const ControlMesh& mesh, const BakeRequest& request) {
+    const Baked baked = bake(patterns, mesh, request);
     statistics = baked.statistics;
     table = in_float(baked.table.table);
     evaluator.emplace(table);
@@ -99,6 +106,56 @@ void print_row(const std::string& what, const Case& c, int levels, int threads, 
   std::fflush(stdout);
 }
 
+constexpr int grid = 8;
+
+/// 8 x 8 places a face with first derivatives. Not for triangles, whose places the others arrange otherwise.
+void print_grids(const Case& c, int repetitions) {
+  if (c.scheme != "catmull-clark") return;
+  const PeerCase peer(c);
+  Patterns patterns(find_scheme(c.scheme).value());
+  const BakeRequest request{.rows = TableRows::grid, .grid = grid, .derivatives = 1};
+  std::optional<OurTable> ours;
+  std::optional<PeerLimitTable> theirs;
+  const double our_bake = seconds([&] { ours.emplace(patterns, c.mesh, request); }),
+               their_bake = seconds([&] { theirs.emplace(peer.mesh, grid); });
+  const std::vector<float> points = control_points(c);
+  std::vector<float> made(size_t(ours->table.num_points()) * 9), by_osd(theirs->num_points() * 9),
+      by_far(by_osd.size());
+  ours->evaluator->apply(points, 3, made);
+  theirs->apply_osd(points, by_osd);
+  double largest = INFINITY;
+  if (made.size() == by_osd.size()) {
+    largest = 0;
+    for (size_t i = 0; i < made.size() / 3; ++i) largest = std::max(largest, double(std::abs(made[i] - by_osd[i])));
+  }
+  std::printf("%s %d x %d places: %d types, %lld points; %.2f MB : %.2f MB; made in %.0f : %.0f ms; differ by %.0e\n",
+              c.name.c_str(), grid, grid, ours->statistics.types, static_cast<long long>(ours->statistics.points),
+              double(ours->table.num_bytes()) / 1e6, double(theirs->num_bytes()) / 1e6, our_bake * 1e3,
+              their_bake * 1e3, largest);
+  std::vector<Sample> places;
+  for (Index f = 0; f < Index(made.size() / (9 * grid * grid)); ++f)
+    for (int j = 0; j < grid; ++j)
+      for (int i = 0; i < grid; ++i) places.push_back({f, double(i) / (grid - 1), double(j) / (grid - 1)});
+  std::vector<std::unique_ptr<LimitEvaluator>> evaluators;
+  for (const auto& make : {bfr_float, far_float, embree}) {
+    evaluators.push_back(make(c));
+    evaluators.back()->start();
+    evaluators.back()->prepare();
+    evaluators.back()->set_places(places);
+  }
+  for (const int threads : thread_counts()) {
+    const Threads scope(threads);
+    print_row("grid", c, 0, threads, 1e9 / double(ours->table.num_points()),
+              {{"ns: ours", [&] { ours->evaluator->apply(points, 3, made); }},
+               {"Osd", [&] { theirs->apply_osd(points, by_osd); }},
+               {"Far", [&] { theirs->apply_far(points, by_far); }},
+               {"Bfr", [&] { evaluators[0]->evaluate(1); }},
+               {"Far patches", [&] { evaluators[1]->evaluate(1); }},
+               {"Embree", [&] { evaluators[2]->evaluate(1); }}},
+              repetitions, 1);
+  }
+}
+
 std::vector<Case> all_cases() {
   std::vector<Case> list = cases();
   for (const char* name : {"catmark_bishop", "catmark_rook", "catmark_pawn", "catmark_righthanded"}) {
@@ -112,7 +169,10 @@ int print_ratios(int repetitions) {
   const double bandwidth = write_bandwidth();
   std::printf("write bandwidth, one thread: %.1f GB/s, %.2f ns a point; medians of %d (least..most)\n", bandwidth / 1e9,
               12e9 / bandwidth, repetitions);
-  const std::vector<Case> meshes = all_cases();
+  const char* only = std::getenv("SUBLIMIT_BENCH_CASE");  // one mesh
+  std::vector<Case> meshes = all_cases();
+  if (only) std::erase_if(meshes, [&](const Case& c) { return c.name != only; });
+  for (const Case& c : meshes) print_grids(c, repetitions);
   for (const Case& c : meshes)
     for (const int levels : {2, 3}) {
       const PeerCase peer(c);
