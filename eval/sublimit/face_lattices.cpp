@@ -59,7 +59,14 @@ std::uint8_t FaceLattices::share(const Arrays& a, std::int32_t face) {
   return static_cast<std::uint8_t>(share);
 }
 
-std::vector<std::int32_t> FaceLattices::rows(const Lattice& lattice, std::uint8_t share) {
+LatticeRanks::LatticeRanks(const Lattice& lattice)
+    : lattice_(lattice), places_(size_t(lattice.size())), rank_(256), count_(256, -1) {
+  for (int k = 0; k < lattice.num_sides(); ++k)
+    for (std::int32_t s = 0; s < lattice.n; ++s)
+      places_[size_t(lattice.on_side(k, s))] = {static_cast<std::int8_t>(k), s};
+}
+
+std::vector<std::int32_t> LatticeRanks::rows(const Lattice& lattice, Share share) {
   std::vector<std::int32_t> rows;
   lattice.for_each_inner([&](std::int32_t row) { rows.push_back(row); });
   for (int k = 0; k < lattice.num_sides(); ++k)
@@ -67,6 +74,14 @@ std::vector<std::int32_t> FaceLattices::rows(const Lattice& lattice, std::uint8_
   for (int k = 0; k < lattice.num_sides(); ++k)
     if (share >> (4 + k) & 1) rows.push_back(lattice.on_side(k, 0));
   return rows;
+}
+
+void LatticeRanks::add(Share share) {
+  if (count_[share] >= 0) return;
+  rank_[share].assign(size_t(lattice_.size()), -1);
+  std::int32_t next = 0;
+  for (const std::int32_t row : rows(lattice_, share)) rank_[share][size_t(row)] = next++;
+  count_[share] = next;
 }
 
 FaceLattices::FaceLattices(std::int64_t num_points, Arrays arrays) : arrays_(std::move(arrays)) {
@@ -85,10 +100,7 @@ FaceLattices::FaceLattices(std::int64_t num_points, Arrays arrays) : arrays_(std
   if (!a.holes.empty()) check_size("holes", a.holes.size(), faces);
 
   share_.resize(faces);
-  places_.resize(size_t(a.lattice.size()));
-  rank_.resize(256);
-  for (int k = 0; k < sides; ++k)
-    for (std::int32_t s = 0; s < a.lattice.n; ++s) places_[a.lattice.on_side(k, s)] = {static_cast<std::int8_t>(k), s};
+  ranks_ = LatticeRanks(a.lattice);
   const auto check_owner = [&](const char* what, size_t i, std::int32_t owner, int place, int most) {
     if (owner < 0 || size_t(owner) >= faces || (place & 7) >= sides || place > most)
       fail("the owner of " + std::string(what) + " " + std::to_string(i) + " does not exist");
@@ -105,17 +117,9 @@ FaceLattices::FaceLattices(std::int64_t num_points, Arrays arrays) : arrays_(std
         fail("face " + std::to_string(f) + " has no place in an address");
     }
   });
-  std::vector<std::int64_t> length(256, -1);
-  for (const std::uint8_t share : share_) {
-    if (length[share] >= 0) continue;
-    const std::vector<std::int32_t> own = rows(a.lattice, share);
-    length[share] = std::int64_t(own.size());
-    rank_[share].assign(size_t(a.lattice.size()), -1);
-    std::int32_t next = 0;
-    for (const std::int32_t row : own) rank_[share][row] = next++;
-  }
+  for (const std::uint8_t share : share_) ranks_.add(share);
   parallel_for(std::int64_t(faces), [&](std::int64_t f) {
-    if (a.first_points[f] < 0 || a.first_points[f] > num_points - length[share_[f]])
+    if (a.first_points[f] < 0 || a.first_points[f] > num_points - ranks_.num_rows(share_[f]))
       fail("points of face " + std::to_string(f) + " from " + std::to_string(a.first_points[f]) + " on, of " +
            std::to_string(num_points));
     for (int k = 0; k < sides; ++k) {
@@ -129,14 +133,14 @@ FaceLattices::FaceLattices(std::int64_t num_points, Arrays arrays) : arrays_(std
 
 std::int64_t FaceLattices::point(std::int32_t face, std::int32_t row) const {
   const Arrays& a = arrays_;
-  if (const std::int32_t rank = rank_[share_[face]][row]; rank >= 0) return a.first_points[face] + rank;
-  const auto [side, step] = places_[row];
+  if (const std::int32_t rank = ranks_.rank(share_[face], row); rank >= 0) return a.first_points[face] + rank;
+  const auto [side, step] = ranks_.on_side(row);
   const std::int64_t at = std::int64_t{face} * a.lattice.num_sides() + side;
   const bool corner = step == 0;
   const std::int32_t owner = corner ? a.corner_faces[at] : a.side_faces[at];
   const int place = corner ? a.corner_places[at] : a.side_places[at];
   const std::int32_t along = place & reversed ? a.lattice.n - step : step;
-  return a.first_points[owner] + rank_[share_[owner]][a.lattice.on_side(place & 7, along)];
+  return a.first_points[owner] + ranks_.rank(share_[owner], a.lattice.on_side(place & 7, along));
 }
 
 LatticePlace FaceLattices::place(std::int32_t face) const {

@@ -55,6 +55,37 @@ struct AddressParameters {
 /// Those of the point (i, j) of a lattice.
 AddressParameters address_parameters(const Lattice& lattice, const LatticePlace& place, std::int32_t i, std::int32_t j);
 
+/// Where the points of a lattice stand among those that a face has: its inside, then its own sides, then its own
+/// corners.
+class LatticeRanks {
+ public:
+  /// What a face has besides its inside: bit k for the inside of side k, 4 + k for corner k.
+  using Share = std::uint8_t;
+  LatticeRanks() = default;
+  explicit LatticeRanks(const Lattice& lattice);
+
+  /// Rows of the lattice that faces with this share have, in the order of their points.
+  static std::vector<std::int32_t> rows(const Lattice& lattice, Share share);
+  /// To be called for every share that is asked for below.
+  void add(Share share);
+  std::int32_t num_rows(Share share) const { return count_[share]; }
+  /// Of a row among those of a share; -1: it is another's.
+  std::int32_t rank(Share share, std::int32_t row) const { return rank_[share][size_t(row)]; }
+
+  /// Of a row on a side or at a corner (step 0).
+  struct OnSide {
+    std::int8_t side = -1;  ///< -1: inside
+    std::int32_t step = 0;
+  };
+  OnSide on_side(std::int32_t row) const { return places_[size_t(row)]; }
+
+ private:
+  Lattice lattice_;
+  std::vector<OnSide> places_;                   // of each row
+  std::vector<std::vector<std::int32_t>> rank_;  // by share, then by row
+  std::vector<std::int32_t> count_;              // by share; -1: not asked for
+};
+
 class FaceLattices {
  public:
   /// By face, then by side or corner of its lattice.
@@ -80,10 +111,10 @@ class FaceLattices {
   const Lattice& lattice() const { return arrays_.lattice; }
   std::int32_t num_faces() const { return static_cast<std::int32_t>(arrays_.first_points.size()); }
   bool is_hole(std::int32_t face) const { return !arrays_.holes.empty() && arrays_.holes[face] != 0; }
-  /// What a face has besides its inside: bit k for the inside of side k, 4 + k for corner k.
-  static std::uint8_t share(const Arrays& arrays, std::int32_t face);
-  /// Rows of the lattice that faces with this share have, in the order of their points.
-  static std::vector<std::int32_t> rows(const Lattice& lattice, std::uint8_t share);
+  static LatticeRanks::Share share(const Arrays& arrays, std::int32_t face);
+  static std::vector<std::int32_t> rows(const Lattice& lattice, LatticeRanks::Share share) {
+    return LatticeRanks::rows(lattice, share);
+  }
   /// The point at a row of a face's lattice.
   std::int64_t point(std::int32_t face, std::int32_t row) const;
   /// Where a point is, if addresses are known: (u, v) of the address of a face.
@@ -94,14 +125,9 @@ class FaceLattices {
   }
 
  private:
-  struct RowPlace {
-    std::int8_t side = -1;  // -1: inside
-    std::int32_t step = 0;
-  };
   Arrays arrays_;
   std::vector<std::uint8_t> share_;
-  std::vector<RowPlace> places_;                 // of each row
-  std::vector<std::vector<std::int32_t>> rank_;  // of each row among those of a share; -1: it is another's
+  LatticeRanks ranks_;
 };
 
 }  // namespace sublimit

@@ -171,6 +171,12 @@ const RowMatrix& Patterns::rows(const Pattern& pattern, const Example& example, 
   return whole_rows(pattern, example, levels, Ends::points);
 }
 
+const RowMatrix* Patterns::known_rows(const Pattern& pattern, int levels) const {
+  const std::lock_guard lock(rows_mutex_);
+  const auto known = rows_.find({pattern.number, levels, Ends::points});
+  return known == rows_.end() ? nullptr : known->second.get();
+}
+
 const RowMatrix& Patterns::limit_rows(const Pattern& pattern, const Example& example, int levels) {
   return whole_rows(pattern, example, levels, Ends::limits);
 }

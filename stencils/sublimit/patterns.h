@@ -54,6 +54,8 @@ class Patterns {
   };
   /// Rows of `Lattice{2^levels}` over the points of a pattern: weights sum to one.
   const RowMatrix& rows(const Pattern& pattern, const Example& example, int levels);
+  /// The same if they have been asked for before, else null.
+  const RowMatrix* known_rows(const Pattern& pattern, int levels) const;
   /// The same of the points' limits.
   const RowMatrix& limit_rows(const Pattern& pattern, const Example& example, int levels);
 
