@@ -154,6 +154,13 @@ SparseMatrix refinement_matrix(const std::vector<Level>& levels) {
   return P;
 }
 
+double predicted_vertices(const Scheme<double>& scheme, const Topology& t, int level) {
+  Counts counts{double(t.num_half_edges()), double(t.num_faces()), double(t.num_edges()), double(t.num_vertices())};
+  for (int k = 0; k < level; ++k)
+    for (const Step<double>& step : scheme.steps_at(k, t)) counts = counts.next(step.split);
+  return counts.vertices;
+}
+
 double predicted_bytes(const Scheme<double>& scheme, const Topology& t, int levels) {
   Counts counts{double(t.num_half_edges()), double(t.num_faces()), double(t.num_edges()), double(t.num_vertices())};
   double bytes = counts.bytes();

@@ -70,6 +70,9 @@ std::vector<Level> refine(const Scheme<double>& scheme, const ControlMesh& mesh,
 /// P_k = S_{k-1} ... S_0: level k from the control points. The identity for k = 0.
 SparseMatrix refinement_matrix(const std::vector<Level>& levels);
 
+/// Vertices of a level; exact but for dual steps across borders.
+double predicted_vertices(const Scheme<double>& scheme, const Topology& control, int level);
+
 /// Bytes of memory that `levels` levels take, about, matrices included.
 double predicted_bytes(const Scheme<double>& scheme, const Topology& control, int levels);
 

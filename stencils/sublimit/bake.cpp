@@ -10,6 +10,7 @@
 #include "sublimit/bake_rows.h"
 #include "sublimit/base/error.h"
 #include "sublimit/base/memory.h"
+#include "sublimit/limit/address.h"
 
 namespace sublimit {
 namespace {
@@ -42,8 +43,36 @@ std::vector<std::string> status_names() {
   return names;
 }
 
+/// Statistics alone.
+Baked estimate_of_rows(const Scheme<double>& scheme, const Topology& t, const BakeRequest& r) {
+  constexpr double weights_of_row = 24;  // about
+  const bool triangles = scheme.face_size() == 3;
+  double points = 0;
+  if (r.rows == TableRows::samples) {
+    points = double(r.samples.size());
+  } else if (r.rows == TableRows::grid) {
+    points =
+        double(Addresses(t, triangles).size()) * (triangles ? r.grid * (r.grid + 1.0) / 2 : r.grid * double(r.grid));
+  } else {
+    points = predicted_vertices(scheme, t, r.level);
+  }
+  const double rows = points * (r.derivatives == 0 ? 1 : r.derivatives == 1 ? 3 : 6);
+  Baked baked;
+  BakeStatistics& s = baked.statistics;
+  s.points = static_cast<std::int64_t>(points);
+  s.weights = static_cast<std::int64_t>(rows * weights_of_row);
+  s.bytes = static_cast<std::int64_t>(8 * (rows + 1)) + 12 * s.weights;
+  return baked;
+}
+
+void check_limit(double bytes, double limit) {
+  if (bytes > limit)
+    throw ResourceError("the bake takes about " + bytes_in_words(bytes) + " of memory; the limit is " +
+                        bytes_in_words(limit) + "; use fewer points or a smaller mesh");
+}
+
 Baked bake_somehow(Patterns& patterns, const ControlMesh& mesh, const Level& control, const BakeRequest& request,
-                   const SubdivisionOptions& options) {
+                   const SubdivisionOptions& options, bool only_count = false) {
   constexpr double any = 1e300;
   const bool automatic = request.method == BakeMethod::automatic;
   if (automatic || request.method == BakeMethod::patterns) {
@@ -51,12 +80,16 @@ Baked bake_somehow(Patterns& patterns, const ControlMesh& mesh, const Level& con
     const double alternative = 1000.0 * control.topology().num_faces() + 1e6;
     const bool can_go_on = request.rows != TableRows::grid && request.level > 1;
     std::optional<Baked> baked =
-        bake_by_patterns(patterns, control, request, false, automatic && can_go_on ? 4 * alternative : any);
+        bake_by_patterns(patterns, control, request, false, automatic && can_go_on ? 4 * alternative : any, only_count);
     if (baked) return std::move(*baked);
   }
   if (automatic || request.method == BakeMethod::rows_then_patterns)
-    if (std::optional<Baked> baked = bake_by_patterns(patterns, control, request, true, any)) return std::move(*baked);
-  if (automatic || request.method == BakeMethod::rows) return bake_by_rows(patterns, mesh, control, request, options);
+    if (std::optional<Baked> baked = bake_by_patterns(patterns, control, request, true, any, only_count))
+      return std::move(*baked);
+  if (automatic || request.method == BakeMethod::rows) {
+    if (only_count) return estimate_of_rows(patterns.scheme(), control.topology(), request);
+    return bake_by_rows(patterns, mesh, control, request, options);
+  }
   throw InvalidParameter(patterns.scheme().name + ": such a table cannot be made by " + name(request.method));
 }
 
@@ -92,7 +125,38 @@ Baked bake(Patterns& patterns, const ControlMesh& mesh, const BakeRequest& reque
   s.groups = static_cast<Index>(arrays.groups.size());
   s.points = baked.table.table.num_points();
   s.bytes = baked.table.table.num_bytes();
+  s.weights = std::int64_t(arrays.weights.size()) + (arrays.first ? std::ssize(arrays.first->weights().span()) : 0) +
+              (arrays.rest ? std::ssize(arrays.rest->weights().span()) : 0);
   return baked;
+}
+
+BakePlan bake_plan(Patterns& patterns, const ControlMesh& mesh, const BakeRequest& request,
+                   const SubdivisionOptions& options, double limit) {
+  check(request);
+  // While types are found, a face takes about as much: who is around it, its owners, its place in a group.
+  constexpr double bytes_of_face = 300;
+  check_limit(bytes_of_face * mesh.num_faces(), limit);
+  const Scheme<double>& scheme = patterns.scheme();
+  const Level control = control_level(scheme, mesh, options);
+  const Topology& t = control.topology();
+  const bool by_level = request.rows == TableRows::level || request.rows == TableRows::limit;
+  // Where level 1 has the patterns it is there too.
+  const bool refines =
+      Patterns::is_possible(scheme) && by_level && t.uniform_face_size() != (scheme.face_size() == 3 ? 3 : 4);
+  BakePlan plan;
+  plan.memory = predicted_bytes(scheme, t, refines ? 1 : 0);
+  check_limit(plan.memory, limit);
+  plan.statistics = bake_somehow(patterns, mesh, control, request, options, true).statistics;
+  const BakeStatistics& s = plan.statistics;
+  if (s.method == BakeMethod::rows) {
+    plan.memory = predicted_bytes(scheme, t, by_level ? request.level : 0) + 2.5 * double(s.bytes);
+  } else {
+    plan.memory += bytes_of_face * s.faces;
+    // Rows of types are kept in two forms, then laid one after the other; a table in float stands beside its original.
+    plan.memory += 4.5 * double(sizeof(double)) * double(s.weights) + 0.5 * double(s.bytes);
+  }
+  check_limit(plan.memory, limit);
+  return plan;
 }
 
 Baked bake_level(Patterns& patterns, const ControlMesh& mesh, int levels, const SubdivisionOptions& options) {

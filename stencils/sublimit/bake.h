@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 // From a mesh to a table: of its level k, of that level's limit, of grids or lists of places on the limit.
+#include <limits>
+
 #include "sublimit/baked_table.h"
 #include "sublimit/limit/address.h"
 #include "sublimit/patterns.h"
@@ -36,7 +38,8 @@ struct BakeStatistics {
   Index blocks = 0;                      ///< matrices in the table
   Index groups = 0;                      ///< of patches that make the same rows of the same block
   std::int64_t points = 0;
-  std::int64_t bytes = 0;  ///< of the table
+  std::int64_t weights = 0;
+  std::int64_t bytes = 0;  ///< of the table in double; one in float takes 4 less a weight
 };
 
 /// A table with what its making told.
@@ -62,6 +65,19 @@ struct Baked {
 ///        for these, and for all with a fresh dictionary, the same request gives the same bits.
 Baked bake(Patterns& patterns, const ControlMesh& mesh, const BakeRequest& request,
            const SubdivisionOptions& options = {});
+
+/// What a bake will make and take, found out at the cost of a look at every face.
+struct BakePlan {
+  /// Counted, but for tables by rows: their weights and bytes are estimated.
+  BakeStatistics statistics;
+  double memory = 0;  ///< bytes that the bake takes at once, about, besides the mesh as it is given
+};
+
+/// Weights and the table are not made.
+/// @param limit  bytes of memory
+/// @throws ResourceError  the bake takes more than `limit`, thrown as soon as it is known; and what `bake` throws
+BakePlan bake_plan(Patterns& patterns, const ControlMesh& mesh, const BakeRequest& request,
+                   const SubdivisionOptions& options = {}, double limit = std::numeric_limits<double>::infinity());
 
 /// Level k, from 1 to 11.
 Baked bake_level(Patterns& patterns, const ControlMesh& mesh, int levels, const SubdivisionOptions& options = {});

@@ -157,9 +157,44 @@ std::vector<std::int32_t> all_columns(const PieceMatches& pieces, const Groups& 
   return columns;
 }
 
+/// What groups take, without making them.
+/// @param rows    points of a block
+/// @param length  rows of a share
+template <class Length>
+void count(const Blocks& blocks, const Groups& groups, double rows, const Length& length, BakeStatistics& s) {
+  std::int64_t chosen = 0, columns = 0;
+  for (const Groups::Group& group : groups.groups) {
+    const std::int64_t own = length(group.share);
+    if (own == 0) continue;
+    columns += std::ssize(group.pieces) * blocks.keys()[group.block].pattern->num_slots;
+    s.points += std::ssize(group.pieces) * own;
+    chosen += own;
+    ++s.groups;
+  }
+  s.types = blocks.num_types();
+  s.blocks = blocks.count();
+  s.weights = static_cast<std::int64_t>(blocks.num_bytes(rows)) / std::int64_t(sizeof(double));
+  s.bytes = std::int64_t(sizeof(double)) * s.weights + 4 * (chosen + columns) +
+            std::int64_t(sizeof(PatternTable<double>::Block)) * s.blocks +
+            std::int64_t(sizeof(PatternTable<double>::Group)) * s.groups;
+}
+
+/// Those that have a block of their own.
+void count_isolated(const Topology& t, int quantities, BakeStatistics& s) {
+  std::int64_t alone = 0;
+  for (Index v = 0; v < t.num_vertices(); ++v) alone += t.is_isolated(Vertex{v});
+  if (alone == 0) return;
+  ++s.blocks;
+  ++s.groups;
+  s.points += alone;
+  s.weights += quantities;
+  s.bytes += std::int64_t(sizeof(double)) * quantities + 4 * (1 + alone) +
+             std::int64_t(sizeof(PatternTable<double>::Block) + sizeof(PatternTable<double>::Group));
+}
+
 /// Vertices of level k, or their limits: points are shared between faces.
 std::optional<Baked> bake_lattices(Patterns& patterns, const Level& control, const BakeRequest& request,
-                                   bool first_by_rows, double most_bytes) {
+                                   bool first_by_rows, double most_bytes, bool only_count) {
   const Scheme<double>& scheme = patterns.scheme();
   if (!Patterns::is_possible(scheme)) return std::nullopt;
   const Index sides = scheme.face_size() == 3 ? 3 : 4;
@@ -199,6 +234,24 @@ std::optional<Baked> bake_lattices(Patterns& patterns, const Level& control, con
   if (bytes > most_bytes) return std::nullopt;
   check_memory(std::to_string(blocks.keys().size()) + " blocks of level " + std::to_string(request.level), 4 * bytes,
                "use fewer levels");
+  // Groups, and the points that faces have.
+  FaceLattices::Arrays lattices = face_owners(t, lattice, turn);
+  std::vector<std::uint8_t> share(t.num_faces());
+  parallel_for(t.num_faces(), [&](std::int64_t f) { share[f] = FaceLattices::share(lattices, static_cast<Index>(f)); });
+  Groups groups(pieces, block_of, share);
+  if (only_count) {
+    BakeStatistics& s = baked.statistics;
+    count(
+        blocks, groups, double(arrays.quantities) * lattice.size(),
+        [&](std::uint8_t own) { return std::ssize(FaceLattices::rows(lattice, own)); }, s);
+    s.faces = t.num_faces();
+    count_isolated(t, arrays.quantities, s);
+    if (arrays.first) {
+      s.weights += std::int64_t(arrays.first->weights().size());
+      s.bytes += arrays.first->num_bytes();
+    }
+    return baked;
+  }
   const bool has_status = limit && request.derivatives > 0;
   std::vector<const std::vector<std::uint8_t>*> status(blocks.keys().size(), nullptr);
   const bool made = blocks.fill(arrays, lattice.size(), [&](Index b) -> const RowMatrix* {
@@ -215,11 +268,7 @@ std::optional<Baked> bake_lattices(Patterns& patterns, const Level& control, con
   });
   if (!made) return std::nullopt;
 
-  // Groups, and the points that faces have. Isolated vertices stay where they are.
-  FaceLattices::Arrays lattices = face_owners(t, lattice, turn);
-  std::vector<std::uint8_t> share(t.num_faces());
-  parallel_for(t.num_faces(), [&](std::int64_t f) { share[f] = FaceLattices::share(lattices, static_cast<Index>(f)); });
-  Groups groups(pieces, block_of, share);
+  // Isolated vertices stay where they are.
   std::vector<std::int32_t> rows;
   std::vector<std::uint8_t> row_status;
   std::vector<std::int64_t> first_points(t.num_faces());
@@ -277,8 +326,8 @@ std::optional<Baked> bake_lattices(Patterns& patterns, const Level& control, con
 }
 
 /// The same places on every address: each has all of its points, and positions on sides are copied.
-std::optional<Baked> bake_grids(Patterns& patterns, const Level& control, const BakeRequest& request,
-                                double most_bytes) {
+std::optional<Baked> bake_grids(Patterns& patterns, const Level& control, const BakeRequest& request, double most_bytes,
+                                bool only_count) {
   const Scheme<double>& scheme = patterns.scheme();
   const Topology& t = control.topology();
   if (scheme.is_dual() || (!scheme.preparation.empty() && t.uniform_face_size() != scheme.corners)) return std::nullopt;
@@ -306,6 +355,15 @@ std::optional<Baked> bake_grids(Patterns& patterns, const Level& control, const 
   if (bytes > most_bytes) return std::nullopt;
   check_memory(std::to_string(blocks.keys().size()) + " blocks of " + std::to_string(lattice.size()) + " places",
                4 * bytes, "use fewer places");
+  const Groups groups(pieces, block_of, is_hole);
+  if (only_count) {
+    BakeStatistics& s = baked.statistics;
+    count(
+        blocks, groups, double(arrays.quantities) * lattice.size(), [&](std::uint8_t) { return lattice.size(); }, s);
+    s.faces = addresses.size();
+    s.bytes += 8 * (std::int64_t(pieces.count()) + std::ssize(shared_grid_places(t, addresses, request.grid)));
+    return baked;
+  }
   const auto limit_block = [&](Index b) {
     const auto& [pattern, place] = blocks.keys()[b];
     const Index a = blocks.piece(b);
@@ -318,7 +376,6 @@ std::optional<Baked> bake_grids(Patterns& patterns, const Level& control, const 
   });
   if (!made) return std::nullopt;
 
-  const Groups groups(pieces, block_of, is_hole);
   std::vector<std::int32_t> rows;
   std::vector<std::uint8_t> row_status;
   std::vector<std::int64_t> patch_points;
@@ -350,12 +407,12 @@ std::optional<Baked> bake_grids(Patterns& patterns, const Level& control, const 
 }  // namespace
 
 std::optional<Baked> bake_by_patterns(Patterns& patterns, const Level& control, const BakeRequest& request,
-                                      bool first_by_rows, double most_bytes) {
+                                      bool first_by_rows, double most_bytes, bool only_count) {
   std::optional<Baked> baked;
   if (request.rows == TableRows::level || request.rows == TableRows::limit)
-    baked = bake_lattices(patterns, control, request, first_by_rows, most_bytes);
+    baked = bake_lattices(patterns, control, request, first_by_rows, most_bytes, only_count);
   else if (request.rows == TableRows::grid && !first_by_rows)
-    baked = bake_grids(patterns, control, request, most_bytes);
+    baked = bake_grids(patterns, control, request, most_bytes, only_count);
   if (baked) baked->statistics.method = first_by_rows ? BakeMethod::rows_then_patterns : BakeMethod::patterns;
   return baked;
 }
