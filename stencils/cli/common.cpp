@@ -132,6 +132,7 @@ Loaded load(const Common& common, Progress& progress) {
     options["triangles"] = "smooth";  // a tag of the file is for schemes that know it
     loaded.scheme = scheme_or_throw(common.scheme, options);
   }
+  loaded.options = std::move(options);
   loaded.rules.boundary = meaning<Boundary>(
       common.boundary,
       {{"none", Boundary::none}, {"edge-only", Boundary::edge_only}, {"edge-and-corner", Boundary::edge_and_corner}});
@@ -223,7 +224,8 @@ void check_output_path(const std::string& path, const std::vector<std::string>& 
   if (std::filesystem::exists(path, ignored) && ::access(path.c_str(), W_OK) != 0)
     throw IoError("cannot write " + path + ": the file that is there is not writable");
   const std::lock_guard lock(directories_mutex);
-  directories.push_back(directory.empty() ? "." : directory.string());
+  const std::string name = directory.empty() ? "." : directory.string();
+  if (std::find(directories.begin(), directories.end(), name) == directories.end()) directories.push_back(name);
 }
 
 void check_disk(const std::string& what, const std::string& path, double bytes, const std::string& advice) {

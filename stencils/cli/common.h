@@ -32,6 +32,7 @@ struct Common {
 struct Loaded {
   ControlMesh mesh;
   std::optional<Scheme<double>> scheme;
+  SchemeOptions options;  ///< of the scheme, those that tags of the mesh ask for among them
   SubdivisionOptions rules;
   FaceVaryingInterpolation face_varying = FaceVaryingInterpolation::all;
 };
@@ -114,6 +115,8 @@ Command add_info(CLI::App& app);
 Command add_refine(CLI::App& app);
 Command add_limit(CLI::App& app);
 Command add_sample(CLI::App& app);
+Command add_bake(CLI::App& app);
+Command add_verify(CLI::App& app);
 Command add_demo(CLI::App& app);
 
 }  // namespace sublimit::cli

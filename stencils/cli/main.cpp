@@ -88,14 +88,14 @@ int main(int argc, char** argv) {
       "  sublimit refine cage.obj -s catmull-clark -l 2 -o refined.obj\n"
       "  sublimit limit cage.obj -s catmull-clark -l 3 --normals -o surface.ply\n"
       "  sublimit sample cage.obj -s catmull-clark --random 1000 --derivatives 2 -o points.csv\n"
-      "Exit status: 0 done; 2 bad command line; 3 bad input or unwritable output; 4 too little memory or disk;\n"
-      "70 a fault of ours; 130 interrupted.");
-  std::vector<std::pair<std::string, cli::Command>> commands{{"schemes", cli::add_schemes(app)},
-                                                             {"info", cli::add_info(app)},
-                                                             {"refine", cli::add_refine(app)},
-                                                             {"limit", cli::add_limit(app)},
-                                                             {"sample", cli::add_sample(app)},
-                                                             {"demo", cli::add_demo(app)}};
+      "  sublimit bake cage.obj -s catmull-clark -l 3 -o level3.safetensors\n"
+      "Exit status: 0 done; 1 the verdict is no (verify); 2 bad command line; 3 bad input or unwritable output; 4 too "
+      "little\n"
+      "memory or disk; 70 a fault of ours; 130 interrupted.");
+  std::vector<std::pair<std::string, cli::Command>> commands{
+      {"schemes", cli::add_schemes(app)}, {"info", cli::add_info(app)},     {"refine", cli::add_refine(app)},
+      {"limit", cli::add_limit(app)},     {"sample", cli::add_sample(app)}, {"bake", cli::add_bake(app)},
+      {"verify", cli::add_verify(app)},   {"demo", cli::add_demo(app)}};
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -106,7 +106,8 @@ int main(int argc, char** argv) {
       const int status = guarded(command);
       std::fflush(stdout);
       if (interrupted) _exit(130);
-      _exit(status == 0 && std::ferror(stdout) ? 3 : status);  // the thread that waits for interrupts has nothing to finish
+      _exit(status == 0 && std::ferror(stdout) ? 3
+                                               : status);  // the thread that waits for interrupts has nothing to finish
     }
   return 2;
 }

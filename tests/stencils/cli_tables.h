@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// A mesh in a directory, and the program making tables of it.
+#include "stencils/cli_program.h"
+#include "sublimit/mesh/obj.h"
+#include "sublimit/mesh/read_mesh.h"
+#include "support/meshes.h"
+
+namespace sublimit::testing {
+
+class Tables {
+ public:
+  explicit Tables(const ControlMesh& control) { write_obj(mesh, output(control)); }
+  std::string path(std::string_view name) const { return (directory / name).string(); }
+
+  Outcome bake(const std::vector<std::string>& arguments, const std::string& scheme = "catmull-clark",
+               const std::function<void()>& prepare = {}) const {
+    std::vector<std::string> all{"bake", mesh, "-s", scheme, "-o", table};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    return sublimit(all, prepare);
+  }
+  Outcome apply(const std::string& points, const std::string& out,
+                const std::vector<std::string>& arguments = {}) const {
+    std::vector<std::string> all{"apply", table, points, "-o", out};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    return sublimit(all);
+  }
+
+  TemporaryDirectory directory;
+  const std::string mesh = (directory / "mesh.obj").string(), table = (directory / "table.safetensors").string();
+};
+
+/// A jittered cube with an infinite and a semi-sharp crease.
+inline ControlMesh creased_cube() {
+  ControlMesh mesh = jittered(cube());
+  mesh.creases = {{0, 1, 10}, {1, 3, 10}, {4, 5, 1.5f}};
+  return mesh;
+}
+
+}  // namespace sublimit::testing
