@@ -7,6 +7,7 @@
 #include "common.h"
 #include "sublimit/base/atomic_file.h"
 #include "sublimit/base/error.h"
+#include "sublimit/bake.h"
 #include "sublimit/demo_mesh.h"
 #include "sublimit/limit/limit_surface.h"
 #include "sublimit/random_samples.h"
@@ -14,6 +15,8 @@
 #include "sublimit/report/picture_mesh.h"
 #include "sublimit/sample_files.h"
 #include "sublimit/sparse_product.h"
+#include "sublimit/table_file.h"
+#include "sublimit/table_info.h"
 
 namespace sublimit::cli {
 namespace {
@@ -58,9 +61,9 @@ int run(const Options& options) {
   write_mesh(path("limit.obj"), surface);
   const LimitSurface anywhere(scheme, mesh);
   RandomSamples places(anywhere.addresses(), 1000, 0);
-  const SampleSummary samples = write_samples(
-      path("samples.csv"), anywhere, mesh.positions,
-      [&](std::vector<Sample>& batch, size_t most) { places.read(batch, most); }, {.derivatives = 2});
+  const SampleSummary samples =
+      write_samples(path("samples.csv"), anywhere, mesh.positions,
+                    [&](std::vector<Sample>& batch, size_t most) { places.read(batch, most); }, {.derivatives = 2});
   const std::string svg = svg_picture(
       {{{control_picture(levels[0], points[0])}, "control mesh", fmt::format("{} points", points[0].rows())},
        {{wire_picture(levels[1], points[1])},
@@ -70,6 +73,13 @@ int run(const Options& options) {
   AtomicFile picture(path("picture.svg"));
   picture.write(svg);
   picture.commit();
+  // The same level 2 from a table, which needs the points of the mesh and nothing else.
+  Patterns patterns(scheme);
+  Baked baked = bake_level(patterns, mesh, 2);
+  std::vector<std::string> statuses = std::move(baked.table.info.statuses);
+  baked.table.info = table_info(scheme, {}, mesh, {.level = 2});
+  baked.table.info.statuses = std::move(statuses);
+  save_table(path("level2.safetensors"), in_float(baked.table));
   progress.step("");
   if (options.common.quiet) return 0;
 
@@ -88,7 +98,9 @@ int run(const Options& options) {
   fmt::print("Anywhere on the surface: {} random places with their derivatives ({}).\n", samples.num_samples,
              samples.text());
   fmt::print("Files: {}, refined.obj (level 2, with the tags that are left),\n", path("control.obj"));
-  fmt::print("  limit.obj (points and normals on the surface), samples.csv, and the picture of all three meshes:\n");
+  fmt::print(
+      "  limit.obj (points and normals on the surface), samples.csv, level2.safetensors, and the picture of all three "
+      "meshes:\n");
   fmt::print("  {}\n", std::filesystem::absolute(directory / "picture.svg").string());
   return 0;
 }

@@ -325,7 +325,7 @@ TEST(CliDemo, WritesItsFilesAndElevenLines) {
   const Outcome outcome = expect_done(sublimit({"demo", demo.string()}));
   EXPECT_EQ(count_of(outcome.out, "\n"), 11u) << outcome.out;
   expect_parts(outcome.out, {"control.obj", "refined.obj", "limit.obj", "samples.csv", "picture.svg"});
-  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(demo), std::filesystem::directory_iterator()), 5);
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(demo), std::filesystem::directory_iterator()), 6);
   EXPECT_EQ(count_of(read_file(demo / "samples.csv"), "\n"), 1001u);
   EXPECT_GT(read_mesh(demo / "refined.obj").num_vertices(), 4 * read_mesh(demo / "control.obj").num_vertices());
   EXPECT_GT(lines(demo / "limit.obj", "vn").size(), lines(demo / "limit.obj", "v").size());
