@@ -153,7 +153,7 @@ BakePlan bake_plan(Patterns& patterns, const ControlMesh& mesh, const BakeReques
   } else {
     plan.memory += bytes_of_face * s.faces;
     // Rows of types are kept in two forms, then laid one after the other; a table in float stands beside its original.
-    plan.memory += 4.5 * double(sizeof(double)) * double(s.weights) + 0.5 * double(s.bytes);
+    plan.memory += 4.5 * double(sizeof(double)) * double(s.weights) + double(s.bytes);
   }
   check_limit(plan.memory, limit);
   return plan;
