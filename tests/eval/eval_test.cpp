@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <fstream>
+#include <iterator>
 #include <new>
 #include <string>
 #include <thread>
@@ -11,6 +13,8 @@
 #include "sublimit/baked_table.h"
 #include "sublimit/base/error.h"
 #include "sublimit/eval_handle.h"
+#include "sublimit/table_file.h"
+#include "support/temporary_directory.h"
 
 extern "C" {
 const char* check_rows();
@@ -92,6 +96,42 @@ TEST(EvalInC, TellsWhatATableIs) {
   EXPECT_STREQ(sublimit_last_error(), "corners has room for 3 numbers; 4 are needed");
   EXPECT_EQ(sublimit_topology_hash(4, sizes.data(), 1, vertices.data(), 4), topology_hash(4, sizes, vertices));
   sublimit_table_free(table);
+}
+
+TEST(EvalInC, LoadsFilesAndBytes) {
+  BakedTable<double> baked;
+  PatternTable<double>::Arrays arrays;
+  arrays.rest.emplace(2, std::vector<std::int64_t>{0, 2}, std::vector<std::int32_t>{0, 1},
+                      std::vector<double>{0.5, 0.5});
+  baked.table = PatternTable<double>(2, std::move(arrays));
+  baked.info.scheme = "catmull-clark";
+  const TemporaryDirectory directory;
+  const std::string path = (directory.path() / "table.safetensors").string();
+  save_table(path, baked);
+  std::ifstream file(path, std::ios::binary);
+  const std::string bytes((std::istreambuf_iterator<char>(file)), {});
+  for (const bool from_memory : {false, true})
+    for (const std::uint32_t flags : {0, SUBLIMIT_CHECKSUMS | SUBLIMIT_REPRODUCIBLE}) {
+      sublimit_table* table = nullptr;
+      ASSERT_EQ(from_memory ? sublimit_table_load_memory(bytes.data(), bytes.size(), flags, &table)
+                            : sublimit_table_load(path.c_str(), flags, &table),
+                SUBLIMIT_OK)
+          << sublimit_last_error();
+      EXPECT_EQ(sublimit_table_precision(table), SUBLIMIT_DOUBLE);
+      EXPECT_STREQ(sublimit_table_scheme(table), "catmull-clark");
+      const std::array<double, 2> points{2, 6};
+      double made = 0;
+      EXPECT_EQ(sublimit_apply_d(table, points.data(), 2, 1, &made, 1), SUBLIMIT_OK);
+      EXPECT_EQ(made, 4);
+      sublimit_table_free(table);
+    }
+  sublimit_table* none = nullptr;
+  EXPECT_EQ(sublimit_table_load("no such file", 0, &none), SUBLIMIT_IO_ERROR);
+  EXPECT_EQ(sublimit_table_load(nullptr, 0, &none), SUBLIMIT_INVALID_PARAMETER);
+  EXPECT_EQ(sublimit_table_load(path.c_str(), 0, nullptr), SUBLIMIT_INVALID_PARAMETER);
+  EXPECT_EQ(sublimit_table_load_memory(nullptr, 8, 0, &none), SUBLIMIT_INVALID_PARAMETER);
+  EXPECT_EQ(sublimit_table_load_memory(bytes.data(), bytes.size() / 2, 0, &none), SUBLIMIT_FORMAT_ERROR);
+  EXPECT_EQ(none, nullptr);
 }
 
 }  // namespace
