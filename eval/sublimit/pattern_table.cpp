@@ -15,6 +15,9 @@ namespace {
 
 [[noreturn]] void fail(const std::string& what) { throw InvalidParameter("pattern table: " + what); }
 
+/// So that products with quantities are numbers too.
+constexpr std::int64_t most_points = std::numeric_limits<std::int64_t>::max() / 8;
+
 /// a * b, both not negative, or the largest number.
 std::int64_t product(std::int64_t a, std::int64_t b) {
   constexpr std::int64_t largest = std::numeric_limits<std::int64_t>::max();
@@ -67,10 +70,11 @@ PatternTable<Real>::PatternTable(std::int32_t num_control_points, Arrays arrays)
     const Block& block = a.blocks[group.block];
     check_range("rows", group.rows, group.num_rows, a.rows.size());
     check_numbers("row", a.rows.span().subspan(group.rows, group.num_rows), block.rows);
+    if (group.num_patches < 0) fail("a group of " + std::to_string(group.num_patches) + " patches");
     const std::int64_t columns = product(group.num_patches, block.columns),
                        points = product(group.num_patches, group.num_rows);
     check_range("columns", at.columns, columns, a.columns.size());
-    if (group.num_patches < 0 || points > std::numeric_limits<std::int64_t>::max() - at.point) fail("too many patches");
+    if (points > most_points - at.point || group.num_patches > most_points - at.patch) fail("too many patches");
     at.patch += group.num_patches;
     at.columns += columns;
     at.point += points;

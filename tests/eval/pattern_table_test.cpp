@@ -68,7 +68,15 @@ TEST(PatternTable, RefusesArraysThatDoNotFit) {
   expect_refused([](Arrays& a) { a.rows = {2, 0, 0}; }, {"row 2", "there are 2"});
   expect_refused([](Arrays& a) { a.groups[1].rows = 3; }, {"rows from 3", "there are 3"});
   expect_refused([](Arrays& a) { a.groups[1].block = 2; }, {"block 2", "there are 2"});
-  expect_refused([](Arrays& a) { a.groups[0].num_patches = -1; }, {"columns"});
+  const std::int64_t least = std::numeric_limits<std::int64_t>::min();
+  expect_refused([](Arrays& a) { a.groups[0].num_patches = -1; }, {"a group of -1 patches"});
+  expect_refused([=](Arrays& a) { a.groups[0].num_patches = least; }, {"a group of -9223372036854775808 patches"});
+  expect_refused(
+      [](Arrays& a) {
+        a.blocks[0] = {2, 0, 0};
+        a.groups[0].num_patches = std::numeric_limits<std::int64_t>::max();
+      },
+      {"too many patches"});
   expect_refused([](Arrays& a) { a.groups[0].num_patches = std::numeric_limits<std::int64_t>::max(); }, {"columns"});
   expect_refused([](Arrays& a) { a.groups[0].num_rows = -1; }, {"rows"});
   expect_refused([](Arrays& a) { a.blocks[0].columns = 1 << 30; }, {"weights"});

@@ -225,6 +225,7 @@ TEST_F(ChangedFile, IsRefusedForItsArrays) {
   };
   const std::int64_t huge = std::numeric_limits<std::int64_t>::max();
   expect("groups", 3, huge, {"'groups' has 9223372036854775807 patches"});
+  expect("groups", 3, -huge, {"a group of -9223372036854775807 patches"});
   expect("groups", 1, huge, {"'groups' has the number 9223372036854775807"});
   expect("groups", 0, std::int64_t{-1}, {"'groups' has the number -1"});
   expect("groups", 2, huge, {"rows from 9223372036854775807"});
@@ -274,6 +275,15 @@ TEST(TableFile, IsNotThereWhenTheDiskIsFull) {
   ::setrlimit(RLIMIT_FSIZE, &limit);
   std::signal(SIGXFSZ, handler);
   EXPECT_EQ(directory.num_files(), 0);
+}
+
+TEST(TableFile, SeedsOfTheFuzzerAreTables) {
+  int count = 0;
+  for (const auto& seed : std::filesystem::directory_iterator(SUBLIMIT_SOURCE "/tests/fuzz/corpus/table")) {
+    EXPECT_NO_THROW(load_table(seed.path())) << seed.path();
+    ++count;
+  }
+  EXPECT_GE(count, 9);
 }
 
 TEST(TableFile, IsNamedWhenItCannotBeRead) {
