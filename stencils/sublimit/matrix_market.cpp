@@ -7,29 +7,52 @@
 #include "sublimit/base/format_number.h"
 
 namespace sublimit {
+namespace {
 
-void write_matrix_market(const std::filesystem::path& path, const SparseMatrix& matrix) {
+/// @param for_each_in_row  (row, body): calls body(column, weight) for the entries of a row
+template <class ForEachInRow>
+void write(const std::filesystem::path& path, std::int64_t rows, std::int64_t columns, std::int64_t entries,
+           const ForEachInRow& for_each_in_row) {
   AtomicFile file(path);
   std::string line = "%%MatrixMarket matrix coordinate real general\n";
-  for (const auto number :
-       {std::int64_t(matrix.rows()), std::int64_t(matrix.cols()), std::int64_t(matrix.nonZeros())}) {
+  for (const std::int64_t number : {rows, columns, entries}) {
     append_number(line, number);
     line += ' ';
   }
   line.back() = '\n';
   file.write(line);
-  for (Index r = 0; r < matrix.rows(); ++r)
-    for (SparseMatrix::InnerIterator it(matrix, r); it; ++it) {
+  for (std::int64_t r = 0; r < rows; ++r)
+    for_each_in_row(r, [&](std::int64_t column, auto weight) {
       line.clear();
       append_number(line, r + 1);
       line += ' ';
-      append_number(line, it.col() + 1);
+      append_number(line, column + 1);
       line += ' ';
-      append_number(line, it.value());
+      append_number(line, weight);
       line += '\n';
       file.write(line);
-    }
+    });
   file.commit();
 }
+
+}  // namespace
+
+void write_matrix_market(const std::filesystem::path& path, const SparseMatrix& matrix) {
+  write(path, matrix.rows(), matrix.cols(), matrix.nonZeros(), [&](std::int64_t r, const auto& body) {
+    for (SparseMatrix::InnerIterator it(matrix, static_cast<Index>(r)); it; ++it) body(it.col(), it.value());
+  });
+}
+
+template <class Real>
+void write_matrix_market(const std::filesystem::path& path, const StencilTable<Real>& table) {
+  write(path, table.num_rows(), table.num_control_points(), std::int64_t(table.columns().size()),
+        [&](std::int64_t r, const auto& body) {
+          for (std::int64_t at = table.offsets()[r]; at < table.offsets()[r + 1]; ++at)
+            body(table.columns()[at], table.weights()[at]);
+        });
+}
+
+template void write_matrix_market(const std::filesystem::path&, const StencilTable<float>&);
+template void write_matrix_market(const std::filesystem::path&, const StencilTable<double>&);
 
 }  // namespace sublimit
