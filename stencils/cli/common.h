@@ -116,7 +116,9 @@ Command add_refine(CLI::App& app);
 Command add_limit(CLI::App& app);
 Command add_sample(CLI::App& app);
 Command add_bake(CLI::App& app);
+Command add_apply(CLI::App& app);
 Command add_verify(CLI::App& app);
+Command add_export(CLI::App& app);
 Command add_demo(CLI::App& app);
 
 }  // namespace sublimit::cli

@@ -89,13 +89,15 @@ int main(int argc, char** argv) {
       "  sublimit limit cage.obj -s catmull-clark -l 3 --normals -o surface.ply\n"
       "  sublimit sample cage.obj -s catmull-clark --random 1000 --derivatives 2 -o points.csv\n"
       "  sublimit bake cage.obj -s catmull-clark -l 3 -o level3.safetensors\n"
+      "  sublimit apply level3.safetensors animation.npy -o refined.npy\n"
       "Exit status: 0 done; 1 the verdict is no (verify); 2 bad command line; 3 bad input or unwritable output; 4 too "
       "little\n"
       "memory or disk; 70 a fault of ours; 130 interrupted.");
   std::vector<std::pair<std::string, cli::Command>> commands{
       {"schemes", cli::add_schemes(app)}, {"info", cli::add_info(app)},     {"refine", cli::add_refine(app)},
       {"limit", cli::add_limit(app)},     {"sample", cli::add_sample(app)}, {"bake", cli::add_bake(app)},
-      {"verify", cli::add_verify(app)},   {"demo", cli::add_demo(app)}};
+      {"apply", cli::add_apply(app)},     {"verify", cli::add_verify(app)}, {"export", cli::add_export(app)},
+      {"demo", cli::add_demo(app)}};
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/core.h>
+
+#include <chrono>
+
+#include "common.h"
+#include "sublimit/applied_points.h"
+#include "sublimit/base/error.h"
+#include "sublimit/base/memory.h"
+#include "sublimit/frames.h"
+#include "sublimit/mesh/prepare.h"
+#include "sublimit/npy.h"
+#include "sublimit/pattern_evaluator.h"
+#include "sublimit/table_file.h"
+#include "sublimit/table_info.h"
+
+namespace sublimit::cli {
+namespace {
+
+struct Options {
+  Common common;
+  std::string table, points, output;
+  bool any_cage = false;
+};
+
+bool ends_in(const std::string& path, const char* extension) {
+  std::string own = std::filesystem::path(path).extension().string();
+  for (char& c : own) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return own == extension;
+}
+
+std::string cage_of(const TableInfo& info, std::int64_t points) {
+  return fmt::format("{} of a cage of {} points", info.scheme.empty() ? "a table" : info.scheme + " table", points);
+}
+
+/// That the points are those of the table's cage, as far as the file tells.
+void check_cage(const Options& options, const TableInfo& info, std::int64_t points, const FrameReader& frames) {
+  if (frames.num_points() != points)
+    throw InvalidMesh(fmt::format("{}: {} points, and {} is a {}; give the points of that cage, in its order",
+                                  options.points, frames.num_points(), options.table, cage_of(info, points)));
+  if (options.any_cage || !frames.mesh() || info.topology_hash == 0) return;
+  const ControlMesh& mesh = *frames.mesh();
+  if (mesh.num_faces() == 0) return;  // points alone
+  // What was baked may have been cut into triangles first.
+  if (topology_hash(mesh) != info.topology_hash && topology_hash(triangulated(mesh)) != info.topology_hash)
+    throw InvalidMesh(
+        fmt::format("{}: its faces are others than those of the cage that {} was baked from ({}); bake a table of this "
+                    "mesh, or, if its points are the same in the same order, give --any-cage",
+                    options.points, options.table, cage_of(info, points)));
+}
+
+/// The one frame of a mesh or CSV.
+void check_one_frame(const Options& options, const FrameReader& frames) {
+  if (frames.num_frames() != 1)
+    throw InvalidOption(fmt::format("{} holds {} frames and {} one; write an .npy", options.points, frames.num_frames(),
+                                    options.output));
+}
+
+template <class Real>
+void write_one(const Options& options, const BakedTable<Real>& table, const FrameReader& frames,
+               std::span<const Real> values) {
+  const AppliedPoints applied(table);
+  if (ends_in(options.output, ".csv")) {
+    applied.write_csv(options.output, frames.columns(), values);
+    return;
+  }
+  MeshOutput mesh = applied.mesh(faces_of(table), values);
+  if (mesh.normals.rows() > 0 && ends_in(options.output, ".obj"))  // which leaves out those that do not exist
+    for (const Index v : mesh.face_vertices) mesh.face_normals.push_back(mesh.normals.row(v).isZero(0) ? -1 : v);
+  write_mesh(options.output, mesh);
+}
+
+/// Frames x quantities x points x channels, dimensions of one frame and of one quantity left out.
+std::vector<std::int64_t> shape_of(const FrameReader& frames, int quantities, std::int64_t points) {
+  std::vector<std::int64_t> shape;
+  if (frames.has_frames()) shape.push_back(frames.num_frames());
+  if (quantities > 1) shape.push_back(quantities);
+  shape.push_back(points);
+  shape.push_back(frames.num_channels());
+  return shape;
+}
+
+template <class Real>
+std::int64_t apply_table(const Options& options, const BakedTable<Real>& table, Progress& progress) {
+  FrameReader frames(options.points);
+  const PatternTable<Real>& t = table.table;
+  check_cage(options, table.info, t.num_control_points(), frames);
+  const bool to_array = ends_in(options.output, ".npy");
+  if (!to_array) check_one_frame(options, frames);
+  if (!to_array && !ends_in(options.output, ".csv") && frames.num_channels() != 3)
+    throw InvalidOption(fmt::format("{} has {} channels and a mesh has x, y, z; write an .npy or .csv", options.points,
+                                    frames.num_channels()));
+  const double numbers = double(t.quantities()) * double(t.num_points()) * frames.num_channels();
+  check_memory(fmt::format("{} points of {} channels", t.num_points(), frames.num_channels()), numbers * sizeof(Real),
+               "use a table of fewer points");
+  check_disk(fmt::format("{} frames", frames.num_frames()), options.output,
+             numbers * double(frames.num_frames()) * (to_array ? sizeof(Real) : 8), "use fewer frames");
+  progress.step("preparing " + options.table);
+  const PatternEvaluator<Real> evaluator(t);
+  std::unique_ptr<NpyWriter> array;
+  if (to_array)
+    array =
+        std::make_unique<NpyWriter>(options.output, dtype_of<Real>(), shape_of(frames, t.quantities(), t.num_points()));
+  std::vector<double> read(size_t(frames.num_points()) * size_t(frames.num_channels()));
+  std::vector<Real> points(read.size()), values(static_cast<size_t>(numbers));
+  for (std::int64_t frame = 0; frame < frames.num_frames(); ++frame) {
+    progress.note(fmt::format("applying: frame {} of {}", frame + 1, frames.num_frames()));
+    frames.next(read);
+    std::copy(read.begin(), read.end(), points.begin());
+    evaluator.apply(points, frames.num_channels(), values);
+    if (array) array->write<Real>(values);
+  }
+  progress.step("writing " + options.output);
+  if (array)
+    array->commit();
+  else
+    write_one<Real>(options, table, frames, values);
+  return frames.num_frames();
+}
+
+int run(const Options& options) {
+  check_output_path(options.output, {".obj", ".ply", ".npy", ".csv"});
+  limit_threads(options.common);
+  Progress progress(options.common.quiet);
+  progress.step("reading " + options.table);
+  const auto start = std::chrono::steady_clock::now();
+  const AnyTable table = load_table(options.table);
+  const std::int64_t frames =
+      std::visit([&](const auto& found) { return apply_table(options, found, progress); }, table);
+  progress.step("");
+  if (options.common.quiet) return 0;
+  const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
+  const auto [points, quantities] = std::visit(
+      [](const auto& found) { return std::pair(found.table.num_points(), found.table.quantities()); }, table);
+  fmt::print("{}: {} points{}{}; {:.3f} s\n", options.output, points,
+             quantities == 1   ? ""
+             : quantities == 3 ? " with first derivatives"
+                               : " with first and second derivatives",
+             frames == 1 ? "" : fmt::format(", {} frames", frames), time.count());
+  return 0;
+}
+
+}  // namespace
+
+Command add_apply(CLI::App& app) {
+  auto* command = app.add_subcommand("apply", "New points from a table and the points of its cage");
+  auto options = std::make_shared<Options>();
+  command->add_option("TABLE", options->table, "What `sublimit bake` made")->required();
+  command
+      ->add_option(
+          "POINTS", options->points,
+          "Points of the cage: the vertices of an .obj, .ply or .off; the lines of a .csv; an .npy of vertices "
+          "x channels or frames x vertices x channels")
+      ->required();
+  command
+      ->add_option("-o,--output", options->output,
+                   "OUT.obj or OUT.ply: a mesh, with normals if the table has derivatives; OUT.csv; OUT.npy")
+      ->required();
+  command->add_flag("--any-cage", options->any_cage, "Take a mesh with other faces than those of the table's cage");
+  add_run(*command, options->common);
+  command->footer(
+      "Examples:\n"
+      "  sublimit apply level3.safetensors cage.obj -o level3.obj\n"
+      "  sublimit apply limit.safetensors pose.csv -o surface.csv\n"
+      "  sublimit apply level3.safetensors animation.npy -o refined.npy\n"
+      "Frames of an .npy are read, applied and written one by one, so that any number of them takes the memory of "
+      "one.\n"
+      "OUT.npy is in the table's precision: [frames x] [quantities x] points x channels; quantities, if there are\n"
+      "derivatives, are position, u, v[, uu, uv, vv]. Columns of OUT.csv: face,u,v and status where the table knows\n"
+      "them, then x,y,z[,xu,...][,nx,ny,nz] as `sample` has them, or the channels' own names. Where creases meet, and "
+      "in\n"
+      "tables by rows, two tangents of the surface stand for first derivatives that do not exist.");
+  return [=] { return run(*options); };
+}
+
+}  // namespace sublimit::cli
