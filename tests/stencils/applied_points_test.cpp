@@ -33,7 +33,8 @@ void expect_at_addresses(const std::string& name, const ControlMesh& mesh, const
     const auto row = static_cast<Eigen::Index>(i);
     for (Eigen::Index k = 0; k < 3; ++k)
       EXPECT_NEAR(values[3 * i + size_t(k)], found.position(row, k), 1e-12) << "point " << i;
-    if (request.derivatives > 0) EXPECT_LT((normals.row(row) - found.normal.row(row)).norm(), 1e-9) << "point " << i;
+    if (request.derivatives == 0) continue;
+    EXPECT_LT((normals.row(row) - found.normal.row(row)).norm(), 1e-9) << "point " << i;
   }
 }
 
