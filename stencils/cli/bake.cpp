@@ -21,7 +21,7 @@ namespace {
 struct Options {
   BakeJob job;
   std::string precision = "float";
-  std::string memory_limit, manifest, shard, log;
+  std::string memory_limit, manifest, shard, log, dictionary;
   /// Those given that say what one table is to be; a manifest has them line by line.
   std::function<std::string()> of_one_table;
 };
@@ -52,7 +52,7 @@ int run_manifest(const Options& options, const BakeJob& defaults) {
     throw InvalidOption(name + " is for one table; with --manifest the lines of " + options.manifest + " say it");
   limit_threads(options.job.common);
   return bake_manifest(options.manifest, options.shard.empty() ? Shard{} : parse_shard(options.shard), options.log,
-                       defaults);
+                       options.dictionary, defaults);
 }
 
 int run(const Options& options) {
@@ -69,10 +69,11 @@ int run(const Options& options) {
   check_mesh_job(job.common, false);
   check(job);
   Progress progress(job.common.quiet);
-  Dictionaries dictionaries;
+  Dictionaries dictionaries(options.dictionary);
   const auto start = std::chrono::steady_clock::now();
   const BakeOutcome outcome = bake_table(job, dictionaries, progress);
   const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
+  if (!job.is_plan) dictionaries.save();
   progress.step("");
   if (job.is_plan) print_plan(job, outcome);
   if (job.is_plan || job.common.quiet) return 0;
@@ -115,11 +116,15 @@ Command add_bake(CLI::App& app) {
   command->add_option("--shard", options->shard, "i/n: only every n-th job of the manifest, from the i-th on");
   command->add_option("--log", options->log,
                       "LOG.jsonl gets a JSON object for each job: status, seconds, peak memory in bytes");
+  command->add_option(
+      "--dictionary", options->dictionary,
+      "FILE that keeps types of neighbourhoods from run to run, made if it is not there; a directory has "
+      "one for each scheme and its options");
   options->of_one_table = [command] {
     for (const CLI::Option* option : command->get_options())
-      if (option->count() > 0 &&
-          std::ranges::none_of(std::array{"--manifest", "--shard", "--log", "--threads", "--quiet", "--mem-limit"},
-                               [&](const char* name) { return option->check_name(name); }))
+      if (option->count() > 0 && std::ranges::none_of(std::array{"--manifest", "--shard", "--log", "--threads",
+                                                                 "--quiet", "--mem-limit", "--dictionary"},
+                                                      [&](const char* name) { return option->check_name(name); }))
         return option->get_name();
     return std::string();
   };
@@ -131,6 +136,7 @@ Command add_bake(CLI::App& app) {
       "  sublimit bake cage.obj -s catmull-clark -l 5 --plan\n"
       "  sublimit apply level3.safetensors frames.npy -o level3.npy\n"
       "  sublimit bake --manifest jobs.jsonl --shard 3/8 --log log.jsonl\n"
+      "  sublimit bake cage.obj -s catmull-clark -l 3 --dictionary types.safetensors -o level3.safetensors\n"
       "A job of a manifest is an object with the keys mesh, scheme, output, one of levels (with limit: true), grid and "
       "at,\n"
       "and, if wanted, derivatives, precision, options: {name: value}, boundary, creasing, triangles, triangulate,\n"

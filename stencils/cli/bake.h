@@ -31,13 +31,24 @@ struct BakeJob {
 /// @throws InvalidOption  options that do not go together
 void check(const BakeJob& job);
 
-/// Types of neighbourhoods by scheme and options, shared between jobs.
+/// Types of neighbourhoods by scheme and options, shared between jobs, and kept from run to run if there is a place.
 class Dictionaries {
  public:
+  /// @param path  a file, or a directory with one for each scheme and its options; empty: nothing is kept
+  explicit Dictionaries(std::string path = "") : path_(std::move(path)) {}
+  /// @throws IoError, FormatError  a file that is there and no dictionary of this scheme
   Patterns& of(const Scheme<double>& scheme, const SchemeOptions& options);
+  /// Writes those that have learned something.
+  void save();
 
  private:
-  std::map<std::pair<std::string, SchemeOptions>, std::unique_ptr<Patterns>> patterns_;
+  struct Entry {
+    std::unique_ptr<Patterns> patterns;
+    std::filesystem::path file;
+    size_t num_saved = 0;  // matrices
+  };
+  std::string path_;
+  std::map<std::pair<std::string, SchemeOptions>, Entry> entries_;
 };
 
 struct BakeOutcome {

@@ -5,6 +5,7 @@
 #include "bake.h"
 #include "sublimit/base/error.h"
 #include "sublimit/base/memory.h"
+#include "sublimit/pattern_file.h"
 #include "sublimit/sample_files.h"
 #include "sublimit/table_file.h"
 #include "sublimit/table_info.h"
@@ -64,9 +65,32 @@ void check(const BakeJob& job) {
 }
 
 Patterns& Dictionaries::of(const Scheme<double>& scheme, const SchemeOptions& options) {
-  std::unique_ptr<Patterns>& patterns = patterns_[{scheme.name, options}];
-  if (!patterns) patterns = std::make_unique<Patterns>(scheme);
-  return *patterns;
+  Entry& entry = entries_[{scheme.name, options}];
+  if (entry.patterns) return *entry.patterns;
+  if (!path_.empty() && entries_.size() > 1 && !std::filesystem::is_directory(path_))
+    throw InvalidOption("--dictionary " + path_ +
+                        ": a file is of one scheme and its options; name a directory, which has "
+                        "one for each");
+  auto patterns = std::make_unique<Patterns>(scheme);
+  if (!path_.empty()) {
+    entry.file = path_;
+    if (std::filesystem::is_directory(path_))
+      entry.file /= fmt::format("{}-{:016x}.safetensors", scheme.name, mask_hash(scheme));
+    if (std::filesystem::exists(entry.file)) load_patterns(entry.file, *patterns);
+    entry.num_saved = patterns->num_matrices();
+  }
+  entry.patterns = std::move(patterns);
+  return *entry.patterns;
+}
+
+void Dictionaries::save() {
+  if (path_.empty()) return;
+  for (auto& [key, entry] : entries_) {
+    if (!entry.patterns || entry.patterns->num_matrices() == entry.num_saved) continue;
+    check_output_path(entry.file.string(), {});
+    save_patterns(entry.file, *entry.patterns);
+    entry.num_saved = entry.patterns->num_matrices();
+  }
 }
 
 BakeOutcome bake_table(const BakeJob& job, Dictionaries& dictionaries, Progress& progress, bool keep) {

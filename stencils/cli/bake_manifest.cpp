@@ -63,6 +63,7 @@ Report done(const BakeJob& job, Dictionaries& dictionaries, Progress& progress) 
     check_mesh_job(job.common, false);
     check(job);
     report.outcome = bake_table(job, dictionaries, progress, true);
+    dictionaries.save();
   } catch (const Error& error) {
     report.status = exit_status(error.code());
     report.error = error.what();
@@ -94,13 +95,14 @@ std::string log_line(const ManifestJob& job, const Report& report) {
 
 }  // namespace
 
-int bake_manifest(const std::string& path, const Shard& shard, const std::string& log_path, const BakeJob& defaults) {
+int bake_manifest(const std::string& path, const Shard& shard, const std::string& log_path,
+                  const std::string& dictionary, const BakeJob& defaults) {
   std::vector<ManifestJob> jobs = read_manifest(path, defaults), own;
   for (size_t i = 0; i < jobs.size(); ++i)
     if (shard.has(i)) own.push_back(std::move(jobs[i]));
   Log log(log_path);
   Progress progress(defaults.common.quiet);
-  Dictionaries dictionaries;
+  Dictionaries dictionaries(dictionary);
   int worst = 0;
   std::array<std::int64_t, 3> counts{};  // done, skipped, failed
   for (const ManifestJob& job : own) {

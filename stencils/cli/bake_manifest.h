@@ -34,7 +34,9 @@ Shard parse_shard(const std::string& text);
 
 /// Does the jobs of a share one after the other; one that fails does not stop the others.
 /// @param log  a file that gets a JSON object a line for each job; empty: none
+/// @param dictionary  as of `Dictionaries`, written after every job that has taught something
 /// @return     the highest exit status of a job
-int bake_manifest(const std::string& path, const Shard& shard, const std::string& log, const BakeJob& defaults);
+int bake_manifest(const std::string& path, const Shard& shard, const std::string& log, const std::string& dictionary,
+                  const BakeJob& defaults);
 
 }  // namespace sublimit::cli

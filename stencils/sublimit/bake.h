@@ -23,10 +23,10 @@ const char* name(BakeMethod method);
 /// What points a table is to make.
 struct BakeRequest {
   TableRows rows = TableRows::level;
-  int level = 0;                ///< k, of `level` (1 to 11) and `limit` (0 to 11)
-  int grid = 0;                 ///< N, of `grid`, 2 to 2048
+  int level = 0;                     ///< k, of `level` (1 to 11) and `limit` (0 to 11)
+  int grid = 0;                      ///< N, of `grid`, 2 to 2048
   std::vector<Sample> samples = {};  ///< of `samples`
-  int derivatives = 0;          ///< of the limit: 0, 1 or 2
+  int derivatives = 0;               ///< of the limit: 0, 1 or 2
   BakeMethod method = BakeMethod::automatic;
 };
 

@@ -201,6 +201,11 @@ size_t Patterns::num_types() const {
   return patterns_.size();
 }
 
+size_t Patterns::num_matrices() const {
+  const std::lock_guard lock(rows_mutex_);
+  return rows_.size() + limits_.size();
+}
+
 std::vector<Patterns::Stored> Patterns::stored() const {
   const std::shared_lock lock(mutex_);
   const std::lock_guard rows_lock(rows_mutex_);

@@ -77,6 +77,8 @@ class Patterns {
   const std::shared_ptr<PieceTypes>& types() const { return types_; }
   /// Types that faces have had, rotations not counted.
   size_t num_types() const;
+  /// Matrices of rows and blocks of limits that have been made or read.
+  size_t num_matrices() const;
 
   /// What the corners of the last level are.
   enum class Ends { points, limits };

@@ -42,6 +42,27 @@ TEST(CliBake, WritesWhatTheLibraryMakes) {
   expect_table({"--at", places}, {.rows = TableRows::samples, .samples = {{0, 0.25, 0.5}, {5, 1, 0}}});
 }
 
+TEST(CliBake, KeepsADictionaryFromRunToRun) {
+  const Tables on(creased_cube());
+  const std::string file = (on.directory / "types").string(), several = (on.directory / "several").string();
+  expect_done(on.bake({"-l", "3"}));
+  const std::string plain = read_file(on.table);
+  expect_done(on.bake({"-l", "3", "--dictionary", file}));
+  EXPECT_EQ(read_file(on.table), plain);
+  const std::string first = read_file(file);
+  expect_done(on.bake({"-l", "3", "--dictionary", file}));
+  EXPECT_EQ(read_file(on.table), plain);
+  EXPECT_EQ(read_file(file), first);
+  expect_done(on.bake({"-l", "2", "--limit", "--dictionary", file}));
+  EXPECT_GT(read_file(file).size(), first.size());
+  expect_failure(on.bake({"-l", "2", "--dictionary", file}, "bilinear"), 3,
+                 {"types", "'catmull-clark', not of 'bilinear'"});
+  std::filesystem::create_directory(several);
+  expect_done(on.bake({"-l", "2", "--dictionary", several}, "bilinear"));
+  expect_done(on.bake({"-l", "2", "--dictionary", several}));
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(several), std::filesystem::directory_iterator()), 2);
+}
+
 TEST(CliBake, SaysWhatWasChosen) {
   const Tables quads(torus(12, 8)), mixed(prism(5));
   expect_parts(expect_done(quads.bake({"-l", "2"})).out, {"by patterns: 1 types, 1 blocks"});
