@@ -18,20 +18,6 @@ namespace {
 /// A face has four million points then.
 constexpr int last_level = 11, last_grid = 2048;
 
-void check(const BakeRequest& r) {
-  const auto check_range = [](const std::string& what, int value, int least, int most) {
-    if (value < least || value > most)
-      throw InvalidParameter(what + " " + std::to_string(value) + " of a table; " + std::to_string(least) + " to " +
-                             std::to_string(most) + " are right");
-  };
-  if (r.rows == TableRows::level) check_range("level", r.level, 1, last_level);
-  if (r.rows == TableRows::limit) check_range("level", r.level, 0, last_level);
-  if (r.rows == TableRows::grid) check_range("grid", r.grid, 2, last_grid);
-  check_range("derivatives", r.derivatives, 0, 2);
-  if (r.rows == TableRows::level && r.derivatives > 0)
-    throw InvalidParameter("a level has no derivatives; its limit has them");
-}
-
 /// Points that a face has, most of them.
 double points_of_face(const BakeRequest& r) {
   return r.rows == TableRows::grid ? double(r.grid) * r.grid : std::pow(4.0, r.level);
@@ -94,6 +80,20 @@ Baked bake_somehow(Patterns& patterns, const ControlMesh& mesh, const Level& con
 }
 
 }  // namespace
+
+void check(const BakeRequest& r) {
+  const auto check_range = [](const std::string& what, int value, int least, int most) {
+    if (value < least || value > most)
+      throw InvalidParameter(what + " " + std::to_string(value) + " of a table; " + std::to_string(least) + " to " +
+                             std::to_string(most) + " are right");
+  };
+  if (r.rows == TableRows::level) check_range("level", r.level, 1, last_level);
+  if (r.rows == TableRows::limit) check_range("level", r.level, 0, last_level);
+  if (r.rows == TableRows::grid) check_range("grid", r.grid, 2, last_grid);
+  check_range("derivatives", r.derivatives, 0, 2);
+  if (r.rows == TableRows::level && r.derivatives > 0)
+    throw InvalidParameter("a level has no derivatives; its limit has them");
+}
 
 const char* name(BakeMethod method) {
   constexpr std::array names{"automatic", "patterns", "rows then patterns", "rows"};

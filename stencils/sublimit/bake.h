@@ -30,6 +30,9 @@ struct BakeRequest {
   BakeMethod method = BakeMethod::automatic;
 };
 
+/// @throws InvalidParameter  a request outside these ranges, derivatives of a level
+void check(const BakeRequest& request);
+
 /// What became of the faces of a mesh.
 struct BakeStatistics {
   BakeMethod method = BakeMethod::rows;  ///< that was taken

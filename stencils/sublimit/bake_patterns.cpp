@@ -194,7 +194,7 @@ void count_isolated(const Topology& t, int quantities, BakeStatistics& s) {
 
 /// Vertices of level k, or their limits: points are shared between faces.
 std::optional<Baked> bake_lattices(Patterns& patterns, const Level& control, const BakeRequest& request,
-                                   bool first_by_rows, double most_bytes, bool only_count) {
+                                   bool first_by_rows, double most_bytes, bool only_count, OwnerRule owners) {
   const Scheme<double>& scheme = patterns.scheme();
   if (!Patterns::is_possible(scheme)) return std::nullopt;
   const Index sides = scheme.face_size() == 3 ? 3 : 4;
@@ -235,7 +235,7 @@ std::optional<Baked> bake_lattices(Patterns& patterns, const Level& control, con
   check_memory(std::to_string(blocks.keys().size()) + " blocks of level " + std::to_string(request.level), 4 * bytes,
                "use fewer levels");
   // Groups, and the points that faces have.
-  FaceLattices::Arrays lattices = face_owners(t, lattice, turn);
+  FaceLattices::Arrays lattices = face_owners(t, lattice, turn, owners);
   std::vector<std::uint8_t> share(t.num_faces());
   parallel_for(t.num_faces(), [&](std::int64_t f) { share[f] = FaceLattices::share(lattices, static_cast<Index>(f)); });
   Groups groups(pieces, block_of, share);
@@ -407,10 +407,10 @@ std::optional<Baked> bake_grids(Patterns& patterns, const Level& control, const 
 }  // namespace
 
 std::optional<Baked> bake_by_patterns(Patterns& patterns, const Level& control, const BakeRequest& request,
-                                      bool first_by_rows, double most_bytes, bool only_count) {
+                                      bool first_by_rows, double most_bytes, bool only_count, OwnerRule owners) {
   std::optional<Baked> baked;
   if (request.rows == TableRows::level || request.rows == TableRows::limit)
-    baked = bake_lattices(patterns, control, request, first_by_rows, most_bytes, only_count);
+    baked = bake_lattices(patterns, control, request, first_by_rows, most_bytes, only_count, owners);
   else if (request.rows == TableRows::grid && !first_by_rows)
     baked = bake_grids(patterns, control, request, most_bytes, only_count);
   if (baked) baked->statistics.method = first_by_rows ? BakeMethod::rows_then_patterns : BakeMethod::patterns;

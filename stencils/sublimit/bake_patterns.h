@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "sublimit/bake.h"
+#include "sublimit/face_owners.h"
 
 namespace sublimit {
 
@@ -12,6 +13,7 @@ namespace sublimit {
 /// @param only_count     the table stays empty; `statistics` tell what would be in it
 /// @return  nothing where that is not possible, or where blocks would be larger than `most_bytes`
 std::optional<Baked> bake_by_patterns(Patterns& patterns, const Level& control, const BakeRequest& request,
-                                      bool first_by_rows, double most_bytes, bool only_count = false);
+                                      bool first_by_rows, double most_bytes, bool only_count = false,
+                                      OwnerRule owners = OwnerRule::balanced);
 
 }  // namespace sublimit

@@ -2,10 +2,12 @@
 #include "sublimit/editable_table.h"
 
 #include <algorithm>
+#include <limits>
 #include <string>
 #include <type_traits>
 #include <unordered_map>
 
+#include "sublimit/bake_patterns.h"
 #include "sublimit/base/error.h"
 
 namespace sublimit {
@@ -27,10 +29,16 @@ template <class Real>
 EditableTable<Real>::EditableTable(Patterns& patterns, ControlMesh mesh, int level, const SubdivisionOptions& options)
     : patterns_(patterns), options_(options), level_(level), num_vertices_(mesh.num_vertices()) {
   mesh.face_varying.clear();
-  BakeRequest request;
-  request.level = level;
-  request.method = BakeMethod::patterns;
-  const Baked baked = bake(patterns, mesh, request, options);
+  const BakeRequest request{.level = level};
+  check(request);
+  // Who has a point must be known from the faces there alone.
+  const std::optional<Baked> made =
+      bake_by_patterns(patterns, control_level(patterns.scheme(), mesh, options), request, false,
+                       std::numeric_limits<double>::infinity(), false, OwnerRule::first);
+  if (!made)
+    throw UnsupportedTopology(patterns.scheme().name +
+                              ": a table can be edited where all faces are cut into four of their kind");
+  const Baked& baked = *made;
   const FaceLattices& lattices = *baked.table.lattices;
   if (!lattices.has_addresses())
     throw UnsupportedTopology(patterns.scheme().name + ": a table can be edited where faces need no preparation");
