@@ -91,6 +91,13 @@ void expect_the_limit(const Baked& baked, const LimitSurface& surface, std::span
   EXPECT_EQ(wrong_status, 0);
 }
 
+/// Types of wide supports are large: only the last mesh, which has most in it.
+std::vector<ControlMesh> few_hard_meshes(const Scheme<double>& scheme, unsigned seed) {
+  std::vector<ControlMesh> meshes = hard_meshes(scheme, seed);
+  if (!has_one_ring_limits(scheme)) meshes.erase(meshes.begin(), meshes.end() - 1);
+  return meshes;
+}
+
 class BakedLimits : public ::testing::TestWithParam<TestedScheme> {
  protected:
   const Scheme<double> scheme_ = GetParam().scheme();
@@ -100,7 +107,7 @@ TEST_P(BakedLimits, OfGridsAreTheSurface) {
   Patterns patterns(scheme_);
   // Thirds; but not on the third side of triangles, where they are rounded, and sqrt3's vertices are beside them.
   const int N = takes_triangles(scheme_) ? 5 : 4;
-  for (const ControlMesh& mesh : hard_meshes(scheme_, 4))
+  for (const ControlMesh& mesh : few_hard_meshes(scheme_, 4))
     for (const int derivatives : {0, 2}) {
       SCOPED_TRACE(std::to_string(derivatives) + " derivatives");
       BakeRequest request;
@@ -115,7 +122,7 @@ TEST_P(BakedLimits, OfGridsAreTheSurface) {
 
 TEST_P(BakedLimits, OfPlacesAreTheSurface) {
   Patterns patterns(scheme_);
-  for (const ControlMesh& mesh : hard_meshes(scheme_, 3)) {
+  for (const ControlMesh& mesh : few_hard_meshes(scheme_, 3)) {
     const LimitSurface surface(scheme_, mesh, {}, patterns.types());
     BakeRequest request;
     request.rows = TableRows::samples;

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <set>
 
+#include "sublimit/analysis/limit_masks.h"
 #include "sublimit/bake.h"
 #include "support/expect_error.h"
 #include "support/temporary_directory.h"
@@ -25,6 +26,13 @@ void expect_equal(const Baked& a, const Baked& b) {
   EXPECT_TRUE(std::equal(x.weights.begin(), x.weights.end(), y.weights.begin(), y.weights.end()));
   EXPECT_TRUE(std::equal(x.columns.begin(), x.columns.end(), y.columns.begin(), y.columns.end()));
   EXPECT_EQ(statuses_of(a.table), statuses_of(b.table));
+}
+
+/// Types of wide supports are large: only the last mesh, which has most in it.
+std::vector<ControlMesh> few_meshes(const Scheme<double>& scheme) {
+  std::vector<ControlMesh> meshes = hard_meshes(scheme, 3);
+  if (!has_one_ring_limits(scheme)) meshes.erase(meshes.begin(), meshes.end() - 1);
+  return meshes;
 }
 
 class PatternFile : public ::testing::TestWithParam<TestedScheme> {};
@@ -47,14 +55,14 @@ TEST_P(PatternFile, KeepsWhatBakingTaught) {
   const auto path = directory.path() / "dictionary.safetensors", again = directory.path() / "again.safetensors";
   Patterns first(scheme);
   std::vector<Baked> fresh;
-  for (const ControlMesh& mesh : hard_meshes(scheme, 3))
+  for (const ControlMesh& mesh : few_meshes(scheme))
     for (const BakeRequest& request : requests(scheme)) fresh.push_back(bake(first, mesh, request));
   save_patterns(path, first);
   Patterns second(scheme);
   load_patterns(path, second);
   EXPECT_EQ(second.num_types(), first.num_types());
   size_t next = 0;
-  for (const ControlMesh& mesh : hard_meshes(scheme, 3))
+  for (const ControlMesh& mesh : few_meshes(scheme))
     for (const BakeRequest& request : requests(scheme)) expect_equal(bake(second, mesh, request), fresh[next++]);
   EXPECT_EQ(second.num_types(), first.num_types());
   if (scheme.face_size() == 3 || scheme.preparation.empty()) {
@@ -66,7 +74,7 @@ TEST_P(PatternFile, KeepsWhatBakingTaught) {
   BakeRequest more;
   more.rows = TableRows::grid;
   more.grid = 4;
-  expect_equal(bake(second, hard_meshes(scheme, 3)[0], more), bake(first, hard_meshes(scheme, 3)[0], more));
+  expect_equal(bake(second, few_meshes(scheme)[0], more), bake(first, few_meshes(scheme)[0], more));
 }
 
 std::vector<TestedScheme> pattern_schemes() {
