@@ -2,6 +2,7 @@
 #include "sublimit/bake_patterns.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <tuple>
 #include <unordered_map>
@@ -39,12 +40,6 @@ class Blocks {
       pieces_.push_back(piece);
     }
     return last_ = at->second;
-  }
-  Index num_types() const {
-    std::vector<size_t> numbers;
-    for (const Key& key : keys_) numbers.push_back(key.pattern->number);
-    std::sort(numbers.begin(), numbers.end());
-    return static_cast<Index>(std::unique(numbers.begin(), numbers.end()) - numbers.begin());
   }
   const std::vector<Key>& keys() const { return keys_; }
   Index count() const { return static_cast<Index>(keys_.size()); }
@@ -95,9 +90,19 @@ class Blocks {
   Index last_ = 0;
 };
 
+Index num_types(const PieceMatches& pieces) {
+  std::vector<size_t> numbers;
+  for (Index i = 0; i < pieces.count(); ++i)
+    if (const size_t number = pieces.pattern(i).number; numbers.empty() || number != numbers.back())
+      numbers.push_back(number);
+  std::sort(numbers.begin(), numbers.end());
+  return static_cast<Index>(std::unique(numbers.begin(), numbers.end()) - numbers.begin());
+}
+
 /// Patches by block and share, those of a group in the order of their pieces.
 class Groups {
  public:
+  /// @param block  of a piece; -1: it makes no points
   /// @param share  of a piece: what it has of its block's rows
   Groups(const PieceMatches& pieces, std::span<const Index> block, std::span<const std::uint8_t> share) {
     const Index count = pieces.count();
@@ -105,6 +110,7 @@ class Groups {
     std::int64_t last = -1;
     Index number = -1;
     for (Index i = 0; i < count; ++i) {
+      if (block[i] < 0) continue;
       const std::int64_t key = std::int64_t{block[i]} * 256 + share[i];
       if (key != last) {
         const auto [at, is_new] = numbers.try_emplace(key, static_cast<Index>(groups.size()));
@@ -165,13 +171,11 @@ void count(const Blocks& blocks, const Groups& groups, double rows, const Length
   std::int64_t chosen = 0, columns = 0;
   for (const Groups::Group& group : groups.groups) {
     const std::int64_t own = length(group.share);
-    if (own == 0) continue;
     columns += std::ssize(group.pieces) * blocks.keys()[group.block].pattern->num_slots;
     s.points += std::ssize(group.pieces) * own;
     chosen += own;
     ++s.groups;
   }
-  s.types = blocks.num_types();
   s.blocks = blocks.count();
   s.weights = static_cast<std::int64_t>(blocks.num_bytes(rows)) / std::int64_t(sizeof(double));
   s.bytes = std::int64_t(sizeof(double)) * s.weights + 4 * (chosen + columns) +
@@ -226,25 +230,31 @@ std::optional<Baked> bake_lattices(Patterns& patterns, const Level& control, con
     places = std::move(*of_children);
   if (request.derivatives > 0 && places.empty() && t.num_faces() > 0) return std::nullopt;
 
+  FaceLattices::Arrays lattices = face_owners(t, lattice, turn, owners);
+  std::vector<std::uint8_t> share(t.num_faces());
+  parallel_for(t.num_faces(), [&](std::int64_t f) { share[f] = FaceLattices::share(lattices, static_cast<Index>(f)); });
+  // On coarse lattices all points of a face may be others'.
+  std::array<bool, 256> has_points{};
+  const bool has_inner = !FaceLattices::rows(lattice, 0).empty();
+  for (size_t own = 0; own < has_points.size(); ++own)
+    has_points[own] = has_inner || !FaceLattices::rows(lattice, static_cast<std::uint8_t>(own)).empty();
   Blocks blocks;
-  std::vector<Index> block_of(t.num_faces());
+  std::vector<Index> block_of(t.num_faces(), -1);
   for (Index f = 0; f < t.num_faces(); ++f)
-    block_of[f] = blocks.add({&pieces.pattern(f), request.derivatives > 0 ? places[f] : LatticePlace{}}, f);
+    if (has_points[share[f]])
+      block_of[f] = blocks.add({&pieces.pattern(f), request.derivatives > 0 ? places[f] : LatticePlace{}}, f);
   const double bytes = blocks.num_bytes(double(arrays.quantities) * lattice.size());
   if (bytes > most_bytes) return std::nullopt;
   check_memory(std::to_string(blocks.keys().size()) + " blocks of level " + std::to_string(request.level), 4 * bytes,
                "use fewer levels");
-  // Groups, and the points that faces have.
-  FaceLattices::Arrays lattices = face_owners(t, lattice, turn, owners);
-  std::vector<std::uint8_t> share(t.num_faces());
-  parallel_for(t.num_faces(), [&](std::int64_t f) { share[f] = FaceLattices::share(lattices, static_cast<Index>(f)); });
-  Groups groups(pieces, block_of, share);
+  const Groups groups(pieces, block_of, share);
   if (only_count) {
     BakeStatistics& s = baked.statistics;
     count(
         blocks, groups, double(arrays.quantities) * lattice.size(),
         [&](std::uint8_t own) { return std::ssize(FaceLattices::rows(lattice, own)); }, s);
     s.faces = t.num_faces();
+    s.types = num_types(pieces);
     count_isolated(t, arrays.quantities, s);
     if (arrays.first) {
       s.weights += std::int64_t(arrays.first->weights().size());
@@ -273,14 +283,12 @@ std::optional<Baked> bake_lattices(Patterns& patterns, const Level& control, con
   std::vector<std::uint8_t> row_status;
   std::vector<std::int64_t> first_points(t.num_faces());
   std::int64_t next = 0;
-  for (Groups::Group& group : groups.groups) {
+  for (const Groups::Group& group : groups.groups) {
     const std::vector<std::int32_t> own = FaceLattices::rows(lattice, group.share);
     for (const Index f : group.pieces) {
       first_points[f] = next;
       next += std::int64_t(own.size());
     }
-    if (own.empty()) group.pieces.clear();  // level 1 of a first step: all corners may be others'
-    if (group.pieces.empty()) continue;
     arrays.groups.push_back({group.block, static_cast<std::int32_t>(own.size()), static_cast<std::int64_t>(rows.size()),
                              std::int64_t(group.pieces.size())});
     rows.insert(rows.end(), own.begin(), own.end());
@@ -321,7 +329,7 @@ std::optional<Baked> bake_lattices(Patterns& patterns, const Level& control, con
     lattices.holes = std::vector<std::uint8_t>(level.holes.begin(), level.holes.end());
   baked.table.lattices.emplace(baked.table.table.num_points(), std::move(lattices));
   baked.statistics.faces = t.num_faces();
-  baked.statistics.types = blocks.num_types();
+  baked.statistics.types = num_types(pieces);
   return baked;
 }
 
@@ -361,6 +369,7 @@ std::optional<Baked> bake_grids(Patterns& patterns, const Level& control, const 
     count(
         blocks, groups, double(arrays.quantities) * lattice.size(), [&](std::uint8_t) { return lattice.size(); }, s);
     s.faces = addresses.size();
+    s.types = num_types(pieces);
     s.bytes += 8 * (std::int64_t(pieces.count()) + std::ssize(shared_grid_places(t, addresses, request.grid)));
     return baked;
   }
@@ -400,7 +409,7 @@ std::optional<Baked> bake_grids(Patterns& patterns, const Level& control, const 
     baked.table.row_status = std::move(row_status);
   baked.table.table = PatternTable<double>(t.num_vertices(), std::move(arrays));
   baked.statistics.faces = addresses.size();
-  baked.statistics.types = blocks.num_types();
+  baked.statistics.types = num_types(pieces);
   return baked;
 }
 

@@ -9,6 +9,7 @@
 #include <array>
 #include <map>
 #include <random>
+#include <set>
 
 #include "sublimit/analysis/limit_masks.h"
 #include "sublimit/kernels/apply_patches.h"
@@ -160,6 +161,10 @@ class BakedLevels : public ::testing::TestWithParam<TestedScheme> {
     const Difference d = compare_with_refinement(baked, scheme_, mesh, levels);
     EXPECT_TRUE(d.one_to_one);
     EXPECT_EQ(baked.statistics.points, d.points);
+    const PatternTable<double>::Arrays& arrays = baked.table.table.arrays();
+    std::set<std::int32_t> used;
+    for (const auto& group : arrays.groups) used.insert(group.block);
+    EXPECT_EQ(used.size(), arrays.blocks.size()) << "blocks that make no points";
     // Rows of up to 100 terms, in differences and not, k products.
     EXPECT_LE(d.largest, rounding(10.0 * levels));
   }
