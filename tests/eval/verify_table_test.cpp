@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
 
 #include "eval/table_samples.h"
@@ -72,6 +73,20 @@ TEST(VerifyTable, FindsSumsThatAreOff) {
       findings([](BakedTable<double>&, Arrays& a) { a.weights = std::vector<double>(a.weights.size(), 1.0); });
   ASSERT_EQ(all.size(), 6u);
   EXPECT_EQ(all[5], "22 more rows of 'weights' have the wrong sum");
+}
+
+TEST(VerifyTable, LetsDerivativesVanish) {
+  const auto left = [](double rounding) {
+    return findings([&](BakedTable<double>&, Arrays& a) {
+      std::vector<double> weights(a.weights.begin(), a.weights.end());
+      std::fill_n(weights.begin() + 36, 4, 0.0);  // row 0 of the derivative along u
+      weights[36] = rounding;
+      a.weights = std::move(weights);
+    });
+  };
+  EXPECT_EQ(left(0), std::vector<std::string>());
+  EXPECT_EQ(left(1e-16), std::vector<std::string>());
+  expect_finding(left(1e-9), "'weights': row 0 of block 0, quantity 1: weights of a derivative sum to 1e-09");
 }
 
 TEST(VerifyTable, LetsRowsWithoutASurfaceBeEmpty) {
