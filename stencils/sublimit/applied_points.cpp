@@ -4,8 +4,11 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <utility>
 
+#include "sublimit/analysis/limit_status.h"
 #include "sublimit/base/atomic_file.h"
 #include "sublimit/base/format_number.h"
 #include "sublimit/base/parallel_for.h"
@@ -68,13 +71,18 @@ Points AppliedPoints::normals(std::span<const Real> values) const {
   Points normals = Points::Zero(num_points_, 3);
   if (quantities_ == 1) return normals;
   using Row = Eigen::Matrix<Real, 1, 3>;
+  double largest = 0;
+  for (const Real x : values.first(size_t(3 * num_points_))) largest = std::max(largest, std::abs(double(x)));
+  // What a derivative, a sum of points with weights of a few times its size, has of rounding.
+  const double noise = 8 * double(std::numeric_limits<Real>::epsilon()) * largest;
   parallel_for(num_points_, [&](std::int64_t i) {
     if (!status_.empty() && !has_plane_[status_[size_t(i)]]) return;
     const Eigen::RowVector3d du = Eigen::Map<const Row>(values.data() + 3 * (num_points_ + i)).template cast<double>();
     const Eigen::RowVector3d dv =
         Eigen::Map<const Row>(values.data() + 3 * (2 * num_points_ + i)).template cast<double>();
     const Eigen::RowVector3d normal = du.cross(dv);
-    if (const double length = normal.norm(); length > 0) normals.row(i) = normal / length;
+    // Of parallel derivatives rounding is all that is left, and it points anywhere.
+    if (const double length = normal.norm(); length > noise * (du.norm() + dv.norm())) normals.row(i) = normal / length;
   });
   return normals;
 }
@@ -110,7 +118,9 @@ void AppliedPoints::append_row(std::string& out, std::int64_t point, size_t chan
   }
   if (has_status_) {
     begin();
-    out += status_names_[status_.empty() ? 0 : status_[i]];
+    const std::string& status = status_names_[status_.empty() ? 0 : status_[i]];
+    const bool is_degenerate = normals.rows() > 0 && normals.row(point).isZero(0) && status != "hole";
+    out += is_degenerate ? name(LimitStatus::undefined_normal) : status;
   }
   for (int q = 0; q < quantities_; ++q) {
     const bool exists = q == 0 || order_[i] >= (q < 3 ? 1 : 2);

@@ -12,8 +12,8 @@ class AppliedPoints {
   template <class Real>
   explicit AppliedPoints(const BakedTable<Real>& table);
 
-  /// Unit normals from first derivatives, by the winding of faces; zero where there is no tangent plane, and everywhere
-  /// if there are no derivatives.
+  /// Unit normals from first derivatives, by the winding of faces; zero where there is no tangent plane, where these
+  /// derivatives are parallel within rounding, and everywhere if there are none.
   /// @param values  quantities x points x 3, as the table's `apply` gives them
   template <class Real>
   Points normals(std::span<const Real> values) const;
@@ -26,7 +26,8 @@ class AppliedPoints {
   ///
   ///     [face,u,v,][status,]x,y,z[,xu,yu,zu,xv,yv,zv[,xuu,...]][,nx,ny,nz]
   ///
-  /// addresses where the table knows them, statuses of points of the limit, normals of three channels with derivatives.
+  /// addresses where the table knows them, statuses of points of the limit, normals of three channels with derivatives;
+  /// where one is zero the status is `undefined-normal`.
   /// Numbers have the shortest form that reads back to the same bits; what does not exist is an empty field.
   /// @param channels  their names: `x,y,z`
   /// @param values    quantities x points x channels

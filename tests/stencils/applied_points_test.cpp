@@ -4,11 +4,13 @@
 
 #include <gtest/gtest.h>
 
+#include "sublimit/base/read_file.h"
 #include "sublimit/bake.h"
 #include "sublimit/limit/limit_surface.h"
 #include "sublimit/point_addresses.h"
 #include "sublimit/schemes.h"
 #include "support/meshes.h"
+#include "support/temporary_directory.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {
@@ -52,6 +54,25 @@ TEST(AppliedPoints, AddressesAndNormalsAreThoseOfTheLimit) {
     expect_at_addresses("catmull-clark", creased, request);
     expect_at_addresses("loop", jittered(icosahedron()), request);
   }
+}
+
+TEST(AppliedPoints, NoNormalsOfParallelDerivatives) {
+  Patterns patterns(find_scheme("catmull-clark").value());
+  const AppliedPoints applied(
+      bake(patterns, cube(), {.rows = TableRows::samples, .samples = {{0, 0.5, 0.5}, {1, 0.5, 0.5}}, .derivatives = 1})
+          .table);
+  // Positions, then derivatives along u, then along v; those of the first point are parallel but for rounding.
+  const std::vector<double> values{1, 0.5,  -1, 0, 0, 0, 0.333, -0.25, 0.333, 1, 0, 0, 0.1665, -0.125, 0.1665 + 1e-15,
+                                   1, 1e-6, 0};
+  const Points normals = applied.normals<double>(values);
+  EXPECT_TRUE(normals.row(0).isZero(0));
+  EXPECT_EQ(normals.row(1), Eigen::RowVector3d(0, 0, 1));
+  const TemporaryDirectory directory;
+  applied.write_csv<double>(directory / "points.csv", {"x", "y", "z"}, values);
+  EXPECT_EQ(read_file(directory / "points.csv"),
+            "face,u,v,status,x,y,z,xu,yu,zu,xv,yv,zv,nx,ny,nz\n"
+            "0,0.5,0.5,undefined-normal,1,0.5,-1,0.333,-0.25,0.333,0.1665,-0.125,0.166500000000001,,,\n"
+            "1,0.5,0.5,regular,0,0,0,1,0,0,1,1e-06,0,0,0,1\n");
 }
 
 TEST(AppliedPoints, NoAddressesByRows) {
