@@ -37,8 +37,8 @@ std::uint64_t topology_hash(std::int32_t num_vertices, std::span<const std::int3
 }
 
 BakedTable<float> in_float(const BakedTable<double>& table) {
-  return {in_float(table.table), table.info,       table.lattices,   table.faces,
-          table.addresses,       table.row_status, table.rest_status};
+  return {in_float(table.table), table.info,        table.lattices, table.faces, table.addresses,
+          table.row_status,      table.rest_status, table.channels, table.tags};
 }
 
 template <class Real>
@@ -105,9 +105,20 @@ FaceList faces_of(const BakedTable<Real>& table) {
                   [&](std::int64_t at, std::int32_t row) { return lattices.point(kept[at], row); });
 }
 
+template <class Real>
+std::int64_t num_corners(const BakedTable<Real>& table) {
+  if (!table.lattices) return std::int64_t(table.faces.corners.size());
+  const FaceLattices& lattices = *table.lattices;
+  std::int64_t kept = 0;
+  for (std::int32_t f = 0; f < lattices.num_faces(); ++f) kept += !lattices.is_hole(f);
+  return kept * lattices.lattice().num_cells() * lattices.lattice().num_sides();
+}
+
 template std::vector<std::uint8_t> statuses_of(const BakedTable<float>&);
 template std::vector<std::uint8_t> statuses_of(const BakedTable<double>&);
 template FaceList faces_of(const BakedTable<float>&);
 template FaceList faces_of(const BakedTable<double>&);
+template std::int64_t num_corners(const BakedTable<float>&);
+template std::int64_t num_corners(const BakedTable<double>&);
 
 }  // namespace sublimit

@@ -7,6 +7,7 @@
 
 #include "sublimit/face_lattices.h"
 #include "sublimit/pattern_table.h"
+#include "sublimit/table_channels.h"
 
 namespace sublimit {
 
@@ -63,6 +64,10 @@ struct BakedTable {
   /// What is there at a point of the limit, as a number of `TableInfo::statuses`: for every entry of the table's
   /// `rows`, and for the points of `rest`. None: all points are `regular`.
   SharedArray<std::uint8_t> row_status, rest_status;
+  /// Of `level` and `limit`, where they were asked for: texture coordinates of level k, or of its limit; tags of level
+  /// k.
+  TableChannels channels = {};
+  std::optional<TableTags> tags = {};
 };
 
 /// Status of each point, in their order; empty if all are regular.
@@ -75,5 +80,9 @@ BakedTable<float> in_float(const BakedTable<double>& table);
 /// @throws ResourceError  more points than 32-bit numbers
 template <class Real>
 FaceList faces_of(const BakedTable<Real>& table);
+
+/// Corners of all of these faces of a level, without making them.
+template <class Real>
+std::int64_t num_corners(const BakedTable<Real>& table);
 
 }  // namespace sublimit

@@ -78,6 +78,12 @@ void check_table(const BakedTable<Real>& table) {
                  table.info.statuses.size());
   check_faces(table.faces, num_points);
   check_addresses(table.addresses, num_points);
+  const bool is_mesh = table.info.rows == TableRows::level || table.info.rows == TableRows::limit;
+  if (!is_mesh && (!table.channels.list.empty() || table.tags))
+    fail(std::string("face-varying channels and tags are of tables of a level or its limit, not of ") +
+         name(table.info.rows));
+  check_channels(table.channels, table.channels.list.empty() ? 0 : num_corners(table));
+  if (table.tags) check_tags(*table.tags, num_points);
 }
 
 template void check_table(const BakedTable<float>&);

@@ -64,6 +64,8 @@ class TableReader {
     baked.addresses = {array<std::int32_t>("addresses.faces"), array<double>("addresses.parameters", 2)};
     baked.row_status = array<std::uint8_t>("row_status");
     baked.rest_status = array<std::uint8_t>("rest_status");
+    baked.channels = channels();
+    baked.tags = tags();
     checked([&] { check_table(baked); });
     return baked;
   }
@@ -127,6 +129,35 @@ class TableReader {
     a.places = array<std::uint8_t>("lattices.places");
     a.holes = array<std::uint8_t>("lattices.holes");
     return checked([&] { return FaceLattices(table.num_points(), std::move(a)); });
+  }
+
+  TableChannels channels() const {
+    TableChannels channels{.list = {}, .interpolation = text("face_varying")};
+    for (size_t c = 0;; ++c) {
+      const std::string prefix = table_words::face_varying(c);
+      const Tensor* const values = file_.find(prefix + "values");
+      if (!values) break;
+      const std::int64_t columns = values->shape.size() == 2 ? values->shape[1] : 1;
+      if (columns < 1 || columns > largest_index)
+        fail("'" + values->name + "' has " + std::to_string(columns) + " numbers a value");
+      channels.list.push_back({.name = text(prefix + "name"),
+                               .channels = static_cast<std::int32_t>(columns),
+                               .values = array<double>(values->name, columns),
+                               .indices = array<std::int32_t>(prefix + "indices")});
+    }
+    if (channels.list.empty() && !channels.interpolation.empty())
+      fail("metadata: face_varying is '" + channels.interpolation + "', and there is no 'face_varying.0.values'");
+    return channels;
+  }
+
+  std::optional<TableTags> tags() const {
+    if (text("tags.boundary").empty()) return std::nullopt;
+    return TableTags{.creases = array<std::int32_t>("tags.creases", 2),
+                     .crease_sharpness = array<float>("tags.crease_sharpness"),
+                     .corners = array<std::int32_t>("tags.corners"),
+                     .corner_sharpness = array<float>("tags.corner_sharpness"),
+                     .boundary = text("tags.boundary"),
+                     .creasing = text("tags.creasing")};
   }
 
   TableInfo info() const {

@@ -36,6 +36,26 @@ void TableTensors::add(const FaceLattices::Arrays& a) {
   file_.metadata["lattice_shape"] = table_words::shape(a.lattice.triangle);
 }
 
+void TableTensors::add(const TableChannels& channels) {
+  for (size_t c = 0; c < channels.list.size(); ++c) {
+    const FaceVaryingValues& channel = channels.list[c];
+    const std::string prefix = table_words::face_varying(c);
+    add(prefix + "values", channel.values.span(), channel.channels);
+    add(prefix + "indices", channel.indices.span());
+    file_.metadata[prefix + "name"] = channel.name;
+  }
+  if (!channels.list.empty()) file_.metadata["face_varying"] = channels.interpolation;
+}
+
+void TableTensors::add(const TableTags& tags) {
+  add("tags.creases", tags.creases.span(), 2);
+  add("tags.crease_sharpness", tags.crease_sharpness.span());
+  add("tags.corners", tags.corners.span());
+  add("tags.corner_sharpness", tags.corner_sharpness.span());
+  file_.metadata["tags.boundary"] = tags.boundary;
+  file_.metadata["tags.creasing"] = tags.creasing;
+}
+
 template <class Real>
 TableTensors::TableTensors(const BakedTable<Real>& table) {
   const typename PatternTable<Real>::Arrays& a = table.table.arrays();
@@ -57,6 +77,8 @@ TableTensors::TableTensors(const BakedTable<Real>& table) {
   add("addresses.parameters", table.addresses.parameters.span(), 2);
   add("row_status", table.row_status.span());
   add("rest_status", table.rest_status.span());
+  add(table.channels);
+  if (table.tags) add(*table.tags);
 
   const TableInfo& info = table.info;
   auto& m = file_.metadata;

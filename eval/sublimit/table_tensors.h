@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 // What a table has in a file: named arrays and texts. `eval/table_format.md` says what each of them means.
+#include <string>
+
 #include "sublimit/baked_table.h"
 #include "sublimit/safetensors.h"
 
@@ -18,6 +20,8 @@ inline constexpr const char* option_prefix = "option.";
 constexpr const char* quantities(int number) {
   return number == 1 ? "x" : number == 3 ? "x xu xv" : "x xu xv xuu xuv xvv";
 }
+/// What names of a channel's parts begin with.
+inline std::string face_varying(size_t channel) { return "face_varying." + std::to_string(channel) + "."; }
 constexpr const char* shape(bool triangles) { return triangles ? "triangle" : "quadrilateral"; }
 
 }  // namespace table_words
@@ -37,6 +41,8 @@ class TableTensors {
   template <class Real>
   void add(const std::string& prefix, const StencilTable<Real>& table);
   void add(const FaceLattices::Arrays& arrays);
+  void add(const TableChannels& channels);
+  void add(const TableTags& tags);
 
   std::vector<std::int64_t> blocks_, groups_;
   Safetensors file_;

@@ -250,6 +250,43 @@ TEST_F(ChangedFile, IsRefusedForItsArrays) {
   expect_refused([&](Safetensors& f) { find(f, "weights").dtype = DType::I32; }, {"'weights' is of I32, not F32"});
 }
 
+TEST_F(ChangedFile, IsRefusedForItsChannelsAndTags) {
+  const auto expect = [&](const std::string& name, size_t at, auto value,
+                          std::initializer_list<std::string_view> words) {
+    expect_refused([&](Safetensors& f) { set(f, name, at, value); }, words);
+  };
+  expect("face_varying.0.indices", 3, std::int32_t{3}, {"face_varying.0.indices: entry 3 names value 3 of 3"});
+  expect("face_varying.1.indices", 15, std::int32_t{-1}, {"face_varying.1.indices: entry 15 names value -1 of 1"});
+  expect("face_varying.0.values", 5, std::numeric_limits<double>::infinity(), {"face_varying.0.values", "finite"});
+  expect("tags.creases", 1, std::int32_t{16}, {"tags.creases: entry 1 names point 16 of 16"});
+  expect("tags.creases", 1, std::int32_t{6}, {"an edge from point 6 to itself"});
+  expect("tags.corners", 0, std::int32_t{-1}, {"tags.corners", "point -1 of 16"});
+  expect("tags.crease_sharpness", 0, std::numeric_limits<float>::quiet_NaN(), {"tags.crease_sharpness has nan"});
+  expect("tags.corner_sharpness", 0, -1.0f, {"tags.corner_sharpness has -1"});
+  expect("lattices.holes", 0, std::uint8_t{1}, {"face_varying.0.indices has 16 entries, not one for each of 0"});
+  const auto expect_without = [&](const std::string& name, std::initializer_list<std::string_view> words) {
+    expect_refused([&](Safetensors& f) { erase(f, name); }, words);
+  };
+  expect_without("face_varying.0.values", {"face_varying is 'corners-plus1'", "no 'face_varying.0.values'"});
+  expect_without("face_varying.1.indices", {"face_varying.1.indices has 0 entries"});
+  expect_without("tags.creases", {"tags.crease_sharpness has 2 entries for 0"});
+  expect_without("tags.corner_sharpness", {"tags.corner_sharpness has 0 entries for 1"});
+  const auto expect_words = [&](const std::string& key, const std::string& value,
+                                std::initializer_list<std::string_view> words) {
+    expect_refused([&](Safetensors& f) { f.metadata[key] = value; }, words);
+  };
+  expect_words("face_varying", "some", {"face_varying is 'some'", "corners-only"});
+  expect_words("tags.boundary", "none", {"tags.boundary is 'none'", "edge-and-corner"});
+  expect_words("tags.creasing", "", {"tags.creasing is ''", "chaikin"});
+  expect_words("rows", "samples", {"not of samples"});
+  expect_refused([&](Safetensors& f) { find(f, "tags.creases").shape = {4}; }, {"'tags.creases' must have the shape"});
+  expect_refused(
+      [&](Safetensors& f) {
+        find(f, "face_varying.0.values").shape = {1, 2, 3};
+      },
+      {"'face_varying.0.values' must have the shape"});
+}
+
 TEST(TableFile, IsNotWrittenWrong) {
   const TemporaryDirectory directory;
   BakedTable<double> table = everything<double>();

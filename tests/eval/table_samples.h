@@ -92,6 +92,20 @@ BakedTable<Real> everything() {
   std::vector<double> parameters(32);
   for (size_t i = 0; i < 32; ++i) parameters[i] = double(i) / 7;
   baked.addresses = {faces, parameters};
+  // Of the first face, which is no hole: four cells.
+  baked.channels.interpolation = "corners-plus1";
+  baked.channels.list = {
+      {.name = "uv",
+       .channels = 2,
+       .values = {0, 0, 0.1, 1, 1.0 / 3, -2},
+       .indices = {0, 1, 2, 0, 1, 2, 0, 1, 2, 0, 1, 2, 0, 1, 2, 2}},
+      {.name = "weight", .channels = 1, .values = {-0.0}, .indices = std::vector<std::int32_t>(16, 0)}};
+  baked.tags = TableTags{.creases = {6, 7, 7, 15},
+                         .crease_sharpness = {0.1f, 10},
+                         .corners = {8},
+                         .corner_sharpness = {2.5f},
+                         .boundary = "edge-only",
+                         .creasing = "chaikin"};
   return baked;
 }
 
@@ -163,6 +177,23 @@ void expect_equal(const BakedTable<Real>& x, const BakedTable<Real>& y) {
   expect_equal("addresses.parameters", x.addresses.parameters, y.addresses.parameters);
   expect_equal("row_status", x.row_status, y.row_status);
   expect_equal("rest_status", x.rest_status, y.rest_status);
+  EXPECT_EQ(x.channels.interpolation, y.channels.interpolation);
+  ASSERT_EQ(x.channels.list.size(), y.channels.list.size());
+  for (size_t c = 0; c < x.channels.list.size(); ++c) {
+    EXPECT_EQ(x.channels.list[c].name, y.channels.list[c].name);
+    EXPECT_EQ(x.channels.list[c].channels, y.channels.list[c].channels);
+    expect_equal("face_varying.values", x.channels.list[c].values, y.channels.list[c].values);
+    expect_equal("face_varying.indices", x.channels.list[c].indices, y.channels.list[c].indices);
+  }
+  ASSERT_EQ(x.tags.has_value(), y.tags.has_value());
+  if (x.tags) {
+    expect_equal("tags.creases", x.tags->creases, y.tags->creases);
+    expect_equal("tags.crease_sharpness", x.tags->crease_sharpness, y.tags->crease_sharpness);
+    expect_equal("tags.corners", x.tags->corners, y.tags->corners);
+    expect_equal("tags.corner_sharpness", x.tags->corner_sharpness, y.tags->corner_sharpness);
+    EXPECT_EQ(x.tags->boundary, y.tags->boundary);
+    EXPECT_EQ(x.tags->creasing, y.tags->creasing);
+  }
   EXPECT_EQ(x.info.scheme, y.info.scheme);
   EXPECT_EQ(x.info.options, y.info.options);
   EXPECT_EQ(x.info.rows, y.info.rows);
