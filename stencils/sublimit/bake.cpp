@@ -6,6 +6,7 @@
 #include <string>
 
 #include "sublimit/analysis/limit_status.h"
+#include "sublimit/bake_channels.h"
 #include "sublimit/bake_patterns.h"
 #include "sublimit/bake_rows.h"
 #include "sublimit/base/error.h"
@@ -58,19 +59,22 @@ void check_limit(double bytes, double limit) {
 }
 
 Baked bake_somehow(Patterns& patterns, const ControlMesh& mesh, const Level& control, const BakeRequest& request,
-                   const SubdivisionOptions& options, bool only_count = false) {
+                   const SubdivisionOptions& options, bool only_count = false,
+                   std::vector<std::int8_t>* turn = nullptr) {
   constexpr double any = 1e300;
   const bool automatic = request.method == BakeMethod::automatic;
   if (automatic || request.method == BakeMethod::patterns) {
     // Rows of level 1 take about 600 bytes a face, and lists of control points four times as many.
     const double alternative = 1000.0 * control.topology().num_faces() + 1e6;
     const bool can_go_on = request.rows != TableRows::grid && request.level > 1;
-    std::optional<Baked> baked =
-        bake_by_patterns(patterns, control, request, false, automatic && can_go_on ? 4 * alternative : any, only_count);
+    std::optional<Baked> baked = bake_by_patterns(
+        patterns, control, request,
+        {.most_bytes = automatic && can_go_on ? 4 * alternative : any, .only_count = only_count, .turns = turn});
     if (baked) return std::move(*baked);
   }
   if (automatic || request.method == BakeMethod::rows_then_patterns)
-    if (std::optional<Baked> baked = bake_by_patterns(patterns, control, request, true, any, only_count))
+    if (std::optional<Baked> baked = bake_by_patterns(patterns, control, request,
+                                                      {.first_by_rows = true, .only_count = only_count, .turns = turn}))
       return std::move(*baked);
   if (automatic || request.method == BakeMethod::rows) {
     if (only_count) return estimate_of_rows(patterns.scheme(), control.topology(), request);
@@ -93,6 +97,9 @@ void check(const BakeRequest& r) {
   check_range("derivatives", r.derivatives, 0, 2);
   if (r.rows == TableRows::level && r.derivatives > 0)
     throw InvalidParameter("a level has no derivatives; its limit has them");
+  if ((r.face_varying || r.tags) && r.rows != TableRows::level && r.rows != TableRows::limit)
+    throw InvalidParameter(std::string("face-varying channels and tags are those of a level or its limit, not of ") +
+                           name(r.rows));
 }
 
 const char* name(BakeMethod method) {
@@ -110,7 +117,8 @@ Baked bake(Patterns& patterns, const ControlMesh& mesh, const BakeRequest& reque
   check_memory(request.rows == TableRows::grid ? "grids of " + std::to_string(request.grid) + " places a side"
                                                : "points of level " + std::to_string(request.level),
                bytes, "use fewer");
-  Baked baked = bake_somehow(patterns, mesh, control, request, options);
+  std::vector<std::int8_t> turn;
+  Baked baked = bake_somehow(patterns, mesh, control, request, options, false, &turn);
   TableInfo& info = baked.table.info;
   info.scheme = scheme.name;
   info.rows = request.rows;
@@ -119,6 +127,7 @@ Baked bake(Patterns& patterns, const ControlMesh& mesh, const BakeRequest& reque
   info.triangles = scheme.face_size() == 3;
   info.topology_hash = topology_hash(control.topology().num_vertices(), mesh.face_sizes, mesh.face_vertices);
   if (request.rows != TableRows::level) info.statuses = status_names();
+  if (request.face_varying || request.tags) add_channels(scheme, mesh, request, options, turn, baked.table);
   BakeStatistics& s = baked.statistics;
   const auto& arrays = baked.table.table.arrays();
   s.blocks = static_cast<Index>(arrays.blocks.size());
@@ -127,6 +136,11 @@ Baked bake(Patterns& patterns, const ControlMesh& mesh, const BakeRequest& reque
   s.bytes = baked.table.table.num_bytes();
   s.weights = std::int64_t(arrays.weights.size()) + (arrays.first ? std::ssize(arrays.first->weights().span()) : 0) +
               (arrays.rest ? std::ssize(arrays.rest->weights().span()) : 0);
+  for (const FaceVaryingValues& channel : baked.table.channels.list)
+    s.channel_bytes += channel.values.num_bytes() + channel.indices.num_bytes();
+  if (const std::optional<TableTags>& tags = baked.table.tags)
+    s.channel_bytes += tags->creases.num_bytes() + tags->crease_sharpness.num_bytes() + tags->corners.num_bytes() +
+                       tags->corner_sharpness.num_bytes();
   return baked;
 }
 
@@ -154,6 +168,14 @@ BakePlan bake_plan(Patterns& patterns, const ControlMesh& mesh, const BakeReques
     plan.memory += bytes_of_face * s.faces;
     // Rows of types are kept in two forms, then laid one after the other; a table in float stands beside its original.
     plan.memory += 4.5 * double(sizeof(double)) * double(s.weights) + double(s.bytes);
+  }
+  if (request.face_varying || request.tags) {
+    // Values about as many as points, four corners a face, and of tags no more than a few.
+    if (request.face_varying)
+      for (const ControlMesh::FaceVarying& channel : mesh.face_varying)
+        plan.statistics.channel_bytes += s.points * (8 * channel.values.cols() + 4 * 4);
+    plan.memory = std::max(plan.memory, double(s.bytes) + predicted_channel_bytes(scheme, t, mesh, request)) +
+                  2 * double(s.channel_bytes);
   }
   check_limit(plan.memory, limit);
   return plan;

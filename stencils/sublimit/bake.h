@@ -28,6 +28,11 @@ struct BakeRequest {
   std::vector<Sample> samples = {};  ///< of `samples`
   int derivatives = 0;               ///< of the limit: 0, 1 or 2
   BakeMethod method = BakeMethod::automatic;
+  // Of `level` and `limit`, for who writes a mesh of the points. Both refine the mesh itself, which takes the time and
+  // memory that tables save, and are as large as a mesh.
+  bool face_varying = false;  ///< the mesh's face-varying channels, refined, of the limit at their own limit
+  std::optional<FaceVaryingInterpolation> face_varying_interpolation = {};  ///< none: that of the mesh, else all
+  bool tags = false;  ///< creases and corners that level k has left
 };
 
 /// @throws InvalidParameter  a request outside these ranges, derivatives of a level
@@ -42,7 +47,8 @@ struct BakeStatistics {
   Index groups = 0;                      ///< of patches that make the same rows of the same block
   std::int64_t points = 0;
   std::int64_t weights = 0;
-  std::int64_t bytes = 0;  ///< of the table in double; one in float takes 4 less a weight
+  std::int64_t bytes = 0;          ///< of the table in double; one in float takes 4 less a weight
+  std::int64_t channel_bytes = 0;  ///< of face-varying channels and tags, besides
 };
 
 /// A table with what its making told.
@@ -60,7 +66,8 @@ struct Baked {
 
 /// A table of any linear scheme.
 /// @param patterns  of the scheme; types that it does not know yet are added
-/// @throws InvalidParameter     a request outside these ranges, derivatives of a level, a place outside its address, a
+/// @throws InvalidParameter     a request outside these ranges, derivatives of a level, channels or tags of other
+///                              points, a place outside its address, a
 ///                              method that is not possible
 /// @throws InvalidMesh, UnsupportedTopology  as refinement does
 /// @throws ResourceError        more points than memory, predicted before it is taken
@@ -71,7 +78,7 @@ Baked bake(Patterns& patterns, const ControlMesh& mesh, const BakeRequest& reque
 
 /// What a bake will make and take, found out at the cost of a look at every face.
 struct BakePlan {
-  /// Counted, but for tables by rows: their weights and bytes are estimated.
+  /// Counted, but for tables by rows: their weights and bytes are estimated, and so are all `channel_bytes`.
   BakeStatistics statistics;
   double memory = 0;  ///< bytes that the bake takes at once, about, besides the mesh as it is given
 };

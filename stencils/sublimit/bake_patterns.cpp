@@ -198,7 +198,8 @@ void count_isolated(const Topology& t, int quantities, BakeStatistics& s) {
 
 /// Vertices of level k, or their limits: points are shared between faces.
 std::optional<Baked> bake_lattices(Patterns& patterns, const Level& control, const BakeRequest& request,
-                                   bool first_by_rows, double most_bytes, bool only_count, OwnerRule owners) {
+                                   const PatternBake& how) {
+  const bool first_by_rows = how.first_by_rows;
   const Scheme<double>& scheme = patterns.scheme();
   if (!Patterns::is_possible(scheme)) return std::nullopt;
   const Index sides = scheme.face_size() == 3 ? 3 : 4;
@@ -230,7 +231,7 @@ std::optional<Baked> bake_lattices(Patterns& patterns, const Level& control, con
     places = std::move(*of_children);
   if (request.derivatives > 0 && places.empty() && t.num_faces() > 0) return std::nullopt;
 
-  FaceLattices::Arrays lattices = face_owners(t, lattice, turn, owners);
+  FaceLattices::Arrays lattices = face_owners(t, lattice, turn, how.owners);
   std::vector<std::uint8_t> share(t.num_faces());
   parallel_for(t.num_faces(), [&](std::int64_t f) { share[f] = FaceLattices::share(lattices, static_cast<Index>(f)); });
   // On coarse lattices all points of a face may be others'.
@@ -244,11 +245,11 @@ std::optional<Baked> bake_lattices(Patterns& patterns, const Level& control, con
     if (has_points[share[f]])
       block_of[f] = blocks.add({&pieces.pattern(f), request.derivatives > 0 ? places[f] : LatticePlace{}}, f);
   const double bytes = blocks.num_bytes(double(arrays.quantities) * lattice.size());
-  if (bytes > most_bytes) return std::nullopt;
+  if (bytes > how.most_bytes) return std::nullopt;
   check_memory(std::to_string(blocks.keys().size()) + " blocks of level " + std::to_string(request.level), 4 * bytes,
                "use fewer levels");
   const Groups groups(pieces, block_of, share);
-  if (only_count) {
+  if (how.only_count) {
     BakeStatistics& s = baked.statistics;
     count(
         blocks, groups, double(arrays.quantities) * lattice.size(),
@@ -330,12 +331,13 @@ std::optional<Baked> bake_lattices(Patterns& patterns, const Level& control, con
   baked.table.lattices.emplace(baked.table.table.num_points(), std::move(lattices));
   baked.statistics.faces = t.num_faces();
   baked.statistics.types = num_types(pieces);
+  if (how.turns) *how.turns = std::move(turn);
   return baked;
 }
 
 /// The same places on every address: each has all of its points, and positions on sides are copied.
-std::optional<Baked> bake_grids(Patterns& patterns, const Level& control, const BakeRequest& request, double most_bytes,
-                                bool only_count) {
+std::optional<Baked> bake_grids(Patterns& patterns, const Level& control, const BakeRequest& request,
+                                const PatternBake& how) {
   const Scheme<double>& scheme = patterns.scheme();
   const Topology& t = control.topology();
   if (scheme.is_dual() || (!scheme.preparation.empty() && t.uniform_face_size() != scheme.corners)) return std::nullopt;
@@ -360,11 +362,11 @@ std::optional<Baked> bake_grids(Patterns& patterns, const Level& control, const 
     is_hole[a] = control.holes[index(addresses.place(a).face)];
   }
   const double bytes = blocks.num_bytes(double(arrays.quantities) * lattice.size());
-  if (bytes > most_bytes) return std::nullopt;
+  if (bytes > how.most_bytes) return std::nullopt;
   check_memory(std::to_string(blocks.keys().size()) + " blocks of " + std::to_string(lattice.size()) + " places",
                4 * bytes, "use fewer places");
   const Groups groups(pieces, block_of, is_hole);
-  if (only_count) {
+  if (how.only_count) {
     BakeStatistics& s = baked.statistics;
     count(
         blocks, groups, double(arrays.quantities) * lattice.size(), [&](std::uint8_t) { return lattice.size(); }, s);
@@ -416,13 +418,13 @@ std::optional<Baked> bake_grids(Patterns& patterns, const Level& control, const 
 }  // namespace
 
 std::optional<Baked> bake_by_patterns(Patterns& patterns, const Level& control, const BakeRequest& request,
-                                      bool first_by_rows, double most_bytes, bool only_count, OwnerRule owners) {
+                                      const PatternBake& how) {
   std::optional<Baked> baked;
   if (request.rows == TableRows::level || request.rows == TableRows::limit)
-    baked = bake_lattices(patterns, control, request, first_by_rows, most_bytes, only_count, owners);
-  else if (request.rows == TableRows::grid && !first_by_rows)
-    baked = bake_grids(patterns, control, request, most_bytes, only_count);
-  if (baked) baked->statistics.method = first_by_rows ? BakeMethod::rows_then_patterns : BakeMethod::patterns;
+    baked = bake_lattices(patterns, control, request, how);
+  else if (request.rows == TableRows::grid && !how.first_by_rows)
+    baked = bake_grids(patterns, control, request, how);
+  if (baked) baked->statistics.method = how.first_by_rows ? BakeMethod::rows_then_patterns : BakeMethod::patterns;
   return baked;
 }
 

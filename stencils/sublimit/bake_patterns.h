@@ -1,19 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 // Tables by patterns: a face is a block and a list of control points.
+#include <limits>
 #include <optional>
+#include <vector>
 
 #include "sublimit/bake.h"
 #include "sublimit/face_owners.h"
 
 namespace sublimit {
 
+struct PatternBake {
+  bool first_by_rows = false;                                   ///< level 1 is made by rows, and has the patterns
+  double most_bytes = std::numeric_limits<double>::infinity();  ///< of blocks
+  bool only_count = false;  ///< the table stays empty; `statistics` tell what would be in it
+  OwnerRule owners = OwnerRule::balanced;
+  std::vector<std::int8_t>* turns = nullptr;  ///< gets the corner of each face that its lattice begins with
+};
+
 /// A table by patterns, its `info` left empty.
-/// @param first_by_rows  level 1 is made by rows, and has the patterns
-/// @param only_count     the table stays empty; `statistics` tell what would be in it
-/// @return  nothing where that is not possible, or where blocks would be larger than `most_bytes`
+/// @return  nothing where that is not possible, or where blocks would be larger than they may
 std::optional<Baked> bake_by_patterns(Patterns& patterns, const Level& control, const BakeRequest& request,
-                                      bool first_by_rows, double most_bytes, bool only_count = false,
-                                      OwnerRule owners = OwnerRule::balanced);
+                                      const PatternBake& how = {});
 
 }  // namespace sublimit

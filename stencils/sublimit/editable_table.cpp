@@ -2,7 +2,6 @@
 #include "sublimit/editable_table.h"
 
 #include <algorithm>
-#include <limits>
 #include <string>
 #include <type_traits>
 #include <unordered_map>
@@ -32,9 +31,8 @@ EditableTable<Real>::EditableTable(Patterns& patterns, ControlMesh mesh, int lev
   const BakeRequest request{.level = level};
   check(request);
   // Who has a point must be known from the faces there alone.
-  const std::optional<Baked> made =
-      bake_by_patterns(patterns, control_level(patterns.scheme(), mesh, options), request, false,
-                       std::numeric_limits<double>::infinity(), false, OwnerRule::first);
+  const std::optional<Baked> made = bake_by_patterns(patterns, control_level(patterns.scheme(), mesh, options), request,
+                                                     {.owners = OwnerRule::first});
   if (!made)
     throw UnsupportedTopology(patterns.scheme().name +
                               ": a table can be edited where all faces are cut into four of their kind");

@@ -5,6 +5,19 @@
 
 namespace sublimit {
 
+RemainingTags remaining_tags(const Level& level, const ControlMesh& control, const SubdivisionOptions& options) {
+  const Topology& t = level.topology();
+  RemainingTags left;
+  left.boundary = options.boundary.value_or(control.boundary.value_or(Boundary::edge_and_corner));
+  if (left.boundary == Boundary::none) left.boundary = Boundary::edge_only;
+  const Sharpness implied = initial_sharpness(t, {}, left.boundary, level.sharpness.creasing);
+  for (Index e = 0; e < t.num_edges(); ++e)
+    if (level.sharpness.edge[e] > implied.edge[e]) left.creases.push_back(Edge{e});
+  for (Index v = 0; v < t.num_vertices(); ++v)
+    if (level.sharpness.vertex[v] > implied.vertex[v]) left.corners.push_back(Vertex{v});
+  return left;
+}
+
 MeshOutput refined_mesh(const Level& level, const Points& points, const ControlMesh& control,
                         const SubdivisionOptions& options, bool tags) {
   const Topology& t = level.topology();
@@ -16,18 +29,15 @@ MeshOutput refined_mesh(const Level& level, const Points& points, const ControlM
     out.face_vertices.insert(out.face_vertices.end(), corners.begin(), corners.end());
   }
   if (!tags) return out;
-  const Boundary boundary = options.boundary.value_or(control.boundary.value_or(Boundary::edge_and_corner));
-  out.boundary = boundary == Boundary::none ? Boundary::edge_only : boundary;
+  const RemainingTags left = remaining_tags(level, control, options);
+  out.boundary = left.boundary;
   if (level.sharpness.creasing == Creasing::chaikin) out.creasing = Creasing::chaikin;
   if (level.number == 0) out.triangles = control.triangles;
   for (Index f = 0; f < t.num_faces(); ++f)
     if (level.holes[f]) out.holes.push_back(f);
-  const Sharpness implied = initial_sharpness(t, {}, *out.boundary, level.sharpness.creasing);
-  for (Index e = 0; e < t.num_edges(); ++e)
-    if (level.sharpness.edge[e] > implied.edge[e])
-      out.creases.push_back({index(t.tail(Edge{e})), index(t.head(Edge{e})), level.sharpness.edge[e]});
-  for (Index v = 0; v < t.num_vertices(); ++v)
-    if (level.sharpness.vertex[v] > implied.vertex[v]) out.corners.push_back({v, level.sharpness.vertex[v]});
+  for (const Edge e : left.creases)
+    out.creases.push_back({index(t.tail(e)), index(t.head(e)), level.sharpness.edge[index(e)]});
+  for (const Vertex v : left.corners) out.corners.push_back({index(v), level.sharpness.vertex[index(v)]});
   return out;
 }
 

@@ -17,6 +17,14 @@ namespace sublimit {
 MeshOutput refined_mesh(const Level& level, const Points& points, const ControlMesh& control,
                         const SubdivisionOptions& options, bool tags);
 
+/// Sharp edges and vertices of a level that its connectivity and the rule for borders do not imply.
+struct RemainingTags {
+  std::vector<Edge> creases;
+  std::vector<Vertex> corners;
+  Boundary boundary = Boundary::edge_only;  ///< never none: what that made are holes
+};
+RemainingTags remaining_tags(const Level& level, const ControlMesh& control, const SubdivisionOptions& options);
+
 /// Limit positions, without the faces that are holes. Normals, if wanted, are per corner (each side of a crease has its
 /// own), or the mean of a vertex's sides where the format has one per vertex.
 enum class Normals { none, per_corner, per_vertex };

@@ -6,32 +6,39 @@
 
 #include <numeric>
 
+#include "sublimit/bake_channels.h"
+#include "sublimit/rule_words.h"
+
 namespace sublimit {
 namespace {
-
-const char* word(Boundary boundary) {
-  switch (boundary) {
-    case Boundary::none:
-      return "none";
-    case Boundary::edge_only:
-      return "edge-only";
-    default:
-      return "edge-and-corner";
-  }
-}
 
 template <class T>
 std::uint64_t hash_of(const std::vector<T>& items, std::uint64_t seed) {
   return XXH3_64bits_withSeed(items.data(), items.size() * sizeof(T), seed);
 }
 
-std::string tags_of(const ControlMesh& mesh) {
-  static_assert(sizeof(ControlMesh::Crease) == 12 && sizeof(ControlMesh::Corner) == 8, "no bytes between members");
-  if (mesh.creases.empty() && mesh.corners.empty() && mesh.holes.empty()) return "none";
-  std::uint64_t hash = hash_of(mesh.holes, hash_of(mesh.corners, hash_of(mesh.creases, mesh.creases.size())));
+std::string digits_of(std::uint64_t hash) {
   std::string digits(16, '0');
   for (size_t i = digits.size(); i-- > 0; hash >>= 4) digits[i] = "0123456789abcdef"[hash & 15];
   return digits;
+}
+
+std::string tags_of(const ControlMesh& mesh) {
+  static_assert(sizeof(ControlMesh::Crease) == 12 && sizeof(ControlMesh::Corner) == 8, "no bytes between members");
+  if (mesh.creases.empty() && mesh.corners.empty() && mesh.holes.empty()) return "none";
+  const std::uint64_t hash = hash_of(mesh.holes, hash_of(mesh.corners, hash_of(mesh.creases, mesh.creases.size())));
+  return digits_of(hash);
+}
+
+/// Of all channels: names, values, indices.
+std::string channels_of(const ControlMesh& mesh) {
+  std::uint64_t hash = mesh.face_varying.size();
+  for (const ControlMesh::FaceVarying& channel : mesh.face_varying) {
+    hash = XXH3_64bits_withSeed(channel.name.data(), channel.name.size(), hash);
+    hash = XXH3_64bits_withSeed(channel.values.data(), size_t(channel.values.size()) * sizeof(double), hash);
+    hash = hash_of(channel.indices, hash + std::uint64_t(channel.values.cols()));
+  }
+  return digits_of(hash);
 }
 
 /// Numbers in lowest terms, so that 0.75 and 6/8 are the same.
@@ -55,8 +62,13 @@ TableInfo table_info(const Scheme<double>& scheme, const SchemeOptions& given, c
   for (const OptionInfo& known : scheme.options) info.options[known.name] = value_of(known, given);
   info.options["boundary"] = word(rules.boundary.value_or(mesh.boundary.value_or(Boundary::edge_and_corner)));
   const Creasing creasing = rules.creasing.value_or(mesh.creasing.value_or(Creasing::uniform));
-  info.options["creasing"] = creasing == Creasing::chaikin ? "chaikin" : "uniform";
+  info.options["creasing"] = word(creasing);
   info.options["tags"] = tags_of(mesh);
+  if (request.face_varying) {
+    info.options["face-varying"] = word(interpolation_of(request, mesh));
+    info.options["face-varying-values"] = channels_of(mesh);
+  }
+  if (request.tags) info.options["tags-left"] = "written";
   info.rows = request.rows;
   if (request.rows == TableRows::level || request.rows == TableRows::limit) info.level = request.level;
   if (request.rows == TableRows::grid) info.grid = request.grid;

@@ -12,6 +12,8 @@ namespace sublimit {
 ///
 ///     boundary  none, edge-only, edge-and-corner      the rules in effect, of the mesh where `rules` says nothing
 ///     creasing  uniform, chaikin
+///     face-varying, face-varying-values   of tables with channels: their interpolation, 64 bits of what was given
+///     tags-left   written                 of tables with the tags that are left
 ///     tags      none, or 64 bits of the creases, corners and holes, as 16 hexadecimal digits
 ///
 /// @param given  options that the scheme was made with

@@ -41,6 +41,26 @@ TEST(TableInfo, TellsJobsApart) {
     EXPECT_FALSE(plain.is_that_of(others[i])) << i;
     EXPECT_TRUE(others[i].is_that_of(others[i])) << i;
   }
+  // Of tables that carry them, texture coordinates and how they are refined; of others they do not matter.
+  std::vector<Job> carrying(5);
+  for (Job& job : carrying) {
+    job.request.face_varying = true;
+    job.mesh.face_varying = {{.name = "uv", .values = Points::Zero(1, 2), .indices = std::vector<Index>(24, 0)}};
+  }
+  carrying[1].mesh.face_varying[0].values(0, 1) = 1;
+  carrying[2].request.face_varying_interpolation = FaceVaryingInterpolation::none;
+  carrying[3].mesh.face_varying[0].indices[5] = 1;
+  carrying[4].request.tags = true;
+  for (size_t i = 0; i < carrying.size(); ++i) {
+    EXPECT_FALSE(plain.is_that_of(carrying[i])) << i;
+    for (size_t j = 0; j < i; ++j) EXPECT_FALSE(carrying[i].is_that_of(carrying[j])) << i << " " << j;
+  }
+  carrying[1].request.face_varying = false;
+  EXPECT_TRUE(plain.is_that_of(carrying[1]));
+  carrying[0].request.face_varying_interpolation = FaceVaryingInterpolation::all;
+  Job by_tag = carrying[0];
+  by_tag.request.face_varying_interpolation.reset();
+  EXPECT_TRUE(by_tag.is_that_of(carrying[0]));
   Job sharper = others[7];
   sharper.mesh.creases[0].sharpness = 2.5f;
   EXPECT_FALSE(sharper.is_that_of(others[7]));
