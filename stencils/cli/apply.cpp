@@ -13,6 +13,7 @@
 #include "sublimit/pattern_evaluator.h"
 #include "sublimit/table_file.h"
 #include "sublimit/table_info.h"
+#include "sublimit/table_mesh.h"
 
 namespace sublimit::cli {
 namespace {
@@ -67,6 +68,7 @@ void write_one(const Options& options, const BakedTable<Real>& table, const Fram
   MeshOutput mesh = applied.mesh(faces_of(table), values);
   if (mesh.normals.rows() > 0 && ends_in(options.output, ".obj"))  // which leaves out those that do not exist
     for (const Index v : mesh.face_vertices) mesh.face_normals.push_back(mesh.normals.row(v).isZero(0) ? -1 : v);
+  if (ends_in(options.output, ".obj")) add_channels(mesh, table);  // a .ply has no place for them
   write_mesh(options.output, mesh);
 }
 
@@ -153,8 +155,10 @@ Command add_apply(CLI::App& app) {
           "x channels or frames x vertices x channels")
       ->required();
   command
-      ->add_option("-o,--output", options->output,
-                   "OUT.obj or OUT.ply: a mesh, with normals if the table has derivatives; OUT.csv; OUT.npy")
+      ->add_option(
+          "-o,--output", options->output,
+          "OUT.obj or OUT.ply: a mesh, with normals if the table has derivatives; an .obj has the table's texture "
+          "coordinates and tags; OUT.csv; OUT.npy")
       ->required();
   command->add_flag("--any-cage", options->any_cage, "Take a mesh with other faces than those of the table's cage");
   add_run(*command, options->common);

@@ -41,10 +41,11 @@ double parse_size(const std::string& text) {
 
 void print_plan(const BakeJob& job, const BakeOutcome& outcome) {
   const BakeStatistics& s = outcome.plan->statistics;
-  const double bytes = double(s.bytes) - (job.is_float ? 4.0 * double(s.weights) : 0);
+  const double bytes = double(s.bytes + s.channel_bytes) - (job.is_float ? 4.0 * double(s.weights) : 0);
   fmt::print("{} points of {} {}\n", s.points, outcome.control_points, in_words(s));
-  fmt::print("{}{} of table in {}, about {} of memory to bake it\n", s.method == BakeMethod::rows ? "about " : "",
-             bytes_in_words(bytes), job.is_float ? "float" : "double", bytes_in_words(outcome.plan->memory));
+  fmt::print("{}{} of table in {}, about {} of memory to bake it\n",
+             s.method == BakeMethod::rows || s.channel_bytes > 0 ? "about " : "", bytes_in_words(bytes),
+             job.is_float ? "float" : "double", bytes_in_words(outcome.plan->memory));
 }
 
 int run_manifest(const Options& options, const BakeJob& defaults) {
@@ -79,8 +80,8 @@ int run(const Options& options) {
   if (job.is_plan || job.common.quiet) return 0;
   const BakeStatistics& s = outcome.statistics;
   fmt::print("{}: {} points of {} {}\n", job.output, s.points, outcome.control_points, in_words(s));
-  fmt::print("{} in memory in {}, a file of {}; {:.3f} s\n", bytes_in_words(double(s.bytes)), options.precision,
-             bytes_in_words(double(outcome.file_bytes)), time.count());
+  fmt::print("{} in memory in {}, a file of {}; {:.3f} s\n", bytes_in_words(double(s.bytes + s.channel_bytes)),
+             options.precision, bytes_in_words(double(outcome.file_bytes)), time.count());
   return 0;
 }
 
@@ -91,8 +92,11 @@ Command add_bake(CLI::App& app) {
   auto options = std::make_shared<Options>();
   BakeJob& job = options->job;
   add_mesh(*command, job.common, false);
-  command->get_option("MESH")->required(false);                   // of a manifest there are many
-  command->remove_option(command->get_option("--face-varying"));  // tables are of vertices
+  command->get_option("MESH")->required(false);  // of a manifest there are many
+  command->get_option("--face-varying")
+      ->description(
+          "Texture coordinates too, of -l LEVELS, with `apply` to write them: where they are linear, by OpenSubdiv's "
+          "names (default: none are baked)");
   command->add_option("-l,--levels", job.levels, "The vertices of level LEVELS");
   command->add_flag("--limit", job.limit, "These moved to the limit");
   command->add_option("--grid", job.grid,
@@ -103,6 +107,8 @@ Command add_bake(CLI::App& app) {
                    "Of the limit, along u and v: 1 first ones, from which `apply` makes normals, 2 second ones too "
                    "(default 0)")
       ->check(CLI::Range(0, 2));
+  command->add_flag("--tags", job.tags,
+                    "Creases and corners too that -l LEVELS has left, so that refining what `apply` writes goes on");
   command
       ->add_option("--precision", options->precision,
                    "Weights as float, which pipelines apply (default), or double; made in double in either case")
@@ -133,6 +139,7 @@ Command add_bake(CLI::App& app) {
       "  sublimit bake cage.obj -s catmull-clark -l 3 -o level3.safetensors\n"
       "  sublimit bake cage.obj -s loop -l 2 --limit --derivatives 1 -o limit.safetensors\n"
       "  sublimit bake cage.obj -s catmull-clark --grid 9 --precision double -o grid.safetensors\n"
+      "  sublimit bake cage.obj -s catmull-clark -l 2 --face-varying all --tags -o mesh.safetensors\n"
       "  sublimit bake cage.obj -s catmull-clark -l 5 --plan\n"
       "  sublimit apply level3.safetensors frames.npy -o level3.npy\n"
       "  sublimit bake --manifest jobs.jsonl --shard 3/8 --log log.jsonl\n"
@@ -140,11 +147,13 @@ Command add_bake(CLI::App& app) {
       "A job of a manifest is an object with the keys mesh, scheme, output, one of levels (with limit: true), grid and "
       "at,\n"
       "and, if wanted, derivatives, precision, options: {name: value}, boundary, creasing, triangles, triangulate,\n"
-      "no-creases, strict, as above; paths are relative to the manifest. A job is skipped if a sound table of the "
+      "no-creases, face-varying, tags, strict, as above; paths are relative to the manifest. A job is skipped if a "
+      "sound table of the "
       "same\n"
       "job is there; one that fails does not stop the others. The exit status is the highest of any job.\n"
       "The same bytes for any number of threads. The table knows its cage by the connectivity that was refined (with\n"
-      "--triangulate that of the triangles); positions are no part of it.");
+      "--triangulate that of the triangles); positions are no part of it. --face-varying and --tags refine the mesh\n"
+      "itself, once, and make the table about as large as the mesh; faces of holes are left out of it.");
   return [=] { return run(*options); };
 }
 

@@ -22,6 +22,7 @@ struct BakeJob {
 
   bool limit = false;              ///< of `levels`
   int derivatives = 0;             ///< 0, 1 or 2
+  bool tags = false;               ///< those that are left, too
   bool is_float = true;            ///< weights; else double
   bool is_plan = false;            ///< no table, but what it would be
   double memory_limit = INFINITY;  ///< bytes

@@ -6,6 +6,7 @@
 #include "sublimit/base/error.h"
 #include "sublimit/base/memory.h"
 #include "sublimit/pattern_file.h"
+#include "sublimit/rule_words.h"
 #include "sublimit/sample_files.h"
 #include "sublimit/table_file.h"
 #include "sublimit/table_info.h"
@@ -27,7 +28,10 @@ std::vector<Sample> places_of(SampleReader& reader, const Loaded& loaded) {
 }
 
 BakeRequest request_of(const BakeJob& job) {
-  BakeRequest request{.derivatives = job.derivatives};
+  BakeRequest request{.derivatives = job.derivatives,
+                      .face_varying = !job.common.face_varying.empty(),
+                      .face_varying_interpolation = rule_of<FaceVaryingInterpolation>(job.common.face_varying),
+                      .tags = job.tags};
   if (job.levels) {
     request.rows = job.limit ? TableRows::limit : TableRows::level;
     request.level = *job.levels;
@@ -62,6 +66,9 @@ void check(const BakeJob& job) {
     throw InvalidOption("--limit is for -l LEVELS; points of --grid and --at are on the limit anyway");
   if (job.levels && !job.limit && job.derivatives > 0)
     throw InvalidOption("--derivatives are those of the limit: -l LEVELS needs --limit for them");
+  for (const auto& [name, given] :
+       {std::pair("--face-varying", !job.common.face_varying.empty()), std::pair("--tags", job.tags)})
+    if (given && !job.levels) throw InvalidOption(fmt::format("{} is for the faces between vertices: -l LEVELS", name));
 }
 
 Patterns& Dictionaries::of(const Scheme<double>& scheme, const SchemeOptions& options) {
@@ -124,7 +131,9 @@ BakeOutcome bake_table(const BakeJob& job, Dictionaries& dictionaries, Progress&
     info.statuses = std::move(baked.table.info.statuses);
     baked.table.info = std::move(info);
     progress.step("writing " + job.output);
-    check_disk("tables", job.output, double(baked.statistics.bytes) / (job.is_float ? 2 : 1), "use fewer points");
+    check_disk("tables", job.output,
+               double(baked.statistics.bytes) / (job.is_float ? 2 : 1) + double(baked.statistics.channel_bytes),
+               "use fewer points");
     if (job.is_float) {
       const BakedTable<float> table = in_float(baked.table);
       outcome.statistics.bytes = table.table.num_bytes();

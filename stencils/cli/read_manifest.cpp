@@ -89,6 +89,11 @@ class Line {
       job.common.creasing = one_of(key, value, {"uniform", "chaikin"});
     } else if (key == "triangles") {
       job.common.triangles = one_of(key, value, {"catmark", "smooth"});
+    } else if (key == "face-varying") {
+      job.common.face_varying =
+          one_of(key, value, {"none", "corners-only", "corners-plus1", "corners-plus2", "boundaries", "all"});
+    } else if (key == "tags") {
+      job.tags = flag(key, value);
     } else if (key == "triangulate") {
       job.common.triangulate = flag(key, value);
     } else if (key == "no-creases") {
@@ -104,7 +109,8 @@ class Line {
     } else {
       fail(
           fmt::format("\"{}\" is no key of a job; they are mesh, scheme, output, levels, limit, grid, at, derivatives, "
-                      "precision, options, boundary, creasing, triangles, triangulate, no-creases, strict",
+                      "precision, options, boundary, creasing, triangles, triangulate, no-creases, face-varying, tags, "
+                      "strict",
                       key));
     }
   }

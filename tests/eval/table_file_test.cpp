@@ -320,7 +320,7 @@ TEST(TableFile, SeedsOfTheFuzzerAreTables) {
     EXPECT_NO_THROW(load_table(seed.path())) << seed.path();
     ++count;
   }
-  EXPECT_GE(count, 9);
+  EXPECT_GE(count, 10);
 }
 
 TEST(TableFile, IsNamedWhenItCannotBeRead) {

@@ -51,7 +51,16 @@ void use(const BakedTable<Real>& baked) {
   const std::int64_t cells =
       baked.lattices ? std::int64_t{baked.lattices->num_faces()} * baked.lattices->lattice().size() : 0;
   if (cells > most_points) return;
-  for (const std::int32_t corner : faces_of(baked).corners) require(corner >= 0 && corner < table.num_points());
+  const FaceList faces = faces_of(baked);
+  for (const std::int32_t corner : faces.corners) require(corner >= 0 && corner < table.num_points());
+  for (const FaceVaryingValues& channel : baked.channels.list) {
+    require(channel.indices.size() == faces.corners.size());
+    for (const std::int32_t value : channel.indices)
+      require(value >= 0 && size_t(value) < channel.values.size() / size_t(channel.channels));
+  }
+  if (!baked.tags) return;
+  require(2 * baked.tags->crease_sharpness.size() == baked.tags->creases.size());
+  for (const std::int32_t point : baked.tags->creases) require(point >= 0 && point < table.num_points());
 }
 
 void load(const std::vector<std::byte>& bytes) {

@@ -138,7 +138,7 @@ TEST(CliBake, BadCommandLines) {
   refused({"-l", "2", "--derivatives", "1"}, 2, {"--derivatives", "--limit"});
   refused({"-l", "2", "--limit", "--derivatives", "3"}, 2, {"derivatives"});
   refused({"-l", "2", "--precision", "half"}, 2, {"precision", "half"});
-  refused({"-l", "2", "--face-varying", "all"}, 2, {"--face-varying"});
+  refused({"--grid", "3", "--face-varying", "all"}, 2, {"--face-varying"});
   refused({"-l", "2", "--shard", "1/2"}, 2, {"--shard", "--manifest"});
   for (const char* level : {"0", "12", "-1", "two"}) refused({"-l", level}, 2, {level});
   for (const char* N : {"1", "2049"}) refused({"--grid", N}, 2, {"grid", N});
