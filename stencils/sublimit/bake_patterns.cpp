@@ -372,7 +372,7 @@ std::optional<Baked> bake_grids(Patterns& patterns, const Level& control, const 
         blocks, groups, double(arrays.quantities) * lattice.size(), [&](std::uint8_t) { return lattice.size(); }, s);
     s.faces = addresses.size();
     s.types = num_types(pieces);
-    s.bytes += 8 * (std::int64_t(pieces.count()) + std::ssize(shared_grid_places(t, addresses, request.grid)));
+    s.bytes += 8 * (std::int64_t(pieces.count()) + std::ssize(shared_grid_places(t, addresses, request.grid, false)));
     return baked;
   }
   const auto limit_block = [&](Index b) {
@@ -399,7 +399,7 @@ std::optional<Baked> bake_grids(Patterns& patterns, const Level& control, const 
     for (const std::uint8_t s : status) row_status.push_back(group.share ? std::uint8_t(LimitStatus::hole) : s);
   }
   std::vector<std::int32_t> copies;
-  for (const auto& [to, from] : shared_grid_places(t, addresses, request.grid)) {
+  for (const auto& [to, from] : shared_grid_places(t, addresses, request.grid, false)) {
     copies.push_back(static_cast<std::int32_t>(to));
     copies.push_back(static_cast<std::int32_t>(from));
   }

@@ -124,9 +124,9 @@ void add_places(const LimitSurface& surface, std::span<const Sample> samples, in
     baked.table.rest_status = std::move(status);
 }
 
-std::vector<std::int32_t> copies(const Topology& t, const Addresses& addresses, int N) {
+std::vector<std::int32_t> copies(const Topology& t, const Addresses& addresses, int N, bool dual) {
   std::vector<std::int32_t> list;
-  for (const auto& [to, from] : shared_grid_places(t, addresses, N)) {
+  for (const auto& [to, from] : shared_grid_places(t, addresses, N, dual)) {
     list.push_back(static_cast<std::int32_t>(to));
     list.push_back(static_cast<std::int32_t>(from));
   }
@@ -160,7 +160,7 @@ Baked bake_by_rows(Patterns& patterns, const ControlMesh& mesh, const Level& con
     const LimitSurface surface(scheme, control, patterns.types());
     if (request.rows == TableRows::grid) {
       add_places(surface, surface.grid(request.grid), request.derivatives, baked, arrays);
-      arrays.copies = copies(control.topology(), surface.addresses(), request.grid);
+      arrays.copies = copies(control.topology(), surface.addresses(), request.grid, scheme.is_dual());
     } else {
       add_places(surface, request.samples, request.derivatives, baked, arrays);
       std::vector<std::int32_t> faces;

@@ -103,8 +103,9 @@ class LimitSurface {
 };
 
 /// Pairs of rows of a grid, a later one and the first one, that are the same point.
+/// @param dual  of a dual scheme, which keeps the sides of non-manifold edges and vertices apart
 std::vector<std::pair<std::int64_t, std::int64_t>> shared_grid_places(const Topology& topology,
-                                                                      const Addresses& addresses, int N);
+                                                                      const Addresses& addresses, int N, bool dual);
 
 /// A surface with its points, for many evaluations.
 class BoundLimitSurface {

@@ -61,6 +61,23 @@ TEST(LimitGrid, SharedPointsHaveTheSameBits) {
   }
 }
 
+TEST(LimitGrid, SidesOfNonmanifoldEdgesAreApartUnderDualSchemes) {
+  ControlMesh mesh = grid(2, 2);  // a third face at the edge between two of them
+  const auto v = mesh.positions.rows();
+  mesh.positions.conservativeResize(v + 2, Eigen::NoChange);
+  mesh.positions.bottomRows(2) << 0, 1, 2, 1, 1, 2;
+  const Index a = mesh.face_vertices[1], b = mesh.face_vertices[2];
+  mesh.face_sizes.push_back(4);
+  mesh.face_vertices.insert(mesh.face_vertices.end(), {b, a, static_cast<Index>(v), static_cast<Index>(v + 1)});
+  for (const char* name : {"catmull-clark", "doo-sabin", "mid-edge"}) {
+    SCOPED_TRACE(name);
+    const LimitSurface surface(*find_scheme(name), mesh);
+    const LimitSamples grid = surface.evaluate_grid(mesh.positions, 4),
+                       alone = surface.evaluate(mesh.positions, surface.grid(4));
+    EXPECT_LT((grid.position - alone.position).cwiseAbs().maxCoeff(), rounding(40, 2));
+  }
+}
+
 TEST(LimitBoxes, HoldTheirPartOfTheLimit) {
   std::mt19937 numbers(5);
   std::uniform_real_distribution<double> uniform(0, 1);
