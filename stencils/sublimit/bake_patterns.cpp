@@ -2,6 +2,7 @@
 #include "sublimit/bake_patterns.h"
 
 #include <algorithm>
+#include <atomic>
 #include <array>
 #include <limits>
 #include <tuple>
@@ -9,6 +10,7 @@
 
 #include "sublimit/analysis/limit_status.h"
 #include "sublimit/bake_rows.h"
+#include "sublimit/base/error.h"
 #include "sublimit/base/memory.h"
 #include "sublimit/base/parallel_for.h"
 #include "sublimit/face_owners.h"
@@ -52,12 +54,21 @@ class Blocks {
   template <class Make>
   bool fill(Arrays& arrays, std::int32_t rows, const Make& make) const {
     std::vector<const RowMatrix*> made(keys_.size());
+    std::atomic<bool> failed = false;
+    const auto made_or_null = [&](Index i) -> const RowMatrix* {
+      try {
+        if (!failed) return make(i);
+      } catch (const AnalysisError&) {
+        failed = true;  // a neighbourhood that never comes to repeat itself: rows may know what to do
+      }
+      return nullptr;
+    };
     for (Index i = 0; i < count(); ++i)
-      if (keys_[i].pattern->decays) made[i] = make(i);
+      if (keys_[i].pattern->decays) made[i] = made_or_null(i);
     parallel_for_blocks(
         static_cast<std::int64_t>(keys_.size()),
         [&](std::int64_t i, std::int64_t, std::int64_t) {
-          if (!made[i]) made[i] = make(static_cast<Index>(i));
+          if (!made[i]) made[i] = made_or_null(static_cast<Index>(i));
         },
         1);
     if (std::find(made.begin(), made.end(), nullptr) != made.end()) return false;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sublimit/type_limits.h"
 
+#include <algorithm>
+
 #include "sublimit/limit/limit_surface_parts.h"
 
 namespace sublimit {
@@ -43,6 +45,15 @@ std::optional<Patterns::LimitBlock> limits_of_type(const std::shared_ptr<PieceTy
   std::vector<Eigen::Index> slot_of(type.level().topology().num_vertices(), -1);
   for (size_t s = 0; s < type.slots().size(); ++s) slot_of[type.slots()[s]] = Eigen::Index(s);
 
+  // Among its own points a walk could see less: of a vertex with several fans only those around the piece are there.
+  const std::vector<Index> slots(type.slots().begin(), type.slots().end());
+  const Topology& t = type.level().topology();
+  const auto has_several_fans = [&] {
+    const Face face = t.face(type.piece().start);
+    return std::any_of(t.vertices(face).begin(), t.vertices(face).end(),
+                       [&](Index v) { return t.is_nonmanifold(Vertex{v}); });
+  };
+
   const int quantities = derivatives == 0 ? 1 : derivatives == 1 ? 3 : 6;
   const Eigen::Index count = lattice.size();
   Patterns::LimitBlock block;
@@ -56,7 +67,8 @@ std::optional<Patterns::LimitBlock> limits_of_type(const std::shared_ptr<PieceTy
     LimitSurface::Parts::Target target{type.piece(), {}, &map, {}};
     target.outer = all.triangle ? triangle_place(p.u, p.v) : quad_place(p.u, p.v);
     target.place = map(target.outer);
-    const LimitSurface::Parts::Found found = surface.find(target, request.derivatives);
+    const LimitSurface::Parts::Found found = surface.find(target, request.derivatives, type, slots);
+    if (!found.tangents.empty() && has_several_fans()) beyond = true;
     const Eigen::Index row = all.row(i, j);
     block.status[size_t(row)] = static_cast<std::uint8_t>(found.status);
     const auto add = [&](Eigen::Index quantity, Index vertex, double weight) {

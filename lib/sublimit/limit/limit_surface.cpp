@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 #include "sublimit/analysis/limit_masks.h"
 #include "sublimit/base/error.h"
@@ -26,9 +27,16 @@ const Addresses& LimitSurface::addresses() const { return parts_->addresses; }
 const Level& LimitSurface::level() const { return parts_->level; }
 
 LimitSurface::Parts::Found LimitSurface::Parts::find(const Target& at, int order) const {
+  std::vector<Index> vertices;
+  const PieceType* type = type_of(at.piece, vertices);
+  return find(at, order, *type, std::move(vertices));
+}
+
+LimitSurface::Parts::Found LimitSurface::Parts::find(const Target& at, int order, const PieceType& type,
+                                                     std::vector<Index> vertices) const {
   Found found;
-  const PieceType* type = type_of(at.piece, found.vertices);
-  PieceRows& rows = found.rows = piece_rows(*type, at.place, order);
+  found.vertices = std::move(vertices);
+  PieceRows& rows = found.rows = piece_rows(type, at.place, order);
   const unsigned sides = this->sides(at.piece);
   if (sides & sides_at(at.place, at.piece.kind == Kind::triangle)) found.status = LimitStatus::crease;
   if (at.map && rows.order > 0) {

@@ -67,6 +67,9 @@ struct LimitSurface::Parts {
     LimitStatus status = LimitStatus::regular;
   };
   Found find(const Target& at, int order) const;
+  /// The same where the type is known.
+  /// @param vertices  its points, by slot
+  Found find(const Target& at, int order, const PieceType& type, std::vector<Index> vertices) const;
   LimitStencil stencil(const Sample& sample, int order) const;
   /// Row i of `out`, by its stencil.
   void evaluate_row(const Points& points, const Sample& sample, int order, bool normals, LimitSamples& out,

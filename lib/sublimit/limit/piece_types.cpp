@@ -173,7 +173,9 @@ struct PieceType::CornerPath {
       first = 0;
       while (first < visits.size() && !(visits[first].type == type && visits[first].corner == corner)) ++first;
       if (first < visits.size()) return;
-      if (visits.size() > 64)
+      // Around faces that visit a vertex twice each step may double what there is.
+      const bool grows = !visits.empty() && type->num_slots() > 4 * visits[0].type->num_slots() + 1000;
+      if (visits.size() > 64 || grows)
         throw AnalysisError(type->types_->scheme_.name + ": a neighbourhood never comes to repeat itself");
       const Place place = corner_place(type->kind_, corner);
       const PieceLink& link = type->child(place);
