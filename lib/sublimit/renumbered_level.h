@@ -28,10 +28,12 @@ Level renumbered_level(const Level& whole, const RenumberedFaces& part, Index nu
   TopologyBuilder b;
   b.face_offsets = part.offsets;
   const auto corners = static_cast<Index>(part.corners.size());
+  b.tail.resize(corners);
+  b.twin.resize(corners);
   for (Index i = 0; i < corners; ++i) {
     const HalfEdge h{part.corners[i]}, twin = t.twin(h);
-    b.tail.push_back(vertex(index(t.tail(h))));
-    b.twin.push_back(exists(twin) ? half(index(twin)) : -1);
+    b.tail[i] = vertex(index(t.tail(h)));
+    b.twin[i] = exists(twin) ? half(index(twin)) : -1;
     if (exists(twin) || !t.is_nonmanifold(t.edge(h))) continue;
     std::vector<Index> group;
     for (const HalfEdge g : t.half_edges(t.edge(h)))

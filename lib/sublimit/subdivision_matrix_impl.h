@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 // Assembly: lengths of the rows, then their entries, both in parallel blocks of rows and in order; no triplets.
-// Smooth rows take their weights from the mask table; the few sharp ones are blended from the rules of parent and child.
+// Smooth rows take their weights from the mask table; the few sharp ones are blended from the rules of parent and
+// child.
 #include <tbb/enumerable_thread_specific.h>
 
 #include <algorithm>
@@ -19,8 +20,8 @@
 namespace sublimit {
 namespace assembly {
 
-/// Rows of one step, one at a time. Not shared between threads; the masks it evaluates are pure, so every instance makes
-/// the same rows.
+/// Rows of one step, one at a time. Not shared between threads; the masks it evaluates are pure, so every instance
+/// makes the same rows.
 template <class T>
 class RowMaker {
  public:
@@ -178,8 +179,8 @@ class RowMaker {
     return merge();
   }
 
-  /// Under Chaikin creasing an edge decays with those around it, of which a face-varying channel has not all: beyond its seams
-  /// the mesh goes on. What the edges became is known.
+  /// Under Chaikin creasing an edge decays with those around it, of which a face-varying channel has not all: beyond
+  /// its seams the mesh goes on. What the edges became is known.
   void use_child_sharpness(Vertex v, VertexSharpness& around) const {
     if (refinement_.split != Split::pqq && refinement_.split != Split::ptq) return;
     const std::vector<Edge> edges = t_.edges(v);
@@ -316,8 +317,8 @@ class RowMaker {
 
   Index other_end(Edge e, Vertex v) const { return index(t_.tail(e) == v ? t_.head(e) : t_.tail(e)); }
 
-  /// An edge is a full crease while its sharpness is 1 or more, and under Chaikin creasing also where both its halves stay
-  /// sharp.
+  /// An edge is a full crease while its sharpness is 1 or more, and under Chaikin creasing also where both its halves
+  /// stay sharp.
   bool stays_sharp(Edge e) const {
     if (sharpness_.edge[index(e)] >= 1) return true;
     if (sharpness_.creasing == Creasing::uniform) return false;
@@ -411,10 +412,34 @@ SparseMatrixOf<T> compacted(const SparseMatrixOf<T>& loose, const std::vector<st
   return tight;
 }
 
+/// A matrix so small that the widest rows there could be fit a buffer: written at once, with no plan of lengths. Levels
+/// of single pieces of a limit are such, and most of their rows are blended, which planning would do twice.
+template <class T, class Maker, class Write>
+SparseMatrixOf<T> assemble_small(Index rows, Index columns, Maker maker, const Write& write) {
+  std::vector<Index> all_columns(size_t(rows) * columns);
+  std::vector<T> all_values(all_columns.size());
+  SparseMatrixOf<T> S(rows, columns);
+  Index* const outer = S.outerIndexPtr();
+  Index at = 0;
+  for (Index r = 0; r < rows; ++r) {
+    outer[r] = at;
+    at += write(maker, r, all_columns.data() + at, all_values.data() + at);
+  }
+  outer[rows] = at;
+  resize_nonzeros(S, at);
+  std::copy_n(all_columns.begin(), at, S.innerIndexPtr());
+  std::copy_n(all_values.begin(), at, S.valuePtr());
+  return S;
+}
+
 /// Fills a matrix row by row: length_of(maker, r) plans, write(maker, r, columns, values) writes at most as many terms.
 template <class T, class MakeMaker, class LengthOf, class Write>
 SparseMatrixOf<T> assemble(Index rows, Index columns, const MakeMaker& make_maker, const LengthOf& length_of,
                            const Write& write) {
+  if constexpr (std::is_trivially_copyable_v<T>) {  // a buffer of others costs more than a plan
+    constexpr std::int64_t small = 1 << 14;         // entries if there were no zeros
+    if (std::int64_t{rows} * columns <= small) return assemble_small<T>(rows, columns, make_maker(), write);
+  }
   tbb::enumerable_thread_specific<std::invoke_result_t<const MakeMaker&>> makers(make_maker);
   std::vector<std::int64_t> start(num_blocks(rows) + 1, 0);
   parallel_for_blocks(rows, [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
