@@ -118,6 +118,48 @@ const RowMatrix& Patterns::differences(const PieceType& type, int levels, Ends e
   return *differences_.try_emplace(key, std::move(made)).first->second;
 }
 
+namespace {
+
+/// Calls visit(row, row of the child) for the points of a lattice that a child has and no child before it.
+template <class Visit>
+void visit_share(const Lattice& lattice, const PieceMap& map, std::vector<bool>& made, const Visit& visit) {
+  const Lattice half{lattice.n / 2, lattice.triangle};
+  const double n = lattice.n;
+  lattice.for_each([&](Index i, Index j) {
+    const Index row = lattice.row(i, j);
+    if (made[row]) return;
+    const Place place = lattice.triangle ? triangle_place(i / n, j / n) : quad_place(i / n, j / n);
+    if (!map.contains(place)) return;
+    const Place inside = map(place);
+    visit(row, half.row(static_cast<Index>(std::lround(inside.u * half.n)),
+                        static_cast<Index>(std::lround(inside.v * half.n))));
+    made[row] = true;
+  });
+}
+
+/// Points of level 1: rows of S, whatever the types of the children are, which need not be made.
+RowMatrix first_rows(const PieceType& type, const Lattice& lattice) {
+  const PieceType::ChildCorners corners = type.child_corners();
+  const Lattice half{1, lattice.triangle};
+  const Index sides = lattice.num_sides();
+  RowMatrix R = RowMatrix::Zero(lattice.size(), type.num_slots() - 1);
+  std::vector<bool> made(lattice.size(), false);
+  for (size_t c = 0; c < corners.maps.size(); ++c) {
+    const Index first = static_cast<Index>(c) * sides;
+    const auto row_of = [&](Index k) { return corners.rows.row(first + k).tail(R.cols()); };
+    visit_share(lattice, corners.maps[c], made, [&](Index row, Index of_child) {
+      Index k = 0;
+      while (half.on_side(k, 0) != of_child) ++k;
+      // In the order of the sums of blocks, so that either way has the same bits.
+      R.row(row) = row_of(k);
+      if (k > 0) R.row(row) = (R.row(row) - row_of(0)) + row_of(0);
+    });
+  }
+  return R;
+}
+
+}  // namespace
+
 /// In differences (piece_block.h).
 RowMatrix Patterns::made_rows(const PieceType& type, int levels, Ends ends) {
   const Lattice lattice{Index{1} << levels, type.kind() == Piece::Kind::triangle};
@@ -132,20 +174,14 @@ RowMatrix Patterns::made_rows(const PieceType& type, int levels, Ends ends) {
     }
     return R;
   }
-  const Lattice half{lattice.n / 2, lattice.triangle};
-  const double n = lattice.n;
+  if (levels == 1 && ends == Ends::points) return first_rows(type, lattice);
   std::vector<bool> made(lattice.size(), false);
   for (const PieceLink& link : type.children()) {
     const RowMatrix& child = differences(*link.type, levels - 1, ends);
     std::vector<Index> own, of_child;
-    lattice.for_each([&](Index i, Index j) {
-      const Place place = lattice.triangle ? triangle_place(i / n, j / n) : quad_place(i / n, j / n);
-      if (made[lattice.row(i, j)] || !link.map.contains(place)) return;
-      const Place inside = link.map(place);
-      own.push_back(lattice.row(i, j));
-      of_child.push_back(half.row(static_cast<Index>(std::lround(inside.u * half.n)),
-                                  static_cast<Index>(std::lround(inside.v * half.n))));
-      made[own.back()] = true;
+    visit_share(lattice, link.map, made, [&](Index row, Index child_row) {
+      own.push_back(row);
+      of_child.push_back(child_row);
     });
     const RowMatrix rows = child(of_child, Eigen::all);
     R(own, Eigen::all) = link.block.derivatives_pulled_back(rows).rowwise() + link.block.origin();

@@ -91,44 +91,71 @@ void turn_tangents(const PieceMap::Chain& c, RowMatrix& tangents) {
   for (int i = 0; i < 2; ++i) tangents.row(i) = c.first[i][0] * old.row(0) + c.first[i][1] * old.row(1);
 }
 
+PieceType::Refined PieceType::refined() const {
+  const Scheme<double>& scheme = types_->scheme_;
+  Refined result;
+  std::vector<Level>& levels = result.levels;
+  levels.reserve(scheme.period);
+  std::vector<LevelStep> steps;
+  for (int k = 0; k < scheme.period; ++k) {
+    const Level& before = k == 0 ? local_ : levels.back();
+    levels.push_back(next_level(scheme, before));
+    for (const Refinement& step : levels.back().steps) steps.push_back({&step, before.number});
+    k == 0 ? result.S.swap(levels[0].S) : SparseMatrix(product(levels[k].S, result.S)).swap(result.S);
+  }
+  result.slot_of.assign(local_.topology().num_vertices(), -1);
+  for (size_t s = 0; s < slots_.size(); ++s) result.slot_of[slots_[s]] = static_cast<Index>(s);
+  result.children = sublimit::children(piece_, local_.topology(), steps);
+  return result;
+}
+
+RowMatrix PieceType::rows_over_slots(const Refined& refined, std::span<const Index> vertices) const {
+  const auto rows = std::ssize(vertices), columns = std::ssize(slots_);
+  RowMatrix B = RowMatrix::Zero(rows, columns);
+  for (Eigen::Index i = 0; i < rows; ++i)
+    for (SparseMatrix::InnerIterator it(refined.S, vertices[i]); it; ++it) {
+      const Index slot = refined.slot_of[it.col()];
+      if (slot < 0) {
+        if (it.value() == 0) continue;
+        throw AnalysisError(types_->scheme_.name + ": a piece of the limit depends on points beyond " +
+                            std::to_string(types_->rings(refined.levels.back().sharpness)) + " rings");
+      }
+      B(i, slot) = it.value();
+    }
+  return B;
+}
+
+PieceType::ChildCorners PieceType::child_corners() const {
+  const Refined after = refined();
+  const Topology& t = after.levels.back().topology();
+  ChildCorners result;
+  std::vector<Index> vertices;
+  for (const PieceChild& child : after.children) {
+    result.maps.push_back(child.map);
+    HalfEdge h = child.piece.start;
+    do {
+      vertices.push_back(index(t.tail(h)));
+      h = t.next(h);
+    } while (h != child.piece.start);
+  }
+  result.rows = rows_over_slots(after, vertices);
+  return result;
+}
+
 const std::deque<PieceLink>& PieceType::children() const {
   std::call_once(children_once_, [&] {
-    const Scheme<double>& scheme = types_->scheme_;
-    std::vector<Level> levels;
-    levels.reserve(scheme.period);
-    SparseMatrix S;
-    std::vector<LevelStep> steps;
-    for (int k = 0; k < scheme.period; ++k) {
-      const Level& before = k == 0 ? local_ : levels.back();
-      levels.push_back(next_level(scheme, before));
-      for (const Refinement& step : levels.back().steps) steps.push_back({&step, before.number});
-      k == 0 ? S.swap(levels[0].S) : SparseMatrix(product(levels[k].S, S)).swap(S);
-    }
-    const Level& fine = levels.back();
-    std::vector<Index> slot_of(local_.topology().num_vertices(), -1);
-    for (size_t s = 0; s < slots_.size(); ++s) slot_of[slots_[s]] = static_cast<Index>(s);
+    const Refined after = refined();
+    const Level& fine = after.levels.back();
     PieceWalker walker;
     std::deque<PieceLink> links;
-    for (const PieceChild& child : sublimit::children(piece_, local_.topology(), steps)) {
+    for (const PieceChild& child : after.children) {
       const PieceWalk& walk = walker.walk(fine.topology(), fine.sharpness, child.piece, types_->rings(fine.sharpness),
-                                          fine.number % scheme.period);
+                                          fine.number % types_->scheme_.period);
       PieceLink& link = links.emplace_back();
       link.map = child.map;
       link.type = types_->type(fine, child.piece, walk);
       link.repeats = link.type == this && pure_scale(link.map) != 0;
-      const auto rows = static_cast<Eigen::Index>(walk.vertices.size()),
-                 columns = static_cast<Eigen::Index>(slots_.size());
-      RowMatrix B = RowMatrix::Zero(rows, columns);
-      for (Eigen::Index i = 0; i < rows; ++i)
-        for (SparseMatrix::InnerIterator it(S, walk.vertices[i]); it; ++it) {
-          if (slot_of[it.col()] < 0) {
-            if (it.value() == 0) continue;
-            throw AnalysisError(scheme.name + ": a piece of the limit depends on points beyond " +
-                                std::to_string(types_->rings(fine.sharpness)) + " rings");
-          }
-          B(i, slot_of[it.col()]) = it.value();
-        }
-      link.block = PieceBlock(B);
+      link.block = PieceBlock(rows_over_slots(after, walk.vertices));
     }
     children_ = std::move(links);
   });

@@ -45,6 +45,14 @@ class PieceType {
   std::span<const Index> slots() const { return slots_; }
   /// Its children, whether or not it is a polynomial.
   const std::deque<PieceLink>& children() const;
+  /// Corners of its children over its own slots, child after child and counter-clockwise: rows of S, without looking at
+  /// what types the children are.
+  struct ChildCorners {
+    std::vector<PieceMap> maps;  ///< of the children
+    RowMatrix rows;              ///< as many a child as it has corners
+  };
+  /// Of quadrilaterals and triangles.
+  ChildCorners child_corners() const;
   /// The child that a place is in.
   const PieceLink& child(const Place& place) const;
   /// Null where it is no polynomial.
@@ -72,6 +80,16 @@ class PieceType {
   struct Modes {
     Eigen::MatrixXd derivatives, functions;  ///< by rows; by columns, those whose only derivative is 1
   };
+  /// The level after its own, and the children on it.
+  struct Refined {
+    std::vector<Level> levels;  ///< of one period
+    SparseMatrix S;             ///< from its own level to the last one
+    std::vector<PieceChild> children;
+    std::vector<Index> slot_of;  ///< of its own vertices, -1 beyond
+  };
+  Refined refined() const;
+  /// Rows of S over the slots.
+  RowMatrix rows_over_slots(const Refined& refined, std::span<const Index> vertices) const;
   /// Nothing where the limits are not so.
   std::optional<Modes> modes(int corner, const Eigen::MatrixXd& D, double scale, int degree) const;
   /// Inside, of another valence than regular meshes have: no parameter is natural there.
