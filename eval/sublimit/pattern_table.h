@@ -18,6 +18,9 @@
 
 namespace sublimit {
 
+/// Numbers of matrices for positions and derivatives of order 0, 1 or 2.
+constexpr int num_quantities(int derivatives) { return derivatives == 0 ? 1 : derivatives == 1 ? 3 : 6; }
+
 template <class Real>
 class PatternTable {
  public:

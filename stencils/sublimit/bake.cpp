@@ -43,7 +43,7 @@ Baked estimate_of_rows(const Scheme<double>& scheme, const Topology& t, const Ba
   } else {
     points = predicted_vertices(scheme, t, r.level);
   }
-  const double rows = points * (r.derivatives == 0 ? 1 : r.derivatives == 1 ? 3 : 6);
+  const double rows = points * num_quantities(r.derivatives);
   Baked baked;
   BakeStatistics& s = baked.statistics;
   s.points = static_cast<std::int64_t>(points);

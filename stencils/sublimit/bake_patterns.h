@@ -23,4 +23,10 @@ struct PatternBake {
 std::optional<Baked> bake_by_patterns(Patterns& patterns, const Level& control, const BakeRequest& request,
                                       const PatternBake& how = {});
 
+// Of the two kinds of requests that have patterns.
+std::optional<Baked> bake_lattices(Patterns& patterns, const Level& control, const BakeRequest& request,
+                                   const PatternBake& how);
+std::optional<Baked> bake_grids(Patterns& patterns, const Level& control, const BakeRequest& request,
+                                const PatternBake& how);
+
 }  // namespace sublimit

@@ -124,7 +124,9 @@ void add_places(const LimitSurface& surface, std::span<const Sample> samples, in
     baked.table.rest_status = std::move(status);
 }
 
-std::vector<std::int32_t> copies(const Topology& t, const Addresses& addresses, int N, bool dual) {
+}  // namespace
+
+std::vector<std::int32_t> grid_copies(const Topology& t, const Addresses& addresses, int N, bool dual) {
   std::vector<std::int32_t> list;
   for (const auto& [to, from] : shared_grid_places(t, addresses, N, dual)) {
     list.push_back(static_cast<std::int32_t>(to));
@@ -133,8 +135,6 @@ std::vector<std::int32_t> copies(const Topology& t, const Addresses& addresses, 
   return list;
 }
 
-}  // namespace
-
 StencilTable<double> as_table(const SparseMatrix& S) { return stacked({S}); }
 
 Baked bake_by_rows(Patterns& patterns, const ControlMesh& mesh, const Level& control, const BakeRequest& request,
@@ -142,7 +142,7 @@ Baked bake_by_rows(Patterns& patterns, const ControlMesh& mesh, const Level& con
   const Scheme<double>& scheme = patterns.scheme();
   Baked baked;
   PatternTable<double>::Arrays arrays;
-  arrays.quantities = request.derivatives == 0 ? 1 : request.derivatives == 1 ? 3 : 6;
+  arrays.quantities = num_quantities(request.derivatives);
   const Index num_control_points = control.topology().num_vertices();
   if (request.rows == TableRows::level || request.rows == TableRows::limit) {
     const std::vector<Level> levels = refine(scheme, mesh, request.level, options);
@@ -160,7 +160,7 @@ Baked bake_by_rows(Patterns& patterns, const ControlMesh& mesh, const Level& con
     const LimitSurface surface(scheme, control, patterns.types());
     if (request.rows == TableRows::grid) {
       add_places(surface, surface.grid(request.grid), request.derivatives, baked, arrays);
-      arrays.copies = copies(control.topology(), surface.addresses(), request.grid, scheme.is_dual());
+      arrays.copies = grid_copies(control.topology(), surface.addresses(), request.grid, scheme.is_dual());
     } else {
       add_places(surface, request.samples, request.derivatives, baked, arrays);
       std::vector<std::int32_t> faces;

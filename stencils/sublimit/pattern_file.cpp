@@ -11,6 +11,7 @@
 #include "sublimit/base/read_file.h"
 #include "sublimit/demo_mesh.h"
 #include "sublimit/mesh/prepare.h"
+#include "sublimit/pattern_table.h"
 #include "sublimit/safetensors.h"
 
 namespace sublimit {
@@ -27,8 +28,6 @@ constexpr const char* schema_version = "1";
 constexpr int pattern_columns = 6, limit_columns = 5;
 /// A matrix is of level 11 at most.
 constexpr std::int64_t last_level = 11, last_n = 1 << last_level;
-
-int num_quantities(int derivatives) { return derivatives == 0 ? 1 : derivatives == 1 ? 3 : 6; }
 
 /// Numbers of an array, taken one after the other.
 template <class T>

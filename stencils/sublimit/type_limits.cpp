@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "sublimit/limit/limit_surface_parts.h"
+#include "sublimit/pattern_table.h"
 
 namespace sublimit {
 namespace {
@@ -54,7 +55,7 @@ std::optional<Patterns::LimitBlock> limits_of_type(const std::shared_ptr<PieceTy
                        [&](Index v) { return t.is_nonmanifold(Vertex{v}); });
   };
 
-  const int quantities = derivatives == 0 ? 1 : derivatives == 1 ? 3 : 6;
+  const int quantities = num_quantities(derivatives);
   const Eigen::Index count = lattice.size();
   Patterns::LimitBlock block;
   block.weights = RowMatrix::Zero(quantities * count, type.num_slots());

@@ -81,7 +81,7 @@ void expect_the_limit(const Baked& baked, const LimitSurface& surface, std::span
     position = std::max(position, compare(rows(i, 0), stencil, stencil.weights, 0).difference);
     const bool tangents = derivatives > 0 && stencil.weights.rows() == 1 && stencil.tangents.rows() >= 2;
     if (tangents) derivative = std::max(derivative, off_plane(rows(i, 1), rows(i, 2), stencil));
-    for (int q = tangents ? 3 : 1; q < (derivatives == 0 ? 1 : derivatives == 1 ? 3 : 6); ++q) {
+    for (int q = tangents ? 3 : 1; q < num_quantities(derivatives); ++q) {
       const Comparison c = compare(rows(i, q), stencil, stencil.weights, q);
       derivative = std::max(derivative, c.difference / std::max(1.0, c.size));
     }
