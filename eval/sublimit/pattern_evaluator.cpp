@@ -344,11 +344,15 @@ template <class Real>
 void PatternEvaluator<Real>::apply(std::span<const Real> points, int channels, std::span<Real> result) const {
   table_.check(points, channels, result);
   Evaluation<Real> e;
-  e.channels = channels;
-  e.points = points;
+  e.point_layout = e.result_layout = PointLayout::interleaved(channels);
   const size_t quantity = result.size() / size_t(table_.quantities());
-  for (int q = 0; q < table_.quantities(); ++q) e.quantities[q] = result.subspan(q * quantity, quantity);
-  apply(e);
+  for (int first = 0; first < channels; first += most_channels) {
+    e.channels = std::min(most_channels, channels - first);
+    e.points = points.subspan(std::min(size_t(first), points.size()));
+    for (int q = 0; q < table_.quantities(); ++q)
+      e.quantities[q] = result.subspan(q * quantity, quantity).subspan(std::min(size_t(first), quantity));
+    apply(e);
+  }
 }
 
 template <class Real>

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 
 #include "common.h"
 #include "sublimit/applied_points.h"
 #include "sublimit/base/error.h"
+#include "sublimit/base/format_number.h"
 #include "sublimit/base/memory.h"
 #include "sublimit/frames.h"
 #include "sublimit/mesh/prepare.h"
@@ -109,6 +112,11 @@ std::int64_t apply_table(const Options& options, const BakedTable<Real>& table, 
     progress.note(fmt::format("applying: frame {} of {}", frame + 1, frames.num_frames()));
     frames.next(read);
     std::copy(read.begin(), read.end(), points.begin());
+    if (const auto bad = std::find_if(points.begin(), points.end(), [](Real x) { return !std::isfinite(x); });
+        bad != points.end())
+      throw InvalidMesh(fmt::format("{}: frame {}, point {}: {} is too large for a table in float; bake one in double",
+                                    options.points, frame, (bad - points.begin()) / frames.num_channels(),
+                                    format_number(read[size_t(bad - points.begin())])));
     evaluator.apply(points, frames.num_channels(), values);
     if (array) array->write<Real>(values);
   }

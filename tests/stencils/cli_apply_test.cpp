@@ -138,8 +138,7 @@ TEST(CliApply, ArraysOfAnyShape) {
   EXPECT_EQ(out.dtype(), DType::F64);
   const std::vector<double> made = numbers_of(out);
   for (size_t i = 0; i < 3 * 120 * 3; ++i)
-    for (size_t f = 1; f < 4; ++f)
-      EXPECT_EQ(made[f * 3 * 120 * 3 + i], scales[f] * made[i]);
+    for (size_t f = 1; f < 4; ++f) EXPECT_EQ(made[f * 3 * 120 * 3 + i], scales[f] * made[i]);
   write_npy(on.path("one.npy"), positions, {n, 3});
   expect_done(on.apply(on.path("one.npy"), on.path("out.npy")));
   EXPECT_EQ(NpyArray(on.path("out.npy")).shape(), (std::vector<std::int64_t>{3, 120, 3}));
@@ -156,6 +155,36 @@ TEST(CliApply, ArraysOfAnyShape) {
   write_npy(on.path("in.npy"), {}, {0, n, 3});
   expect_done(on.apply(on.path("in.npy"), on.path("out.npy")));
   EXPECT_EQ(NpyArray(on.path("out.npy")).shape(), (std::vector<std::int64_t>{0, 480, 3}));
+}
+
+/// Evaluators take 64 channels at a time; arrays may have more. Each channel is what it is alone.
+TEST(CliApply, TakesAnyNumberOfChannels) {
+  const Tables on(torus(6, 5));
+  expect_done(on.bake({"-l", "1", "--precision", "double"}));
+  constexpr std::int64_t n = 30, channels = 100;
+  std::vector<double> all(n * channels), last(n);
+  for (std::int64_t i = 0; i < n; ++i)
+    for (std::int64_t c = 0; c < channels; ++c) all[size_t(i * channels + c)] = std::sin(double(7 * i + c));
+  for (std::int64_t i = 0; i < n; ++i) last[size_t(i)] = all[size_t(i * channels + channels - 1)];
+  write_npy(on.path("all.npy"), all, {n, channels});
+  write_npy(on.path("last.npy"), last, {n, 1});
+  expect_done(on.apply(on.path("all.npy"), on.path("out.npy")));
+  expect_done(on.apply(on.path("last.npy"), on.path("out1.npy")));
+  const std::vector<double> out = numbers_of(NpyArray(on.path("out.npy"))),
+                            alone = numbers_of(NpyArray(on.path("out1.npy")));
+  ASSERT_EQ(out.size(), alone.size() * channels);
+  for (size_t i = 0; i < alone.size(); ++i)
+    EXPECT_NEAR(out[i * channels + channels - 1], alone[i], rounding(8)) << "point " << i;
+}
+
+TEST(CliApply, RefusesNumbersThatFloatsDoNotHold) {
+  const Tables on(torus(6, 5));
+  expect_done(on.bake({"-l", "1"}));
+  std::vector<double> numbers(30 * 3, 0.5);
+  numbers[10] = 1e300;
+  write_npy(on.path("in.npy"), numbers, {30, 3});
+  expect_failure(on.apply(on.path("in.npy"), on.path("out.npy")), 3, {"in.npy", "point 3", "1e+300", "double"});
+  EXPECT_FALSE(std::filesystem::exists(on.path("out.npy")));
 }
 
 TEST(CliApply, TablesOfPointsKeepTheirColumns) {
