@@ -9,6 +9,7 @@
 #include <array>
 #include <map>
 #include <random>
+#include <thread>
 #include <set>
 
 #include "sublimit/analysis/limit_masks.h"
@@ -285,6 +286,42 @@ TEST(BakedLevel, OfARegularMeshIsOneBlock) {
   EXPECT_EQ(baked.statistics.types, 1);
   EXPECT_EQ(baked.statistics.points, 12 * 9 * 64);
   EXPECT_EQ(baked.table.table.arrays().columns.size(), 12u * 9 * 16);
+}
+
+/// Threads that meet the same types at once make the tables that each would make alone. Not with finite sharpness,
+/// whose sums keep the order of the mesh that was first.
+TEST(BakedLevel, ThreadsShareADictionary) {
+  const Scheme<double> scheme = find_scheme("catmull-clark").value();
+  std::vector<ControlMesh> meshes;
+  for (unsigned seed = 1; seed <= 4; ++seed) {
+    meshes.push_back(hard_polygons(seed, {.open = true, .sharp = true}));
+    meshes.push_back(torus(5 + Index(seed), 6));
+  }
+  const auto request = [](size_t i) {
+    BakeRequest r;
+    r.level = 2;
+    if (i % 3 == 1) r.rows = TableRows::limit;
+    if (i % 3 == 2) r = {.rows = TableRows::grid, .grid = 4, .derivatives = 1};
+    return r;
+  };
+  Patterns shared(scheme);
+  std::vector<std::vector<Baked>> made(4);
+  std::vector<std::thread> threads;
+  for (size_t k = 0; k < made.size(); ++k)
+    threads.emplace_back([&, k] {
+      for (size_t i = 0; i < meshes.size(); ++i)
+        made[k].push_back(bake(shared, meshes[(i + k) % meshes.size()], request(i)));
+    });
+  for (std::thread& thread : threads) thread.join();
+  for (size_t k = 0; k < made.size(); ++k)
+    for (size_t i = 0; i < meshes.size(); ++i) {
+      SCOPED_TRACE("thread " + std::to_string(k) + ", mesh " + std::to_string((i + k) % meshes.size()));
+      Patterns own(scheme);
+      const Baked alone = bake(own, meshes[(i + k) % meshes.size()], request(i));
+      const auto &a = alone.table.table.arrays(), &b = made[k][i].table.table.arrays();
+      EXPECT_TRUE(std::equal(a.weights.begin(), a.weights.end(), b.weights.begin(), b.weights.end()));
+      EXPECT_TRUE(std::equal(a.columns.begin(), a.columns.end(), b.columns.begin(), b.columns.end()));
+    }
 }
 
 /// The dictionary outlives meshes: nothing is new in the second one, and no rotation makes a type.
