@@ -112,14 +112,15 @@ class FaceLattices {
   std::int32_t num_faces() const { return static_cast<std::int32_t>(arrays_.first_points.size()); }
   bool is_hole(std::int32_t face) const { return !arrays_.holes.empty() && arrays_.holes[face] != 0; }
   static LatticeRanks::Share share(const Arrays& arrays, std::int32_t face);
-  static std::vector<std::int32_t> rows(const Lattice& lattice, LatticeRanks::Share share) {
-    return LatticeRanks::rows(lattice, share);
-  }
   /// The point at a row of a face's lattice.
   std::int64_t point(std::int32_t face, std::int32_t row) const;
   /// Where a point is, if addresses are known: (u, v) of the address of a face.
   bool has_addresses() const { return !arrays_.addresses.empty(); }
   LatticePlace place(std::int32_t face) const;
+  /// As `places` has it.
+  static std::uint8_t code(const LatticePlace& place) {
+    return static_cast<std::uint8_t>(place.turn + 8 * (place.quarter + 1));
+  }
   AddressParameters parameters(std::int32_t face, std::int32_t i, std::int32_t j) const {
     return address_parameters(lattice(), place(face), i, j);
   }

@@ -51,7 +51,7 @@ SampleAddresses addresses_of(const BakedTable<Real>& table) {
   std::array<bool, 256> known{};
   for (std::int32_t f = 0; f < lattices.num_faces(); ++f) {
     const std::uint8_t share = FaceLattices::share(lattices.arrays(), f);
-    if (!std::exchange(known[share], true)) rows[share] = FaceLattices::rows(lattices.lattice(), share);
+    if (!std::exchange(known[share], true)) rows[share] = LatticeRanks::rows(lattices.lattice(), share);
   }
   parallel_for(lattices.num_faces(), [&](std::int64_t at) {
     const auto f = static_cast<std::int32_t>(at);

@@ -51,9 +51,9 @@ std::optional<Baked> bake_lattices(Patterns& patterns, const Level& control, con
   parallel_for(t.num_faces(), [&](std::int64_t f) { share[f] = FaceLattices::share(lattices, static_cast<Index>(f)); });
   // On coarse lattices all points of a face may be others'.
   std::array<bool, 256> has_points{};
-  const bool has_inner = !FaceLattices::rows(lattice, 0).empty();
+  const bool has_inner = !LatticeRanks::rows(lattice, 0).empty();
   for (size_t own = 0; own < has_points.size(); ++own)
-    has_points[own] = has_inner || !FaceLattices::rows(lattice, static_cast<std::uint8_t>(own)).empty();
+    has_points[own] = has_inner || !LatticeRanks::rows(lattice, static_cast<std::uint8_t>(own)).empty();
   PatternBlocks blocks;
   std::vector<Index> block_of(t.num_faces(), -1);
   for (Index f = 0; f < t.num_faces(); ++f)
@@ -68,7 +68,7 @@ std::optional<Baked> bake_lattices(Patterns& patterns, const Level& control, con
     BakeStatistics& s = baked.statistics;
     count(
         blocks, groups, double(arrays.quantities) * lattice.size(),
-        [&](std::uint8_t own) { return std::ssize(FaceLattices::rows(lattice, own)); }, s);
+        [&](std::uint8_t own) { return std::ssize(LatticeRanks::rows(lattice, own)); }, s);
     s.faces = t.num_faces();
     s.types = num_types(pieces);
     count_isolated(t, arrays.quantities, s);
@@ -94,13 +94,12 @@ std::optional<Baked> bake_lattices(Patterns& patterns, const Level& control, con
   });
   if (!made) return std::nullopt;
 
-  // Isolated vertices stay where they are.
   std::vector<std::int32_t> rows;
   std::vector<std::uint8_t> row_status;
   std::vector<std::int64_t> first_points(t.num_faces());
   std::int64_t next = 0;
   for (const PatchGroups::Group& group : groups.groups) {
-    const std::vector<std::int32_t> own = FaceLattices::rows(lattice, group.share);
+    const std::vector<std::int32_t> own = LatticeRanks::rows(lattice, group.share);
     for (const Index f : group.pieces) {
       first_points[f] = next;
       next += std::int64_t(own.size());
@@ -111,6 +110,7 @@ std::optional<Baked> bake_lattices(Patterns& patterns, const Level& control, con
     if (has_status)
       for (const std::int32_t row : own) row_status.push_back((*status[group.block])[row]);
   }
+  // Isolated vertices stay where they are.
   std::vector<Index> alone;
   for (Index v = 0; v < t.num_vertices(); ++v)
     if (t.is_isolated(Vertex{v})) alone.push_back(v);
@@ -135,7 +135,7 @@ std::optional<Baked> bake_lattices(Patterns& patterns, const Level& control, con
     std::vector<std::uint8_t> codes;
     for (const LatticePlace& place : places) {
       addresses.push_back(place.address);
-      codes.push_back(static_cast<std::uint8_t>(place.turn + 8 * (place.quarter + 1)));
+      codes.push_back(FaceLattices::code(place));
     }
     lattices.addresses = std::move(addresses);
     lattices.places = std::move(codes);

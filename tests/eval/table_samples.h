@@ -44,7 +44,7 @@ BakedTable<Real> two_quads(int quantities = 1) {
   a.weights = std::move(weights);
   std::vector<std::int32_t> rows;
   for (std::int32_t face = 0; face < 2; ++face) {
-    const std::vector<std::int32_t> own = FaceLattices::rows(lattice, FaceLattices::share(l, face));
+    const std::vector<std::int32_t> own = LatticeRanks::rows(lattice, FaceLattices::share(l, face));
     a.groups.push_back({0, std::int32_t(own.size()), std::int64_t(rows.size()), 1});
     rows.insert(rows.end(), own.begin(), own.end());
   }

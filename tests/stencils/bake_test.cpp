@@ -195,6 +195,17 @@ TEST_P(BakedLevels, AreRefinementOnTheSharedMeshes) {
   }
 }
 
+/// Faces of a tube three or four faces around see the same points twice. They are regular all the same, and weights of
+/// a point that is there twice add up.
+TEST_P(BakedLevels, AreRefinementOnThinTubes) {
+  Patterns patterns(scheme_);
+  for (const Index around : {3, 4}) {
+    ControlMesh mesh = disjoint_union(torus(9, 8), torus(9, around));
+    if (takes_triangles(scheme_)) mesh = triangulated(mesh);
+    expect_refinement(patterns, mesh, 2);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Schemes, BakedLevels, ::testing::ValuesIn(pattern_schemes()), test_name);
 
 TEST(BakedLevel, AppliesWhatItExpandsTo) {

@@ -69,7 +69,7 @@ TEST(CliApply, MeshesAreThoseOfRefine) {
           const ControlMesh made = read_mesh(on.path(name));
           EXPECT_EQ(made.num_faces(), faces);
           right.face_sizes.resize(size_t(faces));  // only the number matters below
-          expect_same_points(made, right, is_float ? 1e-6 : 1e-13);
+          expect_same_points(made, right, is_float ? float_reference : reference);
         }
       }
 }
@@ -82,7 +82,7 @@ TEST(CliApply, DualSchemesAreInTheOrderOfRefine) {
     expect_done(on.apply(on.mesh, on.path("out.obj")));
     const ControlMesh made = read_mesh(on.path("out.obj")), right = read_mesh(on.path("refined.obj"));
     EXPECT_EQ(made.face_vertices, right.face_vertices);
-    EXPECT_LT((made.positions - right.positions).cwiseAbs().maxCoeff(), 1e-13);
+    EXPECT_LT((made.positions - right.positions).cwiseAbs().maxCoeff(), reference);
   }
 }
 
@@ -116,7 +116,7 @@ TEST(CliApply, GridsAreThoseOfSample) {
       if (k < 4 || own[i][k].empty() || right[i][k].empty())
         EXPECT_EQ(own[i][k], right[i][k]);
       else
-        EXPECT_NEAR(std::stod(own[i][k]), std::stod(right[i][k]), 1e-10);
+        EXPECT_NEAR(std::stod(own[i][k]), std::stod(right[i][k]), printed_derivative);
     }
   }
 }
@@ -151,7 +151,7 @@ TEST(CliApply, ArraysOfAnyShape) {
   const NpyArray constant(on.path("out.npy"));
   EXPECT_EQ(constant.shape(), (std::vector<std::int64_t>{480, 7}));
   EXPECT_EQ(constant.dtype(), DType::F32);
-  for (const double x : numbers_of(constant)) EXPECT_NEAR(x, 0.75, 1e-6);
+  for (const double x : numbers_of(constant)) EXPECT_NEAR(x, 0.75, float_reference);
   write_npy(on.path("in.npy"), {}, {0, n, 3});
   expect_done(on.apply(on.path("in.npy"), on.path("out.npy")));
   EXPECT_EQ(NpyArray(on.path("out.npy")).shape(), (std::vector<std::int64_t>{0, 480, 3}));

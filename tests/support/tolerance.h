@@ -24,6 +24,13 @@ inline constexpr double reference_angle = 1e-9;
 /// what the README promises.
 inline constexpr double first_derivative = 1e-11, second_derivative = 1e-9;
 
+/// The same weights by another route: seen from another face, by eigenvectors instead of blocks. Hundreds of terms each.
+inline constexpr double other_route = 1e-12;
+/// Derivatives of order 2 as a program prints them, absolute: of size 10, from turned faces.
+inline constexpr double printed_derivative = 1e-10;
+/// Tables in float against the same in double, relative to the bounding box.
+inline constexpr double float_reference = 1e-6;
+
 inline double diagonal(const Points& points) {
   if (points.rows() == 0) return 0;
   return (points.colwise().maxCoeff() - points.colwise().minCoeff()).norm();
