@@ -24,7 +24,8 @@ bool needs_neighbors(const Scheme<T>& scheme) {
     const std::vector<T>& vertex = masks.vertex(4, 4);
     const std::vector<T>& edge = masks.edge(4, 4);
     const auto zero = [](const T& w) { return w == T(0); };
-    if (!std::all_of(vertex.begin() + 1, vertex.end(), zero) || !std::all_of(edge.begin() + 2, edge.end(), zero)) return true;
+    if (!std::all_of(vertex.begin() + 1, vertex.end(), zero) || !std::all_of(edge.begin() + 2, edge.end(), zero))
+      return true;
   }
   return false;
 }
@@ -47,8 +48,10 @@ LevelOf<T> control_level(const Scheme<T>& scheme, const ControlMesh& mesh, const
   return level;
 }
 
-template <class T>
-LevelOf<T> next_level(const Scheme<T>& scheme, const LevelOf<T>& parent) {
+/// The level after `parent`, without its matrix.
+/// @param on_step  called for each step: (step, topology, refinement, sharpness, child sharpness)
+template <class T, class OnStep>
+LevelOf<T> next_topology(const Scheme<T>& scheme, const LevelOf<T>& parent, const OnStep& on_step) {
   LevelOf<T> child;
   child.number = parent.number + 1;
   const Topology* topology = &parent.topology();
@@ -59,13 +62,7 @@ LevelOf<T> next_level(const Scheme<T>& scheme, const LevelOf<T>& parent) {
   for (const Step<T>& step : steps) {
     Refinement refinement = refine(*topology, step.split, parent.number);
     Sharpness child_sharpness = refine(*sharpness, *topology, refinement);
-    SparseMatrixOf<T> S =
-        subdivision_matrix(scheme, step, *topology, refinement, *sharpness, child_sharpness, parent.number);
-    if (child.steps.empty()) {
-      child.S.swap(S);
-    } else {
-      product(S, child.S).swap(child.S);
-    }
+    on_step(step, *topology, refinement, *sharpness, child_sharpness);
     std::vector<bool> child_holes = refine_holes(*holes, *topology, refinement);
     child.holes = std::move(child_holes);
     child.sharpness = std::move(child_sharpness);
@@ -74,6 +71,25 @@ LevelOf<T> next_level(const Scheme<T>& scheme, const LevelOf<T>& parent) {
     sharpness = &child.sharpness;
     topology = &child.steps.back().topology;
   }
+  return child;
+}
+
+template <class T>
+LevelOf<T> next_level(const Scheme<T>& scheme, const LevelOf<T>& parent) {
+  SparseMatrixOf<T> product_of_steps;
+  bool first = true;
+  LevelOf<T> child = next_topology(scheme, parent,
+                                   [&](const Step<T>& step, const Topology& topology, const Refinement& refinement,
+                                       const Sharpness& sharpness, const Sharpness& child_sharpness) {
+                                     SparseMatrixOf<T> S = subdivision_matrix(
+                                         scheme, step, topology, refinement, sharpness, child_sharpness, parent.number);
+                                     if (first)
+                                       product_of_steps.swap(S);
+                                     else
+                                       product(S, product_of_steps).swap(product_of_steps);
+                                     first = false;
+                                   });
+  child.S.swap(product_of_steps);
   return child;
 }
 

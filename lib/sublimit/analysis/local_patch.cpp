@@ -37,9 +37,23 @@ ControlMesh lone_fan(Index n, Index face_size, bool open) {
   for (Index i = 0; i < n; ++i) {
     mesh.face_sizes.push_back(face_size);
     mesh.face_vertices.push_back(0);
-    for (Index k = 0; k <= step; ++k) mesh.face_vertices.push_back(1 + (open ? i * step + k : (i * step + k) % (n * step)));
+    for (Index k = 0; k <= step; ++k)
+      mesh.face_vertices.push_back(1 + (open ? i * step + k : (i * step + k) % (n * step)));
   }
   return mesh;
+}
+
+void cut_out(Level& level, Centre& centre, int rings) {
+  const Topology& t = level.topology();
+  const Index face = index(t.face(centre.start));
+  // Rings around a face reach half a ring further than those around a vertex of it need.
+  Part around = part(level, std::span(&face, 1), rings + 1);
+  for (size_t h = 0; h < around.halves.size(); ++h)
+    if (around.halves[h] == index(centre.start)) {
+      centre.start = HalfEdge{static_cast<Index>(h)};
+      break;
+    }
+  level = std::move(around.level);
 }
 
 }  // namespace sublimit

@@ -7,6 +7,7 @@
 
 #include "sublimit/analysis/local_matrix.h"
 #include "sublimit/analysis/local_type.h"
+#include "sublimit/analysis/sector_labels.h"
 #include "sublimit/analysis/walk.h"
 #include "sublimit/refine_impl.h"
 
@@ -18,6 +19,7 @@ struct LocalPatch {
   int depth = 0;                           ///< of the walk that makes the slots and the signature
   Walk places;                             ///< at that depth
   std::vector<Index> slots;                ///< those of the smallest closed set
+  std::vector<SectorLabel> labels;         ///< where they lie
   DenseMatrix<T> A;                        ///< over `slots`: one period
   std::vector<std::vector<Index>> orbits;  ///< of a closed centre: positions in `slots`, rotated sector by sector
   std::vector<Index> outline;              ///< of an open one: positions in `slots` of border points
@@ -25,6 +27,22 @@ struct LocalPatch {
 
 /// n faces of a scheme's regular size around a vertex, alone.
 ControlMesh lone_fan(Index n, Index face_size, bool open);
+
+/// The faces within some rings around a centre as a level of their own, without a matrix.
+void cut_out(Level& level, Centre& centre, int rings);
+template <class T>
+void cut_out(LevelOf<T>& level, Centre& centre, int rings) {
+  Level same;
+  same.number = level.number;
+  same.steps = std::move(level.steps);
+  same.sharpness = std::move(level.sharpness);
+  same.holes = std::move(level.holes);
+  cut_out(same, centre, rings);
+  level.number = same.number;
+  level.steps = std::move(same.steps);
+  level.sharpness = std::move(same.sharpness);
+  level.holes = std::move(same.holes);
+}
 
 /// Local matrix of a type; nothing where a centre of this type does not have a child of its own type (a vertex in a
 /// dual scheme).
@@ -48,18 +66,11 @@ std::optional<LocalPatch<T>> local_patch(const Scheme<T>& scheme, LocalType type
     level.sharpness.vertex[0] = infinite_sharpness;  // no tag: of vertices of several fans, under any scheme
   const Topology* t = &level.topology();
   Centre centre{Centre::Kind::vertex, t->outgoing(Vertex{0})};
-  const auto advance = [&](SparseMatrixOf<T>* product) {
-    LevelOf<T> next = next_level(scheme, level);
+  const auto follow = [&](LevelOf<T>&& next) {
     const Topology* before = &level.topology();
     for (const Refinement& step : next.steps) {
       centre = child(centre, *before, step, level.number);
       before = &step.topology;
-    }
-    if (product) {
-      if (product->rows() == 0)
-        product->swap(next.S);
-      else
-        SparseMatrixOf<T>(next.S * *product).swap(*product);
     }
     level = std::move(next);
   };
@@ -72,18 +83,25 @@ std::optional<LocalPatch<T>> local_patch(const Scheme<T>& scheme, LocalType type
     for (int k = 0; k < scheme.period; ++k) have *= growth;
     levels += scheme.period;
   }
-  for (int k = 0; k < levels; ++k) advance(nullptr);
+  for (int k = 0; k < levels; ++k) follow(next_topology(scheme, level, [](const auto&...) {}));
   const int deep = rings + margin;
   LocalPatch<T> patch;
   patch.type = local_type(level.topology(), level.sharpness, centre, level.number, scheme.period);
   if (patch.type != type) return std::nullopt;
+  cut_out(level, centre, deep + scheme.period * (margin + 2));
   const Walk parent = walk(level.topology(), level.sharpness, centre, deep);
   const HalfEdge turned = is_face ? level.topology().next(centre.start) : level.topology().ccw(centre.start);
   const Walk rotated = open ? Walk{} : walk(level.topology(), level.sharpness, {centre.kind, turned}, deep);
   const LevelOf<T> before = level;
   const Centre before_centre = centre;
   SparseMatrixOf<T> S;
-  for (int k = 0; k < scheme.period; ++k) advance(&S);
+  for (int k = 0; k < scheme.period; ++k) {
+    follow(next_level(scheme, level));
+    if (k == 0)
+      S.swap(level.S);
+    else
+      SparseMatrixOf<T>(level.S * S).swap(S);
+  }
   const Walk after = walk(level.topology(), level.sharpness, centre, deep);
   if (local_type(level.topology(), level.sharpness, centre, level.number, scheme.period) != type) return std::nullopt;
 
@@ -115,6 +133,12 @@ std::optional<LocalPatch<T>> local_patch(const Scheme<T>& scheme, LocalType type
   }
   ++patch.depth;
   patch.places = walk(before.topology(), before.sharpness, before_centre, patch.depth);
+  const std::map<Index, SectorLabel> labels = sector_labels(before.topology(), before_centre, patch.depth + 1);
+  for (const Index s : patch.slots) {
+    const auto at = labels.find(parent.vertices[s]);
+    if (at == labels.end()) throw AnalysisError(scheme.name + ": a point near a centre has no sector");
+    patch.labels.push_back(at->second);
+  }
   const auto count = static_cast<Eigen::Index>(patch.slots.size());
   patch.A.setZero(count, count);
   for (Eigen::Index i = 0; i < count; ++i)
