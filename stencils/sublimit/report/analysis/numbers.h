@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// Numbers and verdicts in report.json. What is drawn is rounded; what is stated is not.
+#include <nlohmann/json.hpp>
+
+#include "sublimit/analysis/sector_labels.h"
+#include "sublimit/analysis/verdict.h"
+
+namespace sublimit::report {
+
+using Json = nlohmann::ordered_json;
+
+/// Rounded to a few significant digits, which is enough to draw with; null if it is not finite.
+Json drawn(double value, int digits = 5);
+/// The number itself; null if it is not finite.
+Json stated(double value);
+Json point(double x, double y);
+Json point(double x, double y, double z);
+Json to_json(const SectorLabel& label);
+Json to_json(const Verdict& verdict);
+
+}  // namespace sublimit::report
