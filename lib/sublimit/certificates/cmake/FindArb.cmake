@@ -1,0 +1,15 @@
+# Arb, arithmetic of balls over FLINT: target Arb::Arb. Debian names the library after both.
+find_path(Arb_INCLUDE_DIR acb_poly.h)
+find_library(Arb_LIBRARY NAMES flint-arb arb)
+if(Arb_INCLUDE_DIR)
+  file(STRINGS ${Arb_INCLUDE_DIR}/arb.h version REGEX "define ARB_VERSION \"")
+  string(REGEX REPLACE ".*\"([0-9.]+).*" "\\1" Arb_VERSION "${version}")
+endif()
+include(FindPackageHandleStandardArgs)
+find_package_handle_standard_args(Arb REQUIRED_VARS Arb_LIBRARY Arb_INCLUDE_DIR VERSION_VAR Arb_VERSION)
+if(Arb_FOUND AND NOT TARGET Arb::Arb)
+  add_library(Arb::Arb UNKNOWN IMPORTED)
+  set_target_properties(Arb::Arb PROPERTIES IMPORTED_LOCATION "${Arb_LIBRARY}"
+                        INTERFACE_INCLUDE_DIRECTORIES "${Arb_INCLUDE_DIR}" INTERFACE_LINK_LIBRARIES FLINT::FLINT)
+endif()
+mark_as_advanced(Arb_INCLUDE_DIR Arb_LIBRARY)

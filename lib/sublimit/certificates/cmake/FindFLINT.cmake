@@ -1,0 +1,16 @@
+# FLINT, polynomials over the integers and rationals: target FLINT::FLINT, with GMP, which its headers use.
+find_path(FLINT_INCLUDE_DIR flint/fmpq_poly.h)
+find_library(FLINT_LIBRARY flint)
+find_library(FLINT_GMP_LIBRARY gmp)
+if(FLINT_INCLUDE_DIR)
+  file(STRINGS ${FLINT_INCLUDE_DIR}/flint/flint.h version REGEX "define FLINT_VERSION \"")
+  string(REGEX REPLACE ".*\"([0-9.]+).*" "\\1" FLINT_VERSION "${version}")
+endif()
+include(FindPackageHandleStandardArgs)
+find_package_handle_standard_args(FLINT REQUIRED_VARS FLINT_LIBRARY FLINT_GMP_LIBRARY FLINT_INCLUDE_DIR VERSION_VAR FLINT_VERSION)
+if(FLINT_FOUND AND NOT TARGET FLINT::FLINT)
+  add_library(FLINT::FLINT UNKNOWN IMPORTED)
+  set_target_properties(FLINT::FLINT PROPERTIES IMPORTED_LOCATION "${FLINT_LIBRARY}"
+                        INTERFACE_INCLUDE_DIRECTORIES "${FLINT_INCLUDE_DIR}" INTERFACE_LINK_LIBRARIES "${FLINT_GMP_LIBRARY}")
+endif()
+mark_as_advanced(FLINT_INCLUDE_DIR FLINT_LIBRARY FLINT_GMP_LIBRARY)
