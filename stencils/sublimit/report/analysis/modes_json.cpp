@@ -65,7 +65,8 @@ Json characteristic_map_json(const Scheme<double>& scheme, const LocalModes& mod
   std::vector<Index> position(modes.net.labels.size(), -1);
   for (const Index v : inner_vertices(modes.net, net_rings, triangles)) {
     position[v] = static_cast<Index>(json["net"].size());
-    json["net"].push_back({{"label", to_json(modes.net.labels[v])}, {"at", point(mode.net[v].real(), mode.net[v].imag())}});
+    json["net"].push_back(
+        {{"label", to_json(modes.net.labels[v])}, {"at", point(mode.net[v].real(), mode.net[v].imag())}});
   }
   for (const FaceRange& face : faces_within(modes.net, net_rings)) {
     Json corners = Json::array();
@@ -116,7 +117,8 @@ Json eigenfunctions_json(const LocalModes& modes) {
     const LocalMode& mode = modes.next[i];
     Json heights = Json::array();
     for (const Index v : inner) heights.push_back(drawn(mode.net[v].real(), 4));
-    json.push_back({{"block", mode.block}, {"value", point(mode.value.real(), mode.value.imag())}, {"heights", heights}});
+    json.push_back(
+        {{"block", mode.block}, {"value", point(mode.value.real(), mode.value.imag())}, {"heights", heights}});
   }
   return json;
 }
@@ -184,7 +186,8 @@ SampleSurface sample_surface(const Scheme<double>& scheme, const LocalType& type
       const auto first = static_cast<Index>(samples.size());
       const auto row = [&](int j) { return triangles ? j * N - j * (j - 1) / 2 : j * N; };
       for (int j = 0; j < N; ++j)
-        for (int i = 0; i < (triangles ? N - j : N); ++i) samples.push_back({address, double(i) / (N - 1), double(j) / (N - 1)});
+        for (int i = 0; i < (triangles ? N - j : N); ++i)
+          samples.push_back({address, double(i) / (N - 1), double(j) / (N - 1)});
       for (int j = 0; j + 1 < N; ++j)
         for (int i = 0; i + 1 < (triangles ? N - j : N); ++i) {
           const Index a = first + row(j) + i, b = first + row(j + 1) + i;
