@@ -119,6 +119,7 @@ Command add_bake(CLI::App& app);
 Command add_apply(CLI::App& app);
 Command add_verify(CLI::App& app);
 Command add_export(CLI::App& app);
+Command add_analyze(CLI::App& app);
 Command add_demo(CLI::App& app);
 
 }  // namespace sublimit::cli

@@ -19,4 +19,7 @@ Json point(double x, double y, double z);
 Json to_json(const SectorLabel& label);
 Json to_json(const Verdict& verdict);
 
+/// A report as the text of its file: a line for each thing that people look for, not one for each number.
+std::string report_text(const Json& report);
+
 }  // namespace sublimit::report

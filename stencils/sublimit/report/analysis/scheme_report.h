@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// Continuity reports of schemes (report_format.md): for each scheme its regular part, its neighbourhoods with their
+// verdicts, and what becomes of its claims. Everything is computed from the masks: a scheme of your own program gets
+// all that ours get.
+#include <nlohmann/json.hpp>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "sublimit/certificates/algebraic.h"
+#include "sublimit/scheme.h"
+
+namespace sublimit::report {
+
+/// A scheme in the two numbers that a report needs: its file, instantiated twice.
+struct ReportedScheme {
+  Scheme<double> scheme;
+  Scheme<Algebraic> exact;
+  SchemeOptions options = {};
+};
+
+/// One of the registry.
+/// @throws InvalidOption  as find_scheme does, or a name that there is not
+ReportedScheme reported_scheme(const std::string& name, const SchemeOptions& options = {});
+
+struct ReportOptions {
+  std::vector<int> valences = {3, 4, 5, 6, 7, 8, 9, 10, 11, 12};  ///< ascending, from least_valence to greatest_valence
+  /// Jobs done and jobs in all; by one thread at a time.
+  std::function<void(int, int)> progress = {};
+};
+
+inline constexpr int least_valence = 3, greatest_valence = 100;
+
+/// Valences as written on a command line: `3-12`, `5`, `3-8,12`.
+/// @throws InvalidOption  no such list, or a valence outside the range; the message says what larger ones would take
+std::vector<int> parse_valences(const std::string& text);
+
+/// The report, kind "schemes".
+/// @throws InvalidParameter  a valence outside the range
+/// @note  Deterministic: same build and input, same bytes, for any number of threads.
+nlohmann::ordered_json schemes_report(const std::vector<ReportedScheme>& schemes, const ReportOptions& options = {});
+
+/// How many claims of its schemes the report contradicts.
+int contradicted_claims(const nlohmann::ordered_json& report);
+
+}  // namespace sublimit::report
