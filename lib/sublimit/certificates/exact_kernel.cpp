@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sublimit/certificates/exact_kernel.h"
+
+#include <algorithm>
+#include <optional>
+
+namespace sublimit {
+namespace {
+
+using PolynomialMatrix = std::vector<std::vector<Polynomial>>;
+
+/// K[x]/(g) as far as lambda sees it: g shrinks while it is used.
+class Extension {
+ public:
+  explicit Extension(const AlgebraicRoot& lambda) : lambda_(lambda), g_(lambda.polynomial()) {}
+  const Polynomial& modulus() const { return g_; }
+
+  Polynomial reduced(const Polynomial& p) const { return p.degree() < g_.degree() ? p : divide(p, g_).remainder; }
+  Polynomial product(const Polynomial& a, const Polynomial& b) const { return reduced(a * b); }
+
+  /// 1/p, or nothing where p(lambda) = 0.
+  std::optional<Polynomial> inverse(const Polynomial& p) {
+    for (;;) {
+      const Polynomial a = reduced(p);
+      if (a.is_zero()) return std::nullopt;
+      if (a.degree() == 0) return Polynomial({a.leading().inverse()});
+      const Polynomial common = gcd(g_, a);
+      if (common.degree() == 0) return inverse_of_coprime(a);
+      g_ = lambda_.is_root_of(common) ? common : divide(g_, common).quotient;
+    }
+  }
+
+ private:
+  Polynomial inverse_of_coprime(const Polynomial& a) const {
+    Polynomial r0 = g_, r1 = a, t0, t1({1});
+    while (r1.degree() > 0) {
+      const Division step = divide(r0, r1);
+      r0 = std::exchange(r1, step.remainder);
+      t0 = std::exchange(t1, t0 - step.quotient * t1);
+    }
+    return reduced(r1.leading().inverse() * t1);
+  }
+
+  const AlgebraicRoot& lambda_;
+  Polynomial g_;
+};
+
+struct Echelon {
+  PolynomialMatrix rows;       ///< reduced, one per pivot
+  std::vector<size_t> pivots;  ///< columns
+};
+
+Echelon echelon(PolynomialMatrix M, Extension& field) {
+  Echelon result;
+  const size_t columns = M.empty() ? 0 : M[0].size();
+  size_t row = 0;
+  for (size_t j = 0; j < columns && row < M.size(); ++j) {
+    std::optional<Polynomial> inverse;
+    size_t pivot = row;
+    for (; pivot < M.size(); ++pivot)
+      if (!M[pivot][j].is_zero() && (inverse = field.inverse(M[pivot][j]))) break;
+    if (!inverse) continue;
+    std::swap(M[pivot], M[row]);
+    for (size_t c = j; c < columns; ++c)
+      if (!M[row][c].is_zero()) M[row][c] = field.product(M[row][c], *inverse);
+    for (size_t i = 0; i < M.size(); ++i) {
+      if (i == row) continue;
+      const Polynomial factor = field.reduced(M[i][j]);
+      if (factor.is_zero()) continue;
+      for (size_t c = j; c < columns; ++c)
+        if (!M[row][c].is_zero()) M[i][c] = field.reduced(M[i][c] - factor * M[row][c]);
+      M[i][j] = {};
+    }
+    result.pivots.push_back(j);
+    ++row;
+  }
+  M.resize(row);
+  result.rows = std::move(M);
+  return result;
+}
+
+PolynomialMatrix shifted(const DenseMatrix<Algebraic>& B, const AlgebraicRoot& lambda) {
+  const Polynomial x = lambda.exact() ? Polynomial({*lambda.exact()}) : Polynomial::x();
+  PolynomialMatrix M(B.rows(), std::vector<Polynomial>(B.cols()));
+  for (Eigen::Index i = 0; i < B.rows(); ++i)
+    for (Eigen::Index j = 0; j < B.cols(); ++j) {
+      if (!B(i, j).is_zero()) M[i][j] = Polynomial({B(i, j)});
+      if (i == j) M[i][j] -= x;
+    }
+  return M;
+}
+
+PolynomialMatrix product(const PolynomialMatrix& A, const PolynomialMatrix& B, const Extension& field) {
+  PolynomialMatrix C(A.size(), std::vector<Polynomial>(B.size()));
+  for (size_t i = 0; i < A.size(); ++i)
+    for (size_t k = 0; k < B.size(); ++k) {
+      if (A[i][k].is_zero()) continue;
+      for (size_t j = 0; j < B.size(); ++j)
+        if (!B[k][j].is_zero()) C[i][j] += field.product(A[i][k], B[k][j]);
+    }
+  return C;
+}
+
+}  // namespace
+
+std::vector<ComplexBall> ExactKernel::enclosure(int i, long bits) const {
+  const PrecisionScope scope(bits);
+  const ComplexBall x = lambda.enclosure(bits);
+  std::vector<ComplexBall> values;
+  for (const Polynomial& entry : vectors[i]) values.push_back(entry.at(x));
+  return values;
+}
+
+ExactKernel exact_eigenvectors(const DenseMatrix<Algebraic>& B, const AlgebraicRoot& lambda) {
+  Extension field(lambda);
+  const Echelon form = echelon(shifted(B, lambda), field);
+  ExactKernel kernel{lambda, {}, {}};
+  for (size_t j = 0; j < static_cast<size_t>(B.cols()); ++j) {
+    if (std::count(form.pivots.begin(), form.pivots.end(), j)) continue;
+    std::vector<Polynomial> v(B.cols());
+    v[j] = Polynomial({1});
+    for (size_t r = 0; r < form.rows.size(); ++r) v[form.pivots[r]] = field.reduced(Polynomial() - form.rows[r][j]);
+    kernel.vectors.push_back(std::move(v));
+  }
+  kernel.modulus = field.modulus();
+  return kernel;
+}
+
+std::vector<int> jordan_sizes(const DenseMatrix<Algebraic>& B, const AlgebraicRoot& lambda, int multiplicity) {
+  if (multiplicity == 1) return {1};
+  Extension field(lambda);
+  const PolynomialMatrix M = shifted(B, lambda);
+  // nullities[j]: of the j-th power.
+  std::vector<int> nullities{0};
+  for (PolynomialMatrix power = M;; power = product(power, M, field)) {
+    nullities.push_back(static_cast<int>(M.size() - echelon(power, field).pivots.size()));
+    if (nullities.back() >= multiplicity || nullities.back() == nullities[nullities.size() - 2]) break;
+  }
+  std::vector<int> sizes;
+  const auto at_least = [&](size_t j) { return j < nullities.size() ? nullities[j] - nullities[j - 1] : 0; };
+  for (size_t j = nullities.size() - 1; j > 0; --j)
+    sizes.insert(sizes.end(), at_least(j) - at_least(j + 1), static_cast<int>(j));
+  return sizes;
+}
+
+}  // namespace sublimit
