@@ -9,11 +9,14 @@
 #include "sublimit/base/error.h"
 #include "sublimit/report/analysis/masks_json.h"
 #include "sublimit/report/analysis/modes_json.h"
+#include "sublimit/report/analysis/spectrum_json.h"
 
 namespace sublimit::report {
 namespace {
 
 using Kind = NeighborhoodKind::Kind;
+
+constexpr int spectrum_rings = 3;
 
 LocalType local_type(const NeighborhoodKind& kind) {
   LocalType type{.faces = kind.n};
@@ -59,8 +62,13 @@ Json neighborhood_json(const ReportedScheme& scheme, const NeighborhoodKind& kin
   if (!patch) return nullptr;
   Json json{{"kind", kind.name()}, {"n", kind.n}, {"points", patch->slots.size()}, {"labels", Json::array()}};
   for (const SectorLabel& label : patch->labels) json["labels"].push_back(to_json(label));
+  // Moduli below lambda^2 may come from rings that the limit itself does not need.
+  const std::optional<LocalPatch<Algebraic>> wide =
+      closed ? local_patch(scheme.exact, type, spectrum_rings) : local_patch(scheme.exact, type);
+  const ExactSpectrum spectrum = exact_spectrum(*wide);
+  add_spectrum(json, spectrum);
   std::string why;
-  json["masks"] = masks_json(scheme.scheme, &*patch, type, std::nullopt, why);
+  json["masks"] = masks_json(scheme.scheme, &*patch, type, subdominant_in_field(spectrum), why);
   if (closed) {
     const std::optional<LocalModes> modes = local_modes(scheme.scheme, type);
     if (modes) {
