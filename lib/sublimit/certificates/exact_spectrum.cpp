@@ -33,6 +33,15 @@ std::vector<ExactEigenvalue> block_values(const DenseMatrix<Algebraic>& B) {
   return values;
 }
 
+/// Sorts by modulus.
+void rank(std::vector<ExactEigenvalue>& all) {
+  std::stable_sort(all.begin(), all.end(), [](const ExactEigenvalue& a, const ExactEigenvalue& b) {
+    return compare_moduli(a.value, b.value) > 0;
+  });
+  for (size_t i = 1; i < all.size(); ++i)
+    all[i].rank = all[i - 1].rank + (compare_moduli(all[i - 1].value, all[i].value) != 0);
+}
+
 }  // namespace
 
 std::vector<ExactEigenvalue> ExactSpectrum::of_rank(int rank) const {
@@ -52,13 +61,15 @@ ExactSpectrum exact_spectrum(const LocalPatch<Algebraic>& patch) {
       value.copies = n > 0 && k > 0 && 2 * k < n ? 2 : 1;
       spectrum.values.push_back(std::move(value));
     }
-  std::vector<ExactEigenvalue>& all = spectrum.values;
-  std::stable_sort(all.begin(), all.end(), [](const ExactEigenvalue& a, const ExactEigenvalue& b) {
-    return compare_moduli(a.value, b.value) > 0;
-  });
-  for (size_t i = 1; i < all.size(); ++i)
-    all[i].rank = all[i - 1].rank + (compare_moduli(all[i - 1].value, all[i].value) != 0);
+  rank(spectrum.values);
   return spectrum;
+}
+
+std::vector<ExactEigenvalue> exact_eigenvalues(const DenseMatrix<Algebraic>& A) {
+  std::vector<ExactEigenvalue> values = block_values(A);
+  for (ExactEigenvalue& value : values) value.block = -1;
+  rank(values);
+  return values;
 }
 
 }  // namespace sublimit

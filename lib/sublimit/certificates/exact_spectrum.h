@@ -31,5 +31,7 @@ struct ExactSpectrum {
 };
 
 ExactSpectrum exact_spectrum(const LocalPatch<Algebraic>& patch);
+/// Of any real matrix, without symmetry: by modulus, ranked.
+std::vector<ExactEigenvalue> exact_eigenvalues(const DenseMatrix<Algebraic>& A);
 
 }  // namespace sublimit

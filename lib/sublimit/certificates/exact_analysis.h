@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// A centre of one kind under one scheme with all that is exactly known of it: local matrix, spectrum, and whether its
+// modes can be seen in the limit.
+#include <optional>
+
+#include "sublimit/analysis/local_type.h"
+#include "sublimit/certificates/exact_kernel.h"
+#include "sublimit/certificates/exact_spectrum.h"
+
+namespace sublimit {
+
+struct ExactAnalysis {
+  Scheme<Algebraic> scheme = {};
+  LocalPatch<Algebraic> patch = {};
+  ExactSpectrum spectrum = {};
+  /// Limit position of a regular centre, by its own labels; empty where it could not be had.
+  std::vector<std::pair<SectorLabel, Algebraic>> regular_mask = {};
+
+  int n() const { return spectrum.blocks.sectors; }
+};
+
+/// @param rings  as `local_patch` has them. For verdicts: all that influence the surface next to the point, 2 or 3
+/// @return  nothing where a centre of this type does not have a child of its own type
+/// @throws AnalysisError  no small closed set, no symmetry
+std::optional<ExactAnalysis> exact_analysis(const Scheme<Algebraic>& scheme, const LocalType& type, int rings);
+
+/// The mode of an eigenvector of a closed neighbourhood, by position in the patch: x_i w^(k s) on sector s of orbit i.
+std::vector<ComplexBall> mode(const ExactAnalysis& analysis, int block, const ExactKernel& kernel, int vector,
+                              long bits = 128);
+
+/// An eigenvector of this eigenvalue gives a limit that is not zero everywhere near the centre: it is not zero at the
+/// centre of a regular place next to it. (There could be modes that no surface shows.) Nothing: not decided.
+std::optional<bool> is_seen(const ExactAnalysis& analysis, const ExactEigenvalue& value);
+
+}  // namespace sublimit
