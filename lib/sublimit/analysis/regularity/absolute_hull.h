@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// Symmetric convex hulls of points: how a vector is combined from +- the points with the least sum of moduli.
+#include <Eigen/Core>
+
+namespace sublimit {
+
+/// Coefficients c with sum c_j points.row(j) = x, up to rounding, and sum |c_j| (nearly) least, by the simplex method.
+/// The first rows of `points` are a multiple of the identity. Nothing is promised of rounding: verify what you use.
+Eigen::RowVectorXd least_combination(const Eigen::MatrixXd& points, const Eigen::RowVectorXd& x);
+
+}  // namespace sublimit
