@@ -70,33 +70,39 @@ Rational::Rational(double value) {
 }
 
 Interval Rational::enclosure() const {
+  if (!is_ratio()) return {-INFINITY, INFINITY};
   const Interval p = enclosure_of(p_), q = enclosure_of(q_);
   const Interval a = quotient(p.low, p.low < 0 ? q.low : q.high), b = quotient(p.high, p.high < 0 ? q.high : q.low);
   return {a.low, b.high};
 }
 
 Rational operator+(const Rational& a, const Rational& b) {
+  if (!a.is_ratio() || !b.is_ratio()) return Rational::irrational();
   const Integer common = gcd(a.q_, b.q_);
   return {plus(times(a.p_, b.q_ / common), times(b.p_, a.q_ / common)), times(a.q_, b.q_ / common)};
 }
 
 Rational operator*(const Rational& a, const Rational& b) {
+  if (!a.is_ratio() || !b.is_ratio()) return Rational::irrational();
   const Integer one = gcd(a.p_, b.q_), other = gcd(b.p_, a.q_);  // crosswise first: smaller numbers
   if (a.p_ == 0 || b.p_ == 0) return 0;
   return {times(a.p_ / one, b.p_ / other), times(a.q_ / other, b.q_ / one)};
 }
 
-Rational operator/(const Rational& a, const Rational& b) { return a * Rational(b.q_, b.p_); }
+Rational operator/(const Rational& a, const Rational& b) {
+  return a.is_ratio() && b.is_ratio() ? a * Rational(b.q_, b.p_) : Rational::irrational();
+}
 
 Rational sqrt(const Rational& a) {
-  if (a.p_ >= 0) {
+  if (a.p_ >= 0 && a.is_ratio()) {
     const Integer p = root(a.p_), q = root(a.q_);
     if (p * p == a.p_ && q * q == a.q_) return {p, q};
   }
-  throw AnalysisError("the root of " + to_string(a) + " is not a ratio");
+  return Rational::irrational();
 }
 
 std::string to_string(const Rational& r) {
+  if (!r.is_ratio()) return "irrational";
   return digits(r.numerator()) + (r.denominator() == 1 ? "" : "/" + digits(r.denominator()));
 }
 
@@ -107,7 +113,7 @@ Rational Number<Rational>::cos_2pi(int k, int n) {
     constexpr int twelfths[] = {0, 2, 3, 4, 6}, halves[] = {2, 1, 0, -1, -2};
     if (12 * k == twelfths[i] * n) return ratio(halves[i], 2);
   }
-  throw AnalysisError("the cosine of 2 pi " + std::to_string(k) + "/" + std::to_string(n) + " is not a ratio");
+  return Rational::irrational();
 }
 
 }  // namespace sublimit

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Exact ratios of 128-bit integers: masks of curve schemes and of regular meshes are such numbers. What does not fit,
-// and irrational constants, throw: an answer that rests on these numbers is exact or there is none.
+// Exact ratios of 128-bit integers: masks of curve schemes and of regular meshes are such numbers. What does not fit
+// throws. An irrational constant is no ratio, and neither is what is computed from it: masks of irregular sites may
+// have such weights as long as nobody uses them.
 #include <Eigen/Core>
 
 #include <compare>
@@ -30,7 +31,14 @@ class Rational {
 
   Integer numerator() const { return p_; }
   Integer denominator() const { return q_; }
-  bool is_zero() const { return p_ == 0; }
+  bool is_zero() const { return p_ == 0 && q_ != 0; }
+  /// False of what has an irrational number in it.
+  bool is_ratio() const { return q_ != 0; }
+  static Rational irrational() {
+    Rational r;
+    r.q_ = 0;
+    return r;
+  }
   /// Encloses it, without width where it is a double.
   Interval enclosure() const;
   double value() const { return enclosure().middle(); }
@@ -53,11 +61,10 @@ class Rational {
   friend bool operator==(const Rational& a, const Rational& b) { return a.p_ == b.p_ && a.q_ == b.q_; }
   friend std::strong_ordering operator<=>(const Rational& a, const Rational& b) { return (a - b).p_ <=> Integer{0}; }
   friend Rational abs(const Rational& a) { return a.p_ < 0 ? -a : a; }
-  /// @throws AnalysisError  not the square of a ratio
   friend Rational sqrt(const Rational& a);
 
  private:
-  Integer p_ = 0, q_ = 1;  ///< no common divisor, q_ > 0
+  Integer p_ = 0, q_ = 1;  ///< no common divisor, q_ > 0; q_ = 0 where it is irrational
 };
 
 /// `-9/64`, or `2`.
@@ -66,7 +73,7 @@ std::string to_string(const Rational& r);
 template <>
 struct Number<Rational> {
   static Rational ratio(int p, int q) { return {Rational::Integer{p}, Rational::Integer{q}}; }
-  /// @throws AnalysisError  other than 0, +-1/2 and +-1: such cosines are irrational
+  /// Other than 0, +-1/2 and +-1 such cosines are irrational.
   static Rational cos_2pi(int k, int n);
 };
 

@@ -95,7 +95,10 @@ Symbol symbol(const CurveScheme<Rational>& scheme, int level) {
   std::sort(terms.begin(), terms.end(), [](const auto& s, const auto& t) { return s.first < t.first; });
   a.first = terms.front().first;
   a.coefficients.resize(terms.back().first - a.first + 1);
-  for (const auto& [power, weight] : terms) a.coefficients[power - a.first] = weight;
+  for (const auto& [power, weight] : terms) {
+    if (!weight.is_ratio()) throw AnalysisError(scheme.name + ": a weight is irrational");
+    a.coefficients[power - a.first] = weight;
+  }
   return trimmed(std::move(a));
 }
 
