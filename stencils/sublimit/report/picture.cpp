@@ -79,7 +79,9 @@ std::string svg_picture(const std::vector<Panel>& panels, const PictureOptions& 
   fit(camera, panels, frame, options);
 
   const double border = 14, text = options.caption_size / 17;
-  const double caption_height = 58 * text;
+  const bool captions = std::any_of(panels.begin(), panels.end(),
+                                    [](const Panel& p) { return !p.caption.empty() || !p.note.empty(); });
+  const double caption_height = captions ? 58 * text : 0;
   const std::size_t columns = options.columns > 0 ? static_cast<std::size_t>(options.columns) : panels.size();
   const std::size_t rows = panels.empty() ? 1 : (panels.size() + columns - 1) / columns;
   const double row_height = options.panel_height + caption_height;
@@ -87,8 +89,10 @@ std::string svg_picture(const std::vector<Panel>& panels, const PictureOptions& 
   const double height = static_cast<double>(rows) * row_height + border;
   std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + pixels(width) + " " + pixels(height) +
                     "\" width=\"" + pixels(width) + "\" height=\"" + pixels(height) +
-                    "\" font-family=\"system-ui, sans-serif\" text-anchor=\"middle\">\n";
-  svg += "<rect width=\"100%\" height=\"100%\" rx=\"16\" fill=\"#f4f2ed\"/>\n";
+                    "\" font-family=\"system-ui, sans-serif\" text-anchor=\"middle\"" +
+                    (options.title.empty() ? ">\n" : " role=\"img\"><title>" + escaped(options.title) + "</title>\n");
+  if (!options.description.empty()) svg += "<desc>" + escaped(options.description) + "</desc>\n";
+  if (options.plate) svg += "<rect width=\"100%\" height=\"100%\" rx=\"16\" fill=\"#f4f2ed\"/>\n";
   if (options.ground_shadow) {
     svg +=
         "<radialGradient id=\"shadow\"><stop offset=\".5\" stop-color=\"#3a3f55\" stop-opacity=\".42\"/>"

@@ -49,7 +49,10 @@ struct PictureOptions {
   int sky_directions = 128;              ///< that light comes from: time, for less grain in hollows
   int tone_step = 1;                     ///< smooth shading has every so manieth tone: small pictures need few
   bool ground_shadow = true;
+  bool plate = true;         ///< a light background
   double caption_size = 17;  ///< pixels; notes are smaller
+  /// For those who cannot see the picture; with a title it is an image of that name, as pages with pictures inline need.
+  std::string title = {}, description = {};
   int columns = 0;           ///< panels in a row, 0: all
   /// #x3, kept in view though nothing draws them: pictures of what lies within the same ones have the same camera.
   Points in_view = {};

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// Points of the plane and where they go on the paper.
+#include <Eigen/Core>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "sublimit/report/page/json.h"
+
+namespace sublimit::page {
+
+using Point = Eigen::Vector2d;
+
+/// The grid of a regular part: "line", "square", "triangular" where the third direction of edges is (1, 1), or
+/// "triangular-" where it is (1, -1), which the mask tells.
+std::string grid_of(const Json& regular);
+
+/// A point of such a grid; triangles are equilateral.
+Point on_grid(const std::string& grid, double u, double v);
+
+/// Where a label [sector, x, y] of a neighbourhood of n sectors is drawn: on n even spokes.
+Point at_label(const Json& label, int n);
+
+/// Pixels of points: as large as fits, y upwards, the drawing no higher than it needs.
+struct Fit {
+  double scale = 1, width = 0, height = 0;
+  Point middle = Point::Zero();
+  double x(const Point& p) const { return width / 2 + scale * (p.x() - middle.x()); }
+  double y(const Point& p) const { return height / 2 - scale * (p.y() - middle.y()); }
+  std::vector<std::pair<double, double>> all(const std::vector<Point>& points) const;
+};
+Fit fit_points(const std::vector<Point>& points, double width, double most_height, double margin);
+
+/// Is a point inside a polygon?
+bool inside(const std::vector<Point>& polygon, const Point& p);
+
+}  // namespace sublimit::page

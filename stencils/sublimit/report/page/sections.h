@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// The sections of the page, each from its part of the report.
+#include <set>
+#include <string>
+
+#include "sublimit/report/page/json.h"
+
+namespace sublimit::page {
+
+/// The summary table as textbooks have it, and what becomes of sentences of lecture notes.
+std::string summary_section(const Json& report);
+std::string statements_section(const Json& report);
+
+/// A scheme: what it is, what it claims, its regular part, its neighbourhoods.
+std::string scheme_section(const Json& scheme, const std::string& id, bool many_schemes);
+
+/// The scheme on regular meshes: mask, support, basis function, norms, exponent.
+std::string regular_part(const Json& regular, const std::string& scheme);
+
+/// Spectra, ratios and verdicts over the valence of a kind ("vertex" or "face"), as plots and a table.
+std::string over_valences(const Json& neighborhoods, const std::string& kind, const std::string& scheme,
+                          const std::string& id);
+
+/// One neighbourhood, folded; pictures of surfaces only on demand.
+std::string neighborhood_details(const Json& neighborhood, const std::string& scheme, const std::string& id,
+                                 bool pictures, bool open);
+
+/// Borders, creases, corners and darts: a table with their verdicts, and each folded.
+std::string edge_neighborhoods(const Json& neighborhoods, const std::string& scheme, const std::string& id);
+
+std::string mesh_section(const Json& mesh);
+std::string curve_section(const Json& curve);
+std::string sweep_section(const Json& sweep);
+
+}  // namespace sublimit::page

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sublimit/report/page/sections.h"
+#include "sublimit/report/page/text.h"
+
+namespace sublimit::page {
+namespace {
+
+std::string with_badge(const Json& continuity, const Json& verdict) {
+  return continuity.is_null() ? std::string(dash) : prose(continuity) + " " + badge(verdict);
+}
+
+std::string numbers(const Json& list) {
+  if (!list.is_object() || list.empty()) return {};
+  std::string text = "<br><span class=\"quiet\">";
+  bool first = true;
+  for (const auto& [key, value] : list.items()) {
+    text += (first ? "" : "; ") + escaped(key) + ": ";
+    if (value.is_array()) {
+      std::string row;
+      for (const Json& v : value) row += (row.empty() ? "" : ", ") + literal(v);
+      text += row;
+    } else {
+      text += literal(value);
+    }
+    first = false;
+  }
+  return text + "</span>";
+}
+
+}  // namespace
+
+std::string summary_section(const Json& report) {
+  const Json& rows = at(report, "summary");
+  if (!rows.is_array() || rows.empty()) return {};
+  Table table{"Everything in it is computed from the masks",
+              {"scheme", "type", "mesh", "regular", "extraordinary points", "valences", "notes"},
+              {},
+              "wide text"};
+  for (const Json& row : rows) {
+    const std::string name = string(at(row, "scheme"));
+    table.rows.push_back({"<a href=\"#scheme-" + identifier(name) + "\">" + escaped(name) + "</a>",
+                          literal(at(row, "type")), literal(at(row, "mesh")),
+                          with_badge(at(row, "regular"), at(row, "regular_verdict")),
+                          with_badge(at(row, "extraordinary"), at(row, "extraordinary_verdict")),
+                          literal(at(row, "valences")), prose(at(row, "notes"))});
+  }
+  return "<section id=\"summary\"><h2>Schemes side by side</h2>\n" + html(table) + "</section>\n";
+}
+
+std::string statements_section(const Json& report) {
+  const Json& list = at(report, "statements");
+  if (!list.is_array() || list.empty()) return {};
+  Table table{"Sentences of lecture notes, and the experiment that decides each",
+              {"where", "what is said", "verdict", "what is right", "experiment"},
+              {},
+              "wide text"};
+  for (const Json& s : list)
+    table.rows.push_back({prose(at(s, "where")), prose(at(s, "says")), badge(at(s, "verdict")), prose(at(s, "right")),
+                          prose(at(s, "experiment")) + numbers(at(s, "numbers"))});
+  return "<section id=\"statements\"><h2>What lecture notes say</h2>\n" + html(table) + "</section>\n";
+}
+
+}  // namespace sublimit::page

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sublimit/report/page/surfaces.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "sublimit/report/page/bands.h"
+#include "sublimit/report/page/drawing.h"
+#include "sublimit/report/picture.h"
+#include "sublimit/report/picture/camera.h"
+
+namespace sublimit::page {
+namespace {
+
+using Eigen::Vector3d;
+
+PictureOptions small_picture(const std::string& title) {
+  PictureOptions options;
+  options.panel_width = 360;
+  options.panel_height = 270;
+  options.up = {0, 0, 1};
+  options.azimuth = .7;
+  options.elevation = .62;
+  options.sky_directions = 24;
+  options.tone_step = 6;
+  options.ground_shadow = false;
+  options.plate = false;
+  options.title = title;
+  return options;
+}
+
+/// Towards the eye of a picture, for all points alike: stripes of a far world.
+Vector3d eye_of(const PictureOptions& options) { return picture::Camera(options).axes.row(2).transpose(); }
+
+/// A coordinate of the direction in which an eye far away sees the world mirrored.
+std::vector<double> mirrored(const PictureMesh& mesh, const Vector3d& eye) {
+  const Vector3d across = Vector3d(.55, .75, .36).normalized();
+  std::vector<double> values;
+  for (Eigen::Index v = 0; v < mesh.vertex_normals.rows(); ++v) {
+    const Vector3d n = mesh.vertex_normals.row(v).transpose().normalized();
+    values.push_back((2 * n.dot(eye) * n - eye).dot(across));
+  }
+  return values;
+}
+
+std::string reflection_figure(const PictureMesh& mesh, const std::string& name) {
+  if (mesh.vertex_normals.rows() == 0) return {};
+  const PictureOptions options = small_picture("Reflection lines, " + name);
+  const std::vector<double> values = mirrored(mesh, eye_of(options));
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  std::vector<double> thresholds;
+  constexpr int stripes = 26;
+  for (int i = 1; i < stripes; ++i) thresholds.push_back(*low + (*high - *low) * i / stripes);
+  std::vector<PictureMesh> parts = bands(mesh, values, thresholds);
+  Panel panel;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    parts[i].color = i % 2 == 0 ? Color{.80, .82, .83} : Color{.16, .25, .36};
+    if (!parts[i].face_sizes.empty()) panel.layers.push_back(std::move(parts[i]));
+  }
+  return figure(
+      svg_picture({panel}, options),
+      "<b>Reflection lines.</b> Stripes of a far world in a mirror: they break where the tangent plane jumps and "
+      "kink where curvature does.");
+}
+
+constexpr int curvature_colors = 9;
+
+/// From hollow (saddle) blue over pale to bulging red.
+Color curvature_color(int band) {
+  constexpr Color cool = {.10, .36, .66}, pale = {.86, .84, .78}, warm = {.80, .24, .10};
+  const double t = 2. * band / (curvature_colors - 1) - 1;
+  return t < 0 ? mix(pale, cool, std::pow(-t, .8)) : mix(pale, warm, std::pow(t, .8));
+}
+
+struct Curvature {
+  std::vector<double> gauss;  // per vertex
+  double scale = 0;           // where colours end
+};
+
+/// Gauss curvature per vertex; where it does not exist, the mean of the neighbours that have one.
+Curvature gauss_of(const Json& surface, const PictureMesh& mesh) {
+  Curvature result;
+  const Json& list = at(surface, "curvature");
+  if (!list.is_array() || static_cast<Eigen::Index>(list.size()) != mesh.positions.rows()) return result;
+  std::vector<double> sum(list.size(), 0), count(list.size(), 0), known;
+  std::vector<bool> has(list.size());
+  for (std::size_t v = 0; v < list.size(); ++v) {
+    const std::optional<double> k = number(at(list[v], 1));
+    has[v] = k.has_value();
+    result.gauss.push_back(k.value_or(0));
+    if (k) known.push_back(std::abs(*k));
+  }
+  if (known.empty()) return {};
+  std::size_t begin = 0;
+  for (Index size : mesh.face_sizes) {
+    for (Index i = 0; i < size; ++i)
+      for (Index j = 0; j < size; ++j) {
+        const Index a = mesh.face_vertices[begin + static_cast<std::size_t>(i)],
+                    b = mesh.face_vertices[begin + static_cast<std::size_t>(j)];
+        if (has[b]) sum[a] += result.gauss[b], count[a] += 1;
+      }
+    begin += static_cast<std::size_t>(size);
+  }
+  for (std::size_t v = 0; v < list.size(); ++v)
+    if (!has[v] && count[v] > 0) result.gauss[v] = sum[v] / count[v];
+  std::sort(known.begin(), known.end());
+  result.scale = known[known.size() * 92 / 100];
+  if (!(result.scale > 0)) result.scale = known.back() > 0 ? known.back() : 1;
+  return result;
+}
+
+std::vector<PictureMesh> colored(const PictureMesh& mesh, const Curvature& curvature) {
+  std::vector<double> thresholds;
+  for (int i = 1; i < curvature_colors; ++i) thresholds.push_back(curvature.scale * (2. * i / curvature_colors - 1));
+  std::vector<PictureMesh> parts = bands(mesh, curvature.gauss, thresholds);
+  for (int i = 0; i < curvature_colors; ++i) parts[i].color = curvature_color(i);
+  std::erase_if(parts, [](const PictureMesh& part) { return part.face_sizes.empty(); });
+  return parts;
+}
+
+std::string curvature_legend(const Curvature& curvature) {
+  std::vector<std::pair<std::string, std::string>> items;
+  for (const int band : {0, 2, 4, 6, 8}) {
+    const double middle = curvature.scale * (2. * band + 1 - curvature_colors) / curvature_colors;
+    const std::string value = shown(std::abs(middle) < 1e-9 * curvature.scale ? 0. : middle, 2);
+    items.emplace_back(swatch_of(hex(curvature_color(band))), band == 0                      ? "≤ " + value
+                                                              : band == curvature_colors - 1 ? "≥ " + value
+                                                                                             : value);
+  }
+  return legend(items);
+}
+
+}  // namespace
+
+std::string surface_figures(const Json& surface, const std::string& name) {
+  const PictureMesh mesh = mesh_of(surface);
+  if (mesh.face_sizes.empty() || !mesh.positions.allFinite()) return {};
+  std::string all = figure(svg_picture({{{mesh}, {}, {}}}, small_picture("Limit surface, " + name)),
+                           "<b>Limit surface</b> of generic control points, the extraordinary point in the middle.");
+  all += reflection_figure(mesh, name);
+  const Curvature curvature = gauss_of(surface, mesh);
+  if (!curvature.gauss.empty())
+    all +=
+        figure(svg_picture({{colored(mesh, curvature), {}, {}}}, small_picture("Gauss curvature, " + name)),
+               curvature_legend(curvature) +
+                   "<b>Gauss curvature.</b> Blue: saddles; red: bowls. Colours end where eight percent of the points "
+                   "lie beyond.");
+  return all;
+}
+
+std::string asset_figure(const Json& asset) {
+  const Json& surface = at(asset, "surface");
+  const PictureMesh mesh = mesh_of(surface);
+  if (mesh.face_sizes.empty() || !mesh.positions.allFinite()) return {};
+  PictureOptions options = small_picture("Limit surface of " + string(at(asset, "file"), "the mesh"));
+  options.panel_width = 900;
+  options.panel_height = 620;
+  options.up = {0, 1, 0};
+  options.sky_directions = 64;
+  options.tone_step = 3;
+  options.elevation = .36;
+  const Curvature curvature = gauss_of(surface, mesh);
+  Panel panel;
+  panel.layers = curvature.gauss.empty() ? std::vector<PictureMesh>{mesh} : colored(mesh, curvature);
+  const Json& worst = at(asset, "worst");
+  PictureMesh places;
+  places.faces = false;
+  const std::size_t count = worst.is_array() ? worst.size() : 0;
+  places.positions = Points::Zero(static_cast<Eigen::Index>(count), 3);
+  for (std::size_t i = 0; i < count; ++i)
+    for (std::size_t c = 0; c < 3; ++c)
+      places.positions(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(c)) =
+          number(at(at(worst[i], "at"), c)).value_or(0);
+  options.in_view = places.positions;
+  std::string svg = svg_picture({panel}, options);
+  const picture::Frame frame = picture::frame_of({panel}, options);
+  picture::Camera camera(options);
+  fit(camera, {panel}, frame, options);
+  std::string numbers = "<g transform=\"translate(14 14)\">";
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vector3d p = places.positions.row(static_cast<Eigen::Index>(i)).transpose();
+    const picture::Projected at = camera.project(camera.seen(frame.local(p)));
+    numbers += "<circle cx=\"" + svg::pixels(at.x) + "\" cy=\"" + svg::pixels(at.y) +
+               "\" r=\"9\" fill=\"#fff\" stroke=\"#22262f\" stroke-width=\"1.6\"/><text x=\"" + svg::pixels(at.x) +
+               "\" y=\"" + svg::pixels(at.y + 4) + "\" style=\"fill:#22262f;font-weight:700\">" +
+               std::to_string(i + 1) + "</text>";
+  }
+  svg.insert(svg.rfind("</svg>"), numbers + "</g>\n");
+  return figure(
+      svg,
+      (curvature.gauss.empty() ? std::string() : curvature_legend(curvature)) +
+          "<b>The limit surface</b> and its Gauss curvature. Numbers: the worst places, listed below; those behind "
+          "the surface show through.",
+      true);
+}
+
+}  // namespace sublimit::page
