@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// The limit as a mesh for pictures, with its curvature.
+#include "sublimit/limit/limit_surface.h"
+#include "sublimit/report/asset_report.h"
+
+namespace sublimit::asset {
+
+/// @param faces  at most, but one a square or triangle; nothing where that is ten times as many. Holes are left out.
+AssetSurface display_surface(const LimitSurface& surface, const BoundLimitSurface& bound, bool dual, Index faces);
+
+}  // namespace sublimit::asset

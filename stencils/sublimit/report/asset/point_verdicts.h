@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// What a scheme does at a point of some type, alone among regular points: whether there is a tangent plane, and what
+// becomes of curvature. By the local matrix that the masks fill, in floating numbers.
+#include <map>
+#include <tuple>
+
+#include "sublimit/analysis/limit_masks.h"
+#include "sublimit/report/asset_report.h"
+
+namespace sublimit::asset {
+
+class PointVerdicts {
+ public:
+  explicit PointVerdicts(const Scheme<double>& scheme) : cache_(scheme) {}
+  /// A vertex inside with n faces.
+  const PointVerdict& inside(Index n) { return of({Centre::Kind::vertex, n, false, false, 0}); }
+  /// The middle of a face with n corners.
+  const PointVerdict& face(Index n) { return of({Centre::Kind::face, n, false, false, 0}); }
+  /// One side of a border, a crease or a corner, with n faces.
+  const PointVerdict& side(Index n, bool corner) { return of({Centre::Kind::vertex, n, true, corner, 0}); }
+  /// The end of one sharp edge, among n faces.
+  const PointVerdict& dart(Index n);
+
+ private:
+  const PointVerdict& of(const LocalType& type);
+  LimitMaskCache cache_;
+  std::map<LocalType, PointVerdict> known_;
+  std::map<Index, PointVerdict> darts_;
+};
+
+/// Larger points take too much time to look at their curvature: their matrices grow with the square of n.
+inline constexpr Index most_faces = 40;
+
+}  // namespace sublimit::asset

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// Where patches meet, and the places on both sides that are compared.
+#include "sublimit/report/asset/inventory.h"
+#include "sublimit/report/asset/surface_places.h"
+
+namespace sublimit::asset {
+
+struct Seam {
+  enum class What : std::uint8_t { inside, crease, patch, point } what = What::inside;
+  HalfEdge half = no_half_edge;  ///< the edge, the face, or the vertex at its tail
+  bool has_plane = true;         ///< of a point
+};
+/// Seams with their samples: pairs on both sides, or, around a point, one in each face.
+struct SeamSamples {
+  struct Group {
+    Seam seam;
+    std::int64_t first = 0, count = 0;
+  };
+  std::vector<Group> groups;
+  std::vector<Sample> samples;
+  void clear() { groups.clear(), samples.clear(); }
+};
+
+class SeamPlaces {
+ public:
+  /// @param polynomial  pieces are polynomials, which can be told apart next to a seam; else no patch has an inside
+  SeamPlaces(const Scheme<double>& scheme, const LimitSurface& surface, const Inventory& inventory, bool polynomial);
+  /// Edges, then faces, then vertices: whatever has a number has zero or more groups.
+  std::int64_t size() const;
+  void add(std::int64_t number, SeamSamples& out) const;
+
+  std::int64_t num_creases() const { return creases_; }
+  std::int64_t num_borders() const { return borders_; }
+  std::int64_t num_smooth() const { return smooth_; }
+  bool is_crease(Edge e) const { return is_infinite(surface_.level().sharpness.edge[index(e)]); }
+
+ private:
+  void add_edge(Edge e, SeamSamples& out) const;
+  void add_patches(Face f, SeamSamples& out) const;
+  void add_point(Vertex v, SeamSamples& out) const;
+  bool is_hole(HalfEdge h) const { return surface_.level().holes[index(surface_.level().topology().face(h))]; }
+
+  const LimitSurface& surface_;
+  const Inventory& inventory_;
+  bool polynomial_, dual_;
+  std::vector<double> along_;  // an edge
+  std::int64_t creases_ = 0, borders_ = 0, smooth_ = 0;
+};
+
+/// How far from extraordinary points their faces are compared.
+inline constexpr double near_point = 0x1p-10;
+
+}  // namespace sublimit::asset

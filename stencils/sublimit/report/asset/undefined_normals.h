@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// Vertices where the limit has no normal: not for want of a plane, but because the control points make it degenerate.
+#include "sublimit/limit/limit_surface.h"
+#include "sublimit/report/asset/inventory.h"
+
+namespace sublimit::asset {
+
+std::vector<AssetWarning> undefined_normals(const LimitSurface& surface, const BoundLimitSurface& bound,
+                                            const Inventory& inventory, const Points& points, Index listed);
+
+}  // namespace sublimit::asset
