@@ -29,7 +29,8 @@ class PointVerdicts {
   std::map<Index, PointVerdict> darts_;
 };
 
-/// Larger points take too much time to look at their curvature: their matrices grow with the square of n.
+/// Larger points take too much time to look at their curvature, or at the seams of patches around them: their matrices
+/// grow with the square of n.
 inline constexpr Index most_faces = 40;
 
 }  // namespace sublimit::asset

@@ -77,7 +77,11 @@ void SeamPlaces::add_patches(Face f, SeamSamples& out) const {
   out.groups.push_back({{Seam::What::patch, t.first(f)}, std::int64_t(out.samples.size()), -1});
   const bool triangle = addresses.triangles();
   bool plain = !is_cut(addresses, t, f);
-  for (const Index v : t.vertices(f)) plain = plain && inventory_.vertices[v].what == VertexKind::What::regular;
+  for (const Index v : t.vertices(f)) {
+    const VertexKind& kind = inventory_.vertices[v];
+    if (kind.n > most_faces) return;  // each sample there costs as much as a small mesh
+    plain = plain && kind.what == VertexKind::What::regular;
+  }
   const auto pair = [&](HalfEdge h, double a, double b, double da, double db) {
     for (const double side : {-1., 1.})
       out.samples.push_back(place_at(addresses, t, h, a + side * da * beside, b + side * db * beside));

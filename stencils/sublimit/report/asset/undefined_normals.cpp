@@ -9,9 +9,13 @@ namespace sublimit::asset {
 std::vector<AssetWarning> undefined_normals(const LimitSurface& surface, const BoundLimitSurface& bound,
                                             const Inventory& inventory, const Points& points, Index listed) {
   const Topology& t = surface.level().topology();
-  WarningGroup group(AssetWarning::Severity::warning,
-                     "the limit has no normal at this vertex: its control points make the tangents degenerate",
-                     "move the points around it apart: several coincide, or lie in one line");
+  using Severity = AssetWarning::Severity;
+  WarningGroup degenerate(Severity::warning,
+                          "the limit has no normal at this vertex: its control points make the tangents degenerate",
+                          "move the points around it apart: several coincide, or lie in one line"),
+      unknown(Severity::warning,
+              "the limit has no normal at this vertex: its faces give it no tangent plane, or a degenerate one",
+              "make the mesh a manifold there, or move the points around it apart");
   constexpr std::int64_t batch = 1 << 16;
   std::vector<Sample> samples;
   std::vector<Index> vertices;
@@ -21,7 +25,8 @@ std::vector<AssetWarning> undefined_normals(const LimitSurface& surface, const B
     bound.evaluate(samples, 1, true, s);
     for (size_t i = 0; i < samples.size(); ++i)
       if (s.status[i] == LimitStatus::undefined_normal && vertices[i] != last)
-        group.add_vertex(last = vertices[i], points, listed);
+        (inventory.vertices[size_t(vertices[i])].plane == PlaneVerdict::unknown ? unknown : degenerate)
+            .add_vertex(last = vertices[i], points, listed);
     samples.clear();
     vertices.clear();
   };
@@ -37,7 +42,8 @@ std::vector<AssetWarning> undefined_normals(const LimitSurface& surface, const B
   }
   flush();
   std::vector<AssetWarning> result;
-  group.put_into(result);
+  degenerate.put_into(result);
+  unknown.put_into(result);
   return result;
 }
 

@@ -47,7 +47,8 @@ std::optional<Finding> plane_finding(const VertexKind& kind, const PointVerdict&
                                   : "vertex of valence " + std::to_string(kind.n);
   const bool cut = !kind.sides.empty();
   const std::string fewer = cut ? "use fewer faces on this side: the scheme's plain rules are too weak for so many"
-                                : "change the valence, by turning an edge or moving it to a neighbour";
+                            : kind.n <= 2 ? "remove the vertex by joining its faces, or add an edge to it"
+                                          : "change the valence, by turning an edge or moving it to a neighbour";
   if (verdict.plane == PlaneVerdict::no)
     return Finding{kind.what == What::corner ? Severity::warning : Severity::error,
                    what + " has no tangent plane: normals around it keep differing", fewer};
