@@ -9,6 +9,8 @@
 #include "sublimit/base/error.h"
 #include "sublimit/report/analysis/numbers.h"
 #include "sublimit/report/analysis/scheme_report.h"
+#include "sublimit/report/asset/asset_json.h"
+#include "sublimit/report/page/page.h"
 
 namespace sublimit::cli {
 namespace {
@@ -19,7 +21,8 @@ constexpr int negative_verdict = 1;
 
 struct Options {
   Common common;
-  std::string input, valences = "3-12", page, json;
+  std::string valences = "3-12", page, json;
+  std::vector<std::string> tolerances;
 };
 
 std::vector<report::ReportedScheme> schemes_named(const Common& common) {
@@ -46,6 +49,10 @@ void write_outputs(const Options& options, const Json& report, Progress& progres
     progress.step("writing " + options.json);
     write_text(options.json, report::report_text(report));
   }
+  if (!options.page.empty()) {
+    progress.step("drawing " + options.page);
+    write_text(options.page, report_page(report));
+  }
 }
 
 int analyze_schemes(const Options& options) {
@@ -63,11 +70,30 @@ int analyze_schemes(const Options& options) {
   return report::contradicted_claims(report) > 0 ? negative_verdict : 0;
 }
 
+int analyze_mesh(const Options& options) {
+  AssetOptions wanted;
+  for (const std::string& tolerance : options.tolerances) read_tolerance(tolerance, wanted.tolerance);
+  Progress progress(options.common.quiet);
+  const Loaded loaded = load(options.common, progress);
+  progress.step("analysing " + options.common.mesh);
+  AssetReport found;
+  naming_mesh(options.common, [&] {
+    found = asset_report(*loaded.scheme, loaded.mesh, loaded.rules, wanted, [&](int done, int all) {
+      progress.note(fmt::format("analysing {}: {} of {}", options.common.mesh, done, all));
+    });
+  });
+  Json report = report::report_head("mesh");
+  report["mesh"] = to_json(found, std::filesystem::path(options.common.mesh).filename().string());
+  write_outputs(options, report, progress);
+  progress.step("");
+  return found.seams.within_tolerance ? 0 : negative_verdict;
+}
+
 int analyze(const Options& options) {
   limit_threads(options.common);
   if (!options.page.empty()) check_output_path(options.page, {".html", ".htm"});
   if (!options.json.empty()) check_output_path(options.json, {".json"});
-  return analyze_schemes(options);
+  return options.common.mesh.empty() ? analyze_schemes(options) : analyze_mesh(options);
 }
 
 }  // namespace
@@ -75,10 +101,13 @@ int analyze(const Options& options) {
 Command add_analyze(CLI::App& app) {
   auto* command = app.add_subcommand("analyze", "How smooth a scheme's limit is, or a mesh's, with proofs");
   auto options = std::make_shared<Options>();
+  command->add_option("MESH", options->common.mesh, "A mesh, .obj, .off or .ply: how smooth its own limit is");
   command->add_option("-s,--scheme", options->common.scheme, "A scheme, or all")->required();
   command->add_option("--valence", options->valences, "Valences, as in 3-12 or 3-8,12")->capture_default_str();
   command->add_option("-o,--output", options->page, "The report as a page, .html");
   command->add_option("--json", options->json, "The report as data, .json");
+  command->add_option("--tolerance", options->tolerances,
+                      "Of a mesh's seams: g0=1e-9, g1=0.1deg, g2=5%; exit 1 beyond");
   command->add_option("--option", options->common.options, "An option of the scheme, name=value");
   add_run(*command, options->common);
   command->footer(

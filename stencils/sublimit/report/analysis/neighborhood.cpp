@@ -7,6 +7,7 @@
 
 #include "sublimit/analysis/eigen_structure.h"
 #include "sublimit/base/error.h"
+#include "sublimit/certificates/spectral_verdicts.h"
 #include "sublimit/report/analysis/masks_json.h"
 #include "sublimit/report/analysis/modes_json.h"
 #include "sublimit/report/analysis/spectrum_json.h"
@@ -37,6 +38,22 @@ LocalType local_type(const NeighborhoodKind& kind) {
   return type;
 }
 
+std::vector<Verdict> verdicts(const ExactAnalysis& analysis, bool closed) {
+  std::vector<Verdict> all{affine_invariance(analysis), convergence(analysis)};
+  if (!closed) {
+    all.push_back(tangent_plane(analysis));
+    return all;
+  }
+  SecondOrderGiven given;
+  const Verdict c1 = spectral_c1(analysis);
+  all.push_back(c1);
+  all.push_back(curvature(analysis, given));
+  all.push_back(shapes(analysis, given));
+  all.push_back(curvature_integrability(analysis, given));
+  all.push_back(spectral_c2(analysis, given));
+  return all;
+}
+
 }  // namespace
 
 std::string NeighborhoodKind::name() const {
@@ -63,12 +80,10 @@ Json neighborhood_json(const ReportedScheme& scheme, const NeighborhoodKind& kin
   Json json{{"kind", kind.name()}, {"n", kind.n}, {"points", patch->slots.size()}, {"labels", Json::array()}};
   for (const SectorLabel& label : patch->labels) json["labels"].push_back(to_json(label));
   // Moduli below lambda^2 may come from rings that the limit itself does not need.
-  const std::optional<LocalPatch<Algebraic>> wide =
-      closed ? local_patch(scheme.exact, type, spectrum_rings) : local_patch(scheme.exact, type);
-  const ExactSpectrum spectrum = exact_spectrum(*wide);
-  add_spectrum(json, spectrum);
+  const ExactAnalysis analysis = *exact_analysis(scheme.exact, type, closed ? spectrum_rings : -1);
+  add_spectrum(json, analysis.spectrum);
   std::string why;
-  json["masks"] = masks_json(scheme.scheme, &*patch, type, subdominant_in_field(spectrum), why);
+  json["masks"] = masks_json(scheme.scheme, &*patch, type, subdominant_in_field(analysis.spectrum), why);
   if (closed) {
     const std::optional<LocalModes> modes = local_modes(scheme.scheme, type);
     if (modes) {
@@ -80,6 +95,7 @@ Json neighborhood_json(const ReportedScheme& scheme, const NeighborhoodKind& kin
   json["surface"] = std::move(sample.surface);
   json["normals"] = std::move(sample.normals);
   json["verdicts"] = Json::array();
+  for (const Verdict& verdict : verdicts(analysis, closed)) json["verdicts"].push_back(to_json(verdict));
   return json;
 }
 

@@ -19,6 +19,9 @@ Json point(double x, double y, double z);
 Json to_json(const SectorLabel& label);
 Json to_json(const Verdict& verdict);
 
+/// What every report begins with.
+Json report_head(const std::string& kind);
+
 /// A report as the text of its file: a line for each thing that people look for, not one for each number.
 std::string report_text(const Json& report);
 

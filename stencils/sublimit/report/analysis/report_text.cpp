@@ -35,6 +35,10 @@ void write(const Json& json, std::string indent, std::string& out) {
 
 }  // namespace
 
+Json report_head(const std::string& kind) {
+  return {{"format", "sublimit-report"}, {"version", 1}, {"program", SUBLIMIT_VERSION}, {"kind", kind}};
+}
+
 std::string report_text(const Json& report) {
   std::string text;
   write(report, "", text);

@@ -89,7 +89,7 @@ Json schemes_report(const std::vector<ReportedScheme>& schemes, const ReportOpti
     if (options.progress) options.progress(done, static_cast<int>(jobs.size()));
   };
   parallel_for_blocks(static_cast<std::int64_t>(jobs.size()), run, 1);
-  Json report{{"format", "sublimit-report"}, {"version", 1}, {"program", SUBLIMIT_VERSION}, {"kind", "schemes"}};
+  Json report = report_head("schemes");
   report["schemes"] = Json::array();
   for (size_t s = 0; s < schemes.size(); ++s) {
     Json json = scheme_json(schemes[s]);
