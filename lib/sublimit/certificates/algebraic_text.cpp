@@ -92,6 +92,7 @@ Algebraic Algebraic::parse(std::string_view text) {
                        "\" is no algebraic number: a fraction (9/64) was expected, or [N] and the coefficients of the "
                        "powers of exp(2 pi i/N) ([5] 1/2 0 1)");
   };
+  while (text.starts_with(' ')) text.remove_prefix(1);
   std::istringstream in{std::string(text)};
   long order = 1;
   if (text.starts_with('[')) {

@@ -87,14 +87,20 @@ Verdict shapes(const ExactAnalysis& analysis, const SecondOrderGiven& given) {
   if (!begin(v, s, analysis, given)) return v;
   // Longer chains win among equals.
   std::vector<int> blocks;
-  for (const ExactEigenvalue& value : s->mu)
-    if (value.largest_jordan() == s->largest_jordan) blocks.push_back(value.block);
+  bool all_seen = true;
+  for (const ExactEigenvalue& value : s->mu) {
+    if (value.largest_jordan() < s->largest_jordan) continue;
+    blocks.push_back(value.block);
+    all_seen = all_seen && is_seen(analysis, value) == true;
+  }
   const bool zero = std::count(blocks.begin(), blocks.end(), 0) > 0,
              two = std::count(blocks.begin(), blocks.end(), 2) > 0;
   const bool only = std::all_of(blocks.begin(), blocks.end(), [](int k) { return k == 0 || k == 2; });
   const std::string which = !only ? "other" : zero && two ? "all" : zero ? "elliptic" : "hyperbolic";
   v.hypotheses.push_back(
       {"the modes of mu with the longest chains are those of blocks " + list(blocks), true, By::exact});
+  v.hypotheses.push_back({"each of these blocks has a mode that is not zero at a regular point",
+                          all_seen ? std::optional<bool>(true) : std::nullopt, By::enclosure});
   v.says = which == "all"          ? "elliptic and hyperbolic shapes near the point"
            : which == "elliptic"   ? "elliptic shapes alone near the point"
            : which == "hyperbolic" ? "hyperbolic shapes alone near the point"

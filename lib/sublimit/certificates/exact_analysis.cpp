@@ -69,10 +69,9 @@ std::vector<ComplexBall> mode(const ExactAnalysis& analysis, int block, const Ex
 }
 
 std::optional<bool> is_seen(const ExactAnalysis& analysis, const ExactEigenvalue& value) {
-  // A chain shows its eigenvector first. Of several chains of different lengths it is not known here which one.
   if (analysis.n() < 3 || analysis.regular_mask.empty()) return std::nullopt;
-  if (value.geometric() > 1 && value.jordan.front() != value.jordan.back()) return std::nullopt;
-  const ExactKernel kernel = exact_eigenvectors(analysis.spectrum.blocks.blocks.at(value.block), value.value);
+  const ExactKernel kernel =
+      exact_chain_ends(analysis.spectrum.blocks.blocks.at(value.block), value.value, value.largest_jordan());
   const bool triangles = analysis.scheme.face_size() == 3, is_face = analysis.patch.type.kind == Centre::Kind::face;
   std::map<SectorLabel, size_t> position;
   for (size_t i = 0; i < analysis.patch.labels.size(); ++i) position[analysis.patch.labels[i]] = i;

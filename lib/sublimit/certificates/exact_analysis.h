@@ -29,8 +29,9 @@ std::optional<ExactAnalysis> exact_analysis(const Scheme<Algebraic>& scheme, con
 std::vector<ComplexBall> mode(const ExactAnalysis& analysis, int block, const ExactKernel& kernel, int vector,
                               long bits = 128);
 
-/// An eigenvector of this eigenvalue gives a limit that is not zero everywhere near the centre: it is not zero at the
-/// centre of a regular place next to it. (There could be modes that no surface shows.) Nothing: not decided.
+/// The longest chains of this eigenvalue end in an eigenvector whose limit is not zero everywhere near the centre: it
+/// is not zero at the centre of a regular place next to it. (There are modes that no surface shows: translates of the
+/// box spline of mid-edge surfaces are linearly dependent.) Nothing: not decided.
 std::optional<bool> is_seen(const ExactAnalysis& analysis, const ExactEigenvalue& value);
 
 }  // namespace sublimit

@@ -112,17 +112,35 @@ std::vector<ComplexBall> ExactKernel::enclosure(int i, long bits) const {
 }
 
 ExactKernel exact_eigenvectors(const DenseMatrix<Algebraic>& B, const AlgebraicRoot& lambda) {
+  return exact_chain_ends(B, lambda, 1);
+}
+
+ExactKernel exact_chain_ends(const DenseMatrix<Algebraic>& B, const AlgebraicRoot& lambda, int length) {
   Extension field(lambda);
-  const Echelon form = echelon(shifted(B, lambda), field);
-  ExactKernel kernel{lambda, {}, {}};
+  const PolynomialMatrix M = shifted(B, lambda);
+  PolynomialMatrix before, power = M;  // powers length - 1 and length; no matrix for 0
+  for (int j = 1; j < length; ++j) {
+    before = power;
+    power = product(power, M, field);
+  }
+  const Echelon form = echelon(power, field);
+  ExactKernel kernel{lambda, field.modulus(), {}};
   for (size_t j = 0; j < static_cast<size_t>(B.cols()); ++j) {
     if (std::count(form.pivots.begin(), form.pivots.end(), j)) continue;
     std::vector<Polynomial> v(B.cols());
     v[j] = Polynomial({1});
     for (size_t r = 0; r < form.rows.size(); ++r) v[form.pivots[r]] = field.reduced(Polynomial() - form.rows[r][j]);
-    kernel.vectors.push_back(std::move(v));
+    if (length == 1) {
+      kernel.vectors.push_back(std::move(v));
+      continue;
+    }
+    std::vector<Polynomial> end(B.cols());
+    for (size_t i = 0; i < end.size(); ++i)
+      for (size_t k = 0; k < v.size(); ++k)
+        if (!v[k].is_zero() && !before[i][k].is_zero()) end[i] += field.product(before[i][k], v[k]);
+    for (Polynomial& entry : end) entry = field.reduced(entry);
+    kernel.vectors.push_back(std::move(end));
   }
-  kernel.modulus = field.modulus();
   return kernel;
 }
 

@@ -22,6 +22,10 @@ struct ExactKernel {
 /// Eigenvectors of lambda, a basis. Right ones; left ones are those of the transposed matrix.
 ExactKernel exact_eigenvectors(const DenseMatrix<Algebraic>& B, const AlgebraicRoot& lambda);
 
+/// What chains of this length end in: (B - lambda)^(length - 1) u over a basis of the u with (B - lambda)^length u = 0.
+/// They span the eigenvectors that lead powers of B where such chains do; some may be zero.
+ExactKernel exact_chain_ends(const DenseMatrix<Algebraic>& B, const AlgebraicRoot& lambda, int length);
+
 /// Sizes of the Jordan blocks of lambda, descending.
 /// @param multiplicity  algebraic
 std::vector<int> jordan_sizes(const DenseMatrix<Algebraic>& B, const AlgebraicRoot& lambda, int multiplicity);
