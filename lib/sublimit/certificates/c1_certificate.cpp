@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sublimit/certificates/c1_certificate.h"
+
+#include <algorithm>
+#include <map>
+
+#include "sublimit/base/error.h"
+
+namespace sublimit {
+namespace {
+
+using By = Hypothesis::By;
+
+/// All eigenvalues but 1 (block 0) and the leading pair of blocks 1 and n - 1 are smaller than lambda.
+struct Dominance {
+  std::optional<int> open;  ///< the block where that was not shown
+  long power = 0;           ///< the largest m with ||B^m|| < lambda^m that was needed
+};
+
+Dominance dominance(const LocalPatch<Algebraic>& patch, const LeadingPair& pair, const DenseMatrix<ComplexBall>& B1) {
+  Dominance result;
+  const Ball lambda = pair.value.re();
+  for (int k = 0; 2 * k <= patch.type.faces; ++k) {
+    DenseMatrix<ComplexBall> B = k == 1 ? deflated(B1, pair.vector, pair.unit) : fourier_block(patch, k);
+    if (k == 0) B = deflated(B, std::vector<ComplexBall>(static_cast<size_t>(B.rows()), ComplexBall(1)), 0);
+    const auto power = power_below(std::move(B), lambda);
+    if (!power) {
+      result.open = k;
+      return result;
+    }
+    result.power = std::max(result.power, *power);
+  }
+  return result;
+}
+
+bool rows_sum_to_one(const LocalPatch<Algebraic>& patch) {
+  for (Eigen::Index i = 0; i < patch.A.rows(); ++i) {
+    Algebraic sum;
+    for (Eigen::Index j = 0; j < patch.A.cols(); ++j)
+      if (!patch.A(i, j).is_zero()) sum += patch.A(i, j);
+    if (!sum.is_one()) return false;
+  }
+  return true;
+}
+
+LocalPatch<Algebraic> patch_of(const Scheme<Algebraic>& scheme, const PlaneMask& mask, int n) {
+  // Rings enough for the mask to go on outwards by itself.
+  const LatticePoint low = mask.low(), high = mask.high();
+  const int reach2 = std::max({-low.x2, -low.y2, high.x2, high.y2});  // in halves
+  const int rings = mask.dual ? (reach2 + 1) / 2 - 1 : (reach2 + 1) / 2;
+  auto patch = local_patch(scheme, {.kind = mask.dual ? Centre::Kind::face : Centre::Kind::vertex, .faces = n},
+                           std::max(rings, 1));
+  if (!patch) throw AnalysisError(scheme.name + ": no stationary neighbourhood of valence " + std::to_string(n));
+  return std::move(*patch);
+}
+
+}  // namespace
+
+bool is_mirror_symmetric(const LocalPatch<Algebraic>& patch) {
+  const int n = patch.type.faces;
+  std::map<SectorLabel, Eigen::Index> at;
+  for (size_t i = 0; i < patch.labels.size(); ++i) at[patch.labels[i]] = static_cast<Eigen::Index>(i);
+  std::vector<Eigen::Index> mirror;
+  for (const SectorLabel& p : patch.labels) {
+    SectorLabel m{(n - p.sector) % n, p.y2, p.x2};
+    if (m.x2 == 0 && m.y2 != 0) m = {(m.sector + 1) % n, m.y2, 0};
+    if (m.x2 == 0 && m.y2 == 0) m.sector = 0;
+    const auto found = at.find(m);
+    if (found == at.end()) return false;
+    mirror.push_back(found->second);
+  }
+  for (Eigen::Index i = 0; i < patch.A.rows(); ++i) {
+    if (patch.labels[static_cast<size_t>(i)].sector != 0) continue;  // the others by rotation
+    for (Eigen::Index j = 0; j < patch.A.cols(); ++j)
+      if (!(patch.A(i, j) == patch.A(mirror[static_cast<size_t>(i)], mirror[static_cast<size_t>(j)]))) return false;
+  }
+  return true;
+}
+
+C1Prover::C1Prover(Scheme<Algebraic> scheme) : scheme_(std::move(scheme)), mask_(plane_mask(scheme_)) {
+  pieces_ = regular_pieces(mask_);
+  if (pieces_) functions_ = in_balls(*pieces_);
+}
+
+C1Certificate C1Prover::certify(int n) {
+  C1Certificate c{.verdict = {.property = "c1", .says = "C^1 at the extraordinary point"},
+                  .map = {},
+                  .proof = {},
+                  .patch = patch_of(scheme_, mask_, n)};
+  Verdict& v = c.verdict;
+  v.theorem =
+      "Reif 1995: where 1 and then one real pair lead the spectrum, and the characteristic map of the pair is regular "
+      "and "
+      "injective, limits of generic data are C^1. Injective by its degree: no fold, one turn around the centre";
+  const auto add = [&](std::string says, std::optional<bool> holds, By by, std::string value = {}) {
+    v.hypotheses.push_back({std::move(says), holds, by, std::move(value)});
+  };
+  add("rows of the local matrix sum to one", rows_sum_to_one(c.patch), By::exact);
+  const DenseMatrix<ComplexBall> B1 = fourier_block(c.patch, 1);
+  const auto pair = leading_pair(B1);
+  add("block 1 has an isolated leading eigenvalue", pair ? std::optional(true) : std::nullopt, By::enclosure,
+      pair ? "lambda in " + pair->value.re().text() : "");
+  if (pair) {
+    const Dominance d = dominance(c.patch, *pair, B1);
+    const Ball lambda = pair->value.re();
+    add("all other eigenvalues but 1 are smaller, so 1 is simple and lambda belongs to blocks 1 and n - 1 alone",
+        d.open ? std::nullopt : std::optional(true), By::enclosure,
+        d.open ? "not shown for block " + std::to_string(*d.open) : "norms of powers up to " + std::to_string(d.power));
+    add("lambda is real: block 1 is similar to its conjugate by reflection",
+        is_mirror_symmetric(c.patch) ? std::optional(true) : std::nullopt, By::exact);
+    add("0 < lambda < 1", certainly_positive(lambda) && certainly_less(lambda, Ball(1)), By::enclosure);
+    c.map = characteristic_map(c.patch, mask_, *pair);
+    c.map->lambda = ComplexBall(lambda);
+  }
+  // What the map of another pair looks like says nothing.
+  const bool leads =
+      std::all_of(v.hypotheses.begin(), v.hypotheses.end(), [](const Hypothesis& h) { return h.holds == true; });
+  if (pieces_ && c.map) {
+    add("the regular limit consists of polynomials and is C^1", pieces_->continuity >= 1, By::exact,
+        "C^" + std::to_string(pieces_->continuity) + ", degree " + std::to_string(pieces_->degree));
+    const auto ring = regular_ring(c.patch, *pieces_);
+    add("from some ring on the neighbourhood is regular", ring ? std::optional(true) : std::nullopt, By::exact,
+        ring ? "ring " + std::to_string(*ring) : "");
+    if (ring) c.proof = prove_map(*c.map, *pieces_, functions_, *ring);
+    if (c.proof) {
+      const MapProof& p = *c.proof;
+      add("the Jacobian determinant of the characteristic map is positive",
+          p.regular == MapProof::Regular::unknown || !leads ? std::nullopt
+                                                            : std::optional(p.regular == MapProof::Regular::yes),
+          By::enclosure,
+          p.regular == MapProof::Regular::folds
+              ? "negative in " + p.fold
+              : "at least " + p.least.text(6) + " on " + std::to_string(p.leaves.size()) + " parts");
+      add("its boundary curve winds once around the centre", p.winds_once ? std::optional(true) : std::nullopt,
+          By::enclosure);
+    }
+  }
+  v.answer = answer_of(v.hypotheses, /*necessary=*/true);
+  if (!pieces_) v.answer = Verdict::Answer::unknown;
+  return c;
+}
+
+}  // namespace sublimit

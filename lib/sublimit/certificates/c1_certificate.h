@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// C^1 at an extraordinary point by Reif's criterion, proved: order of the spectrum, and the characteristic map.
+#include <optional>
+#include <string>
+
+#include "sublimit/analysis/verdict.h"
+#include "sublimit/certificates/map_proof.h"
+
+namespace sublimit {
+
+/// What was found at one neighbourhood.
+struct C1Certificate {
+  Verdict verdict;
+  std::optional<CharacteristicMap> map;  ///< of schemes whose block 1 has an isolated leading eigenvalue
+  std::optional<MapProof> proof;         ///< of polynomial schemes
+  LocalPatch<Algebraic> patch;
+};
+
+/// Certificates of one scheme: what does not depend on the valence is found once.
+class C1Prover {
+ public:
+  /// @param scheme  with exact masks; `find_scheme<Algebraic>`, or your own
+  /// @throws AnalysisError  its rules on regular meshes are not one mask
+  explicit C1Prover(Scheme<Algebraic> scheme);
+
+  /// @param n  valence of the vertex, or corners of the face (dual schemes); >= 3
+  C1Certificate certify(int n);
+
+  const PlaneMask& mask() const { return mask_; }
+  /// Nothing for schemes whose limits are not polynomials.
+  const std::optional<RegularPieces>& pieces() const { return pieces_; }
+  const BallFunctions& functions() const { return functions_; }
+
+ private:
+  Scheme<Algebraic> scheme_;
+  PlaneMask mask_;
+  std::optional<RegularPieces> pieces_;
+  BallFunctions functions_;
+};
+
+/// The neighbourhood looks the same in a mirror: the local matrix commutes with the reflection of sectors. Then block 1
+/// is similar to its conjugate.
+bool is_mirror_symmetric(const LocalPatch<Algebraic>& patch);
+
+}  // namespace sublimit
