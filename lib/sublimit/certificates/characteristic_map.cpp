@@ -102,12 +102,15 @@ CharacteristicMap characteristic_map(const LocalPatch<Algebraic>& patch, const P
   const std::vector<SectorLabel> labels = block_labels(patch, 1);
   // A point on the middle of the sector becomes 1: then the sector is symmetric to the real axis.
   ComplexBall scale(1);
+  size_t one = pair.unit;
   for (size_t i = 0; i < labels.size(); ++i)
     if (labels[i].x2 == labels[i].y2 && !pair.vector[i].contains_zero()) {
       scale = pair.vector[i];
+      one = i;
       break;
     }
-  for (size_t i = 0; i < labels.size(); ++i) map.net[{labels[i].x2, labels[i].y2}] = pair.vector[i] / scale;
+  for (size_t i = 0; i < labels.size(); ++i)
+    map.net[{labels[i].x2, labels[i].y2}] = i == one ? ComplexBall(1) : pair.vector[i] / scale;
   return map;
 }
 
