@@ -127,6 +127,26 @@ std::vector<PictureMesh> bands(const PictureMesh& mesh, const std::vector<double
   return result;
 }
 
+PictureMesh joined(const std::vector<PictureMesh>& meshes) {
+  PictureMesh all;
+  if (meshes.empty()) return all;
+  all.color = meshes.front().color;
+  Eigen::Index count = 0;
+  for (const PictureMesh& mesh : meshes) count += mesh.positions.rows();
+  all.positions.resize(count, 3);
+  const bool normals = meshes.front().vertex_normals.rows() > 0;
+  if (normals) all.vertex_normals.resize(count, 3);
+  Eigen::Index first = 0;
+  for (const PictureMesh& mesh : meshes) {
+    all.positions.middleRows(first, mesh.positions.rows()) = mesh.positions;
+    if (normals) all.vertex_normals.middleRows(first, mesh.positions.rows()) = mesh.vertex_normals;
+    all.face_sizes.insert(all.face_sizes.end(), mesh.face_sizes.begin(), mesh.face_sizes.end());
+    for (Index v : mesh.face_vertices) all.face_vertices.push_back(v + static_cast<Index>(first));
+    first += mesh.positions.rows();
+  }
+  return all;
+}
+
 PictureMesh mesh_of(const Json& surface) {
   PictureMesh mesh;
   const Json &positions = at(surface, "positions"), &normals = at(surface, "normals");

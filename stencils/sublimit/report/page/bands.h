@@ -14,6 +14,9 @@ namespace sublimit::page {
 std::vector<PictureMesh> bands(const PictureMesh& mesh, const std::vector<double>& values,
                                const std::vector<double>& thresholds);
 
+/// Several meshes as one, of the colour of the first.
+PictureMesh joined(const std::vector<PictureMesh>& meshes);
+
 /// {"positions", "faces", "normals"} as a picture; empty if it has no face. Faces with indices outside are left out.
 PictureMesh mesh_of(const Json& surface);
 

@@ -68,7 +68,7 @@ std::string characteristic_map_figure(const Json& neighborhood, const std::strin
     add(turned(net, face) * total > 0 ? right : wrong, corners, true);
   }
   std::string body;
-  if (!right.data().empty()) body += path(right.data(), lines.empty() ? "plus-soft net" : "plus-soft");
+  if (!right.data().empty()) body += path(right.data(), "plus-soft net");
   if (!wrong.data().empty()) body += path(wrong.data(), "minus net");
   for (const std::vector<Point>& polyline : lines)
     if (polyline.size() > 1) add(data, polyline, false);
@@ -125,7 +125,7 @@ std::string eigenfunction_figure(const Json& neighborhood, const std::string& na
   options.azimuth = .5;
   options.elevation = .75;
   options.sky_directions = 16;
-  options.tone_step = 5;
+  options.tone_step = 7;
   options.ground_shadow = false;
   options.plate = false;
   options.title = "Eigenfunctions, " + name;

@@ -3,6 +3,9 @@
 
 #include <Eigen/Geometry>
 
+#include <cmath>
+#include <map>
+
 namespace sublimit::page {
 
 MapNet map_net(const Json& characteristic_map) {
@@ -11,6 +14,9 @@ MapNet map_net(const Json& characteristic_map) {
     const std::optional<double> x = number(at(at(entry, "at"), 0)), y = number(at(at(entry, "at"), 1));
     if (!x || !y) return {};
     net.points.emplace_back(*x, *y);
+    const Json& label = at(entry, "label");
+    net.labels.push_back(
+        {number(at(label, 0)).value_or(0), number(at(label, 1)).value_or(0), number(at(label, 2)).value_or(0)});
   }
   for (const Json& face : at(characteristic_map, "faces")) {
     std::vector<int> corners;
@@ -31,6 +37,20 @@ std::vector<double> heights_of(const Json& eigenfunction, const MapNet& net) {
   }
   if (heights.size() != net.points.size()) heights.clear();
   return heights;
+}
+
+std::vector<double> turned_by_a_sector(const std::vector<double>& heights, const MapNet& net, int n) {
+  std::map<std::array<double, 3>, std::size_t> index;
+  for (std::size_t v = 0; v < net.labels.size(); ++v) index[net.labels[v]] = v;
+  std::vector<double> turned(heights.size());
+  for (std::size_t v = 0; v < heights.size(); ++v) {
+    const auto [sector, x, y] = net.labels[v];
+    const bool center = x == 0 && y == 0;
+    const auto found = index.find({center ? sector : std::fmod(sector + n - 1, n), x, y});
+    if (found == index.end()) return {};
+    turned[v] = heights[found->second];
+  }
+  return turned;
 }
 
 Points soft_normals(const PictureMesh& mesh) {

@@ -20,12 +20,14 @@ std::string signed_text(std::int64_t value) { return value < 0 ? "−" + std::to
 
 /// Area of the disc grows with the weight; the least is still seen.
 double radius_of(double weight, double greatest, double room) {
-  return greatest > 0 ? std::max(2., room * std::sqrt(std::abs(weight) / greatest)) : 2;
+  return greatest > 0 ? std::max(2.5, room * std::sqrt(std::abs(weight) / greatest)) : 2;
 }
 
+/// Do so many letters fit into a disc?
+bool fits(std::size_t letters, double radius) { return 7.4 * static_cast<double>(letters) + 4 < 2 * radius; }
+
 std::string label(double x, double y, double radius, const std::string& words, std::size_t letters) {
-  const double width = 6.6 * static_cast<double>(letters);
-  if (width < 2 * radius - 1) return text(x, y + 4, words, {"middle", "on"});
+  if (fits(letters, radius)) return text(x, y + 4, words, {"middle", "on"});
   return text(x, y + radius + 11, words, {"middle", "small"});
 }
 
@@ -94,11 +96,10 @@ std::string support_figure(const Json& regular, const std::string& scheme) {
   }
   const int reach = static_cast<int>(std::min(12., std::ceil(extent - 1e-9)));
   const Fit fit = fit_points(corners, 380, 340, 34);
-  std::string body = "<path transform=\"scale(.1)\" class=\"area\" d=\"" + path_data(fit.all(corners), true) +
-                     "\" stroke-width=\"14\" style=\"stroke-width:14px\"/>\n";
+  std::string body = path(path_data(fit.all(corners), true), "area");
   const auto segment = [&](int i, int j, int di, int dj) {
     const Point a = on_grid(grid, i, j), b = on_grid(grid, i + di, j + dj);
-    if (inside(corners, .5 * (a + b))) body += line(fit.x(a), fit.y(a), fit.x(b), fit.y(b), "grid");
+    if (inside(corners, .5 * (a + b) * .9999)) body += line(fit.x(a), fit.y(a), fit.x(b), fit.y(b), "lattice");
   };
   for (int i = -reach; i <= reach; ++i) {
     for (int j = -reach; j <= reach; ++j) {
@@ -133,7 +134,7 @@ std::string mask_figure(const Json& neighborhood, const MaskSpec& spec, const st
     greatest = std::max(greatest, std::abs(number(at(entry, "weight")).value_or(0)));
   }
   if (greatest <= 0) return {};
-  const Fit fit = fit_points(points, 380, 320, 26);
+  const Fit fit = fit_points(points, 380, 330, 36);
   double nearest = 1e9;  // between the points that show
   for (std::size_t i = 0; i < points.size(); ++i)
     for (std::size_t j = 0; j < i; ++j) nearest = std::min(nearest, (points[i] - points[j]).norm() * fit.scale);
@@ -149,7 +150,7 @@ std::string mask_figure(const Json& neighborhood, const MaskSpec& spec, const st
     body += circle(x, y, radius, sign_css(weight), escaped(exact.empty() ? digits(weight, 8) : exact));
     const std::string words = !exact.empty() && exact.size() <= 6 ? escaped(exact) : decimal;
     const double letters = static_cast<double>(words.size());
-    if (6.6 * letters < 2 * radius) {
+    if (fits(words.size(), radius)) {
       body += text(x, y + 4, words, {"middle", "on"});
     } else if (nearest > 30 && 5.6 * letters < 1.1 * nearest) {
       body += text(x, y + radius + 10, words, {"middle", "small"});
@@ -193,7 +194,7 @@ std::string neighborhood_masks(const Json& neighborhood, const std::string& name
       "Limit masks by label (sector, x, y)", {"point", "position", "first tangent", "second tangent"}, {}, "numbers"};
   for (const std::string& key : order) table.rows.push_back(rows[key]);
   return "<h4>Limit masks</h4>\n" + figures(all) + signs_legend() +
-         "<details><summary>The weights as numbers</summary>" + html(table) + "</details>\n";
+         "<details class=\"inner\"><summary>The weights as numbers</summary>" + html(table) + "</details>\n";
 }
 
 }  // namespace sublimit::page

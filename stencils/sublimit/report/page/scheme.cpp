@@ -10,13 +10,14 @@
 namespace sublimit::page {
 namespace {
 
-/// Of many schemes these valences have pictures of surfaces: below, above and far above the regular one.
+/// Of many schemes only these valences get pictures of surfaces, of one all that the report has surfaces of.
 constexpr int pictured[] = {3, 5, 8};
 
 std::set<int> with_pictures(const std::vector<const Json*>& all, bool many_schemes) {
   std::set<int> chosen;
   for (const Json* n : all) {
     const int valence = whole(at(*n, "n"));
+    if (at(at(*n, "surface"), "faces").empty()) continue;
     if (!many_schemes || std::find(std::begin(pictured), std::end(pictured), valence) != std::end(pictured))
       chosen.insert(valence);
   }

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <set>
 
 #include "sublimit/report/page/characteristic_map.h"
@@ -80,16 +81,27 @@ std::string shape_chart_figure(const Json& neighborhood, const std::string& name
   if (!mu || net.faces.empty()) return {};
   const int n = whole(at(neighborhood, "n"));
   std::vector<std::vector<double>> bowl, saddle;  // of block 0, of other blocks
+  std::vector<double> other;
+  std::set<int> blocks;
   for (const Json& f : at(neighborhood, "eigenfunctions")) {
     const double modulus =
         std::hypot(number(at(at(f, "value"), 0)).value_or(0), number(at(at(f, "value"), 1)).value_or(0));
     const std::vector<double> heights = heights_of(f, net);
-    if (heights.empty() || std::abs(modulus - *mu) > 1e-6 * *mu) continue;
+    if (heights.empty() || std::abs(modulus - *mu) > 1e-4 * *mu) continue;
     const int block = whole(at(f, "block"), -1), folded = std::min(block, n - block);
     if (folded == 0) bowl.push_back(heights);
-    if (folded >= 2) saddle.push_back(heights);
+    if (folded < 2) continue;
+    saddle.push_back(heights);
+    blocks.insert(folded);
+    if (2 * folded == n || saddle.size() > 1) continue;
+    // One function of the pair is enough: turned by a sector it is cos(a) fc + sin(a) fs with a = 2 pi k/n.
+    const double angle = 2 * std::numbers::pi * folded / n;
+    other = turned_by_a_sector(heights, net, n);
+    for (std::size_t v = 0; v < other.size(); ++v)
+      other[v] = (other[v] - std::cos(angle) * heights[v]) / std::sin(angle);
   }
-  if (bowl.size() > 1 || saddle.size() > 2 || (bowl.empty() && saddle.empty())) return {};
+  if (saddle.size() == 1 && !other.empty()) saddle.push_back(other);
+  if (bowl.size() > 1 || saddle.size() > 2 || blocks.size() > 1 || (bowl.empty() && saddle.empty())) return {};
   const Hessians hessians(net);
   if (hessians.empty()) return {};
   std::vector<Eigen::Vector3d> f0, fc, fs;

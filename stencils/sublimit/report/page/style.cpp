@@ -100,7 +100,7 @@ footer { margin-top: 70px; padding-top: 12px; border-top: 1px solid var(--line);
   th, td { padding-right: 11px } details { padding: 0 10px } }
 @media print { @page { margin: 16mm 15mm } body { max-width: none; padding: 0; font-size: 10.5pt; --paper: #fff } h2 { margin-top: 0 }
   section.scheme { break-before: page } .scroll { overflow: visible } table { font-size: 8.5pt; width: 100% } tr { break-inside: avoid } thead { display: table-header-group }
-  th, td { padding-right: 8px } .numbers td, .numbers th, thead th { white-space: normal } .up { display: none } details { border: 0; padding: 0 } summary { list-style: none }
+  th, td { padding-right: 8px } .text td { min-width: 0; overflow-wrap: anywhere } .numbers td, .numbers th, thead th { white-space: normal } .up { display: none } details { border: 0; padding: 0 } summary { list-style: none }
   a { color: inherit; text-decoration: none } figure > svg { background: none; border: .5pt solid var(--line) } svg, .badge { print-color-adjust: exact; -webkit-print-color-adjust: exact }
   .figures { grid-template-columns: repeat(auto-fill, minmax(72mm, 1fr)) } }
 )";

@@ -19,12 +19,12 @@ using Eigen::Vector3d;
 
 PictureOptions small_picture(const std::string& title) {
   PictureOptions options;
-  options.panel_width = 360;
-  options.panel_height = 270;
+  options.panel_width = 300;
+  options.panel_height = 225;
   options.up = {0, 0, 1};
   options.azimuth = .7;
   options.elevation = .62;
-  options.sky_directions = 24;
+  options.sky_directions = 16;
   options.tone_step = 6;
   options.ground_shadow = false;
   options.plate = false;
@@ -48,18 +48,19 @@ std::vector<double> mirrored(const PictureMesh& mesh, const Vector3d& eye) {
 
 std::string reflection_figure(const PictureMesh& mesh, const std::string& name) {
   if (mesh.vertex_normals.rows() == 0) return {};
-  const PictureOptions options = small_picture("Reflection lines, " + name);
+  PictureOptions options = small_picture("Reflection lines, " + name);
+  options.tone_step = 10;  // the stripes say it
   const std::vector<double> values = mirrored(mesh, eye_of(options));
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
   std::vector<double> thresholds;
-  constexpr int stripes = 26;
-  for (int i = 1; i < stripes; ++i) thresholds.push_back(*low + (*high - *low) * i / stripes);
+  constexpr int count = 26;
+  for (int i = 1; i < count; ++i) thresholds.push_back(*low + (*high - *low) * i / count);
   std::vector<PictureMesh> parts = bands(mesh, values, thresholds);
-  Panel panel;
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    parts[i].color = i % 2 == 0 ? Color{.80, .82, .83} : Color{.16, .25, .36};
-    if (!parts[i].face_sizes.empty()) panel.layers.push_back(std::move(parts[i]));
-  }
+  std::vector<PictureMesh> stripes[2];
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    if (!parts[i].face_sizes.empty()) stripes[i % 2].push_back(std::move(parts[i]));
+  Panel panel{{joined(stripes[0]), joined(stripes[1])}, {}, {}};
+  panel.layers[0].color = {.80, .82, .83}, panel.layers[1].color = {.16, .25, .36};
   return figure(
       svg_picture({panel}, options),
       "<b>Reflection lines.</b> Stripes of a far world in a mirror: they break where the tangent plane jumps and "
@@ -138,7 +139,9 @@ std::string curvature_legend(const Curvature& curvature) {
 std::string surface_figures(const Json& surface, const std::string& name) {
   const PictureMesh mesh = mesh_of(surface);
   if (mesh.face_sizes.empty() || !mesh.positions.allFinite()) return {};
-  std::string all = figure(svg_picture({{{mesh}, {}, {}}}, small_picture("Limit surface, " + name)),
+  PictureOptions shaded = small_picture("Limit surface, " + name);
+  shaded.tone_step = 3;
+  std::string all = figure(svg_picture({{{mesh}, {}, {}}}, shaded),
                            "<b>Limit surface</b> of generic control points, the extraordinary point in the middle.");
   all += reflection_figure(mesh, name);
   const Curvature curvature = gauss_of(surface, mesh);

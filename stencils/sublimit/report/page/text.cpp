@@ -34,7 +34,8 @@ std::string_view exponent(std::string_view text, std::size_t i, std::size_t& end
   return end == first ? std::string_view() : text.substr(begin, end - begin);
 }
 
-std::string superscript(std::string_view digits) {
+std::string superscript(char sign, std::string_view digits) {
+  if (sign == '_') return "_" + escaped(digits);
   static constexpr std::array<const char*, 10> raised = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
   std::string text;
   for (char c : digits) text += is_digit(c) ? raised[c - '0'] : c == '-' ? "⁻" : c == 'k' ? "ᵏ" : c == 'p' ? "ᵖ" : "";
@@ -50,10 +51,13 @@ std::string typeset(std::string_view text, Raise raise) {
   for (std::size_t i = 0; i < text.size();) {
     const char c = text[i];
     std::size_t end = i;
-    if (c == '^' && i > 0 && (is_letter(text[i - 1]) || is_digit(text[i - 1]) || text[i - 1] == ')')) {
+    // a_n is an index only where one letter stands before it and one after.
+    const bool after_letter = i > 0 && is_letter(text[i - 1]) && (i < 2 || !is_letter(text[i - 2]));
+    const bool raised = c == '^' && i > 0 && (is_letter(text[i - 1]) || is_digit(text[i - 1]) || text[i - 1] == ')');
+    if (raised || (c == '_' && after_letter)) {
       const std::string_view power = exponent(text, i, end);
-      if (!power.empty()) {
-        result += raise(power);
+      if (!power.empty() && (raised || end == text.size() || !is_letter(text[end]))) {
+        result += raise(c, power);
         i = end;
         continue;
       }
@@ -107,7 +111,10 @@ std::string shown(const Json& value, int count) {
 }
 
 std::string prose(std::string_view text) {
-  return typeset(text, [](std::string_view power) { return "<sup>" + prose(power) + "</sup>"; });
+  return typeset(text, [](char sign, std::string_view power) {
+    const std::string tag = sign == '^' ? "sup>" : "sub>";
+    return "<" + tag + prose(power) + "</" + tag;
+  });
 }
 
 std::string prose(const Json& value) {

@@ -76,7 +76,7 @@ void write_terraces(std::string& svg, const SeenPanel& seen, int layer, bool bac
   }
   std::string waiting;  // a terrace that the next one covers entirely is not written
   int tone = 0;
-  for (int t = 0; t < tones; ++t) {
+  for (int t = 0; t < tones; t += seen.tone_step) {
     const std::string data = terraces[t].data();
     if (data != waiting) write_fill(svg, seen, layer, back, tone, waiting);
     waiting = data;
