@@ -64,12 +64,14 @@ AssetReport asset_report(const Scheme<double>& scheme, const ControlMesh& mesh, 
   part(0, .1)(1);
   const BoundLimitSurface bound(surface, mesh.positions);
   part(0, .2)(1);
-  const asset::SeamPlaces places(scheme, surface, inventory, !types->has_no_polynomials());
+  const asset::LimitTraits traits{.polynomial = !types->has_no_polynomials(),
+                                  .dual = scheme.is_dual(),
+                                  .thirds = scheme.steps[0].split == Split::sqrt3};
+  const asset::SeamPlaces places(scheme, surface, inventory, traits.polynomial);
   report.seams = asset::measure_seams(places, t, bound, diagonal, options.tolerance, options.listed, part(.2, .7));
-  report.curvature = asset::curvature_statistics(surface, bound, options.curvature_samples,
-                                                 scheme.steps[0].split == Split::sqrt3, scheme.is_dual(), part(.7, .9));
+  report.curvature = asset::curvature_statistics(surface, bound, options.curvature_samples, traits, part(.7, .9));
   report.curvature.unbounded_at = inventory.unbounded;
-  report.surface = asset::display_surface(surface, bound, scheme.is_dual(), options.surface_faces);
+  report.surface = asset::display_surface(surface, bound, traits, options.surface_faces);
   report.warnings = asset::warnings(scheme, surface.level(), mesh.positions, inventory, verdicts, options);
   for (AssetWarning& warning : asset::undefined_normals(surface, bound, inventory, mesh.positions, options.listed))
     report.warnings.push_back(std::move(warning));

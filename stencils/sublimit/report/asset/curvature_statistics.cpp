@@ -45,21 +45,23 @@ CurvatureRange range(std::vector<Weighted>& samples) {
 Sample CellMiddles::operator()(std::int64_t number) const {
   const std::int64_t face = number / per_face(), own = number % per_face();
   if (!triangles) {
-    const double middle = beside ? .5 + 0x1p-13 : .5;
     const double u = (double(own % side) + middle) / side, v = (double(own / side) + middle) / side;
     return {Index(face), u, v};
   }
   // Row j has side - j triangles that lie as the face does and side - j - 1 between them, the other way round.
   std::int64_t j = 0, i = own;
   while (i >= 2 * (side - j) - 1) i -= 2 * (side - j++) - 1;
-  const double third = thirds ? 1. / 3 : 11. / 32, at = i % 2 == 0 ? third : 1 - third;
+  const double at = i % 2 == 0 ? third : 1 - third;
   return {Index(face), (double(i / 2) + at) / side, (double(j) + at) / side};
 }
 
 AssetCurvature curvature_statistics(const LimitSurface& surface, const BoundLimitSurface& bound, std::int64_t samples,
-                                    bool thirds, bool dual, const std::function<void(double)>& tick) {
-  CellMiddles cells{surface.addresses().triangles(), thirds, dual, 1};
-  const int finer = thirds && cells.triangles ? 3 : 2;
+                                    const LimitTraits& traits, const std::function<void(double)>& tick) {
+  CellMiddles cells{surface.addresses().triangles()};
+  if (traits.dual) cells.middle += 0x1p-13;  // off the seams
+  if (!traits.polynomial && !traits.thirds) cells.third = 3. / 8;
+  if (!traits.polynomial) samples /= 50;  // each costs as much as so many
+  const int finer = traits.thirds && !traits.polynomial ? 3 : 2;
   const std::int64_t faces = surface.addresses().size();
   while (cells.side < 64 && faces * cells.per_face() * finer * finer <= samples) cells.side *= finer;
 

@@ -6,18 +6,23 @@
 
 namespace sublimit::asset {
 
-/// @param samples  about so many at most, but one a face
-/// @param thirds   the scheme cuts in three: derivatives are known there, else at halves
-/// @param dual    of a dual scheme
+/// How a scheme's limits are known.
+struct LimitTraits {
+  bool polynomial = true;  ///< by pieces: any place costs little, and has all derivatives
+  bool dual = false;       ///< pieces end at halves of faces
+  bool thirds = false;     ///< if not by polynomials: at places that halving, or cutting in three, comes to
+};
+
+/// @param samples  about so many at most, but one a face; many less of limits that are no polynomials
 /// @param tick     called as work is done, with the part of it
 AssetCurvature curvature_statistics(const LimitSurface& surface, const BoundLimitSurface& bound, std::int64_t samples,
-                                    bool thirds, bool dual, const std::function<void(double)>& tick);
+                                    const LimitTraits& traits, const std::function<void(double)>& tick);
 
 /// The same places on every square or triangle, counted from the first address on.
 struct CellMiddles {
-  bool triangles = false, thirds = false;
-  bool beside = false;  ///< a little, of the exact middle: off the seams of dual schemes, which have halves
-  int side = 1;         ///< cells
+  bool triangles = false;
+  int side = 1;                        ///< cells
+  double middle = .5, third = 1. / 3;  ///< of squares, and of triangles
   std::int64_t per_face() const { return std::int64_t(side) * side; }
   Sample operator()(std::int64_t number) const;
 };

@@ -18,18 +18,22 @@ Value value(const LimitSamples& s, Index row) {
 
 /// A little way into the face, to where no seam is: these have few binary digits.
 Sample moved_in(const Sample& s, bool triangles) {
-  const double middle_u = triangles ? 1. / 3 : .5, middle_v = triangles ? 1. / 3 : .5625, part = .0473;
+  const double middle_u = triangles ? 1. / 3 : .53, middle_v = triangles ? 1. / 3 : .5625, part = .0473;
   return {s.face, s.u + part * (middle_u - s.u), s.v + part * (middle_v - s.v)};
 }
 
 }  // namespace
 
-AssetSurface display_surface(const LimitSurface& surface, const BoundLimitSurface& bound, bool dual, Index faces) {
+AssetSurface display_surface(const LimitSurface& surface, const BoundLimitSurface& bound, const LimitTraits& traits,
+                             Index faces) {
   const bool triangles = surface.addresses().triangles();
   const Index addresses = surface.addresses().size();
   if (std::int64_t(addresses) > 10 * std::int64_t(faces)) return {};
   int N = 2;
-  while (N < 65 && std::int64_t(addresses) * N * N <= faces) ++N;
+  const auto finer = [&] {
+    return traits.polynomial ? N + 1 : (traits.thirds ? 3 : 2) * (N - 1) + 1;  // others are known at such places
+  };
+  while (N < 65 && std::int64_t(addresses) * (finer() - 1) * (finer() - 1) <= faces) N = finer();
   const std::vector<Sample> grid = surface.grid(N);
   // Sides that a crease divides keep their own normals.
   const LimitSamples s = bound.evaluate(grid, 2, true);
@@ -37,7 +41,7 @@ AssetSurface display_surface(const LimitSurface& surface, const BoundLimitSurfac
   const std::int64_t rows = s.position.rows();
   std::vector<std::int64_t> first(rows);
   for (std::int64_t i = 0; i < rows; ++i) first[i] = i;
-  for (const auto& [row, owner] : shared_grid_places(surface.level().topology(), surface.addresses(), N, dual))
+  for (const auto& [row, owner] : shared_grid_places(surface.level().topology(), surface.addresses(), N, traits.dual))
     if ((s.normal.row(row) - s.normal.row(owner)).norm() < 1e-3) first[row] = owner;
 
   std::vector<Value> values(rows);
@@ -47,7 +51,7 @@ AssetSurface display_surface(const LimitSurface& surface, const BoundLimitSurfac
   for (std::int64_t i = 0; i < rows; ++i) {
     if (first[i] != i) continue;
     values[i] = value(s, Index(i));
-    if (values[i]) continue;
+    if (values[i] || !traits.polynomial) continue;
     beside.push_back(moved_in(grid[i], triangles));
     beside_of.push_back(i);
   }

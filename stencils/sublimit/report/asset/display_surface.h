@@ -2,11 +2,12 @@
 #pragma once
 // The limit as a mesh for pictures, with its curvature.
 #include "sublimit/limit/limit_surface.h"
-#include "sublimit/report/asset_report.h"
+#include "sublimit/report/asset/curvature_statistics.h"
 
 namespace sublimit::asset {
 
 /// @param faces  at most, but one a square or triangle; nothing where that is ten times as many. Holes are left out.
-AssetSurface display_surface(const LimitSurface& surface, const BoundLimitSurface& bound, bool dual, Index faces);
+AssetSurface display_surface(const LimitSurface& surface, const BoundLimitSurface& bound, const LimitTraits& traits,
+                             Index faces);
 
 }  // namespace sublimit::asset
