@@ -192,6 +192,36 @@ TEST(AssetReport, KnowsWhatEachSchemeDoesAtSeams) {
   }
 }
 
+TEST(AssetReport, KnowsExtraordinaryFacesAndTriangles) {
+  // Doo, Sabin: mu = lambda^2 at every n, in a Jordan block from n = 5 on.
+  const AssetReport dual = report("doo-sabin", jittered(prism(5)));
+  ASSERT_TRUE(find_kind(dual, "extraordinary face", 5));
+  EXPECT_EQ(find_kind(dual, "extraordinary face", 5)->verdict->curvature, CurvatureVerdict::logarithmic);
+  EXPECT_EQ(find_kind(dual, "extraordinary vertex", 3)->verdict->curvature, CurvatureVerdict::bounded);
+  EXPECT_NEAR(dual.curvature.total_gauss.value(), 4 * pi, 0.05);
+  EXPECT_EQ(dual.curvature.unbounded_at, 2);
+  // Pentagons of a primal scheme, on both halves of whose edges squares end.
+  const AssetReport primal = report("catmull-clark", jittered(prism(5)));
+  EXPECT_LT(primal.seams.inside.g0.value(), same_place);
+  EXPECT_LT(primal.seams.inside.g2.value(), same_curvature);
+  EXPECT_NEAR(find_kind(primal, "extraordinary face", 5)->verdict->ratio.value(), 1.124, 5e-4);
+  EXPECT_NEAR(primal.curvature.total_gauss.value(), 4 * pi, 0.02);
+  // Loop: the second eigenvalue of block 0 is the square of lambda.
+  const AssetReport loop = report("loop", jittered(icosahedron()));
+  EXPECT_EQ(find_kind(loop, "extraordinary vertex", 5)->verdict->curvature, CurvatureVerdict::bounded);
+  EXPECT_LT(loop.seams.inside.g2.value(), same_curvature);
+  EXPECT_NEAR(loop.curvature.total_gauss.value(), 4 * pi, 0.01);
+}
+
+TEST(AssetReport, DoesNotDependOnTheUnit) {
+  ControlMesh mesh = torus(8, 8);
+  mesh.positions *= 1000;  // what is relative stays
+  const AssetReport large = report("catmull-clark", mesh), small = report("catmull-clark", torus(8, 8));
+  EXPECT_NEAR(large.curvature.gauss->max * 1e6, small.curvature.gauss->max, 1e-9);
+  EXPECT_NEAR(large.curvature.mean->min * 1e3, small.curvature.mean->min, 1e-9);
+  EXPECT_LT(large.seams.inside.g2.value(), same_curvature);
+}
+
 TEST(AssetReport, WarnsOfWhatAModellerCanChange) {
   const AssetReport poles = report("catmull-clark", pole(9));
   const AssetWarning* high = find_warning(poles, "high valence, 9: curvature diverges");
