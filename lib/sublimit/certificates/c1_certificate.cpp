@@ -82,7 +82,7 @@ C1Prover::C1Prover(Scheme<Algebraic> scheme) : scheme_(std::move(scheme)), mask_
   if (pieces_) functions_ = in_balls(*pieces_);
 }
 
-C1Certificate C1Prover::certify(int n) {
+C1Certificate C1Prover::certify(int n) const {
   C1Certificate c{.verdict = {.property = "c1", .says = "C^1 at the extraordinary point"},
                   .map = {},
                   .proof = {},

@@ -25,7 +25,7 @@ class C1Prover {
   explicit C1Prover(Scheme<Algebraic> scheme);
 
   /// @param n  valence of the vertex, or corners of the face (dual schemes); >= 3
-  C1Certificate certify(int n);
+  C1Certificate certify(int n) const;
 
   const PlaneMask& mask() const { return mask_; }
   /// Nothing for schemes whose limits are not polynomials.

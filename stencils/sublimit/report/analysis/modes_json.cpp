@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "sublimit/limit/limit_surface.h"
+#include "sublimit/limit/piece_types.h"
 
 namespace sublimit::report {
 namespace {
@@ -54,7 +54,8 @@ bool has_triangles(const Scheme<double>& scheme) { return scheme.face_size() == 
 
 }  // namespace
 
-Json characteristic_map_json(const Scheme<double>& scheme, const LocalModes& modes) {
+Json characteristic_map_json(const std::shared_ptr<PieceTypes>& pieces, const LocalModes& modes) {
+  const Scheme<double>& scheme = pieces->scheme();
   const LocalMode& mode = modes.leading;
   if (mode.block == 0 || std::abs(mode.value.imag()) > 1e-9 * std::abs(mode.value)) return nullptr;
   const bool triangles = has_triangles(scheme);
@@ -74,7 +75,7 @@ Json characteristic_map_json(const Scheme<double>& scheme, const LocalModes& mod
     if (std::find(corners.begin(), corners.end(), Json(-1)) == corners.end()) json["faces"].push_back(corners);
   }
   // Parameter lines: sides and middles of faces.
-  const LimitSurface surface(scheme, mesh, rim_rules());
+  const LimitSurface surface(scheme, mesh, rim_rules(), pieces);
   constexpr int steps = 4;
   std::vector<Sample> samples;
   std::vector<int> lengths;
@@ -123,7 +124,8 @@ Json eigenfunctions_json(const LocalModes& modes) {
   return json;
 }
 
-SampleSurface sample_surface(const Scheme<double>& scheme, const LocalType& type, bool is_drawn) {
+SampleSurface sample_surface(const std::shared_ptr<PieceTypes>& pieces, const LocalType& type, bool is_drawn) {
+  const Scheme<double>& scheme = pieces->scheme();
   constexpr int rings = 5;
   const bool triangles = has_triangles(scheme), is_face = type.kind == Centre::Kind::face;
   SectorMesh net = sector_mesh(type.kind, type.faces, triangles ? 3 : 4, rings, type.open);
@@ -138,7 +140,7 @@ SampleSurface sample_surface(const Scheme<double>& scheme, const LocalType& type
     net.mesh.positions.row(static_cast<Eigen::Index>(i)) << x, y, z;
   }
   if (type.corner) net.mesh.corners.push_back({net.find.at({0, 0, 0}), infinite_sharpness});
-  const LimitSurface surface(scheme, net.mesh, rim_rules());
+  const LimitSurface surface(scheme, net.mesh, rim_rules(), pieces);
   const std::vector<FaceRange> faces = faces_within(net, drawn_rings);
   SampleSurface result;
 

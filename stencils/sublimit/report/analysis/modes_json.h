@@ -2,13 +2,17 @@
 #pragma once
 // What is drawn of a neighbourhood: the characteristic map with the images of parameter lines, eigenfunctions, a limit
 // surface of generic data and how its normals come together.
+#include <memory>
+
 #include "sublimit/analysis/local_modes.h"
+#include "sublimit/limit/limit_surface.h"
 #include "sublimit/report/analysis/numbers.h"
 
 namespace sublimit::report {
 
 /// `characteristic_map` of a neighbourhood; null where the leading mode is not one of block 1.
-Json characteristic_map_json(const Scheme<double>& scheme, const LocalModes& modes);
+/// @param pieces  types of the scheme's surfaces, shared between calls
+Json characteristic_map_json(const std::shared_ptr<PieceTypes>& pieces, const LocalModes& modes);
 Json eigenfunctions_json(const LocalModes& modes);
 
 /// `surface` and `normals` of a neighbourhood of n sectors, alone.
@@ -16,6 +20,6 @@ struct SampleSurface {
   Json surface, normals;
 };
 /// @param drawn  whether to make `surface`, which is large
-SampleSurface sample_surface(const Scheme<double>& scheme, const LocalType& type, bool drawn);
+SampleSurface sample_surface(const std::shared_ptr<PieceTypes>& pieces, const LocalType& type, bool drawn);
 
 }  // namespace sublimit::report

@@ -8,6 +8,8 @@
 #include "sublimit/analysis/eigen_structure.h"
 #include "sublimit/base/error.h"
 #include "sublimit/certificates/spectral_verdicts.h"
+#include "sublimit/certificates/witness.h"
+#include "sublimit/limit/piece_types.h"
 #include "sublimit/report/analysis/masks_json.h"
 #include "sublimit/report/analysis/modes_json.h"
 #include "sublimit/report/analysis/spectrum_json.h"
@@ -38,20 +40,63 @@ LocalType local_type(const NeighborhoodKind& kind) {
   return type;
 }
 
-std::vector<Verdict> verdicts(const ExactAnalysis& analysis, bool closed) {
-  std::vector<Verdict> all{affine_invariance(analysis), convergence(analysis)};
-  if (!closed) {
-    all.push_back(tangent_plane(analysis));
-    return all;
+using Answer = Verdict::Answer;
+
+bool is_decided(const Verdict& v) { return v.answer == Answer::proved || v.answer == Answer::disproved; }
+
+/// C^1 at a closed centre: proved with its map; where that does not work, what the spectrum alone decides, or what a
+/// net of the map looks like.
+Verdict c1_verdict(const ReportedScheme& scheme, const SharedAnalysis& shared, const ExactAnalysis& analysis, int n,
+                   Json& map) {
+  Verdict spectral = spectral_c1(analysis);
+  if (shared.prover) {
+    C1Certificate certificate = shared.prover->certify(n);
+    if (certificate.proof && !map.is_null() && certificate.proof->regular == MapProof::Regular::yes)
+      map["jacobian"] = {{"sign", 1},
+                         {"least", drawn(certificate.proof->least.mid())},
+                         {"greatest", drawn(certificate.proof->greatest.mid())},
+                         {"by", "enclosure"}};
+    Verdict& v = certificate.verdict;
+    if (v.answer == Answer::proved) {
+      v.because = "1 and lambda lead, and the characteristic map is regular and winds once";
+      v.witness = c1_witness(scheme.scheme.name, certificate, *shared.prover->pieces());
+    }
+    if (is_decided(v)) return v;
   }
+  if (is_decided(spectral) || spectral.answer == Answer::borderline || map.is_null()) return spectral;
+  const int sign = map["jacobian"]["sign"];
+  spectral.hypotheses.push_back({"the Jacobian determinant of the characteristic map is positive", sign == 1,
+                                 Hypothesis::By::floating,
+                                 "from " + map["jacobian"]["least"].dump() + " to " +
+                                     map["jacobian"]["greatest"].dump() + " on samples of two rings"});
+  spectral.answer = sign == 1 ? Answer::evidence_for : Answer::evidence_against;
+  spectral.because +=
+      sign == 1 ? "; the sampled characteristic map is regular" : "; the sampled characteristic map folds";
+  return spectral;
+}
+
+/// What is known of the regular surface around, from its polynomial pieces.
+SecondOrderGiven second_order(const SharedAnalysis& shared, const Verdict& c1) {
   SecondOrderGiven given;
-  const Verdict c1 = spectral_c1(analysis);
-  all.push_back(c1);
-  all.push_back(curvature(analysis, given));
-  all.push_back(shapes(analysis, given));
-  all.push_back(curvature_integrability(analysis, given));
-  all.push_back(spectral_c2(analysis, given));
-  return all;
+  if (c1.answer == Answer::proved) given.c1.holds = true, given.c1.by = Hypothesis::By::enclosure;
+  if (c1.answer == Answer::disproved) given.c1.holds = false, given.c1.by = Hypothesis::By::enclosure;
+  if (c1.answer == Answer::evidence_for) given.c1.holds = true, given.c1.by = Hypothesis::By::floating;
+  if (!shared.prover || !shared.prover->pieces()) return given;
+  const int continuity = shared.prover->pieces()->continuity;
+  given.bounded.by = given.continuous.by = Hypothesis::By::exact;
+  given.bounded.holds = continuity >= 1;
+  given.bounded.value = "polynomial pieces, C^" + std::to_string(continuity);
+  given.continuous.holds = continuity >= 2;
+  return given;
+}
+
+void look_at_weights(const LocalPatch<Algebraic>& patch, Neighborhood& found) {
+  for (Eigen::Index i = 0; i < patch.A.rows(); ++i)
+    for (Eigen::Index j = 0; j < patch.A.cols(); ++j)
+      if (const Algebraic& w = patch.A(i, j); !w.is_zero()) {
+        found.has_negative_weights |= certainly_less(w.real_enclosure(), Ball(0));
+        if (patch.labels[static_cast<size_t>(i)] == SectorLabel{}) found.keeps_vertices &= w.is_one();
+      }
 }
 
 }  // namespace
@@ -72,31 +117,55 @@ std::vector<NeighborhoodKind> neighborhoods(const Scheme<double>& scheme, const 
   return kinds;
 }
 
-Json neighborhood_json(const ReportedScheme& scheme, const NeighborhoodKind& kind, bool is_drawn) {
+SharedAnalysis shared_analysis(const ReportedScheme& scheme) {
+  SharedAnalysis shared;
+  try {
+    shared.prover.emplace(scheme.exact);
+  } catch (const AnalysisError&) {  // no mask of regular meshes: evidence is all there is
+  }
+  shared.pieces = std::make_shared<PieceTypes>(scheme.scheme);
+  return shared;
+}
+
+Neighborhood neighborhood(const ReportedScheme& scheme, const SharedAnalysis& shared, const NeighborhoodKind& kind,
+                          bool is_drawn) {
+  Neighborhood result;
   const LocalType type = local_type(kind);
   const bool closed = kind.kind == Kind::vertex || kind.kind == Kind::face;
   const std::optional<LocalPatch<Algebraic>> patch = local_patch(scheme.exact, type);
-  if (!patch) return nullptr;
-  Json json{{"kind", kind.name()}, {"n", kind.n}, {"points", patch->slots.size()}, {"labels", Json::array()}};
+  if (!patch) return result;
+  Json& json = result.json;
+  json = {{"kind", kind.name()}, {"n", kind.n}, {"points", patch->slots.size()}, {"labels", Json::array()}};
   for (const SectorLabel& label : patch->labels) json["labels"].push_back(to_json(label));
   // Moduli below lambda^2 may come from rings that the limit itself does not need.
   const ExactAnalysis analysis = *exact_analysis(scheme.exact, type, closed ? spectrum_rings : -1);
+  look_at_weights(analysis.patch, result);
   add_spectrum(json, analysis.spectrum);
   std::string why;
   json["masks"] = masks_json(scheme.scheme, &*patch, type, subdominant_in_field(analysis.spectrum), why);
+  Json map;
   if (closed) {
-    const std::optional<LocalModes> modes = local_modes(scheme.scheme, type);
-    if (modes) {
-      json["characteristic_map"] = characteristic_map_json(scheme.scheme, *modes);
+    if (const std::optional<LocalModes> modes = local_modes(scheme.scheme, type)) {
+      map = characteristic_map_json(shared.pieces, *modes);
       json["eigenfunctions"] = eigenfunctions_json(*modes);
     }
   }
-  SampleSurface sample = sample_surface(scheme.scheme, type, is_drawn);
+  std::vector<Verdict> verdicts{affine_invariance(analysis), convergence(analysis)};
+  if (closed) {
+    const Verdict c1 = c1_verdict(scheme, shared, analysis, kind.n, map);
+    const SecondOrderGiven given = second_order(shared, c1);
+    verdicts.insert(verdicts.end(), {c1, curvature(analysis, given), shapes(analysis, given),
+                                     curvature_integrability(analysis, given), spectral_c2(analysis, given)});
+  } else {
+    verdicts.push_back(tangent_plane(analysis));
+  }
+  json["characteristic_map"] = std::move(map);
+  SampleSurface sample = sample_surface(shared.pieces, type, is_drawn);
   json["surface"] = std::move(sample.surface);
   json["normals"] = std::move(sample.normals);
   json["verdicts"] = Json::array();
-  for (const Verdict& verdict : verdicts(analysis, closed)) json["verdicts"].push_back(to_json(verdict));
-  return json;
+  for (const Verdict& verdict : verdicts) json["verdicts"].push_back(to_json(verdict));
+  return result;
 }
 
 }  // namespace sublimit::report

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 // One neighbourhood of a report: what the surface is like at a centre of one kind, alone among regular points.
+#include <memory>
+#include <optional>
+
+#include "sublimit/certificates/c1_certificate.h"
+#include "sublimit/limit/limit_surface.h"
 #include "sublimit/report/analysis/numbers.h"
 #include "sublimit/report/analysis/scheme_report.h"
 
@@ -17,8 +22,20 @@ struct NeighborhoodKind {
 /// Those that a scheme has: of each valence the interior ones (and darts), of 1 to some faces the open ones.
 std::vector<NeighborhoodKind> neighborhoods(const Scheme<double>& scheme, const std::vector<int>& valences);
 
+/// What the neighbourhoods of one scheme share.
+struct SharedAnalysis {
+  std::optional<C1Prover> prover;      ///< none where the rules on regular meshes are not one mask
+  std::shared_ptr<PieceTypes> pieces;  ///< of its limit surfaces
+};
+SharedAnalysis shared_analysis(const ReportedScheme& scheme);
+
+struct Neighborhood {
+  Json json;  ///< NEIGHBORHOOD, or null where the scheme has no such place
+  bool has_negative_weights = false, keeps_vertices = true;  ///< rows of the local matrix, exactly
+};
+
 /// @param drawn  with the limit surface of generic data
-/// @return  NEIGHBORHOOD, or null where the scheme has no such place
-Json neighborhood_json(const ReportedScheme& scheme, const NeighborhoodKind& kind, bool drawn);
+Neighborhood neighborhood(const ReportedScheme& scheme, const SharedAnalysis& shared, const NeighborhoodKind& kind,
+                          bool drawn);
 
 }  // namespace sublimit::report

@@ -73,17 +73,25 @@ Json schemes_report(const std::vector<ReportedScheme>& schemes, const ReportOpti
   struct Job {
     size_t scheme;
     NeighborhoodKind kind;
-    Json result;
+    Neighborhood found;
   };
   std::vector<Job> jobs;
   for (size_t s = 0; s < schemes.size(); ++s)
     for (const NeighborhoodKind& kind : neighborhoods(schemes[s].scheme, options.valences))
       jobs.push_back({s, kind, {}});
+  std::vector<SharedAnalysis> shared(schemes.size());
+  parallel_for_blocks(
+      static_cast<std::int64_t>(schemes.size()),
+      [&](std::int64_t, std::int64_t s, std::int64_t) {
+        shared[static_cast<size_t>(s)] = shared_analysis(schemes[static_cast<size_t>(s)]);
+      },
+      1);
   std::mutex telling;
   int done = 0;
   const auto run = [&](std::int64_t, std::int64_t i, std::int64_t) {
     Job& job = jobs[static_cast<size_t>(i)];
-    job.result = neighborhood_json(schemes[job.scheme], job.kind, has_picture(schemes[job.scheme].scheme, job.kind));
+    const ReportedScheme& scheme = schemes[job.scheme];
+    job.found = neighborhood(scheme, shared[job.scheme], job.kind, has_picture(scheme.scheme, job.kind));
     const std::lock_guard lock(telling);
     ++done;
     if (options.progress) options.progress(done, static_cast<int>(jobs.size()));
@@ -96,7 +104,7 @@ Json schemes_report(const std::vector<ReportedScheme>& schemes, const ReportOpti
     json["claims"] = Json::array();
     json["neighborhoods"] = Json::array();
     for (Job& job : jobs)
-      if (job.scheme == s && !job.result.is_null()) json["neighborhoods"].push_back(std::move(job.result));
+      if (job.scheme == s && !job.found.json.is_null()) json["neighborhoods"].push_back(std::move(job.found.json));
     report["schemes"].push_back(std::move(json));
   }
   return report;

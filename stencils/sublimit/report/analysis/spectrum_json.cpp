@@ -35,7 +35,8 @@ void add_spectrum(Json& neighborhood, const ExactSpectrum& spectrum) {
   neighborhood["spectrum"] = std::move(list);
   for (const char* key : {"lambda", "mu", "ratio"}) neighborhood[key] = nullptr;
   neighborhood["mu_blocks"] = Json::array();
-  if (by_rank.size() < 2) return;
+  // Between sharp edges two different eigenvalues lead, and this ratio says nothing.
+  if (by_rank.size() < 2 || spectrum.blocks.sectors == 0) return;
   neighborhood["lambda"] = by_rank[1];
   // What decides on curvature is the next modulus; where the leading one is a Jordan case or a tie it is still the
   // next.
