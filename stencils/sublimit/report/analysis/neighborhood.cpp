@@ -110,8 +110,8 @@ std::vector<NeighborhoodKind> neighborhoods(const Scheme<double>& scheme, const 
   std::vector<NeighborhoodKind> kinds;
   for (const int n : valences) kinds.push_back({scheme.is_dual() ? Kind::face : Kind::vertex, n});
   if (scheme.is_dual()) return kinds;
-  // As many faces on a side as a vertex of the least valences has; more of them repeat the verdict.
-  const int most = std::min(8, valences.empty() ? 0 : valences.back());
+  // More faces repeat the verdict; without symmetry, exact spectra of wide masks take minutes beyond four.
+  const int most = std::min(scheme.is_wide() ? 4 : 8, valences.empty() ? 0 : valences.back());
   for (int m = 1; m <= most; ++m) kinds.push_back({Kind::border, m});
   for (int m = 1; m <= std::min(most, 6); ++m) kinds.push_back({Kind::corner, m});
   return kinds;
