@@ -6,6 +6,7 @@
 
 #include "sublimit/base/error.h"
 #include "sublimit/base/parallel_for.h"
+#include "sublimit/report/analysis/claims_json.h"
 #include "sublimit/report/analysis/neighborhood.h"
 #include "sublimit/schemes.h"
 
@@ -101,12 +102,21 @@ Json schemes_report(const std::vector<ReportedScheme>& schemes, const ReportOpti
   report["schemes"] = Json::array();
   for (size_t s = 0; s < schemes.size(); ++s) {
     Json json = scheme_json(schemes[s]);
-    json["claims"] = Json::array();
+    json["claims"] = nullptr;  // its place; it is made from what follows
+    json["regular"] = nullptr;
     json["neighborhoods"] = Json::array();
-    for (Job& job : jobs)
-      if (job.scheme == s && !job.found.json.is_null()) json["neighborhoods"].push_back(std::move(job.found.json));
+    WeightFindings weights;
+    for (Job& job : jobs) {
+      if (job.scheme != s || job.found.json.is_null()) continue;
+      weights.has_negative_weights |= job.found.has_negative_weights;
+      weights.keeps_vertices &= job.found.keeps_vertices;
+      json["neighborhoods"].push_back(std::move(job.found.json));
+    }
+    json["claims"] = claims_json(schemes[s].scheme.claims, json, weights);
     report["schemes"].push_back(std::move(json));
   }
+  report["summary"] = Json::array();
+  for (const Json& scheme : report["schemes"]) report["summary"].push_back(summary_row(scheme));
   return report;
 }
 

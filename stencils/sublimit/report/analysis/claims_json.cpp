@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sublimit/report/analysis/claims_json.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <vector>
+
+namespace sublimit::report {
+namespace {
+
+/// `verdict` of a property in a list of verdicts; "unknown" if it is not there.
+std::string answer_in(const Json& verdicts, const std::string& property) {
+  for (const Json& v : verdicts)
+    if (v.value("property", "") == property) return v.value("verdict", "unknown");
+  return "unknown";
+}
+
+bool is_interior(const Json& neighborhood) {
+  const std::string kind = neighborhood.value("kind", "");
+  return kind == "vertex" || kind == "face";
+}
+
+Json claim(const char* name, Json claimed, Json found, const std::string& verdict, const std::string& because) {
+  return {{"claim", name},
+          {"claimed", std::move(claimed)},
+          {"found", std::move(found)},
+          {"verdict", verdict},
+          {"because", because}};
+}
+
+/// "3, 5-9" of ascending numbers.
+std::string ranges(const std::vector<int>& numbers) {
+  std::string text;
+  for (size_t i = 0; i < numbers.size();) {
+    size_t j = i;
+    while (j + 1 < numbers.size() && numbers[j + 1] == numbers[j] + 1) ++j;
+    text += (text.empty() ? "" : ", ") + std::to_string(numbers[i]);
+    if (j > i) text += (j > i + 1 ? "-" : ", ") + std::to_string(numbers[j]);
+    i = j + 1;
+  }
+  return text;
+}
+
+/// Interior valences by what was found of a property there.
+std::map<std::string, std::vector<int>> valences_by_answer(const Json& neighborhoods, const std::string& property) {
+  std::map<std::string, std::vector<int>> by;
+  for (const Json& n : neighborhoods)
+    if (is_interior(n)) by[answer_in(n["verdicts"], property)].push_back(n.value("n", 0));
+  return by;
+}
+
+/// The weakest of what was found, and where.
+std::pair<std::string, std::string> weakest(const std::map<std::string, std::vector<int>>& by) {
+  for (const char* answer : {"disproved", "evidence-against", "unknown", "borderline", "evidence-for", "proved"})
+    if (const auto at = by.find(answer); at != by.end()) return {answer, ranges(at->second)};
+  return {"unknown", "none"};
+}
+
+std::string in_words(const std::map<std::string, std::vector<int>>& by) {
+  std::string text;
+  for (const auto& [answer, valences] : by) text += (text.empty() ? "" : "; ") + answer + " at " + ranges(valences);
+  return text;
+}
+
+Json regular_claim(const Claims& claims, const Json& regular) {
+  if (!regular.is_object() || !regular.contains("smoothness"))
+    return claim("regular", claims.regular, nullptr, "unknown", "the regular limit was not looked at");
+  const Json& smooth = regular["smoothness"];
+  const Json& exponent = smooth["exponent"];
+  const int proved = smooth["continuity"].is_number() ? smooth["continuity"].get<int>() : -1;
+  const double high = exponent.is_array() && exponent[1].is_number() ? exponent[1].get<double>() : INFINITY;
+  const std::string bounds = exponent.is_array() ? "Hoelder exponent in " + exponent.dump() : "no bounds";
+  const std::string answer = claims.regular <= proved ? "proved" : high < claims.regular ? "disproved" : "unknown";
+  return claim("regular", claims.regular, proved >= 0 ? Json(proved) : Json(nullptr), answer, bounds);
+}
+
+Json extraordinary_claim(const Claims& claims, const Json& neighborhoods) {
+  const auto by = valences_by_answer(neighborhoods, claims.extraordinary >= 1 ? "c1" : "convergence");
+  if (by.empty()) return claim("extraordinary", claims.extraordinary, nullptr, "unknown", "no valence was looked at");
+  if (claims.extraordinary >= 2) {
+    const auto c2 = valences_by_answer(neighborhoods, "c2");
+    const std::string answer = c2.count("disproved") ? "disproved" : weakest(c2).first;
+    return claim("extraordinary", claims.extraordinary, c2.count("disproved") ? Json(1) : Json(nullptr), answer,
+                 "C^2: " + in_words(c2));
+  }
+  const std::string answer = weakest(by).first;
+  const bool holds = answer == "proved" || answer == "evidence-for";
+  return claim("extraordinary", claims.extraordinary, holds ? Json(claims.extraordinary) : Json(nullptr), answer,
+               (claims.extraordinary >= 1 ? "C^1: " : "convergence: ") + in_words(by));
+}
+
+Json degree_claim(const char* name, int claimed, const Json& regular) {
+  const Json* degree = nullptr;
+  if (regular.is_object() && regular.contains("degrees") && regular["degrees"][name].is_number())
+    degree = &regular["degrees"][name];
+  if (!degree) return claim(name, claimed, nullptr, "unknown", "the regular limit was not looked at");
+  const int found = degree->get<int>();
+  return claim(name, claimed, found, found >= claimed ? "proved" : "disproved",
+               fmt::format("polynomials up to degree {}, from the mask", found));
+}
+
+}  // namespace
+
+Json claims_json(const Claims& claims, const Json& scheme, const WeightFindings& weights) {
+  const Json regular = scheme.value("regular", Json());
+  Json all = Json::array();
+  all.push_back(regular_claim(claims, regular));
+  all.push_back(extraordinary_claim(claims, scheme["neighborhoods"]));
+  all.push_back(degree_claim("generates", claims.generates, regular));
+  all.push_back(degree_claim("reproduces", claims.reproduces, regular));
+  if (claims.convex_hull)
+    all.push_back(claim("convex-hull", true, !weights.has_negative_weights,
+                        weights.has_negative_weights ? "disproved" : "proved",
+                        weights.has_negative_weights ? "a local matrix has a negative weight"
+                                                     : "no local matrix looked at has a negative weight"));
+  if (claims.interpolates)
+    all.push_back(claim("interpolates", true, weights.keeps_vertices, weights.keeps_vertices ? "proved" : "disproved",
+                        weights.keeps_vertices ? "every vertex looked at is its own child" : "a vertex moves"));
+  return all;
+}
+
+Json summary_row(const Json& scheme) {
+  const Json regular = scheme.value("regular", Json());
+  Json row{{"scheme", scheme["name"]},
+           {"type", scheme.value("interpolates", false) ? "interpolating" : "approximating"},
+           {"mesh", scheme["mesh"]},
+           {"regular", nullptr},
+           {"extraordinary", nullptr},
+           {"regular_verdict", "unknown"},
+           {"extraordinary_verdict", "unknown"},
+           {"valences", ""},
+           {"notes", ""}};
+  if (regular.is_object() && regular.contains("smoothness") && regular["smoothness"]["continuity"].is_number()) {
+    row["regular"] = fmt::format("C^{}", regular["smoothness"]["continuity"].get<int>());
+    row["regular_verdict"] = answer_in(regular.value("verdicts", Json::array()), "regular-smoothness");
+  }
+  const auto by = valences_by_answer(scheme["neighborhoods"], "c1");
+  if (by.empty()) return row;
+  // What holds at most valences is the row's; exceptions go to the notes.
+  std::vector<int> all, good;
+  std::string best = "unknown";
+  for (const char* answer : {"evidence-for", "proved"})
+    if (by.count(answer)) {
+      best = by.count("proved") && by.count("evidence-for") ? "evidence-for" : answer;
+      good.insert(good.end(), by.at(answer).begin(), by.at(answer).end());
+    }
+  for (const auto& [answer, valences] : by) all.insert(all.end(), valences.begin(), valences.end());
+  std::sort(all.begin(), all.end());
+  std::sort(good.begin(), good.end());
+  row["valences"] = ranges(all);
+  row["extraordinary"] = good.empty() ? "C^0" : "C^1";
+  row["extraordinary_verdict"] = good.empty() ? weakest(by).first : best;
+  std::string notes;
+  for (const auto& [answer, valences] : by)
+    if (answer != "proved" && answer != "evidence-for" && !good.empty())
+      notes += (notes.empty() ? "" : "; ") + fmt::format("C^1 {} at valence {}", answer, ranges(valences));
+  row["notes"] = notes;
+  return row;
+}
+
+}  // namespace sublimit::report
