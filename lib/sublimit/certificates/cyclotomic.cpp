@@ -9,12 +9,16 @@
 namespace sublimit {
 namespace {
 
-/// zeta^order = 1 folds the exponents first: that leaves little to divide.
+/// zeta^N = 1, or zeta^(N/2) = -1, folds the exponents first: that leaves little to divide.
 void fold(fmpz_poly_t p, long order) {
-  const long length = fmpz_poly_length(p);
-  if (length <= order) return;
-  for (long i = order; i < length; ++i) fmpz_add(p->coeffs + i % order, p->coeffs + i % order, p->coeffs + i);
-  fmpz_poly_truncate(p, order);
+  const bool is_even = order % 2 == 0;
+  const long period = is_even ? order / 2 : order, length = fmpz_poly_length(p);
+  if (length <= period) return;
+  for (long i = period; i < length; ++i) {
+    fmpz* const target = p->coeffs + i % period;
+    (is_even && i / period % 2 != 0 ? fmpz_sub : fmpz_add)(target, target, p->coeffs + i);
+  }
+  fmpz_poly_truncate(p, period);
 }
 
 }  // namespace

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sublimit/certificates/exact_kernel.h"
 
+#include <flint/fmpz_vec.h>
+
 #include <algorithm>
+#include <cstdlib>
 #include <optional>
 
 namespace sublimit {
@@ -50,15 +53,35 @@ struct Echelon {
   std::vector<size_t> pivots;  ///< columns
 };
 
+/// Bits that a polynomial takes, about.
+long length(const Polynomial& p) {
+  long bits = 0;
+  for (const Algebraic& c : p.coefficients()) {
+    const fmpq_poly_struct* q = c.polynomial();
+    bits += fmpq_poly_length(q) * std::abs(_fmpz_vec_max_bits(q->coeffs, fmpq_poly_length(q))) +
+            static_cast<long>(fmpz_bits(fmpq_poly_denref(q)));
+  }
+  return bits;
+}
+
 Echelon echelon(PolynomialMatrix M, Extension& field) {
   Echelon result;
   const size_t columns = M.empty() ? 0 : M[0].size();
   size_t row = 0;
   for (size_t j = 0; j < columns && row < M.size(); ++j) {
+    // Any number that is not zero serves: the shortest is the cheapest to invert, and keeps the others short.
+    std::vector<size_t> candidates;
+    for (size_t i = row; i < M.size(); ++i)
+      if (!M[i][j].is_zero()) candidates.push_back(i);
+    std::stable_sort(candidates.begin(), candidates.end(),
+                     [&](size_t a, size_t b) { return length(M[a][j]) < length(M[b][j]); });
     std::optional<Polynomial> inverse;
     size_t pivot = row;
-    for (; pivot < M.size(); ++pivot)
-      if (!M[pivot][j].is_zero() && (inverse = field.inverse(M[pivot][j]))) break;
+    for (const size_t i : candidates)
+      if ((inverse = field.inverse(M[i][j]))) {
+        pivot = i;
+        break;
+      }
     if (!inverse) continue;
     std::swap(M[pivot], M[row]);
     for (size_t c = j; c < columns; ++c)
@@ -99,6 +122,55 @@ PolynomialMatrix product(const PolynomialMatrix& A, const PolynomialMatrix& B, c
         if (!B[k][j].is_zero()) C[i][j] += field.product(A[i][k], B[k][j]);
     }
   return C;
+}
+
+/// At least the rank has this many certain pivots: elimination in balls, by the largest.
+size_t certain_rank(const PolynomialMatrix& M, const AlgebraicRoot& lambda) {
+  const PrecisionScope scope(128);
+  const ComplexBall x = lambda.enclosure();
+  const size_t n = M.size();
+  std::vector<std::vector<ComplexBall>> B(n, std::vector<ComplexBall>(n));
+  for (size_t i = 0; i < n; ++i)
+    for (size_t j = 0; j < n; ++j)
+      if (!M[i][j].is_zero()) B[i][j] = M[i][j].at(x);
+  for (size_t rank = 0; rank < n; ++rank) {
+    size_t row = n, column = n;
+    double largest = 0;
+    for (size_t i = rank; i < n; ++i)
+      for (size_t j = rank; j < n; ++j)
+        if (const double least = abs(B[i][j]).lower(); least > largest) {
+          largest = least;
+          row = i;
+          column = j;
+        }
+    if (row == n) return rank;
+    std::swap(B[row], B[rank]);
+    for (std::vector<ComplexBall>& line : B) std::swap(line[column], line[rank]);
+    for (size_t i = rank + 1; i < n; ++i) {
+      if (B[i][rank] == ComplexBall(0)) continue;
+      const ComplexBall factor = B[i][rank] / B[rank][rank];
+      for (size_t j = rank + 1; j < n; ++j) B[i][j] -= factor * B[rank][j];
+    }
+  }
+  return n;
+}
+
+/// Dimension of the null space of a power of B - lambda, which has one: where certain pivots meet the number of rows or
+/// columns that are not zero there is nothing to eliminate exactly.
+size_t nullity(const PolynomialMatrix& M, const AlgebraicRoot& lambda, Extension& field) {
+  const size_t n = M.size();
+  size_t rows = 0, columns = 0;
+  for (size_t i = 0; i < n; ++i) {
+    bool row = false, column = false;
+    for (size_t j = 0; j < n; ++j) {
+      row = row || !M[i][j].is_zero();
+      column = column || !M[j][i].is_zero();
+    }
+    rows += row;
+    columns += column;
+  }
+  const size_t most = std::min({rows, columns, n - 1});
+  return n - (certain_rank(M, lambda) == most ? most : echelon(M, field).pivots.size());
 }
 
 }  // namespace
@@ -151,7 +223,7 @@ std::vector<int> jordan_sizes(const DenseMatrix<Algebraic>& B, const AlgebraicRo
   // nullities[j]: of the j-th power.
   std::vector<int> nullities{0};
   for (PolynomialMatrix power = M;; power = product(power, M, field)) {
-    nullities.push_back(static_cast<int>(M.size() - echelon(power, field).pivots.size()));
+    nullities.push_back(static_cast<int>(nullity(power, lambda, field)));
     if (nullities.back() >= multiplicity || nullities.back() == nullities[nullities.size() - 2]) break;
   }
   std::vector<int> sizes;

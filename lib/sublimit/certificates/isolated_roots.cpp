@@ -36,6 +36,10 @@ std::vector<ComplexBall> roots_at(const Polynomial& p, bool is_real, long bits) 
 
 }  // namespace
 
+bool has_isolated_roots(const Polynomial& p) {
+  return p.degree() < 2 || static_cast<int>(roots_at(p, p.is_real(), 256).size()) == p.degree();
+}
+
 std::vector<ComplexBall> isolated_roots(const Polynomial& squarefree, long bits) {
   const bool is_real = squarefree.is_real();
   if (squarefree.degree() == 1) {

@@ -176,6 +176,8 @@ std::vector<PolynomialFactor> rational_factors(const Polynomial& p) {
 std::vector<PolynomialFactor> squarefree_factors(const Polynomial& p) {
   if (p.degree() < 1) return {};
   if (p.is_rational()) return rational_factors(p);
+  // As many roots as the degree says, enclosed apart: coefficients grow less in balls than in common factors.
+  if (has_isolated_roots(p)) return {{p.monic(), 1}};
   // Yun's algorithm.
   std::vector<PolynomialFactor> factors;
   const Polynomial slope = p.derivative();

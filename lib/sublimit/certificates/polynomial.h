@@ -69,6 +69,9 @@ std::vector<PolynomialFactor> squarefree_factors(const Polynomial& p);
 /// real polynomials have imaginary part zero.
 std::vector<ComplexBall> isolated_roots(const Polynomial& squarefree, long bits);
 
+/// All roots are found apart at a modest precision, so the polynomial is squarefree. If not, nothing is known.
+bool has_isolated_roots(const Polynomial& p);
+
 /// det(x - A), exactly.
 Polynomial characteristic_polynomial(const DenseMatrix<Algebraic>& A);
 
