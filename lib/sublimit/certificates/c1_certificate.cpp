@@ -43,6 +43,17 @@ bool rows_sum_to_one(const LocalPatch<Algebraic>& patch) {
   return true;
 }
 
+/// The local matrix commutes with the rotation by a sector.
+bool is_rotation_symmetric(const LocalPatch<Algebraic>& patch) {
+  std::vector<Eigen::Index> next(patch.labels.size());
+  for (const auto& orbit : patch.orbits)
+    for (size_t k = 0; k < orbit.size(); ++k) next[static_cast<size_t>(orbit[k])] = orbit[(k + 1) % orbit.size()];
+  for (Eigen::Index i = 0; i < patch.A.rows(); ++i)
+    for (Eigen::Index j = 0; j < patch.A.cols(); ++j)
+      if (!(patch.A(i, j) == patch.A(next[static_cast<size_t>(i)], next[static_cast<size_t>(j)]))) return false;
+  return true;
+}
+
 LocalPatch<Algebraic> patch_of(const Scheme<Algebraic>& scheme, const PlaneMask& mask, int n) {
   // Rings enough for the mask to go on outwards by itself.
   const LatticePoint low = mask.low(), high = mask.high();
@@ -96,6 +107,7 @@ C1Certificate C1Prover::certify(int n) const {
     v.hypotheses.push_back({std::move(says), holds, by, std::move(value)});
   };
   add("rows of the local matrix sum to one", rows_sum_to_one(c.patch), By::exact);
+  add("it commutes with the rotation by a sector", is_rotation_symmetric(c.patch), By::exact);
   const DenseMatrix<ComplexBall> B1 = fourier_block(c.patch, 1);
   const auto pair = leading_pair(B1);
   add("block 1 has an isolated leading eigenvalue", pair ? std::optional(true) : std::nullopt, By::enclosure,

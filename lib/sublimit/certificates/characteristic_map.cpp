@@ -26,10 +26,9 @@ std::optional<bool> is_regular_row(const LocalPatch<Algebraic>& patch, const std
   if (row == at.end()) return std::nullopt;
   std::map<Eigen::Index, Algebraic> expected;
   for (const auto& [offset, weight] : mask.weights) {
-    const LatticePoint twice = P - offset;
-    if (twice.x2 % 2 != 0 || twice.y2 % 2 != 0) continue;
-    const LatticePoint Q{twice.x2 / 2, twice.y2 / 2};
-    if ((Q.x2 % 2 != 0) != mask.dual || (Q.y2 % 2 != 0) != mask.dual) continue;
+    const auto parent = mask.parent(P, offset);
+    if (!parent) continue;
+    const LatticePoint Q = *parent;
     const auto from = label_at(Q, mask.triangular, n);
     if (!from) return false;
     const auto column = at.find(*from);
@@ -55,10 +54,9 @@ std::optional<ComplexBall> CharacteristicMap::at(LatticePoint p) {
   if (known == net.end()) {
     ComplexBall sum(0);
     for (const auto& [offset, weight] : mask.weights) {
-      const LatticePoint twice = own - offset;
-      if (twice.x2 % 2 != 0 || twice.y2 % 2 != 0) continue;
-      const LatticePoint Q{twice.x2 / 2, twice.y2 / 2};
-      if ((Q.x2 % 2 != 0) != mask.dual || (Q.y2 % 2 != 0) != mask.dual) continue;
+      const auto parent = mask.parent(own, offset);
+      if (!parent) continue;
+      const LatticePoint Q = *parent;
       const auto from = label_at(Q, mask.triangular, n);
       // Only what lies further in is known without going round in circles.
       if (!from || ring2({from->x2, from->y2}, mask.triangular) >= ring2(own, mask.triangular)) return std::nullopt;

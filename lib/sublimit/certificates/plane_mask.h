@@ -5,6 +5,7 @@
 //
 //   new(P) = sum over Q of weight(P - dilation*Q) old(Q).
 #include <map>
+#include <optional>
 
 #include "sublimit/analysis/sector_labels.h"
 #include "sublimit/certificates/algebraic.h"
@@ -27,6 +28,13 @@ struct PlaneMask {
   int dilation = 2;
   std::map<LatticePoint, Algebraic> weights = {};
   const Algebraic& operator()(LatticePoint offset) const;
+  /// The point Q that new point P sees with weight(offset), offset = P - dilation*Q; nothing where none lies there.
+  std::optional<LatticePoint> parent(LatticePoint P, LatticePoint offset) const {
+    const LatticePoint d = P - offset;
+    if (d.x2 % dilation != 0 || d.y2 % dilation != 0) return std::nullopt;
+    const LatticePoint Q{d.x2 / dilation, d.y2 / dilation};
+    return (Q.x2 % 2 != 0) == dual && (Q.y2 % 2 != 0) == dual ? std::optional(Q) : std::nullopt;
+  }
   LatticePoint low() const;   ///< least coordinates of an offset
   LatticePoint high() const;  ///< greatest
 };

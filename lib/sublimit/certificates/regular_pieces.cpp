@@ -164,10 +164,9 @@ bool refines(const std::vector<RegularPiece>& pieces, const PlaneMask& mask, con
   for (size_t p = 0; p < fine.controls.size(); ++p) {
     const LatticePoint P = fine.controls[p] + child.cell;
     for (const auto& [offset, weight] : mask.weights) {
-      const LatticePoint twice = P - offset;
-      if (twice.x2 % 2 != 0 || twice.y2 % 2 != 0) continue;
-      const LatticePoint Q{twice.x2 / 2, twice.y2 / 2};
-      if ((Q.x2 % 2 != 0) != mask.dual || (Q.y2 % 2 != 0) != mask.dual) continue;
+      const auto parent_point = mask.parent(P, offset);
+      if (!parent_point) continue;
+      const LatticePoint Q = *parent_point;
       std::vector<Algebraic>& r = residual.try_emplace(Q, size).first->second;
       for (size_t c = 0; c < size; ++c) r[c] -= fine.functions[p].coefficients()[c] * weight;
     }
