@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// A strict reader of the markup that pages are made of: every element closed, every attribute quoted, every entity known.
+// A strict reader of the markup that pages are made of: every element closed, every attribute quoted, every entity
+// known.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -12,11 +13,11 @@
 namespace sublimit::testing {
 
 struct Markup {
-  std::string fault;                              ///< the first one; empty: well-formed
-  std::map<std::string, int> elements;            ///< how often
-  std::map<std::string, int> ids;                 ///< how often
-  std::vector<std::string> links;                 ///< values of href
-  int images = 0, untitled = 0;                   ///< SVG with role img, and those of them without a title first
+  std::string fault;                    ///< the first one; empty: well-formed
+  std::map<std::string, int> elements;  ///< how often
+  std::map<std::string, int> ids;       ///< how often
+  std::vector<std::string> links;       ///< values of href
+  int images = 0, untitled = 0;         ///< SVG with role img, and those of them without a title first
 };
 
 /// Reads HTML in which only `meta`, `br` and elements that end in "/>" have no end tag.
@@ -33,7 +34,8 @@ inline Markup read_markup(std::string_view text) {
       if (text[i] != '&') continue;
       const std::string_view rest = text.substr(i, 6);
       bool known = false;
-      for (std::string_view entity : {"&amp;", "&lt;", "&gt;", "&quot;"}) known |= rest.substr(0, entity.size()) == entity;
+      for (std::string_view entity : {"&amp;", "&lt;", "&gt;", "&quot;"})
+        known |= rest.substr(0, entity.size()) == entity;
       if (!known) fail(i, "an unknown entity");
     }
   };
@@ -59,14 +61,17 @@ inline Markup read_markup(std::string_view text) {
     i = end + 1;
     if (inner.substr(0, 8) == "!DOCTYPE") continue;
     if (inner[0] == '/') {
-      if (open.empty() || open.back() != inner.substr(1)) fail(here, "an end tag of nothing open");
-      else open.pop_back();
+      if (open.empty() || open.back() != inner.substr(1))
+        fail(here, "an end tag of nothing open");
+      else
+        open.pop_back();
       continue;
     }
     const bool closed = inner.back() == '/';
     if (closed) inner.remove_suffix(1);
     const std::string name(inner.substr(0, inner.find(' ')));
-    if (name.empty() || name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789") != std::string::npos)
+    if (name.empty() ||
+        name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789") != std::string::npos)
       fail(here, "no name of an element");
     ++markup.elements[name];
     if (title_next && name != "title") ++markup.untitled;
@@ -84,7 +89,8 @@ inline Markup read_markup(std::string_view text) {
       if (!seen.insert(attribute).second) fail(here, "an attribute twice");
       a = stop;
       if (a < inner.size() && inner[a] == '=') {
-        const std::size_t close = a + 1 < inner.size() && inner[a + 1] == '"' ? inner.find('"', a + 2) : std::string_view::npos;
+        const std::size_t close =
+            a + 1 < inner.size() && inner[a + 1] == '"' ? inner.find('"', a + 2) : std::string_view::npos;
         if (close == std::string_view::npos) {
           fail(here, "an attribute without quotes");
           break;

@@ -74,7 +74,8 @@ TEST(ReportPage, IsWellFormedAndItsLinksLeadSomewhere) {
 }
 
 TEST(ReportPage, TheReaderOfMarkupSeesFaults) {
-  for (const char* wrong : {"<p>", "<p></b>", "<p class=x></p>", "<p>a & b</p>", "<p>1 > 0</p>", "<p a=\"<\"></p>", "</p>", "<p a=\"1\"b=\"2\"></p>"})
+  for (const char* wrong : {"<p>", "<p></b>", "<p class=x></p>", "<p>a & b</p>", "<p>1 > 0</p>", "<p a=\"<\"></p>",
+                            "</p>", "<p a=\"1\"b=\"2\"></p>"})
     EXPECT_NE(read_markup(wrong).fault, "") << wrong;
   EXPECT_EQ(read_markup("<p class=\"a\">x &amp; y<br>z</p>").fault, "");
 }
@@ -179,9 +180,7 @@ TEST(ReportPage, RefusesWhatItDoesNotKnow) {
   expect_error<FormatError>([&] { report_page(Json::array()); }, {"report.json"});
 }
 
-TEST(ReportPage, StaysSmall) {
-  EXPECT_LT(report_page(sample_schemes(3, 12)).size(), 3'000'000u);
-}
+TEST(ReportPage, StaysSmall) { EXPECT_LT(report_page(sample_schemes(3, 12)).size(), 3'000'000u); }
 
 }  // namespace
 }  // namespace sublimit::testing

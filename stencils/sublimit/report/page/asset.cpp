@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "sublimit/report/page/drawing.h"
 #include "sublimit/report/page/plot.h"
@@ -40,69 +41,87 @@ std::string inventory(const Json& list) {
   return "<section id=\"inventory\"><h2>Inventory</h2>\n" + html(table) + "</section>\n";
 }
 
-/// Values from 10^-16 up in decades, as bars.
-std::string histogram(const Json& beyond) {
-  struct Bin {
-    int count = 0;
-  };
-  std::vector<std::pair<int, int>> decades;
-  for (const Json& b : beyond) {
-    const std::optional<double> v = number(at(b, "value"));
-    if (!v || *v <= 0) continue;
-    const int decade = static_cast<int>(std::floor(std::log10(*v)));
-    auto found = std::find_if(decades.begin(), decades.end(), [&](const auto& d) { return d.first == decade; });
-    if (found == decades.end())
-      decades.emplace_back(decade, 1);
-    else
-      ++found->second;
+/// Which edge, face or vertex a deviation belongs to.
+std::string element(const Json& deviation) {
+  const Json& edge = at(deviation, "edge");
+  if (edge.is_array()) return "edge " + shown(at(edge, 0)) + "–" + shown(at(edge, 1));
+  if (!at(deviation, "face").is_null()) return "within face " + shown(at(deviation, "face"));
+  return "vertex " + shown(at(deviation, "vertex"));
+}
+
+/// "g1" as G with its superscript.
+std::string order_words(const Json& what) {
+  const std::string word = string(what);
+  if (word.size() == 2 && word[0] == 'g') return "G<sup>" + escaped(word.substr(1)) + "</sup>";
+  return prose(what);
+}
+
+/// How many listed deviations of one kind lie in each decade.
+std::string histogram(const Json& list, const std::string& what) {
+  std::map<int, int> decades;
+  int most = 0;
+  for (const Json& d : list) {
+    const std::optional<double> v = number(at(d, "value"));
+    if (string(at(d, "what")) == what && v && *v > 0)
+      most = std::max(most, ++decades[static_cast<int>(std::floor(std::log10(*v)))]);
   }
   if (decades.empty()) return {};
-  std::sort(decades.begin(), decades.end());
-  int most = 0;
-  for (const auto& [decade, count] : decades) most = std::max(most, count);
-  const double width = 320. / static_cast<double>(decades.size());
-  std::string body = line(30, 130, 350, 130, "frame");
-  for (std::size_t i = 0; i < decades.size(); ++i) {
-    const double height = 96. * decades[i].second / most, x = 30 + width * static_cast<double>(i),
-                 bar = std::min(60., .7 * width);
-    body += "<rect x=\"" + svg::pixels(x + (width - bar) / 2) + "\" y=\"" + svg::pixels(130 - height) + "\" width=\"" +
-            svg::pixels(bar) + "\" height=\"" + svg::pixels(height) + "\" class=\"f0\"/>" +
-            text(x + width / 2, 126 - height, std::to_string(decades[i].second), {"middle", nullptr}) +
-            text(x + width / 2, 146, "1e" + digits(decades[i].first), {"middle", "quiet"});
+  const int first = decades.begin()->first, count = decades.rbegin()->first - first + 1;
+  const double width = 330. / count;
+  std::string body = line(25, 130, 355, 130, "frame");
+  for (int i = 0; i < count; ++i) {
+    const int inside = decades.count(first + i) > 0 ? decades[first + i] : 0;
+    const double height = 92. * inside / most, x = 25 + width * i, bar = std::min(56., .8 * width);
+    if (inside > 0)
+      body += "<rect x=\"" + svg::pixels(x + (width - bar) / 2) + "\" y=\"" + svg::pixels(130 - height) +
+              "\" width=\"" + svg::pixels(bar) + "\" height=\"" + svg::pixels(height) + "\" class=\"f0\"/>" +
+              text(x + width / 2, 125 - height, std::to_string(inside), {"middle", nullptr});
+    if (count <= 9 || i % ((count + 8) / 9) == 0)
+      body += text(x + width / 2, 147, "1e" + digits(first + i), {"middle", "quiet"});
   }
-  return figure(drawing(380, 156, "Seams beyond tolerance by size", "", body),
-                "<b>Seams beyond tolerance</b> by size; each bar is a decade from its number up.");
+  const std::string unit = what == "g1" ? ", in degrees" : "";
+  return figure(drawing(380, 156, "Deviations " + what + " by size", "", body),
+                "<b>" + order_words(Json(what)) + " deviations listed below</b> by size" + unit +
+                    "; a bar is the decade from its number up.");
+}
+
+std::string deviations(const Json& list, const std::string& caption) {
+  if (!list.is_array() || list.empty()) return {};
+  Table table{caption, {"where", "what", "value", "at"}, {}, "numbers"};
+  for (std::size_t i = 0; i < list.size() && i < 20; ++i)
+    table.rows.push_back(
+        {element(list[i]), order_words(at(list[i], "what")), shown(at(list[i], "value"), 4), place(at(list[i], "at"))});
+  return html(table);
 }
 
 std::string seams(const Json& s) {
   if (!s.is_object()) return {};
-  Table table{"Largest deviations", {"", "G<sup>0</sup>", "G<sup>1</sup>, degrees", "G<sup>2</sup>"}, {}, "numbers"};
-  const auto row = [&](const char* key, const char* words) {
+  Table table{"Largest deviations; G^2 as a part of the larger curvature",
+              {"", "G<sup>0</sup>", "G<sup>1</sup>, degrees", "G<sup>2</sup>"},
+              {},
+              "numbers"};
+  for (const auto& [key, words] : {std::pair{"tolerance", "tolerance"},
+                                   {"inside", "inside the surface"},
+                                   {"around_points", "around its points"},
+                                   {"across_creases", "across creases"}}) {
     const Json& r = at(s, key);
     if (r.is_object())
       table.rows.push_back({words, shown(at(r, "g0"), 3), shown(at(r, "g1_degrees"), 3), shown(at(r, "g2"), 3)});
-  };
-  row("tolerance", "tolerance");
-  row("inside", "inside the surface");
-  row("across_creases", "across creases");
-  const Json& within = at(s, "within_tolerance");
-  std::string text =
-      "<section id=\"seams\"><h2>Seams between patches</h2>\n<p>" + shown(at(s, "edges")) + " seams. " +
-      (within.is_boolean() ? is_true(within) ? "<span class=\"badge proved\">✓ within tolerance</span>"
-                                             : "<span class=\"badge disproved\">✗ beyond tolerance</span>"
-                           : "") +
-      "</p>\n" + html(table);
-  const Json& beyond = at(s, "beyond");
-  if (beyond.is_array() && !beyond.empty()) {
-    text += figures(histogram(beyond));
-    Table worst{"The first seams beyond tolerance", {"edge", "what", "value", "at"}, {}, "numbers"};
-    for (std::size_t i = 0; i < beyond.size() && i < 20; ++i) {
-      const Json& edge = at(beyond[i], "edge");
-      worst.rows.push_back({shown(at(edge, 0)) + "–" + shown(at(edge, 1)), literal(at(beyond[i], "what")),
-                            shown(at(beyond[i], "value"), 4), place(at(beyond[i], "at"))});
-    }
-    text += html(worst);
   }
+  const Json& within = at(s, "within_tolerance");
+  std::string text = "<section id=\"seams\"><h2>Seams between patches</h2>\n";
+  text += facts({{"Seams", shown(at(s, "edges"))},
+                 {"On creases", shown(at(s, "crease_edges"))},
+                 {"On borders", shown(at(s, "border_edges"))},
+                 {"Against the tolerance", within.is_boolean() ? is_true(within)
+                                                                     ? "<span class=\"badge proved\">✓ within</span>"
+                                                                     : "<span class=\"badge disproved\">✗ beyond</span>"
+                                                               : dash}});
+  text += html(table);
+  const Json& listed = at(s, "beyond").empty() ? at(s, "worst") : at(s, "beyond");
+  text += figures(histogram(listed, "g0") + histogram(listed, "g1") + histogram(listed, "g2"));
+  text += deviations(at(s, "beyond"), "Beyond tolerance, the worst first");
+  if (at(s, "beyond").empty()) text += deviations(at(s, "worst"), "The worst");
   return text + "</section>\n";
 }
 
@@ -116,8 +135,13 @@ std::string curvature(const Json& c) {
     table.rows.push_back({key[0] == 'g' ? "Gauss curvature" : "mean curvature", shown(at(row, "min"), 4),
                           shown(at(row, "max"), 4), shown(at(row, "mean"), 4), quantiles.empty() ? dash : quantiles});
   }
-  return "<section id=\"curvature\"><h2>Curvature</h2>\n" + html(table) + "<p>Unbounded at " +
-         shown(at(c, "unbounded_at")) + " points.</p></section>\n";
+  return "<section id=\"curvature\"><h2>Curvature</h2>\n" +
+         facts({{"Unbounded at", shown(at(c, "unbounded_at")) + " points"},
+                {"Area", shown(at(c, "area"), 6)},
+                {"Total Gauss curvature", shown(at(c, "total_gauss"), 6)},
+                {"Samples", shown(at(c, "samples"))},
+                {"Samples without curvature", shown(at(c, "without"))}}) +
+         html(table) + "</section>\n";
 }
 
 std::string worst_places(const Json& list) {

@@ -125,7 +125,7 @@ std::string eigenfunction_figure(const Json& neighborhood, const std::string& na
   options.azimuth = .5;
   options.elevation = .75;
   options.sky_directions = 16;
-  options.tone_step = 7;
+  options.tone_step = 4;
   options.ground_shadow = false;
   options.plate = false;
   options.title = "Eigenfunctions, " + name;

@@ -30,7 +30,7 @@ std::string spectrum_table(const Json& neighborhood) {
   const Json& spectrum = at(neighborhood, "spectrum");
   if (!spectrum.is_array() || spectrum.empty()) return {};
   Table table{"Eigenvalues of the local matrix by descending modulus",
-              {"modulus", "block", "exact", "enclosure", "multiplicity", "geometric"},
+              {"modulus", "block", "exact", "enclosure", "multiplicity", "Jordan blocks"},
               {},
               "numbers"};
   constexpr std::size_t most = 24;
@@ -45,11 +45,15 @@ std::string spectrum_table(const Json& neighborhood) {
     if (const std::size_t cut = enclosure.find(" +/-"); cut != std::string::npos && cut > 26) {
       enclosure = enclosure.substr(0, 24) + "…" + enclosure.substr(cut);
     }
+    std::string block = shown(at(e, "block"));
+    if (whole(at(e, "copies"), 1) == 2) block = "±" + block;
     const int multiplicity = whole(at(e, "multiplicity"), 1), geometric = whole(at(e, "geometric"), multiplicity);
-    table.rows.push_back({modulus, shown(at(e, "block")), prose(at(e, "exact")),
+    std::string jordan;
+    for (const Json& size : at(e, "jordan")) jordan += (jordan.empty() ? "" : ", ") + shown(size);
+    if (jordan.empty()) jordan = geometric < multiplicity ? "defective" : "";
+    table.rows.push_back({modulus, block, exact_number(at(e, "exact")),
                           enclosure.empty() ? dash : "<span class=\"code\">" + escaped(enclosure) + "</span>",
-                          shown(at(e, "multiplicity")),
-                          shown(at(e, "geometric")) + (geometric < multiplicity ? " <b>(defective)</b>" : "")});
+                          shown(at(e, "multiplicity")), geometric < multiplicity ? "<b>" + jordan + "</b>" : jordan});
   }
   std::string text = html(table);
   if (spectrum.size() > most)
@@ -89,7 +93,7 @@ std::string headline(const Json& neighborhood) {
 }  // namespace
 
 std::string neighborhood_details(const Json& neighborhood, const std::string& scheme, const std::string& id,
-                                 bool pictures, bool open) {
+                                 Detail detail, bool open) {
   std::string heading = title(neighborhood);
   std::string name = heading + ", " + scheme;
   name[0] = static_cast<char>(std::tolower(name[0]));
@@ -97,16 +101,19 @@ std::string neighborhood_details(const Json& neighborhood, const std::string& sc
                      std::to_string(whole(at(neighborhood, "n"))) + "\"" + (open ? " open" : "") + "><summary>" +
                      heading + " " + headline(neighborhood) + "</summary>\n";
   text += verdicts(at(neighborhood, "verdicts"));
-  std::string maps = characteristic_map_figure(neighborhood, name);
-  if (pictures) maps += eigenfunction_figure(neighborhood, name);
-  text += figures(maps + (pictures ? shape_chart_figure(neighborhood, name) : "") +
-                  (pictures ? surface_figures(at(neighborhood, "surface"), name) : "") +
-                  normals_figure(neighborhood, name));
-  text += neighborhood_masks(neighborhood, name);
+  if (detail != Detail::numbers) {
+    const bool pictures = detail >= Detail::small_pictures;
+    std::string all = characteristic_map_figure(neighborhood, name);
+    if (pictures) all += eigenfunction_figure(neighborhood, name) + shape_chart_figure(neighborhood, name);
+    if (pictures) all += surface_figures(at(neighborhood, "surface"), name, detail == Detail::small_pictures);
+    text += figures(all + normals_figure(neighborhood, name));
+    text += neighborhood_masks(neighborhood, name);
+  }
   return text + spectrum_table(neighborhood) + "</details>\n";
 }
 
-std::string edge_neighborhoods(const Json& neighborhoods, const std::string& scheme, const std::string& id) {
+std::string edge_neighborhoods(const Json& neighborhoods, const std::string& scheme, const std::string& id,
+                               Detail detail) {
   constexpr std::array<std::pair<const char*, const char*>, 4> kinds = {
       {{"border", "Borders"}, {"crease", "Creases, one side"}, {"corner", "Corners"}, {"dart", "Darts"}}};
   std::string text;
@@ -125,7 +132,7 @@ std::string edge_neighborhoods(const Json& neighborhoods, const std::string& sch
       table.rows.push_back({"<a href=\"#" + id + "-" + kind + "-" + count + "\">" + count + "</a>",
                             shown(at(n, "lambda"), 8), shown(at(n, "mu"), 8), badge(at(plane, "verdict")),
                             prose(at(plane, "because"))});
-      each += neighborhood_details(n, scheme, id, false, false);
+      each += neighborhood_details(n, scheme, id, detail, false);
     }
     if (!table.rows.empty()) text += "<h4>" + std::string(words) + "</h4>\n" + html(table) + each;
   }

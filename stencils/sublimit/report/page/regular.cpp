@@ -84,7 +84,7 @@ std::string basis_surface(const Json& regular, const std::string& scheme) {
   options.azimuth = .5;
   options.elevation = .42;
   options.sky_directions = 24;
-  options.tone_step = 4;
+  options.tone_step = 2;
   options.ground_shadow = false;
   options.plate = false;
   options.title = "Basis function of " + scheme;

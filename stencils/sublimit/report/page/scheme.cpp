@@ -11,7 +11,7 @@ namespace sublimit::page {
 namespace {
 
 /// Of many schemes only these valences get pictures of surfaces, of one all that the report has surfaces of.
-constexpr int pictured[] = {3, 5, 8};
+constexpr int pictured[] = {3, 5, 7, 8};
 
 std::set<int> with_pictures(const std::vector<const Json*>& all, bool many_schemes) {
   std::set<int> chosen;
@@ -64,11 +64,13 @@ std::string extraordinary(const Json& neighborhoods, const std::string& name, co
       open.push_back(!opened && chosen.count(valence) > 0 && (valence == 5 || valence == *chosen.rbegin()));
       opened |= open.back();
     }
+    const Detail drawn = many_schemes ? Detail::small_pictures : Detail::pictures;
     std::vector<std::string> parts(all.size());  // in parallel: pictures take their time
     parallel_for_blocks(
         static_cast<std::int64_t>(all.size()),
         [&](std::int64_t i, std::int64_t, std::int64_t) {
-          parts[i] = neighborhood_details(*all[i], name, id, chosen.count(whole(at(*all[i], "n"))) > 0, open[i]);
+          parts[i] = neighborhood_details(
+              *all[i], name, id, chosen.count(whole(at(*all[i], "n"))) > 0 ? drawn : Detail::diagrams, open[i]);
         },
         1);
     for (const std::string& part : parts) text += part;
@@ -95,7 +97,7 @@ std::string scheme_section(const Json& scheme, const std::string& id, bool many_
   text += claims(at(scheme, "claims"));
   text += regular_part(at(scheme, "regular"), name);
   text += extraordinary(neighborhoods, name, id, many_schemes);
-  text += edge_neighborhoods(neighborhoods, name, id);
+  text += edge_neighborhoods(neighborhoods, name, id, many_schemes ? Detail::numbers : Detail::diagrams);
   return text + "</section>\n";
 }
 

@@ -22,12 +22,16 @@ std::string regular_part(const Json& regular, const std::string& scheme);
 std::string over_valences(const Json& neighborhoods, const std::string& kind, const std::string& scheme,
                           const std::string& id);
 
-/// One neighbourhood, folded; pictures of surfaces only on demand.
+/// How much of a neighbourhood is drawn: tables alone; also its map and masks; also surfaces, in small or not.
+enum class Detail { numbers, diagrams, small_pictures, pictures };
+
+/// One neighbourhood, folded.
 std::string neighborhood_details(const Json& neighborhood, const std::string& scheme, const std::string& id,
-                                 bool pictures, bool open);
+                                 Detail detail, bool open);
 
 /// Borders, creases, corners and darts: a table with their verdicts, and each folded.
-std::string edge_neighborhoods(const Json& neighborhoods, const std::string& scheme, const std::string& id);
+std::string edge_neighborhoods(const Json& neighborhoods, const std::string& scheme, const std::string& id,
+                               Detail detail);
 
 std::string mesh_section(const Json& mesh);
 std::string curve_section(const Json& curve);

@@ -7,11 +7,11 @@ const char* const style = R"(
 :root { color-scheme: light dark; --paper: #fcfbf8; --ink: #23262d; --quiet: #5d626d; --line: #dcd8ce; --plate: #f5f3ed;
   --link: #1f5b86; --good: #1d6a3c; --good-bg: #dfeee3; --bad: #a02c12; --bad-bg: #f8e2da; --mid: #7a5600; --mid-bg: #f7ebca;
   --s0: #3b6ea5; --s1: #c2571a; --s2: #2d7d5a; --s3: #8a4fa0; --s4: #8c6d1f; --s5: #a33b5c; --s6: #4d7c8a; --s7: #6b6b6b;
-  --warm: #d9793f; --cool: #4a86b8; --warm-soft: #f3d9c3; --cool-soft: #cfe0ee; --mix-soft: #e4e0d5 }
+  --warm: #bf5f26; --cool: #3a76a8; --warm-soft: #f3d9c3; --cool-soft: #cfe0ee; --mix-soft: #e4e0d5; --on: #fff }
 @media screen and (prefers-color-scheme: dark) { :root { --paper: #17191e; --ink: #e4e2dc; --quiet: #a3a7b0; --line: #3a3e47;
   --plate: #1f2229; --link: #8fc1e8; --good: #8fd6a8; --good-bg: #1d3a29; --bad: #f0a58d; --bad-bg: #482319; --mid: #e8c877; --mid-bg: #3f3416;
   --s0: #7fb0e0; --s1: #ee9a62; --s2: #6fc79c; --s3: #c697da; --s4: #d8b95f; --s5: #e88aa8; --s6: #8cc0cf; --s7: #b0b0b0;
-  --warm: #e08a52; --cool: #6aa5d6; --warm-soft: #5a3b26; --cool-soft: #26435c; --mix-soft: #3c3a35 } }
+  --warm: #e08a52; --cool: #6aa5d6; --warm-soft: #5a3b26; --cool-soft: #26435c; --mix-soft: #3c3a35; --on: #14161a } }
 * { box-sizing: border-box }
 html { -webkit-text-size-adjust: 100%; text-size-adjust: 100% }
 body { margin: 0 auto; max-width: 1180px; padding: 36px 28px 96px; background: var(--paper); color: var(--ink);
@@ -81,7 +81,7 @@ summary:focus-visible, a:focus-visible, .scroll:focus-visible { outline: 2px sol
 svg text { font: 11.5px system-ui, "DejaVu Sans", sans-serif; fill: var(--ink); font-variant-numeric: tabular-nums }
 svg text.quiet { fill: var(--quiet) }
 svg text.small { font-size: 9.5px }
-svg text.on { fill: #fff; font-weight: 600 }
+svg text.on { fill: var(--on); font-weight: 600 }
 .l0 { stroke: var(--s0) } .l1 { stroke: var(--s1) } .l2 { stroke: var(--s2) } .l3 { stroke: var(--s3) } .l4 { stroke: var(--s4) } .l5 { stroke: var(--s5) } .l6 { stroke: var(--s6) } .l7 { stroke: var(--s7) }
 .f0 { fill: var(--s0) } .f1 { fill: var(--s1) } .f2 { fill: var(--s2) } .f3 { fill: var(--s3) } .f4 { fill: var(--s4) } .f5 { fill: var(--s5) } .f6 { fill: var(--s6) } .f7 { fill: var(--s7) }
 .curve { fill: none; stroke-width: 1.8; stroke-linejoin: round; stroke-linecap: round }
@@ -90,9 +90,9 @@ svg text.on { fill: #fff; font-weight: 600 }
 .rule { fill: none; stroke: var(--ink); stroke-width: 1.2; stroke-dasharray: 5 3 }
 .mark { stroke-width: 1.4; stroke: var(--plate) }
 .open { fill: var(--plate) }
+.net { fill: none; stroke: var(--quiet); stroke-width: .7; stroke-linejoin: round }
 .plus { fill: var(--cool) } .minus { fill: var(--warm) } .zero { fill: var(--plate); stroke: var(--quiet) }
 .plus-soft { fill: var(--cool-soft) } .minus-soft { fill: var(--warm-soft) } .mix-soft { fill: var(--mix-soft) }
-.net { fill: none; stroke: var(--quiet); stroke-width: .7; stroke-linejoin: round }
 .lattice { stroke: var(--quiet); stroke-opacity: .5; stroke-width: 1; fill: none }
 .area { fill: var(--cool-soft); stroke: var(--s0); stroke-width: 1.4; stroke-linejoin: round }
 footer { margin-top: 70px; padding-top: 12px; border-top: 1px solid var(--line); color: var(--quiet); font-size: 14px }
@@ -100,7 +100,7 @@ footer { margin-top: 70px; padding-top: 12px; border-top: 1px solid var(--line);
   th, td { padding-right: 11px } details { padding: 0 10px } }
 @media print { @page { margin: 16mm 15mm } body { max-width: none; padding: 0; font-size: 10.5pt; --paper: #fff } h2 { margin-top: 0 }
   section.scheme { break-before: page } .scroll { overflow: visible } table { font-size: 8.5pt; width: 100% } tr { break-inside: avoid } thead { display: table-header-group }
-  th, td { padding-right: 8px } .text td { min-width: 0; overflow-wrap: anywhere } .numbers td, .numbers th, thead th { white-space: normal } .up { display: none } details { border: 0; padding: 0 } summary { list-style: none }
+  th, td { padding-right: 8px } .text td { min-width: 0 } td { overflow-wrap: anywhere } .numbers td, .numbers th, thead th { white-space: normal } .up { display: none } details { border: 0; padding: 0 } summary { list-style: none }
   a { color: inherit; text-decoration: none } figure > svg { background: none; border: .5pt solid var(--line) } svg, .badge { print-color-adjust: exact; -webkit-print-color-adjust: exact }
   .figures { grid-template-columns: repeat(auto-fill, minmax(72mm, 1fr)) } }
 )";

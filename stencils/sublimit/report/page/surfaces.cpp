@@ -17,15 +17,15 @@ namespace {
 
 using Eigen::Vector3d;
 
-PictureOptions small_picture(const std::string& title) {
+PictureOptions small_picture(const std::string& title, bool small = false) {
   PictureOptions options;
-  options.panel_width = 300;
-  options.panel_height = 225;
+  options.panel_width = small ? 230 : 300;
+  options.panel_height = small ? 172 : 225;
   options.up = {0, 0, 1};
   options.azimuth = .7;
   options.elevation = .62;
   options.sky_directions = 16;
-  options.tone_step = 6;
+  options.tone_step = small ? 8 : 4;
   options.ground_shadow = false;
   options.plate = false;
   options.title = title;
@@ -46,14 +46,14 @@ std::vector<double> mirrored(const PictureMesh& mesh, const Vector3d& eye) {
   return values;
 }
 
-std::string reflection_figure(const PictureMesh& mesh, const std::string& name) {
+std::string reflection_figure(const PictureMesh& mesh, const std::string& name, bool small) {
   if (mesh.vertex_normals.rows() == 0) return {};
-  PictureOptions options = small_picture("Reflection lines, " + name);
-  options.tone_step = 10;  // the stripes say it
+  PictureOptions options = small_picture("Reflection lines, " + name, small);
+  options.tone_step = small ? 16 : 10;  // the stripes say it
   const std::vector<double> values = mirrored(mesh, eye_of(options));
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
   std::vector<double> thresholds;
-  constexpr int count = 26;
+  const int count = small ? 20 : 26;
   for (int i = 1; i < count; ++i) thresholds.push_back(*low + (*high - *low) * i / count);
   std::vector<PictureMesh> parts = bands(mesh, values, thresholds);
   std::vector<PictureMesh> stripes[2];
@@ -136,18 +136,18 @@ std::string curvature_legend(const Curvature& curvature) {
 
 }  // namespace
 
-std::string surface_figures(const Json& surface, const std::string& name) {
+std::string surface_figures(const Json& surface, const std::string& name, bool small) {
   const PictureMesh mesh = mesh_of(surface);
   if (mesh.face_sizes.empty() || !mesh.positions.allFinite()) return {};
-  PictureOptions shaded = small_picture("Limit surface, " + name);
-  shaded.tone_step = 3;
+  PictureOptions shaded = small_picture("Limit surface, " + name, small);
+  shaded.tone_step = small ? 2 : 1;
   std::string all = figure(svg_picture({{{mesh}, {}, {}}}, shaded),
                            "<b>Limit surface</b> of generic control points, the extraordinary point in the middle.");
-  all += reflection_figure(mesh, name);
+  all += reflection_figure(mesh, name, small);
   const Curvature curvature = gauss_of(surface, mesh);
   if (!curvature.gauss.empty())
     all +=
-        figure(svg_picture({{colored(mesh, curvature), {}, {}}}, small_picture("Gauss curvature, " + name)),
+        figure(svg_picture({{colored(mesh, curvature), {}, {}}}, small_picture("Gauss curvature, " + name, small)),
                curvature_legend(curvature) +
                    "<b>Gauss curvature.</b> Blue: saddles; red: bowls. Colours end where eight percent of the points "
                    "lie beyond.");
@@ -182,14 +182,35 @@ std::string asset_figure(const Json& asset) {
   const picture::Frame frame = picture::frame_of({panel}, options);
   picture::Camera camera(options);
   fit(camera, {panel}, frame, options);
-  std::string numbers = "<g transform=\"translate(14 14)\">";
+  struct Place {
+    double x, y;
+    std::string words;
+    int count;
+  };
+  std::vector<Place> labels;  // one for several places that lie together
   for (std::size_t i = 0; i < count; ++i) {
     const Vector3d p = places.positions.row(static_cast<Eigen::Index>(i)).transpose();
     const picture::Projected at = camera.project(camera.seen(frame.local(p)));
-    numbers += "<circle cx=\"" + svg::pixels(at.x) + "\" cy=\"" + svg::pixels(at.y) +
-               "\" r=\"9\" fill=\"#fff\" stroke=\"#22262f\" stroke-width=\"1.6\"/><text x=\"" + svg::pixels(at.x) +
-               "\" y=\"" + svg::pixels(at.y + 4) + "\" style=\"fill:#22262f;font-weight:700\">" +
-               std::to_string(i + 1) + "</text>";
+    const auto near = std::find_if(labels.begin(), labels.end(), [&](const Place& l) {
+      return std::abs(l.x - at.x) < 64 && std::abs(l.y - at.y) < 21;
+    });
+    const std::string word = std::to_string(i + 1);
+    if (near == labels.end()) {
+      labels.push_back({at.x, at.y, word, 1});
+    } else if (++near->count <= 3) {
+      near->words += ", " + word;
+    } else if (near->count == 4) {
+      near->words += " …";
+    }
+  }
+  std::string numbers = "<g transform=\"translate(14 14)\">";
+  for (const Place& l : labels) {
+    const double half = std::max(10., 5 + 3.7 * static_cast<double>(l.words.size()));
+    numbers += "<rect x=\"" + svg::pixels(l.x - half) + "\" y=\"" + svg::pixels(l.y - 10) + "\" width=\"" +
+               svg::pixels(2 * half) +
+               "\" height=\"20\" rx=\"10\" fill=\"#fff\" stroke=\"#22262f\" stroke-width=\"1.6\"/><text x=\"" +
+               svg::pixels(l.x) + "\" y=\"" + svg::pixels(l.y + 4.5) + "\" style=\"fill:#22262f;font-weight:700\">" +
+               l.words + "</text>";
   }
   svg.insert(svg.rfind("</svg>"), numbers + "</g>\n");
   return figure(

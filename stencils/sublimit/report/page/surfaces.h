@@ -8,7 +8,8 @@
 namespace sublimit::page {
 
 /// Figures of {"positions", "faces", "normals", "curvature"}: shaded, with reflection lines, with Gauss curvature.
-std::string surface_figures(const Json& surface, const std::string& name);
+/// Small ones are coarser, not smaller on the page.
+std::string surface_figures(const Json& surface, const std::string& name, bool small);
 
 /// One broad figure of an asset: curvature colours and its worst places, numbered; with legend.
 std::string asset_figure(const Json& mesh);

@@ -123,6 +123,15 @@ std::string prose(const Json& value) {
                                                                            : std::string(dash);
 }
 
+std::string exact_number(const Json& value) {
+  if (!value.is_string()) return literal(value);
+  std::string text = prose(value);
+  replace(text, "*", "·");
+  replace(text, "sqrt(", "√(");
+  replace(text, "-", "−");
+  return text;
+}
+
 std::string plain(std::string_view text) { return typeset(text, superscript); }
 
 std::string literal(const Json& value) {

@@ -31,6 +31,9 @@ inline std::string prose(const std::string& text) { return prose(std::string_vie
 /// The same for where there is no markup, the text of drawings: C².
 std::string plain(std::string_view text);
 
+/// An exact number as reports write it, "(11+sqrt(5))/24", "1/2*cos(2pi/5)", in signs; a dash if there is none.
+std::string exact_number(const Json& value);
+
 /// Text as it stands, escaped; a dash if there is none.
 std::string literal(const Json& value);
 
