@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sublimit/analysis/regularity/ball_matrix.h"
 
+#include <Eigen/LU>
+
 #include <cmath>
 
 namespace sublimit {
@@ -53,6 +55,26 @@ BallMatrix scaled(const BallMatrix& a, double power_of_two) {
   c.middle = power_of_two * a.middle;
   c.radius = (power_of_two * a.radius).array() + tiny;
   return c;
+}
+
+BallMatrix transposed(const BallMatrix& a) {
+  BallMatrix b;
+  b.middle = a.middle.transpose();
+  b.radius = a.radius.transpose();
+  return b;
+}
+
+std::optional<BallMatrix> similar_matrix(const BallMatrix& A, const Eigen::MatrixXd& G) {
+  const Eigen::Index n = G.rows();
+  const Eigen::MatrixXd one = Eigen::MatrixXd::Identity(n, n), near = G.inverse();
+  if (!near.allFinite()) return std::nullopt;
+  BallMatrix inverse(near);
+  // G^-1 = (1 + E)^-1 Y with Y G = 1 + E, and (1 + E)^-1 - 1 has row sums below |E|/(1 - |E|).
+  const double error = maximum_norm(inverse * BallMatrix(G) - BallMatrix(one)).high;
+  if (!(error < 0.5)) return std::nullopt;
+  for (Eigen::Index j = 0; j < n; ++j)
+    inverse.radius.col(j).setConstant((Interval(2 * error) * Interval(near.col(j).cwiseAbs().maxCoeff())).high);
+  return inverse * A * BallMatrix(G);
 }
 
 Interval maximum_norm(const BallMatrix& a) {

@@ -4,6 +4,8 @@
 // doubles, with rounding accounted for a priori (Rump 1999, "Fast and parallel interval arithmetic", BIT 39).
 #include <Eigen/Core>
 
+#include <optional>
+
 #include "sublimit/analysis/regularity/interval.h"
 #include "sublimit/analysis/regularity/rational.h"
 
@@ -27,6 +29,11 @@ BallMatrix operator*(const BallMatrix& a, const BallMatrix& b);
 BallMatrix operator-(const BallMatrix& a, const BallMatrix& b);
 /// Exactly: the factor is a power of two and nothing underflows that matters.
 BallMatrix scaled(const BallMatrix& a, double power_of_two);
+
+BallMatrix transposed(const BallMatrix& a);
+
+/// Encloses G^-1 A G; nothing where G is not certainly regular.
+std::optional<BallMatrix> similar_matrix(const BallMatrix& A, const Eigen::MatrixXd& G);
 
 /// Certain bounds of the maximum norm (largest row sum of moduli) of all members.
 Interval maximum_norm(const BallMatrix& a);

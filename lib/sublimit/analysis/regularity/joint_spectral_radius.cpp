@@ -2,7 +2,9 @@
 #include "sublimit/analysis/regularity/joint_spectral_radius.h"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -12,6 +14,7 @@ namespace sublimit {
 namespace {
 
 using Matrices = std::vector<BallMatrix>;
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
 struct Product {
   std::vector<int> factors;
@@ -60,42 +63,83 @@ std::vector<Product> leading_products(const Matrices& matrices, const JointSpect
   return best;
 }
 
-/// A polytope around the rows of leading left eigenvectors that all matrices, divided by `rate`, map into itself;
-/// nothing if it gets too large.
-std::optional<Eigen::MatrixXd> invariant_polytope(const Matrices& matrices, const std::vector<Product>& leading,
-                                                  double rate, const JointSpectralRadiusOptions& options) {
+/// Coordinates of row vectors, u G, in which all matrices are small together: Q = G G^T solves Q = 1 + sum A Q
+/// A^T/rate^2, for a rate just large enough, and then u A is no longer than rate * u in the norm u Q u^T.
+Eigen::MatrixXd balanced_coordinates(const Matrices& matrices) {
   const Eigen::Index n = matrices[0].rows();
-  Eigen::MatrixXd points = 0x1p-6 * Eigen::MatrixXd::Identity(n, n);
-  std::vector<Eigen::RowVectorXd> waiting;
-  for (Eigen::Index i = 0; i < n; ++i) waiting.push_back(points.row(i));
+  const auto image = [&](const Eigen::MatrixXd& Q) {
+    Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(n, n);
+    for (const BallMatrix& A : matrices) sum += A.middle * Q * A.middle.transpose();
+    return sum;
+  };
+  Eigen::MatrixXd Q = Eigen::MatrixXd::Identity(n, n);
+  double growth = 0;
+  for (int k = 0; k < 200; ++k) {
+    const Eigen::MatrixXd next = image(Q);
+    growth = next.norm() / Q.norm();
+    if (!(growth > 0)) return Eigen::MatrixXd::Identity(n, n);
+    Q = next / next.norm();
+  }
+  Q.setIdentity();
+  Eigen::MatrixXd term = Q;
+  for (int k = 0; k < 200; ++k) {
+    term = image(term) / (1.2 * growth);
+    Q += term;
+  }
+  Q /= Q.diagonal().maxCoeff();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(Q);
+  return solver.eigenvectors() * solver.eigenvalues().cwiseMax(1e-14).cwiseSqrt().asDiagonal();
+}
+
+/// A polytope that all matrices, divided by `rate`, map into itself, up to rounding; it contains
+/// leading left eigenvectors and a small multiple of all unit vectors. Nothing if it gets too large.
+std::optional<Eigen::MatrixXd> invariant_polytope(const Matrices& matrices,
+                                                  const std::vector<Eigen::RowVectorXd>& leading, double rate,
+                                                  const JointSpectralRadiusOptions& options) {
+  const Eigen::Index n = matrices[0].rows();
+  Eigen::MatrixXd points = 0.25 * Eigen::MatrixXd::Identity(n, n);
   const auto is_inside = [&](const Eigen::RowVectorXd& x) {
     return least_combination(points, x).lpNorm<1>() <= 1 + 1e-9;
   };
   const auto add = [&](const Eigen::RowVectorXd& x) {
     points.conservativeResize(points.rows() + 1, Eigen::NoChange);
     points.bottomRows(1) = x;
-    waiting.push_back(x);
   };
-  for (const Product& p : leading) {
-    const Eigen::EigenSolver<Eigen::MatrixXd> solver(p.value.transpose());
-    Eigen::Index at = 0;
-    solver.eigenvalues().cwiseAbs().maxCoeff(&at);
-    const Eigen::VectorXcd v = solver.eigenvectors().col(at) / solver.eigenvectors().col(at).cwiseAbs().maxCoeff();
-    for (const Eigen::RowVectorXd& part : {Eigen::RowVectorXd(v.real()), Eigen::RowVectorXd(v.imag())})
-      if (part.norm() > 1e-9 && !is_inside(part)) add(part);
-  }
-  for (size_t next = 0; next < waiting.size(); ++next)
+  for (const Eigen::RowVectorXd& x : leading)
+    if (!is_inside(x)) add(x);
+  // Leading ones first: what they grow into makes the polytope, and most of what small vectors become is inside then.
+  std::vector<Eigen::Index> waiting;
+  for (Eigen::Index i = 0; i < points.rows(); ++i) waiting.push_back((i + n) % points.rows());
+  for (size_t next = 0; next < waiting.size(); ++next) {
+    const Eigen::RowVectorXd from = points.row(waiting[next]);
     for (const BallMatrix& A : matrices) {
-      const Eigen::RowVectorXd x = waiting[next] * A.middle / rate;
+      const Eigen::RowVectorXd x = from * A.middle / rate;
       if (is_inside(x)) continue;
       if (points.rows() >= options.most_vertices) return std::nullopt;
+      waiting.push_back(points.rows());
       add(x);
     }
+  }
   return points;
 }
 
-/// Of a product of enclosures.
-double certain_radius(const Matrices& matrices, const std::vector<int>& factors) {
+double above_root(double x) { return std::nextafter(std::sqrt(x), infinity); }
+
+}  // namespace
+
+Matrices balanced(const Matrices& matrices) {
+  if (matrices[0].rows() == 1) return matrices;
+  const Eigen::MatrixXd G = balanced_coordinates(matrices);
+  Matrices turned;
+  for (const BallMatrix& A : matrices) {
+    const std::optional<BallMatrix> similar = similar_matrix(A, G);
+    if (!similar) return matrices;
+    turned.push_back(*similar);
+  }
+  return turned;
+}
+
+double product_radius(const Matrices& matrices, const std::vector<int>& factors) {
   BallMatrix product = matrices[factors.back()];
   for (size_t i = factors.size() - 1; i-- > 0;) product = matrices[factors[i]] * product;
   const double low = spectral_radius(product).low;
@@ -110,54 +154,67 @@ double certain_radius(const Matrices& matrices, const std::vector<int>& factors)
   return 0;
 }
 
-}  // namespace
-
 double norm_bound(const Matrices& matrices, const Eigen::MatrixXd& polytope) {
   const Eigen::Index n = polytope.cols(), count = polytope.rows();
   const double unit = polytope(0, 0);
   int exponent = 0;
   if (polytope.topRows(n) != unit * Eigen::MatrixXd::Identity(n, n) || std::frexp(unit, &exponent) != 0.5)
-    return INFINITY;
+    return infinity;
+  const BallMatrix exact(polytope);
   double bound = 0;
   for (const BallMatrix& A : matrices) {
     // polytope A = C polytope + R: |A x| <= (|C| + |R|/unit) |x|, since |x|_max <= |x|/unit.
     const Eigen::MatrixXd image = polytope * A.middle;
     Eigen::MatrixXd C(count, count);
     for (Eigen::Index i = 0; i < count; ++i) C.row(i) = least_combination(polytope, image.row(i));
-    const BallMatrix exact(polytope);
     const BallMatrix rest = exact * A - BallMatrix(C) * exact;
     for (Eigen::Index i = 0; i < count; ++i) {
       Interval sum = 0, part = 0;
       for (Eigen::Index j = 0; j < count; ++j) sum += std::abs(C(i, j));
       for (Eigen::Index j = 0; j < n; ++j) part += Interval(std::abs(rest.middle(i, j))) + Interval(rest.radius(i, j));
-      bound = std::max(bound, (sum + part * Interval(1 / unit)).high);
+      const double row = (sum + part * Interval(1 / unit)).high;
+      if (!(row <= bound)) bound = row;  // NaN too
     }
   }
-  return bound;
+  return std::isnan(bound) ? infinity : bound;
 }
 
-JointSpectralRadius joint_spectral_radius(const Matrices& matrices, const JointSpectralRadiusOptions& options) {
+JointSpectralRadius joint_spectral_radius(const Matrices& given, const JointSpectralRadiusOptions& options) {
   JointSpectralRadius result;
   result.high = 0;
-  for (const BallMatrix& A : matrices) result.high = std::max(result.high, maximum_norm(A).high);
-  const std::vector<Product> leading = leading_products(matrices, options);
-  result.product = leading.front().factors;
-  result.low = certain_radius(matrices, result.product);
+  for (const BallMatrix& A : given) result.high = std::max(result.high, maximum_norm(A).high);
+  const Matrices matrices = balanced(given);
+  // In balanced coordinates Euclidean norms are small: |A|^2 is the spectral radius of A^T A.
+  double euclidean = 0;
+  for (const BallMatrix& A : matrices) euclidean = std::max(euclidean, spectral_radius(transposed(A) * A).high);
+  euclidean = above_root(euclidean);
+  result.high = std::min(result.high, euclidean);
+  const std::vector<Product> products = leading_products(matrices, options);
+  result.product = products.front().factors;
+  result.low = product_radius(matrices, result.product);
   if (matrices[0].rows() == 1 || result.high == 0) return result;
   double candidate = result.low;
-  for (const Product& p : leading) candidate = std::max(candidate, rooted(radius(p.value), p.factors.size()));
+  for (const Product& p : products) candidate = std::max(candidate, rooted(radius(p.value), p.factors.size()));
   if (candidate <= 0) return result;
-  for (double slack = options.slack; slack < 3; slack *= 10) {
+  std::vector<Eigen::RowVectorXd> leading;
+  for (const Product& p : products) {
+    const Eigen::EigenSolver<Eigen::MatrixXd> solver(p.value.transpose());
+    Eigen::Index at = 0;
+    solver.eigenvalues().cwiseAbs().maxCoeff(&at);
+    const Eigen::VectorXcd v = solver.eigenvectors().col(at) / solver.eigenvectors().col(at).cwiseAbs().maxCoeff();
+    for (const Eigen::RowVectorXd& part : {Eigen::RowVectorXd(v.real()), Eigen::RowVectorXd(v.imag())})
+      if (part.norm() > 1e-9) leading.push_back(part);
+  }
+  for (const double slack : {1.0, 0.3, 0.1, 0.03, 0.01, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7}) {
     const double rate = candidate * (1 + slack);
-    if (rate >= result.high) break;
+    if (rate >= result.high) continue;
+    if (slack < options.least_slack) break;
     const std::optional<Eigen::MatrixXd> polytope = invariant_polytope(matrices, leading, rate, options);
-    if (!polytope) continue;
+    if (!polytope) break;  // the closer the rate, the more vertices
     const double bound = norm_bound(matrices, *polytope);
-    if (bound < result.high) {
-      result.high = bound;
-      result.polytope = *polytope;
-      break;
-    }
+    if (bound >= result.high) break;
+    result.high = bound;
+    result.vertices = static_cast<int>(polytope->rows());
   }
   return result;
 }

@@ -14,22 +14,29 @@ namespace sublimit {
 struct JointSpectralRadius {
   double low = 0, high = 0;       ///< certain
   std::vector<int> product = {};  ///< the indices of factors whose product gives `low`, last factor first
-  Eigen::MatrixXd polytope = {};  ///< rows: functionals; the norm max |row x| gives `high`; empty: plain norms did
+  int vertices = 0;               ///< pairs of them, of the polytope whose norm gives `high`; 0: the maximum norm does
 };
 
 struct JointSpectralRadiusOptions {
   int longest = 8;  ///< products tried from below
   int most_products = 40000;
-  int most_vertices = 400;  ///< of the polytope
-  double slack = 1e-7;      ///< relative, of the first polytope tried; more where it grows too large
+  int most_vertices = 400;    ///< of the polytope
+  double least_slack = 1e-7;  ///< relative: polytopes are tried for rates ever closer to the spectral radius
 };
 
 /// @param matrices  square, of one size, at least one
 JointSpectralRadius joint_spectral_radius(const std::vector<BallMatrix>& matrices,
                                           const JointSpectralRadiusOptions& options = {});
 
-/// Certain bound from above that a norm max |row x| gives: of a polytope whose first rows are a power of two times
-/// the identity.
+/// The matrices in other coordinates, in which they are small together: joint spectral radii do not change, enclosures
+/// get better.
+std::vector<BallMatrix> balanced(const std::vector<BallMatrix>& matrices);
+
+/// Certain bound from below that a product gives: its spectral radius to the power of 1/length. Last factor first.
+double product_radius(const std::vector<BallMatrix>& matrices, const std::vector<int>& factors);
+
+/// Certain bound from above that a norm max |row x| gives: of a polytope whose first rows are a power of two times the
+/// identity.
 double norm_bound(const std::vector<BallMatrix>& matrices, const Eigen::MatrixXd& polytope);
 
 }  // namespace sublimit

@@ -72,7 +72,7 @@ std::optional<Verdict> disproved(const Smoothness& s, const DifferenceTransition
       .property = "regular-smoothness", .says = "C^" + std::to_string(k), .answer = Verdict::Answer::disproved};
   verdict.hypotheses.push_back({t.necessary_because, t.necessary, Hypothesis::By::exact});
   if (!t.necessary) return std::nullopt;
-  if (sum_rules <= k) {
+  if (sum_rules <= k && t.stable) {
     verdict.theorem =
         "Cavaretta, Dahmen, Micchelli 1991, Stationary subdivision, theorem 8.4: where the limit is C^k, polynomials "
         "of degree k are generated";
@@ -85,8 +85,10 @@ std::optional<Verdict> disproved(const Smoothness& s, const DifferenceTransition
       "where the limit is C^k, divided differences of order k converge, and products of the matrices of higher "
       "differences, times "
       "dilation^k a step, tend to zero (Daubechies, Lagarias 1992, Two-scale difference equations II)";
-  const Interval bound = inverse_power(t.dilation, k);
-  if (s.radius.low >= bound.high) {
+  // Differences of order m of functions smoother than that shrink like dilation^-m, no faster.
+  const bool beyond = k >= t.order;
+  const Interval bound = inverse_power(t.dilation, std::min(k, t.order));
+  if (beyond ? s.radius.low > bound.high : s.radius.low >= bound.high) {
     verdict.hypotheses.push_back(
         {"the spectral radius of every product of the matrices is below " + power(t.dilation, k) + " a step", false,
          Hypothesis::By::enclosure,
@@ -96,10 +98,15 @@ std::optional<Verdict> disproved(const Smoothness& s, const DifferenceTransition
                       std::to_string(k);
     return verdict;
   }
+  if (beyond) return std::nullopt;
   Rational factor = 1;
   for (int i = 0; i < k; ++i) factor *= t.dilation;
   for (size_t i = 0; i < t.matrices.size(); ++i) {
-    if (!has_unit_eigenvalue(t.matrices[i], factor)) continue;
+    try {
+      if (!has_unit_eigenvalue(t.matrices[i], factor)) continue;
+    } catch (const AnalysisError&) {  // numbers too long: not decided
+      continue;
+    }
     verdict.hypotheses.push_back(
         {"the spectral radius of every product of the matrices is below " + power(t.dilation, k) + " a step", false,
          Hypothesis::By::exact, "matrix " + std::to_string(i) + " has the eigenvalue +-" + power(t.dilation, k)});
@@ -147,18 +154,24 @@ Interval exponent_of(const Interval& radius, int dilation) {
 }
 
 Smoothness smoothness(const DifferenceTransitions& transitions, const std::vector<DifferenceNorm>& norms, int sum_rules,
-                      const JointSpectralRadiusOptions& options) {
+                      const JointSpectralRadiusOptions& options, const DifferenceTransitions* of_limits) {
   Smoothness s;
   s.norms = norms;
   s.order = transitions.order;
   std::vector<BallMatrix> matrices;
   for (const RationalMatrix& A : transitions.matrices) matrices.emplace_back(A);
   s.radius = joint_spectral_radius(matrices, options);
+  const DifferenceTransitions& necessary = of_limits ? *of_limits : transitions;
+  if (of_limits) {
+    std::vector<BallMatrix> limits;
+    for (const RationalMatrix& A : of_limits->matrices) limits.emplace_back(A);
+    s.radius.low = product_radius(balanced(limits), s.radius.product);
+  }
   const Interval exponent = exponent_of({s.radius.low, s.radius.high}, transitions.dilation);
   // Differences of this order see no exponent above it.
   s.exponent_low = std::min(exponent.low, static_cast<double>(transitions.order));
-  s.exponent_high = std::min(exponent.high, static_cast<double>(sum_rules));
-  s.has_upper_bound = transitions.necessary;
+  s.exponent_high = necessary.stable ? std::min(exponent.high, static_cast<double>(sum_rules)) : exponent.high;
+  s.has_upper_bound = necessary.necessary;
   const auto is_proved = [&](int k) {
     if (k >= sum_rules) return false;
     const bool by_norm = std::any_of(norms.begin(), norms.end(),
@@ -168,10 +181,12 @@ Smoothness smoothness(const DifferenceTransitions& transitions, const std::vecto
   while (is_proved(s.continuity + 1)) ++s.continuity;
   s.possible = s.continuity;
   std::optional<Verdict> no;
-  for (int k = s.continuity + 1; k <= sum_rules && !no; ++k) {
-    no = disproved(s, transitions, k, sum_rules);
+  for (int k = s.continuity + 1; k <= std::max(sum_rules, necessary.order) && !no; ++k) {
+    no = disproved(s, necessary, k, sum_rules);
     if (!no) s.possible = k;
   }
+  if (no && no->hypotheses.back().by == Hypothesis::By::exact)  // an eigenvalue of modulus dilation^-k, exactly
+    s.exponent_high = std::min(s.exponent_high, static_cast<double>(s.possible + 1));
   if (s.continuity < 0) s.exponent_low = std::min(s.exponent_low, 0.0);
   if (s.continuity >= 0) {
     Verdict convergence = proved(s, transitions, 0, sum_rules);

@@ -21,6 +21,7 @@ struct DifferenceTransitions {
   std::vector<RationalMatrix> matrices = {};
   /// What differences of points do, differences of the limit do: conditions are necessary.
   bool necessary = false;
+  bool stable = true;                  ///< and where the limit is C^k, polynomials of degree k are generated
   std::string necessary_because = {};  ///< in words, as a hypothesis: "integer shifts are linearly independent"
 };
 
@@ -47,8 +48,10 @@ struct Smoothness {
 /// Bounds of the exponent, and C^k proved and disproved.
 /// @param norms      those of curves, or none
 /// @param sum_rules  polynomials of degree below this are generated; their differences vanish
+/// @param of_limits  the same for differences of the limit at the points' places: necessary conditions come from these,
+/// if given
 Smoothness smoothness(const DifferenceTransitions& transitions, const std::vector<DifferenceNorm>& norms, int sum_rules,
-                      const JointSpectralRadiusOptions& options = {});
+                      const JointSpectralRadiusOptions& options = {}, const DifferenceTransitions* of_limits = nullptr);
 
 /// Bounds of the exponent -log(rho)/log(dilation), rounded outwards.
 Interval exponent_of(const Interval& radius, int dilation);
