@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "sublimit/report/asset/asset_json.h"
+#include "sublimit/report/asset/surface_places.h"
 #include "sublimit/schemes.h"
 #include "support/expect_error.h"
 #include "support/meshes.h"
@@ -200,6 +201,8 @@ TEST(AssetReport, KnowsExtraordinaryFacesAndTriangles) {
   EXPECT_EQ(find_kind(dual, "extraordinary vertex", 3)->verdict->curvature, CurvatureVerdict::bounded);
   EXPECT_NEAR(dual.curvature.total_gauss.value(), 4 * pi, 0.05);
   EXPECT_EQ(dual.curvature.unbounded_at, 2);
+  ASSERT_FALSE(dual.surface.curvature.empty());
+  for (const auto& c : dual.surface.curvature) ASSERT_TRUE(c) << "beside seams and extraordinary points there is one";
   // Pentagons of a primal scheme, on both halves of whose edges squares end.
   const AssetReport primal = report("catmull-clark", jittered(prism(5)));
   EXPECT_LT(primal.seams.inside.g0.value(), same_place);
@@ -220,6 +223,33 @@ TEST(AssetReport, DoesNotDependOnTheUnit) {
   EXPECT_NEAR(large.curvature.gauss->max * 1e6, small.curvature.gauss->max, 1e-9);
   EXPECT_NEAR(large.curvature.mean->min * 1e3, small.curvature.mean->min, 1e-9);
   EXPECT_LT(large.seams.inside.g2.value(), same_curvature);
+  // Curvature that jumps does so by the same part.
+  ControlMesh wavy = jittered(torus(5, 4), 0.2);
+  const double jump = report("doo-sabin", wavy).seams.inside.g2.value();
+  wavy.positions *= 1000;
+  EXPECT_NEAR(report("doo-sabin", wavy).seams.inside.g2.value(), jump, 1e-9);
+  EXPECT_LE(jump, 2) << "a part of the larger one";
+}
+
+TEST(AssetReport, ComparesCurvatureInEveryDirection) {
+  // z = (a x^2 + b y^2)/2 at its vertex, turned anyhow: the tensor's norm is that of (a, b).
+  for (const double angle : {0., .4, 1.1, 2.5}) {
+    const Eigen::Matrix3d turn = Eigen::AngleAxisd(angle, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
+    LimitSamples s;
+    const auto row = [&](double x, double y, double z) {
+      return Points((turn * Eigen::Vector3d(x, y, z)).transpose());
+    };
+    s.du = row(1, 0, 0);
+    s.dv = row(1, 1, 0);  // parameters need not be square
+    s.duu = row(0, 0, 3);
+    s.duv = row(0, 0, 3);
+    s.dvv = row(0, 0, 3 - 4);
+    s.order = {2};
+    const std::optional<asset::Bending> b = asset::bending(s, 0);
+    ASSERT_TRUE(b);
+    EXPECT_NEAR(b->norm(), 5, 1e-13);
+    EXPECT_NEAR((*b)[0] + (*b)[1] + (*b)[2], 3 - 4, 1e-13) << "the trace is twice the mean curvature";
+  }
 }
 
 TEST(AssetReport, WarnsOfWhatAModellerCanChange) {

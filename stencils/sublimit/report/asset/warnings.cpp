@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sublimit/report/asset/warnings.h"
 
-#include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "sublimit/base/format_number.h"
@@ -151,8 +151,6 @@ std::vector<AssetWarning> warnings(const Scheme<double>& scheme, const Level& le
         .first->second.add_face(f, Eigen::Vector3d(points.row(t.vertices(Face{f})[0])), options.listed);
   }
   for (const auto& [n, group] : polygons) group.put_into(result);
-  std::stable_sort(result.begin(), result.end(),
-                   [](const AssetWarning& a, const AssetWarning& b) { return a.severity < b.severity; });
   return result;
 }
 

@@ -5,7 +5,6 @@
 
 namespace sublimit::asset {
 
-/// By severity, the most serious first.
 /// @param points  control points
 std::vector<AssetWarning> warnings(const Scheme<double>& scheme, const Level& level, const Points& points,
                                    const Inventory& inventory, PointVerdicts& verdicts, const AssetOptions& options);
