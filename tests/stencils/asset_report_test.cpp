@@ -31,6 +31,9 @@ AssetReport report(const std::string& scheme, const ControlMesh& mesh, AssetOpti
   return asset_report(find_scheme(scheme).value(), mesh, {}, options);
 }
 
+/// Where what is not asked of statistics and pictures would take the time.
+const AssetOptions few = {.curvature_samples = 500, .surface_faces = 20};
+
 const AssetKind* find_kind(const AssetReport& r, const std::string& kind, Index n) {
   for (const AssetKind& k : r.inventory)
     if (k.kind == kind && k.n == n) return &k;
@@ -185,12 +188,25 @@ TEST(AssetReport, KnowsWhatEachSchemeDoesAtSeams) {
   for (const Scheme<double>& scheme : all_schemes()) {
     if (scheme.name == "bilinear") continue;
     SCOPED_TRACE(scheme.name);
-    const AssetReport r = report(scheme.name, scheme.face_size() == 3 ? jittered(octahedron()) : jittered(cube()));
+    const AssetReport r = report(scheme.name, scheme.face_size() == 3 ? jittered(octahedron()) : jittered(cube()), few);
     EXPECT_LT(r.seams.inside.g0.value(), 1e-11);  // places at thirds are rounded ones
     EXPECT_LT(r.seams.inside.g1_degrees.value_or(0), 1e-6);
     EXPECT_GT(r.seams.inside.compared, 0);
     EXPECT_GT(r.curvature.area, 0);
   }
+}
+
+TEST(AssetReport, FindsNoFaultWithPlainSheets) {
+  for (const Scheme<double>& scheme : all_schemes()) {
+    SCOPED_TRACE(scheme.name);
+    const AssetReport r = report(scheme.name, scheme.face_size() == 3 ? triangle_grid(3, 3) : grid(3, 3), few);
+    EXPECT_LT(r.seams.inside.g0.value(), 1e-11);
+    for (const AssetWarning& w : r.warnings)
+      if (scheme.name != "bilinear") ADD_FAILURE() << w.says;
+    EXPECT_EQ(r.seams.border_edges, 12);
+  }
+  // A vertex among two faces, which mid-edge glues.
+  EXPECT_LT(report("mid-edge", jittered(disjoint_union(fan(2, 4, 2), cube())), few).seams.inside.g0.value(), 1e-11);
 }
 
 TEST(AssetReport, KnowsExtraordinaryFacesAndTriangles) {

@@ -29,7 +29,7 @@ struct SeamTolerance {
 void read_tolerance(const std::string& text, SeamTolerance& tolerance);
 
 struct AssetOptions {
-  SeamTolerance tolerance;
+  SeamTolerance tolerance = {};
   std::int64_t curvature_samples = 400'000;  ///< at most about so many, but one a face
   Index surface_faces = 20'000;              ///< of the surface for pictures, at most, but one a face
   int levels = 4;                            ///< that whoever shows the mesh refines: sharper creases than that stay
@@ -125,7 +125,7 @@ struct AssetReport {
   std::string scheme;
   Index vertices = 0, faces = 0, edges = 0;
   Eigen::Vector3d box_min = Eigen::Vector3d::Zero(), box_max = Eigen::Vector3d::Zero();  ///< of the control points
-  SeamTolerance tolerance;
+  SeamTolerance tolerance = {};
   std::vector<AssetKind> inventory;
   AssetSeams seams;
   AssetCurvature curvature;

@@ -65,7 +65,8 @@ VertexKind vertex_kind(const Scheme<double>& scheme, const Level& level, Vertex 
     kind.sides.insert(kind.sides.end(), sides.begin(), sides.end());
   }
   std::sort(kind.sides.rbegin(), kind.sides.rend());
-  const bool pinned = is_infinite(level.sharpness.vertex[index(v)]);
+  // Dual schemes round corners.
+  const bool pinned = !scheme.is_dual() && is_infinite(level.sharpness.vertex[index(v)]);
   kind.what = in_hole                             ? What::in_hole
               : t.is_nonmanifold(v)               ? What::non_manifold
               : pinned || cuts > 2                ? What::corner

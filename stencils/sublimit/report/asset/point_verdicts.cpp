@@ -102,6 +102,10 @@ const PointVerdict& PointVerdicts::of(const LocalType& type) {
     const LoneLimit* limit = lasting ? cache_.lone(*lasting) : nullptr;
     if (!limit) return verdict;
     verdict.plane = plane_of(limit->masks);
+    // The masks know of no plane at any border of mid-edge, regular ones included, while normals next to it agree in
+    // all directions: not decided.
+    if (type.open && cache_.scheme().steps[0].split == Split::mid_edge && verdict.plane == PlaneVerdict::no)
+      verdict.plane = PlaneVerdict::unknown;
     if (verdict.plane != PlaneVerdict::yes) return verdict;
     const LimitMasks::Side& side = limit->masks.sides[0];
     find_curvature(cache_.scheme(), *lasting, std::min(side.lambda1, side.lambda2),

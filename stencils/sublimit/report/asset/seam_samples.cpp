@@ -15,7 +15,11 @@ double end_of_square(bool dual) { return dual ? 1 - beside : 1; }
 
 SeamPlaces::SeamPlaces(const Scheme<double>& scheme, const LimitSurface& surface, const Inventory& inventory,
                        bool polynomial)
-    : surface_(surface), inventory_(inventory), polynomial_(polynomial), dual_(scheme.is_dual()) {
+    : surface_(surface),
+      inventory_(inventory),
+      polynomial_(polynomial),
+      dual_(scheme.is_dual()),
+      mid_edge_(scheme.steps[0].split == Split::mid_edge) {
   const Topology& t = surface.level().topology();
   for (Index e = 0; e < t.num_edges(); ++e) {
     const HalfEdge h = t.half_edge(Edge{e});
@@ -59,6 +63,10 @@ void SeamPlaces::add_edge(Edge e, SeamSamples& out) const {
   const std::vector<HalfEdge> halves = t.half_edges(e);
   if (halves.size() < 2 || t.tail(e) == t.head(e)) return;
   if (dual_ && t.is_nonmanifold(e)) return;  // a border on each of its sides
+  // Two faces around a vertex are glued by mid-edge, each with parameters of its own: the same curve, at other places.
+  if (mid_edge_)
+    for (const Vertex v : {t.tail(e), t.head(e)})
+      if (inventory_.vertices[index(v)].n == 2 && !inventory_.vertices[index(v)].at_border) return;
   const bool crease = is_crease(e);
   out.groups.push_back(
       {{crease ? Seam::What::crease : Seam::What::inside, halves[0]}, std::int64_t(out.samples.size()), -1});
@@ -77,10 +85,12 @@ void SeamPlaces::add_patches(Face f, SeamSamples& out) const {
   out.groups.push_back({{Seam::What::patch, t.first(f)}, std::int64_t(out.samples.size()), -1});
   const bool triangle = addresses.triangles();
   bool plain = !is_cut(addresses, t, f);
+  bool border = false;  // parameters have roots there: two places side by side may be apart
   for (const Index v : t.vertices(f)) {
     const VertexKind& kind = inventory_.vertices[v];
     if (kind.n > most_faces) return;  // each sample there costs as much as a small mesh
     plain = plain && kind.what == VertexKind::What::regular;
+    border = border || (kind.at_border && dual_);
   }
   const auto pair = [&](HalfEdge h, double a, double b, double da, double db) {
     for (const double side : {-1., 1.})
@@ -97,6 +107,7 @@ void SeamPlaces::add_patches(Face f, SeamSamples& out) const {
     } else if (dual_) {
       for (const double s : {5. / 64, 11. / 32}) pair(h, .5, s, 1, 0);
     }
+    if (border) continue;
     if (plain) {  // one polynomial, or two of a box spline
       if (dual_) pair(h, .3125, .3125, 1, -1);
       continue;

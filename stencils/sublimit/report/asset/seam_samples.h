@@ -43,7 +43,7 @@ class SeamPlaces {
 
   const LimitSurface& surface_;
   const Inventory& inventory_;
-  bool polynomial_, dual_;
+  bool polynomial_, dual_, mid_edge_;
   std::vector<double> along_;  // an edge
   std::int64_t creases_ = 0, borders_ = 0, smooth_ = 0;
 };

@@ -33,6 +33,7 @@ std::vector<AssetWarning> undefined_normals(const LimitSurface& surface, const B
   for (Index v = 0; v < t.num_vertices(); ++v) {
     const VertexKind& kind = inventory.vertices[v];
     if (kind.what == VertexKind::What::in_hole || kind.plane == PlaneVerdict::no) continue;
+    if (kind.plane == PlaneVerdict::unknown && kind.what == VertexKind::What::border) continue;
     for (const HalfEdge h : t.fans(Vertex{v})) {
       if (surface.level().holes[index(t.face(h))]) continue;
       samples.push_back(place_at(surface.addresses(), t, h, 0, 0));
