@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 // What a modeller should know, and can act on.
+#include <algorithm>
+
 #include "sublimit/report/asset/inventory.h"
 
 namespace sublimit::asset {
@@ -32,7 +34,7 @@ class WarningGroup {
  private:
   void add(std::vector<Index>& list, Index i, Index listed) {
     ++warning_.count;
-    if (Index(list.size()) < listed) list.push_back(i);
+    if (Index(list.size()) < listed && std::find(list.begin(), list.end(), i) == list.end()) list.push_back(i);
   }
   AssetWarning warning_;
 };
