@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// REGULAR, SWEEP and CURVE of report.json.
+#include "sublimit/analysis/regularity/curve_joints.h"
+#include "sublimit/analysis/regularity/surface_regularity.h"
+#include "sublimit/analysis/regularity/sweep.h"
+#include "sublimit/analysis/regularity/typed_mask.h"
+#include "sublimit/certificates/algebraic.h"
+#include "sublimit/report/analysis/numbers.h"
+
+namespace sublimit::report {
+
+Json to_json(const CurveRegularity& regularity);
+Json to_json(const SurfaceRegularity& regularity);
+/// Values that the scheme does not take are null in every series.
+Json to_json(const Sweep& sweep);
+/// @throws InvalidMesh  as curve_joints does
+Json curve_json(const BezierCurve& curve, double tolerance = 1e-9);
+
+/// `regular` of a surface or curve scheme by name; null for Hermite schemes.
+/// @throws InvalidOption  as find_scheme; no scheme of that name
+Json regular_json(const std::string& scheme, const SchemeOptions& options = {});
+
+/// The same of a scheme that need not be in the registry; null where its regular mask has irrational weights.
+Json regular_json(const Scheme<Algebraic>& scheme);
+
+/// A whole SCHEME of kind curve, with its claims held against what was found.
+/// @throws InvalidOption  no curve scheme of that name
+Json curve_scheme_json(const std::string& scheme, const SchemeOptions& options = {});
+/// A SCHEME of a typed mask: no claims.
+/// @throws InvalidOption  as typed_mask
+Json mask_scheme_json(const std::string& mask);
+
+}  // namespace sublimit::report
