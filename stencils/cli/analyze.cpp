@@ -2,12 +2,22 @@
 // `sublimit analyze`: what a scheme's limit is like, and what a mesh's is.
 #include <fmt/core.h>
 
+#include <cerrno>
+#include <cstring>
+#include <fstream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "common.h"
+#include "sublimit/curve_schemes.h"
+#include "sublimit/geometric_schemes.h"
+#include "sublimit/mesh/file_extension.h"
 #include "sublimit/base/atomic_file.h"
 #include "sublimit/base/error.h"
+#include "sublimit/report/analysis/claims_json.h"
+#include "sublimit/report/analysis/exports.h"
 #include "sublimit/report/analysis/numbers.h"
+#include "sublimit/report/analysis/regular_json.h"
 #include "sublimit/report/analysis/scheme_report.h"
 #include "sublimit/report/asset/asset_json.h"
 #include "sublimit/report/page/page.h"
@@ -22,20 +32,44 @@ constexpr int negative_verdict = 1;
 struct Options {
   Common common;
   std::string valences = "3-12", page, json;
-  std::vector<std::string> tolerances;
+  std::vector<std::string> tolerances, claims;
+  std::string mask, sweep, exports;
 };
 
-std::vector<report::ReportedScheme> schemes_named(const Common& common) {
-  const SchemeOptions options = given_options(common);
-  std::vector<report::ReportedScheme> schemes;
-  if (common.scheme != "all") {
-    (void)scheme_or_throw(common.scheme, options);  // offers the nearest names
-    schemes.push_back(report::reported_scheme(common.scheme, options));
-    return schemes;
+struct Named {
+  std::vector<report::ReportedScheme> surfaces;
+  std::vector<report::ReportedCurve> curves;
+};
+
+bool is_curve_scheme(const std::string& name) {
+  for (const GeometricCurveScheme& scheme : all_geometric_schemes())
+    if (scheme.name == name)
+      throw InvalidOption("scheme " + name +
+                          " is not linear and has no matrix to analyse; `sublimit schemes --gallery` measures it");
+  for (const CurveScheme<double>& scheme : all_curve_schemes())
+    if (scheme.name == name) return true;
+  return false;
+}
+
+Named schemes_named(const Options& asked) {
+  const SchemeOptions options = given_options(asked.common);
+  Named named;
+  if (asked.common.scheme != "all") {
+    if (is_curve_scheme(asked.common.scheme)) {
+      named.curves.push_back({asked.common.scheme, options});
+      if (!asked.claims.empty()) throw InvalidOption("--claim is for schemes of meshes");
+      return named;
+    }
+    (void)scheme_or_throw(asked.common.scheme, options);  // offers the nearest names
+    named.surfaces.push_back(report::reported_scheme(asked.common.scheme, options));
+    for (const std::string& claim : asked.claims) report::set_claim(named.surfaces[0].scheme.claims, claim);
+    return named;
   }
   if (!options.empty()) throw InvalidOption("--option belongs to one scheme; name it with -s");
-  for (const Scheme<double>& scheme : all_schemes()) schemes.push_back(report::reported_scheme(scheme.name));
-  return schemes;
+  if (!asked.claims.empty()) throw InvalidOption("--claim belongs to one scheme; name it with -s");
+  for (const Scheme<double>& scheme : all_schemes()) named.surfaces.push_back(report::reported_scheme(scheme.name));
+  for (const CurveScheme<double>& scheme : all_curve_schemes()) named.curves.push_back({scheme.name, {}});
+  return named;
 }
 
 void write_text(const std::string& path, const std::string& text) {
@@ -55,19 +89,92 @@ void write_outputs(const Options& options, const Json& report, Progress& progres
   }
 }
 
+/// What was found, for those who only look at the terminal.
+void print_summary(const Json& report) {
+  for (const Json& row : report.value("summary", Json::array())) {
+    const auto text = [&](const char* key) {
+      return row[key].is_string() ? row[key].get<std::string>() : std::string("?");
+    };
+    fmt::print("{:<22} {:<14} regular {} ({})", text("scheme"), text("type"), text("regular"), text("regular_verdict"));
+    if (!text("valences").empty())
+      fmt::print(", at valences {} {} ({})", text("valences"), text("extraordinary"), text("extraordinary_verdict"));
+    fmt::print("{}{}\n", text("notes").empty() ? "" : "; ", text("notes"));
+  }
+  for (const Json& scheme : report.value("schemes", Json::array()))
+    for (const Json& claim : scheme.value("claims", Json::array()))
+      if (claim.value("verdict", "") == "disproved")
+        fmt::print("{}: the claim {} = {} is disproved: {}\n", scheme["name"].get<std::string>(),
+                   claim["claim"].get<std::string>(), claim["claimed"].dump(), claim["because"].get<std::string>());
+}
+
+int finish(const Options& options, const Json& report, Progress& progress) {
+  write_outputs(options, report, progress);
+  progress.step("");
+  if (!options.common.quiet) print_summary(report);
+  return report::contradicted_claims(report) > 0 ? negative_verdict : 0;
+}
+
 int analyze_schemes(const Options& options) {
   report::ReportOptions wanted;
   wanted.valences = report::parse_valences(options.valences);
-  const std::vector<report::ReportedScheme> schemes = schemes_named(options.common);
+  Named named = schemes_named(options);
+  wanted.curves = std::move(named.curves);
   Progress progress(options.common.quiet);
   progress.step("analysing");
-  wanted.progress = [&](int done, int all) {
-    progress.note(fmt::format("analysing: {} of {} neighbourhoods", done, all));
-  };
-  const Json report = report::schemes_report(schemes, wanted);
+  wanted.progress = [&](int done, int all) { progress.note(fmt::format("analysing: {} of {} parts", done, all)); };
+  const Json report = report::schemes_report(named.surfaces, wanted);
+  if (!options.exports.empty()) {
+    progress.step("exporting to " + options.exports);
+    std::filesystem::create_directories(options.exports);
+    report::write_exports(options.exports, named.surfaces, wanted.valences);
+  }
+  return finish(options, report, progress);
+}
+
+int analyze_mask(const Options& options) {
+  Progress progress(options.common.quiet);
+  Json report = report::report_head("schemes");
+  report["schemes"] = Json::array({report::mask_scheme_json(options.mask)});
+  report["summary"] = Json::array({report::summary_row(report["schemes"][0])});
+  return finish(options, report, progress);
+}
+
+int analyze_sweep(const Options& options) {
+  if (options.common.scheme.empty() || options.common.scheme == "all")
+    throw InvalidOption("--sweep belongs to one scheme; name it with -s");
+  const SweepRange range = sweep_range(options.sweep);
+  Progress progress(options.common.quiet);
+  progress.step(
+      fmt::format("analysing {} at {} values of {}", options.common.scheme, range.values.size(), range.option));
+  const Sweep found = sweep(options.common.scheme, range, given_options(options.common));
+  Json report = report::report_head("sweep");
+  report["sweep"] = report::to_json(found);
   write_outputs(options, report, progress);
   progress.step("");
-  return report::contradicted_claims(report) > 0 ? negative_verdict : 0;
+  if (!options.common.quiet)
+    for (const std::string& finding : found.findings) fmt::print("{}\n", finding);
+  return 0;
+}
+
+int analyze_curve(const Options& options) {
+  Progress progress(options.common.quiet);
+  const std::string& path = options.common.mesh;
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw IoError(path + ": cannot read: " + std::strerror(errno));
+  std::ostringstream text;
+  text << file.rdbuf();
+  Json report = report::report_head("curve");
+  try {
+    report["curve"] = report::curve_json(read_bezier_curve(text.str()));
+  } catch (const FormatError& error) {
+    throw FormatError(path + ": " + error.what());
+  }
+  write_outputs(options, report, progress);
+  progress.step("");
+  if (!options.common.quiet)
+    for (const Json& knot : report["curve"]["knots"])
+      fmt::print("knot {}: {}\n", knot["at"].dump(), knot["because"].get<std::string>());
+  return 0;
 }
 
 int analyze_mesh(const Options& options) {
@@ -93,7 +200,17 @@ int analyze(const Options& options) {
   limit_threads(options.common);
   if (!options.page.empty()) check_output_path(options.page, {".html", ".htm"});
   if (!options.json.empty()) check_output_path(options.json, {".json"});
-  return options.common.mesh.empty() ? analyze_schemes(options) : analyze_mesh(options);
+  const int jobs = !options.common.mesh.empty() + !options.mask.empty() + !options.sweep.empty();
+  if (jobs > 1) throw InvalidOption("a mesh or curve, --mask and --sweep are jobs of their own; give one of them");
+  if (!options.mask.empty()) return analyze_mask(options);
+  if (!options.sweep.empty()) return analyze_sweep(options);
+  const bool is_curve = file_extension(options.common.mesh) == ".csv";
+  if (is_curve) return analyze_curve(options);
+  if (options.common.scheme.empty())
+    throw InvalidOption("name a scheme with -s, or all; `sublimit schemes` lists them");
+  if (options.common.mesh.empty()) return analyze_schemes(options);
+  if (options.common.scheme == "all") throw InvalidOption("a mesh is analysed under one scheme; name it with -s");
+  return analyze_mesh(options);
 }
 
 }  // namespace
@@ -101,20 +218,31 @@ int analyze(const Options& options) {
 Command add_analyze(CLI::App& app) {
   auto* command = app.add_subcommand("analyze", "How smooth a scheme's limit is, or a mesh's, with proofs");
   auto options = std::make_shared<Options>();
-  command->add_option("MESH", options->common.mesh, "A mesh, .obj, .off or .ply: how smooth its own limit is");
-  command->add_option("-s,--scheme", options->common.scheme, "A scheme, or all")->required();
+  command->add_option("MESH", options->common.mesh,
+                      "A mesh, .obj, .off or .ply: how smooth its own limit is; or a curve of Bezier pieces, .csv");
+  command->add_option("-s,--scheme", options->common.scheme, "A scheme, or all");
   command->add_option("--valence", options->valences, "Valences, as in 3-12 or 3-8,12")->capture_default_str();
   command->add_option("-o,--output", options->page, "The report as a page, .html");
   command->add_option("--json", options->json, "The report as data, .json");
   command->add_option("--tolerance", options->tolerances,
                       "Of a mesh's seams: g0=1e-9, g1=0.1deg, g2=5%; exit 1 beyond");
+  command->add_option("--mask", options->mask, "A curve mask, as in \"1 4 6 4 1 /8\"");
+  command->add_option("--sweep", options->sweep, "Smoothness over an option: tension=0:4:0.05");
+  command->add_option("--claim", options->claims,
+                      "What the scheme shall claim instead: extraordinary=2; exit 1 if it is disproved");
+  command->add_option("--export", options->exports,
+                      "A directory for local matrices (exact) and characteristic maps (.obj)");
   command->add_option("--option", options->common.options, "An option of the scheme, name=value");
   add_run(*command, options->common);
   command->footer(
       "Examples:\n"
       "  sublimit analyze -s catmull-clark -o report.html\n"
       "  sublimit analyze -s all --valence 3-8 -o report.html --json report.json\n"
-      "Exit status 1 if a claim of a scheme is contradicted.");
+      "  sublimit analyze cage.obj -s catmull-clark --tolerance g1=0.1deg -o smooth.html\n"
+      "  sublimit analyze -s four-point --sweep tension=0:4:0.05 -o sweep.html\n"
+      "  sublimit analyze --mask \"1 4 6 4 1 /8\" -o mask.html\n"
+      "  sublimit analyze pieces.csv -o joints.html   (header piece,x,y or piece,x,y,z: Bezier control points)\n"
+      "Exit status 1 if a claim of a scheme is contradicted, or seams of a mesh are beyond a tolerance.");
   return [=] { return analyze(*options); };
 }
 

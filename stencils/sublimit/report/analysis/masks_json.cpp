@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "sublimit/analysis/eigen_structure.h"
 #include "sublimit/analysis/limit_masks.h"
 
 namespace sublimit::report {
@@ -22,6 +23,38 @@ Json mask_json(const std::vector<SectorLabel>& labels, const Eigen::VectorXd& ma
         {{"label", to_json(labels[i])}, {"weight", weight}, {"exact", text.empty() ? Json(nullptr) : Json(text)}});
   }
   return json;
+}
+
+/// Left eigenvectors of the next modes where these are bounded: mu = lambda^2 with as many eigenvectors as its
+/// multiplicity, from blocks 0 and 2. Scaled to a largest weight of 1.
+Json second_order_masks(const Scheme<double>& scheme, const LocalType& type) {
+  const auto patch = local_patch(scheme, type, 2);
+  const auto fourier = patch ? fourier_blocks(patch->A, patch->orbits) : std::nullopt;
+  if (!fourier || fourier->n < 3) return nullptr;
+  std::vector<EigenCluster> clusters;
+  for (int k = 0; 2 * k <= fourier->n; ++k)
+    for (EigenCluster& c : eigen_structure(fourier->blocks[k], k, 3).clusters)
+      if (std::abs(c.value) < 1 - 1e-9) clusters.push_back(std::move(c));
+  double lambda = 0, mu = 0;
+  for (const EigenCluster& c : clusters) lambda = std::max(lambda, std::abs(c.value));
+  for (const EigenCluster& c : clusters)
+    if (std::abs(c.value) < lambda * (1 - 1e-9)) mu = std::max(mu, std::abs(c.value));
+  if (std::abs(mu - lambda * lambda) > 1e-9) return nullptr;
+  Json masks = Json::array();
+  for (const EigenCluster& c : clusters) {
+    if (std::abs(std::abs(c.value) - mu) > 1e-9 || (c.block != 0 && c.block != 2)) continue;
+    if (c.is_jordan()) return nullptr;
+    for (Eigen::Index i = 0; i < c.left.cols(); ++i) {
+      const Eigen::VectorXcd mask = fourier->mask(c.block, c.left.col(i));
+      for (Eigen::VectorXd part : {Eigen::VectorXd(mask.real()), Eigen::VectorXd(mask.imag())}) {
+        const double largest = part.cwiseAbs().maxCoeff();
+        if (largest <= 1e-9 * mask.norm()) continue;
+        part /= largest;
+        masks.push_back(mask_json(patch->labels, part, nullptr));
+      }
+    }
+  }
+  return masks.empty() ? Json(nullptr) : masks;
 }
 
 }  // namespace
@@ -49,7 +82,7 @@ Json masks_json(const Scheme<double>& scheme, const LocalPatch<Algebraic>* exact
   json["position"] = mask_json(patch->labels, limit->masks.position, exactly ? &exactly->position : nullptr);
   json["tangent1"] = mask_json(patch->labels, side.tangent1, exactly ? exact_or_null(exactly->tangent1) : nullptr);
   json["tangent2"] = mask_json(patch->labels, side.tangent2, exactly ? exact_or_null(exactly->tangent2) : nullptr);
-  json["second"] = nullptr;
+  json["second"] = type.open ? Json(nullptr) : second_order_masks(scheme, type);
   return json;
 }
 

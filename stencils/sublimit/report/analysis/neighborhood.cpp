@@ -21,25 +21,6 @@ using Kind = NeighborhoodKind::Kind;
 
 constexpr int spectrum_rings = 3;
 
-LocalType local_type(const NeighborhoodKind& kind) {
-  LocalType type{.faces = kind.n};
-  switch (kind.kind) {
-    case Kind::face:
-      type.kind = Centre::Kind::face;
-      break;
-    case Kind::border:
-    case Kind::crease:
-      type.open = true;
-      break;
-    case Kind::corner:
-      type.open = type.corner = true;
-      break;
-    default:
-      break;
-  }
-  return type;
-}
-
 using Answer = Verdict::Answer;
 
 bool is_decided(const Verdict& v) { return v.answer == Answer::proved || v.answer == Answer::disproved; }
@@ -100,6 +81,25 @@ void look_at_weights(const LocalPatch<Algebraic>& patch, Neighborhood& found) {
 }
 
 }  // namespace
+
+LocalType local_type(const NeighborhoodKind& kind) {
+  LocalType type{.faces = kind.n};
+  switch (kind.kind) {
+    case Kind::face:
+      type.kind = Centre::Kind::face;
+      break;
+    case Kind::border:
+    case Kind::crease:
+      type.open = true;
+      break;
+    case Kind::corner:
+      type.open = type.corner = true;
+      break;
+    default:
+      break;
+  }
+  return type;
+}
 
 std::string NeighborhoodKind::name() const {
   constexpr const char* names[] = {"vertex", "face", "border", "crease", "corner", "dart"};

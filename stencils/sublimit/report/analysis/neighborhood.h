@@ -22,6 +22,9 @@ struct NeighborhoodKind {
 /// Those that a scheme has: of each valence the interior ones (and darts), of 1 to some faces the open ones.
 std::vector<NeighborhoodKind> neighborhoods(const Scheme<double>& scheme, const std::vector<int>& valences);
 
+/// The centre of such a neighbourhood, alone.
+LocalType local_type(const NeighborhoodKind& kind);
+
 /// What the neighbourhoods of one scheme share.
 struct SharedAnalysis {
   std::optional<C1Prover> prover;      ///< none where the rules on regular meshes are not one mask

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sublimit/report/analysis/scheme_report.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
+#include <charconv>
 #include <mutex>
 
 #include "sublimit/base/error.h"
 #include "sublimit/base/parallel_for.h"
 #include "sublimit/report/analysis/claims_json.h"
 #include "sublimit/report/analysis/neighborhood.h"
+#include "sublimit/report/analysis/regular_json.h"
 #include "sublimit/schemes.h"
 
 namespace sublimit::report {
@@ -58,6 +62,13 @@ Json scheme_json(const ReportedScheme& reported) {
           {"interpolates", scheme.claims.interpolates}};
 }
 
+template <class Job>
+void for_all(size_t count, const Job& job) {
+  parallel_for_blocks(
+      static_cast<std::int64_t>(count),
+      [&](std::int64_t, std::int64_t i, std::int64_t) { job(static_cast<size_t>(i)); }, 1);
+}
+
 }  // namespace
 
 ReportedScheme reported_scheme(const std::string& name, const SchemeOptions& options) {
@@ -71,53 +82,82 @@ Json schemes_report(const std::vector<ReportedScheme>& schemes, const ReportOpti
     if (n < least_valence || n > greatest_valence)
       throw InvalidParameter("valence " + std::to_string(n) + " is outside " + std::to_string(least_valence) + " to " +
                              std::to_string(greatest_valence));
-  struct Job {
-    size_t scheme;
-    NeighborhoodKind kind;
-    Neighborhood found;
-  };
-  std::vector<Job> jobs;
-  for (size_t s = 0; s < schemes.size(); ++s)
-    for (const NeighborhoodKind& kind : neighborhoods(schemes[s].scheme, options.valences))
-      jobs.push_back({s, kind, {}});
+  // What is shared comes first, then what is long: regular parts, neighbourhoods, and curves, which are quick.
   std::vector<SharedAnalysis> shared(schemes.size());
-  parallel_for_blocks(
-      static_cast<std::int64_t>(schemes.size()),
-      [&](std::int64_t, std::int64_t s, std::int64_t) {
-        shared[static_cast<size_t>(s)] = shared_analysis(schemes[static_cast<size_t>(s)]);
-      },
-      1);
+  for_all(schemes.size(), [&](size_t s) { shared[s] = shared_analysis(schemes[s]); });
+  std::vector<Json> regular(schemes.size()), curves(options.curves.size());
+  std::vector<std::vector<NeighborhoodKind>> kinds(schemes.size());
+  std::vector<std::vector<Neighborhood>> found(schemes.size());
+  std::vector<std::function<void()>> jobs;
+  for (size_t s = 0; s < schemes.size(); ++s) jobs.push_back([&, s] { regular[s] = regular_json(schemes[s].exact); });
+  for (size_t s = 0; s < schemes.size(); ++s) {
+    kinds[s] = neighborhoods(schemes[s].scheme, options.valences);
+    found[s].resize(kinds[s].size());
+    for (size_t k = 0; k < kinds[s].size(); ++k)
+      jobs.push_back([&, s, k] {
+        found[s][k] = neighborhood(schemes[s], shared[s], kinds[s][k], has_picture(schemes[s].scheme, kinds[s][k]));
+      });
+  }
+  for (size_t c = 0; c < curves.size(); ++c)
+    jobs.push_back([&, c] { curves[c] = curve_scheme_json(options.curves[c].name, options.curves[c].options); });
   std::mutex telling;
   int done = 0;
-  const auto run = [&](std::int64_t, std::int64_t i, std::int64_t) {
-    Job& job = jobs[static_cast<size_t>(i)];
-    const ReportedScheme& scheme = schemes[job.scheme];
-    job.found = neighborhood(scheme, shared[job.scheme], job.kind, has_picture(scheme.scheme, job.kind));
+  for_all(jobs.size(), [&](size_t i) {
+    jobs[i]();
     const std::lock_guard lock(telling);
     ++done;
     if (options.progress) options.progress(done, static_cast<int>(jobs.size()));
-  };
-  parallel_for_blocks(static_cast<std::int64_t>(jobs.size()), run, 1);
+  });
   Json report = report_head("schemes");
   report["schemes"] = Json::array();
   for (size_t s = 0; s < schemes.size(); ++s) {
     Json json = scheme_json(schemes[s]);
     json["claims"] = nullptr;  // its place; it is made from what follows
-    json["regular"] = nullptr;
+    json["regular"] = std::move(regular[s]);
     json["neighborhoods"] = Json::array();
     WeightFindings weights;
-    for (Job& job : jobs) {
-      if (job.scheme != s || job.found.json.is_null()) continue;
-      weights.has_negative_weights |= job.found.has_negative_weights;
-      weights.keeps_vertices &= job.found.keeps_vertices;
-      json["neighborhoods"].push_back(std::move(job.found.json));
+    for (Neighborhood& n : found[s]) {
+      if (n.json.is_null()) continue;
+      weights.has_negative_weights |= n.has_negative_weights;
+      weights.keeps_vertices &= n.keeps_vertices;
+      json["neighborhoods"].push_back(std::move(n.json));
     }
     json["claims"] = claims_json(schemes[s].scheme.claims, json, weights);
     report["schemes"].push_back(std::move(json));
   }
+  for (Json& curve : curves) report["schemes"].push_back(std::move(curve));
   report["summary"] = Json::array();
   for (const Json& scheme : report["schemes"]) report["summary"].push_back(summary_row(scheme));
   return report;
+}
+
+void set_claim(Claims& claims, const std::string& text) {
+  const size_t at = text.find('=');
+  const std::string name = text.substr(0, at), value = at == std::string::npos ? "" : text.substr(at + 1);
+  for (const auto& [own, degree] : {std::pair{"regular", &claims.regular},
+                                    {"extraordinary", &claims.extraordinary},
+                                    {"generates", &claims.generates},
+                                    {"reproduces", &claims.reproduces}}) {
+    if (name != own) continue;
+    int number = -1;
+    const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), number);
+    if (error != std::errc() || end != value.data() + value.size() || number < 0 || number > 20)
+      throw InvalidOption(fmt::format("--claim {}: {} takes a whole number from 0 to 20", text, name));
+    *degree = number;
+    return;
+  }
+  for (const auto& [own, flag] :
+       {std::pair{"convex-hull", &claims.convex_hull}, {"interpolates", &claims.interpolates}}) {
+    if (name != own) continue;
+    if (value != "yes" && value != "no") throw InvalidOption(fmt::format("--claim {}: {} takes yes or no", text, name));
+    *flag = value == "yes";
+    return;
+  }
+  throw InvalidOption(
+      fmt::format("--claim {}: no such claim; there are regular=N, extraordinary=N, generates=N, reproduces=N, "
+                  "convex-hull=yes|no and "
+                  "interpolates=yes|no",
+                  text));
 }
 
 int contradicted_claims(const Json& report) {

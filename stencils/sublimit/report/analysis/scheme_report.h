@@ -21,12 +21,19 @@ struct ReportedScheme {
   SchemeOptions options = {};
 };
 
+/// A curve scheme of the registry, by name.
+struct ReportedCurve {
+  std::string name;
+  SchemeOptions options = {};
+};
+
 /// One of the registry.
 /// @throws InvalidOption  as find_scheme does, or a name that there is not
 ReportedScheme reported_scheme(const std::string& name, const SchemeOptions& options = {});
 
 struct ReportOptions {
   std::vector<int> valences = {3, 4, 5, 6, 7, 8, 9, 10, 11, 12};  ///< ascending, from least_valence to greatest_valence
+  std::vector<ReportedCurve> curves = {};                         ///< after the surfaces
   /// Jobs done and jobs in all; by one thread at a time.
   std::function<void(int, int)> progress = {};
 };
@@ -41,6 +48,10 @@ std::vector<int> parse_valences(const std::string& text);
 /// @throws InvalidParameter  a valence outside the range
 /// @note  Deterministic: same build and input, same bytes, for any number of threads.
 nlohmann::ordered_json schemes_report(const std::vector<ReportedScheme>& schemes, const ReportOptions& options = {});
+
+/// Replaces a claim of a scheme, to see what becomes of it: `extraordinary=2`, `convex-hull=yes`.
+/// @throws InvalidOption  no such claim or value
+void set_claim(Claims& claims, const std::string& text);
 
 /// How many claims of its schemes the report contradicts.
 int contradicted_claims(const nlohmann::ordered_json& report);
