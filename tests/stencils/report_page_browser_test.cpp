@@ -48,9 +48,10 @@ TEST(ReportPage, FitsNarrowAndWideScreensAndPaperInChromium) {
   }
   // A page that is known to be wrong: the measure must see it.
   directory.write("bad.html", "<!DOCTYPE html><main><div style=\"width:900px\">x</div></main><body>" + script);
-  directory.write("all.html", "<body><pre></pre>" + frames +
-                                  "<iframe src=\"bad.html\" style=\"width:400px\"></iframe><script>onmessage = e => { "
-                                  "document.querySelector('pre').textContent += e.data + '\\n'; };</script>");
+  directory.write("all.html",
+                  "<body><pre></pre><script>onmessage = e => { document.querySelector('pre').textContent += e.data + "
+                  "'\\n'; };</script>" +
+                      frames + "<iframe src=\"bad.html\" style=\"width:400px\"></iframe>");
   const std::string command = "cd '" + directory.path().string() +
                               "' && chromium --headless --no-sandbox --disable-gpu --user-data-dir=profile "
                               "--virtual-time-budget=30000 --enable-logging=stderr --dump-dom all.html > dom 2> log";

@@ -52,12 +52,12 @@ Json light_report() {
   Json report = sample_schemes(5, 5);
   for (Json& scheme : report["schemes"])
     for (Json& n : scheme["neighborhoods"]) n["surface"] = nullptr, n["eigenfunctions"] = nullptr;
+  report["schemes"].erase(1);  // the triangles
   report["mesh"] = sample_mesh()["mesh"];
   report["mesh"]["surface"] = nullptr;
   report["curve"] = sample_curve()["curve"];
   report["sweep"] = sample_sweep()["sweep"];
   report["schemes"][0]["regular"]["basis"] = nullptr;
-  report["schemes"][1]["regular"]["basis"] = nullptr;
   return report;
 }
 
@@ -104,17 +104,18 @@ TEST(ReportPage, SameReportSameBytes) {
 }
 
 TEST(ReportPage, IgnoresKeysThatItDoesNotKnow) {
+  const auto surprise = [](Json& o) {
+    if (!o.contains("block 0") && !o.contains("tension")) o["surprise"] = {{"x", 1}};  // there, keys are data
+  };
   for (const auto& [kind, original] : reports()) {
     if (kind == "schemes") continue;  // below, with less to draw
     Json report = original;
-    for_each_object(report, [](Json& o) { o["surprise"] = {{"x", 1}}; });
+    for_each_object(report, surprise);
     EXPECT_EQ(report_page(report), page_of(kind)) << kind;
   }
   Json report = light_report();
   const std::string page = report_page(report);
-  for_each_object(report, [](Json& o) {
-    if (!o.contains("block 0") && !o.contains("tension")) o["surprise"] = {{"x", 1}};  // names are data in these two
-  });
+  for_each_object(report, surprise);
   EXPECT_EQ(report_page(report), page);
 }
 
@@ -159,7 +160,7 @@ TEST(ReportPage, HostileNamesStayNames) {
   scheme["options"] = {{hostile, hostile}};
   report["statements"][0]["numbers"] = {{hostile, hostile}};
   report["mesh"]["surface"] = sample_mesh()["mesh"]["surface"];
-  for (const char* kind : {"schemes", "mesh", "sweep", "curve", "<script>"}) {
+  for (const char* kind : {"schemes", "<script>"}) {
     report["kind"] = kind;
     const std::string page = report_page(report);
     const Markup markup = read_markup(page);
@@ -180,7 +181,7 @@ TEST(ReportPage, RefusesWhatItDoesNotKnow) {
   expect_error<FormatError>([&] { report_page(Json::array()); }, {"report.json"});
 }
 
-TEST(ReportPage, StaysSmall) { EXPECT_LT(report_page(sample_schemes(3, 12)).size(), 3'000'000u); }
+TEST(ReportPage, StaysSmall) { EXPECT_LT(report_page(sample_schemes(5, 8)).size(), 1'200'000u); }
 
 }  // namespace
 }  // namespace sublimit::testing

@@ -15,7 +15,7 @@ namespace {
 std::string place(const Json& at_) {
   if (!at_.is_array()) return dash;
   std::string text = "(";
-  for (std::size_t i = 0; i < at_.size(); ++i) text += (i > 0 ? ", " : "") + shown(at_[i], 4);
+  for (std::size_t i = 0; i < at_.size(); ++i) text += (i > 0 ? ", " : "") + shown(at(at_, i), 4);
   return text + ")";
 }
 
@@ -28,7 +28,7 @@ std::string inventory(const Json& list) {
   for (const Json& row : list) {
     std::string examples;
     const Json& some = at(row, "examples");
-    for (std::size_t i = 0; i < some.size() && i < 6; ++i) examples += (i > 0 ? ", " : "") + shown(some[i]);
+    for (std::size_t i = 0; i < some.size() && i < 6; ++i) examples += (i > 0 ? ", " : "") + shown(at(some, i));
     const std::string plane = string(at(row, "tangent_plane"));
     const std::string sign = plane == "yes"    ? "<span class=\"badge proved\">✓ yes</span>"
                              : plane == "slow" ? "<span class=\"badge borderline\">± slow</span>"
@@ -89,8 +89,8 @@ std::string deviations(const Json& list, const std::string& caption) {
   if (!list.is_array() || list.empty()) return {};
   Table table{caption, {"where", "what", "value", "at"}, {}, "numbers"};
   for (std::size_t i = 0; i < list.size() && i < 20; ++i)
-    table.rows.push_back(
-        {element(list[i]), order_words(at(list[i], "what")), shown(at(list[i], "value"), 4), place(at(list[i], "at"))});
+    table.rows.push_back({element(at(list, i)), order_words(at(at(list, i), "what")),
+                          shown(at(at(list, i), "value"), 4), place(at(at(list, i), "at"))});
   return html(table);
 }
 

@@ -86,7 +86,7 @@ std::string sweep_section(const Json& sweep) {
   for (const Json& series : at(sweep, "series")) {
     Series s{prose(at(series, "name")), {}, kind++, values.size() <= 24};
     for (std::size_t i = 0; i < values.size(); ++i)
-      s.points.emplace_back(number(values[i]).value_or(0), number(at(at(series, "values"), i)));
+      s.points.emplace_back(number(at(values, i)).value_or(0), number(at(at(series, "values"), i)));
     plot.series.push_back(std::move(s));
   }
   std::string text = "<section id=\"sweep\"><h2>Over the option " + escaped(option) + "</h2>\n";
@@ -100,7 +100,7 @@ std::string sweep_section(const Json& sweep) {
   Table table{"", {escaped(option)}, {}, "numbers"};
   for (const Json& series : at(sweep, "series")) table.heads.push_back(prose(at(series, "name")));
   for (std::size_t i = 0; i < values.size(); ++i) {
-    std::vector<std::string> row = {shown(values[i], 6)};
+    std::vector<std::string> row = {shown(at(values, i), 6)};
     for (const Json& series : at(sweep, "series")) row.push_back(shown(at(at(series, "values"), i), 6));
     table.rows.push_back(row);
   }

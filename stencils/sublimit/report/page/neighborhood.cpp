@@ -69,7 +69,7 @@ std::string normals_figure(const Json& neighborhood, const std::string& name) {
   plot.log_y = true;
   Series s{"", {}, 0};
   for (std::size_t i = 0; i < steps.size() && i < spread.size(); ++i)
-    s.points.emplace_back(number(steps[i]).value_or(static_cast<double>(i)), number(spread[i]));
+    s.points.emplace_back(number(at(steps, i)).value_or(static_cast<double>(i)), number(at(spread, i)));
   plot.series = {s};
   return figure(
       plot,
@@ -134,7 +134,7 @@ std::string edge_neighborhoods(const Json& neighborhoods, const std::string& sch
                             prose(at(plane, "because"))});
       each += neighborhood_details(n, scheme, id, detail, false);
     }
-    if (!table.rows.empty()) text += "<h4>" + std::string(words) + "</h4>\n" + html(table) + each;
+    if (!table.rows.empty()) text += html(table) + "<details><summary>Each of them</summary>\n" + each + "</details>\n";
   }
   return text.empty() ? text : "<h3>Borders, creases, corners, darts</h3>\n" + text;
 }

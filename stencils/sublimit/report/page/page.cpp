@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sublimit/report/page/page.h"
 
-#include <map>
+#include <set>
 
 #include "sublimit/base/error.h"
 #include "sublimit/base/parallel_for.h"
@@ -89,12 +89,12 @@ std::string report_page(const nlohmann::ordered_json& report) {
   add(summary_section(report), "summary", "Schemes side by side");
   add(statements_section(report), "statements", "What lecture notes say");
   if (kind == "schemes") add(words_key, "key", "How to read it");
-  std::map<std::string, int> used;
+  std::set<std::string> used;
   std::vector<std::string> ids;
   for (const Json& scheme : schemes) {
     const std::string name = string(at(scheme, "name"), "unnamed");
     std::string id = "scheme-" + identifier(name);
-    if (const int again = used[id]++; again > 0) id += "-" + std::to_string(again + 1);
+    while (!used.insert(id).second) id += "-again";
     contents.push_back({id, escaped(name)});
     ids.push_back(id);
   }
@@ -102,7 +102,7 @@ std::string report_page(const nlohmann::ordered_json& report) {
   parallel_for_blocks(
       static_cast<std::int64_t>(ids.size()),
       [&](std::int64_t i, std::int64_t, std::int64_t) {
-        sections[i] = scheme_section(schemes[static_cast<std::size_t>(i)], ids[i], ids.size() > 1);
+        sections[i] = scheme_section(at(schemes, i), ids[i], ids.size() > 1);
       },
       1);
   for (const std::string& section : sections) body += section;

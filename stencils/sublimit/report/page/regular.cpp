@@ -49,7 +49,7 @@ std::string basis_surface(const Json& regular, const std::string& scheme) {
   double most = 0, extent = 0;
   for (std::size_t j = 0; j < height; ++j) {
     for (std::size_t i = 0; i < width; ++i) {
-      const std::optional<double> value = number(at(values[j], i));
+      const std::optional<double> value = number(at(at(values, j), i));
       const Point p = on_grid(grid, x[i], y[j]);
       mesh.positions.row(static_cast<Eigen::Index>(j * width + i)) << p.x(), p.y(), value.value_or(0);
       most = std::max(most, std::abs(value.value_or(0)));

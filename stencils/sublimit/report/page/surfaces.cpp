@@ -176,7 +176,7 @@ std::string asset_figure(const Json& asset) {
   for (std::size_t i = 0; i < count; ++i)
     for (std::size_t c = 0; c < 3; ++c)
       places.positions(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(c)) =
-          number(at(at(worst[i], "at"), c)).value_or(0);
+          number(at(at(at(worst, i), "at"), c)).value_or(0);
   options.in_view = places.positions;
   std::string svg = svg_picture({panel}, options);
   const picture::Frame frame = picture::frame_of({panel}, options);
