@@ -30,6 +30,13 @@ Point bezier(std::vector<Point> b, double t) {
   return b.front();
 }
 
+/// Derivatives of the change of parameter that G^n needs: the first must be positive.
+std::string ratios(const Json& knot) {
+  std::string text;
+  for (const Json& r : at(knot, "ratios")) text += (text.empty() ? "" : ", ") + shown(r, 5);
+  return text.empty() ? shown(at(knot, "tangent_ratio"), 5) : text;
+}
+
 std::string curve_figure(const Json& curve) {
   std::vector<std::vector<Point>> nets;
   std::vector<Point> everything;
@@ -61,7 +68,7 @@ std::string curve_section(const Json& curve) {
       "<section id=\"curve\"><h2>Continuity at the knots</h2>\n" + facts({{"Degree", shown(at(curve, "degree"))}});
   text += figures(curve_figure(curve));
   Table table{"C^n: equal derivatives; G^n: equal after a change of speed, which must be positive",
-              {"knot", "C", "G", "tangent ratio", "verdict", "because"},
+              {"knot", "C", "G", "ratios", "verdict", "because"},
               {},
               "wide text"};
   for (const Json& k : at(curve, "knots")) {
@@ -70,8 +77,8 @@ std::string curve_section(const Json& curve) {
       if (n.is_number_integer() && n.get<int>() < 0) return std::string("not joined");
       return n.is_null() ? std::string(dash) : std::string(letter) + "<sup>" + shown(n) + "</sup>";
     };
-    table.rows.push_back({shown(at(k, "at"), 6), order("c", "C"), order("g", "G"), shown(at(k, "tangent_ratio"), 5),
-                          badge(at(k, "verdict")), prose(at(k, "because"))});
+    table.rows.push_back({shown(at(k, "at"), 6), order("c", "C"), order("g", "G"), ratios(k), badge(at(k, "verdict")),
+                          prose(at(k, "because"))});
   }
   return text + html(table) + "</section>\n";
 }

@@ -145,9 +145,15 @@ std::string norms(const Json& regular) {
     text += html(table);
   }
   const Json& radius = at(regular, "joint_spectral_radius");
-  if (radius.is_object())
-    text += "<p>Joint spectral radius of the transition matrices: between " + shown(at(radius, "low"), 8) + " and " +
-            shown(at(radius, "high"), 8) + " (products up to length " + shown(at(radius, "products")) + ").</p>\n";
+  if (radius.is_object()) {
+    text += "<p>Joint spectral radius of the transition matrices";
+    if (!at(radius, "order").is_null()) text += " of differences of order " + shown(at(radius, "order"));
+    text += ": between " + shown(at(radius, "low"), 8) + " (a product of " + shown(at(radius, "products")) + ") and " +
+            shown(at(radius, "high"), 8);
+    if (whole(at(radius, "vertices")) > 0)
+      text += " (a polytope of " + shown(at(radius, "vertices")) + " pairs of vertices)";
+    text += ".</p>\n";
+  }
   return text;
 }
 

@@ -97,12 +97,13 @@ svg text.on { fill: var(--on); font-weight: 600 }
 .area { fill: var(--cool-soft); stroke: var(--s0); stroke-width: 1.4; stroke-linejoin: round }
 footer { margin-top: 70px; padding-top: 12px; border-top: 1px solid var(--line); color: var(--quiet); font-size: 14px }
 @media (max-width: 560px) { body { padding: 20px 14px 60px; font-size: 16px } h1 { font-size: 27px } h2 { font-size: 22px; margin-top: 48px }
-  th, td { padding-right: 11px } details { padding: 0 10px } }
+  th, td { padding-right: 11px } figure.broad > svg text { font-size: 15px } details { padding: 0 10px } }
 @media print { @page { margin: 16mm 15mm } body { max-width: none; padding: 0; font-size: 10.5pt; --paper: #fff } h2 { margin-top: 0 }
   section.scheme { break-before: page } .scroll { overflow: visible } table { font-size: 8.5pt; width: 100% } tr { break-inside: avoid } thead { display: table-header-group }
   th, td { padding-right: 8px } .text td { min-width: 0 } td { overflow-wrap: anywhere } .numbers td, .numbers th, thead th { white-space: normal } .up { display: none } details { border: 0; padding: 0 } summary { list-style: none }
   a { color: inherit; text-decoration: none } figure > svg { background: none; border: .5pt solid var(--line) } svg, .badge { print-color-adjust: exact; -webkit-print-color-adjust: exact }
-  .figures { grid-template-columns: repeat(auto-fill, minmax(72mm, 1fr)) } }
+  .figures { grid-template-columns: repeat(auto-fill, minmax(72mm, 1fr)) } .judgements { grid-template-columns: repeat(auto-fill, minmax(80mm, 1fr)) }
+  .badge { font-size: 7.5pt; line-height: 1.3; padding: 0 5px } .judgement details:not([open]), details.inner:not([open]) { display: none } }
 )";
 
 }  // namespace sublimit::page

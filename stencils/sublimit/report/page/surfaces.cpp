@@ -209,8 +209,8 @@ std::string asset_figure(const Json& asset) {
     numbers += "<rect x=\"" + svg::pixels(l.x - half) + "\" y=\"" + svg::pixels(l.y - 10) + "\" width=\"" +
                svg::pixels(2 * half) +
                "\" height=\"20\" rx=\"10\" fill=\"#fff\" stroke=\"#22262f\" stroke-width=\"1.6\"/><text x=\"" +
-               svg::pixels(l.x) + "\" y=\"" + svg::pixels(l.y + 4.5) + "\" style=\"fill:#22262f;font-weight:700\">" +
-               l.words + "</text>";
+               svg::pixels(l.x) + "\" y=\"" + svg::pixels(l.y + 4.5) +
+               "\" style=\"fill:#22262f;font-weight:700;font-size:12px\">" + l.words + "</text>";
   }
   svg.insert(svg.rfind("</svg>"), numbers + "</g>\n");
   return figure(

@@ -169,7 +169,7 @@ std::string badge(const Json& verdict) {
     if (word == name)
       return std::string("<span class=\"badge ") + name + "\"><span aria-hidden=\"true\">" + sign + "</span> " + says +
              "</span>";
-  return word.empty() ? dash : "<span class=\"badge unknown\">" + escaped(word) + "</span>";
+  return word.empty() ? dash : "<span class=\"badge unknown\">" + prose(word) + "</span>";
 }
 
 std::string html(const Table& table) {
