@@ -82,7 +82,7 @@ struct Curvature {
 };
 
 /// Gauss curvature per vertex; where it does not exist, the mean of the neighbours that have one.
-Curvature gauss_of(const Json& surface, const PictureMesh& mesh) {
+Curvature gauss_of(const Json& surface, const PictureMesh& mesh, std::size_t percent) {
   Curvature result;
   const Json& list = at(surface, "curvature");
   if (!list.is_array() || static_cast<Eigen::Index>(list.size()) != mesh.positions.rows()) return result;
@@ -108,7 +108,7 @@ Curvature gauss_of(const Json& surface, const PictureMesh& mesh) {
   for (std::size_t v = 0; v < list.size(); ++v)
     if (!has[v] && count[v] > 0) result.gauss[v] = sum[v] / count[v];
   std::sort(known.begin(), known.end());
-  result.scale = known[known.size() * 92 / 100];
+  result.scale = known[known.size() * percent / 100];
   if (!(result.scale > 0)) result.scale = known.back() > 0 ? known.back() : 1;
   return result;
 }
@@ -144,7 +144,7 @@ std::string surface_figures(const Json& surface, const std::string& name, bool s
   std::string all = figure(svg_picture({{{mesh}, {}, {}}}, shaded),
                            "<b>Limit surface</b> of generic control points, the extraordinary point in the middle.");
   all += reflection_figure(mesh, name, small);
-  const Curvature curvature = gauss_of(surface, mesh);
+  const Curvature curvature = gauss_of(surface, mesh, 92);
   if (!curvature.gauss.empty())
     all +=
         figure(svg_picture({{colored(mesh, curvature), {}, {}}}, small_picture("Gauss curvature, " + name, small)),
@@ -161,11 +161,12 @@ std::string asset_figure(const Json& asset) {
   PictureOptions options = small_picture("Limit surface of " + string(at(asset, "file"), "the mesh"));
   options.panel_width = 900;
   options.panel_height = 620;
-  options.up = {0, 1, 0};
+  const Vector3d extent = (mesh.positions.colwise().maxCoeff() - mesh.positions.colwise().minCoeff()).transpose();
+  if (extent.z() >= extent.y()) options.up = {0, 1, 0};  // files do not say; things lie flat more often than not
   options.sky_directions = 64;
   options.tone_step = 3;
   options.elevation = .36;
-  const Curvature curvature = gauss_of(surface, mesh);
+  const Curvature curvature = gauss_of(surface, mesh, 80);  // rounded edges would hide the rest
   Panel panel;
   panel.layers = curvature.gauss.empty() ? std::vector<PictureMesh>{mesh} : colored(mesh, curvature);
   const Json& worst = at(asset, "worst");
