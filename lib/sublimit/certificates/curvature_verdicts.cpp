@@ -91,12 +91,14 @@ Verdict shapes(const ExactAnalysis& analysis, const SecondOrderGiven& given) {
   for (const ExactEigenvalue& value : s->mu) {
     if (value.largest_jordan() < s->largest_jordan) continue;
     blocks.push_back(value.block);
+    if (value.copies == 2) blocks.push_back(analysis.n() - value.block);  // at n = 3 block 1 stands for block 2 too
     all_seen = all_seen && is_seen(analysis, value) == true;
   }
-  const bool zero = std::count(blocks.begin(), blocks.end(), 0) > 0,
-             two = std::count(blocks.begin(), blocks.end(), 2) > 0;
-  const bool only = std::all_of(blocks.begin(), blocks.end(), [](int k) { return k == 0 || k == 2; });
-  const std::string which = !only ? "other" : zero && two ? "all" : zero ? "elliptic" : "hyperbolic";
+  std::sort(blocks.begin(), blocks.end());
+  const int n = analysis.n();
+  const auto has = [&](int k) { return std::count(blocks.begin(), blocks.end(), k) > 0; };
+  const bool only = std::all_of(blocks.begin(), blocks.end(), [&](int k) { return k == 0 || k == 2 || k == n - 2; });
+  const std::string which = has(0) && has(2) ? "all" : !only ? "other" : has(0) ? "elliptic" : "hyperbolic";
   v.hypotheses.push_back(
       {"the modes of mu with the longest chains are those of blocks " + list(blocks), true, By::exact});
   v.hypotheses.push_back({"each of these blocks has a mode that is not zero at a regular point",
