@@ -81,6 +81,11 @@ TEST(AlgebraicRoot, EqualitiesAndOrderAreDecided) {
   const std::vector<AlgebraicRoot> near = AlgebraicRoot::all(Polynomial({Algebraic(-2) - Algebraic(0x1p-700), 0, 1}));
   EXPECT_EQ(compare_moduli(a[0], near[0]), -1);
   EXPECT_FALSE(a[0] == near[0]);
+  const Polynomial two({-2, 0, 1});
+  int zeros = 0;
+  const Polynomial almost_two({Algebraic(-2) - Algebraic(0x1p-132), 0, 1});
+  for (const AlgebraicRoot& root : AlgebraicRoot::all(two * almost_two)) zeros += root.is_root_of(two);
+  EXPECT_EQ(zeros, 2) << "of four roots, two and two that are next to each other";
   // A pair of modulus 3 that is not real, and -3.
   const std::vector<AlgebraicRoot> pair = AlgebraicRoot::all(Polynomial({9, 1, 1}));
   EXPECT_FALSE(pair[0].is_real());

@@ -212,6 +212,10 @@ TEST(ExactAnalysis, ModesThatLeadAreSeen) {
     const ExactAnalysis analysis = analyzed(name, 5);
     for (const ExactEigenvalue& value : analysis.spectrum.of_rank(1)) EXPECT_EQ(is_seen(analysis, value), true) << name;
   }
+  // Places next to the point have their limits in two rings: one is not enough to tell, nor to prove.
+  const ExactAnalysis small = analyzed("catmull-clark", 5, 1);
+  EXPECT_EQ(is_seen(small, small.spectrum.of_rank(2)[0]), std::nullopt);
+  EXPECT_EQ(curvature(small, everything()).answer, Answer::unknown);
   // The limit of the mode of eigenvalue 1 is a constant.
   EXPECT_EQ(is_seen(analyzed("loop", 7), analyzed("loop", 7).spectrum.values[0]), true);
 }
