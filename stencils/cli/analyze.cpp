@@ -148,6 +148,7 @@ int analyze_sweep(const Options& options) {
       fmt::format("analysing {} at {} values of {}", options.common.scheme, range.values.size(), range.option));
   const Sweep found = sweep(options.common.scheme, range, given_options(options.common));
   Json report = report::report_head("sweep");
+  report["schemes"] = Json::array({Json{{"name", found.scheme}}});
   report["sweep"] = report::to_json(found);
   write_outputs(options, report, progress);
   progress.step("");

@@ -11,11 +11,18 @@
 namespace sublimit::report {
 namespace {
 
-/// `verdict` of a property in a list of verdicts; "unknown" if it is not there.
+/// `verdict` of a property in a list of verdicts; "unknown" if it is not there. Where there are several, as of C^1, C^2
+/// ... on regular meshes, the strongest one in favour.
 std::string answer_in(const Json& verdicts, const std::string& property) {
-  for (const Json& v : verdicts)
-    if (v.value("property", "") == property) return v.value("verdict", "unknown");
-  return "unknown";
+  std::string answer = "unknown";
+  bool found = false;
+  for (const Json& v : verdicts) {
+    if (v.value("property", "") != property) continue;
+    const std::string own = v.value("verdict", "unknown");
+    if (!found || own == "proved" || (own == "evidence-for" && answer != "proved")) answer = own;
+    found = true;
+  }
+  return answer;
 }
 
 bool is_interior(const Json& neighborhood) {
@@ -102,7 +109,33 @@ Json degree_claim(const char* name, int claimed, const Json& regular) {
                fmt::format("polynomials up to degree {}, from the mask", found));
 }
 
+/// Of a neighbourhood that is a piece of a regular mesh: what is known of regular limits is known of it.
+void use_regular(Json& neighborhood, const std::string& property, int order, int continuity) {
+  if (continuity < order) return;
+  for (Json& v : neighborhood["verdicts"]) {
+    if (v["property"] != property || v["verdict"] == "proved") continue;
+    Verdict verdict{property, v["says"].get<std::string>(), Verdict::Answer::proved};
+    verdict.theorem = "a vertex of regular valence among regular ones lies on a regular surface";
+    verdict.hypotheses = {{fmt::format("regular surfaces are C^{}", order), true, Hypothesis::By::enclosure,
+                           fmt::format("C^{} proved, see the regular part", continuity)}};
+    verdict.because = "the neighbourhood is regular";
+    v = to_json(verdict);
+  }
+}
+
 }  // namespace
+
+void use_regular(Json& scheme) {
+  const Json& regular = scheme["regular"];
+  if (!regular.is_object() || !regular["smoothness"]["continuity"].is_number()) return;
+  if (answer_in(regular["verdicts"], "regular-smoothness") != "proved") return;
+  const int continuity = regular["smoothness"]["continuity"], valence = scheme["mesh"] == "triangles" ? 6 : 4;
+  for (Json& n : scheme["neighborhoods"]) {
+    if (!is_interior(n) || n["n"] != valence) continue;
+    use_regular(n, "c1", 1, continuity);
+    use_regular(n, "c2", 2, continuity);
+  }
+}
 
 Json claims_json(const Claims& claims, const Json& scheme, const WeightFindings& weights) {
   const Json regular = scheme.value("regular", Json());

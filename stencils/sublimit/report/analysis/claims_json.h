@@ -11,6 +11,10 @@ struct WeightFindings {
   bool has_negative_weights = false, keeps_vertices = true;
 };
 
+/// Gives interior neighbourhoods of regular valence what is proved of regular meshes.
+/// @param scheme  SCHEME with `regular` and `neighborhoods`
+void use_regular(Json& scheme);
+
 /// CLAIMS of a scheme.
 /// @param scheme   SCHEME with `regular` (or null) and `neighborhoods`
 Json claims_json(const Claims& claims, const Json& scheme, const WeightFindings& weights);

@@ -76,12 +76,15 @@ Json characteristic_map_json(const std::shared_ptr<PieceTypes>& pieces, const Lo
   }
   // Parameter lines: sides and middles of faces.
   const LimitSurface surface(scheme, mesh, rim_rules(), pieces);
-  constexpr int steps = 4;
+  const bool thirds = period_dilation(scheme) == 3;
+  const int steps = thirds ? 3 : 4;
+  const std::vector<double> at_values =
+      thirds ? std::vector<double>{0, 1 / 3.0, 2 / 3.0, 1} : std::vector<double>{0, .5, 1};
   std::vector<Sample> samples;
   std::vector<int> lengths;
   for (const FaceRange& face : faces_within(modes.net, drawn_rings))
     for (const Index address : addresses_of(surface.addresses(), face))
-      for (const double fixed : {0.0, 0.5, 1.0})
+      for (const double fixed : at_values)
         for (const bool along_u : {true, false}) {
           const double end = triangles ? 1 - fixed : 1;
           if (end == 0) continue;
@@ -144,17 +147,18 @@ SampleSurface sample_surface(const std::shared_ptr<PieceTypes>& pieces, const Lo
   const std::vector<FaceRange> faces = faces_within(net, drawn_rings);
   SampleSurface result;
 
-  // Normals of places on circles of 2^-step steps around the centre.
+  // Normals of places on circles of 2^-step (3^-step) edges around the centre. Places are those of some level: where
+  // limits are no polynomials, these are at hand and others are not.
   std::vector<Sample> samples;
-  constexpr int circles = 11, on_circle = 4;
+  const int base = period_dilation(scheme), circles = base == 3 ? 7 : 11, on_circle = base == 3 ? 4 : 5;
   int places = 0;
   for (int step = 0; step < circles; ++step) {
-    const double r = std::ldexp(1.0, -step);
+    const double r = std::pow(base, -step);
     for (const FaceRange& face : faces) {
       if (net.ring[face.face] != 0) continue;
       for (const Index address : addresses_of(surface.addresses(), face))
         for (int k = 0; k < on_circle; ++k) {
-          const double t = double(k) / (on_circle - 1);
+          const double t = static_cast<double>(k) / (on_circle - 1);
           if (is_face)
             samples.push_back({address, 1 - r * std::min(1.0, 2 * t), 1 - r * std::min(1.0, 2 - 2 * t)});
           else if (triangles)  // the face's first corner is the centre
@@ -180,7 +184,7 @@ SampleSurface sample_surface(const std::shared_ptr<PieceTypes>& pieces, const Lo
   result.normals = {{"steps", steps}, {"spread_degrees", spreads}};
   if (!is_drawn) return result;
 
-  constexpr int N = 7;  // places along a side
+  const int N = base == 3 ? 10 : 9;  // places along a side
   samples.clear();
   Json cells = Json::array();
   for (const FaceRange& face : faces)

@@ -122,6 +122,7 @@ Json schemes_report(const std::vector<ReportedScheme>& schemes, const ReportOpti
       weights.keeps_vertices &= n.keeps_vertices;
       json["neighborhoods"].push_back(std::move(n.json));
     }
+    use_regular(json);
     json["claims"] = claims_json(schemes[s].scheme.claims, json, weights);
     report["schemes"].push_back(std::move(json));
   }
