@@ -2,7 +2,10 @@
 #include "sublimit/certificates/c1_certificate.h"
 
 #include <algorithm>
+#include <cmath>
+#include <iomanip>
 #include <map>
+#include <sstream>
 
 #include "sublimit/base/error.h"
 
@@ -31,6 +34,29 @@ Dominance dominance(const LocalPatch<Algebraic>& patch, const LeadingPair& pair,
     result.power = std::max(result.power, *power);
   }
   return result;
+}
+
+/// How often nets are refined before a proof gives up, and for evidence.
+constexpr int net_levels = 7, evidence_level = 3;
+
+/// Some digits that a ball is certainly above.
+std::string rounded_down(const Ball& x) {
+  std::ostringstream text;
+  text << std::setprecision(5) << x.lower() - 1e-4 * std::abs(x.lower());
+  return text.str();
+}
+
+/// Signs of refined nets instead of a proof, where the spectrum is as it should be.
+void add_evidence(C1Certificate& c, bool leads) {
+  Verdict& v = c.verdict;
+  const auto signs = net_signs(*c.map, 2, evidence_level);
+  if (!signs) return;
+  v.hypotheses.push_back({"quadrilaterals or triangles of the refined characteristic net are positive",
+                          signs->negative == 0, By::floating,
+                          std::to_string(signs->positive) + " of " + std::to_string(signs->positive + signs->negative) +
+                              " after " + std::to_string(signs->level) + " steps"});
+  if (!leads) return;
+  v.answer = signs->negative == 0 ? Verdict::Answer::evidence_for : Verdict::Answer::evidence_against;
 }
 
 bool rows_sum_to_one(const LocalPatch<Algebraic>& patch) {
@@ -90,7 +116,10 @@ bool is_mirror_symmetric(const LocalPatch<Algebraic>& patch) {
 
 C1Prover::C1Prover(Scheme<Algebraic> scheme) : scheme_(std::move(scheme)), mask_(plane_mask(scheme_)) {
   pieces_ = regular_pieces(mask_);
-  if (pieces_) functions_ = in_balls(*pieces_);
+  if (pieces_)
+    functions_ = in_balls(*pieces_);
+  else
+    tail_ = derivative_tail(mask_);
 }
 
 C1Certificate C1Prover::certify(int n) const {
@@ -127,28 +156,32 @@ C1Certificate C1Prover::certify(int n) const {
   // What the map of another pair looks like says nothing.
   const bool leads =
       std::all_of(v.hypotheses.begin(), v.hypotheses.end(), [](const Hypothesis& h) { return h.holds == true; });
-  if (pieces_ && c.map) {
+  if (!c.map) return v.answer = answer_of(v.hypotheses, true), c;
+  if (!pieces_ && !tail_) return add_evidence(c, leads), c;
+  if (pieces_)
     add("the regular limit consists of polynomials and is C^1", pieces_->continuity >= 1, By::exact,
         "C^" + std::to_string(pieces_->continuity) + ", degree " + std::to_string(pieces_->degree));
-    const auto ring = regular_ring(c.patch, *pieces_);
-    add("from some ring on the neighbourhood is regular", ring ? std::optional(true) : std::nullopt, By::exact,
-        ring ? "ring " + std::to_string(*ring) : "");
-    if (ring) c.proof = prove_map(*c.map, *pieces_, functions_, *ring);
-    if (c.proof) {
-      const MapProof& p = *c.proof;
-      add("the Jacobian determinant of the characteristic map is positive",
-          p.regular == MapProof::Regular::unknown || !leads ? std::nullopt
-                                                            : std::optional(p.regular == MapProof::Regular::yes),
-          By::enclosure,
-          p.regular == MapProof::Regular::folds
-              ? "negative in " + p.fold
-              : "at least " + p.least.text(6) + " on " + std::to_string(p.leaves.size()) + " parts");
-      add("its boundary curve winds once around the centre", p.winds_once ? std::optional(true) : std::nullopt,
-          By::enclosure);
-    }
+  else
+    add("the regular limit is C^1: second differences shrink faster than steps", true, By::enclosure,
+        tail_->contraction.text(6) + " in " + std::to_string(tail_->steps) + " steps");
+  const auto ring = regular_ring(c.patch, pieces_ ? *pieces_ : tail_->pieces);
+  add("from some ring on the neighbourhood is regular", ring ? std::optional(true) : std::nullopt, By::exact,
+      ring ? "ring " + std::to_string(*ring) : "");
+  if (ring && leads) {
+    c.proof = pieces_ ? prove_map(*c.map, *pieces_, functions_, *ring) : prove_map(*c.map, *tail_, *ring, net_levels);
+    const MapProof& p = *c.proof;
+    const bool known = p.regular != MapProof::Regular::unknown;
+    add("the Jacobian determinant of the characteristic map is positive",
+        known ? std::optional(p.regular == MapProof::Regular::yes) : std::nullopt, By::enclosure,
+        p.regular == MapProof::Regular::folds ? "negative in " + p.fold
+        : p.regular == MapProof::Regular::yes
+            ? "at least " + rounded_down(p.least) + " on " + std::to_string(p.parts) + " parts"
+            : "");
+    add("its boundary curve winds once around the centre", p.winds_once ? std::optional(true) : std::nullopt,
+        By::enclosure);
   }
   v.answer = answer_of(v.hypotheses, /*necessary=*/true);
-  if (!pieces_) v.answer = Verdict::Answer::unknown;
+  if (v.answer == Verdict::Answer::unknown && leads && !pieces_) add_evidence(c, leads);
   return c;
 }
 

@@ -13,7 +13,7 @@ namespace sublimit {
 struct C1Certificate {
   Verdict verdict;
   std::optional<CharacteristicMap> map;  ///< of schemes whose block 1 has an isolated leading eigenvalue
-  std::optional<MapProof> proof;         ///< of polynomial schemes
+  std::optional<MapProof> proof;         ///< of polynomial schemes, and of others whose second differences are schemes
   LocalPatch<Algebraic> patch;
 };
 
@@ -31,12 +31,15 @@ class C1Prover {
   /// Nothing for schemes whose limits are not polynomials.
   const std::optional<RegularPieces>& pieces() const { return pieces_; }
   const BallFunctions& functions() const { return functions_; }
+  /// Of schemes without polynomials, where there is one.
+  const std::optional<DerivativeTail>& tail() const { return tail_; }
 
  private:
   Scheme<Algebraic> scheme_;
   PlaneMask mask_;
   std::optional<RegularPieces> pieces_;
   BallFunctions functions_;
+  std::optional<DerivativeTail> tail_;
 };
 
 /// The neighbourhood looks the same in a mirror: the local matrix commutes with the reflection of sectors. Then block 1

@@ -115,25 +115,27 @@ CharacteristicMap characteristic_map(const LocalPatch<Algebraic>& patch, const P
 std::vector<PlacedPiece> sector_pieces(const RegularPieces& pieces, int r) {
   std::vector<PlacedPiece> placed;
   const bool triangular = pieces.mask.triangular;
-  for (int x = 0; x < 4 * r; x += 2)
-    for (int y = 0; y < 4 * r; y += 2)
+  const int last = 2 * pieces.mask.dilation * r;
+  for (int x = 0; x < last; x += 2)
+    for (int y = 0; y < last; y += 2)
       for (size_t k = 0; k < pieces.pieces.size(); ++k) {
-        // By the middle of the piece or cell, which lies strictly between rings of cells.
-        const RegularPiece& p = pieces.pieces[k];
-        int low = 4 * r, high = 0;
-        for (const LatticePoint& c : p.corners) {
-          low = std::min(low, ring2(c + LatticePoint{x, y}, triangular));
-          high = std::max(high, ring2(c + LatticePoint{x, y}, triangular));
+        // Squares and their quarters lie between two rings as a whole.
+        int low = std::max(x, y), high = low + 2;
+        if (triangular) {
+          low = last, high = 0;
+          for (const LatticePoint& c : pieces.pieces[k].corners) {
+            low = std::min(low, ring2(c + LatticePoint{x, y}, true));
+            high = std::max(high, ring2(c + LatticePoint{x, y}, true));
+          }
         }
-        if (!triangular) low = std::max(x, y), high = low + 2;
-        if (low >= 2 * r && high <= 4 * r) placed.push_back({k, {x, y}});
+        if (low >= 2 * r && high <= last) placed.push_back({k, {x, y}});
       }
   return placed;
 }
 
 std::optional<int> regular_ring(const LocalPatch<Algebraic>& patch, const RegularPieces& pieces) {
   const auto at = places(patch);
-  const std::vector<ChildPiece> children = child_pieces(pieces.pieces);
+  const std::vector<ChildPiece> children = child_pieces(pieces.pieces, pieces.mask.dilation);
   std::map<LatticePoint, std::optional<bool>> known;
   const auto is_regular = [&](const PlacedPiece& placed) {
     for (const LatticePoint& p : pieces.pieces[placed.piece].controls)
@@ -141,7 +143,7 @@ std::optional<int> regular_ring(const LocalPatch<Algebraic>& patch, const Regula
     for (const ChildPiece& child : children) {
       if (child.parent != placed.piece) continue;
       for (const LatticePoint& p : pieces.pieces[child.piece].controls) {
-        const LatticePoint P = p + child.cell + 2 * placed.cell;
+        const LatticePoint P = p + child.cell + pieces.mask.dilation * placed.cell;
         const auto [row, is_new] = known.try_emplace(P);
         if (is_new) row->second = is_regular_row(patch, at, pieces.mask, P);
         if (row->second && !*row->second) return false;

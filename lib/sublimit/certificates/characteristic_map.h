@@ -37,9 +37,9 @@ std::vector<SectorLabel> block_labels(const LocalPatch<Algebraic>& patch, int k)
 CharacteristicMap characteristic_map(const LocalPatch<Algebraic>& patch, const PlaneMask& mask,
                                      const LeadingPair& pair);
 
-/// Where the neighbourhood is regular: the least r >= 1 such that all pieces of cells between rings r and 2 r, and all
-/// of their children, depend on points and rows of the regular mask alone. Rows outside the patch are taken to be so:
-/// rules see no further than theirs inside.
+/// Where the neighbourhood is regular: the least r >= 1 such that all pieces of cells between rings r and D r (D:
+/// dilation), and all of their children, depend on points and rows of the regular mask alone. Rows outside the patch
+/// are taken to be so: rules see no further than theirs inside.
 /// @return  nothing up to r = 4
 std::optional<int> regular_ring(const LocalPatch<Algebraic>& patch, const RegularPieces& pieces);
 
@@ -48,7 +48,7 @@ struct PlacedPiece {
   size_t piece;
   LatticePoint cell;
 };
-/// Those between rings r and 2 r: a fundamental domain of the punctured neighbourhood, without rotation and dilation.
+/// Those between rings r and D r: a fundamental domain of the punctured neighbourhood, without rotation and dilation.
 std::vector<PlacedPiece> sector_pieces(const RegularPieces& pieces, int r);
 
 }  // namespace sublimit

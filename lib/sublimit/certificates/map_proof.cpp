@@ -137,6 +137,7 @@ MapProof prove_map(CharacteristicMap& map, const RegularPieces& pieces, const Ba
     of.push_back(std::move(*piece));
     search.look(k, jacobian(of.back()), "");
   }
+  proof.parts = proof.leaves.size();
   // The map folds where the sign changes; a map that only turns the plane over does not.
   if (search.negative && search.positive) proof.regular = MapProof::Regular::folds;
   if (!search.negative && !search.failed) proof.regular = MapProof::Regular::yes;

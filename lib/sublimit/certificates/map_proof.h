@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "sublimit/certificates/characteristic_map.h"
+#include "sublimit/certificates/derivative_tail.h"
 #include "sublimit/certificates/regular_pieces.h"
 
 namespace sublimit {
@@ -35,6 +36,8 @@ struct MapProof {
   enum class Regular { yes, folds, unknown } regular = Regular::unknown;
   bool winds_once = false;
   Ball least, greatest;  ///< of the Jacobian: lower bound and upper bound are those of the balls
+  int level = 0;         ///< of refinement that was needed, of nets
+  size_t parts = 0;      ///< where the sign was found
   std::string fold;      ///< where the determinant is negative although it is positive elsewhere, for people
   bool holds() const { return regular == Regular::yes && winds_once; }
 };
@@ -51,5 +54,22 @@ Bernstein<Ball> jacobian(const MapPiece& piece);
 
 /// @param ring  `regular_ring` of the neighbourhood
 MapProof prove_map(CharacteristicMap& map, const RegularPieces& pieces, const BallFunctions& functions, int ring);
+
+/// The same for limits that are no polynomials, from refined nets: derivatives lie within the tail of differences. The
+/// net of level k is the net itself between rings D^k r and D^(k+1) r, times lambda^k, so it is only looked at further
+/// out. Of interpolating schemes; others get no winding. Leaves are all kept as numbers of the finest level needed, no
+/// paths.
+/// @param ring   `regular_ring` with `tail.pieces`
+/// @param level  up to which nets are refined
+MapProof prove_map(CharacteristicMap& map, const DerivativeTail& tail, int ring, int levels);
+
+/// What refined nets look like, as floating numbers: the signs of the determinants of their edges between rings
+/// D^level r and D^(level+1) r. Evidence.
+struct NetSigns {
+  int level = 0;
+  long positive = 0, negative = 0;
+  double least = 0;  ///< determinant relative to the mean one
+};
+std::optional<NetSigns> net_signs(CharacteristicMap& map, int ring, int level);
 
 }  // namespace sublimit

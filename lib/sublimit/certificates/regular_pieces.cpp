@@ -69,13 +69,6 @@ class DyadicLimits {
   std::vector<Weights> powers_;
 };
 
-std::vector<RegularPiece> squares() { return {{PieceShape::square, {{{0, 0}, {2, 0}, {0, 2}}}, {}, {}}}; }
-
-std::vector<RegularPiece> triangles() {
-  return {{PieceShape::triangle, {{{0, 0}, {2, 0}, {0, 2}}}, {}, {}},
-          {PieceShape::triangle, {{{2, 2}, {0, 2}, {2, 0}}}, {}, {}}};
-}
-
 std::vector<RegularPiece> quarter_squares() {
   std::vector<RegularPiece> pieces;
   const std::array<LatticePoint, 4> corners{{{0, 0}, {2, 0}, {2, 2}, {0, 2}}};
@@ -266,16 +259,23 @@ bool agree(const std::vector<RegularPiece>& pieces, const Seam& seam, int order,
 
 }  // namespace
 
-std::vector<ChildPiece> child_pieces(const std::vector<RegularPiece>& pieces) {
+std::vector<RegularPiece> squares() { return {{PieceShape::square, {{{0, 0}, {2, 0}, {0, 2}}}, {}, {}}}; }
+
+std::vector<RegularPiece> triangles() {
+  return {{PieceShape::triangle, {{{0, 0}, {2, 0}, {0, 2}}}, {}, {}},
+          {PieceShape::triangle, {{{2, 2}, {0, 2}, {2, 0}}}, {}, {}}};
+}
+
+std::vector<ChildPiece> child_pieces(const std::vector<RegularPiece>& pieces, int dilation) {
   std::vector<ChildPiece> found;
   for (size_t s = 0; s < pieces.size(); ++s)
     for (size_t t = 0; t < pieces.size(); ++t)
-      for (int x = 0; x <= 2; x += 2)
-        for (int y = 0; y <= 2; y += 2) {
+      for (int x = 0; x < 2 * dilation; x += 2)
+        for (int y = 0; y < 2 * dilation; y += 2) {
           ChildPiece child{s, t, {x, y}, {}};
           bool all = true;
           for (size_t k = 0; k < 3; ++k) {
-            child.corners[k] = place_in(pieces[s].corners, 2, pieces[t].corners[k] + child.cell);
+            child.corners[k] = place_in(pieces[s].corners, dilation, pieces[t].corners[k] + child.cell);
             all &= inside(pieces[s].shape, child.corners[k]);
           }
           if (all) found.push_back(std::move(child));

@@ -39,7 +39,11 @@ struct ChildPiece {
   LatticePoint cell;
   std::array<PiecePlace<Algebraic>, 3> corners;
 };
-std::vector<ChildPiece> child_pieces(const std::vector<RegularPiece>& pieces);
+std::vector<ChildPiece> child_pieces(const std::vector<RegularPiece>& pieces, int dilation = 2);
+
+/// Kinds of pieces without their polynomials.
+std::vector<RegularPiece> squares();
+std::vector<RegularPiece> triangles();
 
 /// Squares, triangles, or squares in four triangles, of the least degree up to `most`; nothing where none passes.
 std::optional<RegularPieces> regular_pieces(const PlaneMask& mask, int most = 6);
