@@ -34,13 +34,14 @@ Verdict c1_verdict(const ReportedScheme& scheme, const SharedAnalysis& shared, c
     C1Certificate certificate = shared.prover->certify(n);
     if (certificate.proof && !map.is_null() && certificate.proof->regular == MapProof::Regular::yes)
       map["jacobian"] = {{"sign", 1},
-                         {"least", drawn(certificate.proof->least.mid())},
-                         {"greatest", drawn(certificate.proof->greatest.mid())},
+                         {"least", drawn(certificate.proof->least.lower())},
+                         {"greatest", drawn(certificate.proof->greatest.upper())},
                          {"by", "enclosure"}};
     Verdict& v = certificate.verdict;
     if (v.answer == Answer::proved) {
       v.because = "1 and lambda lead, and the characteristic map is regular and winds once";
-      v.witness = c1_witness(scheme.scheme.name, certificate, *shared.prover->pieces());
+      // Proofs by refined nets have no witness yet.
+      if (shared.prover->pieces()) v.witness = c1_witness(scheme.scheme.name, certificate, *shared.prover->pieces());
     }
     if (is_decided(v)) return v;
   }
