@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iomanip>
 #include <map>
+#include <set>
 #include <sstream>
 
 #include "sublimit/base/error.h"
@@ -38,6 +39,50 @@ Dominance dominance(const LocalPatch<Algebraic>& patch, const LeadingPair& pair,
 
 /// How often nets are refined before a proof gives up, and for evidence.
 constexpr int net_levels = 7, evidence_level = 3;
+
+/// Control points of every piece come together: weights are not negative, and after some steps all points of a
+/// descendant see one point of the piece in common, so that the diameter shrinks by a factor (Micchelli, Prautzsch
+/// 1989, "Uniform refinement of curves").
+bool contracts(const RegularPieces& pieces) {
+  for (const auto& [at, weight] : pieces.mask.weights)
+    if (!certainly_positive(weight.real_enclosure())) return false;
+  const std::vector<ChildPiece> children = child_pieces(pieces.pieces, pieces.mask.dilation);
+  using Points = std::set<LatticePoint>;
+  // By piece, of all descendants of one level: which points of the piece each of their points sees.
+  std::vector<std::vector<std::pair<size_t, std::map<LatticePoint, Points>>>> seen(pieces.pieces.size());
+  for (size_t k = 0; k < seen.size(); ++k) {
+    std::map<LatticePoint, Points> own;
+    for (const LatticePoint p : pieces.pieces[k].controls) own[p] = {p};
+    seen[k].emplace_back(k, std::move(own));
+  }
+  for (int step = 0; step < 3; ++step) {
+    bool all = true;
+    for (auto& of_piece : seen) {
+      std::vector<std::pair<size_t, std::map<LatticePoint, Points>>> next;
+      for (const auto& [piece, points] : of_piece)
+        for (const ChildPiece& child : children) {
+          if (child.parent != piece) continue;
+          std::map<LatticePoint, Points> finer;
+          for (const LatticePoint p : pieces.pieces[child.piece].controls)
+            for (const auto& [offset, weight] : pieces.mask.weights) {
+              const auto Q = pieces.mask.parent(p + child.cell, offset);
+              if (!Q) continue;
+              const auto from = points.find(*Q);
+              if (from == points.end()) return false;
+              finer[p].insert(from->second.begin(), from->second.end());
+            }
+          Points common = finer.begin()->second;
+          for (const auto& [p, parents] : finer)
+            std::erase_if(common, [&](LatticePoint q) { return !parents.contains(q); });
+          all &= !common.empty();
+          next.emplace_back(child.piece, std::move(finer));
+        }
+      of_piece = std::move(next);
+    }
+    if (all) return true;
+  }
+  return false;
+}
 
 /// Some digits that a ball is certainly above.
 std::string rounded_down(const Ball& x) {
@@ -116,10 +161,12 @@ bool is_mirror_symmetric(const LocalPatch<Algebraic>& patch) {
 
 C1Prover::C1Prover(Scheme<Algebraic> scheme) : scheme_(std::move(scheme)), mask_(plane_mask(scheme_)) {
   pieces_ = regular_pieces(mask_);
-  if (pieces_)
+  if (pieces_) {
     functions_ = in_balls(*pieces_);
-  else
+    converges_ = contracts(*pieces_);
+  } else {
     tail_ = derivative_tail(mask_);
+  }
 }
 
 C1Certificate C1Prover::certify(int n) const {
@@ -158,6 +205,9 @@ C1Certificate C1Prover::certify(int n) const {
       std::all_of(v.hypotheses.begin(), v.hypotheses.end(), [](const Hypothesis& h) { return h.holds == true; });
   if (!c.map) return v.answer = answer_of(v.hypotheses, true), c;
   if (!pieces_ && !tail_) return add_evidence(c, leads), c;
+  if (pieces_)
+    add("points of regular meshes converge: weights are not negative and all points of a piece share a parent",
+        converges_ ? std::optional(true) : std::nullopt, By::exact);
   if (pieces_)
     add("the regular limit consists of polynomials and is C^1", pieces_->continuity >= 1, By::exact,
         "C^" + std::to_string(pieces_->continuity) + ", degree " + std::to_string(pieces_->degree));

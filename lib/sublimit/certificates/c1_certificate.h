@@ -40,6 +40,7 @@ class C1Prover {
   std::optional<RegularPieces> pieces_;
   BallFunctions functions_;
   std::optional<DerivativeTail> tail_;
+  bool converges_ = false;
 };
 
 /// The neighbourhood looks the same in a mirror: the local matrix commutes with the reflection of sectors. Then block 1
