@@ -33,7 +33,7 @@ struct Options {
   Common common;
   std::string valences = "3-12", page, json;
   std::vector<std::string> tolerances, claims;
-  std::string mask, sweep, exports;
+  std::string mask, sweep, exports, picture;
 };
 
 struct Named {
@@ -87,6 +87,7 @@ void write_outputs(const Options& options, const Json& report, Progress& progres
     progress.step("drawing " + options.page);
     write_text(options.page, report_page(report));
   }
+  if (!options.picture.empty()) write_text(options.picture, report_picture(report));
 }
 
 /// What was found, for those who only look at the terminal.
@@ -200,6 +201,7 @@ int analyze_mesh(const Options& options) {
 int analyze(const Options& options) {
   limit_threads(options.common);
   if (!options.page.empty()) check_output_path(options.page, {".html", ".htm"});
+  if (!options.picture.empty()) check_output_path(options.picture, {".svg"});
   if (!options.json.empty()) check_output_path(options.json, {".json"});
   const int jobs = !options.common.mesh.empty() + !options.mask.empty() + !options.sweep.empty();
   if (jobs > 1) throw InvalidOption("a mesh or curve, --mask and --sweep are jobs of their own; give one of them");
@@ -224,6 +226,7 @@ Command add_analyze(CLI::App& app) {
   command->add_option("-s,--scheme", options->common.scheme, "A scheme, or all");
   command->add_option("--valence", options->valences, "Valences, as in 3-12 or 3-8,12")->capture_default_str();
   command->add_option("-o,--output", options->page, "The report as a page, .html");
+  command->add_option("--picture", options->picture, "The page's first figure on its own, .svg");
   command->add_option("--json", options->json, "The report as data, .json");
   command->add_option("--tolerance", options->tolerances,
                       "Of a mesh's seams: g0=1e-9, g1=0.1deg, g2=5%; exit 1 beyond");

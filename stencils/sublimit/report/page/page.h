@@ -15,4 +15,8 @@ namespace sublimit {
 /// @note  Deterministic: the same report gives the same bytes.
 std::string report_page(const nlohmann::ordered_json& report);
 
+/// The page's first figure as an SVG file of its own; empty if it has none.
+/// @throws FormatError  as report_page
+std::string report_picture(const nlohmann::ordered_json& report);
+
 }  // namespace sublimit

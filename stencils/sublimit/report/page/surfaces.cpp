@@ -162,7 +162,8 @@ std::string asset_figure(const Json& asset) {
   options.panel_width = 900;
   options.panel_height = 620;
   const Vector3d extent = (mesh.positions.colwise().maxCoeff() - mesh.positions.colwise().minCoeff()).transpose();
-  if (extent.z() >= extent.y()) options.up = {0, 1, 0};  // files do not say; things lie flat more often than not
+  // Files do not say. Most have y upwards; what is much flatter in z lies on its belly.
+  if (extent.z() >= .5 * extent.y()) options.up = {0, 1, 0};
   options.sky_directions = 64;
   options.tone_step = 3;
   options.elevation = .36;
