@@ -120,6 +120,7 @@ int analyze_schemes(const Options& options) {
   wanted.valences = report::parse_valences(options.valences);
   Named named = schemes_named(options);
   wanted.curves = std::move(named.curves);
+  wanted.statements = options.common.scheme == "all";
   Progress progress(options.common.quiet);
   progress.step("analysing");
   wanted.progress = [&](int done, int all) { progress.note(fmt::format("analysing: {} of {} parts", done, all)); };
