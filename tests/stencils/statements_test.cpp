@@ -39,7 +39,7 @@ TEST(Statements, AreDecidedAsTheErrataHaveThem) {
   };
   for (const Expected& e : {
            Expected{"000, sqrt(3)", "sqrt(3) interpolates", "refuted"},
-           {"000, table", "sqrt(3) is C^1", "confirmed"},
+           {"000, table", "sqrt(3) is C^2", "confirmed"},
            {"000, Doo-Sabin", "a new point is the midpoint", "refuted"},
            {"000, Doo-Sabin", "the new point is a sum", "refuted"},
            {"000, table", "Doo-Sabin is C^0", "refuted"},
@@ -154,6 +154,9 @@ TEST(Statements, ExperimentsOnRegularMasksTurnWithTheMask) {
   const auto ten_points = find_scheme<Algebraic>("modified-butterfly", {{"t", "-1/48"}}).value();
   EXPECT_EQ(same_regular_mask(misread::modified_butterfly_with_one_formula<Algebraic>(), ten_points).fate,
             Fate::confirmed);
+  EXPECT_EQ(is_regularly_smooth(exact("kobbelt"), 2).fate, Fate::depends);  // exponent 2, a logarithm away from it
+  EXPECT_EQ(is_regularly_smooth(exact("kobbelt"), 3).fate, Fate::refuted);
+  EXPECT_EQ(is_regularly_smooth(exact("catmull-clark"), 2).fate, Fate::confirmed);
   EXPECT_EQ(vertex_mask_has_points(exact("butterfly"), 1).fate, Fate::confirmed);
 }
 
@@ -199,8 +202,8 @@ TEST(Statements, ExperimentsOnSplinesTurnWithTheSentence) {
 }
 
 TEST(Statements, ExperimentsOnPatchesTurnWithTheSentence) {
-  EXPECT_EQ(joint_is_g1(2).fate, Fate::confirmed);
-  EXPECT_EQ(joint_is_g1(-2).fate, Fate::refuted);
+  EXPECT_EQ(joint_is_g2(2).fate, Fate::confirmed);
+  EXPECT_EQ(joint_is_g2(-2).fate, Fate::refuted);
   EXPECT_EQ(lagrange_patch_interpolates(false).fate, Fate::confirmed);
   EXPECT_EQ(twists_at_a_corner(1).fate, Fate::confirmed);
 }

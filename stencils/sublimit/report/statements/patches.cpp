@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
+#include <string>
+
+#include "sublimit/analysis/regularity/curve_joints.h"
 
 namespace sublimit::report {
 namespace {
@@ -34,23 +36,32 @@ Eigen::Vector2d point(const std::array<Vec, 3>& points, double t) {
 
 }  // namespace
 
-Finding joint_is_g1(double factor) {
-  const Eigen::Vector2d before(3, 1), after = factor * before;
-  const double cross = before[0] * after[1] - before[1] * after[0];
-  const double degrees = std::atan2(std::abs(cross), before.dot(after)) * 180 / std::numbers::pi;
-  Finding f{fate(degrees == 0), "the angle between the directions in which the curve arrives and leaves"};
-  f.numbers["factor"] = factor;
-  f.numbers["angle in degrees"] = drawn(degrees);
+Finding joint_is_g2(double factor) {
+  // The points of a(t), and of a(1 + factor t) by its polar form.
+  const Eigen::Vector2d p0(0, 0), p1(1, 2), p2(3, 1);
+  const auto polar = [&](double s, double t) -> Eigen::RowVector2d {
+    return ((1 - s) * (1 - t) * p0 + ((1 - s) * t + s * (1 - t)) * p1 + s * t * p2).transpose();
+  };
+  const auto piece = [&](double from, double to) {
+    Eigen::MatrixXd points(3, 2);
+    points << polar(from, from), polar(from, to), polar(to, to);
+    return points;
+  };
+  const CurveJoint joint = curve_joints({{piece(0, 1), piece(1, 1 + factor)}}).at(0);
+  Finding f{fate(joint.g >= 2), "derivatives on both sides of a joint of a parabola with itself"};
+  f.numbers["factor " + drawn(factor).dump()] = "G^" + std::to_string(joint.g);
   return f;
 }
 
 Finding continuity_needs_dependent_tangents() {
-  // Control polygons of two quadratic curves, one around a corner from the other.
-  const std::array<Vec, 3> a{Vec(0, 0, 1), Vec(1, 0, 1), Vec(2, 0, 1)}, b{Vec(2, 0, 1), Vec(2, 1, 1), Vec(3, 2, 1)};
-  const Eigen::Vector2d last = 2 * (a[2] - a[1]).head<2>(), first = 2 * (b[1] - b[0]).head<2>();
-  const double gap = (point(a, 1) - point(b, 0)).norm(), area = last[0] * first[1] - last[1] * first[0];
-  Finding f{fate(gap > 0 || area == 0), "two quadratic Bezier curves with a common end point, by de Casteljau"};
-  f.numbers["gap"] = gap;
+  Eigen::MatrixXd before(3, 2), after(3, 2);  // around a corner
+  before << 0, 0, 1, 0, 2, 0;
+  after << 2, 0, 2, 1, 3, 2;
+  const CurveJoint joint = curve_joints({{before, after}}).at(0);
+  const Eigen::RowVector2d last = 2 * (before.row(2) - before.row(1)), first = 2 * (after.row(1) - after.row(0));
+  const double area = last[0] * first[1] - last[1] * first[0];
+  Finding f{fate(joint.g < 0 || area == 0), "two quadratic Bezier curves with a common end point"};
+  f.numbers["order of contact"] = "G^" + std::to_string(joint.g);
   f.numbers["area spanned by the tangent vectors"] = area;
   return f;
 }

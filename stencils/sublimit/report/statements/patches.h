@@ -5,8 +5,9 @@
 
 namespace sublimit::report {
 
-/// "Two curves whose tangent vectors at a joint differ by this factor have one tangent there."
-Finding joint_is_g1(double factor);
+/// "A curve that goes on with this factor of its tangent vector is G^2 there": a parabola, run through at another
+/// speed from the joint on.
+Finding joint_is_g2(double factor);
 
 /// "A joint is continuous if the tangent vectors are dependent", and only then.
 Finding continuity_needs_dependent_tangents();

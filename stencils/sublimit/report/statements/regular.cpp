@@ -5,6 +5,7 @@
 #include <climits>
 
 #include "sublimit/analysis/regularity/regular_mask.h"
+#include "sublimit/report/analysis/regular_json.h"
 
 namespace sublimit::report {
 namespace {
@@ -76,6 +77,23 @@ Finding is_smooth_box_spline(const Scheme<Algebraic>& scheme, const Directions& 
   const int found = continuity(directions);
   if (f.fate == Fate::confirmed) f.fate = fate(found >= k);
   f.computed += ", which is C^" + std::to_string(found);
+  return f;
+}
+
+Finding is_regularly_smooth(const Scheme<Algebraic>& scheme, int k) {
+  const Json regular = regular_json(scheme);
+  Finding f{Fate::depends, "bounds of the joint spectral radius of differences on regular meshes"};
+  if (!regular.is_object()) return f;
+  const Json& smoothness = regular["smoothness"];
+  f.numbers["regular continuity proved"] = smoothness["continuity"];
+  f.numbers["Hoelder exponent between"] = Json::array();
+  for (const Json& bound : smoothness["exponent"])
+    f.numbers["Hoelder exponent between"].push_back(bound.is_number() ? drawn(bound.get<double>()) : Json());
+  const Json& most = smoothness["exponent"][1];
+  if (smoothness["continuity"].is_number() && smoothness["continuity"] >= k)
+    f.fate = Fate::confirmed;
+  else if (most.is_number() && most < k)
+    f.fate = Fate::refuted;
   return f;
 }
 

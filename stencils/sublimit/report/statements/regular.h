@@ -20,6 +20,9 @@ Finding is_box_spline(const Scheme<Algebraic>& scheme, const Directions& directi
 /// "The regular limit is C^k, being that box spline."
 Finding is_smooth_box_spline(const Scheme<Algebraic>& scheme, const Directions& directions, int k);
 
+/// "The regular limit is C^k", of any scheme: bounds of its Hoelder exponent.
+Finding is_regularly_smooth(const Scheme<Algebraic>& scheme, int k);
+
 /// "On regular meshes both have the same mask."
 Finding same_regular_mask(const Scheme<Algebraic>& a, const Scheme<Algebraic>& b);
 
