@@ -72,8 +72,8 @@ bool contracts(const RegularPieces& pieces) {
               finer[p].insert(from->second.begin(), from->second.end());
             }
           Points common = finer.begin()->second;
-          for (const auto& [p, parents] : finer)
-            std::erase_if(common, [&](LatticePoint q) { return !parents.contains(q); });
+          for (const auto& of_point : finer)
+            std::erase_if(common, [&](LatticePoint q) { return !of_point.second.contains(q); });
           all &= !common.empty();
           next.emplace_back(child.piece, std::move(finer));
         }
