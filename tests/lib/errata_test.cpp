@@ -8,6 +8,7 @@
 
 #include "sublimit/analysis/limit_points.h"
 #include "sublimit/refine.h"
+#include "sublimit/report/statements/misreadings.h"  // the rules: reports decide on them too
 #include "sublimit/schemes.h"
 #include "support/closed_form.h"
 #include "support/match_meshes.h"
@@ -19,6 +20,7 @@ namespace sublimit::testing {
 namespace {
 
 using Plane = LimitMasks::Plane;
+using namespace misread;
 
 LocalType vertex_of(int n) { return {.kind = Centre::Kind::vertex, .faces = n}; }
 LocalType face_of(int n) { return {.kind = Centre::Kind::face, .faces = n}; }
@@ -28,12 +30,6 @@ Plane plane(const Scheme<double>& scheme, const LocalType& type) {
 
 // "sqrt(3) interpolates: centroids and flipped edges." Without relaxation old vertices are spikes, regular ones too:
 // block 0 decays like 2/3 in a step, the tangents like (2/3) cos(pi/n).
-template <class T>
-Scheme<T> sqrt3_without_relaxation() {
-  Scheme<T> scheme = sqrt3<T>({});
-  scheme.steps[0].masks.vertex = [](const Ring<T>& v) { return v.center(); };
-  return scheme;
-}
 TEST(Errata, Sqrt3WithoutRelaxationMakesSpikes) {
   for (int n = 3; n <= 20; ++n) {
     const LocalSpectrum ring(sqrt3_without_relaxation<Precise>(), n);
@@ -45,12 +41,6 @@ TEST(Errata, Sqrt3WithoutRelaxationMakesSpikes) {
 }
 
 // "Doo-Sabin: the midpoint of vertex and centroid": (5, 1, 1, 1)/8 on quads.
-template <class T>
-Scheme<T> doo_sabin_halfway() {
-  return doo_sabin_with<T>("halfway", "", [](const FaceSite<T>& f, int j) {
-    return f.ratio(1, 2 * f.size()) + (j == 0 ? f.ratio(1, 2) : T(0));
-  });
-}
 TEST(Errata, DooSabinHalfwayToTheCentroidHasNoTangentPlane) {
   for (int n = 3; n <= 20; ++n) {
     const LocalSpectrum ring(doo_sabin_halfway<Precise>(), n);
@@ -82,10 +72,7 @@ TEST(Errata, DooSabinHalfwayToTheCentroidKeepsQuadsSkew) {
 // "Mid-edge twice is Doo-Sabin": the same faces at the same places, other points. They would be the same with weights
 // 1/4, 1/2, 1/4 on three corners.
 TEST(Errata, TwoMidEdgeStepsHaveTheConnectivityOfDooSabinAndNotItsPositions) {
-  const Scheme<double> three_corners =
-      doo_sabin_with<double>("three-corners", "", [](const FaceSite<double>& f, int j) {
-        return j == 0 ? 0.5 : j == 1 || j == f.size() - 1 ? 0.25 : 0;
-      });
+  const Scheme<double> three_corners = doo_sabin_of_three_corners<double>();
   for (const ControlMesh& mesh : {jittered(prism(5)), jittered(octahedron()), jittered(torus(4, 5))}) {
     const OurMesh twice = our_mesh("mid-edge", mesh, 2);
     const auto compare = [&](const Scheme<double>& scheme) {
@@ -108,16 +95,6 @@ TEST(Errata, TwoMidEdgeStepsHaveTheConnectivityOfDooSabinAndNotItsPositions) {
 // faces that are not quads: half of the way from the midpoint to the centroid. Such a face then shrinks like
 // cos^2(pi/n)/4 in two steps, faster than the 1/4 that its surroundings have in every block: all of these come
 // together, and there is no subdominant pair, where the plain rule has one.
-template <class T>
-Scheme<T> mid_edge_with_centroids() {
-  return mid_edge_with<T>("mid-edge-with-centroids", "", [](const EdgeSite<T>& e) {
-    const Stencil<T> middle = (e.tail() + e.head()) / 2;
-    Stencil<T> point = middle;
-    for (const FaceSite<T>& f : {e.left_face(), e.right_face()})
-      if (f.size() != 4) point += (f.centroid() - middle) / 2;
-    return point;
-  });
-}
 TEST(Errata, MidEdgeWithCentroidsOfExtraordinaryFacesLosesItsLeadingPair) {
   for (int n = 5; n <= 20; ++n) {
     const LocalSpectrum corners(mid_edge_with_centroids<Precise>(), n), rings(mid_edge_with_centroids<Precise>(), n, 1);
@@ -133,18 +110,6 @@ TEST(Errata, MidEdgeWithCentroidsOfExtraordinaryFacesLosesItsLeadingPair) {
 // "(F + 2 R + (n - 3) v)/n with R the mean of the new edge points": R is the mean of the midpoints of the old edges.
 // The misreading weighs (1/2, 3/8, 1/8) on regular quads, not (9/16, 3/8, 1/16), and has 1/8 twice where 1/4 and 1/16
 // should be.
-template <class T>
-Scheme<T> catmull_clark_with_new_edge_points() {
-  Scheme<T> scheme = catmull_clark<T>({});
-  scheme.steps[0].masks.vertex = [](const Ring<T>& v) {
-    const int n = v.valence();
-    Stencil<T> points;
-    for (int i = 0; i < n; ++i)
-      points += (v.center() + v.neighbor(i) + v.face(i - 1).centroid() + v.face(i).centroid()) / 4;
-    return (v.face_point_mean() + 2 * points / T(n) + (n - 3) * v.center()) / n;
-  };
-  return scheme;
-}
 TEST(Errata, CatmullClarkWithTheMeanOfNewEdgePointsIsNoBSpline) {
   const Scheme<double> misread = catmull_clark_with_new_edge_points<double>();
   const Eigen::MatrixXd S(refine(misread, fan(4), 1)[1].S);
@@ -157,13 +122,6 @@ TEST(Errata, CatmullClarkWithTheMeanOfNewEdgePointsIsNoBSpline) {
 }
 
 // Loop's beta is the weight of the whole ring. Divided by the valence once more, regular vertices are spikes.
-template <class T>
-Scheme<T> loop_divided_twice() {
-  return loop_with<T>("loop-divided-twice", "", [](const Ring<T>& v) {
-    const T a = v.ratio(3, 8) + v.cos_2pi(1, v.valence()) / 4;
-    return (v.ratio(5, 8) - a * a) / v.valence();
-  });
-}
 TEST(Errata, LoopWithBetaDividedTwiceMakesSpikes) {
   for (int n = 3; n <= 12; ++n) {
     const LocalSpectrum ring(loop_divided_twice<Precise>(), n);
@@ -175,16 +133,7 @@ TEST(Errata, LoopWithBetaDividedTwiceMakesSpikes) {
 // The modified butterfly's rule for valences from 5 on is none for 6: the mean of both ends would not be the
 // eight-point mask, but the ten-point one with t = -1/48.
 TEST(Errata, ModifiedButterflyWithItsSpecialRuleAtValenceSixIsNoButterfly) {
-  Scheme<double> wrong = find_scheme("modified-butterfly").value();
-  wrong.steps[0].masks.wide_edge = [](const WideEdgeSite<double>& e) {
-    Stencil<double> sum;
-    for (const Ring<double>* v : {&e.tail_ring(), &e.head_ring()}) {
-      const int k = v->valence();
-      sum += 0.75 * v->center();
-      for (int i = 0; i < k; ++i) sum += (0.25 + v->cos_2pi(i, k) + v->cos_2pi(2 * i, k) / 2) / k * v->neighbor(i);
-    }
-    return sum / 2.0;
-  };
+  const Scheme<double> wrong = modified_butterfly_with_one_formula<double>();
   const auto difference = [&](const SchemeOptions& options) {
     const ControlMesh mesh = triangle_torus(6, 7);
     const Eigen::MatrixXd S(refine(wrong, mesh, 1)[1].S);
@@ -195,44 +144,21 @@ TEST(Errata, ModifiedButterflyWithItsSpecialRuleAtValenceSixIsNoButterfly) {
   EXPECT_LE(difference({{"t", "-1/48"}}), rounding(16));
 }
 
-/// Kobbelt's scheme with face points made in one direction only; `r` is the weight of diagonals in the virtual point.
-Scheme<double> kobbelt_one_way(int way, double r) {
-  Scheme<double> scheme = find_scheme("kobbelt").value();
-  const double a = 9.0 / 16, b = 1.0 / 16;
-  scheme.steps[0].masks.wide_edge = [=](const WideEdgeSite<double>& e) {
-    const auto beyond = [=](const Ring<double>& v) {
-      if (!v.is_closed()) return v.center();
-      Stencil<double> sum;
-      const int n = v.valence();
-      for (int j = 0; j < n; ++j) sum += 4.0 / n * (v.neighbor(j) - r * v.diagonal(j));
-      for (const int j : {-1, 0, 1}) sum += -1.0 * v.neighbor(j);
-      for (const int j : {-2, -1, 0, 1}) sum += r * v.diagonal(j);
-      return sum;
-    };
-    return a * (e.tail() + e.head()) - b * (beyond(e.tail_ring()) + beyond(e.head_ring()));
-  };
-  scheme.steps[0].masks.wide_face = [=](const WideFaceSite<double>& f) {
-    const auto next = [&](int i) {  // on borders, which are far away in these tests, anything
-      return f.has_across(i) ? f.edge_point_beyond(i) : f.edge_point(i);
-    };
-    return a * (f.edge_point(way) + f.edge_point(way + 2)) - b * (next(way) + next(way + 2));
-  };
-  return scheme;
-}
-constexpr double right_r = 1.0 / 9, wrong_r = 1.0 / 5;  // g/(8 + g), and the g/(4 + g) that circulates
+constexpr Ratio right_r{1, 9}, wrong_r{1, 5};  // g/(8 + g), and the g/(4 + g) that circulates
 
 // "Both ways give the same result": on regular nets, and around one extraordinary vertex if the virtual point is right.
 TEST(Errata, KobbeltsTwoWaysAgreeOnRegularNets) {
   const Eigen::MatrixXd ours(refine(find_scheme("kobbelt").value(), torus(6, 7), 1)[1].S);
   for (const int way : {0, 1})
-    EXPECT_LE(
-        (Eigen::MatrixXd(refine(kobbelt_one_way(way, right_r), torus(6, 7), 1)[1].S) - ours).cwiseAbs().maxCoeff(),
-        rounding(16));
+    EXPECT_LE((Eigen::MatrixXd(refine(kobbelt_one_way<double>(way, right_r), torus(6, 7), 1)[1].S) - ours)
+                  .cwiseAbs()
+                  .maxCoeff(),
+              rounding(16));
 }
 TEST(Errata, KobbeltsTwoWaysAgreeAroundOneVertexWithTheRightVirtualPointOnly) {
-  const auto difference = [](int n, double r) {
-    const auto one = local_patch(kobbelt_one_way(0, r), vertex_of(n), 2);
-    const auto other = local_patch(kobbelt_one_way(1, r), vertex_of(n), 2);
+  const auto difference = [](int n, Ratio r) {
+    const auto one = local_patch(kobbelt_one_way<double>(0, r), vertex_of(n), 2);
+    const auto other = local_patch(kobbelt_one_way<double>(1, r), vertex_of(n), 2);
     return (one->A - other->A).cwiseAbs().maxCoeff();
   };
   for (int n = 3; n <= 20; ++n) {
@@ -245,7 +171,9 @@ TEST(Errata, KobbeltsTwoWaysAgreeAroundOneVertexWithTheRightVirtualPointOnly) {
 TEST(Errata, KobbeltsTwoWaysDifferBetweenExtraordinaryVertices) {
   const std::vector<Level> levels = refine(find_scheme("kobbelt").value(), cube(), 1);
   const Points once = apply(levels[1].S, cube().positions);
-  const auto again = [&](int way) { return apply(next_level(kobbelt_one_way(way, right_r), levels[1]).S, once); };
+  const auto again = [&](int way) {
+    return apply(next_level(kobbelt_one_way<double>(way, right_r), levels[1]).S, once);
+  };
   EXPECT_NEAR((again(0) - again(1)).cwiseAbs().maxCoeff(), 2.65e-3, 1e-5);
 }
 
