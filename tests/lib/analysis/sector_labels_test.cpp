@@ -23,7 +23,9 @@ TEST(SectorLabels, RotateWithTheSectors) {
       std::set<SectorLabel> seen(patch->labels.begin(), patch->labels.end());
       EXPECT_EQ(seen.size(), patch->slots.size()) << scheme.name << ": each place once";
       for (const std::vector<Index>& orbit : patch->orbits) {
-        if (orbit.size() == 1) EXPECT_EQ(patch->labels[orbit[0]], SectorLabel{}) << scheme.name;
+        if (orbit.size() == 1) {
+          EXPECT_EQ(patch->labels[orbit[0]], SectorLabel{}) << scheme.name;
+        }
         for (size_t s = 1; s < orbit.size(); ++s) {
           SectorLabel turned = patch->labels[orbit[s - 1]];
           turned.sector = (turned.sector + 1) % n;
