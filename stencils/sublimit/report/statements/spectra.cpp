@@ -34,7 +34,7 @@ bool leaves_it_to_the_map(const Verdict& v) {
 /// The map where the spectrum is as it should be: proved, else sampled.
 Answer map_answer(const ReportedScheme& scheme, std::optional<SharedAnalysis>& shared, int n) {
   if (!shared) shared = shared_analysis(scheme);
-  if (shared->prover && shared->prover->pieces()) {
+  if (shared->prover) {
     const Answer answer = shared->prover->certify(n).verdict.answer;
     if (answer == Answer::proved || answer == Answer::disproved) return answer;
   }

@@ -12,7 +12,7 @@ inline ReportedScheme both_of(Scheme<double> scheme, Scheme<Algebraic> exact) {
 }
 
 /// "The limit is C^1 at centres of these valences" (corners of faces, for dual schemes). Spectra are exact; that the
-/// characteristic map is regular is proved for polynomial schemes, and sampled for others.
+/// characteristic map is regular is proved where it can be, else sampled.
 Finding is_c1(const ReportedScheme& scheme, const std::vector<int>& valences);
 
 /// "Borders have a tangent plane where this many faces meet."
