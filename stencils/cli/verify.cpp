@@ -4,6 +4,9 @@
 #include "common.h"
 #include "sublimit/base/error.h"
 #include "sublimit/base/memory.h"
+#include "sublimit/base/read_file.h"
+#include "sublimit/mesh/file_extension.h"
+#include "sublimit/report/analysis/verify_report.h"
 #include "sublimit/table_file.h"
 #include "sublimit/verify_table.h"
 
@@ -49,8 +52,43 @@ void describe(const BakedTable<Real>& table) {
              bytes_in_words(double(t.num_bytes())));
 }
 
+int print_findings(const std::string& path, const std::vector<std::string>& findings) {
+  for (const std::string& finding : findings)
+    fmt::print("{}{}\n", finding.starts_with(path) ? "" : path + ": ", finding);
+  return negative_verdict;
+}
+
+std::string verdicts_in_words(const report::ReportVerification& found) {
+  if (found.kind != "schemes") return fmt::format("a report of kind {}, which has no verdicts to prove", found.kind);
+  std::string text =
+      fmt::format("sound: {} verdicts, {} of them proofs with a witness", found.verdicts, found.seen_again);
+  if (found.seen_again > 0) text += ", seen again";
+  if (found.seen_with_scheme > 0)
+    text += fmt::format(" ({} on the masks of the scheme's own file)", found.seen_with_scheme);
+  return text + fmt::format(";\n  {} are proved or disproved without a witness, and {} are not decided", found.decided,
+                            found.verdicts - found.decided - found.seen_again);
+}
+
+int verify_report(const Options& options) {
+  Progress progress(options.common.quiet);
+  progress.step("verifying " + options.table);
+  report::ReportVerification found;
+  try {
+    found = report::verify_report(read_file(options.table), [&](int done, int all) {
+      progress.note(fmt::format("verifying {}: {} of {} witnesses", options.table, done, all));
+    });
+  } catch (const FormatError& error) {
+    throw FormatError(options.table + ": " + error.what());
+  }
+  progress.step("");
+  if (!found.findings.empty()) return print_findings(options.table, found.findings);
+  if (!options.common.quiet) fmt::print("{}: {}\n", options.table, verdicts_in_words(found));
+  return 0;
+}
+
 int verify(const Options& options) {
   limit_threads(options.common);
+  if (file_extension(options.table) == ".json") return verify_report(options);
   Progress progress(options.common.quiet);
   progress.step("verifying " + options.table);
   Verification found;
@@ -60,9 +98,7 @@ int verify(const Options& options) {
     found.findings.push_back(error.what());
   }
   progress.step("");
-  for (const std::string& finding : found.findings)
-    fmt::print("{}{}\n", finding.starts_with(options.table) ? "" : options.table + ": ", finding);
-  if (!found.findings.empty()) return negative_verdict;
+  if (!found.findings.empty()) return print_findings(options.table, found.findings);
   if (options.common.quiet) return 0;
   fmt::print("{}: sound: layout, indices, finite weights, {} row sums, {} checksums, {} arrays, {}\n", options.table,
              found.rows, found.checksums, found.arrays, bytes_in_words(double(found.bytes)));
@@ -73,16 +109,21 @@ int verify(const Options& options) {
 }  // namespace
 
 Command add_verify(CLI::App& app) {
-  auto* command = app.add_subcommand("verify", "Whether a table is sound");
+  auto* command = app.add_subcommand("verify", "Whether a table is sound, or a report proves what it says");
   auto options = std::make_shared<Options>();
-  command->add_option("TABLE", options->table, "What `sublimit bake` made")->required();
+  command->add_option("TABLE", options->table, "What `sublimit bake` made, or `sublimit analyze --json`")->required();
   add_run(*command, options->common);
   command->footer(
       "Examples:\n"
       "  sublimit verify level3.safetensors\n"
-      "Checked: the layout of the file (every tensor within it, no overlaps, no holes, sizes that fit their shapes),\n"
+      "  sublimit verify report.json\n"
+      "Checked of tables: the layout of the file (every tensor within it, no overlaps, no holes, sizes that fit their "
+      "shapes),\n"
       "indices, that weights are finite, that those of a position sum to one and those of a derivative to zero, that\n"
-      "every point is made once, and checksums. Exit status 1 if a check fails, 3 if the file cannot be read.");
+      "every point is made once, and checksums. Checked of reports: that each witness proves C^1 at its neighbourhood\n"
+      "(by a checker of its own, and on the masks of the scheme's file where the scheme is one of ours), that C^1 is\n"
+      "nowhere said to be proved without one, and that verdicts agree with their hypotheses and with the summary.\n"
+      "Exit status 1 if a check fails, 3 if the file cannot be read.");
   return [=] { return verify(*options); };
 }
 

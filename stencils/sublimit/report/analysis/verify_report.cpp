@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sublimit/report/analysis/verify_report.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <mutex>
+
+#include "sublimit/base/error.h"
+#include "sublimit/base/parallel_for.h"
+#include "sublimit/certificates/witness.h"
+#include "sublimit/report/analysis/claims_json.h"
+#include "sublimit/report/analysis/registered_rows.h"
+
+namespace sublimit::report {
+namespace {
+
+using Exact = std::optional<ExactScheme>;
+
+constexpr std::array answers = {"proved", "disproved", "evidence-for", "evidence-against", "borderline", "unknown"};
+constexpr int deepest = 32;  // levels of nesting; a report has a dozen
+
+/// A witness, and where it stands.
+struct Stand {
+  const Json* witness;
+  std::string scheme, place;  ///< place: "catmull-clark, vertex 5, c1"
+  int n = 0;
+  bool is_face = false;
+  const Exact* exact;
+  size_t order = 0;  ///< of its findings among all
+};
+
+struct Finding {
+  size_t order;
+  std::string what;
+};
+
+struct Reader {
+  ReportVerification result = {};
+  std::vector<Finding> findings = {};
+  std::vector<Stand> stands = {};
+  size_t order = 0;
+
+  void find(const std::string& place, const std::string& what) { findings.push_back({order, place + ": " + what}); }
+
+  void hypotheses(const Json& verdict, const std::string& place) {
+    const std::string answer = verdict.at("verdict");
+    if (answer != "proved") return;
+    for (const Json& h : verdict.at("hypotheses")) {
+      const std::string says = h.at("says");
+      const Json& holds = h.at("holds");
+      if (h.at("by") == "floating") find(place, "said to be proved, by floating numbers: '" + says + "'");
+      if (!holds.is_boolean() || !holds.get<bool>())
+        find(place, "said to be proved, although this does not hold or is not known: '" + says + "'");
+    }
+  }
+
+  /// @param stand  where a witness may stand; null: nowhere
+  void verdict(const Json& verdict, const std::string& owner, const Stand* stand) {
+    ++order, ++result.verdicts;
+    const std::string property = verdict.at("property"), answer = verdict.at("verdict");
+    const std::string place = owner + ", " + property;
+    if (std::find(answers.begin(), answers.end(), answer) == answers.end())
+      find(place, "'" + answer + "' is no verdict");
+    hypotheses(verdict, place);
+    const Json& witness = verdict.at("witness");
+    if (witness.is_null()) {
+      result.decided += answer == "proved" || answer == "disproved";
+      if (property == "c1" && answer == "proved") find(place, "said to be proved, without a witness");
+      return;
+    }
+    if (property != "c1" || !stand) return find(place, "there is a witness, and witnesses of this are not known");
+    if (answer != "proved") return find(place, "the witness is one of a proof, and the verdict is " + answer);
+    Stand here = *stand;
+    here.witness = &witness;
+    here.place = place;
+    here.order = order;
+    stands.push_back(here);
+  }
+
+  void scheme(const Json& scheme, const Exact& exact) {
+    const std::string name = scheme.at("name");
+    if (const Json& regular = scheme.at("regular"); !regular.is_null())
+      for (const Json& v : regular.at("verdicts")) verdict(v, name + ", regular", nullptr);
+    for (const Json& n : scheme.at("neighborhoods")) {
+      const std::string kind = n.at("kind");
+      const Stand stand{nullptr, name, "", n.at("n").get<int>(), kind == "face", &exact};
+      const bool closed = kind == "vertex" || kind == "face";
+      const std::string place = fmt::format("{}, {} {}", name, kind, stand.n);
+      if (closed) {
+        const Json& all = n.at("verdicts");
+        const auto is_c1 = [](const Json& v) { return v.at("property") == "c1"; };
+        if (std::none_of(all.begin(), all.end(), is_c1)) find(place, "there is no verdict on c1");
+      }
+      for (const Json& v : n.at("verdicts")) verdict(v, place, closed ? &stand : nullptr);
+    }
+  }
+
+  void summary(const Json& report) {
+    ++order;
+    const Json &schemes = report.at("schemes"), &rows = report.at("summary");
+    if (rows.size() != schemes.size())
+      return find("summary", fmt::format("{} rows for {} schemes", rows.size(), schemes.size()));
+    for (size_t i = 0; i < rows.size(); ++i) {
+      const Json made = summary_row(schemes[i]);
+      for (const char* key : {"scheme", "regular", "regular_verdict", "extraordinary", "extraordinary_verdict"})
+        if (rows[i].at(key) != made.at(key))
+          find(fmt::format("summary, {}", made.at("scheme").dump()),
+               fmt::format("{} is {}, and the verdicts say {}", key, rows[i].at(key).dump(), made.at(key).dump()));
+    }
+  }
+};
+
+SchemeOptions options_of(const Json& scheme) {
+  SchemeOptions options;
+  for (const auto& [name, value] : scheme.at("options").items()) options[name] = value.get<std::string>();
+  return options;
+}
+
+/// What is wrong with a witness where it stands; `with_scheme`: its rows were compared.
+std::vector<std::string> problems(const Stand& stand, bool& with_scheme) {
+  std::vector<std::string> all;
+  try {
+    const Json& w = *stand.witness;
+    all = check_witness(w.dump());
+    if (!all.empty()) return all;
+    if (w.at("scheme") != stand.scheme) all.push_back("the witness is one of scheme " + w.at("scheme").dump());
+    if (w.at("n") != stand.n || w.at("dual") != stand.is_face)
+      all.push_back(fmt::format("the witness is one of a {} with n = {}", w.at("dual") == true ? "face" : "vertex",
+                                w.at("n").dump()));
+    if (!all.empty() || !*stand.exact) return all;
+    const PrecisionScope precision(256);
+    with_scheme = true;
+    if (const std::string other = differs_from(**stand.exact, w); !other.empty())
+      all.push_back("the witness is not one of this scheme: " + other);
+  } catch (const nlohmann::json::exception& error) {
+    all.push_back(std::string("no witness: ") + error.what());
+  } catch (const Error& error) {
+    all.push_back(error.what());
+  }
+  return all;
+}
+
+Json parsed(const std::string& text) {
+  Json report;
+  try {
+    report = Json::parse(text, [](int depth, Json::parse_event_t, const Json&) {
+      if (depth > deepest) throw FormatError("no report: it is nested too deep");
+      return true;
+    });
+  } catch (const nlohmann::json::exception& error) {
+    throw FormatError(std::string("not JSON: ") + error.what());
+  }
+  if (!report.is_object() || report.value("format", Json()) != "sublimit-report")
+    throw FormatError("no report of `sublimit analyze --json`: \"format\": \"sublimit-report\" is expected");
+  if (report.value("version", Json()) != 1)
+    throw FormatError("version " + report.value("version", Json()).dump() +
+                      " of the report is not known; this program reads version 1");
+  const Json kind = report.value("kind", Json());
+  if (kind != "schemes" && kind != "mesh" && kind != "curve" && kind != "sweep")
+    throw FormatError("kind " + kind.dump() + " is none of schemes, mesh, curve and sweep");
+  return report;
+}
+
+}  // namespace
+
+ReportVerification verify_report(const std::string& text, const std::function<void(int, int)>& progress) {
+  const Json report = parsed(text);
+  Reader reader;
+  reader.result.kind = report.at("kind");
+  std::vector<Exact> exact;
+  try {
+    if (reader.result.kind == "schemes") {
+      const Json& schemes = report.at("schemes");
+      for (const Json& scheme : schemes)
+        exact.push_back(scheme.at("kind") == "surface" ? registered_scheme(scheme.at("name"), options_of(scheme))
+                                                       : std::nullopt);
+      for (size_t s = 0; s < exact.size(); ++s) reader.scheme(schemes[s], exact[s]);
+      reader.summary(report);
+    }
+  } catch (const nlohmann::json::exception& error) {
+    throw FormatError(std::string("a part of the report is missing, or of another kind: ") + error.what());
+  }
+  std::mutex telling;
+  int done = 0;
+  parallel_for_blocks(
+      static_cast<std::int64_t>(reader.stands.size()),
+      [&](std::int64_t, std::int64_t i, std::int64_t) {
+        const Stand& stand = reader.stands[static_cast<size_t>(i)];
+        bool with_scheme = false;
+        const std::vector<std::string> wrong = problems(stand, with_scheme);
+        const std::lock_guard lock(telling);
+        for (const std::string& what : wrong) reader.findings.push_back({stand.order, stand.place + ": " + what});
+        reader.result.seen_again += wrong.empty();
+        reader.result.seen_with_scheme += wrong.empty() && with_scheme;
+        if (progress) progress(++done, static_cast<int>(reader.stands.size()));
+      },
+      1);
+  std::stable_sort(reader.findings.begin(), reader.findings.end(),
+                   [](const Finding& a, const Finding& b) { return a.order < b.order; });
+  for (Finding& finding : reader.findings) reader.result.findings.push_back(std::move(finding.what));
+  return std::move(reader.result);
+}
+
+}  // namespace sublimit::report
