@@ -43,6 +43,13 @@ ControlMesh lone_fan(Index n, Index face_size, bool open) {
   return mesh;
 }
 
+ControlMesh creased_fan(Index n, Index faces, Index face_size) {
+  ControlMesh mesh = lone_fan(n, face_size, false);
+  for (const Index spoke : {Index{0}, faces % n})
+    mesh.creases.push_back({0, 1 + spoke * (face_size - 2), infinite_sharpness});
+  return mesh;
+}
+
 void cut_out(Level& level, Centre& centre, int rings) {
   const Topology& t = level.topology();
   const Index face = index(t.face(centre.start));

@@ -27,6 +27,9 @@ struct LocalPatch {
 
 /// n faces of a scheme's regular size around a vertex, alone.
 ControlMesh lone_fan(Index n, Index face_size, bool open);
+/// The same, closed, with sharp edges that cut a side of `faces` faces off the vertex: from spoke 0 to spoke `faces`.
+/// One edge alone, where `faces` is n, ends there: a dart.
+ControlMesh creased_fan(Index n, Index faces, Index face_size);
 
 /// The faces within some rings around a centre as a level of their own, without a matrix.
 void cut_out(Level& level, Centre& centre, int rings);
@@ -47,9 +50,13 @@ void cut_out(LevelOf<T>& level, Centre& centre, int rings) {
 /// Local matrix of a type; nothing where a centre of this type does not have a child of its own type (a vertex in a
 /// dual scheme).
 /// @param rings  of points that the closed set shall hold at least; 1 is enough for tangents (0 for faces)
+/// @param around  the mesh that the centre is in the middle of, its vertex 0; a lone fan where there is none. For one
+///                side of sharp edges: the centre's first face is that of the edge to vertex 1
 /// @throws AnalysisError  no small closed set
+/// @throws UnsupportedTopology  the scheme has no rule for what is sharp `around`
 template <class T>
-std::optional<LocalPatch<T>> local_patch(const Scheme<T>& scheme, LocalType type, int rings = -1) {
+std::optional<LocalPatch<T>> local_patch(const Scheme<T>& scheme, LocalType type, int rings = -1,
+                                         const ControlMesh* around = nullptr) {
   // Rings of points that masks may reach. Steps of repeated averaging add up: degree 9 is closed with four rings.
   const int margin = std::max(3, static_cast<int>(scheme.steps.size()) - 1);
   const bool is_face = type.kind == Centre::Kind::face;
@@ -57,7 +64,7 @@ std::optional<LocalPatch<T>> local_patch(const Scheme<T>& scheme, LocalType type
   if (type.corner && scheme.is_dual()) return std::nullopt;  // dual schemes round corners
   const bool open = type.open || type.kind == Centre::Kind::border;
   const Index size = scheme.face_size() == 3 ? 3 : 4;
-  const ControlMesh mesh = lone_fan(type.kind == Centre::Kind::border ? 2 : type.faces, size, open);
+  const ControlMesh mesh = around ? *around : lone_fan(type.kind == Centre::Kind::border ? 2 : type.faces, size, open);
   SubdivisionOptions options;
   options.boundary = Boundary::edge_only;
 
@@ -66,6 +73,7 @@ std::optional<LocalPatch<T>> local_patch(const Scheme<T>& scheme, LocalType type
     level.sharpness.vertex[0] = infinite_sharpness;  // no tag: of vertices of several fans, under any scheme
   const Topology* t = &level.topology();
   Centre centre{Centre::Kind::vertex, t->outgoing(Vertex{0})};
+  while (around && t->head(centre.start) != Vertex{1}) centre.start = t->ccw(centre.start);
   const auto follow = [&](LevelOf<T>&& next) {
     const Topology* before = &level.topology();
     for (const Refinement& step : next.steps) {

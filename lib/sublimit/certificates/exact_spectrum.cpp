@@ -51,13 +51,16 @@ std::vector<ExactEigenvalue> ExactSpectrum::of_rank(int rank) const {
   return some;
 }
 
-ExactSpectrum exact_spectrum(const LocalPatch<Algebraic>& patch) {
+ExactSpectrum exact_spectrum(const LocalPatch<Algebraic>& patch) { return exact_spectrum(exact_blocks(patch)); }
+
+ExactSpectrum exact_spectrum(ExactBlocks blocks) {
   ExactSpectrum spectrum;
-  spectrum.blocks = exact_blocks(patch);
+  spectrum.blocks = std::move(blocks);
   const int n = spectrum.blocks.sectors;
+  const bool one = spectrum.blocks.blocks.size() == 1;
   for (int k = 0; k < static_cast<int>(spectrum.blocks.blocks.size()); ++k)
     for (ExactEigenvalue& value : block_values(spectrum.blocks.blocks[k])) {
-      value.block = n == 0 ? -1 : k;
+      value.block = one ? -1 : k;
       value.copies = n > 0 && k > 0 && 2 * k < n ? 2 : 1;
       spectrum.values.push_back(std::move(value));
     }

@@ -13,8 +13,8 @@ namespace sublimit {
 /// One eigenvalue of one Fourier block.
 struct ExactEigenvalue {
   AlgebraicRoot value = {};
-  int block = 0;            ///< k = 0 ... n/2; block n - k has the conjugate. -1 without symmetry
-  int copies = 1;           ///< 2 where block n - k is another one: the multiplicities below count once in each
+  int block = 0;   ///< k = 0 ... n/2; block n - k has the conjugate. By a mirror: 0 even, 1 odd. -1 without symmetry
+  int copies = 1;  ///< 2 where block n - k is another one: the multiplicities below count once in each
   int multiplicity = 1;     ///< algebraic, in the block
   std::vector<int> jordan;  ///< sizes of its Jordan blocks, descending
   int rank = 0;             ///< equal moduli have equal ranks; 0 is the largest modulus
@@ -31,6 +31,7 @@ struct ExactSpectrum {
 };
 
 ExactSpectrum exact_spectrum(const LocalPatch<Algebraic>& patch);
+ExactSpectrum exact_spectrum(ExactBlocks blocks);
 /// Of any real matrix, without symmetry: by modulus, ranked.
 std::vector<ExactEigenvalue> exact_eigenvalues(const DenseMatrix<Algebraic>& A);
 

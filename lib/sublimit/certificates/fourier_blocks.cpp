@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "sublimit/certificates/mirror.h"
+
 namespace sublimit {
 namespace {
 
@@ -31,6 +33,8 @@ ExactBlocks exact_blocks(const LocalPatch<Algebraic>& patch) {
   ExactBlocks result;
   const DenseMatrix<Algebraic>& A = patch.A;
   if (patch.orbits.empty()) {
+    if (patch.type.open)
+      if (const auto images = mirror_images(patch)) return mirror_blocks(A, *images);
     std::vector<std::vector<Index>> rows;
     for (Eigen::Index i = 0; i < A.rows(); ++i) rows.push_back({static_cast<Index>(i)});
     result.blocks.push_back(A);

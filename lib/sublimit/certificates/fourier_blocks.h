@@ -11,14 +11,15 @@
 namespace sublimit {
 
 struct ExactBlocks {
-  int sectors = 0;  ///< n; 0 for an open neighbourhood, which is one block
+  int sectors = 0;  ///< n; 0 for an open neighbourhood: two blocks by its mirror (mirror.h), or one
   /// Block k = 0 ... n/2; block n - k is the conjugate of block k. Row i belongs to `orbits[k][i]`.
   std::vector<DenseMatrix<Algebraic>> blocks = {};
   /// Per block and row, the positions in the patch, sector by sector; the centre, one position, is in block 0 alone.
   std::vector<std::vector<std::vector<Index>>> orbits = {};
 };
 
-/// @throws AnalysisError  the matrix does not commute with the rotation (checked for every entry), or is not real
+/// @throws AnalysisError  the matrix of a closed one does not commute with the rotation (checked for every entry), or
+/// is not real
 ExactBlocks exact_blocks(const LocalPatch<Algebraic>& patch);
 
 /// Row i of a matrix depends on row j, and j on i: sets of rows of the diagonal blocks of its block triangular form.

@@ -11,11 +11,20 @@ namespace {
 using By = Hypothesis::By;
 using Answer = Verdict::Answer;
 
-/// Eigenvalues of the rows and columns in a set, each as often as its multiplicity.
-std::vector<AlgebraicRoot> roots_of(const DenseMatrix<Algebraic>& A, const std::vector<Index>& set) {
+/// Eigenvalues of the rows and columns whose points are (or are not) on the curve, each as often as its multiplicity,
+/// by modulus. The curve is its own mirror image, so each block falls apart like the whole.
+std::vector<AlgebraicRoot> roots_of(const ExactBlocks& blocks, const std::vector<Index>& curve, bool on_curve) {
   std::vector<AlgebraicRoot> all;
-  const DenseMatrix<Algebraic> part = A(set, set);
-  for (const ExactEigenvalue& value : exact_eigenvalues(part)) all.insert(all.end(), value.multiplicity, value.value);
+  for (size_t k = 0; k < blocks.blocks.size(); ++k) {
+    std::vector<Index> rows;
+    for (size_t i = 0; i < blocks.orbits[k].size(); ++i)
+      if (std::binary_search(curve.begin(), curve.end(), blocks.orbits[k][i][0]) == on_curve)
+        rows.push_back(static_cast<Index>(i));
+    const DenseMatrix<Algebraic> part = blocks.blocks[k](rows, rows);
+    for (const ExactEigenvalue& value : exact_eigenvalues(part)) all.insert(all.end(), value.multiplicity, value.value);
+  }
+  std::stable_sort(all.begin(), all.end(),
+                   [](const AlgebraicRoot& a, const AlgebraicRoot& b) { return compare_moduli(a, b) > 0; });
   return all;
 }
 
@@ -48,7 +57,8 @@ Verdict tangent_plane(const ExactAnalysis& analysis) {
     v.because = "the argument does not speak of this: " + v.hypotheses[*apart.holds ? 1 : 0].says + " does not hold";
     return v;
   }
-  const std::vector<AlgebraicRoot> along = roots_of(A, curve), across = roots_of(A, inside);
+  const ExactBlocks& blocks = analysis.spectrum.blocks;
+  const std::vector<AlgebraicRoot> along = roots_of(blocks, curve, true), across = roots_of(blocks, curve, false);
   const size_t tangents = corner ? 2 : 1;
   const bool has_tangents = along.size() > tangents && is_positive(along[1]) && along[tangents] == along[1] &&
                             (along.size() == tangents + 1 || compare_moduli(along[tangents + 1], along[1]) < 0);
@@ -66,24 +76,25 @@ Verdict tangent_plane(const ExactAnalysis& analysis) {
   const std::string name = corner ? "the first mode of the interior" : "the second mode of the interior";
   v.hypotheses.push_back({name + " is smaller than the tangent's", order < 0, order == 0 ? By::exact : By::enclosure,
                           rival.text() + " against " + t.text()});
-  const auto of_tangent = std::find_if(analysis.spectrum.values.begin(), analysis.spectrum.values.end(),
-                                       [&](const ExactEigenvalue& value) { return value.value == t; });
-  const bool defective = of_tangent->largest_jordan() > 1;
+  int longest = 1;  // Jordan block of the tangent's eigenvalue, even or odd
+  for (const ExactEigenvalue& value : analysis.spectrum.values)
+    if (value.value == t) longest = std::max(longest, value.largest_jordan());
+  const bool defective = longest > 1;
   if (order > 0) {
     v.answer = Answer::disproved;
     v.because =
         name + " is larger than the tangent's: normals inside and normals on the border tend to different limits";
   } else if (order == 0 && defective) {
     v.answer = Answer::borderline;
-    v.because = name + " equals the tangent's in one Jordan block of size " +
-                std::to_string(of_tangent->largest_jordan()) + ": the plane is reached, but like 1/steps";
+    v.because = name + " equals the tangent's in one Jordan block of size " + std::to_string(longest) +
+                ": the plane is reached, but like 1/steps";
   } else if (order == 0) {
     v.answer = Answer::disproved;
     v.because = name + " equals the tangent's, with eigenvectors of its own: three directions lead together";
   } else if (!corner && compare_moduli(across[0], t) == 0 && defective) {
     v.answer = Answer::borderline;
     v.because = "the first mode of the interior and the tangent share a Jordan block of size " +
-                std::to_string(of_tangent->largest_jordan()) + ": the plane is reached, but like 1/steps";
+                std::to_string(longest) + ": the plane is reached, but like 1/steps";
   } else if (!corner && !is_positive(across[0])) {
     v.because = "the first mode of the interior is not positive: " + across[0].text();
   } else if (!corner && along.size() > 2 && compare_moduli(along[2], across[0]) > 0) {

@@ -34,7 +34,7 @@ void write_exports(const std::filesystem::path& directory, const std::vector<Rep
   for (const ReportedScheme& scheme : schemes)
     for (const NeighborhoodKind& kind : neighborhoods(scheme.scheme, valences)) {
       const LocalType type = local_type(kind);
-      const auto patch = local_patch(scheme.exact, type);
+      const auto patch = local_patch(scheme.exact, kind);
       if (!patch) continue;
       const std::string name = fmt::format("{}-{}-{}", scheme.scheme.name, kind.name(), kind.n);
       write_matrix(directory / (name + ".matrix.txt"), *patch, name);

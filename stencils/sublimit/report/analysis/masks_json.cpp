@@ -2,6 +2,7 @@
 #include "sublimit/report/analysis/masks_json.h"
 
 #include <cmath>
+#include <map>
 
 #include "sublimit/analysis/eigen_structure.h"
 #include "sublimit/analysis/limit_masks.h"
@@ -84,6 +85,39 @@ Json masks_json(const Scheme<double>& scheme, const LocalPatch<Algebraic>* exact
   json["tangent2"] = mask_json(patch->labels, side.tangent2, exactly ? exact_or_null(exactly->tangent2) : nullptr);
   json["second"] = type.open ? Json(nullptr) : second_order_masks(scheme, type);
   return json;
+}
+
+Json dart_masks_json(const Scheme<double>& scheme, const LocalPatch<Algebraic>& exact, std::string& why) try {
+  if (!has_one_ring_limits(scheme)) return nullptr;
+  const Index n = exact.type.faces, size = scheme.face_size() == 3 ? 3 : 4;
+  const ControlMesh mesh = creased_fan(n, n, size);
+  SubdivisionOptions options;
+  options.boundary = Boundary::edge_only;
+  const Level level = control_level(scheme, mesh, options);
+  const NeighborhoodAt at = neighborhood(level.topology(), level.sharpness, Vertex{0});
+  const LimitMasks masks = limit_masks(scheme, at.type);
+  // Points of the fan by slot; those of the patch by their labels.
+  std::map<SectorLabel, Index> slot_of;
+  for (size_t s = 0; s < at.vertices.size(); ++s) {
+    const Index v = at.vertices[s], spoke = (v - 1) / (size - 2);
+    const bool is_diagonal = size == 4 && v > 0 && (v - 1) % 2 == 1;
+    slot_of[v == 0 ? SectorLabel{} : SectorLabel{spoke, 2, is_diagonal ? 2 : 0}] = static_cast<Index>(s);
+  }
+  const auto by_label = [&](const LimitMasks::Mask& mask) {
+    Eigen::VectorXd sorted(exact.labels.size());
+    for (size_t i = 0; i < exact.labels.size(); ++i)
+      sorted[static_cast<Eigen::Index>(i)] = mask[slot_of.at(exact.labels[i])];
+    return sorted;
+  };
+  const ExactMasks exactly = exact_masks(exact);
+  const LimitMasks::Side& side = masks.sides.at(0);
+  return {{"position", mask_json(exact.labels, by_label(masks.position), &exactly.position)},
+          {"tangent1", mask_json(exact.labels, by_label(side.tangent1), nullptr)},
+          {"tangent2", mask_json(exact.labels, by_label(side.tangent2), nullptr)},
+          {"second", nullptr}};
+} catch (const AnalysisError& error) {
+  why = error.what();
+  return nullptr;
 }
 
 }  // namespace sublimit::report

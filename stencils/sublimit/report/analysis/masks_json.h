@@ -12,4 +12,8 @@ namespace sublimit::report {
 Json masks_json(const Scheme<double>& scheme, const LocalPatch<Algebraic>* exact, const LocalType& type,
                 const std::optional<Algebraic>& lambda, std::string& why);
 
+/// The same of a dart, whose tangents have no exact form in general; its even tangent first.
+/// @param exact  its patch, of one ring
+Json dart_masks_json(const Scheme<double>& scheme, const LocalPatch<Algebraic>& exact, std::string& why);
+
 }  // namespace sublimit::report

@@ -127,12 +127,15 @@ Json eigenfunctions_json(const LocalModes& modes) {
   return json;
 }
 
-SampleSurface sample_surface(const std::shared_ptr<PieceTypes>& pieces, const LocalType& type, bool is_drawn) {
+SampleSurface sample_surface(const std::shared_ptr<PieceTypes>& pieces, const LocalType& type, bool is_drawn,
+                             bool is_dart) {
   const Scheme<double>& scheme = pieces->scheme();
   constexpr int rings = 5;
+  const bool open = type.open && !is_dart;
   const bool triangles = has_triangles(scheme), is_face = type.kind == Centre::Kind::face;
-  SectorMesh net = sector_mesh(type.kind, type.faces, triangles ? 3 : 4, rings, type.open);
-  const double angle = (type.open ? 1.0 : 2.0) * std::numbers::pi / type.faces;
+  SectorMesh net = sector_mesh(type.kind, type.faces, triangles ? 3 : 4, rings, open);
+  // One face alone would be flat between spokes that are opposite.
+  const double angle = open ? std::numbers::pi / std::max<Index>(2, type.faces) : 2 * std::numbers::pi / type.faces;
   for (size_t i = 0; i < net.labels.size(); ++i) {
     const SectorLabel& l = net.labels[i];
     const double x = l.x() * std::cos(angle * l.sector) + l.y() * std::cos(angle * (l.sector + 1)),
@@ -143,6 +146,8 @@ SampleSurface sample_surface(const std::shared_ptr<PieceTypes>& pieces, const Lo
     net.mesh.positions.row(static_cast<Eigen::Index>(i)) << x, y, z;
   }
   if (type.corner) net.mesh.corners.push_back({net.find.at({0, 0, 0}), infinite_sharpness});
+  for (int x2 = 0; is_dart && x2 < 2 * rings; x2 += 2)
+    net.mesh.creases.push_back({net.find.at({0, x2, 0}), net.find.at({0, x2 + 2, 0}), infinite_sharpness});
   const LimitSurface surface(scheme, net.mesh, rim_rules(), pieces);
   const std::vector<FaceRange> faces = faces_within(net, drawn_rings);
   SampleSurface result;

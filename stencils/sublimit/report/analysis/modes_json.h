@@ -20,6 +20,8 @@ struct SampleSurface {
   Json surface, normals;
 };
 /// @param drawn  whether to make `surface`, which is large
-SampleSurface sample_surface(const std::shared_ptr<PieceTypes>& pieces, const LocalType& type, bool drawn);
+/// @param dart   a closed fan around whose first spoke is sharp, whatever `type.open` says
+SampleSurface sample_surface(const std::shared_ptr<PieceTypes>& pieces, const LocalType& type, bool drawn,
+                             bool dart = false);
 
 }  // namespace sublimit::report

@@ -7,6 +7,7 @@
 
 #include "sublimit/analysis/eigen_structure.h"
 #include "sublimit/base/error.h"
+#include "sublimit/certificates/dart.h"
 #include "sublimit/certificates/spectral_verdicts.h"
 #include "sublimit/certificates/witness.h"
 #include "sublimit/limit/piece_types.h"
@@ -91,6 +92,7 @@ LocalType local_type(const NeighborhoodKind& kind) {
       break;
     case Kind::border:
     case Kind::crease:
+    case Kind::dart:
       type.open = true;
       break;
     case Kind::corner:
@@ -102,6 +104,12 @@ LocalType local_type(const NeighborhoodKind& kind) {
   return type;
 }
 
+std::optional<LocalPatch<Algebraic>> local_patch(const Scheme<Algebraic>& scheme, const NeighborhoodKind& kind) {
+  if (kind.kind == Kind::dart) return dart_patch(scheme, kind.n);
+  if (kind.kind == Kind::crease) return crease_patch(scheme, kind.n);
+  return sublimit::local_patch(scheme, local_type(kind));
+}
+
 std::string NeighborhoodKind::name() const {
   constexpr const char* names[] = {"vertex", "face", "border", "crease", "corner", "dart"};
   return names[static_cast<int>(kind)];
@@ -111,11 +119,24 @@ std::vector<NeighborhoodKind> neighborhoods(const Scheme<double>& scheme, const 
   std::vector<NeighborhoodKind> kinds;
   for (const int n : valences) kinds.push_back({scheme.is_dual() ? Kind::face : Kind::vertex, n});
   if (scheme.is_dual()) return kinds;
-  // More faces repeat the verdict; without symmetry, exact spectra of wide masks take minutes beyond four.
-  const int most = std::min(scheme.is_wide() ? 4 : 8, valences.empty() ? 0 : valences.back());
+  if (scheme.sharpening == Sharpening::semi_sharp)
+    for (const int n : valences) kinds.push_back({Kind::dart, n});
+  // More faces repeat the verdict. Wide masks over two steps mix all points: exact spectra take seconds beyond four.
+  const int most = std::min(scheme.is_wide() && scheme.period > 1 ? 4 : 8, valences.empty() ? 0 : valences.back());
   for (int m = 1; m <= most; ++m) kinds.push_back({Kind::border, m});
+  if (scheme.sharpening != Sharpening::boundary)
+    for (int m = 1; m <= most; ++m) kinds.push_back({Kind::crease, m});
   for (int m = 1; m <= std::min(most, 6); ++m) kinds.push_back({Kind::corner, m});
   return kinds;
+}
+
+Json crease_json(const Json& border) {
+  Json json;
+  for (const auto& [key, value] : border.items()) {
+    json[key] = key == "kind" ? Json("crease") : value;
+    if (key == "n") json["same_as"] = "border";
+  }
+  return json;
 }
 
 SharedAnalysis shared_analysis(const ReportedScheme& scheme) {
@@ -133,17 +154,29 @@ Neighborhood neighborhood(const ReportedScheme& scheme, const SharedAnalysis& sh
   Neighborhood result;
   const LocalType type = local_type(kind);
   const bool closed = kind.kind == Kind::vertex || kind.kind == Kind::face;
-  const std::optional<LocalPatch<Algebraic>> patch = local_patch(scheme.exact, type);
+  const bool is_dart = kind.kind == Kind::dart;
+  const std::optional<LocalPatch<Algebraic>> patch = local_patch(scheme.exact, kind);
   if (!patch) return result;
   Json& json = result.json;
-  json = {{"kind", kind.name()}, {"n", kind.n}, {"points", patch->slots.size()}, {"labels", Json::array()}};
+  json = {{"kind", kind.name()}, {"n", kind.n}};
+  if (kind.kind == Kind::crease)
+    if (const auto border = sublimit::local_patch(scheme.exact, type); border && is_same_matrix(*border, *patch)) {
+      json["same_as"] = "border";
+      return result;
+    }
+  json["points"] = patch->slots.size();
+  json["labels"] = Json::array();
   for (const SectorLabel& label : patch->labels) json["labels"].push_back(to_json(label));
   // Moduli below lambda^2 may come from rings that the limit itself does not need.
-  const ExactAnalysis analysis = *exact_analysis(scheme.exact, type, closed ? spectrum_rings : -1);
+  const ExactAnalysis analysis =
+      closed ? *exact_analysis(scheme.exact, type, spectrum_rings) : open_analysis(scheme.exact, *patch);
   look_at_weights(analysis.patch, result);
   add_spectrum(json, analysis.spectrum);
   std::string why;
-  json["masks"] = masks_json(scheme.scheme, &*patch, type, subdominant_in_field(analysis.spectrum), why);
+  json["masks"] = is_dart ? dart_masks_json(scheme.scheme, *patch, why)
+                  : kind.kind == Kind::crease
+                      ? Json(nullptr)  // those of the border are not its own
+                      : masks_json(scheme.scheme, &*patch, type, subdominant_in_field(analysis.spectrum), why);
   Json map;
   if (closed) {
     if (const std::optional<LocalModes> modes = local_modes(scheme.scheme, type)) {
@@ -158,10 +191,10 @@ Neighborhood neighborhood(const ReportedScheme& scheme, const SharedAnalysis& sh
     verdicts.insert(verdicts.end(), {c1, curvature(analysis, given), shapes(analysis, given),
                                      curvature_integrability(analysis, given), spectral_c2(analysis, given)});
   } else {
-    verdicts.push_back(tangent_plane(analysis));
+    verdicts.push_back(is_dart ? dart_tangent_plane(analysis) : tangent_plane(analysis));
   }
   json["characteristic_map"] = std::move(map);
-  SampleSurface sample = sample_surface(shared.pieces, type, is_drawn);
+  SampleSurface sample = sample_surface(shared.pieces, type, is_drawn, is_dart);
   json["surface"] = std::move(sample.surface);
   json["normals"] = std::move(sample.normals);
   json["verdicts"] = Json::array();

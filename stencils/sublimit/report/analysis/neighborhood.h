@@ -19,11 +19,14 @@ struct NeighborhoodKind {
   std::string name() const;
 };
 
-/// Those that a scheme has: of each valence the interior ones (and darts), of 1 to some faces the open ones.
+/// Those that a scheme has: of each valence the interior ones (and darts), of 1 to some faces the open ones. A side of
+/// a crease comes after the border of as many faces.
 std::vector<NeighborhoodKind> neighborhoods(const Scheme<double>& scheme, const std::vector<int>& valences);
 
-/// The centre of such a neighbourhood, alone.
+/// The centre of such a neighbourhood, alone; that of a dart is open from its sharp edge to that edge.
 LocalType local_type(const NeighborhoodKind& kind);
+/// Its exact local matrix; nothing where the scheme has no such place.
+std::optional<LocalPatch<Algebraic>> local_patch(const Scheme<Algebraic>& scheme, const NeighborhoodKind& kind);
 
 /// What the neighbourhoods of one scheme share.
 struct SharedAnalysis {
@@ -38,7 +41,11 @@ struct Neighborhood {
 };
 
 /// @param drawn  with the limit surface of generic data
+/// @note  A side of a crease whose matrix is a border's is this one word, `same_as`: see crease_json.
 Neighborhood neighborhood(const ReportedScheme& scheme, const SharedAnalysis& shared, const NeighborhoodKind& kind,
                           bool drawn);
+
+/// What a side of a crease has, where its matrix is that of the border.
+Json crease_json(const Json& border);
 
 }  // namespace sublimit::report

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <map>
 #include <mutex>
 
 #include "sublimit/base/error.h"
@@ -119,6 +120,12 @@ Json schemes_report(const std::vector<ReportedScheme>& schemes, const ReportOpti
     json["regular"] = std::move(regular[s]);
     json["neighborhoods"] = Json::array();
     WeightFindings weights;
+    std::map<int, const Json*> borders;
+    for (size_t k = 0; k < found[s].size(); ++k)
+      if (kinds[s][k].kind == Kind::border) borders[kinds[s][k].n] = &found[s][k].json;
+    for (size_t k = 0; k < found[s].size(); ++k)
+      if (Json& n = found[s][k].json; n.is_object() && n.contains("same_as"))
+        n = crease_json(*borders.at(kinds[s][k].n));
     for (Neighborhood& n : found[s]) {
       if (n.json.is_null()) continue;
       weights.has_negative_weights |= n.has_negative_weights;
