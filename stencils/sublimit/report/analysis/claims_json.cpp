@@ -4,8 +4,9 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cmath>
+#include <cstdlib>
 #include <map>
+#include <optional>
 #include <vector>
 
 namespace sublimit::report {
@@ -72,16 +73,33 @@ std::string in_words(const std::map<std::string, std::vector<int>>& by) {
   return text;
 }
 
+/// The least k of which C^k is disproved, if there is one: exponents alone do not tell C^(k-1,1) from C^k.
+std::optional<int> disproved_continuity(const Json& verdicts) {
+  std::optional<int> least;
+  for (const Json& v : verdicts) {
+    const std::string says = v.value("says", "");
+    if (v.value("property", "") != "regular-smoothness" || v.value("verdict", "") != "disproved" ||
+        says.rfind("C^", 0) != 0)
+      continue;
+    const int k = std::atoi(says.c_str() + 2);
+    if (!least || k < *least) least = k;
+  }
+  return least;
+}
+
 Json regular_claim(const Claims& claims, const Json& regular) {
   if (!regular.is_object() || !regular.contains("smoothness"))
     return claim("regular", claims.regular, nullptr, "unknown", "the regular limit was not looked at");
   const Json& smooth = regular["smoothness"];
   const Json& exponent = smooth["exponent"];
   const int proved = smooth["continuity"].is_number() ? smooth["continuity"].get<int>() : -1;
-  const double high = exponent.is_array() && exponent[1].is_number() ? exponent[1].get<double>() : INFINITY;
-  const std::string bounds = exponent.is_array() ? "Hoelder exponent in " + exponent.dump() : "no bounds";
-  const std::string answer = claims.regular <= proved ? "proved" : high < claims.regular ? "disproved" : "unknown";
-  return claim("regular", claims.regular, proved >= 0 ? Json(proved) : Json(nullptr), answer, bounds);
+  const std::optional<int> beyond = disproved_continuity(regular.value("verdicts", Json::array()));
+  std::string because = exponent.is_array() ? "Hoelder exponent in " + exponent.dump() : "no bounds";
+  if (beyond) because += fmt::format("; C^{} is disproved", *beyond);
+  const std::string answer = claims.regular <= proved              ? "proved"
+                             : beyond && *beyond <= claims.regular ? "disproved"
+                                                                   : "unknown";
+  return claim("regular", claims.regular, proved >= 0 ? Json(proved) : Json(nullptr), answer, because);
 }
 
 Json extraordinary_claim(const Claims& claims, const Json& neighborhoods) {
