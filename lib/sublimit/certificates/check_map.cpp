@@ -155,6 +155,11 @@ void check_map(const Parts& w, std::vector<std::string>& problems) {
       return fail("a path is none");
     for (size_t k = 0; k <= leaf.path.size(); ++k)
       if (seen.contains({{leaf.piece, leaf.cell}, leaf.path.substr(0, k)})) return fail("a part is there twice");
+    // Paths are in order: those within this part come right after it.
+    const auto within = seen.lower_bound({{leaf.piece, leaf.cell}, leaf.path});
+    if (within != seen.end() && within->first == std::pair(leaf.piece, leaf.cell) &&
+        within->second.compare(0, leaf.path.size(), leaf.path) == 0)
+      return fail("a part is there twice");
     seen.insert({{leaf.piece, leaf.cell}, leaf.path});
     double size = 1;
     for (size_t k = 0; k < leaf.path.size(); ++k) size /= 4;

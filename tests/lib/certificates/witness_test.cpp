@@ -82,6 +82,24 @@ TEST(Witness, IsRejectedWhateverNumberIsChanged) {
   }
 }
 
+TEST(Witness, IsRejectedWhereAPartIsCoveredTwiceAndAnotherNotAtAll) {
+  // Areas add up to one piece, whatever the order: 00 lies within 0, and 33 is missing.
+  const Json good = Json::parse(witness_of("doo-sabin", 5));
+  const Json leaf = good["leaves"][0];
+  ASSERT_EQ(leaf[3], "");
+  for (const std::vector<std::string>& paths :
+       {std::vector<std::string>{"00", "0", "1", "2", "30", "31", "32"}, {"0", "00", "1", "2", "30", "31", "32"}}) {
+    Json bad = good;
+    bad["leaves"].erase(0);
+    for (const std::string& path : paths) {
+      Json part = leaf;
+      part[3] = path;
+      bad["leaves"].push_back(part);
+    }
+    EXPECT_EQ(joined(check_witness(bad.dump())), "map: a part is there twice\n") << paths[0];
+  }
+}
+
 TEST(Witness, IsRejectedWherePartsAreMissing) {
   const Json good = Json::parse(witness_of("doo-sabin", 5));
   for (const auto& [key, value] : good.items()) {
