@@ -44,10 +44,9 @@ std::optional<ExactAnalysis> exact_analysis(const Scheme<Algebraic>& scheme, con
   const LocalType regular{.kind = is_face ? Centre::Kind::face : Centre::Kind::vertex,
                           .faces = scheme.face_size() == 3 ? 6 : 4};
   try {
-    if (const auto there = local_patch(scheme, regular)) {
-      const std::vector<Algebraic> mask = exact_masks(*there).position;
-      for (size_t i = 0; i < mask.size(); ++i)
-        if (!mask[i].is_zero()) analysis.regular_mask.emplace_back(there->labels[i], mask[i]);
+    if (auto there = local_patch(scheme, regular)) {
+      analysis.regular_mask = exact_masks(*there).position;
+      analysis.regular = std::move(there);
     }
   } catch (const AnalysisError&) {  // no limit there: nothing will be seen
   }
@@ -68,28 +67,84 @@ std::vector<ComplexBall> mode(const ExactAnalysis& analysis, int block, const Ex
   return values;
 }
 
+namespace {
+
+/// The regular places next to an extraordinary centre, and the points around them.
+class RegularPlaces {
+ public:
+  explicit RegularPlaces(const ExactAnalysis& analysis)
+      : analysis_(analysis),
+        triangles_(analysis.scheme.face_size() == 3),
+        is_face_(analysis.patch.type.kind == Centre::Kind::face),
+        dilation_(analysis.scheme.steps[0].split == Split::sqrt3 ? 3 : 2) {
+    for (size_t i = 0; i < analysis.patch.labels.size(); ++i)
+      position_[analysis.patch.labels[i]] = static_cast<Index>(i);
+    for (const SectorLabel& label : analysis.regular->labels) offsets_.push_back(in_plane(label, triangles_));
+  }
+
+  /// Points around a place in the order of a regular centre's, -1 for those that the patch has not. Nothing where a
+  /// point that the limit depends on is missing, or its like around the child, at dilation * place, is not made as on
+  /// regular meshes. Points beyond the patch are.
+  std::optional<std::vector<Index>> around(Place place) const {
+    std::vector<Index> points;
+    for (const Place& offset : offsets_) points.push_back(find(place, 1, offset));
+    for (size_t p = 0; p < offsets_.size(); ++p) {
+      if (analysis_.regular_mask[p].is_zero()) continue;
+      if (points[p] < 0) return std::nullopt;
+      const Index row = find(place, dilation_, offsets_[p]);
+      if (row >= 0 && !is_regular_row(row, points, p)) return std::nullopt;
+    }
+    return points;
+  }
+
+ private:
+  Index find(Place place, int scale, Place offset) const {
+    const auto label =
+        label_at({scale * place.x2 + offset.x2, scale * place.y2 + offset.y2}, analysis_.n(), triangles_, is_face_);
+    const auto at = label ? position_.find(*label) : position_.end();
+    return at == position_.end() ? -1 : at->second;
+  }
+
+  bool is_regular_row(Index row, const std::vector<Index>& points, size_t p) const {
+    const DenseMatrix<Algebraic>&A = analysis_.patch.A, &R = analysis_.regular->A;
+    std::map<Index, Algebraic> expected;
+    for (size_t q = 0; q < points.size(); ++q)
+      if (const Algebraic& weight = R(static_cast<Eigen::Index>(p), static_cast<Eigen::Index>(q)); !weight.is_zero()) {
+        if (points[q] < 0) return false;
+        expected[points[q]] += weight;
+      }
+    for (Eigen::Index j = 0; j < A.cols(); ++j) {
+      const auto at = expected.find(static_cast<Index>(j));
+      if (at == expected.end() ? !A(row, j).is_zero() : !(A(row, j) == at->second)) return false;
+    }
+    return true;
+  }
+
+  const ExactAnalysis& analysis_;
+  bool triangles_, is_face_;
+  int dilation_;
+  std::map<SectorLabel, Index> position_;
+  std::vector<Place> offsets_;
+};
+
+}  // namespace
+
 std::optional<bool> is_seen(const ExactAnalysis& analysis, const ExactEigenvalue& value) {
   if (analysis.n() < 3 || analysis.regular_mask.empty()) return std::nullopt;
   const ExactKernel kernel =
       exact_chain_ends(analysis.spectrum.blocks.blocks.at(value.block), value.value, value.largest_jordan());
-  const bool triangles = analysis.scheme.face_size() == 3, is_face = analysis.patch.type.kind == Centre::Kind::face;
-  std::map<SectorLabel, size_t> position;
-  for (size_t i = 0; i < analysis.patch.labels.size(); ++i) position[analysis.patch.labels[i]] = i;
+  const RegularPlaces places(analysis);
+  std::vector<std::vector<Index>> found;
+  for (const Place place : {Place{2, 0}, Place{2, 2}, Place{4, 0}, Place{4, 2}, Place{2, 4}, Place{4, 4}})
+    if (auto points = places.around(place)) found.push_back(std::move(*points));
   const PrecisionScope scope(128);
   for (int v = 0; v < static_cast<int>(kernel.vectors.size()); ++v) {
     const std::vector<ComplexBall> values = mode(analysis, value.block, kernel, v);
-    for (const Place centre : {Place{2, 0}, Place{2, 2}, Place{4, 0}, Place{4, 2}, Place{2, 4}, Place{4, 4}}) {
+    for (const std::vector<Index>& points : found) {
       ComplexBall limit;
-      bool known = true;
-      for (const auto& [label, weight] : analysis.regular_mask) {
-        const Place offset = in_plane(label, triangles);
-        const auto at = label_at({centre.x2 + offset.x2, centre.y2 + offset.y2}, analysis.n(), triangles, is_face);
-        const auto found = at ? position.find(*at) : position.end();
-        known = known && found != position.end();
-        if (!known) break;
-        limit += weight.enclosure() * values[found->second];
-      }
-      if (known && !limit.contains_zero()) return true;
+      for (size_t p = 0; p < points.size(); ++p)
+        if (!analysis.regular_mask[p].is_zero()) limit += analysis.regular_mask[p].enclosure() * values[points[p]];
+      if (!limit.contains_zero()) return true;
     }
   }
   return std::nullopt;

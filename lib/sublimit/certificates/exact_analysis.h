@@ -14,8 +14,9 @@ struct ExactAnalysis {
   Scheme<Algebraic> scheme = {};
   LocalPatch<Algebraic> patch = {};
   ExactSpectrum spectrum = {};
-  /// Limit position of a regular centre, by its own labels; empty where it could not be had.
-  std::vector<std::pair<SectorLabel, Algebraic>> regular_mask = {};
+  /// A regular centre and the weights of its limit position, by point; nothing where they could not be had.
+  std::optional<LocalPatch<Algebraic>> regular = {};
+  std::vector<Algebraic> regular_mask = {};
 
   int n() const { return spectrum.blocks.sectors; }
 };
@@ -30,8 +31,10 @@ std::vector<ComplexBall> mode(const ExactAnalysis& analysis, int block, const Ex
                               long bits = 128);
 
 /// The longest chains of this eigenvalue end in an eigenvector whose limit is not zero everywhere near the centre: it
-/// is not zero at the centre of a regular place next to it. (There are modes that no surface shows: translates of the
-/// box spline of mid-edge surfaces are linearly dependent.) Nothing: not decided.
+/// is not zero at the centre of a regular place next to it, whose limit is that of regular meshes: the rows of all
+/// points around its child are those of regular meshes, which is looked at where the patch has them. (There are modes
+/// that no surface shows: translates of the box spline of mid-edge surfaces are linearly dependent.) Nothing: not
+/// decided.
 std::optional<bool> is_seen(const ExactAnalysis& analysis, const ExactEigenvalue& value);
 
 }  // namespace sublimit
