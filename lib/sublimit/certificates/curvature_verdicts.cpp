@@ -103,9 +103,11 @@ Verdict shapes(const ExactAnalysis& analysis, const SecondOrderGiven& given) {
       {"the modes of mu with the longest chains are those of blocks " + list(blocks), true, By::exact});
   v.hypotheses.push_back({"each of these blocks has a mode that is not zero at a regular point",
                           all_seen ? std::optional<bool>(true) : std::nullopt, By::enclosure});
-  v.says = which == "all"          ? "elliptic and hyperbolic shapes near the point"
-           : which == "elliptic"   ? "elliptic shapes alone near the point"
-           : which == "hyperbolic" ? "hyperbolic shapes alone near the point"
+  // Blocks exclude: a mode without block 0 has both signs, one of block 0 alone turns its gradient the right way round.
+  // Whether a mode of block 0 is convex they do not tell.
+  v.says = which == "all"          ? "neither elliptic nor hyperbolic shapes are excluded near the point"
+           : which == "elliptic"   ? "no hyperbolic shapes near the point"
+           : which == "hyperbolic" ? "no elliptic shapes near the point"
                                    : "shapes of other kinds near the point";
   v.answer = answer_of(v.hypotheses, false);
   v.because = "mu comes from blocks " + list(s->mu_blocks);
