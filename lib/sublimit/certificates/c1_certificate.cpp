@@ -183,7 +183,9 @@ C1Certificate C1Prover::certify(int n) const {
     v.hypotheses.push_back({std::move(says), holds, by, std::move(value)});
   };
   add("rows of the local matrix sum to one", rows_sum_to_one(c.patch), By::exact);
-  add("it commutes with the rotation by a sector", is_rotation_symmetric(c.patch), By::exact);
+  // Neither this nor the sign of lambda is necessary: other theorems speak of other pairs.
+  add("it commutes with the rotation by a sector", is_rotation_symmetric(c.patch) ? std::optional(true) : std::nullopt,
+      By::exact);
   const DenseMatrix<ComplexBall> B1 = fourier_block(c.patch, 1);
   const auto pair = leading_pair(B1);
   add("block 1 has an isolated leading eigenvalue", pair ? std::optional(true) : std::nullopt, By::enclosure,
@@ -196,7 +198,9 @@ C1Certificate C1Prover::certify(int n) const {
         d.open ? "not shown for block " + std::to_string(*d.open) : "norms of powers up to " + std::to_string(d.power));
     add("lambda is real: block 1 is similar to its conjugate by reflection",
         is_mirror_symmetric(c.patch) ? std::optional(true) : std::nullopt, By::exact);
-    add("0 < lambda < 1", certainly_positive(lambda) && certainly_less(lambda, Ball(1)), By::enclosure);
+    add("0 < lambda < 1",
+        certainly_positive(lambda) && certainly_less(lambda, Ball(1)) ? std::optional(true) : std::nullopt,
+        By::enclosure);
     c.map = characteristic_map(c.patch, mask_, *pair);
     c.map->lambda = ComplexBall(lambda);
   }

@@ -36,7 +36,8 @@ class SignSearch {
   void look(size_t piece, const Bernstein<Ball>& f, const std::string& path) {
     const Ball least = least_of(f);
     positive |= at_a_corner(f, certainly_positive);
-    if (certainly_positive(least)) {
+    // All of them: a coefficient that is no number has no least end to be found by.
+    if (std::all_of(f.coefficients().begin(), f.coefficients().end(), certainly_positive)) {
       proof_.leaves.push_back({piece, path, least, greatest_of(f)});
       return;
     }

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "sublimit/schemes.h"
+#include "sublimit/schemes/doo_sabin.h"
 #include "support/precise.h"
 
 namespace sublimit {
@@ -50,6 +51,20 @@ TEST(C1Certificate, ProvesRepeatedAveragingOfEveryDegreeAsked) {
     C1Prover prover(*find_scheme<Algebraic>("averaging", {{"degree", degree}}));
     for (const int n : {3, 5}) EXPECT_EQ(to_string(prover.certify(n).verdict.answer), "proved") << degree << " " << n;
   }
+}
+
+TEST(C1Certificate, DoesNotDisproveWhatItDoesNotSpeakOf) {
+  // Faces of five corners: block 1 has the eigenvalue -1/2, simple and dominant. Two steps have a positive one, so that
+  // the theorem's lambda > 0 is no necessary condition.
+  const auto scheme = doo_sabin_with<Algebraic>("negative", "", [](const FaceSite<Algebraic>& f, int j) {
+    const int n = f.size();
+    const Algebraic one = f.ratio(1, n), c = f.cos_2pi(j, n);
+    return n == 4 ? (j == 0 ? f.ratio(9, 16) : f.ratio(j == 2 ? 1 : 3, 16)) : one - c * one;
+  });
+  const C1Certificate c = C1Prover(scheme).certify(5);
+  ASSERT_TRUE(c.map);
+  EXPECT_TRUE(certainly_negative(c.map->lambda.re()));
+  EXPECT_EQ(to_string(c.verdict.answer), "unknown");
 }
 
 TEST(C1Certificate, LeavesTheJordanCaseOpen) {

@@ -85,6 +85,7 @@ Interval maximum_norm(const BallMatrix& a) {
       const Interval radius(-a.radius(i, j), a.radius(i, j));
       sum += abs(Interval(a.middle(i, j)) + radius);
     }
+    if (std::isnan(sum.low) || std::isnan(sum.high)) return {0, infinity};
     largest = max(largest, sum);
   }
   return largest;

@@ -173,10 +173,11 @@ double norm_bound(const Matrices& matrices, const Eigen::MatrixXd& polytope) {
       for (Eigen::Index j = 0; j < count; ++j) sum += std::abs(C(i, j));
       for (Eigen::Index j = 0; j < n; ++j) part += Interval(std::abs(rest.middle(i, j))) + Interval(rest.radius(i, j));
       const double row = (sum + part * Interval(1 / unit)).high;
-      if (!(row <= bound)) bound = row;  // NaN too
+      if (std::isnan(row)) return infinity;  // nothing compares with it: later rows would hide it
+      bound = std::max(bound, row);
     }
   }
-  return std::isnan(bound) ? infinity : bound;
+  return bound;
 }
 
 JointSpectralRadius joint_spectral_radius(const Matrices& given, const JointSpectralRadiusOptions& options) {
