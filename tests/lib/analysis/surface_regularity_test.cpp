@@ -87,5 +87,20 @@ TEST(SurfaceRegularity, PerturbedMasksLoseTheirVerdicts) {
   EXPECT_NE(answer(surface_regularity(mask), 1), Answer::proved);
 }
 
+TEST(SurfaceRegularity, DifferencesGiveNoBoundBeyondTheirOrder) {
+  // Second differences of whatever is smooth shrink by a quarter: that says nothing against C^3.
+  RationalMatrix quarter(1, 1);
+  quarter(0, 0) = Number<Rational>::ratio(1, 4);
+  DifferenceTransitions t{.order = 2, .matrices = {quarter, quarter}, .necessary = true, .stable = false};
+  EXPECT_FALSE(smoothness(t, {}, 5).has_upper_bound);
+  // Where limits are as smooth as polynomials are generated these bound it, wherever differences stop.
+  t.stable = true;
+  EXPECT_TRUE(smoothness(t, {}, 5).has_upper_bound);
+  EXPECT_EQ(smoothness(t, {}, 5).exponent_high, 5);
+  quarter(0, 0) = Number<Rational>::ratio(1, 2);
+  t.matrices = {quarter, quarter};
+  EXPECT_EQ(smoothness(t, {}, 5).exponent_high, 1);
+}
+
 }  // namespace
 }  // namespace sublimit

@@ -170,8 +170,10 @@ Smoothness smoothness(const DifferenceTransitions& transitions, const std::vecto
   const Interval exponent = exponent_of({s.radius.low, s.radius.high}, transitions.dilation);
   // Differences of this order see no exponent above it.
   s.exponent_low = std::min(exponent.low, static_cast<double>(transitions.order));
-  s.exponent_high = necessary.stable ? std::min(exponent.high, static_cast<double>(sum_rules)) : exponent.high;
-  s.has_upper_bound = necessary.necessary;
+  // And of whatever is smooth they shrink like dilation^-order: there they give no bound from above, polynomials may.
+  const bool is_seen = exponent.high < necessary.order;
+  s.exponent_high = necessary.stable ? is_seen ? std::min(exponent.high, double(sum_rules)) : sum_rules : exponent.high;
+  s.has_upper_bound = necessary.necessary && (is_seen || necessary.stable);
   const auto is_proved = [&](int k) {
     if (k >= sum_rules) return false;
     const bool by_norm = std::any_of(norms.begin(), norms.end(),

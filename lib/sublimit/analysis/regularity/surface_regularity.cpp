@@ -92,7 +92,10 @@ void use_tensor(SurfaceRegularity& s, const std::array<Symbol, 2>& factors, cons
   CurveRegularity curves[2] = {curve_regularity(factors[0], options), {}};
   const bool alike = factors[0].first == factors[1].first && factors[0].coefficients == factors[1].coefficients;
   curves[1] = alike ? curves[0] : curve_regularity(factors[1], options);
-  const int which = curves[1].smoothness.exponent_low < curves[0].smoothness.exponent_low ? 1 : 0;
+  const auto rank = [](const CurveRegularity& c) {
+    return std::pair(c.smoothness.continuity, c.smoothness.exponent_low);
+  };
+  const int which = rank(curves[1]) < rank(curves[0]) ? 1 : 0;
   s.smoothness = curves[which].smoothness;
   for (Verdict& v : s.smoothness.verdicts) {
     v.hypotheses.insert(v.hypotheses.begin(),

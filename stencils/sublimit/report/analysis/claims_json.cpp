@@ -131,7 +131,8 @@ Json degree_claim(const char* name, int claimed, const Json& regular) {
 void use_regular(Json& neighborhood, const std::string& property, int order, int continuity) {
   if (continuity < order) return;
   for (Json& v : neighborhood["verdicts"]) {
-    if (v["property"] != property || v["verdict"] == "proved") continue;
+    // What is disproved stays: two verdicts that contradict each other are to be seen.
+    if (v["property"] != property || v["verdict"] == "proved" || v["verdict"] == "disproved") continue;
     Verdict verdict{property, v["says"].get<std::string>(), Verdict::Answer::proved};
     verdict.theorem = "a vertex of regular valence among regular ones lies on a regular surface";
     verdict.hypotheses = {{fmt::format("regular surfaces are C^{}", order), true, Hypothesis::By::enclosure,
