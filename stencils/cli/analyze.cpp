@@ -2,11 +2,8 @@
 // `sublimit analyze`: what a scheme's limit is like, and what a mesh's is.
 #include <fmt/core.h>
 
-#include <cerrno>
-#include <cstring>
-#include <fstream>
+#include <algorithm>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "common.h"
 #include "sublimit/curve_schemes.h"
@@ -14,6 +11,7 @@
 #include "sublimit/mesh/file_extension.h"
 #include "sublimit/base/atomic_file.h"
 #include "sublimit/base/error.h"
+#include "sublimit/base/read_file.h"
 #include "sublimit/report/analysis/claims_json.h"
 #include "sublimit/report/analysis/exports.h"
 #include "sublimit/report/analysis/numbers.h"
@@ -34,7 +32,26 @@ struct Options {
   std::string valences = "3-12", page, json;
   std::vector<std::string> tolerances, claims;
   std::string mask, sweep, exports, picture;
+  std::vector<std::string> given;  ///< options on the command line, by their long names
+  bool has(const char* option) const { return std::find(given.begin(), given.end(), option) != given.end(); }
 };
+
+/// What options belong to; all others are for every job.
+constexpr std::pair<const char*, const char*> owners[] = {
+    {"--scheme", "schemes, sweeps and meshes"},
+    {"--option", "schemes, sweeps and meshes"},
+    {"--valence", "schemes"},
+    {"--claim", "schemes"},
+    {"--export", "schemes"},
+    {"--tolerance", "meshes"},
+};
+
+/// An option that would be ignored is a mistake of whoever gave it.
+void refuse_others(const Options& options, const std::string& job) {
+  for (const auto& [option, owner] : owners)
+    if (options.has(option) && std::string(owner).find(job) == std::string::npos)
+      throw InvalidOption(fmt::format("{} is for {}, and this is about {}; leave it out", option, owner, job));
+}
 
 struct Named {
   std::vector<report::ReportedScheme> surfaces;
@@ -57,7 +74,10 @@ Named schemes_named(const Options& asked) {
   if (asked.common.scheme != "all") {
     if (is_curve_scheme(asked.common.scheme)) {
       named.curves.push_back({asked.common.scheme, options});
-      if (!asked.claims.empty()) throw InvalidOption("--claim is for schemes of meshes");
+      for (const char* option : {"--claim", "--valence", "--export"})
+        if (asked.has(option))
+          throw InvalidOption(
+              fmt::format("{} is for schemes of meshes, and {} refines curves", option, asked.common.scheme));
       return named;
     }
     (void)scheme_or_throw(asked.common.scheme, options);  // offers the nearest names
@@ -120,6 +140,10 @@ int analyze_schemes(const Options& options) {
   wanted.valences = report::parse_valences(options.valences);
   Named named = schemes_named(options);
   wanted.curves = std::move(named.curves);
+  if (!options.exports.empty()) {
+    make_output_directory(options.exports);
+    check_output_path(options.exports + "/matrix.txt", {});
+  }
   wanted.statements = options.common.scheme == "all";
   Progress progress(options.common.quiet);
   progress.step("analysing");
@@ -127,7 +151,6 @@ int analyze_schemes(const Options& options) {
   const Json report = report::schemes_report(named.surfaces, wanted);
   if (!options.exports.empty()) {
     progress.step("exporting to " + options.exports);
-    std::filesystem::create_directories(options.exports);
     report::write_exports(options.exports, named.surfaces, wanted.valences);
   }
   return finish(options, report, progress);
@@ -138,12 +161,19 @@ int analyze_mask(const Options& options) {
   Json report = report::report_head("schemes");
   report["schemes"] = Json::array({report::mask_scheme_json(options.mask)});
   report["summary"] = Json::array({report::summary_row(report["schemes"][0])});
-  return finish(options, report, progress);
+  const int status = finish(options, report, progress);
+  if (!options.common.quiet)
+    for (const Json& v : report["schemes"][0]["regular"]["verdicts"])
+      fmt::print("  {}: {}: {}\n", v["verdict"].get<std::string>(), v["says"].get<std::string>(),
+                 v["because"].get<std::string>());
+  return status;
 }
 
 int analyze_sweep(const Options& options) {
   if (options.common.scheme.empty() || options.common.scheme == "all")
     throw InvalidOption("--sweep belongs to one scheme; name it with -s");
+  if (!is_curve_scheme(options.common.scheme))
+    (void)scheme_or_throw(options.common.scheme);  // offers the nearest names
   const SweepRange range = sweep_range(options.sweep);
   Progress progress(options.common.quiet);
   progress.step(
@@ -162,13 +192,10 @@ int analyze_sweep(const Options& options) {
 int analyze_curve(const Options& options) {
   Progress progress(options.common.quiet);
   const std::string& path = options.common.mesh;
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw IoError(path + ": cannot read: " + std::strerror(errno));
-  std::ostringstream text;
-  text << file.rdbuf();
+  const std::string text = read_file(path);
   Json report = report::report_head("curve");
   try {
-    report["curve"] = report::curve_json(read_bezier_curve(text.str()));
+    report["curve"] = report::curve_json(read_bezier_curve(text));
   } catch (const FormatError& error) {
     throw FormatError(path + ": " + error.what());
   }
@@ -178,6 +205,21 @@ int analyze_curve(const Options& options) {
     for (const Json& knot : report["curve"]["knots"])
       fmt::print("knot {}: {}\n", knot["at"].dump(), knot["because"].get<std::string>());
   return 0;
+}
+
+void print_asset(const AssetReport& found, const std::string& file) {
+  const auto shown = [](const std::optional<double>& value, const char* unit) {
+    return value ? fmt::format("{:.3g}{}", *value, unit) : std::string("none");
+  };
+  const SeamDeviation& inside = found.seams.inside;
+  fmt::print("{}: {} vertices, {} faces under {}\n", file, found.vertices, found.faces, found.scheme);
+  fmt::print("  seams: positions {}, normals {}, curvature {} at most\n", shown(inside.g0, ""),
+             shown(inside.g1_degrees, " degrees"), shown(inside.g2, ""));
+  for (const AssetWarning& warning : found.warnings)
+    fmt::print("  {}: {}\n", warning.severity == AssetWarning::Severity::hint ? "hint" : "warning", warning.says);
+  for (const SeamExcess& excess : found.seams.beyond)
+    fmt::print("  beyond the tolerance: {} {:.3g} at ({:.6g}, {:.6g}, {:.6g})\n", excess.what, excess.value,
+               excess.place.x(), excess.place.y(), excess.place.z());
 }
 
 int analyze_mesh(const Options& options) {
@@ -196,6 +238,7 @@ int analyze_mesh(const Options& options) {
   report["mesh"] = to_json(found, std::filesystem::path(options.common.mesh).filename().string());
   write_outputs(options, report, progress);
   progress.step("");
+  if (!options.common.quiet) print_asset(found, options.common.mesh);
   return found.seams.within_tolerance ? 0 : negative_verdict;
 }
 
@@ -204,17 +247,17 @@ int analyze(const Options& options) {
   if (!options.page.empty()) check_output_path(options.page, {".html", ".htm"});
   if (!options.picture.empty()) check_output_path(options.picture, {".svg"});
   if (!options.json.empty()) check_output_path(options.json, {".json"});
-  const int jobs = !options.common.mesh.empty() + !options.mask.empty() + !options.sweep.empty();
+  const int jobs = !options.common.mesh.empty() + options.has("--mask") + options.has("--sweep");
   if (jobs > 1) throw InvalidOption("a mesh or curve, --mask and --sweep are jobs of their own; give one of them");
-  if (!options.mask.empty()) return analyze_mask(options);
-  if (!options.sweep.empty()) return analyze_sweep(options);
+  if (options.has("--mask")) return refuse_others(options, "a mask"), analyze_mask(options);
+  if (options.has("--sweep")) return refuse_others(options, "sweeps"), analyze_sweep(options);
   const bool is_curve = file_extension(options.common.mesh) == ".csv";
-  if (is_curve) return analyze_curve(options);
+  if (is_curve) return refuse_others(options, "a curve"), analyze_curve(options);
   if (options.common.scheme.empty())
     throw InvalidOption("name a scheme with -s, or all; `sublimit schemes` lists them");
-  if (options.common.mesh.empty()) return analyze_schemes(options);
+  if (options.common.mesh.empty()) return refuse_others(options, "schemes"), analyze_schemes(options);
   if (options.common.scheme == "all") throw InvalidOption("a mesh is analysed under one scheme; name it with -s");
-  return analyze_mesh(options);
+  return refuse_others(options, "meshes"), analyze_mesh(options);
 }
 
 }  // namespace
@@ -248,7 +291,13 @@ Command add_analyze(CLI::App& app) {
       "  sublimit analyze --mask \"1 4 6 4 1 /8\" -o mask.html\n"
       "  sublimit analyze pieces.csv -o joints.html   (header piece,x,y or piece,x,y,z: Bezier control points)\n"
       "Exit status 1 if a claim of a scheme is contradicted, or seams of a mesh are beyond a tolerance.");
-  return [=] { return analyze(*options); };
+  return [=] {
+    for (const auto& [option, owner] : owners)
+      if (command->count(option) > 0) options->given.emplace_back(option);
+    for (const char* option : {"--mask", "--sweep"})
+      if (command->count(option) > 0) options->given.emplace_back(option);
+    return analyze(*options);
+  };
 }
 
 }  // namespace sublimit::cli

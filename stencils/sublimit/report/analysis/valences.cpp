@@ -16,7 +16,8 @@ constexpr const char* usage = "valences are numbers and ranges, as in 3-12 or 3-
 int whole(std::string_view text, const std::string& all) {
   int value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error == std::errc::result_out_of_range) return 1'000'000'000;
+  if (error == std::errc::result_out_of_range)
+    throw InvalidOption(fmt::format("--valence {}: {} is beyond {}; {}", all, text, greatest_valence, usage));
   if (error != std::errc() || end != text.data() + text.size() || text.empty())
     throw InvalidOption(fmt::format("--valence {}: '{}' is no number; {}", all, text, usage));
   return value;
@@ -26,7 +27,7 @@ int whole(std::string_view text, const std::string& all) {
 /// eigenvalues.
 std::string cost(int valence) {
   const double n = valence, bytes = 3 * 8 * (30 * n) * (30 * n), hours = 3e-8 * n * n * n * n / 3600 * 20;
-  return fmt::format("about {:.3g} GB and {:.2g} hours", bytes / 1e9, std::max(hours, 0.01));
+  return fmt::format("about {:.3g} GB of memory and {:.0f} hours", bytes / 1e9, std::max(hours, 1.0));
 }
 
 }  // namespace

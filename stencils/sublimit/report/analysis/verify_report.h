@@ -13,6 +13,7 @@ struct ReportVerification {
   int verdicts = 0;                   ///< of all neighbourhoods and regular parts
   int seen_again = 0;                 ///< proved by a witness that the checker accepts
   int seen_with_scheme = 0;           ///< of these, those whose rows are the registered scheme's too
+  int by_nets = 0;                    ///< C^1 proved by refined nets, of which there are no witnesses
   int decided = 0;                    ///< other verdicts that say proved or disproved, and carry no witness
   std::vector<std::string> findings;  ///< what is wrong and where, in the order of the report; empty: nothing
 };
