@@ -118,7 +118,8 @@ struct Reader {
       return find("summary", fmt::format("{} rows for {} schemes", rows.size(), schemes.size()));
     for (size_t i = 0; i < rows.size(); ++i) {
       const Json made = summary_row(schemes[i]);
-      for (const char* key : {"scheme", "regular", "regular_verdict", "extraordinary", "extraordinary_verdict"})
+      for (const char* key :
+           {"scheme", "regular", "regular_verdict", "extraordinary", "extraordinary_verdict", "notes"})
         if (rows[i].at(key) != made.at(key))
           find(fmt::format("summary, {}", made.at("scheme").dump()),
                fmt::format("{} is {}, and the verdicts say {}", key, rows[i].at(key).dump(), made.at(key).dump()));
