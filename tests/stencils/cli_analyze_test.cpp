@@ -68,6 +68,7 @@ TEST(CliAnalyze, ReportHasEveryKeyOfTheFormatInOrder) {
     const Keys head{"kind", "n", "points", "labels", "spectrum", "lambda", "mu", "ratio", "mu_blocks", "masks"};
     const Keys tail{"characteristic_map", "surface", "normals", "verdicts"};
     Keys expected = head;
+    if (n["kind"] == "crease") expected.insert(expected.begin() + 2, "same_as");
     if (n["kind"] == "vertex") expected.emplace_back("eigenfunctions");
     expected.insert(expected.end(), tail.begin(), tail.end());
     EXPECT_EQ(keys(n), expected) << n["kind"] << n["n"];
@@ -84,6 +85,8 @@ TEST(CliAnalyze, ReportHasEveryKeyOfTheFormatInOrder) {
   EXPECT_EQ(kinds["vertex"], 3);
   EXPECT_GT(kinds["border"], 0);
   EXPECT_GT(kinds["corner"], 0);
+  EXPECT_GT(kinds["crease"], 0);
+  EXPECT_GT(kinds["dart"], 0);
 }
 
 TEST(CliAnalyze, ProvesC1AndVerifySeesItAgain) {
