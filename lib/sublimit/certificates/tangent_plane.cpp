@@ -3,6 +3,7 @@
 // triangular: modes of the curve (the tangent along it) and modes of the interior, which vanish on the curve.
 #include <algorithm>
 
+#include "sublimit/certificates/dart.h"
 #include "sublimit/certificates/spectral_verdicts.h"
 
 namespace sublimit {
@@ -11,21 +12,40 @@ namespace {
 using By = Hypothesis::By;
 using Answer = Verdict::Answer;
 
+struct Modes {
+  std::vector<AlgebraicRoot> values;  ///< each as often as its multiplicity, by modulus
+  int largest_jordan = 0;             ///< of the first value below 1, among these alone
+};
+
 /// Eigenvalues of the rows and columns whose points are (or are not) on the curve, each as often as its multiplicity,
 /// by modulus. The curve is its own mirror image, so each block falls apart like the whole.
-std::vector<AlgebraicRoot> roots_of(const ExactBlocks& blocks, const std::vector<Index>& curve, bool on_curve) {
-  std::vector<AlgebraicRoot> all;
+Modes modes_of(const ExactBlocks& blocks, const std::vector<Index>& curve, bool on_curve) {
+  std::vector<ExactEigenvalue> all;
   for (size_t k = 0; k < blocks.blocks.size(); ++k) {
     std::vector<Index> rows;
     for (size_t i = 0; i < blocks.orbits[k].size(); ++i)
       if (std::binary_search(curve.begin(), curve.end(), blocks.orbits[k][i][0]) == on_curve)
         rows.push_back(static_cast<Index>(i));
     const DenseMatrix<Algebraic> part = blocks.blocks[k](rows, rows);
-    for (const ExactEigenvalue& value : exact_eigenvalues(part)) all.insert(all.end(), value.multiplicity, value.value);
+    for (ExactEigenvalue& value : exact_eigenvalues(part)) all.push_back(std::move(value));
   }
-  std::stable_sort(all.begin(), all.end(),
-                   [](const AlgebraicRoot& a, const AlgebraicRoot& b) { return compare_moduli(a, b) > 0; });
-  return all;
+  std::stable_sort(all.begin(), all.end(), [](const ExactEigenvalue& a, const ExactEigenvalue& b) {
+    return compare_moduli(a.value, b.value) > 0;
+  });
+  Modes modes;
+  for (const ExactEigenvalue& value : all) modes.values.insert(modes.values.end(), value.multiplicity, value.value);
+  for (size_t i = 1; i < all.size(); ++i)
+    if (all[i].value == all[1].value) modes.largest_jordan = std::max(modes.largest_jordan, all[i].largest_jordan());
+  return modes;
+}
+
+/// The same neighbourhood with another ring: around one face the smallest closed set has only points on the border.
+std::optional<ExactAnalysis> with_interior(const ExactAnalysis& analysis) {
+  const LocalPatch<Algebraic>& patch = analysis.patch;
+  const auto same = local_patch(analysis.scheme, patch.type), wider = local_patch(analysis.scheme, patch.type, 2);
+  if (!same || !wider || !is_same_matrix(*same, patch) || wider->slots.size() == patch.slots.size())
+    return std::nullopt;
+  return open_analysis(analysis.scheme, *wider);
 }
 
 bool is_positive(const AlgebraicRoot& root) { return root.is_real() && compare(root, AlgebraicRoot(Algebraic(0))) > 0; }
@@ -57,23 +77,31 @@ Verdict tangent_plane(const ExactAnalysis& analysis) {
     v.because = "the argument does not speak of this: " + v.hypotheses[*apart.holds ? 1 : 0].says + " does not hold";
     return v;
   }
+  if (inside.empty())
+    if (const std::optional<ExactAnalysis> wider = with_interior(analysis)) return tangent_plane(*wider);
   const ExactBlocks& blocks = analysis.spectrum.blocks;
-  const std::vector<AlgebraicRoot> along = roots_of(blocks, curve, true), across = roots_of(blocks, curve, false);
-  const size_t tangents = corner ? 2 : 1;
+  const Modes curve_modes = modes_of(blocks, curve, true), inner_modes = modes_of(blocks, curve, false);
+  const std::vector<AlgebraicRoot>&along = curve_modes.values, &across = inner_modes.values;
+  // A border without rules of its own has two straight ends, like a corner.
+  const bool kinked = !corner && along.size() > 2 && along[2] == along[1], two_curves = corner || kinked;
+  const size_t tangents = two_curves ? 2 : 1;
   const bool has_tangents = along.size() > tangents && is_positive(along[1]) && along[tangents] == along[1] &&
+                            curve_modes.largest_jordan == 1 &&
                             (along.size() == tangents + 1 || compare_moduli(along[tangents + 1], along[1]) < 0);
   const AlgebraicRoot t = along.size() > 1 ? along[1] : AlgebraicRoot();
-  v.hypotheses.push_back({corner ? "the two curves at the corner have tangents" : "the border curve has a tangent",
+  v.hypotheses.push_back({corner   ? "the two curves at the corner have tangents"
+                          : kinked ? "the two ends of the border curve have tangents of their own"
+                                   : "the border curve has a tangent",
                           has_tangents, By::exact, t.text()});
-  if (!has_tangents || across.empty()) {
+  if (!has_tangents) {
     v.because = "the modes of the border curve are not those of a smooth curve";
     return v;
   }
-  // The first mode of the interior that must not lead: at a corner the first, else the second.
-  const size_t at = corner ? 0 : 1;
+  // The first mode of the interior that must not lead: between two curves the first, else the second.
+  const size_t at = two_curves ? 0 : 1;
   const AlgebraicRoot rival = at < across.size() ? across[at] : AlgebraicRoot(Algebraic(0));
   const int order = compare_moduli(rival, t);
-  const std::string name = corner ? "the first mode of the interior" : "the second mode of the interior";
+  const std::string name = two_curves ? "the first mode of the interior" : "the second mode of the interior";
   v.hypotheses.push_back({name + " is smaller than the tangent's", order < 0, order == 0 ? By::exact : By::enclosure,
                           rival.text() + " against " + t.text()});
   int longest = 1;  // Jordan block of the tangent's eigenvalue, even or odd
@@ -91,19 +119,28 @@ Verdict tangent_plane(const ExactAnalysis& analysis) {
   } else if (order == 0) {
     v.answer = Answer::disproved;
     v.because = name + " equals the tangent's, with eigenvectors of its own: three directions lead together";
-  } else if (!corner && compare_moduli(across[0], t) == 0 && defective) {
+  } else if (!two_curves && compare_moduli(across[0], t) == 0 && defective) {
     v.answer = Answer::borderline;
     v.because = "the first mode of the interior and the tangent share a Jordan block of size " +
                 std::to_string(longest) + ": the plane is reached, but like 1/steps";
-  } else if (!corner && !is_positive(across[0])) {
-    v.because = "the first mode of the interior is not positive: " + across[0].text();
-  } else if (!corner && along.size() > 2 && compare_moduli(along[2], across[0]) > 0) {
+  } else if (!two_curves && along.size() > 2 && (across.empty() || compare_moduli(along[2], across[0]) > 0)) {
+    // As around one triangle: whatever is inside shrinks faster than the curve bends.
+    const bool alone = is_positive(along[2]) && (along.size() == 3 || compare_moduli(along[3], along[2]) < 0);
+    v.hypotheses.push_back({"the second mode of the border curve is real, positive, and larger than the modes after it",
+                            alone, By::exact, along[2].text()});
     v.because = "the second mode of the border curve leads before the first of the interior";
+    if (!alone) return v;
+    v.answer = Answer::evidence_for;
+    v.hypotheses.push_back({"the map of the two leading modes is regular and injective", std::nullopt, By::exact});
+    v.because = "the tangent along the curve and the curve's second mode, how it bends, lead";
+  } else if (!two_curves && (across.empty() || !is_positive(across[0]))) {
+    v.because = across.empty() ? "there are no modes but those of the tangent"
+                               : "the first mode of the interior is not positive: " + across[0].text();
   } else {
     v.answer = Answer::evidence_for;
     v.hypotheses.push_back({"the map of the two leading modes is regular and injective", std::nullopt, By::exact});
-    v.because = corner ? "the tangents of the two curves lead"
-                       : "the tangent along the curve and the first mode of the interior lead";
+    v.because = two_curves ? "the tangents of the two curves lead"
+                           : "the tangent along the curve and the first mode of the interior lead";
   }
   return v;
 }

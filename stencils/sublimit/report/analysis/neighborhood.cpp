@@ -73,6 +73,19 @@ SecondOrderGiven second_order(const SharedAnalysis& shared, const Verdict& c1) {
   return given;
 }
 
+/// More faces than eight repeat the verdict. Where wide masks mix many points, spectra and limits take seconds beyond
+/// four.
+int most_open_faces(const Scheme<double>& scheme, int valence) {
+  constexpr size_t many_points = 30;
+  int most = std::min(4, valence);
+  for (; most < std::min(8, valence); ++most) {
+    if (!scheme.is_wide()) continue;
+    const auto next = local_patch(scheme, {.faces = most + 1, .open = true});
+    if (!next || next->slots.size() > many_points) break;
+  }
+  return most;
+}
+
 void look_at_weights(const LocalPatch<Algebraic>& patch, Neighborhood& found) {
   for (Eigen::Index i = 0; i < patch.A.rows(); ++i)
     for (Eigen::Index j = 0; j < patch.A.cols(); ++j)
@@ -121,8 +134,7 @@ std::vector<NeighborhoodKind> neighborhoods(const Scheme<double>& scheme, const 
   if (scheme.is_dual()) return kinds;
   if (scheme.sharpening == Sharpening::semi_sharp)
     for (const int n : valences) kinds.push_back({Kind::dart, n});
-  // More faces repeat the verdict. Wide masks over two steps mix all points: exact spectra take seconds beyond four.
-  const int most = std::min(scheme.is_wide() && scheme.period > 1 ? 4 : 8, valences.empty() ? 0 : valences.back());
+  const int most = most_open_faces(scheme, valences.empty() ? 0 : valences.back());
   for (int m = 1; m <= most; ++m) kinds.push_back({Kind::border, m});
   if (scheme.sharpening != Sharpening::boundary)
     for (int m = 1; m <= most; ++m) kinds.push_back({Kind::crease, m});
