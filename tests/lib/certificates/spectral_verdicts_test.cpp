@@ -193,12 +193,14 @@ TEST(SpectralVerdicts, OneSidedTangentPlanesEndWhereAModeOvertakesTheTangent) {
         Side{"catmull-clark", 3, Answer::evidence_for, Answer::disproved},
         Side{"catmull-clark", 4, Answer::borderline, Answer::disproved},
         Side{"catmull-clark", 5, Answer::disproved, Answer::disproved},
+        Side{"loop", 1, Answer::evidence_for, Answer::evidence_for},
         Side{"loop", 2, Answer::evidence_for, Answer::evidence_for},
         Side{"loop", 3, Answer::evidence_for, Answer::borderline},
         Side{"loop", 4, Answer::evidence_for, Answer::disproved},
         Side{"loop", 5, Answer::evidence_for, Answer::disproved},
-        Side{"loop", 6, Answer::borderline, Answer::disproved},
-        Side{"loop", 7, Answer::disproved, Answer::disproved}}) {
+        Side{"loop", 6, Answer::borderline, Answer::disproved}, Side{"loop", 7, Answer::disproved, Answer::disproved},
+        Side{"bilinear", 1, Answer::evidence_for, Answer::evidence_for},
+        Side{"bilinear", 2, Answer::disproved, Answer::disproved}}) {
     const Scheme<Algebraic> scheme = find_scheme<Algebraic>(name).value();
     const Verdict along = tangent_plane(analyzed(scheme, {.faces = faces, .open = true}, 1));
     const Verdict at = tangent_plane(analyzed(scheme, {.faces = faces, .open = true, .corner = true}, 1));
