@@ -44,6 +44,13 @@ LatticePoint PlaneMask::high() const {
   return greatest;
 }
 
+int PlaneMask::recurrent_rings() const {
+  // A point r rings away sees points (r + reach)/dilation away, which are further out only for r < reach/(dilation - 1).
+  const LatticePoint l = low(), h = high();
+  const int reach2 = std::max({-l.x2, -l.y2, h.x2, h.y2}), steps = 2 * (dilation - 1);
+  return (reach2 + steps - 1) / steps;
+}
+
 LatticePoint unrolled(const SectorLabel& label, bool triangular) {
   LatticePoint p{label.x2, label.y2};
   for (int s = 0; s < label.sector; ++s) p = triangular ? LatticePoint{-p.y2, p.x2 + p.y2} : LatticePoint{-p.y2, p.x2};

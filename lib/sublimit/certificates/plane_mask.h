@@ -37,6 +37,8 @@ struct PlaneMask {
   }
   LatticePoint low() const;   ///< least coordinates of an offset
   LatticePoint high() const;  ///< greatest
+  /// Rings with modes of their own: further points are made by points nearer to the centre.
+  int recurrent_rings() const;
 };
 
 /// Where a label of a regular centre lies.

@@ -13,7 +13,8 @@
 //    "lambda": ball, "net": [[x, y, complex ball] ...],                          of sector 0, where the rows are
 //    "ring": r, "leaves": [[piece, x, y, path, least] ...]}                      cells, quarters of quarters, bounds
 //
-// What it cannot see is whether the rows are those of the scheme, and that rules far from the centre are the mask.
+// What it cannot see is whether the rows are those of the scheme, that rules far from the centre are the mask, and that
+// the mask converges.
 #include <string>
 #include <vector>
 

@@ -20,7 +20,7 @@ namespace {
 
 using Kind = NeighborhoodKind::Kind;
 
-constexpr int spectrum_rings = 3;
+constexpr int least_rings = 3;
 
 using Answer = Verdict::Answer;
 
@@ -73,15 +73,15 @@ SecondOrderGiven second_order(const SharedAnalysis& shared, const Verdict& c1) {
   return given;
 }
 
-/// More faces than eight repeat the verdict. Where wide masks mix many points, spectra and limits take seconds beyond
-/// four.
+/// Faces on a side, as far as exact spectra of its points take no more than moments: they have the mirror as their only
+/// symmetry.
 int most_open_faces(const Scheme<double>& scheme, int valence) {
   constexpr size_t many_points = 30;
-  int most = std::min(4, valence);
-  for (; most < std::min(8, valence); ++most) {
-    if (!scheme.is_wide()) continue;
+  int most = 0;
+  while (most < std::min(8, valence)) {
     const auto next = local_patch(scheme, {.faces = most + 1, .open = true});
-    if (!next || next->slots.size() > many_points) break;
+    if (!next || (most > 0 && next->slots.size() > many_points)) break;
+    ++most;
   }
   return most;
 }
@@ -180,8 +180,9 @@ Neighborhood neighborhood(const ReportedScheme& scheme, const SharedAnalysis& sh
   json["labels"] = Json::array();
   for (const SectorLabel& label : patch->labels) json["labels"].push_back(to_json(label));
   // Moduli below lambda^2 may come from rings that the limit itself does not need.
+  const int rings = std::max(least_rings, shared.prover ? shared.prover->mask().recurrent_rings() : 0);
   const ExactAnalysis analysis =
-      closed ? *exact_analysis(scheme.exact, type, spectrum_rings) : open_analysis(scheme.exact, *patch);
+      closed ? *exact_analysis(scheme.exact, type, rings) : open_analysis(scheme.exact, *patch);
   look_at_weights(analysis.patch, result);
   add_spectrum(json, analysis.spectrum);
   std::string why;
