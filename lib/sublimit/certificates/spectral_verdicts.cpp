@@ -158,10 +158,13 @@ std::optional<Subdominant> subdominant(const ExactAnalysis& analysis) {
   Subdominant s;
   s.lambda = lead[0];
   s.mu = analysis.spectrum.of_rank(2);
-  const AlgebraicRoot square = s.lambda.value.squared();
-  s.mu_to_lambda2 = compare_moduli(s.mu[0].value, square);
   const PrecisionScope scope(128);
-  s.ratio = s.mu_to_lambda2 == 0 ? Ball(1) : abs(s.mu[0].value.enclosure()) / square.real_enclosure();
+  const Ball lambda = s.lambda.value.real_enclosure(), square = lambda * lambda, mu = abs(s.mu[0].value.enclosure());
+  // Balls first: the polynomial of lambda^2 has roots that are long to find, and only an equality needs them.
+  s.mu_to_lambda2 = certainly_less(mu, square)   ? -1
+                    : certainly_less(square, mu) ? 1
+                                                 : compare_moduli(s.mu[0].value, s.lambda.value.squared());
+  s.ratio = s.mu_to_lambda2 == 0 ? Ball(1) : mu / square;
   std::set<int> blocks;
   for (const ExactEigenvalue& value : s.mu) {
     s.largest_jordan = std::max(s.largest_jordan, value.largest_jordan());
