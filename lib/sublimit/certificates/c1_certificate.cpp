@@ -169,11 +169,13 @@ C1Prover::C1Prover(Scheme<Algebraic> scheme) : scheme_(std::move(scheme)), mask_
   }
 }
 
+LocalPatch<Algebraic> C1Prover::patch(int n) const { return patch_of(scheme_, mask_, n); }
+
 C1Certificate C1Prover::certify(int n) const {
   C1Certificate c{.verdict = {.property = "c1", .says = "C^1 at the extraordinary point"},
                   .map = {},
                   .proof = {},
-                  .patch = patch_of(scheme_, mask_, n)};
+                  .patch = patch(n)};
   Verdict& v = c.verdict;
   v.theorem =
       "Reif 1995: where 1 and then one real pair lead the spectrum, and the characteristic map of the pair is regular "

@@ -26,6 +26,8 @@ class C1Prover {
 
   /// @param n  valence of the vertex, or corners of the face (dual schemes); >= 3
   C1Certificate certify(int n) const;
+  /// The closed neighbourhood that `certify` looks at.
+  LocalPatch<Algebraic> patch(int n) const;
 
   const PlaneMask& mask() const { return mask_; }
   /// Nothing for schemes whose limits are not polynomials.

@@ -60,7 +60,8 @@ class SignSearch {
   MapProof& proof_;
 };
 
-/// Edges of the piece on the outer boundary of the sector, by their ends in u and v.
+}  // namespace
+
 std::vector<std::array<PiecePlace<Ball>, 2>> outer_edges(const RegularPiece& piece, LatticePoint cell, int ring,
                                                          bool triangular) {
   std::vector<std::array<PiecePlace<Ball>, 2>> edges;
@@ -80,14 +81,11 @@ std::vector<std::array<PiecePlace<Ball>, 2>> outer_edges(const RegularPiece& pie
   return edges;
 }
 
-/// Bernstein coefficients along an edge.
 Bernstein<Ball> along(const Bernstein<Ball>& f, const std::array<PiecePlace<Ball>, 2>& edge) {
   const bool by_u = !(edge[0].u == edge[1].u);
   if (f.shape() == PieceShape::triangle) return f.restricted(edge[0], edge[1], edge[0]);
   return by_u ? f.restricted(edge[0], edge[1], edge[0]) : f.restricted(edge[0], edge[0], edge[1]);
 }
-
-}  // namespace
 
 BallFunctions in_balls(const RegularPieces& pieces) {
   BallFunctions functions;

@@ -52,6 +52,12 @@ std::optional<MapPiece> map_piece(CharacteristicMap& map, const RegularPieces& p
 /// Jacobian determinant by u and v.
 Bernstein<Ball> jacobian(const MapPiece& piece);
 
+/// Edges of a piece on the outer boundary of the sector, by their ends in u and v.
+std::vector<std::array<PiecePlace<Ball>, 2>> outer_edges(const RegularPiece& piece, LatticePoint cell, int ring,
+                                                         bool triangular);
+/// Bernstein coefficients along an edge; those of a triangle or square without extent across it.
+Bernstein<Ball> along(const Bernstein<Ball>& f, const std::array<PiecePlace<Ball>, 2>& edge);
+
 /// @param ring  `regular_ring` of the neighbourhood
 MapProof prove_map(CharacteristicMap& map, const RegularPieces& pieces, const BallFunctions& functions, int ring);
 
