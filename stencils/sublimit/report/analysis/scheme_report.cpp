@@ -10,6 +10,7 @@
 
 #include "sublimit/base/error.h"
 #include "sublimit/base/parallel_for.h"
+#include "sublimit/certificates/all_valences.h"
 #include "sublimit/report/analysis/claims_json.h"
 #include "sublimit/report/analysis/neighborhood.h"
 #include "sublimit/report/analysis/regular_json.h"
@@ -64,6 +65,16 @@ Json scheme_json(const ReportedScheme& reported) {
           {"interpolates", scheme.claims.interpolates}};
 }
 
+/// All valences at once, where it takes no longer than a second or so: higher degrees take ten. Null where nothing is
+/// decided.
+Json all_valences_json(const SharedAnalysis& shared) {
+  if (!shared.prover || !shared.prover->pieces()) return nullptr;
+  const RegularPieces& pieces = *shared.prover->pieces();
+  if (pieces.degree > (pieces.mask.triangular ? 4 : 3)) return nullptr;
+  const Verdict v = all_valences(*shared.prover).verdict;
+  return v.answer == Verdict::Answer::proved || v.answer == Verdict::Answer::disproved ? to_json(v) : Json();
+}
+
 template <class Job>
 void for_all(size_t count, const Job& job) {
   parallel_for_blocks(
@@ -87,11 +98,12 @@ Json schemes_report(const std::vector<ReportedScheme>& schemes, const ReportOpti
   // What is shared comes first, then what is long: regular parts, neighbourhoods, and curves, which are quick.
   std::vector<SharedAnalysis> shared(schemes.size());
   for_all(schemes.size(), [&](size_t s) { shared[s] = shared_analysis(schemes[s]); });
-  std::vector<Json> regular(schemes.size()), curves(options.curves.size());
+  std::vector<Json> regular(schemes.size()), all(schemes.size()), curves(options.curves.size());
   std::vector<std::vector<NeighborhoodKind>> kinds(schemes.size());
   std::vector<std::vector<Neighborhood>> found(schemes.size());
   std::vector<std::function<void()>> jobs;
   for (size_t s = 0; s < schemes.size(); ++s) jobs.push_back([&, s] { regular[s] = regular_json(schemes[s].exact); });
+  for (size_t s = 0; s < schemes.size(); ++s) jobs.push_back([&, s] { all[s] = all_valences_json(shared[s]); });
   for (size_t s = 0; s < schemes.size(); ++s) {
     kinds[s] = neighborhoods(schemes[s].scheme, options.valences);
     found[s].resize(kinds[s].size());
@@ -132,6 +144,7 @@ Json schemes_report(const std::vector<ReportedScheme>& schemes, const ReportOpti
       weights.keeps_vertices &= n.keeps_vertices;
       json["neighborhoods"].push_back(std::move(n.json));
     }
+    json["all_valences"] = std::move(all[s]);
     use_regular(json);
     json["claims"] = claims_json(schemes[s].scheme.claims, json, weights);
     report["schemes"].push_back(std::move(json));

@@ -96,6 +96,8 @@ std::string scheme_section(const Json& scheme, const std::string& id, bool many_
              {"Options", options_words(at(scheme, "options"))}});
   text += claims(at(scheme, "claims"));
   text += regular_part(at(scheme, "regular"), name);
+  if (const Json& all = at(scheme, "all_valences"); !all.is_null())
+    text += "<h3>All valences at once</h3>\n" + verdicts(Json::array({all}));
   text += extraordinary(neighborhoods, name, id, many_schemes);
   text += edge_neighborhoods(neighborhoods, name, id, many_schemes ? Detail::numbers : Detail::diagrams);
   return text + "</section>\n";

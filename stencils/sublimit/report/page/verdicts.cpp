@@ -83,6 +83,7 @@ std::string verdict_counts(const Json& report) {
   for (const Json& scheme : at(report, "schemes")) {
     count(counts, at(at(scheme, "regular"), "verdicts"));
     count(counts, at(scheme, "claims"));
+    if (const Json& all = at(scheme, "all_valences"); !all.is_null()) count(counts, Json::array({all}));
     for (const Json& n : at(scheme, "neighborhoods")) count(counts, at(n, "verdicts"));
   }
   if (counts.empty()) return {};
