@@ -98,6 +98,13 @@ TEST(ReportPage, EverySchemeHasItsSectionAndItsValences) {
     EXPECT_EQ(markup.ids.count(id), 1u) << id;
 }
 
+TEST(ReportPage, ShowsTheVerdictOnAllValences) {
+  SampleJson report = sample_schemes(3, 4);
+  EXPECT_NE(report_page(report).find("All valences at once"), std::string::npos);
+  for (SampleJson& scheme : report["schemes"]) scheme["all_valences"] = nullptr;
+  EXPECT_EQ(report_page(report).find("All valences at once"), std::string::npos);
+}
+
 TEST(ReportPage, SameReportSameBytes) {
   EXPECT_EQ(report_page(sample_schemes(3, 5)), page_of("schemes"));
   EXPECT_EQ(report_page(Json::parse(sample_mesh().dump())), page_of("mesh"));

@@ -247,7 +247,8 @@ inline SampleJson sample_scheme(const std::string& name, const std::string& grid
          {"verdict", "evidence-for"},
          {"because", nullptr}}}},
       {"regular", sample_regular(grid)},
-      {"neighborhoods", neighborhoods}};
+      {"neighborhoods", neighborhoods},
+      {"all_valences", grid == "line" ? SampleJson() : sample_verdict("c1-all-valences", "proved")}};
 }
 
 inline SampleJson sample_report(const std::string& kind) {

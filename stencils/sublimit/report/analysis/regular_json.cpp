@@ -318,6 +318,7 @@ Json curve_scheme_json(const std::string& name, const SchemeOptions& options) {
   }
   json["regular"] = r ? to_json(*r) : Json(nullptr);
   json["neighborhoods"] = Json::array();
+  json["all_valences"] = nullptr;
   return json;
 }
 
@@ -326,7 +327,7 @@ Json mask_scheme_json(const std::string& mask) {
   return {{"name", "mask " + mask},         {"kind", "curve"},         {"options", Json::object()},
           {"source", "typed in"},           {"mesh", "line"},          {"split", Json::array()},
           {"interpolates", r.interpolates}, {"claims", Json::array()}, {"regular", to_json(r)},
-          {"neighborhoods", Json::array()}};
+          {"neighborhoods", Json::array()}, {"all_valences", nullptr}};
 }
 
 }  // namespace sublimit::report
