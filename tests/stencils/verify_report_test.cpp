@@ -50,11 +50,10 @@ TEST(VerifyReport, SeesSoundOnesAgain) {
   EXPECT_GE(found.verdicts, found.seen_again + found.decided);
 }
 
-TEST(VerifyReport, TakesTheConditionOfAllValencesAlone) {
+TEST(VerifyReport, TakesNoOpenHypothesisOfAllValences) {
   Json bad = good();
   Json& all = bad["schemes"][0]["all_valences"];
   ASSERT_EQ(all["verdict"], "proved");
-  ASSERT_TRUE(all["hypotheses"].back()["holds"].is_null());
   all["hypotheses"][0]["holds"] = nullptr;
   expect_parts(findings(bad), {"loop, all valences, c1-all-valences: ", "n = 3"});
 }

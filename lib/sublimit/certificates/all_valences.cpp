@@ -363,11 +363,10 @@ AllValences all_valences(const C1Prover& prover, int first) {
                   shown(map), By::enclosure, map ? "on " + std::to_string(proof.parts.size()) + " intervals of h" : "");
   }
   result.intervals = std::move(proof.parts);
-  add("masks of valences that were not compared are given by the same polynomials", std::nullopt, By::exact,
-      "masks are code: read them");
   v.because =
-      "all hypotheses but the last are proved; the last one is a condition that the verdict itself names, as no number "
-      "of valences can show it";
+      "proved of the family of matrices that the masks give at the valences compared; that the scheme's file goes on "
+      "in "
+      "the same way at others is a condition of the statement, as no number of valences can show it";
   v.answer = goes_on ? Verdict::Answer::proved : Verdict::Answer::unknown;
   return result;
 }

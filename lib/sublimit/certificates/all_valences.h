@@ -38,7 +38,7 @@ struct AllValences {
 };
 
 /// The verdict rests on one thing that no experiment shows: masks are code, and are only looked at up to some valence.
-/// It is the last hypothesis, which holds nothing, and the verdict speaks of masks that go on in the same way.
+/// So the verdict speaks of masks that go on in the same way, and says so.
 /// @param first  valences below are certified one by one; 7 or more
 /// @throws InvalidParameter  first is less
 AllValences all_valences(const C1Prover& prover, int first = 7);

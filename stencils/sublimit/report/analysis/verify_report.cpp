@@ -40,13 +40,6 @@ bool is_by_nets(const Json& verdict) {
   });
 }
 
-/// The verdict on all valences speaks of masks that go on in the same way, and names that in its last hypothesis, which
-/// nothing can show.
-bool is_condition(const Json& verdict, const Json& hypothesis) {
-  return verdict.at("property") == "c1-all-valences" && hypothesis.at("holds").is_null() &&
-         &hypothesis == &verdict.at("hypotheses").back();
-}
-
 struct Finding {
   size_t order;
   std::string what;
@@ -67,7 +60,7 @@ struct Reader {
       const std::string says = h.at("says");
       const Json& holds = h.at("holds");
       if (h.at("by") == "floating") find(place, "said to be proved, by floating numbers: '" + says + "'");
-      if ((!holds.is_boolean() || !holds.get<bool>()) && !is_condition(verdict, h))
+      if (!holds.is_boolean() || !holds.get<bool>())
         find(place, "said to be proved, although this does not hold or is not known: '" + says + "'");
     }
   }
