@@ -129,8 +129,9 @@ class RegularPlaces {
 
 }  // namespace
 
-std::optional<bool> is_seen(const ExactAnalysis& analysis, const ExactEigenvalue& value) {
-  if (analysis.n() < 3 || analysis.regular_mask.empty()) return std::nullopt;
+namespace {
+
+std::optional<bool> look_for(const ExactAnalysis& analysis, const ExactEigenvalue& value) {
   const ExactKernel kernel =
       exact_chain_ends(analysis.spectrum.blocks.blocks.at(value.block), value.value, value.largest_jordan());
   const RegularPlaces places(analysis);
@@ -148,6 +149,17 @@ std::optional<bool> is_seen(const ExactAnalysis& analysis, const ExactEigenvalue
     }
   }
   return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<bool> is_seen(const ExactAnalysis& analysis, const ExactEigenvalue& value) {
+  if (analysis.n() < 3 || analysis.regular_mask.empty()) return std::nullopt;
+  const ComplexBall& at = value.value.enclosure();
+  const std::array<double, 4> key{double(value.rank), double(value.block), at.re().mid(), at.im().mid()};
+  const auto found = analysis.seen.find(key);
+  if (found != analysis.seen.end()) return found->second;
+  return analysis.seen[key] = look_for(analysis, value);
 }
 
 }  // namespace sublimit

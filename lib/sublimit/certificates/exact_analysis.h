@@ -2,6 +2,8 @@
 #pragma once
 // A centre of one kind under one scheme with all that is exactly known of it: local matrix, spectrum, and whether its
 // modes can be seen in the limit.
+#include <array>
+#include <map>
 #include <optional>
 
 #include "sublimit/analysis/local_type.h"
@@ -17,6 +19,10 @@ struct ExactAnalysis {
   /// A regular centre and the weights of its limit position, by point; nothing where they could not be had.
   std::optional<LocalPatch<Algebraic>> regular = {};
   std::vector<Algebraic> regular_mask = {};
+
+  /// What `is_seen` has answered, by rank, block and place of the eigenvalue: several verdicts ask, and exact
+  /// eigenvectors are long to find. An analysis belongs to one thread.
+  mutable std::map<std::array<double, 4>, std::optional<bool>> seen = {};
 
   int n() const { return spectrum.blocks.sectors; }
 };

@@ -29,32 +29,11 @@ bool has_picture(const Scheme<double>& scheme, const NeighborhoodKind& kind) {
   return kind.n == 3 || kind.n == regular || kind.n == regular + 1 || kind.n == 8;
 }
 
-const char* split_name(Split split) {
-  switch (split) {
-    case Split::pqq:
-      return "pqq";
-    case Split::ptq:
-      return "ptq";
-    case Split::dqq:
-      return "dqq";
-    case Split::mid_edge:
-      return "mid-edge";
-    case Split::sqrt3:
-      return "sqrt3";
-    case Split::dual:
-      return "dual";
-    case Split::keep:
-      return "keep";
-    default:
-      return "quads";
-  }
-}
-
 Json scheme_json(const ReportedScheme& reported) {
   const Scheme<double>& scheme = reported.scheme;
   Json options = Json::object(), splits = Json::array();
   for (const auto& [name, value] : reported.options) options[name] = value;
-  for (const Step<double>& step : scheme.steps) splits.push_back(split_name(step.split));
+  for (const Step<double>& step : scheme.steps) splits.push_back(name(step.split));
   const bool triangles = scheme.face_size() == 3;
   return {{"name", scheme.name},
           {"kind", "surface"},
