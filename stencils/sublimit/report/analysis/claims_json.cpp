@@ -73,20 +73,6 @@ std::string in_words(const std::map<std::string, std::vector<int>>& by) {
   return text;
 }
 
-/// The least k of which C^k is disproved, if there is one: exponents alone do not tell C^(k-1,1) from C^k.
-std::optional<int> disproved_continuity(const Json& verdicts) {
-  std::optional<int> least;
-  for (const Json& v : verdicts) {
-    const std::string says = v.value("says", "");
-    if (v.value("property", "") != "regular-smoothness" || v.value("verdict", "") != "disproved" ||
-        says.rfind("C^", 0) != 0)
-      continue;
-    const int k = std::atoi(says.c_str() + 2);
-    if (!least || k < *least) least = k;
-  }
-  return least;
-}
-
 Json regular_claim(const Claims& claims, const Json& regular) {
   if (!regular.is_object() || !regular.contains("smoothness"))
     return claim("regular", claims.regular, nullptr, "unknown", "the regular limit was not looked at");
@@ -143,6 +129,19 @@ void use_regular(Json& neighborhood, const std::string& property, int order, int
 }
 
 }  // namespace
+
+std::optional<int> disproved_continuity(const Json& verdicts) {
+  std::optional<int> least;
+  for (const Json& v : verdicts) {
+    const std::string says = v.value("says", "");
+    if (v.value("property", "") != "regular-smoothness" || v.value("verdict", "") != "disproved" ||
+        says.rfind("C^", 0) != 0)
+      continue;
+    const int k = std::atoi(says.c_str() + 2);
+    if (!least || k < *least) least = k;
+  }
+  return least;
+}
 
 void use_regular(Json& scheme) {
   const Json& regular = scheme["regular"];

@@ -11,6 +11,9 @@ struct WeightFindings {
   bool has_negative_weights = false, keeps_vertices = true;
 };
 
+/// The least k of which C^k is disproved, if there is one: exponents alone do not tell C^(k-1,1) from C^k.
+std::optional<int> disproved_continuity(const Json& verdicts);
+
 /// Gives interior neighbourhoods of regular valence what is proved of regular meshes.
 /// @param scheme  SCHEME with `regular` and `neighborhoods`
 void use_regular(Json& scheme);

@@ -7,6 +7,7 @@
 #include "sublimit/base/error.h"
 #include "sublimit/base/format_number.h"
 #include "sublimit/curve_schemes.h"
+#include "sublimit/report/analysis/claims_json.h"
 #include "sublimit/schemes.h"
 
 namespace sublimit::report {
@@ -301,9 +302,13 @@ Json curve_scheme_json(const std::string& name, const SchemeOptions& options) {
     const auto same = [&](bool claimed, bool found) {
       return !claimed || found ? (firm ? Answer::proved : Answer::evidence_for) : Answer::disproved;
     };
+    // What the verdicts do not exclude is possible.
+    Json verdicts = Json::array();
+    for (const Verdict& v : r->verdicts) verdicts.push_back(to_json(v));
+    const int possible = disproved_continuity(verdicts).value_or(1000) - 1;
     Json& claims = json["claims"];
     claims.push_back(claim_json("regular", c.regular, r->smoothness.continuity,
-                                at_least(c.regular, r->smoothness.continuity, r->smoothness.possible),
+                                at_least(c.regular, r->smoothness.continuity, possible),
                                 r->verdicts.empty() ? "" : "see the verdicts of the regular part"));
     claims.push_back(claim_json("generates", c.generates, r->degrees.generates,
                                 at_least(c.generates, r->degrees.generates, r->degrees.generates),
