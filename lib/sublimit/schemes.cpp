@@ -8,6 +8,10 @@
 #include "sublimit/geometric_schemes.h"
 
 namespace sublimit {
+
+template std::vector<Scheme<double>> all_schemes<double>();
+template std::optional<Scheme<double>> find_scheme<double>(const std::string&, const SchemeOptions&);
+
 namespace {
 
 size_t edit_distance(const std::string& a, const std::string& b) {
@@ -36,8 +40,7 @@ std::vector<std::string> nearest_scheme_names(const std::string& name, int count
   const auto distance = [&](const std::string& other) {
     return !name.empty() && other.starts_with(name) ? 0 : edit_distance(name, other);
   };
-  std::stable_sort(names.begin(), names.end(),
-                   [&](const auto& a, const auto& b) { return distance(a) < distance(b); });
+  std::stable_sort(names.begin(), names.end(), [&](const auto& a, const auto& b) { return distance(a) < distance(b); });
   names.resize(std::min(names.size(), static_cast<size_t>(count)));
   return names;
 }

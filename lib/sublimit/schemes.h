@@ -61,6 +61,10 @@ std::optional<Scheme<T>> find_scheme(const std::string& name, const SchemeOption
   return std::nullopt;
 }
 
+// Made once, in the library: else every file that names a scheme makes all of them.
+extern template std::vector<Scheme<double>> all_schemes<double>();
+extern template std::optional<Scheme<double>> find_scheme<double>(const std::string&, const SchemeOptions&);
+
 /// Names closest to a misspelt one by edit distance, at most `count`.
 std::vector<std::string> nearest_scheme_names(const std::string& name, int count = 3);
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The regular part, sweeps and curves in report.json.
+#include "sublimit/certificates/exact_schemes.h"
 #include "sublimit/report/analysis/regular_json.h"
 
 #include <gtest/gtest.h>
 
 #include "sublimit/base/error.h"
 #include "sublimit/curve_schemes.h"
-#include "sublimit/schemes.h"
 
 namespace sublimit {
 namespace {

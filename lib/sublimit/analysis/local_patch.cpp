@@ -63,4 +63,7 @@ void cut_out(Level& level, Centre& centre, int rings) {
   level = std::move(around.level);
 }
 
+template std::optional<LocalPatch<double>> local_patch<double>(const Scheme<double>&, LocalType, int,
+                                                               const ControlMesh*);
+
 }  // namespace sublimit

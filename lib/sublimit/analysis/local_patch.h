@@ -173,4 +173,7 @@ std::optional<LocalPatch<T>> local_patch(const Scheme<T>& scheme, LocalType type
   return patch;
 }
 
+extern template std::optional<LocalPatch<double>> local_patch<double>(const Scheme<double>&, LocalType, int,
+                                                                      const ControlMesh*);
+
 }  // namespace sublimit

@@ -10,7 +10,7 @@
 #include <map>
 #include <optional>
 
-#include "sublimit/analysis/local_patch.h"
+#include "sublimit/certificates/exact_schemes.h"
 #include "sublimit/certificates/leading_pair.h"
 #include "sublimit/certificates/sector_chart.h"
 

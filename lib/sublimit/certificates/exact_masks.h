@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "sublimit/analysis/local_patch.h"
+#include "sublimit/certificates/exact_schemes.h"
 #include "sublimit/certificates/algebraic.h"
 
 namespace sublimit {

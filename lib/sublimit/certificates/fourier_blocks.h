@@ -5,7 +5,7 @@
 // B_k is one of A with the value x_i w^(k s) on sector s of orbit i.
 #include <vector>
 
-#include "sublimit/analysis/local_patch.h"
+#include "sublimit/certificates/exact_schemes.h"
 #include "sublimit/certificates/algebraic.h"
 
 namespace sublimit {

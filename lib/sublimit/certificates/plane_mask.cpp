@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "sublimit/certificates/exact_schemes.h"
 #include "sublimit/certificates/plane_mask.h"
 
 #include <algorithm>
 #include <optional>
 
-#include "sublimit/analysis/local_patch.h"
 #include "sublimit/base/error.h"
 
 namespace sublimit {
@@ -45,7 +45,8 @@ LatticePoint PlaneMask::high() const {
 }
 
 int PlaneMask::recurrent_rings() const {
-  // A point r rings away sees points (r + reach)/dilation away, which are further out only for r < reach/(dilation - 1).
+  // A point r rings away sees points (r + reach)/dilation away, which are further out only for r < reach/(dilation -
+  // 1).
   const LatticePoint l = low(), h = high();
   const int reach2 = std::max({-l.x2, -l.y2, h.x2, h.y2}), steps = 2 * (dilation - 1);
   return (reach2 + steps - 1) / steps;

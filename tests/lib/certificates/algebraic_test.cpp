@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "sublimit/certificates/exact_schemes.h"
 #include "sublimit/certificates/algebraic.h"
 
 #include <gtest/gtest.h>
@@ -7,9 +8,7 @@
 #include <thread>
 #include <vector>
 
-#include "sublimit/analysis/local_patch.h"
 #include "sublimit/base/error.h"
-#include "sublimit/schemes.h"
 #include "support/precise.h"
 
 namespace sublimit {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "sublimit/certificates/exact_schemes.h"
 #include "sublimit/certificates/all_valences.h"
 
 #include <gtest/gtest.h>
@@ -8,7 +9,6 @@
 #include "sublimit/base/error.h"
 #include "sublimit/certificates/turned_map.h"
 #include "sublimit/certificates/valence_family.h"
-#include "sublimit/schemes.h"
 #include "sublimit/schemes/doo_sabin.h"
 
 namespace sublimit {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "sublimit/certificates/exact_schemes.h"
 #include "sublimit/certificates/c1_certificate.h"
 
 #include <gtest/gtest.h>
@@ -6,7 +7,6 @@
 #include <algorithm>
 #include <map>
 
-#include "sublimit/schemes.h"
 #include "sublimit/schemes/doo_sabin.h"
 #include "support/precise.h"
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "sublimit/certificates/exact_schemes.h"
 #include "sublimit/certificates/exact_masks.h"
 
 #include <gtest/gtest.h>
 
 #include "sublimit/analysis/limit_masks.h"
-#include "sublimit/schemes.h"
 #include "support/tolerance.h"
 
 namespace sublimit {

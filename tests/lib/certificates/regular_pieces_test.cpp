@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "sublimit/certificates/exact_schemes.h"
 #include "sublimit/certificates/regular_pieces.h"
 
 #include <gtest/gtest.h>
-
-#include "sublimit/schemes.h"
 
 namespace sublimit {
 namespace {

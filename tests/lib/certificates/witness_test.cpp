@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "sublimit/certificates/exact_schemes.h"
 #include "sublimit/certificates/witness.h"
 
 #include <gtest/gtest.h>
@@ -6,8 +7,6 @@
 #include <random>
 
 #include <nlohmann/json.hpp>
-
-#include "sublimit/schemes.h"
 
 namespace sublimit {
 namespace {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "sublimit/certificates/exact_schemes.h"
 #include "sublimit/report/analysis/registered_rows.h"
 
 #include <fmt/core.h>
@@ -6,9 +7,7 @@
 #include <algorithm>
 #include <map>
 
-#include "sublimit/analysis/local_patch.h"
 #include "sublimit/base/error.h"
-#include "sublimit/schemes.h"
 
 namespace sublimit::report {
 namespace {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "sublimit/certificates/exact_schemes.h"
 #include "sublimit/report/analysis/regular_json.h"
 
 #include <algorithm>
@@ -8,7 +9,6 @@
 #include "sublimit/base/format_number.h"
 #include "sublimit/curve_schemes.h"
 #include "sublimit/report/analysis/claims_json.h"
-#include "sublimit/schemes.h"
 
 namespace sublimit::report {
 namespace {

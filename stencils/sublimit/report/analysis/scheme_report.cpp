@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "sublimit/certificates/exact_schemes.h"
 #include "sublimit/report/analysis/scheme_report.h"
 
 #include <fmt/core.h>
@@ -15,7 +16,6 @@
 #include "sublimit/report/analysis/neighborhood.h"
 #include "sublimit/report/analysis/regular_json.h"
 #include "sublimit/report/statements/statements.h"
-#include "sublimit/schemes.h"
 
 namespace sublimit::report {
 namespace {
