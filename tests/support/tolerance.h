@@ -31,6 +31,11 @@ inline constexpr double printed_derivative = 1e-10;
 /// Tables in float against the same in double, relative to the bounding box.
 inline constexpr double float_reference = 1e-6;
 
+/// Closed forms that texts print with seven digits.
+inline constexpr double seven_digits = 1e-6;
+/// Third derivatives of polynomial pieces from differences of their control points, relative to the second ones.
+inline constexpr double third_derivative = 1e-9;
+
 inline double diagonal(const Points& points) {
   if (points.rows() == 0) return 0;
   return (points.colwise().maxCoeff() - points.colwise().minCoeff()).norm();

@@ -9,6 +9,8 @@
 #include <sstream>
 
 #include "sublimit/base/error.h"
+#include "sublimit/certificates/mirror.h"
+#include "sublimit/certificates/spectral_verdicts.h"
 
 namespace sublimit {
 namespace {
@@ -104,16 +106,6 @@ void add_evidence(C1Certificate& c, bool leads) {
   v.answer = signs->negative == 0 ? Verdict::Answer::evidence_for : Verdict::Answer::evidence_against;
 }
 
-bool rows_sum_to_one(const LocalPatch<Algebraic>& patch) {
-  for (Eigen::Index i = 0; i < patch.A.rows(); ++i) {
-    Algebraic sum;
-    for (Eigen::Index j = 0; j < patch.A.cols(); ++j)
-      if (!patch.A(i, j).is_zero()) sum += patch.A(i, j);
-    if (!sum.is_one()) return false;
-  }
-  return true;
-}
-
 /// The local matrix commutes with the rotation by a sector.
 bool is_rotation_symmetric(const LocalPatch<Algebraic>& patch) {
   std::vector<Eigen::Index> next(patch.labels.size());
@@ -137,27 +129,6 @@ LocalPatch<Algebraic> patch_of(const Scheme<Algebraic>& scheme, const PlaneMask&
 }
 
 }  // namespace
-
-bool is_mirror_symmetric(const LocalPatch<Algebraic>& patch) {
-  const int n = patch.type.faces;
-  std::map<SectorLabel, Eigen::Index> at;
-  for (size_t i = 0; i < patch.labels.size(); ++i) at[patch.labels[i]] = static_cast<Eigen::Index>(i);
-  std::vector<Eigen::Index> mirror;
-  for (const SectorLabel& p : patch.labels) {
-    SectorLabel m{(n - p.sector) % n, p.y2, p.x2};
-    if (m.x2 == 0 && m.y2 != 0) m = {(m.sector + 1) % n, m.y2, 0};
-    if (m.x2 == 0 && m.y2 == 0) m.sector = 0;
-    const auto found = at.find(m);
-    if (found == at.end()) return false;
-    mirror.push_back(found->second);
-  }
-  for (Eigen::Index i = 0; i < patch.A.rows(); ++i) {
-    if (patch.labels[static_cast<size_t>(i)].sector != 0) continue;  // the others by rotation
-    for (Eigen::Index j = 0; j < patch.A.cols(); ++j)
-      if (!(patch.A(i, j) == patch.A(mirror[static_cast<size_t>(i)], mirror[static_cast<size_t>(j)]))) return false;
-  }
-  return true;
-}
 
 C1Prover::C1Prover(Scheme<Algebraic> scheme) : scheme_(std::move(scheme)), mask_(plane_mask(scheme_)) {
   pieces_ = regular_pieces(mask_);
@@ -184,7 +155,7 @@ C1Certificate C1Prover::certify(int n) const {
   const auto add = [&](std::string says, std::optional<bool> holds, By by, std::string value = {}) {
     v.hypotheses.push_back({std::move(says), holds, by, std::move(value)});
   };
-  add("rows of the local matrix sum to one", rows_sum_to_one(c.patch), By::exact);
+  v.hypotheses.push_back(rows_sum_to_one(c.patch));
   // Neither this nor the sign of lambda is necessary: other theorems speak of other pairs.
   add("it commutes with the rotation by a sector", is_rotation_symmetric(c.patch) ? std::optional(true) : std::nullopt,
       By::exact);
@@ -199,7 +170,7 @@ C1Certificate C1Prover::certify(int n) const {
         d.open ? std::nullopt : std::optional(true), By::enclosure,
         d.open ? "not shown for block " + std::to_string(*d.open) : "norms of powers up to " + std::to_string(d.power));
     add("lambda is real: block 1 is similar to its conjugate by reflection",
-        is_mirror_symmetric(c.patch) ? std::optional(true) : std::nullopt, By::exact);
+        mirror_images(c.patch) ? std::optional(true) : std::nullopt, By::exact);
     add("0 < lambda < 1",
         certainly_positive(lambda) && certainly_less(lambda, Ball(1)) ? std::optional(true) : std::nullopt,
         By::enclosure);

@@ -45,8 +45,4 @@ class C1Prover {
   bool converges_ = false;
 };
 
-/// The neighbourhood looks the same in a mirror: the local matrix commutes with the reflection of sectors. Then block 1
-/// is similar to its conjugate.
-bool is_mirror_symmetric(const LocalPatch<Algebraic>& patch);
-
 }  // namespace sublimit

@@ -23,8 +23,21 @@ std::string text_of(const std::vector<ExactEigenvalue>& values) {
   return all;
 }
 
-Hypothesis affine(const ExactAnalysis& analysis) {
-  const DenseMatrix<Algebraic>& A = analysis.patch.A;
+Hypothesis one_dominates(const ExactAnalysis& analysis) {
+  const std::vector<ExactEigenvalue> first = analysis.spectrum.of_rank(0);
+  Hypothesis h{"eigenvalue 1 is simple and larger than all others in modulus", false, By::enclosure, text_of(first)};
+  h.holds =
+      first.size() == 1 && first[0].value.exact() && first[0].value.exact()->is_one() && first[0].multiplicity == 1;
+  if (analysis.spectrum.num_ranks() > 1) h.value += ", then " + text_of(analysis.spectrum.of_rank(1));
+  return h;
+}
+
+bool is_positive(const AlgebraicRoot& root) { return root.is_real() && compare(root, AlgebraicRoot(Algebraic(0))) > 0; }
+
+}  // namespace
+
+Hypothesis rows_sum_to_one(const LocalPatch<Algebraic>& patch) {
+  const DenseMatrix<Algebraic>& A = patch.A;
   Hypothesis h{"the weights of every new point sum to 1", true, By::exact};
   for (Eigen::Index i = 0; i < A.rows(); ++i) {
     Algebraic sum;
@@ -39,23 +52,10 @@ Hypothesis affine(const ExactAnalysis& analysis) {
   return h;
 }
 
-Hypothesis one_dominates(const ExactAnalysis& analysis) {
-  const std::vector<ExactEigenvalue> first = analysis.spectrum.of_rank(0);
-  Hypothesis h{"eigenvalue 1 is simple and larger than all others in modulus", false, By::enclosure, text_of(first)};
-  h.holds =
-      first.size() == 1 && first[0].value.exact() && first[0].value.exact()->is_one() && first[0].multiplicity == 1;
-  if (analysis.spectrum.num_ranks() > 1) h.value += ", then " + text_of(analysis.spectrum.of_rank(1));
-  return h;
-}
-
-bool is_positive(const AlgebraicRoot& root) { return root.is_real() && compare(root, AlgebraicRoot(Algebraic(0))) > 0; }
-
-}  // namespace
-
 Verdict affine_invariance(const ExactAnalysis& analysis) {
   Verdict v{"affine-invariance", "affine maps commute with refinement"};
   v.theorem = "a sum of points moves with an affine map if and only if its weights sum to 1";
-  v.hypotheses = {affine(analysis)};
+  v.hypotheses = {rows_sum_to_one(analysis.patch)};
   v.answer = answer_of(v.hypotheses, true);
   v.because = *v.hypotheses[0].holds ? "every row of the local matrix sums to 1 exactly"
                                      : "a row of the local matrix does not sum to 1: " + v.hypotheses[0].value;
@@ -67,7 +67,7 @@ Verdict convergence(const ExactAnalysis& analysis) {
   v.theorem =
       "powers of a matrix with row sums 1 tend to a matrix of rank 1 if and only if 1 is a simple eigenvalue "
       "and the only one of modulus 1 or more";
-  v.hypotheses = {affine(analysis), one_dominates(analysis)};
+  v.hypotheses = {rows_sum_to_one(analysis.patch), one_dominates(analysis)};
   v.answer = answer_of(v.hypotheses, true);
   v.because =
       v.answer == Answer::proved ? "1 is simple and dominant" : "the leading eigenvalues are " + v.hypotheses[1].value;
@@ -79,7 +79,7 @@ Verdict spectral_c1(const ExactAnalysis& analysis) {
   v.theorem =
       "Reif 1995, A unified approach to subdivision algorithms near extraordinary vertices; Peters, Reif 1998 "
       "for symmetric schemes";
-  v.hypotheses = {affine(analysis), one_dominates(analysis)};
+  v.hypotheses = {rows_sum_to_one(analysis.patch), one_dominates(analysis)};
   if (answer_of(v.hypotheses, true) == Answer::disproved) {
     v.answer = Answer::disproved;
     v.because = "there is no limit: the leading eigenvalues are " + v.hypotheses[1].value;

@@ -10,6 +10,8 @@
 
 namespace sublimit {
 
+/// Exactly, for every row of the local matrix.
+Hypothesis rows_sum_to_one(const LocalPatch<Algebraic>& patch);
 /// Weights of each new point sum to 1, so that affine maps commute with refinement.
 Verdict affine_invariance(const ExactAnalysis& analysis);
 /// Refinement draws the neighbourhood to one point: eigenvalue 1 is simple and dominant.

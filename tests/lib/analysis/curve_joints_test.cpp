@@ -7,6 +7,7 @@
 #include <array>
 
 #include "sublimit/base/error.h"
+#include "support/tolerance.h"
 
 namespace sublimit {
 namespace {
@@ -37,7 +38,7 @@ TEST(CurveJoints, UniformCubicSplinePiecesAreC2) {
   EXPECT_EQ(j.c, 2);
   EXPECT_EQ(j.g, 2);
   EXPECT_FALSE(j.same_polynomial);
-  EXPECT_NEAR(j.ratios[0], 1, 1e-12);
+  EXPECT_NEAR(j.ratios[0], 1, testing::other_route);
 }
 
 TEST(CurveJoints, ReparametrisedPiecesAreGeometricallySmooth) {
@@ -49,9 +50,9 @@ TEST(CurveJoints, ReparametrisedPiecesAreGeometricallySmooth) {
   EXPECT_EQ(j.c, 0);
   EXPECT_EQ(j.g, 4);  // all that pieces of degree 4 can show
   ASSERT_EQ(j.ratios.size(), 4u);
-  EXPECT_NEAR(j.ratios[0], 2, 1e-12);
-  EXPECT_NEAR(j.ratios[1], 6, 1e-12);
-  EXPECT_NEAR(j.ratios[2], 0, 1e-9);
+  EXPECT_NEAR(j.ratios[0], 2, testing::other_route);
+  EXPECT_NEAR(j.ratios[1], 6, testing::other_route);
+  EXPECT_NEAR(j.ratios[2], 0, testing::third_derivative);
 }
 
 TEST(CurveJoints, SignsOfTheRatiosMatterOnlyForTheTangent) {

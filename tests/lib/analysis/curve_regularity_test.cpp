@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What is known of the smoothness of curve schemes, found from their masks.
 #include "sublimit/analysis/regularity/curve_regularity.h"
+#include "support/tolerance.h"
 
 #include <gtest/gtest.h>
 
@@ -101,8 +102,8 @@ TEST(CurveRegularity, ExponentsAreEnclosed) {
   const CurveRegularity r = curve_regularity(eight);
   EXPECT_EQ(r.sum_rules, 8);
   EXPECT_EQ(r.smoothness.continuity, 3);
-  EXPECT_NEAR(r.smoothness.exponent_low, 3.551131, 1e-6);
-  EXPECT_NEAR(r.smoothness.exponent_high, 3.551131, 1e-6);
+  EXPECT_NEAR(r.smoothness.exponent_low, 3.551131, testing::seven_digits);
+  EXPECT_NEAR(r.smoothness.exponent_high, 3.551131, testing::seven_digits);
 }
 
 TEST(CurveRegularity, TensionOneIsNeverC2) {
@@ -150,12 +151,12 @@ TEST(CurveRegularity, SamplesOfTheBasisFunctionAreItsLimits) {
   const BasisSamples cubic = basis_samples(named("lane-riesenfeld").mask, 4);
   ASSERT_EQ(cubic.x.size(), 65u);
   EXPECT_EQ(cubic.x.front(), -2);
-  EXPECT_NEAR(cubic.value[32], 2.0 / 3, 1e-12);
-  EXPECT_NEAR(cubic.value[16], 1.0 / 6, 1e-12);
-  EXPECT_NEAR(cubic.derivative[16], 0.5, 1e-12);
+  EXPECT_NEAR(cubic.value[32], 2.0 / 3, testing::other_route);
+  EXPECT_NEAR(cubic.value[16], 1.0 / 6, testing::other_route);
+  EXPECT_NEAR(cubic.derivative[16], 0.5, testing::other_route);
   const BasisSamples six = basis_samples(named("six-point").mask, 2);
-  EXPECT_NEAR(six.value[six.value.size() / 2], 1, 1e-12);
-  EXPECT_NEAR(six.derivative[4 * 4], 272.0 / 365, 1e-9);  // one leg before the point
+  EXPECT_NEAR(six.value[six.value.size() / 2], 1, testing::other_route);
+  EXPECT_NEAR(six.derivative[4 * 4], 272.0 / 365, testing::first_derivative);  // one leg before the point
 }
 
 }  // namespace
