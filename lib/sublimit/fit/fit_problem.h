@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// The linear algebra of fitting: stencils are rows, so a surface through given data is the solution of
+//
+//   min  sum_i w_i |A_i x - b_i|^2 + x^T H x    subject to    C x = d,
+//
+// and of all such x the one nearest to a first guess x0. Where conditions depend on each other (the limits of a cube's
+// eight corners) they are met if they agree, and in the sense of least squares if they do not.
+#include <Eigen/Core>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "sublimit/types.h"
+
+namespace sublimit {
+
+/// Matrices without rows are absent. All act on every column (channel) of x alike.
+struct FitProblem {
+  SparseMatrix A;           ///< #soft x n: rows that are met as well as possible
+  Points b;                 ///< #soft x channels
+  Eigen::VectorXd weights;  ///< #soft, >= 0; empty: all 1
+  SparseMatrix H;           ///< n x n, symmetric, positive semidefinite: fairness; 0 x 0 if absent
+  SparseMatrix C;           ///< #hard x n: rows that are met exactly
+  Points d;                 ///< #hard x channels
+  Points x0;                ///< n x channels
+};
+
+enum class FitMethod {
+  automatic,  ///< direct for small problems, iterative for large ones that are well conditioned
+  direct,     ///< sparse factorisation with refinement
+  iterative,  ///< preconditioned conjugate gradients
+};
+
+struct FitSolverOptions {
+  FitMethod method = FitMethod::automatic;
+  double tolerance = 1e-14;  ///< of C x = d and of the gradient, relative to the data
+  int max_iterations = 2000;
+  /// Told now and then: iterations done and the relative residual.
+  std::function<void(int, double)> progress = {};
+};
+
+struct FitSolution {
+  Points x;  ///< n x channels
+  FitMethod method = FitMethod::direct;
+  int iterations = 0;                ///< of refinement or of conjugate gradients, the largest of all channels
+  std::vector<double> history = {};  ///< relative residual after each of them
+  bool converged = false;            ///< to the tolerance; conditions that contradict each other never are
+  double hard_residual = 0;          ///< largest |C x - d|
+  double soft_residual = 0;          ///< root of the weighted mean of |A x - b|^2
+};
+
+/// @throws InvalidParameter  shapes that do not fit, numbers that are not finite, negative weights
+/// @throws ResourceError     a factorisation larger than memory
+FitSolution solve(const FitProblem& problem, const FitSolverOptions& options = {});
+
+}  // namespace sublimit
