@@ -3,6 +3,7 @@
 
 #include "sublimit/analysis/degenerate_normal.h"
 #include "sublimit/analysis/limit_rows.h"
+#include "sublimit/analysis/vertex_sides.h"
 
 #include <Eigen/Geometry>
 
@@ -98,41 +99,16 @@ Vector3d turn_of(const LimitMatrices& limit, const Topology& t, Index side, cons
   return turn;
 }
 
-/// The general way: a centre for each fan of each vertex.
+/// The general way: a centre for each side of each vertex.
 LimitMatrices lone_limit_matrices(const Level& level, LimitMaskCache& cache) {
   const Topology& t = level.topology();
-  const Scheme<double>& scheme = cache.scheme();
-  const auto is_cut = [&](HalfEdge h) { return !exists(t.twin(h)) || is_sharp(level.sharpness.edge[index(t.edge(h))]); };
-  std::vector<Centre> centres;
+  VertexSides sides = vertex_sides(level);
   LimitMatrices result;
-  result.corner_side.assign(t.num_half_edges(), -1);
-  for (Index v = 0; v < t.num_vertices(); ++v)
-    for (HalfEdge start : t.fans(Vertex{v})) {
-      // Sharp edges cut a fan into sides; a closed one starts at the first of them.
-      const HalfEdge first = start;
-      if (exists(t.twin(start))) {
-        HalfEdge h = start;
-        while (!is_cut(h) && t.ccw(h) != first) h = t.ccw(h);
-        if (is_cut(h)) start = h;
-      }
-      HalfEdge h = start;
-      bool hole = true, begins = true;
-      do {
-        if (begins) {
-          centres.push_back({Centre::Kind::vertex, h});
-          result.side_vertex.push_back(v);
-          hole = true;
-        }
-        result.corner_side[index(h)] = static_cast<Index>(centres.size()) - 1;
-        hole &= level.holes[index(t.face(h))];
-        begins = is_cut(t.prev(h));
-        if (begins || t.ccw(h) == start) result.status.push_back(hole ? LimitStatus::hole : LimitStatus::regular);
-        h = t.ccw(h);
-      } while (exists(h) && h != start);
-    }
-  const std::vector<LimitRows> rows = limit_rows(level, cache, centres);
+  result.side_vertex = std::move(sides.vertex);
+  result.corner_side = std::move(sides.corner_side);
+  for (const bool hole : sides.hole) result.status.push_back(hole ? LimitStatus::hole : LimitStatus::regular);
+  const std::vector<LimitRows> rows = limit_rows(level, cache, sides.centres);
 
-  const Index regular = scheme.face_size() == 3 ? 6 : 4;
   Rows position, tangent1, tangent2;
   size_t orders = 0;
   for (const LimitRows& row : rows) orders = std::max(orders, row.second_order.size());
@@ -151,11 +127,7 @@ LimitMatrices lone_limit_matrices(const Level& level, LimitMaskCache& cache) {
       for (size_t k = 0; k < orders; ++k) second[k].append(k < row.second_order.size() ? row.second_order[k] : LimitRows::Row{});
       LimitStatus& status = result.status[side];
       if (status == LimitStatus::hole) continue;
-      const bool closed = !row.type.open && row.type.kind != Centre::Kind::border;
-      status = row.plane == LimitMasks::Plane::no ? LimitStatus::undefined_normal
-               : !closed                          ? LimitStatus::crease
-               : row.type.faces == regular        ? LimitStatus::regular
-                                                  : LimitStatus::extraordinary;
+      status = generic_status(row, cache.scheme());
     }
   }
   result.position = joined({std::move(position)}, t.num_vertices());

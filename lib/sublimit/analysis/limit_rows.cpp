@@ -102,6 +102,12 @@ std::vector<LimitRows> rows_of(const Level& level, LimitMaskCache& cache, const 
 
 }  // namespace
 
+LimitStatus generic_status(const LimitRows& rows, const Scheme<double>& scheme) {
+  if (rows.plane == LimitMasks::Plane::no) return LimitStatus::undefined_normal;
+  if (rows.type.open || rows.type.kind == Centre::Kind::border) return LimitStatus::crease;
+  return rows.type.faces == (scheme.face_size() == 3 ? 6 : 4) ? LimitStatus::regular : LimitStatus::extraordinary;
+}
+
 std::vector<LimitRows> limit_rows(const Level& level, LimitMaskCache& cache, const std::vector<Centre>& centres) {
   return rows_of(level, cache, centres, 12);
 }

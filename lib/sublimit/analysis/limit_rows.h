@@ -3,6 +3,7 @@
 // Limit rows of any places of a level. Where a place is alone among regular points its masks are known by its type; elsewhere the
 // faces around it are refined, by the scheme's own matrices, until it is: L_k = L_{k+1} S_k.
 #include "sublimit/analysis/limit_masks.h"
+#include "sublimit/analysis/limit_status.h"
 #include "sublimit/refine.h"
 
 namespace sublimit {
@@ -15,6 +16,9 @@ struct LimitRows {
   LimitMasks::Plane plane = LimitMasks::Plane::yes;
   LocalType type;  ///< once it is alone
 };
+
+/// What there is at the place for generic points; holes are not known here.
+LimitStatus generic_status(const LimitRows& rows, const Scheme<double>& scheme);
 
 /// @throws AnalysisError  a place that never comes to be alone (it is naming the vertex)
 std::vector<LimitRows> limit_rows(const Level& level, LimitMaskCache& cache, const std::vector<Centre>& centres);

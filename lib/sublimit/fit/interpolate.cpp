@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sublimit/fit/interpolate.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sublimit/base/error.h"
+#include "sublimit/fit/unit_frame.h"
+#include "sublimit/fit/vertex_conditions.h"
+#include "sublimit/sparse_product.h"
+
+namespace sublimit {
+namespace {
+
+constexpr double exact_position = 1e-12;  // of the targets' box
+constexpr double exact_normal = 1e-10;    // radians
+
+/// Steps towards the given points by what the limit misses: slow modes first, wiggles hardly.
+constexpr int guess_steps = 3;
+
+/// The targets with unit normals; throws at what no mesh could meet.
+std::vector<VertexTarget> checked(const std::vector<VertexTarget>& targets, const Topology& topology) {
+  std::vector<VertexTarget> result = targets;
+  std::vector<bool> seen(topology.num_vertices(), false);
+  for (size_t i = 0; i < result.size(); ++i) {
+    VertexTarget& target = result[i];
+    const std::string where = "target " + std::to_string(i) + ": ";
+    if (target.vertex < 0 || target.vertex >= topology.num_vertices())
+      throw InvalidParameter(where + "vertex " + std::to_string(target.vertex) + " does not exist; vertices are 0 to " +
+                             std::to_string(topology.num_vertices() - 1));
+    const std::string at = where + "vertex " + std::to_string(target.vertex);
+    if (seen[target.vertex]) throw InvalidParameter(at + " has a target already; a vertex has one");
+    seen[target.vertex] = true;
+    if (topology.is_isolated(Vertex{target.vertex}))
+      throw InvalidParameter(at + " is in no face: no surface passes there; leave it out");
+    if (!target.position.allFinite()) throw InvalidParameter(at + ": its position is not finite");
+    if (!target.normal) continue;
+    if (!target.normal->allFinite()) throw InvalidParameter(at + ": its normal is not finite");
+    const double largest = target.normal->cwiseAbs().maxCoeff();
+    if (largest == 0) throw InvalidParameter(at + ": its normal has length 0; any other length will do");
+    target.normal = (*target.normal / largest).normalized();
+  }
+  return result;
+}
+
+/// Rows of the same weights for all three coordinates, interleaved.
+SparseMatrix for_coordinates(const SparseMatrix& H) {
+  SparseMatrix result(3 * H.rows(), 3 * H.cols());
+  result.reserve(3 * H.nonZeros());
+  for (Index r = 0; r < H.rows(); ++r)
+    for (Index c = 0; c < 3; ++c) {
+      result.startVec(3 * r + c);
+      for (SparseMatrix::InnerIterator it(H, r); it; ++it)
+        result.insertBack(3 * r + c, 3 * static_cast<Index>(it.col()) + c) = it.value();
+    }
+  result.finalize();
+  return result;
+}
+
+/// Vertices that a matrix of directions moves.
+std::vector<Index> moved(const Points& directions, Index unknowns_per_vertex) {
+  std::vector<Index> vertices;
+  const double most = directions.size() ? directions.rowwise().norm().maxCoeff() : 0;
+  for (Index r = 0; r < directions.rows(); ++r) {
+    const Index v = r / unknowns_per_vertex;
+    if (directions.row(r).norm() > 1e-3 * most && (vertices.empty() || vertices.back() != v)) vertices.push_back(v);
+  }
+  return vertices;
+}
+
+Points guess(const VertexLimits& limits, const std::vector<VertexTarget>& targets, Points points) {
+  for (int k = 0; k < guess_steps; ++k) {
+    const Points at = apply(limits.position, points);
+    for (size_t i = 0; i < targets.size(); ++i)
+      points.row(targets[i].vertex) += targets[i].position.transpose() - at.row(i);
+  }
+  return points;
+}
+
+/// All that an attempt needs; points and targets are in the unit frame.
+struct Problem {
+  const Scheme<double>& scheme;
+  const std::vector<Level>& levels;
+  const InterpolationOptions& options;
+  const std::vector<VertexTarget>& targets;
+  const Points& x0;  // of the last level
+};
+
+void attempt(const Problem& problem, LimitMaskCache& cache, Interpolation& result) {
+  const std::vector<VertexTarget>& targets = problem.targets;
+  std::vector<Index> vertices;
+  for (const VertexTarget& target : targets) vertices.push_back(target.vertex);
+  const Level& level = problem.levels.back();
+  const VertexLimits limits = vertex_limits(problem.levels, cache, vertices);
+  VertexConditions conditions = vertex_conditions(limits, targets);
+
+  InterpolationAttempt tried{.refinements = level.number,
+                             .unknowns = static_cast<Index>(conditions.C.cols()),
+                             .conditions = static_cast<Index>(conditions.C.rows())};
+  const Index n = level.topology().num_vertices();
+  const Index per_vertex = conditions.coupled ? 3 : 1;
+  FitProblem linear;
+  linear.C = std::move(conditions.C);
+  linear.d = std::move(conditions.d);
+  linear.x0 = conditions.coupled ? Points(problem.x0.reshaped<Eigen::RowMajor>()) : problem.x0;
+  if (!problem.options.fairness.empty()) {
+    const SparseMatrix H = fairness_energy(LimitSurface(problem.scheme, level), problem.options.fairness);
+    linear.H = conditions.coupled ? for_coordinates(H) : H;
+  }
+  result.solution = solve(linear, problem.options.solver);
+  const Points x = std::exchange(result.solution.x, {});
+  result.points = conditions.coupled ? Points(x.reshaped<Eigen::RowMajor>(n, 3)) : x;
+
+  const VertexErrors errors = vertex_errors(limits, targets, result.points);
+  const auto has_normal = [&](Index i) { return !std::isnan(errors.normal[i]); };
+  for (Index i = 0; i < static_cast<Index>(targets.size()); ++i) {
+    tried.position_error = std::max(tried.position_error, errors.position[i]);
+    if (has_normal(i)) tried.normal_error = std::max(tried.normal_error, errors.normal[i]);
+    if (!(errors.position[i] <= exact_position) || (has_normal(i) && !(errors.normal[i] <= exact_normal)))
+      tried.contradictory.push_back(targets[i].vertex);
+  }
+  tried.solved = tried.contradictory.empty();
+  if (problem.options.conditioning) {
+    tried.conditioning = conditioning(linear.C);
+    if (tried.conditions >= tried.unknowns && tried.conditioning.rank < tried.unknowns)
+      tried.undetermined = moved(tried.conditioning.free, per_vertex);
+  }
+  result.attempts.push_back(std::move(tried));
+  result.level = level;
+  result.position_error = errors.position;
+  result.normal_error = errors.normal;
+  result.without_plane = std::move(conditions.without_plane);
+}
+
+std::string listed(const std::vector<Index>& vertices) {
+  constexpr size_t most = 8;
+  std::string text = vertices.size() == 1 ? "vertex " : "vertices ";
+  for (size_t i = 0; i < std::min(most, vertices.size()); ++i) text += (i ? ", " : "") + std::to_string(vertices[i]);
+  if (vertices.size() > most) text += " and " + std::to_string(vertices.size() - most) + " more";
+  return text;
+}
+
+}  // namespace
+
+Interpolation interpolate(const Scheme<double>& scheme, const ControlMesh& mesh,
+                          const std::vector<VertexTarget>& targets, const InterpolationOptions& options) {
+  if (options.least_refinements < 0 || options.most_refinements < options.least_refinements)
+    throw InvalidParameter("refinements from " + std::to_string(options.least_refinements) + " to " +
+                           std::to_string(options.most_refinements) + "; the first is 0 or more, the second not less");
+  if (!mesh.positions.allFinite()) throw InvalidMesh("a control point is not finite");
+  std::vector<Level> levels{control_level(scheme, mesh, options.rules)};
+  std::vector<VertexTarget> asked = checked(targets, levels[0].topology());
+  const UnitFrame frame = unit_frame(asked, mesh.positions);
+  for (VertexTarget& target : asked) target.position = frame.inside(target.position.transpose()).transpose();
+
+  LimitMaskCache cache(scheme);
+  Interpolation result;
+  Index per_target = 3;  // conditions
+  for (const VertexTarget& target : asked)
+    if (target.normal) per_target = 5;
+  Points x0 = frame.inside(mesh.positions);
+  for (int k = 0; k <= options.most_refinements; ++k) {
+    if (k == 1) {
+      std::vector<Index> vertices;
+      for (const VertexTarget& target : asked) vertices.push_back(target.vertex);
+      x0 = guess(vertex_limits(levels, cache, vertices), asked, x0);
+    }
+    if (k > 0) {
+      levels.push_back(next_level(scheme, levels.back()));
+      x0 = apply(levels.back().S, x0);
+    }
+    const bool crowded = std::int64_t{per_target} * std::int64_t(asked.size()) > 3 * std::int64_t(x0.rows());
+    if (k < options.least_refinements || (crowded && k < options.most_refinements)) continue;
+    attempt({scheme, levels, options, asked, x0}, cache, result);
+    if (result.solved()) break;
+  }
+  for (InterpolationAttempt& tried : result.attempts) tried.position_error *= frame.unit;
+  result.position_error *= frame.unit;
+  result.points = frame.outside(result.points);
+  return result;
+}
+
+std::string why_unsolved(const InterpolationAttempt& attempt) {
+  if (attempt.solved) return "";
+  std::string text;
+  if (!attempt.undetermined.empty())
+    text += "the limits of " + listed(attempt.undetermined) + " depend on each other (rank " +
+            std::to_string(attempt.conditioning.rank) + " of " + std::to_string(attempt.unknowns) + "); ";
+  text += "the targets of " + listed(attempt.contradictory) + " cannot be met with the control points of " +
+          std::to_string(attempt.refinements) + (attempt.refinements == 1 ? " refinement" : " refinements") +
+          ": allow another refinement, or leave a target out";
+  return text;
+}
+
+}  // namespace sublimit

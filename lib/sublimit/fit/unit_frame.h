@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// Coordinates in which targets lie around the origin and have size 1: rows of limits sum to 1, so fits move along, and
+// tolerances have a meaning.
+#include <algorithm>
+#include <cmath>
+
+#include "sublimit/fit/targets.h"
+
+namespace sublimit {
+
+struct UnitFrame {
+  Eigen::RowVectorXd origin;
+  double unit = 1;
+  Points inside(const Points& points) const { return (points.rowwise() - origin) / unit; }
+  Points outside(const Points& points) const { return (points * unit).rowwise() + origin; }
+};
+
+/// Of the targets' box; where it is a point, of the mesh's.
+inline UnitFrame unit_frame(const std::vector<VertexTarget>& targets, const Points& mesh) {
+  Points at(static_cast<Index>(targets.size()), 3);
+  for (size_t i = 0; i < targets.size(); ++i) at.row(i) = targets[i].position;
+  UnitFrame frame{.origin = Eigen::RowVector3d::Zero()};
+  for (const Points* points : {static_cast<const Points*>(&at), &mesh}) {
+    if (points->rows() == 0) continue;
+    const Eigen::RowVectorXd low = points->colwise().minCoeff(), high = points->colwise().maxCoeff();
+    frame.origin = low + (high - low) / 2;
+    frame.unit = (high - low).norm();
+    if (frame.unit > 0 && std::isfinite(frame.unit)) return frame;
+  }
+  frame.unit = 1;
+  return frame;
+}
+
+}  // namespace sublimit

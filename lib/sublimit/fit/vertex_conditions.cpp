@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sublimit/fit/vertex_conditions.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "sublimit/sparse_product.h"
+
+namespace sublimit {
+namespace {
+
+using Eigen::Vector3d;
+
+/// The side has a tangent plane for generic points.
+bool has_plane(LimitStatus status) { return status != LimitStatus::hole && status != LimitStatus::undefined_normal; }
+
+double norm(const SparseMatrix& M, Index row) {
+  double square = 0;
+  for (SparseMatrix::InnerIterator it(M, row); it; ++it) square += it.value() * it.value();
+  return std::sqrt(square);
+}
+
+/// Rows one after the other.
+class Rows {
+ public:
+  Rows(Index rows, Index columns, Index nonzeros) : matrix_(rows, columns) { matrix_.reserve(nonzeros); }
+  void begin() { matrix_.startVec(row_++); }
+  void add(Index column, double weight) { matrix_.insertBack(row_ - 1, column) = weight; }
+  SparseMatrix take() {
+    matrix_.finalize();
+    return std::move(matrix_);
+  }
+
+ private:
+  SparseMatrix matrix_;
+  Index row_ = 0;
+};
+
+}  // namespace
+
+VertexConditions vertex_conditions(const VertexLimits& limits, const std::vector<VertexTarget>& targets) {
+  VertexConditions result;
+  const Index count = static_cast<Index>(targets.size());
+  for (const VertexTarget& target : targets) result.coupled |= target.normal.has_value();
+  if (!result.coupled) {
+    result.C = limits.position;
+    result.d.resize(count, 3);
+    for (Index i = 0; i < count; ++i) result.d.row(i) = targets[i].position;
+    return result;
+  }
+
+  std::vector<Index> sides;
+  for (size_t s = 0; s < limits.side_vertex.size(); ++s) {
+    const Index i = limits.side_vertex[s];
+    if (!targets[i].normal) continue;
+    if (has_plane(limits.status[s])) {
+      sides.push_back(static_cast<Index>(s));
+    } else if (result.without_plane.empty() || result.without_plane.back() != i) {
+      result.without_plane.push_back(i);
+    }
+  }
+  const Index rows = 3 * count + 2 * static_cast<Index>(sides.size());
+  Rows C(
+      rows, 3 * static_cast<Index>(limits.position.cols()),
+      static_cast<Index>(3 * (limits.position.nonZeros() + limits.tangent1.nonZeros() + limits.tangent2.nonZeros())));
+  for (Index i = 0; i < count; ++i)
+    for (Index c = 0; c < 3; ++c) {
+      C.begin();
+      for (SparseMatrix::InnerIterator it(limits.position, i); it; ++it)
+        C.add(3 * static_cast<Index>(it.col()) + c, it.value());
+    }
+  // Tangents have any length: rows of length 1 are as heavy as those of positions.
+  for (const Index s : sides)
+    for (const SparseMatrix* tangent : {&limits.tangent1, &limits.tangent2}) {
+      const Vector3d N = *targets[limits.side_vertex[s]].normal / norm(*tangent, s);
+      C.begin();
+      for (SparseMatrix::InnerIterator it(*tangent, s); it; ++it)
+        for (Index c = 0; c < 3; ++c) C.add(3 * static_cast<Index>(it.col()) + c, N[c] * it.value());
+    }
+  result.C = C.take();
+  result.d = Points::Zero(rows, 1);
+  for (Index i = 0; i < count; ++i) result.d.block(3 * i, 0, 3, 1) = targets[i].position;
+  return result;
+}
+
+VertexErrors vertex_errors(const VertexLimits& limits, const std::vector<VertexTarget>& targets, const Points& points) {
+  VertexErrors errors;
+  const Index count = static_cast<Index>(targets.size());
+  const Points at = apply(limits.position, points);
+  errors.position.resize(count);
+  for (Index i = 0; i < count; ++i) errors.position[i] = (at.row(i).transpose() - targets[i].position).norm();
+  errors.normal.setConstant(count, std::numeric_limits<double>::quiet_NaN());
+  const Points t1 = apply(limits.tangent1, points), t2 = apply(limits.tangent2, points);
+  for (size_t s = 0; s < limits.side_vertex.size(); ++s) {
+    const VertexTarget& target = targets[limits.side_vertex[s]];
+    if (!target.normal || !has_plane(limits.status[s])) continue;
+    const Vector3d a = t1.row(s), b = t2.row(s), n = a.cross(b);
+    // Tangents that fell together have no normal: as wrong as can be.
+    const double angle = n.isZero(0) ? M_PI : std::atan2(n.cross(*target.normal).norm(), n.dot(*target.normal));
+    double& error = errors.normal[limits.side_vertex[s]];
+    error = std::isnan(error) ? angle : std::max(error, angle);
+  }
+  return errors;
+}
+
+}  // namespace sublimit

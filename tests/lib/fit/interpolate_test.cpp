@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sublimit/fit/interpolate.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+
+#include "sublimit/analysis/limit_points.h"
+#include "sublimit/schemes.h"
+#include "sublimit/sparse_product.h"
+#include "support/expect_error.h"
+#include "support/meshes.h"
+#include "support/tolerance.h"
+
+namespace sublimit::testing {
+namespace {
+
+/// What the issue promises: of the box, and radians.
+constexpr double on_target = 1e-12, along_target = 1e-10;
+
+std::vector<VertexTarget> at_vertices(const ControlMesh& mesh) {
+  std::vector<VertexTarget> targets;
+  for (Index v = 0; v < mesh.num_vertices(); ++v) targets.push_back({.vertex = v, .position = mesh.positions.row(v)});
+  return targets;
+}
+
+/// The same with normals away from the middle of the mesh.
+std::vector<VertexTarget> with_normals(const ControlMesh& mesh) {
+  std::vector<VertexTarget> targets = at_vertices(mesh);
+  const Eigen::RowVector3d middle = mesh.positions.colwise().mean();
+  for (VertexTarget& target : targets) target.normal = 2 * (target.position - middle.transpose());
+  return targets;
+}
+
+/// Points and normals of the limit of what was found, by the way that knows nothing of fitting: vertices of one side.
+LimitPoints limits_of(const Scheme<double>& scheme, const Interpolation& found) {
+  LimitMaskCache cache(scheme);
+  return limit_points(limit_matrices(found.level, cache), found.level.topology(), found.points);
+}
+
+void expect_through(const Scheme<double>& scheme, const Interpolation& found, const std::vector<VertexTarget>& targets,
+                    double box) {
+  EXPECT_TRUE(found.solved()) << why_unsolved(found.attempts.back());
+  const LimitPoints limits = limits_of(scheme, found);
+  for (const VertexTarget& target : targets) {
+    EXPECT_LE((limits.position.row(target.vertex).transpose() - target.position).norm(), on_target * box);
+    if (!target.normal) continue;
+    const Eigen::Vector3d n = limits.normal.row(target.vertex), N = target.normal->normalized();
+    EXPECT_LE(n.cross(N).norm(), along_target);
+    EXPECT_GT(n.dot(N), 0);
+  }
+}
+
+/// Catmull-Clark's limit masks on a regular grid are a product of (1, 4, 1)/6 both ways: the least eigenvalue is (4 -
+/// 2)^2/36.
+TEST(Interpolation, TorusGridIsSquareAndItsLeastSingularValueIsOneNinth) {
+  const auto scheme = *find_scheme<double>("catmull-clark");
+  const ControlMesh mesh = jittered(torus(12, 8));
+  const auto targets = at_vertices(mesh);
+  const Interpolation found = interpolate(scheme, mesh, targets);
+  expect_through(scheme, found, targets, diagonal(mesh.positions));
+  ASSERT_EQ(found.attempts.size(), 1u);
+  EXPECT_EQ(found.attempts[0].refinements, 0);
+  EXPECT_EQ(found.attempts[0].conditioning.rank, 96);
+  EXPECT_NEAR(found.attempts[0].conditioning.smallest, 1.0 / 9, eigen());
+}
+
+TEST(Interpolation, SubdividedCubeIsSquare) {
+  const auto scheme = *find_scheme<double>("catmull-clark");
+  const ControlMesh mesh = quads_from_triangles(quads_from_triangles(cube()));
+  const auto targets = at_vertices(jittered(mesh));
+  const Interpolation found = interpolate(scheme, mesh, targets);
+  expect_through(scheme, found, targets, diagonal(mesh.positions));
+  EXPECT_EQ(found.attempts.back().refinements, 0);
+}
+
+/// The limit of a corner sees its neighbours with weights that cancel for alternating signs: eigenvalue 0.
+TEST(Interpolation, CubeIsSingularAndSolvedWithMoreControlPoints) {
+  const auto scheme = *find_scheme<double>("catmull-clark");
+  const auto targets = at_vertices(jittered(cube()));
+  const Interpolation without = interpolate(scheme, cube(), targets, {.most_refinements = 0});
+  ASSERT_EQ(without.attempts.size(), 1u);
+  EXPECT_FALSE(without.solved());
+  EXPECT_EQ(without.attempts[0].conditioning.rank, 7);
+  EXPECT_EQ(without.attempts[0].undetermined.size(), 8u);
+  EXPECT_EQ(without.attempts[0].contradictory.size(), 8u);
+  EXPECT_NE(why_unsolved(without.attempts[0]).find("vertices 0, 1, 2"), std::string::npos);
+
+  const Interpolation found = interpolate(scheme, cube(), targets);
+  ASSERT_EQ(found.attempts.size(), 2u);
+  EXPECT_EQ(found.attempts[1].refinements, 1);
+  EXPECT_EQ(found.level.topology().num_vertices(), 26);
+  expect_through(scheme, found, targets, diagonal(cube().positions));
+}
+
+/// Its own corners are in the range of the singular system: coordinates have the eigenvalue 1/2.
+TEST(Interpolation, CubeThroughItsOwnCornersIsTwiceAsLarge) {
+  const auto scheme = *find_scheme<double>("catmull-clark");
+  const Interpolation found = interpolate(scheme, cube(), at_vertices(cube()), {.most_refinements = 0});
+  ASSERT_TRUE(found.solved());
+  EXPECT_LE((found.points - 2 * cube().positions).cwiseAbs().maxCoeff(), on_target);
+}
+
+/// schemes.md section 4, by hand: all vertices of a platonic solid have valence n, with e the weight of a neighbour the
+/// eigenvalues are those of its graph.
+TEST(Interpolation, LoopSolidsHaveTheSmallestSingularValuesOfTheirGraphs) {
+  const auto scheme = *find_scheme<double>("loop");
+  for (const auto& [mesh, smallest] :
+       {std::pair(tetrahedron(), 0.2), std::pair(octahedron(), 0.1545), std::pair(icosahedron(), 0.2350)}) {
+    const auto targets = at_vertices(jittered(mesh));
+    const Interpolation found = interpolate(scheme, mesh, targets);
+    expect_through(scheme, found, targets, diagonal(mesh.positions));
+    EXPECT_NEAR(found.attempts[0].conditioning.smallest, smallest, 5e-5) << "four printed digits";
+  }
+}
+
+TEST(Interpolation, PointsAndNormalsNeedOneRefinement) {
+  const auto scheme = *find_scheme<double>("catmull-clark");
+  for (const ControlMesh& mesh : {cube(), pole(5), prism(7), quads_from_triangles(icosahedron())}) {
+    const auto targets = with_normals(jittered(mesh));
+    const Interpolation found = interpolate(scheme, mesh, targets);
+    expect_through(scheme, found, targets, diagonal(mesh.positions));
+    EXPECT_EQ(found.attempts.back().refinements, 1);
+  }
+}
+
+TEST(Interpolation, FairnessChoosesAmongThem) {
+  const auto scheme = *find_scheme<double>("catmull-clark");
+  const auto targets = with_normals(jittered(cube()));
+  const Fairness fairness{.thin_plate = 1, .membrane = 0.1};
+  const auto energy = [&](const Interpolation& found) {
+    const SparseMatrix H = fairness_energy(LimitSurface(scheme, found.level), fairness);
+    return (found.points.transpose() * (H * found.points)).trace();
+  };
+  const Interpolation near = interpolate(scheme, cube(), targets, {.least_refinements = 1, .most_refinements = 1});
+  const Interpolation fair =
+      interpolate(scheme, cube(), targets, {.least_refinements = 1, .most_refinements = 1, .fairness = fairness});
+  expect_through(scheme, fair, targets, diagonal(cube().positions));
+  EXPECT_LT(energy(fair), 0.9 * energy(near));
+}
+
+TEST(Interpolation, InterpolatorySchemesMoveNoVertex) {
+  const auto scheme = *find_scheme<double>("butterfly");
+  const ControlMesh mesh = icosahedron();
+  const auto targets = with_normals(mesh);
+  const Interpolation found = interpolate(scheme, mesh, targets);
+  expect_through(scheme, found, targets, diagonal(mesh.positions));
+  EXPECT_LE((found.points.topRows(12) - mesh.positions).cwiseAbs().maxCoeff(), rounding(8, 2));
+}
+
+TEST(Interpolation, BadTargetsAreRefusedByName) {
+  const auto scheme = *find_scheme<double>("catmull-clark");
+  const auto refused = [&](VertexTarget target, std::initializer_list<std::string_view> parts) {
+    std::vector<VertexTarget> targets = at_vertices(cube());
+    targets.pop_back();
+    targets.push_back(target);
+    expect_error<InvalidParameter>([&] { interpolate(scheme, cube(), targets); }, parts);
+  };
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  refused({.vertex = 8}, {"target 7", "vertex 8 does not exist", "0 to 7"});
+  refused({.vertex = 3}, {"target 7", "vertex 3 has a target already"});
+  refused({.vertex = 7, .position = {0, nan, 0}}, {"target 7", "vertex 7", "position is not finite"});
+  refused({.vertex = 7, .normal = Eigen::Vector3d(0, 0, 0)}, {"vertex 7", "length 0"});
+  refused({.vertex = 7, .normal = Eigen::Vector3d(0, nan, 0)}, {"vertex 7", "normal is not finite"});
+  expect_error<InvalidParameter>(
+      [&] { interpolate(scheme, cube(), {}, {.least_refinements = 2, .most_refinements = 1}); }, {"from 2 to 1"});
+}
+
+}  // namespace
+}  // namespace sublimit::testing
