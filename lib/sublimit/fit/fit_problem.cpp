@@ -31,9 +31,9 @@ bool is_finite(const SparseMatrix& matrix) {
 
 void check_rows(const char* matrix, const char* values, const SparseMatrix& rows, const Points& right,
                 const Points& x0) {
-  require(rows.rows() == 0 || rows.cols() == x0.rows(),
-          std::string(matrix) + " is " + shape(rows.rows(), rows.cols()) + ", but x0 has " + std::to_string(x0.rows()) +
-              " rows: as many columns are needed");
+  require(rows.rows() == 0 || rows.cols() == x0.rows(), std::string(matrix) + " is " + shape(rows.rows(), rows.cols()) +
+                                                            ", but x0 has " + std::to_string(x0.rows()) +
+                                                            " rows: as many columns are needed");
   require(rows.rows() == right.rows() && (rows.rows() == 0 || right.cols() == x0.cols()),
           std::string(values) + " is " + shape(right.rows(), right.cols()) + ", but " + matrix + " has " +
               std::to_string(rows.rows()) + " rows and x0 " + std::to_string(x0.cols()) + " columns");
@@ -49,9 +49,9 @@ void check(const FitProblem& problem) {
           "there are " + std::to_string(problem.weights.size()) + " weights, but A has " +
               std::to_string(problem.A.rows()) + " rows");
   for (Eigen::Index i = 0; i < problem.weights.size(); ++i)
-    require(problem.weights[i] >= 0 && std::isfinite(problem.weights[i]),
-            "weight " + std::to_string(i) + " is " + std::to_string(problem.weights[i]) +
-                "; weights are finite and not negative");
+    require(problem.weights[i] >= 0 && std::isfinite(problem.weights[i]), "weight " + std::to_string(i) + " is " +
+                                                                              std::to_string(problem.weights[i]) +
+                                                                              "; weights are finite and not negative");
   if (problem.H.rows() == 0 && problem.H.cols() == 0) return;
   require(problem.H.rows() == problem.x0.rows() && problem.H.cols() == problem.x0.rows(),
           "H is " + shape(problem.H.rows(), problem.H.cols()) + ", but x0 has " + std::to_string(problem.x0.rows()) +

@@ -18,6 +18,9 @@ constexpr double exact_normal = 1e-10;    // radians
 /// Steps towards the given points by what the limit misses: slow modes first, wiggles hardly.
 constexpr int guess_steps = 3;
 
+/// Normals that came out on the wrong side are asked for with a frame; others may then turn, which is done so often.
+constexpr int most_turns = 3;
+
 /// The targets with unit normals; throws at what no mesh could meet.
 std::vector<VertexTarget> checked(const std::vector<VertexTarget>& targets, const Topology& topology) {
   std::vector<VertexTarget> result = targets;
@@ -86,31 +89,42 @@ struct Problem {
   const Points& x0;  // of the last level
 };
 
+/// The points nearest to x0 that meet the conditions, or the fairest of those.
+/// @param linear  with the fairness of one coordinate, if any
+Points meeting(const VertexConditions& conditions, FitProblem linear, const Points& x0, const FitSolverOptions& options,
+               FitSolution& solution) {
+  linear.C = conditions.C;
+  linear.d = conditions.d;
+  linear.x0 = conditions.coupled ? Points(x0.reshaped<Eigen::RowMajor>()) : x0;
+  if (conditions.coupled && linear.H.rows() > 0) linear.H = for_coordinates(linear.H);
+  solution = solve(linear, options);
+  const Points x = std::exchange(solution.x, {});
+  return conditions.coupled ? Points(x.reshaped<Eigen::RowMajor>(x0.rows(), 3)) : x;
+}
+
 void attempt(const Problem& problem, LimitMaskCache& cache, Interpolation& result) {
   const std::vector<VertexTarget>& targets = problem.targets;
   std::vector<Index> vertices;
   for (const VertexTarget& target : targets) vertices.push_back(target.vertex);
   const Level& level = problem.levels.back();
   const VertexLimits limits = vertex_limits(problem.levels, cache, vertices);
-  VertexConditions conditions = vertex_conditions(limits, targets);
+  FitProblem linear;
+  if (!problem.options.fairness.empty())
+    linear.H = fairness_energy(LimitSurface(problem.scheme, level), problem.options.fairness);
+  VertexConditions conditions;
+  std::map<Index, TangentFrame> frames;
+  for (int turns = 0; turns <= most_turns; ++turns) {
+    conditions = vertex_conditions(limits, targets, frames);
+    result.points = meeting(conditions, linear, problem.x0, problem.options.solver, result.solution);
+    if (!conditions.coupled) break;
+    const size_t known = frames.size();
+    frames.merge(turned_frames(limits, targets, result.points, problem.x0));
+    if (frames.size() == known) break;
+  }
 
   InterpolationAttempt tried{.refinements = level.number,
                              .unknowns = static_cast<Index>(conditions.C.cols()),
                              .conditions = static_cast<Index>(conditions.C.rows())};
-  const Index n = level.topology().num_vertices();
-  const Index per_vertex = conditions.coupled ? 3 : 1;
-  FitProblem linear;
-  linear.C = std::move(conditions.C);
-  linear.d = std::move(conditions.d);
-  linear.x0 = conditions.coupled ? Points(problem.x0.reshaped<Eigen::RowMajor>()) : problem.x0;
-  if (!problem.options.fairness.empty()) {
-    const SparseMatrix H = fairness_energy(LimitSurface(problem.scheme, level), problem.options.fairness);
-    linear.H = conditions.coupled ? for_coordinates(H) : H;
-  }
-  result.solution = solve(linear, problem.options.solver);
-  const Points x = std::exchange(result.solution.x, {});
-  result.points = conditions.coupled ? Points(x.reshaped<Eigen::RowMajor>(n, 3)) : x;
-
   const VertexErrors errors = vertex_errors(limits, targets, result.points);
   const auto has_normal = [&](Index i) { return !std::isnan(errors.normal[i]); };
   for (Index i = 0; i < static_cast<Index>(targets.size()); ++i) {
@@ -121,9 +135,9 @@ void attempt(const Problem& problem, LimitMaskCache& cache, Interpolation& resul
   }
   tried.solved = tried.contradictory.empty();
   if (problem.options.conditioning) {
-    tried.conditioning = conditioning(linear.C);
+    tried.conditioning = conditioning(conditions.C);
     if (tried.conditions >= tried.unknowns && tried.conditioning.rank < tried.unknowns)
-      tried.undetermined = moved(tried.conditioning.free, per_vertex);
+      tried.undetermined = moved(tried.conditioning.free, conditions.coupled ? 3 : 1);
   }
   result.attempts.push_back(std::move(tried));
   result.level = level;

@@ -27,7 +27,10 @@ double norm(const SparseMatrix& M, Index row) {
 class Rows {
  public:
   Rows(Index rows, Index columns, Index nonzeros) : matrix_(rows, columns) { matrix_.reserve(nonzeros); }
-  void begin() { matrix_.startVec(row_++); }
+  Index begin() {
+    matrix_.startVec(row_);
+    return row_++;
+  }
   void add(Index column, double weight) { matrix_.insertBack(row_ - 1, column) = weight; }
   SparseMatrix take() {
     matrix_.finalize();
@@ -41,7 +44,8 @@ class Rows {
 
 }  // namespace
 
-VertexConditions vertex_conditions(const VertexLimits& limits, const std::vector<VertexTarget>& targets) {
+VertexConditions vertex_conditions(const VertexLimits& limits, const std::vector<VertexTarget>& targets,
+                                   const std::map<Index, TangentFrame>& frames) {
   VertexConditions result;
   const Index count = static_cast<Index>(targets.size());
   for (const VertexTarget& target : targets) result.coupled |= target.normal.has_value();
@@ -62,28 +66,54 @@ VertexConditions vertex_conditions(const VertexLimits& limits, const std::vector
       result.without_plane.push_back(i);
     }
   }
-  const Index rows = 3 * count + 2 * static_cast<Index>(sides.size());
+  const Index rows = 3 * count + 2 * static_cast<Index>(sides.size()) + 4 * static_cast<Index>(frames.size());
   Rows C(
       rows, 3 * static_cast<Index>(limits.position.cols()),
       static_cast<Index>(3 * (limits.position.nonZeros() + limits.tangent1.nonZeros() + limits.tangent2.nonZeros())));
-  for (Index i = 0; i < count; ++i)
+  result.d = Points::Zero(rows, 1);
+  const auto add_coordinates = [&](const SparseMatrix& M, Index row, double scale, const Vector3d& values) {
     for (Index c = 0; c < 3; ++c) {
-      C.begin();
-      for (SparseMatrix::InnerIterator it(limits.position, i); it; ++it)
-        C.add(3 * static_cast<Index>(it.col()) + c, it.value());
+      result.d(C.begin(), 0) = scale * values[c];
+      for (SparseMatrix::InnerIterator it(M, row); it; ++it)
+        C.add(3 * static_cast<Index>(it.col()) + c, scale * it.value());
     }
+  };
+  for (Index i = 0; i < count; ++i) add_coordinates(limits.position, i, 1, targets[i].position);
   // Tangents have any length: rows of length 1 are as heavy as those of positions.
-  for (const Index s : sides)
+  for (const Index s : sides) {
+    const auto frame = frames.find(s);
     for (const SparseMatrix* tangent : {&limits.tangent1, &limits.tangent2}) {
-      const Vector3d N = *targets[limits.side_vertex[s]].normal / norm(*tangent, s);
+      const double scale = 1 / norm(*tangent, s);
+      if (frame != frames.end()) {
+        add_coordinates(*tangent, s, scale, frame->second.col(tangent == &limits.tangent2));
+        continue;
+      }
+      const Vector3d N = scale * *targets[limits.side_vertex[s]].normal;
       C.begin();
       for (SparseMatrix::InnerIterator it(*tangent, s); it; ++it)
         for (Index c = 0; c < 3; ++c) C.add(3 * static_cast<Index>(it.col()) + c, N[c] * it.value());
     }
+  }
   result.C = C.take();
-  result.d = Points::Zero(rows, 1);
-  for (Index i = 0; i < count; ++i) result.d.block(3 * i, 0, 3, 1) = targets[i].position;
   return result;
+}
+
+std::map<Index, TangentFrame> turned_frames(const VertexLimits& limits, const std::vector<VertexTarget>& targets,
+                                            const Points& points, const Points& guess) {
+  std::map<Index, TangentFrame> frames;
+  const Points t1 = apply(limits.tangent1, points), t2 = apply(limits.tangent2, points);
+  const Points guess1 = apply(limits.tangent1, guess), guess2 = apply(limits.tangent2, guess);
+  for (Index s = 0; s < static_cast<Index>(limits.side_vertex.size()); ++s) {
+    const VertexTarget& target = targets[limits.side_vertex[s]];
+    if (!target.normal || !has_plane(limits.status[s])) continue;
+    const Vector3d found1 = t1.row(s), found2 = t2.row(s);
+    if (found1.cross(found2).dot(*target.normal) > 0) continue;
+    const Vector3d a = guess1.row(s), b = guess2.row(s), n = a.cross(b);
+    if (n.isZero(0)) continue;  // nothing to turn
+    const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(n, *target.normal);
+    frames[s] << turn * a, turn * b;
+  }
+  return frames;
 }
 
 VertexErrors vertex_errors(const VertexLimits& limits, const std::vector<VertexTarget>& targets, const Points& points) {
