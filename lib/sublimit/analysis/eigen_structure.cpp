@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "sublimit/analysis/dense_decompositions.h"
 #include "sublimit/base/error.h"
 #include "sublimit/number.h"
 
@@ -28,7 +29,7 @@ Eigen::MatrixXcd null_space(const Eigen::MatrixXcd& M, int at_most) {
     for (int k = 0; k < 4; ++k) x = lu.solve(x.normalized()).eval();
     return x.normalized();
   }
-  const Eigen::BDCSVD<Eigen::MatrixXcd> svd(M, Eigen::ComputeFullV);
+  const Eigen::JacobiSVD<Eigen::MatrixXcd> svd(M, Eigen::ComputeFullV);
   const auto& sigma = svd.singularValues();
   // A cluster's value is known to some ulps; what is no null vector has a singular value of the order of a gap.
   const double zero = 1e-9 * std::max(sigma[0], 1e-3);
@@ -171,7 +172,7 @@ Eigen::VectorXd limit_weights(const Eigen::MatrixXd& A) {
   l += qr.solve(right - equations * l);  // one step of refinement: the last digits
   if (qr.rank() < size || (equations * l - right).norm() > 1e-10)
     throw AnalysisError("a local matrix has no limit: eigenvalue 1 is not simple");
-  const Eigen::VectorXcd values = size > 1 ? Eigen::VectorXcd(A.eigenvalues()) : Eigen::VectorXcd::Ones(1);
+  const Eigen::VectorXcd values = size > 1 ? eigenvalues(A) : Eigen::VectorXcd::Ones(1);
   int at_one = 0;
   for (const Complex value : values) at_one += std::abs(value) >= 1 - 1e-9;
   if (at_one != 1) throw AnalysisError("a local matrix has no limit: eigenvalue 1 is not dominant");

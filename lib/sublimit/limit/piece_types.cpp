@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sublimit/limit/piece_types.h"
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 
 #include <algorithm>
 #include <numeric>
 
+#include "sublimit/analysis/dense_decompositions.h"
 #include "sublimit/analysis/limit_masks.h"
 #include "sublimit/base/error.h"
 #include "sublimit/limit/canonical_part.h"
@@ -45,11 +46,10 @@ double pure_scale(const PieceMap& map) {
 
 /// A basis of the null space of M by columns.
 Eigen::MatrixXd null_space(const Eigen::MatrixXd& M) {
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(M, Eigen::ComputeFullV);
-  const Eigen::VectorXd& sigma = svd.singularValues();
+  const auto [sigma, right] = singular_values(M);
   Eigen::Index rank = 0;
   while (rank < sigma.size() && sigma[rank] > 1e-10 * sigma[0]) ++rank;
-  return svd.matrixV().rightCols(M.cols() - rank);
+  return right.rightCols(M.cols() - rank);
 }
 
 /// Eigenvectors of one eigenvalue, left * right = 1.

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sublimit/limit/repeated_block.h"
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
+
+#include "sublimit/analysis/dense_decompositions.h"
 
 namespace sublimit {
 namespace {
@@ -14,12 +16,11 @@ constexpr double negligible = 1e-12;
 
 /// A basis of the null space of M, by columns; `expected` of them or none.
 Eigen::MatrixXd null_space(const Eigen::MatrixXd& M, Eigen::Index expected) {
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(M, Eigen::ComputeFullV);
-  const Eigen::VectorXd& sigma = svd.singularValues();
+  const auto [sigma, right] = singular_values(M);
   const Eigen::Index n = sigma.size();
   const bool clear =
       sigma[n - expected] < 1e-11 * sigma[0] && (expected == n || sigma[n - expected - 1] > 1e-6 * sigma[0]);
-  return clear ? Eigen::MatrixXd(svd.matrixV().rightCols(expected)) : Eigen::MatrixXd();
+  return clear ? Eigen::MatrixXd(right.rightCols(expected)) : Eigen::MatrixXd();
 }
 
 }  // namespace
@@ -43,7 +44,7 @@ const std::vector<std::unique_ptr<RepeatedBlock::Stage>>& RepeatedBlock::stages(
     const Eigen::MatrixXd D = stages_[0]->D;
     const auto n = D.rows();
     if (n < 2) return;
-    Eigen::VectorXcd values = Eigen::EigenSolver<Eigen::MatrixXd>(D, false).eigenvalues();
+    Eigen::VectorXcd values = eigenvalues(D);
     std::sort(values.begin(), values.end(), [](const auto& a, const auto& b) { return std::abs(a) > std::abs(b); });
     for (Eigen::Index at = 0; at < n && stages_.size() < 6;) {
       const double lambda = values[at].real(), modulus = std::abs(values[at]);
