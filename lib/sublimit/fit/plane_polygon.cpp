@@ -58,17 +58,16 @@ Turn turn_across(PlanePolygon& polygon, const Vector3d& normal, double scale) {
   const Vector3d across = t1.cross(t2);
   const auto reach = [&](int column) { return polygon.weights.col(column).cwiseAbs().dot(d.rowwise().norm()); };
   Turn turn = Turn::plain;
-  if (across.norm() < least_span * reach(1) * reach(2)) {
+  if (across.norm() <= least_span * reach(1) * reach(2)) {
     turn = Turn::rebuilt;
     d = regular_polygon(d, N, radius);
   } else {
     const Vector3d own = across.normalized();
     if (own.dot(N) < 0) turn = Turn::over;
-    d -= d * own * own.transpose();
     d = (d * turn_between(own, N, t1.normalized()).transpose()).eval();
   }
   d *= scale;
-  d -= (d * N * N.transpose()).eval();  // what rounding left
+  d -= (d * N * N.transpose()).eval();
   polygon.corners = d.rowwise() + position.transpose();
   return turn;
 }

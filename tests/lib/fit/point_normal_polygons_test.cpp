@@ -231,7 +231,7 @@ TEST_P(PointNormalPolygons, AreAsLargeAsTheDataAreApart) {
   for (const Index face : fit.faces) {
     const std::span<const Index> corners = fit.level.topology().vertices(Face{face});
     const double before = (plain.row(corners[0]) - plain.row(corners[2])).norm();
-    EXPECT_GT((fit.points.row(corners[0]) - fit.points.row(corners[2])).norm(), 5 * before);
+    EXPECT_GT((fit.points.row(corners[0]) - fit.points.row(corners[2])).norm(), 8 * before);
   }
 }
 
@@ -254,17 +254,15 @@ TEST_P(PointNormalPolygons, MoveWithTheirData) {
   EXPECT_LE((fit.points - expected).cwiseAbs().maxCoeff(), rounding(256, diagonal(expected)));
 }
 
-TEST_P(PointNormalPolygons, AreMadeAnewWhereTheyHaveNoPlane) {
-  ControlMesh mesh = bipyramid(5);
-  std::vector<VertexTarget> targets = random_targets(mesh, 5);
-  mesh.positions.leftCols(2).setZero();  // all on a line
+TEST_P(PointNormalPolygons, PassThroughVerticesWhereSheetsMeet) {
+  const ControlMesh mesh = glued(cube(), prism(5), {7}, {0});
+  const std::vector<VertexTarget> targets = random_targets(mesh, 5);
   const PointNormalMesh fit = point_normal_mesh(scheme_, mesh, targets);
-  const Deviation from_line = deviation(surface(fit.level), fit, targets);
-  EXPECT_LE(from_line.position, fitted_position);
-  EXPECT_LE(from_line.normal, evaluated_normal(scheme_));
-  mesh.positions.setOnes();  // nothing to go by but the data
-  for (VertexTarget& target : targets) target.position.setOnes();
-  expect_error<InvalidMesh>([&] { point_normal_mesh(scheme_, mesh, targets); }, {"vertex 0", "no extent"});
+  EXPECT_LE(fit.position_residual.maxCoeff(), fitted_position * diagonal(fit.points));
+  EXPECT_LE(fit.normal_residual.maxCoeff(), fitted_normal);
+  const Deviation first = deviation(surface(fit.level), fit, targets);
+  EXPECT_LE(first.position, fitted_position);
+  EXPECT_LE(first.normal, evaluated_normal(scheme_));
 }
 
 TEST_P(PointNormalPolygons, ReportNormalsAgainstTheWinding) {
