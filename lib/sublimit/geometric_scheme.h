@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Schemes that are not linear: no masks, no matrix, but a step from data to data and the limit in closed form. `Data`
-// is what the scheme refines: a ControlPolygon with tangents for curves, and whatever a scheme of surfaces needs.
+// Schemes that are not linear: no masks, no matrix, but a step from data to data and, if it is known, the limit in
+// closed form. `Data` is what the scheme refines: a ControlPolygon with tangents for curves, a CurvatureMesh for
+// surfaces.
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,11 +18,11 @@ namespace sublimit {
 
 /// What such a scheme is said to do, each claim with its law in the tests.
 struct GeometricClaims {
-  int regular = 0;            ///< the limit is G^regular
-  bool interpolates = false;  ///< old data stay, bitwise
-  std::string reproduces;     ///< in words
-  std::string limit;          ///< in words
-  std::string exponent;       ///< Hoelder exponent of the limit by arc length, in words
+  std::optional<int> regular = {};  ///< the limit is G^regular; nothing if that is not claimed
+  bool interpolates = false;        ///< old data stay, bitwise
+  std::string reproduces;           ///< in words
+  std::string limit;                ///< in words
+  std::string exponent;             ///< Hoelder exponent of the limit by arc length, in words
 };
 
 /// A place on the limit of a leg.
@@ -40,10 +42,10 @@ struct GeometricScheme {
   /// @throws InvalidMesh, UnsupportedTopology  what the scheme cannot take, where, and what would be right
   std::function<Data(Data)> checked;
   std::function<Data(const Data&)> refine;  ///< one step, of checked or refined data
-  /// Data of level `levels`, on the exact limit of checked data.
-  std::function<Data(const Data&, int levels)> limit;
-  /// The exact limit of checked data anywhere: of each curve, its legs in order.
-  std::function<std::vector<std::vector<LegCurve>>(const Data&)> legs;
+  /// Data of level `levels`, on the exact limit of checked data; empty where the limit is not known in closed form.
+  std::function<Data(const Data&, int levels)> limit = {};
+  /// Curves with a known limit: the exact limit of checked data anywhere, of each curve its legs in order.
+  std::function<std::vector<std::vector<LegCurve>>(const Data&)> legs = {};
   /// Notes worth telling about checked data: where the scheme fell back on another rule.
   std::function<std::vector<std::string>(const Data&)> notes;
   GeometricClaims claims;

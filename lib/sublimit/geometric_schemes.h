@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "sublimit/schemes/hermite_incentre.h"
+#include "sublimit/schemes/torus_pieces.h"
 
 namespace sublimit {
 
@@ -19,6 +20,10 @@ inline constexpr void* geometric_registry = nullptr;
 template <>
 inline constexpr GeometricSchemeEntry<ControlPolygon> geometric_registry<ControlPolygon>[] = {
     {"hermite-incentre", hermite_incentre},
+};
+template <>
+inline constexpr GeometricSchemeEntry<CurvatureMesh> geometric_registry<CurvatureMesh>[] = {
+    {"torus-pieces", torus_pieces},
 };
 
 /// Every scheme for this kind of data with its default options.

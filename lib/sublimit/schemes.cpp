@@ -36,6 +36,7 @@ std::vector<std::string> nearest_scheme_names(const std::string& name, int count
   for (const SchemeEntry<double>& entry : registry<double>) names.push_back(entry.name);
   for (const CurveSchemeEntry<double>& entry : curve_registry<double>) names.push_back(entry.name);
   for (const auto& entry : geometric_registry<ControlPolygon>) names.push_back(entry.name);
+  for (const auto& entry : geometric_registry<CurvatureMesh>) names.push_back(entry.name);
   // A prefix ("catmull") counts as nearer than any misspelling.
   const auto distance = [&](const std::string& other) {
     return !name.empty() && other.starts_with(name) ? 0 : edit_distance(name, other);

@@ -12,6 +12,7 @@
 #include "curves.h"
 #include "sublimit/base/error.h"
 #include "sublimit/base/memory.h"
+#include "sublimit/geometric_schemes.h"
 #include "sublimit/mesh/prepare.h"
 #include "sublimit/mesh/read_mesh.h"
 #include "sublimit/sidecar.h"
@@ -105,6 +106,9 @@ Scheme<double> scheme_or_throw(const std::string& name, const SchemeOptions& opt
   common.scheme = name;
   if (is_curve_job(common))
     throw InvalidOption(name + " refines curves; a scheme of surfaces is needed here (`sublimit schemes` lists all)");
+  for (const auto& entry : geometric_registry<CurvatureMesh>)
+    if (name == entry.name)
+      throw InvalidOption(name + " refines points with normals and curvatures; it is for `sublimit fit`");
   std::string offers;
   for (const std::string& other : nearest_scheme_names(name)) offers += (offers.empty() ? "" : ", ") + other;
   throw InvalidOption("unknown scheme '" + name + "'; the nearest are " + offers + " (`sublimit schemes` lists all)");

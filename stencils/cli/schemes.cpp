@@ -59,6 +59,28 @@ void print(const OptionInfo& info) {
              info.meaning.empty() ? "" : ": ", info.meaning);
 }
 
+/// `null` for what is not claimed.
+template <class Data>
+void add_geometric(nlohmann::ordered_json& all, const GeometricScheme<Data>& scheme, const char* kind,
+                   const char* split) {
+  const GeometricClaims& claims = scheme.claims;
+  nlohmann::ordered_json continuity;
+  if (claims.regular) continuity = *claims.regular;
+  all.push_back({{"name", scheme.name},
+                 {"kind", kind},
+                 {"linear", false},
+                 {"arity", 2},
+                 {"splits", {split}},
+                 {"limit", claims.limit},
+                 {"geometric_continuity", continuity},
+                 {"exponent", claims.exponent},
+                 {"reproduces", claims.reproduces},
+                 {"interpolates", claims.interpolates},
+                 {"convex_hull", false},
+                 {"options", to_json(scheme.options)},
+                 {"source", scheme.source}});
+}
+
 void add_curves(nlohmann::ordered_json& all) {
   for (const CurveScheme<double>& scheme : all_curve_schemes()) {
     const CurveClaims& claims = scheme.claims;
@@ -76,22 +98,9 @@ void add_curves(nlohmann::ordered_json& all) {
                    {"options", to_json(scheme.options)},
                    {"source", scheme.source}});
   }
-  for (const GeometricCurveScheme& scheme : all_geometric_schemes()) {
-    const GeometricClaims& claims = scheme.claims;
-    all.push_back({{"name", scheme.name},
-                   {"kind", "curve"},
-                   {"linear", false},
-                   {"arity", 2},
-                   {"splits", {"primal"}},
-                   {"limit", claims.limit},
-                   {"geometric_continuity", claims.regular},
-                   {"exponent", claims.exponent},
-                   {"reproduces", claims.reproduces},
-                   {"interpolates", claims.interpolates},
-                   {"convex_hull", false},
-                   {"options", nlohmann::ordered_json::object()},
-                   {"source", scheme.source}});
-  }
+  for (const GeometricCurveScheme& scheme : all_geometric_schemes()) add_geometric(all, scheme, "curve", "primal");
+  for (const GeometricSurfaceScheme& scheme : all_geometric_schemes<CurvatureMesh>())
+    add_geometric(all, scheme, "surface", name(Split::ptq));
 }
 
 void print_curves() {
@@ -104,16 +113,24 @@ void print_curves() {
     if (claims.interpolates) text += ", interpolates";
     if (claims.convex_hull) text += ", convex hull";
     fmt::print("{:<19} {:<6} {:<7} {:<30} C^{:<6} {:<14} {:<34} {}\n", scheme.name, "curve",
-               scheme.masks.dual() ? "dual" : "primal", claims.limit, claims.regular, claims.exponent, text, scheme.source);
+               scheme.masks.dual() ? "dual" : "primal", claims.limit, claims.regular, claims.exponent, text,
+               scheme.source);
     for (const OptionInfo& info : scheme.options) print(info);
   }
   for (const GeometricCurveScheme& scheme : all_geometric_schemes()) {
     const GeometricClaims& claims = scheme.claims;
     const std::string text = claims.reproduces + (claims.interpolates ? ", interpolates" : "") + ", not linear";
     fmt::print("{:<19} {:<6} {:<7} {:<30} G^{:<6} {:<14} {:<34} {}\n", scheme.name, "curve", "primal", claims.limit,
-               claims.regular, claims.exponent, text, scheme.source);
+               claims.regular.value_or(0), claims.exponent, text, scheme.source);
   }
-  fmt::print("\nNot linear: no matrix; points with unit tangents in a CSV x,y,tx,ty or x,y,z,tx,ty,tz. G: by arc length.\n");
+  fmt::print(
+      "\nNot linear: no matrix; points with unit tangents in a CSV x,y,tx,ty or x,y,z,tx,ty,tz. G: by arc length.\n");
+  for (const GeometricSurfaceScheme& scheme : all_geometric_schemes<CurvatureMesh>()) {
+    fmt::print(
+        "\n{:<19} surface through points with normals and curvatures, triangles, not linear; interpolates; {}: {}\n",
+        scheme.name, scheme.claims.reproduces, scheme.source);
+    for (const OptionInfo& info : scheme.options) print(info);
+  }
 }
 
 int run(bool as_json) {

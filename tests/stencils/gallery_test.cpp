@@ -169,8 +169,9 @@ TEST(CliGallery, ShowsEverySchemeOnEveryCageAndPolygon) {
   std::vector<std::string> again = arguments;
   again[2] = (directory / "again").string();
   again.insert(again.end(), {"--threads", "1", "--json"});
-  EXPECT_EQ(Json::parse(expect_done(sublimit(again)).out).size(),
-            all_schemes().size() + all_curve_schemes().size() + all_geometric_schemes().size());
+  EXPECT_EQ(Json::parse(expect_done(sublimit(again)).out).size(), all_schemes().size() + all_curve_schemes().size() +
+                                                                      all_geometric_schemes().size() +
+                                                                      all_geometric_schemes<CurvatureMesh>().size());
   EXPECT_EQ(read_file(directory / "again" / "index.html"), html);
   for (const std::string& file : files)
     EXPECT_EQ(read_file(directory / "again" / file), read_file(gallery / file)) << file;

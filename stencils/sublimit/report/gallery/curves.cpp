@@ -66,7 +66,9 @@ std::vector<Shown> shown(const ControlPolygon& polygon, int levels) {
   unit.tangents.rowwise().normalize();
   for (const GeometricCurveScheme& scheme : all_geometric_schemes()) {
     const GeometricClaims& claims = scheme.claims;
-    Shown one{scheme.name, scheme.source, claims.limit, "G^" + std::to_string(claims.regular), claims.interpolates, {}};
+    Shown one{scheme.name,         scheme.source,
+              claims.limit,        "G^" + std::to_string(claims.regular.value_or(0)),
+              claims.interpolates, {}};
     for (int k = 0; k <= levels; ++k) one.levels.push_back(refine(scheme, unit, k).points);
     all.push_back(std::move(one));
   }

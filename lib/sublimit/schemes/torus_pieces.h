@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// The scheme of torus pieces: triangles whose vertices have normals, principal curvatures and directions. After Valasek
+// 2008 (diploma thesis, ELTE), of which only slides were published: a local surface for each point with all its data; a
+// carrier along each edge; from it a new point with new data; new triangles. Old data stay. The slides leave open
+// nearly all of how; the choices here, and why:
+//
+// Local surfaces (torus_piece.h). A torus with given k1, k2 at a point has one more parameter, the geodesic curvature g
+// of its circle around; the slides take equators (g = 0) or the top circle. Here g is what suits the other end of the
+// edge best, by linear least squares, so that the data of one torus give that torus, at any latitude. Either principal
+// circle may be the tube. From both ends there are twelve candidates an edge: tube, which of the other end's directions
+// is the one around, and g = 0.
+//
+// Carriers (torus_carrier.h). Each candidate is bent to the data of the other end; a carrier has the data of second
+// order of both ends. All carriers are averaged with weights 1/misfit^2 of the torus piece before it is bent: data of
+// one torus, sphere, cylinder or plane leave weight only for that surface, and no threshold decides.
+//
+// New points. The slides evaluate a rational biquadratic patch at (1/2, 1/2). A patch between the ends' parameters
+// depends, on a sphere, on the arbitrary directions, and degenerates along principal circles. Here the patch is the one
+// of the torus piece whose middle lies nearest to the middle of the edge, seen as two arcs with the ends' angles
+// (torus_patch.h has its control points); normal and second form are the patch's, plus those of the bend. Averages are
+// taken of points, of normals and of second forms as tensors of space; principal data are their eigenvectors, k1 >= k2.
+//
+// Topology. With the new points a triangle is a hexagon. Two corners are cut off; the quadrilateral left at the third,
+// corner P with edge points A, M, B, is cut along the diagonal for which the perimeters of both parts differ least: AB,
+// which gives four similar triangles in the plane, or PM. Option cut=regular (default) always takes AB and leaves
+// valences alone; cut=perimeter compares AB and the three PM.
+//
+// Fall-back: the middle of the chord, with the mean normal and curvatures 0, where ends coincide, where their normals
+// cancel, or where no candidate fits better than to a slope of ten (the edge runs along a normal). Notes count them.
+//
+// Edges of one triangle are refined by the same rule. Nothing is known of continuity.
+#include "sublimit/geometric_scheme.h"
+#include "sublimit/mesh/curvature_mesh.h"
+
+namespace sublimit {
+
+using GeometricSurfaceScheme = GeometricScheme<CurvatureMesh>;
+
+/// Refined vertices: old ones in order, bitwise as they were, then one for each edge, in the order of Topology.
+GeometricSurfaceScheme torus_pieces(const SchemeOptions& options);
+
+}  // namespace sublimit
