@@ -120,6 +120,7 @@ Command add_apply(CLI::App& app);
 Command add_verify(CLI::App& app);
 Command add_export(CLI::App& app);
 Command add_analyze(CLI::App& app);
+Command add_fit(CLI::App& app);
 Command add_demo(CLI::App& app);
 
 }  // namespace sublimit::cli

@@ -97,7 +97,7 @@ int main(int argc, char** argv) {
       {"schemes", cli::add_schemes(app)}, {"info", cli::add_info(app)},     {"refine", cli::add_refine(app)},
       {"limit", cli::add_limit(app)},     {"sample", cli::add_sample(app)}, {"bake", cli::add_bake(app)},
       {"apply", cli::add_apply(app)},     {"verify", cli::add_verify(app)}, {"export", cli::add_export(app)},
-      {"analyze", cli::add_analyze(app)}, {"demo", cli::add_demo(app)}};
+      {"analyze", cli::add_analyze(app)}, {"fit", cli::add_fit(app)},       {"demo", cli::add_demo(app)}};
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <cstring>
@@ -36,21 +37,33 @@ void split(std::string_view line, std::vector<std::string_view>& fields) {
   }
 }
 
+std::string joined(const std::vector<std::string>& columns) {
+  std::string names;
+  for (const std::string& column : columns) names += (names.empty() ? "" : ",") + column;
+  return names;
+}
+
 }  // namespace
 
 CsvRows::CsvRows(const std::filesystem::path& path, std::vector<std::string> columns)
-    : path_(path), columns_(std::move(columns)), block_(block_bytes) {
+    : CsvRows(path, std::vector<std::vector<std::string>>{std::move(columns)}) {}
+
+CsvRows::CsvRows(const std::filesystem::path& path, std::vector<std::vector<std::string>> headers)
+    : path_(path), block_(block_bytes) {
+  std::string right = headers.size() > 1 ? "one of the headers " : "the header ";
+  for (size_t i = 0; i < headers.size(); ++i) right += (i ? "; " : "") + joined(headers[i]);
   file_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (file_ < 0) throw_file_error(path, "read", errno);
   try {
     std::string_view line;
-    if (!next_line(line)) throw FormatError(path.string() + ": empty; its first line should be the header " + header());
+    if (!next_line(line)) throw FormatError(path.string() + ": empty; its first line should be " + right);
     if (line.starts_with("\xEF\xBB\xBF")) line.remove_prefix(3);
     split(line, fields_);
-    bool same = fields_.size() == columns_.size();
-    for (size_t i = 0; same && i < fields_.size(); ++i) same = fields_[i] == columns_[i];
-    if (!same)
-      throw FormatError(place() + "the first line is " + quoted(line) + "; it should be the header " + header());
+    const auto found = std::ranges::find_if(
+        headers, [this](const std::vector<std::string>& columns) { return std::ranges::equal(columns, fields_); });
+    if (found == headers.end())
+      throw FormatError(place() + "the first line is " + quoted(line) + "; it should be " + right);
+    columns_ = std::move(*found);
   } catch (...) {
     ::close(file_);
     throw;
@@ -59,11 +72,7 @@ CsvRows::CsvRows(const std::filesystem::path& path, std::vector<std::string> col
 
 CsvRows::~CsvRows() { ::close(file_); }
 
-std::string CsvRows::header() const {
-  std::string names;
-  for (const std::string& column : columns_) names += (names.empty() ? "" : ",") + column;
-  return names;
-}
+std::string CsvRows::header() const { return joined(columns_); }
 
 std::string CsvRows::place(std::int64_t line) const { return path_.string() + ":" + format_number(line) + ": "; }
 std::string CsvRows::place() const { return place(line_); }

@@ -17,6 +17,8 @@ class CsvRows {
   /// @param columns  the header, which has to be the first line
   /// @throws IoError  missing, unreadable;  FormatError  no header or another one
   CsvRows(const std::filesystem::path& path, std::vector<std::string> columns);
+  /// One of several headers; `columns()` tells which.
+  CsvRows(const std::filesystem::path& path, std::vector<std::vector<std::string>> headers);
   CsvRows(const CsvRows&) = delete;
   CsvRows& operator=(const CsvRows&) = delete;
   ~CsvRows();
@@ -32,6 +34,10 @@ class CsvRows {
   /// @throws FormatError  not a number, or not a finite one
   double finite(size_t column) const;
 
+  const std::vector<std::string>& columns() const { return columns_; }
+  bool is_empty(size_t column) const { return fields_[column].empty(); }
+  /// Number of this row's line, from 1.
+  std::int64_t line() const { return line_; }
   /// "NAME:LINE: " of this row.
   std::string place() const;
 

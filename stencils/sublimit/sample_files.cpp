@@ -15,8 +15,8 @@ namespace {
 constexpr size_t samples_per_batch = 65536;
 constexpr std::int64_t rows_per_text = 2048;
 
-bool is_inside(const Sample& s, bool triangle) {
-  return s.u >= 0 && s.v >= 0 && (triangle ? s.u + s.v <= 1 : s.u <= 1 && s.v <= 1);
+bool is_inside(double u, double v, bool triangle) {
+  return u >= 0 && v >= 0 && (triangle ? u + v <= 1 : u <= 1 && v <= 1);
 }
 
 std::string faces_in_words(const Addresses& addresses) {
@@ -65,6 +65,15 @@ Sample clamped(const Sample& s, bool triangle) {
   return {s.face, std::clamp(s.u, 0.0, 1.0), std::clamp(s.v, 0.0, 1.0)};
 }
 
+void check_place(const Addresses& addresses, std::int64_t face, double u, double v, const std::string& where,
+                 const std::string& hint) {
+  if (face < 0 || face >= addresses.size())
+    throw FormatError(where + "face " + format_number(face) + " does not exist; " + faces_in_words(addresses));
+  if (!is_inside(u, v, addresses.triangles()))
+    throw FormatError(where + "(u, v) = (" + format_number(u) + ", " + format_number(v) + ") is outside the " +
+                      (addresses.triangles() ? "triangle u >= 0, v >= 0, u + v <= 1" : "square 0 <= u, v <= 1") + hint);
+}
+
 SampleReader::SampleReader(const std::filesystem::path& path, bool clamp)
     : rows_(path, {"face", "u", "v"}), clamp_(clamp) {}
 
@@ -73,15 +82,11 @@ void SampleReader::read(std::vector<Sample>& batch, size_t most, const Addresses
   batch.clear();
   while (batch.size() < most && rows_.next()) {
     const std::int64_t face = rows_.integer(0, faces);
-    if (face < 0 || face >= addresses.size())
-      throw FormatError(rows_.place() + "face " + format_number(face) + " does not exist; " + faces);
     Sample sample{static_cast<Index>(face), rows_.finite(1), rows_.finite(2)};
-    if (!is_inside(sample, addresses.triangles())) {
-      if (!clamp_)
-        throw FormatError(rows_.place() + "(u, v) = (" + format_number(sample.u) + ", " + format_number(sample.v) +
-                          ") is outside the " +
-                          (addresses.triangles() ? "triangle u >= 0, v >= 0, u + v <= 1" : "square 0 <= u, v <= 1") +
-                          "; --clamp moves such places to its rim");
+    const bool inside = is_inside(sample.u, sample.v, addresses.triangles());
+    if (face < 0 || face >= addresses.size() || (!inside && !clamp_))
+      check_place(addresses, face, sample.u, sample.v, rows_.place(), "; --clamp moves such places to its rim");
+    if (!inside) {
       sample = clamped(sample, addresses.triangles());
       ++num_clamped_;
     }

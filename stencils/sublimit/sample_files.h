@@ -24,6 +24,13 @@ namespace sublimit {
 /// The next samples: `batch` becomes at most `most` long, shorter only at the end.
 using SampleSource = std::function<void(std::vector<Sample>& batch, size_t most)>;
 
+/// A place that is not on the surface, with what would be right.
+/// @param where  what the message begins with
+/// @param hint   what it ends with
+/// @throws FormatError  a face that does not exist, parameters outside its square or triangle
+void check_place(const Addresses& addresses, std::int64_t face, double u, double v, const std::string& where,
+                 const std::string& hint = "");
+
 /// Samples from a file.
 class SampleReader {
  public:
