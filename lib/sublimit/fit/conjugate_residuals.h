@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// Generalised conjugate residuals: of all combinations of the steps so far the one with the least residual, channel by
+// channel. The steps come from a factorised matrix near to the true one, so a few are enough.
+// Source: Eisenstat, Elman, Schultz 1983, "Variational iterative methods for nonsymmetric systems of linear equations".
+#include <vector>
+
+#include "sublimit/types.h"
+
+namespace sublimit {
+
+class ConjugateResiduals {
+ public:
+  explicit ConjugateResiduals(std::size_t memory = 30) : memory_(memory) {}
+
+  /// @param step   of the unknowns, and what it takes from the residual; both are overwritten
+  /// @return  how far to go along `step`, by channel
+  Eigen::RowVectorXd add(const Points& residual, Points& step, Points& effect) {
+    for (const Pair& p : past_) {
+      const Eigen::RowVectorXd along = effect.cwiseProduct(p.effect).colwise().sum();
+      effect -= p.effect * along.asDiagonal();
+      step -= p.step * along.asDiagonal();
+    }
+    Eigen::RowVectorXd length = effect.colwise().norm();
+    for (double& l : length) l = l > 0 ? 1 / l : 0;
+    effect = (effect * length.asDiagonal()).eval();
+    step = (step * length.asDiagonal()).eval();
+    if (past_.size() == memory_) past_.erase(past_.begin());
+    past_.push_back({step, effect});
+    return residual.cwiseProduct(effect).colwise().sum();
+  }
+
+ private:
+  struct Pair {
+    Points step, effect;
+  };
+  std::size_t memory_;
+  std::vector<Pair> past_;
+};
+
+}  // namespace sublimit

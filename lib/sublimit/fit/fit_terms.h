@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// What every method of fitting needs of its problem: transposes, the matrix of the quadratic form, sizes to measure
+// residuals by.
+#include "sublimit/fit/fit_problem.h"
+
+namespace sublimit {
+
+/// The problem must outlive it.
+struct FitTerms {
+  explicit FitTerms(const FitProblem& problem);
+
+  const FitProblem& problem;
+  SparseMatrix At, Ct;            ///< A^T W and C^T
+  SparseMatrix Q;                 ///< A^T W A + H; 0 x 0 where nothing is asked for
+  Eigen::VectorXd row_length;     ///< of the rows of C; 1 for rows without entries
+  double q_size = 0, c_size = 0;  ///< largest sums of absolute values in a row of Q and C
+
+  Index unknowns() const { return Index(problem.x0.rows()); }
+  bool has_objective() const { return q_size > 0; }
+  bool has_conditions() const { return problem.C.rows() > 0; }
+
+  /// A^T W (b - A x) - H x: half of the negative gradient.
+  Points force(const Points& x) const;
+  Points gap(const Points& x) const;  ///< d - C x
+  /// Relative to what C x and d are made of.
+  double relative_gap(const Points& gap, const Points& x) const;
+};
+
+/// The largest absolute value; 0 of nothing.
+double largest(const Points& points);
+SparseMatrix transposed(const SparseMatrix& matrix);
+
+FitSolution solve_directly(const FitTerms& terms, const FitSolverOptions& options);
+FitSolution solve_iteratively(const FitTerms& terms, const FitSolverOptions& options);
+
+}  // namespace sublimit
