@@ -4,29 +4,29 @@
 #include <Eigen/SVD>
 
 #include <algorithm>
+#include <cmath>
 
 #include "sublimit/base/error.h"
-#include "sublimit/base/memory.h"
+#include "sublimit/fit/spectrum_ends.h"
 
 namespace sublimit {
+namespace {
 
-Conditioning conditioning(const SparseMatrix& rows, double tolerance, Index most_directions) {
+// Of the smaller side, and entries in all: a second of work.
+constexpr Index dense_side = 600;
+constexpr double dense_entries = 4e6;
+
+Conditioning sized(const SparseMatrix& rows) {
   Conditioning result;
   result.rows = Index(rows.rows());
   result.columns = Index(rows.cols());
-  result.free = Points(result.columns, 0);
-  result.dependent = Points(result.rows, 0);
+  return result;
+}
+
+Conditioning dense_conditioning(const SparseMatrix& rows, double tolerance, Index most_directions) {
+  Conditioning result = sized(rows);
   const Index least = std::min(result.rows, result.columns);
-  check_memory("singular values", 40.0 * double(least) * std::max(result.rows, result.columns), "use a smaller mesh");
-  if (least == 0) {
-    result.free = Points::Identity(result.columns, std::min(result.columns, most_directions));
-    result.dependent = Points::Identity(result.rows, std::min(result.rows, most_directions));
-    return result;
-  }
-  const Eigen::MatrixXd dense = rows;
-  for (Eigen::Index i = 0; i < dense.size(); ++i)
-    if (!std::isfinite(dense.data()[i])) throw InvalidParameter("a condition has a weight that is not finite");
-  const Eigen::BDCSVD<Eigen::MatrixXd> svd(dense, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const Eigen::BDCSVD<Eigen::MatrixXd> svd(Eigen::MatrixXd(rows), Eigen::ComputeFullU | Eigen::ComputeFullV);
   result.singular_values = svd.singularValues().reverse();
   result.largest = result.singular_values[least - 1];
   for (const double s : result.singular_values) result.rank += s > tolerance * result.largest;
@@ -34,6 +34,49 @@ Conditioning conditioning(const SparseMatrix& rows, double tolerance, Index most
   result.free = svd.matrixV().rightCols(std::min(result.columns - result.rank, most_directions));
   result.dependent = svd.matrixU().rightCols(std::min(result.rows - result.rank, most_directions));
   return result;
+}
+
+Conditioning sparse_conditioning(const SparseMatrix& rows, double tolerance, Index most_directions) {
+  Conditioning result = sized(rows);
+  const SparseMatrix across(rows.transpose());
+  const bool wide = result.rows < result.columns;
+  const SparseMatrix &tall = wide ? across : rows, &flat = wide ? rows : across;
+  result.largest = largest_singular_value(tall, flat);
+  const LeastSingular least = least_singular(tall, flat, tolerance * result.largest, most_directions);
+  Index vanishing = 0;
+  for (const double s : least.values) vanishing += s <= tolerance * result.largest;
+  result.singular_values = least.values;
+  result.rank = Index(flat.rows()) - vanishing;
+  if (result.rank > 0) result.smallest = vanishing < least.values.size() ? least.values[vanishing] : result.largest;
+  result.free = Points(result.columns, 0);
+  result.dependent = Points(result.rows, 0);
+  (wide ? result.dependent : result.free) = least.vectors.leftCols(std::min(vanishing, most_directions));
+  if (vanishing > 0 && result.rows == result.columns) {
+    const LeastSingular other = least_singular(flat, tall, tolerance * result.largest, most_directions);
+    result.dependent = other.vectors.leftCols(std::min({vanishing, most_directions, Index(other.vectors.cols())}));
+  }
+  return result;
+}
+
+}  // namespace
+
+Conditioning conditioning(const SparseMatrix& rows, double tolerance, Index most_directions) {
+  if (!(tolerance >= 0) || most_directions < 0)
+    throw InvalidParameter("singular values need a tolerance and a number of directions that are not negative");
+  for (Index r = 0; r < rows.rows(); ++r)
+    for (SparseMatrix::InnerIterator e(rows, r); e; ++e)
+      if (!std::isfinite(e.value()))
+        throw InvalidParameter("row " + std::to_string(r) + " has a weight that is not finite");
+  const Index least = Index(std::min(rows.rows(), rows.cols()));
+  if (least == 0) {
+    Conditioning none = sized(rows);
+    none.free = Points::Identity(none.columns, std::min(none.columns, most_directions));
+    none.dependent = Points::Identity(none.rows, std::min(none.rows, most_directions));
+    return none;
+  }
+  const bool dense = least <= dense_side && double(rows.rows()) * double(rows.cols()) <= dense_entries;
+  return dense ? dense_conditioning(rows, tolerance, most_directions)
+               : sparse_conditioning(rows, tolerance, most_directions);
 }
 
 }  // namespace sublimit
