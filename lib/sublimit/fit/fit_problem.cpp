@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sublimit/fit/fit_problem.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "sublimit/base/error.h"
@@ -55,12 +56,33 @@ void check(const FitProblem& problem) {
   require(is_finite(problem.H), "H has an entry that is not finite");
 }
 
+// Below this a factorisation takes no time that anybody would notice.
+constexpr Index small_problem = 10000;
+// Well-conditioned problems need fewer.
+constexpr int patience = 250;
+
+FitSolution solve_by(const FitTerms& terms, const FitSolverOptions& options) {
+  if (options.method == FitMethod::direct || !can_iterate(terms)) return solve_directly(terms, options);
+  if (options.method == FitMethod::iterative) return solve_iteratively(terms, options);
+  const bool fairness = terms.problem.H.rows() > 0;  // the condition of thin plates grows like h^-4
+  if (terms.unknowns() <= small_problem || fairness) return solve_directly(terms, options);
+  FitSolverOptions short_run = options;
+  short_run.max_iterations = std::min(patience, options.max_iterations);
+  FitSolution solution = solve_iteratively(terms, short_run);
+  if (solution.converged) return solution;
+  try {
+    return solve_directly(terms, options);
+  } catch (const ResourceError&) {
+    return solve_iteratively(terms, options);
+  }
+}
+
 }  // namespace
 
 FitSolution solve(const FitProblem& problem, const FitSolverOptions& options) {
   check(problem);
   const FitTerms terms(problem);
-  FitSolution solution = solve_directly(terms, options);
+  FitSolution solution = solve_by(terms, options);
   if (problem.C.rows() > 0) solution.hard_residual = largest(terms.gap(solution.x));
   if (problem.A.rows() > 0) {
     const Points gap = apply(problem.A, solution.x) - problem.b;

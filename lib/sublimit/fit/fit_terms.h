@@ -32,6 +32,8 @@ double largest(const Points& points);
 SparseMatrix transposed(const SparseMatrix& matrix);
 
 FitSolution solve_directly(const FitTerms& terms, const FitSolverOptions& options);
+/// Whether conjugate gradients apply: no objective, or no conditions but on single control points.
+bool can_iterate(const FitTerms& terms);
 FitSolution solve_iteratively(const FitTerms& terms, const FitSolverOptions& options);
 
 }  // namespace sublimit

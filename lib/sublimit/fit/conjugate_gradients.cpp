@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sublimit/fit/conjugate_gradients.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "sublimit/base/parallel_for.h"
+
+namespace sublimit {
+namespace {
+
+using Row = Eigen::RowVectorXd;
+
+Row sum_of(const std::vector<Row>& parts, Eigen::Index channels) {
+  Row sum = Row::Zero(channels);
+  for (const Row& part : parts) sum += part;
+  return sum;
+}
+
+template <int Channels>
+class Iteration {
+ public:
+  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Channels, Channels == 1 ? Eigen::ColMajor : Eigen::RowMajor>;
+  using View = Eigen::Map<const Rows>;
+  using Target = Eigen::Map<Rows>;
+  using Few = Eigen::Matrix<double, 1, Channels>;
+
+  Iteration(const Eigen::VectorXd& diagonal, Points& residual)
+      : inverse_(diagonal.unaryExpr([](double d) { return d > 0 ? 1 / d : 0; })),
+        r_(residual),
+        u_(Points::Zero(residual.rows(), residual.cols())),
+        p_(Points::Zero(residual.rows(), residual.cols())),
+        parts_(num_blocks(residual.rows())) {}
+
+  const Points& direction() const { return p_; }
+  Points& result() { return u_; }
+
+  /// p = D^-1 r + beta p
+  void turn(const Row& beta) {
+    each_block([&](std::int64_t, auto begin, auto count) {
+      const Few b = beta;
+      auto p = target(p_).middleRows(begin, count);
+      p = (p.array().rowwise() * b.array()).matrix() +
+          (view(r_).middleRows(begin, count).array().colwise() * inverse_.segment(begin, count).array()).matrix();
+    });
+  }
+
+  Row product_with(const Points& q) {
+    each_block([&](std::int64_t block, auto begin, auto count) {
+      parts_[block] = view(p_).middleRows(begin, count).cwiseProduct(view(q).middleRows(begin, count)).colwise().sum();
+    });
+    return sum_of(parts_, r_.cols());
+  }
+
+  /// u += alpha p, r -= alpha q.
+  /// @return  r^T D^-1 r
+  Row advance(const Row& alpha, const Points& q) {
+    each_block([&](std::int64_t, auto begin, auto count) {
+      const Few a = alpha;
+      target(u_).middleRows(begin, count).array() += view(p_).middleRows(begin, count).array().rowwise() * a.array();
+      target(r_).middleRows(begin, count).array() -= view(q).middleRows(begin, count).array().rowwise() * a.array();
+    });
+    return square();
+  }
+
+  Row square() {
+    each_block([&](std::int64_t block, auto begin, auto count) {
+      parts_[block] =
+          (view(r_).middleRows(begin, count).array().square().colwise() * inverse_.segment(begin, count).array())
+              .colwise()
+              .sum();
+    });
+    return sum_of(parts_, r_.cols());
+  }
+
+  double largest() {
+    std::vector<double> most(parts_.size(), 0.0);
+    each_block([&](std::int64_t block, auto begin, auto count) {
+      for (Eigen::Index i = begin; i < begin + count; ++i)
+        if (inverse_[i] > 0) most[block] = std::max(most[block], view(r_).row(i).cwiseAbs().maxCoeff());
+    });
+    return most.empty() ? 0 : *std::max_element(most.begin(), most.end());
+  }
+
+ private:
+  static View view(const Points& points) { return {points.data(), points.rows(), points.cols()}; }
+  static Target target(Points& points) { return {points.data(), points.rows(), points.cols()}; }
+  template <class Body>
+  void each_block(const Body& body) {
+    parallel_for_blocks(r_.rows(), [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
+      body(block, Eigen::Index(begin), Eigen::Index(end - begin));
+    });
+  }
+
+  Eigen::VectorXd inverse_;
+  Points& r_;
+  Points u_, p_;
+  std::vector<Row> parts_;
+};
+
+template <int Channels>
+Points run(const std::function<Points(const Points&)>& S, const Eigen::VectorXd& diagonal, Points& residual,
+           const std::function<bool(int, double)>& go_on) {
+  Iteration<Channels> state(diagonal, residual);
+  Row square = state.square(), beta = Row::Zero(residual.cols());
+  for (int iteration = 1; square.maxCoeff() > 0; ++iteration) {
+    state.turn(beta);
+    const Points q = S(state.direction());
+    const Row curvature = state.product_with(q);
+    // A channel that is solved, or whose direction S does not see, stays where it is.
+    Row alpha(square.size());
+    for (Eigen::Index c = 0; c < alpha.size(); ++c) alpha[c] = curvature[c] > 0 ? square[c] / curvature[c] : 0;
+    if (alpha.maxCoeff() == 0) break;
+    const Row next = state.advance(alpha, q);
+    for (Eigen::Index c = 0; c < alpha.size(); ++c) beta[c] = square[c] > 0 ? next[c] / square[c] : 0;
+    square = next;
+    if (!go_on(iteration, state.largest())) break;
+  }
+  return state.result();
+}
+
+}  // namespace
+
+Points conjugate_gradients(const std::function<Points(const Points&)>& S, const Eigen::VectorXd& diagonal,
+                           Points& residual, const std::function<bool(int, double)>& go_on) {
+  if (residual.size() == 0) return residual;
+  if (residual.cols() == 3) return run<3>(S, diagonal, residual, go_on);
+  return run<Eigen::Dynamic>(S, diagonal, residual, go_on);
+}
+
+}  // namespace sublimit

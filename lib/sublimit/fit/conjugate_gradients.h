@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// Conjugate gradients for all channels at once, each with its own step lengths: they share every pass over the matrix.
+// Sums run over blocks of rows, so the bits do not depend on the number of threads.
+// Source: Hestenes, Stiefel 1952, "Methods of conjugate gradients for solving linear systems".
+#include <functional>
+
+#include "sublimit/types.h"
+
+namespace sublimit {
+
+/// S u = right, u = 0 at first, S symmetric, positive semidefinite.
+/// @param S         S * p
+/// @param diagonal  of the preconditioner, >= 0; where it is zero u stays zero, whatever remains there
+/// @param residual  right; what remains of it in the end
+/// @param go_on     told the number of iterations and the largest entry of the residual after each; false stops
+/// @return  u
+Points conjugate_gradients(const std::function<Points(const Points&)>& S, const Eigen::VectorXd& diagonal,
+                           Points& residual, const std::function<bool(int, double)>& go_on);
+
+}  // namespace sublimit
