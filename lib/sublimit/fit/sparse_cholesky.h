@@ -7,17 +7,17 @@
 
 namespace sublimit {
 
-/// M = L L^T of a symmetric, positive definite M. Deterministic for any number of threads.
+/// M = L L^T of a symmetric, positive definite M, by Eigen.
 class SparseCholesky {
  public:
-  /// @param M  symmetric; both halves are stored, only the lower one is read
+  /// @param M  symmetric; both halves are stored, only the upper one is read
   /// @throws ResourceError  factors larger than memory, predicted before they are made
   explicit SparseCholesky(const SparseMatrix& M);
   ~SparseCholesky();
   SparseCholesky(SparseCholesky&&) noexcept;
   SparseCholesky& operator=(SparseCholesky&&) noexcept;
 
-  /// No pivot was negative or not a number.
+  /// All pivots were positive.
   bool positive() const;
   /// M^-1 * right, n x channels.
   Points solve(const Points& right) const;
