@@ -2,7 +2,7 @@
 #include "sublimit/fit/sparse_cholesky.h"
 
 #include <Eigen/OrderingMethods>
-#include <Eigen/SparseCholesky>
+#include <Eigen/SparseLU>
 
 #include <limits>
 #include <vector>
@@ -39,35 +39,39 @@ std::int64_t factor_entries(const Columns& M) {
 
 struct SparseCholesky::Factors {
   Permutation order;
-  Eigen::SimplicialLLT<Columns, Eigen::Upper, Eigen::NaturalOrdering<Index>> llt;
+  Eigen::SparseLU<Columns, Eigen::NaturalOrdering<Index>> lu;  // by supernodes: Eigen's Cholesky factors are not
   double entries = 0;
 };
 
 SparseCholesky::SparseCholesky(const SparseMatrix& M) : factors_(std::make_unique<Factors>()) {
-  const Columns columns = M;
-  Eigen::AMDOrdering<Index>()(columns.selfadjointView<Eigen::Upper>(), factors_->order);
-  Columns ordered(M.rows(), M.cols());
-  ordered.selfadjointView<Eigen::Upper>() =
-      columns.selfadjointView<Eigen::Upper>().twistedBy(factors_->order.inverse());
+  Columns ordered = M;
+  Eigen::AMDOrdering<Index>()(ordered, factors_->order);
+  ordered = ordered.twistedBy(factors_->order.inverse());
+  ordered.makeCompressed();
   const std::int64_t entries = factor_entries(ordered);
-  const std::string what = "a Cholesky factor of " + std::to_string(M.rows()) + " unknowns";
+  const std::string what = "factors of " + std::to_string(M.rows()) + " unknowns";
   if (entries > std::numeric_limits<Index>::max())
-    throw ResourceError(what + " has more entries than 32-bit indices count; use the iterative method");
-  check_memory(what, 12.0 * static_cast<double>(entries), "use the iterative method");
+    throw ResourceError(what + " have more entries than 32-bit indices count; use the iterative method");
+  check_memory(what, 24.0 * static_cast<double>(entries), "use the iterative method");
   factors_->entries = static_cast<double>(entries);
-  factors_->llt.compute(ordered);
+  factors_->lu.isSymmetric(true);
+  factors_->lu.setPivotThreshold(0);  // none is needed: positive definite
+  factors_->lu.compute(ordered);
 }
 SparseCholesky::~SparseCholesky() = default;
 SparseCholesky::SparseCholesky(SparseCholesky&&) noexcept = default;
 SparseCholesky& SparseCholesky::operator=(SparseCholesky&&) noexcept = default;
 
-bool SparseCholesky::positive() const { return factors_->llt.info() == Eigen::Success; }
+bool SparseCholesky::positive() const {
+  return factors_->lu.info() == Eigen::Success && factors_->lu.signDeterminant() > 0;
+}
 double SparseCholesky::nonzeros() const { return factors_->entries; }
 
 Points SparseCholesky::solve(const Points& right) const {
+  if (factors_->lu.info() != Eigen::Success) throw AnalysisError("a matrix to be factored is not positive definite");
   const Permutation back = factors_->order.inverse();
   const Eigen::MatrixXd ordered = back * right;
-  return factors_->order * factors_->llt.solve(ordered);
+  return factors_->order * factors_->lu.solve(ordered);
 }
 
 }  // namespace sublimit
