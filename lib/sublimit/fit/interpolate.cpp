@@ -161,6 +161,12 @@ Interpolation interpolate(const Scheme<double>& scheme, const ControlMesh& mesh,
   if (options.least_refinements < 0 || options.most_refinements < options.least_refinements)
     throw InvalidParameter("refinements from " + std::to_string(options.least_refinements) + " to " +
                            std::to_string(options.most_refinements) + "; the first is 0 or more, the second not less");
+  // Only then does a level lie as a control mesh does.
+  const int last = options.most_refinements / scheme.period * scheme.period;
+  if (last < options.least_refinements)
+    throw InvalidParameter(scheme.name + " repeats every " + std::to_string(scheme.period) +
+                           " refinements, so that its control points are added by as many; allow " +
+                           std::to_string(last + scheme.period));
   if (!mesh.positions.allFinite()) throw InvalidMesh("a control point is not finite");
   std::vector<Level> levels{control_level(scheme, mesh, options.rules)};
   std::vector<VertexTarget> asked = checked(targets, levels[0].topology());
@@ -173,7 +179,7 @@ Interpolation interpolate(const Scheme<double>& scheme, const ControlMesh& mesh,
   for (const VertexTarget& target : asked)
     if (target.normal) per_target = 5;
   Points x0 = frame.inside(mesh.positions);
-  for (int k = 0; k <= options.most_refinements; ++k) {
+  for (int k = 0; k <= last; ++k) {
     if (k == 1) {
       std::vector<Index> vertices;
       for (const VertexTarget& target : asked) vertices.push_back(target.vertex);
@@ -184,7 +190,7 @@ Interpolation interpolate(const Scheme<double>& scheme, const ControlMesh& mesh,
       x0 = apply(levels.back().S, x0);
     }
     const bool crowded = std::int64_t{per_target} * std::int64_t(asked.size()) > 3 * std::int64_t(x0.rows());
-    if (k < options.least_refinements || (crowded && k < options.most_refinements)) continue;
+    if (k % scheme.period != 0 || k < options.least_refinements || (crowded && k < last)) continue;
     attempt({scheme, levels, options, asked, x0}, cache, result);
     if (result.solved()) break;
   }

@@ -20,7 +20,8 @@ namespace sublimit {
 
 struct InterpolationOptions {
   /// Refinements, each of which adds control points: as few as meet the conditions. The same number twice asks for that
-  /// one; 0 and 0 add none.
+  /// one; 0 and 0 add none. Multiples of the scheme's period count: levels between them (of mid-edge, sqrt3) are no
+  /// control meshes.
   int least_refinements = 0, most_refinements = 2;
   Fairness fairness = {};  ///< empty: nearest to the first guess
   FitSolverOptions solver = {};

@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: Apache-2.0
+// What interpolation owes to every scheme: limits that LimitSurface finds on the targets, control points that come back
+// from their own limits, and no preference for an order, a place or a size.
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <numeric>
+#include <random>
+
+#include "sublimit/analysis/centre.h"
+#include "sublimit/fit/interpolate.h"
+#include "sublimit/limit/limit_surface.h"
+#include "sublimit/limit/piece_types.h"
+#include "support/expect_error.h"
+#include "support/places.h"
+#include "support/tested_schemes.h"
+#include "support/tolerance.h"
+
+namespace sublimit::testing {
+namespace {
+
+using Eigen::Vector3d;
+
+/// What the issue promises: of the box, radians, and of the box where the system is well posed.
+constexpr double on_target = 1e-12, along_target = 1e-10, round_trip = 1e-9;
+/// Systems worse conditioned than this are not well posed: 1e-9 would be beyond double.
+constexpr double well_posed = 1e5;
+
+/// Small meshes with all that the scheme may have: closed, borders, creases that close or end in darts, corners.
+std::vector<NamedMesh> meshes(const Scheme<double>& scheme) {
+  const bool triangles = takes_triangles(scheme);
+  std::vector<NamedMesh> list;
+  list.push_back({"closed", {}, jittered(triangles ? icosahedron() : prism(5), 0.05)});
+  list.push_back({"open", {}, jittered(triangles ? triangle_grid(4, 3) : grid(4, 3), 0.05)});
+  if (scheme.sharpening == Sharpening::boundary) return list;
+  ControlMesh crease = jittered(triangles ? triangle_torus(5, 4) : torus(5, 4), 0.05);
+  const float sharp = 10;
+  add_crease(crease, {0, 4, 8, 12, 16, 0}, sharp);
+  if (scheme.sharpening == Sharpening::semi_sharp) add_crease(crease, {1, 2, 3}, 1.5f);  // two darts
+  crease.corners.push_back({10, sharp});
+  list.push_back({"crease", {}, crease});
+  return list;
+}
+
+Vector3d random_vector(std::mt19937& random) {
+  std::uniform_real_distribution<double> unit(-1, 1);
+  const double x = unit(random), y = unit(random), z = unit(random);
+  return {x, y, z};
+}
+
+class InterpolationLaws : public ::testing::TestWithParam<TestedScheme> {
+ protected:
+  const Scheme<double> scheme_ = GetParam().scheme();
+  const std::shared_ptr<PieceTypes> types_ = std::make_shared<PieceTypes>(scheme_);
+
+  /// The places of a vertex on a level: corners of its faces, or the middle of the face (border edge) that it becomes.
+  struct Limit {
+    std::vector<Vector3d> position, normal;
+  };
+  Limit limit_of(const std::vector<Level>& levels, const LimitSurface& surface, const Points& points, Index v) const {
+    std::vector<Sample> places;
+    const Topology& last = levels.back().topology();
+    for (const HalfEdge start : levels[0].topology().fans(Vertex{v})) {
+      Centre centre{Centre::Kind::vertex, start};
+      for (size_t k = 1; k < levels.size(); ++k) {
+        const Topology* before = &levels[k - 1].topology();
+        for (const Refinement& step : levels[k].steps) {
+          centre = child(centre, *before, step, levels[k - 1].number);
+          before = &step.topology;
+        }
+      }
+      const Face face = last.face(centre.start);
+      const Index first = surface.addresses().first(face);
+      if (centre.kind == Centre::Kind::face) {
+        places.push_back(last.size(face) == 4 ? Sample{first, 0.5, 0.5} : Sample{first, 1, 1});
+      } else if (centre.kind == Centre::Kind::border) {
+        places.push_back(on_edge(last, surface.addresses(), centre.start, 0.5));
+      } else {
+        HalfEdge h = centre.start;
+        do {
+          places.push_back(from_corner(last, surface.addresses(), h, 0, 0));
+          h = last.ccw(h);
+        } while (exists(h) && h != centre.start);
+      }
+    }
+    const LimitSamples samples = surface.evaluate(points, places, 1);
+    Limit limit;
+    for (size_t i = 0; i < places.size(); ++i) {
+      limit.position.push_back(samples.position.row(Index(i)));
+      limit.normal.push_back(samples.normal.row(Index(i)));
+    }
+    return limit;
+  }
+
+  /// The points as the control mesh that they are, for meshes without creases.
+  static ControlMesh control_mesh(const Interpolation& found) {
+    const Topology& t = found.level.topology();
+    ControlMesh mesh;
+    mesh.positions = found.points;
+    for (Index f = 0; f < t.num_faces(); ++f) {
+      mesh.face_sizes.push_back(t.size(Face{f}));
+      for (const Index v : t.vertices(Face{f})) mesh.face_vertices.push_back(v);
+    }
+    return mesh;
+  }
+
+  std::vector<Level> levels(const ControlMesh& mesh, int count) const { return refine(scheme_, mesh, count); }
+
+  /// All vertices moved; every second one with a normal up to a right angle off.
+  std::vector<VertexTarget> targets(const ControlMesh& mesh, bool normals, unsigned seed = 1) const {
+    std::mt19937 random(seed);
+    const std::vector<Level> control = levels(mesh, 0);
+    const LimitSurface surface(scheme_, control[0], types_);
+    std::vector<VertexTarget> result;
+    for (Index v = 0; v < mesh.num_vertices(); ++v) {
+      result.push_back({v, Vector3d(mesh.positions.row(v)) + 0.05 * random_vector(random)});
+      if (!normals || v % 2 == 0) continue;
+      const Vector3d own = limit_of(control, surface, mesh.positions, v).normal[0];
+      result.back().normal = 2 * own + random_vector(random);
+      if (own.isZero()) result.back().normal.reset();  // no plane
+    }
+    return result;
+  }
+
+  void expect_on_targets(const ControlMesh& mesh, const Interpolation& found,
+                         const std::vector<VertexTarget>& targets) const {
+    EXPECT_TRUE(found.solved()) << why_unsolved(found.attempts.back());
+    ASSERT_EQ(found.level.number % scheme_.period, 0);
+    const std::vector<Level> all = levels(mesh, found.level.number);
+    const LimitSurface surface = mesh.creases.empty() ? LimitSurface(scheme_, control_mesh(found), {}, types_)
+                                                      : LimitSurface(scheme_, found.level, types_);
+    for (size_t i = 0; i < targets.size(); ++i) {
+      const VertexTarget& target = targets[i];
+      const Limit limit = limit_of(all, surface, found.points, target.vertex);
+      for (const Vector3d& position : limit.position)
+        EXPECT_LE((position - target.position).norm(), on_target * diagonal(mesh.positions))
+            << "vertex " << target.vertex;
+      if (!target.normal || std::count(found.without_plane.begin(), found.without_plane.end(), Index(i))) continue;
+      for (const Vector3d& normal : limit.normal) {
+        const Vector3d N = target.normal->normalized();
+        EXPECT_LE(std::atan2(normal.cross(N).norm(), normal.dot(N)), along_target) << "vertex " << target.vertex;
+        EXPECT_GT(normal.norm(), 0.5) << "vertex " << target.vertex;
+      }
+    }
+  }
+};
+INSTANTIATE_TEST_SUITE_P(All, InterpolationLaws, ::testing::ValuesIn(schemes_and_degrees(4)), test_name);
+
+TEST_P(InterpolationLaws, LimitsAreOnTheTargets) {
+  for (const NamedMesh& named : meshes(scheme_))
+    for (const bool normals : {false, true}) {
+      SCOPED_TRACE(named.name + (normals ? " with normals" : ""));
+      if (normals && scheme_.claims.regular < 1) continue;  // bilinear: a normal per face
+      const auto wanted = targets(named.mesh, normals);
+      expect_on_targets(named.mesh, interpolate(scheme_, named.mesh, wanted), wanted);
+    }
+}
+
+TEST_P(InterpolationLaws, ControlPointsComeBackFromTheirLimits) {
+  int posed = 0;
+  for (const NamedMesh& named : meshes(scheme_)) {
+    SCOPED_TRACE(named.name);
+    const std::vector<Level> control = levels(named.mesh, 0);
+    const LimitSurface surface(scheme_, control[0], types_);
+    std::vector<VertexTarget> own;
+    for (Index v = 0; v < named.mesh.num_vertices(); ++v)
+      own.push_back({v, limit_of(control, surface, named.mesh.positions, v).position[0]});
+    const ControlMesh elsewhere = jittered(named.mesh, 0.3, 7);  // another first guess
+    const Interpolation found = interpolate(scheme_, elsewhere, own, {.most_refinements = 0});
+    EXPECT_TRUE(found.solved()) << why_unsolved(found.attempts.back());
+    const Conditioning& C = found.attempts.back().conditioning;
+    if (C.rank < named.mesh.num_vertices() || C.condition() > well_posed) continue;
+    ++posed;
+    EXPECT_LE((found.points - named.mesh.positions).cwiseAbs().maxCoeff(), round_trip * diagonal(named.mesh.positions));
+  }
+}
+
+TEST_P(InterpolationLaws, MoveTurnAndScaleWithTheTargets) {
+  const Eigen::Matrix3d R = Eigen::AngleAxisd(1.1, Vector3d(1, 2, 3).normalized()).toRotationMatrix();
+  const Vector3d shift(30, -10, 20);
+  const double scale = 1e-3;
+  for (const NamedMesh& named : meshes(scheme_))
+    for (const bool normals : {false, true}) {
+      SCOPED_TRACE(named.name + (normals ? " with normals" : ""));
+      const auto wanted = targets(named.mesh, normals);
+      ControlMesh turned = named.mesh;
+      turned.positions = ((scale * named.mesh.positions * R.transpose()).rowwise() + shift.transpose()).eval();
+      std::vector<VertexTarget> turned_targets(wanted.rbegin(), wanted.rend());  // in another order, too
+      for (VertexTarget& target : turned_targets) {
+        target.position = scale * R * target.position + shift;
+        if (target.normal) target.normal = 5 * R * *target.normal;
+      }
+      const Interpolation found = interpolate(scheme_, named.mesh, wanted, {.conditioning = false});
+      const Interpolation there = interpolate(scheme_, turned, turned_targets, {.conditioning = false});
+      ASSERT_EQ(found.level.number, there.level.number);
+      const Points back = (there.points.rowwise() - shift.transpose()) * R / scale;
+      EXPECT_LE((back - found.points).cwiseAbs().maxCoeff(), round_trip * diagonal(named.mesh.positions));
+    }
+}
+
+TEST_P(InterpolationLaws, KeepTheGuessWhereNothingIsAsked) {
+  const int period = scheme_.period;
+  for (const NamedMesh& named : meshes(scheme_)) {
+    const Interpolation found = interpolate(scheme_, named.mesh, {}, {.least_refinements = 1});
+    const Points refined = refinement_matrix(levels(named.mesh, period)) * named.mesh.positions;
+    ASSERT_EQ(found.level.number, period);
+    EXPECT_LE((found.points - refined).cwiseAbs().maxCoeff(), rounding(64, 10));
+  }
+}
+
+TEST_P(InterpolationLaws, AddControlPointsByWholePeriods) {
+  const ControlMesh mesh = meshes(scheme_)[0].mesh;
+  const int period = scheme_.period;
+  const auto with = [&](int least, int most) {
+    return interpolate(scheme_, mesh, {}, {.least_refinements = least, .most_refinements = most}).level.number;
+  };
+  EXPECT_EQ(with(1, 2), period);
+  EXPECT_EQ(with(2, 3), 2);
+  if (period == 1) return;
+  expect_error<InvalidParameter>([&] { with(1, 1); }, {scheme_.name, "every 2", "allow 2"});
+}
+
+}  // namespace
+}  // namespace sublimit::testing
