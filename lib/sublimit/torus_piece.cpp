@@ -68,4 +68,8 @@ TorusPiece::Place TorusPiece::foot(const Vector3d& x) const {
   return {tube.length, around.length, tube.depth};
 }
 
+double TorusPiece::nearness(const Place& place) const {
+  return (1 + std::cos(k1_ * place.u)) * (1 + std::cos(curvature_ * place.v)) / 4;
+}
+
 }  // namespace sublimit

@@ -39,6 +39,9 @@ class TorusPiece {
   /// tube's centre. Closed form. |k1 u| <= pi, and v less than once around.
   Place foot(const Eigen::Vector3d& x) const;
 
+  /// From 1 at the origin to 0 half way round the tube or the axis, where `foot` may go either way.
+  double nearness(const Place& place) const;
+
   double geodesic() const { return g_; }
 
  private:

@@ -2,6 +2,7 @@
 #include "sublimit/schemes/torus_carrier.h"
 
 #include <Eigen/Geometry>
+#include <Eigen/LU>
 
 #include <cmath>
 
@@ -16,22 +17,26 @@ constexpr double no_direction = 1e-3;
 /// The edge on the torus piece, u = u1 x and v = v1 x, in the principal frame: velocity and (covariant) acceleration.
 struct Motion {
   Vector2d velocity, acceleration;
-  Vector2d across() const { return {-velocity.y(), velocity.x()}; }
-  Vector2d across_change() const { return {-acceleration.y(), acceleration.x()}; }
+  double skew;
+  /// The direction y, and its (covariant) derivative by x.
+  Vector2d across() const { return across(velocity); }
+  Vector2d across_change() const { return across(acceleration); }
+  Vector2d across(const Vector2d& a) const { return {skew * a.x() - a.y(), skew * a.y() + a.x()}; }
 };
-Motion motion(const TorusPiece::Frame& frame, double u1, double v1) {
-  return {{u1, frame.speed * v1}, {-frame.speed * frame.speed_slope * v1 * v1, 2 * frame.speed_slope * u1 * v1}};
+Motion motion(const TorusPiece::Frame& frame, double u1, double v1, double skew) {
+  return {{u1, frame.speed * v1}, {-frame.speed * frame.speed_slope * v1 * v1, 2 * frame.speed_slope * u1 * v1}, skew};
 }
 
-/// Derivatives of a normal surface's own shape: of the offset surface in distance w.
+/// The second form of the offset surface in distance w, in the principal frame.
 Matrix2d offset_shape(const TorusPiece::Frame& frame, double w) {
   return Vector2d(frame.k1 / (1 - w * frame.k1), frame.k2 / (1 - w * frame.k2)).asDiagonal();
 }
 
 }  // namespace
 
-std::optional<TorusCarrier> TorusCarrier::make(const TorusPiece& piece, const SurfacePoint& far) {
+std::optional<TorusCarrier> TorusCarrier::make(const TorusPiece& piece, const SurfacePoint& far, double skew) {
   TorusCarrier carrier(piece);
+  carrier.skew_ = skew;
   carrier.far_ = piece.foot(far.position);
   const TorusPiece::Frame frame = piece.at(carrier.far_.u, carrier.far_.v);
   carrier.length_ = (far.position - piece.at(0, 0).position).norm();
@@ -45,7 +50,7 @@ std::optional<TorusCarrier> TorusCarrier::make(const TorusPiece& piece, const Su
   const Vector2d gradient(slope.x() * (1 - w * frame.k1), slope.y() * (1 - w * frame.k2));
   const Matrix2d hessian = second - offset_shape(frame, w);
 
-  const Motion m = motion(frame, carrier.far_.u, carrier.far_.v);
+  const Motion m = motion(frame, carrier.far_.u, carrier.far_.v, skew);
   const Vector2d c = m.across();
   carrier.value_ = w;
   carrier.along_ = gradient.dot(m.velocity);
@@ -63,27 +68,28 @@ std::optional<TorusCarrier> TorusCarrier::make(const TorusPiece& piece, const Su
 std::optional<TorusCarrier::Middle> TorusCarrier::middle(const Vector3d& guess) const {
   const TorusPiece::Place place = piece_.foot(guess);
   const TorusPiece::Frame frame = piece_.at(place.u, place.v);
-  const Motion m = motion(frame, far_.u, far_.v);
+  const Motion m = motion(frame, far_.u, far_.v, skew_);
   const double d2 = m.velocity.squaredNorm();
   if (!(d2 > no_direction * no_direction * length_ * length_) || !std::isfinite(frame.k2)) return std::nullopt;
 
-  // Hermite interpolation at 1/2: quintic along, cubic across; everything is zero at 0.
-  const double value = value_ / 2 - along_ * 5 / 32 + along_along_ / 64;
-  const double along = value_ * 15 / 8 - along_ * 7 / 16 + along_along_ / 32;
+  // The rule half way, everything being zero at x = 0.
+  const double value = value_ / 2 - along_ * 3 / 20 + along_along_ / 80;
+  const double along = value_ * 9 / 4 - along_ * 5 / 8 + along_along_ / 16;
   const double along_along = along_ * 3 / 2 - along_along_ / 4;
   const double across = across_ / 2 - along_across_ / 8;
-  const double along_across = across_ * 3 / 2 - along_across_ / 4;
+  const double along_across = across_ * 2 - along_across_ / 2;
   const double across_across = across_across_ / 2;
 
-  // Back to the principal frame; velocity and across are at right angles and of equal length.
+  // Back to the principal frame.
   Matrix2d directions;
   directions << m.velocity, m.across();
-  const Vector2d gradient = directions * Vector2d(along, across) / d2;
+  const Matrix2d inverse = directions.inverse();
+  const Vector2d gradient = inverse.transpose() * Vector2d(along, across);
   Matrix2d second;
   second(0, 0) = along_along - gradient.dot(m.acceleration);
   second(0, 1) = second(1, 0) = along_across - gradient.dot(m.across_change());
   second(1, 1) = across_across;
-  const Matrix2d hessian = directions * second * directions.transpose() / (d2 * d2) + offset_shape(frame, value);
+  const Matrix2d hessian = inverse.transpose() * second * inverse + offset_shape(frame, value);
 
   Middle middle;
   const Vector2d slope(gradient.x() / (1 - value * frame.k1), gradient.y() / (1 - value * frame.k2));

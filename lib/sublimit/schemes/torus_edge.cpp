@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "sublimit/schemes/torus_carrier.h"
 
@@ -15,10 +16,14 @@ using Eigen::Matrix3d, Eigen::Vector3d;
 
 /// Squares of misfits and of conditions relative to the edge below this are rounding errors.
 constexpr double rounding2 = 1e-28;
+/// The same of the conditions for g, where rounding errors would choose it.
+constexpr double undetermined2 = 1e-22;
 /// Normals that cancel up to this leave no side on which the new point could be.
 constexpr double cancelled = 1e-7;
 /// Misfit from which nothing fits: a slope of ten, which is 84 degrees.
 constexpr double largest_misfit = 10;
+/// Directions across lean by no more: in flat triangles leaning ones lose more digits than they save.
+constexpr double largest_skew = 2;
 
 /// Where the curve of two circular arcs would be half way: above the chord by chord/4 tan(angle/2) for each end's
 /// angle.
@@ -34,8 +39,12 @@ Vector3d middle_of_arcs(const SurfacePoint& a, const SurfacePoint& b, const Vect
 /// motion's velocity at b and omega = omega0 + g omega1 its rotation, all conditions are linear in g: v is tangent at
 /// b; v is at right angles to the one principal direction of b, t; the axis is to the other, p; and p's circle has
 /// curvature k there.
-double best_geodesic(const SurfacePoint& a, const Vector3d& e1, double k2, const SurfacePoint& b, const Vector3d& t,
-                     const Vector3d& p, double k_t, double k_p) {
+struct Geodesic {
+  double g;
+  double trust;  ///< from 0, where any g will do up to rounding, to 1
+};
+Geodesic best_geodesic(const SurfacePoint& a, const Vector3d& e1, double k2, const SurfacePoint& b, const Vector3d& t,
+                       const Vector3d& p, double k_t, double k_p) {
   const Vector3d d = b.position - a.position, e2 = a.normal.cross(e1);
   const double h = d.norm();
   const Vector3d omega0 = k2 * e1, omega1 = -a.normal, v0 = e2 + omega0.cross(d), v1 = omega1.cross(d);
@@ -44,19 +53,30 @@ double best_geodesic(const SurfacePoint& a, const Vector3d& e1, double k2, const
                        h * (omega0.cross(p).dot(b.normal) - k_p * v0.dot(p))};
   const double m[4] = {v1.dot(b.normal), gap * v1.dot(t), gap * h * omega1.dot(p),
                        h * (omega1.cross(p).dot(b.normal) - k_p * v1.dot(p))};
-  double mc = 0, mm = rounding2 * h * h;
+  double mc = 0, mm = std::numeric_limits<double>::min();
   for (int i = 0; i < 4; ++i) {
     mc += m[i] * c[i];
     mm += m[i] * m[i];
   }
-  return -mc / mm;
+  return {-mc / mm, mm / (mm + undetermined2 * h * h)};
+}
+
+/// How far the line from one opposite corner to the other (of one triangle, to the edge's middle) leans along the edge.
+double skew_across(const SurfacePoint& a, const SurfacePoint& b, const Vector3d& mean_normal,
+                   std::span<const SurfacePoint* const> opposite) {
+  if (opposite.empty()) return 0;
+  const Vector3d chord = b.position - a.position;
+  const Vector3d from = opposite.size() > 1 ? opposite[1]->position : Vector3d(a.position + chord / 2);
+  const Vector3d across = opposite[0]->position - from;
+  const double along = across.dot(chord), left = across.dot(mean_normal.cross(chord));
+  return left == 0 ? 0 : std::clamp(along / left, -largest_skew, largest_skew);
 }
 
 /// Sums over all carriers, the better ones with more weight.
 struct Blend {
   std::span<const SurfacePoint* const> opposite;
   Vector3d guess;
-  double h;
+  double h, skew;
   double weight = 0;
   Vector3d position = Vector3d::Zero(), normal = Vector3d::Zero();
   Matrix3d shape = Matrix3d::Zero();
@@ -71,15 +91,17 @@ struct Blend {
     return opposite.empty() ? 1 : sum / static_cast<double>(opposite.size());
   }
 
-  void add(const TorusPiece& piece, const SurfacePoint& far) {
-    const std::optional<TorusCarrier> carrier = TorusCarrier::make(piece, far);
+  void add(const TorusPiece& piece, double trust, const SurfacePoint& far) {
+    const std::optional<TorusCarrier> carrier = TorusCarrier::make(piece, far, skew);
     if (!carrier || carrier->misfit2() > largest_misfit * largest_misfit) return;
     const std::optional<TorusCarrier::Middle> middle = carrier->middle(guess);
     if (!middle) return;
-    // Of pieces that fit alike the tamer ones: near to the guess, and with circles that are large beside the edge.
+    // Of pieces that fit alike the tamer ones: near to the guess, with circles that are large beside the edge.
+    const double near = carrier->nearness();
     const double away = 4 * middle->distance / h, turn = h * piece.geodesic();
-    const double w = 1 / ((carrier->misfit2() + rounding2) * (misfit2_aside(piece) + rounding2) * (1 + away * away) *
-                          (1 + turn * turn));
+    const double w =
+        trust * near * near /
+        ((carrier->misfit2() + rounding2) * (misfit2_aside(piece) + rounding2) * (1 + away * away) * (1 + turn * turn));
     weight += w;
     position += w * (middle->position - guess);
     normal += w * middle->normal;
@@ -91,10 +113,10 @@ struct Blend {
   void add_all(const SurfacePoint& a, const SurfacePoint& b) {
     const Vector3d b1 = b.direction1, b2 = b.direction2();
     const auto tube = [&](const Vector3d& e1, double k1, double k2) {
-      const auto piece = [&](double g) { add(TorusPiece(a.position, e1, a.normal, k1, k2, g), b); };
+      const auto piece = [&](Geodesic x) { add(TorusPiece(a.position, e1, a.normal, k1, k2, x.g), x.trust, b); };
       piece(best_geodesic(a, e1, k2, b, b1, b2, b.k1, b.k2));
       piece(best_geodesic(a, e1, k2, b, b2, b1, b.k2, b.k1));
-      piece(0);
+      piece({0, 1});
     };
     tube(a.direction1, a.k1, a.k2);
     tube(a.direction2(), a.k2, a.k1);
@@ -121,7 +143,7 @@ EdgePoint torus_edge(const SurfacePoint& a, const SurfacePoint& b, std::span<con
   const double h = chord.norm();
   if (!(h > 0) || sum.norm() < cancelled) return fallback(a, b, opposite);
   const Vector3d guess = middle_of_arcs(a, b, sum.normalized());
-  Blend blend{.opposite = opposite, .guess = guess, .h = h};
+  Blend blend{.opposite = opposite, .guess = guess, .h = h, .skew = skew_across(a, b, sum.normalized(), opposite)};
   blend.add_all(a, b);
   blend.add_all(b, a);
   if (!(blend.weight > 0) || !(blend.normal.norm() > 0.1 * blend.weight)) return fallback(a, b, opposite);

@@ -12,7 +12,8 @@
 
 #include "sublimit/fit/deviation.h"
 #include "sublimit/geometric_schemes.h"
-#include "support/expect_error.h"
+#include "sublimit/mesh/topology.h"
+#include "sublimit/schemes/torus_edge.h"
 #include "support/irregular_meshes.h"
 #include "support/meshes.h"
 #include "support/tolerance.h"
@@ -24,7 +25,8 @@ using Eigen::Matrix3d, Eigen::Vector3d;
 constexpr double pi = std::numbers::pi;
 const GeometricSurfaceScheme scheme = *find_geometric_scheme<CurvatureMesh>("torus-pieces");
 
-/// What is promised of planes, spheres, cylinders and tori of size 1: positions, radians, curvatures.
+/// What is promised of planes, spheres, cylinders and tori of size 1: positions, radians, curvatures (relative where
+/// they are larger).
 constexpr double reproduced = 1e-10;
 /// Of meshes of size 1 that were moved, whose points are rounded before the first level.
 constexpr double moved = 1e-12;
@@ -87,7 +89,7 @@ void expect_on(const Surface& surface, const CurvatureMesh& mesh, const std::str
     const SurfacePoint truth = surface(p.position);
     position = std::max(position, (p.position - truth.position).norm());
     normal = std::max(normal, (p.normal - truth.normal).norm());
-    shape = std::max(shape, (p.shape() - truth.shape()).norm());
+    shape = std::max(shape, (p.shape() - truth.shape()).norm() / std::max(1.0, truth.shape().norm()));
   }
   EXPECT_LT(position, reproduced) << what;
   EXPECT_LT(normal, reproduced) << what;
@@ -138,6 +140,128 @@ TEST(TorusPieces, ReproduceCylinderAndPlane) {
     return SurfacePoint{{x[0], x[1], 0}, Vector3d::UnitZ(), 0, 0, Vector3d::UnitX()};
   };
   expect_reproduced(plane, data_over([&](double u, double v) { return plane({u, v, 0}); }, 5), "plane");
+}
+
+/// z = sin x cos y over a jittered grid, elliptic and hyperbolic.
+const ImplicitSurface wave{[](const Vector3d& x) {
+  const double sx = std::sin(x[0]), cx = std::cos(x[0]), sy = std::sin(x[1]), cy = std::cos(x[1]);
+  ImplicitSurface::Jet jet{.value = x[2] - sx * cy, .gradient = {-cx * cy, sx * sy, 1}};
+  jet.hessian(0, 0) = jet.hessian(1, 1) = sx * cy;
+  jet.hessian(0, 1) = jet.hessian(1, 0) = cx * sy;
+  return jet;
+}};
+CurvatureMesh wave_data(Index n = 5, unsigned seed = 1) {
+  return data_over(
+      [](double u, double v) {
+        return nearest_point(wave, {3 * u, 3 * v, std::sin(3 * u) * std::cos(3 * v)});
+      },
+      n, seed);
+}
+
+/// The largest difference of positions, normals and shapes; the mesh's size is about 1.
+double difference(const CurvatureMesh& a, const CurvatureMesh& b) {
+  EXPECT_EQ(a.triangles, b.triangles);
+  double largest = 0;
+  for (Index v = 0; v < a.num_vertices(); ++v)
+    largest = std::max({largest, (a.points[v].position - b.points[v].position).norm(),
+                        (a.points[v].normal - b.points[v].normal).norm(),
+                        (a.points[v].shape() - b.points[v].shape()).norm()});
+  return largest;
+}
+
+TEST(TorusPieces, KeepGivenDataBitwise) {
+  const CurvatureMesh data = scheme.checked(wave_data());
+  for (const char* cut : {"regular", "perimeter"}) {
+    const GeometricSurfaceScheme same = *find_geometric_scheme<CurvatureMesh>("torus-pieces", {{"cut", cut}});
+    const CurvatureMesh fine = refine(same, data, 3);
+    ASSERT_GT(fine.num_vertices(), data.num_vertices());
+    EXPECT_EQ(difference(fine, refine(same, refine(same, data, 2), 1)), 0);
+    for (Index v = 0; v < fine.num_vertices(); ++v) {
+      EXPECT_EQ(fine.original[v], v < data.num_vertices());
+      if (!fine.original[v]) continue;
+      const SurfacePoint &a = data.points[v], &b = fine.points[v];
+      EXPECT_TRUE(a.position == b.position && a.normal == b.normal && a.direction1 == b.direction1 && a.k1 == b.k1 &&
+                  a.k2 == b.k2);
+    }
+    EXPECT_TRUE(Topology(view(fine)).is_manifold());
+    EXPECT_TRUE(Topology(view(fine)).faults().empty());
+  }
+}
+
+TEST(TorusPieces, DoNotDependOnPlaceSizeSideOrOrder) {
+  const CurvatureMesh data = wave_data(), fine = refine(scheme, data, 2);
+  const Matrix3d R = Eigen::AngleAxisd(1.1, Vector3d(1, 2, 3).normalized()).toRotationMatrix();
+  const double size = 7;
+  const auto map = [&](CurvatureMesh mesh) {
+    for (SurfacePoint& p : mesh.points)
+      p = {size * (R * p.position) + Vector3d(3, 1, 4), R * p.normal, p.k1 / size, p.k2 / size, R * p.direction1};
+    return mesh;
+  };
+  EXPECT_LT(difference(refine(scheme, map(data), 2), map(fine)), size * moved);
+  const auto flip = [](CurvatureMesh mesh) {
+    for (SurfacePoint& p : mesh.points) p = p.flipped();
+    return mesh;
+  };
+  EXPECT_LT(difference(refine(scheme, flip(data), 2), flip(fine)), moved);
+  const auto exchange = [](CurvatureMesh mesh) {  // the same second form, told in the other order
+    for (SurfacePoint& p : mesh.points) {
+      p.direction1 = -p.direction2();
+      std::swap(p.k1, p.k2);
+    }
+    return mesh;
+  };
+  EXPECT_LT(difference(refine(scheme, exchange(data), 2), fine), moved);
+}
+
+TEST(TorusPieces, DoNotDependOnTheDirectionOfAnEdge) {
+  const CurvatureMesh data = wave_data();
+  for (Index f = 0; f < data.num_faces(); ++f) {
+    const SurfacePoint &a = data.points[data.triangles[3 * f]], &b = data.points[data.triangles[3 * f + 1]],
+                       &c = data.points[data.triangles[3 * f + 2]], &d = data.points[0];
+    const std::array<const SurfacePoint*, 2> one{&c, &d}, other{&d, &c};
+    const SurfacePoint x = torus_edge(a, b, one).point, y = torus_edge(b, a, other).point;
+    EXPECT_LT((x.position - y.position).norm() + (x.normal - y.normal).norm() + (x.shape() - y.shape()).norm(), moved);
+  }
+}
+
+/// Two ends that lie on two tori: the equator of one is the tube of the other. The opposite corners decide.
+TEST(TorusPieces, OppositeCornersTellTwoToriApart) {
+  const SurfacePoint a = on_torus(2, 1, 0, 0), b = on_torus(2, 1, 0.5, 0);
+  for (const double t : {0.4, -0.7}) {
+    const SurfacePoint c = on_torus(2, 1, 0.2, t);
+    const std::array<const SurfacePoint*, 1> corner{&c};
+    const SurfacePoint middle = torus_edge(a, b, corner).point, truth = on_torus(2, 1, 0.25, 0);
+    EXPECT_LT((middle.shape() - truth.shape()).norm(), reproduced);
+  }
+}
+
+TEST(TorusPieces, FallBackToTheChord) {
+  const SurfacePoint a{.position = {0, 0, 0}}, along_normal{.position = {0, 0, 1}},
+      opposite{.position = {1, 0, 0}, .normal = -Vector3d::UnitZ()}, side{.position = {0, 1, 0}};
+  const std::array<const SurfacePoint*, 1> corner{&side};
+  for (const SurfacePoint& b : {a, along_normal, opposite}) {
+    const EdgePoint middle = torus_edge(a, b, corner);
+    EXPECT_TRUE(middle.fell_back);
+    EXPECT_EQ(middle.point.position, (a.position + b.position) / 2);
+    EXPECT_EQ(middle.point.normal, Vector3d::UnitZ());
+    EXPECT_EQ(middle.point.k1, 0);
+    EXPECT_EQ(middle.point.k2, 0);
+  }
+  CurvatureMesh mesh{.triangles = {0, 1, 2}, .points = {a, opposite, side}};
+  const std::vector<std::string> notes = scheme.notes(scheme.checked(mesh));
+  ASSERT_EQ(notes.size(), 1u);
+  EXPECT_NE(notes[0].find("2 of 3 edges"), std::string::npos) << notes[0];
+  for (const SurfacePoint& p : refine(scheme, mesh, 3).points)
+    EXPECT_TRUE(p.position.allFinite() && p.normal.allFinite());
+}
+
+TEST(TorusPieces, CutAlongTheDiagonalOfEqualPerimeters) {
+  // Far from similar triangles: the curved edges make the hexagon lopsided.
+  const GeometricSurfaceScheme other = *find_geometric_scheme<CurvatureMesh>("torus-pieces", {{"cut", "perimeter"}});
+  const CurvatureMesh data = wave_data(3), regular = refine(scheme, data, 1), cut = refine(other, data, 1);
+  EXPECT_NE(regular.triangles, cut.triangles);
+  const CurvatureMesh flat = data_over([](double u, double v) { return SurfacePoint{.position = {u, v, 0}}; }, 3);
+  EXPECT_EQ(difference(refine(scheme, flat, 2), refine(other, flat, 2)), 0);
 }
 
 }  // namespace
