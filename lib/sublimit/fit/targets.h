@@ -27,8 +27,8 @@ struct VertexTarget {
 
 /// Places of the limit and what it should be there: as many channels as wanted.
 struct PlaceTargets {
-  std::vector<Sample> places;
-  Points values;                     ///< #places x channels
+  std::vector<Sample> places = {};
+  Points values = {};                ///< #places x channels
   std::vector<double> weights = {};  ///< >= 0, of the squared distances; empty: all 1
 };
 
