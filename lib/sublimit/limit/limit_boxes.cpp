@@ -1,61 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// Boxes around parts of the limit. A polynomial lies in the hull of its Bernstein coefficients; any other piece in the
-// hull of the points that it depends on, if no weight is negative. Where some are, a place has its weights' absolute
-// sum, at most `reach` times the points' distance from one of them.
-#include <Eigen/Dense>
-
-#include <algorithm>
-#include <cmath>
-
+// Boxes around parts of the limit.
 #include "sublimit/base/error.h"
 #include "sublimit/base/parallel_for.h"
 #include "sublimit/limit/limit_surface_parts.h"
+#include "sublimit/limit/piece_hull.h"
 
 namespace sublimit {
 namespace {
 
 /// Levels that are looked into before the points themselves bound a piece.
 constexpr int depth = 3;
-
-double binomial(int n, int k) {
-  double value = 1;
-  for (int i = 1; i <= k; ++i) value = value * (n - k + i) / i;
-  return std::round(value);
-}
-
-/// Bernstein coefficients from those of the basis, by interpolation at the nodes of the control net.
-Eigen::MatrixXd bernstein_from(const PolynomialBasis& basis) {
-  const int d = basis.degree();
-  Eigen::MatrixXd ours(basis.size(), basis.size()), theirs(basis.size(), basis.size());
-  int row = 0;
-  for (int i = 0; i <= d; ++i)
-    for (int j = 0; j <= (basis.total() ? d - i : d); ++j, ++row) {
-      const double u = double(i) / d, v = double(j) / d;
-      ours.row(row) = basis.at(u, v, 0);
-      int column = 0;
-      for (int k = 0; k <= d; ++k)
-        for (int l = 0; l <= (basis.total() ? d - k : d); ++l, ++column)
-          theirs(row, column) = basis.total() ? binomial(d, k) * binomial(d - k, l) * std::pow(u, k) * std::pow(v, l) *
-                                                    std::pow(1 - u - v, d - k - l)
-                                              : binomial(d, k) * std::pow(u, k) * std::pow(1 - u, d - k) *
-                                                    binomial(d, l) * std::pow(v, l) * std::pow(1 - v, d - l);
-    }
-  return theirs.fullPivLu().solve(ours);
-}
-
-/// How far the limit leaves the points, relative to their extent, where weights are negative: seen at the corners of
-/// descendants, and doubled for what lies between.
-double reach(const PieceType& type) {
-  double most = 0;
-  const int corners = type.kind() == Piece::Kind::triangle ? 3 : 4;
-  for (const PieceLink& link : type.children())
-    for (int c = 0; c < corners; ++c) {
-      const RowMatrix row = link.block.pulled_back(link.type->corner_limit(c));
-      const double own = 1 - row.sum();  // of slot 0
-      most = std::max(most, row.cwiseMin(0).cwiseAbs().sum() + std::max(0.0, -own));
-    }
-  return 2 * most;
-}
 
 class Boxes {
  public:
@@ -72,14 +26,7 @@ class Boxes {
       return;
     }
     if (levels > 0) {
-      const Points differences = points.bottomRows(points.rows() - 1).rowwise() - points.row(0);
-      for (const PieceLink& link : type.children()) {
-        const RowMatrix D = link.block.differences();
-        Points child(D.rows() + 1, 3);
-        child.row(0) = points.row(0) + link.block.origin() * differences;
-        child.bottomRows(D.rows()) = (D * differences).rowwise() + child.row(0);
-        extend(box, *link.type, child, levels - 1);
-      }
+      for (const PieceLink& link : type.children()) extend(box, *link.type, child_points(link, points), levels - 1);
       return;
     }
     const Eigen::RowVector3d low = points.colwise().minCoeff(), high = points.colwise().maxCoeff();

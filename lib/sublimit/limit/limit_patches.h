@@ -19,6 +19,9 @@ class LimitPatches {
   void evaluate(std::span<const Sample> samples, std::int64_t begin, std::int64_t end, int order, bool normals,
                 LimitSamples& out) const;
 
+  /// For those who cut a surface otherwise.
+  static const LimitSurface::Parts& parts_of(const LimitSurface& surface) { return *surface.parts_; }
+
  private:
   struct Loop;
   const LimitSurface::Parts& parts_;

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// Closest points on the exact limit surface. Its cells (limit_cells.h) are searched from the nearest box on, each by
+// Newton's method, until no box is nearer than the best point found: so the answer is the nearest of all feet, on
+// whatever face.
+//
+// Accuracy: distances to 1e-12 of the surface's size; places, where the point is not on the surface, to the square root
+// of that, as the distance hardly changes there. Two feet within one cell, which is almost flat, are told apart only
+// where the search from its middle does: near centres of curvature the distance can be too large by a part of the
+// cell's thickness.
+#include <span>
+
+#include "sublimit/limit/limit_surface.h"
+
+namespace sublimit {
+
+struct ClosestPoints {
+  std::vector<Sample> places;
+  Points points;                    ///< of the surface, #queries x 3
+  Points normals;                   ///< there, zero where undefined
+  Eigen::VectorXd distances;        ///< from the queries
+  std::vector<LimitStatus> status;  ///< of the places
+  /// By how much the distance may be too large where the search was cut short, else 0: from the centre of a sphere all
+  /// of it is equally near.
+  Eigen::VectorXd gaps;
+};
+
+struct ClosestPointOptions {
+  /// A place each to begin with, or none: the answer is the same, but for points equally near, sooner.
+  std::span<const Sample> guess = {};
+  int most_cells = 2000;  ///< to search for one point
+};
+
+/// Nearest points of the limit, holes left out. Equal input, equal answer, whatever the number of threads.
+/// @param control  points of the surface's level, #V x 3
+/// @param queries  #queries x 3
+/// @throws InvalidParameter  shapes that do not fit, queries that are not finite: says which; guesses on no face
+/// @throws InvalidMesh       no face that is not a hole
+ClosestPoints closest_points(const LimitSurface& surface, const Points& control, const Points& queries,
+                             const ClosestPointOptions& options = {});
+
+}  // namespace sublimit

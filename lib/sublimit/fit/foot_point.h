@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// Feet of perpendiculars: from a place on a limit surface downhill to one that is nearest to a point among its
+// neighbours on the same square or triangle.
+#include "sublimit/limit/limit_surface.h"
+
+namespace sublimit {
+
+struct Foot {
+  Sample place;
+  double squared_distance = 0;
+};
+
+/// Newton's method on half the square of the distance, with the exact derivatives; where second ones do not exist,
+/// with what first ones tell of them (BFGS). Steps are halved until they go down, and end at the sides, along which the
+/// search goes on. At corners without derivatives it starts once more from close by.
+class FootSearch {
+ public:
+  /// @param surface    which must stay
+  /// @param triangles  whether addresses are triangles
+  /// @param size       of the surface: steps of 1e-14 of it are none
+  FootSearch(const BoundLimitSurface& surface, bool triangles, double size)
+      : surface_(surface), triangles_(triangles), tiny_(1e-14 * size) {}
+
+  /// @param order  of derivatives that the surface has, 2 or 1; set to 1 if it turns out so
+  Foot operator()(const Eigen::Vector3d& point, const Sample& start, int& order);
+
+ private:
+  struct State;
+  State at(const Eigen::Vector3d& point, const Sample& place, int order);
+  void descend(const Eigen::Vector3d& point, State& state, int& order);
+  Eigen::Vector2d direction(const State& state) const;
+
+  const BoundLimitSurface& surface_;
+  bool triangles_;
+  double tiny_;
+  LimitSamples samples_;
+};
+
+}  // namespace sublimit

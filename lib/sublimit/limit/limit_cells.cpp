@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sublimit/limit/limit_cells.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "sublimit/base/error.h"
+#include "sublimit/base/parallel_for.h"
+#include "sublimit/limit/limit_patches.h"
+#include "sublimit/limit/piece_hull.h"
+
+namespace sublimit {
+namespace {
+
+/// Thickness of a hull that is not cut further, relative to its width.
+constexpr double thin = 0.03;
+/// At most so many cells of a polynomial, 4^3, and of another piece.
+constexpr int polynomial_depth = 3, most_children = 64;
+/// Places a side of an address, by which cells know where they are.
+constexpr int places_a_side = 8;
+
+/// A place of the address, and where it is in the piece at hand.
+struct Known {
+  Sample sample;
+  Place place;
+};
+
+using Hull = std::vector<Eigen::Vector3d>;
+
+class Cutter {
+ public:
+  Cutter(bool convex, std::vector<LimitCell>& out) : convex_(convex), out_(out) {}
+
+  /// @param known  not empty
+  void cut(const PieceType& type, const Points& points, const std::vector<Known>& known, int parts) {
+    if (const PiecePolynomial* p = type.polynomial()) {
+      const Points differences = points.bottomRows(points.rows() - 1).rowwise() - points.row(0);
+      const BernsteinNets& nets = nets_of(p->basis);
+      std::vector<Points> coefficients;  // of both halves of a piece that is cut in two, on all of it
+      for (const RowMatrix& C : p->coefficients)
+        coefficients.push_back((nets.from_basis() * (C * differences)).rowwise() + points.row(0));
+      cut(nets, p->basis.total(), coefficients, known, polynomial_depth);
+      return;
+    }
+    const std::deque<PieceLink>& children = type.children();
+    if (parts * int(children.size()) <= most_children) {
+      for (const PieceLink& link : children) {
+        std::vector<Known> inside;
+        for (const Known& k : known)
+          if (link.map.contains(k.place)) inside.push_back({k.sample, link.map(k.place)});
+        if (inside.empty()) inside.push_back({known.front().sample, link.map(known.front().place)});
+        cut(*link.type, child_points(link, points), inside, parts * int(children.size()));
+      }
+      return;
+    }
+    Hull hull;
+    for (Eigen::Index i = 0; i < points.rows(); ++i) hull.push_back(points.row(i));
+    add(hull, middle(known, type.kind() == Piece::Kind::triangle), convex_ ? 0 : reach_of(type));
+  }
+
+ private:
+  void cut(const BernsteinNets& nets, bool triangle, const std::vector<Points>& coefficients,
+           const std::vector<Known>& known, int depth) {
+    Hull hull;
+    for (const Points& net : coefficients)
+      for (Eigen::Index i = 0; i < net.rows(); ++i) hull.push_back(net.row(i));
+    const LimitCell cell = cell_of(hull, middle(known, triangle), 0);
+    const Eigen::Vector3d size = cell.own_box.sizes();
+    if (depth == 0 || size[2] <= thin * std::max(size[0], size[1])) {
+      out_.push_back(cell);
+      return;
+    }
+    for (int k = 0; k < 4; ++k) {
+      std::vector<Points> quarter;
+      for (const Points& net : coefficients) quarter.push_back(nets.quarter(k) * net);
+      std::vector<Known> inside;
+      const auto in_quarter = [&](const Known& known_place) {
+        const Eigen::Vector2d p = BernsteinNets::in_quarter(k, triangle, known_place.place.u, known_place.place.v);
+        return Known{known_place.sample, triangle ? triangle_place(p.x(), p.y()) : quad_place(p.x(), p.y())};
+      };
+      for (const Known& one : known) {
+        const Known there = in_quarter(one);
+        const Place& p = there.place;
+        if (p.u >= 0 && p.v >= 0 && p.u1 >= 0 && (triangle || p.v1 >= 0)) inside.push_back(there);
+      }
+      if (inside.empty()) inside.push_back(in_quarter(known.front()));
+      cut(nets, triangle, quarter, inside, depth - 1);
+    }
+  }
+
+  static Sample middle(const std::vector<Known>& known, bool triangle) {
+    const double centre = triangle ? 1. / 3 : 0.5;
+    const auto off = [&](const Known& k) {
+      return std::max(std::abs(k.place.u - centre), std::abs(k.place.v - centre));
+    };
+    return std::min_element(known.begin(), known.end(), [&](const Known& a, const Known& b) { return off(a) < off(b); })
+        ->sample;
+  }
+
+  /// A box of the hull in some coordinates, widened.
+  static Eigen::AlignedBox3d box_of(const Hull& hull, const Eigen::Matrix3d& frame, double margin) {
+    Eigen::AlignedBox3d box;
+    double largest = 0;
+    for (const Eigen::Vector3d& p : hull) {
+      box.extend(frame * p);
+      largest = std::max(largest, p.cwiseAbs().maxCoeff());
+    }
+    // The hull is rounded as points of the surface are, and turned.
+    const Eigen::Vector3d wider = margin * box.sizes() + Eigen::Vector3d::Constant(1e-14 * largest);
+    return {box.min() - wider, box.max() + wider};
+  }
+
+  /// The last direction is across the longest extent of the points and the longest one across that.
+  static Eigen::Matrix3d frame_of(const Hull& hull) {
+    const Eigen::Vector3d from = hull.front();
+    Eigen::Vector3d x = Eigen::Vector3d::Zero(), z = Eigen::Vector3d::Zero();
+    for (const Eigen::Vector3d& p : hull)
+      if ((p - from).squaredNorm() > x.squaredNorm()) x = p - from;
+    for (const Eigen::Vector3d& p : hull)
+      if (const Eigen::Vector3d c = x.cross(p - from); c.squaredNorm() > z.squaredNorm()) z = c;
+    if (!(z.norm() > 0) || !std::isfinite(z.norm())) return Eigen::Matrix3d::Identity();
+    Eigen::Matrix3d frame;
+    frame.row(0) = x.normalized();
+    frame.row(2) = z.normalized();
+    frame.row(1) = frame.row(2).cross(frame.row(0));
+    return frame.allFinite() ? frame : Eigen::Matrix3d::Identity();
+  }
+
+  static LimitCell cell_of(const Hull& hull, const Sample& start, double margin) {
+    const Eigen::Matrix3d frame = frame_of(hull);
+    return {start, box_of(hull, Eigen::Matrix3d::Identity(), margin), frame, box_of(hull, frame, margin)};
+  }
+  void add(const Hull& hull, const Sample& start, double margin) { out_.push_back(cell_of(hull, start, margin)); }
+
+  const BernsteinNets& nets_of(const PolynomialBasis& basis) {
+    return nets_.try_emplace({basis.degree(), basis.total()}, basis).first->second;
+  }
+  double reach_of(const PieceType& type) {
+    const auto [at, is_new] = reach_.try_emplace(&type, 0);
+    if (is_new) at->second = reach(type);
+    return at->second;
+  }
+
+  bool convex_;
+  std::vector<LimitCell>& out_;
+  std::map<std::pair<int, bool>, BernsteinNets> nets_;
+  std::map<const PieceType*, double> reach_;
+};
+
+}  // namespace
+
+double LimitCell::squared_distance(const Eigen::Vector3d& point) const {
+  return std::max(box.squaredExteriorDistance(point), own_box.squaredExteriorDistance(Eigen::Vector3d(frame * point)));
+}
+
+std::vector<LimitCell> limit_cells(const LimitSurface& surface, const Points& points) {
+  const LimitSurface::Parts& parts = LimitPatches::parts_of(surface);
+  if (points.cols() != 3 || points.rows() != parts.level.topology().num_vertices())
+    throw InvalidParameter("cells need a point of three coordinates for each vertex");
+  const LimitSurface::Parts::Pieces& pieces = parts.pieces();
+  const Points fine = parts.prepared ? Points(parts.prepared->S * points) : Points();
+  const Points& x = parts.prepared ? fine : points;
+  const Index count = parts.addresses.size();
+  const bool triangles = parts.addresses.triangles();
+  constexpr std::int64_t addresses_a_block = 32;
+  std::vector<std::vector<LimitCell>> blocks(size_t(num_blocks(count, addresses_a_block)));
+  parallel_for_blocks(
+      count,
+      [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
+        Cutter cutter(parts.scheme.claims.convex_hull, blocks[size_t(block)]);
+        for (std::int64_t a = begin; a < end; ++a) {
+          std::map<Index, std::vector<Known>> known;  // by piece
+          for (int j = 0; j < places_a_side; ++j)
+            for (int i = 0; i < (triangles ? places_a_side - j : places_a_side); ++i) {
+              const double off = triangles ? 1. / 3 : 0.5;
+              const Sample s{Index(a), (i + off) / places_a_side, (j + off) / places_a_side};
+              const LimitSurface::Parts::Target target = parts.target(s);
+              if (parts.sides(target.piece) & LimitSurface::Parts::hole) continue;
+              known[parts.number(s, target)].push_back({s, target.place});
+            }
+          for (const auto& [piece, places] : known) {
+            const std::int64_t first = pieces.first[size_t(piece)], size = pieces.first[size_t(piece) + 1] - first;
+            Points local(size, 3);
+            for (std::int64_t j = 0; j < size; ++j) local.row(j) = x.row(pieces.vertices[size_t(first + j)]);
+            cutter.cut(*pieces.types[size_t(piece)], local, places, 1);
+          }
+        }
+      },
+      addresses_a_block);
+  std::vector<LimitCell> cells;
+  for (std::vector<LimitCell>& block : blocks) cells.insert(cells.end(), block.begin(), block.end());
+  return cells;
+}
+
+}  // namespace sublimit

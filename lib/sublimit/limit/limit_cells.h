@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// A limit surface with its points, cut into cells that are almost flat, each in a box that surely holds it: what
+// searches in space need.
+#include <vector>
+
+#include "sublimit/limit/limit_surface.h"
+
+namespace sublimit {
+
+struct LimitCell {
+  Sample start;             ///< a place in it or, of slivers, close to it
+  Eigen::AlignedBox3d box;  ///< along the axes
+  /// The same along directions of its own: rows of a rotation, the last one near the normal; in these coordinates.
+  Eigen::Matrix3d frame;
+  Eigen::AlignedBox3d own_box;
+
+  /// Square of the distance of a point from both boxes, at most that from the cell.
+  double squared_distance(const Eigen::Vector3d& point) const;
+};
+
+/// Cells of all of the surface but its holes, in the order of addresses.
+/// Polynomial pieces are cut until they are thin, others by their children; where weights are negative boxes are
+/// widened as `LimitSurface::bounding_boxes` does.
+/// @param points  of the level, #V x 3
+/// @throws InvalidParameter  points that do not fit
+std::vector<LimitCell> limit_cells(const LimitSurface& surface, const Points& points);
+
+}  // namespace sublimit

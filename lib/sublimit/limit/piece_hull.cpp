@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sublimit/limit/piece_hull.h"
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <cmath>
+
+namespace sublimit {
+namespace {
+
+double binomial(int n, int k) {
+  double value = 1;
+  for (int i = 1; i <= k; ++i) value = value * (n - k + i) / i;
+  return std::round(value);
+}
+
+/// Bernstein polynomials at a place, in the order of the basis.
+Eigen::RowVectorXd bernstein(int d, bool total, double u, double v) {
+  Eigen::RowVectorXd row(total ? (d + 1) * (d + 2) / 2 : (d + 1) * (d + 1));
+  int column = 0;
+  for (int k = 0; k <= d; ++k)
+    for (int l = 0; l <= (total ? d - k : d); ++l, ++column)
+      row[column] =
+          total ? binomial(d, k) * binomial(d - k, l) * std::pow(u, k) * std::pow(v, l) * std::pow(1 - u - v, d - k - l)
+                : binomial(d, k) * std::pow(u, k) * std::pow(1 - u, d - k) * binomial(d, l) * std::pow(v, l) *
+                      std::pow(1 - v, d - l);
+  return row;
+}
+
+/// Calls node(row, u, v) at the nodes of the net.
+template <class Node>
+void for_each_node(const PolynomialBasis& basis, const Node& node) {
+  const int d = basis.degree();
+  int row = 0;
+  for (int i = 0; i <= d; ++i)
+    for (int j = 0; j <= (basis.total() ? d - i : d); ++j, ++row) node(row, double(i) / d, double(j) / d);
+}
+
+/// Bernstein polynomials, by columns, at the nodes.
+Eigen::MatrixXd nodes_of(const PolynomialBasis& basis) {
+  Eigen::MatrixXd values(basis.size(), basis.size());
+  for_each_node(basis,
+                [&](int row, double u, double v) { values.row(row) = bernstein(basis.degree(), basis.total(), u, v); });
+  return values;
+}
+
+}  // namespace
+
+Eigen::Vector2d BernsteinNets::in_quarter(int k, bool triangle, double u, double v) {
+  if (triangle && k == 3) return {1 - 2 * u, 1 - 2 * v};  // the middle one lies upside down
+  return {2 * u - (k & 1), 2 * v - (k >> 1)};
+}
+
+Eigen::MatrixXd bernstein_from(const PolynomialBasis& basis) {
+  Eigen::MatrixXd ours(basis.size(), basis.size());
+  for_each_node(basis, [&](int row, double u, double v) { ours.row(row) = basis.at(u, v, 0); });
+  return nodes_of(basis).fullPivLu().solve(ours);
+}
+
+BernsteinNets::BernsteinNets(const PolynomialBasis& basis) : from_basis_(bernstein_from(basis)) {
+  const int n = basis.size();
+  const bool triangle = basis.total();
+  const Eigen::FullPivLU<Eigen::MatrixXd> interpolation(nodes_of(basis));
+  for (int k = 0; k < 4; ++k) {
+    Eigen::MatrixXd values(n, n);
+    for_each_node(basis, [&](int row, double u, double v) {
+      const bool turned = triangle && k == 3;
+      values.row(row) = turned ? bernstein(basis.degree(), true, (1 - u) / 2, (1 - v) / 2)
+                               : bernstein(basis.degree(), triangle, (u + (k & 1)) / 2, (v + (k >> 1)) / 2);
+    });
+    quarters_[size_t(k)] = interpolation.solve(values);
+  }
+}
+
+double reach(const PieceType& type) {
+  double most = 0;
+  const int corners = type.kind() == Piece::Kind::triangle ? 3 : 4;
+  for (const PieceLink& link : type.children())
+    for (int c = 0; c < corners; ++c) {
+      const RowMatrix row = link.block.pulled_back(link.type->corner_limit(c));
+      const double own = 1 - row.sum();  // of slot 0
+      most = std::max(most, row.cwiseMin(0).cwiseAbs().sum() + std::max(0.0, -own));
+    }
+  return 2 * most;
+}
+
+Points child_points(const PieceLink& link, const Points& points) {
+  const Points differences = points.bottomRows(points.rows() - 1).rowwise() - points.row(0);
+  const RowMatrix D = link.block.differences();
+  Points child(D.rows() + 1, points.cols());
+  child.row(0) = points.row(0) + link.block.origin() * differences;
+  child.bottomRows(D.rows()) = (D * differences).rowwise() + child.row(0);
+  return child;
+}
+
+}  // namespace sublimit

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// What holds a piece of the limit: a polynomial lies in the hull of its Bernstein coefficients; any other piece in the
+// hull of the points that it depends on, if no weight is negative. Where some are, a place has its weights' absolute
+// sum, at most `reach` times the points' distance from one of them.
+#include <array>
+
+#include "sublimit/limit/piece_types.h"
+
+namespace sublimit {
+
+/// Bernstein coefficients on the square or the triangle, by i, then j, by those of the basis.
+Eigen::MatrixXd bernstein_from(const PolynomialBasis& basis);
+
+/// The same, and those on the quarters of the square or triangle.
+class BernsteinNets {
+ public:
+  explicit BernsteinNets(const PolynomialBasis& basis);
+  /// Coefficients by those of the basis.
+  const Eigen::MatrixXd& from_basis() const { return from_basis_; }
+  /// Coefficients on a quarter by those on the whole.
+  const Eigen::MatrixXd& quarter(int k) const { return quarters_[size_t(k)]; }
+  /// The place in a quarter of a place in the whole; outside of [0, 1] it is in another one.
+  static Eigen::Vector2d in_quarter(int k, bool triangle, double u, double v);
+
+ private:
+  Eigen::MatrixXd from_basis_;
+  std::array<Eigen::MatrixXd, 4> quarters_;
+};
+
+/// How far the limit leaves the points, relative to their extent, where weights are negative: seen at the corners of
+/// descendants, and doubled for what lies between.
+double reach(const PieceType& type);
+
+/// Points of a child of a piece.
+Points child_points(const PieceLink& link, const Points& points);
+
+}  // namespace sublimit
