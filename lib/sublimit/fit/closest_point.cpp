@@ -47,7 +47,7 @@ struct Search {
   Result operator()(const Eigen::Vector3d& query, const Sample* guess, FootSearch& foot_search, int& order,
                     std::vector<Candidate>& heap) const {
     Result best{{{}, std::numeric_limits<double>::infinity()}};
-    if (guess) best.foot = foot_search(query, *guess, order);
+    if (guess) best.foot = foot_search(query, *guess, order, best.foot.squared_distance);
     // What is no nearer than this will not be missed.
     const auto near_enough = [&] {
       const double distance = std::sqrt(best.foot.squared_distance) - tolerance;
@@ -71,7 +71,7 @@ struct Search {
           best.gap = std::sqrt(best.foot.squared_distance) - std::sqrt(nearest.squared_distance);
           break;
         }
-        const Foot foot = foot_search(query, cells[size_t(node.item)].start, order);
+        const Foot foot = foot_search(query, cells[size_t(node.item)].start, order, best.foot.squared_distance);
         if (foot.squared_distance < best.foot.squared_distance) {
           best.foot = foot;
           limit = near_enough();

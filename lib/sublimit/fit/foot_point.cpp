@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sublimit/fit/foot_point.h"
 
+#include <Eigen/Dense>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,7 +15,8 @@ struct FootSearch::State {
   int order = 0;
   Eigen::Vector2d g = Eigen::Vector2d::Zero();
   Eigen::Matrix2d first = Eigen::Matrix2d::Zero();  ///< of first derivatives: their scalar products
-  Eigen::Matrix2d H = Eigen::Matrix2d::Zero();      ///< of f, positive definite
+  Eigen::Matrix2d exact = Eigen::Matrix2d::Zero();  ///< second derivatives of f, or what stands for them
+  Eigen::Matrix2d H = Eigen::Matrix2d::Zero();      ///< the same made positive definite
 };
 
 namespace {
@@ -40,6 +43,26 @@ double inside(const Sample& s, size_t side, bool triangles) {
   }
 }
 
+bool is_corner(const Sample& s, bool triangles) {
+  int sides = 0;
+  for (size_t k = 0; k < (triangles ? 3 : 4); ++k) sides += inside(s, k, triangles) <= 0;
+  return sides >= 2;
+}
+
+/// A part of the way to the centre.
+Sample inwards(const Sample& s, double part, bool triangles) {
+  const double centre = triangles ? 0.375 : 0.5;
+  return {s.face, s.u + part * (centre - s.u), s.v + part * (centre - s.v)};
+}
+
+/// Coordinates of iterates are as short as their steps allow: where the surface is no polynomial, a place costs a level
+/// a digit.
+double shortened(double x, double step) {
+  constexpr int digits = 16;
+  const double unit = std::ldexp(1.0, std::max(-60, std::ilogb(step)) - digits);
+  return unit < 1e-15 ? x : std::round(x / unit) * unit;
+}
+
 /// The place t steps on, not beyond the first side in the way, and then on it.
 Sample moved(const Sample& s, const Eigen::Vector2d& d, double& t, bool triangles) {
   int hit = -1;
@@ -52,18 +75,37 @@ Sample moved(const Sample& s, const Eigen::Vector2d& d, double& t, bool triangle
       hit = int(k);
     }
   }
-  Sample to{s.face, std::clamp(s.u + t * d.x(), 0.0, 1.0), std::clamp(s.v + t * d.y(), 0.0, 1.0)};
-  if (hit == 0) to.u = 0;
-  if (hit == 1) to.v = 0;
-  if (hit == 2 && !triangles) to.u = 1;
-  if (hit == 3) to.v = 1;
-  if (triangles && (hit == 2 || to.u + to.v > 1)) to.v = 1 - to.u;
-  return to;
+  const double step = t * d.cwiseAbs().maxCoeff();
+  if (!(step > 0)) return s;
+  const auto to = [&](double x, double dx) { return dx == 0 ? x : std::clamp(shortened(x + t * dx, step), 0.0, 1.0); };
+  Sample place{s.face, to(s.u, d.x()), to(s.v, d.y())};
+  if (hit == 0) place.u = 0;
+  if (hit == 1) place.v = 0;
+  if (hit == 2 && !triangles) place.u = 1;
+  if (hit == 3) place.v = 1;
+  if (triangles && (hit == 2 || place.u + place.v > 1)) place.v = 1 - place.u;
+  return place;
 }
 
-bool is_definite(const Eigen::Matrix2d& H, const Eigen::Matrix2d& first) {
-  const double det = H.determinant(), least = 1e-6 * first.determinant();
-  return H(0, 0) > 0 && det > least && det > 0;
+/// H with its eigenvalues by the metric `first` made positive, and not too small.
+Eigen::Matrix2d made_definite(const Eigen::Matrix2d& H, const Eigen::Matrix2d& first) {
+  constexpr double least = 0.02;
+  const Eigen::Matrix2d L = first.llt().matrixL();
+  if (!(L(0, 0) > 0) || !(L(1, 1) > 0) || !L.allFinite()) return first;
+  const auto solve = [&](const Eigen::Matrix2d& m) {
+    return Eigen::Matrix2d(L.triangularView<Eigen::Lower>().solve(m));
+  };
+  const Eigen::Matrix2d M = solve(solve(H).transpose());
+  const double mean = (M(0, 0) + M(1, 1)) / 2, off = (M(0, 1) + M(1, 0)) / 2, half = (M(0, 0) - M(1, 1)) / 2;
+  const double radius = std::hypot(half, off);
+  if (mean - radius >= least) return H;
+  const double low = std::max(std::abs(mean - radius), least), high = std::max(std::abs(mean + radius), least);
+  // M = mean + [half off; off -half], so the projector to its larger eigenvalue is half of 1 + that over the radius.
+  Eigen::Matrix2d turn;
+  turn << half, off, off, -half;
+  const Eigen::Matrix2d P = radius > 0 ? Eigen::Matrix2d((Eigen::Matrix2d::Identity() + turn / radius) / 2)
+                                       : Eigen::Matrix2d(Eigen::Matrix2d::Identity());
+  return L * (high * P + low * (Eigen::Matrix2d::Identity() - P)) * L.transpose();
 }
 
 }  // namespace
@@ -75,22 +117,26 @@ FootSearch::State FootSearch::at(const Eigen::Vector3d& point, const Sample& pla
   const Eigen::Vector3d r = samples_.position.row(0).transpose() - point;
   s.f = r.squaredNorm() / 2;
   s.order = samples_.order[0];
+  if (s.order == 0 && order > 0 && !is_corner(place, triangles_)) {
+    // A side of a surface that has no derivatives there: those from inside.
+    const Sample close = inwards(place, std::ldexp(1.0, -24), triangles_);
+    surface_.evaluate({&close, 1}, order, false, samples_);
+    s.order = samples_.order[0];
+  }
   if (s.order == 0) return s;
   const Eigen::Vector3d du = samples_.du.row(0), dv = samples_.dv.row(0);
   s.g = {r.dot(du), r.dot(dv)};
   s.first << du.dot(du), du.dot(dv), du.dot(dv), dv.dot(dv);
-  s.H = s.first;
+  s.first.diagonal().array() += 1e-13 * s.first.trace();  // where tangents are parallel any way downhill will do
+  s.exact = s.H = s.first;
   if (s.order == 2) {
     const double uv = r.dot(samples_.duv.row(0));
-    Eigen::Matrix2d H = s.first;
-    H(0, 0) += r.dot(samples_.duu.row(0));
-    H(1, 1) += r.dot(samples_.dvv.row(0));
-    H(0, 1) += uv;
-    H(1, 0) += uv;
-    if (is_definite(H, s.first)) s.H = H;
+    s.exact(0, 0) += r.dot(samples_.duu.row(0));
+    s.exact(1, 1) += r.dot(samples_.dvv.row(0));
+    s.exact(0, 1) += uv;
+    s.exact(1, 0) += uv;
+    s.H = made_definite(s.exact, s.first);
   }
-  // Where tangents are parallel any direction downhill will do.
-  s.H.diagonal().array() += 1e-13 * s.first.trace();
   return s;
 }
 
@@ -108,7 +154,7 @@ Eigen::Vector2d FootSearch::direction(const State& s) const {
     blocked |= on[k] && side(k).normal.dot(newton) > 0;
   }
   if (!blocked) return newton;
-  // Along the sides.
+  // Along the sides; straight downhill where that leads inside, and much further down.
   Eigen::Vector2d best = Eigen::Vector2d::Zero();
   double most = 0;
   bool inward = true;
@@ -116,17 +162,16 @@ Eigen::Vector2d FootSearch::direction(const State& s) const {
     if (!on[k]) continue;
     inward &= side(k).normal.dot(s.g) > 0;
     const Eigen::Vector2d& along = side(k).along;
-    const double curve = along.dot(s.H * along);
+    const double exact = along.dot(s.exact * along), least = 0.02 * along.dot(s.first * along);
+    const double curve = std::max(std::abs(exact), least);
     const Eigen::Vector2d d = -(s.g.dot(along) / curve) * along;
     bool possible = curve > 0;
     for (size_t j = 0; j < count; ++j)
       if (j != k && on[j] && side(j).normal.dot(d) > 0) possible = false;
     if (possible && -s.g.dot(d) > most) most = -s.g.dot(d), best = d;
   }
-  // Straight downhill where that leads inside, and further down.
-  const double curve = s.g.dot(s.H * s.g);
-  if (inward && curve > 0 && s.g.squaredNorm() * s.g.squaredNorm() / curve > most)
-    return -(s.g.squaredNorm() / curve) * s.g;
+  const double curve = s.g.dot(s.H * s.g), square = s.g.squaredNorm();
+  if (inward && curve > 0 && square * square / curve > 100 * most) return -(square / curve) * s.g;
   return best;
 }
 
@@ -156,27 +201,44 @@ void FootSearch::descend(const Eigen::Vector3d& point, State& s, int& order) {
       const Eigen::Vector2d dx(next.place.u - s.place.u, next.place.v - s.place.v), dg = next.g - s.g;
       const Eigen::Vector2d Hdx = s.H * dx;
       if (dx.dot(dg) > 1e-3 * dx.dot(s.first * dx) && dx.dot(Hdx) > 0)
-        next.H = s.H - Hdx * Hdx.transpose() / dx.dot(Hdx) + dg * dg.transpose() / dx.dot(dg);
+        next.exact = next.H = s.H - Hdx * Hdx.transpose() / dx.dot(Hdx) + dg * dg.transpose() / dx.dot(dg);
     }
     s = next;
     if (last) return;
   }
 }
 
-Foot FootSearch::operator()(const Eigen::Vector3d& point, const Sample& start, int& order) {
+Foot FootSearch::operator()(const Eigen::Vector3d& point, const Sample& start, int& order, double nearest) {
   State s = at(point, start, order);
-  const auto nudged = [&](const Sample& p) {
-    constexpr double in = 1.0 / 1024;
-    const double centre = triangles_ ? 1. / 3 : 0.5;
-    return Sample{p.face, p.u + in * (centre - p.u), p.v + in * (centre - p.v)};
-  };
   descend(point, s, order);
   if (s.order == 0) {
-    State again = at(point, nudged(s.place), order);
+    State again = at(point, inwards(s.place, 1.0 / 1024, triangles_), order);
     descend(point, again, order);
     if (again.f < s.f) s = again;
   }
+  if (s.order == 0 && 2 * s.f < nearest) probe(point, s, order);
   return {s.place, 2 * s.f};
+}
+
+void FootSearch::probe(const Eigen::Vector3d& point, State& s, int& order) {
+  const std::array<Eigen::Vector2d, 8> ways{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}, {1, 1}, {-1, -1}, {1, -1}, {-1, 1}}};
+  for (double h = 1.0 / 16; h > 1e-13;) {
+    State best = s;
+    for (const Eigen::Vector2d& way : ways) {
+      double t = h;
+      const State there = at(point, moved(s.place, way, t, triangles_), 0);
+      if (there.f < best.f) best = there;
+    }
+    if (best.f < s.f) {
+      s = best;
+      State down = at(point, s.place, order);
+      descend(point, down, order);
+      if (down.f < s.f) s = down;
+      if (s.order > 0) return;
+    } else {
+      h /= 2;
+    }
+  }
 }
 
 }  // namespace sublimit

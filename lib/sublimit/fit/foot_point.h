@@ -13,7 +13,7 @@ struct Foot {
 
 /// Newton's method on half the square of the distance, with the exact derivatives; where second ones do not exist,
 /// with what first ones tell of them (BFGS). Steps are halved until they go down, and end at the sides, along which the
-/// search goes on. At corners without derivatives it starts once more from close by.
+/// search goes on. At places without derivatives it starts once more from close by, then goes by trying.
 class FootSearch {
  public:
   /// @param surface    which must stay
@@ -22,13 +22,16 @@ class FootSearch {
   FootSearch(const BoundLimitSurface& surface, bool triangles, double size)
       : surface_(surface), triangles_(triangles), tiny_(1e-14 * size) {}
 
-  /// @param order  of derivatives that the surface has, 2 or 1; set to 1 if it turns out so
-  Foot operator()(const Eigen::Vector3d& point, const Sample& start, int& order);
+  /// @param order    of derivatives that the surface has, 2 or 1; set to 1 if it turns out so
+  /// @param nearest  square of a distance: what is farther is not tried to the end
+  Foot operator()(const Eigen::Vector3d& point, const Sample& start, int& order, double nearest);
 
  private:
   struct State;
   State at(const Eigen::Vector3d& point, const Sample& place, int order);
   void descend(const Eigen::Vector3d& point, State& state, int& order);
+  /// Downhill without derivatives, by steps in eight directions.
+  void probe(const Eigen::Vector3d& point, State& state, int& order);
   Eigen::Vector2d direction(const State& state) const;
 
   const BoundLimitSurface& surface_;

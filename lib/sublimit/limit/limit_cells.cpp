@@ -54,9 +54,17 @@ class Cutter {
       }
       return;
     }
+    const Sample start = middle(known, type.kind() == Piece::Kind::triangle);
     Hull hull;
-    for (Eigen::Index i = 0; i < points.rows(); ++i) hull.push_back(points.row(i));
-    add(hull, middle(known, type.kind() == Piece::Kind::triangle), convex_ ? 0 : reach_of(type));
+    if (type.types().has_no_polynomials()) {
+      const Points differences = points.bottomRows(points.rows() - 1).rowwise() - points.row(0);
+      const Points seen = (limits_of(type) * differences).rowwise() + points.row(0);
+      for (Eigen::Index i = 0; i < seen.rows(); ++i) hull.push_back(seen.row(i));
+      out_.push_back(cell_of(hull, start, 0.25, 0.02));
+    } else {
+      for (Eigen::Index i = 0; i < points.rows(); ++i) hull.push_back(points.row(i));
+      out_.push_back(cell_of(hull, start, convex_ ? 0 : reach_of(type), 0));
+    }
   }
 
  private:
@@ -65,7 +73,7 @@ class Cutter {
     Hull hull;
     for (const Points& net : coefficients)
       for (Eigen::Index i = 0; i < net.rows(); ++i) hull.push_back(net.row(i));
-    const LimitCell cell = cell_of(hull, middle(known, triangle), 0);
+    const LimitCell cell = cell_of(hull, middle(known, triangle), 0, 0);
     const Eigen::Vector3d size = cell.own_box.sizes();
     if (depth == 0 || size[2] <= thin * std::max(size[0], size[1])) {
       out_.push_back(cell);
@@ -99,7 +107,7 @@ class Cutter {
   }
 
   /// A box of the hull in some coordinates, widened.
-  static Eigen::AlignedBox3d box_of(const Hull& hull, const Eigen::Matrix3d& frame, double margin) {
+  static Eigen::AlignedBox3d box_of(const Hull& hull, const Eigen::Matrix3d& frame, double margin, double of_width) {
     Eigen::AlignedBox3d box;
     double largest = 0;
     for (const Eigen::Vector3d& p : hull) {
@@ -107,7 +115,8 @@ class Cutter {
       largest = std::max(largest, p.cwiseAbs().maxCoeff());
     }
     // The hull is rounded as points of the surface are, and turned.
-    const Eigen::Vector3d wider = margin * box.sizes() + Eigen::Vector3d::Constant(1e-14 * largest);
+    const Eigen::Vector3d wider =
+        margin * box.sizes() + Eigen::Vector3d::Constant(of_width * box.sizes().maxCoeff() + 1e-14 * largest);
     return {box.min() - wider, box.max() + wider};
   }
 
@@ -127,11 +136,29 @@ class Cutter {
     return frame.allFinite() ? frame : Eigen::Matrix3d::Identity();
   }
 
-  static LimitCell cell_of(const Hull& hull, const Sample& start, double margin) {
+  /// @param margin, of_width  widen the box by parts of its own sizes, and of the largest one
+  static LimitCell cell_of(const Hull& hull, const Sample& start, double margin, double of_width) {
     const Eigen::Matrix3d frame = frame_of(hull);
-    return {start, box_of(hull, Eigen::Matrix3d::Identity(), margin), frame, box_of(hull, frame, margin)};
+    return {start, box_of(hull, Eigen::Matrix3d::Identity(), margin, of_width), frame,
+            box_of(hull, frame, margin, of_width)};
   }
-  void add(const Hull& hull, const Sample& start, double margin) { out_.push_back(cell_of(hull, start, margin)); }
+
+  /// Rows of a net of places all over the piece, in differences.
+  const RowMatrix& limits_of(const PieceType& type) {
+    const auto [at, is_new] = limits_.try_emplace(&type);
+    if (!is_new) return at->second;
+    constexpr int steps = 4;
+    const bool triangle = type.kind() == Piece::Kind::triangle;
+    std::vector<RowMatrix> rows;
+    for (int j = 0; j <= steps; ++j)
+      for (int i = 0; i <= (triangle ? steps - j : steps); ++i) {
+        const double u = double(i) / steps, v = double(j) / steps;
+        rows.push_back(piece_rows(type, triangle ? triangle_place(u, v) : quad_place(u, v), 0).rows);
+      }
+    at->second.resize(Eigen::Index(rows.size()), type.num_slots() - 1);
+    for (size_t i = 0; i < rows.size(); ++i) at->second.row(Eigen::Index(i)) = rows[i].row(0);
+    return at->second;
+  }
 
   const BernsteinNets& nets_of(const PolynomialBasis& basis) {
     return nets_.try_emplace({basis.degree(), basis.total()}, basis).first->second;
@@ -146,6 +173,7 @@ class Cutter {
   std::vector<LimitCell>& out_;
   std::map<std::pair<int, bool>, BernsteinNets> nets_;
   std::map<const PieceType*, double> reach_;
+  std::map<const PieceType*, RowMatrix> limits_;
 };
 
 }  // namespace
@@ -173,7 +201,8 @@ std::vector<LimitCell> limit_cells(const LimitSurface& surface, const Points& po
           std::map<Index, std::vector<Known>> known;  // by piece
           for (int j = 0; j < places_a_side; ++j)
             for (int i = 0; i < (triangles ? places_a_side - j : places_a_side); ++i) {
-              const double off = triangles ? 1. / 3 : 0.5;
+              // Short numbers, and off the middle lines: there second derivatives may jump.
+              const double off = triangles ? 0.3125 : 0.4375;
               const Sample s{Index(a), (i + off) / places_a_side, (j + off) / places_a_side};
               const LimitSurface::Parts::Target target = parts.target(s);
               if (parts.sides(target.piece) & LimitSurface::Parts::hole) continue;

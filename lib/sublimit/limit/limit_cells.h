@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// A limit surface with its points, cut into cells that are almost flat, each in a box that surely holds it: what
+// A limit surface with its points, cut into cells that are almost flat, each in boxes that hold it: what
 // searches in space need.
 #include <vector>
 
@@ -20,8 +20,9 @@ struct LimitCell {
 };
 
 /// Cells of all of the surface but its holes, in the order of addresses.
-/// Polynomial pieces are cut until they are thin, others by their children; where weights are negative boxes are
-/// widened as `LimitSurface::bounding_boxes` does.
+/// Polynomial pieces are cut until they are thin, and boxes hold their Bernstein coefficients; near extraordinary
+/// vertices pieces are cut into children, and boxes hold all points that these depend on. Where no piece is a
+/// polynomial that would be much too wide: there boxes hold a net of limit points, widened by a quarter.
 /// @param points  of the level, #V x 3
 /// @throws InvalidParameter  points that do not fit
 std::vector<LimitCell> limit_cells(const LimitSurface& surface, const Points& points);
