@@ -46,7 +46,7 @@ Conditioning sparse_conditioning(const SparseMatrix& rows, double tolerance, Ind
   Index vanishing = 0;
   for (const double s : least.values) vanishing += s <= tolerance * result.largest;
   result.singular_values = least.values;
-  result.rank = Index(flat.rows()) - vanishing;
+  result.rank = result.largest > 0 ? Index(flat.rows()) - vanishing : 0;
   if (result.rank > 0) result.smallest = vanishing < least.values.size() ? least.values[vanishing] : result.largest;
   result.free = Points(result.columns, 0);
   result.dependent = Points(result.rows, 0);

@@ -17,10 +17,15 @@ struct Conditioning {
   double condition() const { return rank > 0 ? largest / smallest : 0; }
 };
 
+/// A dense decomposition up to 600 rows or columns. Above that the ends of the spectrum: `largest` from below, the
+/// least ones from above, to 1e-9 where they keep apart and to 1e-3 where thousands crowd (on large grids); zeros are
+/// zero to rounding. Directions that are there by shape alone (free ones where there are fewer rows than columns,
+/// dependent ones where there are more) are listed by the dense decomposition only.
 /// @param tolerance  of singular values, relative to the largest one
-/// @note  A dense decomposition up to some hundred columns, above that the ends of the spectrum by inverse iteration.
-/// Of more
-///        than `most_directions` vanishing directions only so many are returned, and the rank is a bound from above.
+/// @note  Of more than `most_directions` vanishing directions only so many are found, and the rank is a bound from
+/// above. Deterministic.
+/// @throws InvalidParameter  weights that are not finite, a negative tolerance
+/// @throws ResourceError     factors larger than memory
 Conditioning conditioning(const SparseMatrix& rows, double tolerance = 1e-10, Index most_directions = 64);
 
 }  // namespace sublimit

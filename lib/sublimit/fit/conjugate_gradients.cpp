@@ -11,6 +11,9 @@ namespace {
 
 using Row = Eigen::RowVectorXd;
 
+// Of eigenvalues of D^-1 S, whose largest ones are about 1.
+constexpr double unseen = 1e-14;
+
 Row sum_of(const std::vector<Row>& parts, Eigen::Index channels) {
   Row sum = Row::Zero(channels);
   for (const Row& part : parts) sum += part;
@@ -26,7 +29,8 @@ class Iteration {
   using Few = Eigen::Matrix<double, 1, Channels>;
 
   Iteration(const Eigen::VectorXd& diagonal, Points& residual)
-      : inverse_(diagonal.unaryExpr([](double d) { return d > 0 ? 1 / d : 0; })),
+      : diagonal_(diagonal),
+        inverse_(diagonal.unaryExpr([](double d) { return d > 0 ? 1 / d : 0; })),
         r_(residual),
         u_(Points::Zero(residual.rows(), residual.cols())),
         p_(Points::Zero(residual.rows(), residual.cols())),
@@ -45,9 +49,22 @@ class Iteration {
     });
   }
 
-  Row product_with(const Points& q) {
+  /// p^T other
+  Row product_with(const Points& other) {
     each_block([&](std::int64_t block, auto begin, auto count) {
-      parts_[block] = view(p_).middleRows(begin, count).cwiseProduct(view(q).middleRows(begin, count)).colwise().sum();
+      parts_[block] =
+          view(p_).middleRows(begin, count).cwiseProduct(view(other).middleRows(begin, count)).colwise().sum();
+    });
+    return sum_of(parts_, r_.cols());
+  }
+
+  /// p^T D p
+  Row length() {
+    each_block([&](std::int64_t block, auto begin, auto count) {
+      parts_[block] =
+          (view(p_).middleRows(begin, count).array().square().colwise() * diagonal_.segment(begin, count).array())
+              .colwise()
+              .sum();
     });
     return sum_of(parts_, r_.cols());
   }
@@ -92,7 +109,7 @@ class Iteration {
     });
   }
 
-  Eigen::VectorXd inverse_;
+  Eigen::VectorXd diagonal_, inverse_;
   Points& r_;
   Points u_, p_;
   std::vector<Row> parts_;
@@ -106,10 +123,12 @@ Points run(const std::function<Points(const Points&)>& S, const Eigen::VectorXd&
   for (int iteration = 1; square.maxCoeff() > 0; ++iteration) {
     state.turn(beta);
     const Points q = S(state.direction());
-    const Row curvature = state.product_with(q);
-    // A channel that is solved, or whose direction S does not see, stays where it is.
+    const Row curvature = state.product_with(q), length = state.length();
+    // A channel that is solved stays where it is, and so does one whose direction S does not see: rounding put it
+    // there.
     Row alpha(square.size());
-    for (Eigen::Index c = 0; c < alpha.size(); ++c) alpha[c] = curvature[c] > 0 ? square[c] / curvature[c] : 0;
+    for (Eigen::Index c = 0; c < alpha.size(); ++c)
+      alpha[c] = curvature[c] > unseen * length[c] ? square[c] / curvature[c] : 0;
     if (alpha.maxCoeff() == 0) break;
     const Row next = state.advance(alpha, q);
     for (Eigen::Index c = 0; c < alpha.size(); ++c) beta[c] = square[c] > 0 ? next[c] / square[c] : 0;

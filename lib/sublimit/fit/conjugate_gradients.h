@@ -11,7 +11,8 @@ namespace sublimit {
 
 /// S u = right, u = 0 at first, S symmetric, positive semidefinite.
 /// @param S         S * p
-/// @param diagonal  of the preconditioner, >= 0; where it is zero u stays zero, whatever remains there
+/// @param diagonal  of the preconditioner, >= 0, about as large as S; where it is zero u stays zero, whatever remains
+/// there
 /// @param residual  right; what remains of it in the end
 /// @param go_on     told the number of iterations and the largest entry of the residual after each; false stops
 /// @return  u

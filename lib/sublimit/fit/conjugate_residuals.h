@@ -21,8 +21,10 @@ class ConjugateResiduals {
       effect -= p.effect * along.asDiagonal();
       step -= p.step * along.asDiagonal();
     }
+    // A step that takes next to nothing is rounding, and would be made large.
+    const Eigen::RowVectorXd whole = residual.colwise().norm();
     Eigen::RowVectorXd length = effect.colwise().norm();
-    for (double& l : length) l = l > 0 ? 1 / l : 0;
+    for (Eigen::Index c = 0; c < length.size(); ++c) length[c] = length[c] > worth * whole[c] ? 1 / length[c] : 0;
     effect = (effect * length.asDiagonal()).eval();
     step = (step * length.asDiagonal()).eval();
     if (past_.size() == memory_) past_.erase(past_.begin());
@@ -34,6 +36,7 @@ class ConjugateResiduals {
   struct Pair {
     Points step, effect;
   };
+  static constexpr double worth = 1e-5;
   std::size_t memory_;
   std::vector<Pair> past_;
 };

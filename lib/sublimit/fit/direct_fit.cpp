@@ -21,8 +21,9 @@ namespace {
 
 // Of rows of C at unit length. Below it, products of C swallow the digits of Q: eps / delta must stay far below rho.
 constexpr double delta = 1e-5;
-// Of Q at unit size: what regular problems can bear, and what singular ones need.
+// Of Q at unit size: what regular problems can bear, and what singular ones need; smaller where no C takes digits.
 constexpr double rho_regular = 1e-9, rho_singular = 1e-6;
+constexpr double rho_regular_alone = 1e-12, rho_singular_alone = 1e-8;
 // Of C C^T alone, where nothing else has digits to lose.
 constexpr double delta_alone = 1e-9;
 
@@ -46,18 +47,19 @@ struct Residual {
   double relative() const { return std::max(gradient, rows); }
 };
 
-/// One way of writing the problem as a symmetric system of unknowns z.
+/// One way of writing the problem as a linear system of unknowns z.
 class System {
  public:
   virtual ~System() = default;
   virtual Points start() const = 0;
   virtual Points points(const Points& z) const = 0;
   virtual Residual residual(const Points& z) const = 0;
-  virtual Points step(const Points& residual) const = 0;
-  virtual Points effect(const Points& step) const = 0;
+  virtual Points step(const Points& residual) const = 0;  ///< of z, that about brings the residual to zero
+  virtual Points effect(const Points& step) const = 0;    ///< what a step takes from the residual
 };
 
-/// Only C x = d, at most as many rows as unknowns: z = m.
+/// Only C x = d, at most as many rows as unknowns: z = x, all of whose steps lie in the range of C^T. (Adding to m
+/// instead would round where m is large.)
 class LeastChange : public System {
  public:
   explicit LeastChange(const FitTerms& terms)
@@ -65,16 +67,16 @@ class LeastChange : public System {
         C_(scaled_rows(terms.problem.C, terms.row_length)),
         Ct_(transposed(C_)),
         cholesky_(SparseMatrix(product(C_, Ct_) + diagonal(Index(C_.rows()), delta_alone))) {}
-  Points start() const override { return Points::Zero(C_.rows(), t_.problem.x0.cols()); }
-  Points points(const Points& z) const override { return t_.problem.x0 + apply(Ct_, z); }
-  Residual residual(const Points& z) const override {
-    const Points x = points(z), gap = t_.gap(x);
+  Points start() const override { return t_.problem.x0; }
+  Points points(const Points& z) const override { return z; }
+  Residual residual(const Points& x) const override {
+    const Points gap = t_.gap(x);
     Residual r{.values = t_.row_length.cwiseInverse().asDiagonal() * gap, .rows = t_.relative_gap(gap, x)};
-    r.least_squares = largest(apply(Ct_, r.values)) / std::max({largest(z), largest(r.values), 1e-300});
+    r.least_squares = largest(apply(Ct_, r.values)) / std::max({largest(x), largest(r.values), 1e-300});
     return r;
   }
-  Points step(const Points& residual) const override { return cholesky_.solve(residual); }
-  Points effect(const Points& step) const override { return apply(C_, apply(Ct_, step)); }
+  Points step(const Points& residual) const override { return apply(Ct_, cholesky_.solve(residual)); }
+  Points effect(const Points& step) const override { return apply(C_, step); }
 
  private:
   const FitTerms& t_;
@@ -85,16 +87,19 @@ class LeastChange : public System {
 /// Anything: z = (x, l).
 class Saddle : public System {
  public:
-  explicit Saddle(const FitTerms& terms)
+  /// @param rows_count  A x = b is to be met, if it can be
+  explicit Saddle(const FitTerms& terms, bool rows_count = false)
       : t_(terms),
+        rows_count_(rows_count),
         C_(scaled_rows(terms.problem.C, terms.row_length)),
         Ct_(transposed(C_)),
         Q_(terms.Q / terms.q_size),
-        cholesky_(matrix(rho_regular)) {
+        rho_(C_.rows() > 0 ? rho_regular : rho_regular_alone),
+        cholesky_(matrix(rho_)) {
     // Inverse iteration: regular problems have no eigenvalue near to rho.
-    singular_ = !cholesky_.positive() || least_eigenvalue() < 100 * rho_regular;
+    singular_ = !cholesky_.positive() || least_eigenvalue() < 100 * rho_;
     if (!singular_) return;
-    rho_ = rho_singular;
+    rho_ = C_.rows() > 0 ? rho_singular : rho_singular_alone;
     cholesky_ = SparseCholesky(matrix(rho_));
   }
 
@@ -102,9 +107,15 @@ class Saddle : public System {
   /// From now on steps have no part that neither Q nor C sees, not even by rounding.
   void keep_to_seen() { seen_only_ = true; }
 
-  /// The part of y that neither Q nor C sees.
+  /// The part of y that neither Q nor C sees. Refined, since the factors know eigenvectors to eps / (delta lambda)
+  /// only.
   Points unseen(Points y) const {
-    for (int i = 0; i < 3; ++i) y = rho_ * cholesky_.solve(y);
+    for (int i = 0; i < 3; ++i) {
+      y *= rho_;
+      Points z = cholesky_.solve(y);
+      for (int k = 0; k < 2; ++k) z += cholesky_.solve(Points(y - product_with_matrix(z)));
+      y = z;
+    }
     return y;
   }
 
@@ -120,6 +131,10 @@ class Saddle : public System {
     r.values.topRows(n()) = force / t_.q_size - hold;
     const double size = largest(force) / t_.q_size + largest(x) + largest(hold);
     if (size > 0) r.gradient = largest(r.values.topRows(n())) / size;
+    if (rows_count_) {
+      r.least_squares = r.gradient;
+      r.rows = relative_to(t_.problem.b - apply(t_.problem.A, x), t_.problem.b, t_.a_size, x);
+    }
     if (C_.rows() == 0) return r;
     const Points gap = t_.gap(x);
     r.rows = t_.relative_gap(gap, x);
@@ -155,6 +170,11 @@ class Saddle : public System {
     if (C_.rows() > 0) M = SparseMatrix(M + SparseMatrix(product(Ct_, C_) / delta));
     return M;
   }
+  Points product_with_matrix(const Points& y) const {
+    Points result = apply(Q_, y) + rho_ * y;
+    if (C_.rows() > 0) result += apply(Ct_, apply(C_, y)) / delta;
+    return result;
+  }
   double least_eigenvalue() const {
     Points v(n(), 1);
     std::uint32_t state = 1;
@@ -169,9 +189,10 @@ class Saddle : public System {
   }
 
   const FitTerms& t_;
+  bool rows_count_;
   SparseMatrix C_, Ct_, Q_;
+  double rho_;
   SparseCholesky cholesky_;
-  double rho_ = rho_regular;
   bool singular_ = false, seen_only_ = false;
 };
 
@@ -208,7 +229,8 @@ void refine(const System& system, const FitSolverOptions& options, Points& z, Fi
   z = best;
 }
 
-void solve_system(const FitTerms& terms, const FitSolverOptions& options, FitSolution& solution) {
+void solve_system(const FitTerms& terms, const FitSolverOptions& options, FitSolution& solution,
+                  bool rows_count = false) {
   if (!terms.has_objective()) {
     const LeastChange system(terms);
     Points z = system.start();
@@ -216,7 +238,7 @@ void solve_system(const FitTerms& terms, const FitSolverOptions& options, FitSol
     solution.x = system.points(z);
     return;
   }
-  Saddle system(terms);
+  Saddle system(terms, rows_count);
   Points z = system.start();
   refine(system, options, z, solution);
   if (system.singular()) {
@@ -256,7 +278,7 @@ FitSolution solve_directly(const FitTerms& terms, const FitSolverOptions& option
   }
   // Conditions that contradict each other, or too many of them: what least squares makes of them can be met.
   FitProblem nearest = least_squares(p);
-  solve_system(FitTerms(nearest), options, solution);
+  solve_system(FitTerms(nearest), options, solution, true);
   if (terms.has_objective()) {
     nearest = p;
     nearest.d = apply(p.C, solution.x);

@@ -23,6 +23,11 @@ double row_norm(const SparseMatrix& matrix) {
 
 double largest(const Points& points) { return points.size() == 0 ? 0 : points.cwiseAbs().maxCoeff(); }
 
+double relative_to(const Points& gap, const Points& data, double row_size, const Points& x) {
+  const double size = std::max(largest(data), row_size * largest(x));
+  return size > 0 ? largest(gap) / size : 0;
+}
+
 SparseMatrix transposed(const SparseMatrix& matrix) { return SparseMatrix(matrix.transpose()); }
 
 FitTerms::FitTerms(const FitProblem& p) : problem(p), At(transposed(p.A)), Ct(transposed(p.C)) {
@@ -32,6 +37,7 @@ FitTerms::FitTerms(const FitProblem& p) : problem(p), At(transposed(p.A)), Ct(tr
   if (p.A.rows() > 0) Q = product(At, p.A);
   if (p.H.rows() > 0) Q = p.A.rows() > 0 ? SparseMatrix(Q + p.H) : p.H;
   q_size = row_norm(Q);
+  a_size = row_norm(p.A);
   c_size = row_norm(p.C);
   row_length = Eigen::VectorXd::Ones(p.C.rows());
   for (Index r = 0; r < p.C.rows(); ++r)
@@ -48,8 +54,7 @@ Points FitTerms::force(const Points& x) const {
 Points FitTerms::gap(const Points& x) const { return problem.d - apply(problem.C, x); }
 
 double FitTerms::relative_gap(const Points& gap, const Points& x) const {
-  const double size = std::max(largest(problem.d), c_size * largest(x));
-  return size > 0 ? largest(gap) / size : 0;
+  return relative_to(gap, problem.d, c_size, x);
 }
 
 }  // namespace sublimit

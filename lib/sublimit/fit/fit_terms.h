@@ -11,10 +11,10 @@ struct FitTerms {
   explicit FitTerms(const FitProblem& problem);
 
   const FitProblem& problem;
-  SparseMatrix At, Ct;            ///< A^T W and C^T
-  SparseMatrix Q;                 ///< A^T W A + H; 0 x 0 where nothing is asked for
-  Eigen::VectorXd row_length;     ///< of the rows of C; 1 for rows without entries
-  double q_size = 0, c_size = 0;  ///< largest sums of absolute values in a row of Q and C
+  SparseMatrix At, Ct;                        ///< A^T W and C^T
+  SparseMatrix Q;                             ///< A^T W A + H; 0 x 0 where nothing is asked for
+  Eigen::VectorXd row_length;                 ///< of the rows of C; 1 for rows without entries
+  double q_size = 0, a_size = 0, c_size = 0;  ///< largest sums of absolute values in a row of Q, A and C
 
   Index unknowns() const { return Index(problem.x0.rows()); }
   bool has_objective() const { return q_size > 0; }
@@ -27,6 +27,8 @@ struct FitTerms {
   double relative_gap(const Points& gap, const Points& x) const;
 };
 
+/// The largest entry of `gap`, relative to the data and to what rows of that size make of x.
+double relative_to(const Points& gap, const Points& data, double row_size, const Points& x);
 /// The largest absolute value; 0 of nothing.
 double largest(const Points& points);
 SparseMatrix transposed(const SparseMatrix& matrix);

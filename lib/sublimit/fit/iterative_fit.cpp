@@ -18,15 +18,16 @@ class Restarts {
  public:
   Restarts(const FitSolverOptions& options, FitSolution& solution) : options_(options), solution_(solution) {}
 
-  /// @param now   relative residual of x, and the one that least squares can bring to zero
-  /// @param goal  of the largest entry of what conjugate gradients bring to zero
+  /// @param now   relative residual of x
+  /// @param rest  the largest entry of what conjugate gradients bring to zero
+  /// @param goal  for it
   /// @return  whether to go on from x
-  bool worth(double now, double normal, double goal, const Points& x) {
-    solution_.converged |= now <= options_.tolerance;
-    const bool gained = normal < 0.3 * least_;
-    if (normal < least_) {
+  bool worth(double now, double rest, double goal, const Points& x) {
+    const bool gained = rest < 0.3 * least_;
+    if (rest < least_) {
       solution_.x = x;
-      least_ = normal;
+      least_ = rest;
+      solution_.converged = now <= options_.tolerance;
     }
     goal_ = goal;
     return gained && now > 0.5 * options_.tolerance && solution_.iterations < options_.max_iterations;
@@ -48,16 +49,15 @@ class Restarts {
 void meet_conditions(const FitTerms& terms, const FitSolverOptions& options, FitSolution& solution) {
   const FitProblem& p = terms.problem;
   const auto S = [&](const Points& y) { return apply(terms.Ct, apply(p.C, y)); };
-  const Eigen::VectorXd ones = Eigen::VectorXd::Ones(terms.unknowns());
+  const Eigen::VectorXd level = Eigen::VectorXd::Constant(terms.unknowns(), terms.c_size * terms.c_size);
   Restarts restarts(options, solution);
   Points x = p.x0;
   while (true) {
     const Points gap = terms.gap(x);
     Points residual = apply(terms.Ct, gap);
     const double size = std::max({largest(p.d), terms.c_size * largest(x), 1e-300}), scale = size * terms.c_size;
-    if (!restarts.worth(terms.relative_gap(gap, x), largest(residual) / scale, 0.02 * options.tolerance * scale, x))
-      break;
-    x += conjugate_gradients(S, ones, residual, [&](int, double now) { return restarts.go_on(now, now / scale); });
+    if (!restarts.worth(terms.relative_gap(gap, x), largest(residual), 0.02 * options.tolerance * scale, x)) break;
+    x += conjugate_gradients(S, level, residual, [&](int, double now) { return restarts.go_on(now, now / scale); });
   }
 }
 
@@ -95,7 +95,7 @@ void minimise(const FitTerms& terms, const FitSolverOptions& options, FitSolutio
     const double scale = std::max(largest(residual) + terms.q_size * largest(x), 1e-300);
     residual = free.asDiagonal() * residual;
     const double relative = largest(residual) / scale;
-    if (!restarts.worth(relative, relative, 0.1 * options.tolerance * scale, x)) break;
+    if (!restarts.worth(relative, relative * scale, 0.1 * options.tolerance * scale, x)) break;
     x += conjugate_gradients(S, diagonal, residual, [&](int, double now) { return restarts.go_on(now, now / scale); });
   }
 }

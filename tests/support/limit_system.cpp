@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "support/limit_system.h"
+
+#include "sublimit/analysis/limit_points.h"
+#include "sublimit/schemes.h"
+
+namespace sublimit::testing {
+
+SparseMatrix limit_system(const std::string& scheme, const ControlMesh& mesh) {
+  LimitMaskCache cache(find_scheme<double>(scheme).value());
+  return limit_matrices(refine(cache.scheme(), mesh, 0)[0], cache).position;
+}
+
+}  // namespace sublimit::testing

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// The system of points on the limit surface: a row for each control vertex.
+#include <string>
+
+#include "sublimit/mesh/control_mesh.h"
+#include "sublimit/types.h"
+
+namespace sublimit::testing {
+
+/// L of level 0: x_inf = L x.
+SparseMatrix limit_system(const std::string& scheme, const ControlMesh& mesh);
+
+}  // namespace sublimit::testing
