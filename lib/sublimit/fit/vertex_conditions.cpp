@@ -103,15 +103,36 @@ std::map<Index, TangentFrame> turned_frames(const VertexLimits& limits, const st
   std::map<Index, TangentFrame> frames;
   const Points t1 = apply(limits.tangent1, points), t2 = apply(limits.tangent2, points);
   const Points guess1 = apply(limits.tangent1, guess), guess2 = apply(limits.tangent2, guess);
-  for (Index s = 0; s < static_cast<Index>(limits.side_vertex.size()); ++s) {
-    const VertexTarget& target = targets[limits.side_vertex[s]];
-    if (!target.normal || !has_plane(limits.status[s])) continue;
-    const Vector3d found1 = t1.row(s), found2 = t2.row(s);
-    if (found1.cross(found2).dot(*target.normal) > 0) continue;
-    const Vector3d a = guess1.row(s), b = guess2.row(s), n = a.cross(b);
-    if (n.isZero(0)) continue;  // nothing to turn
-    const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(n, *target.normal);
-    frames[s] << turn * a, turn * b;
+  const Index sides = static_cast<Index>(limits.side_vertex.size());
+  const auto normal = [](const Points& a, const Points& b, Index s) -> Vector3d {
+    return Vector3d(a.row(s)).cross(Vector3d(b.row(s)));
+  };
+  for (Index first = 0, end = 0; first < sides; first = end) {
+    while (end < sides && limits.side_vertex[end] == limits.side_vertex[first]) ++end;
+    const VertexTarget& target = targets[limits.side_vertex[first]];
+    if (!target.normal) continue;
+    const Vector3d N = *target.normal;
+    const auto turn_to = [&](const Vector3d& n) { return Eigen::Quaterniond::FromTwoVectors(n, N).toRotationMatrix(); };
+    std::vector<Index> planes, wrong;
+    Vector3d mean = Vector3d::Zero();
+    for (Index s = first; s < end; ++s) {
+      const Vector3d own = normal(guess1, guess2, s);
+      if (!has_plane(limits.status[s]) || own.isZero(0)) continue;  // nothing to turn
+      planes.push_back(s);
+      mean += own.normalized();
+      if (normal(t1, t2, s).dot(N) <= 0) wrong.push_back(s);
+    }
+    if (wrong.empty()) continue;
+    // Sides share tangents along creases, which one linear map for all of them lets agree. Sides that it would turn
+    // over are turned on their own, to be met in the sense of least squares.
+    const Eigen::Matrix3d flat = (Eigen::Matrix3d::Identity() - N * N.transpose()) * turn_to(mean);
+    const bool together = !mean.isZero(0) && std::all_of(planes.begin(), planes.end(), [&](Index s) {
+      return (turn_to(mean) * normal(guess1, guess2, s)).dot(N) > 0;
+    });
+    for (const Index s : together ? planes : wrong) {
+      const Eigen::Matrix3d turn = together ? flat : turn_to(normal(guess1, guess2, s));
+      frames[s] << turn * guess1.row(s).transpose(), turn * guess2.row(s).transpose();
+    }
   }
   return frames;
 }

@@ -27,8 +27,9 @@ struct VertexConditions {
 VertexConditions vertex_conditions(const VertexLimits& limits, const std::vector<VertexTarget>& targets,
                                    const std::map<Index, TangentFrame>& frames = {});
 
-/// Sides whose normal is more than a right angle off, with the frames that `guess` has there, turned to the target's
-/// normal.
+/// Vertices with a side whose normal is more than a right angle off: all their sides, with the frames that `guess` has
+/// there, turned to the target's normal together and laid into its plane; where these do not lie to one side, those
+/// sides alone.
 std::map<Index, TangentFrame> turned_frames(const VertexLimits& limits, const std::vector<VertexTarget>& targets,
                                             const Points& points, const Points& guess);
 
