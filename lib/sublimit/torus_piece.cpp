@@ -43,7 +43,6 @@ TorusPiece::Frame TorusPiece::at(double u, double v) const {
   frame.e1 = std::cos(psi) * e1_ + std::sin(psi) * n_;
   frame.n = std::cos(psi) * n_ - std::sin(psi) * e1_;
   frame.speed = 1 - kappa_.dot(tube);
-  frame.speed_slope = -kappa_.dot(frame.e1);
   // The normal curvature kappa.n / speed; kappa.n = k1 speed + (k2 - k1) leaves spheres no quotient of small numbers.
   frame.k1 = k1_;
   frame.k2 = k2_ == k1_ ? k1_ : k1_ + (k2_ - k1_) / frame.speed;

@@ -27,9 +27,8 @@ class TorusPiece {
   /// The principal frame at a place of the surface.
   struct Frame {
     Eigen::Vector3d position, e1, e2, n;
-    double k1, k2;       ///< of e1, e2; k2 is not finite on the axis of a torus
-    double speed;        ///< length along e2 by v: the metric is du^2 + speed^2 dv^2
-    double speed_slope;  ///< of speed by u
+    double k1, k2;  ///< of e1, e2; k2 is not finite on the axis of a torus
+    double speed;   ///< length along e2 by v: the metric is du^2 + speed^2 dv^2
 
     SurfacePoint point() const { return {position, n, k1, k2, e1}; }
   };
@@ -39,7 +38,7 @@ class TorusPiece {
   /// tube's centre. Closed form. |k1 u| <= pi, and v less than once around.
   Place foot(const Eigen::Vector3d& x) const;
 
-  /// From 1 at the origin to 0 half way round the tube or the axis, where `foot` may go either way.
+  /// From 1 at the origin to 0 half way round the tube or the axis.
   double nearness(const Place& place) const;
 
   double geodesic() const { return g_; }

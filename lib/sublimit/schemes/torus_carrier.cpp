@@ -11,20 +11,26 @@ namespace {
 
 using Eigen::Matrix2d, Eigen::Matrix3d, Eigen::Vector2d, Eigen::Vector3d;
 
-/// An edge is shorter than this share of itself on the torus piece: it runs along the normal there.
+/// Where the chord's share in the tangent plane is less than this, the edge runs along the normal.
 constexpr double no_direction = 1e-3;
 
-/// The edge on the torus piece, u = u1 x and v = v1 x, in the principal frame: velocity and (covariant) acceleration.
-struct Motion {
-  Vector2d velocity, acceleration;
-  double skew;
-  /// The direction y, and its (covariant) derivative by x.
-  Vector2d across() const { return across(velocity); }
-  Vector2d across_change() const { return across(acceleration); }
-  Vector2d across(const Vector2d& a) const { return {skew * a.x() - a.y(), skew * a.y() + a.x()}; }
-};
-Motion motion(const TorusPiece::Frame& frame, double u1, double v1, double skew) {
-  return {{u1, frame.speed * v1}, {-frame.speed * frame.speed_slope * v1 * v1, 2 * frame.speed_slope * u1 * v1}, skew};
+/// The directions x and y at a frame, in its e1 and e2: along the chord, as long as the edge; and across. Along a
+/// geodesic, which edges nearly are, they do not change but with the tangent plane: derivatives have no other terms,
+/// and the coordinates of the torus piece, which may wind as they like where it is nearly flat, do not matter.
+/// @return  columns x, y; zero where the edge has no direction
+Matrix2d directions(const TorusPiece::Frame& frame, const Vector3d& chord, double length, double skew) {
+  const Vector2d along(chord.dot(frame.e1), chord.dot(frame.e2));
+  if (!(along.norm() > no_direction * chord.norm())) return Matrix2d::Zero();
+  const Vector2d x = along.normalized() * length;
+  Matrix2d result;
+  result << x, skew * x + Vector2d(-x.y(), x.x());
+  return result;
+}
+
+/// Length of an arc by that of its chord, for the sine of the angle between them.
+double arc_by_chord(double sine) {
+  const double x = std::min(1.0, std::abs(sine));
+  return x == 0 ? 1 : std::asin(x) / x;
 }
 
 /// The second form of the offset surface in distance w, in the principal frame.
@@ -37,10 +43,11 @@ Matrix2d offset_shape(const TorusPiece::Frame& frame, double w) {
 std::optional<TorusCarrier> TorusCarrier::make(const TorusPiece& piece, const SurfacePoint& far, double skew) {
   TorusCarrier carrier(piece);
   carrier.skew_ = skew;
-  carrier.far_ = piece.foot(far.position);
-  const TorusPiece::Frame frame = piece.at(carrier.far_.u, carrier.far_.v);
-  carrier.length_ = (far.position - piece.at(0, 0).position).norm();
-  const double cosine = far.normal.dot(frame.n), w = carrier.far_.w;
+  const TorusPiece::Place foot = piece.foot(far.position);
+  const TorusPiece::Frame near = piece.at(0, 0), frame = piece.at(foot.u, foot.v);
+  carrier.chord_ = far.position - near.position;
+  carrier.nearness_ = piece.nearness(foot);
+  const double cosine = far.normal.dot(frame.n), w = foot.w;
   if (!(cosine > 0) || !std::isfinite(frame.k2)) return std::nullopt;
   // Slopes of the far surface over the plane at right angles to the piece's normal, and its second derivatives there.
   const Vector2d slope = -Vector2d(far.normal.dot(frame.e1), far.normal.dot(frame.e2)) / cosine;
@@ -50,16 +57,19 @@ std::optional<TorusCarrier> TorusCarrier::make(const TorusPiece& piece, const Su
   const Vector2d gradient(slope.x() * (1 - w * frame.k1), slope.y() * (1 - w * frame.k2));
   const Matrix2d hessian = second - offset_shape(frame, w);
 
-  const Motion m = motion(frame, carrier.far_.u, carrier.far_.v, skew);
-  const Vector2d c = m.across();
+  const double h = carrier.chord_.norm();
+  carrier.length_ =
+      h / 2 * (arc_by_chord(carrier.chord_.dot(near.n) / h) + arc_by_chord(carrier.chord_.dot(frame.n) / h));
+  const Matrix2d xy = directions(frame, carrier.chord_, carrier.length_, skew);
+  const Vector2d first = xy.transpose() * gradient;
+  const Matrix2d seconds = xy.transpose() * hessian * xy;
   carrier.value_ = w;
-  carrier.along_ = gradient.dot(m.velocity);
-  carrier.across_ = gradient.dot(c);
-  carrier.along_along_ = m.velocity.dot(hessian * m.velocity) + gradient.dot(m.acceleration);
-  carrier.along_across_ = m.velocity.dot(hessian * c) + gradient.dot(m.across_change());
-  carrier.across_across_ = c.dot(hessian * c);
+  carrier.along_ = first[0];
+  carrier.across_ = first[1];
+  carrier.along_along_ = seconds(0, 0);
+  carrier.along_across_ = seconds(0, 1);
+  carrier.across_across_ = seconds(1, 1);
 
-  const double h = carrier.length_;
   carrier.misfit2_ = w / h * (w / h) + slope.squaredNorm() + h * h * hessian.squaredNorm();
   if (!std::isfinite(carrier.misfit2_)) return std::nullopt;
   return carrier;
@@ -68,9 +78,8 @@ std::optional<TorusCarrier> TorusCarrier::make(const TorusPiece& piece, const Su
 std::optional<TorusCarrier::Middle> TorusCarrier::middle(const Vector3d& guess) const {
   const TorusPiece::Place place = piece_.foot(guess);
   const TorusPiece::Frame frame = piece_.at(place.u, place.v);
-  const Motion m = motion(frame, far_.u, far_.v, skew_);
-  const double d2 = m.velocity.squaredNorm();
-  if (!(d2 > no_direction * no_direction * length_ * length_) || !std::isfinite(frame.k2)) return std::nullopt;
+  const Matrix2d xy = directions(frame, chord_, length_, skew_);
+  if (xy.isZero(0) || !std::isfinite(frame.k2)) return std::nullopt;
 
   // The rule half way, everything being zero at x = 0.
   const double value = value_ / 2 - along_ * 3 / 20 + along_along_ / 80;
@@ -81,14 +90,10 @@ std::optional<TorusCarrier::Middle> TorusCarrier::middle(const Vector3d& guess) 
   const double across_across = across_across_ / 2;
 
   // Back to the principal frame.
-  Matrix2d directions;
-  directions << m.velocity, m.across();
-  const Matrix2d inverse = directions.inverse();
+  const Matrix2d inverse = xy.inverse();
   const Vector2d gradient = inverse.transpose() * Vector2d(along, across);
   Matrix2d second;
-  second(0, 0) = along_along - gradient.dot(m.acceleration);
-  second(0, 1) = second(1, 0) = along_across - gradient.dot(m.across_change());
-  second(1, 1) = across_across;
+  second << along_along, along_across, along_across, across_across;
   const Matrix2d hessian = inverse.transpose() * second * inverse + offset_shape(frame, value);
 
   Middle middle;

@@ -34,7 +34,7 @@ class TorusCarrier {
   /// How badly the far end's data fit on the piece: height by length, slope, curvature times length, added in squares.
   double misfit2() const { return misfit2_; }
   const TorusPiece& piece() const { return piece_; }
-  double nearness() const { return piece_.nearness(far_); }  ///< of the far end, as TorusPiece has it
+  double nearness() const { return nearness_; }  ///< of the far end, as TorusPiece has it
 
   struct Middle {
     Eigen::Vector3d position, normal;
@@ -49,8 +49,8 @@ class TorusCarrier {
   explicit TorusCarrier(const TorusPiece& piece) : piece_(piece) {}
 
   TorusPiece piece_;
-  TorusPiece::Place far_;
-  double skew_ = 0, length_ = 0, misfit2_ = 0;
+  Eigen::Vector3d chord_ = Eigen::Vector3d::Zero();
+  double skew_ = 0, length_ = 0, misfit2_ = 0, nearness_ = 0;
   // Of w at the far end, by x in [0, 1] along and by y across.
   double value_ = 0, along_ = 0, across_ = 0, along_along_ = 0, along_across_ = 0, across_across_ = 0;
 };

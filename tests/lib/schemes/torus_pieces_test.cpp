@@ -264,5 +264,30 @@ TEST(TorusPieces, CutAlongTheDiagonalOfEqualPerimeters) {
   EXPECT_EQ(difference(refine(scheme, flat, 2), refine(other, flat, 2)), 0);
 }
 
+/// In a plane, up to squares, the rule is linear but for the weights of the carriers. The difference that one vertex
+/// makes to second derivatives does not grow from level to level; with quintic weights, or with directions across at
+/// right angles to the edges, it would.
+TEST(TorusPieces, DoNotAmplifySecondDerivativesOnLattices) {
+  for (const Vector3d& shear : {Vector3d(0, 1, 0), Vector3d(-0.5, 0.9, 0), Vector3d(-0.3, 0.5, 0)}) {
+    const Index n = 4;
+    const ControlMesh lattice = triangle_grid(n, n);
+    CurvatureMesh data{.triangles = lattice.face_vertices, .points = {}};
+    for (Index v = 0; v < lattice.num_vertices(); ++v)
+      data.points.push_back({.position = (v % (n + 1)) * Vector3d::UnitX() + (v / (n + 1)) * shear});
+    data.points[(n + 2) * (n / 2)].k1 = 1e-6;
+    std::vector<double> jumps;
+    for (int k = 0; k <= 5; ++k) {
+      const CurvatureMesh fine = refine(scheme, data, k);
+      jumps.push_back(0);
+      for (size_t i = 0; i < fine.triangles.size(); ++i) {
+        const size_t j = i % 3 == 2 ? i - 2 : i + 1;
+        jumps.back() = std::max(
+            jumps.back(), (fine.points[fine.triangles[i]].shape() - fine.points[fine.triangles[j]].shape()).norm());
+      }
+    }
+    EXPECT_LT(jumps[5], jumps[3]) << shear.transpose();
+  }
+}
+
 }  // namespace
 }  // namespace sublimit::testing
