@@ -39,6 +39,7 @@ struct Search {
   const BoxTree& tree;
   double tolerance;
   int most_cells;
+  bool triangles;
 
   struct Result {
     Foot foot;
@@ -46,8 +47,9 @@ struct Search {
   };
   Result operator()(const Eigen::Vector3d& query, const Sample* guess, FootSearch& foot_search, int& order,
                     std::vector<Candidate>& heap) const {
+    const SearchDomain whole(triangles);
     Result best{{{}, std::numeric_limits<double>::infinity()}};
-    if (guess) best.foot = foot_search(query, *guess, order, best.foot.squared_distance);
+    if (guess) best.foot = foot_search(query, *guess, whole, order, best.foot.squared_distance);
     // What is no nearer than this will not be missed.
     const auto near_enough = [&] {
       const double distance = std::sqrt(best.foot.squared_distance) - tolerance;
@@ -71,7 +73,10 @@ struct Search {
           best.gap = std::sqrt(best.foot.squared_distance) - std::sqrt(nearest.squared_distance);
           break;
         }
-        const Foot foot = foot_search(query, cells[size_t(node.item)].start, order, best.foot.squared_distance);
+        const LimitCell& cell = cells[size_t(node.item)];
+        // Only there, else the search would leave it for its neighbours' feet.
+        const Foot foot = foot_search(query, cell.start, SearchDomain(triangles, cell.start, 1.25 * cell.radius), order,
+                                      best.foot.squared_distance);
         if (foot.squared_distance < best.foot.squared_distance) {
           best.foot = foot;
           limit = near_enough();
@@ -84,6 +89,8 @@ struct Search {
           push({tree.nodes()[size_t(child)].box.squaredExteriorDistance(query), child, false});
       }
     }
+    const Foot foot = foot_search(query, best.foot.place, whole, order, std::numeric_limits<double>::infinity());
+    if (foot.squared_distance < best.foot.squared_distance) best.foot = foot;
     return best;
   }
 };
@@ -116,7 +123,7 @@ ClosestPoints closest_points(const LimitSurface& surface, const Points& control,
   const BoundLimitSurface bound(surface, control);
   const Eigen::AlignedBox3d& all = tree.nodes()[0].box;
   const double size = all.sizes().norm();
-  const Search search{cells, tree, 1e-13 * size, options.most_cells};
+  const Search search{cells, tree, 1e-13 * size, options.most_cells, surface.addresses().triangles()};
 
   const Eigen::Index count = queries.rows();
   ClosestPoints result;

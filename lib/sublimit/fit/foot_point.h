@@ -2,6 +2,7 @@
 #pragma once
 // Feet of perpendiculars: from a place on a limit surface downhill to one that is nearest to a point among its
 // neighbours on the same square or triangle.
+#include "sublimit/fit/search_domain.h"
 #include "sublimit/limit/limit_surface.h"
 
 namespace sublimit {
@@ -22,17 +23,19 @@ class FootSearch {
   FootSearch(const BoundLimitSurface& surface, bool triangles, double size)
       : surface_(surface), triangles_(triangles), tiny_(1e-14 * size) {}
 
+  /// @param domain   where to look, `start` in it
   /// @param order    of derivatives that the surface has, 2 or 1; set to 1 if it turns out so
   /// @param nearest  square of a distance: what is farther is not tried to the end
-  Foot operator()(const Eigen::Vector3d& point, const Sample& start, int& order, double nearest);
+  Foot operator()(const Eigen::Vector3d& point, const Sample& start, const SearchDomain& domain, int& order,
+                  double nearest);
 
  private:
   struct State;
   State at(const Eigen::Vector3d& point, const Sample& place, int order);
-  void descend(const Eigen::Vector3d& point, State& state, int& order);
+  void descend(const Eigen::Vector3d& point, const SearchDomain& domain, State& state, int& order, bool along_side);
   /// Downhill without derivatives, by steps in eight directions.
   void probe(const Eigen::Vector3d& point, State& state, int& order);
-  Eigen::Vector2d direction(const State& state) const;
+  static Eigen::Vector2d direction(const State& state, const SearchDomain& domain, bool along_side);
 
   const BoundLimitSurface& surface_;
   bool triangles_;

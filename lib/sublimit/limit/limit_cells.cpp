@@ -15,8 +15,10 @@ namespace {
 
 /// Thickness of a hull that is not cut further, relative to its width.
 constexpr double thin = 0.03;
-/// At most so many cells of a polynomial, 4^3, and of another piece.
-constexpr int polynomial_depth = 3, most_children = 64;
+/// At most so many cells of an address, but for the pieces of polygons' corners and of rotating schemes.
+constexpr int most_parts = 64;
+/// The same where pieces towards extraordinary vertices and borders are cut: their hulls are wide.
+constexpr int most_children = 256;
 /// Places a side of an address, by which cells know where they are.
 constexpr int places_a_side = 8;
 
@@ -40,16 +42,15 @@ class Cutter {
       std::vector<Points> coefficients;  // of both halves of a piece that is cut in two, on all of it
       for (const RowMatrix& C : p->coefficients)
         coefficients.push_back((nets.from_basis() * (C * differences)).rowwise() + points.row(0));
-      cut(nets, p->basis.total(), coefficients, known, polynomial_depth);
+      cut(nets, p->basis.total(), coefficients, known, parts);
       return;
     }
     const std::deque<PieceLink>& children = type.children();
-    if (parts * int(children.size()) <= most_children) {
+    if (parts * int(children.size()) <= (type.types().has_no_polynomials() ? most_parts : most_children)) {
       for (const PieceLink& link : children) {
-        std::vector<Known> inside;
-        for (const Known& k : known)
-          if (link.map.contains(k.place)) inside.push_back({k.sample, link.map(k.place)});
-        if (inside.empty()) inside.push_back({known.front().sample, link.map(known.front().place)});
+        std::vector<Known> all;
+        for (const Known& k : known) all.push_back({k.sample, link.map(k.place)});
+        const std::vector<Known> inside = those_inside(all, link.type->kind() == Piece::Kind::triangle);
         cut(*link.type, child_points(link, points), inside, parts * int(children.size()));
       }
       return;
@@ -60,41 +61,51 @@ class Cutter {
       const Points differences = points.bottomRows(points.rows() - 1).rowwise() - points.row(0);
       const Points seen = (limits_of(type) * differences).rowwise() + points.row(0);
       for (Eigen::Index i = 0; i < seen.rows(); ++i) hull.push_back(seen.row(i));
-      out_.push_back(cell_of(hull, start, 0.25, 0.02));
+      out_.push_back(cell_of(hull, start, parts, 0.25, 0.02));
     } else {
       for (Eigen::Index i = 0; i < points.rows(); ++i) hull.push_back(points.row(i));
-      out_.push_back(cell_of(hull, start, convex_ ? 0 : reach_of(type), 0));
+      out_.push_back(cell_of(hull, start, parts, convex_ ? 0 : reach_of(type), 0));
     }
   }
 
  private:
   void cut(const BernsteinNets& nets, bool triangle, const std::vector<Points>& coefficients,
-           const std::vector<Known>& known, int depth) {
+           const std::vector<Known>& known, int parts) {
     Hull hull;
     for (const Points& net : coefficients)
       for (Eigen::Index i = 0; i < net.rows(); ++i) hull.push_back(net.row(i));
-    const LimitCell cell = cell_of(hull, middle(known, triangle), 0, 0);
+    const LimitCell cell = cell_of(hull, middle(known, triangle), parts, 0, 0);
     const Eigen::Vector3d size = cell.own_box.sizes();
-    if (depth == 0 || size[2] <= thin * std::max(size[0], size[1])) {
+    if (4 * parts > most_parts || size[2] <= thin * std::max(size[0], size[1])) {
       out_.push_back(cell);
       return;
     }
     for (int k = 0; k < 4; ++k) {
       std::vector<Points> quarter;
       for (const Points& net : coefficients) quarter.push_back(nets.quarter(k) * net);
-      std::vector<Known> inside;
-      const auto in_quarter = [&](const Known& known_place) {
-        const Eigen::Vector2d p = BernsteinNets::in_quarter(k, triangle, known_place.place.u, known_place.place.v);
-        return Known{known_place.sample, triangle ? triangle_place(p.x(), p.y()) : quad_place(p.x(), p.y())};
-      };
+      std::vector<Known> all;
       for (const Known& one : known) {
-        const Known there = in_quarter(one);
-        const Place& p = there.place;
-        if (p.u >= 0 && p.v >= 0 && p.u1 >= 0 && (triangle || p.v1 >= 0)) inside.push_back(there);
+        const Eigen::Vector2d p = BernsteinNets::in_quarter(k, triangle, one.place.u, one.place.v);
+        all.push_back({one.sample, triangle ? triangle_place(p.x(), p.y()) : quad_place(p.x(), p.y())});
       }
-      if (inside.empty()) inside.push_back(in_quarter(known.front()));
-      cut(nets, triangle, quarter, inside, depth - 1);
+      const std::vector<Known> inside = those_inside(all, triangle);
+      cut(nets, triangle, quarter, inside, 4 * parts);
     }
+  }
+
+  /// Or, of a cell without one, the place that is closest to it.
+  static std::vector<Known> those_inside(const std::vector<Known>& all, bool triangle) {
+    const auto outside = [&](const Known& k) {
+      const Place& p = k.place;
+      return -std::min({p.u, p.v, p.u1, triangle ? 1.0 : p.v1});
+    };
+    std::vector<Known> result;
+    for (const Known& k : all)
+      if (outside(k) <= 0) result.push_back(k);
+    if (result.empty())
+      result.push_back(*std::min_element(all.begin(), all.end(),
+                                         [&](const Known& a, const Known& b) { return outside(a) < outside(b); }));
+    return result;
   }
 
   static Sample middle(const std::vector<Known>& known, bool triangle) {
@@ -137,9 +148,9 @@ class Cutter {
   }
 
   /// @param margin, of_width  widen the box by parts of its own sizes, and of the largest one
-  static LimitCell cell_of(const Hull& hull, const Sample& start, double margin, double of_width) {
+  static LimitCell cell_of(const Hull& hull, const Sample& start, int parts, double margin, double of_width) {
     const Eigen::Matrix3d frame = frame_of(hull);
-    return {start, box_of(hull, Eigen::Matrix3d::Identity(), margin, of_width), frame,
+    return {start, 0.5 / std::sqrt(double(parts)) + 0.5 / places_a_side, box_of(hull, Eigen::Matrix3d::Identity(), margin, of_width), frame,
             box_of(hull, frame, margin, of_width)};
   }
 
@@ -212,7 +223,7 @@ std::vector<LimitCell> limit_cells(const LimitSurface& surface, const Points& po
             const std::int64_t first = pieces.first[size_t(piece)], size = pieces.first[size_t(piece) + 1] - first;
             Points local(size, 3);
             for (std::int64_t j = 0; j < size; ++j) local.row(j) = x.row(pieces.vertices[size_t(first + j)]);
-            cutter.cut(*pieces.types[size_t(piece)], local, places, 1);
+            cutter.cut(*pieces.types[size_t(piece)], local, places, int(known.size()));
           }
         }
       },

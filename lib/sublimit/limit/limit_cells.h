@@ -9,7 +9,9 @@
 namespace sublimit {
 
 struct LimitCell {
-  Sample start;             ///< a place in it or, of slivers, close to it
+  Sample start;  ///< a place in it or, of slivers, close to it
+  /// All of it is about as near to its start in u and v.
+  double radius = 0;
   Eigen::AlignedBox3d box;  ///< along the axes
   /// The same along directions of its own: rows of a rotation, the last one near the normal; in these coordinates.
   Eigen::Matrix3d frame;

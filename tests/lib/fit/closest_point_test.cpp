@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: Apache-2.0
+// Closest points against search by brute force, and where the answer is known.
+#include "sublimit/fit/closest_point.h"
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+#include <random>
+
+#include "support/expect_error.h"
+#include "support/places.h"
+#include "support/tested_schemes.h"
+#include "support/tolerance.h"
+
+namespace sublimit::testing {
+namespace {
+
+/// Of distances, relative to the surface's size: what the header promises.
+constexpr double distance_accuracy = 1e-12;
+
+class BruteForce {
+ public:
+  BruteForce(const LimitSurface& surface, const Points& control)
+      : bound_(surface, control), triangles_(surface.addresses().triangles()), places_(surface.grid(a_side)) {
+    samples_ = surface.evaluate(control, places_);
+  }
+  /// From the nearest of many samples on, by ever finer nets around the nearest so far.
+  double distance(const Eigen::RowVector3d& query) const {
+    std::vector<std::pair<double, size_t>> nearest;
+    for (size_t i = 0; i < places_.size(); ++i)
+      if (samples_.status[i] != LimitStatus::hole)
+        nearest.push_back({(samples_.position.row(Eigen::Index(i)) - query).norm(), i});
+    const size_t tried = std::min<size_t>(6, nearest.size());
+    std::partial_sort(nearest.begin(), nearest.begin() + long(tried), nearest.end());
+    double best = std::numeric_limits<double>::infinity();
+    for (size_t k = 0; k < tried; ++k)
+      best = std::min(best, refined(query, nearest[k].first, places_[nearest[k].second]));
+    return best;
+  }
+  const LimitSamples& samples() const { return samples_; }
+
+ private:
+  static constexpr int a_side = 13;
+  double refined(const Eigen::RowVector3d& query, double best, Sample at) const {
+    for (double h = 1.0 / (a_side - 1); h > 1e-8;) {
+      std::vector<Sample> net;
+      for (int i = -2; i <= 2; ++i)
+        for (int j = -2; j <= 2; ++j) {
+          Sample s{at.face, std::clamp(at.u + h * i / 2, 0.0, 1.0), std::clamp(at.v + h * j / 2, 0.0, 1.0)};
+          if (triangles_ && s.u + s.v > 1) s.v = 1 - s.u;
+          net.push_back(s);
+        }
+      const LimitSamples there = bound_.evaluate(net);
+      Eigen::Index nearest = 0;
+      const double distance = (there.position.rowwise() - query).rowwise().norm().minCoeff(&nearest);
+      if (distance < best) {
+        best = distance;
+        at = net[size_t(nearest)];
+      } else {
+        h /= 2;
+      }
+    }
+    return best;
+  }
+  BoundLimitSurface bound_;
+  bool triangles_;
+  std::vector<Sample> places_;
+  LimitSamples samples_;
+};
+
+/// Near the surface, far from it, on it, and in the middle.
+Points queries(const LimitSamples& samples, double size, int count, unsigned seed) {
+  std::mt19937 random(seed);
+  std::normal_distribution<double> normal;
+  Points q(count, 3);
+  for (int i = 0; i < count; ++i) {
+    const double amount = i % 5 == 0 ? 0 : size * std::pow(0.1, i % 4);
+    q.row(i) = samples.position.row(Eigen::Index(random() % size_t(samples.position.rows())));
+    for (int k = 0; k < 3; ++k) q(i, k) += amount * normal(random);
+  }
+  q.row(1) = samples.position.colwise().mean();
+  return q;
+}
+
+void expect_nearest(const Scheme<double>& scheme, const ControlMesh& mesh, int count) {
+  const LimitSurface surface(scheme, mesh);
+  const BruteForce brute(surface, mesh.positions);
+  const double size = diagonal(mesh.positions);
+  const Points q = queries(brute.samples(), size, count, 7);
+  const ClosestPoints found = closest_points(surface, mesh.positions, q);
+  const LimitSamples there = surface.evaluate(mesh.positions, found.places, 1);
+  for (Index i = 0; i < count; ++i) {
+    EXPECT_LE(found.distances[i], brute.distance(q.row(i)) + distance_accuracy * size) << scheme.name << " point " << i;
+    EXPECT_LE((found.points.row(i) - there.position.row(i)).norm(), distance_accuracy * size);
+    EXPECT_NEAR(found.distances[i], (there.position.row(i) - q.row(i)).norm(), distance_accuracy * size);
+    EXPECT_EQ(found.status[size_t(i)], there.status[size_t(i)]);
+    EXPECT_LE((found.normals.row(i) - there.normal.row(i)).norm(), reference_angle);
+    EXPECT_EQ(found.gaps[i], 0);
+  }
+}
+
+TEST(ClosestPoints, AreAsNearAsBruteForceFindsThem) {
+  for (const char* name : {"bilinear", "catmull-clark", "loop", "doo-sabin"}) {
+    const Scheme<double> scheme = *find_scheme<double>(name);
+    for (const ControlMesh& mesh : hard_meshes(scheme, 4)) expect_nearest(scheme, mesh, 12);
+    expect_nearest(scheme, takes_triangles(scheme) ? octahedron() : cube(), 12);
+  }
+  // Without derivatives on the border; without polynomials; both are slow.
+  expect_nearest(*find_scheme<double>("mid-edge"), grid(3, 2), 12);
+  expect_nearest(*find_scheme<double>("butterfly"), octahedron(), 2);
+}
+
+TEST(ClosestPoints, AreAsNearForEveryScheme) {
+  if (!std::getenv("SUBLIMIT_FULL")) GTEST_SKIP() << "minutes of work";
+  for (const TestedScheme& tested : schemes_and_degrees(5)) {
+    const Scheme<double> scheme = tested.scheme();
+    const int count = has_polynomials(scheme) ? 60 : 8;
+    // Of sqrt3's surfaces the derivatives oscillate towards borders.
+    for (const ControlMesh& mesh : hard_meshes(scheme, 9))
+      if (scheme.name.find("sqrt3") == std::string::npos || &mesh == &hard_meshes(scheme, 9)[0])
+        expect_nearest(scheme, mesh, count);
+  }
+}
+
+TEST(ClosestPoints, OfPointsOfTheSurfaceAreTheyThemselves) {
+  for (const char* name : {"catmull-clark", "loop"}) {
+    const Scheme<double> scheme = *find_scheme<double>(name);
+    const ControlMesh mesh = hard_meshes(scheme, 5)[2];
+    const LimitSurface surface(scheme, mesh);
+    std::vector<Sample> places = random_places(surface.addresses(), 200, 2);
+    const Topology& t = surface.level().topology();
+    for (Index h = 0; h < t.num_half_edges(); h += 5) {
+      places.push_back(from_corner(t, surface.addresses(), HalfEdge{h}, 0, 0));
+      places.push_back(on_edge(t, surface.addresses(), HalfEdge{h}, 0.3));
+    }
+    const Points q = surface.evaluate(mesh.positions, places).position;
+    EXPECT_LE(closest_points(surface, mesh.positions, q).distances.maxCoeff(),
+              distance_accuracy * diagonal(mesh.positions));
+  }
+}
+
+TEST(ClosestPoints, FromTheMiddleOfASymmetricSurfaceEndIt) {
+  const Scheme<double> scheme = *find_scheme<double>("loop");
+  const ControlMesh mesh = icosahedron();
+  const LimitSurface surface(scheme, mesh);
+  const double least = surface.evaluate_grid(mesh.positions, 65).position.rowwise().norm().minCoeff();
+  const Points middle = Points::Zero(3, 3);
+  const ClosestPoints found = closest_points(surface, mesh.positions, middle);
+  EXPECT_EQ(found.gaps.maxCoeff(), 0);
+  for (Index i = 0; i < 3; ++i) EXPECT_NEAR(found.distances[i], least, 1e-3 * least);
+  EXPECT_LE(found.distances[0], least);
+  // Cut short, it says by how much the answer may be wrong.
+  const ClosestPoints quick = closest_points(surface, mesh.positions, middle, {.most_cells = 1});
+  EXPECT_GT(quick.gaps[0], 0);
+  EXPECT_LE(quick.distances[0] - quick.gaps[0], found.distances[0]);
+}
+
+TEST(ClosestPoints, LeaveHolesOut) {
+  ControlMesh mesh = torus(6, 5);
+  mesh.holes = {0, 1, 2, 3, 4};
+  const LimitSurface surface(*find_scheme<double>("catmull-clark"), mesh);
+  const std::vector<Sample> in_holes{{0, 0.5, 0.5}, {3, 0.4, 0.6}};
+  const ClosestPoints found =
+      closest_points(surface, mesh.positions, surface.evaluate(mesh.positions, in_holes).position);
+  for (const Sample& s : found.places) EXPECT_GE(s.face, 5);
+  EXPECT_GT(found.distances.minCoeff(), 0.01);
+}
+
+TEST(ClosestPoints, AreTheSameForAnyGuessAndAnyThreads) {
+  const Scheme<double> scheme = *find_scheme<double>("catmull-clark");
+  const ControlMesh mesh = hard_polygons(8, {.open = true});
+  const LimitSurface surface(scheme, mesh);
+  const Points q = queries(surface.evaluate_grid(mesh.positions, 3), diagonal(mesh.positions), 200, 1);
+  const ClosestPoints once = closest_points(surface, mesh.positions, q);
+  const auto same = [&](const ClosestPoints& other) {
+    return std::memcmp(once.points.data(), other.points.data(), sizeof(double) * size_t(once.points.size())) == 0;
+  };
+  {
+    const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+    EXPECT_TRUE(same(closest_points(surface, mesh.positions, q)));
+  }
+  const std::vector<Sample> guess = random_places(surface.addresses(), 200, 3);
+  const ClosestPoints guessed = closest_points(surface, mesh.positions, q, {.guess = guess});
+  EXPECT_LE((once.distances - guessed.distances).cwiseAbs().maxCoeff(), distance_accuracy * diagonal(mesh.positions));
+}
+
+TEST(ClosestPoints, SayWhatIsWrong) {
+  const Scheme<double> scheme = *find_scheme<double>("catmull-clark");
+  ControlMesh mesh = cube();
+  const LimitSurface surface(scheme, mesh);
+  Points q = Points::Zero(4, 3);
+  EXPECT_EQ(closest_points(surface, mesh.positions, Points(0, 3)).places.size(), 0u);
+  q(2, 1) = std::numeric_limits<double>::infinity();
+  expect_error<InvalidParameter>([&] { closest_points(surface, mesh.positions, q); }, {"point 2", "finite"});
+  expect_error<InvalidParameter>([&] { closest_points(surface, mesh.positions, Points::Zero(1, 2)); }, {"2", "3"});
+  expect_error<InvalidParameter>([&] { closest_points(surface, Points::Zero(7, 3), Points::Zero(1, 3)); }, {"vertex"});
+  const std::vector<Sample> guess{{0, 0, 2}};
+  expect_error<InvalidParameter>([&] { closest_points(surface, mesh.positions, Points::Zero(1, 3), {.guess = guess}); },
+                                 {"face 0", "no face"});
+  expect_error<InvalidParameter>([&] { closest_points(surface, mesh.positions, Points::Zero(2, 3), {.guess = guess}); },
+                                 {"1 places", "2 points"});
+  mesh.holes = {0, 1, 2, 3, 4, 5};
+  const LimitSurface nothing(scheme, mesh);
+  expect_error<InvalidMesh>([&] { closest_points(nothing, mesh.positions, Points::Zero(1, 3)); }, {"holes"});
+}
+
+}  // namespace
+}  // namespace sublimit::testing
