@@ -46,23 +46,22 @@ std::string joined(const std::vector<std::string>& columns) {
 }  // namespace
 
 CsvRows::CsvRows(const std::filesystem::path& path, std::vector<std::string> columns)
-    : CsvRows(path, std::vector<std::vector<std::string>>{std::move(columns)}) {}
+    : CsvRows(path, {columns}, joined(columns)) {}
 
-CsvRows::CsvRows(const std::filesystem::path& path, std::vector<std::vector<std::string>> headers)
+CsvRows::CsvRows(const std::filesystem::path& path, std::vector<std::vector<std::string>> headers,
+                 const std::string& right)
     : path_(path), block_(block_bytes) {
-  std::string right = headers.size() > 1 ? "one of the headers " : "the header ";
-  for (size_t i = 0; i < headers.size(); ++i) right += (i ? "; " : "") + joined(headers[i]);
   file_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (file_ < 0) throw_file_error(path, "read", errno);
   try {
     std::string_view line;
-    if (!next_line(line)) throw FormatError(path.string() + ": empty; its first line should be " + right);
+    if (!next_line(line)) throw FormatError(path.string() + ": empty; its first line should be the header " + right);
     if (line.starts_with("\xEF\xBB\xBF")) line.remove_prefix(3);
     split(line, fields_);
     const auto found = std::ranges::find_if(
         headers, [this](const std::vector<std::string>& columns) { return std::ranges::equal(columns, fields_); });
     if (found == headers.end())
-      throw FormatError(place() + "the first line is " + quoted(line) + "; it should be " + right);
+      throw FormatError(place() + "the first line is " + quoted(line) + "; it should be the header " + right);
     columns_ = std::move(*found);
   } catch (...) {
     ::close(file_);

@@ -18,7 +18,8 @@ class CsvRows {
   /// @throws IoError  missing, unreadable;  FormatError  no header or another one
   CsvRows(const std::filesystem::path& path, std::vector<std::string> columns);
   /// One of several headers; `columns()` tells which.
-  CsvRows(const std::filesystem::path& path, std::vector<std::vector<std::string>> headers);
+  /// @param right  all of them in words, for messages: `face,u,v or segment,t`
+  CsvRows(const std::filesystem::path& path, std::vector<std::vector<std::string>> headers, const std::string& right);
   CsvRows(const CsvRows&) = delete;
   CsvRows& operator=(const CsvRows&) = delete;
   ~CsvRows();

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sublimit/fit_picture.h"
 
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+
 #include "sublimit/refined_mesh.h"
 #include "sublimit/report/picture_mesh.h"
 #include "sublimit/sparse_product.h"
@@ -8,8 +13,15 @@
 namespace sublimit {
 namespace {
 
-constexpr Index most_faces = 30'000;
-constexpr double needle = .07;  // of the targets' diagonal
+using Eigen::Vector3d;
+
+constexpr Index most_faces = 20'000;
+constexpr double needle = .08, cross = .018;  // of the targets' diagonal
+constexpr double crowd = 60;                  // targets, above which marks become smaller
+
+std::string counted(Index count, const std::string& what) {
+  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
+}
 
 /// The limit, on a level fine enough to look smooth.
 PictureMesh limit_picture(const Scheme<double>& scheme, Level level, Points points) {
@@ -22,34 +34,98 @@ PictureMesh limit_picture(const Scheme<double>& scheme, Level level, Points poin
   return surface_picture(limit_mesh(level, limit, limit_points(limit, level.topology(), points), Normals::per_corner));
 }
 
-/// Dots, and needles along the normals.
-PictureMesh target_picture(const FitPicture& words) {
-  PictureMesh picture;
-  const Index count = static_cast<Index>(words.targets.rows());
-  const double length = needle * (words.targets.colwise().maxCoeff() - words.targets.colwise().minCoeff()).norm();
-  const bool normals = words.normals.rows() > 0;
-  picture.faces = false;
-  picture.positions.resize(normals ? 2 * count : count, 3);
-  picture.positions.topRows(count) = words.targets;
-  for (Index i = 0; i < count; ++i) {
-    picture.dots.push_back(i);
-    if (!normals) continue;
-    picture.positions.row(count + i) = words.targets.row(i) + length * words.normals.row(i).normalized();
-    if (!words.normals.row(i).isZero(0)) picture.creases.push_back({i, count + i, .5});
+/// Dots with lines from them, all in one layer.
+class Marks {
+ public:
+  Marks(Index targets, double unit)
+      : size_(std::clamp(std::sqrt(crowd / static_cast<double>(targets + 1)), .4, 1.)), unit_(unit * size_) {
+    picture_.faces = false;
   }
+  double unit() const { return unit_; }
+  void dot(const Vector3d& p) { picture_.dots.push_back(add(p)); }
+  void line(const Vector3d& a, const Vector3d& b, double strength) {
+    const Index tail = add(a);
+    picture_.creases.push_back({tail, add(b), strength});
+  }
+  PictureMesh take() {
+    picture_.positions = Eigen::Map<const Points>(coordinates_.data(), static_cast<Index>(coordinates_.size() / 3), 3);
+    picture_.dot_size = size_;
+    return std::move(picture_);
+  }
+
+ private:
+  Index add(const Vector3d& p) {
+    coordinates_.insert(coordinates_.end(), {p.x(), p.y(), p.z()});
+    return static_cast<Index>(coordinates_.size() / 3) - 1;
+  }
+  double size_, unit_;  // marks, smaller where there are many
+  PictureMesh picture_;
+  std::vector<double> coordinates_;
+};
+
+PictureMesh marks(const FitTargets& targets, double unit) {
+  const Points at = targets.positions();
+  Marks marks(static_cast<Index>(at.rows()), unit);
+  for (Index i = 0; i < at.rows(); ++i) marks.dot(at.row(i));
+  for (const VertexTarget& target : targets.vertices) {
+    if (!target.normal) continue;
+    const Vector3d n = (*target.normal / target.normal->cwiseAbs().maxCoeff()).normalized();
+    marks.line(target.position, target.position + needle * marks.unit() * n, .5);
+  }
+  return marks.take();
+}
+
+PictureMesh marks(const CurvatureMesh& mesh, double unit) {
+  Marks marks(mesh.num_vertices(), unit);
+  for (const SurfacePoint& p : mesh.points) {
+    const Vector3d lifted = p.position + .004 * unit * p.normal;  // off the faces, which would hide half of it
+    const auto arm = [&](const Vector3d& d, double strength) {
+      marks.line(lifted - cross * marks.unit() * d, lifted + cross * marks.unit() * d, strength);
+    };
+    arm(p.direction1, 1);
+    arm(p.direction2(), 0);
+    marks.line(p.position, p.position + needle * marks.unit() * p.normal, .5);
+  }
+  return marks.take();
+}
+
+/// Triangles with the normals of the data.
+PictureMesh triangle_picture(const CurvatureMesh& mesh, bool smooth) {
+  const MeshOutput out = output(mesh);
+  PictureMesh picture;
+  picture.positions = out.positions;
+  picture.face_sizes = out.face_sizes;
+  picture.face_vertices = out.face_vertices;
+  picture.wireframe = !smooth;
+  if (smooth) picture.vertex_normals = out.normals;
   return picture;
 }
 
 }  // namespace
 
-std::string fit_picture(const Scheme<double>& scheme, const Level& given, const Points& given_points,
-                        const Level& fitted, const Points& fitted_points, const FitPicture& words) {
+std::string fit_picture(const Scheme<double>& scheme, const Level& given, const Points& given_points, const Fit& fit,
+                        const FitTargets& targets) {
   PictureMesh cage = wire_picture(given, given_points);
-  cage.creases.clear();
-  const PictureMesh targets = target_picture(words);
-  return svg_picture({{{cage, targets}, words.before, words.before_note},
-                      {{limit_picture(scheme, given, given_points), targets}, words.between, words.between_note},
-                      {{limit_picture(scheme, fitted, fitted_points), targets}, words.after, words.after_note}});
+  cage.creases.clear();  // needles have their colours
+  const PictureMesh dots = marks(targets, fit.report.box);
+  std::string data = counted(static_cast<Index>(targets.size()), "point");
+  if (targets.num_normals > 0) data += ", " + counted(targets.num_normals, "normal");
+  return svg_picture({{{cage, dots}, "given", data},
+                      {{limit_picture(scheme, given, given_points), dots}, "limit of the given mesh", scheme.name},
+                      {{limit_picture(scheme, fit.level, fit.points), dots},
+                       "limit of the fit",
+                       counted(fit.report.output_vertices, "control point")}});
+}
+
+std::string fit_picture(const CurvatureFit& fit) {
+  const double unit = fit.report.box;
+  return svg_picture(
+      {{{triangle_picture(fit.given, false), marks(fit.given, unit)},
+        "given",
+        counted(fit.given.num_vertices(), "point") + " with normals and curvatures"},
+       {{triangle_picture(fit.refined, true), marks(fit.given, unit)},
+        fit.report.scheme,
+        "level " + std::to_string(fit.report.refinements) + ", " + counted(fit.refined.num_faces(), "triangle")}});
 }
 
 }  // namespace sublimit

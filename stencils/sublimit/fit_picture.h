@@ -1,22 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// A fit as a picture: what was given, what its limit would have been, and the limit that was fitted, with the targets
-// as dots and their normals as needles.
+// Fits as pictures: what was given, and the limit that was fitted, with the targets as dots, normals as needles and
+// principal directions as crosses (red: k1, amber: k2).
 #include <string>
 
-#include "sublimit/fit/interpolate.h"
+#include "sublimit/fit_curvatures.h"
 
 namespace sublimit {
 
-struct FitPicture {
-  Points targets;  ///< #targets x 3
-  Points normals;  ///< #targets x 3, zero where there is none; or no rows
-  std::string before, before_note, between, between_note, after, after_note;  ///< captions
-};
+/// Three panels: the mesh as it was, its own limit, the limit of the fit.
+/// @param given  level 0 of the mesh
+std::string fit_picture(const Scheme<double>& scheme, const Level& given, const Points& given_points, const Fit& fit,
+                        const FitTargets& targets);
 
-/// @param given   the control mesh as it was, level 0, and its points
-/// @param fitted  the level whose limit was fitted, and its points
-std::string fit_picture(const Scheme<double>& scheme, const Level& given, const Points& given_points,
-                        const Level& fitted, const Points& fitted_points, const FitPicture& words);
+/// Two panels: the triangles with all their data, and what the scheme made of them.
+std::string fit_picture(const CurvatureFit& fit);
 
 }  // namespace sublimit

@@ -65,6 +65,8 @@ Json targets_json(const FitReport& report) {
   for (int c = 0; c < 3; ++c) targets[std::string(1, "xyz"[c])] = numbers(Eigen::VectorXd(report.expected.col(c)));
   targets["position_error"] = numbers(report.position_error);
   if (report.normal_error.size() > 0) targets["normal_error"] = numbers(report.normal_error);
+  if (report.curvature_error.size() > 0) targets["curvature_error"] = numbers(report.curvature_error);
+  if (!report.carried_by.empty()) targets["carried_by"] = report.carried_by;
   return targets;
 }
 
@@ -75,7 +77,7 @@ std::string fit_report(const FitReport& r) {
   json["format"] = "sublimit-fit";
   json["kind"] = r.kind;
   json["scheme"] = r.scheme;
-  for (const auto& [name, value] : r.options) json["options"][name] = value;
+  json["options"] = r.options;
   json["mesh"] = {{"file", r.mesh}, {"vertices", r.mesh_vertices}, {"faces", r.mesh_faces}};
   json["output"] = {{"file", r.output},
                     {"vertices", r.output_vertices},
@@ -85,7 +87,9 @@ std::string fit_report(const FitReport& r) {
   json["box"] = r.box;
   json["position_error"] = summary_json(r.position_error);
   if (r.normal_error.size() > 0) json["normal_error"] = summary_json(r.normal_error);
+  if (r.curvature_error.size() > 0) json["curvature_error"] = summary_json(r.curvature_error);
   json["without_plane"] = r.without_plane;
+  json["pinned"] = r.pinned;
   if (!r.attempts.empty()) {
     json["attempts"] = Json::array();
     for (const InterpolationAttempt& attempt : r.attempts) json["attempts"].push_back(attempt_json(attempt));
@@ -96,6 +100,11 @@ std::string fit_report(const FitReport& r) {
                       {"iterations", r.solution->iterations},
                       {"converged", r.solution->converged},
                       {"history", numbers(r.solution->history)}};
+  for (const FitLevel& level : r.levels)
+    json["levels"].push_back({{"vertices", level.vertices},
+                              {"triangles", level.triangles},
+                              {"longest_edge", level.longest_edge},
+                              {"normal_deviation", level.normal_deviation}});
   json["notes"] = r.notes;
   json["targets"] = targets_json(r);
   json["targets"]["file"] = r.targets;

@@ -1,37 +1,47 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 // What a fit did: as lines for people, and as JSON with everything (fit_format.md).
+#include <map>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "sublimit/fit/interpolate.h"
 
 namespace sublimit {
 
+/// A level of a scheme without a matrix: what is not proved is measured.
+struct FitLevel {
+  Index vertices = 0, triangles = 0;
+  double longest_edge = 0;
+  double normal_deviation = 0;  ///< radians, the most between a triangle's normal and those of its corners' data
+};
+
 struct FitReport {
-  std::string kind;                                          ///< "interpolation", "least-squares", ...
-  std::string mesh, targets, scheme, output;                 ///< names, of files as given
-  std::vector<std::pair<std::string, std::string>> options;  ///< of the scheme and of the fit, by name
+  std::string kind;                            ///< interpolation, construction, least-squares, torus-pieces
+  std::string mesh, targets, scheme, output;   ///< names, of files as given
+  std::map<std::string, std::string> options;  ///< on the command line, of the scheme and of the fit
   Index mesh_vertices = 0, mesh_faces = 0, output_vertices = 0, output_faces = 0;
   int refinements = 0;
-  /// The first vertices of the output are the mesh's, in order; false under dual schemes.
-  bool keeps_vertices = true;
-  double box = 0;  ///< diagonal of the targets' bounding box
+  bool keeps_vertices = true;  ///< the first vertices of the output are the mesh's, in order; not under dual schemes
+  double box = 1;              ///< diagonal of the targets' bounding box, or of the mesh's, > 0
 
   std::vector<Index> vertices;  ///< targets at vertices, or
   std::vector<Sample> places;   ///< at places
+  std::vector<double> weights;  ///< of these; empty: all 1
   Points expected;              ///< where the limit should be, a target each
   Eigen::VectorXd position_error;
-  Eigen::VectorXd normal_error;           ///< radians, NaN without a normal; empty: no target has one
-  std::vector<double> weights;            ///< of targets at places; empty: all 1
-  std::vector<Index> without_plane = {};  ///< targets whose normal was left out
+  Eigen::VectorXd normal_error;      ///< radians, NaN without a normal; empty: no target has one
+  Eigen::VectorXd curvature_error;   ///< of k1 and k2, per unit of length; empty: no target has any
+  std::vector<Index> without_plane;  ///< vertices whose normal was left out
+  std::vector<Index> carried_by;     ///< by target: the face of the output whose plane polygon carries it
+  std::vector<Index> pinned;         ///< vertices
 
-  std::vector<InterpolationAttempt> attempts = {};  ///< of interpolations, the last one is the result
-  std::optional<Conditioning> conditioning = {};    ///< of least squares
-  std::optional<FitSolution> solution = {};         ///< absent where no system was solved
-  std::vector<std::string> notes = {};
+  std::vector<InterpolationAttempt> attempts;  ///< of interpolations, the last one is the result
+  std::optional<Conditioning> conditioning;    ///< of least squares
+  std::optional<FitSolution> solution;         ///< absent where no system was solved
+  std::vector<FitLevel> levels;                ///< of torus pieces, 0 on
+  std::vector<std::string> notes;
 };
 
 /// Largest and root mean square of the numbers that are there.

@@ -50,8 +50,9 @@ std::string refined(const FitReport& r) {
 
 std::string system(const Conditioning& c, const char* unknowns) {
   if (c.rows == 0 && c.columns == 0) return "";
-  return fmt::format("  {} conditions on {} {}: rank {}, condition {:.3g}, smallest singular value {:.3g}\n", c.rows,
-                     c.columns, unknowns, c.rank, c.condition(), c.smallest);
+  return fmt::format("  {} on {} {}: rank {}, condition {:.3g}, smallest singular value {:.3g}\n",
+                     counted(c.rows, "condition", "conditions"), c.columns, unknowns, c.rank, c.condition(),
+                     c.smallest);
 }
 
 }  // namespace
@@ -71,17 +72,28 @@ ErrorSummary summary(const Eigen::VectorXd& errors) {
 
 std::string fit_summary(const FitReport& r) {
   const ErrorSummary position = summary(r.position_error), normal = summary(r.normal_error);
-  const double box = r.box > 0 ? r.box : 1;
-  std::string text = fmt::format("{}: {}, {}", r.output, counted(r.output_vertices, "control point", "control points"),
+  std::string text = fmt::format("{}: {}, {}", r.output,
+                                 counted(r.output_vertices, r.levels.empty() ? "control point" : "point",
+                                         r.levels.empty() ? "control points" : "points"),
                                  counted(r.output_faces, "face", "faces"));
-  text += fmt::format("; the limit {} {}", r.kind == "least-squares" ? "is near" : "meets",
+  text += fmt::format("; {} {}",
+                      !r.levels.empty()           ? "they keep"
+                      : r.kind == "least-squares" ? "the limit is near"
+                                                  : "the limit meets",
                       counted(position.count, "point", "points"));
-  if (normal.count > 0) text += " and " + counted(normal.count, "normal", "normals");
+  if (normal.count > 0)
+    text += (r.curvature_error.size() > 0 ? ", " : " and ") + counted(normal.count, "normal", "normals");
+  if (r.curvature_error.size() > 0) text += " and their curvatures";
   text += "\n" + refined(r);
-  text +=
-      fmt::format("  position error {:.2g} of the box at most, {:.2g} rms", position.largest / box, position.rms / box);
+  text += fmt::format("  position error {:.2g} of the box at most, {:.2g} rms", position.largest / r.box,
+                      position.rms / r.box);
   if (normal.count > 0) text += fmt::format("; normal error {:.2g} rad at most", normal.largest);
+  if (r.curvature_error.size() > 0) text += fmt::format("; curvature error {:.2g}", summary(r.curvature_error).largest);
   text += "\n";
+  for (size_t k = 0; k < r.levels.size(); ++k)
+    text += fmt::format(
+        "  level {}: {} triangles, edges up to {:.3g} of the box, normals off theirs by {:.3g} degrees at most\n", k,
+        r.levels[k].triangles, r.levels[k].longest_edge / r.box, r.levels[k].normal_deviation * 180 / M_PI);
   if (!r.attempts.empty()) {
     const Conditioning& c = r.attempts.back().conditioning;
     text += system(c, c.columns == r.output_vertices ? "control points" : "coordinates");

@@ -28,6 +28,8 @@ const std::vector<std::vector<std::string>> headers = {
     {"face", "u", "v", "x", "y", "z", "weight"},
 };
 
+constexpr const char* right = "vertex,x,y,z[,nx,ny,nz[,k1,k2,d1x,d1y,d1z]] or face,u,v,x,y,z[,weight]";
+
 std::string in_words(const Vector3d& v) {
   return "(" + format_number(v.x()) + ", " + format_number(v.y()) + ", " + format_number(v.z()) + ")";
 }
@@ -106,7 +108,7 @@ Points FitTargets::positions() const {
 }
 
 FitTargets read_fit_targets(const std::filesystem::path& path) {
-  CsvRows rows(path, headers);
+  CsvRows rows(path, headers, right);
   FitTargets targets;
   targets.file = path;
   targets.by_place = rows.columns()[0] == "face";

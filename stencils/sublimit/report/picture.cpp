@@ -40,6 +40,7 @@ void check(const PictureMesh& mesh, int panel, int layer) {
     need(inside(line.tail) && inside(line.head), "a crease has a vertex that does not exist");
     need(line.strength >= 0 && line.strength <= 1, "a crease's strength is outside 0..1");
   }
+  need(mesh.dot_size >= 0 && mesh.dot_size <= 2, "the size of dots is 0 to 2");
   for (double c : mesh.color) need(c >= 0 && c <= 1, "a colour is outside 0..1");
   const auto normals = [&](const Points& n, Eigen::Index rows) {
     need(n.size() == 0 || (n.rows() == rows && n.cols() == 3),
@@ -79,8 +80,8 @@ std::string svg_picture(const std::vector<Panel>& panels, const PictureOptions& 
   fit(camera, panels, frame, options);
 
   const double border = 14, text = options.caption_size / 17;
-  const bool captions = std::any_of(panels.begin(), panels.end(),
-                                    [](const Panel& p) { return !p.caption.empty() || !p.note.empty(); });
+  const bool captions =
+      std::any_of(panels.begin(), panels.end(), [](const Panel& p) { return !p.caption.empty() || !p.note.empty(); });
   const double caption_height = captions ? 58 * text : 0;
   const std::size_t columns = options.columns > 0 ? static_cast<std::size_t>(options.columns) : panels.size();
   const std::size_t rows = panels.empty() ? 1 : (panels.size() + columns - 1) / columns;

@@ -29,6 +29,7 @@ struct PictureMesh {
   };
   std::vector<Line> creases;
   std::vector<Index> dots;  ///< vertices to mark
+  double dot_size = 1;      ///< 0..2
 
   bool faces = true;       ///< false: lines and dots only, which hide nothing
   bool wireframe = false;  ///< draw all edges

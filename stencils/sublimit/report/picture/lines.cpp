@@ -88,8 +88,9 @@ void write_lines(std::string& svg, const SeenPanel& seen, int layer) {
     const auto near = vertex_faces.find(first + v);
     if (visible(seen, p, near == vertex_faces.end() ? std::vector<int>{} : near->second)) dots.dot(spot(p));
   }
-  write_stroke(svg, {1, 1, 1}, 66, 1, dots.data());
-  write_stroke(svg, {.10, .12, .22}, 46, 1, dots.data());
+  const auto dot = [&](double width) { return static_cast<int>(std::lround(width * mesh.dot_size)); };
+  write_stroke(svg, {1, 1, 1}, dot(66), 1, dots.data());
+  write_stroke(svg, {.10, .12, .22}, dot(46), 1, dots.data());
 }
 
 }  // namespace sublimit::picture

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sublimit/fit_curvatures.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+
+#include "sublimit/base/error.h"
+#include "sublimit/base/format_number.h"
+
+namespace sublimit {
+namespace {
+
+using Eigen::Vector3d;
+
+double angle(const Vector3d& a, const Vector3d& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
+
+FitLevel measured(const CurvatureMesh& mesh) {
+  FitLevel level{.vertices = mesh.num_vertices(), .triangles = mesh.num_faces()};
+  for (size_t t = 0; t < mesh.triangles.size(); t += 3) {
+    const SurfacePoint* corner[3];
+    for (size_t c = 0; c < 3; ++c) corner[c] = &mesh.points[size_t(mesh.triangles[t + c])];
+    Vector3d normal = Vector3d::Zero();
+    for (size_t c = 0; c < 3; ++c) {
+      const Vector3d edge = corner[(c + 1) % 3]->position - corner[c]->position;
+      level.longest_edge = std::max(level.longest_edge, edge.norm());
+      if (c == 0) normal = edge.cross(corner[2]->position - corner[0]->position);
+    }
+    if (normal.isZero(0)) continue;  // as thin as a line: it has no normal to be off
+    for (const SurfacePoint* c : corner)
+      level.normal_deviation = std::max(level.normal_deviation, angle(normal, c->normal));
+  }
+  return level;
+}
+
+/// Every vertex needs all its data.
+void check_complete(const FitTargets& targets, const std::string& scheme, Index num_vertices) {
+  std::vector<bool> found(size_t(num_vertices), false);
+  for (size_t i = 0; i < targets.vertices.size(); ++i) {
+    const VertexTarget& target = targets.vertices[i];
+    found[size_t(target.vertex)] = true;
+    if (!target.curvature)
+      throw FormatError(targets.where(i) + "vertex " + format_number(target.vertex) + " has no " +
+                        (target.normal ? "curvatures" : "normal") + "; " + scheme +
+                        " needs nx,ny,nz,k1,k2,d1x,d1y,d1z everywhere");
+  }
+  const auto missing = std::ranges::find(found, false);
+  if (missing != found.end())
+    throw FormatError(targets.file.string() + ": vertex " + format_number(missing - found.begin()) +
+                      " has no target; " + scheme + " needs one at every vertex");
+}
+
+}  // namespace
+
+CurvatureFit fit_curvatures(const GeometricSurfaceScheme& scheme, const ControlMesh& mesh, const FitTargets& targets,
+                            const FitSettings& settings) {
+  check_vertices(targets, Topology(view(mesh)));
+  check_complete(targets, scheme.name, mesh.num_vertices());
+  CurvatureFit fit;
+  fit.given = scheme.checked(curvature_mesh(mesh, targets.vertices));
+  FitReport& report = fit.report;
+  report = report_of("torus-pieces", scheme.name, mesh, targets);
+  if (scheme.notes) report.notes = scheme.notes(fit.given);
+  fit.refined = fit.given;
+  report.levels.push_back(measured(fit.refined));
+  for (int k = 1; k <= settings.levels; ++k) {
+    if (settings.progress) settings.progress("level " + std::to_string(k) + " of " + std::to_string(settings.levels));
+    fit.refined = scheme.refine(fit.refined);
+    report.levels.push_back(measured(fit.refined));
+  }
+  report.refinements = settings.levels;
+  report.output_vertices = fit.refined.num_vertices();
+  report.output_faces = fit.refined.num_faces();
+
+  const Index count = static_cast<Index>(targets.size());
+  report.position_error.resize(count);
+  report.normal_error.resize(count);
+  report.curvature_error.resize(count);
+  for (Index i = 0; i < count; ++i) {
+    const VertexTarget& target = targets.vertices[size_t(i)];
+    const SurfacePoint& found = fit.refined.points[size_t(target.vertex)];
+    report.position_error[i] = (found.position - target.position).norm();
+    report.normal_error[i] = angle(found.normal, *target.normal);
+    const auto [low, high] = std::minmax(target.curvature->k1, target.curvature->k2);
+    const auto [found_low, found_high] = std::minmax(found.k1, found.k2);
+    report.curvature_error[i] = std::max(std::abs(found_low - low), std::abs(found_high - high));
+  }
+  return fit;
+}
+
+MeshOutput output(const CurvatureMesh& mesh) {
+  const Index count = mesh.num_vertices();
+  MeshOutput out;
+  out.positions.resize(count, 3);
+  out.normals.resize(count, 3);
+  for (Index v = 0; v < count; ++v) {
+    out.positions.row(v) = mesh.points[size_t(v)].position;
+    out.normals.row(v) = mesh.points[size_t(v)].normal;
+  }
+  out.face_sizes.assign(size_t(mesh.num_faces()), 3);
+  out.face_vertices = mesh.triangles;
+  return out;
+}
+
+}  // namespace sublimit
