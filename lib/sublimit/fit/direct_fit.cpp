@@ -278,7 +278,8 @@ FitSolution solve_directly(const FitTerms& terms, const FitSolverOptions& option
   }
   // Conditions that contradict each other, or too many of them: what least squares makes of them can be met.
   FitProblem nearest = least_squares(p);
-  solve_system(FitTerms(nearest), options, solution, true);
+  solution.x = p.x0;
+  if (terms.c_size > 0) solve_system(FitTerms(nearest), options, solution, true);
   if (terms.has_objective()) {
     nearest = p;
     nearest.d = apply(p.C, solution.x);

@@ -44,6 +44,7 @@ struct SparseCholesky::Factors {
 };
 
 SparseCholesky::SparseCholesky(const SparseMatrix& M) : factors_(std::make_unique<Factors>()) {
+  if (M.rows() == 0) throw InvalidParameter("a matrix without rows has no factors");  // Eigen would divide by its size
   Columns ordered = M;
   Eigen::AMDOrdering<Index>()(ordered, factors_->order);
   ordered = ordered.twistedBy(factors_->order.inverse());

@@ -77,11 +77,14 @@ LeastSingular least_singular(const SparseMatrix& B, const SparseMatrix& Bt, doub
   shift.setIdentity();
   const SparseCholesky cholesky(SparseMatrix(G + shift * (1e-12 * trace)));
   LeastSingular result;
-  for (Index block = std::min<Index>(n, 6);; block = std::min({n, 3 * block, most + 1})) {
-    const Index steps = std::max<Index>(2, 48 / block);
+  // A solution with the factors of a large matrix takes a tenth of a second, so there the first space has to do.
+  const bool large = n > 20000;
+  const Index all_steps = large ? 36 : 48;
+  for (Index block = std::min<Index>(n, large ? 3 : 6);; block = std::min({n, 3 * block, most + 1})) {
+    const Index steps = std::max<Index>(2, all_steps / block);
     MatrixXd start = random_columns(n, block);
     double before = INFINITY;
-    for (int round = 0; round < 6; ++round) {
+    for (int round = 0; round < (large ? 1 : 6); ++round) {
       MatrixXd V(n, std::min(n, block * steps)), last = orthonormal(start);
       Index found = 0;
       while (true) {

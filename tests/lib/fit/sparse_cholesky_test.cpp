@@ -27,8 +27,7 @@ TEST(SparseCholesky, SolvesWhatADenseFactorSolves) {
   }
 }
 
-TEST(SparseCholesky, LargeFrontsInTiles) {
-  // A full block of 500 beside a mesh: its last front is larger than a tile.
+TEST(SparseCholesky, AFullBlockBesideAMesh) {
   const SparseMatrix L = testing::limit_system("catmull-clark", testing::jittered(testing::torus(40, 50)));
   Eigen::MatrixXd M = L * SparseMatrix(L.transpose());
   M.topLeftCorner(500, 500).array() += 0.01;
