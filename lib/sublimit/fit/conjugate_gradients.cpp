@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "sublimit/base/parallel_for.h"
+#include "sublimit/sparse_product.h"
 
 namespace sublimit {
 namespace {
@@ -115,6 +116,29 @@ class Iteration {
   std::vector<Row> parts_;
 };
 
+/// Sums of squares, by column.
+Row squares(const Points& a) {
+  std::vector<Row> parts(num_blocks(a.rows()));
+  parallel_for_blocks(a.rows(), [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
+    const Eigen::Index channels = a.cols();
+    Row sum = Row::Zero(channels);
+    for (const double* x = a.data() + begin * channels; x < a.data() + end * channels; x += channels)
+      for (Eigen::Index c = 0; c < channels; ++c) sum[c] += x[c] * x[c];
+    parts[block] = sum;
+  });
+  return sum_of(parts, a.cols());
+}
+
+/// a = a * scale + b * factor, by column.
+void combine(Points& a, const Row& scale, const Points& b, const Row& factor) {
+  parallel_for_blocks(a.rows(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    const Eigen::Index channels = a.cols();
+    for (Eigen::Index i = begin * channels; i < end * channels; i += channels)
+      for (Eigen::Index c = 0; c < channels; ++c)
+        a.data()[i + c] = a.data()[i + c] * scale[c] + b.data()[i + c] * factor[c];
+  });
+}
+
 template <int Channels>
 Points run(const std::function<Points(const Points&)>& S, const Eigen::VectorXd& diagonal, Points& residual,
            const std::function<bool(int, double)>& go_on) {
@@ -145,6 +169,32 @@ Points conjugate_gradients(const std::function<Points(const Points&)>& S, const 
   if (residual.size() == 0) return residual;
   if (residual.cols() == 3) return run<3>(S, diagonal, residual, go_on);
   return run<Eigen::Dynamic>(S, diagonal, residual, go_on);
+}
+
+Points least_squares_gradients(const SparseMatrix& C, const SparseMatrix& Ct, Points& gap,
+                               const std::function<bool(int, double, double)>& go_on) {
+  const Row ones = Row::Ones(gap.cols());
+  Points u = Points::Zero(C.cols(), gap.cols());
+  if (gap.size() == 0 || u.size() == 0) return u;
+  Points s = apply(Ct, gap), p = s;
+  Row square = squares(s), alpha(gap.cols()), beta(gap.cols());
+  const double norm = C.cwiseAbs().sum() / double(std::max<Eigen::Index>(1, C.rows()));
+  for (int iteration = 1;; ++iteration) {
+    const Points q = apply(C, p);
+    const Row seen = squares(q), length = squares(p);
+    for (Eigen::Index c = 0; c < alpha.size(); ++c)
+      alpha[c] = seen[c] > unseen * norm * norm * length[c] ? square[c] / seen[c] : 0;
+    if (alpha.maxCoeff() == 0) break;
+    combine(u, ones, p, alpha);
+    combine(gap, ones, q, -alpha);
+    s = apply(Ct, gap);
+    const Row next = squares(s);
+    for (Eigen::Index c = 0; c < alpha.size(); ++c) beta[c] = square[c] > 0 ? next[c] / square[c] : 0;
+    combine(p, beta, s, ones);
+    square = next;
+    if (!go_on(iteration, gap.cwiseAbs().maxCoeff(), s.cwiseAbs().maxCoeff())) break;
+  }
+  return u;
 }
 
 }  // namespace sublimit

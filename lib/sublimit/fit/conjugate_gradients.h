@@ -19,4 +19,12 @@ namespace sublimit {
 Points conjugate_gradients(const std::function<Points(const Points&)>& S, const Eigen::VectorXd& diagonal,
                            Points& residual, const std::function<bool(int, double)>& go_on);
 
+/// min |C u - gap|, u = 0 at first, by the normal equations: C^T is applied to what remains of the gap, whose digits
+/// C^T C would lose. All steps lie in the range of C^T.
+/// Source: Bjorck 1996, "Numerical methods for least squares problems", section 7.4.
+/// @param gap    what remains of it in the end
+/// @param go_on  told the number of iterations and the largest entries of the gap and of C^T gap after each
+Points least_squares_gradients(const SparseMatrix& C, const SparseMatrix& Ct, Points& gap,
+                               const std::function<bool(int, double, double)>& go_on);
+
 }  // namespace sublimit

@@ -91,7 +91,7 @@ class Saddle : public System {
   explicit Saddle(const FitTerms& terms, bool rows_count = false)
       : t_(terms),
         rows_count_(rows_count),
-        C_(scaled_rows(terms.problem.C, terms.row_length)),
+        C_(terms.has_conditions() ? scaled_rows(terms.problem.C, terms.row_length) : SparseMatrix(0, n())),
         Ct_(transposed(C_)),
         Q_(terms.Q / terms.q_size),
         rho_(C_.rows() > 0 ? rho_regular : rho_regular_alone),

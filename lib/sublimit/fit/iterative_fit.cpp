@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fitting by conjugate gradients. Conditions alone: C^T C y = C^T (d - C x0), without a preconditioner, since the
-// steps then lie in the range of C^T and end at the x nearest to x0. An objective: Q y = force, preconditioned by the
-// diagonal of Q; conditions on single control points are met first and keep them out of the iteration.
+// Fitting by conjugate gradients. Conditions alone: least squares of d - C x0 - C y, without a preconditioner, since
+// the steps then lie in the range of C^T and end at the x nearest to x0. An objective: Q y = force, preconditioned by
+// the diagonal of Q; conditions on single control points are met first and keep them out of the iteration.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -48,16 +48,17 @@ class Restarts {
 
 void meet_conditions(const FitTerms& terms, const FitSolverOptions& options, FitSolution& solution) {
   const FitProblem& p = terms.problem;
-  const auto S = [&](const Points& y) { return apply(terms.Ct, apply(p.C, y)); };
-  const Eigen::VectorXd level = Eigen::VectorXd::Constant(terms.unknowns(), terms.c_size * terms.c_size);
   Restarts restarts(options, solution);
   Points x = p.x0;
   while (true) {
-    const Points gap = terms.gap(x);
-    Points residual = apply(terms.Ct, gap);
-    const double size = std::max({largest(p.d), terms.c_size * largest(x), 1e-300}), scale = size * terms.c_size;
-    if (!restarts.worth(terms.relative_gap(gap, x), largest(residual), 0.02 * options.tolerance * scale, x)) break;
-    x += conjugate_gradients(S, level, residual, [&](int, double now) { return restarts.go_on(now, now / scale); });
+    Points gap = terms.gap(x);
+    const Points normal = apply(terms.Ct, gap);
+    const double size = std::max({largest(p.d), terms.c_size * largest(x), 1e-300}), goal = 0.2 * options.tolerance;
+    if (!restarts.worth(largest(gap) / size, largest(normal), 0, x)) break;
+    // Conditions that contradict each other keep a gap, of which C^T leaves nothing.
+    x += least_squares_gradients(p.C, terms.Ct, gap, [&](int, double rest, double seen) {
+      return restarts.go_on(1, rest / size) && rest > goal * size && seen > 0.01 * goal * size * terms.c_size;
+    });
   }
 }
 

@@ -209,6 +209,19 @@ TEST(FitProblem, PinsHoldAndTheRestIsLeastSquares) {
   }
 }
 
+TEST(FitProblem, AbsentMatricesNeedNoShape) {
+  const ControlMesh mesh = testing::torus(6, 5);
+  FitProblem p;
+  p.A = limit_system("catmull-clark", mesh);
+  p.b = p.A * mesh.positions;
+  p.x0 = Points::Zero(30, 3);
+  for (const FitMethod method : {FitMethod::automatic, FitMethod::iterative}) {
+    const FitSolution solution = solve(p, {.method = method});
+    EXPECT_TRUE(solution.converged);
+    EXPECT_LE(difference(solution.x, mesh.positions), random_problem);
+  }
+}
+
 TEST(FitProblem, TheSameBitsOnAnyNumberOfThreads) {
   const ControlMesh mesh = testing::jittered(testing::torus(91, 90));
   FitProblem p;
