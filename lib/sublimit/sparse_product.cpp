@@ -143,6 +143,7 @@ Points apply(const SparseMatrix& S, const Points& points) {
   prefer_huge_pages(result.data(), result.size() * sizeof(double));
   const Index channels = static_cast<Index>(points.cols());
   parallel_for_blocks(S.rows(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    if (channels == 1) return apply_rows<1>(S, points.data(), result.data(), begin, end);
     if (channels == 3) return apply_rows<3>(S, points.data(), result.data(), begin, end);
     for (std::int64_t r = begin; r < end; ++r) {
       result.row(r).setZero();
