@@ -14,6 +14,10 @@ using Eigen::Matrix2d, Eigen::Matrix3d, Eigen::Vector2d, Eigen::Vector3d;
 /// Where the chord's share in the tangent plane is less than this, the edge runs along the normal.
 constexpr double no_direction = 1e-3;
 
+/// Squares of misfits below this are rounding errors: they are not bent to, for they would grow by 1/edge in slopes and
+/// 1/edge^2 in curvatures. They fade out smoothly.
+constexpr double rounding2 = 1e-24;
+
 /// The directions x and y at a frame, in its e1 and e2: along the chord, as long as the edge; and across. Along a
 /// geodesic, which edges nearly are, they do not change but with the tangent plane: derivatives have no other terms,
 /// and the coordinates of the torus piece, which may wind as they like where it is nearly flat, do not matter.
@@ -61,16 +65,16 @@ std::optional<TorusCarrier> TorusCarrier::make(const TorusPiece& piece, const Su
   carrier.length_ =
       h / 2 * (arc_by_chord(carrier.chord_.dot(near.n) / h) + arc_by_chord(carrier.chord_.dot(frame.n) / h));
   const Matrix2d xy = directions(frame, carrier.chord_, carrier.length_, skew);
-  const Vector2d first = xy.transpose() * gradient;
-  const Matrix2d seconds = xy.transpose() * hessian * xy;
-  carrier.value_ = w;
+  carrier.misfit2_ = w / h * (w / h) + slope.squaredNorm() + h * h * hessian.squaredNorm();
+  const double share = carrier.misfit2_ / (carrier.misfit2_ + rounding2);
+  const Vector2d first = share * xy.transpose() * gradient;
+  const Matrix2d seconds = share * xy.transpose() * hessian * xy;
+  carrier.value_ = share * w;
   carrier.along_ = first[0];
   carrier.across_ = first[1];
   carrier.along_along_ = seconds(0, 0);
   carrier.along_across_ = seconds(0, 1);
   carrier.across_across_ = seconds(1, 1);
-
-  carrier.misfit2_ = w / h * (w / h) + slope.squaredNorm() + h * h * hessian.squaredNorm();
   if (!std::isfinite(carrier.misfit2_)) return std::nullopt;
   return carrier;
 }

@@ -4,7 +4,8 @@
 //
 // The surface is written as a height w along the normals of the torus piece. At the near end w and its derivatives of
 // first and second order vanish; at the far end they follow from position, normal and shape there. Half way they come
-// from both ends by a Hermite rule, in x from 0 to 1 along the edge and a direction y across it:
+// from both ends by a Hermite rule, in x from 0 to 1 along the edge and a direction y across it, the chord's directions
+// in each tangent plane:
 //
 //   w = (w0 + w1)/2 + 3/20 (w0' - w1') + 1/80 (w0'' + w1'')         w_y  = (w_y0 + w_y1)/2 + 1/8 (w_y0' - w_y1')
 //   w' = 9/4 (w1 - w0) - 5/8 (w0' + w1') - 1/16 (w0'' - w1'')       w_y' = 2 (w_y1 - w_y0) - 1/2 (w_y0' + w_y1')

@@ -12,8 +12,12 @@
 // is the one around, and g = 0.
 //
 // Carriers (torus_carrier.h). Each candidate is bent to the data of the other end; a carrier has the data of second
-// order of both ends. All carriers are averaged with weights 1/misfit^2 of the torus piece before it is bent: data of
-// one torus, sphere, cylinder or plane leave weight only for that surface, and no threshold decides.
+// order of both ends.
+//
+// Weights. All carriers are averaged with weights 1/misfit^2 of the torus piece before it is bent: data of one torus,
+// sphere, cylinder or plane leave weight only for that surface, and no threshold decides. The misfit is that of the
+// other end times that of the opposite corners: two ends alone may lie on two tori, as those on an equator do, which is
+// the tube of another. Further factors (torus_edge.cpp) prefer what is tame: pieces that wind little between the ends.
 //
 // New points. The slides evaluate a rational biquadratic patch at (1/2, 1/2). A patch between the ends' parameters
 // depends, on a sphere, on the arbitrary directions, and degenerates along principal circles. Here the patch is the one
@@ -29,7 +33,14 @@
 // Fall-back: the middle of the chord, with the mean normal and curvatures 0, where ends coincide, where their normals
 // cancel, or where no candidate fits better than to a slope of ten (the edge runs along a normal). Notes count them.
 //
-// Edges of one triangle are refined by the same rule. Nothing is known of continuity.
+// Edges of one triangle are refined by the same rule, with one opposite corner.
+//
+// Rounding. What a torus piece misses by less than 1e-12 of the edge is taken for rounding and not bent to: it would
+// grow with every level. Where k1 = k2 within rounding, directions are arbitrary, and where the data are not of one
+// sphere so are effects of the size of the misfit.
+//
+// Nothing is known of continuity. Measured (fit/deviation.h): normals of triangles and data normals approach each other
+// like the edges' length; curvatures stay bounded on lattices and may grow slowly in slender triangles.
 #include "sublimit/geometric_scheme.h"
 #include "sublimit/mesh/curvature_mesh.h"
 
