@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -38,7 +39,7 @@ Vector3d middle_of_arcs(const SurfacePoint& a, const SurfacePoint& b, const Vect
 /// The geodesic curvature of the path around, at a, for which b's data fit best on the torus. With v = v0 + g v1 the
 /// motion's velocity at b and omega = omega0 + g omega1 its rotation, all conditions are linear in g: v is tangent at
 /// b; v is at right angles to the one principal direction of b, t; the axis is to the other, p; and p's circle has
-/// curvature k there.
+/// curvature k there. The edge has length 1.
 struct Geodesic {
   double g;
   double trust;  ///< from 0, where any g will do up to rounding, to 1
@@ -46,37 +47,34 @@ struct Geodesic {
 Geodesic best_geodesic(const SurfacePoint& a, const Vector3d& e1, double k2, const SurfacePoint& b, const Vector3d& t,
                        const Vector3d& p, double k_t, double k_p) {
   const Vector3d d = b.position - a.position, e2 = a.normal.cross(e1);
-  const double h = d.norm();
   const Vector3d omega0 = k2 * e1, omega1 = -a.normal, v0 = e2 + omega0.cross(d), v1 = omega1.cross(d);
-  const double gap = h * (k_p - k_t);  // directions count for as much as the curvatures differ
-  const double c[4] = {v0.dot(b.normal), gap * v0.dot(t), gap * h * omega0.dot(p),
-                       h * (omega0.cross(p).dot(b.normal) - k_p * v0.dot(p))};
-  const double m[4] = {v1.dot(b.normal), gap * v1.dot(t), gap * h * omega1.dot(p),
-                       h * (omega1.cross(p).dot(b.normal) - k_p * v1.dot(p))};
+  const double gap = k_p - k_t;  // directions count for as much as the curvatures differ
+  const double c[4] = {v0.dot(b.normal), gap * v0.dot(t), gap * omega0.dot(p),
+                       omega0.cross(p).dot(b.normal) - k_p * v0.dot(p)};
+  const double m[4] = {v1.dot(b.normal), gap * v1.dot(t), gap * omega1.dot(p),
+                       omega1.cross(p).dot(b.normal) - k_p * v1.dot(p)};
   double mc = 0, mm = std::numeric_limits<double>::min();
   for (int i = 0; i < 4; ++i) {
     mc += m[i] * c[i];
     mm += m[i] * m[i];
   }
-  return {-mc / mm, mm / (mm + undetermined2 * h * h)};
+  return {-mc / mm, mm / (mm + undetermined2)};
 }
 
 /// How far the line from one opposite corner to the other (of one triangle, to the edge's middle) leans along the edge.
-double skew_across(const SurfacePoint& a, const SurfacePoint& b, const Vector3d& mean_normal,
-                   std::span<const SurfacePoint* const> opposite) {
+double skew_across(const Vector3d& chord, const Vector3d& mean_normal, std::span<const SurfacePoint> opposite) {
   if (opposite.empty()) return 0;
-  const Vector3d chord = b.position - a.position;
-  const Vector3d from = opposite.size() > 1 ? opposite[1]->position : Vector3d(a.position + chord / 2);
-  const Vector3d across = opposite[0]->position - from;
+  const Vector3d from = opposite.size() > 1 ? opposite[1].position : Vector3d(chord / 2);
+  const Vector3d across = opposite[0].position - from;
   const double along = across.dot(chord), left = across.dot(mean_normal.cross(chord));
   return left == 0 ? 0 : std::clamp(along / left, -largest_skew, largest_skew);
 }
 
-/// Sums over all carriers, the better ones with more weight.
+/// Sums over all carriers, the better ones with more weight. The edge has length 1.
 struct Blend {
-  std::span<const SurfacePoint* const> opposite;
-  Vector3d guess;
-  double h, skew;
+  std::span<const SurfacePoint> opposite;
+  Vector3d guess = Vector3d::Zero();
+  double skew = 0;
   double weight = 0;
   Vector3d position = Vector3d::Zero(), normal = Vector3d::Zero();
   Matrix3d shape = Matrix3d::Zero();
@@ -84,8 +82,8 @@ struct Blend {
   /// From 0, the opposite corners lie on the piece, to 1, they have nothing to do with it.
   double misfit2_aside(const TorusPiece& piece) const {
     double sum = 0;
-    for (const SurfacePoint* corner : opposite) {
-      const std::optional<TorusCarrier> carrier = TorusCarrier::make(piece, *corner);
+    for (const SurfacePoint& corner : opposite) {
+      const std::optional<TorusCarrier> carrier = TorusCarrier::make(piece, corner);
       sum += carrier ? carrier->misfit2() / (1 + carrier->misfit2()) : 1;
     }
     return opposite.empty() ? 1 : sum / static_cast<double>(opposite.size());
@@ -99,7 +97,7 @@ struct Blend {
     // Of pieces that fit alike the tamer ones: near to the guess, with circles that are large beside the edge. The
     // power was chosen by measuring on ellipsoids with edges of a radian: 1, 2, 4 gave normals within 0.7, 0.4, 0.2.
     const double near = carrier->nearness() * carrier->nearness();
-    const double away = 4 * middle->distance / h, turn = h * piece.geodesic();
+    const double away = 4 * middle->distance, turn = piece.geodesic();
     const double w =
         trust * near * near /
         ((carrier->misfit2() + rounding2) * (misfit2_aside(piece) + rounding2) * (1 + away * away) * (1 + turn * turn));
@@ -124,31 +122,42 @@ struct Blend {
   }
 };
 
+/// The middle of the chord, flat. Where everything cancels the normal is a's.
 EdgePoint fallback(const SurfacePoint& a, const SurfacePoint& b, std::span<const SurfacePoint* const> opposite) {
   Vector3d aside = Vector3d::Zero();
   for (const SurfacePoint* corner : opposite) aside += corner->normal;
-  const Vector3d chord = b.position - a.position;
+  const Vector3d chord = (b.position - a.position).stableNormalized();
   Vector3d normal = a.normal + b.normal;
-  if (normal.norm() < cancelled) {
-    normal = aside;
-    if (chord.squaredNorm() > 0) normal -= chord * (chord.dot(aside) / chord.squaredNorm());
-  }
+  if (normal.norm() < cancelled) normal = aside - chord * chord.dot(aside);
   if (!(normal.norm() > cancelled * aside.norm())) normal = a.normal;
-  return {surface_point(a.position + chord / 2, normal.normalized(), Matrix3d::Zero()), true};
+  return {surface_point(a.position / 2 + b.position / 2, normal.normalized(), Matrix3d::Zero()), true};
+}
+
+/// In units of the edge, from its start: sizes and places far from the origin cost no digits.
+SurfacePoint seen_from(const SurfacePoint& origin, double unit, const SurfacePoint& p) {
+  return {(p.position - origin.position) / unit, p.normal, p.k1 * unit, p.k2 * unit, p.direction1};
 }
 
 }  // namespace
 
 EdgePoint torus_edge(const SurfacePoint& a, const SurfacePoint& b, std::span<const SurfacePoint* const> opposite) {
-  const Vector3d chord = b.position - a.position, sum = a.normal + b.normal;
-  const double h = chord.norm();
-  if (!(h > 0) || sum.norm() < cancelled) return fallback(a, b, opposite);
-  const Vector3d guess = middle_of_arcs(a, b, sum.normalized());
-  Blend blend{.opposite = opposite, .guess = guess, .h = h, .skew = skew_across(a, b, sum.normalized(), opposite)};
-  blend.add_all(a, b);
-  blend.add_all(b, a);
+  const double unit = (b.position - a.position).stableNorm();
+  const Vector3d sum = a.normal + b.normal;
+  if (!(unit > 0 && std::isfinite(unit)) || sum.norm() < cancelled) return fallback(a, b, opposite);
+  const SurfacePoint from = seen_from(a, unit, a), to = seen_from(a, unit, b);
+  std::array<SurfacePoint, 2> corners;
+  const size_t count = std::min(opposite.size(), corners.size());
+  for (size_t i = 0; i < count; ++i) corners[i] = seen_from(a, unit, *opposite[i]);
+
+  Blend blend{.opposite = std::span(corners).first(count)};
+  blend.guess = middle_of_arcs(from, to, sum.normalized());
+  blend.skew = skew_across(to.position, sum.normalized(), blend.opposite);
+  blend.add_all(from, to);
+  blend.add_all(to, from);
   if (!(blend.weight > 0) || !(blend.normal.norm() > 0.1 * blend.weight)) return fallback(a, b, opposite);
-  return {surface_point(guess + blend.position / blend.weight, blend.normal.normalized(), blend.shape / blend.weight),
+  const SurfacePoint middle =
+      surface_point(blend.guess + blend.position / blend.weight, blend.normal.normalized(), blend.shape / blend.weight);
+  return {{a.position + unit * middle.position, middle.normal, middle.k1 / unit, middle.k2 / unit, middle.direction1},
           false};
 }
 

@@ -30,8 +30,10 @@
 // which gives four similar triangles in the plane, or PM. Option cut=regular (default) always takes AB and leaves
 // valences alone; cut=perimeter compares AB and the three PM.
 //
-// Fall-back: the middle of the chord, with the mean normal and curvatures 0, where ends coincide, where their normals
-// cancel, or where no candidate fits better than to a slope of ten (the edge runs along a normal). Notes count them.
+// Fall-back: the middle of the chord, flat (curvatures 0), with the mean normal or, where the ends' normals cancel,
+// that of the opposite corners across the chord. It is for ends that coincide or whose normals cancel, and where no
+// candidate fits better than to a slope of ten (the edge runs along a normal) or their normals cancel. Notes count such
+// edges.
 //
 // Edges of one triangle are refined by the same rule, with one opposite corner.
 //

@@ -55,10 +55,11 @@ TEST(Deviation, NearestPointsOfAnEllipsoid) {
 TEST(Deviation, IsZeroWhereTheSchemeIsExact) {
   ControlMesh mesh = icosahedron();
   const ImplicitSurface sphere = ellipsoid({1, 1, 1});
-  for (const Deviation& row : deviations(torus_pieces({}), curvature_mesh(mesh, targets_on(sphere, mesh)), 3, sphere)) {
-    EXPECT_LT(row.position.largest, reference);
-    EXPECT_LT(row.normal.largest, reference);
-    EXPECT_LT(std::max(row.k1.largest, row.k2.largest), 10 * reference);
+  for (const Deviation& row : deviations(torus_pieces({}), curvature_mesh(mesh, targets_on(sphere, mesh)), 5, sphere)) {
+    // Rounding does not grow from level to level.
+    EXPECT_LT(row.position.largest, rounding(20));
+    EXPECT_LT(row.normal.largest, rounding(20));
+    EXPECT_LT(std::max(row.k1.largest, row.k2.largest), rounding(20));
     EXPECT_NEAR(row.bend.mean_square_root, 1, 0.3);  // the curvature
   }
 }

@@ -217,6 +217,12 @@ TEST(TorusPieces, DoNotDependOnPlaceSizeSideOrOrder) {
     return mesh;
   };
   EXPECT_LT(difference(refine(scheme, map(data), 2), map(fine)), size * moved);
+  const auto scale = [](CurvatureMesh mesh, double by) {  // by powers of 2, exactly
+    for (SurfacePoint& p : mesh.points) p = {by * p.position, p.normal, p.k1 / by, p.k2 / by, p.direction1};
+    return mesh;
+  };
+  for (const double by : {0x1p-600, 0x1p600})
+    EXPECT_EQ(difference(scale(refine(scheme, scale(data, by), 2), 1 / by), fine), 0);
   const auto flip = [](CurvatureMesh mesh) {
     for (SurfacePoint& p : mesh.points) p = p.flipped();
     return mesh;
