@@ -27,8 +27,9 @@
 //
 // Topology. With the new points a triangle is a hexagon. Two corners are cut off; the quadrilateral left at the third,
 // corner P with edge points A, M, B, is cut along the diagonal for which the perimeters of both parts differ least: AB,
-// which gives four similar triangles in the plane, or PM. Option cut=regular (default) always takes AB and leaves
-// valences alone; cut=perimeter compares AB and the three PM.
+// which gives four similar triangles in the plane, or PM. Option cut=perimeter compares AB and the three PM.
+// cut=regular (default) always takes AB and leaves valences alone: measured, PM leaves long edges in triangles that are
+// nearly isosceles, and normals of triangles then do not approach the data's.
 //
 // Fall-back: the middle of the chord, flat (curvatures 0), with the mean normal or, where the ends' normals cancel,
 // that of the opposite corners across the chord. It is for ends that coincide or whose normals cancel, and where no
@@ -41,8 +42,10 @@
 // grow with every level. Where k1 = k2 within rounding, directions are arbitrary, and where the data are not of one
 // sphere so are effects of the size of the misfit.
 //
-// Nothing is known of continuity. Measured (fit/deviation.h): normals of triangles and data normals approach each other
-// like the edges' length; curvatures stay bounded on lattices and may grow slowly in slender triangles.
+// Nothing is known of continuity. Measured (fit/deviation.h) on z = x y, sin x cos y and an ellipsoid: with data twice
+// as dense, positions are 10 to 40 times nearer, normals 5 to 17 times, curvatures 3 to 6 times; from level to level
+// positions and normals settle, normals of triangles and of data approach each other like the edges' length, and
+// deviations of curvatures grow slowly, faster in slender triangles and where the data are coarse.
 #include "sublimit/geometric_scheme.h"
 #include "sublimit/mesh/curvature_mesh.h"
 
