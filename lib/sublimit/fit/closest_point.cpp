@@ -75,7 +75,7 @@ struct Search {
         }
         const LimitCell& cell = cells[size_t(node.item)];
         // Only there, else the search would leave it for its neighbours' feet.
-        const Foot foot = foot_search(query, cell.start, SearchDomain(triangles, cell.start, 1.25 * cell.radius), order,
+        const Foot foot = foot_search(query, cell.start, SearchDomain(triangles, cell.start, cell.radius), order,
                                       best.foot.squared_distance);
         if (foot.squared_distance < best.foot.squared_distance) {
           best.foot = foot;

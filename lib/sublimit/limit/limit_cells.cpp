@@ -13,7 +13,7 @@
 namespace sublimit {
 namespace {
 
-/// Thickness of a hull that is not cut further, relative to its width.
+/// Thickness of a hull that is not cut further, relative to its width, unless it folds.
 constexpr double thin = 0.03;
 /// At most so many cells of an address, but for the pieces of polygons' corners and of rotating schemes.
 constexpr int most_parts = 64;
@@ -55,16 +55,16 @@ class Cutter {
       }
       return;
     }
-    const Sample start = middle(known, type.kind() == Piece::Kind::triangle);
+    const Middle start = middle(known, type.kind() == Piece::Kind::triangle, parts);
     Hull hull;
     if (type.types().has_no_polynomials()) {
       const Points differences = points.bottomRows(points.rows() - 1).rowwise() - points.row(0);
       const Points seen = (limits_of(type) * differences).rowwise() + points.row(0);
       for (Eigen::Index i = 0; i < seen.rows(); ++i) hull.push_back(seen.row(i));
-      out_.push_back(cell_of(hull, start, parts, 0.25, 0.02));
+      out_.push_back(cell_of(hull, start, 0.25, 0.02));
     } else {
       for (Eigen::Index i = 0; i < points.rows(); ++i) hull.push_back(points.row(i));
-      out_.push_back(cell_of(hull, start, parts, convex_ ? 0 : reach_of(type), 0));
+      out_.push_back(cell_of(hull, start, convex_ ? 0 : reach_of(type), 0));
     }
   }
 
@@ -74,9 +74,9 @@ class Cutter {
     Hull hull;
     for (const Points& net : coefficients)
       for (Eigen::Index i = 0; i < net.rows(); ++i) hull.push_back(net.row(i));
-    const LimitCell cell = cell_of(hull, middle(known, triangle), parts, 0, 0);
+    const LimitCell cell = cell_of(hull, middle(known, triangle, parts), 0, 0);
     const Eigen::Vector3d size = cell.own_box.sizes();
-    if (4 * parts > most_parts || size[2] <= thin * std::max(size[0], size[1])) {
+    if (4 * parts > most_parts || (size[2] <= thin * std::max(size[0], size[1]) && !turns(coefficients, triangle))) {
       out_.push_back(cell);
       return;
     }
@@ -91,6 +91,30 @@ class Cutter {
       const std::vector<Known> inside = those_inside(all, triangle);
       cut(nets, triangle, quarter, inside, 4 * parts);
     }
+  }
+
+  /// Whether normals of the nets differ much: there are folds.
+  static bool turns(const std::vector<Points>& coefficients, bool triangle) {
+    constexpr double least_cosine = 0.8;
+    std::vector<Eigen::Vector3d> normals;
+    for (const Points& net : coefficients) {
+      const Eigen::Index n = net.rows();
+      const int d =
+          static_cast<int>(std::lround(triangle ? (std::sqrt(8.0 * double(n) + 1) - 3) / 2 : std::sqrt(double(n)) - 1));
+      Eigen::Index row = 0;
+      for (int i = 0; i <= d; ++i) {
+        const int across = triangle ? d - i + 1 : d + 1;
+        for (int j = 0; j < across; ++j, ++row) {
+          if (i == d || j + 1 == across) continue;
+          const Eigen::Vector3d x = net.row(row), u = net.row(row + across), v = net.row(row + 1);
+          normals.push_back((u - x).cross(v - x));
+        }
+      }
+    }
+    Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+    for (const Eigen::Vector3d& n : normals) mean += n;
+    return std::any_of(normals.begin(), normals.end(),
+                       [&](const Eigen::Vector3d& n) { return n.dot(mean) < least_cosine * n.norm() * mean.norm(); });
   }
 
   /// Or, of a cell without one, the place that is closest to it.
@@ -108,13 +132,23 @@ class Cutter {
     return result;
   }
 
-  static Sample middle(const std::vector<Known>& known, bool triangle) {
+  /// A start in the middle, and how far the cell goes from there, by the places known in it.
+  struct Middle {
+    Sample start;
+    double radius = 0;
+  };
+  static Middle middle(const std::vector<Known>& known, bool triangle, int parts) {
     const double centre = triangle ? 1. / 3 : 0.5;
     const auto off = [&](const Known& k) {
       return std::max(std::abs(k.place.u - centre), std::abs(k.place.v - centre));
     };
-    return std::min_element(known.begin(), known.end(), [&](const Known& a, const Known& b) { return off(a) < off(b); })
-        ->sample;
+    const Sample start = std::min_element(known.begin(), known.end(), [&](const Known& a, const Known& b) {
+                           return off(a) < off(b);
+                         })->sample;
+    double radius = 0.5 / std::sqrt(double(parts));
+    for (const Known& k : known)
+      radius = std::max({radius, std::abs(k.sample.u - start.u), std::abs(k.sample.v - start.v)});
+    return {start, radius + 1.0 / places_a_side};
   }
 
   /// A box of the hull in some coordinates, widened.
@@ -148,9 +182,9 @@ class Cutter {
   }
 
   /// @param margin, of_width  widen the box by parts of its own sizes, and of the largest one
-  static LimitCell cell_of(const Hull& hull, const Sample& start, int parts, double margin, double of_width) {
+  static LimitCell cell_of(const Hull& hull, const Middle& middle, double margin, double of_width) {
     const Eigen::Matrix3d frame = frame_of(hull);
-    return {start, 0.5 / std::sqrt(double(parts)) + 0.5 / places_a_side, box_of(hull, Eigen::Matrix3d::Identity(), margin, of_width), frame,
+    return {middle.start, middle.radius, box_of(hull, Eigen::Matrix3d::Identity(), margin, of_width), frame,
             box_of(hull, frame, margin, of_width)};
   }
 

@@ -24,20 +24,16 @@ TEST(LimitCells, HoldAllOfTheSurface) {
     const LimitSamples samples = surface.evaluate(mesh.positions, places);
     for (size_t i = 0; i < places.size(); ++i) {
       const Eigen::Vector3d x = samples.position.row(Eigen::Index(i));
+      // By a box, and as near to the start as it says; a search needs a little more.
       bool held = false;
-      for (const LimitCell& cell : cells) held |= cell.start.face == places[i].face && cell.squared_distance(x) == 0;
+      for (const LimitCell& cell : cells)
+        held |= cell.start.face == places[i].face && cell.squared_distance(x) == 0 &&
+                std::max(std::abs(cell.start.u - places[i].u), std::abs(cell.start.v - places[i].v)) <= cell.radius;
       EXPECT_TRUE(held) << "face " << places[i].face << " (" << places[i].u << ", " << places[i].v << ")";
     }
-    // They start where they are, and are small.
-    std::vector<Sample> starts;
-    for (const LimitCell& cell : cells) starts.push_back(cell.start);
-    const LimitSamples begin = surface.evaluate(mesh.positions, starts);
-    for (size_t i = 0; i < cells.size(); i += quick ? 1 : 20) {
-      const Eigen::Vector3d x = begin.position.row(Eigen::Index(i));
-      const double width = cells[i].own_box.sizes().norm();
-      EXPECT_LE(std::sqrt(cells[i].squared_distance(x)), 2 * width) << "cell " << i;
-      EXPECT_LE(width, size / 2);
-      EXPECT_LE((cells[i].frame * cells[i].frame.transpose() - Eigen::Matrix3d::Identity()).norm(), rounding(9));
+    for (const LimitCell& cell : cells) {
+      EXPECT_LE(cell.own_box.sizes().norm(), size / 2);
+      EXPECT_LE((cell.frame * cell.frame.transpose() - Eigen::Matrix3d::Identity()).norm(), rounding(9));
     }
   }
 }
