@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sublimit/fit/cloud_fit.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "sublimit/base/error.h"
+
+namespace sublimit {
+namespace {
+
+/// What keeps points where they are along the surface, when all goes well.
+constexpr double least_tangential = 1e-6;
+
+void check(const Cloud& cloud, const CloudFitOptions& o) {
+  const auto count = size_t(cloud.points.rows());
+  if (count == 0) throw InvalidParameter("a cloud without points; one is needed at least");
+  if (!cloud.weights.empty() && cloud.weights.size() != count)
+    throw InvalidParameter(std::to_string(cloud.weights.size()) + " weights for a cloud of " + std::to_string(count) +
+                           " points; one each, or none at all");
+  double sum = cloud.weights.empty() ? 1 : 0;
+  for (size_t i = 0; i < cloud.weights.size(); ++i) {
+    if (!(cloud.weights[i] >= 0 && std::isfinite(cloud.weights[i])))
+      throw InvalidParameter("point " + std::to_string(i) + " has the weight " + std::to_string(cloud.weights[i]) +
+                             "; it must be a number >= 0");
+    sum += cloud.weights[i];
+  }
+  if (!(sum > 0)) throw InvalidParameter("no point of the cloud has a weight > 0");
+  if (!(o.tangential > 0 && o.tangential <= 1))
+    throw InvalidParameter("what is along the surface counts " + std::to_string(o.tangential) +
+                           "; it must be > 0 and <= 1");
+  if (o.max_iterations < 0 || !(o.tolerance >= 0))
+    throw InvalidParameter("at most " + std::to_string(o.max_iterations) + " iterations to the tolerance " +
+                           std::to_string(o.tolerance) + "; both must be >= 0");
+  for (const double factor : o.schedule)
+    if (!(factor >= 0 && std::isfinite(factor)))
+      throw InvalidParameter("the schedule has the factor " + std::to_string(factor) + "; they must be numbers >= 0");
+}
+
+/// The rows of every coordinate of every vertex: columns by vertex, then coordinate.
+class Iteration {
+ public:
+  Iteration(const LimitSurface& surface, const Cloud& cloud, const CloudFitOptions& options)
+      : surface_(surface), cloud_(cloud), options_(options) {
+    const Eigen::Index count = cloud.points.rows();
+    weights_ = Eigen::VectorXd::Ones(count);
+    if (!cloud.weights.empty()) weights_ = Eigen::Map<const Eigen::VectorXd>(cloud.weights.data(), count);
+    weights_ /= weights_.sum();
+    if (!options.fairness.empty()) H_ = fairness_energy(surface, options.fairness);
+  }
+
+  CloudIteration measure(const ClosestPoints& feet, const Points& x, double factor) const {
+    CloudIteration result;
+    const double mean = weights_.dot(feet.distances.cwiseAbs2());
+    result.rms = std::sqrt(mean);
+    result.largest = feet.distances.maxCoeff();
+    result.fairness = factor;
+    result.energy = mean;
+    if (H_.rows() > 0) result.energy += factor * (x.transpose() * (H_ * x)).trace();
+    return result;
+  }
+
+  /// New control points, with the projections that there are.
+  Points step(const ClosestPoints& feet, const Points& x, double factor, double tangential) const {
+    const SparseMatrix A = place_rows(surface_, feet.places);
+    FitProblem problem;
+    const bool coupled = tangential < 1;
+    if (coupled) {
+      couple(A, feet, tangential, problem);
+    } else {
+      problem.A = A;
+      problem.b = cloud_.points;
+      problem.weights = weights_;
+      if (H_.rows() > 0) problem.H = factor * H_;
+    }
+    const Index n = Index(x.rows());
+    const Pins& pins = options_.pins;
+    const Index pinned = Index(pins.vertices.size());
+    if (coupled && H_.rows() > 0) problem.H = thrice(factor * H_);
+    problem.C.resize(coupled ? 3 * pinned : pinned, coupled ? 3 * n : n);
+    problem.d.resize(problem.C.rows(), coupled ? 1 : 3);
+    for (Index i = 0; i < pinned; ++i) {
+      const Index v = pins.vertices[size_t(i)];
+      for (Index k = 0; k < (coupled ? 3 : 1); ++k)
+        problem.C.insert(coupled ? 3 * i + k : i, coupled ? 3 * v + k : v) = 1;
+      if (coupled)
+        problem.d.middleRows(3 * i, 3) = x.row(v).transpose();
+      else
+        problem.d.row(i) = x.row(v);
+    }
+    problem.C.makeCompressed();
+    problem.x0 = coupled ? Points(Eigen::Map<const Points>(x.data(), 3 * n, 1)) : x;
+    const FitSolution solution = solve(problem, options_.solver);
+    Points result = Eigen::Map<const Points>(solution.x.data(), n, 3);
+    for (const Index v : pins.vertices) result.row(v) = x.row(v);
+    return result;
+  }
+
+ private:
+  /// Three rows a point: across the surface, and twice along it.
+  void couple(const SparseMatrix& A, const ClosestPoints& feet, double tangential, FitProblem& problem) const {
+    const Index count = Index(A.rows());
+    problem.A.resize(3 * count, 3 * A.cols());
+    problem.A.reserve(9 * A.nonZeros());
+    problem.b.resize(3 * count, 1);
+    problem.weights.resize(3 * count);
+    for (Index i = 0; i < count; ++i) {
+      Eigen::Vector3d normal = feet.normals.row(i);
+      // Along borders, and where there is no plane, distances are from points.
+      const bool has_plane = !normal.isZero(0) && feet.status[size_t(i)] != LimitStatus::crease;
+      if (!has_plane) normal = Eigen::Vector3d::UnitZ();
+      Eigen::Matrix3d frame;
+      frame.row(0) = normal;
+      frame.row(1) = normal.unitOrthogonal();
+      frame.row(2) = normal.cross(Eigen::Vector3d(frame.row(1)));
+      for (Index k = 0; k < 3; ++k) {
+        const Index row = 3 * i + k;
+        problem.A.startVec(row);
+        for (SparseMatrix::InnerIterator it(A, i); it; ++it)
+          for (Index c = 0; c < 3; ++c) problem.A.insertBack(row, 3 * Index(it.col()) + c) = it.value() * frame(k, c);
+        problem.b(row, 0) = frame.row(k).dot(cloud_.points.row(i));
+        problem.weights[row] = weights_[i] * (k == 0 || !has_plane ? 1 : tangential);
+      }
+    }
+    problem.A.finalize();
+  }
+
+  /// The same for every coordinate.
+  static SparseMatrix thrice(const SparseMatrix& H) {
+    SparseMatrix result(3 * H.rows(), 3 * H.cols());
+    result.reserve(3 * H.nonZeros());
+    for (Index v = 0; v < H.rows(); ++v)
+      for (Index k = 0; k < 3; ++k) {
+        result.startVec(3 * v + k);
+        for (SparseMatrix::InnerIterator it(H, v); it; ++it)
+          result.insertBack(3 * v + k, 3 * Index(it.col()) + k) = it.value();
+      }
+    result.finalize();
+    return result;
+  }
+
+  const LimitSurface& surface_;
+  const Cloud& cloud_;
+  const CloudFitOptions& options_;
+  Eigen::VectorXd weights_;  // of the mean
+  SparseMatrix H_;
+};
+
+}  // namespace
+
+CloudFit fit_cloud(const LimitSurface& surface, const Cloud& cloud, const Points& guess,
+                   const CloudFitOptions& options) {
+  check(cloud, options);
+  if (guess.cols() != 3)
+    throw InvalidParameter("the first guess has " + std::to_string(guess.cols()) + " columns, not 3");
+  CloudFit fit;
+  // Pins are set, and everything else is checked, by a fit to nothing.
+  fit.points = fit_places(surface, {{}, Points(0, 3)}, guess, {.pins = options.pins}).points;
+  const Iteration iteration(surface, cloud, options);
+  fit.feet = closest_points(surface, fit.points, cloud.points);
+  const double size = (cloud.points.colwise().maxCoeff() - cloud.points.colwise().minCoeff()).norm();
+  const auto factor = [&](size_t k) {
+    return options.schedule.empty() ? 1 : options.schedule[std::min(k, options.schedule.size() - 1)];
+  };
+  const auto tell = [&] {
+    if (options.progress) options.progress(int(fit.iterations.size()) - 1, fit.iterations.back());
+  };
+  fit.iterations.push_back(iteration.measure(fit.feet, fit.points, factor(0)));
+  tell();
+  double tangential = options.tangential;
+  for (int k = 0; k < options.max_iterations && !fit.converged; ++k) {
+    const double f = factor(size_t(k));
+    const double before = iteration.measure(fit.feet, fit.points, f).energy;
+    const bool at_end = size_t(k) + 1 >= options.schedule.size();
+    for (;;) {
+      Points x = iteration.step(fit.feet, fit.points, f, tangential);
+      ClosestPoints feet = closest_points(surface, x, cloud.points, {.guess = fit.feet.places});
+      const CloudIteration now = iteration.measure(feet, x, f);
+      if (now.energy <= before) {
+        fit.points = std::move(x);
+        fit.feet = std::move(feet);
+        fit.iterations.push_back(now);
+        if (options.tangential < 1) tangential = std::max(least_tangential, tangential / 4);
+        tell();
+        fit.converged = at_end && (before - now.energy <= options.tolerance * now.energy || now.rms <= 1e-14 * size);
+        break;
+      }
+      if (tangential >= 1) {  // rounding is all that is left
+        fit.converged = at_end;
+        break;
+      }
+      tangential = std::min(1.0, 10 * tangential);
+    }
+  }
+  return fit;
+}
+
+}  // namespace sublimit
