@@ -7,6 +7,7 @@
 #include "common.h"
 #include "sublimit/base/atomic_file.h"
 #include "sublimit/base/error.h"
+#include "sublimit/base/format_number.h"
 #include "sublimit/bake.h"
 #include "sublimit/demo_mesh.h"
 #include "sublimit/limit/limit_surface.h"
@@ -59,6 +60,14 @@ int run(const Options& options) {
   write_mesh(path("control.obj"), output(mesh));
   write_mesh(path("refined.obj"), refined_mesh(levels[2], points[2], mesh, {}, true));
   write_mesh(path("limit.obj"), surface);
+  AtomicFile targets(path("targets.csv"));  // for `sublimit fit`: the limit shall go through the control points
+  targets.write("vertex,x,y,z\n");
+  for (Index v = 0; v < mesh.num_vertices(); ++v) {
+    std::string row = format_number(v);
+    for (const double x : mesh.positions.row(v)) row += "," + format_number(x);
+    targets.write(row + "\n");
+  }
+  targets.commit();
   const LimitSurface anywhere(scheme, mesh);
   RandomSamples places(anywhere.addresses(), 1000, 0);
   const SampleSummary samples =
@@ -99,7 +108,8 @@ int run(const Options& options) {
              samples.text());
   fmt::print("Files: {}, refined.obj (level 2, with the tags that are left),\n", path("control.obj"));
   fmt::print(
-      "  limit.obj (points and normals on the surface), samples.csv, level2.safetensors, and the picture of all three "
+      "  limit.obj (points and normals on the surface), targets.csv, samples.csv, level2.safetensors, and the picture "
+      "of all three "
       "meshes:\n");
   fmt::print("  {}\n", std::filesystem::absolute(directory / "picture.svg").string());
   return 0;

@@ -88,6 +88,7 @@ int main(int argc, char** argv) {
       "  sublimit refine cage.obj -s catmull-clark -l 2 -o refined.obj\n"
       "  sublimit limit cage.obj -s catmull-clark -l 3 --normals -o surface.ply\n"
       "  sublimit sample cage.obj -s catmull-clark --random 1000 --derivatives 2 -o points.csv\n"
+      "  sublimit fit cage.obj --targets points.csv -s catmull-clark -o fitted.obj\n"
       "  sublimit bake cage.obj -s catmull-clark -l 3 -o level3.safetensors\n"
       "  sublimit apply level3.safetensors animation.npy -o refined.npy\n"
       "Exit status: 0 done; 1 the verdict is no (verify); 2 bad command line; 3 bad input or unwritable output; 4 too "

@@ -16,6 +16,17 @@ using Eigen::Vector3d;
 
 double angle(const Vector3d& a, const Vector3d& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
 
+/// Triangles whose own normal opposes all three of their corners' data.
+Index opposed(const CurvatureMesh& mesh) {
+  Index count = 0;
+  for (size_t t = 0; t < mesh.triangles.size(); t += 3) {
+    const auto corner = [&](size_t c) -> const SurfacePoint& { return mesh.points[size_t(mesh.triangles[t + c])]; };
+    const Vector3d n = (corner(1).position - corner(0).position).cross(corner(2).position - corner(0).position);
+    count += n.dot(corner(0).normal) < 0 && n.dot(corner(1).normal) < 0 && n.dot(corner(2).normal) < 0;
+  }
+  return count;
+}
+
 FitLevel measured(const CurvatureMesh& mesh) {
   FitLevel level{.vertices = mesh.num_vertices(), .triangles = mesh.num_faces()};
   for (size_t t = 0; t < mesh.triangles.size(); t += 3) {
@@ -62,6 +73,10 @@ CurvatureFit fit_curvatures(const GeometricSurfaceScheme& scheme, const ControlM
   FitReport& report = fit.report;
   report = report_of("torus-pieces", scheme.name, mesh, targets);
   if (scheme.notes) report.notes = scheme.notes(fit.given);
+  if (const Index count = opposed(fit.given); count > 0)
+    report.notes.push_back(format_number(count) + " of " + format_number(fit.given.num_faces()) +
+                           " triangles are wound against the normals of their corners; turn the faces or the normals, "
+                           "and with these the signs of k1 and k2");
   fit.refined = fit.given;
   report.levels.push_back(measured(fit.refined));
   for (int k = 1; k <= settings.levels; ++k) {

@@ -46,12 +46,12 @@ std::vector<Eigen::Vector3d> numbers(const std::vector<std::string>& lines) {
 }
 
 TEST(CliHelp, EverySubcommandHasExamples) {
-  for (const char* command : {"schemes", "info", "refine", "limit", "sample", "demo"}) {
+  for (const char* command : {"schemes", "info", "refine", "limit", "sample", "fit", "demo"}) {
     const Outcome outcome = expect_done(sublimit({command, "--help"}));
     expect_parts(outcome.out, {"Examples:", "sublimit " + std::string(command)});
   }
   expect_parts(expect_done(sublimit({"--help"})).out,
-               {"Examples:", "schemes", "info", "refine", "limit", "sample", "demo", "Exit status"});
+               {"Examples:", "schemes", "info", "refine", "limit", "sample", "fit", "demo", "Exit status"});
   EXPECT_TRUE(expect_done(sublimit({"--version"})).out.starts_with("sublimit 0."));
 }
 
@@ -324,8 +324,8 @@ TEST(CliDemo, WritesItsFilesAndElevenLines) {
   const std::filesystem::path demo = directory / "a" / "demo";
   const Outcome outcome = expect_done(sublimit({"demo", demo.string()}));
   EXPECT_EQ(count_of(outcome.out, "\n"), 11u) << outcome.out;
-  expect_parts(outcome.out, {"control.obj", "refined.obj", "limit.obj", "samples.csv", "picture.svg"});
-  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(demo), std::filesystem::directory_iterator()), 6);
+  expect_parts(outcome.out, {"control.obj", "refined.obj", "limit.obj", "targets.csv", "samples.csv", "picture.svg"});
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(demo), std::filesystem::directory_iterator()), 7);
   EXPECT_EQ(count_of(read_file(demo / "samples.csv"), "\n"), 1001u);
   EXPECT_GT(read_mesh(demo / "refined.obj").num_vertices(), 4 * read_mesh(demo / "control.obj").num_vertices());
   EXPECT_GT(lines(demo / "limit.obj", "vn").size(), lines(demo / "limit.obj", "v").size());
