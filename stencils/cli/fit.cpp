@@ -10,6 +10,7 @@
 #include "sublimit/base/error.h"
 #include "sublimit/fit_picture.h"
 #include "sublimit/refined_mesh.h"
+#include "sublimit/sidecar.h"
 
 namespace sublimit::cli {
 namespace {
@@ -141,6 +142,11 @@ int run(const Options& options) {
     throw InvalidOption(fmt::format("--levels {}: it should be 0 or more", options.settings.levels));
   check_output_path(options.output, {".obj", ".ply"});
   if (!options.report.empty()) check_output_path(options.report, {".json"});
+  for (const std::string& mesh : {options.common.mesh, options.output})
+    if (const auto sidecar = find_sidecar(mesh); !options.report.empty() && sidecar)
+      if (std::error_code ignored; std::filesystem::equivalent(*sidecar, options.report, ignored))
+        throw InvalidOption(
+            fmt::format("--report {}: this file holds tags of {}; choose another name", options.report, mesh));
   if (!options.picture.empty()) check_output_path(options.picture, {".svg"});
   Progress progress(options.common.quiet);
   progress.step("reading " + options.targets);

@@ -64,7 +64,7 @@ Fit interpolated(const Scheme<double>& scheme, const ControlMesh& mesh, const Fi
       throw InvalidOption("--refine " + settings.refine + ": it should be auto, or a whole number, 0 or more");
     options.least_refinements = options.most_refinements = number.value;
   }
-  tell(settings, "solving");
+  tell(settings, settings.rank ? "solving, rank and condition included (--no-rank leaves them out)" : "solving");
   Interpolation found = interpolate(scheme, mesh, targets.vertices, options);
   const InterpolationAttempt& last = found.attempts.back();
   if (!found.solved() && !settings.best_effort)

@@ -2,6 +2,8 @@
 #include "sublimit/sidecar.h"
 
 #include <algorithm>
+#include <cctype>
+#include <fstream>
 #include <initializer_list>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -246,11 +248,24 @@ class Sidecar {
 
 }  // namespace
 
+namespace {
+
+/// Reports of this program may lie beside a mesh under its name; they say at once what they are.
+bool is_report(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  std::string start;
+  for (char c; start.size() < 20 && file.get(c);)
+    if (!std::isspace(static_cast<unsigned char>(c))) start += c;
+  return start == R"({"format":"sublimit-)";
+}
+
+}  // namespace
+
 std::optional<std::filesystem::path> find_sidecar(const std::filesystem::path& mesh) {
   std::filesystem::path path = mesh;
   path.replace_extension(".json");
   std::error_code error;
-  if (path == mesh || !std::filesystem::exists(path, error)) return std::nullopt;
+  if (path == mesh || !std::filesystem::exists(path, error) || is_report(path)) return std::nullopt;
   return path;
 }
 

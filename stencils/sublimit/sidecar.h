@@ -24,7 +24,8 @@
 
 namespace sublimit {
 
-/// The sidecar of a mesh file, if there is one: the same path with the extension .json.
+/// The sidecar of a mesh file, if there is one: the same path with the extension .json, unless that is a report of this
+/// program (`"format": "sublimit-..."` comes first).
 std::optional<std::filesystem::path> find_sidecar(const std::filesystem::path& mesh);
 
 /// Replaces tags of `mesh` by those in a file. Unknown keys become warnings of the mesh.

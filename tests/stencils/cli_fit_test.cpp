@@ -82,12 +82,12 @@ TEST(CliFit, LimitsOfTheOutputAreTheTargets) {
 
 TEST(CliFit, RefinesWhereTheCubeIsSingularAndSaysSo) {
   const Job job(cube(), points_csv(corners));
-  const Outcome outcome = expect_done(job.fit({"-s", "catmull-clark", "--report", job.path("fit.json")}));
+  const Outcome outcome = expect_done(job.fit({"-s", "catmull-clark", "--report", job.path("out.json")}));
   expect_parts(outcome.out,
                {"26 control points", "1 refinement", "vertices 0, 1, 2, 3, 4, 5, 6, 7 depend on each other",
                 "rank 7 of 8", "rank 8", "vertices 0 to 7", "in order"});
   EXPECT_LE((job.limit("catmull-clark").topRows(8) - corners).cwiseAbs().maxCoeff(), exact_position);
-  const auto report = nlohmann::json::parse(read_file(job.path("fit.json")));
+  const auto report = nlohmann::json::parse(read_file(job.path("out.json")));
   EXPECT_EQ(report["format"], "sublimit-fit");
   EXPECT_EQ(report["attempts"].size(), 2u);
   EXPECT_EQ(report["attempts"][0]["solved"], false);
@@ -286,6 +286,13 @@ TEST(CliFit, RefusesOptionsAndSchemes) {
   refused({"-s", "catmull-clark", "--thin-plate", "-1"}, 2, {"--thin-plate -1", "0 or more"});
   refused({"-s", "catmull-clark", "--membrane", "nan"}, 2, {"--membrane nan"});
   refused({"-s", "catmull-clark", "--report", "fit.txt"}, 2, {"fit.txt", ".json"});
+  {
+    const Job tagged(cube(), points_csv(corners));
+    tagged.directory.write("cage.json", R"({"holeIndices": [0]})");
+    const std::string report = tagged.path("cage.json");
+    expect_failure(tagged.fit({"-s", "catmull-clark", "--report", report}), 2, {"cage.json", "holds tags"});
+    EXPECT_EQ(read_file(report), R"({"holeIndices": [0]})");
+  }
   refused({"-s", "catmull-clark", "--picture", job.path("none/fit.svg")}, 3, {"none", "not a directory"});
   expect_failure(sublimit({"fit", job.mesh, "--targets", job.path("none.csv"), "-s", "loop", "-o", job.output}), 3,
                  {"none.csv", "No such file"});

@@ -182,6 +182,14 @@ TEST(Sidecar, LeavesTheMeshAsItWasWhenItFails) {
   EXPECT_TRUE(mesh.warnings.empty());
 }
 
+TEST(Sidecar, ReportsAreNone) {
+  const TemporaryDirectory directory;
+  directory.write("strip.json", "{\n \"format\": \"sublimit-fit\",\n \"version\": 1\n}\n");
+  EXPECT_FALSE(find_sidecar(directory / "strip.obj"));
+  directory.write("strip.json", R"({"format": "other", "holeIndices": [0]})");
+  EXPECT_TRUE(find_sidecar(directory / "strip.obj"));
+}
+
 TEST(Sidecar, IsFoundNextToTheMesh) {
   const TemporaryDirectory directory;
   EXPECT_FALSE(find_sidecar(directory / "strip.obj"));
