@@ -72,10 +72,14 @@ std::vector<Index> moved(const Points& directions, Index unknowns_per_vertex) {
 }
 
 Points guess(const VertexLimits& limits, const std::vector<VertexTarget>& targets, Points points) {
+  std::vector<Index> sheets(targets.size(), 0);
+  for (const Index i : limits.position_vertex) ++sheets[i];
   for (int k = 0; k < guess_steps; ++k) {
     const Points at = apply(limits.position, points);
-    for (size_t i = 0; i < targets.size(); ++i)
-      points.row(targets[i].vertex) += targets[i].position.transpose() - at.row(i);
+    for (size_t p = 0; p < limits.position_vertex.size(); ++p) {
+      const Index i = limits.position_vertex[p];
+      points.row(targets[i].vertex) += (targets[i].position.transpose() - at.row(Index(p))) / sheets[i];
+    }
   }
   return points;
 }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "sublimit/base/error.h"
 #include "sublimit/sparse_product.h"
 
 namespace sublimit {
@@ -47,12 +48,12 @@ class Rows {
 VertexConditions vertex_conditions(const VertexLimits& limits, const std::vector<VertexTarget>& targets,
                                    const std::map<Index, TangentFrame>& frames) {
   VertexConditions result;
-  const Index count = static_cast<Index>(targets.size());
+  const Index places = static_cast<Index>(limits.position_vertex.size());
   for (const VertexTarget& target : targets) result.coupled |= target.normal.has_value();
   if (!result.coupled) {
     result.C = limits.position;
-    result.d.resize(count, 3);
-    for (Index i = 0; i < count; ++i) result.d.row(i) = targets[i].position;
+    result.d.resize(places, 3);
+    for (Index p = 0; p < places; ++p) result.d.row(p) = targets[limits.position_vertex[p]].position;
     return result;
   }
 
@@ -66,10 +67,12 @@ VertexConditions vertex_conditions(const VertexLimits& limits, const std::vector
       result.without_plane.push_back(i);
     }
   }
-  const Index rows = 3 * count + 2 * static_cast<Index>(sides.size()) + 4 * static_cast<Index>(frames.size());
-  Rows C(
-      rows, 3 * static_cast<Index>(limits.position.cols()),
-      static_cast<Index>(3 * (limits.position.nonZeros() + limits.tangent1.nonZeros() + limits.tangent2.nonZeros())));
+  const Index rows = 3 * places + 2 * static_cast<Index>(sides.size()) + 4 * static_cast<Index>(frames.size());
+  const std::int64_t nonzeros =
+      3 * (std::int64_t{limits.position.nonZeros()} + limits.tangent1.nonZeros() + limits.tangent2.nonZeros());
+  if (std::max(nonzeros, 3 * std::int64_t{limits.position.cols()}) > std::numeric_limits<Index>::max())
+    throw ResourceError("conditions with normals have more entries than 32-bit indices count; use fewer targets");
+  Rows C(rows, 3 * static_cast<Index>(limits.position.cols()), static_cast<Index>(nonzeros));
   result.d = Points::Zero(rows, 1);
   const auto add_coordinates = [&](const SparseMatrix& M, Index row, double scale, const Vector3d& values) {
     for (Index c = 0; c < 3; ++c) {
@@ -78,7 +81,8 @@ VertexConditions vertex_conditions(const VertexLimits& limits, const std::vector
         C.add(3 * static_cast<Index>(it.col()) + c, scale * it.value());
     }
   };
-  for (Index i = 0; i < count; ++i) add_coordinates(limits.position, i, 1, targets[i].position);
+  for (Index p = 0; p < places; ++p)
+    add_coordinates(limits.position, p, 1, targets[limits.position_vertex[p]].position);
   // Tangents have any length: rows of length 1 are as heavy as those of positions.
   for (const Index s : sides) {
     const auto frame = frames.find(s);
@@ -141,8 +145,11 @@ VertexErrors vertex_errors(const VertexLimits& limits, const std::vector<VertexT
   VertexErrors errors;
   const Index count = static_cast<Index>(targets.size());
   const Points at = apply(limits.position, points);
-  errors.position.resize(count);
-  for (Index i = 0; i < count; ++i) errors.position[i] = (at.row(i).transpose() - targets[i].position).norm();
+  errors.position.setZero(count);
+  for (size_t p = 0; p < limits.position_vertex.size(); ++p) {
+    const Index i = limits.position_vertex[p];
+    errors.position[i] = std::max(errors.position[i], (at.row(Index(p)).transpose() - targets[i].position).norm());
+  }
   errors.normal.setConstant(count, std::numeric_limits<double>::quiet_NaN());
   const Points t1 = apply(limits.tangent1, points), t2 = apply(limits.tangent2, points);
   for (size_t s = 0; s < limits.side_vertex.size(); ++s) {

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sublimit/fit/vertex_limits.h"
 
+#include <algorithm>
+#include <numeric>
+
 #include "sublimit/analysis/limit_points.h"
 #include "sublimit/analysis/limit_rows.h"
 #include "sublimit/analysis/vertex_sides.h"
@@ -42,6 +45,8 @@ VertexLimits from_matrices(const Level& level, LimitMaskCache& cache, std::span<
   const LimitMatrices L = limit_matrices(level, cache);
   VertexLimits result;
   result.position = selected(L.position, {vertices.begin(), vertices.end()});
+  result.position_vertex.resize(vertices.size());
+  std::iota(result.position_vertex.begin(), result.position_vertex.end(), 0);
   const std::vector<Index> number = numbers(vertices, level.topology().num_vertices());
   std::vector<Index> sides;
   for (size_t s = 0; s < L.side_vertex.size(); ++s)
@@ -66,6 +71,7 @@ VertexLimits vertex_limits(std::span<const Level> levels, LimitMaskCache& cache,
   VertexLimits result;
   std::vector<Centre> centres;
   std::vector<size_t> chosen;
+  std::vector<Index> number_of;
   for (size_t s = 0; s < sides.centres.size(); ++s) {
     if (number[sides.vertex[s]] < 0) continue;
     Centre centre = sides.centres[s];
@@ -78,12 +84,22 @@ VertexLimits vertex_limits(std::span<const Level> levels, LimitMaskCache& cache,
     }
     centres.push_back(centre);
     chosen.push_back(s);
-    result.side_vertex.push_back(number[sides.vertex[s]]);
+    number_of.push_back(number[sides.vertex[s]]);
   }
   const std::vector<LimitRows> rows = limit_rows(level, cache, centres);
-  std::vector<const LimitRows::Row*> position(vertices.size()), tangent1, tangent2;
-  for (size_t s = 0; s < rows.size(); ++s) {
-    if (!position[result.side_vertex[s]]) position[result.side_vertex[s]] = &rows[s].position;
+  // The sides of a vertex, in the order of the list.
+  std::vector<size_t> order(rows.size());
+  std::iota(order.begin(), order.end(), size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) { return number_of[a] < number_of[b]; });
+  const bool dual = cache.scheme().is_dual();
+  std::vector<const LimitRows::Row*> position, tangent1, tangent2;
+  for (const size_t s : order) {
+    const Index i = number_of[s];
+    result.side_vertex.push_back(i);
+    if (dual || result.position_vertex.empty() || result.position_vertex.back() != i) {
+      position.push_back(&rows[s].position);
+      result.position_vertex.push_back(i);
+    }
     tangent1.push_back(&rows[s].tangent1);
     tangent2.push_back(&rows[s].tangent2);
     result.status.push_back(sides.hole[chosen[s]] ? LimitStatus::hole : generic_status(rows[s], cache.scheme()));

@@ -13,7 +13,9 @@ namespace sublimit {
 
 /// Rows over the points of the last level.
 struct VertexLimits {
-  SparseMatrix position;            ///< one row per vertex asked for
+  /// One row per vertex asked for; under dual schemes one per sheet of faces at it, which have limits of their own.
+  SparseMatrix position;
+  std::vector<Index> position_vertex;  ///< number of the vertex in the list asked for, of each row; ascending
   SparseMatrix tangent1, tangent2;  ///< one row per side of these vertices; tangent1 x tangent2 is along the normal
   std::vector<Index> side_vertex;   ///< number of the vertex in the list asked for, of each side
   std::vector<LimitStatus> status;  ///< of each side, for generic points

@@ -34,6 +34,7 @@ std::vector<NamedMesh> meshes(const Scheme<double>& scheme) {
   std::vector<NamedMesh> list;
   list.push_back({"closed", {}, jittered(triangles ? icosahedron() : prism(5), 0.05)});
   list.push_back({"open", {}, jittered(triangles ? triangle_grid(4, 3) : grid(4, 3), 0.05)});
+  if (!triangles) list.push_back({"strip", {}, jittered(mobius_strip(6), 0.05)});  // two sheets at an edge
   if (scheme.sharpening == Sharpening::boundary) return list;
   ControlMesh creased = jittered(triangles ? triangle_torus(5, 4) : torus(5, 4), 0.05);
   const float sharp = 10;
