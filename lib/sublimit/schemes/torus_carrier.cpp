@@ -65,7 +65,7 @@ std::optional<TorusCarrier> TorusCarrier::make(const TorusPiece& piece, const Su
   carrier.length_ =
       h / 2 * (arc_by_chord(carrier.chord_.dot(near.n) / h) + arc_by_chord(carrier.chord_.dot(frame.n) / h));
   const Matrix2d xy = directions(frame, carrier.chord_, carrier.length_, skew);
-  carrier.misfit2_ = w / h * (w / h) + slope.squaredNorm() + h * h * hessian.squaredNorm();
+  carrier.misfit2_ = w / h * (w / h) + gradient.squaredNorm() + h * h * hessian.squaredNorm();
   const double share = carrier.misfit2_ / (carrier.misfit2_ + rounding2);
   const Vector2d first = share * xy.transpose() * gradient;
   const Matrix2d seconds = share * xy.transpose() * hessian * xy;

@@ -280,6 +280,25 @@ TEST(TorusPieces, FallBackToTheChord) {
     EXPECT_TRUE(p.position.allFinite() && p.normal.allFinite());
 }
 
+/// Data of no surface at all: whatever comes is finite, fit for the next level, and not far away.
+TEST(TorusPieces, StayNearWithoutSense) {
+  std::mt19937 random(1);
+  std::normal_distribution<double> normal;
+  const auto any = [&] { return Vector3d(normal(random), normal(random), normal(random)); };
+  for (int i = 0; i < 60; ++i) {
+    const double bend = std::pow(10.0, i % 13 - 6);
+    CurvatureMesh data{.triangles = tetrahedron().face_vertices, .points = {}};
+    for (Index v = 0; v < 4; ++v) {
+      const Vector3d n = any().normalized(), d = n.unitOrthogonal();
+      data.points.push_back({any(), n, bend * normal(random), i % 4 == 0 ? 0 : bend * normal(random), d});
+      if (i % 5 == 0) data.points[v].position = data.points[0].position + 1e-9 * any();
+    }
+    const CurvatureMesh fine = refine(scheme, data, 3);
+    EXPECT_NO_THROW(scheme.checked(fine));
+    for (const SurfacePoint& p : fine.points) EXPECT_LT(p.position.norm(), 50);
+  }
+}
+
 TEST(TorusPieces, CutAlongTheDiagonalOfEqualPerimeters) {
   // Far from similar triangles: the curved edges make the hexagon lopsided.
   const GeometricSurfaceScheme other = *find_geometric_scheme<CurvatureMesh>("torus-pieces", {{"cut", "perimeter"}});
