@@ -43,7 +43,7 @@
 // sphere so are effects of the size of the misfit.
 //
 // Nothing is known of continuity. Measured (fit/deviation.h) on z = x y, sin x cos y and an ellipsoid: with data twice
-// as dense, positions are 10 to 40 times nearer, normals 5 to 17 times, curvatures 3 to 6 times; from level to level
+// as dense, positions are 10 to 45 times nearer, normals 5 to 17 times, curvatures 3 to 6 times; from level to level
 // positions and normals settle, normals of triangles and of data approach each other like the edges' length, and
 // deviations of curvatures grow slowly, faster in slender triangles and where the data are coarse.
 #include "sublimit/geometric_scheme.h"
