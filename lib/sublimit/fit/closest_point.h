@@ -7,7 +7,11 @@
 // Accuracy: distances to 1e-12 of the surface's size; places, where the point is not on the surface, to the square root
 // of that, as the distance hardly changes there. Two feet within one cell, which is almost flat, are told apart only
 // where the search from its middle does: near centres of curvature the distance can be too large by a part of the
-// cell's thickness.
+// cell's thickness. Along borders where a scheme has no derivatives (mid-edge) those of the border curve come from
+// differences; near borders of sqrt3, whose derivatives oscillate without end, only the border itself is searched well.
+//
+// Time: a hundred thousand points on a thousand bicubic faces take a second on four cores. Where no piece is a
+// polynomial a point takes tens of milliseconds.
 #include <span>
 
 #include "sublimit/limit/limit_surface.h"

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "sublimit/base/error.h"
@@ -103,6 +104,9 @@ class Iteration {
   /// Three rows a point: across the surface, and twice along it.
   void couple(const SparseMatrix& A, const ClosestPoints& feet, double tangential, FitProblem& problem) const {
     const Index count = Index(A.rows());
+    if (9 * double(A.nonZeros()) > double(std::numeric_limits<Index>::max()))
+      throw ResourceError("a cloud of " + std::to_string(count) +
+                          " points has more weights than 32-bit indices count; tangential = 1 needs a ninth of them");
     problem.A.resize(3 * count, 3 * A.cols());
     problem.A.reserve(9 * A.nonZeros());
     problem.b.resize(3 * count, 1);

@@ -70,6 +70,30 @@ TEST(CloudFit, GoesDownhillPointToPoint) {
   EXPECT_LT(fit.iterations.back().rms, fit.iterations.front().rms / 10);
 }
 
+TEST(CloudFit, GoesDownhillFromFarOffToo) {
+  // Tangent planes alone would overshoot.
+  const Known k = known("catmull-clark", 0.7);
+  const CloudFit fit = fit_cloud(k.surface, k.cloud, k.guess, {.tangential = 1e-6, .max_iterations = 6});
+  expect_downhill(fit);
+  EXPECT_GT(fit.iterations.size(), 2u);
+}
+
+TEST(CloudFit, StretchesToTheBorderOfTheCloud) {
+  const ControlMesh mesh = grid(4, 3);
+  const LimitSurface surface(*find_scheme<double>("catmull-clark"), mesh);
+  Points truth = mesh.positions;
+  truth.leftCols(2) *= 1.2;
+  std::vector<Sample> places = random_places(surface.addresses(), 300, 4);
+  for (double s = 0; s <= 1; s += 0.125) {
+    places.push_back({0, s, 0});
+    places.push_back({11, s, 1});
+  }
+  const CloudFit fit =
+      fit_cloud(surface, {surface.evaluate(truth, places).position}, mesh.positions, {.max_iterations = 8});
+  expect_downhill(fit);
+  EXPECT_LE(fit.iterations.back().rms, fit.iterations.front().rms / 50);
+}
+
 TEST(CloudFit, FairnessAndItsScheduleAndPinsHold) {
   Known k = known("catmull-clark", 0.1, 0.02);
   k.cloud.weights.assign(600, 2.0);

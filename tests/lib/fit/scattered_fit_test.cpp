@@ -7,6 +7,7 @@
 #include <Eigen/Dense>
 
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <random>
 
@@ -36,8 +37,10 @@ class RoundTrip : public ::testing::TestWithParam<TestedScheme> {};
 TEST_P(RoundTrip, GivesTheControlPointsBack) {
   const Scheme<double> scheme = GetParam().scheme();
   // Odd tori: on even ones alternating control points of mid-edge have the limit zero.
-  const ControlMesh meshes[] = {takes_triangles(scheme) ? triangle_torus(5, 5) : torus(5, 5),
-                                hard_meshes(scheme, 1)[1]};
+  std::vector<ControlMesh> meshes{takes_triangles(scheme) ? triangle_torus(5, 5) : torus(5, 5)};
+  // Types of pieces take their time where these are no polynomials, or rotate.
+  const bool is_quick = has_polynomials(scheme) && scheme.period == 1;
+  if (is_quick || std::getenv("SUBLIMIT_FULL")) meshes.push_back(hard_meshes(scheme, 1)[1]);
   for (const ControlMesh& mesh : meshes) {
     const Index n = mesh.num_vertices();
     const LimitSurface surface(scheme, mesh);
@@ -50,7 +53,7 @@ TEST_P(RoundTrip, GivesTheControlPointsBack) {
     ASSERT_TRUE(fit.conditioning);
     EXPECT_LE(fit.largest, round_trip * diagonal(x));
     const bool is_well_posed = fit.conditioning->rank == n && fit.conditioning->condition() < well_posed;
-    if (&mesh == meshes) {
+    if (&mesh == &meshes[0]) {
       EXPECT_TRUE(is_well_posed) << fit.conditioning->rank << " of " << n << ", " << fit.conditioning->condition();
     }
     if (is_well_posed) {
