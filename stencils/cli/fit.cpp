@@ -17,10 +17,12 @@ namespace {
 
 struct Options {
   Common common;
-  std::string targets, output, report, picture;
+  std::string targets, cloud, output, report, picture;
   std::string method = "auto", pin;
   FitSettings settings;
   bool no_rank = false;
+  std::optional<Index> samples;  ///< of the cloud's mesh
+  unsigned seed = 1;
   std::map<std::string, std::string> given;  ///< what stands in the report
   bool has(const char* option) const { return given.contains(option); }
 };
@@ -31,12 +33,15 @@ constexpr std::pair<const char*, const char*> owners[] = {
     {"--best-effort", "vertices"},
     {"--construct", "vertices"},
     {"--size", "vertices"},
-    {"--pin", "places"},
-    {"--thin-plate", "vertices places"},
-    {"--membrane", "vertices places"},
-    {"--method", "vertices places"},
+    {"--pin", "places cloud"},
+    {"--thin-plate", "vertices places cloud"},
+    {"--membrane", "vertices places cloud"},
+    {"--method", "vertices places cloud"},
     {"--no-rank", "vertices places"},
     {"--levels", "torus-pieces"},
+    {"--iterations", "cloud"},
+    {"--samples", "cloud"},
+    {"--seed", "cloud"},
 };
 
 /// An option that would be ignored is a mistake of whoever gave it.
@@ -76,7 +81,7 @@ MeshOutput mesh_output(const Options& options, const Loaded& loaded, const Fit& 
 void write_outputs(const Options& options, const MeshOutput& mesh, const std::string& picture, FitReport& report,
                    Progress& progress) {
   report.mesh = options.common.mesh;
-  report.targets = options.targets;
+  report.targets = options.cloud.empty() ? options.targets : options.cloud;
   report.output = options.output;
   report.options = options.given;
   progress.step("writing " + options.output);
@@ -87,7 +92,8 @@ void write_outputs(const Options& options, const MeshOutput& mesh, const std::st
   if (!options.common.quiet) fmt::print("{}", fit_summary(report));
 }
 
-int fit_linear(const Options& options, const FitTargets& targets, Progress& progress) {
+int fit_linear(const Options& options, Progress& progress,
+               const std::function<Fit(const Loaded& loaded, const FitSettings& settings)>& job) {
   const Loaded loaded = load(options.common, progress);
   FitSettings settings = options.settings;
   settings.rules = loaded.rules;
@@ -98,15 +104,29 @@ int fit_linear(const Options& options, const FitTargets& targets, Progress& prog
   MeshOutput mesh;
   naming_mesh(options.common, [&] {
     progress.step("fitting");
-    fit = (targets.by_place ? fit_scattered : fit_vertices)(*loaded.scheme, loaded.mesh, targets, settings);
+    fit = job(loaded, settings);
     mesh = mesh_output(options, loaded, fit, progress);
     if (options.picture.empty()) return;
     progress.step("drawing " + options.picture);
     picture = fit_picture(*loaded.scheme, control_level(*loaded.scheme, loaded.mesh, loaded.rules),
-                          loaded.mesh.positions, fit, targets);
+                          loaded.mesh.positions, fit);
   });
   write_outputs(options, mesh, picture, fit.report, progress);
   return 0;
+}
+
+int fit_to_cloud(const Options& options, Progress& progress) {
+  refuse_others(options, "cloud", "clouds");
+  if (options.has("--seed") && !options.samples) throw InvalidOption("--seed is for --samples N; leave it out");
+  if (options.samples && *options.samples < 1)
+    throw InvalidOption(fmt::format("--samples {}: it should be a number of points, 1 or more", *options.samples));
+  if (options.settings.iterations < 0)
+    throw InvalidOption(fmt::format("--iterations {}: it should be 0 or more", options.settings.iterations));
+  progress.step("reading " + options.cloud);
+  const Cloud cloud = read_cloud(options.cloud, options.samples, options.seed);
+  return fit_linear(options, progress, [&](const Loaded& loaded, const FitSettings& settings) {
+    return fit_near_cloud(*loaded.scheme, loaded.mesh, cloud, settings);
+  });
 }
 
 int fit_geometric(const Options& options, const FitTargets& targets, const GeometricSurfaceScheme& scheme,
@@ -149,6 +169,16 @@ int run(const Options& options) {
             fmt::format("--report {}: this file holds tags of {}; choose another name", options.report, mesh));
   if (!options.picture.empty()) check_output_path(options.picture, {".svg"});
   Progress progress(options.common.quiet);
+  if (options.cloud.empty() == options.targets.empty())
+    throw InvalidOption(
+        options.cloud.empty()
+            ? "neither --targets IN.csv nor --cloud POINTS; one of them says what the limit shall be near"
+            : "both --targets and --cloud; a fit has one of them");
+  if (!options.cloud.empty()) {
+    if (geometric)
+      throw InvalidOption(options.common.scheme + " takes --targets with normals and curvatures, and no --cloud");
+    return fit_to_cloud(options, progress);
+  }
   progress.step("reading " + options.targets);
   const FitTargets targets = read_fit_targets(options.targets);  // a wrong header is told before a large mesh is read
   if (geometric) {
@@ -162,7 +192,9 @@ int run(const Options& options) {
     refuse_others(options, "places", "targets at places");
   else
     refuse_others(options, "vertices", "targets at vertices");
-  return fit_linear(options, targets, progress);
+  return fit_linear(options, progress, [&](const Loaded& loaded, const FitSettings& settings) {
+    return (targets.by_place ? fit_scattered : fit_vertices)(*loaded.scheme, loaded.mesh, targets, settings);
+  });
 }
 
 }  // namespace
@@ -172,7 +204,12 @@ Command add_fit(CLI::App& app) {
   auto options = std::make_shared<Options>();
   FitSettings& settings = options->settings;
   add_mesh(*command, options->common, true);
-  command->add_option("--targets", options->targets, "IN.csv: what the limit shall go through, see below")->required();
+  command->add_option("--targets", options->targets, "IN.csv: what the limit shall go through, see below");
+  command->add_option("--cloud", options->cloud,
+                      "Or points without order: a .csv with the header x,y,z[,weight], or the vertices of a mesh");
+  command->add_option("--samples", options->samples, "Of a mesh as --cloud: so many points all over its faces instead");
+  command->add_option("--seed", options->seed, "Of --samples (default 1)");
+  command->add_option("--iterations", settings.iterations, "Of fits to clouds, at most (default 50)");
   command
       ->add_option("-o,--output", options->output, "OUT.obj (with tags, so that `limit` gives the targets) or OUT.ply")
       ->required();
@@ -202,13 +239,15 @@ Command add_fit(CLI::App& app) {
       "  sublimit fit cage.obj --targets points.csv -s catmull-clark -o fitted.obj\n"
       "  sublimit fit cage.obj --targets normals.csv -s loop --thin-plate 1 -o fitted.obj --report fit.json\n"
       "  sublimit limit fitted.obj -s loop --normals -o surface.obj      (its first vertices are the targets)\n"
-      "  sublimit fit cage.obj --targets scan.csv -s catmull-clark --thin-plate 1e-4 --pin 3,7 -o fitted.obj\n"
+      "  sublimit fit cage.obj --targets places.csv -s catmull-clark --thin-plate 1e-4 --pin 3,7 -o fitted.obj\n"
+      "  sublimit fit cage.obj --cloud scan.ply -s catmull-clark --thin-plate 1e-5 -o fitted.obj\n"
       "  sublimit fit cage.obj --targets normals.csv -s doo-sabin --construct -o fitted.obj\n"
       "  sublimit fit mesh.obj --targets curvatures.csv -s torus-pieces -l 4 -o surface.obj --picture fit.svg\n"
       "IN.csv begins with one of these lines:\n"
       "  vertex,x,y,z[,nx,ny,nz[,k1,k2,d1x,d1y,d1z]]   the limit of a vertex of MESH, counted from 0; a normal of any\n"
       "                                                length, or three empty fields\n"
       "  face,u,v,x,y,z[,weight]                       the limit at a place, as in `sublimit sample`: least squares\n"
+      "A cloud should lie near the limit of MESH, which is its first guess.\n"
       "Points alone are as many conditions as there are control points, which may depend on each other (a cube's do);\n"
       "normals are more. Then MESH is refined, and of all control points that meet the targets those nearest to it "
       "are\n"

@@ -105,6 +105,10 @@ FitReport report_of(const std::string& kind, const std::string& scheme, const Co
   if (!(report.box > 0)) report.box = diagonal(mesh.positions);
   if (!(report.box > 0)) report.box = 1;
   for (const VertexTarget& target : targets.vertices) report.vertices.push_back(target.vertex);
+  if (targets.num_normals > 0) report.normals = Points::Zero(report.expected.rows(), 3);
+  for (size_t i = 0; i < targets.vertices.size(); ++i)
+    if (const auto& n = targets.vertices[i].normal)
+      report.normals.row(static_cast<Index>(i)) = (*n / n->cwiseAbs().maxCoeff()).normalized();
   report.places = targets.places.places;
   report.weights = targets.places.weights;
   return report;
@@ -145,6 +149,36 @@ Fit fit_scattered(const Scheme<double>& scheme, const ControlMesh& mesh, const F
     report.notes.push_back(
         "the targets do not determine all control points; of all best fits the nearest to the mesh "
         "is taken (--thin-plate or --membrane would take the fairest)");
+  count(fit, scheme);
+  return fit;
+}
+
+Fit fit_near_cloud(const Scheme<double>& scheme, const ControlMesh& mesh, const Cloud& cloud,
+                   const FitSettings& settings) {
+  const LimitSurface surface(scheme, mesh, settings.rules);
+  CloudFitOptions options{.fairness = settings.fairness,
+                          .pins = settings.pins,
+                          .max_iterations = settings.iterations,
+                          .solver = {.method = settings.method}};
+  options.progress = [&](int iteration, const CloudIteration& at) {
+    if (settings.progress)
+      settings.progress("iteration " + format_number(iteration) + ": distances " +
+                        format_number(static_cast<float>(at.rms)) + " rms");
+  };
+  tell(settings, "projecting");
+  CloudFit found = fit_cloud(surface, cloud, mesh.positions, options);
+  FitTargets targets;
+  targets.by_place = true;
+  targets.places = {std::move(found.feet.places), cloud.points, cloud.weights};
+  Fit fit{.level = surface.level(),
+          .points = std::move(found.points),
+          .report = report_of("cloud", scheme.name, mesh, targets)};
+  fit.report.position_error = std::move(found.feet.distances);
+  fit.report.iterations = std::move(found.iterations);
+  fit.report.pinned = settings.pins.vertices;
+  if (!found.converged)
+    fit.report.notes.push_back("not converged: distances still fall; --iterations allows more than " +
+                               format_number(settings.iterations));
   count(fit, scheme);
   return fit;
 }

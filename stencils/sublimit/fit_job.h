@@ -4,7 +4,7 @@
 #include <functional>
 #include <string>
 
-#include "sublimit/fit/scattered_fit.h"
+#include "sublimit/fit/cloud_fit.h"
 #include "sublimit/fit_report.h"
 #include "sublimit/fit_targets.h"
 
@@ -19,6 +19,7 @@ struct FitSettings {
   bool construct = false;  ///< plane polygons of dual schemes, without a system
   double size = .5;        ///< of these polygons
   Pins pins = {};          ///< of least squares
+  int iterations = 50;     ///< of fits to clouds, at most
   int levels = 3;          ///< of schemes without a matrix
   SubdivisionOptions rules = {};
   std::function<void(const std::string&)> progress = {};  ///< what is being done, for people
@@ -44,6 +45,15 @@ Fit fit_vertices(const Scheme<double>& scheme, const ControlMesh& mesh, const Fi
 /// @throws FormatError  what `check_places` refuses
 Fit fit_scattered(const Scheme<double>& scheme, const ControlMesh& mesh, const FitTargets& targets,
                   const FitSettings& settings);
+
+/// Near a cloud of points: projections and least squares in turn.
+Fit fit_near_cloud(const Scheme<double>& scheme, const ControlMesh& mesh, const Cloud& cloud,
+                   const FitSettings& settings);
+
+/// A cloud from a CSV with the header x,y,z or x,y,z,weight, or from a mesh: its vertices, each with its share of the
+/// area, or so many points all over its faces.
+/// @throws FormatError  what is none of them, a cloud without points, negative weights
+Cloud read_cloud(const std::string& path, std::optional<Index> samples, unsigned seed);
 
 /// Pins from a list of vertices, as in `3,7`, or from a CSV with the header vertex or vertex,x,y,z.
 /// @throws InvalidOption, FormatError  what is neither, vertices that do not exist or are named twice

@@ -16,6 +16,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr Index most_faces = 20'000;
+constexpr Index most_dots = 6'000;
 constexpr double needle = .08, cross = .018;  // of the targets' diagonal
 constexpr double crowd = 60;                  // targets, above which marks become smaller
 
@@ -63,14 +64,16 @@ class Marks {
   std::vector<double> coordinates_;
 };
 
-PictureMesh marks(const FitTargets& targets, double unit) {
-  const Points at = targets.positions();
-  Marks marks(static_cast<Index>(at.rows()), unit);
-  for (Index i = 0; i < at.rows(); ++i) marks.dot(at.row(i));
-  for (const VertexTarget& target : targets.vertices) {
-    if (!target.normal) continue;
-    const Vector3d n = (*target.normal / target.normal->cwiseAbs().maxCoeff()).normalized();
-    marks.line(target.position, target.position + needle * marks.unit() * n, .5);
+/// Of large clouds only some: they are all over the place.
+PictureMesh marks(const FitReport& report) {
+  const Points& at = report.expected;
+  const Index step = static_cast<Index>(at.rows()) / most_dots + 1;
+  Marks marks(static_cast<Index>(at.rows()) / step, report.box);
+  for (Index i = 0; i < at.rows(); i += step) {
+    const Vector3d p = at.row(i);
+    marks.dot(p);
+    if (report.normals.rows() > 0 && !report.normals.row(i).isZero(0))
+      marks.line(p, p + needle * marks.unit() * report.normals.row(i).transpose(), .5);
   }
   return marks.take();
 }
@@ -103,13 +106,13 @@ PictureMesh triangle_picture(const CurvatureMesh& mesh, bool smooth) {
 
 }  // namespace
 
-std::string fit_picture(const Scheme<double>& scheme, const Level& given, const Points& given_points, const Fit& fit,
-                        const FitTargets& targets) {
+std::string fit_picture(const Scheme<double>& scheme, const Level& given, const Points& given_points, const Fit& fit) {
   PictureMesh cage = wire_picture(given, given_points);
   cage.creases.clear();  // needles have their colours
-  const PictureMesh dots = marks(targets, fit.report.box);
-  std::string data = counted(static_cast<Index>(targets.size()), "point");
-  if (targets.num_normals > 0) data += ", " + counted(targets.num_normals, "normal");
+  const PictureMesh dots = marks(fit.report);
+  std::string data = counted(static_cast<Index>(fit.report.expected.rows()), "point");
+  if (const Index normals = summary(fit.report.normal_error).count; normals > 0)
+    data += ", " + counted(normals, "normal");
   return svg_picture({{{cage, dots}, "given", data},
                       {{limit_picture(scheme, given, given_points), dots}, "limit of the given mesh", scheme.name},
                       {{limit_picture(scheme, fit.level, fit.points), dots},

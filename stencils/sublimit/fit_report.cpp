@@ -105,6 +105,9 @@ std::string fit_report(const FitReport& r) {
                               {"triangles", level.triangles},
                               {"longest_edge", level.longest_edge},
                               {"normal_deviation", level.normal_deviation}});
+  for (const CloudIteration& i : r.iterations)
+    json["iterations"].push_back(
+        {{"rms", i.rms}, {"largest", i.largest}, {"energy", i.energy}, {"fairness", i.fairness}});
   json["notes"] = r.notes;
   json["targets"] = targets_json(r);
   json["targets"]["file"] = r.targets;

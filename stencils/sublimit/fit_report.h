@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "sublimit/fit/cloud_fit.h"
 #include "sublimit/fit/interpolate.h"
 
 namespace sublimit {
@@ -18,7 +19,7 @@ struct FitLevel {
 };
 
 struct FitReport {
-  std::string kind;                            ///< interpolation, construction, least-squares, torus-pieces
+  std::string kind;                            ///< interpolation, construction, least-squares, cloud, torus-pieces
   std::string mesh, targets, scheme, output;   ///< names, of files as given
   std::map<std::string, std::string> options;  ///< on the command line, of the scheme and of the fit
   Index mesh_vertices = 0, mesh_faces = 0, output_vertices = 0, output_faces = 0;
@@ -30,6 +31,7 @@ struct FitReport {
   std::vector<Sample> places;   ///< at places
   std::vector<double> weights;  ///< of these; empty: all 1
   Points expected;              ///< where the limit should be, a target each
+  Points normals;               ///< of length 1, a target each, zero where none was given; no rows: none at all
   Eigen::VectorXd position_error;
   Eigen::VectorXd normal_error;      ///< radians, NaN without a normal; empty: no target has one
   Eigen::VectorXd curvature_error;   ///< of k1 and k2, per unit of length; empty: no target has any
@@ -41,6 +43,7 @@ struct FitReport {
   std::optional<Conditioning> conditioning;    ///< of least squares
   std::optional<FitSolution> solution;         ///< absent where no system was solved
   std::vector<FitLevel> levels;                ///< of torus pieces, 0 on
+  std::vector<CloudIteration> iterations;      ///< of clouds, the mesh as given before them
   std::vector<std::string> notes;
 };
 

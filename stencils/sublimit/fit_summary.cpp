@@ -77,9 +77,9 @@ std::string fit_summary(const FitReport& r) {
                                          r.levels.empty() ? "control points" : "points"),
                                  counted(r.output_faces, "face", "faces"));
   text += fmt::format("; {} {}",
-                      !r.levels.empty()           ? "they keep"
-                      : r.kind == "least-squares" ? "the limit is near"
-                                                  : "the limit meets",
+                      !r.levels.empty()                                ? "they keep"
+                      : r.kind == "least-squares" || r.kind == "cloud" ? "the limit is near"
+                                                                       : "the limit meets",
                       counted(position.count, "point", "points"));
   if (normal.count > 0)
     text += (r.curvature_error.size() > 0 ? ", " : " and ") + counted(normal.count, "normal", "normals");
@@ -94,6 +94,10 @@ std::string fit_summary(const FitReport& r) {
     text += fmt::format(
         "  level {}: {} triangles, edges up to {:.3g} of the box, normals off theirs by {:.3g} degrees at most\n", k,
         r.levels[k].triangles, r.levels[k].longest_edge / r.box, r.levels[k].normal_deviation * 180 / M_PI);
+  if (!r.iterations.empty())
+    text += fmt::format("  {}: from {:.2g} of the box rms to {:.2g}\n",
+                        counted(static_cast<Index>(r.iterations.size()) - 1, "iteration", "iterations"),
+                        r.iterations.front().rms / r.box, r.iterations.back().rms / r.box);
   if (!r.attempts.empty()) {
     const Conditioning& c = r.attempts.back().conditioning;
     text += system(c, c.columns == r.output_vertices ? "control points" : "coordinates");

@@ -59,6 +59,22 @@ std::string points_csv(const Points& points) {
   return text;
 }
 
+/// Fields of all lines but the header.
+std::vector<std::vector<std::string>> rows_of(const std::string& path) {
+  const std::string text = read_file(path);
+  std::vector<std::vector<std::string>> rows;
+  for (size_t at = text.find('\n') + 1; at < text.size(); ++at) {
+    rows.push_back({""});
+    for (; text[at] != '\n'; ++at) {
+      if (text[at] == ',')
+        rows.back().emplace_back();
+      else
+        rows.back().back() += text[at];
+    }
+  }
+  return rows;
+}
+
 /// The cube's corners, off by a little, with normals that are not quite theirs.
 const Points corners = jittered(cube(), .1, 3).positions;
 const Points corner_normals = jittered(cube(), .3, 7).positions;
@@ -154,16 +170,8 @@ TEST(CliFit, FindsTheControlPointsOfSampledPlaces) {
   const Job job(mesh, "");
   expect_done(sublimit({"sample", job.mesh, "-s", "loop", "--grid", "4", "-o", job.path("s.csv"), "--quiet"}));
   std::string csv = "face,u,v,x,y,z\n";  // columns face,u,v,status,x,y,z,nx,ny,nz
-  const std::string samples = read_file(job.path("s.csv"));
-  for (size_t line = samples.find('\n') + 1; line < samples.size(); line = samples.find('\n', line) + 1) {
-    std::vector<std::string> fields{""};
-    for (size_t c = line; samples[c] != '\n'; ++c)
-      if (samples[c] == ',')
-        fields.emplace_back();
-      else
-        fields.back() += samples[c];
+  for (const std::vector<std::string>& fields : rows_of(job.path("s.csv")))
     csv += fields[0] + "," + fields[1] + "," + fields[2] + "," + fields[4] + "," + fields[5] + "," + fields[6] + "\n";
-  }
   ControlMesh guess = octahedron();
   guess.positions.row(3) = mesh.positions.row(3);
   write_obj(job.mesh, sublimit::output(guess));
@@ -180,6 +188,46 @@ TEST(CliFit, FindsTheControlPointsOfSampledPlaces) {
   job.directory.write("pins.csv", "vertex,x,y,z\n4,7,8,9\n");
   expect_done(job.fit({"-s", "loop", "--pin", job.path("pins.csv"), "--thin-plate", ".1", "--quiet"}));
   EXPECT_EQ(read_mesh(job.output).positions.row(4), Eigen::RowVector3d(7, 8, 9));
+}
+
+TEST(CliFit, FindsTheSurfaceOfACloud) {
+  const ControlMesh mesh = jittered(octahedron(), .1, 5);
+  const Job job(mesh, "");
+  expect_done(sublimit({"sample", job.mesh, "-s", "loop", "--random", "300", "-o", job.path("s.csv"), "--quiet"}));
+  std::string csv = "x,y,z\n";  // columns face,u,v,status,x,y,z,nx,ny,nz
+  for (const std::vector<std::string>& fields : rows_of(job.path("s.csv")))
+    csv += fields[4] + "," + fields[5] + "," + fields[6] + "\n";
+  job.directory.write("cloud.csv", csv);
+  write_obj(job.mesh, sublimit::output(octahedron()));
+  const Outcome outcome = expect_done(sublimit({"fit", job.mesh, "--cloud", job.path("cloud.csv"), "-s", "loop", "-o",
+                                                job.output, "--report", job.path("fit.json")}));
+  expect_parts(outcome.out, {"is near 300 points", "iterations: from "});
+  EXPECT_LE((read_mesh(job.output).positions - mesh.positions).cwiseAbs().maxCoeff(), 1e-4);
+  const auto report = nlohmann::json::parse(read_file(job.path("fit.json")));
+  EXPECT_EQ(report["kind"], "cloud");
+  EXPECT_GT(report["iterations"][0]["rms"].get<double>(), 1e-2);
+  EXPECT_LT(report["position_error"]["rms"].get<double>(), 1e-5);
+}
+
+TEST(CliFit, RefusesOtherClouds) {
+  const Job job(cube(), "x,y,z\n0,0,0\n");
+  const auto refused = [&](std::vector<std::string> more, int status, std::initializer_list<std::string_view> parts) {
+    more.insert(more.begin(), {"fit", job.mesh, "-s", "catmull-clark", "-o", job.output});
+    expect_failure(sublimit(more), status, parts);
+    EXPECT_EQ(job.directory.num_files(), 2);
+  };
+  refused({}, 2, {"--targets IN.csv", "--cloud POINTS"});
+  refused({"--cloud", job.targets, "--targets", job.targets}, 2, {"both --targets and --cloud"});
+  refused({"--cloud", job.targets, "--samples", "9"}, 2, {"--samples", "no faces"});
+  refused({"--cloud", job.mesh, "--seed", "9"}, 2, {"--seed is for --samples"});
+  refused({"--cloud", job.mesh, "--refine", "1"}, 2, {"--refine", "clouds"});
+  refused({"--cloud", job.mesh, "-s", "loop"}, 2, {"--scheme"});
+  job.directory.write("in.csv", "x,y,z,weight\n0,0,0,1\n0,0,1,-1\n");
+  refused({"--cloud", job.targets}, 3, {"in.csv:3", "weight -1"});
+  job.directory.write("in.csv", "x,y,z\n");
+  refused({"--cloud", job.targets}, 3, {"in.csv", "no points"});
+  job.directory.write("in.csv", "x,y\n0,0\n");
+  refused({"--cloud", job.targets}, 3, {"in.csv:1", "x,y,z[,weight]"});
 }
 
 TEST(CliFit, ConstructsPolygonsOfDualSchemes) {
