@@ -166,6 +166,7 @@ TEST_P(InterpolationLaws, ControlPointsComeBackFromTheirLimits) {
   int posed = 0;
   for (const NamedMesh& named : meshes(scheme_)) {
     SCOPED_TRACE(named.name);
+    if (named.name == "strip" && scheme_.is_dual()) continue;  // sheets of a vertex have different limits
     const std::vector<Level> control = levels(named.mesh, 0);
     const LimitSurface surface(scheme_, control[0], types_);
     std::vector<VertexTarget> own;
