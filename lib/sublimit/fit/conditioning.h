@@ -18,7 +18,7 @@ struct Conditioning {
 };
 
 /// A dense decomposition up to 600 rows or columns. Above that the ends of the spectrum: `largest` from below, the
-/// least ones from above, to 1e-9 where they keep apart and to 1e-3 where thousands crowd (on large grids); zeros are
+/// least ones from above, to 1e-9 where they keep apart, to 1e-2 where thousands crowd (on grids of 100k); zeros are
 /// zero to rounding. Directions that are there by shape alone (free ones where there are fewer rows than columns,
 /// dependent ones where there are more) are listed by the dense decomposition only.
 /// @param tolerance  of singular values, relative to the largest one

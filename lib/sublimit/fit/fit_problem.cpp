@@ -58,8 +58,9 @@ void check(const FitProblem& problem) {
 
 // Below this a factorisation takes no time that anybody would notice.
 constexpr Index small_problem = 10000;
-// Well-conditioned problems need fewer.
-constexpr int patience = 250;
+// Well-conditioned problems need fewer; factors of least squares, with 49 entries a row, cost more than many
+// iterations.
+constexpr int patience_with_rows = 250, patience_with_objective = 1000;
 
 FitSolution solve_by(const FitTerms& terms, const FitSolverOptions& options) {
   if (options.method == FitMethod::direct || !can_iterate(terms)) return solve_directly(terms, options);
@@ -67,8 +68,9 @@ FitSolution solve_by(const FitTerms& terms, const FitSolverOptions& options) {
   const bool fairness = terms.problem.H.rows() > 0;  // the condition of thin plates grows like h^-4
   if (terms.unknowns() <= small_problem || fairness) return solve_directly(terms, options);
   FitSolverOptions short_run = options;
+  const int patience = terms.has_objective() ? patience_with_objective : patience_with_rows;
   short_run.max_iterations = std::min(patience, options.max_iterations);
-  FitSolution solution = solve_iteratively(terms, short_run);
+  FitSolution solution = solve_iteratively(terms, short_run, patience);
   if (solution.converged) return solution;
   try {
     return solve_directly(terms, options);

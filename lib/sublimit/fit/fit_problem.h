@@ -28,7 +28,8 @@ struct FitProblem {
 
 enum class FitMethod {
   /// Direct up to ten thousand unknowns, with fairness, and where C ties control points to each other while something
-  /// else is minimised; otherwise iterative, and direct if that has not converged after 250 steps.
+  /// else is minimised; otherwise iterative, and direct where that would take more than 250 steps (1000 with
+  /// an objective).
   automatic,
   /// Sparse Cholesky factors, made exact by a proximal method. Distances below about 1e-8 of A^T W A + H, relative to
   /// its size, do not tell an x from the nearest one.

@@ -36,6 +36,7 @@ SparseMatrix transposed(const SparseMatrix& matrix);
 FitSolution solve_directly(const FitTerms& terms, const FitSolverOptions& options);
 /// Whether conjugate gradients apply: no objective, or no conditions but on single control points.
 bool can_iterate(const FitTerms& terms);
-FitSolution solve_iteratively(const FitTerms& terms, const FitSolverOptions& options);
+/// @param patience  if > 0, gives up where more iterations would be needed
+FitSolution solve_iteratively(const FitTerms& terms, const FitSolverOptions& options, int patience = 0);
 
 }  // namespace sublimit

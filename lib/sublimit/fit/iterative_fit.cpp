@@ -16,7 +16,8 @@ namespace {
 /// Begins again with the true residual as often as that gains something.
 class Restarts {
  public:
-  Restarts(const FitSolverOptions& options, FitSolution& solution) : options_(options), solution_(solution) {}
+  Restarts(const FitSolverOptions& options, FitSolution& solution, int patience)
+      : options_(options), solution_(solution), patience_(patience) {}
 
   /// @param now   relative residual of x
   /// @param rest  the largest entry of what conjugate gradients bring to zero
@@ -37,18 +38,24 @@ class Restarts {
     solution_.history.push_back(relative);
     solution_.iterations = int(solution_.history.size());
     if (options_.progress && solution_.iterations % 10 == 0) options_.progress(solution_.iterations, relative);
+    if (patience_ > 0 && solution_.iterations % 50 == 0) {
+      // By now as large a share of the decades should be done as of the iterations.
+      const double first = solution_.history.front(), done = std::log(relative / first);
+      if (done > std::log(options_.tolerance / first) * solution_.iterations / patience_) return false;
+    }
     return residual > goal_ && std::isfinite(residual) && solution_.iterations < options_.max_iterations;
   }
 
  private:
   const FitSolverOptions& options_;
   FitSolution& solution_;
+  int patience_;
   double least_ = std::numeric_limits<double>::infinity(), goal_ = 0;
 };
 
-void meet_conditions(const FitTerms& terms, const FitSolverOptions& options, FitSolution& solution) {
+void meet_conditions(const FitTerms& terms, const FitSolverOptions& options, FitSolution& solution, int patience) {
   const FitProblem& p = terms.problem;
-  Restarts restarts(options, solution);
+  Restarts restarts(options, solution, patience);
   Points x = p.x0;
   while (true) {
     Points gap = terms.gap(x);
@@ -77,7 +84,7 @@ bool only_pins(const SparseMatrix& C) {
   return true;
 }
 
-void minimise(const FitTerms& terms, const FitSolverOptions& options, FitSolution& solution) {
+void minimise(const FitTerms& terms, const FitSolverOptions& options, FitSolution& solution, int patience) {
   const FitProblem& p = terms.problem;
   Eigen::VectorXd diagonal = terms.Q.diagonal();
   Points x = p.x0;
@@ -90,7 +97,7 @@ void minimise(const FitTerms& terms, const FitSolverOptions& options, FitSolutio
   const Eigen::VectorXd free = diagonal.unaryExpr([](double d) { return d > 0 ? 1.0 : 0.0; });
   // Pinned directions are zero, and what Q makes of the others there has no part in any product.
   const auto S = [&](const Points& y) { return apply(terms.Q, y); };
-  Restarts restarts(options, solution);
+  Restarts restarts(options, solution, patience);
   while (true) {
     Points residual = terms.force(x);
     const double scale = std::max(largest(residual) + terms.q_size * largest(x), 1e-300);
@@ -105,14 +112,14 @@ void minimise(const FitTerms& terms, const FitSolverOptions& options, FitSolutio
 
 bool can_iterate(const FitTerms& terms) { return !terms.has_objective() || only_pins(terms.problem.C); }
 
-FitSolution solve_iteratively(const FitTerms& terms, const FitSolverOptions& options) {
+FitSolution solve_iteratively(const FitTerms& terms, const FitSolverOptions& options, int patience) {
   FitSolution solution;
   solution.x = terms.problem.x0;
   solution.method = FitMethod::iterative;
   if (terms.has_objective())
-    minimise(terms, options, solution);
+    minimise(terms, options, solution, patience);
   else
-    meet_conditions(terms, options, solution);
+    meet_conditions(terms, options, solution, patience);
   return solution;
 }
 
