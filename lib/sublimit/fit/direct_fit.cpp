@@ -13,7 +13,7 @@
 
 #include "sublimit/fit/conjugate_residuals.h"
 #include "sublimit/fit/fit_terms.h"
-#include "sublimit/fit/sparse_cholesky.h"
+#include "sublimit/fit/sparse_factors.h"
 #include "sublimit/sparse_product.h"
 
 namespace sublimit {
@@ -66,7 +66,7 @@ class LeastChange : public System {
       : t_(terms),
         C_(scaled_rows(terms.problem.C, terms.row_length)),
         Ct_(transposed(C_)),
-        cholesky_(SparseMatrix(product(C_, Ct_) + diagonal(Index(C_.rows()), delta_alone))) {}
+        factors_(SparseMatrix(product(C_, Ct_) + diagonal(Index(C_.rows()), delta_alone))) {}
   Points start() const override { return t_.problem.x0; }
   Points points(const Points& z) const override { return z; }
   Residual residual(const Points& x) const override {
@@ -75,13 +75,13 @@ class LeastChange : public System {
     r.least_squares = largest(apply(Ct_, r.values)) / std::max({largest(x), largest(r.values), 1e-300});
     return r;
   }
-  Points step(const Points& residual) const override { return apply(Ct_, cholesky_.solve(residual)); }
+  Points step(const Points& residual) const override { return apply(Ct_, factors_.solve(residual)); }
   Points effect(const Points& step) const override { return apply(C_, step); }
 
  private:
   const FitTerms& t_;
   SparseMatrix C_, Ct_;
-  SparseCholesky cholesky_;
+  SparseFactors factors_;
 };
 
 /// Anything: z = (x, l).
@@ -95,12 +95,12 @@ class Saddle : public System {
         Ct_(transposed(C_)),
         Q_(terms.Q / terms.q_size),
         rho_(C_.rows() > 0 ? rho_regular : rho_regular_alone),
-        cholesky_(matrix(rho_)) {
+        factors_(matrix(rho_)) {
     // Inverse iteration: regular problems have no eigenvalue near to rho.
-    singular_ = !cholesky_.positive() || least_eigenvalue() < 100 * rho_;
+    singular_ = !factors_.positive() || least_eigenvalue() < 100 * rho_;
     if (!singular_) return;
     rho_ = C_.rows() > 0 ? rho_singular : rho_singular_alone;
-    cholesky_ = SparseCholesky(matrix(rho_));
+    factors_ = SparseFactors(matrix(rho_));
   }
 
   bool singular() const { return singular_; }
@@ -112,8 +112,8 @@ class Saddle : public System {
   Points unseen(Points y) const {
     for (int i = 0; i < 3; ++i) {
       y *= rho_;
-      Points z = cholesky_.solve(y);
-      for (int k = 0; k < 2; ++k) z += cholesky_.solve(Points(y - product_with_matrix(z)));
+      Points z = factors_.solve(y);
+      for (int k = 0; k < 2; ++k) z += factors_.solve(Points(y - product_with_matrix(z)));
       y = z;
     }
     return y;
@@ -148,7 +148,7 @@ class Saddle : public System {
     if (seen_only_) right -= unseen(right);
     if (C_.rows() > 0) right += apply(Ct_, Points(residual.bottomRows(C_.rows()))) / delta;
     Points result(residual.rows(), residual.cols());
-    result.topRows(n()) = cholesky_.solve(right);
+    result.topRows(n()) = factors_.solve(right);
     if (C_.rows() > 0)
       result.bottomRows(C_.rows()) = (apply(C_, Points(result.topRows(n()))) - residual.bottomRows(C_.rows())) / delta;
     return result;
@@ -182,7 +182,7 @@ class Saddle : public System {
     double length = 1;
     for (int i = 0; i < 5; ++i) {
       v /= v.norm();
-      v = cholesky_.solve(v);
+      v = factors_.solve(v);
       length = v.norm();
     }
     return 1 / length;
@@ -192,7 +192,7 @@ class Saddle : public System {
   bool rows_count_;
   SparseMatrix C_, Ct_, Q_;
   double rho_;
-  SparseCholesky cholesky_;
+  SparseFactors factors_;
   bool singular_ = false, seen_only_ = false;
 };
 

@@ -31,7 +31,7 @@ enum class FitMethod {
   /// else is minimised; otherwise iterative, and direct where that would take more than 250 steps (1000 with
   /// an objective).
   automatic,
-  /// Sparse Cholesky factors, made exact by a proximal method. Distances below about 1e-8 of A^T W A + H, relative to
+  /// Sparse factors, made exact by a proximal method. Distances below about 1e-8 of A^T W A + H, relative to
   /// its size, do not tell an x from the nearest one.
   direct,
   /// Conjugate gradients. Of a singular A^T W A + H "nearest" is then measured by the diagonal of that matrix. With an

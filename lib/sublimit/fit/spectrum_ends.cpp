@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sublimit/fit/sparse_cholesky.h"
+#include "sublimit/fit/sparse_factors.h"
 #include "sublimit/sparse_product.h"
 
 namespace sublimit {
@@ -75,7 +75,7 @@ LeastSingular least_singular(const SparseMatrix& B, const SparseMatrix& Bt, doub
   }
   SparseMatrix shift(n, n);
   shift.setIdentity();
-  const SparseCholesky cholesky(SparseMatrix(G + shift * (1e-12 * trace)));
+  const SparseFactors factors(SparseMatrix(G + shift * (1e-12 * trace)));
   LeastSingular result;
   // A solution with the factors of a large matrix takes a tenth of a second, so there the first space has to do.
   const bool large = n > 20000;
@@ -91,7 +91,7 @@ LeastSingular least_singular(const SparseMatrix& B, const SparseMatrix& Bt, doub
         V.middleCols(found, last.cols()) = last;
         found += Index(last.cols());
         if (found + last.cols() > V.cols()) break;
-        last = orthonormal_to(V.leftCols(found), cholesky.solve(Points(last)));
+        last = orthonormal_to(V.leftCols(found), factors.solve(Points(last)));
       }
       const Eigen::HouseholderQR<MatrixXd> qr(times(B, V.leftCols(found)));
       const MatrixXd R = qr.matrixQR().topRows(found).triangularView<Eigen::Upper>();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sublimit/fit/sparse_cholesky.h"
+#include "sublimit/fit/sparse_factors.h"
 
 #include <Eigen/OrderingMethods>
 #include <Eigen/SparseLU>
@@ -37,13 +37,13 @@ std::int64_t factor_entries(const Columns& M) {
 
 }  // namespace
 
-struct SparseCholesky::Factors {
+struct SparseFactors::Factors {
   Permutation order;
   Eigen::SparseLU<Columns, Eigen::NaturalOrdering<Index>> lu;  // by supernodes: Eigen's Cholesky factors are not
   double entries = 0;
 };
 
-SparseCholesky::SparseCholesky(const SparseMatrix& M) : factors_(std::make_unique<Factors>()) {
+SparseFactors::SparseFactors(const SparseMatrix& M) : factors_(std::make_unique<Factors>()) {
   if (M.rows() == 0) throw InvalidParameter("a matrix without rows has no factors");  // Eigen would divide by its size
   Columns ordered = M;
   Eigen::AMDOrdering<Index>()(ordered, factors_->order);
@@ -59,16 +59,16 @@ SparseCholesky::SparseCholesky(const SparseMatrix& M) : factors_(std::make_uniqu
   factors_->lu.setPivotThreshold(0);  // none is needed: positive definite
   factors_->lu.compute(ordered);
 }
-SparseCholesky::~SparseCholesky() = default;
-SparseCholesky::SparseCholesky(SparseCholesky&&) noexcept = default;
-SparseCholesky& SparseCholesky::operator=(SparseCholesky&&) noexcept = default;
+SparseFactors::~SparseFactors() = default;
+SparseFactors::SparseFactors(SparseFactors&&) noexcept = default;
+SparseFactors& SparseFactors::operator=(SparseFactors&&) noexcept = default;
 
-bool SparseCholesky::positive() const {
+bool SparseFactors::positive() const {
   return factors_->lu.info() == Eigen::Success && factors_->lu.signDeterminant() > 0;
 }
-double SparseCholesky::nonzeros() const { return factors_->entries; }
+double SparseFactors::nonzeros() const { return factors_->entries; }
 
-Points SparseCholesky::solve(const Points& right) const {
+Points SparseFactors::solve(const Points& right) const {
   if (factors_->lu.info() != Eigen::Success) throw AnalysisError("a matrix to be factored is not positive definite");
   const Permutation back = factors_->order.inverse();
   const Eigen::MatrixXd ordered = back * right;
