@@ -280,8 +280,14 @@ TEST(CliFit, RefusesToLeaveASingularSystem) {
   job.expect_refused({"-s", "catmull-clark", "--refine", "0"}, 3,
                      {"cage.obj: catmull-clark: ", "vertices 0, 1, 2, 3, 4, 5, 6, 7 depend on each other",
                       "rank 7 of 8", "another refinement", "--best-effort"});
-  const Outcome outcome = expect_done(job.fit({"-s", "catmull-clark", "--refine", "0", "--best-effort"}));
+  const Outcome outcome =
+      expect_done(job.fit({"-s", "catmull-clark", "--refine", "0", "--best-effort", "--report", job.path("fit.json")}));
   expect_parts(outcome.out, {"not met: ", "rank 7"});
+  // What is told is what the limit misses.
+  const double missed = (job.limit("catmull-clark") - corners).rowwise().norm().maxCoeff();
+  const auto report = nlohmann::json::parse(read_file(job.path("fit.json")));
+  EXPECT_GT(missed, 1e-3);
+  EXPECT_NEAR(report["position_error"]["largest"].get<double>(), missed, exact_position);
 }
 
 TEST(CliFit, RefusesTargetsThatAreNone) {
