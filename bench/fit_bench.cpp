@@ -11,7 +11,7 @@
 // `fit_bench --ratios [repetitions]` takes turns and prints medians with their spread; SUBLIMIT_BENCH_CASE=NAME takes
 // one system, SUBLIMIT_BENCH_VERTICES another size than 100000. Otherwise Google Benchmark's own options hold.
 #include <Eigen/IterativeLinearSolvers>
-#include <Eigen/SparseFactors>
+#include <Eigen/SparseCholesky>
 #include <Eigen/SparseLU>
 #include <cstdio>
 #include <cstdlib>
