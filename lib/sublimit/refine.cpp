@@ -5,6 +5,7 @@
 #include <string>
 
 #include "sublimit/base/error.h"
+#include "sublimit/check_levels.h"
 #include "sublimit/base/memory.h"
 #include "sublimit/refine_impl.h"
 #include "sublimit/renumbered_level.h"
@@ -41,22 +42,6 @@ struct Counts {
     return topology + sharpness + vertices * (8 * 12 + 24);  // about 8 nonzeros a row, and the positions
   }
 };
-
-void check_levels(const Scheme<double>& scheme, const Topology& t, int levels) {
-  if (levels < 0) throw InvalidParameter("levels is " + std::to_string(levels) + "; it must be 0 or more");
-  const std::string amount = std::to_string(levels) + " levels of " + std::to_string(t.num_faces()) + " faces";
-  Counts counts{double(t.num_half_edges()), double(t.num_faces()), double(t.num_edges()), double(t.num_vertices())};
-  double bytes = counts.bytes();
-  for (int k = 0; k < levels && t.num_faces() > 0; ++k) {
-    for (const Step<double>& step : scheme.steps_at(k, t)) counts = counts.next(step.split);
-    bytes += counts.bytes();
-    if (counts.corners > std::numeric_limits<Index>::max())
-      throw ResourceError(amount + " take more than " + bytes_in_words(bytes) + " of memory, and level " +
-                          std::to_string(k + 1) + " has more face corners than 32-bit indices count; use at most " +
-                          std::to_string(k));
-  }
-  check_memory(amount, bytes, "use fewer levels or refine a subset");
-}
 
 /// Faces that share a vertex with `faces`, themselves included; ascending.
 std::vector<Index> with_neighbors(const Topology& t, std::span<const Index> faces) {
@@ -99,6 +84,22 @@ SparseMatrix identity(Index size) {
 }
 
 }  // namespace
+
+void check_levels(const Scheme<double>& scheme, const Topology& t, int levels) {
+  if (levels < 0) throw InvalidParameter("levels is " + std::to_string(levels) + "; it must be 0 or more");
+  const std::string amount = std::to_string(levels) + " levels of " + std::to_string(t.num_faces()) + " faces";
+  Counts counts{double(t.num_half_edges()), double(t.num_faces()), double(t.num_edges()), double(t.num_vertices())};
+  double bytes = counts.bytes();
+  for (int k = 0; k < levels && t.num_faces() > 0; ++k) {
+    for (const Step<double>& step : scheme.steps_at(k, t)) counts = counts.next(step.split);
+    bytes += counts.bytes();
+    if (counts.corners > std::numeric_limits<Index>::max())
+      throw ResourceError(amount + " take more than " + bytes_in_words(bytes) + " of memory, and level " +
+                          std::to_string(k + 1) + " has more face corners than 32-bit indices count; use at most " +
+                          std::to_string(k));
+  }
+  check_memory(amount, bytes, "use fewer levels or refine a subset");
+}
 
 void check_sharpness(const std::string& scheme, Sharpening sharpening, bool is_dual, const Topology& t,
                      const Sharpness& sharpness, const ControlMesh& tags) {

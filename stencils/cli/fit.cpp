@@ -131,6 +131,11 @@ int fit_to_cloud(const Options& options, Progress& progress) {
 
 int fit_geometric(const Options& options, const FitTargets& targets, const GeometricSurfaceScheme& scheme,
                   Progress& progress) {
+  for (const auto& [option, value] : {std::pair{"--boundary", &options.common.boundary},
+                                      {"--creasing", &options.common.creasing},
+                                      {"--triangles", &options.common.triangles},
+                                      {"--face-varying", &options.common.face_varying}})
+    if (!value->empty()) throw InvalidOption(fmt::format("{} is not for {}; leave it out", option, scheme.name));
   Common common = options.common;
   common.scheme.clear();  // it has no masks to load
   common.options.clear();

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
 #include "sublimit/base/error.h"
 #include "sublimit/base/format_number.h"
 #include "sublimit/csv_rows.h"
@@ -20,6 +22,8 @@ Cloud from_csv(const std::string& path) {
     if (cloud.weights.back() < 0)
       throw FormatError(rows.place() + "weight " + format_number(cloud.weights.back()) + "; it should be 0 or more");
   }
+  if (!cloud.weights.empty() && std::ranges::all_of(cloud.weights, [](double w) { return w == 0; }))
+    throw FormatError(path + ": all weights are 0; one at least should count");
   if (values.empty()) throw FormatError(path + ": no points after the header; every other line should be one");
   cloud.points = Eigen::Map<const Points>(values.data(), static_cast<Eigen::Index>(values.size() / 3), 3);
   return cloud;

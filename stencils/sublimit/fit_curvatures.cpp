@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "sublimit/base/error.h"
 #include "sublimit/base/format_number.h"
+#include "sublimit/base/memory.h"
 
 namespace sublimit {
 namespace {
@@ -62,17 +64,35 @@ void check_complete(const FitTargets& targets, const std::string& scheme, Index 
                       " has no target; " + scheme + " needs one at every vertex");
 }
 
+/// Triangles in four at every level, about a vertex for two of them.
+void check_size(const ControlMesh& mesh, int levels) {
+  double triangles = 0;
+  for (const Index size : mesh.face_sizes) triangles += size - 2;
+  triangles = std::ldexp(triangles, 2 * levels);
+  const std::string what = format_number(levels) + " levels of " + format_number(mesh.num_faces()) + " faces";
+  if (3 * triangles > std::numeric_limits<Index>::max())
+    throw ResourceError(what + " have more corners than 32-bit indices count; use fewer levels");
+  check_memory(what, triangles * (sizeof(SurfacePoint) + 80), "use fewer levels");
+}
+
 }  // namespace
 
 CurvatureFit fit_curvatures(const GeometricSurfaceScheme& scheme, const ControlMesh& mesh, const FitTargets& targets,
                             const FitSettings& settings) {
-  check_vertices(targets, Topology(view(mesh)));
+  if (!mesh.holes.empty())
+    throw InvalidMesh("face " + format_number(mesh.holes.front()) + " is a hole, for which " + scheme.name +
+                      " has no rule; leave the face or its tag out");
+  check_vertices(targets, Topology(view(mesh)), std::vector<bool>(size_t(mesh.num_faces()), false));
+  check_size(mesh, settings.levels);
   check_complete(targets, scheme.name, mesh.num_vertices());
   CurvatureFit fit;
   fit.given = scheme.checked(curvature_mesh(mesh, targets.vertices));
   FitReport& report = fit.report;
   report = report_of("torus-pieces", scheme.name, mesh, targets);
   if (scheme.notes) report.notes = scheme.notes(fit.given);
+  if (!mesh.creases.empty() || !mesh.corners.empty())
+    report.notes.push_back(scheme.name + " has no creases: sharp edges and vertices of the mesh are smooth");
+  if (!mesh.face_varying.empty()) report.notes.push_back("texture coordinates are left out");
   if (const Index count = opposed(fit.given); count > 0)
     report.notes.push_back(format_number(count) + " of " + format_number(fit.given.num_faces()) +
                            " triangles are wound against the normals of their corners; turn the faces or the normals, "

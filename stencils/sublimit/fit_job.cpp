@@ -120,7 +120,8 @@ Fit fit_vertices(const Scheme<double>& scheme, const ControlMesh& mesh, const Fi
     throw FormatError(targets.file.string() + ": " + scheme.name +
                       " is linear and takes points and normals; leave the columns k1,k2,d1x,d1y,d1z out, or fit with "
                       "-s torus-pieces");
-  check_vertices(targets, control_level(scheme, mesh, settings.rules).topology());
+  const Level control = control_level(scheme, mesh, settings.rules);
+  check_vertices(targets, control.topology(), control.holes);
   Fit fit =
       settings.construct ? construct(scheme, mesh, targets, settings) : interpolated(scheme, mesh, targets, settings);
   count(fit, scheme);

@@ -38,6 +38,7 @@ FitReport report_of(const std::string& kind, const std::string& scheme, const Co
 /// Through points, and perhaps normals, at vertices: a linear system, or a construction.
 /// @throws FormatError  what `check_vertices` refuses; curvatures, which are for torus pieces
 /// @throws InvalidMesh  targets that cannot be met, unless `best_effort`: says which
+/// @throws InvalidOption  a `refine` that is no number, `construct` for a scheme that cannot
 Fit fit_vertices(const Scheme<double>& scheme, const ControlMesh& mesh, const FitTargets& targets,
                  const FitSettings& settings);
 

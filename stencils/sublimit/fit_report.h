@@ -45,6 +45,9 @@ struct FitReport {
   std::vector<FitLevel> levels;                ///< of torus pieces, 0 on
   std::vector<CloudIteration> iterations;      ///< of clouds, the mesh as given before them
   std::vector<std::string> notes;
+
+  /// Targets at vertices are met.
+  bool solved() const { return attempts.empty() || attempts.back().solved; }
 };
 
 /// Largest and root mean square of the numbers that are there.

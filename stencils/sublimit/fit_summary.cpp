@@ -13,22 +13,14 @@ std::string counted(Index count, const char* one, const char* many) {
   return fmt::format("{} {}", count, count == 1 ? one : many);
 }
 
-std::string listed(const std::vector<Index>& vertices) {
-  constexpr size_t most = 8;
-  std::string text = vertices.size() == 1 ? "vertex " : "vertices ";
-  for (size_t i = 0; i < std::min(most, vertices.size()); ++i) text += (i ? ", " : "") + std::to_string(vertices[i]);
-  if (vertices.size() > most) text += fmt::format(" and {} more", vertices.size() - most);
-  return text;
-}
-
 /// Why an attempt before the last one did not do.
 std::string reason(const InterpolationAttempt& attempt) {
   if (!attempt.undetermined.empty())
-    return fmt::format("the limits of {} depend on each other: rank {} of {}", listed(attempt.undetermined),
+    return fmt::format("the limits of {} depend on each other: rank {} of {}", listed_vertices(attempt.undetermined),
                        attempt.conditioning.rank, attempt.unknowns);
   if (attempt.conditions > attempt.unknowns)
     return fmt::format("{} conditions on {} coordinates", attempt.conditions, attempt.unknowns);
-  return "the targets of " + listed(attempt.contradictory) + " cannot be met";
+  return "the targets of " + listed_vertices(attempt.contradictory) + " cannot be met";
 }
 
 std::string refined(const FitReport& r) {
@@ -77,9 +69,9 @@ std::string fit_summary(const FitReport& r) {
                                          r.levels.empty() ? "control points" : "points"),
                                  counted(r.output_faces, "face", "faces"));
   text += fmt::format("; {} {}",
-                      !r.levels.empty()                                ? "they keep"
-                      : r.kind == "least-squares" || r.kind == "cloud" ? "the limit is near"
-                                                                       : "the limit meets",
+                      !r.levels.empty()                                               ? "they keep"
+                      : r.kind == "least-squares" || r.kind == "cloud" || !r.solved() ? "the limit is near"
+                                                                                      : "the limit meets",
                       counted(position.count, "point", "points"));
   if (normal.count > 0)
     text += (r.curvature_error.size() > 0 ? ", " : " and ") + counted(normal.count, "normal", "normals");

@@ -3,13 +3,16 @@
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <unordered_map>
 
+#include "sublimit/analysis/vertex_sides.h"
 #include "sublimit/base/error.h"
 #include "sublimit/base/format_number.h"
 #include "sublimit/csv_rows.h"
+#include "sublimit/mesh/curvature_mesh.h"
 #include "sublimit/sample_files.h"
 
 namespace sublimit {
@@ -18,7 +21,6 @@ namespace {
 using Eigen::Vector3d;
 
 /// How far a direction may be off the tangent plane, in radians: files have a few digits.
-constexpr double direction_tolerance = 1e-6;
 
 const std::vector<std::vector<std::string>> headers = {
     {"vertex", "x", "y", "z"},
@@ -53,11 +55,14 @@ Index number(const CsvRows& rows, const char* kind) {
   return static_cast<Index>(value);
 }
 
+/// Of length 1, whatever the range of its numbers.
+Vector3d unit(const Vector3d& x) { return (x / x.cwiseAbs().maxCoeff()).normalized(); }
+
 Vector3d normal(const CsvRows& rows) {
   const Vector3d n = vector(rows, 4);
   if (n.isZero(0))
     throw FormatError(rows.place() + "the normal has length 0; any other length will do, or leave nx,ny,nz empty");
-  return n;
+  return unit(n);
 }
 
 TargetCurvature curvature(const CsvRows& rows, const std::optional<Vector3d>& normal) {
@@ -67,14 +72,17 @@ TargetCurvature curvature(const CsvRows& rows, const std::optional<Vector3d>& no
     throw FormatError(rows.place() +
                       "curvatures without a direction; give d1x,d1y,d1z, the direction of k1 in the tangent plane, or "
                       "leave k1,k2 empty too");
-  const TargetCurvature result{rows.finite(7), rows.finite(8), vector(rows, 9)};
-  const Vector3d d = result.direction1;
+  TargetCurvature result{rows.finite(7), rows.finite(8), vector(rows, 9)};
+  Vector3d& d = result.direction1;
   if (d.isZero(0)) throw FormatError(rows.place() + "the direction d1x,d1y,d1z has length 0; any other length will do");
+  const Vector3d given = d;
+  d = unit(d);
   const double off = std::abs(M_PI / 2 - std::atan2(normal->cross(d).norm(), normal->dot(d)));
   if (!(off <= direction_tolerance))
-    throw FormatError(
-        rows.place() + "the direction " + in_words(d) + " is " + format_number(static_cast<float>(off * 180 / M_PI)) +
-        " degrees off the tangent plane; it should be at right angles to the normal " + in_words(*normal));
+    throw FormatError(rows.place() + "the direction " + in_words(given) + " is " +
+                      format_number(static_cast<float>(off * 180 / M_PI)) +
+                      " degrees off the tangent plane; it should be at right angles to the normal " +
+                      in_words(*normal));
   return result;
 }
 
@@ -133,20 +141,23 @@ FitTargets read_fit_targets(const std::filesystem::path& path) {
   }
   if (targets.lines.empty())
     throw FormatError(path.string() + ": no targets after the header; every other line should be one");
+  if (!targets.places.weights.empty() && std::ranges::all_of(targets.places.weights, [](double w) { return w == 0; }))
+    throw FormatError(path.string() + ": all weights are 0; one at least should count");
   if (targets.by_place)
     targets.places.values = Eigen::Map<const Points>(values.data(), static_cast<Index>(targets.size()), 3);
   return targets;
 }
 
-void check_vertices(const FitTargets& targets, const Topology& topology) {
+void check_vertices(const FitTargets& targets, const Topology& topology, const std::vector<bool>& holes) {
+  const std::vector<bool> outside = vertices_without_surface(topology, holes);
   for (size_t i = 0; i < targets.vertices.size(); ++i) {
     const Index v = targets.vertices[i].vertex;
     if (v >= topology.num_vertices())
       throw FormatError(targets.where(i) + "vertex " + format_number(v) + " does not exist; vertices are 0 to " +
                         format_number(topology.num_vertices() - 1) + ", counted from 0");
-    if (topology.is_isolated(Vertex{v}))
+    if (outside[v])
       throw FormatError(targets.where(i) + "vertex " + format_number(v) +
-                        " is in no face, so the limit does not pass there; leave this row out");
+                        " is in no face, or in holes alone, so the limit does not pass there; leave this row out");
   }
 }
 

@@ -21,7 +21,7 @@ namespace sublimit {
 struct FitTargets {
   std::filesystem::path file;
   bool by_place = false;               ///< places, not vertices
-  std::vector<VertexTarget> vertices;  ///< in the order of the rows
+  std::vector<VertexTarget> vertices;  ///< in the order of the rows; normals and directions of length 1
   PlaceTargets places;
   std::vector<std::int64_t> lines;  ///< of the file, by target
   Index num_normals = 0, num_curvatures = 0;
@@ -39,8 +39,8 @@ struct FitTargets {
 /// @throws IoError      unreadable
 FitTargets read_fit_targets(const std::filesystem::path& path);
 
-/// @throws FormatError  a target on a vertex that does not exist, or that is in no face
-void check_vertices(const FitTargets& targets, const Topology& topology);
+/// @throws FormatError  a target on a vertex that does not exist, is in no face or in holes alone
+void check_vertices(const FitTargets& targets, const Topology& topology, const std::vector<bool>& holes);
 /// @throws FormatError  a target on a face that does not exist or is a hole, or outside its face
 void check_places(const FitTargets& targets, const Addresses& addresses, const std::vector<bool>& holes);
 

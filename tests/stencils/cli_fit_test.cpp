@@ -282,7 +282,7 @@ TEST(CliFit, RefusesToLeaveASingularSystem) {
                       "rank 7 of 8", "another refinement", "--best-effort"});
   const Outcome outcome =
       expect_done(job.fit({"-s", "catmull-clark", "--refine", "0", "--best-effort", "--report", job.path("fit.json")}));
-  expect_parts(outcome.out, {"not met: ", "rank 7"});
+  expect_parts(outcome.out, {"the limit is near 8 points", "not met: ", "rank 7"});
   // What is told is what the limit misses.
   const double missed = (job.limit("catmull-clark") - corners).rowwise().norm().maxCoeff();
   const auto report = nlohmann::json::parse(read_file(job.path("fit.json")));
@@ -298,12 +298,20 @@ TEST(CliFit, RefusesTargetsThatAreNone) {
   refused("vertex,x,y,z\n8,0,0,0\n", {"in.csv:2", "vertex 8", "0 to 7"});
   refused("vertex,x,y,z\n1,0,0,0\n1,0,1,0\n", {"in.csv:3", "vertex 1", "line 2"});
   refused("vertex,x,y,z,nx,ny,nz,k1,k2,d1x,d1y,d1z\n1,0,0,0,0,0,1,1,1,1,0,0\n", {"in.csv", "torus-pieces"});
+  refused("vertex,x,y,z,nx,ny,nz\n1,0,0,0,0,0,0\n", {"in.csv:2", "length 0"});
+  refused("vertex,x,y,z\n1,nan,0,0\n", {"in.csv:2"});
+  refused("face,u,v,x,y,z\n0,1.5,0,0,0,0\n", {"in.csv:2"});
+  refused("face,u,v,x,y,z,weight\n0,0.5,0.5,0,0,0,0\n", {"in.csv", "all weights are 0"});
+  refused("", {"in.csv"});
+  Job(cube(), "vertex,x,y,z\n1,0,0,0\n")
+      .expect_refused({"-s", "catmull-clark", "--refine", "40"}, 4, {"40 levels", "use at most"});
 }
 
 TEST(CliFit, RefusesIncompleteCurvatures) {
   const auto refused = [](const std::string& csv, std::initializer_list<std::string_view> parts) {
     Job(octahedron(), csv).expect_refused({"-s", "torus-pieces"}, 3, parts);
   };
+  refused("vertex,x,y,z,nx,ny,nz,k1,k2,d1x,d1y,d1z\n1,0,0,0,0,0,1,1,1,1,0,1\n", {"in.csv:2", "tangent plane"});
   refused(sphere_csv(5), {"in.csv", "vertex 5 has no target", "torus-pieces"});
   refused(sphere_csv(5) + "5,0,0,1,0,0,1,,,,,\n", {"in.csv:7", "vertex 5 has no curvatures"});
   refused("face,u,v,x,y,z\n0,0,0,0,0,0\n", {"in.csv", "torus-pieces", "vertex,x,y,z,nx"});

@@ -35,10 +35,10 @@ TEST(FitTargets, AreReadRowByRow) {
   const FitTargets all = read(curvatures + "1,0,0,0,0,0,2,.5,-.25,3,0,0\n2,0,0,0,0,1,0,,,,,\n7,0,0,0,,,,,,,,\n");
   EXPECT_EQ(all.num_normals, 2);
   EXPECT_EQ(all.num_curvatures, 1);
-  EXPECT_EQ(*all.vertices[0].normal, Vector3d(0, 0, 2));
+  EXPECT_EQ(*all.vertices[0].normal, Vector3d(0, 0, 1));  // of length 1
   EXPECT_EQ(all.vertices[0].curvature->k1, .5);
   EXPECT_EQ(all.vertices[0].curvature->k2, -.25);
-  EXPECT_EQ(all.vertices[0].curvature->direction1, Vector3d(3, 0, 0));
+  EXPECT_EQ(all.vertices[0].curvature->direction1, Vector3d(1, 0, 0));
   EXPECT_FALSE(all.vertices[1].curvature);
   EXPECT_FALSE(all.vertices[2].normal);
 
@@ -86,6 +86,8 @@ TEST(FitTargets, RefuseNormalsAndCurvaturesThatAreNone) {
   refused(start + ",,,1,2,1,0,0\n", {"in.csv:2", "without a normal"});
   refused(start + "0,0,1,1,2,1,0,1\n", {"in.csv:2", "(1, 0, 1)", "45 degrees", "tangent plane", "(0, 0, 1)"});
   refused(start + "0,0,1,1,2,1,0,2e-6\n", {"in.csv:2", "tangent plane"});
+  EXPECT_NO_THROW(read(start + "0,0,1e-200,1,2,1,0,0\n"));
+  EXPECT_NO_THROW(read(start + "0,0,1e200,1,2,1e200,0,0\n"));
   EXPECT_NO_THROW(read(start + "0,0,1,1,2,1,0,5e-7\n"));  // files have a few digits
 }
 
@@ -94,14 +96,22 @@ TEST(FitTargets, RefuseWhatTheMeshDoesNotHave) {
   mesh.positions.conservativeResize(9, 3);
   mesh.positions.row(8).setZero();
   const Topology topology(view(mesh));
-  EXPECT_NO_THROW(check_vertices(read(points + "7,0,0,0\n"), topology));
-  expect_error<FormatError>([&] { check_vertices(read(points + "9,0,0,0\n"), topology); },
+  std::vector<bool> holes(6, false);
+  EXPECT_NO_THROW(check_vertices(read(points + "7,0,0,0\n"), topology, holes));
+  expect_error<FormatError>([&] { check_vertices(read(points + "9,0,0,0\n"), topology, holes); },
                             {"in.csv:2", "vertex 9 does not exist", "0 to 8"});
-  expect_error<FormatError>([&] { check_vertices(read(points + "1,0,0,0\n8,0,0,0\n"), topology); },
+  expect_error<FormatError>([&] { check_vertices(read(points + "1,0,0,0\n8,0,0,0\n"), topology, holes); },
                             {"in.csv:3", "vertex 8", "no face"});
+  holes = {true, true, true, true, true, false};
+  const Index off = topology.vertices(Face{0})[0];
+  const bool touches = std::ranges::find(topology.vertices(Face{5}), off) != topology.vertices(Face{5}).end();
+  const Index inside = touches ? topology.vertices(Face{0})[2] : off;
+  expect_error<FormatError>(
+      [&] { check_vertices(read(points + std::to_string(inside) + ",0,0,0\n"), topology, holes); },
+      {"in.csv:2", "in holes alone"});
 
   const Addresses squares(topology, false);
-  std::vector<bool> holes(6, false);
+  holes.assign(6, false);
   holes[2] = true;
   EXPECT_NO_THROW(check_places(read(places + "5,1,0,0,0,0\n"), squares, holes));
   const auto refused = [&](const std::string& row, std::initializer_list<std::string_view> parts) {

@@ -37,4 +37,12 @@ VertexSides vertex_sides(const Level& level) {
   return sides;
 }
 
+std::vector<bool> vertices_without_surface(const Topology& t, const std::vector<bool>& holes) {
+  std::vector<bool> without(t.num_vertices(), true);
+  for (Index f = 0; f < t.num_faces(); ++f)
+    if (!holes[f])
+      for (const Index v : t.vertices(Face{f})) without[v] = false;
+  return without;
+}
+
 }  // namespace sublimit

@@ -18,4 +18,8 @@ struct VertexSides {
 
 VertexSides vertex_sides(const Level& level);
 
+/// By vertex: it is in no face, or in holes alone.
+/// @param holes  per face
+std::vector<bool> vertices_without_surface(const Topology& topology, const std::vector<bool>& holes);
+
 }  // namespace sublimit

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 // Closest points on the exact limit surface. Its cells (limit_cells.h) are searched from the nearest box on, each by
-// Newton's method, until no box is nearer than the best point found: so the answer is the nearest of all feet, on
-// whatever face.
+// Newton's method, until no box is nearer than the best point found, on whatever face. Boxes of polynomial pieces hold
+// them for certain; of schemes without polynomials they are of sampled points, widened by a quarter: an estimate.
 //
 // Accuracy: distances to 1e-12 of the surface's size; places, where the point is not on the surface, to the square root
 // of that, as the distance hardly changes there. Two feet within one cell, which is almost flat, are told apart only

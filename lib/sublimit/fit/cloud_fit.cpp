@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sublimit/fit/cloud_fit.h"
+#include "sublimit/fit/for_coordinates.h"
 
 #include <Eigen/Geometry>
 
@@ -80,7 +81,7 @@ class Iteration {
     const Index n = Index(x.rows());
     const Pins& pins = options_.pins;
     const Index pinned = Index(pins.vertices.size());
-    if (coupled && H_.rows() > 0) problem.H = thrice(factor * H_);
+    if (coupled && H_.rows() > 0) problem.H = for_coordinates(factor * H_);
     problem.C.resize(coupled ? 3 * pinned : pinned, coupled ? 3 * n : n);
     problem.d.resize(problem.C.rows(), coupled ? 1 : 3);
     for (Index i = 0; i < pinned; ++i) {
@@ -130,20 +131,6 @@ class Iteration {
       }
     }
     problem.A.finalize();
-  }
-
-  /// The same for every coordinate.
-  static SparseMatrix thrice(const SparseMatrix& H) {
-    SparseMatrix result(3 * H.rows(), 3 * H.cols());
-    result.reserve(3 * H.nonZeros());
-    for (Index v = 0; v < H.rows(); ++v)
-      for (Index k = 0; k < 3; ++k) {
-        result.startVec(3 * v + k);
-        for (SparseMatrix::InnerIterator it(H, v); it; ++it)
-          result.insertBack(3 * v + k, 3 * Index(it.col()) + k) = it.value();
-      }
-    result.finalize();
-    return result;
   }
 
   const LimitSurface& surface_;

@@ -26,6 +26,7 @@ struct Conditioning {
 /// above. Deterministic.
 /// @throws InvalidParameter  weights that are not finite, a negative tolerance
 /// @throws ResourceError     factors larger than memory
+/// @throws AnalysisError     a decomposition that breaks down
 Conditioning conditioning(const SparseMatrix& rows, double tolerance = 1e-10, Index most_directions = 64);
 
 }  // namespace sublimit

@@ -59,7 +59,9 @@ struct FitSolution {
 
 /// Deterministic: the same bits for any number of threads.
 /// @throws InvalidParameter  shapes that do not fit, numbers that are not finite, negative weights
-/// @throws ResourceError     factors larger than memory, predicted before they are made
+/// @throws ResourceError     factors larger than memory, predicted before they are made; `automatic` iterates instead,
+/// if it can
+/// @throws AnalysisError     a factorisation that breaks down
 FitSolution solve(const FitProblem& problem, const FitSolverOptions& options = {});
 
 }  // namespace sublimit

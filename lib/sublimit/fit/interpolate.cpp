@@ -5,6 +5,9 @@
 #include <cmath>
 
 #include "sublimit/base/error.h"
+#include "sublimit/check_levels.h"
+#include "sublimit/analysis/vertex_sides.h"
+#include "sublimit/fit/for_coordinates.h"
 #include "sublimit/fit/unit_frame.h"
 #include "sublimit/fit/vertex_conditions.h"
 #include "sublimit/sparse_product.h"
@@ -22,7 +25,9 @@ constexpr int guess_steps = 3;
 constexpr int most_turns = 3;
 
 /// The targets with unit normals; throws at what no mesh could meet.
-std::vector<VertexTarget> checked(const std::vector<VertexTarget>& targets, const Topology& topology) {
+std::vector<VertexTarget> checked(const std::vector<VertexTarget>& targets, const Level& level) {
+  const Topology& topology = level.topology();
+  const std::vector<bool> outside = vertices_without_surface(topology, level.holes);
   std::vector<VertexTarget> result = targets;
   std::vector<bool> seen(topology.num_vertices(), false);
   for (size_t i = 0; i < result.size(); ++i) {
@@ -34,8 +39,8 @@ std::vector<VertexTarget> checked(const std::vector<VertexTarget>& targets, cons
     const std::string at = where + "vertex " + std::to_string(target.vertex);
     if (seen[target.vertex]) throw InvalidParameter(at + " has a target already; a vertex has one");
     seen[target.vertex] = true;
-    if (topology.is_isolated(Vertex{target.vertex}))
-      throw InvalidParameter(at + " is in no face: no surface passes there; leave it out");
+    if (outside[target.vertex])
+      throw InvalidParameter(at + " is in no face, or in holes alone: no surface passes there; leave it out");
     if (!target.position.allFinite()) throw InvalidParameter(at + ": its position is not finite");
     if (!target.normal) continue;
     if (!target.normal->allFinite()) throw InvalidParameter(at + ": its normal is not finite");
@@ -43,20 +48,6 @@ std::vector<VertexTarget> checked(const std::vector<VertexTarget>& targets, cons
     if (largest == 0) throw InvalidParameter(at + ": its normal has length 0; any other length will do");
     target.normal = (*target.normal / largest).normalized();
   }
-  return result;
-}
-
-/// Rows of the same weights for all three coordinates, interleaved.
-SparseMatrix for_coordinates(const SparseMatrix& H) {
-  SparseMatrix result(3 * H.rows(), 3 * H.cols());
-  result.reserve(3 * H.nonZeros());
-  for (Index r = 0; r < H.rows(); ++r)
-    for (Index c = 0; c < 3; ++c) {
-      result.startVec(3 * r + c);
-      for (SparseMatrix::InnerIterator it(H, r); it; ++it)
-        result.insertBack(3 * r + c, 3 * static_cast<Index>(it.col()) + c) = it.value();
-    }
-  result.finalize();
   return result;
 }
 
@@ -150,14 +141,6 @@ void attempt(const Problem& problem, LimitMaskCache& cache, Interpolation& resul
   result.without_plane = std::move(conditions.without_plane);
 }
 
-std::string listed(const std::vector<Index>& vertices) {
-  constexpr size_t most = 8;
-  std::string text = vertices.size() == 1 ? "vertex " : "vertices ";
-  for (size_t i = 0; i < std::min(most, vertices.size()); ++i) text += (i ? ", " : "") + std::to_string(vertices[i]);
-  if (vertices.size() > most) text += " and " + std::to_string(vertices.size() - most) + " more";
-  return text;
-}
-
 }  // namespace
 
 Interpolation interpolate(const Scheme<double>& scheme, const ControlMesh& mesh,
@@ -173,15 +156,15 @@ Interpolation interpolate(const Scheme<double>& scheme, const ControlMesh& mesh,
                            std::to_string(last + scheme.period));
   if (!mesh.positions.allFinite()) throw InvalidMesh("a control point is not finite");
   std::vector<Level> levels{control_level(scheme, mesh, options.rules)};
-  std::vector<VertexTarget> asked = checked(targets, levels[0].topology());
+  std::vector<VertexTarget> asked = checked(targets, levels[0]);
   const UnitFrame frame = unit_frame(asked, mesh.positions);
   for (VertexTarget& target : asked) target.position = frame.inside(target.position.transpose()).transpose();
 
   LimitMaskCache cache(scheme);
   Interpolation result;
-  Index per_target = 3;  // conditions
-  for (const VertexTarget& target : asked)
-    if (target.normal) per_target = 5;
+  std::int64_t conditions = 0;
+  for (const VertexTarget& target : asked) conditions += target.normal ? 5 : 3;
+  check_levels(scheme, levels[0].topology(), options.least_refinements);
   Points x0 = frame.inside(mesh.positions);
   for (int k = 0; k <= last; ++k) {
     if (k == 1) {
@@ -190,10 +173,11 @@ Interpolation interpolate(const Scheme<double>& scheme, const ControlMesh& mesh,
       x0 = guess(vertex_limits(levels, cache, vertices), asked, x0);
     }
     if (k > 0) {
+      check_levels(scheme, levels[0].topology(), k);
       levels.push_back(next_level(scheme, levels.back()));
       x0 = apply(levels.back().S, x0);
     }
-    const bool crowded = std::int64_t{per_target} * std::int64_t(asked.size()) > 3 * std::int64_t(x0.rows());
+    const bool crowded = conditions > 3 * std::int64_t(x0.rows());
     if (k % scheme.period != 0 || k < options.least_refinements || (crowded && k < last)) continue;
     attempt({scheme, levels, options, asked, x0}, cache, result);
     if (result.solved()) break;
@@ -204,13 +188,21 @@ Interpolation interpolate(const Scheme<double>& scheme, const ControlMesh& mesh,
   return result;
 }
 
+std::string listed_vertices(const std::vector<Index>& vertices) {
+  constexpr size_t most = 8;
+  std::string text = vertices.size() == 1 ? "vertex " : "vertices ";
+  for (size_t i = 0; i < std::min(most, vertices.size()); ++i) text += (i ? ", " : "") + std::to_string(vertices[i]);
+  if (vertices.size() > most) text += " and " + std::to_string(vertices.size() - most) + " more";
+  return text;
+}
+
 std::string why_unsolved(const InterpolationAttempt& attempt) {
   if (attempt.solved) return "";
   std::string text;
   if (!attempt.undetermined.empty())
-    text += "the limits of " + listed(attempt.undetermined) + " depend on each other (rank " +
+    text += "the limits of " + listed_vertices(attempt.undetermined) + " depend on each other (rank " +
             std::to_string(attempt.conditioning.rank) + " of " + std::to_string(attempt.unknowns) + "); ";
-  text += "the targets of " + listed(attempt.contradictory) + " cannot be met with the control points of " +
+  text += "the targets of " + listed_vertices(attempt.contradictory) + " cannot be met with the control points of " +
           std::to_string(attempt.refinements) + (attempt.refinements == 1 ? " refinement" : " refinements") +
           ": allow another refinement, or leave a target out";
   return text;

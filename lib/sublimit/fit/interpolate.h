@@ -56,14 +56,16 @@ struct Interpolation {
 /// A normal holds on every side of its vertex. Vertices without a target stay as near to the guess as the others allow.
 /// @param mesh  its positions are the first guess
 /// @return  also where the conditions cannot be met: nearest in the sense of least squares, `solved()` is false and the
-/// last
-///          attempt names the vertices
-/// @throws InvalidParameter  a vertex that does not exist, two targets on one vertex, an isolated vertex, a normal of
-/// zero
-///                           length, numbers that are not finite, numbers of refinements out of order
+///     last attempt names the vertices
+/// @throws InvalidParameter  a vertex that does not exist, is in no face or in holes alone, or has two targets; a
+/// normal
+///     of zero length, numbers that are not finite, numbers of refinements out of order
 /// @throws InvalidMesh, UnsupportedTopology, AnalysisError, ResourceError  as refinement and limits do
 Interpolation interpolate(const Scheme<double>& scheme, const ControlMesh& mesh,
                           const std::vector<VertexTarget>& targets, const InterpolationOptions& options = {});
+
+/// The first few of them, in words.
+std::string listed_vertices(const std::vector<Index>& vertices);
 
 /// What stands in the way of an attempt, in words: which vertices, and what would be right.
 std::string why_unsolved(const InterpolationAttempt& attempt);

@@ -37,9 +37,7 @@ struct PointNormalMesh {
 /// where refinement puts it, after vertices with targets have been moved by what their limits lack.
 /// @param mesh  any topology, closed or with borders; its positions are the first guess
 /// @throws InvalidParameter     a scheme whose vertices do not become faces; a vertex that does not exist, is isolated
-/// or
-///                              has two targets; a normal of zero length, curvature, numbers that are not finite;
-///                              another size
+///     or has two targets; a normal of zero length, curvature, numbers that are not finite; another size
 /// @throws InvalidMesh          a vertex whose faces have no extent; and as refinement does
 /// @throws UnsupportedTopology  a vertex whose limit depends on points beyond its own face: of averaging with degrees
 ///                              beyond 2; a vertex between two faces only; a normal where the limit has no tangent

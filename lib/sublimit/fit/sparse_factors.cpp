@@ -69,7 +69,8 @@ bool SparseFactors::positive() const {
 double SparseFactors::nonzeros() const { return factors_->entries; }
 
 Points SparseFactors::solve(const Points& right) const {
-  if (factors_->lu.info() != Eigen::Success) throw AnalysisError("a matrix to be factored is not positive definite");
+  if (factors_->lu.info() != Eigen::Success)
+    throw AnalysisError("a matrix cannot be factored: " + factors_->lu.lastErrorMessage());
   const Permutation back = factors_->order.inverse();
   const Eigen::MatrixXd ordered = back * right;
   return factors_->order * factors_->lu.solve(ordered);

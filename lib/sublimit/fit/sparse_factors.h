@@ -21,6 +21,7 @@ class SparseFactors {
   /// No pivot was zero, nor an odd number of them negative.
   bool positive() const;
   /// M^-1 * right, n x channels.
+  /// @throws AnalysisError  there are no factors: a pivot was zero, or memory ran out
   Points solve(const Points& right) const;
   double nonzeros() const;  ///< of one triangle, the diagonal included
 

@@ -35,8 +35,7 @@ std::map<Index, TangentFrame> turned_frames(const VertexLimits& limits, const st
 
 struct VertexErrors {
   Eigen::VectorXd position;  ///< distance, by target
-  Eigen::VectorXd
-      normal;  ///< radians, by target, the largest of its sides; NaN where it was left out or never asked for
+  Eigen::VectorXd normal;    ///< radians, by target, the largest of its sides; NaN where there is none
 };
 VertexErrors vertex_errors(const VertexLimits& limits, const std::vector<VertexTarget>& targets, const Points& points);
 

@@ -16,9 +16,9 @@ struct VertexLimits {
   /// One row per vertex asked for; under dual schemes one per sheet of faces at it, which have limits of their own.
   SparseMatrix position;
   std::vector<Index> position_vertex;  ///< number of the vertex in the list asked for, of each row; ascending
-  SparseMatrix tangent1, tangent2;  ///< one row per side of these vertices; tangent1 x tangent2 is along the normal
-  std::vector<Index> side_vertex;   ///< number of the vertex in the list asked for, of each side
-  std::vector<LimitStatus> status;  ///< of each side, for generic points
+  SparseMatrix tangent1, tangent2;     ///< one row per side of these vertices; tangent1 x tangent2 is along the normal
+  std::vector<Index> side_vertex;      ///< number of the vertex in the list asked for, of each side
+  std::vector<LimitStatus> status;     ///< of each side, for generic points
 };
 
 /// @param levels    0 to any

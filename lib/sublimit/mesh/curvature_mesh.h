@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "sublimit/fit/targets.h"
 #include "sublimit/mesh/control_mesh.h"
 #include "sublimit/mesh/mesh_view.h"
+#include "sublimit/mesh/vertex_target.h"
 #include "sublimit/surface_point.h"
 #include "sublimit/types.h"
 

@@ -20,9 +20,10 @@
 // the tube of another. Further factors (torus_edge.cpp) prefer what is tame: pieces that wind little between the ends.
 //
 // New points. The slides evaluate a rational biquadratic patch at (1/2, 1/2). A patch between the ends' parameters
-// depends, on a sphere, on the arbitrary directions, and degenerates along principal circles. Here the patch is the one
-// of the torus piece whose middle lies nearest to the middle of the edge, seen as two arcs with the ends' angles
-// (torus_patch.h has its control points); normal and second form are the patch's, plus those of the bend. Averages are
+// depends, on a sphere, on the arbitrary directions, and degenerates along principal circles. Here it is the place of
+// the torus piece nearest to the middle of the edge, seen as two arcs with the ends' angles, with the normal and second
+// form that the piece has there, plus those of the bend: what the patch around that place would give at its middle,
+// which torus_patch.h builds for who wants patches and the tests compare; the scheme itself needs none. Averages are
 // taken of points, of normals and of second forms as tensors of space; principal data are their eigenvectors, k1 >= k2.
 //
 // Topology. With the new points a triangle is a hexagon. Two corners are cut off; the quadrilateral left at the third,

@@ -15,7 +15,7 @@
 namespace sublimit::testing {
 namespace {
 
-/// What the issue promises: of the box, and radians.
+/// What is promised, of the box and in radians.
 constexpr double on_target = 1e-12, along_target = 1e-10;
 
 std::vector<VertexTarget> at_vertices(const ControlMesh& mesh) {
@@ -122,6 +122,31 @@ TEST(Interpolation, PointsAndNormalsNeedOneRefinement) {
     expect_through(scheme, found, targets, diagonal(mesh.positions));
     EXPECT_EQ(found.attempts.back().refinements, 1);
   }
+}
+
+/// 17 conditions on 24 coordinates.
+TEST(Interpolation, ANormalAloneNeedsNoRefinement) {
+  const auto scheme = *find_scheme<double>("catmull-clark");
+  std::vector<VertexTarget> targets = at_vertices(jittered(cube()));
+  targets.resize(5);
+  targets[2].normal = targets[2].position;
+  const Interpolation found = interpolate(scheme, cube(), targets);
+  EXPECT_EQ(found.attempts.back().refinements, 0);
+  expect_through(scheme, found, targets, diagonal(cube().positions));
+}
+
+TEST(Interpolation, TooManyRefinementsAreRefusedBeforeTheyAreMade) {
+  const auto scheme = *find_scheme<double>("catmull-clark");
+  EXPECT_THROW(interpolate(scheme, cube(), at_vertices(cube()), {.least_refinements = 40, .most_refinements = 40}),
+               ResourceError);
+}
+
+TEST(Interpolation, VerticesInHolesAloneHaveNoLimit) {
+  const auto scheme = *find_scheme<double>("catmull-clark");
+  ControlMesh mesh = grid(4, 4);
+  mesh.boundary = Boundary::none;  // faces at the border are holes
+  expect_error<InvalidParameter>([&] { interpolate(scheme, mesh, {{.vertex = 0}}); }, {"vertex 0", "in holes alone"});
+  EXPECT_TRUE(interpolate(scheme, mesh, {{.vertex = 12, .position = mesh.positions.row(12)}}).solved());
 }
 
 TEST(Interpolation, FairnessChoosesAmongThem) {

@@ -21,7 +21,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// What the issue asks for: positions relative to the bounding box, normals in radians.
+/// What is promised: positions relative to the bounding box, normals in radians.
 constexpr double fitted_position = 1e-13, fitted_normal = 1e-12;
 /// As normals are evaluated from derivatives: those of mid-edge's pieces are as exact as first derivatives are
 /// promised.
