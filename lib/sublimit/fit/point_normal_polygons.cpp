@@ -13,6 +13,7 @@
 #include "sublimit/analysis/limit_rows.h"
 #include "sublimit/base/error.h"
 #include "sublimit/fit/plane_polygon.h"
+#include "sublimit/fit/vertex_limits.h"
 #include "sublimit/sparse_product.h"
 
 namespace sublimit {
@@ -72,15 +73,7 @@ std::vector<Carrier> carriers(const std::vector<Level>& levels, const std::vecto
       const bool closed = exists(control.twin(start));
       if (closed && (control.ccw(start) == start || control.ccw(control.ccw(start)) == start))
         throw UnsupportedTopology(at(targets[i]) + " lies between two faces only: it does not become a face");
-      Centre centre{Centre::Kind::vertex, start};
-      for (size_t k = 1; k < levels.size(); ++k) {
-        const Topology* before = &levels[k - 1].topology();
-        for (const Refinement& step : levels[k].steps) {
-          centre = child(centre, *before, step, levels[k - 1].number);
-          before = &step.topology;
-        }
-      }
-      all.push_back({i, centre, {}});
+      all.push_back({i, descendant({Centre::Kind::vertex, start}, levels), {}});
     }
   }
   return all;

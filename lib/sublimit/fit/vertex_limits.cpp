@@ -62,6 +62,17 @@ VertexLimits from_matrices(const Level& level, LimitMaskCache& cache, std::span<
 
 }  // namespace
 
+Centre descendant(Centre centre, std::span<const Level> levels) {
+  for (size_t k = 1; k < levels.size(); ++k) {
+    const Topology* before = &levels[k - 1].topology();
+    for (const Refinement& step : levels[k].steps) {
+      centre = child(centre, *before, step, levels[k - 1].number);
+      before = &step.topology;
+    }
+  }
+  return centre;
+}
+
 VertexLimits vertex_limits(std::span<const Level> levels, LimitMaskCache& cache, std::span<const Index> vertices) {
   const Level& level = levels.back();
   if (has_one_ring_limits(cache.scheme())) return from_matrices(level, cache, vertices);
@@ -74,15 +85,7 @@ VertexLimits vertex_limits(std::span<const Level> levels, LimitMaskCache& cache,
   std::vector<Index> number_of;
   for (size_t s = 0; s < sides.centres.size(); ++s) {
     if (number[sides.vertex[s]] < 0) continue;
-    Centre centre = sides.centres[s];
-    for (size_t k = 1; k < levels.size(); ++k) {
-      const Topology* before = &levels[k - 1].topology();
-      for (const Refinement& step : levels[k].steps) {
-        centre = child(centre, *before, step, levels[k - 1].number);
-        before = &step.topology;
-      }
-    }
-    centres.push_back(centre);
+    centres.push_back(descendant(sides.centres[s], levels));
     chosen.push_back(s);
     number_of.push_back(number[sides.vertex[s]]);
   }

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "sublimit/analysis/centre.h"
 #include "sublimit/analysis/limit_masks.h"
 #include "sublimit/analysis/limit_status.h"
 #include "sublimit/refine.h"
@@ -20,6 +21,9 @@ struct VertexLimits {
   std::vector<Index> side_vertex;      ///< number of the vertex in the list asked for, of each side
   std::vector<LimitStatus> status;     ///< of each side, for generic points
 };
+
+/// Where a place of the first level is on the last one.
+Centre descendant(Centre centre, std::span<const Level> levels);
 
 /// @param levels    0 to any
 /// @param vertices  of level 0, none isolated

@@ -33,9 +33,10 @@ std::vector<VertexTarget> vertices_of(const ControlMesh& mesh, const Level& leve
   }
   std::vector<Index> sides(mesh.num_vertices(), 0);
   for (const Index v : vertex_sides(level).vertex) ++sides[v];
+  const std::vector<bool> outside = vertices_without_surface(level.topology(), level.holes);
   std::vector<VertexTarget> targets;
   for (Index v = 0; v < mesh.num_vertices(); ++v) {
-    if (sides[v] == 0) continue;
+    if (outside[v]) continue;
     targets.push_back({.vertex = v, .position = mesh.positions.row(v)});
     if (normals && sides[v] == 1 && N.row(v).norm() > 1e-12) targets.back().normal = N.row(v);
   }
