@@ -11,7 +11,6 @@ using Eigen::Vector3d;
 
 namespace {
 
-double sinc(double x) { return x == 0 ? 1 : std::sin(x) / x; }
 /// (1 - cos(k s))/k^2
 double versine(double k, double s) { return s * s / 2 * sinc(k * s / 2) * sinc(k * s / 2); }
 

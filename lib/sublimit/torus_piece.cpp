@@ -11,8 +11,6 @@ using Eigen::Vector3d;
 
 namespace {
 
-double sinc(double x) { return x == 0 ? 1 : std::sin(x) / x; }
-
 /// A circle of curvature k through (0, 0) along the first axis, bending to the second: the length of arc to the foot of
 /// a point, and the point's distance from the circle, inwards.
 struct Unrolled {

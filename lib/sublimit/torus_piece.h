@@ -9,9 +9,14 @@
 // inner (k1 k2 < 0); k2 = 0 with g = 1/R is the top circle; kappa = 0 is a cylinder; k1 = k2 is a sphere, whatever g.
 // Nothing is divided by a curvature: with arcs written as sin(k s)/k and (1 - cos(k s))/k all cases are one formula,
 // continuous in k1, k2 and g.
+#include <cmath>
+
 #include "sublimit/surface_point.h"
 
 namespace sublimit {
+
+/// sin(x)/x
+inline double sinc(double x) { return x == 0 ? 1 : std::sin(x) / x; }
 
 class TorusPiece {
  public:

@@ -20,8 +20,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// How far a direction may be off the tangent plane, in radians: files have a few digits.
-
 const std::vector<std::vector<std::string>> headers = {
     {"vertex", "x", "y", "z"},
     {"vertex", "x", "y", "z", "nx", "ny", "nz"},

@@ -18,6 +18,9 @@
 namespace sublimit {
 namespace {
 
+/// Of values that texts print with four.
+constexpr double four_digits = 5e-5;
+
 using testing::limit_system;
 
 // Squares of matrices whose inverses are iterated with, of condition 10 to 100.
@@ -58,8 +61,8 @@ TEST(Conditioning, LimitPointsOfACubeLeaveAlternatingSignsFree) {
 
 TEST(Conditioning, SmallestSingularValuesOfRegularMeshes) {
   EXPECT_NEAR(conditioning(limit_system("loop", testing::tetrahedron())).smallest, 0.2, testing::rounding(8));
-  EXPECT_NEAR(conditioning(limit_system("loop", testing::octahedron())).smallest, 0.1545, 5e-5);  // four digits known
-  EXPECT_NEAR(conditioning(limit_system("loop", testing::icosahedron())).smallest, 0.2350, 5e-5);
+  EXPECT_NEAR(conditioning(limit_system("loop", testing::octahedron())).smallest, 0.1545, four_digits);
+  EXPECT_NEAR(conditioning(limit_system("loop", testing::icosahedron())).smallest, 0.2350, four_digits);
   // (2/3 + cos(a)/3) (2/3 + cos(b)/3), least where both cosines are -1.
   EXPECT_NEAR(conditioning(limit_system("catmull-clark", testing::torus(8, 6))).smallest, 1. / 9,
               testing::rounding(50));
