@@ -17,9 +17,12 @@ namespace {
 /// runs along the seam, which no value feels, Far lets the first stay a corner for one level more, and then smooths it
 /// all at once.
 bool far_lingers(const std::string& name, double seams, FaceVaryingInterpolation interpolation) {
-  return (name == "chain_fades_uniform_triangles" || name == "chain_fades_chaikin_triangles") && seams == 0.15 &&
-         (interpolation == FaceVaryingInterpolation::corners_plus1 ||
-          interpolation == FaceVaryingInterpolation::corners_plus2);
+  const bool along_seam =
+      (seams == 0.15 && (name == "chain_fades_uniform_triangles" || name == "chain_fades_chaikin_triangles" ||
+                         name == "spokes_semi_sharp_triangles")) ||
+      ((seams == 0.15 || seams == 0.5) && name == "spokes_semi_sharp");
+  return along_seam && (interpolation == FaceVaryingInterpolation::corners_plus1 ||
+                        interpolation == FaceVaryingInterpolation::corners_plus2);
 }
 /// Of a face with two values at one vertex Far takes the first one twice.
 bool far_repeats(const std::string& name, double seams) { return name == "lobe_in_face" && seams > 0; }

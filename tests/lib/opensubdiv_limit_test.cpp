@@ -4,6 +4,9 @@
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
+#include <set>
+
 #include "sublimit/analysis/limit_points.h"
 #include "sublimit/mesh/read_mesh.h"
 #include "sublimit/sparse_product.h"
@@ -115,6 +118,35 @@ TEST_P(TaggedMeshLimit, EqualsOpenSubdiv) {
 }
 INSTANTIATE_TEST_SUITE_P(OpenSubdiv, TaggedMeshLimit, ::testing::ValuesIn(tagged_meshes()),
                          [](const auto& tested) { return tested.param.name; });
+
+/// What the comparison is worth: without these kinds of vertex it would compare less than README says.
+TEST(TaggedMeshLimits, AreComparedAtEveryKindOfVertex) {
+  constexpr const char* words[] = {"smooth", "dart", "crease", "corner"};
+  for (const std::string scheme : {"catmull-clark", "loop"}) {
+    std::set<std::string> positions, normals;
+    for (const NamedMesh& named : tagged_meshes()) {
+      if (std::ranges::find(named.schemes, scheme) == named.schemes.end()) continue;
+      for (const ReferenceVertex& v : reference_limit(named.mesh, reference_options(named.mesh, scheme, 0)).vertex) {
+        if (v.nonmanifold) continue;
+        const std::string kind = std::string(v.boundary ? "boundary " : "") + words[int(v.rule)] + " among " +
+                                 std::to_string(v.faces) + " faces";
+        if (exact_position(v, scheme)) positions.insert(kind);
+        if (exact_normal(v, scheme)) normals.insert(kind);
+      }
+    }
+    const auto expect = [&](const std::set<std::string>& compared, const char* what, const std::string& kind, int from,
+                            int to) {
+      for (int n = from; n <= to; ++n)
+        EXPECT_TRUE(compared.contains(kind + " among " + std::to_string(n) + " faces"))
+            << scheme << ": no " << what << " of a " << kind << " among " << n << " faces is compared";
+    };
+    for (const char* kind : {"smooth", "crease", "corner"}) expect(positions, "position", kind, 3, 8);
+    expect(positions, "position", "boundary crease", 2, 7);
+    expect(positions, "position", "boundary corner", 1, 1);
+    expect(normals, "normal", "smooth", 3, 9);
+    expect(normals, "normal", "boundary crease", 2, scheme == "loop" ? 3 : 2);
+  }
+}
 
 class SharedMeshLimit : public ::testing::TestWithParam<SharedMesh> {};
 

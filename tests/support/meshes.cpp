@@ -12,6 +12,8 @@
 #include <random>
 #include <utility>
 
+#include "sublimit/mesh/sharpness.h"
+
 namespace sublimit::testing {
 namespace {
 
@@ -513,7 +515,7 @@ void add_boundaries(Collection& meshes) {
     meshes.add(prefix + "_lone_triangle", with_options(polygon(3), mode), triangle_schemes);
     meshes.add_both(prefix + "_two_faces", with_options(grid(2, 1), mode));
     ControlMesh quads = open_fan(1, 4, 2), triangles = open_fan(1, 3, 2);
-    for (const Index n : {2, 3, 4, 5, 7}) {
+    for (const Index n : {2, 3, 4, 5, 6, 7}) {
       quads = disjoint_union(quads, open_fan(n, 4, 2));
       triangles = disjoint_union(triangles, open_fan(n, 3, 2));
     }
@@ -599,6 +601,22 @@ void add_creases(Collection& meshes) {
   add_crease(extraordinary_darts, {0, 1}, 10);
   add_crease(extraordinary_darts, {fan(3, 4, 2).num_vertices(), fan(3, 4, 2).num_vertices() + 1}, 1.8f);
   meshes.add("darts_extraordinary", extraordinary_darts);
+
+  // No, one, two and three sharp spokes at every valence: smooth vertices, darts, creases and corners.
+  const std::array<std::vector<float>, 2> spokes{std::vector<float>{10, 10, 10}, {1.7f, 0.6f, 0.9f}};
+  for (const Index size : {4, 3})
+    for (const std::vector<float>& sharpness : spokes) {
+      ControlMesh fans;
+      for (Index n = 3; n <= 8; ++n)
+        for (Index count = 0; count <= 3; ++count) {
+          ControlMesh one = fan(n, size);
+          for (Index k = 0; k < count; ++k) add_crease(one, {0, 1 + (size - 2) * (k * n / 3)}, sharpness[size_t(k)]);
+          fans = disjoint_union(fans, one);
+        }
+      meshes.add(std::string("spokes_") + (is_infinite(sharpness[0]) ? "sharp" : "semi_sharp") +
+                     (size == 3 ? "_triangles" : ""),
+                 fans, size == 3 ? triangle_schemes : quad_schemes);
+    }
 
   ControlMesh repeated = torus(5, 4);
   add_crease(repeated, torus_ring(5, 4, 1), 3);

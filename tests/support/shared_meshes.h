@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 // OpenSubdiv's regression shapes as OBJ files with tags, where a checkout has them beside it. Never part of the project.
-#include <cstdlib>
 #include <algorithm>
 #include <filesystem>
 #include <string>
 #include <vector>
+
+#include "support/full_sweep.h"
 
 namespace sublimit::testing {
 
@@ -26,8 +27,5 @@ inline std::vector<SharedMesh> shared_meshes() {
   std::sort(meshes.begin(), meshes.end(), [](const auto& a, const auto& b) { return a.name < b.name; });
   return meshes;
 }
-
-/// Whether this is the full sweep (ctest -L full).
-inline bool full_sweep() { return std::getenv("SUBLIMIT_FULL") != nullptr; }
 
 }  // namespace sublimit::testing

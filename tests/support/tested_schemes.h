@@ -4,12 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <ostream>
 #include <string>
 #include <vector>
 
 #include "sublimit/schemes.h"
+#include "support/full_sweep.h"
 #include "support/hard_meshes.h"
 
 namespace sublimit::testing {
@@ -30,10 +30,9 @@ struct TestedScheme {
 };
 
 /// @param largest  degree of averaging. Types of degrees beyond 3, of kobbelt and of interpolatory-sqrt3 are large, a
-/// minute of work each: only with SUBLIMIT_FULL=1.
+/// minute of work each: only in the full sweep.
 inline std::vector<TestedScheme> schemes_and_degrees(int largest = 9) {
-  const char* given = std::getenv("SUBLIMIT_FULL");
-  const bool full = given && std::string(given) == "1";
+  const bool full = full_sweep();
   if (!full) largest = std::min(largest, 3);
   std::vector<TestedScheme> tested;
   for (const Scheme<double>& scheme : all_schemes())

@@ -7,7 +7,6 @@
 #include <Eigen/Dense>
 
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 #include <random>
 
@@ -40,7 +39,7 @@ TEST_P(RoundTrip, GivesTheControlPointsBack) {
   std::vector<ControlMesh> meshes{takes_triangles(scheme) ? triangle_torus(5, 5) : torus(5, 5)};
   // Types of pieces take their time where these are no polynomials, or rotate.
   const bool is_quick = has_polynomials(scheme) && scheme.period == 1;
-  if (is_quick || std::getenv("SUBLIMIT_FULL")) meshes.push_back(hard_meshes(scheme, 1)[1]);
+  if (is_quick || full_sweep()) meshes.push_back(hard_meshes(scheme, 1)[1]);
   for (const ControlMesh& mesh : meshes) {
     const Index n = mesh.num_vertices();
     const LimitSurface surface(scheme, mesh);
