@@ -10,6 +10,7 @@
 #include <memory>
 
 #include "curves.h"
+#include "sublimit/analysis/no_limit.h"
 #include "sublimit/base/error.h"
 #include "sublimit/base/memory.h"
 #include "sublimit/geometric_schemes.h"
@@ -204,6 +205,8 @@ void naming_mesh(const Common& common, const std::function<void()>& body) {
   } catch (const InvalidMesh& error) {
     throw InvalidMesh(place + error.what());
   } catch (const UnsupportedTopology& error) {
+    throw UnsupportedTopology(place + error.what());
+  } catch (const NoLimit& error) {  // not a fault of ours: a mesh that the scheme has no limit of
     throw UnsupportedTopology(place + error.what());
   } catch (const AnalysisError& error) {
     throw AnalysisError(place + error.what());

@@ -33,7 +33,7 @@ int run(const Options& options) {
   naming_mesh(options.common, [&] {
     levels = refined_levels(loaded, options.levels, progress);
     progress.step("limits");
-    limit = limit_matrices(levels.back(), cache);
+    limit = limit_matrices(levels, cache);
     channel = refined_channel(options.common, loaded, levels, options.output);
     if (channel.empty()) return;
     LimitMaskCache channel_cache(face_varying_scheme(*loaded.scheme, loaded.face_varying));

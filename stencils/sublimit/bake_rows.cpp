@@ -44,7 +44,7 @@ StencilTable<double> stacked(const std::vector<SparseMatrix>& parts) {
 void add_limits(const Scheme<double>& scheme, const std::vector<Level>& levels, int derivatives, Baked& baked,
                 PatternTable<double>::Arrays& arrays) {
   LimitMaskCache cache(scheme);
-  const LimitMatrices limit = limit_matrices(levels.back(), cache);
+  const LimitMatrices limit = limit_matrices(levels, cache);
   const SparseMatrix P = refinement_matrix(levels);
   const Topology& t = levels.back().topology();
   std::vector<Index> side(t.num_vertices(), -1);

@@ -11,6 +11,7 @@ struct Centre {
     vertex,  ///< tail of `start`
     face,    ///< face of `start`
     border,  ///< middle of `start`, which has no twin
+    edge,    ///< middle of `start`, which has one: a vertex of two faces, of which dual splits make no face
   };
   Kind kind = Kind::vertex;
   /// A closed place can start anywhere; an open vertex starts with the first half-edge of its fan. Children lie as their parents

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sublimit/analysis/limit_points.h"
 
+#include "sublimit/analysis/control_place.h"
 #include "sublimit/analysis/degenerate_normal.h"
 #include "sublimit/analysis/limit_rows.h"
 #include "sublimit/analysis/vertex_sides.h"
@@ -8,6 +9,7 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <optional>
 
 #include "sublimit/base/error.h"
 #include "sublimit/base/parallel_for.h"
@@ -138,6 +140,7 @@ LimitMatrices lone_limit_matrices(const Level& level, LimitMaskCache& cache) {
 }
 
 }  // namespace
+    std::optional<NoLimit> failure;
 
 LimitMatrices limit_matrices(const Level& level, LimitMaskCache& cache) {
   if (!has_one_ring_limits(cache.scheme())) return lone_limit_matrices(level, cache);
@@ -156,7 +159,14 @@ LimitMatrices limit_matrices(const Level& level, LimitMaskCache& cache) {
     Block& block = blocks[b];
     for (std::int64_t i = begin; i < end; ++i) {
       const NeighborhoodAt at = neighborhood(t, level.sharpness, Vertex{static_cast<Index>(i)});
-      const LimitMasks& masks = cache.masks(at.type);
+      const LimitMasks* found = nullptr;
+      try {
+        found = &cache.masks(at.type);
+      } catch (const AnalysisError& error) {
+        block.failure.emplace(static_cast<Index>(i), level.number, error.what());
+        return;
+      }
+      const LimitMasks& masks = *found;
       block.position.append(masks.position, at.vertices);
       for (const LimitMasks::Side& side : masks.sides) {
         const Index number = static_cast<Index>(block.side_vertex.size());
@@ -175,6 +185,8 @@ LimitMatrices limit_matrices(const Level& level, LimitMaskCache& cache) {
         }
         bool hole = true;
         const auto& corners = at.corners[side.fan];
+  for (const Block& block : blocks)
+    if (block.failure) throw *block.failure;
         for (Index c = 0; c < side.num_corners; ++c) {
           const HalfEdge h = corners[(side.first_corner + c) % corners.size()];
           hole &= level.holes[index(t.face(h))];
@@ -201,6 +213,15 @@ LimitMatrices limit_matrices(const Level& level, LimitMaskCache& cache) {
     for (size_t k = 0; k < orders; ++k) {
       if (k >= block.second.size()) block.second.emplace_back().lengths.assign(block.side_vertex.size(), 0);
       second[k].push_back(std::move(block.second[k]));
+LimitMatrices limit_matrices(const std::vector<Level>& levels, LimitMaskCache& cache) {
+  try {
+    return limit_matrices(levels.back(), cache);
+  } catch (const NoLimit& error) {
+    if (levels.size() == 1 || error.vertex < 0) throw;
+    throw NoLimit(control_place(levels, Vertex{error.vertex}), error.reason);
+  }
+}
+
     }
     position.push_back(std::move(block.position));
     tangent1.push_back(std::move(block.tangent1));

@@ -5,6 +5,7 @@
 
 #include "sublimit/analysis/limit_masks.h"
 #include "sublimit/analysis/limit_status.h"
+#include "sublimit/analysis/no_limit.h"
 #include "sublimit/refine.h"
 
 namespace sublimit {
@@ -19,8 +20,10 @@ struct LimitMatrices {
   std::vector<LimitStatus> status;  ///< of each side, for generic points
 };
 
-/// @throws AnalysisError  a neighbourhood without a limit
+/// @throws NoLimit  naming the first vertex without one
 LimitMatrices limit_matrices(const Level& level, LimitMaskCache& cache);
+/// Of the last of levels 0 to any; what has no limit is named by where it is on level 0.
+LimitMatrices limit_matrices(const std::vector<Level>& levels, LimitMaskCache& cache);
 
 struct LimitPoints {
   Points position;                  ///< #V x 3

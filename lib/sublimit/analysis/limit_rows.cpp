@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sublimit/analysis/limit_rows.h"
 
+#include <Eigen/QR>
+
 #include <algorithm>
 #include <map>
+#include <numeric>
 #include <string>
 
+#include "sublimit/analysis/stationary_rows.h"
 #include "sublimit/analysis/walk.h"
 #include "sublimit/base/error.h"
 #include "sublimit/base/parallel_for.h"
@@ -19,10 +23,21 @@ Row gathered(const LimitMasks::Mask& mask, const std::vector<Index>& slots, cons
   for (size_t i = 0; i < slots.size(); ++i)
     if (mask[Eigen::Index(i)] != 0) row.push_back({vertices[slots[i]], mask[Eigen::Index(i)]});
   std::sort(row.begin(), row.end());
+  size_t kept = 0;  // slots of one vertex add up
+  for (size_t i = 1; i < row.size(); ++i) {
+    if (row[i].first == row[kept].first)
+      row[kept].second += row[i].second;
+    else
+      row[++kept] = row[i];
+  }
+  row.resize(std::min(row.size(), kept + 1));
   return row;
 }
 
 std::optional<LimitRows> lone_rows(const Level& level, LimitMaskCache& cache, const Centre& centre) {
+  if (centre.kind == Centre::Kind::edge) return std::nullopt;  // a vertex or face, one level on
+  // Of dual schemes a vertex becomes a face, or the middle of a border edge, whose masks tell more.
+  if (centre.kind == Centre::Kind::vertex && cache.scheme().is_dual()) return std::nullopt;
   const LocalType type =
       local_type(level.topology(), level.sharpness, centre, level.number, cache.scheme().period);
   const LoneLimit* limit = cache.lone(type);
@@ -55,47 +70,81 @@ Row pulled_back(const Row& row, const SparseMatrix& S, const std::vector<Index>&
 /// Rings of faces around the places that the next level's limits may depend on.
 constexpr int rings_needed = 5;
 
-std::vector<LimitRows> rows_of(const Level& level, LimitMaskCache& cache, const std::vector<Centre>& centres, int depth) {
+/// Which faces are cut before the first level depends on all of them.
+bool is_prepared_first(const Scheme<double>& scheme, const Level& level) {
+  return level.number == 0 && !scheme.preparation.empty() && level.topology().uniform_face_size() != scheme.corners;
+}
+
+/// @param why  for each place what keeps it from having a limit; empty if it has one
+std::vector<LimitRows> rows_of(const Level& level, LimitMaskCache& cache, const std::vector<Centre>& centres, int depth,
+                               std::vector<std::string>& why) {
+  const Scheme<double>& scheme = cache.scheme();
+  const auto count = static_cast<std::int64_t>(centres.size());
   std::vector<LimitRows> rows(centres.size());
-  std::vector<std::uint8_t> alone(centres.size(), 0);
-  parallel_for(static_cast<std::int64_t>(centres.size()), [&](std::int64_t i) {
-    if (std::optional<LimitRows> known = lone_rows(level, cache, centres[i])) {
-      rows[i] = std::move(*known);
-      alone[i] = 1;
-    }
-  });
+  std::vector<std::uint8_t> done(centres.size(), 0);
+  const bool whole = is_prepared_first(scheme, level);
+  const auto try_each = [&](const auto& rows_at) {
+    parallel_for(count, [&](std::int64_t i) {
+      if (done[i]) return;
+      try {
+        if (std::optional<LimitRows> known = rows_at(centres[i])) {
+          rows[i] = std::move(*known);
+          done[i] = 1;
+        }
+      } catch (const AnalysisError& error) {
+        why[i] = error.what();
+        done[i] = 1;
+      }
+    });
+  };
+  if (!whole) try_each([&](const Centre& centre) { return lone_rows(level, cache, centre); });
+  if (depth == 0) try_each([&](const Centre& centre) { return stationary_rows(level, scheme, centre); });
   std::vector<size_t> rest;
   for (size_t i = 0; i < centres.size(); ++i)
-    if (!alone[i]) rest.push_back(i);
-  if (rest.empty()) return rows;
-  const Topology& t = level.topology();
+    if (!done[i]) rest.push_back(i);
   if (depth == 0)
-    throw AnalysisError(cache.scheme().name + ": no limit at vertex " + std::to_string(index(t.tail(centres[rest[0]].start))) +
-                        " of level " + std::to_string(level.number) +
-                        ", whose neighbourhood stays irregular under refinement");
+    for (const size_t i : rest) why[i] = "its neighbourhood stays irregular under refinement";
+  if (rest.empty() || depth == 0) return rows;
 
-  std::vector<Index> faces;
-  for (const size_t i : rest) faces.push_back(index(t.face(centres[i].start)));
-  const Part around = part(level, faces, rings_needed);
-  const Level child_level = next_level(cache.scheme(), around.level);
+  Part around;
+  if (!whole) {
+    std::vector<Index> faces;
+    for (const size_t i : rest) faces.push_back(index(level.topology().face(centres[i].start)));
+    around = part(level, faces, rings_needed);
+  } else {
+    around.vertices.resize(level.topology().num_vertices());
+    std::iota(around.vertices.begin(), around.vertices.end(), 0);
+  }
+  const Level& parent = whole ? level : around.level;
+  const Level child_level = next_level(scheme, parent);
+  std::vector<size_t> followed;
   std::vector<Centre> children;
   for (const size_t i : rest) {
     Centre centre = centres[i];
-    const auto at = std::lower_bound(around.halves.begin(), around.halves.end(), index(centre.start));
-    centre.start = HalfEdge{static_cast<Index>(at - around.halves.begin())};
-    const Topology* before = &around.level.topology();
-    for (const Refinement& step : child_level.steps) {
-      centre = child(centre, *before, step, level.number);
-      before = &step.topology;
+    if (!whole) {
+      const auto at = std::lower_bound(around.halves.begin(), around.halves.end(), index(centre.start));
+      centre.start = HalfEdge{static_cast<Index>(at - around.halves.begin())};
     }
-    children.push_back(centre);
+    try {
+      const Topology* before = &parent.topology();
+      for (const Refinement& step : child_level.steps) {
+        centre = child(centre, *before, step, level.number);
+        before = &step.topology;
+      }
+      children.push_back(centre);
+      followed.push_back(i);
+    } catch (const AnalysisError& error) {
+      why[i] = error.what();
+    }
   }
-  std::vector<LimitRows> fine = rows_of(child_level, cache, children, depth - 1);
-  parallel_for(static_cast<std::int64_t>(rest.size()), [&](std::int64_t i) {
+  std::vector<std::string> why_not(children.size());
+  std::vector<LimitRows> fine = rows_of(child_level, cache, children, depth - 1, why_not);
+  parallel_for(static_cast<std::int64_t>(followed.size()), [&](std::int64_t i) {
     LimitRows& row = fine[i];
     for (Row* r : {&row.position, &row.tangent1, &row.tangent2}) *r = pulled_back(*r, child_level.S, around.vertices);
     for (Row& r : row.second_order) r = pulled_back(r, child_level.S, around.vertices);
-    rows[rest[i]] = std::move(row);
+    rows[followed[i]] = std::move(row);
+    why[followed[i]] = std::move(why_not[i]);
   });
   return rows;
 }
@@ -109,7 +158,16 @@ LimitStatus generic_status(const LimitRows& rows, const Scheme<double>& scheme) 
 }
 
 std::vector<LimitRows> limit_rows(const Level& level, LimitMaskCache& cache, const std::vector<Centre>& centres) {
-  return rows_of(level, cache, centres, 12);
+  std::vector<std::string> why(centres.size());
+  std::vector<LimitRows> rows = rows_of(level, cache, centres, 12, why);
+  const auto failed = std::ranges::find_if(why, [](const std::string& reason) { return !reason.empty(); });
+  if (failed == why.end()) return rows;
+  const Centre& centre = centres[failed - why.begin()];
+  const Topology& t = level.topology();
+  const std::string of_level = level.number == 0 ? "" : " of level " + std::to_string(level.number);
+  if (centre.kind == Centre::Kind::face)
+    throw NoLimit("the middle of face " + std::to_string(index(t.face(centre.start))) + of_level, *failed);
+  throw NoLimit(index(t.tail(centre.start)), level.number, *failed);
 }
 
 }  // namespace sublimit

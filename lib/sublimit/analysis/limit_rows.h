@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 // Limit rows of any places of a level. Where a place is alone among regular points its masks are known by its type; elsewhere the
-// faces around it are refined, by the scheme's own matrices, until it is: L_k = L_{k+1} S_k.
+// faces around it are refined, by the scheme's own matrices, until it is: L_k = L_{k+1} S_k. Places that never are have a position
+// if their neighbourhood comes to repeat itself.
 #include "sublimit/analysis/limit_masks.h"
 #include "sublimit/analysis/limit_status.h"
+#include "sublimit/analysis/no_limit.h"
 #include "sublimit/refine.h"
 
 namespace sublimit {
@@ -14,13 +16,13 @@ struct LimitRows {
   Row position, tangent1, tangent2;
   std::vector<Row> second_order;
   LimitMasks::Plane plane = LimitMasks::Plane::yes;
-  LocalType type;  ///< once it is alone
+  LocalType type;  ///< once it is alone, or repeats itself
 };
 
 /// What there is at the place for generic points; holes are not known here.
 LimitStatus generic_status(const LimitRows& rows, const Scheme<double>& scheme);
 
-/// @throws AnalysisError  a place that never comes to be alone (it is naming the vertex)
+/// @throws NoLimit  naming the first place that has none
 std::vector<LimitRows> limit_rows(const Level& level, LimitMaskCache& cache, const std::vector<Centre>& centres);
 
 }  // namespace sublimit

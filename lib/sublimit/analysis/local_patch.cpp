@@ -12,7 +12,7 @@ LocalType local_type(const Topology& t, const Sharpness& sharpness, const Centre
   type.kind = centre.kind;
   type.phase = level % period;
   type.faces = 0;
-  if (centre.kind == Centre::Kind::border) return type;
+  if (centre.kind == Centre::Kind::border || centre.kind == Centre::Kind::edge) return type;
   if (centre.kind == Centre::Kind::face) {
     type.faces = t.size(t.face(centre.start));
     return type;

@@ -25,6 +25,12 @@ struct LocalPatch {
   std::vector<Index> outline;              ///< of an open one: positions in `slots` of border points
 };
 
+/// Rings of points that masks may reach. Steps of repeated averaging add up: degree 9 is closed with four rings.
+template <class T>
+int rings_of_masks(const Scheme<T>& scheme) {
+  return std::max(3, static_cast<int>(scheme.steps.size()) - 1);
+}
+
 /// n faces of a scheme's regular size around a vertex, alone.
 ControlMesh lone_fan(Index n, Index face_size, bool open);
 /// The same, closed, with sharp edges that cut a side of `faces` faces off the vertex: from spoke 0 to spoke `faces`.
@@ -57,8 +63,7 @@ void cut_out(LevelOf<T>& level, Centre& centre, int rings) {
 template <class T>
 std::optional<LocalPatch<T>> local_patch(const Scheme<T>& scheme, LocalType type, int rings = -1,
                                          const ControlMesh* around = nullptr) {
-  // Rings of points that masks may reach. Steps of repeated averaging add up: degree 9 is closed with four rings.
-  const int margin = std::max(3, static_cast<int>(scheme.steps.size()) - 1);
+  const int margin = rings_of_masks(scheme);
   const bool is_face = type.kind == Centre::Kind::face;
   if (rings < 0) rings = is_face ? 0 : 1;
   if (type.corner && scheme.is_dual()) return std::nullopt;  // dual schemes round corners

@@ -11,13 +11,14 @@
 namespace sublimit {
 
 struct Walk {
-  std::vector<Index> vertices;  ///< by slot: the centre's own first (vertex; corners of the face; ends of the border edge)
+  std::vector<Index> vertices;  ///< by slot: the centre's own first (vertex; corners of the face; ends of the edge)
   std::vector<Index> ring_end;  ///< slots of rings 0 to r
   std::vector<bool> on_border;  ///< by slot, of the slots whose fans were walked
   std::vector<std::uint32_t> signature;
 };
 
-/// Walks the fans of the points in rings 0 to depth - 1, which finds ring `depth`. Sharp edges cut fans, as boundaries do.
+/// Walks the fans of the points in rings 0 to depth - 1, which finds ring `depth`. Sharp edges cut fans, as boundaries do; a
+/// non-manifold vertex has a slot for each of its fans that is met.
 Walk walk(const Topology& topology, const Sharpness& sharpness, const Centre& centre, int depth);
 
 }  // namespace sublimit

@@ -27,9 +27,13 @@ const Addresses& LimitSurface::addresses() const { return parts_->addresses; }
 const Level& LimitSurface::level() const { return parts_->level; }
 
 LimitSurface::Parts::Found LimitSurface::Parts::find(const Target& at, int order) const {
-  std::vector<Index> vertices;
-  const PieceType* type = type_of(at.piece, vertices);
-  return find(at, order, *type, std::move(vertices));
+  try {
+    std::vector<Index> vertices;
+    const PieceType* type = type_of(at.piece, vertices);
+    return find(at, order, *type, std::move(vertices));
+  } catch (const AnalysisError& error) {
+    throw without_limit(at.piece, error.what());
+  }
 }
 
 LimitSurface::Parts::Found LimitSurface::Parts::find(const Target& at, int order, const PieceType& type,

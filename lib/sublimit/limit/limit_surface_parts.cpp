@@ -184,6 +184,12 @@ void LimitSurface::Parts::find_pieces() const {
         }
       },
       1024);
+NoLimit LimitSurface::Parts::without_limit(const Piece& piece, const std::string& why) const {
+  Index face = index(base().topology().face(piece.start));
+  if (prepared) face = prepared->steps[0].face_parent[face];
+  return {"some place of face " + std::to_string(face), why};
+}
+
   all.first.assign(1, 0);
   for (const Block& block : blocks) {
     all.vertices.insert(all.vertices.end(), block.vertices.begin(), block.vertices.end());
@@ -195,7 +201,13 @@ void LimitSurface::Parts::find_pieces() const {
   std::vector<std::unique_ptr<const PatchTree>> trees(distinct.size());
   parallel_for_blocks(
       static_cast<std::int64_t>(distinct.size()),
-      [&](std::int64_t i, std::int64_t, std::int64_t) { trees[i] = std::make_unique<const PatchTree>(*distinct[i]); },
+      [&](std::int64_t i, std::int64_t, std::int64_t) {
+        try {
+          trees[i] = std::make_unique<const PatchTree>(*distinct[i]);
+        } catch (const AnalysisError& error) {
+          why[i] = error.what();
+        }
+      },
       1);
   for (size_t i = 0; i < distinct.size(); ++i) all.tree_of[distinct[i]] = std::move(trees[i]);
   all.trees.resize(count);
@@ -204,3 +216,10 @@ void LimitSurface::Parts::find_pieces() const {
 }
 
 }  // namespace sublimit
+  const auto number_of = [&](const PieceType* type) {
+    return std::lower_bound(distinct.begin(), distinct.end(), type) - distinct.begin();
+  };
+  if (std::ranges::any_of(why, [](const std::string& reason) { return !reason.empty(); }))
+    for (Index i = 0; i < count; ++i)  // the first piece, whatever the order of the types
+      if (const std::string& reason = why[number_of(all.types[i])]; !reason.empty())
+        throw without_limit(piece(i), reason);

@@ -71,6 +71,7 @@ struct LimitSurface::Parts {
   /// @param vertices  its points, by slot
   Found find(const Target& at, int order, const PieceType& type, std::vector<Index> vertices) const;
   LimitStencil stencil(const Sample& sample, int order) const;
+  /// @throws NoLimit  naming the face of the mesh
   /// Row i of `out`, by its stencil.
   void evaluate_row(const Points& points, const Sample& sample, int order, bool normals, LimitSamples& out,
                     std::int64_t i) const;
@@ -112,3 +113,5 @@ struct LimitSurface::Parts {
 };
 
 }  // namespace sublimit
+  /// What is told where a piece has no limit.
+  NoLimit without_limit(const Piece& piece, const std::string& why) const;

@@ -63,7 +63,15 @@ Refinement refine_dual(const Topology& t) {
       b.twin[at] = -1;
     }
   });
-  for (Index h = 0; h < static_cast<Index>(count); ++h)  // a side next to a vertex that became no face
+  for (Index i = 0; i < sheets.num_fans(); ++i) {  // two faces glued along two edges: the sides that cross these meet
+    if (sheets.is_open(i) || sheets.fan_size(i) != 2) continue;
+    const HalfEdge h = sheets.fan_start(i), g = t.ccw(h);
+    const Index a = position[index(t.next(h))], c = position[index(t.next(g))];
+    if (a < 0 || c < 0) continue;
+    b.twin[a] = c;
+    b.twin[c] = a;
+  }
+  for (Index h = 0; h < static_cast<Index>(count); ++h)  // a side next to another vertex that became no face
     if (b.twin[h] >= 0 && b.twin[b.twin[h]] != h) b.twin[h] = -1;
   r.topology = built(std::move(b), vertices, true);
   return r;
