@@ -2,10 +2,13 @@
 // Every law over every scheme with its options, and every mutant of every mask killed by some law.
 #include <gtest/gtest.h>
 
-#include <map>
+#include <algorithm>
 
 #include "sublimit/schemes.h"
+#include "support/averaging_blocks.h"
 #include "support/laws.h"
+#include "support/published_values.h"
+#include "support/tolerance.h"
 
 namespace sublimit::testing {
 namespace {
@@ -17,20 +20,64 @@ TEST(Laws, HoldForEveryScheme) {
   }
 }
 
-// LimitsAgreeBetweenLevels compares all others. Bilinear surfaces have edges, mid-edge's two tangents of borders decay
-// alike, and the rest is a border vertex of many faces here and there.
-TEST(Laws, NormalsAreUndefinedAtKnownPlacesAlone) {
-  const std::map<std::string, int> expected{
-      {"bilinear", 659}, {"mid-edge", 174},         {"mid-edge-habib-warren", 174},
-      {"butterfly", 10}, {"modified-butterfly", 2}, {"kobbelt", 4}};
-  for (const Scheme<double>& scheme : all_schemes()) {
-    const auto known = expected.find(scheme.name);
-    EXPECT_EQ(num_undefined_normals(scheme), known == expected.end() ? 0 : known->second) << scheme.name;
+TEST(PublishedValues, OfAveragingAreThoseOfTheTables) {
+  // Valences 3 to 12; and B-splines at 4: products of the curves' weights.
+  const double of_degree_4[] = {.39659528, .5,        .56823535, .61296197, .64303168,
+                                .66392581, .67891708, .68998668, .69836831, .70485452};
+  const double of_degree_5[] = {.40165379, .5,        .56024742, .59806870, .62285937,
+                                .63981452, .65185251, .66067668, .66732292, .67244594};
+  for (int n = 3; n <= 12; ++n) {
+    EXPECT_NEAR(averaging_lambda(4, n), of_degree_4[n - 3], eight_decimals);
+    EXPECT_NEAR(averaging_lambda(5, n), of_degree_5[n - 3], eight_decimals);
+    EXPECT_NEAR(averaging_limit(4, n), 121. / 144 / n, rounding(100));
+    EXPECT_NEAR(averaging_limit(5, n), 121. / 400, rounding(100));
+  }
+  const double curve[] = {1. / 2, 2. / 3, 11. / 24, 11. / 20};
+  for (int degree = 2; degree <= 5; ++degree)
+    EXPECT_NEAR(averaging_limit(degree, 4), curve[degree - 2] * curve[degree - 2], rounding(100));
+}
+
+TEST(PublishedValues, AreOfRegisteredSchemesAlone) {
+  for (const auto& [name, options] : scheme_names_and_options()) {
+    Scheme<double> scheme = *find_scheme(name, options);
+    EXPECT_TRUE(published_values(scheme, 3)) << name;
+    scheme.name = "unheard-of";
+    EXPECT_NE(published_values_hold(scheme), "") << "a scheme without them passes";
   }
 }
 
-/// Adds `delta` to the weight of one term of every stencil that a mask makes and, if `balanced`, takes it off another, so that
-/// rows still sum to one.
+/// Whether a scheme has no normal there, by what is next to the place, and why. LimitsAgreeBetweenLevels compares the
+/// normals of all other places.
+bool has_no_normal(const std::string& scheme, const NormalPlace& place) {
+  const bool inside = !place.one_sided, border = place.one_sided && !place.corner;
+  // Every edge at a vertex shrinks by 1/2 for itself, and they are three or more.
+  if (scheme == "bilinear") return place.faces > 1;
+  // Two modes of 1/4 beside the one along the border: the points beside its two ends move each for itself, and in one
+  // direction only where the border runs straight on.
+  if (scheme.starts_with("mid-edge")) return border && !place.straight;
+  // Inside, block 2 shrinks no faster than block 1 (its valence-3 case a Jordan block), which the modification mends;
+  // on borders, modes of the inside shrink no faster than the one along them.
+  if (scheme == "butterfly" && inside) return place.faces == 3 || place.faces >= 8;
+  if (scheme == "butterfly" || scheme == "modified-butterfly") return border && (place.faces == 4 || place.faces == 5);
+  if (scheme == "kobbelt") return border && place.faces >= 3;
+  return false;
+}
+
+TEST(NormalPlaces, HaveNormalsButWhereTangentPlanesAreLost) {
+  for (const Scheme<double>& scheme : all_schemes()) {
+    int defined = 0;
+    for (const NormalPlace& place : normal_places(scheme)) {
+      defined += place.defined;
+      EXPECT_EQ(place.defined, !has_no_normal(scheme.name, place))
+          << scheme.name << ", mesh " << place.mesh << ", level " << place.level << ", vertex " << place.vertex << ": "
+          << place.faces << " faces" << (place.one_sided ? ", one side" : "") << (place.corner ? ", a corner" : "");
+    }
+    EXPECT_GT(defined, 0) << scheme.name;
+  }
+}
+
+/// Adds `delta` to the weight of one term of every stencil that a mask makes and, if `balanced`, takes it off another,
+/// so that rows still sum to one.
 template <class Site>
 std::function<Stencil<double>(const Site&)> mutant(std::function<Stencil<double>(const Site&)> mask, size_t term,
                                                    bool balanced) {
@@ -45,8 +92,10 @@ std::function<Stencil<double>(const Site&)> mutant(std::function<Stencil<double>
   };
 }
 
-/// Shifts weight between the first term and all others alike: keeps sums and symmetries, which only known values can see.
-std::function<Stencil<double>(const Ring<double>&)> symmetric_mutant(std::function<Stencil<double>(const Ring<double>&)> mask) {
+/// Shifts weight between the first term and all others alike: keeps sums and symmetries, which only known values can
+/// see.
+std::function<Stencil<double>(const Ring<double>&)> symmetric_mutant(
+    std::function<Stencil<double>(const Ring<double>&)> mask) {
   return [=](const Ring<double>& site) { return mask(site) + 1e-6 * (site.center() - site.neighbor_mean()); };
 }
 
@@ -170,6 +219,40 @@ TEST(Mutants, EveryOneIsKilledByALaw) {
   }
   RecordProperty("mutants", mutants);
   EXPECT_GT(mutants, 1000);
+}
+
+/// The same only where n edges meet, n corners are in a face: what regular places and small valences cannot see.
+template <class Site, class Changed>
+std::function<Stencil<double>(const Site&)> changed_at(int n, std::function<Stencil<double>(const Site&)> mask,
+                                                       const std::function<int(const Site&)>& count,
+                                                       const Changed& change) {
+  return [=](const Site& site) {
+    return count(site) == n ? Stencil<double>(mask(site) + 1e-6 * change(site)) : mask(site);
+  };
+}
+
+TEST(Mutants, OfOneValenceAreKilledByALaw) {
+  for (const auto& variant : scheme_names_and_options()) {
+    const Scheme<double> scheme = *find_scheme(variant.first, variant.second);
+    for (size_t i = 0; i < scheme.steps.size(); ++i) {
+      Scheme<double> changed = scheme;
+      Masks<double>& masks = changed.steps[i].masks;
+      // Of averages on dual meshes only the middles of faces have other valences: they, the middles of edges, and the
+      // faces around have one mean, so that such a change is none.
+      if (masks.vertex && scheme.is_dual()) continue;
+      if (masks.vertex)
+        masks.vertex = changed_at<Ring<double>>(
+            5, masks.vertex, [](const Ring<double>& v) { return v.is_closed() ? v.valence() : 0; },
+            [](const Ring<double>& v) { return v.center() - v.neighbor_mean(); });
+      else if (masks.corner)
+        masks.corner = changed_at<FaceSite<double>>(
+            5, masks.corner, [](const FaceSite<double>& f) { return f.size(); },
+            [](const FaceSite<double>& f) { return f.corner(0) - f.centroid(); });
+      else
+        continue;
+      EXPECT_NE(killer(changed), "") << described(variant) << ": step " << i;
+    }
+  }
 }
 
 }  // namespace

@@ -18,9 +18,21 @@ struct Law {
 
 const std::vector<Law>& laws();
 
-/// Normals that limits_agree_between_levels cannot compare, because they are undefined: on levels 0 and 1 of its
-/// meshes.
-int num_undefined_normals(const Scheme<double>& scheme);
+/// A side of a vertex: where limits_agree_between_levels compares normals, or cannot, because there is none.
+struct NormalPlace {
+  Index mesh = 0;  ///< of the laws' meshes for the scheme
+  int level = 0;
+  Index vertex = 0;
+  Index faces = 0;         ///< of the side
+  bool one_sided = false;  ///< the vertex is on the border or on sharp edges
+  bool corner = false;     ///< and stays where it is
+  /// On a border that runs straight on, past its neighbours on it: along two quads each, or in odd levels of mid-edge
+  /// one quad at every other vertex.
+  bool straight = false;
+  bool defined = false;  ///< the library has a normal
+};
+/// All sides on levels 0 and 1 of the laws' meshes.
+std::vector<NormalPlace> normal_places(const Scheme<double>& scheme);
 
 /// Names and options: every scheme with its default options, then with others that change its masks.
 std::vector<std::pair<std::string, SchemeOptions>> scheme_names_and_options();

@@ -24,17 +24,22 @@ inline constexpr double reference_angle = 1e-9;
 /// what the README promises.
 inline constexpr double first_derivative = 1e-11, second_derivative = 1e-9;
 
-/// The same weights by another route: seen from another face, by eigenvectors instead of blocks. Hundreds of terms each.
+/// The same weights by another route: seen from another face, by eigenvectors instead of blocks. Hundreds of terms
+/// each.
 inline constexpr double other_route = 1e-12;
 /// Derivatives of order 2 as a program prints them, absolute: of size 10, from turned faces.
 inline constexpr double printed_derivative = 1e-10;
 /// Tables in float against the same in double, relative to the bounding box.
 inline constexpr double float_reference = 1e-6;
 
-/// Closed forms that texts print with seven digits.
-inline constexpr double seven_digits = 1e-6;
+/// Closed forms that texts print with seven digits, and tables of eight decimals: half of the last one, and rounding.
+inline constexpr double seven_digits = 1e-6, eight_decimals = 5.01e-9;
 /// Third derivatives of polynomial pieces from differences of their control points, relative to the second ones.
 inline constexpr double third_derivative = 1e-9;
+
+/// Fits to points of a known surface, relative to its size: iterations stop when the energy falls no more, the
+/// distances then, and control points, which some of the distances hardly see.
+inline constexpr double found_again = 1e-10, found_control_points = 1e-7;
 
 inline double diagonal(const Points& points) {
   if (points.rows() == 0) return 0;

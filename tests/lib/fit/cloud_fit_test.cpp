@@ -16,9 +16,6 @@
 namespace sublimit::testing {
 namespace {
 
-/// Where iterations end, relative to the cloud; and control points of what they found again.
-constexpr double found_again = 1e-10, found_control_points = 1e-7;
-
 struct Known {
   LimitSurface surface;
   Points guess, truth;
