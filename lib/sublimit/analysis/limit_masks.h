@@ -30,6 +30,7 @@ struct LimitMasks {
   enum class Plane {
     yes,
     slow,  ///< yes, but at a Jordan block: normals around the vertex converge like 1/steps only
+    tied,  ///< only for control points that take all of `second_order`, which decays like tangent2, in its direction
     no,    ///< other modes do not decay faster than the tangents': a cone, a fold, or normals that differ for ever
   };
   struct Side {

@@ -74,17 +74,6 @@ SparseMatrix joined(const std::vector<Rows>& blocks, Index columns) {
   return M;
 }
 
-LimitStatus generic_status(const LimitMasks& masks, const LimitMasks::Side& side, const CanonicalNeighborhood& type,
-                           Index regular_valence, Index regular_size) {
-  // Along a smooth crease the normal has a limit even where the normals inside have another.
-  const bool along_crease = masks.rule == Rule::crease && side.tangent1.squaredNorm() > 0;
-  if (side.plane == LimitMasks::Plane::no && !along_crease) return LimitStatus::undefined_normal;
-  if (masks.rule == Rule::crease || masks.rule == Rule::corner) return LimitStatus::crease;
-  bool regular = masks.rule == Rule::smooth && masks.steps == 0 && side.num_corners == regular_valence;
-  for (const auto& corner : type.fans[side.fan].corners) regular &= corner.face_size == regular_size;
-  return regular ? LimitStatus::regular : LimitStatus::extraordinary;
-}
-
 /// How the faces of a side turn around the vertex, twice the area that they sweep: tells the two sides of a plane apart.
 Vector3d turn_of(const LimitMatrices& limit, const Topology& t, Index side, const Points& points) {
   const Vertex v{limit.side_vertex[side]};
@@ -146,7 +135,6 @@ LimitMatrices limit_matrices(const Level& level, LimitMaskCache& cache) {
   if (!has_one_ring_limits(cache.scheme())) return lone_limit_matrices(level, cache);
   const Topology& t = level.topology();
   const Scheme<double>& scheme = cache.scheme();
-  const Index regular_size = scheme.face_size() ? scheme.face_size() : 4, regular_valence = regular_size == 3 ? 6 : 4;
   struct Block {
     Rows position, tangent1, tangent2;
     std::vector<Rows> second;
@@ -194,7 +182,7 @@ LimitMatrices limit_matrices(const Level& level, LimitMaskCache& cache) {
         }
         block.side_vertex.push_back(static_cast<Index>(i));
         block.status.push_back(hole ? LimitStatus::hole
-                                    : generic_status(masks, side, at.type, regular_valence, regular_size));
+                                    : generic_status(masks, side, scheme));
       }
     }
   });

@@ -151,10 +151,53 @@ std::vector<LimitRows> rows_of(const Level& level, LimitMaskCache& cache, const 
 
 }  // namespace
 
+namespace {
+
+/// Whether control points move in one direction by all of `rows`, but for what goes along the tangents.
+bool is_one_direction(const LimitRows& limit) {
+  std::map<Index, Eigen::Index> columns;
+  for (const Row* row : {&limit.tangent1, &limit.tangent2})
+    for (const auto& term : *row) columns.try_emplace(term.first, Eigen::Index(columns.size()));
+  for (const Row& row : limit.second_order)
+    for (const auto& term : row) columns.try_emplace(term.first, Eigen::Index(columns.size()));
+  const auto dense = [&](const Row& row) {
+    Eigen::VectorXd all = Eigen::VectorXd::Zero(Eigen::Index(columns.size()));
+    for (const auto& [column, weight] : row) all[columns.at(column)] += weight;
+    return all;
+  };
+  Eigen::MatrixXd plane(Eigen::Index(columns.size()), 2);
+  plane << dense(limit.tangent1), dense(limit.tangent2);
+  const double inwards = plane.col(1).norm();
+  if (!(inwards > 0)) return false;
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(plane);
+  if (qr.rank() < 2) return false;
+  constexpr double rounding = 1e-10;  // of eigenvectors that a period or two carry back
+  return std::ranges::all_of(limit.second_order, [&](const Row& row) {
+    const Eigen::VectorXd way = dense(row);
+    const Eigen::Vector2d parts = qr.solve(way);
+    return (way - plane * parts).norm() <= rounding * inwards && parts[1] >= -rounding;
+  });
+}
+
+LimitStatus status_of(bool has_normal, Rule rule, Index faces, const Scheme<double>& scheme) {
+  if (!has_normal) return LimitStatus::undefined_normal;
+  if (rule == Rule::crease || rule == Rule::corner) return LimitStatus::crease;
+  const Index regular = scheme.face_size() == 3 ? 6 : 4;
+  return rule == Rule::smooth && faces == regular ? LimitStatus::regular : LimitStatus::extraordinary;
+}
+
+}  // namespace
+
 LimitStatus generic_status(const LimitRows& rows, const Scheme<double>& scheme) {
-  if (rows.plane == LimitMasks::Plane::no) return LimitStatus::undefined_normal;
-  if (rows.type.open || rows.type.kind == Centre::Kind::border) return LimitStatus::crease;
-  return rows.type.faces == (scheme.face_size() == 3 ? 6 : 4) ? LimitStatus::regular : LimitStatus::extraordinary;
+  const bool has_plane = rows.plane == LimitMasks::Plane::tied ? is_one_direction(rows) : rows.plane != LimitMasks::Plane::no;
+  const bool closed = !rows.type.open && rows.type.kind != Centre::Kind::border;
+  return status_of(has_plane, closed ? Rule::smooth : Rule::crease, rows.type.faces, scheme);
+}
+
+LimitStatus generic_status(const LimitMasks& masks, const LimitMasks::Side& side, const Scheme<double>& scheme) {
+  // Along a smooth crease the normal has a limit even where the normals inside have another.
+  const bool along_crease = masks.rule == Rule::crease && side.tangent1.squaredNorm() > 0;
+  return status_of(side.plane < LimitMasks::Plane::tied || along_crease, masks.rule, side.num_corners, scheme);
 }
 
 std::vector<LimitRows> limit_rows(const Level& level, LimitMaskCache& cache, const std::vector<Centre>& centres) {

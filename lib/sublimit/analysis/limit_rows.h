@@ -19,8 +19,10 @@ struct LimitRows {
   LocalType type;  ///< once it is alone, or repeats itself
 };
 
-/// What there is at the place for generic points; holes are not known here.
+/// What there is at the place, seen from its side, for generic points; holes are not known here. Limits of vertices and
+/// samples at corners of faces are told by these two alone.
 LimitStatus generic_status(const LimitRows& rows, const Scheme<double>& scheme);
+LimitStatus generic_status(const LimitMasks& masks, const LimitMasks::Side& side, const Scheme<double>& scheme);
 
 /// @throws NoLimit  naming the first place that has none
 std::vector<LimitRows> limit_rows(const Level& level, LimitMaskCache& cache, const std::vector<Centre>& centres);

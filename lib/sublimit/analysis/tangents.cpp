@@ -119,6 +119,43 @@ void add_ring_tangents(Side& side, const FourierBlocks& fourier) {
 
 Plane ring_plane(const FourierBlocks& fourier) { return ring_plane(eigen_structure(fourier), fourier.n); }
 
+namespace {
+
+/// Several modes across that decay alike, at the middle of a border edge: where the points beside the outline go from
+/// their neighbours on it, at this rate, each for itself, and in the mean. Nothing is added where that is not to be seen.
+/// @param rate   eigenvalue of the modes
+/// @param along  by slot, how far along the outline points are
+bool add_ways_inwards(Side& side, const MatrixXd& whole, const Outline& outline, std::complex<double> rate,
+                      const VectorXd& along) {
+  if (outline.centre.size() != 2 || outline.inner_ring.empty()) return false;
+  const EigenStructure structure = eigen_structure(whole.cast<std::complex<double>>());
+  const auto modes = std::find_if(structure.clusters.begin(), structure.clusters.end(), [&](const EigenCluster& c) {
+    return std::abs(c.value - rate) <= cluster_tolerance;
+  });
+  if (modes == structure.clusters.end() || modes->is_jordan()) return false;
+  const MatrixXcd pairing = modes->left.transpose() * modes->right;
+  const MatrixXd projector = (modes->right * Eigen::FullPivLU<MatrixXcd>(pairing).solve(modes->left.transpose())).real();
+  VectorXd mean = VectorXd::Zero(whole.rows());
+  std::vector<VectorXd> ways;
+  for (const Index i : outline.inner) {
+    const auto beside = std::find_if(outline.curve.begin(), outline.curve.end(), [&](Index c) {
+      return std::abs(along[i] - along[c]) <= cluster_tolerance * along.cwiseAbs().maxCoeff();
+    });
+    const bool is_next = std::find(outline.inner_ring.begin(), outline.inner_ring.end(), i) != outline.inner_ring.end();
+    if (beside == outline.curve.end()) {
+      if (is_next) return false;
+      continue;
+    }
+    ways.push_back((projector.row(i) - projector.row(*beside)).transpose());
+    if (is_next) mean += ways.back();
+  }
+  side.tangent2 = mean;
+  side.second_order = std::move(ways);
+  return true;
+}
+
+}  // namespace
+
 /// One side between two sharp edges. Its outline (the vertex and the ends of these edges) is a curve scheme of its own
 /// and gives the tangent along a crease, or the two tangents of a corner; the leading mode of the interior crosses a
 /// crease.
@@ -152,7 +189,9 @@ void add_border_tangents(Side& side, const MatrixXd& whole, const Outline& outli
     return (shifted * x - right).norm() <= 1e-9 * d.norm();
   };
 
-  if (is_corner) {
+  const EigenStructure modes = eigen_structure(C.cast<std::complex<double>>());
+  // An outline of two slowest modes has no tangent: it has a corner here, whatever the rule.
+  if (is_corner || modes.clusters[1].geometric() > 1) {
     VectorXd* tangents[] = {&side.tangent1, &side.tangent2};
     for (int i = 0; i < 2; ++i) {
       const Index end = i == 0 ? first : last;
@@ -162,16 +201,24 @@ void add_border_tangents(Side& side, const MatrixXd& whole, const Outline& outli
       (i == 0 ? side.lambda1 : side.lambda2) = std::abs(along.clusters[1].value);
     }
     const double lambda = std::min(side.lambda1, side.lambda2);
-    if (modulus(0) > lambda * (1 + same_rate)) side.plane = Plane::no;
-    if (std::abs(modulus(0) - lambda) <= lambda * same_rate) side.plane = Plane::slow;
     VectorXd mask;
-    for (const EigenCluster& cluster : interior.clusters)
-      if (across(cluster, mask)) side.second_order.push_back(mask);
+    for (const EigenCluster& cluster : interior.clusters) {
+      const double mu = std::abs(cluster.value);
+      const bool is_own = across(cluster, mask);
+      if (is_own) side.second_order.push_back(mask);
+      if (mu < lambda * (1 - same_rate)) continue;
+      // As slow as the tangents: a direction of its own, unless it is fed by these, k lambda^k.
+      if (mu > lambda * (1 + same_rate) || is_own)
+        side.plane = Plane::no;
+      else
+        side.plane = std::max(side.plane, Plane::slow);
+    }
+    // There is no crease either to take a normal along.
+    if (!is_corner && side.plane == Plane::no) side.tangent1 = side.tangent2 = VectorXd::Zero(size);
     return;
   }
 
   // Along: the left eigenvector of the outline's second eigenvalue, towards the first edge.
-  const EigenStructure modes = eigen_structure(C.cast<std::complex<double>>());
   side.tangent1 = embedded(per_unit(modes.clusters[1], curve, first), curve, size);
   side.lambda1 = std::abs(modes.clusters[1].value);
   const EigenCluster& bending = modes.clusters[std::min<size_t>(2, modes.clusters.size() - 1)];
@@ -243,10 +290,20 @@ void add_border_tangents(Side& side, const MatrixXd& whole, const Outline& outli
     side.tangent2 = (height < 0 ? -1 : 1) * l;
     side.second_order.push_back(inward * mask);
   }
-  if (leading.multiplicity > 1) side.plane = Plane::no;
   // The outline's bend decays slower than what leaves it: the surface is thinner than it is bent.
   if (modes.clusters[1].multiplicity == 1 && std::abs(bending.value) > side.lambda2 * (1 + same_rate))
     side.plane = Plane::no;
+  // The second sine mode against the tangent along the crease: slower, and interior normals keep an angle to the
+  // crease's.
+  if (modulus(1) > side.lambda1 * (1 + same_rate)) side.plane = Plane::no;
+  if (std::abs(modulus(1) - side.lambda1) <= side.lambda1 * same_rate) side.plane = Plane::slow;
+  if (leading.multiplicity > 1) {
+    side.plane = side.plane != Plane::no && add_ways_inwards(side, whole, outline, leading.value,
+                                                             extended(modes.clusters[1], 0))
+                     ? Plane::tied
+                     : Plane::no;
+    if (side.plane == Plane::tied) return;
+  }
   double lowest = 0, highest = 0;
   for (const Index i : outline.inner_ring) {
     const double height = heights[std::find(inner.begin(), inner.end(), i) - inner.begin()];
@@ -254,10 +311,6 @@ void add_border_tangents(Side& side, const MatrixXd& whole, const Outline& outli
     highest = std::max(highest, height);
   }
   if (-lowest * highest > 1e-9) side.plane = Plane::no;  // a mode on both sides of the outline folds the surface
-  // The second sine mode against the tangent along the crease: slower, and interior normals keep an angle to the
-  // crease's.
-  if (modulus(1) > side.lambda1 * (1 + same_rate)) side.plane = Plane::no;
-  if (std::abs(modulus(1) - side.lambda1) <= side.lambda1 * same_rate) side.plane = Plane::slow;
   for (size_t i = 1; i < interior.clusters.size(); ++i)
     if (across(interior.clusters[i], mask)) side.second_order.push_back(mask);
   side.second_order.push_back(embedded(made_real(bending.left.col(0)), curve, size));

@@ -61,10 +61,7 @@ std::optional<CornerLimit> CornerLimits::of_vertex(const Level& level, HalfEdge 
       for (const LimitMasks::Mask& mask : side.second_order)
         limit.rows.second_order.push_back(gathered(mask, at.vertices));
       limit.rows.plane = side.plane;
-      const bool along_crease = masks.rule == Rule::crease && side.tangent1.squaredNorm() > 0;
-      limit.status = side.plane == LimitMasks::Plane::no && !along_crease       ? LimitStatus::undefined_normal
-                     : masks.rule == Rule::crease || masks.rule == Rule::corner ? LimitStatus::crease
-                                                                                : LimitStatus::extraordinary;
+      limit.status = generic_status(masks, side, masks_.scheme());
       return limit;
     }
   return std::nullopt;
@@ -100,10 +97,7 @@ std::optional<CornerLimit> CornerLimits::computed(const Centre& centre) const {
   }
   CornerLimit limit;
   limit.rows = limit_rows(level_, masks_, {at})[0];
-  const bool closed = !limit.rows.type.open && limit.rows.type.kind != Centre::Kind::border;
-  limit.status = limit.rows.plane == LimitMasks::Plane::no ? LimitStatus::undefined_normal
-                 : closed                                  ? LimitStatus::extraordinary
-                                                           : LimitStatus::crease;
+  limit.status = generic_status(limit.rows, masks_.scheme());
   return limit;
 }
 

@@ -43,11 +43,14 @@ Vector3d LimitSurface::Parts::normal_of(const LimitStencil& s, const Points& loc
   // How large the tangents would be if their terms did not cancel.
   const Eigen::VectorXd sizes = s.tangents.cwiseAbs() * x.rowwise().norm();
   const double scale1 = sizes[0], scale2 = sizes[1];
-  if (!(scale1 > 0) || !(scale2 > 0)) return Vector3d::Zero();
-  const Vector3d a = Vector3d(tangents.row(0)) / scale1, b = Vector3d(tangents.row(1)) / scale2, cross = a.cross(b);
-  if (cross.norm() > 1e-13 * a.norm() * b.norm() && cross.norm() > 1e-20) return cross.normalized();
+  // A parameter that stands still at the corner says nothing of the surface.
+  const bool both = scale1 > 0 && scale2 > 0;
+  if (both) {
+    const Vector3d a = Vector3d(tangents.row(0)) / scale1, b = Vector3d(tangents.row(1)) / scale2, cross = a.cross(b);
+    if (cross.norm() > 1e-13 * a.norm() * b.norm() && cross.norm() > 1e-20) return cross.normalized();
+  }
   const Target at = target(sample);
-  if (s.weights.rows() >= 3) {
+  if (both && s.weights.rows() >= 3) {
     const LimitStencil second = s.weights.rows() == 6 ? s : stencil(sample, 2);
     if (second.weights.rows() == 6) {
       Points rows = Points::Zero(6, 3);
@@ -86,7 +89,7 @@ Vector3d LimitSurface::Parts::normal_of(const LimitStencil& s, const Points& loc
     turn += q.cross(r);
   };
   HalfEdge h = centre->start;
-  if (centre->kind == Centre::Kind::face) {
+  if (centre->kind != Centre::Kind::vertex) {
     const std::span<const Index> polygon = t.vertices(t.face(h));
     for (size_t i = 2; i < polygon.size(); ++i) add(polygon[0], polygon[i - 1], polygon[i]);
   } else {

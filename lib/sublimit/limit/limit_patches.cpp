@@ -315,7 +315,7 @@ LimitPatches::LimitPatches(const LimitSurface::Parts& parts, const Points& point
           differences[4 * n + 3] = 0;
           bind_patches(tree.matrix(), tree.num_coefficients(), differences.data(),
                        coefficients_.data() + 3 * bound_[i].first);
-          bound_[i].sides = static_cast<std::uint8_t>(parts.sides(piece));
+          bound_[i].sides = static_cast<std::uint16_t>(parts.sides(piece));
         }
       },
       256);

@@ -30,7 +30,7 @@ class LimitPatches {
   struct Bound {
     const PatchTree* tree = nullptr;
     std::int64_t first = 0;  // of its coefficients
-    std::uint8_t sides = 0;  // Parts::sides
+    std::uint16_t sides = 0;  // Parts::sides
   };
   std::vector<Bound> bound_;                  // by piece
   UninitializedVector<double> coefficients_;  // x, y, z each, and one more

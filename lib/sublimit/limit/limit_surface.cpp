@@ -42,7 +42,8 @@ LimitSurface::Parts::Found LimitSurface::Parts::find(const Target& at, int order
   found.vertices = std::move(vertices);
   PieceRows& rows = found.rows = piece_rows(type, at.place, order);
   const unsigned sides = this->sides(at.piece);
-  if (sides & sides_at(at.place, at.piece.kind == Kind::triangle)) found.status = LimitStatus::crease;
+  const bool on_cut = sides & sides_at(at.place, at.piece.kind == Kind::triangle);
+  if (on_cut) found.status = LimitStatus::crease;
   if (at.map && rows.order > 0) {
     const PieceMap::Chain chain = at.map->chain(at.outer);
     apply_chain(chain, rows.rows);
@@ -59,7 +60,10 @@ LimitSurface::Parts::Found LimitSurface::Parts::find(const Target& at, int order
   const std::optional<Centre> centre = rows.at_corner && rows.order == 0 ? this->centre(at) : std::nullopt;
   // Inside, where rounding ends the descent of a place at thirds at a corner, the position is all that was asked for.
   const bool is_deep = !centre && order == 0;
-  if (rows.at_corner && rows.order == 0 && !is_deep) {
+  if (on_cut && !centre && rows.order == 0) {
+    if (order >= 1) found.tangents = tangents_on_side(type, at.place, found.vertices);
+    if (order >= 1 && found.tangents.empty()) found.status = LimitStatus::undefined_normal;
+  } else if (rows.at_corner && rows.order == 0 && !is_deep) {
     const CornerLimit* limit = centre ? corners.at(*centre) : nullptr;
     found.status = limit ? limit->status : LimitStatus::undefined_normal;
     if (order >= 1 && limit && limit->status != LimitStatus::undefined_normal) {
@@ -69,6 +73,32 @@ LimitSurface::Parts::Found LimitSurface::Parts::find(const Target& at, int order
   }
   if (sides & hole) found.status = LimitStatus::hole;
   return found;
+}
+
+std::vector<LimitRows::Row> LimitSurface::Parts::tangents_on_side(const PieceType& type, const Place& place,
+                                                                  const std::vector<Index>& vertices) const {
+  // Normals inside tend to the one on the side, at least like a root of the distance: as near as places are told apart.
+  constexpr double near = 0x1p-50;
+  Place inside = place;
+  if (type.kind() == Piece::Kind::triangle) {
+    double* const parts[] = {&inside.u, &inside.v, &inside.u1};
+    double& largest = **std::ranges::max_element(parts, {}, [](const double* x) { return *x; });
+    for (double* part : parts)
+      if (*part == 0) *part = near, largest -= near;
+  } else {
+    if (place.u == 0) inside.u = near, inside.u1 = 1 - near;
+    if (place.v == 0) inside.v = near, inside.v1 = 1 - near;
+    if (place.u1 == 0) inside.u1 = near, inside.u = 1 - near;
+    if (place.v1 == 0) inside.v1 = near, inside.v = 1 - near;
+  }
+  const PieceRows rows = piece_rows(type, inside, 1);
+  std::vector<LimitRows::Row> result(size_t(rows.tangents.rows()));
+  for (Eigen::Index k = 0; k < rows.tangents.rows(); ++k) {
+    result[size_t(k)].push_back({vertices[0], -rows.tangents.row(k).sum()});
+    for (Eigen::Index j = 0; j < rows.tangents.cols(); ++j)
+      result[size_t(k)].push_back({vertices[size_t(j) + 1], rows.tangents(k, j)});
+  }
+  return result;
 }
 
 LimitStencil LimitSurface::Parts::stencil(const Sample& s, int order) const {

@@ -106,16 +106,32 @@ void LimitSurface::Parts::check(const Sample& s) const {
                            (addresses.triangles() ? "triangle u, v >= 0, u + v <= 1" : "square 0 <= u, v <= 1"));
 }
 
+bool LimitSurface::Parts::is_on_cut(HalfEdge h) const {
+  const Topology& t = base().topology();
+  if (is_infinite(base().sharpness.vertex[index(t.tail(h))])) return true;
+  int cut = 0;
+  HalfEdge g = h;
+  do {
+    if (!exists(t.twin(g))) return true;
+    if (cuts(g)) ++cut;
+    g = t.next(t.twin(g));
+  } while (g != h);
+  return cut >= 2;  // one alone is a dart
+}
+
 unsigned LimitSurface::Parts::sides(const Piece& piece) const {
   const Topology& t = base().topology();
   HalfEdge h = piece.start;
   unsigned bits = base().holes[index(t.face(h))] ? hole : 0;
   if (piece.kind == Kind::quad || piece.kind == Kind::triangle) {
-    for (int k = 0; k < (piece.kind == Kind::quad ? 4 : 3); ++k, h = t.next(h))
+    for (int k = 0; k < (piece.kind == Kind::quad ? 4 : 3); ++k, h = t.next(h)) {
       if (cuts(h)) bits |= 1u << k;
+      if (is_on_cut(h)) bits |= first_corner << k;
+    }
   } else {
     if (cuts(h)) bits |= 1;
     if (cuts(t.prev(h))) bits |= 8;
+    if (is_on_cut(h)) bits |= first_corner;
   }
   return bits;
 }
@@ -138,6 +154,9 @@ std::optional<Centre> LimitSurface::Parts::centre(const Target& target) const {
     default:
       if (p.u == 0 && p.v == 0) return Centre{Of::vertex, h};
       if (p.u1 == 0 && p.v1 == 0) return Centre{Of::face, h};
+      if (target.piece.kind != Kind::corner) return std::nullopt;
+      if (p.u1 == 0 && p.v == 0 && !exists(t.twin(h))) return Centre{Of::border, h};
+      if (p.u == 0 && p.v1 == 0 && !exists(t.twin(t.prev(h)))) return Centre{Of::border, t.prev(h)};
       return std::nullopt;
   }
 }
@@ -165,6 +184,12 @@ const LimitSurface::Parts::Pieces& LimitSurface::Parts::pieces() const {
   return pieces_;
 }
 
+NoLimit LimitSurface::Parts::without_limit(const Piece& piece, const std::string& why) const {
+  Index face = index(base().topology().face(piece.start));
+  if (prepared) face = prepared->steps[0].face_parent[face];
+  return {"some place of face " + std::to_string(face), why};
+}
+
 void LimitSurface::Parts::find_pieces() const {
   const Index count = num_pieces();
   struct Block {
@@ -184,12 +209,6 @@ void LimitSurface::Parts::find_pieces() const {
         }
       },
       1024);
-NoLimit LimitSurface::Parts::without_limit(const Piece& piece, const std::string& why) const {
-  Index face = index(base().topology().face(piece.start));
-  if (prepared) face = prepared->steps[0].face_parent[face];
-  return {"some place of face " + std::to_string(face), why};
-}
-
   all.first.assign(1, 0);
   for (const Block& block : blocks) {
     all.vertices.insert(all.vertices.end(), block.vertices.begin(), block.vertices.end());
@@ -199,6 +218,7 @@ NoLimit LimitSurface::Parts::without_limit(const Piece& piece, const std::string
   std::sort(distinct.begin(), distinct.end());
   distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
   std::vector<std::unique_ptr<const PatchTree>> trees(distinct.size());
+  std::vector<std::string> why(distinct.size());  // there is none
   parallel_for_blocks(
       static_cast<std::int64_t>(distinct.size()),
       [&](std::int64_t i, std::int64_t, std::int64_t) {
@@ -209,13 +229,6 @@ NoLimit LimitSurface::Parts::without_limit(const Piece& piece, const std::string
         }
       },
       1);
-  for (size_t i = 0; i < distinct.size(); ++i) all.tree_of[distinct[i]] = std::move(trees[i]);
-  all.trees.resize(count);
-  parallel_for(count, [&](std::int64_t i) { all.trees[i] = all.tree_of.find(all.types[i])->second.get(); });
-  pieces_ = std::move(all);
-}
-
-}  // namespace sublimit
   const auto number_of = [&](const PieceType* type) {
     return std::lower_bound(distinct.begin(), distinct.end(), type) - distinct.begin();
   };
@@ -223,3 +236,10 @@ NoLimit LimitSurface::Parts::without_limit(const Piece& piece, const std::string
     for (Index i = 0; i < count; ++i)  // the first piece, whatever the order of the types
       if (const std::string& reason = why[number_of(all.types[i])]; !reason.empty())
         throw without_limit(piece(i), reason);
+  for (size_t i = 0; i < distinct.size(); ++i) all.tree_of[distinct[i]] = std::move(trees[i]);
+  all.trees.resize(count);
+  parallel_for(count, [&](std::int64_t i) { all.trees[i] = all.tree_of.find(all.types[i])->second.get(); });
+  pieces_ = std::move(all);
+}
+
+}  // namespace sublimit

@@ -47,15 +47,20 @@ struct LimitSurface::Parts {
     const Topology& t = base().topology();
     return !exists(t.twin(h)) || is_infinite(base().sharpness.edge[index(t.edge(h))]) || scheme.claims.regular == 0;
   }
-  /// Sides of a piece that cut the surface: bit k for side k, from corner k on; `hole` for one in a hole.
+  /// Whether the tail of h is on a crease, border or corner, which the faces at h need not be beside.
+  bool is_on_cut(HalfEdge h) const;
+  /// What cuts the surface of a piece: bit k for side k, from corner k on, bit 5 + k for corner k; `hole` for a piece in
+  /// a hole.
   unsigned sides(const Piece& piece) const;
-  static constexpr unsigned hole = 16;
-  /// Sides that a place is on, as bits.
+  static constexpr unsigned hole = 16, first_corner = 32;
+  /// Sides and corners that a place is on, as these bits.
   static unsigned sides_at(const Place& p, bool triangle) {
-    return (p.v == 0 ? 1u : 0u) | (p.u1 == 0 ? 2u : 0u) | ((triangle ? p.u == 0 : p.v1 == 0) ? 4u : 0u) |
-           (!triangle && p.u == 0 ? 8u : 0u);
+    const unsigned sides = (p.v == 0 ? 1u : 0u) | (p.u1 == 0 ? 2u : 0u) |
+                           ((triangle ? p.u == 0 : p.v1 == 0) ? 4u : 0u) | (!triangle && p.u == 0 ? 8u : 0u);
+    const unsigned before = (sides << 1 | sides >> (triangle ? 2 : 3)) & (triangle ? 7u : 15u);
+    return sides | (sides & before) * first_corner;
   }
-  /// The corner of a face of the level that a place is at, or its middle.
+  /// The corner of a face of the level that a place is at, or its middle, or that of a border edge of dual schemes.
   std::optional<Centre> centre(const Target& target) const;
 
   const PieceType* type_of(const Piece& piece, std::vector<Index>& vertices) const;
@@ -66,12 +71,16 @@ struct LimitSurface::Parts {
     std::vector<LimitRows::Row> tangents;  ///< by masks, where the piece has none: over vertices
     LimitStatus status = LimitStatus::regular;
   };
+  /// @throws NoLimit  naming the face of the mesh
   Found find(const Target& at, int order) const;
+  /// Tangents on a side where the limit has no derivatives by u and v, though there is a tangent plane: rows over
+  /// `vertices`, none if there are none inside either.
+  std::vector<LimitRows::Row> tangents_on_side(const PieceType& type, const Place& place,
+                                               const std::vector<Index>& vertices) const;
   /// The same where the type is known.
   /// @param vertices  its points, by slot
   Found find(const Target& at, int order, const PieceType& type, std::vector<Index> vertices) const;
   LimitStencil stencil(const Sample& sample, int order) const;
-  /// @throws NoLimit  naming the face of the mesh
   /// Row i of `out`, by its stencil.
   void evaluate_row(const Points& points, const Sample& sample, int order, bool normals, LimitSamples& out,
                     std::int64_t i) const;
@@ -108,10 +117,10 @@ struct LimitSurface::Parts {
   bool evaluate_plain_row(const Points& points, const Sample& sample, int order, bool normals, LimitSamples& out,
                           std::int64_t i) const;
   void find_pieces() const;
+  /// What is told where a piece has no limit.
+  NoLimit without_limit(const Piece& piece, const std::string& why) const;
   mutable std::once_flag pieces_once_;
   mutable Pieces pieces_;
 };
 
 }  // namespace sublimit
-  /// What is told where a piece has no limit.
-  NoLimit without_limit(const Piece& piece, const std::string& why) const;

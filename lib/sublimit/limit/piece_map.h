@@ -13,7 +13,8 @@ struct Place {
   double u1 = 1, v1 = 1;
 };
 inline Place quad_place(double u, double v) { return {u, v, 1 - u, 1 - v}; }
-inline Place triangle_place(double u, double v) { return {u, v, 1 - u - v, 0}; }
+/// A place whose u + v is 1 but for rounding, as of (2/3, 1/3), is on the third side.
+inline Place triangle_place(double u, double v) { return {u, v, u + v >= 1 ? 0 : 1 - u - v, 0}; }
 
 /// The corner of a square whose quarter a place is in, counter-clockwise from (0,0).
 inline int nearest_corner(double u, double v) { return v < 0.5 ? (u < 0.5 ? 0 : 1) : (u < 0.5 ? 3 : 2); }

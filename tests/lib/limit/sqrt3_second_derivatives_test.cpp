@@ -274,6 +274,61 @@ TEST(SecondDerivativesOfSqrt3, AgreeAcrossEdges) {
   EXPECT_GE(compared, 100);
 }
 
+/// On borders parameters across are not differentiable: derivatives grow like 1 / distance. So a place whose u + v is 1
+/// but for rounding is on the border, not 2^-54 inside, where second derivatives are 1e14 and their rounding 1e-2.
+TEST(SecondDerivativesOfSqrt3, DoNotExistWhereSumsRoundToABorder) {
+  for (const char* name : {"sqrt3", "interpolatory-sqrt3"}) {
+    const auto types = std::make_shared<PieceTypes>(find_scheme(name).value());
+    for (const Index faces : {1, 2, 4, 5}) {
+      const ControlMesh mesh = jittered(open_fan(faces, 3, 1));
+      const LimitSurface surface(types->scheme(), mesh, {}, types);
+      const Topology& t = surface.level().topology();
+      int borders = 0;
+      for (Index i = 0; i < t.num_half_edges(); ++i) {
+        if (exists(t.twin(HalfEdge{i})) || t.corner_index(HalfEdge{i}) != 1) continue;  // the side from (1,0) to (0,1)
+        ++borders;
+        const Index face = index(t.face(HalfEdge{i}));
+        for (const auto& [u, v] : {std::pair{2.0 / 3, 1.0 / 3}, {1.0 / 3, 2.0 / 3}}) {
+          ASSERT_NE(1 - u - v, 0);
+          const LimitStencil stencil = surface.stencil({face, u, v}, 2);
+          EXPECT_EQ(stencil.status, LimitStatus::crease) << name << ", " << faces << " faces";
+          EXPECT_EQ(stencil.weights.rows(), 1);
+          EXPECT_EQ(stencil.tangents.rows(), 2);
+          const LimitSamples sample = surface.evaluate(mesh.positions, std::vector<Sample>{{face, u, v}}, 2);
+          EXPECT_EQ(sample.status[0], LimitStatus::crease);
+          EXPECT_EQ(sample.order[0], 0);
+        }
+      }
+      EXPECT_GE(borders, 1);
+    }
+  }
+}
+
+/// Beside it they are large, and what a table multiplies is what is sampled: to the digits of their own size.
+TEST(SecondDerivativesOfSqrt3, AreTheSameBySampleAndByStencilBesideBorders) {
+  for (const Index faces : {1, 2, 3, 4, 5}) {
+    const ControlMesh mesh = jittered(open_fan(faces, 3, 1));
+    const LimitSurface surface(sqrt3(), mesh);
+    for (Index face = 0; face < surface.addresses().size(); ++face)
+      for (const auto& [u, v] : {std::pair{2.0 / 3, 1.0 / 3}, {1.0 / 3, 2.0 / 3}, {1.0 / 3, 1.0 / 3}})
+        for (const double d : {1e-3, 1e-6, 1e-9, 1e-12}) {
+          const Sample s{face, u - d, v};
+          const LimitStencil stencil = surface.stencil(s, 2);
+          const LimitSamples sample = surface.evaluate(mesh.positions, std::vector<Sample>{s}, 2);
+          ASSERT_EQ(stencil.weights.rows(), 6) << words(s);
+          ASSERT_EQ(sample.order[0], 2) << words(s);
+          Points local(std::ssize(stencil.vertices), 3);
+          for (Index j = 0; j < local.rows(); ++j) local.row(j) = mesh.positions.row(stencil.vertices[j]);
+          const Points* parts[] = {&sample.position, &sample.du, &sample.dv, &sample.duu, &sample.duv, &sample.dvv};
+          for (int k = 0; k < 6; ++k) {
+            const double size = norm1(stencil.weights.row(k)) * local.cwiseAbs().maxCoeff();
+            EXPECT_LE((parts[k]->row(0) - stencil.weights.row(k) * local).norm(), rounding(local.rows() + 0.0, size))
+                << words(s) << " row " << k;
+          }
+        }
+  }
+}
+
 /// The status is that they are missing at extraordinary vertices alone, not on the edges to them.
 TEST(SecondDerivativesOfSqrt3, ExistBesideExtraordinaryVertices) {
   const LimitSurface surface(sqrt3(), icosahedron());

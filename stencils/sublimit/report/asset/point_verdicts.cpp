@@ -85,7 +85,7 @@ void find_curvature(const Scheme<double>& scheme, const LocalType& type, double 
 PlaneVerdict plane_of(const LimitMasks& masks) {
   PlaneVerdict worst = masks.sides.empty() ? PlaneVerdict::unknown : PlaneVerdict::yes;
   for (const LimitMasks::Side& side : masks.sides)
-    worst = std::max(worst, side.plane == LimitMasks::Plane::no     ? PlaneVerdict::no
+    worst = std::max(worst, side.plane >= LimitMasks::Plane::tied   ? PlaneVerdict::no
                             : side.plane == LimitMasks::Plane::slow ? PlaneVerdict::slow
                                                                     : PlaneVerdict::yes);
   return worst;
