@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sublimit/curve_refine.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "sublimit/base/memory.h"
+#include "sublimit/check_levels.h"
 #include "sublimit/sparse_product.h"
 
 namespace sublimit {
@@ -21,9 +24,8 @@ std::vector<CurveLevel> refine(const CurveScheme<double>& scheme, const ControlP
   // Before memory is taken: the last level doubles `levels` times.
   const std::string amount =
       std::to_string(levels) + " levels of " + std::to_string(result[0].num_points()) + " points";
-  const double points = std::ldexp(result[0].num_points() * result[0].unknowns, levels);
-  if (points * 8 > std::numeric_limits<Index>::max())
-    throw ResourceError(amount + " are more points than 32-bit indices can hold the weights of; use fewer levels");
+  const double first = double(result[0].num_points()) * result[0].unknowns, points = std::ldexp(first, levels);
+  constexpr double most_points = std::numeric_limits<Index>::max() / 8;
   double terms =
       0;  // of all masks; all levels together are twice the last, and rows are appended to arrays that double
   for (int which : {0, 1})
@@ -31,7 +33,12 @@ std::vector<CurveLevel> refine(const CurveScheme<double>& scheme, const ControlP
       terms += static_cast<double>(
           scheme.masks.child(which, component)(CurveSite<double>(0, result[0].unknowns)).terms().size());
   const double row = 2 * 1.5 * 12 * terms / (2 * result[0].unknowns) + 8;
-  check_memory(amount, points * (row + 7 * 8 * polygon.dimension()), "use fewer levels");
+  const double bytes = row + 7 * 8 * polygon.dimension();  // of a point
+  const std::string advice =
+      "use at most " + std::to_string(most_levels(first, 2, std::min(most_points, physical_memory() / bytes)));
+  if (points > most_points)
+    throw ResourceError(amount + " are more points than 32-bit indices can hold the weights of; " + advice);
+  check_memory(amount, points * bytes, advice);
   for (int k = 1; k <= levels; ++k) {
     if (progress) progress(k);
     result.push_back(next_level(scheme, result.back()));

@@ -95,10 +95,17 @@ void check_levels(const Scheme<double>& scheme, const Topology& t, int levels) {
     bytes += counts.bytes();
     if (counts.corners > std::numeric_limits<Index>::max())
       throw ResourceError(amount + " take more than " + bytes_in_words(bytes) + " of memory, and level " +
-                          std::to_string(k + 1) + " has more face corners than 32-bit indices count; use at most " +
-                          std::to_string(k));
+  int most = 0;  // levels that fit
+  const auto advice = [&] { return "use at most " + std::to_string(most) + ", or refine a subset"; };
+  // A scheme that makes no more faces may be asked for any number of levels: each takes memory, and is counted.
+  constexpr int enough = 64;
+                          std::to_string(k + 1) + " has more face corners than 32-bit indices count; " + advice());
+    if (bytes <= physical_memory())
+      most = k + 1;
+    else if (k >= enough)
+      break;
   }
-  check_memory(amount, bytes, "use fewer levels or refine a subset");
+  check_memory(amount, bytes, advice());
 }
 
 void check_sharpness(const std::string& scheme, Sharpening sharpening, bool is_dual, const Topology& t,
@@ -136,6 +143,18 @@ template LevelOf<double> next_level<double>(const Scheme<double>&, const LevelOf
 
 std::vector<Level> refine(const Scheme<double>& scheme, const ControlMesh& mesh, int levels,
                           const SubdivisionOptions& options, const std::function<void(int)>& progress) {
+void check_wide_faces(const std::string& scheme, int corners, const Topology& t, int level) {
+  if (t.num_faces() == 0) return;
+  const Index right = corners ? corners : t.size(Face{0});
+  if (t.uniform_face_size() == right) return;
+  Index f = 0;
+  while (t.size(Face{f}) == right) ++f;
+  throw UnsupportedTopology("face " + std::to_string(f) + " of level " + std::to_string(level) + " has " +
+                            std::to_string(t.size(Face{f})) + " corners; " + scheme + " refines faces of " +
+                            std::to_string(right) +
+                            " here: begin at level 0 with the scheme's own preparation, or cut the faces before");
+}
+
   std::vector<Level> result;
   result.push_back(control_level(scheme, mesh, options));
   check_levels(scheme, result[0].topology(), levels);

@@ -34,6 +34,11 @@ bool needs_neighbors(const Scheme<T>& scheme) {
 void check_sharpness(const std::string& scheme, Sharpening sharpening, bool is_dual, const Topology& topology,
                      const Sharpness& sharpness, const ControlMesh& tags);
 
+/// Of steps whose masks look beyond their element: they count on the sizes of the faces there.
+/// @param corners  of the faces that the scheme takes; 0: any, all alike
+/// @throws UnsupportedTopology  naming the first face of another size
+void check_wide_faces(const std::string& scheme, int corners, const Topology& topology, int level);
+
 template <class T>
 LevelOf<T> control_level(const Scheme<T>& scheme, const ControlMesh& mesh, const SubdivisionOptions& options) {
   const Boundary boundary = options.boundary.value_or(mesh.boundary.value_or(Boundary::edge_and_corner));
@@ -61,6 +66,8 @@ LevelOf<T> next_topology(const Scheme<T>& scheme, const LevelOf<T>& parent, cons
   child.steps.reserve(steps.size());
   for (const Step<T>& step : steps) {
     Refinement refinement = refine(*topology, step.split, parent.number);
+    if (step.masks.wide_edge || step.masks.wide_face)
+      check_wide_faces(scheme.name, scheme.corners, *topology, parent.number);
     Sharpness child_sharpness = refine(*sharpness, *topology, refinement);
     on_step(step, *topology, refinement, *sharpness, child_sharpness);
     std::vector<bool> child_holes = refine_holes(*holes, *topology, refinement);

@@ -214,6 +214,9 @@ void naming_mesh(const Common& common, const std::function<void()>& body) {
 }
 
 void check_output_path(const std::string& path, const std::vector<std::string>& extensions) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored))  // whatever its name ends in
+    throw IoError("cannot write " + path + ": it is a directory; name a file in it");
   std::string extension = std::filesystem::path(path).extension().string(), names;
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return std::tolower(c); });
@@ -221,13 +224,10 @@ void check_output_path(const std::string& path, const std::vector<std::string>& 
   if (!extensions.empty() && std::find(extensions.begin(), extensions.end(), extension) == extensions.end())
     throw InvalidOption("cannot write " + path + ": its name must end in " + names);
   const std::filesystem::path directory = std::filesystem::path(path).parent_path();
-  std::error_code ignored;
   if (!directory.empty() && !std::filesystem::is_directory(directory, ignored))
     throw IoError("cannot write " + path + ": " + directory.string() + " is not a directory");
   if (::access(directory.empty() ? "." : directory.c_str(), W_OK) != 0)
     throw IoError("cannot write " + path + ": its directory is not writable");
-  if (std::filesystem::is_directory(path, ignored))
-    throw IoError("cannot write " + path + ": it is a directory; name a file");
   if (std::filesystem::exists(path, ignored) && ::access(path.c_str(), W_OK) != 0)
     throw IoError("cannot write " + path + ": the file that is there is not writable");
   const std::lock_guard lock(directories_mutex);

@@ -2,12 +2,14 @@
 // Curves by schemes without a matrix.
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "curves.h"
 #include "sublimit/base/error.h"
 #include "sublimit/base/memory.h"
+#include "sublimit/check_levels.h"
 #include "sublimit/mesh/file_extension.h"
 #include "sublimit/mesh/polygon_files.h"
 
@@ -18,12 +20,15 @@ namespace {
 ControlPolygon checked_polygon(const CurveJob& job, const GeometricCurveScheme& scheme, Progress& progress) {
   if (job.levels < 0) throw InvalidParameter(fmt::format("levels is {}; it must be 0 or more", job.levels));
   ControlPolygon polygon = scheme.checked(load_polygon(job, progress, true));
-  if (std::ldexp(polygon.num_points(), job.levels) > std::numeric_limits<Index>::max())
-    throw ResourceError(
-        fmt::format("{} levels of {} points are more points than 32-bit indices count; use fewer levels", job.levels,
-                    polygon.num_points()));
-  check_memory(fmt::format("{} levels of {} points", job.levels, polygon.num_points()),
-               std::ldexp(polygon.num_points(), job.levels) * (6 * 8.0 * polygon.dimension() + 16), "use fewer levels");
+  const double first = polygon.num_points(), points = std::ldexp(first, job.levels);
+  const double bytes = 6 * 8.0 * polygon.dimension() + 16;  // of a point
+  constexpr double most_points = std::numeric_limits<Index>::max();
+  const std::string amount = fmt::format("{} levels of {} points", job.levels, first);
+  const std::string advice =
+      fmt::format("use at most {}", most_levels(first, 2, std::min(most_points, physical_memory() / bytes)));
+  if (points > most_points)
+    throw ResourceError(fmt::format("{} are more points than 32-bit indices count; {}", amount, advice));
+  check_memory(amount, points * bytes, advice);
   if (!job.common->quiet)
     for (const std::string& note : scheme.notes(polygon))
       fmt::print(stderr, "sublimit: note: {}: {}\n", job.common->mesh, note);

@@ -10,6 +10,7 @@
 #include "sublimit/base/error.h"
 #include "sublimit/base/format_number.h"
 #include "sublimit/base/memory.h"
+#include "sublimit/check_levels.h"
 
 namespace sublimit {
 namespace {
@@ -68,11 +69,14 @@ void check_complete(const FitTargets& targets, const std::string& scheme, Index 
 void check_size(const ControlMesh& mesh, int levels) {
   double triangles = 0;
   for (const Index size : mesh.face_sizes) triangles += size - 2;
-  triangles = std::ldexp(triangles, 2 * levels);
+  constexpr double most_triangles = std::numeric_limits<Index>::max() / 3, bytes = sizeof(SurfacePoint) + 80;
   const std::string what = format_number(levels) + " levels of " + format_number(mesh.num_faces()) + " faces";
-  if (3 * triangles > std::numeric_limits<Index>::max())
-    throw ResourceError(what + " have more corners than 32-bit indices count; use fewer levels");
-  check_memory(what, triangles * (sizeof(SurfacePoint) + 80), "use fewer levels");
+  const int most = most_levels(triangles, 4, std::min(most_triangles, physical_memory() / bytes));
+  const std::string advice = "use at most " + format_number(most);
+  triangles *= std::pow(4.0, levels);
+  if (triangles > most_triangles)
+    throw ResourceError(what + " have more corners than 32-bit indices count; " + advice);
+  check_memory(what, triangles * bytes, advice);
 }
 
 }  // namespace

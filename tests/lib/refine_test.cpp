@@ -10,6 +10,7 @@
 #include "sublimit/base/error.h"
 #include "sublimit/schemes.h"
 #include "sublimit/sparse_product.h"
+#include "support/expect_error.h"
 #include "support/meshes.h"
 #include "support/tolerance.h"
 
@@ -103,6 +104,32 @@ TEST(Refine, TellsWhatCannotBe) {
   EXPECT_THROW(product(SparseMatrix(3, 4), SparseMatrix(3, 4)), InvalidParameter);
   const std::vector<Level> levels = refine(catmull_clark_scheme, cube(), 0);
   EXPECT_THROW(subset(levels[0], std::vector<Index>{6}), InvalidParameter);
+}
+
+// Masks that look beyond their face count on its size. A preparation that was taken away, or that a level says to have behind
+// it, has not made these faces quadrilaterals.
+TEST(Refine, RefusesFacesThatAPreparationShouldHaveCut) {
+  const Scheme<double> whole = find_scheme("kobbelt").value();
+  Scheme<double> cleared = whole;
+  cleared.preparation.clear();
+  for (const ControlMesh& mesh : {polygon_ring({4, 3, 5}), prism(5), octahedron()}) {
+    Index other = 0;  // the first face that is no quadrilateral
+    while (mesh.face_sizes[other] == 4) ++other;
+    const std::string face = "face " + std::to_string(other) + " of level ";
+    const Level control = control_level(whole, mesh);
+    expect_error<UnsupportedTopology>([&] { next_level(cleared, control); }, {face + "0", "kobbelt", "faces of 4"});
+    Level later = control;
+    later.number = 1;
+    expect_error<UnsupportedTopology>([&] { next_level(whole, later); }, {face + "1", "preparation"});
+    const Level prepared = next_level(whole, control);
+    EXPECT_EQ(prepared.topology().uniform_face_size(), 4);
+    EXPECT_NO_THROW(next_level(cleared, prepared));
+  }
+  // A scheme of one's own that says nothing of sizes: all faces like the first one, here the triangle in the middle.
+  Scheme<double> own = cleared;
+  own.corners = 0;
+  expect_error<UnsupportedTopology>([&] { next_level(own, control_level(own, polygon_ring({4, 4, 5}))); },
+                                    {"face 1 of level 0", "faces of 3"});
 }
 
 TEST(Refine, HasTheSameBitsForAnyNumberOfThreads) {

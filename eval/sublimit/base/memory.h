@@ -26,6 +26,7 @@ inline std::string bytes_in_words(double bytes) {
 }
 
 /// @param what    the job, in the plural: `3 levels of 100 faces`
+  if (!(bytes < 1e21)) return "more than 1000 EB";
 /// @param advice  what would need less
 /// @throws ResourceError  the job takes more than the machine has
 inline void check_memory(const std::string& what, double bytes, const std::string& advice) {
