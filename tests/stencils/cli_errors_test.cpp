@@ -178,7 +178,7 @@ TEST(CliResources, AbsurdLevelsSayWhatMemoryTheyTake) {
   const TemporaryDirectory directory;
   const std::string mesh = directory.write("mesh.obj", quad).string();
   expect_failure(sublimit({"limit", mesh, "-s", "catmull-clark", "-l", "40", "-o", (directory / "out.ply").string()}),
-                 4, {"40 levels", "GB of memory", "use at most 14"});
+                 4, {"40 levels", "GB of memory", "use at most 1"});
 }
 
 /// No file may grow beyond some KB, as on a full disk.
