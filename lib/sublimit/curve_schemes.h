@@ -48,4 +48,8 @@ std::optional<CurveScheme<T>> find_curve_scheme(const std::string& name, const S
   return std::nullopt;
 }
 
+// Made once, in the library, as the registry of surfaces is.
+extern template std::vector<CurveScheme<double>> all_curve_schemes<double>();
+extern template std::optional<CurveScheme<double>> find_curve_scheme<double>(const std::string&, const SchemeOptions&);
+
 }  // namespace sublimit

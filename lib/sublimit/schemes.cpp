@@ -11,6 +11,8 @@ namespace sublimit {
 
 template std::vector<Scheme<double>> all_schemes<double>();
 template std::optional<Scheme<double>> find_scheme<double>(const std::string&, const SchemeOptions&);
+template std::vector<CurveScheme<double>> all_curve_schemes<double>();
+template std::optional<CurveScheme<double>> find_curve_scheme<double>(const std::string&, const SchemeOptions&);
 
 namespace {
 

@@ -18,8 +18,7 @@ namespace {
 
 std::string curve_scheme_names() {
   std::string names;
-  for (const CurveSchemeEntry<double>& entry : curve_registry<double>)
-    names += (names.empty() ? "" : ", ") + std::string(entry.name);
+  for (const CurveScheme<double>& scheme : all_curve_schemes()) names += (names.empty() ? "" : ", ") + scheme.name;
   for (const auto& entry : geometric_registry<ControlPolygon>) names += ", " + std::string(entry.name);
   return names;
 }
@@ -105,8 +104,8 @@ Refined refined(const CurveJob& job, const CurveScheme<double>& scheme, Progress
 }  // namespace
 
 bool is_curve_job(const Common& common) {
-  for (const CurveSchemeEntry<double>& entry : curve_registry<double>)
-    if (common.scheme == entry.name) return true;
+  for (const CurveScheme<double>& scheme : all_curve_schemes())
+    if (common.scheme == scheme.name) return true;
   for (const auto& entry : geometric_registry<ControlPolygon>)
     if (common.scheme == entry.name) return true;
   return false;

@@ -3,7 +3,7 @@
 // Limits without eigenvectors: the faces around a vertex, refined again and again in 256-bit floats.
 #include "sublimit/refine.h"
 #include "sublimit/schemes.h"
-#include "support/precise.h"
+#include "support/precise_schemes.h"
 
 namespace sublimit::testing {
 

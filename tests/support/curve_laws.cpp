@@ -348,7 +348,7 @@ const std::vector<CurveLaw>& curve_laws() {
 
 std::vector<std::pair<std::string, SchemeOptions>> curve_scheme_names_and_options() {
   std::vector<std::pair<std::string, SchemeOptions>> all;
-  for (const CurveSchemeEntry<double>& entry : curve_registry<double>) all.push_back({entry.name, {}});
+  for (const CurveScheme<double>& scheme : all_curve_schemes()) all.push_back({scheme.name, {}});
   const std::pair<const char*, SchemeOptions> others[] = {
       {"chaikin", {{"ends", "interpolate"}}},
       {"four-point", {{"tension", "1/2"}, {"ends", "linear"}}},

@@ -5,7 +5,7 @@
 #include <map>
 
 #include "sublimit/curve_refine.h"
-#include "support/precise.h"
+#include "support/precise_schemes.h"
 
 namespace sublimit::testing {
 

@@ -8,7 +8,7 @@
 
 #include "sublimit/analysis/local_patch.h"
 #include "sublimit/schemes.h"
-#include "support/precise.h"
+#include "support/precise_schemes.h"
 
 namespace sublimit::testing {
 

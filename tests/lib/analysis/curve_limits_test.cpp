@@ -7,7 +7,7 @@
 #include "sublimit/analysis/curve_limits.h"
 #include "sublimit/curve_schemes.h"
 #include "support/curve_laws.h"
-#include "support/precise.h"
+#include "support/precise_schemes.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "sublimit/analysis/regularity/rational.h"
-#include "sublimit/schemes.h"
+#include "sublimit/analysis/regularity/rational_schemes.h"
 
 namespace sublimit {
 namespace {
@@ -50,21 +50,21 @@ TEST(RegularMask, BoxSplinesHaveTheirSymbols) {
 }
 
 TEST(RegularMask, ResiduesSumToOne) {
-  for (const SchemeEntry<Rational>& entry : registry<Rational>) {
-    const RegularMask<Rational> mask = regular_mask(entry.make({}));
+  for (const Scheme<Rational>& scheme : all_schemes<Rational>()) {
+    const RegularMask<Rational> mask = regular_mask(scheme);
     std::map<Offset, Rational> sums;
     for (const auto& [key, weight] : mask.weights) {
       const auto residue = [&](int k) { return (k % mask.dilation + mask.dilation) % mask.dilation; };
       sums[{residue(key[0]), residue(key[1])}] += weight;
     }
-    EXPECT_EQ(sums.size(), static_cast<size_t>(mask.dilation * mask.dilation)) << entry.name;
-    for (const auto& [residue, sum] : sums) EXPECT_EQ(sum, Rational(1)) << entry.name;
+    EXPECT_EQ(sums.size(), static_cast<size_t>(mask.dilation * mask.dilation)) << scheme.name;
+    for (const auto& [residue, sum] : sums) EXPECT_EQ(sum, Rational(1)) << scheme.name;
     // As many weights on one side as on the other: labels come back after a period.
     Rational moments[2] = {0, 0};
     for (const auto& [key, weight] : mask.weights)
       for (const int k : {0, 1}) moments[k] += Rational(mask.doubled(key)[k]) * weight;
-    EXPECT_EQ(moments[0], Rational(0)) << entry.name;
-    EXPECT_EQ(moments[1], Rational(0)) << entry.name;
+    EXPECT_EQ(moments[0], Rational(0)) << scheme.name;
+    EXPECT_EQ(moments[1], Rational(0)) << scheme.name;
   }
 }
 

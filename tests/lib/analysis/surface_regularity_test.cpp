@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "sublimit/schemes.h"
+#include "sublimit/analysis/regularity/rational_schemes.h"
 
 namespace sublimit {
 namespace {

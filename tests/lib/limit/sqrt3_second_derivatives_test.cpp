@@ -18,7 +18,7 @@
 #include "support/hard_meshes.h"
 #include "support/meshes.h"
 #include "support/places.h"
-#include "support/precise.h"
+#include "support/precise_schemes.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <map>
 
+#include "sublimit/analysis/regularity/rational_schemes.h"
 #include "sublimit/base/error.h"
-#include "sublimit/curve_schemes.h"
 
 namespace sublimit {
 namespace {

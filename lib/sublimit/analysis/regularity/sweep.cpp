@@ -3,11 +3,10 @@
 
 #include <algorithm>
 
+#include "sublimit/analysis/regularity/rational_schemes.h"
 #include "sublimit/analysis/regularity/surface_regularity.h"
 #include "sublimit/analysis/regularity/typed_mask.h"
 #include "sublimit/base/error.h"
-#include "sublimit/curve_schemes.h"
-#include "sublimit/schemes.h"
 
 namespace sublimit {
 namespace {

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "sublimit/analysis/regularity/curve_regularity.h"
-#include "sublimit/curve_schemes.h"
+#include "sublimit/analysis/regularity/rational_schemes.h"
 
 namespace sublimit::report {
 namespace {

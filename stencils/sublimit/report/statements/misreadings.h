@@ -9,7 +9,7 @@ namespace sublimit::misread {
 /// "sqrt(3): centroids and flipped edges", and nothing else.
 template <class T>
 Scheme<T> sqrt3_without_relaxation() {
-  Scheme<T> scheme = sqrt3<T>({});
+  Scheme<T> scheme = *find_scheme<T>("sqrt3");
   scheme.steps[0].masks.vertex = [](const Ring<T>& v) { return v.center(); };
   return scheme;
 }
@@ -34,7 +34,7 @@ Scheme<T> doo_sabin_with_one_term_more() {
 /// "The mean of centroid, vertex and the midpoints of its two edges."
 template <class T>
 Scheme<T> doo_sabin_mean_of_four() {
-  Scheme<T> scheme = doo_sabin<T>({});
+  Scheme<T> scheme = *find_scheme<T>("doo-sabin");
   scheme.steps[0].masks.corner = [](const FaceSite<T>& f) {
     const Stencil<T> v = f.corner(0), next = (v + f.corner(1)) / 2, last = (v + f.corner(f.size() - 1)) / 2;
     return (f.centroid() + v + next + last) / 4;
@@ -66,7 +66,7 @@ Scheme<T> mid_edge_with_centroids() {
 /// Catmull-Clark's new vertex (F + 2 R + (n - 3) v)/n, R the mean of `edge(ring, i)` over its edges.
 template <class T, class Edge>
 Scheme<T> catmull_clark_with(const Edge& edge) {
-  Scheme<T> scheme = catmull_clark<T>({});
+  Scheme<T> scheme = *find_scheme<T>("catmull-clark");
   scheme.steps[0].masks.vertex = [=](const Ring<T>& v) {
     const int n = v.valence();
     Stencil<T> points;
@@ -88,7 +88,7 @@ Scheme<T> catmull_clark_with_old_midpoints() {
 /// On quads: 3/(2n) and 1/(4n) for all neighbours, and all diagonals, together.
 template <class T>
 Scheme<T> catmull_clark_by_totals() {
-  Scheme<T> scheme = catmull_clark<T>({});
+  Scheme<T> scheme = *find_scheme<T>("catmull-clark");
   scheme.steps[0].masks.vertex = [](const Ring<T>& v) {
     const int n = v.valence();
     const T beta = v.ratio(3, 2 * n), gamma = v.ratio(1, 4 * n);
@@ -111,7 +111,7 @@ Scheme<T> loop_divided_twice() {
 /// The modified butterfly's rule for valences from 5 on at all vertices, those of valence 6 too.
 template <class T>
 Scheme<T> modified_butterfly_with_one_formula() {
-  Scheme<T> scheme = modified_butterfly<T>({});
+  Scheme<T> scheme = *find_scheme<T>("modified-butterfly");
   scheme.steps[0].masks.wide_edge = [](const WideEdgeSite<T>& e) {
     Stencil<T> sum;
     for (const Ring<T>* v : {&e.tail_ring(), &e.head_ring()}) {
@@ -133,7 +133,7 @@ Scheme<T> modified_butterfly_with_one_formula() {
 /// the virtual point. On borders anything: for neighbourhoods without.
 template <class T>
 Scheme<T> kobbelt_one_way(int way, Ratio r) {
-  Scheme<T> scheme = kobbelt<T>({});
+  Scheme<T> scheme = *find_scheme<T>("kobbelt");
   scheme.steps[0].masks.wide_edge = [=](const WideEdgeSite<T>& e) {
     const auto beyond = [=](const Ring<T>& v) {
       if (!v.is_closed()) return v.center();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The table: where a sentence stands, what it says, what is right, and the experiment. No verdict is written here.
+#include "sublimit/certificates/exact_schemes.h"
 #include "sublimit/report/statements/curves.h"
 #include "sublimit/report/statements/meshes.h"
 #include "sublimit/report/statements/misreadings.h"

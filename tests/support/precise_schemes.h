@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// The registries' schemes, refinement and local matrices in 256-bit floats, made once: else every file that uses them
+// makes them all.
+#include "sublimit/analysis/local_patch.h"
+#include "sublimit/curve_schemes.h"
+#include "sublimit/schemes.h"
+#include "support/precise.h"
+
+namespace sublimit {
+
+extern template std::optional<Scheme<testing::Precise>> find_scheme<testing::Precise>(const std::string&, const SchemeOptions&);
+extern template std::optional<CurveScheme<testing::Precise>> find_curve_scheme<testing::Precise>(
+    const std::string&, const SchemeOptions&);
+extern template LevelOf<testing::Precise> control_level(const Scheme<testing::Precise>&, const ControlMesh&,
+                                                        const SubdivisionOptions&);
+extern template LevelOf<testing::Precise> next_level(const Scheme<testing::Precise>&, const LevelOf<testing::Precise>&);
+extern template std::optional<LocalPatch<testing::Precise>> local_patch(const Scheme<testing::Precise>&, LocalType, int,
+                                                                        const ControlMesh*);
+
+}  // namespace sublimit
