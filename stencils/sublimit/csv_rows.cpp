@@ -61,7 +61,7 @@ CsvRows::CsvRows(const std::filesystem::path& path, std::vector<std::vector<std:
     const auto found = std::ranges::find_if(
         headers, [this](const std::vector<std::string>& columns) { return std::ranges::equal(columns, fields_); });
     if (found == headers.end())
-      throw FormatError(place() + "the first line is " + quoted(line) + "; it should be the header " + right);
+      throw FormatError(place() + "the first line is " + in_quotes(line) + "; it should be the header " + right);
     columns_ = std::move(*found);
   } catch (...) {
     ::close(file_);
@@ -133,7 +133,7 @@ std::int64_t CsvRows::integer(size_t column, std::string_view valid) const {
   if (parsed) return parsed.value;
   const std::string what = place() + columns_[column];
   if (fields_[column].empty()) throw FormatError(what + " is missing; " + std::string(valid));
-  throw FormatError(what + " " + quoted(fields_[column]) +
+  throw FormatError(what + " " + in_quotes(fields_[column]) +
                     (parsed.status == ParseStatus::too_large ? " does not exist; " : " is not a whole number; ") +
                     std::string(valid));
 }
@@ -144,8 +144,8 @@ double CsvRows::finite(size_t column) const {
   const std::string what = place() + columns_[column];
   if (fields_[column].empty()) throw FormatError(what + " is missing; it should be a decimal number");
   if (parsed || parsed.status == ParseStatus::too_large)
-    throw FormatError(what + " is " + quoted(fields_[column]) + "; it should be a finite number");
-  throw FormatError(what + " " + quoted(fields_[column]) + " is not a number; it should be a decimal number");
+    throw FormatError(what + " is " + in_quotes(fields_[column]) + "; it should be a finite number");
+  throw FormatError(what + " " + in_quotes(fields_[column]) + " is not a number; it should be a decimal number");
 }
 
 }  // namespace sublimit

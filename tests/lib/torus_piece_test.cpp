@@ -15,7 +15,7 @@ namespace sublimit::testing {
 namespace {
 
 using Eigen::Vector3d;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 /// Differences over steps of 1e-4 of curves bent by up to 3: the step's square, and rounding by it.
 constexpr double step = 1e-4, first_difference = 1e-6, second_difference = 1e-6;
 const double arcs = rounding(16);

@@ -14,7 +14,7 @@
 namespace sublimit::testing {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 }  // namespace
 

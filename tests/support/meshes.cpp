@@ -17,7 +17,7 @@
 namespace sublimit::testing {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 using Positions = std::vector<Eigen::Vector3d>;
 using Path = std::vector<Index>;
 using Faces = std::vector<std::vector<Index>>;

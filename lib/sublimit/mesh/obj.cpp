@@ -87,7 +87,7 @@ class ObjReader {
       slash = token.find('/', first);
       const std::string_view index = token.substr(first, slash - first);
       if (part == 2) {
-        throw FormatError(scanner_.place() + "corner " + quoted(token) +
+        throw FormatError(scanner_.place() + "corner " + in_quotes(token) +
                           " has more than 3 indices; it should be 'a', 'a/b', 'a//c' or 'a/b/c'");
       }
       if (index.empty()) continue;
@@ -132,11 +132,11 @@ class ObjReader {
     constexpr std::size_t most = 20;
     const auto is_text = [](char c) { return c >= 0x20 && c < 0x7f; };
     if (!std::ranges::all_of(keyword, is_text)) {
-      throw FormatError(scanner_.place() + "the line starts with " + quoted(keyword) +
+      throw FormatError(scanner_.place() + "the line starts with " + in_quotes(keyword) +
                         ", so this is not a text OBJ file; statements such as 'v' and 'f' are expected");
     }
     if (unknown_.size() >= most || !unknown_.emplace(keyword).second) return;
-    mesh_.warnings.push_back(scanner_.place() + "unknown keyword " + quoted(keyword) + " ignored");
+    mesh_.warnings.push_back(scanner_.place() + "unknown keyword " + in_quotes(keyword) + " ignored");
     if (unknown_.size() == most) mesh_.warnings.push_back(scanner_.place() + "further unknown keywords are not listed");
   }
 

@@ -34,7 +34,7 @@ std::array<std::int64_t, 3> parse_counts(const TextScanner& scanner, std::string
     const std::size_t end = i < 2 ? rest.find('/') : rest.size();
     const Parsed<std::int64_t> count = parse_number<std::int64_t>(rest.substr(0, end));
     if (end == std::string_view::npos || !count || count.value < 0) {
-      malformed(scanner, name, "has " + quoted(token) + " where its counts of arguments should be", right);
+      malformed(scanner, name, "has " + in_quotes(token) + " where its counts of arguments should be", right);
     }
     counts[i] = count.value;
     rest.remove_prefix(std::min(end + 1, rest.size()));
@@ -45,14 +45,14 @@ std::array<std::int64_t, 3> parse_counts(const TextScanner& scanner, std::string
 float sharpness(const TextScanner& scanner, std::string_view token) {
   const float value = scanner.real_float(token, "sharpness");
   if (value >= 0) return value;
-  throw FormatError(scanner.place() + "sharpness is " + quoted(token) +
+  throw FormatError(scanner.place() + "sharpness is " + in_quotes(token) +
                     "; it should be 0 or more, where 10 and above are infinitely sharp");
 }
 
 Index id(const TextScanner& scanner, std::string_view token, const char* what) {
   const std::int64_t value = scanner.integer(token, what);
   if (value >= 0 && value <= std::numeric_limits<Index>::max()) return static_cast<Index>(value);
-  throw InvalidMesh(scanner.place() + what + " " + quoted(token) + " is out of range; ids in tags count from 0");
+  throw InvalidMesh(scanner.place() + what + " " + in_quotes(token) + " is out of range; ids in tags count from 0");
 }
 
 // One of `values`, by an integer.
@@ -60,7 +60,7 @@ template <class T, std::size_t n>
 T choice(const TextScanner& scanner, std::string_view token, const std::array<T, n>& values, const char* what) {
   const std::int64_t value = scanner.integer(token, what);
   if (value >= 0 && value < std::int64_t{n}) return values[static_cast<std::size_t>(value)];
-  throw FormatError(scanner.place() + what + " is " + quoted(token) + "; it should be 0 to " + format_number(n - 1));
+  throw FormatError(scanner.place() + what + " is " + in_quotes(token) + "; it should be 0 to " + format_number(n - 1));
 }
 
 // One of two values, by name.
@@ -68,7 +68,7 @@ template <class T>
 T choice(const TextScanner& scanner, std::string_view token, const char* first, T value, const char* second, T other) {
   if (token == first) return value;
   if (token == second) return other;
-  throw FormatError(scanner.place() + "unknown value " + quoted(token) + "; it should be '" + first + "' or '" +
+  throw FormatError(scanner.place() + "unknown value " + in_quotes(token) + "; it should be '" + first + "' or '" +
                     second + "'");
 }
 
@@ -174,7 +174,7 @@ void ObjTags::skip(const TextScanner& scanner, std::string_view name, const char
   constexpr std::size_t most = 20;
   if (skipped_.size() >= most || std::find(skipped_.begin(), skipped_.end(), name) != skipped_.end()) return;
   skipped_.emplace_back(name);
-  mesh.warnings.push_back(scanner.place() + "tag " + quoted(name) + " ignored: " + why);
+  mesh.warnings.push_back(scanner.place() + "tag " + in_quotes(name) + " ignored: " + why);
   if (skipped_.size() == most) mesh.warnings.push_back(scanner.place() + "further unknown tags are not listed");
 }
 

@@ -44,11 +44,11 @@ class OffReader {
       if (prefix.starts_with("N")) prefix.remove_prefix(1);
       if (prefix.empty()) return;
       if (prefix == "4" || prefix == "n" || prefix == "4n") {
-        throw FormatError(scanner_.place() + quoted(keyword) +
+        throw FormatError(scanner_.place() + in_quotes(keyword) +
                           " has points of other than 3 dimensions; 'OFF' can be read");
       }
     }
-    throw FormatError(scanner_.place() + "the file starts with " + quoted(keyword) + "; an OFF file starts with 'OFF'");
+    throw FormatError(scanner_.place() + "the file starts with " + in_quotes(keyword) + "; an OFF file starts with 'OFF'");
   }
 
   // Counts may follow the keyword on its line or stand on the next one; that of edges is never used.

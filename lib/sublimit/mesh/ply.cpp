@@ -58,7 +58,7 @@ class PlyReader {
     const auto found = std::find_if(element.properties.begin(), element.properties.end(), is_it);
     if (found != element.properties.end() &&
         std::find_if(found + 1, element.properties.end(), is_it) != element.properties.end()) {
-      fail(element, "element '" + element.name + "' has two properties " + quoted(name));
+      fail(element, "element '" + element.name + "' has two properties " + in_quotes(name));
     }
     return static_cast<std::size_t>(found - element.properties.begin());
   }

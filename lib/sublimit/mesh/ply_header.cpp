@@ -29,7 +29,7 @@ class HeaderParser {
     scanner_.next_line();
     if (bytes_.empty()) throw FormatError(scanner_.name() + ": the file is empty; a PLY mesh is expected");
     if (const std::string_view magic = scanner_.token(); magic != "ply") {
-      fail("the file starts with " + quoted(magic) + "; a PLY file starts with 'ply'");
+      fail("the file starts with " + in_quotes(magic) + "; a PLY file starts with 'ply'");
     }
     for (;;) {
       if (!scanner_.next_line()) fail("the header has no 'end_header'");
@@ -42,7 +42,7 @@ class HeaderParser {
       } else if (keyword == "property") {
         read_property();
       } else if (keyword != "comment" && keyword != "obj_info" && !keyword.empty()) {
-        fail("unknown keyword " + quoted(keyword) +
+        fail("unknown keyword " + in_quotes(keyword) +
              " in the header; it may have format, comment, obj_info, element, property and end_header");
       }
     }
@@ -55,7 +55,7 @@ class HeaderParser {
   [[noreturn]] void fail(const std::string& what) const { throw FormatError(scanner_.place() + what); }
 
   void end_line() {
-    if (const std::string_view token = scanner_.token(); !token.empty()) fail("unexpected " + quoted(token));
+    if (const std::string_view token = scanner_.token(); !token.empty()) fail("unexpected " + in_quotes(token));
   }
 
   void read_format() {
@@ -67,10 +67,10 @@ class HeaderParser {
     } else if (name == "binary_big_endian") {
       header_.encoding = PlyHeader::Encoding::big_endian;
     } else {
-      fail("unknown format " + quoted(name) + "; it should be ascii, binary_little_endian or binary_big_endian");
+      fail("unknown format " + in_quotes(name) + "; it should be ascii, binary_little_endian or binary_big_endian");
     }
     if (const std::string_view version = scanner_.token(); version != "1.0") {
-      fail("unknown version " + quoted(version) + "; 1.0 can be read");
+      fail("unknown version " + in_quotes(version) + "; 1.0 can be read");
     }
     end_line();
     has_format_ = true;
@@ -81,7 +81,7 @@ class HeaderParser {
     if (element.name.empty()) fail("an element without a name; it should be 'element NAME COUNT'");
     element.count = scanner_.integer(scanner_.token(), "number of elements");
     if (element.count < 0) fail("number of elements is negative");
-    if (!names_.insert(element.name).second) fail("a second element " + quoted(element.name));
+    if (!names_.insert(element.name).second) fail("a second element " + in_quotes(element.name));
     end_line();
     header_.elements.push_back(std::move(element));
   }
@@ -90,7 +90,7 @@ class HeaderParser {
     for (const auto& [name, type] : type_names) {
       if (token == name) return type;
     }
-    fail("unknown type " + quoted(token) + "; types are char, uchar, short, ushort, int, uint, float and double");
+    fail("unknown type " + in_quotes(token) + "; types are char, uchar, short, ushort, int, uint, float and double");
   }
 
   void read_property() {
@@ -128,7 +128,7 @@ class HeaderParser {
       }
       if (row == 0 || element.count <= (rest + 1) / row) continue;
       throw FormatError(scanner_.place(element.line) + format_number(element.count) + " elements " +
-                        quoted(element.name) + " cannot be in the " + format_number(rest) +
+                        in_quotes(element.name) + " cannot be in the " + format_number(rest) +
                         " bytes that follow the header");
     }
   }

@@ -26,7 +26,7 @@ class PlyTextValues {
   }
   void end_row() {
     if (const std::string_view token = scanner_.token(); !token.empty()) {
-      fail("unexpected " + quoted(token) + "; the header says that the line ends before it");
+      fail("unexpected " + in_quotes(token) + "; the header says that the line ends before it");
     }
   }
   double real(PlyType) { return number<double>(); }
@@ -48,8 +48,8 @@ class PlyTextValues {
     const Parsed<T> parsed = parse_number<T>(token);
     if (parsed) return parsed.value;
     if (token.empty()) fail("the line ends before the header's properties are met");
-    fail(parsed.status == ParseStatus::too_large ? "number " + quoted(token) + " is too large"
-                                                 : quoted(token) + " is not a number of the type in the header");
+    fail(parsed.status == ParseStatus::too_large ? "number " + in_quotes(token) + " is too large"
+                                                 : in_quotes(token) + " is not a number of the type in the header");
   }
 
   TextScanner scanner_;

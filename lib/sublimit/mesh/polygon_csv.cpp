@@ -104,12 +104,12 @@ class CsvReader {
   double number(std::string_view field, size_t column) const {
     const std::string what = "value " + format_number(column + 1) + " of the line ";
     const Parsed<double> parsed = parse_number<double>(field);
-    if (parsed.status == ParseStatus::too_large) throw FormatError(place() + what + quoted(field) + " is too large");
+    if (parsed.status == ParseStatus::too_large) throw FormatError(place() + what + in_quotes(field) + " is too large");
     if (!parsed)
-      throw FormatError(place() + what + (field.empty() ? "is missing" : quoted(field) + " is not a number") +
+      throw FormatError(place() + what + (field.empty() ? "is missing" : in_quotes(field) + " is not a number") +
                         "; it should be a decimal number, and numbers should be separated by commas");
     if (!std::isfinite(parsed.value))
-      throw InvalidMesh(place() + what + "is " + quoted(field) + "; it should be a finite number");
+      throw InvalidMesh(place() + what + "is " + in_quotes(field) + "; it should be a finite number");
     return parsed.value;
   }
 

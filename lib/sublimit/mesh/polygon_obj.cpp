@@ -30,7 +30,7 @@ class ObjCurveReader {
       } else if (keyword == "f") {
         ++faces_;
       } else if (!std::ranges::all_of(keyword, [](char c) { return c >= 0x20 && c < 0x7f; })) {
-        throw FormatError(scanner_.place() + "the line starts with " + quoted(keyword) +
+        throw FormatError(scanner_.place() + "the line starts with " + in_quotes(keyword) +
                           ", so this is not a text OBJ file");
       }
     }

@@ -99,10 +99,10 @@ T TextScanner::number(std::string_view token, std::string_view what) const {
     throw FormatError(place() + "the line ends where " + std::string(what) + " should be; add " + kind);
   }
   if (parsed.status == ParseStatus::too_large) {
-    throw FormatError(place() + std::string(what) + " " + quoted(token) + " is too large; at most " +
+    throw FormatError(place() + std::string(what) + " " + in_quotes(token) + " is too large; at most " +
                       format_number(std::numeric_limits<T>::max()) + " can be read");
   }
-  throw FormatError(place() + std::string(what) + " " + quoted(token) + " is not a number; it should be " + kind);
+  throw FormatError(place() + std::string(what) + " " + in_quotes(token) + " is not a number; it should be " + kind);
 }
 
 double TextScanner::real(std::string_view token, std::string_view what) const { return number<double>(token, what); }
@@ -116,10 +116,10 @@ std::int64_t TextScanner::integer(std::string_view token, std::string_view what)
 double TextScanner::finite(std::string_view token, std::string_view what) const {
   const double value = number<double>(token, what);
   if (std::isfinite(value)) return value;
-  throw InvalidMesh(place() + std::string(what) + " is " + quoted(token) + "; it should be a finite number");
+  throw InvalidMesh(place() + std::string(what) + " is " + in_quotes(token) + "; it should be a finite number");
 }
 
-std::string quoted(std::string_view token) {
+std::string in_quotes(std::string_view token) {
   constexpr std::size_t longest = 40;
   constexpr char digits[] = "0123456789abcdef";
   std::string text = "'";

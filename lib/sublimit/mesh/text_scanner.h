@@ -60,7 +60,7 @@ class TextScanner {
 };
 
 /// A token as messages show it: in quotes, shortened, with unprintable bytes as hexadecimal numbers.
-std::string quoted(std::string_view token);
+std::string in_quotes(std::string_view token);
 
 /// @throws FormatError    empty text, or text with NUL bytes ("not a text OBJ file")
 void require_text(std::string_view text, std::string_view name, std::string_view format);

@@ -19,7 +19,7 @@ namespace {
 
 /// Closed forms and eigenvectors at valences 3 to 50.
 constexpr double closed_form = 1e-13;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 CanonicalNeighborhood smooth_type(int n, int face_size) {
   const Topology t(view(fan(n, face_size)));

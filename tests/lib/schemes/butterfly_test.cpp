@@ -14,7 +14,7 @@
 namespace sublimit::testing {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 // Two rings, in each sector: v, the neighbour; d, the next point on its line; m, between v and the next v.
 enum Place { v, d, m };

@@ -16,7 +16,7 @@
 namespace sublimit::testing {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 Eigen::RowVectorXd corner_row(const std::string& name, int n) {
   const Level level = refine(find_scheme(name).value(), prism(n), 1)[1];

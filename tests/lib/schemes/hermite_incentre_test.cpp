@@ -14,7 +14,7 @@ namespace sublimit::testing {
 namespace {
 
 using Eigen::Vector3d;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 const GeometricCurveScheme scheme = hermite_incentre({});
 
 /// Of arcs and refined points, relative to the curve's size: about 40 roundings in 15 levels.

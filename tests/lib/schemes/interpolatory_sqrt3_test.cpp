@@ -12,7 +12,7 @@
 namespace sublimit::testing {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 // What the weights are made for: A^2, A, A^2 in blocks 0, 1 and 2 of one step, A = 2/3 cos(pi/n), and nothing else; two
 // steps square it. At n = 3 and 4 block 2 is block -1, or vanishes.

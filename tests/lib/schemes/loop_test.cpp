@@ -15,7 +15,7 @@
 namespace sublimit::testing {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Total weight of the ring.
 Precise beta(const std::string& name, int n) {

@@ -16,7 +16,7 @@
 namespace sublimit::testing {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Weights of the corners of a lone n-gon in the first corner of its child, two steps later.
 Eigen::RowVectorXd two_steps(const std::string& name, int n) {

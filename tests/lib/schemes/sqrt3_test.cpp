@@ -15,7 +15,7 @@
 namespace sublimit::testing {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 TEST(Sqrt3, OldVerticesAreRelaxed) {
   for (int n = 3; n <= 20; ++n) {

@@ -23,7 +23,7 @@ namespace sublimit::testing {
 namespace {
 
 using Eigen::Matrix3d, Eigen::Vector3d;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 const GeometricSurfaceScheme scheme = *find_geometric_scheme<CurvatureMesh>("torus-pieces");
 
 /// What is promised of planes, spheres, cylinders and tori of size 1: positions, radians, curvatures (relative where
