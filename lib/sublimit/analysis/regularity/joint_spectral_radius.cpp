@@ -14,7 +14,7 @@ namespace sublimit {
 namespace {
 
 using Matrices = std::vector<BallMatrix>;
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double unbounded = std::numeric_limits<double>::infinity();
 
 struct Product {
   std::vector<int> factors;
@@ -123,7 +123,7 @@ std::optional<Eigen::MatrixXd> invariant_polytope(const Matrices& matrices,
   return points;
 }
 
-double above_root(double x) { return std::nextafter(std::sqrt(x), infinity); }
+double above_root(double x) { return std::nextafter(std::sqrt(x), unbounded); }
 
 }  // namespace
 
@@ -159,7 +159,7 @@ double norm_bound(const Matrices& matrices, const Eigen::MatrixXd& polytope) {
   const double unit = polytope(0, 0);
   int exponent = 0;
   if (polytope.topRows(n) != unit * Eigen::MatrixXd::Identity(n, n) || std::frexp(unit, &exponent) != 0.5)
-    return infinity;
+    return unbounded;
   const BallMatrix exact(polytope);
   double bound = 0;
   for (const BallMatrix& A : matrices) {
@@ -173,7 +173,7 @@ double norm_bound(const Matrices& matrices, const Eigen::MatrixXd& polytope) {
       for (Eigen::Index j = 0; j < count; ++j) sum += std::abs(C(i, j));
       for (Eigen::Index j = 0; j < n; ++j) part += Interval(std::abs(rest.middle(i, j))) + Interval(rest.radius(i, j));
       const double row = (sum + part * Interval(1 / unit)).high;
-      if (std::isnan(row)) return infinity;  // nothing compares with it: later rows would hide it
+      if (std::isnan(row)) return unbounded;  // nothing compares with it: later rows would hide it
       bound = std::max(bound, row);
     }
   }
