@@ -118,7 +118,7 @@ void print_summary(const Json& report) {
     };
     fmt::print("{:<22} {:<14} regular {} ({})", text("scheme"), text("type"), text("regular"), text("regular_verdict"));
     if (!text("valences").empty())
-      fmt::print(", at valences {} {} ({})", text("valences"), text("extraordinary"), text("extraordinary_verdict"));
+      fmt::print(", {} ({}) at valence {}", text("extraordinary"), text("extraordinary_verdict"), text("valences"));
     fmt::print("{}{}\n", text("notes").empty() ? "" : "; ", text("notes"));
   }
   for (const Json& scheme : report.value("schemes", Json::array()))

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "stencils/summary_rows.h"
 #include "sublimit/report/analysis/regular_json.h"
 #include "sublimit/schemes.h"
 
@@ -23,6 +24,44 @@ TEST(ClaimsJson, OneDerivativeTooManyIsContradicted) {
     EXPECT_EQ(claim["claim"], "regular");
     EXPECT_EQ(claim["verdict"], "disproved") << name << " " << claim.dump();
   }
+}
+
+/// A scheme of which this was found at valences 3, 4, ...: of C^1, and of convergence.
+Json scheme_with(const std::vector<const char*>& c1, const std::vector<const char*>& convergence = {}) {
+  Json neighborhoods = Json::array();
+  for (size_t i = 0; i < c1.size(); ++i) {
+    Json verdicts = Json::array({{{"property", "c1"}, {"verdict", c1[i]}}});
+    if (i < convergence.size()) verdicts.push_back({{"property", "convergence"}, {"verdict", convergence[i]}});
+    neighborhoods.push_back({{"kind", "vertex"}, {"n", 3 + i}, {"verdicts", verdicts}});
+  }
+  return {{"name", "own"}, {"mesh", "any"}, {"neighborhoods", neighborhoods}};
+}
+
+TEST(SummaryRow, NamesTheValencesThatItsVerdictHoldsFor) {
+  const char *yes = "proved", *no = "disproved", *likely = "evidence-for", *open = "unknown";
+  struct Case {
+    Json scheme;
+    const char *continuity, *verdict, *valences, *notes;
+  };
+  for (const Case& c :
+       {Case{scheme_with({yes, yes, yes, yes}), "C^1", yes, "3-6", ""},
+        // The butterfly.
+        Case{scheme_with({no, yes, yes, yes, yes, no}), "C^1", yes, "4-7", "C^1 disproved at valence 3, 8"},
+        // sqrt(3): regular vertices are proved.
+        Case{scheme_with({likely, likely, likely, yes, likely}), "C^1", likely, "3-5, 7", "C^1 proved at valence 6"},
+        Case{scheme_with({likely, yes}), "C^1", yes, "4", "C^1 evidence-for at valence 3"},
+        Case{scheme_with({no, no, no, yes}), "C^1", yes, "6", "C^1 disproved at valence 3-5"},
+        Case{scheme_with({no, open, no}, {yes, yes, open}), "C^0", yes, "3, 4",
+             "C^0 unknown at valence 5; C^1 disproved at valence 3, 5; C^1 unknown at valence 4"},
+        Case{scheme_with({no, no}), "C^0", open, "3, 4", "C^1 disproved at valence 3, 4"}}) {
+    const Json row = report::summary_row(c.scheme);
+    EXPECT_EQ(row["extraordinary"], c.continuity);
+    EXPECT_EQ(row["extraordinary_verdict"], c.verdict);
+    EXPECT_EQ(row["valences"], c.valences);
+    EXPECT_EQ(row["notes"], c.notes);
+    testing::expect_rows_name_their_valences({{"schemes", {c.scheme}}, {"summary", {row}}});
+  }
+  EXPECT_EQ(report::summary_row(scheme_with({}))["valences"], "");
 }
 
 }  // namespace

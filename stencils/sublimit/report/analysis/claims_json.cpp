@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <map>
 #include <optional>
+#include <tuple>
 #include <vector>
 
 namespace sublimit::report {
@@ -52,25 +53,47 @@ std::string ranges(const std::vector<int>& numbers) {
   return text;
 }
 
+using ValencesByAnswer = std::map<std::string, std::vector<int>>;
+
 /// Interior valences by what was found of a property there.
-std::map<std::string, std::vector<int>> valences_by_answer(const Json& neighborhoods, const std::string& property) {
-  std::map<std::string, std::vector<int>> by;
+ValencesByAnswer valences_by_answer(const Json& neighborhoods, const std::string& property) {
+  ValencesByAnswer by;
   for (const Json& n : neighborhoods)
     if (is_interior(n)) by[answer_in(n["verdicts"], property)].push_back(n.value("n", 0));
   return by;
 }
 
 /// The weakest of what was found, and where.
-std::pair<std::string, std::string> weakest(const std::map<std::string, std::vector<int>>& by) {
+std::pair<std::string, std::string> weakest(const ValencesByAnswer& by) {
   for (const char* answer : {"disproved", "evidence-against", "unknown", "borderline", "evidence-for", "proved"})
     if (const auto at = by.find(answer); at != by.end()) return {answer, ranges(at->second)};
   return {"unknown", "none"};
 }
 
-std::string in_words(const std::map<std::string, std::vector<int>>& by) {
+std::string joined(const std::string& a, const std::string& b) { return a + (a.empty() || b.empty() ? "" : "; ") + b; }
+
+std::string in_words(const ValencesByAnswer& by) {
   std::string text;
-  for (const auto& [answer, valences] : by) text += (text.empty() ? "" : "; ") + answer + " at " + ranges(valences);
+  for (const auto& [answer, valences] : by) text = joined(text, answer + " at " + ranges(valences));
   return text;
+}
+
+/// The answer that a row of the summary shows: the one in favour that holds at most valences, or the most frequent
+/// one where none is in favour.
+std::string prevalent(const ValencesByAnswer& by) {
+  const auto rank = [](const ValencesByAnswer::value_type& found) {
+    const auto& [answer, valences] = found;
+    return std::tuple(answer == "proved" || answer == "evidence-for", valences.size(), answer == "proved");
+  };
+  return std::ranges::max_element(by, {}, rank)->first;
+}
+
+/// What was found at other valences than those of the answer `shown`.
+std::string notes_on(const std::string& property, const ValencesByAnswer& by, const std::string& shown = {}) {
+  std::string notes;
+  for (const auto& [answer, valences] : by)
+    if (answer != shown) notes = joined(notes, fmt::format("{} {} at valence {}", property, answer, ranges(valences)));
+  return notes;
 }
 
 Json regular_claim(const Claims& claims, const Json& regular) {
@@ -188,27 +211,15 @@ Json summary_row(const Json& scheme) {
     row["regular"] = fmt::format("C^{}", regular["smoothness"]["continuity"].get<int>());
     row["regular_verdict"] = answer_in(regular.value("verdicts", Json::array()), "regular-smoothness");
   }
-  const auto by = valences_by_answer(scheme["neighborhoods"], "c1");
+  const ValencesByAnswer by = valences_by_answer(scheme["neighborhoods"], "c1");
   if (by.empty()) return row;
-  // What holds at most valences is the row's; exceptions go to the notes.
-  std::vector<int> all, good;
-  std::string best = "unknown";
-  for (const char* answer : {"evidence-for", "proved"})
-    if (by.count(answer)) {
-      best = by.count("proved") && by.count("evidence-for") ? "evidence-for" : answer;
-      good.insert(good.end(), by.at(answer).begin(), by.at(answer).end());
-    }
-  for (const auto& [answer, valences] : by) all.insert(all.end(), valences.begin(), valences.end());
-  std::sort(all.begin(), all.end());
-  std::sort(good.begin(), good.end());
-  row["valences"] = ranges(all);
-  row["extraordinary"] = good.empty() ? "C^0" : "C^1";
-  row["extraordinary_verdict"] = good.empty() ? weakest(by).first : best;
-  std::string notes;
-  for (const auto& [answer, valences] : by)
-    if (answer != "proved" && answer != "evidence-for" && !good.empty())
-      notes += (notes.empty() ? "" : "; ") + fmt::format("C^1 {} at valence {}", answer, ranges(valences));
-  row["notes"] = notes;
+  const bool is_c1 = by.contains("proved") || by.contains("evidence-for");
+  const ValencesByAnswer shown = is_c1 ? by : valences_by_answer(scheme["neighborhoods"], "convergence");
+  const std::string answer = prevalent(shown);
+  row["extraordinary"] = is_c1 ? "C^1" : "C^0";
+  row["extraordinary_verdict"] = answer;
+  row["valences"] = ranges(shown.at(answer));
+  row["notes"] = is_c1 ? notes_on("C^1", by, answer) : joined(notes_on("C^0", shown, answer), notes_on("C^1", by));
   return row;
 }
 

@@ -138,7 +138,7 @@ struct Reader {
     for (size_t i = 0; i < rows.size(); ++i) {
       const Json made = summary_row(schemes[i]);
       for (const char* key :
-           {"scheme", "regular", "regular_verdict", "extraordinary", "extraordinary_verdict", "notes"})
+           {"scheme", "regular", "regular_verdict", "extraordinary", "extraordinary_verdict", "valences", "notes"})
         if (rows[i].at(key) != made.at(key))
           find(fmt::format("summary, {}", made.at("scheme").dump()),
                fmt::format("{} is {}, and the verdicts say {}", key, rows[i].at(key).dump(), made.at(key).dump()));
