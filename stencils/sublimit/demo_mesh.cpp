@@ -64,7 +64,7 @@ Vector3d revolve(double radius, double height, double angle) {
 
 /// One ring of the body. `pinch` (radians) draws columns together under the spout and the handle, which are slimmer
 /// than two regular columns.
-struct Ring {
+struct Circle {
   double radius, height;
   double pinch = 0;
   float sharpness = 0;
@@ -118,7 +118,7 @@ constexpr int front = 0, back = columns / 2;
 /// Rings of vertices from the underside of the foot to the lid, and the faces between them, less three holes. The foot
 /// is sharp for ever, the rim rounds off after 2.5 levels.
 std::vector<Loop> add_body(Builder& pot) {
-  const std::vector<Ring> profile = {
+  const std::vector<Circle> profile = {
       {.56, .07},               // underside
       {.74, .00, 0, infinite},  // foot
       {.78, .11, 0, infinite},
@@ -139,7 +139,7 @@ std::vector<Loop> add_body(Builder& pot) {
   };
   std::vector<Loop> rings;
   for (int r = 0; r < static_cast<int>(profile.size()); ++r) {
-    const Ring& ring = profile[r];
+    const Circle& ring = profile[r];
     Loop loop;
     for (int k = 0; k < columns; ++k) {
       const bool inside_spout = r == spout_row + 1 && k == front;
@@ -167,7 +167,7 @@ void add_ends(Builder& pot, const std::vector<Loop>& rings) {
   const Loop bottom = halve(pot, Loop(rings.front().rbegin(), rings.front().rend()), .28, .10);
   pot.face(bottom);
   Loop knob = halve(pot, rings.back(), .14, 2.98);
-  for (const Ring& ring : {Ring{.09, 3.05}, Ring{.20, 3.15}, Ring{.19, 3.29}, Ring{.07, 3.37}}) {
+  for (const Circle& ring : {Circle{.09, 3.05}, Circle{.20, 3.15}, Circle{.19, 3.29}, Circle{.07, 3.37}}) {
     Loop next;
     for (int k = 0; k < 6; ++k) next.push_back(pot.vertex(revolve(ring.radius, ring.height, 2 * pi * k / 6)));
     pot.bridge(knob, next);

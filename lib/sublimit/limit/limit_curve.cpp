@@ -14,7 +14,7 @@ namespace {
 constexpr std::int64_t samples_per_block = 256;
 
 /// A place on a curve by pieces, s in [0, 1].
-struct Place {
+struct CurvePlace {
   Index curve = 0;
   std::int64_t piece = 0;
   double s = 0;
@@ -57,8 +57,8 @@ struct LimitCurve::Parts {
     return {from, static_cast<int>(pieces.layout().position(curve, segment + 1) - from)};
   }
 
-  Place place(const CurveSample& sample) const {
-    Place p;
+  CurvePlace place(const CurveSample& sample) const {
+    CurvePlace p;
     p.curve = curve_of(sample.segment);
     const CurveOutline& curve = curves[p.curve];
     const auto [from, length] = ends(curve, sample.segment - first_segment[p.curve]);
@@ -82,7 +82,7 @@ struct LimitCurve::Parts {
   }
 
   /// Rows at a place, as far as wanted and existing; the place they are of in the end, and the status.
-  LimitStatus rows(Place& place, int order, CurvePieceRows& result) const {
+  LimitStatus rows(CurvePlace& place, int order, CurvePieceRows& result) const {
     const CurveOutline& curve = curves[place.curve];
     const Index count = pieces.num_pieces(curve);
     const auto ask = [&](bool one_sided, int derivatives) {
@@ -113,7 +113,7 @@ struct LimitCurve::Parts {
         return result.exists > 0 ? LimitStatus::crease : LimitStatus::undefined_normal;
       }
     }
-    const Place given = place;
+    const CurvePlace given = place;
     if (place.s == 1) place = {place.curve, curve.closed ? (place.piece + 1) % count : place.piece + 1, 0};
     ask(false, order);
     if (place.s == 0 && result.exists == 0) {  // a corner, seen from the side that was given
@@ -129,7 +129,7 @@ struct LimitCurve::Parts {
 
   /// What stencils call the unknowns of a place's window.
   template <class Body>
-  void for_each_unknown(const Place& place, const Body& body) const {
+  void for_each_unknown(const CurvePlace& place, const Body& body) const {
     const CurveOutline& curve = curves[place.curve];
     const PieceWindow window = pieces.window(curve, static_cast<Index>(place.piece));
     const Index* names = points.data() + first_point[place.curve];
@@ -179,7 +179,7 @@ double LimitCurve::parameter(const CurveSample& sample) const {
 CurveStencil LimitCurve::stencil(const CurveSample& sample, int order) const {
   check_sample(sample, num_segments());
   check_order(order);
-  Place place = parts_->place(sample);
+  CurvePlace place = parts_->place(sample);
   CurvePieceRows rows;
   CurveStencil result;
   result.status = parts_->rows(place, order, rows);
@@ -212,7 +212,7 @@ CurveSamples LimitCurve::evaluate(const Points& unknowns, std::span<const CurveS
       [&](std::int64_t, std::int64_t begin, std::int64_t end) {
         CurvePieceRows rows;
         for (std::int64_t i = begin; i < end; ++i) {
-          Place place = parts_->place(samples[i]);
+          CurvePlace place = parts_->place(samples[i]);
           result.status[i] = parts_->rows(place, order, rows);
           const int derivatives = std::min(order, rows.exists);
           result.order[i] = static_cast<std::int8_t>(derivatives);
