@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sublimit/report/svg.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 
@@ -29,15 +30,20 @@ std::string escaped(std::string_view text) {
   return result;
 }
 
+int nearest(double value) {
+  if (std::isnan(value)) return 0;
+  return static_cast<int>(std::lround(std::clamp(value, -1. * farthest, 1. * farthest)));
+}
+
 std::string pixels(double value) {
-  const long tenths = std::lround(value * units);
+  const int tenths = nearest(value * units);
   std::string text = std::to_string(std::abs(tenths) / units);
   if (tenths % units != 0) text += "." + std::to_string(std::abs(tenths) % units);
   return tenths < 0 ? "-" + text : text;
 }
 
 Spot spot(double x, double y) {
-  return {static_cast<int>(std::lround(x * units)), static_cast<int>(std::lround(y * units))};
+  return {nearest(x * units), nearest(y * units)};
 }
 
 }  // namespace sublimit::svg

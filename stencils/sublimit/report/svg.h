@@ -11,7 +11,12 @@ constexpr int units = 10;  ///< path units per pixel: one decimal without a deci
 /// Text for XML; control characters become blanks.
 std::string escaped(std::string_view text);
 
-/// Tenths of a pixel with at most one decimal.
+constexpr int farthest = 100'000'000;  ///< path units from the origin: sums and differences of two are still an int
+
+/// The nearest whole number, of any value: not a number is 0, and what is farther than `farthest` is there.
+int nearest(double value);
+
+/// Tenths of a pixel with at most one decimal; of any value, as `nearest`.
 std::string pixels(double value);
 
 /// A point in path units.
