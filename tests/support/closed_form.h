@@ -14,7 +14,7 @@ namespace sublimit::testing {
 /// Spectra and limit masks against closed forms.
 inline constexpr double closed_form = 1e-12;
 /// What eight printed decimals can tell, some of them cut off instead of rounded, and ratios with three.
-inline constexpr double eight_decimals = 1e-8, three_decimals = 5.1e-4;
+inline constexpr double eight_cut_decimals = 1e-8, three_decimals = 5.1e-4;
 
 /// The limit of a lone vertex of valence n, or of a lone n-gon if the scheme is dual.
 LoneLimit lone_centre(const std::string& name, int n, const SchemeOptions& options = {});
