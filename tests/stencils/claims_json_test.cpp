@@ -64,5 +64,23 @@ TEST(SummaryRow, NamesTheValencesThatItsVerdictHoldsFor) {
   EXPECT_EQ(report::summary_row(scheme_with({}))["valences"], "");
 }
 
+TEST(SummaryRow, VerdictOnRegularMeshesIsThatOfTheContinuityBesideIt) {
+  const auto verdict = [](const char* property, const char* says, const char* answer) {
+    return Json{{"property", property}, {"says", says}, {"verdict", answer}};
+  };
+  Json scheme = scheme_with({});
+  Json& regular = scheme["regular"];
+  regular = {
+      {"smoothness", {{"continuity", 0}}},
+      {"verdicts",
+       {verdict("convergence", "the levels converge", "proved"), verdict("regular-smoothness", "C^1", "disproved")}}};
+  EXPECT_EQ(report::summary_row(scheme)["regular"], "C^0");  // bilinear
+  EXPECT_EQ(report::summary_row(scheme)["regular_verdict"], "proved");
+  regular["smoothness"]["continuity"] = 1;
+  regular["verdicts"] = {verdict("regular-smoothness", "C^1", "evidence-for"),
+                         verdict("regular-smoothness", "C^2", "disproved")};
+  EXPECT_EQ(report::summary_row(scheme)["regular_verdict"], "evidence-for");
+}
+
 }  // namespace
 }  // namespace sublimit

@@ -208,8 +208,10 @@ Json summary_row(const Json& scheme) {
            {"valences", ""},
            {"notes", ""}};
   if (regular.is_object() && regular.contains("smoothness") && regular["smoothness"]["continuity"].is_number()) {
-    row["regular"] = fmt::format("C^{}", regular["smoothness"]["continuity"].get<int>());
-    row["regular_verdict"] = answer_in(regular.value("verdicts", Json::array()), "regular-smoothness");
+    const int k = regular["smoothness"]["continuity"];
+    row["regular"] = fmt::format("C^{}", k);
+    row["regular_verdict"] =
+        answer_in(regular.value("verdicts", Json::array()), k > 0 ? "regular-smoothness" : "convergence");
   }
   const ValencesByAnswer by = valences_by_answer(scheme["neighborhoods"], "c1");
   if (by.empty()) return row;
