@@ -19,6 +19,7 @@
 #include "sublimit/schemes.h"
 #include "sublimit/table_file.h"
 #include "support/expect_error.h"
+#include "support/skip.h"
 #include "support/temporary_directory.h"
 
 namespace sublimit::testing {
@@ -128,7 +129,7 @@ class PythonFiles {
 
 TEST(TableInPython, MakesTheSamePoints) {
   const std::string interpreter = python();
-  if (interpreter.empty()) GTEST_SKIP() << "no Python with NumPy and SciPy: install python3-numpy python3-scipy";
+  SUBLIMIT_NEEDS_PROGRAM(!interpreter.empty(), "python3-numpy python3-scipy");
   PythonFiles files;
   files.add("parts_double", everything<double>());
   files.add("parts_float", everything<float>());
