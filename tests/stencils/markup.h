@@ -20,7 +20,7 @@ struct Markup {
   int images = 0, untitled = 0;         ///< SVG with role img, and those of them without a title first
 };
 
-/// Reads HTML in which only `meta`, `br` and elements that end in "/>" have no end tag.
+/// Reads HTML in which only `meta`, `br`, `img` and elements that end in "/>" have no end tag.
 inline Markup read_markup(std::string_view text) {
   Markup markup;
   std::vector<std::string> open;
@@ -104,7 +104,7 @@ inline Markup read_markup(std::string_view text) {
         a = close + 1;
       }
     }
-    if (!closed && name != "meta" && name != "br") open.push_back(name);
+    if (!closed && name != "meta" && name != "br" && name != "img") open.push_back(name);
   }
   if (markup.fault.empty() && !open.empty()) markup.fault = "never closed: " + open.back();
   return markup;
