@@ -18,13 +18,13 @@
 namespace sublimit::testing {
 namespace {
 
-struct Outcome {
+struct Ending {
   int status = -1;
   std::string text;  ///< stdout and stderr
 };
 
 /// Runs the program; `file_limit` is the largest file it may write, in bytes.
-Outcome run(std::vector<std::string> arguments, rlim_t file_limit = RLIM_INFINITY) {
+Ending run(std::vector<std::string> arguments, rlim_t file_limit = RLIM_INFINITY) {
   arguments.insert(arguments.begin(), SUBLIMIT_PROGRAM);
   int out[2];
   if (::pipe(out) != 0) throw std::runtime_error("no pipe");
@@ -44,7 +44,7 @@ Outcome run(std::vector<std::string> arguments, rlim_t file_limit = RLIM_INFINIT
     _exit(127);
   }
   ::close(out[1]);
-  Outcome outcome;
+  Ending outcome;
   char buffer[4096];
   for (ssize_t n; (n = ::read(out[0], buffer, sizeof buffer)) > 0;) outcome.text.append(buffer, size_t(n));
   ::close(out[0]);
@@ -71,7 +71,7 @@ void expect_refused(const std::string& text, const std::string& scheme, int stat
   const auto mesh = directory.write("mesh.obj", text);
   std::vector<std::string> arguments{"refine", mesh.string(), "-s", scheme, "-o", (directory / "out.obj").string()};
   arguments.insert(arguments.end(), more.begin(), more.end());
-  const Outcome outcome = run(arguments);
+  const Ending outcome = run(arguments);
   EXPECT_EQ(outcome.status, status) << outcome.text;
   for (const std::string& word : words) EXPECT_NE(outcome.text.find(word), std::string::npos) << outcome.text;
   EXPECT_EQ(directory.num_files(), 1) << "something was left behind";
@@ -131,7 +131,7 @@ TEST(Program, LeavesNothingOnAFullDisk) {
   const TemporaryDirectory directory;
   const auto mesh = directory / "mesh.obj";
   write_mesh(mesh, output(torus(20, 20)));
-  const Outcome outcome =
+  const Ending outcome =
       run({"refine", mesh.string(), "-s", "catmull-clark", "-l", "3", "-o", (directory / "out.obj").string()}, 100000);
   EXPECT_EQ(outcome.status, 4) << outcome.text;
   EXPECT_EQ(directory.num_files(), 1);
@@ -145,13 +145,13 @@ TEST(Program, AcceptsOddMeshesWithAWarningAndRejectsThemWhenStrict) {
     const auto mesh = directory.write("mesh.obj", quad + text);
     const std::vector<std::string> arguments{"refine", mesh.string(), "-s", "catmull-clark", "-l", "1", "-o",
                                              (directory / "out.obj").string()};
-    const Outcome accepted = run(arguments);
+    const Ending accepted = run(arguments);
     EXPECT_EQ(accepted.status, 0) << accepted.text;
     EXPECT_NE(accepted.text.find("warning"), std::string::npos) << accepted.text;
     EXPECT_NE(accepted.text.find(word), std::string::npos) << accepted.text;
     std::vector<std::string> strict = arguments;
     strict.push_back("--strict");
-    const Outcome rejected = run(strict);
+    const Ending rejected = run(strict);
     EXPECT_EQ(rejected.status, 3);
     EXPECT_NE(rejected.text.find(word), std::string::npos) << rejected.text;
   }
@@ -171,7 +171,7 @@ TEST(Program, RefiningTwiceByOneIsRefiningOnceByTwo) {
     const auto path = [&](const char* file) { return (directory / file).string(); };
     write_mesh(path("mesh.obj"), output(named.mesh));
     const auto refine_by = [&](const char* from, const char* levels, const char* to) {
-      const Outcome outcome = run({"refine", path(from), "-s", "catmull-clark", "-l", levels, "-o", path(to), "--quiet"});
+      const Ending outcome = run({"refine", path(from), "-s", "catmull-clark", "-l", levels, "-o", path(to), "--quiet"});
       EXPECT_EQ(outcome.status, 0) << name << ": " << outcome.text;
     };
     refine_by("mesh.obj", "1", "one.obj");
@@ -213,7 +213,7 @@ TEST(Program, MovesVerticesToTheLimitWithNormals) {
   const TemporaryDirectory directory;
   const auto path = [&](const char* file) { return (directory / file).string(); };
   write_mesh(path("cube.obj"), output(cube()));
-  const Outcome outcome =
+  const Ending outcome =
       run({"limit", path("cube.obj"), "-s", "catmull-clark", "--normals", "-o", path("limit.obj")});
   EXPECT_EQ(outcome.status, 0) << outcome.text;
   // Halstead 1993 at n = 3: (9 v + 4 sum e + sum f) / 24; a cube's corner (1,1,1): (9 + 4 + (-1)(...)) -> (9 + 4 - 1 ...)/24.
@@ -240,7 +240,7 @@ TEST(Program, DescribesSchemesAndMeshes) {
 
 TEST(Program, DemoMakesItsFilesAndSaysWhere) {
   const TemporaryDirectory directory;
-  const Outcome outcome = run({"demo", (directory / "demo").string()});
+  const Ending outcome = run({"demo", (directory / "demo").string()});
   EXPECT_EQ(outcome.status, 0) << outcome.text;
   for (const char* file : {"control.obj", "refined.obj", "limit.obj", "samples.csv", "picture.svg"})
     EXPECT_TRUE(std::filesystem::exists(directory / "demo" / file)) << file;
@@ -249,7 +249,7 @@ TEST(Program, DemoMakesItsFilesAndSaysWhere) {
 
 TEST(Program, HelpHasExamples) {
   for (const char* command : {"schemes", "info", "refine", "limit", "sample", "demo"}) {
-    const Outcome outcome = run({command, "--help"});
+    const Ending outcome = run({command, "--help"});
     EXPECT_EQ(outcome.status, 0);
     EXPECT_NE(outcome.text.find("Examples:"), std::string::npos) << command;
   }
