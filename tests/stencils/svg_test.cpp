@@ -5,6 +5,7 @@
 
 #include <limits>
 #include <string>
+#include <vector>
 
 #include "stencils/cli_program.h"
 #include "sublimit/base/read_file.h"
@@ -44,6 +45,26 @@ TEST(Svg, OnePointIsDrawnInTheMiddle) {
   const auto mask = page::Json::parse(R"([{"label": [0, 0, 0], "weight": 1, "exact": "1"}])");
   const std::string drawn = page::neighborhood_masks({{"n", 4}, {"masks", {{"position", mask}}}}, "interpolatory");
   EXPECT_NE(drawn.find("<circle cx=\"190\" cy=\"36\" r=\"22\""), std::string::npos) << drawn;
+}
+
+/// The discs of a drawing: x and y, as they are written.
+std::vector<std::string> discs(const std::string& drawn) {
+  std::vector<std::string> found;
+  for (size_t at = drawn.find("<circle cx"); at != std::string::npos; at = drawn.find("<circle cx", at + 1))
+    if (drawn.compare(drawn.find(" r=", at), 8, " r=\"4.5\"") != 0)  // the legend's
+      found.push_back(drawn.substr(at, drawn.find(" r=", at) - at));
+  return found;
+}
+
+// The two border edges of one face were drawn upon each other: they differ by rounding, and what is between them filled
+// the picture.
+TEST(Svg, SpokesOfOpenNeighborhoodsLieApart) {
+  for (const int n : {1, 2, 3, 6}) {
+    const page::Json along = {{{"label", {0, 1, 0}}, {"weight", .5}}, {{"label", {n, 1, 0}}, {"weight", -.5}}};
+    const page::Json border = {{"kind", "border"}, {"n", n}, {"masks", {{"tangent1", along}}}};
+    const std::vector<std::string> found = discs(page::neighborhood_masks(border, "loop"));
+    EXPECT_EQ(found, (std::vector<std::string>{"<circle cx=\"344\" cy=\"36\"", "<circle cx=\"36\" cy=\"36\""})) << n;
+  }
 }
 
 // These died in the program that ships, when tests had other flags.

@@ -126,15 +126,20 @@ struct MaskSpec {
 
 std::string mask_figure(const Json& neighborhood, const MaskSpec& spec, const std::string& name) {
   if (!spec.mask.is_array() || spec.mask.empty()) return {};
-  const int n = std::max(1, whole(at(neighborhood, "n"), 4));
+  // The first and the last spoke of an open neighbourhood are two: its sectors fill half a turn.
+  const std::string kind = string(at(neighborhood, "kind"));
+  const bool is_open = kind == "border" || kind == "crease" || kind == "corner";
+  const double turn = (is_open ? 1 : 2) * std::numbers::pi / std::max(1, whole(at(neighborhood, "n"), 4));
   std::vector<Point> points;
   double greatest = 0;
   for (const Json& entry : spec.mask) {
-    points.push_back(at_label(at(entry, "label"), n));
+    points.push_back(at_label(at(entry, "label"), turn));
     greatest = std::max(greatest, std::abs(number(at(entry, "weight")).value_or(0)));
   }
   if (greatest <= 0) return {};
-  const Fit fit = fit_points(points, 380, 330, 36);
+  std::vector<Point> shown = points;
+  shown.emplace_back(0, 0);  // where the spokes meet
+  const Fit fit = fit_points(shown, 380, 330, 36);
   double nearest = 1e9;  // between the points that show
   for (std::size_t i = 0; i < points.size(); ++i)
     for (std::size_t j = 0; j < i; ++j) nearest = std::min(nearest, (points[i] - points[j]).norm() * fit.scale);

@@ -26,8 +26,8 @@ Point on_grid(const std::string& grid, double u, double v) {
   return {u, v};
 }
 
-Point at_label(const Json& label, int n) {
-  const double sector = number(at(label, 0)).value_or(0), turn = 2 * std::numbers::pi / n;
+Point at_label(const Json& label, double turn) {
+  const double sector = number(at(label, 0)).value_or(0);
   const double x = number(at(label, 1)).value_or(0), y = number(at(label, 2)).value_or(0);
   const auto spoke = [&](double s) { return Point(std::cos(turn * s), std::sin(turn * s)); };
   const Point p = x * spoke(sector) + y * spoke(sector + 1);
