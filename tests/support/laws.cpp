@@ -443,30 +443,6 @@ const std::vector<Law>& laws() {
   return all;
 }
 
-namespace {
-
-/// The neighbours on the border, `steps` vertices along it both ways; of a manifold vertex.
-std::array<Vertex, 2> border_neighbors(const Topology& t, Vertex v, int steps) {
-  std::array<Vertex, 2> ends{v, v};
-  for (int k = 0; k < steps; ++k) {
-    ends[0] = t.head(t.outgoing(ends[0]));
-    HalfEdge last = t.outgoing(ends[1]);
-    while (exists(t.ccw(last))) last = t.ccw(last);
-    ends[1] = t.tail(t.prev(last));
-  }
-  return ends;
-}
-
-bool on_straight_border(const Topology& t, Vertex v, bool odd_level) {
-  const auto straight = [&](Vertex w) {
-    return t.num_faces(w) == (odd_level ? 1 : 2) && t.size(t.face(t.outgoing(w))) == 4;
-  };
-  const std::array<Vertex, 2> ends = border_neighbors(t, v, odd_level ? 2 : 1);
-  return straight(v) && straight(ends[0]) && straight(ends[1]);
-}
-
-}  // namespace
-
 std::vector<NormalPlace> normal_places(const Scheme<double>& scheme) {
   std::vector<NormalPlace> places;
   LimitMaskCache cache(scheme);
@@ -489,7 +465,6 @@ std::vector<NormalPlace> normal_places(const Scheme<double>& scheme) {
                           .faces = faces[s],
                           .one_sided = t.is_boundary(v) || faces[s] < t.num_faces(v),
                           .corner = is_corner(t, levels[k].sharpness, v),
-                          .straight = t.is_boundary(v) && on_straight_border(t, v, k % scheme.period == 1),
                           .defined = points.status[s] != LimitStatus::undefined_normal});
       }
     }
@@ -500,7 +475,7 @@ std::vector<NormalPlace> normal_places(const Scheme<double>& scheme) {
 
 std::vector<std::pair<std::string, SchemeOptions>> scheme_names_and_options() {
   std::vector<std::pair<std::string, SchemeOptions>> all;
-  for (const SchemeEntry<double>& entry : registry<double>) all.push_back({entry.name, {}});
+  for (const Scheme<double>& scheme : all_schemes()) all.push_back({scheme.name, {}});
   const std::pair<const char*, SchemeOptions> others[] = {
       {"catmull-clark", {{"triangles", "smooth"}}},
       {"averaging", {{"degree", "2"}}},

@@ -26,9 +26,6 @@ struct NormalPlace {
   Index faces = 0;         ///< of the side
   bool one_sided = false;  ///< the vertex is on the border or on sharp edges
   bool corner = false;     ///< and stays where it is
-  /// On a border that runs straight on, past its neighbours on it: along two quads each, or in odd levels of mid-edge
-  /// one quad at every other vertex.
-  bool straight = false;
   bool defined = false;  ///< the library has a normal
 };
 /// All sides on levels 0 and 1 of the laws' meshes.
