@@ -53,8 +53,8 @@ bool has_no_normal(const std::string& scheme, const NormalPlace& place) {
   // Every edge at a vertex shrinks by 1/2 for itself, and they are three or more.
   if (scheme == "bilinear") return place.faces > 1;
   // Two modes of 1/4 beside the one along the border: with one or two faces the control points take both in the same
-  // direction (LimitMasks::Plane::tied), with more they need not.
-  if (scheme.starts_with("mid-edge")) return border && place.faces >= 3;
+  // direction (LimitMasks::Plane::tied), with more they need not. Even levels keep border vertices, with one face.
+  if (scheme.starts_with("mid-edge")) return border && place.from_faces >= 3;
   // Inside, block 2 shrinks no faster than block 1 (its valence-3 case a Jordan block), which the modification mends;
   // on borders, modes of the inside shrink no faster than the one along them.
   if (scheme == "butterfly" && inside) return place.faces == 3 || place.faces >= 8;

@@ -8,6 +8,7 @@
 #include <limits>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <random>
 
 #include "sublimit/analysis/eigen_structure.h"
@@ -443,6 +444,21 @@ const std::vector<Law>& laws() {
   return all;
 }
 
+namespace {
+
+/// Faces of the vertex of level 0 that a vertex of level 1 comes from; mid-edge keeps those of borders.
+std::optional<Index> faces_before(const std::vector<Level>& levels, Vertex v) {
+  if (levels[1].steps.size() > 1) return std::nullopt;
+  const Topology& t = levels[0].topology();
+  const Refinement& step = levels[1].steps[0];
+  if (step.origin(v) == Refinement::Origin::vertex) return t.num_faces(Vertex{step.parent(v)});
+  if (step.split == Split::mid_edge && step.origin(v) == Refinement::Origin::border)
+    return t.num_faces(t.tail(HalfEdge{step.parent(v)}));
+  return std::nullopt;
+}
+
+}  // namespace
+
 std::vector<NormalPlace> normal_places(const Scheme<double>& scheme) {
   std::vector<NormalPlace> places;
   LimitMaskCache cache(scheme);
@@ -463,6 +479,7 @@ std::vector<NormalPlace> normal_places(const Scheme<double>& scheme) {
                           .level = k,
                           .vertex = index(v),
                           .faces = faces[s],
+                          .from_faces = k == 1 ? faces_before(levels, v).value_or(faces[s]) : faces[s],
                           .one_sided = t.is_boundary(v) || faces[s] < t.num_faces(v),
                           .corner = is_corner(t, levels[k].sharpness, v),
                           .defined = points.status[s] != LimitStatus::undefined_normal});

@@ -24,6 +24,7 @@ struct NormalPlace {
   int level = 0;
   Index vertex = 0;
   Index faces = 0;         ///< of the side
+  Index from_faces = 0;    ///< of the vertex of level 0 that it comes from; as `faces` if it comes from none
   bool one_sided = false;  ///< the vertex is on the border or on sharp edges
   bool corner = false;     ///< and stays where it is
   bool defined = false;  ///< the library has a normal
