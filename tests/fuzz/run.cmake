@@ -3,7 +3,7 @@
 set(binary ${BUILD}/fuzz)
 include(${CMAKE_CURRENT_LIST_DIR}/../cmake/Run.cmake)
 if(NOT TARGET)
-  run(${CMAKE_COMMAND} -S ${SOURCE} -B ${binary} -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo -DCMAKE_CXX_COMPILER=clang++-14
+  run(${CMAKE_COMMAND} -S ${SOURCE} -B ${binary} -G Ninja -DCMAKE_BUILD_TYPE=Release "-DCMAKE_CXX_FLAGS_RELEASE=-O1 -g1" -DCMAKE_CXX_COMPILER=clang++-14
       -DSUBLIMIT_BUILD_PROGRAM=OFF -DSUBLIMIT_BUILD_FUZZERS=ON
       "-DSUBLIMIT_LIB_WITHOUT=/(analysis|fit|limit|primvar|schemes)/|sublimit/[^/]*$")  # meshes and splits are left
   run(${CMAKE_COMMAND} --build ${binary} --target fuzz_obj fuzz_table)
