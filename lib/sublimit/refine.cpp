@@ -45,18 +45,23 @@ struct Counts {
 
 /// Faces that share a vertex with `faces`, themselves included; ascending.
 std::vector<Index> with_neighbors(const Topology& t, std::span<const Index> faces) {
-  std::vector<Index> result(faces.begin(), faces.end());
-  for (const Index f : faces)
-    for (const Index v : t.vertices(Face{f}))
-      for (const HalfEdge start : t.fans(Vertex{v})) {
-        HalfEdge h = start;
-        do {
-          result.push_back(index(t.face(h)));
-          h = t.ccw(h);
-        } while (exists(h) && h != start);
-      }
-  std::sort(result.begin(), result.end());
-  result.erase(std::unique(result.begin(), result.end()), result.end());
+  const auto distinct = [](std::vector<Index>& list) {
+    std::sort(list.begin(), list.end());
+    list.erase(std::unique(list.begin(), list.end()), list.end());
+  };
+  // Each vertex once: around one of n faces all n would ask for all n.
+  std::vector<Index> vertices, result(faces.begin(), faces.end());
+  for (const Index f : faces) vertices.insert(vertices.end(), t.vertices(Face{f}).begin(), t.vertices(Face{f}).end());
+  distinct(vertices);
+  for (const Index v : vertices)
+    for (const HalfEdge start : t.fans(Vertex{v})) {
+      HalfEdge h = start;
+      do {
+        result.push_back(index(t.face(h)));
+        h = t.ccw(h);
+      } while (exists(h) && h != start);
+    }
+  distinct(result);
   return result;
 }
 
@@ -90,17 +95,17 @@ void check_levels(const Scheme<double>& scheme, const Topology& t, int levels) {
   const std::string amount = std::to_string(levels) + " levels of " + std::to_string(t.num_faces()) + " faces";
   Counts counts{double(t.num_half_edges()), double(t.num_faces()), double(t.num_edges()), double(t.num_vertices())};
   double bytes = counts.bytes();
+  int most = 0;  // levels that fit
+  const auto advice = [&] { return "use at most " + std::to_string(most) + ", or refine a subset"; };
+  // A scheme that makes no more faces may be asked for any number of levels: each takes memory, and is counted.
+  constexpr int enough = 64;
   for (int k = 0; k < levels && t.num_faces() > 0; ++k) {
     for (const Step<double>& step : scheme.steps_at(k, t)) counts = counts.next(step.split);
     bytes += counts.bytes();
     if (counts.corners > std::numeric_limits<Index>::max())
       throw ResourceError(amount + " take more than " + bytes_in_words(bytes) + " of memory, and level " +
-  int most = 0;  // levels that fit
-  const auto advice = [&] { return "use at most " + std::to_string(most) + ", or refine a subset"; };
-  // A scheme that makes no more faces may be asked for any number of levels: each takes memory, and is counted.
-  constexpr int enough = 64;
                           std::to_string(k + 1) + " has more face corners than 32-bit indices count; " + advice());
-    if (bytes <= physical_memory())
+    if (bytes <= memory_limit())
       most = k + 1;
     else if (k >= enough)
       break;
@@ -138,11 +143,6 @@ void check_sharpness(const std::string& scheme, Sharpening sharpening, bool is_d
   }
 }
 
-template LevelOf<double> control_level(const Scheme<double>&, const ControlMesh&, const SubdivisionOptions&);
-template LevelOf<double> next_level<double>(const Scheme<double>&, const LevelOf<double>&);
-
-std::vector<Level> refine(const Scheme<double>& scheme, const ControlMesh& mesh, int levels,
-                          const SubdivisionOptions& options, const std::function<void(int)>& progress) {
 void check_wide_faces(const std::string& scheme, int corners, const Topology& t, int level) {
   if (t.num_faces() == 0) return;
   const Index right = corners ? corners : t.size(Face{0});
@@ -155,6 +155,11 @@ void check_wide_faces(const std::string& scheme, int corners, const Topology& t,
                             " here: begin at level 0 with the scheme's own preparation, or cut the faces before");
 }
 
+template LevelOf<double> control_level(const Scheme<double>&, const ControlMesh&, const SubdivisionOptions&);
+template LevelOf<double> next_level<double>(const Scheme<double>&, const LevelOf<double>&);
+
+std::vector<Level> refine(const Scheme<double>& scheme, const ControlMesh& mesh, int levels,
+                          const SubdivisionOptions& options, const std::function<void(int)>& progress) {
   std::vector<Level> result;
   result.push_back(control_level(scheme, mesh, options));
   check_levels(scheme, result[0].topology(), levels);

@@ -3,6 +3,9 @@
 // Sizes before memory is taken: what a job will need, against what the machine has.
 #include <unistd.h>
 
+#include <algorithm>
+#include <atomic>
+#include <limits>
 #include <string>
 
 #include "sublimit/base/error.h"
@@ -13,8 +16,17 @@ inline double physical_memory() {
   return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
 }
 
+namespace detail {
+inline std::atomic<double> memory_limit{std::numeric_limits<double>::infinity()};
+}
+/// Holds the jobs of this process to so many bytes, where what they take is predicted.
+inline void limit_memory(double bytes) { detail::memory_limit = bytes; }
+/// Bytes that a job may take: what the machine has, or less.
+inline double memory_limit() { return std::min(physical_memory(), detail::memory_limit.load()); }
+
 /// `1.5 GB`.
 inline std::string bytes_in_words(double bytes) {
+  if (!(bytes < 1e21)) return "more than 1000 EB";
   const char* units[] = {"bytes", "KB", "MB", "GB", "TB", "PB", "EB"};
   int unit = 0;
   while (bytes >= 1000 && unit < 6) {
@@ -25,14 +37,19 @@ inline std::string bytes_in_words(double bytes) {
   return number.substr(0, number.find('.') + 2) + " " + units[unit];
 }
 
+/// `this machine has 16.0 GB`, or `the limit is 1.0 GB`.
+inline std::string memory_limit_in_words() {
+  const bool is_given = detail::memory_limit < physical_memory();
+  return (is_given ? "the limit is " : "this machine has ") + bytes_in_words(memory_limit());
+}
+
 /// @param what    the job, in the plural: `3 levels of 100 faces`
-  if (!(bytes < 1e21)) return "more than 1000 EB";
 /// @param advice  what would need less
-/// @throws ResourceError  the job takes more than the machine has
+/// @throws ResourceError  the job takes more than the machine has, or than it may
 inline void check_memory(const std::string& what, double bytes, const std::string& advice) {
-  if (bytes > physical_memory())
-    throw ResourceError(what + " take about " + bytes_in_words(bytes) + " of memory; this machine has " +
-                        bytes_in_words(physical_memory()) + "; " + advice);
+  if (bytes > memory_limit())
+    throw ResourceError(what + " take about " + bytes_in_words(bytes) + " of memory; " + memory_limit_in_words() +
+                        "; " + advice);
 }
 
 }  // namespace sublimit

@@ -27,8 +27,6 @@ Row pulled_back(const Row& row, const SparseMatrix& S, const std::vector<Index>&
 
 }  // namespace
 
-CornerLimits::CornerLimits(const Scheme<double>& scheme, const Level& level) : level_(level), masks_(scheme) {}
-
 const CornerLimit* CornerLimits::at(const Centre& centre) const {
   const std::pair key{int(centre.kind), index(centre.start)};
   {

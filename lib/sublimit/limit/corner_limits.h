@@ -20,7 +20,8 @@ struct CornerLimit {
 /// Computed when asked for, kept, by threads together.
 class CornerLimits {
  public:
-  CornerLimits(const Scheme<double>& scheme, const Level& level);
+  /// @param masks  of the scheme, shared with other levels
+  CornerLimits(LimitMaskCache& masks, const Level& level) : level_(level), masks_(masks) {}
   /// Null where there is no limit. A vertex is seen from the face of `centre.start`.
   const CornerLimit* at(const Centre& centre) const;
 
@@ -29,7 +30,7 @@ class CornerLimits {
   std::optional<CornerLimit> of_vertex(const Level& level, HalfEdge corner) const;
 
   const Level& level_;
-  mutable LimitMaskCache masks_;
+  LimitMaskCache& masks_;
   mutable std::mutex mutex_;
   mutable std::map<std::pair<int, Index>, std::optional<CornerLimit>> known_;
 };

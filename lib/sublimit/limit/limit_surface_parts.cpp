@@ -67,7 +67,7 @@ LimitSurface::Parts::Parts(const Scheme<double>& s, Level l, std::shared_ptr<Pie
       prepared(prepared_level(s, level)),
       addresses(level.topology(), scheme.face_size() == 3),
       types(shared && !shared->is_full() ? std::move(shared) : std::make_shared<PieceTypes>(scheme)),
-      corners(scheme, base()) {
+      corners(types->masks(), base()) {
   if (level.number % scheme.period != 0)
     throw InvalidParameter(scheme.name + ": limits are taken from levels whose number is a multiple of " +
                            std::to_string(scheme.period) + ", not from level " + std::to_string(level.number));

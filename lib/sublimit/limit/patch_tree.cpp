@@ -6,6 +6,8 @@ namespace {
 
 constexpr int max_depth = 8;       // LimitPatches::Loop follows no more
 constexpr size_t max_nodes = 600;  // a piece at a semi-sharp crease has about 2^sharpness patches: 200 kB then
+/// Nodes times points: pieces of many points have fewer patches, else they would take gigabytes together.
+constexpr size_t max_size = 20000;
 
 /// Monomials of T_i(s) T_j(t): rows by (i, j) of the monomial.
 RowMatrix monomials_of(const PolynomialBasis& basis) {
@@ -46,16 +48,18 @@ bool in_four(const std::deque<PieceLink>& links) {
 PatchTree::PatchTree(const PieceType& type) {
   struct Open {
     const PieceType* type;
-    PieceBlock block;  // from the root's points
-    int depth;
+    int parent = -1;                    // node
+    const PieceBlock* block = nullptr;  // from the parent's points; null: these are the root's
+    int depth = 0;
   };
   const auto n = type.num_slots() - 1;
-  std::vector<Open> open{{&type, PieceBlock::identity(type.num_slots()), 0}};
+  std::vector<Open> open{{.type = &type}};
   if (type.kind() == Piece::Kind::cut) {  // the corner of a face, and the child that it becomes, are one square
     const PieceLink& only = type.children()[0];
-    open[0] = {only.type, only.block, 0};
+    open[0] = {.type = only.type, .block = &only.block};
   }
   nodes_.emplace_back();
+  const size_t most_nodes = std::min(max_nodes, max_size / size_t(n + 1));
   std::vector<RowMatrix> patches;
   RowMatrix monomials;
   for (size_t at = 0; at < nodes_.size(); ++at) {
@@ -72,18 +76,21 @@ PatchTree::PatchTree(const PieceType& type) {
       nodes_[at].patch = static_cast<int>(patches.size());
       for (const RowMatrix& C : p->coefficients) {
         RowMatrix& M = patches.emplace_back(monomials * C);
-        M = here.block.pulled_back(M);
+        for (const Open* node = &here; node->block; node = &open[size_t(node->parent)]) {
+          M = node->block->pulled_back(M);
+          if (node->parent < 0) break;
+        }
       }
       continue;
     }
-    if (here.depth == max_depth || nodes_.size() + 9 > max_nodes || type.types().has_no_polynomials()) continue;
+    if (here.depth == max_depth || nodes_.size() + 9 > most_nodes || type.types().has_no_polynomials()) continue;
     if (here.type->children()[0].block.is_large()) continue;
     nodes_[at].first_child = static_cast<int>(nodes_.size());
     nodes_[at].links = &here.type->children();
     nodes_[at].in_four = in_four(here.type->children());
     for (const PieceLink& link : here.type->children()) {
       nodes_.emplace_back();
-      open.push_back({link.type, here.block.then(link.block), here.depth + 1});
+      open.push_back({link.type, static_cast<int>(at), &link.block, here.depth + 1});
     }
   }
   num_patches_ = static_cast<int>(patches.size());

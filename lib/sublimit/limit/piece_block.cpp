@@ -6,36 +6,41 @@
 namespace sublimit {
 namespace {
 
-constexpr Eigen::Index large = 192;  // slots: a regular piece of kobbelt has 100
+// Slots: a regular piece of catmull-clark has 16, of butterfly 48, of kobbelt 100.
+constexpr Eigen::Index few = 32, large = 192;
 
 }  // namespace
 
-PieceBlock::PieceBlock(const RowMatrix& B) : origin_(B.row(0).tail(B.cols() - 1)) {
-  if (std::max(B.rows(), B.cols()) > large) {
-    B_ = B.bottomRightCorner(B.rows() - 1, B.cols() - 1).sparseView(0, 0);
-  } else {
-    D_ = B.bottomRightCorner(B.rows() - 1, B.cols() - 1).rowwise() - origin_;
-  }
+PieceBlock::PieceBlock(const SparseMatrix& B) : B_(B), origin_(Eigen::RowVectorXd(B.row(0)).tail(B.cols() - 1)) {
+  if (std::max(B.rows(), B.cols()) > few) return;
+  D_ = differences();
+  SparseMatrix().swap(B_);
 }
 
-PieceBlock PieceBlock::identity(Eigen::Index slots) {
-  PieceBlock block;
-  block.D_ = RowMatrix::Identity(slots - 1, slots - 1);
-  block.origin_ = Eigen::RowVectorXd::Zero(slots - 1);
-  return block;
-}
+bool PieceBlock::is_large() const { return std::max(child_slots(), origin_.size() + 1) > large; }
 
 RowMatrix PieceBlock::differences() const {
-  if (!is_large()) return D_;
-  RowMatrix D = RowMatrix(B_);
-  return D.rowwise() - origin_;
+  if (is_dense()) return D_;
+  return RowMatrix(B_).bottomRightCorner(B_.rows() - 1, B_.cols() - 1).rowwise() - origin_;
+}
+
+Points PieceBlock::apply(const Points& parent) const {
+  if (is_dense()) return D_ * parent;
+  const Points child = B_.rightCols(B_.cols() - 1) * parent;
+  return child.bottomRows(child.rows() - 1).rowwise() - child.row(0);
 }
 
 RowMatrix PieceBlock::derivatives_pulled_back(const RowMatrix& rows) const {
-  if (!is_large()) return rows * D_;
+  if (is_dense()) return rows * D_;
   RowMatrix result = -rows.rowwise().sum() * origin_;
-  for (Eigen::Index i = 0; i < B_.rows(); ++i)
-    for (SparseMatrix::InnerIterator it(B_, i); it; ++it) result.col(it.col()) += rows.col(i) * it.value();
+  const Eigen::Index count = rows.rows(), from = rows.cols(), to = result.cols();
+  for (Index i = 1; i < B_.rows(); ++i)
+    for (SparseMatrix::InnerIterator it(B_, i); it; ++it) {
+      if (it.col() == 0) continue;
+      const double weight = it.value(), *row = rows.data() + i - 1;
+      double* sum = result.data() + it.col() - 1;
+      for (Eigen::Index k = 0; k < count; ++k, row += from, sum += to) *sum += *row * weight;
+    }
   return result;
 }
 

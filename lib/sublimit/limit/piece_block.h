@@ -13,14 +13,15 @@ class PieceBlock {
  public:
   PieceBlock() = default;
   /// Of the rows of S for the points of the child.
-  explicit PieceBlock(const RowMatrix& B);
-  static PieceBlock identity(Eigen::Index slots);
+  explicit PieceBlock(const SparseMatrix& B);
 
-  Eigen::Index child_slots() const { return D_.rows() + B_.rows() + 1; }
+  Eigen::Index child_slots() const { return is_dense() ? D_.rows() + 1 : B_.rows(); }
   /// Slot 0 of the child less that of the parent.
   const Eigen::RowVectorXd& origin() const { return origin_; }
   /// Differences of the child from those of the parent.
   RowMatrix differences() const;
+  /// The same, times differences of points: x_j - x_0 of the parent become those of the child.
+  Points apply(const Points& parent) const;
 
   /// Position row, and derivative rows below it, of the child as rows of the parent.
   RowMatrix pulled_back(const RowMatrix& rows) const;
@@ -29,12 +30,15 @@ class PieceBlock {
   /// First this, then `next`.
   PieceBlock then(const PieceBlock& next) const;
 
-  /// Around vertices of high valence blocks are kept sparse, and are not multiplied with each other.
-  bool is_large() const { return B_.rows() > 0; }
+  /// Around vertices of high valence blocks are not multiplied with each other.
+  bool is_large() const;
+  /// Rows of S for the points of the child. Large blocks have them, those of few points do not.
+  const SparseMatrix& rows() const { return B_; }
 
  private:
-  RowMatrix D_;
-  SparseMatrix B_;  // rows of S without those of slot 0: D = B - 1 origin
+  bool is_dense() const { return B_.rows() == 0; }
+  RowMatrix D_;     // of few points
+  SparseMatrix B_;  // of more
   Eigen::RowVectorXd origin_;
 };
 

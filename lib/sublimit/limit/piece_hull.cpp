@@ -87,10 +87,9 @@ double reach(const PieceType& type) {
 
 Points child_points(const PieceLink& link, const Points& points) {
   const Points differences = points.bottomRows(points.rows() - 1).rowwise() - points.row(0);
-  const RowMatrix D = link.block.differences();
-  Points child(D.rows() + 1, points.cols());
+  Points child(link.block.child_slots(), points.cols());
   child.row(0) = points.row(0) + link.block.origin() * differences;
-  child.bottomRows(D.rows()) = (D * differences).rowwise() + child.row(0);
+  child.bottomRows(child.rows() - 1) = link.block.apply(differences).rowwise() + child.row(0);
   return child;
 }
 

@@ -2,16 +2,21 @@
 #include "sublimit/limit/piece_types.h"
 
 #include <Eigen/LU>
+#include <Eigen/SparseLU>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "sublimit/analysis/dense_decompositions.h"
 #include "sublimit/analysis/limit_masks.h"
 #include "sublimit/base/error.h"
+#include "sublimit/base/memory.h"
 #include "sublimit/limit/canonical_part.h"
 #include "sublimit/limit/polynomial_search.h"
+#include "sublimit/refine_impl.h"
 #include "sublimit/sparse_product.h"
+#include "sublimit/subdivision_rows.h"
 
 namespace sublimit {
 namespace {
@@ -46,6 +51,7 @@ double pure_scale(const PieceMap& map) {
 
 /// A basis of the null space of M by columns.
 Eigen::MatrixXd null_space(const Eigen::MatrixXd& M) {
+  if (std::optional<Eigen::MatrixXd> clear = clear_null_space(M)) return *std::move(clear);
   const auto [sigma, right] = singular_values(M);
   Eigen::Index rank = 0;
   while (rank < sigma.size() && sigma[rank] > 1e-10 * sigma[0]) ++rank;
@@ -60,11 +66,52 @@ struct Eigenspace {
 /// Nothing if the eigenvalue has not this multiplicity, or is defective.
 std::optional<Eigenspace> eigenspace(const Eigen::MatrixXd& D, double lambda, Eigen::Index multiplicity) {
   const Eigen::MatrixXd shifted = D - lambda * Eigen::MatrixXd::Identity(D.rows(), D.cols());
-  const Eigen::MatrixXd left = null_space(shifted.transpose()), right = null_space(shifted);
-  if (left.cols() != multiplicity || right.cols() != multiplicity) return std::nullopt;
+  const Eigen::MatrixXd right = null_space(shifted);
+  if (right.cols() != multiplicity) return std::nullopt;
+  const Eigen::MatrixXd left = null_space(shifted.transpose());
+  if (left.cols() != multiplicity) return std::nullopt;
   const Eigen::MatrixXd pairing = left.transpose() * right;
   if (!(std::abs(pairing.determinant()) > 1e-6)) return std::nullopt;
   return Eigenspace{pairing.inverse() * left.transpose(), right};
+}
+
+/// p = origin + p D: the left eigenvector of eigenvalue 1, in differences.
+Eigen::RowVectorXd fixed_row(const PieceBlock& block) {
+  const auto n = block.origin().size();
+  const Eigen::PartialPivLU<Eigen::MatrixXd> lu((RowMatrix::Identity(n, n) - block.differences()).transpose());
+  return lu.solve(block.origin().transpose()).transpose();
+}
+
+/// The same of rows of S, by the points that one of them depends on: all rows tend to this one.
+Eigen::RowVectorXd fixed_row(const SparseMatrix& B, Index slot) {
+  std::vector<Index> closed, position(B.rows(), -1);
+  const auto add = [&](Index s) {
+    if (position[s] >= 0) return;
+    position[s] = static_cast<Index>(closed.size());
+    closed.push_back(s);
+  };
+  add(slot);
+  for (size_t i = 0; i < closed.size(); ++i)
+    for (SparseMatrix::InnerIterator it(B, closed[i]); it; ++it) add(static_cast<Index>(it.col()));
+  // l (B - 1) = 0, one column of which follows from the others, and the sum of l is 1.
+  const auto count = static_cast<Index>(closed.size());
+  using Columns = Eigen::SparseMatrix<double, Eigen::ColMajor, Index>;
+  std::vector<Eigen::Triplet<double, Index>> entries;
+  for (Index i = 0; i < count; ++i) {
+    entries.push_back({0, i, 1.0});
+    if (i > 0) entries.push_back({i, i, -1.0});
+    for (SparseMatrix::InnerIterator it(B, closed[i]); it; ++it)
+      if (position[it.col()] > 0) entries.push_back({position[it.col()], i, it.value()});
+  }
+  Columns equations(count, count);
+  equations.setFromTriplets(entries.begin(), entries.end());
+  const Eigen::SparseLU<Columns> lu(equations);
+  Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(B.cols() - 1);
+  if (lu.info() != Eigen::Success) return Eigen::RowVectorXd::Constant(B.cols() - 1, INFINITY);
+  const Eigen::VectorXd weights = lu.solve(Eigen::VectorXd::Unit(count, 0));
+  for (Index i = 0; i < count; ++i)
+    if (closed[i] > 0) row[closed[i] - 1] = weights[i];
+  return row;
 }
 
 /// Homogeneous polynomials whose derivatives at 0 of this degree, (u, v) or (uu, uv, vv), are 1 each.
@@ -99,9 +146,9 @@ PieceType::Refined PieceType::refined() const {
   std::vector<LevelStep> steps;
   for (int k = 0; k < scheme.period; ++k) {
     const Level& before = k == 0 ? local_ : levels.back();
-    levels.push_back(next_level(scheme, before));
+    levels.push_back(scheme.steps.size() > 1 ? next_level(scheme, before)
+                                             : next_topology(scheme, before, [](const auto&...) {}));
     for (const Refinement& step : levels.back().steps) steps.push_back({&step, before.number});
-    k == 0 ? result.S.swap(levels[0].S) : SparseMatrix(product(levels[k].S, result.S)).swap(result.S);
   }
   result.slot_of.assign(local_.topology().num_vertices(), -1);
   for (size_t s = 0; s < slots_.size(); ++s) result.slot_of[slots_[s]] = static_cast<Index>(s);
@@ -109,19 +156,43 @@ PieceType::Refined PieceType::refined() const {
   return result;
 }
 
-RowMatrix PieceType::rows_over_slots(const Refined& refined, std::span<const Index> vertices) const {
-  const auto rows = std::ssize(vertices), columns = std::ssize(slots_);
-  RowMatrix B = RowMatrix::Zero(rows, columns);
-  for (Eigen::Index i = 0; i < rows; ++i)
-    for (SparseMatrix::InnerIterator it(refined.S, vertices[i]); it; ++it) {
+SparseMatrix PieceType::rows_of(const Refined& refined, std::vector<Index> vertices) const {
+  const Scheme<double>& scheme = types_->scheme_;
+  SparseMatrix S;
+  for (size_t k = refined.levels.size(); k-- > 0;) {
+    std::sort(vertices.begin(), vertices.end());
+    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    const Level &before = k == 0 ? local_ : refined.levels[k - 1], &after = refined.levels[k];
+    // Most of the points are around the children. Those of several steps are multiplied as a whole.
+    const SparseMatrix rows = scheme.steps.size() > 1
+                                  ? after.S
+                                  : subdivision_rows(scheme, scheme.steps[0], before.topology(), after.steps[0],
+                                                     before.sharpness, after.sharpness, before.number, vertices);
+    vertices.assign(rows.innerIndexPtr(), rows.innerIndexPtr() + rows.nonZeros());
+    S = S.size() == 0 ? rows : product(S, rows);
+  }
+  return S;
+}
+
+SparseMatrix PieceType::rows_over_slots(const Refined& refined, const SparseMatrix& S,
+                                        std::span<const Index> vertices) const {
+  SparseMatrix B(std::ssize(vertices), std::ssize(slots_));
+  std::vector<std::pair<Index, double>> row;
+  for (Index i = 0; i < B.rows(); ++i) {
+    row.clear();
+    for (SparseMatrix::InnerIterator it(S, vertices[i]); it; ++it) {
+      if (it.value() == 0) continue;
       const Index slot = refined.slot_of[it.col()];
-      if (slot < 0) {
-        if (it.value() == 0) continue;
+      if (slot < 0)
         throw AnalysisError(types_->scheme_.name + ": a piece of the limit depends on points beyond " +
                             std::to_string(types_->rings(refined.levels.back().sharpness)) + " rings");
-      }
-      B(i, slot) = it.value();
+      row.push_back({slot, it.value()});
     }
+    std::sort(row.begin(), row.end());
+    B.startVec(i);
+    for (const auto& [slot, weight] : row) B.insertBack(i, slot) = weight;
+  }
+  B.finalize();
   return B;
 }
 
@@ -138,7 +209,7 @@ PieceType::ChildCorners PieceType::child_corners() const {
       h = t.next(h);
     } while (h != child.piece.start);
   }
-  result.rows = rows_over_slots(after, vertices);
+  result.rows = RowMatrix(rows_over_slots(after, rows_of(after, vertices), vertices));
   return result;
 }
 
@@ -148,6 +219,8 @@ const std::deque<PieceLink>& PieceType::children() const {
     const Level& fine = after.levels.back();
     PieceWalker walker;
     std::deque<PieceLink> links;
+    std::vector<std::vector<Index>> vertices;  // of the children
+    std::vector<Index> all;
     for (const PieceChild& child : after.children) {
       const PieceWalk& walk = walker.walk(fine.topology(), fine.sharpness, child.piece, types_->rings(fine.sharpness),
                                           fine.number % types_->scheme_.period);
@@ -155,8 +228,14 @@ const std::deque<PieceLink>& PieceType::children() const {
       link.map = child.map;
       link.type = types_->type(fine, child.piece, walk);
       link.repeats = link.type == this && pure_scale(link.map) != 0;
-      link.block = PieceBlock(rows_over_slots(after, walk.vertices));
+      all.insert(all.end(), walk.vertices.begin(), walk.vertices.end());
+      vertices.push_back(walk.vertices);
     }
+    // Masks have some 12 points, and S and the blocks have each of the children's points once.
+    constexpr double bytes_of_row = 12 * 12 + 16, bytes_of_slot = 64;
+    types_->take(bytes_of_row * double(all.size()) + bytes_of_slot * double(links.size() * slots_.size()), num_slots());
+    const SparseMatrix S = rows_of(after, std::move(all));
+    for (size_t i = 0; i < links.size(); ++i) links[i].block = PieceBlock(rows_over_slots(after, S, vertices[i]));
     children_ = std::move(links);
   });
   return children_;
@@ -211,24 +290,36 @@ struct PieceType::CornerPath {
       type = link.type;
     }
   }
+  bool is_large() const {
+    return std::all_of(visits.begin() + Eigen::Index(first), visits.end(),
+                       [](const Visit& visit) { return visit.link->block.is_large(); });
+  }
   PieceBlock cycle() const {
     PieceBlock block = visits[first].link->block;
     for (size_t i = first + 1; i < visits.size(); ++i) block = block.then(visits[i].link->block);
     return block;
+  }
+  /// The same of large blocks.
+  SparseMatrix rows() const {
+    SparseMatrix B = visits[first].link->block.rows();
+    for (size_t i = first + 1; i < visits.size(); ++i) SparseMatrix(product(visits[i].link->block.rows(), B)).swap(B);
+    return B;
   }
 };
 
 const Eigen::RowVectorXd& PieceType::corner_limit(int corner) const {
   std::call_once(limit_once_[corner], [&] {
     const CornerPath path(this, corner);
-    const PieceBlock cycle = path.cycle();
-    const auto n = cycle.origin().size();
-    // p = origin + p D.
-    const Eigen::PartialPivLU<Eigen::MatrixXd> lu((RowMatrix::Identity(n, n) - cycle.differences()).transpose());
-    RowMatrix row = lu.solve(cycle.origin().transpose()).transpose();
-    if (n > 0 && !(row.cwiseAbs().maxCoeff() < 1e8))
-      throw AnalysisError(types_->scheme_.name + ": no limit where a neighbourhood repeats itself");
-    for (size_t i = path.first; i-- > 0;) row = path.visits[i].link->block.pulled_back(row);
+    RowMatrix row;
+    if (path.first > 0) {  // where the cycle begins the limit is known, or becomes known for all that come there
+      row = path.visits[path.first].type->corner_limit(path.visits[path.first].corner);
+      for (size_t i = path.first; i-- > 0;) row = path.visits[i].link->block.pulled_back(row);
+    } else {
+      const bool begins_here = kind_ == Piece::Kind::quad || kind_ == Piece::Kind::triangle;
+      row = path.is_large() ? fixed_row(path.rows(), begins_here ? corner : 0) : fixed_row(path.cycle());
+      if (row.size() > 0 && !(row.cwiseAbs().maxCoeff() < 1e8))
+        throw AnalysisError(types_->scheme_.name + ": no limit where a neighbourhood repeats itself");
+    }
     corner_limits_[corner] = row;
   });
   return corner_limits_[corner];
@@ -284,17 +375,18 @@ const PieceType::CornerRows& PieceType::corner(int corner) const {
     const auto& [at, own, link, ignored] = path.visits[path.first];
     const double scale = path.visits.size() == path.first + 1 ? pure_scale(link->map) : 0;
     const int smoothness = types_->scheme_.claims.regular;
-    CornerRows result{at->corner_limit(own), {}};
+    CornerRows result;
     RowMatrix& rows = result.rows;
-    if (scale != 0 && !at->is_extraordinary(own) && types_->has_no_polynomials() && smoothness >= 1 &&
-        !link->block.is_large()) {
+    rows = path.first > 0 ? at->corner(own).rows : RowMatrix(corner_limit(corner));
+    if (path.first == 0 && scale != 0 && !at->is_extraordinary(own) && types_->has_no_polynomials() &&
+        smoothness >= 1 && !link->block.is_large()) {
       const Eigen::MatrixXd D = link->block.differences();
       const std::optional<Modes> linear = at->modes(own, D, scale, 1);
       const std::optional<Modes> quadratic = linear && smoothness >= 2 ? at->modes(own, D, scale, 2) : std::nullopt;
       rows.conservativeResize(quadratic ? 6 : linear ? 3 : 1, Eigen::NoChange);
       if (linear) rows.middleRows(1, 2) = linear->derivatives;
       if (quadratic) rows.bottomRows(3) = quadratic->derivatives;
-      if (linear && path.first == 0) result.linear = linear->functions;
+      if (linear) result.linear = linear->functions;
     }
     for (size_t i = path.first; i-- > 0;) {
       rows = path.visits[i].link->block.pulled_back(rows);
@@ -307,7 +399,10 @@ const PieceType::CornerRows& PieceType::corner(int corner) const {
 
 PieceTypes::PieceTypes(const Scheme<double>& scheme, size_t max_types) : scheme_(scheme), max_types_(max_types) {
   scheme_.preparation.clear();  // surfaces begin behind it
+  masks_ = std::make_unique<LimitMaskCache>(scheme_);
 }
+
+PieceTypes::~PieceTypes() = default;
 
 int PieceTypes::rings(const Sharpness& sharpness) const {
   // Under Chaikin creasing the sharpness of an edge's far half depends on the edges around its far end.
@@ -316,6 +411,15 @@ int PieceTypes::rings(const Sharpness& sharpness) const {
   if (scheme_.is_dual())
     return scheme_.period == 1 ? 1 : 3;             // Habib and Warren's edges look at the corners beyond their ends
   return scheme_.steps[0].masks.wide_face ? 4 : 3;  // Kobbelt's face points are made of edge points around
+}
+
+void PieceTypes::take(double bytes, Index slots) {
+  double before = memory_.load(std::memory_order_relaxed);
+  while (!memory_.compare_exchange_weak(before, before + bytes)) continue;
+  if (before + bytes <= memory_limit()) return;
+  throw ResourceError(scheme_.name + ": the limit of pieces that depend on up to " + std::to_string(slots) +
+                      " points takes more than " + bytes_in_words(before + bytes) + " of memory; " +
+                      memory_limit_in_words() + "; vertices of fewer edges, or faces of fewer corners, need less");
 }
 
 size_t PieceTypes::size() const {
@@ -341,6 +445,10 @@ const PieceType* PieceTypes::type(const Level& level, const Piece& piece, const 
   const auto position = [](const std::vector<Index>& list, Index i) {
     return static_cast<Index>(std::lower_bound(list.begin(), list.end(), i) - list.begin());
   };
+  const Topology& own = around.level.topology();
+  take(4.0 * double(walk.signature.size()) + 24.0 * own.num_half_edges() + 24.0 * own.num_vertices() +
+           16.0 * own.num_edges(),
+       static_cast<Index>(walk.vertices.size()));
   type->types_ = this;
   type->kind_ = piece.kind;
   type->decays_ = walk.decays;

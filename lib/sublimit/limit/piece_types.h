@@ -19,6 +19,7 @@
 
 namespace sublimit {
 
+class LimitMaskCache;
 class PieceType;
 class PieceTypes;
 
@@ -83,13 +84,14 @@ class PieceType {
   /// The level after its own, and the children on it.
   struct Refined {
     std::vector<Level> levels;  ///< of one period
-    SparseMatrix S;             ///< from its own level to the last one
     std::vector<PieceChild> children;
     std::vector<Index> slot_of;  ///< of its own vertices, -1 beyond
   };
   Refined refined() const;
-  /// Rows of S over the slots.
-  RowMatrix rows_over_slots(const Refined& refined, std::span<const Index> vertices) const;
+  /// S from its own level to the last one: the rows of these vertices, and perhaps others.
+  SparseMatrix rows_of(const Refined& refined, std::vector<Index> vertices) const;
+  /// The same over the slots.
+  SparseMatrix rows_over_slots(const Refined& refined, const SparseMatrix& S, std::span<const Index> vertices) const;
   /// Nothing where the limits are not so.
   std::optional<Modes> modes(int corner, const Eigen::MatrixXd& D, double scale, int degree) const;
   /// Inside, of another valence than regular meshes have: no parameter is natural there.
@@ -118,6 +120,7 @@ class PieceTypes {
  public:
   /// @param max_types  a surface that needs more, when there are so many, keeps them for itself
   explicit PieceTypes(const Scheme<double>& scheme, size_t max_types = size_t(1) << 16);
+  ~PieceTypes();
 
   const Scheme<double>& scheme() const { return scheme_; }
   /// Rings of faces around a piece that it depends on.
@@ -132,12 +135,21 @@ class PieceTypes {
   const PieceType* type(const Level& level, const Piece& piece, const PieceWalk& walk);
   /// The type with this signature, or null.
   const PieceType* find(const std::vector<std::uint32_t>& signature) const;
+  /// Bytes that the types and their blocks take, about.
+  double memory() const { return memory_.load(std::memory_order_relaxed); }
+  /// Limit masks of the scheme, shared like the types.
+  LimitMaskCache& masks() { return *masks_; }
 
  private:
   friend class PieceType;
   friend class PolynomialSearch;
   Scheme<double> scheme_;
+  /// Counts what will be taken for a type of so many points, before it is.
+  /// @throws ResourceError  all types together take more than there is
+  void take(double bytes, Index slots);
   size_t max_types_;
+  std::atomic<double> memory_{0};
+  std::unique_ptr<LimitMaskCache> masks_;
   mutable std::shared_mutex mutex_;
   std::unordered_map<std::vector<std::uint32_t>, std::unique_ptr<PieceType>, SignatureHash> types_;
   mutable std::recursive_mutex polynomials_;  // one search at a time

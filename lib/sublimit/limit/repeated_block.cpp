@@ -16,6 +16,8 @@ constexpr double negligible = 1e-12;
 
 /// A basis of the null space of M, by columns; `expected` of them or none.
 Eigen::MatrixXd null_space(const Eigen::MatrixXd& M, Eigen::Index expected) {
+  if (std::optional<Eigen::MatrixXd> clear = clear_null_space(M))
+    return clear->cols() == expected ? *std::move(clear) : Eigen::MatrixXd();
   const auto [sigma, right] = singular_values(M);
   const Eigen::Index n = sigma.size();
   const bool clear =

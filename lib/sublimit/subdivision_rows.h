@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// Some rows of a subdivision matrix, where a level is large and few of its points are asked for.
+#include <span>
+
+#include "sublimit/subdivision_matrix.h"
+
+namespace sublimit {
+
+/// As `subdivision_matrix`, but rows that are not asked for are empty. The others have the same bits.
+/// @param rows  children, ascending
+SparseMatrix subdivision_rows(const Scheme<double>& scheme, const Step<double>& step, const Topology& parent,
+                              const Refinement& refinement, const Sharpness& sharpness,
+                              const Sharpness& child_sharpness, int level, std::span<const Index> rows);
+
+}  // namespace sublimit
