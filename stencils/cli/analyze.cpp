@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "common.h"
+#include "memory_limit.h"
 #include "sublimit/curve_schemes.h"
 #include "sublimit/geometric_schemes.h"
 #include "sublimit/mesh/file_extension.h"
@@ -31,7 +32,7 @@ struct Options {
   Common common;
   std::string valences = "3-12", page, json;
   std::vector<std::string> tolerances, claims;
-  std::string mask, sweep, exports, picture;
+  std::string mask, sweep, exports, picture, memory_limit;
   std::vector<std::string> given;  ///< options on the command line, by their long names
   bool has(const char* option) const { return std::find(given.begin(), given.end(), option) != given.end(); }
 };
@@ -44,6 +45,7 @@ constexpr std::pair<const char*, const char*> owners[] = {
     {"--claim", "schemes"},
     {"--export", "schemes"},
     {"--tolerance", "meshes"},
+    {"--mem-limit", "meshes"},
 };
 
 /// An option that would be ignored is a mistake of whoever gave it.
@@ -227,6 +229,7 @@ int analyze_mesh(const Options& options) {
   for (const std::string& tolerance : options.tolerances) read_tolerance(tolerance, wanted.tolerance);
   Progress progress(options.common.quiet);
   const Loaded loaded = load(options.common, progress);
+  check_mesh_memory(options.common.mesh, loaded.mesh);
   progress.step("analysing " + options.common.mesh);
   AssetReport found;
   naming_mesh(options.common, [&] {
@@ -244,6 +247,7 @@ int analyze_mesh(const Options& options) {
 
 int analyze(const Options& options) {
   limit_threads(options.common);
+  limit_memory(options.memory_limit);
   if (!options.page.empty()) check_output_path(options.page, {".html", ".htm"});
   if (!options.picture.empty()) check_output_path(options.picture, {".svg"});
   if (!options.json.empty()) check_output_path(options.json, {".json"});
@@ -282,6 +286,7 @@ Command add_analyze(CLI::App& app) {
                       "A directory for local matrices (exact) and characteristic maps (.obj)");
   command->add_option("--option", options->common.options, "An option of the scheme, name=value");
   add_run(*command, options->common);
+  add_memory_limit(*command, options->memory_limit);
   command->footer(
       "Examples:\n"
       "  sublimit analyze -s catmull-clark -o report.html\n"

@@ -11,8 +11,8 @@
 
 #include "bake_manifest.h"
 #include "curves.h"
+#include "memory_limit.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 #include "sublimit/base/memory.h"
 
 namespace sublimit::cli {
@@ -25,19 +25,6 @@ struct Options {
   /// Those given that say what one table is to be; a manifest has them line by line.
   std::function<std::string()> of_one_table;
 };
-
-/// `2G`: two thousand million bytes, as this program writes sizes; `2GiB`: 2 * 2^30.
-double parse_size(const std::string& text) {
-  const size_t digits = std::min(text.find_first_not_of("0123456789."), text.size());
-  const auto number = parse_number<double>(std::string_view(text).substr(0, digits));
-  std::string unit = text.substr(digits);
-  const bool binary = unit.size() == 3 && unit.ends_with("iB");
-  if (binary || (unit.size() == 2 && unit.ends_with("B"))) unit.resize(1);
-  const size_t power = unit.empty() ? 0 : 1 + std::string_view("KMGT").find(unit);
-  if (!number || !(number.value > 0) || unit.size() > 1 || (power == 0 && !unit.empty()))
-    throw InvalidOption("--mem-limit " + text + ": it should be a size like 500M, 2G or 1.5GiB");
-  return number.value * std::pow(binary ? 1024.0 : 1000.0, double(power));
-}
 
 void print_plan(const BakeJob& job, const BakeOutcome& outcome) {
   const BakeStatistics& s = outcome.plan->statistics;
@@ -58,7 +45,8 @@ int run_manifest(const Options& options, const BakeJob& defaults) {
 
 int run(const Options& options) {
   BakeJob job = options.job;
-  if (!options.memory_limit.empty()) job.memory_limit = parse_size(options.memory_limit);
+  job.memory_limit = parse_memory_limit(options.memory_limit);
+  limit_memory(options.memory_limit);
   if (!options.manifest.empty()) return run_manifest(options, job);
   for (const auto& [name, given] : {std::pair("--shard", &options.shard), std::pair("--log", &options.log)})
     if (!given->empty()) throw InvalidOption(std::string(name) + " is for --manifest JOBS.jsonl");
@@ -115,9 +103,7 @@ Command add_bake(CLI::App& app) {
       ->check(CLI::IsMember({"float", "double"}));
   command->add_option("-o,--output", job.output, "OUT.safetensors");
   command->add_flag("--plan", job.is_plan, "Only tell what would be made, and what it would take");
-  command->add_option(
-      "--mem-limit", options->memory_limit,
-      "Fail, before it is taken, if more memory is needed than this: 500M, 2G (10^9 bytes), 2GiB (2^30)");
+  add_memory_limit(*command, options->memory_limit);
   command->add_option("--manifest", options->manifest, "JOBS.jsonl: many tables, a JSON object a line");
   command->add_option("--shard", options->shard, "i/n: only every n-th job of the manifest, from the i-th on");
   command->add_option("--log", options->log,

@@ -6,6 +6,7 @@
 
 #include "common.h"
 #include "curves.h"
+#include "memory_limit.h"
 #include "sublimit/base/atomic_file.h"
 #include "sublimit/base/error.h"
 #include "sublimit/fit_picture.h"
@@ -18,7 +19,7 @@ namespace {
 struct Options {
   Common common;
   std::string targets, cloud, output, report, picture;
-  std::string method = "auto", pin;
+  std::string method = "auto", pin, memory_limit;
   FitSettings settings;
   bool no_rank = false;
   std::optional<Index> samples;  ///< of the cloud's mesh
@@ -95,6 +96,7 @@ void write_outputs(const Options& options, const MeshOutput& mesh, const std::st
 int fit_linear(const Options& options, Progress& progress,
                const std::function<Fit(const Loaded& loaded, const FitSettings& settings)>& job) {
   const Loaded loaded = load(options.common, progress);
+  check_mesh_memory(options.common.mesh, loaded.mesh);
   FitSettings settings = options.settings;
   settings.rules = loaded.rules;
   settings.progress = [&](const std::string& what) { progress.note(what); };
@@ -155,6 +157,7 @@ int fit_geometric(const Options& options, const FitTargets& targets, const Geome
 }
 
 int run(const Options& options) {
+  limit_memory(options.memory_limit);
   if (is_curve_job(options.common))
     throw InvalidOption(options.common.scheme + " refines curves; fits are of surfaces (`sublimit schemes` lists all)");
   const auto geometric = find_geometric_scheme<CurvatureMesh>(options.common.scheme, given_options(options.common));
@@ -239,6 +242,7 @@ Command add_fit(CLI::App& app) {
       "--best-effort", settings.best_effort,
       "Where targets cannot all be met, write what comes nearest (default: an error, nothing is written)");
   command->add_flag("--no-rank", options->no_rank, "Leave rank and condition out, which takes time on large meshes");
+  add_memory_limit(*command, options->memory_limit);
   command->footer(
       "Examples:\n"
       "  sublimit fit cage.obj --targets points.csv -s catmull-clark -o fitted.obj\n"

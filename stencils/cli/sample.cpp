@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "curves.h"
+#include "memory_limit.h"
 #include "sublimit/base/error.h"
 #include "sublimit/base/format_number.h"
 #include "sublimit/base/memory.h"
@@ -18,7 +19,7 @@ namespace {
 
 struct Options {
   SampleJob job;
-  std::string grid, random_count, seed;  // as given
+  std::string grid, random_count, seed, memory_limit;  // as given
 };
 
 /// A whole number on the command line. A larger one than any machine can count is the largest: it will be refused for
@@ -81,6 +82,7 @@ SampleSource random_source(const SampleJob& job, const LimitSurface& surface, Sa
 
 int run(const Options& options) {
   const SampleJob job = checked(options);
+  limit_memory(options.memory_limit);
   if (is_curve_job(job.common)) return sample_curves(job);
   check_mesh_job(job.common, job.closed);
   check_output_path(job.output, {".csv"});
@@ -89,6 +91,7 @@ int run(const Options& options) {
   if (!job.at.empty()) reader = std::make_unique<SampleReader>(job.at, job.clamp);
   Progress progress(job.common.quiet);
   const Loaded loaded = load(job.common, progress);
+  check_mesh_memory(job.common.mesh, loaded.mesh);
   const auto types = std::make_shared<PieceTypes>(*loaded.scheme);
   SampleSummary summary;
   naming_mesh(job.common, [&] {
@@ -133,6 +136,7 @@ Command add_sample(CLI::App& app) {
                     "Places of --at outside their face are moved to its rim (default: an error that names the row)");
   command->add_option("-o,--output", job.output, "OUT.csv: face,u,v,status,x,y,z[,derivatives],nx,ny,nz")->required();
   add_closed(*command, job.closed);
+  add_memory_limit(*command, options->memory_limit);
   command->footer(
       "Examples:\n"
       "  sublimit sample cage.obj -s catmull-clark --grid 5 -o points.csv\n"
