@@ -35,7 +35,7 @@ std::vector<CurveLevel> refine(const CurveScheme<double>& scheme, const ControlP
   const double row = 2 * 1.5 * 12 * terms / (2 * result[0].unknowns) + 8;
   const double bytes = row + 7 * 8 * polygon.dimension();  // of a point
   const std::string advice =
-      "use at most " + std::to_string(most_levels(first, 2, std::min(most_points, physical_memory() / bytes)));
+      "use at most " + std::to_string(most_levels(first, 2, std::min(most_points, memory_limit() / bytes)));
   if (points > most_points)
     throw ResourceError(amount + " are more points than 32-bit indices can hold the weights of; " + advice);
   check_memory(amount, points * bytes, advice);

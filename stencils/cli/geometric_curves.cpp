@@ -25,7 +25,7 @@ ControlPolygon checked_polygon(const CurveJob& job, const GeometricCurveScheme& 
   constexpr double most_points = std::numeric_limits<Index>::max();
   const std::string amount = fmt::format("{} levels of {} points", job.levels, first);
   const std::string advice =
-      fmt::format("use at most {}", most_levels(first, 2, std::min(most_points, physical_memory() / bytes)));
+      fmt::format("use at most {}", most_levels(first, 2, std::min(most_points, memory_limit() / bytes)));
   if (points > most_points)
     throw ResourceError(fmt::format("{} are more points than 32-bit indices count; {}", amount, advice));
   check_memory(amount, points * bytes, advice);

@@ -71,7 +71,7 @@ void check_size(const ControlMesh& mesh, int levels) {
   for (const Index size : mesh.face_sizes) triangles += size - 2;
   constexpr double most_triangles = std::numeric_limits<Index>::max() / 3, bytes = sizeof(SurfacePoint) + 80;
   const std::string what = format_number(levels) + " levels of " + format_number(mesh.num_faces()) + " faces";
-  const int most = most_levels(triangles, 4, std::min(most_triangles, physical_memory() / bytes));
+  const int most = most_levels(triangles, 4, std::min(most_triangles, memory_limit() / bytes));
   const std::string advice = "use at most " + format_number(most);
   triangles *= std::pow(4.0, levels);
   if (triangles > most_triangles)

@@ -129,7 +129,6 @@ LimitMatrices lone_limit_matrices(const Level& level, LimitMaskCache& cache) {
 }
 
 }  // namespace
-    std::optional<NoLimit> failure;
 
 LimitMatrices limit_matrices(const Level& level, LimitMaskCache& cache) {
   if (!has_one_ring_limits(cache.scheme())) return lone_limit_matrices(level, cache);
@@ -141,6 +140,7 @@ LimitMatrices limit_matrices(const Level& level, LimitMaskCache& cache) {
     std::vector<Index> side_vertex;
     std::vector<LimitStatus> status;
     std::vector<std::pair<HalfEdge, Index>> corners;  // corner, side within the block
+    std::optional<NoLimit> failure;
   };
   std::vector<Block> blocks(num_blocks(t.num_vertices()));
   parallel_for_blocks(t.num_vertices(), [&](std::int64_t b, std::int64_t begin, std::int64_t end) {
@@ -173,8 +173,6 @@ LimitMatrices limit_matrices(const Level& level, LimitMaskCache& cache) {
         }
         bool hole = true;
         const auto& corners = at.corners[side.fan];
-  for (const Block& block : blocks)
-    if (block.failure) throw *block.failure;
         for (Index c = 0; c < side.num_corners; ++c) {
           const HalfEdge h = corners[(side.first_corner + c) % corners.size()];
           hole &= level.holes[index(t.face(h))];
@@ -187,6 +185,8 @@ LimitMatrices limit_matrices(const Level& level, LimitMaskCache& cache) {
     }
   });
 
+  for (const Block& block : blocks)
+    if (block.failure) throw *block.failure;
   LimitMatrices result;
   result.corner_side.assign(t.num_half_edges(), -1);
   std::vector<Rows> position, tangent1, tangent2;
@@ -201,15 +201,6 @@ LimitMatrices limit_matrices(const Level& level, LimitMaskCache& cache) {
     for (size_t k = 0; k < orders; ++k) {
       if (k >= block.second.size()) block.second.emplace_back().lengths.assign(block.side_vertex.size(), 0);
       second[k].push_back(std::move(block.second[k]));
-LimitMatrices limit_matrices(const std::vector<Level>& levels, LimitMaskCache& cache) {
-  try {
-    return limit_matrices(levels.back(), cache);
-  } catch (const NoLimit& error) {
-    if (levels.size() == 1 || error.vertex < 0) throw;
-    throw NoLimit(control_place(levels, Vertex{error.vertex}), error.reason);
-  }
-}
-
     }
     position.push_back(std::move(block.position));
     tangent1.push_back(std::move(block.tangent1));
@@ -220,6 +211,15 @@ LimitMatrices limit_matrices(const std::vector<Level>& levels, LimitMaskCache& c
   result.tangent2 = joined(tangent2, t.num_vertices());
   for (const auto& rows : second) result.second_order.push_back(joined(rows, t.num_vertices()));
   return result;
+}
+
+LimitMatrices limit_matrices(const std::vector<Level>& levels, LimitMaskCache& cache) {
+  try {
+    return limit_matrices(levels.back(), cache);
+  } catch (const NoLimit& error) {
+    if (levels.size() == 1 || error.vertex < 0) throw;
+    throw NoLimit(control_place(levels, Vertex{error.vertex}), error.reason);
+  }
 }
 
 LimitPoints limit_points(const LimitMatrices& limit, const Topology& topology, const Points& points) {
