@@ -322,7 +322,7 @@ TEST(SecondDerivativesOfSqrt3, AreTheSameBySampleAndByStencilBesideBorders) {
           const Points* parts[] = {&sample.position, &sample.du, &sample.dv, &sample.duu, &sample.duv, &sample.dvv};
           for (int k = 0; k < 6; ++k) {
             const double size = norm1(stencil.weights.row(k)) * local.cwiseAbs().maxCoeff();
-            EXPECT_LE((parts[k]->row(0) - stencil.weights.row(k) * local).norm(), rounding(local.rows() + 0.0, size))
+            EXPECT_LE((parts[k]->row(0) - stencil.weights.row(k) * local).norm(), rounding(double(local.rows()), size))
                 << words(s) << " row " << k;
           }
         }
