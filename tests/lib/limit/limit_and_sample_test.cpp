@@ -161,12 +161,14 @@ TEST(NormalsOnBorders, AgreeWithTheTruthBesideThem) {
   for (const Variant& variant : {Variant{"sqrt3", {}}}) {  // others have no derivatives across borders, or have splines
     const Scheme<double> scheme = find_scheme(variant.first, variant.second).value();
     const Border border = lower_border(scheme);
+    // Second derivatives are unbounded there: normals turn faster than the distance, less than a hundred times.
+    constexpr double distance = 1e-8, turned = 100 * distance;
     for (const double s : {0.25, 0.3}) {
       const TruePoint truth = true_limit(find_scheme<Precise>(variant.first, variant.second).value(),
-                                         border.surface.level(), border.mesh.positions, border.place(s, 1e-8));
+                                         border.surface.level(), border.mesh.positions, border.place(s, distance));
       ASSERT_TRUE(truth.has_first) << described(variant);
       const Vector3d du = truth.du.cast<double>(), dv = truth.dv.cast<double>();
-      EXPECT_LE(angle(border.normal(s, 0), du.cross(dv)), 1e-6) << described(variant) << " at " << s;
+      EXPECT_LE(angle(border.normal(s, 0), du.cross(dv)), turned) << described(variant) << " at " << s;
     }
   }
 }
