@@ -157,11 +157,15 @@ class RowMaker {
   }
   /// The next vertex of a crease beyond one of its ends, -1 if the curve ends there.
   Index along_curve(Edge e, Vertex end) const {
-    const VertexSharpness around(t_, sharpness_, end);
-    if (around.rule() != Rule::crease) return -1;
-    const std::vector<Edge> edges = t_.edges(end);
-    const auto [first, last] = crease_ends(around.edges);
-    return other_end(edges[first] == e ? edges[last] : edges[first], end);
+    if (is_sharp(sharpness_.vertex[index(end)])) return -1;  // a corner, perhaps of very many edges
+    Edge other{-1};
+    int count = 0;
+    for (const Edge sharp : t_.edges(end)) {
+      if (!is_sharp(sharpness_.edge[index(sharp)])) continue;
+      if (++count > 2) return -1;
+      if (sharp != e) other = sharp;
+    }
+    return count == 2 ? other_end(index(other) < 0 ? e : other, end) : -1;
   }
 
   const std::vector<Term>& row(Vertex v) {

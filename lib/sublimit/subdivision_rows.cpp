@@ -59,4 +59,11 @@ SparseMatrix subdivision_rows(const Scheme<double>& scheme, const Step<double>& 
   return S;
 }
 
+SparseMatrix subdivision_rows(const Scheme<double>& scheme, const Level& parent, const Level& child,
+                              std::span<const Index> vertices) {
+  if (scheme.steps.size() > 1) return child.S;
+  return subdivision_rows(scheme, scheme.steps[0], parent.topology(), child.steps[0], parent.sharpness, child.sharpness,
+                          parent.number, vertices);
+}
+
 }  // namespace sublimit

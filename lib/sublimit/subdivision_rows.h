@@ -3,6 +3,7 @@
 // Some rows of a subdivision matrix, where a level is large and few of its points are asked for.
 #include <span>
 
+#include "sublimit/refine.h"
 #include "sublimit/subdivision_matrix.h"
 
 namespace sublimit {
@@ -12,5 +13,10 @@ namespace sublimit {
 SparseMatrix subdivision_rows(const Scheme<double>& scheme, const Step<double>& step, const Topology& parent,
                               const Refinement& refinement, const Sharpness& sharpness,
                               const Sharpness& child_sharpness, int level, std::span<const Index> rows);
+
+/// Rows of the matrix from a level to the next one: of these vertices, and where a level takes several steps all that there are.
+/// @param vertices  of the next level, ascending
+SparseMatrix subdivision_rows(const Scheme<double>& scheme, const Level& parent, const Level& child,
+                              std::span<const Index> vertices);
 
 }  // namespace sublimit

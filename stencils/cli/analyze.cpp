@@ -28,7 +28,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr int negative_verdict = 1;
 
-struct Options {
+struct AnalyzeOptions {
   Common common;
   std::string valences = "3-12", page, json;
   std::vector<std::string> tolerances, claims;
@@ -49,7 +49,7 @@ constexpr std::pair<const char*, const char*> owners[] = {
 };
 
 /// An option that would be ignored is a mistake of whoever gave it.
-void refuse_others(const Options& options, const std::string& job) {
+void refuse_others(const AnalyzeOptions& options, const std::string& job) {
   for (const auto& [option, owner] : owners)
     if (options.has(option) && std::string(owner).find(job) == std::string::npos)
       throw InvalidOption(fmt::format("{} is for {}, and this is about {}; leave it out", option, owner, job));
@@ -70,7 +70,7 @@ bool is_curve_scheme(const std::string& name) {
   return false;
 }
 
-Named schemes_named(const Options& asked) {
+Named schemes_named(const AnalyzeOptions& asked) {
   const SchemeOptions options = given_options(asked.common);
   Named named;
   if (asked.common.scheme != "all") {
@@ -100,7 +100,7 @@ void write_text(const std::string& path, const std::string& text) {
   file.commit();
 }
 
-void write_outputs(const Options& options, const Json& report, Progress& progress) {
+void write_outputs(const AnalyzeOptions& options, const Json& report, Progress& progress) {
   if (!options.json.empty()) {
     progress.step("writing " + options.json);
     write_text(options.json, report::report_text(report));
@@ -130,14 +130,14 @@ void print_summary(const Json& report) {
                    claim["claim"].get<std::string>(), claim["claimed"].dump(), claim["because"].get<std::string>());
 }
 
-int finish(const Options& options, const Json& report, Progress& progress) {
+int finish(const AnalyzeOptions& options, const Json& report, Progress& progress) {
   write_outputs(options, report, progress);
   progress.step("");
   if (!options.common.quiet) print_summary(report);
   return report::contradicted_claims(report) > 0 ? negative_verdict : 0;
 }
 
-int analyze_schemes(const Options& options) {
+int analyze_schemes(const AnalyzeOptions& options) {
   report::ReportOptions wanted;
   wanted.valences = report::parse_valences(options.valences);
   Named named = schemes_named(options);
@@ -158,7 +158,7 @@ int analyze_schemes(const Options& options) {
   return finish(options, report, progress);
 }
 
-int analyze_mask(const Options& options) {
+int analyze_mask(const AnalyzeOptions& options) {
   Progress progress(options.common.quiet);
   Json report = report::report_head("schemes");
   report["schemes"] = Json::array({report::mask_scheme_json(options.mask)});
@@ -171,7 +171,7 @@ int analyze_mask(const Options& options) {
   return status;
 }
 
-int analyze_sweep(const Options& options) {
+int analyze_sweep(const AnalyzeOptions& options) {
   if (options.common.scheme.empty() || options.common.scheme == "all")
     throw InvalidOption("--sweep belongs to one scheme; name it with -s");
   if (!is_curve_scheme(options.common.scheme))
@@ -191,7 +191,7 @@ int analyze_sweep(const Options& options) {
   return 0;
 }
 
-int analyze_curve(const Options& options) {
+int analyze_curve(const AnalyzeOptions& options) {
   Progress progress(options.common.quiet);
   const std::string& path = options.common.mesh;
   const std::string text = read_file(path);
@@ -224,7 +224,7 @@ void print_asset(const AssetReport& found, const std::string& file) {
                excess.place.x(), excess.place.y(), excess.place.z());
 }
 
-int analyze_mesh(const Options& options) {
+int analyze_mesh(const AnalyzeOptions& options) {
   AssetOptions wanted;
   for (const std::string& tolerance : options.tolerances) read_tolerance(tolerance, wanted.tolerance);
   Progress progress(options.common.quiet);
@@ -245,7 +245,7 @@ int analyze_mesh(const Options& options) {
   return found.seams.within_tolerance ? 0 : negative_verdict;
 }
 
-int analyze(const Options& options) {
+int analyze(const AnalyzeOptions& options) {
   limit_threads(options.common);
   limit_memory(options.memory_limit);
   if (!options.page.empty()) check_output_path(options.page, {".html", ".htm"});
@@ -268,7 +268,7 @@ int analyze(const Options& options) {
 
 Command add_analyze(CLI::App& app) {
   auto* command = app.add_subcommand("analyze", "How smooth a scheme's limit is, or a mesh's, with proofs");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<AnalyzeOptions>();
   command->add_option("MESH", options->common.mesh,
                       "A mesh, .obj, .off or .ply: how smooth its own limit is; or a curve of Bezier pieces, .csv");
   command->add_option("-s,--scheme", options->common.scheme, "A scheme, or all");

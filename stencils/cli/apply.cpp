@@ -21,7 +21,7 @@
 namespace sublimit::cli {
 namespace {
 
-struct Options {
+struct ApplyOptions {
   Common common;
   std::string table, points, output;
   bool any_cage = false;
@@ -38,7 +38,7 @@ std::string cage_of(const TableInfo& info, std::int64_t points) {
 }
 
 /// That the points are those of the table's cage, as far as the file tells.
-void check_cage(const Options& options, const TableInfo& info, std::int64_t points, const FrameReader& frames) {
+void check_cage(const ApplyOptions& options, const TableInfo& info, std::int64_t points, const FrameReader& frames) {
   if (frames.num_points() != points)
     throw InvalidMesh(fmt::format("{}: {} points, and {} is a {}; give the points of that cage, in its order",
                                   options.points, frames.num_points(), options.table, cage_of(info, points)));
@@ -54,14 +54,14 @@ void check_cage(const Options& options, const TableInfo& info, std::int64_t poin
 }
 
 /// The one frame of a mesh or CSV.
-void check_one_frame(const Options& options, const FrameReader& frames) {
+void check_one_frame(const ApplyOptions& options, const FrameReader& frames) {
   if (frames.num_frames() != 1)
     throw InvalidOption(fmt::format("{} holds {} frames and {} one; write an .npy", options.points, frames.num_frames(),
                                     options.output));
 }
 
 template <class Real>
-void write_one(const Options& options, const BakedTable<Real>& table, const FrameReader& frames,
+void write_one(const ApplyOptions& options, const BakedTable<Real>& table, const FrameReader& frames,
                std::span<const Real> values) {
   const AppliedPoints applied(table);
   if (ends_in(options.output, ".csv")) {
@@ -86,7 +86,7 @@ std::vector<std::int64_t> shape_of(const FrameReader& frames, int quantities, st
 }
 
 template <class Real>
-std::int64_t apply_table(const Options& options, const BakedTable<Real>& table, Progress& progress) {
+std::int64_t apply_table(const ApplyOptions& options, const BakedTable<Real>& table, Progress& progress) {
   FrameReader frames(options.points);
   const PatternTable<Real>& t = table.table;
   check_cage(options, table.info, t.num_control_points(), frames);
@@ -128,7 +128,7 @@ std::int64_t apply_table(const Options& options, const BakedTable<Real>& table, 
   return frames.num_frames();
 }
 
-int run(const Options& options) {
+int run(const ApplyOptions& options) {
   check_output_path(options.output, {".obj", ".ply", ".npy", ".csv"});
   limit_threads(options.common);
   Progress progress(options.common.quiet);
@@ -154,7 +154,7 @@ int run(const Options& options) {
 
 Command add_apply(CLI::App& app) {
   auto* command = app.add_subcommand("apply", "New points from a table and the points of its cage");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ApplyOptions>();
   command->add_option("TABLE", options->table, "What `sublimit bake` made")->required();
   command
       ->add_option(

@@ -18,7 +18,7 @@
 namespace sublimit::cli {
 namespace {
 
-struct Options {
+struct BakeOptions {
   BakeJob job;
   std::string precision = "float";
   std::string memory_limit, manifest, shard, log, dictionary;
@@ -35,7 +35,7 @@ void print_plan(const BakeJob& job, const BakeOutcome& outcome) {
              job.is_float ? "float" : "double", bytes_in_words(outcome.plan->memory));
 }
 
-int run_manifest(const Options& options, const BakeJob& defaults) {
+int run_manifest(const BakeOptions& options, const BakeJob& defaults) {
   if (const std::string name = options.of_one_table(); !name.empty())
     throw InvalidOption(name + " is for one table; with --manifest the lines of " + options.manifest + " say it");
   limit_threads(options.job.common);
@@ -43,7 +43,7 @@ int run_manifest(const Options& options, const BakeJob& defaults) {
                        options.dictionary, defaults);
 }
 
-int run(const Options& options) {
+int run(const BakeOptions& options) {
   BakeJob job = options.job;
   job.memory_limit = parse_memory_limit(options.memory_limit);
   limit_memory(options.memory_limit);
@@ -77,7 +77,7 @@ int run(const Options& options) {
 
 Command add_bake(CLI::App& app) {
   auto* command = app.add_subcommand("bake", "A table of stencils, to be applied every frame");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<BakeOptions>();
   BakeJob& job = options->job;
   add_mesh(*command, job.common, false);
   command->get_option("MESH")->required(false);  // of a manifest there are many

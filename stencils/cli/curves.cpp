@@ -152,10 +152,10 @@ int limit_curves(const CurveJob& job) {
   Progress progress(job.common->quiet);
   const CurveScheme<double> scheme = scheme_of(*job.common);
   const Refined curves = refined(job, scheme, progress);
-  CurveLimits<double> limits;
+  CurveLimits limits;
   naming_mesh(*job.common, [&] {
     progress.step("limits");
-    limits = CurveAnalysis<double>(scheme).limits(curves.levels.back());
+    limits = CurveAnalysis(scheme).limits(curves.levels.back());
   });
   ControlPolygon result = curve_outlines(curves.levels.back());
   result.points = apply(limits.position, curves.unknowns);

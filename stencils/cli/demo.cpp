@@ -22,7 +22,7 @@
 namespace sublimit::cli {
 namespace {
 
-struct Options {
+struct DemoOptions {
   Common common;
   std::string directory = "sublimit-demo";
 };
@@ -38,7 +38,7 @@ PictureMesh control_picture(const Level& level, const Points& points) {
   return picture;
 }
 
-int run(const Options& options) {
+int run(const DemoOptions& options) {
   const std::filesystem::path directory = options.directory;
   make_output_directory(options.directory);
   const auto path = [&](const char* name) { return (directory / name).string(); };
@@ -119,7 +119,7 @@ int run(const Options& options) {
 
 Command add_demo(CLI::App& app) {
   auto* command = app.add_subcommand("demo", "The whole chain on a mesh that the program carries");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<DemoOptions>();
   command->add_option("DIR", options->directory, "Where the files go (default: sublimit-demo)");
   add_run(*command, options->common);
   command->footer("Examples:\n  sublimit demo\n  sublimit demo out/demo");

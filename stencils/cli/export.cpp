@@ -6,12 +6,12 @@
 namespace sublimit::cli {
 namespace {
 
-struct Options {
+struct ExportOptions {
   Common common;
   std::string table, output;
 };
 
-int write_export(const Options& options) {
+int write_export(const ExportOptions& options) {
   // A directory is made, and may be named with a slash at its end.
   const std::filesystem::path output = options.output;
   const bool is_directory = !output.has_extension();
@@ -29,7 +29,7 @@ int write_export(const Options& options) {
 
 Command add_export(CLI::App& app) {
   auto* command = app.add_subcommand("export", "A table as a sparse matrix, for other programs");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ExportOptions>();
   command->add_option("TABLE", options->table, "What `sublimit bake` made")->required();
   command
       ->add_option("-o,--output", options->output,

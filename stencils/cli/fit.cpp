@@ -16,7 +16,7 @@
 namespace sublimit::cli {
 namespace {
 
-struct Options {
+struct FitOptions {
   Common common;
   std::string targets, cloud, output, report, picture;
   std::string method = "auto", pin, memory_limit;
@@ -46,7 +46,7 @@ constexpr std::pair<const char*, const char*> owners[] = {
 };
 
 /// An option that would be ignored is a mistake of whoever gave it.
-void refuse_others(const Options& options, const std::string& job, const char* words) {
+void refuse_others(const FitOptions& options, const std::string& job, const char* words) {
   for (const auto& [option, jobs] : owners)
     if (options.has(option) && std::string(jobs).find(job) == std::string::npos)
       throw InvalidOption(fmt::format("{} is not for {}; leave it out", option, words));
@@ -66,7 +66,7 @@ void write_text(const std::string& path, const std::string& text) {
 }
 
 /// A level and its points, with the tags and texture coordinates that it has.
-MeshOutput mesh_output(const Options& options, const Loaded& loaded, const Fit& fit, Progress& progress) {
+MeshOutput mesh_output(const FitOptions& options, const Loaded& loaded, const Fit& fit, Progress& progress) {
   MeshOutput out = refined_mesh(fit.level, fit.points, loaded.mesh, loaded.rules, true);
   if (loaded.mesh.face_varying.empty()) return out;
   const std::vector<Level> levels = refined_levels(loaded, fit.level.number, progress);
@@ -79,7 +79,7 @@ MeshOutput mesh_output(const Options& options, const Loaded& loaded, const Fit& 
 }
 
 /// The mesh first: no report of what could not be written.
-void write_outputs(const Options& options, const MeshOutput& mesh, const std::string& picture, FitReport& report,
+void write_outputs(const FitOptions& options, const MeshOutput& mesh, const std::string& picture, FitReport& report,
                    Progress& progress) {
   report.mesh = options.common.mesh;
   report.targets = options.cloud.empty() ? options.targets : options.cloud;
@@ -93,7 +93,7 @@ void write_outputs(const Options& options, const MeshOutput& mesh, const std::st
   if (!options.common.quiet) fmt::print("{}", fit_summary(report));
 }
 
-int fit_linear(const Options& options, Progress& progress,
+int fit_linear(const FitOptions& options, Progress& progress,
                const std::function<Fit(const Loaded& loaded, const FitSettings& settings)>& job) {
   const Loaded loaded = load(options.common, progress);
   check_mesh_memory(options.common.mesh, loaded.mesh);
@@ -117,7 +117,7 @@ int fit_linear(const Options& options, Progress& progress,
   return 0;
 }
 
-int fit_to_cloud(const Options& options, Progress& progress) {
+int fit_to_cloud(const FitOptions& options, Progress& progress) {
   refuse_others(options, "cloud", "clouds");
   if (options.has("--seed") && !options.samples) throw InvalidOption("--seed is for --samples N; leave it out");
   if (options.samples && *options.samples < 1)
@@ -131,7 +131,7 @@ int fit_to_cloud(const Options& options, Progress& progress) {
   });
 }
 
-int fit_geometric(const Options& options, const FitTargets& targets, const GeometricSurfaceScheme& scheme,
+int fit_geometric(const FitOptions& options, const FitTargets& targets, const GeometricSurfaceScheme& scheme,
                   Progress& progress) {
   for (const auto& [option, value] : {std::pair{"--boundary", &options.common.boundary},
                                       {"--creasing", &options.common.creasing},
@@ -156,7 +156,7 @@ int fit_geometric(const Options& options, const FitTargets& targets, const Geome
   return 0;
 }
 
-int run(const Options& options) {
+int run(const FitOptions& options) {
   limit_memory(options.memory_limit);
   if (is_curve_job(options.common))
     throw InvalidOption(options.common.scheme + " refines curves; fits are of surfaces (`sublimit schemes` lists all)");
@@ -209,7 +209,7 @@ int run(const Options& options) {
 
 Command add_fit(CLI::App& app) {
   auto* command = app.add_subcommand("fit", "Control points whose limit goes through given points and normals");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<FitOptions>();
   FitSettings& settings = options->settings;
   add_mesh(*command, options->common, true);
   command->add_option("--targets", options->targets, "IN.csv: what the limit shall go through, see below");

@@ -11,14 +11,14 @@
 namespace sublimit::cli {
 namespace {
 
-struct Options {
+struct LimitOptions {
   Common common;
   int levels = 0;
   bool normals = false, closed = false;
   std::string output;
 };
 
-int run(const Options& options) {
+int run(const LimitOptions& options) {
   if (is_curve_job(options.common))
     return limit_curves({&options.common, options.levels, options.output, "", options.closed, options.normals});
   check_mesh_job(options.common, options.closed);
@@ -64,7 +64,7 @@ int run(const Options& options) {
 
 Command add_limit(CLI::App& app) {
   auto* command = app.add_subcommand("limit", "Move the vertices of a level to the limit surface");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<LimitOptions>();
   add_mesh(*command, options->common, true);
   command->add_option("-l,--levels", options->levels, "Level whose vertices are moved (default 0, the control mesh)");
   command->add_flag("--normals", options->normals,

@@ -14,15 +14,13 @@
 namespace sublimit::cli {
 namespace {
 
-using Json = nlohmann::json;
-
 /// A line of a manifest, and where it is.
 class Line {
  public:
   Line(std::string place, const std::filesystem::path& directory) : place_(std::move(place)), directory_(directory) {}
 
   BakeJob job(const std::string& text, BakeJob job) const {
-    const Json object = Json::parse(text, nullptr, false);
+    const nlohmann::json object = nlohmann::json::parse(text, nullptr, false);
     if (object.is_discarded()) fail("not JSON; every line should be one object, like {\"mesh\": \"cage.obj\", ...}");
     if (!object.is_object()) fail("not an object; it should be like {\"mesh\": \"cage.obj\", ...}");
     for (const auto& [key, value] : object.items()) set(job, key, value);
@@ -34,27 +32,27 @@ class Line {
 
  private:
   [[noreturn]] void fail(const std::string& what) const { throw FormatError(place_ + what); }
-  [[noreturn]] void fail(const std::string& key, const Json& value, const char* right) const {
+  [[noreturn]] void fail(const std::string& key, const nlohmann::json& value, const char* right) const {
     fail(fmt::format("\"{}\" is {}; it should be {}", key, value.dump().substr(0, 60), right));
   }
 
-  std::string word(const std::string& key, const Json& value) const {
+  std::string word(const std::string& key, const nlohmann::json& value) const {
     if (!value.is_string() || value.get<std::string>().empty()) fail(key, value, "a text");
     return value;
   }
-  std::string path(const std::string& key, const Json& value) const {
+  std::string path(const std::string& key, const nlohmann::json& value) const {
     return (directory_ / word(key, value)).string();  // an absolute path stays one
   }
-  bool flag(const std::string& key, const Json& value) const {
+  bool flag(const std::string& key, const nlohmann::json& value) const {
     if (!value.is_boolean()) fail(key, value, "true or false");
     return value;
   }
-  int whole(const std::string& key, const Json& value) const {
+  int whole(const std::string& key, const nlohmann::json& value) const {
     if (!value.is_number_integer() || value < 0 || value > std::numeric_limits<int>::max())
       fail(key, value, "a whole number");
     return value;
   }
-  std::string one_of(const std::string& key, const Json& value, std::initializer_list<const char*> words) const {
+  std::string one_of(const std::string& key, const nlohmann::json& value, std::initializer_list<const char*> words) const {
     std::string right;
     for (const char* known : words) {
       if (value.is_string() && value == known) return known;
@@ -63,7 +61,7 @@ class Line {
     fail(key, value, ("one of " + right).c_str());
   }
 
-  void set(BakeJob& job, const std::string& key, const Json& value) const {
+  void set(BakeJob& job, const std::string& key, const nlohmann::json& value) const {
     if (key == "mesh") {
       job.common.mesh = path(key, value);
     } else if (key == "output") {

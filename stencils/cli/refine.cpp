@@ -7,14 +7,14 @@
 namespace sublimit::cli {
 namespace {
 
-struct Options {
+struct RefineOptions {
   Common common;
   int levels = 1;
   std::string output, matrix;
   bool no_tags = false, closed = false;
 };
 
-int run(const Options& options) {
+int run(const RefineOptions& options) {
   if (is_curve_job(options.common))
     return refine_curves({&options.common, options.levels, options.output, options.matrix, options.closed});
   check_mesh_job(options.common, options.closed);
@@ -49,7 +49,7 @@ int run(const Options& options) {
 
 Command add_refine(CLI::App& app) {
   auto* command = app.add_subcommand("refine", "Refine a mesh or curves");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<RefineOptions>();
   add_mesh(*command, options->common, true);
   command->add_option("-l,--levels", options->levels, "Levels of refinement")->required();
   command->add_option("-o,--output", options->output, "OUT.obj (with tags, so that refining can go on) or OUT.ply")

@@ -17,7 +17,7 @@
 namespace sublimit::cli {
 namespace {
 
-struct Options {
+struct SampleOptions {
   SampleJob job;
   std::string grid, random_count, seed, memory_limit;  // as given
 };
@@ -33,7 +33,7 @@ T whole(const char* option, const std::string& text, T least, const char* valid)
   return parsed.value;
 }
 
-SampleJob checked(const Options& options) {
+SampleJob checked(const SampleOptions& options) {
   SampleJob job = options.job;
   const int places = !job.at.empty() + !options.grid.empty() + !options.random_count.empty();
   if (places != 1)
@@ -80,7 +80,7 @@ SampleSource random_source(const SampleJob& job, const LimitSurface& surface, Sa
              std::vector<Sample>& batch, size_t most) mutable { samples.read(batch, most); };
 }
 
-int run(const Options& options) {
+int run(const SampleOptions& options) {
   const SampleJob job = checked(options);
   limit_memory(options.memory_limit);
   if (is_curve_job(job.common)) return sample_curves(job);
@@ -120,7 +120,7 @@ int run(const Options& options) {
 
 Command add_sample(CLI::App& app) {
   auto* command = app.add_subcommand("sample", "The exact limit anywhere: points, derivatives, normals, curvature");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<SampleOptions>();
   SampleJob& job = options->job;
   add_mesh(*command, job.common, true);
   command->add_option("--at", job.at, "Places from a CSV with the header face,u,v");

@@ -15,7 +15,7 @@ namespace {
 
 constexpr int negative_verdict = 1;
 
-struct Options {
+struct VerifyOptions {
   Common common;
   std::string table;
 };
@@ -70,7 +70,7 @@ std::string verdicts_in_words(const report::ReportVerification& found) {
                             found.verdicts - found.decided - found.seen_again - found.by_nets);
 }
 
-int verify_report(const Options& options) {
+int verify_report(const VerifyOptions& options) {
   Progress progress(options.common.quiet);
   progress.step("verifying " + options.table);
   report::ReportVerification found;
@@ -87,7 +87,7 @@ int verify_report(const Options& options) {
   return 0;
 }
 
-int verify(const Options& options) {
+int verify(const VerifyOptions& options) {
   limit_threads(options.common);
   if (file_extension(options.table) == ".json") return verify_report(options);
   Progress progress(options.common.quiet);
@@ -111,7 +111,7 @@ int verify(const Options& options) {
 
 Command add_verify(CLI::App& app) {
   auto* command = app.add_subcommand("verify", "Whether a table is sound, or a report proves what it says");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<VerifyOptions>();
   command->add_option("TABLE", options->table, "What `sublimit bake` made, or `sublimit analyze --json`")->required();
   add_run(*command, options->common);
   command->footer(

@@ -13,6 +13,7 @@
 #include <string_view>
 #include <vector>
 
+#include "sublimit/analysis/dense_decompositions.h"
 #include "sublimit/types.h"
 
 namespace sublimit::testing {
@@ -119,7 +120,7 @@ class FoundCamera {
     // Columns of very different lengths.
     const Eigen::RowVectorXd lengths = A.colwise().norm();
     const Eigen::MatrixXd scaled = A.array().rowwise() / lengths.array();
-    x_ = (scaled.colPivHouseholderQr().solve(b).array() / lengths.transpose().array()).matrix();
+    x_ = (Eigen::VectorXd(PivotedQr(scaled).solve(b)).array() / lengths.transpose().array()).matrix();
     for (Index i = 0; i < points.rows(); ++i)
       error_ = std::max(error_, ((*this)(points.row(i)) - places[size_t(i)]).cwiseAbs().maxCoeff());
   }

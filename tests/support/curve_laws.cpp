@@ -5,6 +5,7 @@
 #include <random>
 
 #include "sublimit/analysis/curve_limits.h"
+#include "sublimit/analysis/dense_decompositions.h"
 #include "sublimit/curve_schemes.h"
 #include "support/tolerance.h"
 
@@ -179,9 +180,9 @@ std::string polynomials_are_generated_up_to_the_claim(const Scheme& scheme) {
 
 double reproduction_defect(const Scheme& scheme, int degree) {
   const Line line(scheme);
-  CurveAnalysis<double> analysis(scheme);
+  CurveAnalysis analysis(scheme);
   const Index middle = 20;
-  const CurveLimits<double> limit = analysis.limits(line.outline, 0, {line.layout.position(line.outline, middle)});
+  const CurveLimits limit = analysis.limits(line.outline, 0, {line.layout.position(line.outline, middle)});
   // Not around the middle itself, where odd powers vanish.
   const Eigen::VectorXd x = line.x.array() - line.x[middle] + 0.5;
   return std::abs((limit.position * power(scheme, x, degree))[0] - std::pow(0.5, degree));
@@ -232,7 +233,7 @@ double difference(const CurveMatrix<double>& a, const CurveMatrix<double>& b) {
 
 /// L_k = L_{k+1} S_k, for limits and derivatives.
 std::string limits_agree_between_levels(const Scheme& scheme) {
-  CurveAnalysis<double> analysis(scheme);
+  CurveAnalysis analysis(scheme);
   const CurveLayout& layout = analysis.layout();
   for (const ControlPolygon& polygon : polygons_for(scheme)) {
     const std::vector<CurveLevel> levels = refine(scheme, polygon, 2);
@@ -242,7 +243,7 @@ std::string limits_agree_between_levels(const Scheme& scheme) {
       std::vector<std::int64_t> positions, doubled;
       for (Index a = 0; a < coarse.size; ++a) positions.push_back(layout.position(coarse, a));
       for (const std::int64_t p : positions) doubled.push_back(2 * p);
-      const CurveLimits<double> L = analysis.limits(coarse, k, positions), M = analysis.limits(fine, k + 1, doubled);
+      const CurveLimits L = analysis.limits(coarse, k, positions), M = analysis.limits(fine, k + 1, doubled);
       const CurveMatrix<double> position = M.position * levels[k + 1].S, first = M.first * levels[k + 1].S,
                                 second = M.second * levels[k + 1].S;
       if (difference(L.position, position) > rounding(16)) return "limits of levels " + std::to_string(k) + " differ";
@@ -258,10 +259,10 @@ std::string limits_agree_between_levels(const Scheme& scheme) {
 
 std::string derivatives_fit_the_claim(const Scheme& scheme) {
   const Line line(scheme);
-  CurveAnalysis<double> analysis(scheme);
+  CurveAnalysis analysis(scheme);
   std::vector<std::int64_t> positions;
   for (Index a = 0; a < line.outline.size; ++a) positions.push_back(line.layout.position(line.outline, a));
-  const CurveLimits<double> L = analysis.limits(line.outline, 0, positions);
+  const CurveLimits L = analysis.limits(line.outline, 0, positions);
   const Eigen::VectorXd ones = power(scheme, line.x, 0), x = power(scheme, line.x, 1);
   for (Index a = 0; a < 40; ++a) {
     if (L.order[a] < std::min(scheme.claims.regular, 2)) return "point " + std::to_string(a) + " has no derivative";
@@ -275,8 +276,8 @@ std::string derivatives_fit_the_claim(const Scheme& scheme) {
 /// What smoothness C^r needs of the local matrix inside: eigenvalues 1, 1/2, ..., 2^-r, and no other as large as the
 /// last.
 std::string spectrum_fits_the_claim(const Scheme& scheme) {
-  CurveAnalysis<double> analysis(scheme);
-  Eigen::VectorXd moduli = analysis.neighborhood(CurveAnchor::inside).A.eigenvalues().cwiseAbs();
+  CurveAnalysis analysis(scheme);
+  Eigen::VectorXd moduli = eigenvalues(analysis.neighborhood(CurveAnchor::inside).A).cwiseAbs();
   std::sort(moduli.begin(), moduli.end(), std::greater<>());
   const int r = scheme.claims.regular;
   for (int i = 0; i <= r && scheme.name != "trigonometric-cubic"; ++i)
@@ -295,8 +296,8 @@ std::string published_values_hold(const Scheme& scheme) {
     bool known = false;
     for (const double tension : {0.0, 0.5, 1.0, 1.5}) known = known || std::abs(g - tension) < 1e-12;
     if (!known) return "the tension is " + std::to_string(g);
-    CurveAnalysis<double> analysis(scheme);
-    const CurveLimits<double> L = analysis.limits(analysis.layout().control(60, false), 0, {60});
+    CurveAnalysis analysis(scheme);
+    const CurveLimits L = analysis.limits(analysis.layout().control(60, false), 0, {60});
     if (g > 0 && std::abs(L.first.coeff(0, 31) - 8 / (4 * (4 - g))) > 1e-12)
       return "the derivative is not the published one";
   }

@@ -2,6 +2,7 @@
 #pragma once
 // Decompositions of small real matrices, made once: Eigen's are templates that take long to compile.
 #include <Eigen/Core>
+#include <Eigen/QR>
 
 #include <complex>
 #include <optional>
@@ -19,7 +20,48 @@ SingularValues singular_values(const Eigen::MatrixXd& M);
 /// many there are, which singular values decide. A hundred times as fast as these.
 std::optional<Eigen::MatrixXd> clear_null_space(const Eigen::MatrixXd& M);
 
+/// Reflections with column pivoting: solutions in the sense of least squares, and the rank.
+class PivotedQr {
+ public:
+  explicit PivotedQr(const Eigen::MatrixXd& M);
+  Eigen::Index rank() const;
+  Eigen::MatrixXd solve(const Eigen::MatrixXd& right) const;
+  /// The last so many columns of the orthogonal factor: perpendicular to the columns of a matrix of lower rank.
+  Eigen::MatrixXd last_directions(Eigen::Index count) const;
+
+ private:
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr_;
+};
+
+/// Of least squares the solution of least norm; pivots below `threshold` times the largest are none.
+Eigen::VectorXd least_norm_solution(const Eigen::MatrixXd& M, const Eigen::VectorXd& right, double threshold);
+
+/// Orthonormal columns that span what those of X do.
+Eigen::MatrixXd orthonormal_columns(const Eigen::MatrixXd& X);
+
+/// The triangular factor of a matrix of at least as many rows as columns.
+Eigen::MatrixXd triangular_factor(const Eigen::MatrixXd& X);
+
 /// Of a square matrix, in no order.
 Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& M);
+
+struct Eigenvectors {
+  Eigen::VectorXcd values;  ///< in no order
+  Eigen::MatrixXcd vectors; ///< by columns
+};
+Eigenvectors eigenvectors(const Eigen::MatrixXd& M);
+
+struct SymmetricEigenvectors {
+  Eigen::VectorXd values;   ///< ascending
+  Eigen::MatrixXd vectors;  ///< orthonormal columns
+};
+SymmetricEigenvectors symmetric_eigenvectors(const Eigen::MatrixXd& M);
+
+/// Of a symmetric matrix, ascending.
+Eigen::VectorXd symmetric_eigenvalues(const Eigen::MatrixXd& M);
+
+/// Of the symmetric matrix with this diagonal and these numbers beside it, ascending.
+/// @throws AnalysisError  the iteration does not converge
+Eigen::VectorXd tridiagonal_eigenvalues(const Eigen::VectorXd& diagonal, const Eigen::VectorXd& beside);
 
 }  // namespace sublimit

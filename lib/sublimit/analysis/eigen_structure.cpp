@@ -3,7 +3,6 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
-#include <Eigen/QR>
 #include <Eigen/SVD>
 
 #include <algorithm>
@@ -167,7 +166,7 @@ Eigen::VectorXd limit_weights(const Eigen::MatrixXd& A) {
   equations.topRows(size) = A.transpose() - Eigen::MatrixXd::Identity(size, size);
   equations.row(size).setOnes();
   const Eigen::VectorXd right = Eigen::VectorXd::Unit(size + 1, size);
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(equations);
+  const PivotedQr qr(equations);
   Eigen::VectorXd l = qr.solve(right);
   l += qr.solve(right - equations * l);  // one step of refinement: the last digits
   if (qr.rank() < size || (equations * l - right).norm() > 1e-10)

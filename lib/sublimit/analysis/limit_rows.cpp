@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sublimit/analysis/limit_rows.h"
 
-#include <Eigen/QR>
-
 #include <algorithm>
 #include <map>
 #include <numeric>
 #include <string>
 
+#include "sublimit/analysis/dense_decompositions.h"
 #include "sublimit/analysis/stationary_rows.h"
 #include "sublimit/analysis/walk.h"
 #include "sublimit/base/error.h"
 #include "sublimit/base/parallel_for.h"
+#include "sublimit/refine_impl.h"
+#include "sublimit/subdivision_rows.h"
 
 namespace sublimit {
 namespace {
@@ -67,6 +68,11 @@ Row pulled_back(const Row& row, const SparseMatrix& S, const std::vector<Index>&
   return result;
 }
 
+void for_each(LimitRows& rows, const auto& what) {
+  for (Row* row : {&rows.position, &rows.tangent1, &rows.tangent2}) what(*row);
+  for (Row& row : rows.second_order) what(row);
+}
+
 /// Rings of faces around the places that the next level's limits may depend on.
 constexpr int rings_needed = 5;
 
@@ -116,7 +122,9 @@ std::vector<LimitRows> rows_of(const Level& level, LimitMaskCache& cache, const 
     std::iota(around.vertices.begin(), around.vertices.end(), 0);
   }
   const Level& parent = whole ? level : around.level;
-  const Level child_level = next_level(scheme, parent);
+  // Of one step only few rows will be asked for.
+  const bool few = !whole && scheme.steps.size() == 1;
+  const Level child_level = few ? next_topology(scheme, parent, [](const auto&...) {}) : next_level(scheme, parent);
   std::vector<size_t> followed;
   std::vector<Centre> children;
   for (const size_t i : rest) {
@@ -139,10 +147,17 @@ std::vector<LimitRows> rows_of(const Level& level, LimitMaskCache& cache, const 
   }
   std::vector<std::string> why_not(children.size());
   std::vector<LimitRows> fine = rows_of(child_level, cache, children, depth - 1, why_not);
+  std::vector<Index> used;
+  for (LimitRows& row : fine)
+    for_each(row, [&](const Row& r) {
+      for (const auto& term : r) used.push_back(term.first);
+    });
+  std::sort(used.begin(), used.end());
+  used.erase(std::unique(used.begin(), used.end()), used.end());
+  const SparseMatrix S = few ? subdivision_rows(scheme, parent, child_level, used) : child_level.S;
   parallel_for(static_cast<std::int64_t>(followed.size()), [&](std::int64_t i) {
     LimitRows& row = fine[i];
-    for (Row* r : {&row.position, &row.tangent1, &row.tangent2}) *r = pulled_back(*r, child_level.S, around.vertices);
-    for (Row& r : row.second_order) r = pulled_back(r, child_level.S, around.vertices);
+    for_each(row, [&](Row& r) { r = pulled_back(r, S, around.vertices); });
     rows[followed[i]] = std::move(row);
     why[followed[i]] = std::move(why_not[i]);
   });
@@ -169,7 +184,7 @@ bool is_one_direction(const LimitRows& limit) {
   plane << dense(limit.tangent1), dense(limit.tangent2);
   const double inwards = plane.col(1).norm();
   if (!(inwards > 0)) return false;
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(plane);
+  const PivotedQr qr(plane);
   if (qr.rank() < 2) return false;
   constexpr double rounding = 1e-10;  // of eigenvectors that a period or two carry back
   return std::ranges::all_of(limit.second_order, [&](const Row& row) {

@@ -2,11 +2,11 @@
 #include "sublimit/analysis/tangents.h"
 
 #include <Eigen/LU>
-#include <Eigen/QR>
 
 #include <algorithm>
 
 #include "sublimit/analysis/closed_set.h"
+#include "sublimit/analysis/dense_decompositions.h"
 
 namespace sublimit {
 namespace {
@@ -181,10 +181,7 @@ void add_border_tangents(Side& side, const MatrixXd& whole, const Outline& outli
     const VectorXd d = made_real(cluster.left.col(0));
     const MatrixXd shifted = (C - mu * MatrixXd::Identity(C.rows(), C.cols())).transpose();
     const VectorXd right = -(B.transpose() * d);
-    Eigen::CompleteOrthogonalDecomposition<MatrixXd> solver;
-    solver.setThreshold(1e-10);
-    solver.compute(shifted);
-    const VectorXd x = solver.solve(right);
+    const VectorXd x = least_norm_solution(shifted, right, 1e-10);
     mask = embedded(x, curve, size) + embedded(d, inner, size);
     return (shifted * x - right).norm() <= 1e-9 * d.norm();
   };
@@ -243,10 +240,7 @@ void add_border_tangents(Side& side, const MatrixXd& whole, const Outline& outli
   const auto extended = [&](const EigenCluster& mode, Eigen::Index k) {  // a mode of the outline over the inner points
     const VectorXd right = made_real(mode.right.col(k));
     const MatrixXd shifted = D - mode.value.real() * MatrixXd::Identity(D.rows(), D.cols());
-    Eigen::CompleteOrthogonalDecomposition<MatrixXd> solver;
-    solver.setThreshold(1e-10);
-    solver.compute(shifted);
-    return VectorXd(embedded(right, curve, size) + embedded(solver.solve(-(B * right)), inner, size));
+    return VectorXd(embedded(right, curve, size) + embedded(least_norm_solution(shifted, -(B * right), 1e-10), inner, size));
   };
   // How far points next to the centre stand off the outline. Those of a border edge lie beside its ends; around a
   // vertex they lie elsewhere along the outline, and what a parabola along it does is taken off.
@@ -255,7 +249,7 @@ void add_border_tangents(Side& side, const MatrixXd& whole, const Outline& outli
     const VectorXd squares = along.cwiseAbs2();
     MatrixXd parabola(curve.size(), 2);
     parabola << VectorXd::Ones(std::ssize(curve)), squares(curve);
-    const Eigen::Vector2d fit = parabola.colPivHouseholderQr().solve(values(curve));
+    const Eigen::Vector2d fit = PivotedQr(parabola).solve(values(curve));
     return (values - fit[1] * squares)(outline.inner_ring).mean() - fit[0];
   };
   if (solvable && shared != modes.clusters.end() && !outline.inner_ring.empty()) {

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sublimit/fit/conditioning.h"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <Eigen/SVD>
 
 #include <algorithm>
 #include <cmath>
 
+#include "sublimit/analysis/dense_decompositions.h"
 #include "sublimit/base/error.h"
 #include "sublimit/fit/spectrum_ends.h"
 
@@ -27,7 +26,7 @@ Conditioning sized(const SparseMatrix& rows) {
 
 /// All of them, ascending, as the positive half of the eigenvalues +-s of a tridiagonal matrix: those of the bidiagonal
 /// one between zeros (Golub, Kahan 1965). Eigen 3.4's BDCSVD reads beyond its arrays at some matrices of low rank.
-Eigen::VectorXd singular_values(const Eigen::MatrixXd& rows) {
+Eigen::VectorXd all_singular_values(const Eigen::MatrixXd& rows) {
   const Eigen::MatrixXd tall = rows.rows() < rows.cols() ? rows.transpose() : rows;
   const Eigen::Index n = tall.cols();
   if (n == 1) return tall.colwise().norm().transpose();
@@ -35,26 +34,20 @@ Eigen::VectorXd singular_values(const Eigen::MatrixXd& rows) {
   Eigen::VectorXd between(2 * n - 1);
   for (Eigen::Index i = 0; i < n; ++i) between[2 * i] = B(i, i);
   for (Eigen::Index i = 0; i + 1 < n; ++i) between[2 * i + 1] = B(i, i + 1);
-  Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver;
-  solver.computeFromTridiagonal(Eigen::VectorXd::Zero(2 * n), between, Eigen::EigenvaluesOnly);
-  if (solver.info() != Eigen::Success) throw AnalysisError("singular values of conditions do not converge");
-  return solver.eigenvalues().tail(n).cwiseMax(0);
+  return tridiagonal_eigenvalues(Eigen::VectorXd::Zero(2 * n), between).tail(n).cwiseMax(0);
 }
 
 /// Of what is perpendicular to the columns, at most so many directions.
 Points complement(const Eigen::MatrixXd& columns, Index rank, Index most) {
   const Eigen::Index size = columns.rows(), count = std::min<Eigen::Index>(size - rank, most);
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(columns);
-  Eigen::MatrixXd last = Eigen::MatrixXd::Identity(size, size).rightCols(count);
-  last.applyOnTheLeft(qr.householderQ());
-  return last;
+  return PivotedQr(columns).last_directions(count);
 }
 
 Conditioning dense_conditioning(const SparseMatrix& rows, double tolerance, Index most_directions) {
   Conditioning result = sized(rows);
   const Index least = std::min(result.rows, result.columns);
   const Eigen::MatrixXd dense(rows);
-  result.singular_values = singular_values(dense);
+  result.singular_values = all_singular_values(dense);
   result.largest = result.singular_values[least - 1];
   for (const double s : result.singular_values) result.rank += s > tolerance * result.largest;
   if (result.rank > 0) result.smallest = result.singular_values[least - result.rank];

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sublimit/fit/spectrum_ends.h"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
-#include <Eigen/SVD>
-
 #include <algorithm>
 #include <cmath>
 
+#include "sublimit/analysis/dense_decompositions.h"
 #include "sublimit/fit/sparse_factors.h"
 #include "sublimit/sparse_product.h"
 
@@ -29,18 +26,13 @@ MatrixXd random_columns(Index rows, Index columns) {
 
 MatrixXd times(const SparseMatrix& S, const MatrixXd& X) { return apply(S, Points(X)); }
 
-MatrixXd orthonormal(const MatrixXd& X) {
-  const Eigen::HouseholderQR<MatrixXd> qr(X);
-  return qr.householderQ() * MatrixXd::Identity(X.rows(), X.cols());
-}
-
 /// X, orthonormal and orthogonal to the first columns of V.
 MatrixXd orthonormal_to(const Eigen::Ref<const MatrixXd>& V, MatrixXd X) {
   for (int i = 0; i < 2; ++i) {  // once more, for what cancellation left
-    X = orthonormal(X);
+    X = orthonormal_columns(X);
     X -= V * (V.transpose() * X);
   }
-  return orthonormal(X);
+  return orthonormal_columns(X);
 }
 
 }  // namespace
@@ -51,7 +43,7 @@ double largest_singular_value(const SparseMatrix& B, const SparseMatrix& Bt) {
   MatrixXd start = random_columns(n, std::min(n, block));
   start.col(0).setOnes();  // weights of points sum to one
   MatrixXd V(n, most);
-  MatrixXd last = orthonormal(start);
+  MatrixXd last = orthonormal_columns(start);
   Index found = 0;
   while (true) {
     V.middleCols(found, last.cols()) = last;
@@ -60,8 +52,7 @@ double largest_singular_value(const SparseMatrix& B, const SparseMatrix& Bt) {
     last = orthonormal_to(V.leftCols(found), times(Bt, times(B, last)));
   }
   const MatrixXd BV = times(B, V.leftCols(found));
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> squares(BV.transpose() * BV, Eigen::EigenvaluesOnly);
-  return std::sqrt(std::max(0.0, squares.eigenvalues()[found - 1]));
+  return std::sqrt(std::max(0.0, symmetric_eigenvalues(BV.transpose() * BV)[found - 1]));
 }
 
 LeastSingular least_singular(const SparseMatrix& B, const SparseMatrix& Bt, double tiny, Index most) {
@@ -85,7 +76,7 @@ LeastSingular least_singular(const SparseMatrix& B, const SparseMatrix& Bt, doub
     MatrixXd start = random_columns(n, block);
     double before = INFINITY;
     for (int round = 0; round < (large ? 1 : 6); ++round) {
-      MatrixXd V(n, std::min(n, block * steps)), last = orthonormal(start);
+      MatrixXd V(n, std::min(n, block * steps)), last = orthonormal_columns(start);
       Index found = 0;
       while (true) {
         V.middleCols(found, last.cols()) = last;
@@ -93,11 +84,9 @@ LeastSingular least_singular(const SparseMatrix& B, const SparseMatrix& Bt, doub
         if (found + last.cols() > V.cols()) break;
         last = orthonormal_to(V.leftCols(found), factors.solve(Points(last)));
       }
-      const Eigen::HouseholderQR<MatrixXd> qr(times(B, V.leftCols(found)));
-      const MatrixXd R = qr.matrixQR().topRows(found).triangularView<Eigen::Upper>();
-      const Eigen::JacobiSVD<MatrixXd> svd(R, Eigen::ComputeFullV);
-      result.values = svd.singularValues().reverse().head(block);
-      start = V.leftCols(found) * svd.matrixV().rowwise().reverse().leftCols(block);
+      const SingularValues s = singular_values(triangular_factor(times(B, V.leftCols(found))));
+      result.values = s.values.reverse().head(block);
+      start = V.leftCols(found) * s.right.rowwise().reverse().leftCols(block);
       const double now = result.values[block - 1];
       const Index vanishing = Index((result.values.array() <= tiny).count());
       const double least = vanishing < block ? result.values[vanishing] : now;

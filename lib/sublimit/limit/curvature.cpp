@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <Eigen/Eigenvalues>
+#include <Eigen/Jacobi>
 
 #include <cmath>
 
@@ -23,13 +23,18 @@ std::optional<Curvature> curvature(const LimitSamples& s, Index row) {
   J << 1 / std::sqrt(E), -a / (b * std::sqrt(E)), 0, 1 / b;
   Eigen::Matrix2d II;
   II << L, M, M, N;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(J.transpose() * II * J);
+  Eigen::Matrix2d form = J.transpose() * II * J;
+  Eigen::JacobiRotation<double> axes;  // the columns of it are the eigenvectors
+  axes.makeJacobi(form, 0, 1);
+  form.applyOnTheLeft(0, 1, axes.adjoint());
+  form.applyOnTheRight(0, 1, axes);
   Curvature c;
-  c.k1 = solver.eigenvalues()[1];
-  c.k2 = solver.eigenvalues()[0];
-  const Eigen::Matrix2d& V = solver.eigenvectors();
-  c.direction1 = V(0, 1) * e1 + V(1, 1) * e2;
-  c.direction2 = V(0, 0) * e1 + V(1, 0) * e2;
+  const int first = form(0, 0) < form(1, 1) ? 1 : 0;
+  const Vector3d directions[] = {axes.c() * e1 - axes.s() * e2, axes.s() * e1 + axes.c() * e2};
+  c.k1 = form(first, first);
+  c.k2 = form(1 - first, 1 - first);
+  c.direction1 = directions[first];
+  c.direction2 = directions[1 - first];
   c.gauss = (L * N - M * M) / area2;
   c.mean = (c.k1 + c.k2) / 2;
   return c;

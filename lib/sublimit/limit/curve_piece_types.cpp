@@ -165,7 +165,7 @@ void CurvePieces::find_orders(int at) {
   const Index piece = canonical_piece(type), unknowns = layout_.unknowns(), all = curve.size * unknowns;
   const Type& left = types_[find(piece - 1, num_pieces(curve) - piece, type.level)];
   if (left.polynomials.empty()) {
-    CurveAnalysis<double> analysis(scheme_);
+    CurveAnalysis analysis(scheme_);
     type.start_order = analysis.limits(curve, type.level, {2 * std::int64_t{piece}}).order[0];
     return;
   }
@@ -183,10 +183,10 @@ void CurvePieces::make_vertices(int at) {
   const CurveOutline curve = canonical(type);
   const Index piece = canonical_piece(type), unknowns = layout_.unknowns();
   const Index first = window(curve, piece).first * unknowns;
-  CurveAnalysis<double> analysis(scheme_);
+  CurveAnalysis analysis(scheme_);
   for (int c : {0, 1}) {
     if (type.limit[c].size() == 0) continue;
-    const CurveLimits<double> limits = analysis.limits(curve, type.level, {2 * (std::int64_t{piece} + c)});
+    const CurveLimits limits = analysis.limits(curve, type.level, {2 * (std::int64_t{piece} + c)});
     Vertex& vertex = type.vertex[c];
     vertex.exists = limits.order[0];
     vertex.rows.setZero(3, type.width);

@@ -11,7 +11,7 @@
 namespace sublimit {
 namespace {
 
-constexpr std::int64_t samples_per_block = 256;
+constexpr std::int64_t places_per_block = 256;
 
 /// A place on a curve by pieces, s in [0, 1].
 struct CurvePlace {
@@ -232,7 +232,7 @@ CurveSamples LimitCurve::evaluate(const Points& unknowns, std::span<const CurveS
             result.set_normal(static_cast<Index>(i), 16 * std::numeric_limits<double>::epsilon() * noise);
         }
       },
-      samples_per_block);
+      places_per_block);
   return result;
 }
 
@@ -288,7 +288,7 @@ CurveSamples evaluate(const GeometricCurveScheme& scheme, const ControlPolygon& 
           result.set_normal(static_cast<Index>(i), 0);
         }
       },
-      samples_per_block);
+      places_per_block);
   return result;
 }
 

@@ -138,21 +138,61 @@ void turn_tangents(const PieceMap::Chain& c, RowMatrix& tangents) {
   for (int i = 0; i < 2; ++i) tangents.row(i) = c.first[i][0] * old.row(0) + c.first[i][1] * old.row(1);
 }
 
+namespace {
+
+/// What a level's topology and sharpness take, about.
+double bytes_of(const Topology& t) {
+  return 24.0 * t.num_half_edges() + 24.0 * t.num_vertices() + 16.0 * t.num_edges();
+}
+
+}  // namespace
+
+const PieceType::Surroundings& PieceType::surroundings() const {
+  std::call_once(surroundings_once_, [&] {
+    const Scheme<double>& scheme = types_->scheme_;
+    const Index face = index(met_in_->topology().face(surroundings_.piece.start));
+    const bool narrow = has_one_ring_limits(scheme);
+    // Masks near the rim of a part are not the mesh's: one more ring, where they look further.
+    const int rings = types_->rings(met_in_->sharpness) +
+                      (narrow || (scheme.is_dual() && scheme.steps.size() == 1) ? 0 : scheme.period);
+    Part around = part(*met_in_, std::span(&face, 1), rings);
+    types_->take(bytes_of(around.level.topology()), num_slots());
+    const auto position = [](const std::vector<Index>& list, Index i) {
+      return static_cast<Index>(std::lower_bound(list.begin(), list.end(), i) - list.begin());
+    };
+    Surroundings own;
+    for (const Index v : surroundings_.slots) own.slots.push_back(position(around.vertices, v));
+    own.piece = {kind_, HalfEdge{position(around.halves, index(surroundings_.piece.start))}};
+    if (decays_) {
+      // Means of sharpness are float sums in the order of the mesh, as the reference has them.
+      own.level = std::move(around.level);
+    } else {
+      CanonicalPart canonical = canonical_part(around.level, own.slots);
+      own.level = std::move(canonical.level);
+      own.piece.start = HalfEdge{canonical.half_edge[index(own.piece.start)]};
+      std::iota(own.slots.begin(), own.slots.end(), 0);
+    }
+    surroundings_ = std::move(own);
+    met_in_.reset();
+  });
+  return surroundings_;
+}
+
 PieceType::Refined PieceType::refined() const {
   const Scheme<double>& scheme = types_->scheme_;
+  const auto& [level, piece, slots] = surroundings();
   Refined result;
-  std::vector<Level>& levels = result.levels;
-  levels.reserve(scheme.period);
   std::vector<LevelStep> steps;
   for (int k = 0; k < scheme.period; ++k) {
-    const Level& before = k == 0 ? local_ : levels.back();
-    levels.push_back(scheme.steps.size() > 1 ? next_level(scheme, before)
-                                             : next_topology(scheme, before, [](const auto&...) {}));
-    for (const Refinement& step : levels.back().steps) steps.push_back({&step, before.number});
+    const Level& before = k == 0 ? level : *result.levels.back();
+    result.levels.push_back(std::make_shared<const Level>(
+        scheme.steps.size() > 1 ? next_level(scheme, before) : next_topology(scheme, before, [](const auto&...) {})));
+    types_->take(bytes_of(result.levels.back()->topology()), num_slots());
+    for (const Refinement& step : result.levels.back()->steps) steps.push_back({&step, before.number});
   }
-  result.slot_of.assign(local_.topology().num_vertices(), -1);
-  for (size_t s = 0; s < slots_.size(); ++s) result.slot_of[slots_[s]] = static_cast<Index>(s);
-  result.children = sublimit::children(piece_, local_.topology(), steps);
+  result.slot_of.assign(level.topology().num_vertices(), -1);
+  for (size_t s = 0; s < slots.size(); ++s) result.slot_of[slots[s]] = static_cast<Index>(s);
+  result.children = sublimit::children(piece, level.topology(), steps);
   return result;
 }
 
@@ -162,12 +202,9 @@ SparseMatrix PieceType::rows_of(const Refined& refined, std::vector<Index> verti
   for (size_t k = refined.levels.size(); k-- > 0;) {
     std::sort(vertices.begin(), vertices.end());
     vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-    const Level &before = k == 0 ? local_ : refined.levels[k - 1], &after = refined.levels[k];
+    const Level &before = k == 0 ? level() : *refined.levels[k - 1], &after = *refined.levels[k];
     // Most of the points are around the children. Those of several steps are multiplied as a whole.
-    const SparseMatrix rows = scheme.steps.size() > 1
-                                  ? after.S
-                                  : subdivision_rows(scheme, scheme.steps[0], before.topology(), after.steps[0],
-                                                     before.sharpness, after.sharpness, before.number, vertices);
+    const SparseMatrix rows = subdivision_rows(scheme, before, after, vertices);
     vertices.assign(rows.innerIndexPtr(), rows.innerIndexPtr() + rows.nonZeros());
     S = S.size() == 0 ? rows : product(S, rows);
   }
@@ -176,7 +213,7 @@ SparseMatrix PieceType::rows_of(const Refined& refined, std::vector<Index> verti
 
 SparseMatrix PieceType::rows_over_slots(const Refined& refined, const SparseMatrix& S,
                                         std::span<const Index> vertices) const {
-  SparseMatrix B(std::ssize(vertices), std::ssize(slots_));
+  SparseMatrix B(std::ssize(vertices), num_slots());
   std::vector<std::pair<Index, double>> row;
   for (Index i = 0; i < B.rows(); ++i) {
     row.clear();
@@ -185,7 +222,7 @@ SparseMatrix PieceType::rows_over_slots(const Refined& refined, const SparseMatr
       const Index slot = refined.slot_of[it.col()];
       if (slot < 0)
         throw AnalysisError(types_->scheme_.name + ": a piece of the limit depends on points beyond " +
-                            std::to_string(types_->rings(refined.levels.back().sharpness)) + " rings");
+                            std::to_string(types_->rings(refined.levels.back()->sharpness)) + " rings");
       row.push_back({slot, it.value()});
     }
     std::sort(row.begin(), row.end());
@@ -198,7 +235,7 @@ SparseMatrix PieceType::rows_over_slots(const Refined& refined, const SparseMatr
 
 PieceType::ChildCorners PieceType::child_corners() const {
   const Refined after = refined();
-  const Topology& t = after.levels.back().topology();
+  const Topology& t = after.levels.back()->topology();
   ChildCorners result;
   std::vector<Index> vertices;
   for (const PieceChild& child : after.children) {
@@ -216,7 +253,7 @@ PieceType::ChildCorners PieceType::child_corners() const {
 const std::deque<PieceLink>& PieceType::children() const {
   std::call_once(children_once_, [&] {
     const Refined after = refined();
-    const Level& fine = after.levels.back();
+    const Level& fine = *after.levels.back();
     PieceWalker walker;
     std::deque<PieceLink> links;
     std::vector<std::vector<Index>> vertices;  // of the children
@@ -226,14 +263,14 @@ const std::deque<PieceLink>& PieceType::children() const {
                                           fine.number % types_->scheme_.period);
       PieceLink& link = links.emplace_back();
       link.map = child.map;
-      link.type = types_->type(fine, child.piece, walk);
+      link.type = types_->type(after.levels.back(), child.piece, walk);
       link.repeats = link.type == this && pure_scale(link.map) != 0;
       all.insert(all.end(), walk.vertices.begin(), walk.vertices.end());
       vertices.push_back(walk.vertices);
     }
     // Masks have some 12 points, and S and the blocks have each of the children's points once.
     constexpr double bytes_of_row = 12 * 12 + 16, bytes_of_slot = 64;
-    types_->take(bytes_of_row * double(all.size()) + bytes_of_slot * double(links.size() * slots_.size()), num_slots());
+    types_->take(bytes_of_row * double(all.size()) + bytes_of_slot * double(links.size()) * num_slots(), num_slots());
     const SparseMatrix S = rows_of(after, std::move(all));
     for (size_t i = 0; i < links.size(); ++i) links[i].block = PieceBlock(rows_over_slots(after, S, vertices[i]));
     children_ = std::move(links);
@@ -327,8 +364,8 @@ const Eigen::RowVectorXd& PieceType::corner_limit(int corner) const {
 
 bool PieceType::is_extraordinary(int corner) const {
   if (kind_ != Piece::Kind::quad && kind_ != Piece::Kind::triangle) return false;
-  const Topology& t = local_.topology();
-  HalfEdge h = piece_.start;
+  const Topology& t = level().topology();
+  HalfEdge h = piece().start;
   for (int i = 0; i < corner; ++i) h = t.next(h);
   const HalfEdge first = h;
   Index valence = 0;
@@ -433,38 +470,34 @@ const PieceType* PieceTypes::find(const std::vector<std::uint32_t>& signature) c
   return at == types_.end() ? nullptr : at->second.get();
 }
 
-const PieceType* PieceTypes::type(const Level& level, const Piece& piece, const PieceWalk& walk) {
-  if (const PieceType* known = find(walk.signature)) return known;
+std::unique_ptr<PieceType> PieceTypes::made(std::shared_ptr<const Level> level, const Piece& piece,
+                                            const PieceWalk& walk) {
   auto type = std::make_unique<PieceType>();
-  const Index face = index(level.topology().face(piece.start));
-  const bool narrow = has_one_ring_limits(scheme_);
-  // Masks near the rim of a part are not the mesh's: one more ring, where they look further.
-  const int rings =
-      this->rings(level.sharpness) + (narrow || (scheme_.is_dual() && scheme_.steps.size() == 1) ? 0 : scheme_.period);
-  Part around = part(level, std::span(&face, 1), rings);
-  const auto position = [](const std::vector<Index>& list, Index i) {
-    return static_cast<Index>(std::lower_bound(list.begin(), list.end(), i) - list.begin());
-  };
-  const Topology& own = around.level.topology();
-  take(4.0 * double(walk.signature.size()) + 24.0 * own.num_half_edges() + 24.0 * own.num_vertices() +
-           16.0 * own.num_edges(),
-       static_cast<Index>(walk.vertices.size()));
+  type->num_slots_ = static_cast<Index>(walk.vertices.size());
+  take(4.0 * double(walk.signature.size() + walk.vertices.size()), type->num_slots_);
   type->types_ = this;
   type->kind_ = piece.kind;
   type->decays_ = walk.decays;
-  for (const Index v : walk.vertices) type->slots_.push_back(position(around.vertices, v));
-  type->piece_ = {piece.kind, HalfEdge{position(around.halves, index(piece.start))}};
-  if (walk.decays) {
-    // Means of sharpness are float sums in the order of the mesh, as the reference has them.
-    type->local_ = std::move(around.level);
-  } else {
-    CanonicalPart canonical = canonical_part(around.level, type->slots_);
-    type->local_ = std::move(canonical.level);
-    type->piece_.start = HalfEdge{canonical.half_edge[index(type->piece_.start)]};
-    std::iota(type->slots_.begin(), type->slots_.end(), 0);
-  }
+  type->surroundings_ = {{}, piece, walk.vertices};
+  type->met_in_ = std::move(level);
+  return type;
+}
+
+const PieceType* PieceTypes::kept(const PieceWalk& walk, std::unique_ptr<PieceType> type) {
   const std::unique_lock lock(mutex_);
   return types_.try_emplace(walk.signature, std::move(type)).first->second.get();
+}
+
+const PieceType* PieceTypes::type(const std::shared_ptr<const Level>& level, const Piece& piece, const PieceWalk& walk) {
+  if (const PieceType* known = find(walk.signature)) return known;
+  return kept(walk, made(level, piece, walk));
+}
+
+const PieceType* PieceTypes::type(const Level& level, const Piece& piece, const PieceWalk& walk) {
+  if (const PieceType* known = find(walk.signature)) return known;
+  std::unique_ptr<PieceType> type = made({std::shared_ptr<const Level>(), &level}, piece, walk);
+  type->surroundings();
+  return kept(walk, std::move(type));
 }
 
 PieceRows piece_rows(const PieceType& root, Place place, int order, bool search) {

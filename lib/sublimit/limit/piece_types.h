@@ -37,13 +37,13 @@ class PieceType {
   Piece::Kind kind() const { return kind_; }
   const PieceTypes& types() const { return *types_; }
   /// Points that it depends on.
-  Index num_slots() const { return static_cast<Index>(slots_.size()); }
+  Index num_slots() const { return num_slots_; }
   /// Some finite sharpness matters: sums of it are taken in the order of the mesh that the type was met in first.
   bool decays() const { return decays_; }
   /// The piece among the points around it, the rim of which means nothing, and the vertices that are its slots.
-  const Level& level() const { return local_; }
-  const Piece& piece() const { return piece_; }
-  std::span<const Index> slots() const { return slots_; }
+  const Level& level() const { return surroundings().level; }
+  const Piece& piece() const { return surroundings().piece; }
+  std::span<const Index> slots() const { return surroundings().slots; }
   /// Its children, whether or not it is a polynomial.
   const std::deque<PieceLink>& children() const;
   /// Corners of its children over its own slots, child after child and counter-clockwise: rows of S, without looking at
@@ -81,9 +81,16 @@ class PieceType {
   struct Modes {
     Eigen::MatrixXd derivatives, functions;  ///< by rows; by columns, those whose only derivative is 1
   };
+  struct Surroundings {
+    Level level;
+    Piece piece;
+    std::vector<Index> slots;  ///< vertex of each
+  };
+  /// Taken out of the level that the type was met in when first needed: most children lie beside the ways to places.
+  const Surroundings& surroundings() const;
   /// The level after its own, and the children on it.
   struct Refined {
-    std::vector<Level> levels;  ///< of one period
+    std::vector<std::shared_ptr<const Level>> levels;  ///< of one period
     std::vector<PieceChild> children;
     std::vector<Index> slot_of;  ///< of its own vertices, -1 beyond
   };
@@ -101,9 +108,10 @@ class PieceType {
   PieceTypes* types_ = nullptr;
   Piece::Kind kind_ = Piece::Kind::quad;
   bool decays_ = false;  // finite sharpness: its children are others, and it is no polynomial
-  Level local_;
-  Piece piece_;
-  std::vector<Index> slots_;  // local vertex of each slot
+  Index num_slots_ = 0;
+  mutable std::once_flag surroundings_once_;
+  mutable Surroundings surroundings_;  // until they are taken out, in terms of `met_in_`, but for the level
+  mutable std::shared_ptr<const Level> met_in_;
 
   mutable std::once_flag children_once_;
   mutable std::deque<PieceLink> children_;
@@ -133,6 +141,8 @@ class PieceTypes {
   /// The type of a piece, made if it is new.
   /// @param walk  of the piece
   const PieceType* type(const Level& level, const Piece& piece, const PieceWalk& walk);
+  /// The same, where the type may keep the level until it looks at its surroundings.
+  const PieceType* type(const std::shared_ptr<const Level>& level, const Piece& piece, const PieceWalk& walk);
   /// The type with this signature, or null.
   const PieceType* find(const std::vector<std::uint32_t>& signature) const;
   /// Bytes that the types and their blocks take, about.
@@ -147,6 +157,8 @@ class PieceTypes {
   /// Counts what will be taken for a type of so many points, before it is.
   /// @throws ResourceError  all types together take more than there is
   void take(double bytes, Index slots);
+  std::unique_ptr<PieceType> made(std::shared_ptr<const Level> level, const Piece& piece, const PieceWalk& walk);
+  const PieceType* kept(const PieceWalk& walk, std::unique_ptr<PieceType> type);
   size_t max_types_;
   std::atomic<double> memory_{0};
   std::unique_ptr<LimitMaskCache> masks_;

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sublimit/limit/polynomial_search.h"
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+
+#include "sublimit/analysis/dense_decompositions.h"
 
 namespace sublimit {
 namespace {
@@ -156,7 +158,7 @@ std::optional<PiecePolynomial> PolynomialSearch::interpolated(const PieceType& t
       values.row(k) = basis.at(places[k].u, places[k].v, 0);
       rows.row(k) = piece_rows(type, places[k], 0, false).rows.row(0);
     }
-    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(values);
+    const PivotedQr qr(values);
     if (qr.rank() < basis.size()) return std::nullopt;
     p.coefficients.push_back(qr.solve(rows));
   }

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "sublimit/analysis/curve_limits.h"
+#include "sublimit/analysis/dense_decompositions.h"
 #include "sublimit/curve_schemes.h"
 #include "support/curve_laws.h"
 #include "support/precise_schemes.h"
@@ -14,7 +15,7 @@ namespace sublimit::testing {
 namespace {
 
 std::vector<double> spectrum(const CurveScheme<double>& scheme, CurveAnchor anchor = CurveAnchor::inside) {
-  const Eigen::VectorXcd values = CurveAnalysis<double>(scheme).neighborhood(anchor).A.eigenvalues();
+  const Eigen::VectorXcd values = eigenvalues(CurveAnalysis(scheme).neighborhood(anchor).A);
   std::vector<double> result;
   for (const std::complex<double> value : values) result.push_back(value.real());
   std::sort(result.rbegin(), result.rend());
@@ -39,8 +40,8 @@ TEST(CurveSpectrum, FourPoint) {
 }
 
 /// Rows of the limit, the first and the second derivative at the middle of a long curve.
-CurveLimits<double> middle(const CurveScheme<double>& scheme) {
-  CurveAnalysis<double> analysis(scheme);
+CurveLimits middle(const CurveScheme<double>& scheme) {
+  CurveAnalysis analysis(scheme);
   const CurveOutline curve = analysis.layout().control(200, true);
   return analysis.limits(curve, 0, {analysis.layout().position(curve, 100)});
 }
@@ -55,7 +56,7 @@ void expect_row(const CurveMatrix<double>& row, const std::vector<double>& expec
 }
 
 TEST(CurveLimits, Chaikin) {
-  const CurveLimits<double> L = middle(*find_curve_scheme("chaikin"));
+  const CurveLimits L = middle(*find_curve_scheme("chaikin"));
   expect_row(L.position, {1 / 8.0, 6 / 8.0, 1 / 8.0});
   expect_row(L.first, {-0.5, 0, 0.5});
   EXPECT_EQ(L.order[0], 2);  // a quadratic around its control point
@@ -64,7 +65,7 @@ TEST(CurveLimits, Chaikin) {
 
 TEST(CurveLimits, FourPointDerivative) {
   for (const auto& [text, g] : {std::pair{"1", 1.0}, {"1/2", 0.5}, {"3", 3.0}}) {
-    const CurveLimits<double> L = middle(*find_curve_scheme("four-point", {{"tension", text}}));
+    const CurveLimits L = middle(*find_curve_scheme("four-point", {{"tension", text}}));
     const double d = 4 * (4 - g);
     expect_row(L.position, {1}, 0);
     expect_row(L.first, {g / d, -8 / d, 0, 8 / d, -g / d});
@@ -78,8 +79,8 @@ TEST(CurveLimits, ChaikinEnds) {
   // v2)/2.
   for (const bool kept : {false, true}) {
     const auto scheme = *find_curve_scheme("chaikin", {{"ends", kept ? "interpolate" : "free"}});
-    CurveAnalysis<double> analysis(scheme);
-    const CurveLimits<double> L = analysis.limits(control_level(scheme, polygon_through(Points::Zero(9, 2))));
+    CurveAnalysis analysis(scheme);
+    const CurveLimits L = analysis.limits(control_level(scheme, polygon_through(Points::Zero(9, 2))));
     const auto expect_start = [](const CurveMatrix<double>& rows, std::vector<double> expected) {
       for (Index i = 0; i < 9; ++i) {
         EXPECT_NEAR(rows.coeff(0, i), i < Index(expected.size()) ? expected[i] : 0, eigen());
@@ -101,7 +102,7 @@ double basis(int degree, double x) {
 
 TEST(CurveLimits, LaneRiesenfeldIsTheBSpline) {
   for (int degree = 1; degree <= 9; ++degree) {
-    const CurveLimits<double> L = middle(*find_curve_scheme("lane-riesenfeld", {{"degree", std::to_string(degree)}}));
+    const CurveLimits L = middle(*find_curve_scheme("lane-riesenfeld", {{"degree", std::to_string(degree)}}));
     std::vector<double> value, slope;
     for (int i = -degree; i <= degree; ++i) {
       value.push_back(basis(degree, -i));
@@ -115,7 +116,7 @@ TEST(CurveLimits, LaneRiesenfeldIsTheBSpline) {
 }
 
 TEST(CurveLimits, SixPointDerivative) {
-  const CurveLimits<double> L = middle(*find_curve_scheme("six-point"));
+  const CurveLimits L = middle(*find_curve_scheme("six-point"));
   const double a = 272 / 365.0, b = -53 / 365.0, c = 16 / 1095.0, d = 1 / 2920.0;
   expect_row(L.position, {1}, 0);
   expect_row(L.first, {-d, -c, -b, -a, 0, a, b, c, d});
@@ -132,7 +133,7 @@ TEST(CurveLimits, MerrienKeepsPointsAndDerivatives) {
       ControlPolygon polygon = polygon_through(Points::Random(7, 2), closed);
       polygon.tangents = Points::Random(7, 2);
       const std::vector<CurveLevel> levels = refine(scheme, polygon, 4);
-      const CurveLimits<double> L = CurveAnalysis<double>(scheme).limits(levels[4]);
+      const CurveLimits L = CurveAnalysis(scheme).limits(levels[4]);
       const Points fine = refinement_matrix(levels) * unknowns(scheme, polygon);
       const Points limit = L.position * fine, first = L.first * fine;
       for (Index i = 0; i < 7; ++i) {
@@ -174,8 +175,8 @@ TEST(CurveLimits, TrigonometricCubicMakesCircles) {
     }
     const CurveScheme<double> scheme = *find_curve_scheme("trigonometric-cubic", {{"sides", std::to_string(sides)}});
     const std::vector<CurveLevel> levels = refine(scheme, polygon_through(points, sides <= 60), 3);
-    CurveAnalysis<double> analysis(scheme);
-    const CurveLimits<double> L = analysis.limits(levels[3]);
+    CurveAnalysis analysis(scheme);
+    const CurveLimits L = analysis.limits(levels[3]);
     const Points x = refinement_matrix(levels) * points, limit = L.position * x, first = L.first * x,
                  second = L.second * x;
     const double radius = limit.row(0).norm(), turn = 2 * M_PI / sides;
@@ -208,8 +209,8 @@ TEST(CurveLimits, EqualBruteForceIn256Bits) {
       SCOPED_TRACE(name + (options.empty() ? "" : " " + options.begin()->first + "=" + options.begin()->second) +
                    (closed ? " closed" : " open"));
       const CurveLevel level = control_level(scheme, polygon_through(points, closed));
-      CurveAnalysis<double> analysis(scheme);
-      const CurveLimits<double> L = analysis.limits(level);
+      CurveAnalysis analysis(scheme);
+      const CurveLimits L = analysis.limits(level);
       const CurveLayout& layout = analysis.layout();
       for (const Index a : {0, 1, 2, 5, 10}) {
         // Follow the position down: a window of points around it, which is all that the next level needs.

@@ -11,6 +11,7 @@
 #include "support/limit_system.h"
 #include "support/meshes.h"
 #include "support/tolerance.h"
+#include "sublimit/analysis/dense_decompositions.h"
 #include "sublimit/base/error.h"
 
 namespace sublimit {
@@ -88,15 +89,14 @@ Reference null_space_method(const FitProblem& p) {
   }
   Reference result{p.x0 + y, C.rows() == 0 || difference(C * (p.x0 + y), p.d) < 1e-9, 1};
   if (N.cols() == 0) return result;
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(N.transpose() * Q * N);
-  Eigen::VectorXd inverse = eigen.eigenvalues();
+  const SymmetricEigenvectors eigen = symmetric_eigenvectors(N.transpose() * Q * N);
+  Eigen::VectorXd inverse = eigen.values;
   for (double& l : inverse) {
     const bool seen = l > 1e-10 * Q.norm();
     if (seen) result.narrowest = std::min(result.narrowest, l / Q.norm());
     l = seen ? 1 / l : 0;
   }
-  result.x += N * (eigen.eigenvectors() * inverse.asDiagonal() *
-                   (eigen.eigenvectors().transpose() * (N.transpose() * (force - Q * y))));
+  result.x += N * (eigen.vectors * inverse.asDiagonal() * (eigen.vectors.transpose() * (N.transpose() * (force - Q * y))));
   return result;
 }
 
@@ -159,7 +159,7 @@ TEST(FitProblem, ConditionsOfTenThousandAreMetToRounding) {
     MatrixXd left(rows, rows), right(30, 30), d(30, 2);
     for (MatrixXd* m : {&left, &right, &d})
       for (double& x : m->reshaped()) x = normal(generator);
-    const MatrixXd U = left.householderQr().householderQ(), V = right.householderQr().householderQ();
+    const MatrixXd U = orthonormal_columns(left), V = orthonormal_columns(right);
     const Index rank = std::min<Index>(rows, 30);
     const Eigen::VectorXd s =
         Eigen::VectorXd::LinSpaced(rank, 0, -4).unaryExpr([](double e) { return std::pow(10, e); });

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <random>
 
+#include "sublimit/analysis/dense_decompositions.h"
 #include "support/expect_error.h"
 #include "support/tolerance.h"
 
@@ -221,7 +222,7 @@ TEST(HermiteIncentre, SimilaritiesAndReversalCommute) {
     const double factor = std::exp(3 * normal(random)), size = size_of_limit(polygon) + 20;
     Eigen::MatrixXd A(d, d);
     for (double& x : A.reshaped()) x = normal(random);
-    const Eigen::MatrixXd Q = A.householderQr().householderQ();  // reflections among them
+    const Eigen::MatrixXd Q = orthonormal_columns(A);  // reflections among them
     Eigen::RowVectorXd shift(d);
     for (double& x : shift) x = factor * normal(random);
     const auto moved = [&](ControlPolygon p) {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sublimit/analysis/regularity/joint_spectral_radius.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
+#include "sublimit/analysis/dense_decompositions.h"
 #include "sublimit/analysis/regularity/absolute_hull.h"
 
 namespace sublimit {
@@ -21,7 +21,7 @@ struct Product {
   Eigen::MatrixXd value;
 };
 
-double radius(const Eigen::MatrixXd& A) { return A.eigenvalues().cwiseAbs().maxCoeff(); }
+double radius(const Eigen::MatrixXd& A) { return eigenvalues(A).cwiseAbs().maxCoeff(); }
 
 /// x^(1/n) by doubles.
 double rooted(double x, size_t n) { return std::pow(x, 1 / static_cast<double>(n)); }
@@ -87,8 +87,8 @@ Eigen::MatrixXd balanced_coordinates(const Matrices& matrices) {
     Q += term;
   }
   Q /= Q.diagonal().maxCoeff();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(Q);
-  return solver.eigenvectors() * solver.eigenvalues().cwiseMax(1e-14).cwiseSqrt().asDiagonal();
+  const SymmetricEigenvectors axes = symmetric_eigenvectors(Q);
+  return axes.vectors * axes.values.cwiseMax(1e-14).cwiseSqrt().asDiagonal();
 }
 
 /// A polytope that all matrices, divided by `rate`, map into itself, up to rounding; it contains
@@ -199,10 +199,10 @@ JointSpectralRadius joint_spectral_radius(const Matrices& given, const JointSpec
   if (candidate <= 0) return result;
   std::vector<Eigen::RowVectorXd> leading;
   for (const Product& p : products) {
-    const Eigen::EigenSolver<Eigen::MatrixXd> solver(p.value.transpose());
+    const Eigenvectors modes = eigenvectors(p.value.transpose());
     Eigen::Index at = 0;
-    solver.eigenvalues().cwiseAbs().maxCoeff(&at);
-    const Eigen::VectorXcd v = solver.eigenvectors().col(at) / solver.eigenvectors().col(at).cwiseAbs().maxCoeff();
+    modes.values.cwiseAbs().maxCoeff(&at);
+    const Eigen::VectorXcd v = modes.vectors.col(at) / modes.vectors.col(at).cwiseAbs().maxCoeff();
     for (const Eigen::RowVectorXd& part : {Eigen::RowVectorXd(v.real()), Eigen::RowVectorXd(v.imag())})
       if (part.norm() > 1e-9) leading.push_back(part);
   }

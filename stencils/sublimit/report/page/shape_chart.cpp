@@ -2,13 +2,14 @@
 // The shape chart of Karciauskas, Peters and Reif 2004: near an extraordinary point a surface looks like its central
 // surface, the graph of a f0 + b fc + c fs over the characteristic map. The sign of its Gauss curvature depends only on
 // the direction of (a, b, c); (b, c) with b^2 + c^2 <= 1 and a = sqrt(1 - b^2 - c^2) make a disc.
-#include <Eigen/Dense>
+#include <Eigen/Core>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <set>
 
+#include "sublimit/analysis/dense_decompositions.h"
 #include "sublimit/report/page/characteristic_map.h"
 #include "sublimit/report/page/drawing.h"
 #include "sublimit/report/page/map_net.h"
@@ -37,7 +38,7 @@ class Hessians {
         const Point d = (net.points[w] - net.points[v]) / size;
         rows.row(r++) << 1, d.x(), d.y(), .5 * d.x() * d.x(), d.x() * d.y(), .5 * d.y() * d.y();
       }
-      const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> solver(rows);
+      const PivotedQr solver(rows);
       if (solver.rank() < 6 || 2 * faces[v] < static_cast<int>(near.size()) - 1) continue;  // at the rim
       const Eigen::MatrixXd inverse = solver.solve(
           Eigen::MatrixXd::Identity(static_cast<Eigen::Index>(near.size()), static_cast<Eigen::Index>(near.size())));
