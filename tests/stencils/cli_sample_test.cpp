@@ -146,7 +146,9 @@ TEST(CliSample, RowsAreTheStencilsOfTheirPlaces) {
         const auto value = vector_of(row, k == 0 ? 4 : size_t(4 + 3 * k));
         ASSERT_EQ(value.has_value(), k == 0 || found.order[i] >= (k < 3 ? 1 : 2));
         if (!value || k >= expected.rows()) continue;
-        EXPECT_LT((*value - Eigen::Vector3d(expected.row(k))).norm(), rounding(16 * terms, local.cwiseAbs().maxCoeff()));
+        // At vertices of level 2 second derivatives are differences of sixteen times as much, on both ways.
+        const double units = (k < 3 ? 16 : 64) * terms;
+        EXPECT_LT((*value - Eigen::Vector3d(expected.row(k))).norm(), rounding(units, local.cwiseAbs().maxCoeff()));
       }
       const auto normal = vector_of(row, 22);
       EXPECT_EQ(row[3], name(found.status[i]));

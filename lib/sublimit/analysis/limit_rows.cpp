@@ -188,9 +188,10 @@ bool is_one_direction(const LimitRows& limit) {
   if (qr.rank() < 2) return false;
   constexpr double rounding = 1e-10;  // of eigenvectors that a period or two carry back
   return std::ranges::all_of(limit.second_order, [&](const Row& row) {
-    const Eigen::VectorXd way = dense(row);
+    Eigen::VectorXd way = dense(row);
     const Eigen::Vector2d parts = qr.solve(way);
-    return (way - plane * parts).norm() <= rounding * inwards && parts[1] >= -rounding;
+    way.noalias() -= plane * parts;
+    return way.norm() <= rounding * inwards && parts[1] >= -rounding;
   });
 }
 

@@ -16,10 +16,10 @@ constexpr int largest_degree = 10;
 /// Of coefficients and values, relative to the weights: a few hundred roundings.
 constexpr double tolerance = 1e-12, rough_tolerance = 1e-8;
 
-/// Chebyshev's points on [0, 1], moved to multiples of 1/1024 that are reached in ten steps.
-double node(int i, int count) {
+/// Chebyshev's points on [0, 1], moved to multiples of a power of two that are reached in few steps.
+double node(int i, int count, double denominator) {
   const double x = 0.5 - 0.5 * std::cos(std::numbers::pi * (2 * i + 1) / (2 * count));
-  return std::round(x * 1024) / 1024;
+  return std::round(x * denominator) / denominator;
 }
 
 /// From this degree on second derivatives would lose too many digits: 4 d^4 roundings.
@@ -132,12 +132,14 @@ std::optional<PiecePolynomial> PolynomialSearch::interpolated(const PieceType& t
                                                               bool halves, bool wide) const {
   PiecePolynomial p{basis, {}};
   const int n = basis.degree() + 1;
+  // Weights k/64 make four steps without a rounding, ten with many; second derivatives multiply them by d^4.
+  const double denominator = n <= 4 && !basis.total() && !halves ? 16 : 1024;
   for (int half = 0; half < (halves ? 2 : 1); ++half) {
     std::vector<Place> places;
     for (int i = 0; i < n; ++i)
       for (int j = 0; j < n; ++j) {
-        double u = node(i, n), v = node(j, n);
-        if (basis.total() || halves) v = std::round(u * v * 1024) / 1024;  // below the diagonal
+        double u = node(i, n, denominator), v = node(j, n, denominator);
+        if (basis.total() || halves) v = std::round(u * v * denominator) / denominator;  // below the diagonal
         if (basis.total()) u = 1 - u;  // a triangle's corners are (0,0), (1,0), (0,1)
         if (half == 1) std::swap(u, v);
         places.push_back(basis.total() ? triangle_place(u, v) : quad_place(u, v));
@@ -160,7 +162,9 @@ std::optional<PiecePolynomial> PolynomialSearch::interpolated(const PieceType& t
     }
     const PivotedQr qr(values);
     if (qr.rank() < basis.size()) return std::nullopt;
-    p.coefficients.push_back(qr.solve(rows));
+    Eigen::MatrixXd coefficients = qr.solve(rows);
+    const WideMatrix left = rows.cast<Wide>() - values.cast<Wide>() * coefficients.cast<Wide>();
+    p.coefficients.push_back(coefficients + qr.solve(left.cast<double>()));
   }
   return p;
 }

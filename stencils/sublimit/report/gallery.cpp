@@ -2,7 +2,6 @@
 #include "sublimit/report/gallery.h"
 
 #include <fmt/core.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -13,6 +12,7 @@
 
 #include "sublimit/base/atomic_file.h"
 #include "sublimit/base/error.h"
+#include "sublimit/base/parallel_for.h"
 #include "sublimit/report/gallery/curves.h"
 #include "sublimit/report/gallery/page.h"
 #include "sublimit/schemes.h"
@@ -137,23 +137,26 @@ Gallery make_gallery(const GalleryOptions& options, const std::function<void(int
     ++done;
   };
   // A scheme's cache is used by one task at a time.
-  tbb::parallel_for(size_t{0}, schemes.size(), [&](size_t s) {
+  const auto show_scheme = [&](std::int64_t s, std::int64_t, std::int64_t) {
     for (Work& w : work) {
       if (w.scheme != static_cast<int>(s)) continue;
       step();
-      w.exhibit = exhibit(*w.cage, *caches[s], {options.levels, options.faces});
+      w.exhibit = exhibit(*w.cage, *caches[size_t(s)], {options.levels, options.faces});
     }
-  });
+  };
+  parallel_for_blocks(std::int64_t(schemes.size()), show_scheme, 1);
 
   std::map<const Cage*, Points> views;
   for (const Cage& cage : all_cages) views[&cage] = in_view(work, cage);
   std::vector<GalleryFile> files(work.size());
-  tbb::parallel_for(size_t{0}, work.size(), [&](size_t i) {
+  const auto draw = [&](std::int64_t block, std::int64_t, std::int64_t) {
+    const auto i = static_cast<size_t>(block);
     step();
     PictureOptions picture = small_multiples();
     picture.in_view = views.at(work[i].cage);
     files[i] = {work[i].picture(), svg_picture(work[i].exhibit.panels, picture)};
-  });
+  };
+  parallel_for_blocks(std::int64_t(work.size()), draw, 1);
   step();
   files.push_back({"overview.svg", overview(work)});
 

@@ -112,12 +112,19 @@ void compare(const NamedMesh& tested, const std::string& scheme_name, Worst& wor
         for (const size_t i : corners) halves.push_back(at.corners[i]);
         return ring_normal(at, halves, between);
       };
-      // A Jordan block makes the directions turn like 1/k: normals of depth k are (lambda1 lambda2)^k (k a + b), so that two
-      // depths give a. At a single quad of a crease the moduli differ so much that more depth would cost all digits.
-      const bool slow = generic.plane == LimitMasks::Plane::slow || (corners.size() == 1 && generic.lambda2 < 0.3);
-      const Precise shrink = Precise(generic.lambda1) * Precise(generic.lambda2);
-      const Eigen::Vector3d brute =
-          direction(slow ? PreciseVector(normal(rings[2]) / pow(shrink, 100) - normal(rings[1])) : normal(ring));
+      // At a single quad of a crease the moduli differ so much that more depth would cost all digits.
+      const bool flat = corners.size() == 1 && generic.lambda2 < 0.3;
+      Eigen::Vector3d brute = direction(normal(flat ? rings[1] : ring));
+      // A Jordan block makes directions turn like 1/k: normals of depth k are (lambda1 lambda2)^k (k a + b) + ..., where what
+      // follows dies out, so that two depths give a. Where they come to rest a is zero, and the direction is b.
+      const bool slow = generic.plane == LimitMasks::Plane::slow;
+      if (slow) {
+        const Precise shrink = Precise(generic.lambda1) * Precise(generic.lambda2);
+        const auto scaled = [&](size_t i, int depth) { return PreciseVector(normal(rings[i]) / pow(shrink, depth)); };
+        const PreciseVector at100 = scaled(1, 100), before = at100 - scaled(0, 50), after = scaled(2, 200) - at100;
+        const Precise moved = before.dot(before);
+        if (moved > Precise(1e-20) * at100.dot(at100) && after.dot(after) > moved) brute = direction(after);
+      }
       const Eigen::Vector3d limit_normal = ours.normal.row(side);
       const double angle = std::atan2(brute.cross(limit_normal).norm(), brute.dot(limit_normal));
       EXPECT_LE(angle, brute_angle) << tested.name << " vertex " << v << " side of " << corners.size() << " faces, status "

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sublimit/base/parallel_for.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace sublimit {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// Where a block of a loop fails while another is inside of a loop of its own, that one is done to its end: what comes behind it
+/// relies on all that it writes.
+TEST(ParallelFor, LoopsInsideGoOnWhereTheOuterOneFails) {
+  std::atomic<bool> another{false}, fails{false};
+  std::atomic<int> loops{0}, halfway{0};
+  const auto until = [](const std::atomic<bool>& flag) {
+    const auto end = std::chrono::steady_clock::now() + 5s;  // with a single thread nobody comes
+    while (!flag && std::chrono::steady_clock::now() < end) std::this_thread::sleep_for(1ms);
+  };
+  const auto body = [&](std::int64_t block, std::int64_t, std::int64_t) {
+    if (!another.exchange(true)) {
+      until(fails);
+      for (const auto end = std::chrono::steady_clock::now() + 100ms; std::chrono::steady_clock::now() < end; ++loops) {
+        std::atomic<int> done{0};
+        parallel_for_blocks(64, [&](std::int64_t, std::int64_t, std::int64_t) { ++done; }, 1);
+        halfway += done != 64;
+      }
+    } else if (!fails.exchange(true)) {
+      throw std::runtime_error("block " + std::to_string(block));
+    }
+  };
+  EXPECT_THROW(parallel_for_blocks(16, body, 1), std::runtime_error);
+  EXPECT_GT(loops, 0);
+  EXPECT_EQ(halfway, 0) << "of " << loops;
+}
+
+TEST(ParallelFor, BlocksCoverTheRangeOnce) {
+  for (const std::int64_t count : {0, 1, 6, 7, 8, 49, 50}) {
+    std::vector<std::atomic<int>> seen(static_cast<size_t>(count));
+    parallel_for_blocks(
+        count,
+        [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
+          EXPECT_EQ(begin, 7 * block);
+          for (std::int64_t i = begin; i < end; ++i) ++seen[size_t(i)];
+        },
+        7);
+    for (const auto& times : seen) EXPECT_EQ(times, 1);
+  }
+}
+
+}  // namespace
+}  // namespace sublimit
