@@ -70,7 +70,7 @@ INSTANTIATE_TEST_SUITE_P(Commands, FoundMeshes, ::testing::ValuesIn(timeouts), [
   return name;
 });
 
-TEST(FoundMesh, OfAFitWithoutSecondDerivativesIsRefusedAtOnce) {
+TEST(FoundMesh, OfAFitWithoutSecondDerivativesIsRefused) {
   const std::string mesh = (found / "w1-0029-timeout-fit.obj").string(), targets = (found / "w1-0029-timeout-fit.csv").string();
   if (!fs::exists(mesh)) GTEST_SKIP() << "NO SHARED MESHES at " << found;
   const TemporaryDirectory directory;
