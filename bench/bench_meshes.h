@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "opensubdiv_peer.h"
-#include "sublimit/mesh/read_mesh.h"
+#include "sublimit/io/read_mesh.h"
 #include "support/meshes.h"
 
 namespace sublimit::bench {

@@ -19,8 +19,8 @@
 
 #include "fit_systems.h"
 #include "measuring.h"
+#include "sublimit/core/sparse_product.h"
 #include "sublimit/fit/conditioning.h"
-#include "sublimit/sparse_product.h"
 
 namespace sublimit::bench {
 namespace {

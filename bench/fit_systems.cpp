@@ -4,10 +4,10 @@
 #include <cmath>
 #include <random>
 
-#include "sublimit/analysis/limit_points.h"
+#include "sublimit/core/sparse_product.h"
 #include "sublimit/fit/scattered_fit.h"
+#include "sublimit/limit/limit_points.h"
 #include "sublimit/schemes.h"
-#include "sublimit/sparse_product.h"
 #include "support/meshes.h"
 
 namespace sublimit::bench {

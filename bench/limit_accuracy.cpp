@@ -20,8 +20,8 @@
 #include <string>
 #include <vector>
 
+#include "sublimit/io/read_mesh.h"
 #include "sublimit/limit/limit_surface.h"
-#include "sublimit/mesh/read_mesh.h"
 #include "support/compare_with_opensubdiv.h"
 #include "support/dyadic_limits.h"
 #include "support/opensubdiv_limit_reference.h"

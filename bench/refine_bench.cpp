@@ -19,9 +19,9 @@
 
 #include "bench_meshes.h"
 #include "measuring.h"
-#include "sublimit/refine.h"
+#include "sublimit/core/sparse_product.h"
+#include "sublimit/scheme/refine.h"
 #include "sublimit/schemes.h"
-#include "sublimit/sparse_product.h"
 
 namespace sublimit::bench {
 namespace {

@@ -24,9 +24,9 @@
 #include <vector>
 
 #include "measuring.h"
-#include "sublimit/refine.h"
+#include "sublimit/core/sparse_product.h"
+#include "sublimit/scheme/refine.h"
 #include "sublimit/schemes.h"
-#include "sublimit/sparse_product.h"
 #include "support/cgal_reference.h"
 #include "support/irregular_meshes.h"
 #include "support/meshes.h"

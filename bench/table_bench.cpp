@@ -25,7 +25,7 @@
 #include "limit_peers.h"
 #include "measuring.h"
 #include "opensubdiv_table.h"
-#include "sublimit/bake.h"
+#include "sublimit/bake/bake.h"
 #include "sublimit/pattern_evaluator.h"
 #include "sublimit/schemes.h"
 

@@ -13,8 +13,8 @@
 #include <filesystem>
 
 #include "measuring.h"
-#include "sublimit/bake.h"
-#include "sublimit/editable_table.h"
+#include "sublimit/bake/bake.h"
+#include "sublimit/bake/editable_table.h"
 #include "sublimit/pattern_evaluator.h"
 #include "sublimit/schemes.h"
 #include "sublimit/table_file.h"

@@ -10,10 +10,10 @@
 
 #include "sublimit/base/atomic_file.h"
 #include "sublimit/fit/deviation.h"
+#include "sublimit/geometric/torus_pieces.h"
 #include "sublimit/report/page/drawing.h"
 #include "sublimit/report/page/plot.h"
 #include "sublimit/report/page/style.h"
-#include "sublimit/schemes/torus_pieces.h"
 #include "support/meshes.h"
 
 namespace sublimit::bench {

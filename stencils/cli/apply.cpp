@@ -6,17 +6,17 @@
 #include <cmath>
 
 #include "common.h"
-#include "sublimit/applied_points.h"
+#include "sublimit/bake/applied_points.h"
+#include "sublimit/bake/table_info.h"
+#include "sublimit/bake/table_mesh.h"
 #include "sublimit/base/error.h"
 #include "sublimit/base/format_number.h"
 #include "sublimit/base/memory.h"
-#include "sublimit/frames.h"
-#include "sublimit/mesh/prepare.h"
-#include "sublimit/npy.h"
+#include "sublimit/files/frames.h"
+#include "sublimit/files/npy.h"
 #include "sublimit/pattern_evaluator.h"
+#include "sublimit/scheme/prepare.h"
 #include "sublimit/table_file.h"
-#include "sublimit/table_info.h"
-#include "sublimit/table_mesh.h"
 
 namespace sublimit::cli {
 namespace {

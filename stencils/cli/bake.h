@@ -9,7 +9,7 @@
 #include <string>
 
 #include "common.h"
-#include "sublimit/bake.h"
+#include "sublimit/bake/bake.h"
 
 namespace sublimit::cli {
 

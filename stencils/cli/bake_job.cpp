@@ -3,13 +3,13 @@
 #include <fmt/core.h>
 
 #include "bake.h"
+#include "sublimit/bake/table_info.h"
 #include "sublimit/base/error.h"
 #include "sublimit/base/memory.h"
-#include "sublimit/pattern_file.h"
-#include "sublimit/rule_words.h"
-#include "sublimit/sample_files.h"
+#include "sublimit/files/rule_words.h"
+#include "sublimit/files/sample_files.h"
+#include "sublimit/patterns/pattern_file.h"
 #include "sublimit/table_file.h"
-#include "sublimit/table_info.h"
 
 namespace sublimit::cli {
 namespace {

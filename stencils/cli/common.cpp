@@ -10,14 +10,14 @@
 #include <memory>
 
 #include "curves.h"
-#include "sublimit/analysis/no_limit.h"
 #include "sublimit/base/error.h"
 #include "sublimit/base/memory.h"
-#include "sublimit/geometric_schemes.h"
-#include "sublimit/mesh/prepare.h"
-#include "sublimit/mesh/read_mesh.h"
-#include "sublimit/sidecar.h"
-#include "sublimit/sparse_product.h"
+#include "sublimit/core/sparse_product.h"
+#include "sublimit/files/sidecar.h"
+#include "sublimit/geometric/geometric_schemes.h"
+#include "sublimit/io/read_mesh.h"
+#include "sublimit/limit/no_limit.h"
+#include "sublimit/scheme/prepare.h"
 
 namespace sublimit::cli {
 namespace {

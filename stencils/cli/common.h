@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "sublimit/primvar/face_varying.h"
-#include "sublimit/refine.h"
+#include "sublimit/scheme/refine.h"
 #include "sublimit/schemes.h"
 
 namespace sublimit::cli {

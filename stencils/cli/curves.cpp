@@ -3,15 +3,15 @@
 
 #include <fmt/core.h>
 
-#include "sublimit/analysis/curve_limits.h"
 #include "sublimit/base/error.h"
 #include "sublimit/base/read_file.h"
-#include "sublimit/curve_schemes.h"
-#include "sublimit/geometric_schemes.h"
-#include "sublimit/matrix_market.h"
-#include "sublimit/mesh/file_extension.h"
-#include "sublimit/mesh/polygon_files.h"
-#include "sublimit/sparse_product.h"
+#include "sublimit/core/sparse_product.h"
+#include "sublimit/curves/curve_limits.h"
+#include "sublimit/curves/schemes/curve_schemes.h"
+#include "sublimit/files/matrix_market.h"
+#include "sublimit/geometric/geometric_schemes.h"
+#include "sublimit/io/file_extension.h"
+#include "sublimit/io/polygon_files.h"
 
 namespace sublimit::cli {
 namespace {

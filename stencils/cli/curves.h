@@ -2,7 +2,7 @@
 #pragma once
 // What `refine` and `limit` do when the scheme is one for curves.
 #include "common.h"
-#include "sublimit/geometric_scheme.h"
+#include "sublimit/geometric/geometric_scheme.h"
 
 namespace sublimit::cli {
 

@@ -5,19 +5,19 @@
 #include <filesystem>
 
 #include "common.h"
+#include "sublimit/bake/bake.h"
+#include "sublimit/bake/table_info.h"
 #include "sublimit/base/atomic_file.h"
 #include "sublimit/base/error.h"
 #include "sublimit/base/format_number.h"
-#include "sublimit/bake.h"
-#include "sublimit/demo_mesh.h"
+#include "sublimit/core/sparse_product.h"
+#include "sublimit/files/random_samples.h"
+#include "sublimit/files/refined_mesh.h"
+#include "sublimit/files/sample_files.h"
 #include "sublimit/limit/limit_surface.h"
-#include "sublimit/random_samples.h"
-#include "sublimit/refined_mesh.h"
-#include "sublimit/report/picture_mesh.h"
-#include "sublimit/sample_files.h"
-#include "sublimit/sparse_product.h"
+#include "sublimit/patterns/demo_mesh.h"
+#include "sublimit/picture/picture_mesh.h"
 #include "sublimit/table_file.h"
-#include "sublimit/table_info.h"
 
 namespace sublimit::cli {
 namespace {

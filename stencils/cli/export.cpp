@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common.h"
-#include "sublimit/export_table.h"
+#include "sublimit/files/export_table.h"
 #include "sublimit/table_file.h"
 
 namespace sublimit::cli {

@@ -9,9 +9,9 @@
 #include "memory_limit.h"
 #include "sublimit/base/atomic_file.h"
 #include "sublimit/base/error.h"
-#include "sublimit/fit_picture.h"
-#include "sublimit/refined_mesh.h"
-#include "sublimit/sidecar.h"
+#include "sublimit/files/refined_mesh.h"
+#include "sublimit/files/sidecar.h"
+#include "sublimit/fit_jobs/fit_picture.h"
 
 namespace sublimit::cli {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <filesystem>
 
-#include "sublimit/report/gallery.h"
+#include "sublimit/gallery/gallery.h"
 
 namespace sublimit::cli {
 

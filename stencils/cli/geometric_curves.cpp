@@ -9,9 +9,9 @@
 #include "curves.h"
 #include "sublimit/base/error.h"
 #include "sublimit/base/memory.h"
-#include "sublimit/check_levels.h"
-#include "sublimit/mesh/file_extension.h"
-#include "sublimit/mesh/polygon_files.h"
+#include "sublimit/io/file_extension.h"
+#include "sublimit/io/polygon_files.h"
+#include "sublimit/scheme/check_levels.h"
 
 namespace sublimit::cli {
 namespace {

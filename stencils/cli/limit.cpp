@@ -5,8 +5,8 @@
 
 #include "common.h"
 #include "curves.h"
-#include "sublimit/refined_mesh.h"
-#include "sublimit/sparse_product.h"
+#include "sublimit/core/sparse_product.h"
+#include "sublimit/files/refined_mesh.h"
 
 namespace sublimit::cli {
 namespace {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common.h"
 #include "curves.h"
-#include "sublimit/matrix_market.h"
-#include "sublimit/refined_mesh.h"
+#include "sublimit/files/matrix_market.h"
+#include "sublimit/files/refined_mesh.h"
 
 namespace sublimit::cli {
 namespace {

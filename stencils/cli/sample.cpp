@@ -10,9 +10,9 @@
 #include "sublimit/base/error.h"
 #include "sublimit/base/format_number.h"
 #include "sublimit/base/memory.h"
+#include "sublimit/files/random_samples.h"
+#include "sublimit/files/sample_files.h"
 #include "sublimit/limit/piece_types.h"
-#include "sublimit/random_samples.h"
-#include "sublimit/sample_files.h"
 
 namespace sublimit::cli {
 namespace {

@@ -15,10 +15,10 @@
 #include "sublimit/base/atomic_file.h"
 #include "sublimit/base/error.h"
 #include "sublimit/base/format_number.h"
-#include "sublimit/csv_rows.h"
-#include "sublimit/curve_schemes.h"
-#include "sublimit/geometric_schemes.h"
-#include "sublimit/limit/limit_curve.h"
+#include "sublimit/curves/limit_curve.h"
+#include "sublimit/curves/schemes/curve_schemes.h"
+#include "sublimit/files/csv_rows.h"
+#include "sublimit/geometric/geometric_schemes.h"
 
 namespace sublimit::cli {
 namespace {

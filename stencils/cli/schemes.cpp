@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 
 #include "gallery.h"
-#include "sublimit/curve_schemes.h"
-#include "sublimit/geometric_schemes.h"
+#include "sublimit/curves/schemes/curve_schemes.h"
+#include "sublimit/geometric/geometric_schemes.h"
 
 namespace sublimit::cli {
 namespace {

@@ -5,7 +5,7 @@
 #include "sublimit/base/error.h"
 #include "sublimit/base/memory.h"
 #include "sublimit/base/read_file.h"
-#include "sublimit/mesh/file_extension.h"
+#include "sublimit/io/file_extension.h"
 #include "sublimit/report/analysis/verify_report.h"
 #include "sublimit/table_file.h"
 #include "sublimit/verify_table.h"

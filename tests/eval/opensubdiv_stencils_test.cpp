@@ -11,7 +11,7 @@
 
 #include "eval/table_samples.h"
 #include "sublimit/base/error.h"
-#include "sublimit/refine.h"
+#include "sublimit/scheme/refine.h"
 #include "sublimit/schemes.h"
 #include "support/expect_error.h"
 #include "support/meshes.h"

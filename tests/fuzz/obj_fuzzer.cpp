@@ -10,10 +10,10 @@
 #include <string_view>
 
 #include "sublimit/base/error.h"
-#include "sublimit/mesh/obj.h"
+#include "sublimit/io/obj.h"
+#include "sublimit/io/write_mesh.h"
 #include "sublimit/mesh/sharpness.h"
 #include "sublimit/mesh/topology.h"
-#include "sublimit/mesh/write_mesh.h"
 
 namespace sublimit {
 namespace {

@@ -6,10 +6,10 @@
 
 #include <algorithm>
 
-#include "sublimit/analysis/dense_decompositions.h"
-#include "sublimit/analysis/limit_points.h"
-#include "sublimit/refine.h"
+#include "sublimit/core/dense_decompositions.h"
+#include "sublimit/limit/limit_points.h"
 #include "sublimit/report/statements/misreadings.h"  // the rules: reports decide on them too
+#include "sublimit/scheme/refine.h"
 #include "sublimit/schemes.h"
 #include "support/closed_form.h"
 #include "support/match_meshes.h"

@@ -6,12 +6,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sublimit/analysis/limit_points.h"
 #include "sublimit/base/error.h"
-#include "sublimit/mesh/prepare.h"
-#include "sublimit/mesh/read_mesh.h"
+#include "sublimit/core/sparse_product.h"
+#include "sublimit/io/read_mesh.h"
+#include "sublimit/limit/limit_points.h"
+#include "sublimit/scheme/prepare.h"
 #include "sublimit/schemes.h"
-#include "sublimit/sparse_product.h"
 #include "support/broken_topology.h"
 #include "support/shared_meshes.h"
 #include "support/tolerance.h"

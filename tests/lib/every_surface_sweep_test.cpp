@@ -9,10 +9,10 @@
 #include <set>
 
 #include "sublimit/base/error.h"
+#include "sublimit/io/read_mesh.h"
 #include "sublimit/limit/limit_surface.h"
 #include "sublimit/limit/piece_types.h"
-#include "sublimit/mesh/prepare.h"
-#include "sublimit/mesh/read_mesh.h"
+#include "sublimit/scheme/prepare.h"
 #include "sublimit/schemes.h"
 #include "support/limits_at_thirds.h"
 #include "support/shared_meshes.h"

@@ -2,7 +2,7 @@
 // OpenSubdiv's own regression shapes, every tag honoured: our refined meshes are its refined meshes.
 #include <gtest/gtest.h>
 
-#include "sublimit/mesh/read_mesh.h"
+#include "sublimit/io/read_mesh.h"
 #include "support/compare_with_opensubdiv.h"
 #include "support/shared_meshes.h"
 #include "support/tolerance.h"

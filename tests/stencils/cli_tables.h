@@ -2,8 +2,8 @@
 #pragma once
 // A mesh in a directory, and the program making tables of it.
 #include "stencils/cli_program.h"
-#include "sublimit/mesh/obj.h"
-#include "sublimit/mesh/read_mesh.h"
+#include "sublimit/io/obj.h"
+#include "sublimit/io/read_mesh.h"
 #include "support/meshes.h"
 
 namespace sublimit::testing {

@@ -13,8 +13,8 @@
 #include <string_view>
 #include <vector>
 
-#include "sublimit/analysis/dense_decompositions.h"
-#include "sublimit/types.h"
+#include "sublimit/core/dense_decompositions.h"
+#include "sublimit/core/types.h"
 
 namespace sublimit::testing {
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "sublimit/refine_impl.h"
+#include "sublimit/scheme/refine_impl.h"
 
 namespace sublimit::testing {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 // Limits without eigenvectors: the faces around a vertex, refined again and again in 256-bit floats.
-#include "sublimit/refine.h"
+#include "sublimit/scheme/refine.h"
 #include "sublimit/schemes.h"
 #include "support/precise_schemes.h"
 

@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <numbers>
 
-#include "sublimit/analysis/dense_decompositions.h"
+#include "sublimit/core/dense_decompositions.h"
 #include "sublimit/schemes.h"
 
 namespace sublimit::testing {

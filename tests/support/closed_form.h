@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "sublimit/analysis/limit_masks.h"
+#include "sublimit/limit/limit_masks.h"
 #include "support/local_spectrum.h"
 
 namespace sublimit::testing {

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
+#include "sublimit/core/sparse_product.h"
 #include "sublimit/schemes.h"
-#include "sublimit/sparse_product.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "sublimit/mesh/control_mesh.h"
-#include "sublimit/refine.h"
+#include "sublimit/scheme/refine.h"
 #include "support/opensubdiv_reference.h"
 
 namespace sublimit::testing {

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <random>
 
-#include "sublimit/analysis/curve_limits.h"
-#include "sublimit/analysis/dense_decompositions.h"
-#include "sublimit/curve_schemes.h"
+#include "sublimit/core/dense_decompositions.h"
+#include "sublimit/curves/curve_limits.h"
+#include "sublimit/curves/schemes/curve_schemes.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {

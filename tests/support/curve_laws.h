@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "sublimit/curve_scheme.h"
+#include "sublimit/curves/curve_scheme.h"
 
 namespace sublimit::testing {
 

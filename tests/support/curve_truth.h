@@ -4,7 +4,7 @@
 // and differences of its points are the derivatives.
 #include <map>
 
-#include "sublimit/curve_refine.h"
+#include "sublimit/curves/curve_refine.h"
 #include "support/precise_schemes.h"
 
 namespace sublimit::testing {

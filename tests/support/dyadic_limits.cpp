@@ -4,8 +4,8 @@
 #include <cmath>
 #include <utility>
 
-#include "sublimit/analysis/limit_points.h"
-#include "sublimit/sparse_product.h"
+#include "sublimit/core/sparse_product.h"
+#include "sublimit/limit/limit_points.h"
 
 namespace sublimit::testing {
 namespace {

@@ -4,9 +4,9 @@
 // masks are exact. Of each level only the neighbourhood of the corner is made.
 #include <vector>
 
-#include "sublimit/analysis/limit_masks.h"
 #include "sublimit/limit/address.h"
-#include "sublimit/refine.h"
+#include "sublimit/limit/limit_masks.h"
+#include "sublimit/scheme/refine.h"
 
 namespace sublimit::testing {
 

@@ -6,8 +6,8 @@
 #include <random>
 #include <set>
 
+#include "sublimit/core/sparse_product.h"
 #include "sublimit/primvar/face_varying.h"
-#include "sublimit/sparse_product.h"
 #include "support/compare_with_opensubdiv.h"
 
 namespace sublimit::testing {

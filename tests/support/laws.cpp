@@ -11,14 +11,14 @@
 #include <optional>
 #include <random>
 
-#include "sublimit/analysis/eigen_structure.h"
-#include "sublimit/analysis/limit_points.h"
-#include "sublimit/analysis/limit_rows.h"
-#include "sublimit/analysis/local_patch.h"
 #include "sublimit/base/error.h"
-#include "sublimit/refine.h"
+#include "sublimit/core/sparse_product.h"
+#include "sublimit/limit/eigen_structure.h"
+#include "sublimit/limit/limit_points.h"
+#include "sublimit/limit/limit_rows.h"
+#include "sublimit/neighborhood/local_patch.h"
+#include "sublimit/scheme/refine.h"
 #include "sublimit/schemes.h"
-#include "sublimit/sparse_product.h"
 #include "support/local_types.h"
 #include "support/meshes.h"
 #include "support/published_values.h"

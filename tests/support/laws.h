@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "sublimit/scheme.h"
+#include "sublimit/scheme/scheme.h"
 
 namespace sublimit::testing {
 

@@ -3,8 +3,8 @@
 // The system of points on the limit surface: a row for each control vertex.
 #include <string>
 
+#include "sublimit/core/types.h"
 #include "sublimit/mesh/control_mesh.h"
-#include "sublimit/types.h"
 
 namespace sublimit::testing {
 

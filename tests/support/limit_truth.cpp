@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "sublimit/base/error.h"
-#include "sublimit/refine_impl.h"
+#include "sublimit/scheme/refine_impl.h"
 #include "support/place_descent.h"
 #include "support/regular_patch.h"
 

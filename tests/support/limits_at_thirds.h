@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <string>
 
-#include "sublimit/analysis/limit_points.h"
+#include "sublimit/limit/limit_points.h"
 #include "sublimit/limit/limit_surface.h"
 #include "support/tolerance.h"
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "sublimit/analysis/local_patch.h"
+#include "sublimit/neighborhood/local_patch.h"
 #include "sublimit/schemes.h"
 #include "support/precise_schemes.h"
 

@@ -3,8 +3,8 @@
 // Where laws look at a scheme: its centres, alone among regular points.
 #include <vector>
 
-#include "sublimit/analysis/local_type.h"
-#include "sublimit/scheme.h"
+#include "sublimit/neighborhood/local_type.h"
+#include "sublimit/scheme/scheme.h"
 
 namespace sublimit::testing {
 

@@ -6,8 +6,8 @@
 #include <numeric>
 #include <optional>
 
+#include "sublimit/core/sparse_product.h"
 #include "sublimit/schemes.h"
-#include "sublimit/sparse_product.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {

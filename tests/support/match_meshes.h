@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "sublimit/refine.h"
+#include "sublimit/scheme/refine.h"
 #include "support/peer_mesh.h"
 
 namespace sublimit::testing {

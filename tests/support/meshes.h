@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "sublimit/mesh/control_mesh.h"
-#include "sublimit/mesh/prepare.h"
+#include "sublimit/scheme/prepare.h"
 
 namespace sublimit::testing {
 

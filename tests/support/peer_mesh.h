@@ -3,7 +3,7 @@
 // A mesh as another library leaves it.
 #include <vector>
 
-#include "sublimit/types.h"
+#include "sublimit/core/types.h"
 
 namespace sublimit::testing {
 

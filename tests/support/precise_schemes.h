@@ -2,8 +2,8 @@
 #pragma once
 // The registries' schemes, refinement and local matrices in 256-bit floats, made once: else every file that uses them
 // makes them all.
-#include "sublimit/analysis/local_patch.h"
-#include "sublimit/curve_schemes.h"
+#include "sublimit/curves/schemes/curve_schemes.h"
+#include "sublimit/neighborhood/local_patch.h"
 #include "sublimit/schemes.h"
 #include "support/precise.h"
 

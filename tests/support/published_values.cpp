@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "sublimit/analysis/limit_masks.h"
-#include "sublimit/refine.h"
+#include "sublimit/limit/limit_masks.h"
+#include "sublimit/scheme/refine.h"
 #include "support/averaging_blocks.h"
 #include "support/local_types.h"
 #include "support/meshes.h"

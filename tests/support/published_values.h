@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "sublimit/scheme.h"
+#include "sublimit/scheme/scheme.h"
 
 namespace sublimit::testing {
 

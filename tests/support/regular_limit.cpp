@@ -9,9 +9,9 @@
 #include <map>
 #include <stdexcept>
 
-#include "sublimit/analysis/limit_points.h"
-#include "sublimit/refine.h"
-#include "sublimit/sparse_product.h"
+#include "sublimit/core/sparse_product.h"
+#include "sublimit/limit/limit_points.h"
+#include "sublimit/scheme/refine.h"
 #include "support/meshes.h"
 #include "support/tolerance.h"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "sublimit/scheme.h"
+#include "sublimit/scheme/scheme.h"
 #include "support/precise.h"
 
 namespace sublimit::testing {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "sublimit/refine.h"
+#include "sublimit/scheme/refine.h"
 #include "support/brute_force.h"
 #include "support/place_descent.h"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "sublimit/types.h"
+#include "sublimit/core/types.h"
 
 namespace sublimit::testing {
 

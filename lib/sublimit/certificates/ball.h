@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "sublimit/certificates/ring_traits.h"
-#include "sublimit/number.h"
+#include "sublimit/core/number.h"
 
 namespace sublimit {
 

@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-#include "sublimit/number.h"
+#include "sublimit/core/number.h"
 
 namespace sublimit {
 

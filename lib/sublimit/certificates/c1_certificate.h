@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
-#include "sublimit/analysis/verdict.h"
 #include "sublimit/certificates/map_proof.h"
+#include "sublimit/limit/verdict.h"
 
 namespace sublimit {
 

@@ -2,8 +2,8 @@
 #pragma once
 // Sharp edges inside a surface: sides of creases, whose matrix is that of a border where the rules are, and darts,
 // where one sharp edge ends in a point with smooth rules. A dart has no rotation, but a mirror: its sharp edge.
-#include "sublimit/analysis/verdict.h"
 #include "sublimit/certificates/exact_analysis.h"
+#include "sublimit/limit/verdict.h"
 
 namespace sublimit {
 

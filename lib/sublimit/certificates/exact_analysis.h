@@ -6,9 +6,9 @@
 #include <map>
 #include <optional>
 
-#include "sublimit/analysis/local_type.h"
 #include "sublimit/certificates/exact_kernel.h"
 #include "sublimit/certificates/exact_spectrum.h"
+#include "sublimit/neighborhood/local_type.h"
 
 namespace sublimit {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 // The registry's schemes and local matrices in exact numbers, made once: else every file that uses them makes them all.
-#include "sublimit/analysis/local_patch.h"
 #include "sublimit/certificates/algebraic.h"
+#include "sublimit/neighborhood/local_patch.h"
 #include "sublimit/schemes.h"
 
 namespace sublimit {

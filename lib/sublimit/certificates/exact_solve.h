@@ -4,8 +4,8 @@
 #include <optional>
 #include <utility>
 
-#include "sublimit/analysis/local_matrix.h"
 #include "sublimit/certificates/algebraic.h"
+#include "sublimit/neighborhood/local_matrix.h"
 
 namespace sublimit {
 

@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "sublimit/analysis/local_matrix.h"
 #include "sublimit/certificates/complex_ball.h"
+#include "sublimit/neighborhood/local_matrix.h"
 
 namespace sublimit {
 

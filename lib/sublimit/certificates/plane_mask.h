@@ -7,9 +7,9 @@
 #include <map>
 #include <optional>
 
-#include "sublimit/analysis/sector_labels.h"
 #include "sublimit/certificates/algebraic.h"
-#include "sublimit/scheme.h"
+#include "sublimit/neighborhood/sector_labels.h"
+#include "sublimit/scheme/scheme.h"
 
 namespace sublimit {
 

@@ -4,8 +4,8 @@
 // rigorous enclosures of the roots.
 #include <vector>
 
-#include "sublimit/analysis/local_matrix.h"
 #include "sublimit/certificates/algebraic.h"
+#include "sublimit/neighborhood/local_matrix.h"
 
 namespace sublimit {
 

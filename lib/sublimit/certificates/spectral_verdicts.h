@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "sublimit/analysis/verdict.h"
 #include "sublimit/certificates/exact_analysis.h"
+#include "sublimit/limit/verdict.h"
 
 namespace sublimit {
 

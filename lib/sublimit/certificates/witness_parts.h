@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "sublimit/analysis/local_matrix.h"
 #include "sublimit/certificates/algebraic.h"
+#include "sublimit/neighborhood/local_matrix.h"
 
 namespace sublimit::witness {
 

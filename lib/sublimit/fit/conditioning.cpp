@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sublimit/analysis/dense_decompositions.h"
 #include "sublimit/base/error.h"
+#include "sublimit/core/dense_decompositions.h"
 #include "sublimit/fit/spectrum_ends.h"
 
 namespace sublimit {

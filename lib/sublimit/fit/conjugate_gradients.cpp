@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "sublimit/base/parallel_for.h"
-#include "sublimit/sparse_product.h"
+#include "sublimit/core/sparse_product.h"
 
 namespace sublimit {
 namespace {

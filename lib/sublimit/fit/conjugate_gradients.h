@@ -5,7 +5,7 @@
 // Source: Hestenes, Stiefel 1952, "Methods of conjugate gradients for solving linear systems".
 #include <functional>
 
-#include "sublimit/types.h"
+#include "sublimit/core/types.h"
 
 namespace sublimit {
 

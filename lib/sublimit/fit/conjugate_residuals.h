@@ -5,7 +5,7 @@
 // Source: Eisenstat, Elman, Schultz 1983, "Variational iterative methods for nonsymmetric systems of linear equations".
 #include <vector>
 
-#include "sublimit/types.h"
+#include "sublimit/core/types.h"
 
 namespace sublimit {
 

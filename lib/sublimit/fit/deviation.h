@@ -7,9 +7,9 @@
 #include <functional>
 #include <vector>
 
-#include "sublimit/geometric_scheme.h"
-#include "sublimit/mesh/curvature_mesh.h"
-#include "sublimit/surface_point.h"
+#include "sublimit/geometric/curvature_mesh.h"
+#include "sublimit/geometric/geometric_scheme.h"
+#include "sublimit/geometric/surface_point.h"
 
 namespace sublimit {
 

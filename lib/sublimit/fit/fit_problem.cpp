@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "sublimit/base/error.h"
+#include "sublimit/core/sparse_product.h"
 #include "sublimit/fit/fit_terms.h"
-#include "sublimit/sparse_product.h"
 
 namespace sublimit {
 namespace {

@@ -11,7 +11,7 @@
 #include <functional>
 #include <vector>
 
-#include "sublimit/types.h"
+#include "sublimit/core/types.h"
 
 namespace sublimit {
 

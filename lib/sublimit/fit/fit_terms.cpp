@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sublimit/sparse_product.h"
+#include "sublimit/core/sparse_product.h"
 
 namespace sublimit {
 namespace {

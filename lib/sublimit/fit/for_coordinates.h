@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "sublimit/base/error.h"
-#include "sublimit/types.h"
+#include "sublimit/core/types.h"
 
 namespace sublimit {
 

@@ -5,12 +5,12 @@
 #include <cmath>
 
 #include "sublimit/base/error.h"
-#include "sublimit/check_levels.h"
-#include "sublimit/analysis/vertex_sides.h"
+#include "sublimit/core/sparse_product.h"
 #include "sublimit/fit/for_coordinates.h"
 #include "sublimit/fit/unit_frame.h"
 #include "sublimit/fit/vertex_conditions.h"
-#include "sublimit/sparse_product.h"
+#include "sublimit/neighborhood/vertex_sides.h"
+#include "sublimit/scheme/check_levels.h"
 
 namespace sublimit {
 namespace {

@@ -14,7 +14,7 @@
 #include "sublimit/fit/fairness.h"
 #include "sublimit/fit/fit_problem.h"
 #include "sublimit/fit/targets.h"
-#include "sublimit/refine.h"
+#include "sublimit/scheme/refine.h"
 
 namespace sublimit {
 

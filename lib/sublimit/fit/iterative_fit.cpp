@@ -6,9 +6,9 @@
 #include <cmath>
 #include <limits>
 
+#include "sublimit/core/sparse_product.h"
 #include "sublimit/fit/conjugate_gradients.h"
 #include "sublimit/fit/fit_terms.h"
-#include "sublimit/sparse_product.h"
 
 namespace sublimit {
 namespace {

@@ -10,11 +10,11 @@
 #include <string>
 #include <utility>
 
-#include "sublimit/analysis/limit_rows.h"
 #include "sublimit/base/error.h"
+#include "sublimit/core/sparse_product.h"
 #include "sublimit/fit/plane_polygon.h"
 #include "sublimit/fit/vertex_limits.h"
-#include "sublimit/sparse_product.h"
+#include "sublimit/limit/limit_rows.h"
 
 namespace sublimit {
 namespace {

@@ -9,7 +9,7 @@
 // Doo-Sabin's weights and mid-edge's alike; a vertex on the border has its limit in the middle of a border edge of its
 // face. Source: Doo, Sabin 1978; Nasri 1987, "Polyhedral subdivision methods for free-form surfaces".
 #include "sublimit/fit/targets.h"
-#include "sublimit/refine.h"
+#include "sublimit/scheme/refine.h"
 
 namespace sublimit {
 

@@ -3,7 +3,7 @@
 // Factors of a large, sparse, symmetric matrix in a fill-reducing order, for all channels at once.
 #include <memory>
 
-#include "sublimit/types.h"
+#include "sublimit/core/types.h"
 
 namespace sublimit {
 

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sublimit/analysis/dense_decompositions.h"
+#include "sublimit/core/dense_decompositions.h"
+#include "sublimit/core/sparse_product.h"
 #include "sublimit/fit/sparse_factors.h"
-#include "sublimit/sparse_product.h"
 
 namespace sublimit {
 namespace {

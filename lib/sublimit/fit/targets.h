@@ -3,9 +3,9 @@
 // What a limit surface is asked to pass through. Plain data.
 #include <vector>
 
+#include "sublimit/core/types.h"
 #include "sublimit/limit/address.h"
 #include "sublimit/mesh/vertex_target.h"
-#include "sublimit/types.h"
 
 namespace sublimit {
 

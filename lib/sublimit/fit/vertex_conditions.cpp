@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "sublimit/base/error.h"
-#include "sublimit/sparse_product.h"
+#include "sublimit/core/sparse_product.h"
 
 namespace sublimit {
 namespace {

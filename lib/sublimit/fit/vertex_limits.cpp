@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <numeric>
 
-#include "sublimit/analysis/limit_points.h"
-#include "sublimit/analysis/limit_rows.h"
-#include "sublimit/analysis/vertex_sides.h"
-#include "sublimit/sparse_product.h"
+#include "sublimit/core/sparse_product.h"
+#include "sublimit/limit/limit_points.h"
+#include "sublimit/limit/limit_rows.h"
+#include "sublimit/neighborhood/vertex_sides.h"
 
 namespace sublimit {
 namespace {

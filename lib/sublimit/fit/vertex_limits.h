@@ -5,10 +5,10 @@
 #include <span>
 #include <vector>
 
-#include "sublimit/analysis/centre.h"
-#include "sublimit/analysis/limit_masks.h"
-#include "sublimit/analysis/limit_status.h"
-#include "sublimit/refine.h"
+#include "sublimit/limit/limit_masks.h"
+#include "sublimit/limit/limit_status.h"
+#include "sublimit/neighborhood/centre.h"
+#include "sublimit/scheme/refine.h"
 
 namespace sublimit {
 

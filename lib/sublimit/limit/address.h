@@ -8,7 +8,7 @@
 // (0,1) at corners 0, 1, 2.
 #include <vector>
 
-#include "sublimit/scheme.h"
+#include "sublimit/scheme/scheme.h"
 
 namespace sublimit {
 

@@ -7,8 +7,8 @@
 #include <mutex>
 #include <optional>
 
-#include "sublimit/analysis/limit_rows.h"
-#include "sublimit/analysis/limit_status.h"
+#include "sublimit/limit/limit_rows.h"
+#include "sublimit/limit/limit_status.h"
 
 namespace sublimit {
 

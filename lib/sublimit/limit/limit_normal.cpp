@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "sublimit/analysis/degenerate_normal.h"
+#include "sublimit/limit/degenerate_normal.h"
 #include "sublimit/limit/limit_surface_parts.h"
 
 namespace sublimit {

@@ -7,10 +7,10 @@
 #include <string>
 #include <utility>
 
-#include "sublimit/analysis/limit_masks.h"
 #include "sublimit/base/error.h"
 #include "sublimit/base/parallel_for.h"
 #include "sublimit/limit/derivative_order.h"
+#include "sublimit/limit/limit_masks.h"
 #include "sublimit/limit/limit_patches.h"
 
 namespace sublimit {

@@ -14,9 +14,9 @@
 #include <utility>
 #include <vector>
 
-#include "sublimit/analysis/limit_status.h"
 #include "sublimit/limit/address.h"
-#include "sublimit/refine.h"
+#include "sublimit/limit/limit_status.h"
+#include "sublimit/scheme/refine.h"
 
 namespace sublimit {
 

@@ -8,15 +8,15 @@
 #include <cmath>
 #include <numeric>
 
-#include "sublimit/analysis/dense_decompositions.h"
-#include "sublimit/analysis/limit_masks.h"
 #include "sublimit/base/error.h"
 #include "sublimit/base/memory.h"
-#include "sublimit/limit/canonical_part.h"
+#include "sublimit/core/dense_decompositions.h"
+#include "sublimit/core/sparse_product.h"
+#include "sublimit/limit/limit_masks.h"
 #include "sublimit/limit/polynomial_search.h"
-#include "sublimit/refine_impl.h"
-#include "sublimit/sparse_product.h"
-#include "sublimit/subdivision_rows.h"
+#include "sublimit/neighborhood/canonical_part.h"
+#include "sublimit/scheme/refine_impl.h"
+#include "sublimit/scheme/subdivision_rows.h"
 
 namespace sublimit {
 namespace {

@@ -12,10 +12,10 @@
 #include <span>
 #include <unordered_map>
 
-#include "sublimit/analysis/signature_hash.h"
-#include "sublimit/limit/piece_walk.h"
-#include "sublimit/limit/repeated_block.h"
-#include "sublimit/refine.h"
+#include "sublimit/core/signature_hash.h"
+#include "sublimit/neighborhood/piece_walk.h"
+#include "sublimit/neighborhood/repeated_block.h"
+#include "sublimit/scheme/refine.h"
 
 namespace sublimit {
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "sublimit/analysis/dense_decompositions.h"
+#include "sublimit/core/dense_decompositions.h"
 
 namespace sublimit {
 namespace {

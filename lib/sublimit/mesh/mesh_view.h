@@ -3,8 +3,8 @@
 // A caller's own faces, looked at where they are: nothing is copied, nothing is owned.
 #include <span>
 
+#include "sublimit/core/types.h"
 #include "sublimit/mesh/control_mesh.h"
-#include "sublimit/types.h"
 
 namespace sublimit {
 

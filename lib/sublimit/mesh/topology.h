@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
+#include "sublimit/core/types.h"
+#include "sublimit/core/uninitialized.h"
 #include "sublimit/mesh/mesh_view.h"
-#include "sublimit/types.h"
-#include "sublimit/uninitialized.h"
 
 namespace sublimit {
 

@@ -2,8 +2,8 @@
 #pragma once
 // The door through which a split makes a Topology: it knows the children's twins and fans from the parents', and hands the
 // arrays over; edges are numbered here.
+#include "sublimit/core/uninitialized.h"
 #include "sublimit/mesh/topology.h"
-#include "sublimit/uninitialized.h"
 
 namespace sublimit {
 

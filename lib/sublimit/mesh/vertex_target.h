@@ -5,7 +5,7 @@
 
 #include <optional>
 
-#include "sublimit/types.h"
+#include "sublimit/core/types.h"
 
 namespace sublimit {
 

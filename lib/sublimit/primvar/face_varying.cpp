@@ -6,10 +6,10 @@
 #include <string>
 
 #include "sublimit/base/error.h"
+#include "sublimit/core/sparse_product.h"
 #include "sublimit/mesh/topology_builder.h"
 #include "sublimit/primvar/linear_scheme.h"
 #include "sublimit/primvar/value_rules.h"
-#include "sublimit/sparse_product.h"
 
 namespace sublimit {
 namespace {

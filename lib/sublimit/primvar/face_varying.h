@@ -12,7 +12,7 @@
 #include <span>
 #include <vector>
 
-#include "sublimit/refine.h"
+#include "sublimit/scheme/refine.h"
 
 namespace sublimit {
 

@@ -4,8 +4,8 @@
 #include <numeric>
 
 #include "sublimit/base/error.h"
+#include "sublimit/core/sparse_product.h"
 #include "sublimit/primvar/linear_scheme.h"
-#include "sublimit/sparse_product.h"
 
 namespace sublimit {
 namespace {

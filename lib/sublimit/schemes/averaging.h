@@ -5,7 +5,7 @@
 // times every face's centroid: two of these in a row move vertices to the mean of the centroids around them, an odd one
 // makes the dual mesh. Border: the same averages of the border polygon, so the limit ends in its B-spline of that
 // degree. Corners of odd degrees stay.
-#include "sublimit/scheme.h"
+#include "sublimit/scheme/scheme.h"
 
 namespace sublimit {
 

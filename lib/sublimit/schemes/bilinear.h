@@ -2,7 +2,7 @@
 #pragma once
 // Bilinear subdivision: vertices stay, midpoints and centroids are added. Folklore; the limit of a quad is its bilinear
 // interpolant. Creases change nothing.
-#include "sublimit/scheme.h"
+#include "sublimit/scheme/scheme.h"
 
 namespace sublimit {
 

@@ -4,7 +4,7 @@
 // Border: the four-point rule along it, so that the border curve does not depend on the inside; or, as an option, the
 // butterfly's own mask with virtual vertices: every border triangle continued to a parallelogram. The two agree at
 // regular border vertices. Inside, masks that reach over the border use the virtual vertices.
-#include "sublimit/scheme.h"
+#include "sublimit/scheme/scheme.h"
 
 namespace sublimit {
 

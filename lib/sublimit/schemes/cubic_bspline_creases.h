@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 // Crease curves that are uniform cubic B-splines: Hoppe et al. 1994, "Piecewise smooth surface reconstruction".
-#include "sublimit/sites.h"
+#include "sublimit/scheme/sites.h"
 
 namespace sublimit {
 

@@ -4,7 +4,7 @@
 // variant that averages a corner with the centroid and the midpoints of its two edges. Border: the points of Chaikin's
 // curve of the border polygon (Nasri 1987 ends there too), so that the limit ends in its quadratic B-spline, whatever
 // is inside. Corners are rounded.
-#include "sublimit/scheme.h"
+#include "sublimit/scheme/scheme.h"
 
 namespace sublimit {
 

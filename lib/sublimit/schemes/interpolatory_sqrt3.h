@@ -4,7 +4,7 @@
 // than 6 are made from the ring of that vertex (the mean, if there are several). Border: left alone in even levels,
 // trisected in odd ones by cubic interpolation of four points (Deslauriers, Dubuc 1989). Faces near it use the virtual
 // vertices of butterfly.h.
-#include "sublimit/scheme.h"
+#include "sublimit/scheme/scheme.h"
 
 namespace sublimit {
 

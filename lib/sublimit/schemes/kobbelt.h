@@ -6,7 +6,7 @@
 // vertices) the mean is taken. Border: the four-point rule along it; across it, points are continued linearly. Faces
 // with other than four corners are cut into quadrilaterals first: option quads=catmull-clark (centroid, midpoints of
 // edges) or quads=edges (one quadrilateral for each edge, from its ends and the two centroids).
-#include "sublimit/scheme.h"
+#include "sublimit/scheme/scheme.h"
 
 namespace sublimit {
 

@@ -6,7 +6,7 @@
 // are no quadrilaterals (in the first two steps only) it is the mean of what either asks for; that completion is ours.
 // Border: two steps make Chaikin's points (see the split), so the limit ends in the quadratic B-spline of the
 // border polygon.
-#include "sublimit/scheme.h"
+#include "sublimit/scheme/scheme.h"
 
 namespace sublimit {
 

@@ -2,7 +2,7 @@
 #pragma once
 // Kobbelt 2000, "sqrt(3)-subdivision". Old vertices are relaxed; without that each of them is a spike.
 // Border: left alone in even levels, trisected in odd ones by the ternary cubic B-spline.
-#include "sublimit/scheme.h"
+#include "sublimit/scheme/scheme.h"
 
 namespace sublimit {
 

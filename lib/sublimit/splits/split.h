@@ -4,8 +4,8 @@
 #include <utility>
 #include <vector>
 
+#include "sublimit/core/types.h"
 #include "sublimit/mesh/topology.h"
-#include "sublimit/types.h"
 
 namespace sublimit {
 

@@ -1,7 +1,7 @@
 // A scheme that the library does not have, in a program that only links it: Catmull-Clark's topology, tensor-product
 // masks with weights 9/16, 3/8, 1/16 at every valence. It gets matrices and limits like any other.
-#include <sublimit/analysis/limit_points.h>
-#include <sublimit/refine.h>
+#include <sublimit/limit/limit_points.h>
+#include <sublimit/scheme/refine.h>
 #include <sublimit/schemes/cubic_bspline_creases.h>
 
 #include <cmath>

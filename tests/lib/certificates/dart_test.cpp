@@ -6,8 +6,8 @@
 #include <algorithm>
 
 #include "lib/certificates/exact_analyses.h"
-#include "sublimit/analysis/limit_masks.h"
 #include "sublimit/certificates/spectral_verdicts.h"
+#include "sublimit/limit/limit_masks.h"
 #include "support/tolerance.h"
 
 namespace sublimit {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sublimit/certificates/exact_schemes.h"
 #include "sublimit/certificates/exact_masks.h"
+#include "sublimit/certificates/exact_schemes.h"
 
 #include <gtest/gtest.h>
 
-#include "sublimit/analysis/limit_masks.h"
+#include "sublimit/limit/limit_masks.h"
 #include "support/tolerance.h"
 
 namespace sublimit {

@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-#include "sublimit/schemes/torus_pieces.h"
+#include "sublimit/geometric/torus_pieces.h"
 #include "support/expect_error.h"
 #include "support/meshes.h"
 #include "support/tolerance.h"

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <random>
 
-#include "sublimit/analysis/dense_decompositions.h"
+#include "sublimit/core/dense_decompositions.h"
 #include "sublimit/fit/quadrature.h"
 #include "support/expect_error.h"
 #include "support/tested_schemes.h"

@@ -8,11 +8,11 @@
 #include <limits>
 #include <random>
 
+#include "sublimit/base/error.h"
+#include "sublimit/core/dense_decompositions.h"
 #include "support/limit_system.h"
 #include "support/meshes.h"
 #include "support/tolerance.h"
-#include "sublimit/analysis/dense_decompositions.h"
-#include "sublimit/base/error.h"
 
 namespace sublimit {
 namespace {

@@ -9,10 +9,10 @@
 #include <numeric>
 #include <random>
 
-#include "sublimit/analysis/centre.h"
 #include "sublimit/fit/interpolate.h"
 #include "sublimit/limit/limit_surface.h"
 #include "sublimit/limit/piece_types.h"
+#include "sublimit/neighborhood/centre.h"
 #include "support/expect_error.h"
 #include "support/places.h"
 #include "support/tested_schemes.h"

@@ -5,9 +5,9 @@
 
 #include <Eigen/Eigenvalues>
 
-#include "sublimit/analysis/limit_points.h"
+#include "sublimit/core/sparse_product.h"
+#include "sublimit/limit/limit_points.h"
 #include "sublimit/schemes.h"
-#include "sublimit/sparse_product.h"
 #include "support/expect_error.h"
 #include "support/meshes.h"
 #include "support/tolerance.h"

@@ -4,10 +4,10 @@
 
 #include <Eigen/Geometry>
 
-#include "sublimit/analysis/limit_points.h"
-#include "sublimit/analysis/vertex_sides.h"
 #include "sublimit/fit/interpolate.h"
-#include "sublimit/mesh/read_mesh.h"
+#include "sublimit/io/read_mesh.h"
+#include "sublimit/limit/limit_points.h"
+#include "sublimit/neighborhood/vertex_sides.h"
 #include "sublimit/schemes.h"
 #include "support/shared_meshes.h"
 #include "support/tolerance.h"

@@ -6,8 +6,8 @@
 
 #include "sublimit/base/error.h"
 #include "sublimit/fit/point_normal_polygons.h"
-#include "sublimit/mesh/prepare.h"
-#include "sublimit/mesh/read_mesh.h"
+#include "sublimit/io/read_mesh.h"
+#include "sublimit/scheme/prepare.h"
 #include "sublimit/schemes.h"
 #include "support/shared_meshes.h"
 #include "support/tolerance.h"

@@ -5,7 +5,7 @@
 
 #include <Eigen/Geometry>
 
-#include "sublimit/analysis/limit_points.h"
+#include "sublimit/limit/limit_points.h"
 #include "sublimit/limit/limit_surface.h"
 #include "sublimit/limit/piece_types.h"
 #include "support/laws.h"
@@ -36,7 +36,7 @@ std::vector<Variant> quick_variants() {
 }
 
 /// Borders of 1 to 5 faces, corners, an extraordinary vertex; creases, darts and sharp vertices, where the scheme has them.
-std::vector<ControlMesh> meshes_for(const Scheme<double>& scheme) {
+std::vector<ControlMesh> meshes_to_sample(const Scheme<double>& scheme) {
   const Index size = scheme.face_size() == 3 ? 3 : 4, step = size == 3 ? 1 : 2;
   std::vector<ControlMesh> meshes{jittered(open_fan(1, size, 1)), jittered(fan(5, size, 2)),
                                   jittered(size == 3 ? triangle_grid(3, 3) : grid(3, 3))};
@@ -63,7 +63,7 @@ TEST_P(LimitAndSample, SayTheSameOfVertices) {
   LimitMaskCache cache(scheme);
   const auto types = std::make_shared<PieceTypes>(scheme);
   int compared = 0;
-  for (const ControlMesh& mesh : meshes_for(scheme)) {
+  for (const ControlMesh& mesh : meshes_to_sample(scheme)) {
     if (!scheme.preparation.empty() && GetParam().second.contains("quads") &&
         control_level(scheme, mesh).topology().uniform_face_size() != scheme.corners)
       continue;  // limits are known at its vertices only

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <random>
 
-#include "sublimit/analysis/limit_points.h"
+#include "sublimit/limit/limit_points.h"
 #include "sublimit/limit/piece_types.h"
 #include "support/places.h"
 #include "support/tested_schemes.h"

@@ -10,8 +10,8 @@
 #include <random>
 #include <sstream>
 
+#include "sublimit/io/read_mesh.h"
 #include "sublimit/limit/limit_surface.h"
-#include "sublimit/mesh/read_mesh.h"
 #include "support/limit_truth.h"
 #include "support/places.h"
 #include "support/shared_meshes.h"

@@ -11,7 +11,7 @@
 #include <cmath>
 #include <limits>
 
-#include "sublimit/analysis/limit_points.h"
+#include "sublimit/limit/limit_points.h"
 #include "support/hard_meshes.h"
 #include "support/places.h"
 #include "support/regular_limit.h"

@@ -5,7 +5,7 @@
 
 #include <Eigen/Geometry>
 
-#include "sublimit/mesh/read_mesh.h"
+#include "sublimit/io/read_mesh.h"
 #include "support/compare_with_opensubdiv.h"
 #include "support/dyadic_limits.h"
 #include "support/irregular_meshes.h"

@@ -5,8 +5,8 @@
 
 #include <random>
 
+#include "sublimit/io/read_mesh.h"
 #include "sublimit/limit/limit_surface.h"
-#include "sublimit/mesh/read_mesh.h"
 #include "support/compare_with_opensubdiv.h"
 #include "support/irregular_meshes.h"
 #include "support/meshes.h"

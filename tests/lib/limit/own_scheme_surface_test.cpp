@@ -6,11 +6,11 @@
 #include <cmath>
 #include <random>
 
-#include "sublimit/analysis/limit_points.h"
+#include "sublimit/limit/limit_points.h"
 #include "sublimit/limit/limit_surface.h"
 #include "sublimit/limit/piece_types.h"
-#include "sublimit/schemes.h"
 #include "sublimit/schemes/cubic_bspline_creases.h"
+#include "sublimit/schemes.h"
 #include "support/hard_meshes.h"
 #include "support/limits_at_thirds.h"
 #include "support/meshes.h"

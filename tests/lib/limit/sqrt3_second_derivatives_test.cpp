@@ -13,7 +13,7 @@
 
 #include "sublimit/limit/limit_surface.h"
 #include "sublimit/limit/piece_types.h"
-#include "sublimit/refine_impl.h"
+#include "sublimit/scheme/refine_impl.h"
 #include "sublimit/schemes.h"
 #include "support/hard_meshes.h"
 #include "support/meshes.h"

@@ -3,11 +3,11 @@
 
 #include <gtest/gtest.h>
 
-#include "sublimit/analysis/limit_points.h"
+#include "sublimit/core/sparse_product.h"
+#include "sublimit/limit/limit_points.h"
 #include "sublimit/primvar/linear_scheme.h"
 #include "sublimit/primvar/varying.h"
 #include "sublimit/schemes.h"
-#include "sublimit/sparse_product.h"
 #include "support/expect_error.h"
 #include "support/face_varying_meshes.h"
 #include "support/irregular_meshes.h"

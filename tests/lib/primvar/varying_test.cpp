@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "sublimit/core/sparse_product.h"
 #include "sublimit/schemes.h"
-#include "sublimit/sparse_product.h"
 #include "support/expect_error.h"
 #include "support/meshes.h"
 #include "support/tolerance.h"

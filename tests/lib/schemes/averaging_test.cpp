@@ -11,7 +11,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "sublimit/refine.h"
+#include "sublimit/scheme/refine.h"
 #include "sublimit/schemes.h"
 #include "support/closed_form.h"
 #include "support/meshes.h"

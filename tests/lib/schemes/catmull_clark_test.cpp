@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "sublimit/refine.h"
+#include "sublimit/scheme/refine.h"
 #include "sublimit/schemes.h"
 #include "support/closed_form.h"
 #include "support/meshes.h"

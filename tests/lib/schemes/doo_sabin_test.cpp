@@ -6,8 +6,8 @@
 
 #include <numbers>
 
-#include "sublimit/analysis/limit_points.h"
-#include "sublimit/refine.h"
+#include "sublimit/limit/limit_points.h"
+#include "sublimit/scheme/refine.h"
 #include "sublimit/schemes.h"
 #include "support/closed_form.h"
 #include "support/meshes.h"

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "sublimit/analysis/limit_points.h"
+#include "sublimit/limit/limit_points.h"
 #include "sublimit/schemes.h"
 #include "support/closed_form.h"
 #include "support/meshes.h"

@@ -6,8 +6,8 @@
 
 #include <numbers>
 
-#include "sublimit/analysis/local_patch.h"
-#include "sublimit/refine.h"
+#include "sublimit/neighborhood/local_patch.h"
+#include "sublimit/scheme/refine.h"
 #include "sublimit/schemes.h"
 #include "support/closed_form.h"
 #include "support/meshes.h"

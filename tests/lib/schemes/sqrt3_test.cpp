@@ -6,7 +6,7 @@
 
 #include <numbers>
 
-#include "sublimit/refine.h"
+#include "sublimit/scheme/refine.h"
 #include "sublimit/schemes.h"
 #include "support/closed_form.h"
 #include "support/meshes.h"

@@ -3,10 +3,10 @@
 // quads of the split that only Kobbelt's option quads=edges uses.
 #include <gtest/gtest.h>
 
-#include "sublimit/mesh/prepare.h"
+#include "sublimit/core/sparse_product.h"
+#include "sublimit/scheme/prepare.h"
+#include "sublimit/scheme/refine.h"
 #include "sublimit/schemes.h"
-#include "sublimit/refine.h"
-#include "sublimit/sparse_product.h"
 #include "support/broken_topology.h"
 #include "support/meshes.h"
 #include "support/tolerance.h"

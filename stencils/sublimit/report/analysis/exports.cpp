@@ -3,9 +3,9 @@
 
 #include <fmt/core.h>
 
-#include "sublimit/analysis/local_modes.h"
 #include "sublimit/base/atomic_file.h"
-#include "sublimit/mesh/write_mesh.h"
+#include "sublimit/io/write_mesh.h"
+#include "sublimit/limit/local_modes.h"
 #include "sublimit/report/analysis/neighborhood.h"
 
 namespace sublimit::report {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <map>
 
-#include "sublimit/analysis/eigen_structure.h"
-#include "sublimit/analysis/limit_masks.h"
+#include "sublimit/limit/eigen_structure.h"
+#include "sublimit/limit/limit_masks.h"
 
 namespace sublimit::report {
 namespace {

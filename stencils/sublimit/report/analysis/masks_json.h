@@ -3,7 +3,7 @@
 // `masks` of a neighbourhood: decimals from the limit that surfaces are evaluated with, and the exact numbers beside
 // them.
 #include "sublimit/certificates/exact_masks.h"
-#include "sublimit/report/analysis/numbers.h"
+#include "sublimit/files/numbers.h"
 
 namespace sublimit::report {
 

@@ -4,9 +4,9 @@
 // surface of generic data and how its normals come together.
 #include <memory>
 
-#include "sublimit/analysis/local_modes.h"
+#include "sublimit/files/numbers.h"
 #include "sublimit/limit/limit_surface.h"
-#include "sublimit/report/analysis/numbers.h"
+#include "sublimit/limit/local_modes.h"
 
 namespace sublimit::report {
 

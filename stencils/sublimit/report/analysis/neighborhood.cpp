@@ -5,11 +5,11 @@
 #include <cmath>
 #include <set>
 
-#include "sublimit/analysis/eigen_structure.h"
 #include "sublimit/base/error.h"
 #include "sublimit/certificates/dart.h"
 #include "sublimit/certificates/spectral_verdicts.h"
 #include "sublimit/certificates/witness.h"
+#include "sublimit/limit/eigen_structure.h"
 #include "sublimit/limit/piece_types.h"
 #include "sublimit/report/analysis/masks_json.h"
 #include "sublimit/report/analysis/modes_json.h"

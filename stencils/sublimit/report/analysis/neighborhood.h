@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "sublimit/certificates/c1_certificate.h"
+#include "sublimit/files/numbers.h"
 #include "sublimit/limit/limit_surface.h"
-#include "sublimit/report/analysis/numbers.h"
 #include "sublimit/report/analysis/scheme_report.h"
 
 namespace sublimit::report {

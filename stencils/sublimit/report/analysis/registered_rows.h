@@ -7,7 +7,7 @@
 #include <string>
 
 #include "sublimit/certificates/plane_mask.h"
-#include "sublimit/scheme.h"
+#include "sublimit/scheme/scheme.h"
 
 namespace sublimit::report {
 

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sublimit/analysis/regularity/rational_schemes.h"
 #include "sublimit/base/error.h"
 #include "sublimit/base/format_number.h"
+#include "sublimit/certificates/regularity/rational_schemes.h"
 #include "sublimit/report/analysis/claims_json.h"
 
 namespace sublimit::report {

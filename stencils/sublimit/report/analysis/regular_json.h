@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 // REGULAR, SWEEP and CURVE of report.json.
-#include "sublimit/analysis/regularity/curve_joints.h"
-#include "sublimit/analysis/regularity/surface_regularity.h"
-#include "sublimit/analysis/regularity/sweep.h"
-#include "sublimit/analysis/regularity/typed_mask.h"
 #include "sublimit/certificates/algebraic.h"
-#include "sublimit/report/analysis/numbers.h"
+#include "sublimit/certificates/regularity/curve_joints.h"
+#include "sublimit/certificates/regularity/surface_regularity.h"
+#include "sublimit/certificates/regularity/sweep.h"
+#include "sublimit/certificates/regularity/typed_mask.h"
+#include "sublimit/files/numbers.h"
 
 namespace sublimit::report {
 

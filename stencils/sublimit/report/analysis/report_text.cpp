@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 
-#include "sublimit/report/analysis/numbers.h"
+#include "sublimit/files/numbers.h"
 
 namespace sublimit::report {
 namespace {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "sublimit/certificates/algebraic.h"
-#include "sublimit/scheme.h"
+#include "sublimit/scheme/scheme.h"
 
 namespace sublimit::report {
 

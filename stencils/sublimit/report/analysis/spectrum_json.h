@@ -2,7 +2,7 @@
 #pragma once
 // `spectrum` and what follows from it: lambda, mu, their ratio, and the blocks that have mu.
 #include "sublimit/certificates/exact_spectrum.h"
-#include "sublimit/report/analysis/numbers.h"
+#include "sublimit/files/numbers.h"
 
 namespace sublimit::report {
 

@@ -3,7 +3,7 @@
 // An asset's report as the MESH object of report_format.md.
 #include <nlohmann/json.hpp>
 
-#include "sublimit/report/asset_report.h"
+#include "sublimit/report/asset/asset_report.h"
 
 namespace sublimit {
 

@@ -2,7 +2,7 @@
 #pragma once
 // How much a limit bends: statistics over its area, by samples in the middle of equal cells of every face.
 #include "sublimit/limit/limit_surface.h"
-#include "sublimit/report/asset_report.h"
+#include "sublimit/report/asset/asset_report.h"
 
 namespace sublimit::asset {
 

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sublimit/analysis/eigen_structure.h"
-#include "sublimit/analysis/local_patch.h"
 #include "sublimit/base/error.h"
+#include "sublimit/limit/eigen_structure.h"
+#include "sublimit/neighborhood/local_patch.h"
 
 namespace sublimit {
 

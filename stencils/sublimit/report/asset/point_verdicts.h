@@ -5,8 +5,8 @@
 #include <map>
 #include <tuple>
 
-#include "sublimit/analysis/limit_masks.h"
-#include "sublimit/report/asset_report.h"
+#include "sublimit/limit/limit_masks.h"
+#include "sublimit/report/asset/asset_report.h"
 
 namespace sublimit::asset {
 

@@ -4,7 +4,7 @@
 
 #include "sublimit/base/error.h"
 #include "sublimit/base/format_number.h"
-#include "sublimit/report/asset_report.h"
+#include "sublimit/report/asset/asset_report.h"
 
 namespace sublimit {
 

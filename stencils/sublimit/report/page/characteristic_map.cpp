@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sublimit/picture/picture.h"
 #include "sublimit/report/page/bands.h"
 #include "sublimit/report/page/drawing.h"
 #include "sublimit/report/page/map_net.h"
-#include "sublimit/report/picture.h"
 
 namespace sublimit::page {
 namespace {

@@ -2,15 +2,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sublimit/picture/picture.h"
 #include "sublimit/report/page/bands.h"
 #include "sublimit/report/page/drawing.h"
+#include "sublimit/report/page/map_net.h"
 #include "sublimit/report/page/mask_diagram.h"
 #include "sublimit/report/page/plane.h"
 #include "sublimit/report/page/plot.h"
-#include "sublimit/report/page/map_net.h"
 #include "sublimit/report/page/sections.h"
 #include "sublimit/report/page/verdicts.h"
-#include "sublimit/report/picture.h"
 
 namespace sublimit::page {
 namespace {

@@ -9,7 +9,7 @@
 #include <numbers>
 #include <set>
 
-#include "sublimit/analysis/dense_decompositions.h"
+#include "sublimit/core/dense_decompositions.h"
 #include "sublimit/report/page/characteristic_map.h"
 #include "sublimit/report/page/drawing.h"
 #include "sublimit/report/page/map_net.h"

@@ -7,10 +7,10 @@
 #include <array>
 #include <cmath>
 
+#include "sublimit/picture/camera.h"
+#include "sublimit/picture/picture.h"
 #include "sublimit/report/page/bands.h"
 #include "sublimit/report/page/drawing.h"
-#include "sublimit/report/picture.h"
-#include "sublimit/report/picture/camera.h"
 
 namespace sublimit::page {
 namespace {

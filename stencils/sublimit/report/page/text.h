@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "sublimit/picture/svg.h"
 #include "sublimit/report/page/json.h"
-#include "sublimit/report/svg.h"
 
 namespace sublimit::page {
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "sublimit/analysis/regularity/curve_regularity.h"
-#include "sublimit/analysis/regularity/rational_schemes.h"
+#include "sublimit/certificates/regularity/curve_regularity.h"
+#include "sublimit/certificates/regularity/rational_schemes.h"
 
 namespace sublimit::report {
 namespace {

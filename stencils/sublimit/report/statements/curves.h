@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 // Experiments on curve schemes: symbols with exact weights, and the incentre scheme.
-#include "sublimit/geometric_schemes.h"
+#include "sublimit/core/scheme_options.h"
+#include "sublimit/geometric/geometric_schemes.h"
 #include "sublimit/report/statements/finding.h"
-#include "sublimit/scheme_options.h"
 
 namespace sublimit::report {
 

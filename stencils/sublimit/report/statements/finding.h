@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "sublimit/report/analysis/numbers.h"
+#include "sublimit/files/numbers.h"
 
 namespace sublimit::report {
 

@@ -5,11 +5,11 @@
 
 #include <cmath>
 
-#include "sublimit/analysis/limit_points.h"
 #include "sublimit/base/error.h"
-#include "sublimit/mesh/prepare.h"
-#include "sublimit/refine.h"
+#include "sublimit/limit/limit_points.h"
 #include "sublimit/report/statements/small_meshes.h"
+#include "sublimit/scheme/prepare.h"
+#include "sublimit/scheme/refine.h"
 #include "sublimit/schemes.h"
 
 namespace sublimit::report {

@@ -2,7 +2,7 @@
 #pragma once
 // Experiments on refined meshes: what steps make of faces and vertices, borders, interpolation.
 #include "sublimit/report/statements/finding.h"
-#include "sublimit/scheme.h"
+#include "sublimit/scheme/scheme.h"
 
 namespace sublimit::report {
 

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <string>
 
-#include "sublimit/analysis/regularity/curve_joints.h"
+#include "sublimit/certificates/regularity/curve_joints.h"
 
 namespace sublimit::report {
 namespace {

@@ -3,7 +3,7 @@
 // Experiments on the masks of regular meshes, exactly.
 #include "sublimit/certificates/algebraic.h"
 #include "sublimit/report/statements/finding.h"
-#include "sublimit/scheme.h"
+#include "sublimit/scheme/scheme.h"
 
 namespace sublimit::report {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sublimit/report/statements/spectra.h"
 
-#include "sublimit/analysis/local_modes.h"
 #include "sublimit/certificates/spectral_verdicts.h"
+#include "sublimit/limit/local_modes.h"
 #include "sublimit/report/analysis/modes_json.h"
 #include "sublimit/report/analysis/neighborhood.h"
 

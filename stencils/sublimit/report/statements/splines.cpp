@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sublimit/report/statements/splines.h"
 
-#include "sublimit/analysis/regularity/rational.h"
+#include "sublimit/certificates/regularity/rational.h"
 
 namespace sublimit::report {
 namespace {

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// The registries' schemes and local matrices in ratios, made once: else every file that uses them makes them all.
+#include "sublimit/certificates/regularity/rational.h"
+#include "sublimit/curves/schemes/curve_schemes.h"
+#include "sublimit/neighborhood/local_patch.h"
+#include "sublimit/schemes.h"
+
+namespace sublimit {
+
+extern template std::vector<Scheme<Rational>> all_schemes<Rational>();
+extern template std::optional<Scheme<Rational>> find_scheme<Rational>(const std::string&, const SchemeOptions&);
+extern template std::optional<CurveScheme<Rational>> find_curve_scheme<Rational>(const std::string&,
+                                                                                 const SchemeOptions&);
+extern template std::optional<LocalPatch<Rational>> local_patch<Rational>(const Scheme<Rational>&, LocalType, int,
+                                                                          const ControlMesh*);
+
+}  // namespace sublimit

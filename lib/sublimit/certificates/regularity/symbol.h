@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// Symbols of curve masks: Laurent polynomials a(z) = sum a_j z^j with exact coefficients, where new_i = sum_j a_(i-2j)
+// old_j. Factors 1 + z are what smoothness is made of: with k of them the differences of order k have a scheme too.
+#include <optional>
+#include <vector>
+
+#include "sublimit/certificates/regularity/rational.h"
+#include "sublimit/curves/curve_scheme.h"
+
+namespace sublimit {
+
+struct Symbol {
+  int first = 0;                       ///< power of z of the first coefficient
+  std::vector<Rational> coefficients;  ///< neither the first nor the last is zero; empty: the zero symbol
+  /// New point i lies at (i - shift)/2 where old point j lies at j: 0 for primal schemes, 1/2 for dual ones.
+  Rational shift = 0;
+
+  int last() const { return first + static_cast<int>(coefficients.size()) - 1; }
+  Rational at(int power) const { return power < first || power > last() ? Rational(0) : coefficients[power - first]; }
+};
+
+/// The symbol without zeros at its ends.
+Symbol trimmed(Symbol a);
+
+/// Symbol of a scheme's masks away from ends, at one level.
+/// @throws AnalysisError  weights that are not ratios, or a Hermite scheme: its masks are matrices
+Symbol symbol(const CurveScheme<Rational>& scheme, int level = 0);
+
+/// a(z)/(1+z), if 1 + z divides it.
+std::optional<Symbol> over_one_plus_z(const Symbol& a);
+
+/// How often 1 + z divides a symbol.
+int smoothing_factors(const Symbol& a);
+
+/// a(z)/(1+z)^m: takes differences of order m of the old points to those of the new ones.
+/// @pre  m <= smoothing_factors(a)
+Symbol difference_symbol(Symbol a, int m);
+
+/// The integer shifts of the limit function are linearly independent: what happens to points then happens to the limit,
+/// so that conditions on the differences of points are necessary and not only sufficient. It holds if a(z) and a(-z)
+/// have no common zero except 0, and no cyclotomic polynomial of order 2m, m > 1 odd, divides a. True is certain
+/// (computed modulo a prime, where divisors can only be more); false means not shown. Source: Jia, Wang 1993,
+/// "Stability and linear independence associated with wavelet decompositions", Proc. AMS 117.
+bool has_independent_shifts(const Symbol& a);
+
+/// sum a_j at z = 1 (sign 1) or z = -1 (sign -1).
+Rational value_at_one(const Symbol& a, int sign = 1);
+
+}  // namespace sublimit

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sublimit/core/dense_decompositions.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+#include <Eigen/SVD>
+
+#include "sublimit/base/error.h"
+
+namespace sublimit {
+
+SingularValues singular_values(const Eigen::MatrixXd& M) {
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(M, Eigen::ComputeFullV);
+  return {svd.singularValues(), svd.matrixV()};
+}
+
+std::optional<Eigen::MatrixXd> clear_null_space(const Eigen::MatrixXd& M) {
+  // Pivots fall, and follow the singular values within a factor of some hundreds.
+  constexpr double surely_not_zero = 1e-6, surely_zero = 1e-12;
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(Eigen::MatrixXd(M.transpose()));
+  const Eigen::VectorXd pivots = qr.matrixQR().diagonal().cwiseAbs();
+  if (pivots.size() == 0 || !(pivots[0] > 0)) return std::nullopt;
+  Eigen::Index rank = 0;
+  while (rank < pivots.size() && pivots[rank] > surely_not_zero * pivots[0]) ++rank;
+  if (rank < pivots.size() && !(pivots[rank] < surely_zero * pivots[0])) return std::nullopt;
+  const Eigen::MatrixXd Q = qr.householderQ();
+  return Eigen::MatrixXd(Q.rightCols(pivots.size() - rank));
+}
+
+PivotedQr::PivotedQr(const Eigen::MatrixXd& M) : qr_(M) {}
+
+Eigen::Index PivotedQr::rank() const { return qr_.rank(); }
+
+Eigen::MatrixXd PivotedQr::solve(const Eigen::MatrixXd& right) const { return qr_.solve(right); }
+
+Eigen::MatrixXd PivotedQr::last_directions(Eigen::Index count) const {
+  Eigen::MatrixXd last = Eigen::MatrixXd::Identity(qr_.rows(), qr_.rows()).rightCols(count);
+  last.applyOnTheLeft(qr_.householderQ());
+  return last;
+}
+
+Eigen::VectorXd least_norm_solution(const Eigen::MatrixXd& M, const Eigen::VectorXd& right, double threshold) {
+  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver;
+  solver.setThreshold(threshold);
+  solver.compute(M);
+  return solver.solve(Eigen::MatrixXd(right));
+}
+
+Eigen::MatrixXd orthonormal_columns(const Eigen::MatrixXd& X) {
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(X);
+  Eigen::MatrixXd Q = Eigen::MatrixXd::Identity(X.rows(), X.cols());
+  Q.applyOnTheLeft(qr.householderQ());
+  return Q;
+}
+
+Eigen::MatrixXd triangular_factor(const Eigen::MatrixXd& X) {
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(X);
+  return qr.matrixQR().topRows(X.cols()).triangularView<Eigen::Upper>();
+}
+
+Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& M) {
+  return Eigen::EigenSolver<Eigen::MatrixXd>(M, false).eigenvalues();
+}
+
+Eigenvectors eigenvectors(const Eigen::MatrixXd& M) {
+  const Eigen::EigenSolver<Eigen::MatrixXd> solver(M);
+  return {solver.eigenvalues(), solver.eigenvectors()};
+}
+
+SymmetricEigenvectors symmetric_eigenvectors(const Eigen::MatrixXd& M) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(M);
+  return {solver.eigenvalues(), solver.eigenvectors()};
+}
+
+Eigen::VectorXd symmetric_eigenvalues(const Eigen::MatrixXd& M) {
+  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(M, Eigen::EigenvaluesOnly).eigenvalues();
+}
+
+Eigen::VectorXd tridiagonal_eigenvalues(const Eigen::VectorXd& diagonal, const Eigen::VectorXd& beside) {
+  Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver;
+  solver.computeFromTridiagonal(diagonal, beside, Eigen::EigenvaluesOnly);
+  if (solver.info() != Eigen::Success) throw AnalysisError("the eigenvalues of a tridiagonal matrix do not converge");
+  return solver.eigenvalues();
+}
+
+}  // namespace sublimit

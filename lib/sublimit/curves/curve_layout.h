@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// Where the points of a curve lie and which point is whose child. Positions are counted in half legs of their own
+// level, so that they are whole numbers and double from level to level; 0 is where the limit of an open curve starts.
+//
+//   primal              0   2   4   6 ..           a point and the middle of its leg have the children 2X and 2X + 2
+//   dual, kept ends     0 1   3   5 ..     2n - 4  the children of an inner point lie at 2X - 1 and 2X + 1
+//   free ends      -s  2-s 4-s ..                  the limit starts s/2 legs after the first point
+//   closed              X, X + 2, ..               modulo 2n; X = 0 for primal schemes, 2^(k+1) - 1 for dual ones, whose
+//                                                  leg a has the children 2a and 2a + 1
+#include <cassert>
+#include <cstdint>
+
+#include "sublimit/curves/curve_scheme.h"
+
+namespace sublimit {
+
+/// A curve of a level without its points.
+struct CurveOutline {
+  Index size = 0;
+  bool closed = false;
+  std::int64_t first = 0;  ///< position of the first point
+
+  bool operator==(const CurveOutline&) const = default;
+};
+
+/// The geometry that a scheme gives to curves, found by asking its masks.
+class CurveLayout {
+ public:
+  template <class T>
+  explicit CurveLayout(const CurveScheme<T>& scheme, int level = 0)
+      : dual_(scheme.masks.dual()),
+        kept_(static_cast<bool>(scheme.ends.beyond)),
+        unknowns_(scheme.masks.unknowns()),
+        end_points_(scheme.ends.points) {
+    const CurveSite<T> site(level, unknowns_);
+    for (int which : {0, 1}) {
+      for (int component = 0; component < unknowns_; ++component) {
+        const Stencil<T> mask = scheme.masks.child(which, component)(site);
+        low_[which] = std::min(low_[which], steps(mask.terms().front().first));
+        high_[which] = std::max(high_[which], steps(mask.terms().back().first));
+      }
+      for (const int slot : {low_[which], high_[which]})
+        radius_ = std::max(radius_, std::abs(child_offset(which) - 4 * slot));
+    }
+    if (kept_) return;
+    const int starts[] = {-4 * low_[0] + child_offset(0), -4 * low_[1] + child_offset(1)};
+    start_ = std::min(starts[0], starts[1]);
+    assert(std::abs(starts[0] - starts[1]) == 2);  // the masks' reaches must leave children without gaps
+  }
+
+  bool is_dual() const { return dual_; }
+  /// At every point.
+  int unknowns() const { return unknowns_; }
+  /// Steps along the curve from a slot of a stencil.
+  int steps(Index slot) const { return (slot - (slot % unknowns_ + unknowns_) % unknowns_) / unknowns_; }
+  /// End points stay, and are points of the limit.
+  bool keeps_ends() const { return kept_; }
+  /// A child looks no further than this: |X_child - 2 X_parent| <= radius. A neighbourhood of this radius refines to
+  /// one that depends on nothing else.
+  int radius() const { return radius_; }
+  /// Where the sequence begins that masks see: positions of the points that masks may use are at least this.
+  int begin() const { return kept_ ? (dual_ ? 1 : 0) : -start_; }
+
+  /// Least number of points of a curve.
+  Index least_points(bool closed) const {
+    if (closed) return 3;
+    return kept_ ? std::max(end_points_, dual_ ? 3 : 2) : start_ + 2;
+  }
+  int end_points() const { return end_points_; }
+
+  CurveOutline control(Index size, bool closed) const {
+    return {size, closed, closed ? (dual_ ? 1 : 0) : kept_ ? 0 : -start_};
+  }
+  CurveOutline child(const CurveOutline& c) const {
+    if (c.closed) return {2 * c.size, true, dual_ ? 2 * c.first + 1 : 0};
+    if (kept_) return {2 * c.size - (dual_ ? 2 : 1), false, 0};
+    return {2 * c.size - (high_[0] - low_[0]) - (high_[1] - low_[1]), false, c.first};
+  }
+
+  /// Position of point `a`.
+  std::int64_t position(const CurveOutline& c, Index a) const {
+    if (!c.closed && kept_ && dual_) return a == 0 ? 0 : a == c.size - 1 ? 2 * a - 2 : 2 * a - 1;
+    return c.first + 2 * std::int64_t{a};
+  }
+  /// The point at a position.
+  Index point(const CurveOutline& c, std::int64_t position) const {
+    if (!c.closed && kept_ && dual_) return static_cast<Index>((position + 1) / 2 + (position == 2 * c.size - 4));
+    const std::int64_t a = (position - c.first) / 2;
+    assert(2 * a == position - c.first);
+    return static_cast<Index>(c.closed ? (a % c.size + c.size) % c.size : a);
+  }
+  /// Where the limit of an open curve ends.
+  std::int64_t end(const CurveOutline& c) const {
+    return kept_ ? position(c, c.size - 1) : c.first + position(c, c.size - 1);
+  }
+  /// Parameter of a point of level `number`, in legs of the control polygon.
+  ///
+  /// Control point i has parameter i, and with kept ends in a dual scheme 0, 1/2, 3/2, ... A closed curve of n control
+  /// points has the parameters modulo n.
+  double parameter(const CurveOutline& c, int number, Index a) const;
+
+  /// The parent point and the mask (0 or 1) of child point `j`; mask -1: the parent itself.
+  struct Source {
+    Index parent;
+    int mask;
+  };
+  Source source(const CurveOutline& parent, const CurveOutline& child, Index j) const {
+    if (!child.closed && kept_ && j == 0) return {0, -1};
+    if (!child.closed && kept_ && j == child.size - 1) return {parent.size - 1, -1};
+    const std::int64_t base = !parent.closed && kept_ && dual_ ? -1 : parent.first;
+    const std::int64_t from_first = position(child, j) - 2 * base - child_offset(0);
+    const int mask = from_first % 4 == 0 ? 0 : 1;
+    return {static_cast<Index>((from_first + child_offset(0) - child_offset(mask)) / 4), mask};
+  }
+
+ private:
+  int child_offset(int which) const { return dual_ ? 2 * which - 1 : 2 * which; }
+
+  bool dual_, kept_;
+  int unknowns_, end_points_, radius_ = 0, start_ = 0;
+  int low_[2] = {0, 0}, high_[2] = {0, 0};
+};
+
+}  // namespace sublimit

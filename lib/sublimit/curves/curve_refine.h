@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// Levels of a polygon: S_k from the masks of a curve scheme, x_{k+1} = S_k x_k. Points stand in order along the curves,
+// one curve after the other; curve_layout.h says whose child is where.
+#include <algorithm>
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "sublimit/base/error.h"
+#include "sublimit/curves/curve_layout.h"
+#include "sublimit/mesh/control_polygon.h"
+
+namespace sublimit {
+
+/// A row is a stencil, columns ascending.
+template <class T>
+using CurveMatrix = Eigen::SparseMatrix<T, Eigen::RowMajor, Index>;
+
+/// One level of refined curves.
+template <class T>
+struct CurveLevelOf {
+  int number = 0;
+  int unknowns = 1;  ///< at every point; rows and columns of a point stand together
+  std::vector<CurveOutline> curves;
+  /// x_k = S x_{k-1}; for level 0 the choice of the curves' points from those of the control polygon.
+  CurveMatrix<T> S;
+
+  Index num_points() const {
+    Index sum = 0;
+    for (const CurveOutline& curve : curves) sum += curve.size;
+    return sum;
+  }
+};
+using CurveLevel = CurveLevelOf<double>;
+
+/// Rows of stencils, one after the other.
+template <class T>
+class CurveRows {
+ public:
+  using Term = std::pair<Index, T>;
+  CurveRows(Index rows, Index columns) : S_(rows, columns) {}
+
+  /// Appends a row; terms in any order, those on one column are summed, zeros dropped.
+  void append(std::vector<Term> terms) {
+    std::stable_sort(terms.begin(), terms.end(), [](const Term& a, const Term& b) { return a.first < b.first; });
+    S_.startVec(row_);
+    for (size_t i = 0; i < terms.size();) {
+      T sum = terms[i].second;
+      const Index column = terms[i].first;
+      for (++i; i < terms.size() && terms[i].first == column; ++i) sum += terms[i].second;
+      if (sum != T(0)) S_.insertBack(row_, column) = sum;
+    }
+    ++row_;
+  }
+  CurveMatrix<T> finish() {
+    S_.finalize();
+    return std::move(S_);
+  }
+
+ private:
+  CurveMatrix<T> S_;
+  Index row_ = 0;
+};
+
+/// The matrix of one step: row i has the weights of child point i over the points of the curves of level `number` (rows
+/// 2i and 2i + 1 of Hermite schemes: the point and its derivative).
+/// @throws ResourceError  more points than 32-bit indices count
+template <class T>
+CurveMatrix<T> curve_matrix(const CurveScheme<T>& scheme, const std::vector<CurveOutline>& parents, int number) {
+  const CurveLayout layout(scheme, number);
+  const auto& masks = scheme.masks;
+  const Index unknowns = layout.unknowns();
+  std::vector<Stencil<T>> inner;  // by child and unknown
+  for (int which : {0, 1})
+    for (int component = 0; component < unknowns; ++component)
+      inner.push_back(masks.child(which, component)(CurveSite<T>(number, unknowns)));
+  std::int64_t rows = 0, columns = 0;
+  for (const CurveOutline& curve : parents) {
+    rows += 2 * std::int64_t{curve.size} * unknowns;
+    columns += std::int64_t{curve.size} * unknowns;
+  }
+  if (rows * 8 > std::numeric_limits<Index>::max())
+    throw ResourceError(std::to_string(rows) + " points of level " + std::to_string(number + 1) +
+                        " are more than 32-bit indices can hold the weights of; use fewer levels");
+  rows = 0;
+  for (const CurveOutline& curve : parents) rows += layout.child(curve).size * unknowns;
+  CurveRows<T> S(static_cast<Index>(rows), static_cast<Index>(columns));
+  Index start = 0;
+  std::vector<std::pair<Index, T>> row;
+  for (const CurveOutline& curve : parents) {
+    const CurveOutline child = layout.child(curve);
+    const Index margin = layout.keeps_ends() && layout.is_dual() ? 1 : 0;
+    for (Index j = 0; j < child.size * unknowns; ++j) {
+      const auto [parent, which] = layout.source(curve, child, j / unknowns);
+      row.clear();
+      if (which < 0) {
+        row.push_back({start + parent, T(1)});
+      } else {
+        const int component = static_cast<int>(j % unknowns);
+        const auto& terms = inner[which * unknowns + component].terms();
+        const bool inside = parent + layout.steps(terms.front().first) >= margin &&
+                            parent + layout.steps(terms.back().first) < curve.size - margin;
+        if (curve.closed || inside) {
+          const Index size = curve.size * unknowns;
+          for (const auto& [slot, weight] : terms)
+            row.push_back({start + ((parent * unknowns + slot) % size + size) % size, weight});
+        } else {
+          const Stencil<T> stencil =
+              masks.child(which, component)(CurveSite<T>(number, scheme.ends, layout.is_dual(), parent, curve.size));
+          for (const auto& [slot, weight] : stencil.terms()) row.push_back({start + parent + slot, weight});
+        }
+      }
+      S.append(row);
+    }
+    start += curve.size * unknowns;
+  }
+  return S.finish();
+}
+
+/// Level 0.
+/// @throws InvalidMesh          no curves, an index that points nowhere
+/// @throws UnsupportedTopology  a curve of too few points
+template <class T>
+CurveLevelOf<T> control_level(const CurveScheme<T>& scheme, const ControlPolygon& polygon) {
+  const CurveLayout layout(scheme);
+  CurveLevelOf<T> level;
+  level.unknowns = layout.unknowns();
+  Index count = 0;
+  for (const ControlPolygon::Curve& curve : polygon.curves) {
+    const Index size = static_cast<Index>(curve.points.size()), least = layout.least_points(curve.closed);
+    if (size < least)
+      throw UnsupportedTopology(
+          "curve " + std::to_string(level.curves.size()) + " has " + std::to_string(size) +
+          (size == 1 ? " point; " : " points; ") + scheme.name + " needs at least " + std::to_string(least) +
+          (curve.closed ? " points in a closed curve" : " points in an open curve") +
+          (layout.end_points() > 2 && !curve.closed             ? " (2 with --option ends=linear)"
+           : !layout.keeps_ends() && !curve.closed && least > 3 ? " (fewer with --option ends=interpolate)"
+                                                                : ""));
+    level.curves.push_back(layout.control(size, curve.closed));
+    count += size;
+  }
+  if (count == 0) throw InvalidMesh("there are no curves; a polygon is needed");
+  CurveRows<T> choice(count * level.unknowns, polygon.num_points() * level.unknowns);
+  for (const ControlPolygon::Curve& curve : polygon.curves)
+    for (const Index i : curve.points) {
+      if (i < 0 || i >= polygon.num_points())
+        throw InvalidMesh("a curve has point " + std::to_string(i) + "; there are points 0 to " +
+                          std::to_string(polygon.num_points() - 1));
+      for (int component = 0; component < level.unknowns; ++component)
+        choice.append({{i * level.unknowns + component, T(1)}});
+    }
+  level.S = choice.finish();
+  return level;
+}
+
+/// The level after `parent`.
+/// @throws ResourceError  more points than 32-bit indices count
+template <class T>
+CurveLevelOf<T> next_level(const CurveScheme<T>& scheme, const CurveLevelOf<T>& parent) {
+  CurveLevelOf<T> level;
+  level.number = parent.number + 1;
+  level.unknowns = parent.unknowns;
+  const CurveLayout layout(scheme, parent.number);
+  level.S = curve_matrix(scheme, parent.curves, parent.number);
+  for (const CurveOutline& curve : parent.curves) level.curves.push_back(layout.child(curve));
+  return level;
+}
+
+/// Levels 0 to `levels`.
+/// @param progress  called before each level with its number, if given
+/// @throws InvalidParameter  negative `levels`; and what control_level and next_level throw
+std::vector<CurveLevel> refine(const CurveScheme<double>& scheme, const ControlPolygon& polygon, int levels,
+                               const std::function<void(int)>& progress = {});
+
+/// Level k from the control points: S_{k-1} ... S_0 and the choice of level 0.
+SparseMatrix refinement_matrix(const std::vector<CurveLevel>& levels);
+
+/// What the columns of a scheme's matrices stand for: the points, in a Hermite scheme each followed by its derivative.
+/// @throws InvalidMesh  a Hermite scheme and a polygon without tangents
+Points unknowns(const CurveScheme<double>& scheme, const ControlPolygon& polygon);
+
+/// The curves of a level, without points.
+ControlPolygon curve_outlines(const CurveLevel& level);
+
+/// Refined unknowns as a polygon of their own.
+ControlPolygon refined_polygon(const CurveLevel& level, const Points& unknowns);
+
+}  // namespace sublimit

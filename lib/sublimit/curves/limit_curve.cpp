@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sublimit/curves/limit_curve.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sublimit/base/parallel_for.h"
+#include "sublimit/curves/curve_pieces.h"
+#include "sublimit/limit/derivative_order.h"
+
+namespace sublimit {
+namespace {
+
+constexpr std::int64_t places_per_block = 256;
+
+/// A place on a curve by pieces, s in [0, 1].
+struct CurvePlace {
+  Index curve = 0;
+  std::int64_t piece = 0;
+  double s = 0;
+};
+
+}  // namespace
+
+struct LimitCurve::Parts {
+  std::vector<CurveOutline> curves;
+  std::vector<Index> first_segment;  // by curve, and the end
+  std::vector<Index> first_point;    // by curve, into `points`
+  std::vector<Index> points;         // of the curves, in order: what stencils call them
+  Index num_points = 0;
+  CurvePieces pieces;
+
+  Parts(const CurveScheme<double>& scheme, const CurveLevel& level)
+      : curves(level.curves), pieces(scheme, level.number, level.curves) {
+    first_segment.push_back(0);
+    Index start = 0;
+    for (const CurveOutline& curve : curves) {
+      first_segment.push_back(first_segment.back() + curve.size - (curve.closed ? 0 : 1));
+      first_point.push_back(start);
+      start += curve.size;
+    }
+    num_points = start;
+    for (Index i = 0; i < num_points; ++i) points.push_back(i);
+  }
+
+  Index unknowns() const { return pieces.layout().unknowns(); }
+
+  Index curve_of(Index segment) const {
+    return static_cast<Index>(std::upper_bound(first_segment.begin(), first_segment.end(), segment) -
+                              first_segment.begin() - 1);
+  }
+
+  /// Position of the sample's point, and how many half legs there are to the next.
+  std::pair<std::int64_t, int> ends(const CurveOutline& curve, Index segment) const {
+    const std::int64_t from = pieces.layout().position(curve, segment);
+    if (curve.closed) return {from, 2};
+    return {from, static_cast<int>(pieces.layout().position(curve, segment + 1) - from)};
+  }
+
+  CurvePlace place(const CurveSample& sample) const {
+    CurvePlace p;
+    p.curve = curve_of(sample.segment);
+    const CurveOutline& curve = curves[p.curve];
+    const auto [from, length] = ends(curve, sample.segment - first_segment[p.curve]);
+    // Position from + length t; its distance from the even number before, in legs.
+    p.piece = from >= 0 ? from / 2 : -((1 - from) / 2);
+    const double t = length == 2 ? sample.t : sample.t / 2;
+    if (from % 2 == 0) {
+      p.s = t;
+    } else if (t < 0.5) {
+      p.s = 0.5 + t;
+    } else {
+      ++p.piece;
+      p.s = t - 0.5;
+      if (length == 1) {  // the end of the curve
+        --p.piece;
+        p.s = 1;
+      }
+    }
+    if (curve.closed) p.piece %= pieces.num_pieces(curve);
+    return p;
+  }
+
+  /// Rows at a place, as far as wanted and existing; the place they are of in the end, and the status.
+  LimitStatus rows(CurvePlace& place, int order, CurvePieceRows& result) const {
+    const CurveOutline& curve = curves[place.curve];
+    const Index count = pieces.num_pieces(curve);
+    const auto ask = [&](bool one_sided, int derivatives) {
+      pieces.rows(curve, static_cast<Index>(place.piece), place.s, derivatives, one_sided, result);
+    };
+    if (!curve.closed) {
+      const bool before = place.piece < 0, at_start = place.piece == 0 && place.s == 0;
+      const bool behind = place.piece >= count && !(place.piece == count && place.s == 0);
+      const bool at_end = place.piece == count - 1 && place.s == 1;
+      if (before && !(place.piece == -1 && place.s == 1)) {
+        place = {place.curve, 0, 0};
+        ask(true, 0);
+        result.exists = 0;
+        return LimitStatus::outside;
+      }
+      if (before) place = {place.curve, 0, 0};
+      if (behind || at_end || place.piece == count) {
+        place = {place.curve, count - 1, 1};
+        ask(true, behind ? 0 : order);
+        if (behind) {
+          result.exists = 0;
+          return LimitStatus::outside;
+        }
+        return result.exists > 0 ? LimitStatus::crease : LimitStatus::undefined_normal;
+      }
+      if (at_start || before) {
+        ask(true, order);
+        return result.exists > 0 ? LimitStatus::crease : LimitStatus::undefined_normal;
+      }
+    }
+    const CurvePlace given = place;
+    if (place.s == 1) place = {place.curve, curve.closed ? (place.piece + 1) % count : place.piece + 1, 0};
+    ask(false, order);
+    if (place.s == 0 && result.exists == 0) {  // a corner, seen from the side that was given
+      place = given;
+      ask(true, order);
+      return result.exists > 0 ? LimitStatus::crease : LimitStatus::undefined_normal;
+    }
+    if (result.kink) return LimitStatus::crease;
+    return result.exists == 2   ? LimitStatus::regular
+           : result.exists == 1 ? LimitStatus::unbounded_second
+                                : LimitStatus::undefined_normal;
+  }
+
+  /// What stencils call the unknowns of a place's window.
+  template <class Body>
+  void for_each_unknown(const CurvePlace& place, const Body& body) const {
+    const CurveOutline& curve = curves[place.curve];
+    const PieceWindow window = pieces.window(curve, static_cast<Index>(place.piece));
+    const Index* names = points.data() + first_point[place.curve];
+    Index a = window.first, column = 0;
+    if (curve.closed) a = (a % curve.size + curve.size) % curve.size;
+    for (Index i = 0; i < window.size; ++i) {
+      for (Index k = 0; k < unknowns(); ++k) body(column++, names[a] * unknowns() + k);
+      if (++a == curve.size && curve.closed) a = 0;
+    }
+  }
+};
+
+LimitCurve::LimitCurve(const CurveScheme<double>& scheme, const CurveLevel& level)
+    : parts_(std::make_unique<Parts>(scheme, level)) {}
+
+LimitCurve::LimitCurve(const CurveScheme<double>& scheme, const ControlPolygon& polygon)
+    : LimitCurve(scheme, control_level(scheme, polygon)) {
+  parts_->points.clear();
+  for (const ControlPolygon::Curve& curve : polygon.curves)
+    parts_->points.insert(parts_->points.end(), curve.points.begin(), curve.points.end());
+  parts_->num_points = polygon.num_points();
+}
+
+LimitCurve::~LimitCurve() = default;
+LimitCurve::LimitCurve(LimitCurve&&) noexcept = default;
+LimitCurve& LimitCurve::operator=(LimitCurve&&) noexcept = default;
+
+Index LimitCurve::num_segments() const { return parts_->first_segment.back(); }
+Index LimitCurve::num_curves() const { return static_cast<Index>(parts_->curves.size()); }
+Index LimitCurve::num_unknowns() const { return parts_->num_points * parts_->unknowns(); }
+
+Index LimitCurve::first_segment(Index curve) const {
+  if (curve < 0 || curve >= num_curves())
+    throw InvalidParameter("curve " + std::to_string(curve) + " does not exist; there are curves 0 to " +
+                           std::to_string(num_curves() - 1));
+  return parts_->first_segment[curve];
+}
+
+double LimitCurve::parameter(const CurveSample& sample) const {
+  check_sample(sample, num_segments());
+  const Index curve = parts_->curve_of(sample.segment);
+  const CurveOutline& outline = parts_->curves[curve];
+  const auto [from, length] = parts_->ends(outline, sample.segment - parts_->first_segment[curve]);
+  return static_cast<double>(from - parts_->pieces.layout().position(outline, 0)) / 2 + length * sample.t / 2;
+}
+
+CurveStencil LimitCurve::stencil(const CurveSample& sample, int order) const {
+  check_sample(sample, num_segments());
+  check_order(order);
+  CurvePlace place = parts_->place(sample);
+  CurvePieceRows rows;
+  CurveStencil result;
+  result.status = parts_->rows(place, order, rows);
+  const int derivatives = std::min(order, rows.exists);
+  std::vector<std::pair<Index, Index>> columns;  // by name
+  parts_->for_each_unknown(place, [&](Index column, Index name) { columns.push_back({name, column}); });
+  std::sort(columns.begin(), columns.end());
+  for (const auto& [name, column] : columns)
+    if (result.unknowns.empty() || result.unknowns.back() != name) result.unknowns.push_back(name);
+  result.weights.setZero(derivatives + 1, static_cast<Eigen::Index>(result.unknowns.size()));
+  Index at = -1;
+  for (size_t i = 0; i < columns.size(); ++i) {
+    if (i == 0 || columns[i].first != columns[i - 1].first) ++at;  // small closed curves meet their points twice
+    for (int k = 0; k <= derivatives; ++k) result.weights(k, at) += rows.row(k)[columns[i].second];
+  }
+  return result;
+}
+
+CurveSamples LimitCurve::evaluate(const Points& unknowns, std::span<const CurveSample> samples, int order) const {
+  check_order(order);
+  if (unknowns.rows() != num_unknowns())
+    throw InvalidParameter("there are " + std::to_string(unknowns.rows()) + " rows of points; the curves have " +
+                           std::to_string(num_unknowns()) + (parts_->unknowns() > 1 ? ", derivatives included" : ""));
+  const auto count = static_cast<std::int64_t>(samples.size());
+  for (std::int64_t i = 0; i < count; ++i) check_sample(samples[i], num_segments(), i);
+  const Eigen::Index dimension = unknowns.cols();
+  CurveSamples result(count, dimension, order);
+  parallel_for_blocks(
+      count,
+      [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+        CurvePieceRows rows;
+        for (std::int64_t i = begin; i < end; ++i) {
+          CurvePlace place = parts_->place(samples[i]);
+          result.status[i] = parts_->rows(place, order, rows);
+          const int derivatives = std::min(order, rows.exists);
+          result.order[i] = static_cast<std::int8_t>(derivatives);
+          double noise = 0;
+          Points* parts[] = {&result.position, &result.first, &result.second};
+          parts_->for_each_unknown(place, [&](Index column, Index name) {
+            const double* x = unknowns.data() + name * dimension;
+            for (int k = 0; k <= derivatives; ++k) {
+              const double weight = rows.row(k)[column];
+              double* sum = parts[k]->data() + i * dimension;
+              for (Eigen::Index c = 0; c < dimension; ++c) sum[c] += weight * x[c];
+              if (k != 1) continue;
+              for (Eigen::Index c = 0; c < dimension; ++c) noise += std::abs(weight * x[c]);
+            }
+          });
+          if (derivatives > 0)
+            result.set_normal(static_cast<Index>(i), 16 * std::numeric_limits<double>::epsilon() * noise);
+        }
+      },
+      places_per_block);
+  return result;
+}
+
+std::vector<CurveSample> LimitCurve::grid(int N) const {
+  if (N < 2) throw InvalidParameter("a grid of " + std::to_string(N) + " has no two ends; it must be 2 or more");
+  std::vector<CurveSample> samples;
+  samples.reserve(static_cast<size_t>(num_segments()) * N);
+  for (Index segment = 0; segment < num_segments(); ++segment)
+    for (int i = 0; i < N; ++i) samples.push_back({segment, static_cast<double>(i) / (N - 1)});
+  return samples;
+}
+
+CurveSamples evaluate(const GeometricCurveScheme& scheme, const ControlPolygon& polygon,
+                      std::span<const CurveSample> samples, int order) {
+  check_order(order);
+  const ControlPolygon data = scheme.checked(polygon);
+  const std::vector<std::vector<LegCurve>> curves = scheme.legs(data);
+  struct Leg {
+    const LegCurve *curve, *before, *behind;  // and its neighbours, if there are any
+  };
+  std::vector<Leg> legs;
+  for (size_t c = 0; c < curves.size(); ++c) {
+    const std::vector<LegCurve>& all = curves[c];
+    const size_t count = all.size();
+    const bool closed = data.curves[c].closed;
+    for (size_t i = 0; i < count; ++i)
+      legs.push_back({&all[i], i > 0 || closed ? &all[(i + count - 1) % count] : nullptr,
+                      i + 1 < count || closed ? &all[(i + 1) % count] : nullptr});
+  }
+  const auto count = static_cast<std::int64_t>(samples.size());
+  for (std::int64_t i = 0; i < count; ++i) check_sample(samples[i], static_cast<Index>(legs.size()), i);
+  const double size = (data.points.colwise().maxCoeff() - data.points.colwise().minCoeff()).norm();
+  CurveSamples result(count, data.dimension(), order);
+  parallel_for_blocks(
+      count,
+      [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+        for (std::int64_t i = begin; i < end; ++i) {
+          const auto& [segment, t] = samples[i];
+          const Leg& leg = legs[segment];
+          // What lies before and behind, which is the same but where arcs meet.
+          const bool open_end = (t == 0 && !leg.before) || (t == 1 && !leg.behind);
+          const LegPlace place = t == 1 && leg.behind ? (*leg.behind)(0, false) : (*leg.curve)(t, false);
+          const LegPlace other = t == 0 && leg.before ? (*leg.before)(1, true) : (*leg.curve)(t, true);
+          const bool bends_alike = (place.curvature - other.curvature).norm() <=
+                                   1e-9 * (place.curvature.norm() + other.curvature.norm() + 1 / size);
+          result.position.row(i) = place.position.head(data.dimension());
+          result.status[i] = open_end      ? LimitStatus::crease
+                             : bends_alike ? LimitStatus::regular
+                                           : LimitStatus::unbounded_second;
+          result.order[i] = static_cast<std::int8_t>(std::min(order, bends_alike ? 2 : 1));
+          if (result.order[i] >= 1) result.first.row(i) = place.tangent.head(data.dimension());
+          if (result.order[i] >= 2) result.second.row(i) = place.curvature.head(data.dimension());
+          result.set_normal(static_cast<Index>(i), 0);
+        }
+      },
+      places_per_block);
+  return result;
+}
+
+}  // namespace sublimit

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// Schemes that are not linear: no masks, no matrix, but a step from data to data and, if it is known, the limit in
+// closed form. `Data` is what the scheme refines: a ControlPolygon with tangents for curves, a CurvatureMesh for
+// surfaces.
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "sublimit/base/error.h"
+#include "sublimit/core/scheme_options.h"
+#include "sublimit/mesh/control_polygon.h"
+
+namespace sublimit {
+
+/// What such a scheme is said to do, each claim with its law in the tests.
+struct GeometricClaims {
+  std::optional<int> regular = {};  ///< the limit is G^regular; nothing if that is not claimed
+  bool interpolates = false;        ///< old data stay, bitwise
+  std::string reproduces;           ///< in words
+  std::string limit;                ///< in words
+  std::string exponent;             ///< Hoelder exponent of the limit by arc length, in words
+};
+
+/// A place on the limit of a leg.
+struct LegPlace {
+  Eigen::Vector3d position;
+  Eigen::Vector3d tangent;    ///< of length 1
+  Eigen::Vector3d curvature;  ///< derivative of the tangent by length
+};
+/// The limit of a leg over t in [0, 1]; where pieces meet inside, that of the piece before or behind.
+using LegCurve = std::function<LegPlace(double t, bool before)>;
+
+template <class Data>
+struct GeometricScheme {
+  std::string name;
+  std::string source;  ///< author, year, title
+  /// Data fit for `refine` and `limit`.
+  /// @throws InvalidMesh, UnsupportedTopology  what the scheme cannot take, where, and what would be right
+  std::function<Data(Data)> checked;
+  std::function<Data(const Data&)> refine;  ///< one step, of checked or refined data
+  /// Data of level `levels`, on the exact limit of checked data; empty where the limit is not known in closed form.
+  std::function<Data(const Data&, int levels)> limit = {};
+  /// Curves with a known limit: the exact limit of checked data anywhere, of each curve its legs in order.
+  std::function<std::vector<std::vector<LegCurve>>(const Data&)> legs = {};
+  /// Notes worth telling about checked data: where the scheme fell back on another rule.
+  std::function<std::vector<std::string>(const Data&)> notes;
+  GeometricClaims claims;
+  std::vector<OptionInfo> options = {};
+};
+using GeometricCurveScheme = GeometricScheme<ControlPolygon>;
+
+/// Data of level `levels`.
+/// @param progress  called before each level with its number, if given
+template <class Data>
+Data refine(const GeometricScheme<Data>& scheme, const Data& data, int levels,
+            const std::function<void(int)>& progress = {}) {
+  if (levels < 0) throw InvalidParameter("levels is " + std::to_string(levels) + "; it must be 0 or more");
+  Data result = scheme.checked(data);
+  for (int k = 1; k <= levels; ++k) {
+    if (progress) progress(k);
+    result = scheme.refine(result);
+  }
+  return result;
+}
+
+}  // namespace sublimit

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// The registry of schemes without a matrix: one line a scheme, a list for each kind of data.
+#include <optional>
+
+#include "sublimit/geometric/hermite_incentre.h"
+#include "sublimit/geometric/torus_pieces.h"
+
+namespace sublimit {
+
+template <class Data>
+struct GeometricSchemeEntry {
+  const char* name;
+  GeometricScheme<Data> (*make)(const SchemeOptions&);
+};
+
+/// Specialised for every kind of data.
+template <class Data>
+inline constexpr void* geometric_registry = nullptr;
+template <>
+inline constexpr GeometricSchemeEntry<ControlPolygon> geometric_registry<ControlPolygon>[] = {
+    {"hermite-incentre", hermite_incentre},
+};
+template <>
+inline constexpr GeometricSchemeEntry<CurvatureMesh> geometric_registry<CurvatureMesh>[] = {
+    {"torus-pieces", torus_pieces},
+};
+
+/// Every scheme for this kind of data with its default options.
+template <class Data = ControlPolygon>
+std::vector<GeometricScheme<Data>> all_geometric_schemes() {
+  std::vector<GeometricScheme<Data>> schemes;
+  for (const GeometricSchemeEntry<Data>& entry : geometric_registry<Data>) schemes.push_back(entry.make({}));
+  return schemes;
+}
+
+/// A scheme by name; nothing if there is none.
+/// @throws InvalidOption  an unknown option, or a value outside its range
+template <class Data = ControlPolygon>
+std::optional<GeometricScheme<Data>> find_geometric_scheme(const std::string& name, const SchemeOptions& options = {}) {
+  for (const GeometricSchemeEntry<Data>& entry : geometric_registry<Data>) {
+    if (name != entry.name) continue;
+    check_options(name, entry.make({}).options, options);
+    return entry.make(options);
+  }
+  return std::nullopt;
+}
+
+}  // namespace sublimit

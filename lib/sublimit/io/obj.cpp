@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sublimit/io/obj.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <unordered_set>
+
+#include "sublimit/base/error.h"
+#include "sublimit/base/format_number.h"
+#include "sublimit/base/read_file.h"
+#include "sublimit/io/obj_tags.h"
+#include "sublimit/io/text_scanner.h"
+
+namespace sublimit {
+namespace {
+
+// Statements that say nothing about the control mesh.
+constexpr std::array<std::string_view, 19> skipped_keywords{
+    "vn", "vp",  "g",     "o",        "s",        "l",          "p",         "usemtl", "mtllib", "usemap",
+    "mg", "lod", "bevel", "c_interp", "d_interp", "shadow_obj", "trace_obj", "maplib", "call"};
+
+class ObjReader {
+ public:
+  ObjReader(std::string_view text, std::string_view name)
+      : scanner_(text, name, TextScanner::Continuation::backslash) {}
+
+  ControlMesh read() {
+    while (scanner_.next_line()) {
+      const std::string_view keyword = scanner_.token();
+      if (keyword == "v") {
+        read_vertex();
+      } else if (keyword == "vt") {
+        read_texture_coordinates();
+      } else if (keyword == "f") {
+        read_face();
+      } else if (keyword == "t") {
+        tags_.read(scanner_, mesh_);
+      } else if (!keyword.empty() && std::ranges::find(skipped_keywords, keyword) == skipped_keywords.end()) {
+        skip_unknown(keyword);
+      }
+    }
+    finish();
+    return std::move(mesh_);
+  }
+
+ private:
+  void read_vertex() {
+    for (const char* const what : {"coordinate x", "coordinate y", "coordinate z"}) {
+      coordinates_.push_back(scanner_.finite(scanner_.token(), what));
+    }
+    for (std::string_view token; !(token = scanner_.token()).empty();) scanner_.real(token, "number behind a vertex");
+    ++num_vertices_;
+  }
+
+  void read_texture_coordinates() {
+    std::size_t count = 0;
+    for (std::string_view token; count < 3 && !(token = scanner_.token()).empty(); ++count)
+      texture_.values.push_back(scanner_.finite(token, "texture coordinate"));
+    if (count == 0) scanner_.finite("", "texture coordinate");
+    for (std::string_view token; !(token = scanner_.token()).empty();)
+      scanner_.real(token, "number behind a texture coordinate");
+    texture_.values.resize(texture_.values.size() + 3 - count, 0);  // OBJ: absent ones are 0
+    texture_.columns = std::max(texture_.columns, count);
+    ++texture_.count;
+  }
+
+  void read_face() {
+    const std::int64_t line = scanner_.line();
+    std::int64_t size = 0;
+    for (std::string_view token; !(token = scanner_.token()).empty(); ++size) read_corner(token);
+    if (size < 3) {
+      throw InvalidMesh(scanner_.place(line) + "face " + format_number(mesh_.num_faces()) + " has " +
+                        format_number(size) + " corners; it should have at least 3");
+    }
+    checked_index(std::int64_t(mesh_.face_vertices.size()), scanner_.name(), "corners of faces");
+    mesh_.face_sizes.push_back(static_cast<Index>(size));
+  }
+
+  // One corner: its vertex, then perhaps a texture coordinate and a normal, which is checked for form only.
+  void read_corner(std::string_view token) {
+    std::size_t slash = token.find('/');
+    mesh_.face_vertices.push_back(vertex(scanner_.integer(token.substr(0, slash), "index")));
+    std::int64_t value = 0;  // none
+    for (int part = 0; slash != std::string_view::npos; ++part) {
+      const std::size_t first = slash + 1;
+      slash = token.find('/', first);
+      const std::string_view index = token.substr(first, slash - first);
+      if (part == 2) {
+        throw FormatError(scanner_.place() + "corner " + in_quotes(token) +
+                          " has more than 3 indices; it should be 'a', 'a/b', 'a//c' or 'a/b/c'");
+      }
+      if (index.empty()) continue;
+      const std::int64_t number = scanner_.integer(index, "index");
+      if (number == 0) zero_index();
+      if (part == 0) value = number;
+    }
+    if (value != 0 || !texture_.corners.empty()) add_texture_corner(value);
+    if (value == 0 && texture_.line_without < 0) texture_.line_without = scanner_.line();
+  }
+
+  // The texture coordinate of the corner that was read last, 0 for none.
+  void add_texture_corner(std::int64_t number) {
+    texture_.corners.resize(mesh_.face_vertices.size() - 1, -1);  // those before the first that has one
+    texture_.corners.push_back(-1);
+    if (number == 0) return;
+    const std::int64_t index = number > 0 ? number - 1 : texture_.count + number;
+    if (number > texture_.most.index) texture_.most = {.index = number, .line = scanner_.line()};
+    if (index < 0 && texture_.beyond.line < 0) texture_.beyond = {.index = number, .line = scanner_.line()};
+    texture_.corners.back() = static_cast<Index>(std::clamp<std::int64_t>(index, 0, std::numeric_limits<Index>::max()));
+  }
+
+  Index vertex(std::int64_t index) {
+    if (index == 0) zero_index();
+    if (index < 0) {
+      if (index >= -num_vertices_) return static_cast<Index>(num_vertices_ + index);
+      throw InvalidMesh(scanner_.place() + "index " + format_number(index) + " counts back beyond the first of " +
+                        format_number(num_vertices_) + " vertices so far; relative indices start at -1, the last one");
+    }
+    // It may be defined later. Only an index above all earlier ones can be the first that is not.
+    if (index > num_vertices_ && (forward_.empty() || index > forward_.back().index)) {
+      forward_.push_back({.index = index, .line = scanner_.line()});
+    }
+    return static_cast<Index>(std::min<std::int64_t>(index - 1, std::numeric_limits<Index>::max()));
+  }
+
+  [[noreturn]] void zero_index() const {
+    throw FormatError(scanner_.place() + "index 0; indices of an OBJ face count from 1, or backwards from -1");
+  }
+
+  void skip_unknown(std::string_view keyword) {
+    constexpr std::size_t most = 20;
+    const auto is_text = [](char c) { return c >= 0x20 && c < 0x7f; };
+    if (!std::ranges::all_of(keyword, is_text)) {
+      throw FormatError(scanner_.place() + "the line starts with " + in_quotes(keyword) +
+                        ", so this is not a text OBJ file; statements such as 'v' and 'f' are expected");
+    }
+    if (unknown_.size() >= most || !unknown_.emplace(keyword).second) return;
+    mesh_.warnings.push_back(scanner_.place() + "unknown keyword " + in_quotes(keyword) + " ignored");
+    if (unknown_.size() == most) mesh_.warnings.push_back(scanner_.place() + "further unknown keywords are not listed");
+  }
+
+  void finish() {
+    const std::string& name = scanner_.name();
+    if (num_vertices_ == 0) throw InvalidMesh(name + ": no vertices; an OBJ mesh has lines 'v x y z'");
+    if (mesh_.face_sizes.empty()) throw InvalidMesh(name + ": no faces; an OBJ mesh has lines 'f a b c ...'");
+    const Index vertices = checked_index(num_vertices_, name, "vertices");
+    for (const Forward& forward : forward_) {
+      if (forward.index <= vertices) continue;
+      throw InvalidMesh(scanner_.place(forward.line) + "index " + format_number(forward.index) +
+                        " is out of range; the file has " + format_number(vertices) + " vertices, 1 to " +
+                        format_number(vertices));
+    }
+    mesh_.positions = Eigen::Map<const Points>(coordinates_.data(), vertices, 3);
+    tags_.check(scanner_, mesh_);
+    finish_texture_coordinates();
+  }
+
+  void finish_texture_coordinates() {
+    if (texture_.count == 0 || texture_.corners.empty()) return;
+    const auto count = [&] { return format_number(texture_.count) + " texture coordinates"; };
+    if (texture_.most.index > texture_.count)
+      throw InvalidMesh(scanner_.place(texture_.most.line) + "texture coordinate " +
+                        format_number(texture_.most.index) + " is out of range; the file has " + count() + ", 1 to " +
+                        format_number(texture_.count));
+    if (texture_.beyond.line >= 0)
+      throw InvalidMesh(scanner_.place(texture_.beyond.line) + "texture coordinate " +
+                        format_number(texture_.beyond.index) +
+                        " counts back beyond the first so far; relative indices start at -1, the last one");
+    if (texture_.line_without >= 0) {
+      mesh_.warnings.push_back(
+          scanner_.place(texture_.line_without) +
+          "corners without texture coordinate, which others have; texture coordinates are dropped");
+      return;
+    }
+    const Index rows = checked_index(texture_.count, scanner_.name(), "texture coordinates");
+    mesh_.face_varying.push_back({.name = "uv",
+                                  .values = Eigen::Map<const Points>(texture_.values.data(), rows, 3)
+                                                .leftCols(static_cast<Eigen::Index>(texture_.columns)),
+                                  .indices = std::move(texture_.corners)});
+  }
+
+  struct Forward {
+    std::int64_t index, line;
+  };
+  struct Texture {
+    std::vector<double> values;  // three each
+    std::int64_t count = 0;
+    std::size_t columns = 0;             // that some line has
+    std::vector<Index> corners;          // -1 for none; empty before the first
+    Forward most{0, -1}, beyond{0, -1};  // the largest index, and the first that counts back too far
+    std::int64_t line_without = -1;
+  };
+
+  TextScanner scanner_;
+  ControlMesh mesh_;
+  ObjTags tags_;
+  std::vector<double> coordinates_;
+  std::int64_t num_vertices_ = 0;
+  std::vector<Forward> forward_;  // ascending
+  Texture texture_;
+  std::unordered_set<std::string> unknown_;
+};
+
+}  // namespace
+
+ControlMesh read_obj(const std::filesystem::path& path) { return parse_obj(read_file(path), path.string()); }
+
+ControlMesh parse_obj(std::string_view text, std::string_view name) {
+  require_text(text, name, "OBJ");
+  return ObjReader(text, name).read();
+}
+
+}  // namespace sublimit

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// Polygon File Format (Stanford): text or binary of either byte order, numbers of any type.
+//
+// Read: `x`, `y`, `z` of the element `vertex` and the list `vertex_index` or `vertex_indices` of the element `face`;
+// all else is skipped. Written: binary little-endian, doubles, one normal per vertex. Tags have no place in it.
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "sublimit/io/write_mesh.h"
+#include "sublimit/mesh/control_mesh.h"
+
+namespace sublimit {
+
+/// The mesh in a file; no tags.
+/// @throws FormatError  not PLY, a header that makes no sense, counts that the file is too short for;
+///                      the place is file:line in text, file: byte in binary data
+/// @throws InvalidMesh  indices out of range, faces of fewer than 3 corners, infinite coordinates
+/// @throws IoError      missing, unreadable;  ResourceError  more than memory or 32-bit indices hold
+ControlMesh read_ply(const std::filesystem::path& path);
+/// As `read_ply`, from the bytes of a file; messages start with `name`.
+ControlMesh parse_ply(std::string_view bytes, std::string_view name);
+
+/// The bytes of a mesh.
+/// @throws InvalidParameter  normals per corner, arrays that do not fit together
+/// @throws InvalidMesh       coordinates that are not finite
+std::string format_ply(const MeshOutput& mesh);
+/// `format_ply` into a file, which appears whole or not at all.
+void write_ply(const std::filesystem::path& path, const MeshOutput& mesh);
+
+}  // namespace sublimit

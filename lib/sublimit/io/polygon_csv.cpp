@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+
+#include "sublimit/base/error.h"
+#include "sublimit/base/format_number.h"
+#include "sublimit/io/polygon_files.h"
+#include "sublimit/io/text_scanner.h"
+
+namespace sublimit {
+namespace {
+
+std::string_view trimmed(std::string_view text) {
+  const auto blank = [](char c) { return c == ' ' || c == '\t'; };
+  while (!text.empty() && blank(text.front())) text.remove_prefix(1);
+  while (!text.empty() && blank(text.back())) text.remove_suffix(1);
+  return text;
+}
+
+class CsvReader {
+ public:
+  CsvReader(std::string_view text, std::string_view name, bool tangents)
+      : rest_(text), name_(name), tangents_(tangents) {
+    if (rest_.starts_with("\xEF\xBB\xBF")) rest_.remove_prefix(3);  // the byte order mark of UTF-8
+  }
+
+  ControlPolygon read() {
+    bool between = true;  // the next point begins a curve
+    for (std::string_view line; next_line(line);) {
+      const bool comment = line.starts_with('#');
+      line = trimmed(line.substr(0, line.find('#')));
+      if (line.empty()) {
+        between = between || !comment;
+        continue;
+      }
+      const std::vector<std::string_view> fields = split(line);
+      if (num_points_ == 0 && polygon_.columns.empty() && is_header(fields)) {
+        for (const std::string_view field : fields) polygon_.columns.emplace_back(field);
+        check_columns(fields.size());
+        continue;
+      }
+      check_columns(fields.size());
+      for (size_t i = 0; i < fields.size(); ++i) values_.push_back(number(fields[i], i));
+      if (between) polygon_.curves.emplace_back();
+      between = false;
+      polygon_.lines.push_back(line_);
+      polygon_.curves.back().points.push_back(checked_index(num_points_++, name_, "points"));
+    }
+    if (num_points_ == 0)
+      throw InvalidMesh(name_ + ": no points; write one a line, its coordinates separated by commas");
+    polygon_.file = name_;
+    const Points all = Eigen::Map<const Points>(values_.data(), num_points_, columns_);
+    polygon_.points = tangents_ ? Points(all.leftCols(columns_ / 2)) : all;
+    if (tangents_) polygon_.tangents = all.rightCols(columns_ / 2);
+    return std::move(polygon_);
+  }
+
+ private:
+  std::string place() const { return name_ + ":" + format_number(line_) + ": "; }
+
+  /// Lines end with LF, CRLF or CR.
+  bool next_line(std::string_view& line) {
+    if (rest_.empty()) return false;
+    ++line_;
+    const size_t end = rest_.find_first_of("\r\n");
+    line = rest_.substr(0, end);
+    rest_.remove_prefix(end == std::string_view::npos ? rest_.size()
+                                                      : end + (rest_.substr(end).starts_with("\r\n") ? 2 : 1));
+    return true;
+  }
+
+  static std::vector<std::string_view> split(std::string_view line) {
+    std::vector<std::string_view> fields;
+    for (;;) {
+      const size_t comma = line.find(',');
+      fields.push_back(trimmed(line.substr(0, comma)));
+      if (comma == std::string_view::npos) return fields;
+      line.remove_prefix(comma + 1);
+    }
+  }
+
+  /// Names: words that begin with a letter and are no number (nan, inf).
+  static bool is_header(const std::vector<std::string_view>& fields) {
+    for (const std::string_view field : fields) {
+      const char first = field.empty() ? '0' : field[0];
+      const bool letter = (first >= 'a' && first <= 'z') || (first >= 'A' && first <= 'Z') || first == '_';
+      if (!letter || parse_number<double>(field)) return false;
+    }
+    return true;
+  }
+
+  void check_columns(size_t count) {
+    if (columns_ == 0) {
+      columns_ = static_cast<Index>(count);
+      if (tangents_ && (count < 4 || count % 2 != 0))
+        throw FormatError(place() + format_number(count) + (count == 1 ? " column" : " columns") +
+                          "; points with tangents are expected, x,y,tx,ty or x,y,z,tx,ty,tz");
+    }
+    if (static_cast<Index>(count) != columns_)
+      throw FormatError(place() + format_number(count) + (count == 1 ? " value" : " values") +
+                        " where the lines before have " + format_number(columns_) +
+                        "; every point should have as many coordinates");
+  }
+
+  double number(std::string_view field, size_t column) const {
+    const std::string what = "value " + format_number(column + 1) + " of the line ";
+    const Parsed<double> parsed = parse_number<double>(field);
+    if (parsed.status == ParseStatus::too_large) throw FormatError(place() + what + in_quotes(field) + " is too large");
+    if (!parsed)
+      throw FormatError(place() + what + (field.empty() ? "is missing" : in_quotes(field) + " is not a number") +
+                        "; it should be a decimal number, and numbers should be separated by commas");
+    if (!std::isfinite(parsed.value))
+      throw InvalidMesh(place() + what + "is " + in_quotes(field) + "; it should be a finite number");
+    return parsed.value;
+  }
+
+  std::string_view rest_;
+  std::string name_;
+  bool tangents_;
+  ControlPolygon polygon_;
+  std::vector<double> values_;
+  std::int64_t line_ = 0, num_points_ = 0;
+  Index columns_ = 0;
+};
+
+void append_fields(std::string& out, const Eigen::Ref<const Eigen::RowVectorXd>& row) {
+  for (const double value : row) {
+    if (std::isfinite(value)) append_number(out, value);
+    out += ',';
+  }
+}
+
+}  // namespace
+
+ControlPolygon parse_polygon_csv(std::string_view text, std::string_view name, bool tangents) {
+  if (const size_t nul = text.find('\0'); nul != std::string_view::npos)
+    throw FormatError(std::string(name) + ": byte " + format_number(nul) + " is zero, so this is not a text CSV file");
+  return CsvReader(text, name, tangents).read();
+}
+
+std::string format_polygon_csv(const ControlPolygon& polygon) {
+  const int dimension = polygon.dimension();
+  std::string out;
+  const auto names = [&](const char* prefix) {
+    constexpr const char* letters[] = {"x", "y", "z"};
+    for (int i = 0; i < dimension; ++i)
+      out += prefix + (dimension <= 3 ? letters[i] : "x" + std::to_string(i + 1)) + ",";
+  };
+  if (static_cast<int>(polygon.columns.size()) == dimension * (polygon.has_tangents() ? 2 : 1)) {
+    for (const std::string& column : polygon.columns) out += column + ",";
+  } else {
+    names("");
+    if (polygon.has_tangents()) names("t");
+  }
+  out.back() = '\n';
+  if (!polygon.points.allFinite()) throw InvalidMesh("points that are not finite cannot be written");
+  bool first = true;
+  for (const ControlPolygon::Curve& curve : polygon.curves) {
+    if (!first) out += '\n';
+    first = false;
+    for (const Index i : curve.points) {
+      append_fields(out, polygon.points.row(i));
+      if (polygon.has_tangents()) append_fields(out, polygon.tangents.row(i));
+      out.back() = '\n';
+    }
+  }
+  return out;
+}
+
+}  // namespace sublimit

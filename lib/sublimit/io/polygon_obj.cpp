@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
+#include "sublimit/base/atomic_file.h"
+#include "sublimit/base/error.h"
+#include "sublimit/base/format_number.h"
+#include "sublimit/base/read_file.h"
+#include "sublimit/io/file_extension.h"
+#include "sublimit/io/polygon_files.h"
+#include "sublimit/io/text_scanner.h"
+
+namespace sublimit {
+namespace {
+
+class ObjCurveReader {
+ public:
+  ObjCurveReader(std::string_view text, std::string_view name)
+      : scanner_(text, name, TextScanner::Continuation::backslash) {}
+
+  ControlPolygon read() {
+    while (scanner_.next_line()) {
+      const std::string_view keyword = scanner_.token();
+      if (keyword == "v") {
+        for (const char* const what : {"coordinate x", "coordinate y", "coordinate z"})
+          coordinates_.push_back(scanner_.finite(scanner_.token(), what));
+        for (std::string_view token; !(token = scanner_.token()).empty();)
+          scanner_.real(token, "number behind a point");
+      } else if (keyword == "l") {
+        read_curve();
+      } else if (keyword == "f") {
+        ++faces_;
+      } else if (!std::ranges::all_of(keyword, [](char c) { return c >= 0x20 && c < 0x7f; })) {
+        throw FormatError(scanner_.place() + "the line starts with " + in_quotes(keyword) +
+                          ", so this is not a text OBJ file");
+      }
+    }
+    const Index count = checked_index(std::int64_t(coordinates_.size() / 3), scanner_.name(), "points");
+    if (polygon_.curves.empty())
+      throw InvalidMesh(
+          scanner_.name() +
+          (faces_ > 0 ? ": a mesh of " + format_number(faces_) + (faces_ == 1 ? " face" : " faces") + " and no curves"
+                      : std::string(": no curves")) +
+          "; a curve is a line 'l 1 2 3 ...' through vertices" +
+          (faces_ > 0 ? ", and faces are for surface schemes such as catmull-clark" : ""));
+    if (faces_ > 0)
+      polygon_.warnings.push_back(scanner_.name() + ": " + format_number(faces_) +
+                                  " faces left out; curve schemes refine lines");
+    for (size_t c = 0; c < polygon_.curves.size(); ++c)
+      for (const Index i : polygon_.curves[c].points)
+        if (i >= count)
+          throw InvalidMesh(scanner_.place(lines_[c]) + "index " + format_number(i + 1) +
+                            " is out of range; the file has " + format_number(count) + " vertices, 1 to " +
+                            format_number(count));
+    polygon_.points = Eigen::Map<const Points>(coordinates_.data(), count, 3);
+    return std::move(polygon_);
+  }
+
+ private:
+  void read_curve() {
+    ControlPolygon::Curve curve;
+    for (std::string_view token; !(token = scanner_.token()).empty();) {
+      const std::int64_t so_far = std::int64_t(coordinates_.size() / 3);
+      const std::int64_t index = scanner_.integer(token.substr(0, token.find('/')), "index");
+      if (index == 0)
+        throw FormatError(scanner_.place() + "index 0; indices of an OBJ line count from 1, or backwards from -1");
+      if (index < -so_far)
+        throw InvalidMesh(scanner_.place() + "index " + format_number(index) + " counts back beyond the first of " +
+                          format_number(so_far) + " vertices so far");
+      curve.points.push_back(checked_index(index < 0 ? so_far + index : index - 1, scanner_.name(), "points"));
+    }
+    if (curve.points.size() < 2)
+      throw FormatError(scanner_.place() + "a line of " + format_number(curve.points.size()) +
+                        " points; it should have at least 2");
+    const bool is_segment = curve.points.size() == 2;
+    if (is_segment && in_segments_ && polygon_.curves.back().points.back() == curve.points[0]) {
+      polygon_.curves.back().points.push_back(curve.points[1]);
+    } else {
+      lines_.push_back(scanner_.line());
+      polygon_.curves.push_back(std::move(curve));
+    }
+    ControlPolygon::Curve& last = polygon_.curves.back();
+    if (last.points.size() > 3 && last.points.front() == last.points.back()) {
+      last.points.pop_back();
+      last.closed = true;
+    }
+    in_segments_ = is_segment && !last.closed;
+  }
+
+  TextScanner scanner_;
+  ControlPolygon polygon_;
+  std::vector<double> coordinates_;
+  std::vector<std::int64_t> lines_;  // of the curves
+  std::int64_t faces_ = 0;
+  bool in_segments_ = false;  // the last curve is made of lines of two points each
+};
+
+}  // namespace
+
+ControlPolygon parse_polygon_obj(std::string_view text, std::string_view name) {
+  require_text(text, name, "OBJ");
+  return ObjCurveReader(text, name).read();
+}
+
+ControlPolygon read_polygon(const std::filesystem::path& path, bool tangents) {
+  const std::string extension = file_extension(path);
+  if (extension == ".csv") return parse_polygon_csv(read_file(path), path.string(), tangents);
+  if (extension == ".obj" && tangents)
+    throw FormatError(
+        path.string() +
+        ": points with tangents or derivatives are expected; give them as a .csv with columns x,y,tx,ty or "
+        "x,y,z,tx,ty,tz");
+  if (extension == ".obj") return parse_polygon_obj(read_file(path), path.string());
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(path, error);
+  if (!std::filesystem::exists(status) || std::filesystem::is_directory(status)) read_file(path);
+  throw FormatError(path.string() + ": unknown kind of polygon '" + extension + "'; .csv and .obj (lines) can be read");
+}
+
+std::string format_polygon_obj(const ControlPolygon& polygon) {
+  if (polygon.dimension() > 3)
+    throw InvalidParameter("an OBJ has points of 3 coordinates, not " + std::to_string(polygon.dimension()) +
+                           "; write a .csv");
+  if (!polygon.points.allFinite()) throw InvalidMesh("points that are not finite cannot be written");
+  std::string out;
+  for (Index i = 0; i < polygon.num_points(); ++i) {
+    out += 'v';
+    for (int c = 0; c < 3; ++c) {
+      out += ' ';
+      append_number(out, c < polygon.dimension() ? polygon.points(i, c) : 0.0);
+    }
+    out += '\n';
+  }
+  for (const ControlPolygon::Curve& curve : polygon.curves) {
+    out += 'l';
+    for (size_t i = 0; i < curve.points.size() + (curve.closed ? 1 : 0); ++i) {
+      out += ' ';
+      append_number(out, curve.points[i % curve.points.size()] + 1);
+    }
+    out += '\n';
+  }
+  return out;
+}
+
+void write_polygon(const std::filesystem::path& path, const ControlPolygon& polygon) {
+  const std::string text = file_extension(path) == ".obj" ? format_polygon_obj(polygon) : format_polygon_csv(polygon);
+  AtomicFile file(path);
+  file.write(text);
+  file.commit();
+}
+
+}  // namespace sublimit

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// Text files as lines of tokens, with the line number at hand for every message.
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "sublimit/core/types.h"
+
+namespace sublimit {
+
+/// Walks over text that outlives it. Blanks separate tokens; '#' starts a comment; lines end with LF, CRLF or CR.
+class TextScanner {
+ public:
+  enum class Continuation {
+    none,
+    backslash,  ///< a backslash at its end joins a line to the next one
+  };
+
+  TextScanner(std::string_view text, std::string_view name, Continuation continuation);
+
+  /// Moves behind the end of this line (at first: to the first line); false at the end of the text.
+  bool next_line();
+  /// Moves to the next line that has a token; false at the end of the text.
+  bool next_filled_line();
+  /// The next token of this line; empty at its end.
+  std::string_view token();
+
+  std::int64_t line() const { return line_; }
+  /// Bytes that are not yet read.
+  std::int64_t rest() const { return end_ - here_; }
+  /// Bytes that are read.
+  std::int64_t offset() const { return here_ - begin_; }
+  const std::string& name() const { return name_; }
+
+  /// "NAME:LINE: " of the current line, or of any.
+  std::string place() const { return place(line_); }
+  std::string place(std::int64_t line) const;
+
+  /// A number for `token`, or a FormatError that says `what` it should have been ("a coordinate").
+  double real(std::string_view token, std::string_view what) const;
+  float real_float(std::string_view token, std::string_view what) const;
+  std::int64_t integer(std::string_view token, std::string_view what) const;
+  /// As `real`, and InvalidMesh if it is infinite or not a number.
+  double finite(std::string_view token, std::string_view what) const;
+
+ private:
+  template <class T>
+  T number(std::string_view token, std::string_view what) const;
+  bool at_continuation() const;
+  void skip_line_end();
+
+  const char* begin_;
+  const char* here_;
+  const char* end_;
+  std::string name_;
+  bool continued_;
+  bool started_ = false;
+  std::int64_t line_ = 1;
+};
+
+/// A token as messages show it: in quotes, shortened, with unprintable bytes as hexadecimal numbers.
+std::string in_quotes(std::string_view token);
+
+/// @throws FormatError    empty text, or text with NUL bytes ("not a text OBJ file")
+void require_text(std::string_view text, std::string_view name, std::string_view format);
+
+/// `count` as an index.
+/// @throws ResourceError  more than 32-bit indices can count; `what` are they ("vertices")
+Index checked_index(std::int64_t count, std::string_view name, std::string_view what);
+
+}  // namespace sublimit

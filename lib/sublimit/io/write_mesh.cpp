@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sublimit/io/write_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sublimit/base/atomic_file.h"
+#include "sublimit/base/error.h"
+#include "sublimit/base/format_number.h"
+#include "sublimit/io/file_extension.h"
+#include "sublimit/io/obj.h"
+#include "sublimit/io/ply.h"
+
+namespace sublimit {
+namespace {
+
+void require(bool holds, const std::string& name, const char* what) {
+  if (!holds) throw InvalidParameter(name + ": " + what);
+}
+
+void check_finite(const Points& points, const std::string& name, const char* what) {
+  if (points.allFinite()) return;
+  for (Index row = 0; row < points.rows(); ++row) {
+    if (points.row(row).allFinite()) continue;
+    throw InvalidMesh(name + ": " + what + " " + format_number(row) +
+                      " has a coordinate that is infinite or not a number; nothing is written");
+  }
+}
+
+bool in_range(const std::vector<Index>& ids, Index first, Eigen::Index count) {
+  return std::all_of(ids.begin(), ids.end(), [&](Index id) { return id >= first && id < count; });
+}
+
+void check_sharpness(float sharpness, const std::string& name) {
+  if (sharpness >= 0) return;
+  throw InvalidMesh(name + ": a sharpness is " + format_number(sharpness) + "; it should be 0 or more");
+}
+
+}  // namespace
+
+MeshOutput output(const ControlMesh& mesh) {
+  return {.positions = mesh.positions,
+          .normals = {},
+          .face_sizes = mesh.face_sizes,
+          .face_vertices = mesh.face_vertices,
+          .face_normals = {},
+          .face_varying = mesh.face_varying,
+          .creases = mesh.creases,
+          .corners = mesh.corners,
+          .holes = mesh.holes,
+          .boundary = mesh.boundary,
+          .creasing = mesh.creasing,
+          .triangles = mesh.triangles,
+          .face_varying_interpolation = mesh.face_varying_interpolation,
+          .comments = {}};
+}
+
+void check_output(const MeshOutput& mesh, const std::string& name) {
+  const Eigen::Index vertices = mesh.positions.rows();
+  require(mesh.positions.cols() == 3, name, "positions should have 3 columns");
+  require(in_range(mesh.face_vertices, 0, vertices), name, "a vertex of a face is out of range");
+  std::int64_t corners = 0;
+  for (const Index size : mesh.face_sizes) {
+    require(size >= 3, name, "a face has fewer than 3 corners");
+    corners += size;
+  }
+  require(corners == std::int64_t(mesh.face_vertices.size()), name, "sizes of faces do not add up to their vertices");
+
+  const Eigen::Index normals = mesh.normals.rows();
+  require(normals == 0 || mesh.normals.cols() == 3, name, "normals should have 3 columns");
+  if (mesh.face_normals.empty()) {
+    require(normals == 0 || normals == vertices, name, "there should be a normal for each vertex, or for none");
+  } else {
+    require(mesh.face_normals.size() == mesh.face_vertices.size(), name, "there should be a normal for each corner");
+    require(in_range(mesh.face_normals, -1, normals), name, "a normal of a corner is out of range");
+  }
+
+  for (const ControlMesh::FaceVarying& channel : mesh.face_varying) {
+    require(channel.indices.size() == mesh.face_vertices.size(), name,
+            "there should be a face-varying value for each corner");
+    require(in_range(channel.indices, 0, channel.values.rows()), name,
+            "a face-varying value of a corner is out of range");
+    check_finite(channel.values, name, "face-varying value");
+  }
+
+  for (const ControlMesh::Crease& crease : mesh.creases) {
+    require(in_range({crease.tail, crease.head}, 0, vertices), name, "a vertex of a crease is out of range");
+    check_sharpness(crease.sharpness, name);
+  }
+  for (const ControlMesh::Corner& corner : mesh.corners) {
+    require(in_range({corner.vertex}, 0, vertices), name, "the vertex of a corner is out of range");
+    check_sharpness(corner.sharpness, name);
+  }
+  require(in_range(mesh.holes, 0, Eigen::Index(mesh.face_sizes.size())), name, "the face of a hole is out of range");
+  check_finite(mesh.positions, name, "vertex");
+  check_finite(mesh.normals, name, "normal");
+}
+
+void write_mesh(const std::filesystem::path& path, const MeshOutput& mesh) {
+  const std::string extension = file_extension(path);
+  if (extension == ".obj") return write_obj(path, mesh);
+  if (extension == ".ply") return write_ply(path, mesh);
+  throw InvalidOption(path.string() + ": meshes are written as .obj or .ply, not as '" + extension + "'");
+}
+
+void write_through_buffer(const std::filesystem::path& path,
+                          const std::function<void(std::string& buffer, const Flush& flush)>& emit) {
+  constexpr std::size_t chunk = std::size_t{1} << 20;
+  AtomicFile file(path);
+  std::string buffer;
+  buffer.reserve(chunk + (std::size_t{1} << 16));
+  emit(buffer, [&](std::string& full) {
+    if (full.size() < chunk) return;
+    file.write(full);
+    full.clear();
+  });
+  file.write(buffer);
+  file.commit();
+}
+
+}  // namespace sublimit

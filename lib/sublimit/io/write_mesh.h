@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// A mesh on its way to a file.
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sublimit/core/types.h"
+#include "sublimit/mesh/control_mesh.h"
+
+namespace sublimit {
+
+struct MeshOutput {
+  Points positions;                  ///< #V x 3
+  Points normals;                    ///< #N x 3; no rows: none
+  std::vector<Index> face_sizes;     ///< corners of each face, >= 3
+  std::vector<Index> face_vertices;  ///< vertices of all faces, one after the other
+  /// Normal of each corner, -1 for none. Empty: normals are per vertex, #N = #V.
+  /// OBJ has no way to leave out one normal of a face, so it leaves out all normals of a face that lacks one.
+  std::vector<Index> face_normals;
+  /// Values per corner; OBJ writes the first channel as `vt` and has room for one, of 1 to 3 columns; PLY for none.
+  std::vector<ControlMesh::FaceVarying> face_varying;
+
+  // Tags, as in ControlMesh; PLY has no place for them.
+  std::vector<ControlMesh::Crease> creases;
+  std::vector<ControlMesh::Corner> corners;
+  std::vector<Index> holes;
+  std::optional<Boundary> boundary;
+  std::optional<Creasing> creasing;
+  std::optional<Triangles> triangles;
+  std::optional<FaceVaryingInterpolation> face_varying_interpolation;
+
+  std::vector<std::string> comments;  ///< at the top of the file
+};
+
+/// A control mesh as output, tags included.
+MeshOutput output(const ControlMesh& mesh);
+
+/// Writes .obj or .ply, by the extension of `path` in either case. The file appears whole or not at all.
+/// @throws InvalidOption     another extension
+/// @throws InvalidParameter  arrays that do not fit together, or normals per corner in a .ply
+/// @throws InvalidMesh       coordinates or sharpness that no reader would take back: infinite, not a number, negative
+/// @throws IoError           unwritable;  ResourceError  a full disk
+void write_mesh(const std::filesystem::path& path, const MeshOutput& mesh);
+
+/// The checks of `write_mesh`, for writers. Messages start with `name`.
+void check_output(const MeshOutput& mesh, const std::string& name);
+
+/// Writers append to a buffer and call this now and then; it may empty the buffer.
+using Flush = std::function<void(std::string& buffer)>;
+/// Runs `emit(buffer, flush)` into a file that appears whole or not at all.
+void write_through_buffer(const std::filesystem::path& path,
+                          const std::function<void(std::string& buffer, const Flush& flush)>& emit);
+
+}  // namespace sublimit

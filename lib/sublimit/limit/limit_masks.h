@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// Limit masks. At a stationary neighbourhood with local subdivision matrix A the limit position of the centre is l0^T
+// x, where l0^T A = l0^T and l0^T 1 = 1; the tangents are the left eigenvectors of the subdominant pair. Where the
+// neighbourhood is not stationary yet (irregular faces, decaying sharpness) the masks of a later level are pulled back
+// through the steps.
+//
+// Infinitely sharp edges and boundaries cut the neighbourhood into sides, each with tangents of its own.
+// Sources: Halstead, Kass, DeRose 1993; Reif 1995; Biermann, Levin, Zorin 2000 (boundaries, creases, corners).
+#include <tbb/concurrent_unordered_map.h>
+
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+#include "sublimit/core/signature_hash.h"
+#include "sublimit/neighborhood/canonical_neighborhood.h"
+#include "sublimit/neighborhood/local_type.h"
+#include "sublimit/scheme/scheme.h"
+
+namespace sublimit {
+
+/// Masks by slot of a canonical neighbourhood.
+struct LimitMasks {
+  using Mask = Eigen::VectorXd;
+
+  /// Does the surface have a tangent plane at the vertex, seen from this side, for generic control points?
+  enum class Plane {
+    yes,
+    slow,  ///< yes, but at a Jordan block: normals around the vertex converge like 1/steps only
+    tied,  ///< only for control points that take all of `second_order`, which decays like tangent2, in its direction
+    no,    ///< other modes do not decay faster than the tangents': a cone, a fold, or normals that differ for ever
+  };
+  struct Side {
+    Index fan = 0, first_corner = 0, num_corners = 0;  ///< corners of the neighbourhood's fan, counter-clockwise
+    Mask tangent1, tangent2;  ///< tangent1 x tangent2 is along the normal, per unit of the characteristic parameter
+    std::vector<Mask> second_order;  ///< the next modes, for control points that make the tangents degenerate
+    Plane plane = Plane::yes;
+    double lambda1 = 0, lambda2 = 0;  ///< moduli that the tangents shrink by in a step
+  };
+
+  Rule rule = Rule::smooth;  ///< once all finite sharpness is gone
+  int steps = 0;             ///< until the neighbourhood is stationary
+  Mask position;
+  std::vector<Side> sides;
+};
+
+/// Limit masks of a neighbourhood.
+/// @throws AnalysisError  no limit: the neighbourhood never becomes stationary, is not closed, or its matrix has not
+///                        the simple dominant eigenvalue 1
+LimitMasks limit_masks(const Scheme<double>& scheme, const CanonicalNeighborhood& type);
+
+/// The limit of a centre that is alone among regular points.
+struct LoneLimit {
+  LocalType type;
+  int depth = 0;  ///< of the walk on a mesh that must have this signature
+  std::vector<std::uint32_t> signature;
+  std::vector<Index> slots;  ///< of that walk; the masks are over these
+  LimitMasks masks;          ///< of one side
+};
+
+/// Limit masks of a type, or nothing where it does not have a child of its own type.
+/// @throws AnalysisError  no limit, as above
+std::optional<LoneLimit> lone_limit(const Scheme<double>& scheme, const LocalType& type);
+
+/// Everything at a vertex is known from its one-ring, any sharpness: primal schemes of one step with narrow masks.
+bool has_one_ring_limits(const Scheme<double>& scheme);
+
+/// Limit masks by signature, for one scheme. Shared between threads and meshes; grows by types, not by vertices.
+class LimitMaskCache {
+ public:
+  explicit LimitMaskCache(const Scheme<double>& scheme) : scheme_(scheme) {}
+
+  /// The masks of this type, computed at the first request. The reference stays valid as long as the cache.
+  const LimitMasks& masks(const CanonicalNeighborhood& type);
+  /// The same for lone centres; null where there is nothing.
+  const LoneLimit* lone(const LocalType& type);
+
+  const Scheme<double>& scheme() const { return scheme_; }
+  size_t num_types() const { return types_.size() + lone_.size(); }
+
+ private:
+  Scheme<double> scheme_;
+  std::mutex mutex_;  // of lone_
+  std::map<LocalType, std::optional<LoneLimit>> lone_;
+  tbb::concurrent_unordered_map<std::vector<std::uint32_t>, std::shared_ptr<const LimitMasks>, SignatureHash> types_;
+};
+
+}  // namespace sublimit

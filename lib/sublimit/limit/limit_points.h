@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// Limit positions and normals of all vertices of a level, as matrices over its points and as points.
+#include <vector>
+
+#include "sublimit/limit/limit_masks.h"
+#include "sublimit/limit/limit_status.h"
+#include "sublimit/limit/no_limit.h"
+#include "sublimit/scheme/refine.h"
+
+namespace sublimit {
+
+/// Rows over the points of one level. A vertex has one side, unless sharp edges or several fans cut its faces apart.
+struct LimitMatrices {
+  SparseMatrix position;            ///< L, #V x #V: x_inf = L * x
+  SparseMatrix tangent1, tangent2;  ///< #sides x #V
+  std::vector<SparseMatrix> second_order;  ///< the next modes, for sides whose tangents degenerate; rows may be empty
+  std::vector<Index> side_vertex;   ///< vertex of each side; ascending
+  std::vector<Index> corner_side;   ///< side of each half-edge (corner of a face)
+  std::vector<LimitStatus> status;  ///< of each side, for generic points
+};
+
+/// @throws NoLimit  naming the first vertex without one
+LimitMatrices limit_matrices(const Level& level, LimitMaskCache& cache);
+/// Of the last of levels 0 to any; what has no limit is named by where it is on level 0.
+LimitMatrices limit_matrices(const std::vector<Level>& levels, LimitMaskCache& cache);
+
+struct LimitPoints {
+  Points position;                  ///< #V x 3
+  Points normal;                    ///< #sides x 3, unit length, zero where undefined
+  std::vector<LimitStatus> status;  ///< of each side, for these points
+};
+
+/// Normals follow the winding of the faces. Where the tangents degenerate, the next modes decide, if they span a plane.
+/// @param topology  of the level
+/// @param points    of the level, #V x 3
+/// @throws InvalidParameter  points of another shape
+LimitPoints limit_points(const LimitMatrices& limit, const Topology& topology, const Points& points);
+
+}  // namespace sublimit

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// Local subdivision matrices: how the points of a neighbourhood make those of the same vertex one level on. Assembled by
+// the same code as S, on the unfolded patch.
+#include <Eigen/Core>
+
+#include <string>
+
+#include "sublimit/base/error.h"
+#include "sublimit/neighborhood/canonical_neighborhood.h"
+#include "sublimit/scheme/subdivision_matrix_impl.h"
+
+namespace sublimit {
+
+template <class T>
+using DenseMatrix = Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic>;
+
+/// One step at a vertex: child points = matrix * points, by slots of `child` and of the parent.
+template <class T>
+struct LocalStep {
+  CanonicalNeighborhood child;
+  DenseMatrix<T> matrix;
+};
+
+/// The step of `scheme` at a neighbourhood. Where the child has the same signature the matrix is square, and stationary.
+/// @throws AnalysisError  the rows would use points outside the neighbourhood
+template <class T>
+LocalStep<T> local_step(const Scheme<T>& scheme, const CanonicalNeighborhood& type, int level = 0) {
+  if (scheme.steps.size() != 1) throw AnalysisError(scheme.name + ": local analysis of several steps at once is not known");
+  const UnfoldedPatch patch = unfold(type);
+  const Step<T>& step = scheme.steps[0];
+  const Refinement refinement = refine(patch.topology, step.split);
+  Sharpness sharpness = refine(patch.sharpness, patch.topology, refinement);
+  for (const auto& spoke : type.spokes) {
+    const Edge e = find_edge(patch.topology, Vertex{0}, Vertex{spoke.slot});
+    const auto [first, second] = refinement.halves(patch.topology, patch.topology.half_edge(e));
+    const HalfEdge far = patch.topology.tail(e) == Vertex{0} ? second : first;
+    sharpness.edge[index(refinement.topology.edge(far))] = spoke.far_child;
+  }
+  const SparseMatrixOf<T> S =
+      subdivision_matrix(scheme, step, patch.topology, refinement, patch.sharpness, sharpness, level);
+  NeighborhoodAt child = neighborhood(refinement.topology, sharpness, refinement.child(Vertex{0}), true);
+
+  LocalStep<T> result;
+  result.matrix.setZero(child.type.num_slots, type.num_slots);
+  for (Index slot = 0; slot < child.type.num_slots; ++slot) {
+    const Vertex v{child.vertices[slot]};
+    const Index parent = refinement.parent(v);
+    bool closed = false;
+    switch (refinement.origin(v)) {
+      case Refinement::Origin::vertex:
+        closed = parent == 0;
+        break;
+      case Refinement::Origin::face:
+        closed = true;
+        break;
+      case Refinement::Origin::edge:
+        closed = patch.topology.tail(Edge{parent}) == Vertex{0} || patch.topology.head(Edge{parent}) == Vertex{0};
+        break;
+      default:
+        break;
+    }
+    if (!closed) throw AnalysisError(scheme.name + ": the one-ring is not closed under refinement; more rings are needed");
+    for (typename SparseMatrixOf<T>::InnerIterator it(S, index(v)); it; ++it)
+      result.matrix(slot, it.col()) = it.value();
+  }
+  result.child = std::move(child.type);
+  return result;
+}
+
+}  // namespace sublimit

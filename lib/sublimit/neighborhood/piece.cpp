@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sublimit/neighborhood/piece.h"
+
+#include <Eigen/Core>
+#include <Eigen/LU>
+
+#include <cmath>
+
+#include "sublimit/base/error.h"
+#include "sublimit/neighborhood/centre.h"
+
+namespace sublimit {
+namespace {
+
+using Kind = Piece::Kind;
+using Axis = PieceMap::Axis;
+
+Centre followed(Centre centre, const Topology& parent, std::span<const LevelStep> steps) {
+  const Topology* t = &parent;
+  for (const LevelStep& step : steps) {
+    centre = child(centre, *t, *step.refinement, step.level);
+    t = &step.refinement->topology;
+  }
+  return centre;
+}
+
+/// The half-edge that lies at the child of h's tail as h lies at its tail: primal schemes.
+HalfEdge at_vertex(HalfEdge h, const Topology& parent, std::span<const LevelStep> steps) {
+  HalfEdge first = h;
+  int turns = 0;
+  while (exists(parent.twin(first))) {
+    first = parent.next(parent.twin(first));
+    ++turns;
+    if (first == h) break;
+  }
+  if (exists(parent.twin(first))) return followed({Centre::Kind::vertex, h}, parent, steps).start;
+  // Open fans are followed by their first half-edge.
+  const Topology& t = steps.back().refinement->topology;
+  HalfEdge at = followed({Centre::Kind::vertex, first}, parent, steps).start;
+  for (int k = 0; k < turns; ++k) at = t.ccw(at);
+  return at;
+}
+
+PieceMap quad_map(Span u, Span v) {
+  PieceMap map;
+  map.axes = {Axis{0, u, false}, Axis{1, v, false}};
+  return map;
+}
+
+std::vector<PieceChild> of_quad(HalfEdge start, const Topology& parent, std::span<const LevelStep> steps) {
+  const Topology& t = steps.back().refinement->topology;
+  HalfEdge g[4], h = start;
+  for (HalfEdge& at : g) {
+    at = at_vertex(h, parent, steps);
+    h = parent.next(h);
+  }
+  return {{{Kind::quad, g[0]}, quad_map(Span::lower, Span::lower)},
+          {{Kind::quad, t.prev(g[1])}, quad_map(Span::upper, Span::lower)},
+          {{Kind::quad, t.next(t.next(g[2]))}, quad_map(Span::upper, Span::upper)},
+          {{Kind::quad, t.next(g[3])}, quad_map(Span::lower, Span::upper)}};
+}
+
+/// @param corners  barycentric coordinates of the child's corners in the parent, in the order of the piece
+PieceMap triangle_map(const Eigen::Matrix3d& corners) {
+  PieceMap map;
+  map.is_triangle = true;
+  const Eigen::Matrix3d inverse = corners.transpose().inverse();  // whole numbers
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) map.barycentric[i][j] = std::round(inverse(i, j));
+  return map;
+}
+
+std::vector<PieceChild> of_triangle_in_four(HalfEdge start, const Topology& parent, std::span<const LevelStep> steps) {
+  const Topology& t = steps.back().refinement->topology;
+  const HalfEdge h1 = parent.next(start), h2 = parent.next(h1);
+  const HalfEdge g0 = at_vertex(start, parent, steps), g1 = at_vertex(h1, parent, steps),
+                 g2 = at_vertex(h2, parent, steps);
+  Eigen::Matrix3d I = Eigen::Matrix3d::Identity(), C;
+  const Eigen::RowVector3d m0 = (I.row(0) + I.row(1)) / 2, m1 = (I.row(1) + I.row(2)) / 2,
+                           m2 = (I.row(2) + I.row(0)) / 2;
+  const auto with = [&](const Eigen::RowVector3d& a, const Eigen::RowVector3d& b, const Eigen::RowVector3d& c) {
+    C << a, b, c;
+    return triangle_map(C);
+  };
+  return {{{Kind::triangle, g0}, with(I.row(0), m0, m2)},
+          {{Kind::triangle, t.prev(g1)}, with(m0, I.row(1), m1)},
+          {{Kind::triangle, t.next(g2)}, with(m2, m1, I.row(2))},
+          {{Kind::triangle, t.twin(t.next(g0))}, with(m2, m0, m1)}};
+}
+
+/// Two steps of sqrt3: nine triangles, as long as a third of the parent, six as it lies and three turned by half.
+///
+/// The first step joins the middle of the triangle to its corners and, across its sides, to the middles beyond; the
+/// second puts points at the thirds of the sides, where the first one's triangles have their middles, or on borders.
+/// Each half-edge of the first step is then one child, which begins with its tail (Refinement). So the children are
+/// known by half-edges alone, whatever the triangle is glued to.
+std::vector<PieceChild> of_triangle_in_nine(HalfEdge start, const Topology& parent, std::span<const LevelStep> steps) {
+  if (steps.size() != 2 || steps[1].refinement->split != Split::sqrt3 || steps[0].refinement->border_points != 0)
+    throw AnalysisError("triangles have nine children after two steps of sqrt3, the second of which trisects borders");
+  const Topology &middle = steps[0].refinement->topology, &t = steps[1].refinement->topology;
+  const Eigen::Matrix3d I = Eigen::Matrix3d::Identity();
+  const Eigen::RowVector3d centre = I.colwise().mean();
+  const auto begins = [](HalfEdge h) { return HalfEdge{3 * index(h)}; };  // its child
+  const HalfEdge sides[3] = {start, parent.next(start), parent.prev(start)};
+  std::vector<PieceChild> result;
+  // Children lie as their parent does: at a corner they then repeat their parents.
+  const auto add = [&](HalfEdge h, int position, const Eigen::RowVector3d(&corners)[3]) {
+    Eigen::Matrix3d C;
+    for (int k = 0; k < 3; ++k) C.row((position + k) % 3) = corners[k];
+    for (int k = position; k % 3 != 0; ++k) h = t.next(h);
+    result.push_back({{Kind::triangle, h}, triangle_map(C)});
+  };
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3, k = (i + 2) % 3;
+    const auto third = [&](int from, int to) { return Eigen::RowVector3d((2 * I.row(from) + I.row(to)) / 3); };
+    const HalfEdge side = sides[i], before = sides[k], across = parent.twin(side), across_before = parent.twin(before);
+    const HalfEdge to_corner = middle.prev(begins(side));
+    const HalfEdge from_corner = exists(across_before) ? begins(across_before) : middle.next(begins(before));
+    add(begins(from_corner), i, {I.row(i), third(i, j), third(i, k)});
+    add(begins(to_corner), i, {centre, third(i, k), third(i, j)});
+    // A border's child begins on it.
+    const HalfEdge at_side = exists(across) ? begins(middle.next(begins(across))) : t.prev(begins(begins(side)));
+    add(at_side, k, {centre, third(i, j), third(j, i)});
+  }
+  return result;
+}
+
+std::vector<PieceChild> of_corner(HalfEdge h, const Topology& parent, std::span<const LevelStep> steps) {
+  const Topology& t = steps.back().refinement->topology;
+  const HalfEdge face = followed({Centre::Kind::face, h}, parent, steps).start;
+  const HalfEdge before = t.ccw(face), vertex = exists(before) ? t.ccw(before) : no_half_edge;
+  HalfEdge edge = exists(vertex) ? t.ccw(vertex) : no_half_edge;
+  const bool folded = edge == face;  // two faces only at the corner, glued along two edges
+  if (folded) edge = vertex;
+  if (!exists(edge) || t.ccw(edge) != face) throw AnalysisError("a corner's point has not four faces");
+  const bool border_u = !exists(parent.twin(parent.prev(h))), border_v = !exists(parent.twin(h));
+  const Span far_u = border_u ? Span::beyond : Span::upper, near_u = border_u ? Span::beside : Span::lower;
+  const Span far_v = border_v ? Span::beyond : Span::upper, near_v = border_v ? Span::beside : Span::lower;
+  std::vector<PieceChild> result;
+  const auto add = [&](HalfEdge start, Axis u, Axis v) {
+    PieceMap map;
+    map.axes = {u, v};
+    result.push_back({{Kind::corner, start}, map});
+  };
+  add(face, {0, far_u, false}, {1, far_v, false});
+  add(before, {1, far_v, false}, {0, near_u, true});
+  if (!folded) add(vertex, {0, near_u, true}, {1, near_v, true});
+  add(edge, {1, near_v, true}, {0, far_u, false});
+  if (folded) add(edge, {0, Span::fold, false}, {0, Span::fold, false});
+  const bool rounded = border_u && border_v;
+  if (HalfEdge first = h; !border_u && !border_v) {  // clockwise to where the fan begins, if it is open
+    do first = parent.next(parent.twin(first));
+    while (exists(parent.twin(first)) && first != h);
+    if (!exists(parent.twin(first))) {
+      for (PieceChild& child : result) child.map.radial = true;
+      // The point on the border is the one before the corners' points, around their face.
+      HalfEdge at = vertex;
+      for (HalfEdge k = first; k != h; k = parent.ccw(k)) at = t.prev(at);
+      add(t.prev(at), {0, Span::spoke, false}, {0, Span::spoke, false});
+    }
+  }
+  if (border_v) {  // the two at the border point of this edge, on either side of it
+    const HalfEdge along = t.next(edge);
+    add(along, {0, far_u, false}, {1, Span::border, false});
+    if (rounded)
+      add(t.ccw(along), {1, Span::wedge, false}, {1, Span::wedge, false});
+    else
+      add(t.ccw(along), {1, Span::border, false}, {0, near_u, true});
+  }
+  if (border_u) {
+    const HalfEdge inwards = t.prev(before);
+    add(inwards, {0, Span::border, false}, {1, far_v, false});
+    const HalfEdge back = t.next(t.twin(inwards));
+    if (rounded)
+      add(back, {0, Span::wedge, true}, {0, Span::wedge, true});
+    else
+      add(back, {1, near_v, true}, {0, Span::border, false});
+  }
+  return result;
+}
+
+}  // namespace
+
+std::vector<PieceChild> children(const Piece& piece, const Topology& parent, std::span<const LevelStep> steps) {
+  switch (piece.kind) {
+    case Kind::quad:
+      return of_quad(piece.start, parent, steps);
+    case Kind::triangle:
+      return steps[0].refinement->split == Split::sqrt3 ? of_triangle_in_nine(piece.start, parent, steps)
+                                                        : of_triangle_in_four(piece.start, parent, steps);
+    case Kind::cut:
+      return {{{Kind::quad, at_vertex(piece.start, parent, steps)}, quad_map(Span::whole, Span::whole)}};
+    default:
+      return of_corner(piece.start, parent, steps);
+  }
+}
+
+}  // namespace sublimit

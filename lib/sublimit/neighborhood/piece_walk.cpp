@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sublimit/neighborhood/piece_walk.h"
+
+#include <bit>
+
+namespace sublimit {
+
+Index PieceWalker::slot(HalfEdge h) {
+  const Index v = index(t_->tail(h));
+  if (stamp_[v] != now_) {
+    stamp_[v] = now_;
+    slot_[v] = static_cast<std::uint32_t>(walk_.vertices.size());
+    walk_.vertices.push_back(v);
+    found_at_.push_back(h);
+  }
+  return static_cast<Index>(slot_[v]);
+}
+
+const PieceWalk& PieceWalker::walk(const Topology& t, const Sharpness& sharpness, const Piece& piece, int rings,
+                                   int phase) {
+  if (t_ != &t || stamp_.size() != size_t(t.num_vertices()) || now_ == ~0u) {
+    t_ = &t;
+    stamp_.assign(t.num_vertices(), 0);
+    slot_.resize(t.num_vertices());
+    now_ = 0;
+  }
+  ++now_;
+  walk_.vertices.clear();
+  found_at_.clear();
+  std::vector<std::uint32_t>& words = walk_.signature;
+  words.clear();
+  const auto put = [&](auto value) { words.push_back(static_cast<std::uint32_t>(value)); };
+  walk_.decays = false;
+  const auto put_sharpness = [&](float value) {
+    words.push_back(std::bit_cast<std::uint32_t>(value));
+    walk_.decays |= is_sharp(value) && !is_infinite(value);
+  };
+  put(4 * phase + int(piece.kind) + (sharpness.creasing == Creasing::chaikin ? 1 << 16 : 0));
+
+  HalfEdge h = piece.start;
+  if (piece.kind == Piece::Kind::corner) {
+    slot(h);
+  } else {
+    do {
+      slot(h);
+      h = t.next(h);
+    } while (h != piece.start);
+  }
+  // The size of its own face, since the walk below counts corners from there.
+  put(t.size(t.face(piece.start)));
+
+  size_t next = 0;
+  for (int ring = 0; ring < rings; ++ring) {
+    const size_t end = walk_.vertices.size();
+    for (; next < end; ++next) {
+      const Vertex v{walk_.vertices[next]};
+      const float own = sharpness.vertex[index(v)];
+      // Inside a mesh there is one fan, and it is closed.
+      const bool inside = !t.is_nonmanifold(v) && exists(t.twin(t.outgoing(v)));
+      const auto fan = [&](HalfEdge from) {
+        // Clockwise to the first half-edge of the fan, if it is open.
+        HalfEdge first = from;
+        std::uint32_t back = 0;
+        while (!inside && exists(t.twin(first))) {
+          first = t.next(t.twin(first));
+          if (first == from) break;
+          ++back;
+        }
+        const bool open = !exists(t.twin(first));
+        if (!open) first = from, back = 0;
+        const size_t head = words.size();
+        put(0);
+        std::uint32_t faces = 0;
+        bool sharp = false;
+        HalfEdge g = first;
+        for (;;) {
+          ++faces;
+          sharp |= sharpness.edge[index(t.edge(g))] > 0;
+          put(t.size(t.face(g)));
+          HalfEdge k = t.next(g);
+          do {
+            put(slot(k));
+            k = t.next(k);
+          } while (k != g);
+          const HalfEdge into = t.prev(g);
+          if (!exists(t.twin(into))) {
+            sharp |= sharpness.edge[index(t.edge(into))] > 0;
+            break;
+          }
+          g = t.twin(into);
+          if (g == first) break;
+        }
+        words[head] = (faces << 10) + (back << 2) + (open ? 2 : 0) + (sharp ? 1 : 0);
+        if (!sharp) return;
+        g = first;
+        for (std::uint32_t i = 0; i < faces; ++i) {
+          put_sharpness(sharpness.edge[index(t.edge(g))]);
+          if (!exists(t.twin(t.prev(g))))
+            put_sharpness(sharpness.edge[index(t.edge(t.prev(g)))]);
+          else
+            g = t.twin(t.prev(g));
+        }
+      };
+      if (!t.is_nonmanifold(v)) {
+        put_sharpness(own);
+        fan(found_at_[next]);
+        continue;
+      }
+      // The fan that led here, then the others; edges that have no single other side by their own numbers.
+      put_sharpness(own);
+      const std::vector<HalfEdge> fans = t.fans(v);
+      put(0x80000000u + static_cast<std::uint32_t>(fans.size()));
+      HalfEdge own_first = found_at_[next];
+      while (exists(t.twin(own_first))) {
+        own_first = t.next(t.twin(own_first));
+        if (own_first == found_at_[next]) break;
+      }
+      fan(found_at_[next]);
+      for (const HalfEdge start : fans) {
+        bool same = start == own_first;
+        for (HalfEdge g = start; !same;) {
+          same = g == found_at_[next];
+          g = t.ccw(g);
+          if (!exists(g) || g == start) break;
+        }
+        if (!same) fan(start);
+      }
+      for (const Edge e : t.edges(v)) {
+        put_sharpness(sharpness.edge[index(e)]);
+        put(t.half_edges(e).size());
+      }
+    }
+  }
+  return walk_;
+}
+
+}  // namespace sublimit

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sublimit/neighborhood/repeated_block.h"
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+
+#include "sublimit/core/dense_decompositions.h"
+
+namespace sublimit {
+namespace {
+
+/// Parts of a row that are as small as rounding makes what vanishes.
+constexpr double negligible = 1e-12;
+
+/// A basis of the null space of M, by columns; `expected` of them or none.
+Eigen::MatrixXd null_space(const Eigen::MatrixXd& M, Eigen::Index expected) {
+  if (std::optional<Eigen::MatrixXd> clear = clear_null_space(M))
+    return clear->cols() == expected ? *std::move(clear) : Eigen::MatrixXd();
+  const auto [sigma, right] = singular_values(M);
+  const Eigen::Index n = sigma.size();
+  const bool clear =
+      sigma[n - expected] < 1e-11 * sigma[0] && (expected == n || sigma[n - expected - 1] > 1e-6 * sigma[0]);
+  return clear ? Eigen::MatrixXd(right.rightCols(expected)) : Eigen::MatrixXd();
+}
+
+}  // namespace
+
+const RowMatrix& RepeatedBlock::Stage::power(int i) const {
+  if (i == 0) return D;
+  std::call_once(once[i], [&] { powers[i] = power(i - 1) * power(i - 1); });
+  return powers[i];
+}
+
+const PieceBlock& RepeatedBlock::power(int i) const {
+  if (i == 0) return block_;
+  std::call_once(once_[i], [&] { powers_[i] = power(i - 1).then(power(i - 1)); });
+  return powers_[i];
+}
+
+const std::vector<std::unique_ptr<RepeatedBlock::Stage>>& RepeatedBlock::stages() const {
+  std::call_once(stages_once_, [&] {
+    stages_.push_back(std::make_unique<Stage>());
+    stages_[0]->D = block_.differences();
+    const Eigen::MatrixXd D = stages_[0]->D;
+    const auto n = D.rows();
+    if (n < 2) return;
+    Eigen::VectorXcd values = eigenvalues(D);
+    std::sort(values.begin(), values.end(), [](const auto& a, const auto& b) { return std::abs(a) > std::abs(b); });
+    for (Eigen::Index at = 0; at < n && stages_.size() < 6;) {
+      const double lambda = values[at].real(), modulus = std::abs(values[at]);
+      Eigen::Index count = 0;
+      bool real = true;
+      while (at + count < n && std::abs(values[at + count]) > modulus * (1 - 1e-6)) {
+        real &= std::abs(values[at + count].imag()) < 1e-7 * modulus &&
+                std::abs(values[at + count].real() - lambda) < 1e-6 * modulus;
+        ++count;
+      }
+      if (!real || modulus < 1e-3) return;
+      const double mean = values.segment(at, count).real().mean();
+      const Eigen::MatrixXd shifted = D - mean * Eigen::MatrixXd::Identity(n, n);
+      const Eigen::MatrixXd right = null_space(shifted, count), left = null_space(shifted.transpose(), count);
+      if (right.size() == 0 || left.size() == 0) return;
+      const Eigen::MatrixXd pairing = left.transpose() * right;
+      const Eigen::FullPivLU<Eigen::MatrixXd> lu(pairing);
+      if (!lu.isInvertible() || lu.rcond() < 1e-8) return;
+      auto stage = std::make_unique<Stage>();
+      stage->right = right;
+      stage->left = lu.solve(left.transpose());
+      stage->D = stages_.back()->D - mean * right * stage->left;
+      stages_.push_back(std::move(stage));
+      at += count;
+    }
+  });
+  return stages_;
+}
+
+Eigen::RowVectorXd RepeatedBlock::shrunk(Eigen::RowVectorXd row, int times, size_t least_stage) const {
+  const auto& all = stages();
+  size_t stage = 0;
+  while (stage + 1 < all.size()) {
+    const Stage& next = *all[stage + 1];
+    const Eigen::RowVectorXd part = row * next.right;
+    if (stage + 1 > least_stage && !(part.norm() <= negligible * row.norm())) break;
+    row -= part * next.left;
+    ++stage;
+  }
+  for (int i = 0; times >> i; ++i)
+    if (times >> i & 1) row = row * all[stage]->power(i);
+  return row;
+}
+
+RowMatrix RepeatedBlock::pulled_back(const RowMatrix& rows, int times) const {
+  if (block_.is_large()) {
+    RowMatrix result = rows;
+    for (int i = 0; i < times; ++i) result = block_.pulled_back(result);
+    return result;
+  }
+  RowMatrix result = times < few ? rows : RowMatrix(rows.row(0));
+  for (int i = 0; times >> i; ++i)
+    if (times >> i & 1) result = power(i).pulled_back(result);
+  if (times < few) return result;
+  result.conservativeResize(rows.rows(), Eigen::NoChange);
+  for (Eigen::Index k = 1; k < rows.rows(); ++k) result.row(k) = shrunk(rows.row(k), times, 0);
+  return result;
+}
+
+RowMatrix RepeatedBlock::tangents_pulled_back(RowMatrix tangents, int times) const {
+  if (block_.is_large()) {
+    for (int i = 0; i < times; ++i) tangents = block_.derivatives_pulled_back(tangents);
+    return tangents;
+  }
+  const auto& all = stages();
+  int across = -1;  // the row without that direction
+  if (times >= few && all.size() > 1) {
+    // What the rows have of the eigenvectors that shrink the least: one direction, or a plane.
+    const RowMatrix leading = tangents * all[1]->right;
+    const int most = leading.row(0).norm() >= leading.row(1).norm() ? 0 : 1, least = 1 - most;
+    const double square = leading.row(most).squaredNorm();
+    const double factor = square > 0 ? leading.row(least).dot(leading.row(most)) / square : 0;
+    const double rest = (leading.row(least) - factor * leading.row(most)).norm();
+    if (rest <= 1e-10 * leading.row(most).norm()) {
+      tangents.row(least) -= factor * tangents.row(most);
+      across = least;
+    }
+  }
+  RowMatrix result(2, tangents.cols());
+  for (int k = 0; k < 2; ++k) {
+    result.row(k) = shrunk(tangents.row(k), times, across == k ? 1 : 0);
+    const double size = result.row(k).norm();  // their lengths mean nothing
+    if (size > 0) result.row(k) /= size;
+  }
+  return result;
+}
+
+}  // namespace sublimit

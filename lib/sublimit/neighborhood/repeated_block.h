@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// A block of S many times in a row: the way towards a vertex whose neighbourhood repeats itself. Powers are made by
+// squaring.
+//
+// A row whose part along the leading eigenvector vanishes (a second derivative of what is linear, a derivative across a
+// crease) must keep that part zero, else rounding grows like (lambda/mu)^k against the rest. So the leading eigenvalues
+// are split off one after the other, as far as they are real and semisimple, and such rows go on with what is left of
+// the block.
+#include <array>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "sublimit/neighborhood/piece_block.h"
+
+namespace sublimit {
+
+class RepeatedBlock {
+ public:
+  explicit RepeatedBlock(const PieceBlock& block) : block_(block) {}
+
+  /// The position, the first of `rows`, `times` steps back, and the rows below it, derivatives.
+  RowMatrix pulled_back(const RowMatrix& rows, int times) const;
+  /// Two rows whose cross product is along the normal: as these, made such that the second has no part in what the
+  /// first shrinks by, where that is slower.
+  RowMatrix tangents_pulled_back(RowMatrix tangents, int times) const;
+
+ private:
+  static constexpr int few = 6;  ///< times: not worth an eigenproblem
+  struct Stage {
+    Eigen::MatrixXd right, left;  ///< eigenvectors that were split off before it, left * right = 1
+    RowMatrix D;
+    mutable std::array<std::once_flag, 13> once;
+    mutable std::array<RowMatrix, 13> powers;
+    const RowMatrix& power(int i) const;
+  };
+  const PieceBlock& power(int i) const;
+  const std::vector<std::unique_ptr<Stage>>& stages() const;
+  /// A derivative row, by the stage that its leading part allows.
+  Eigen::RowVectorXd shrunk(Eigen::RowVectorXd row, int times, size_t least_stage) const;
+
+  const PieceBlock& block_;
+  mutable std::array<std::once_flag, 13> once_;
+  mutable std::array<PieceBlock, 13> powers_;
+  mutable std::once_flag stages_once_;
+  mutable std::vector<std::unique_ptr<Stage>> stages_;  // the first has nothing split off
+};
+
+}  // namespace sublimit

@@ -1,0 +1,306 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sublimit/scheme/refine.h"
+
+#include <limits>
+#include <string>
+
+#include "sublimit/base/error.h"
+#include "sublimit/base/memory.h"
+#include "sublimit/scheme/check_levels.h"
+#include "sublimit/scheme/refine_impl.h"
+#include "sublimit/scheme/renumbered_level.h"
+#include "sublimit/schemes.h"
+
+namespace sublimit {
+namespace {
+
+/// Elements of a level, as far as sizes go: faces grow by the split, whatever the connectivity.
+struct Counts {
+  double corners, faces, edges, vertices;
+  Counts next(Split split) const {
+    switch (split) {
+      case Split::ptq:
+        return {4 * corners, 4 * faces, 2 * edges + corners, vertices + edges};
+      case Split::dqq:
+        return {2 * corners + 4 * edges, faces + edges + vertices, corners + 2 * edges, corners};
+      case Split::mid_edge:
+        return {2 * corners, faces + vertices, corners, edges};
+      case Split::sqrt3:
+        return {3 * corners, corners, edges + corners, vertices + faces};
+      case Split::dual:
+        return {corners, vertices, edges, faces};
+      case Split::quads:
+        return {4 * edges, edges, 2 * edges, vertices + faces};
+      case Split::keep:
+        return *this;
+      default:
+        return {4 * corners, corners, 2 * edges + corners, vertices + faces + edges};
+    }
+  }
+  double bytes() const {
+    const double topology = 20 * corners + 12 * edges + 8 * vertices, sharpness = 4 * (edges + vertices);
+    return topology + sharpness + vertices * (8 * 12 + 24);  // about 8 nonzeros a row, and the positions
+  }
+};
+
+/// Faces that share a vertex with `faces`, themselves included; ascending.
+std::vector<Index> with_neighbors(const Topology& t, std::span<const Index> faces) {
+  const auto distinct = [](std::vector<Index>& list) {
+    std::sort(list.begin(), list.end());
+    list.erase(std::unique(list.begin(), list.end()), list.end());
+  };
+  // Each vertex once: around one of n faces all n would ask for all n.
+  std::vector<Index> vertices, result(faces.begin(), faces.end());
+  for (const Index f : faces) vertices.insert(vertices.end(), t.vertices(Face{f}).begin(), t.vertices(Face{f}).end());
+  distinct(vertices);
+  for (const Index v : vertices)
+    for (const HalfEdge start : t.fans(Vertex{v})) {
+      HalfEdge h = start;
+      do {
+        result.push_back(index(t.face(h)));
+        h = t.ccw(h);
+      } while (exists(h) && h != start);
+    }
+  distinct(result);
+  return result;
+}
+
+SparseMatrix selected_rows(const SparseMatrix& S, const std::vector<Index>& rows) {
+  SparseMatrix result(static_cast<Index>(rows.size()), S.cols());
+  std::int64_t count = 0;
+  for (const Index r : rows) count += S.outerIndexPtr()[r + 1] - S.outerIndexPtr()[r];
+  resize_nonzeros(result, count);
+  Index at = 0;
+  for (size_t i = 0; i < rows.size(); ++i) {
+    result.outerIndexPtr()[i] = at;
+    for (Index k = S.outerIndexPtr()[rows[i]]; k < S.outerIndexPtr()[rows[i] + 1]; ++k, ++at) {
+      result.innerIndexPtr()[at] = S.innerIndexPtr()[k];
+      result.valuePtr()[at] = S.valuePtr()[k];
+    }
+  }
+  result.outerIndexPtr()[rows.size()] = at;
+  return result;
+}
+
+SparseMatrix identity(Index size) {
+  SparseMatrix I(size, size);
+  I.setIdentity();
+  return I;
+}
+
+}  // namespace
+
+void check_levels(const Scheme<double>& scheme, const Topology& t, int levels) {
+  if (levels < 0) throw InvalidParameter("levels is " + std::to_string(levels) + "; it must be 0 or more");
+  const std::string amount = std::to_string(levels) + " levels of " + std::to_string(t.num_faces()) + " faces";
+  Counts counts{double(t.num_half_edges()), double(t.num_faces()), double(t.num_edges()), double(t.num_vertices())};
+  double bytes = counts.bytes();
+  int most = 0;  // levels that fit
+  const auto advice = [&] { return "use at most " + std::to_string(most) + ", or refine a subset"; };
+  // A scheme that makes no more faces may be asked for any number of levels: each takes memory, and is counted.
+  constexpr int enough = 64;
+  for (int k = 0; k < levels && t.num_faces() > 0; ++k) {
+    for (const Step<double>& step : scheme.steps_at(k, t)) counts = counts.next(step.split);
+    bytes += counts.bytes();
+    if (counts.corners > std::numeric_limits<Index>::max())
+      throw ResourceError(amount + " take more than " + bytes_in_words(bytes) + " of memory, and level " +
+                          std::to_string(k + 1) + " has more face corners than 32-bit indices count; " + advice());
+    if (bytes <= memory_limit())
+      most = k + 1;
+    else if (k >= enough)
+      break;
+  }
+  check_memory(amount, bytes, advice());
+}
+
+void check_sharpness(const std::string& scheme, Sharpening sharpening, bool is_dual, const Topology& t,
+                     const Sharpness& sharpness, const ControlMesh& tags) {
+  if (sharpening == Sharpening::semi_sharp) return;
+  const auto refuse = [&](const std::string& what, bool is_dart = false) {
+    const bool some = sharpening == Sharpening::sharp && !is_dart;
+    throw UnsupportedTopology(
+        what + ": " + scheme +
+        (some ? " has rules for infinite sharpness (>= 10) only; make it 10, " : " has no rule for it; ") +
+        "remove the tag (--no-creases), or use a scheme with semi-sharp creases: catmull-clark or loop");
+  };
+  for (Index i = 0; i < t.num_edges(); ++i) {
+    const Edge e{i};
+    const float s = sharpness.edge[i];
+    if (!is_sharp(s) || !exists(t.twin(t.half_edge(e)))) continue;
+    const auto [a, b] = std::minmax({index(t.tail(e)), index(t.head(e))});
+    if (sharpening == Sharpening::boundary || !is_infinite(s))
+      refuse("sharp edge (" + std::to_string(a) + "," + std::to_string(b) + ")");
+  }
+  for (Index v = 0; v < t.num_vertices() && sharpening == Sharpening::sharp; ++v)
+    if (VertexSharpness(t, sharpness, Vertex{v}).rule() == Rule::dart)
+      refuse("sharp edges that end inside, at vertex " + std::to_string(v) + " (a dart)", true);
+  for (const ControlMesh::Corner& corner : tags.corners) {
+    const Vertex v{corner.vertex};
+    const bool interior = exists(t.outgoing(v)) && exists(t.twin(t.outgoing(v)));
+    if (!is_sharp(corner.sharpness)) continue;
+    if (is_dual || (interior && sharpening == Sharpening::boundary) || !is_infinite(corner.sharpness))
+      refuse("corner " + std::to_string(corner.vertex));
+  }
+}
+
+void check_wide_faces(const std::string& scheme, int corners, const Topology& t, int level) {
+  if (t.num_faces() == 0) return;
+  const Index right = corners ? corners : t.size(Face{0});
+  if (t.uniform_face_size() == right) return;
+  Index f = 0;
+  while (t.size(Face{f}) == right) ++f;
+  throw UnsupportedTopology("face " + std::to_string(f) + " of level " + std::to_string(level) + " has " +
+                            std::to_string(t.size(Face{f})) + " corners; " + scheme + " refines faces of " +
+                            std::to_string(right) +
+                            " here: begin at level 0 with the scheme's own preparation, or cut the faces before");
+}
+
+template LevelOf<double> control_level(const Scheme<double>&, const ControlMesh&, const SubdivisionOptions&);
+template LevelOf<double> next_level<double>(const Scheme<double>&, const LevelOf<double>&);
+
+std::vector<Level> refine(const Scheme<double>& scheme, const ControlMesh& mesh, int levels,
+                          const SubdivisionOptions& options, const std::function<void(int)>& progress) {
+  std::vector<Level> result;
+  result.push_back(control_level(scheme, mesh, options));
+  check_levels(scheme, result[0].topology(), levels);
+  result.reserve(levels + 1);
+  for (int k = 1; k <= levels; ++k) {
+    if (progress) progress(k);
+    result.push_back(next_level(scheme, result.back()));
+  }
+  return result;
+}
+
+SparseMatrix refinement_matrix(const std::vector<Level>& levels) {
+  if (levels.size() == 1) return identity(levels[0].topology().num_vertices());
+  if (levels.size() == 2) return levels[1].S;
+  SparseMatrix P = product(levels[2].S, levels[1].S);
+  for (size_t k = 3; k < levels.size(); ++k) product(levels[k].S, P).swap(P);
+  return P;
+}
+
+double predicted_vertices(const Scheme<double>& scheme, const Topology& t, int level) {
+  Counts counts{double(t.num_half_edges()), double(t.num_faces()), double(t.num_edges()), double(t.num_vertices())};
+  for (int k = 0; k < level; ++k)
+    for (const Step<double>& step : scheme.steps_at(k, t)) counts = counts.next(step.split);
+  return counts.vertices;
+}
+
+double predicted_bytes(const Scheme<double>& scheme, const Topology& t, int levels) {
+  Counts counts{double(t.num_half_edges()), double(t.num_faces()), double(t.num_edges()), double(t.num_vertices())};
+  double bytes = counts.bytes();
+  for (int k = 0; k < levels; ++k) {
+    for (const Step<double>& step : scheme.steps_at(k, t)) counts = counts.next(step.split);
+    bytes += counts.bytes();
+  }
+  return bytes;
+}
+
+Part part(const Level& whole, std::span<const Index> chosen, int rings) {
+  const Topology& t = whole.topology();
+  std::vector<Index> complete(chosen.begin(),
+                              chosen.end());  // faces of which every vertex has all its faces in the part
+  for (int k = 1; k < rings; ++k) complete = with_neighbors(t, complete);
+  Part part;
+  part.faces = with_neighbors(t, complete);
+
+  RenumberedFaces order{.faces = part.faces, .offsets = {0}, .corners = {}};
+  for (const Index f : part.faces) {
+    for (Index k = 0; k < t.size(Face{f}); ++k) order.corners.push_back(index(t.corner(Face{f}, k)));
+    order.offsets.push_back(static_cast<Index>(order.corners.size()));
+  }
+  const auto position = [](const std::vector<Index>& list, Index i) {
+    const auto at = std::lower_bound(list.begin(), list.end(), i);
+    return at != list.end() && *at == i ? static_cast<Index>(at - list.begin()) : -1;
+  };
+  std::vector<Index>& vertices = part.vertices;
+  for (const Index h : order.corners) vertices.push_back(index(t.tail(HalfEdge{h})));
+  std::sort(vertices.begin(), vertices.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  part.level = renumbered_level(
+      whole, order, static_cast<Index>(vertices.size()), [&](Index h) { return position(order.corners, h); },
+      [&](Index v) { return position(vertices, v); });
+  part.halves = std::move(order.corners);
+
+  Level& level = part.level;
+  const Topology& own = level.topology();
+  // Vertices on the rim stay out of the next refinement, and any rule will do.
+  level.sharpness.vertex.assign(vertices.size(), infinite_sharpness);
+  for (const Index f : complete)
+    for (const Index v : t.vertices(Face{f})) level.sharpness.vertex[position(vertices, v)] = whole.sharpness.vertex[v];
+  // An edge of the rim has lost a face; without this it would be asked for its smooth mask.
+  for (Index e = 0; e < own.num_edges(); ++e)
+    if (!exists(own.twin(own.half_edge(Edge{e})))) level.sharpness.edge[e] = infinite_sharpness;
+  return part;
+}
+
+Subset subset(const Level& whole, std::span<const Index> chosen, int rings) {
+  const Topology& t = whole.topology();
+  for (const Index f : chosen)
+    if (f < 0 || f >= t.num_faces())
+      throw InvalidParameter("face " + std::to_string(f) + " does not exist; the level has " +
+                             std::to_string(t.num_faces()));
+  // Chaikin sharpness at the far end of an edge depends on the edges around that end: one ring more.
+  if (whole.sharpness.creasing == Creasing::chaikin) ++rings;
+  Part around = part(whole, chosen, rings);
+  Subset result;
+  for (const Index f : chosen)
+    result.faces.push_back(
+        static_cast<Index>(std::lower_bound(around.faces.begin(), around.faces.end(), f) - around.faces.begin()));
+  result.level = std::move(around.level);
+  result.level.S = selected_rows(identity(t.num_vertices()), around.vertices);
+  result.parents = std::move(around.faces);
+  return result;
+}
+
+int rings_for_refinement(const Scheme<double>& scheme) {
+  // Dual splits lose the faces at the rim; wide masks see two rings of faces, Kobbelt's faces a third.
+  return scheme.is_wide()          ? 4
+         : scheme.steps.size() > 1 ? 2 + static_cast<int>(scheme.steps.size())
+         : scheme.is_dual()        ? 3
+         : scheme.period > 1       ? 2
+                                   : 1;
+}
+
+Subset refine(const Scheme<double>& scheme, const Subset& part) {
+  const Level refined = next_level(scheme, part.level);
+  std::vector<bool> is_chosen(part.level.topology().num_faces(), false);
+  for (const Index f : part.faces) is_chosen[f] = true;
+  std::vector<Index> children;
+  for (Index f = 0; f < refined.topology().num_faces(); ++f) {
+    Index parent = f;
+    for (auto step = refined.steps.rbegin(); step != refined.steps.rend(); ++step) parent = step->face_parent[parent];
+    if (is_chosen[parent]) children.push_back(f);
+  }
+  Subset result = subset(refined, children, rings_for_refinement(scheme));
+  std::vector<Index> rows(result.level.S.innerIndexPtr(), result.level.S.innerIndexPtr() + result.level.S.nonZeros());
+  result.level.S = selected_rows(refined.S, rows);
+  return result;
+}
+
+std::pair<SparseMatrix, FaceMatrix> subdivide(const std::string& name, Index num_vertices, const FaceMatrix& F,
+                                              int levels, const SubdivisionOptions& options) {
+  const std::optional<Scheme<double>> scheme = find_scheme(name);
+  if (!scheme)
+    throw InvalidOption("unknown scheme '" + name + "'; did you mean " + nearest_scheme_names(name, 1)[0] + "?");
+  Level level;
+  level.steps.emplace_back();
+  level.steps[0].topology = Topology(view<Eigen::Dynamic>(num_vertices, F));
+  const Boundary boundary = options.boundary.value_or(Boundary::edge_and_corner);
+  level.sharpness = initial_sharpness(level.topology(), {}, boundary, options.creasing.value_or(Creasing::uniform));
+  level.holes.assign(level.topology().num_faces(), false);
+  check_levels(*scheme, level.topology(), levels);
+  SparseMatrix P = identity(num_vertices);
+  for (int k = 0; k < levels; ++k) {
+    level = next_level(*scheme, level);
+    k == 0 ? P.swap(level.S) : product(level.S, P).swap(P);
+  }
+  const Topology& t = level.topology();
+  const Index columns = levels == 0 ? static_cast<Index>(F.cols()) : t.uniform_face_size();
+  FaceMatrix faces(t.num_faces(), columns);
+  for (Index f = 0; f < t.num_faces(); ++f)
+    for (Index k = 0; k < columns; ++k) faces(f, k) = t.vertices(Face{f})[k];
+  return {std::move(P), std::move(faces)};
+}
+
+}  // namespace sublimit

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// Levels: a control mesh, refined step by step, with the matrix of every level.
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "sublimit/mesh/control_mesh.h"
+#include "sublimit/scheme/subdivision_matrix.h"
+
+namespace sublimit {
+
+/// Rules for boundaries and creases; what is absent follows the mesh's tags, else edge_and_corner and uniform.
+struct SubdivisionOptions {
+  std::optional<Boundary> boundary;
+  std::optional<Creasing> creasing;
+};
+
+/// One level of a refined mesh.
+template <class T>
+struct LevelOf {
+  int number = 0;
+  /// The refinements that led here from the level before, one per step of the scheme; for level 0 a topology without
+  /// provenance.
+  std::vector<Refinement> steps;
+  Sharpness sharpness;
+  std::vector<bool> holes;  ///< per face
+  SparseMatrixOf<T> S;      ///< from the level before (empty for level 0): x_k = S * x_{k-1}
+
+  const Topology& topology() const { return steps.back().topology; }
+
+  LevelOf() = default;
+  LevelOf(const LevelOf&) = default;
+  LevelOf& operator=(const LevelOf&) = default;
+  // Eigen 3.4 copies a sparse matrix where it could move it.
+  LevelOf(LevelOf&& other) noexcept { *this = std::move(other); }
+  LevelOf& operator=(LevelOf&& other) noexcept {
+    number = other.number;
+    steps = std::move(other.steps);
+    sharpness = std::move(other.sharpness);
+    holes = std::move(other.holes);
+    S.swap(other.S);
+    return *this;
+  }
+};
+using Level = LevelOf<double>;
+
+/// Level 0 of a control mesh.
+/// @throws InvalidMesh           bad connectivity, a tag that points nowhere
+/// @note  Boundary::none makes no holes for a scheme whose faces need no neighbours (bilinear).
+template <class T>
+LevelOf<T> control_level(const Scheme<T>& scheme, const ControlMesh& mesh, const SubdivisionOptions& options = {});
+
+/// The level after `parent`.
+/// @throws UnsupportedTopology  a face that the scheme cannot take
+template <class T>
+LevelOf<T> next_level(const Scheme<T>& scheme, const LevelOf<T>& parent);
+
+/// Levels 0 to `levels`.
+/// @param progress  called before each level with its number, if given
+/// @throws InvalidParameter     negative `levels`
+/// @throws UnsupportedTopology  a face that the scheme cannot take
+/// @throws ResourceError     more elements than 32-bit indices, or more memory than the machine has; predicted before
+///                           memory is taken
+std::vector<Level> refine(const Scheme<double>& scheme, const ControlMesh& mesh, int levels,
+                          const SubdivisionOptions& options = {}, const std::function<void(int)>& progress = {});
+
+/// P_k = S_{k-1} ... S_0: level k from the control points. The identity for k = 0.
+SparseMatrix refinement_matrix(const std::vector<Level>& levels);
+
+/// Vertices of a level; exact but for dual steps across borders.
+double predicted_vertices(const Scheme<double>& scheme, const Topology& control, int level);
+
+/// Bytes of memory that `levels` levels take, about, matrices included.
+double predicted_bytes(const Scheme<double>& scheme, const Topology& control, int levels);
+
+/// Some faces of a level as a level of their own. Its rim is no boundary of the mesh, but takes a boundary's rules: what is made
+/// near it means nothing.
+struct Part {
+  Level level;  ///< without a matrix
+  std::vector<Index> faces, vertices, halves;  ///< their numbers in the whole, ascending
+};
+/// The faces and `rings` rings of faces around them.
+Part part(const Level& whole, std::span<const Index> faces, int rings);
+
+/// A part of a mesh: chosen faces with as many rings of faces around them as their next refinement needs.
+struct Subset {
+  Level level;               ///< the part, numbered on its own; S has a row per vertex, over those of where it came from
+  std::vector<Index> faces;  ///< the chosen faces, in the part's numbers
+  std::vector<Index> parents;  ///< of every face of the part: its number in the whole, ascending
+};
+
+/// Part of a level. `level.S` of the result selects vertices of the whole.
+/// @param rings  of faces around them; `rings_for_refinement` says how many the scheme needs, 1 is enough for narrow primal ones
+/// @throws InvalidParameter  a face that does not exist
+Subset subset(const Level& level, std::span<const Index> faces, int rings = 1);
+int rings_for_refinement(const Scheme<double>& scheme);
+
+/// The children of the chosen faces (all of them are chosen again), without touching the rest of the mesh. Rows of
+/// `level.S` are the rows that refining the whole mesh would give, over the vertices of `part`.
+Subset refine(const Scheme<double>& scheme, const Subset& part);
+
+/// Faces as rows of equal length (`F` of libigl and friends).
+using FaceMatrix = Eigen::Matrix<Index, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// For Eigen users, in one line: `auto [S, F1] = subdivide("loop", V.rows(), F, 2); V1 = S * V;`
+/// @param F  #F x 3 or #F x 4, counter-clockwise
+/// @return   the product of the levels' matrices, and the refined faces
+/// @throws InvalidOption  an unknown scheme; and whatever `refine` throws
+std::pair<SparseMatrix, FaceMatrix> subdivide(const std::string& scheme, Index num_vertices, const FaceMatrix& F,
+                                              int levels = 1, const SubdivisionOptions& options = {});
+
+}  // namespace sublimit

@@ -1,0 +1,343 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// Sites: where a mask is applied, as the mask sees it. A site numbers the points of its neighbourhood (slots, in the
+// order in which `visit_site` of mask_table.h visits their vertices); the neighbourhood is unfolded, so points that
+// coincide on a small mesh are different slots here. A mask therefore depends on the type of the neighbourhood alone.
+#include <algorithm>
+#include <compare>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "sublimit/core/number.h"
+#include "sublimit/core/stencil.h"
+
+namespace sublimit {
+
+template <class T>
+struct Masks;
+
+/// What every site knows: the level of the parent (0 for the control mesh), constants in the number type, and the masks
+/// of the step, for child points that are already made.
+template <class T>
+class Site {
+ public:
+  Site(const Masks<T>& masks, int level) : masks_(&masks), level_(level) {}
+  int level() const { return level_; }
+  static T ratio(int p, int q) { return Number<T>::ratio(p, q); }
+  static T cos_2pi(int k, int n) { return Number<T>::cos_2pi(k, n); }
+
+ protected:
+  const Masks<T>* masks_;
+  int level_;
+};
+
+/// A face, seen from a given corner on.
+template <class T>
+class FaceSite : public Site<T> {
+ public:
+  FaceSite(const Masks<T>& masks, int level, std::vector<Index> slots)
+      : Site<T>(masks, level), slots_(std::move(slots)) {}
+  int size() const { return static_cast<int>(slots_.size()); }
+  Stencil<T> corner(int i) const { return Stencil<T>(slots_[i]); }
+  Stencil<T> centroid() const {
+    Stencil<T> sum;
+    for (const Index slot : slots_) sum += Stencil<T>(slot);
+    return std::move(sum) / T(size());
+  }
+  /// The child point that the step makes for this face.
+  Stencil<T> point() const { return this->masks_->face(*this); }
+
+ private:
+  std::vector<Index> slots_;
+};
+
+/// An interior edge with its two faces. The left one starts with (tail, head), the right one with (head, tail).
+/// Slots: 0 tail, 1 head, the other corners of the left face, those of the right face.
+template <class T>
+class EdgeSite : public Site<T> {
+ public:
+  EdgeSite(const Masks<T>& masks, int level, int left_size, int right_size) : Site<T>(masks, level) {
+    left_ = {0, 1};
+    right_ = {1, 0};
+    Index slot = 2;
+    while (static_cast<int>(left_.size()) < left_size) left_.push_back(slot++);
+    while (static_cast<int>(right_.size()) < right_size) right_.push_back(slot++);
+  }
+  Stencil<T> tail() const { return Stencil<T>(0); }
+  Stencil<T> head() const { return Stencil<T>(1); }
+  FaceSite<T> left_face() const { return {*this->masks_, this->level_, left_}; }
+  FaceSite<T> right_face() const { return {*this->masks_, this->level_, right_}; }
+
+ private:
+  std::vector<Index> left_, right_;
+};
+
+/// A vertex with its faces, counter-clockwise; the ring is closed around an interior vertex, and open where a boundary
+/// or a sharp edge cuts it. Slots of the site of a vertex: 0 the vertex, then for each face its corners from the far
+/// end of its first edge on, up to the next face's. Rings of wide sites number edges and faces from the site's own edge
+/// on: neighbor(0) is its other end, neighbor(-1) the one before.
+template <class T>
+class Ring : public Site<T> {
+ public:
+  Ring(const Masks<T>& masks, int level, std::span<const Index> face_sizes) : Site<T>(masks, level) {
+    Index slot = 1;
+    for (const Index size : face_sizes) {
+      faces_.push_back({0});
+      for (Index i = 2; i < size; ++i) faces_.back().push_back(slot++);
+    }
+    for (size_t i = 0; i < faces_.size(); ++i) faces_[i].push_back(faces_[(i + 1) % faces_.size()][1]);
+  }
+  /// Faces by the slots of their corners, from the vertex on; `start` is the position of the site's own edge.
+  Ring(const Masks<T>& masks, int level, std::vector<std::vector<Index>> faces, bool closed, int start)
+      : Site<T>(masks, level), faces_(std::move(faces)), closed_(closed), start_(start) {}
+
+  bool is_closed() const { return closed_; }
+  /// Edges of a closed ring.
+  int valence() const { return static_cast<int>(faces_.size()); }
+  Stencil<T> center() const { return Stencil<T>(faces_[0][0]); }
+  /// The vertex at the other end of edge i; face i lies between edges i and i+1.
+  Stencil<T> neighbor(int i) const {
+    const int n = valence(), at = closed_ ? position(i) : start_ + i;
+    return Stencil<T>(at == n ? faces_[n - 1].back() : faces_[at][1]);
+  }
+  bool has_neighbor(int i) const { return closed_ || (start_ + i >= 0 && start_ + i <= valence()); }
+  FaceSite<T> face(int i) const { return {*this->masks_, this->level_, faces_[position(i)]}; }
+  /// The corner of the quadrilateral face i that is opposite to the vertex.
+  Stencil<T> diagonal(int i) const { return Stencil<T>(faces_[position(i)][2]); }
+
+  /// Triangles only: neighbor(i) of a ring that is closed by two virtual points, one beyond each border edge, so that
+  /// the triangle there is half of a parallelogram; the regular border vertex then has valence 6.
+  Stencil<T> continued(int i) const {
+    if (closed_) return neighbor(i);
+    const int n = valence(), edges = n + 3, at = ((start_ + i) % edges + edges) % edges;
+    const auto end = [&](int k) { return Stencil<T>(k == n ? faces_[n - 1].back() : faces_[k][1]); };
+    if (at <= n) return end(at);
+    return at == n + 1 ? center() + end(n) - end(n - 1) : center() + end(0) - end(1);
+  }
+
+  Stencil<T> neighbor_mean() const {
+    return mean([&](int i) { return neighbor(i); });
+  }
+  Stencil<T> face_centroid_mean() const {
+    return mean([&](int i) { return face(i).centroid(); });
+  }
+  Stencil<T> face_point_mean() const {
+    return mean([&](int i) { return face(i).point(); });
+  }
+
+ private:
+  int position(int i) const {
+    const int n = valence();
+    return closed_ ? ((start_ + i) % n + n) % n : start_ + i;
+  }
+  template <class Point>
+  Stencil<T> mean(const Point& point) const {
+    Stencil<T> sum;
+    for (int i = 0; i < valence(); ++i) sum += point(i);
+    return std::move(sum) / T(valence());
+  }
+  std::vector<std::vector<Index>> faces_;
+  bool closed_ = true;
+  int start_ = 0;
+};
+
+/// How the faces around a vertex lie, seen from one of its edges: all around, or in a row of `faces` in which the edge
+/// comes at `start`.
+struct FanShape {
+  Index faces = 0;
+  Index start = -1;  ///< -1: closed
+  bool is_closed() const { return start < 0; }
+  /// Faces from the edge on, counter-clockwise and clockwise, without going around twice.
+  Index left() const { return is_closed() ? faces : faces - start; }
+  Index right() const { return is_closed() ? 0 : start; }
+  auto operator<=>(const FanShape&) const = default;
+};
+
+/// An edge with the rings of both its ends; faces all of one size.
+/// Slots: 0 tail, 1 head, other corners of the left face, then of the right one (from the head, from the tail), then
+/// the rest of the tail's ring, counter-clockwise from the left face and clockwise from the right one, then the rest of
+/// the head's.
+template <class T>
+class WideEdgeSite : public Site<T> {
+ public:
+  WideEdgeSite(const Masks<T>& masks, int level, Index face_size, FanShape tail, FanShape head)
+      : Site<T>(masks, level),
+        left_(tail.left() > 0),
+        right_(tail.is_closed() || tail.right() > 0),
+        slots_(2 + (Index(left_) + Index(right_)) * (face_size - 2)),
+        tail_(ring(face_size, tail, 0, 1, 2, 2 + Index(left_) * (face_size - 2), left_, right_)),
+        head_(ring(face_size, head, 1, 0, 2 + Index(left_) * (face_size - 2), 2, right_, left_)) {}
+
+  Index num_slots() const { return slots_; }
+  Stencil<T> tail() const { return Stencil<T>(0); }
+  Stencil<T> head() const { return Stencil<T>(1); }
+  bool is_border() const { return !left_ || !right_; }
+  const Ring<T>& tail_ring() const { return tail_; }
+  const Ring<T>& head_ring() const { return head_; }
+
+ private:
+  Ring<T> ring(Index size, FanShape shape, Index center, Index end, Index left, Index right, bool has_left,
+               bool has_right) {
+    // The face on the left is (center, end, left...), that on the right (end, center, right...).
+    std::vector<Index> left_face{center, end}, right_face{center};
+    for (Index i = 0; i < size - 2; ++i) left_face.push_back(left + i), right_face.push_back(right + i);
+    right_face.push_back(end);
+    std::vector<std::vector<Index>> faces;
+    const auto next_face = [&](Index from, Index to) {  // counter-clockwise, `to` < 0: new
+      std::vector<Index> face{center, from};
+      for (Index i = 0; i < size - 3; ++i) face.push_back(slots_++);
+      face.push_back(to < 0 ? slots_++ : to);
+      return face;
+    };
+    if (shape.is_closed()) {
+      faces.push_back(left_face);
+      for (Index k = 2; k < shape.faces; ++k)
+        faces.push_back(next_face(faces.back().back(), k + 1 == shape.faces ? right_face[1] : -1));
+      faces.push_back(right_face);
+      return {*this->masks_, this->level_, std::move(faces), true, 0};
+    }
+    if (has_left) faces.push_back(left_face);
+    for (Index k = 1; k < shape.left(); ++k) faces.push_back(next_face(faces.back().back(), -1));
+    std::vector<std::vector<Index>> before;  // clockwise
+    if (has_right) before.push_back(right_face);
+    for (Index k = 1; k < shape.right(); ++k) {
+      std::vector<Index> face{center};
+      for (Index i = 0; i < size - 2; ++i) face.push_back(slots_++);
+      face.push_back(before.back()[1]);
+      before.push_back(face);
+    }
+    faces.insert(faces.begin(), before.rbegin(), before.rend());
+    return {*this->masks_, this->level_, std::move(faces), false, static_cast<int>(shape.start)};
+  }
+
+  bool left_, right_;
+  Index slots_;
+  Ring<T> tail_, head_;
+};
+
+/// A face with the rings of its corners, and the points that the step makes on edges; faces all of one size.
+/// Ring i starts with the edge from corner i to corner i + 1, so its face 0 is this face.
+/// Slots: the corners; the other corners of the faces across edge 0, 1, ... (where there is one); for each corner the
+/// rest of its ring, counter-clockwise from the face across the edge before, clockwise from the face across its own
+/// edge; then the points of the face's edges, and of the edges beyond (of quadrilaterals: opposite in the face across).
+template <class T>
+class WideFaceSite : public Site<T> {
+ public:
+  WideFaceSite(const Masks<T>& masks, int level, std::span<const FanShape> shapes) : Site<T>(masks, level) {
+    const Index size = static_cast<Index>(shapes.size());
+    slots_ = size;
+    std::vector<std::vector<Index>> across(size);  // from corner i + 1 on: (i + 1, i, ...)
+    for (Index i = 0; i < size; ++i)
+      if (shapes[i].is_closed() || shapes[i].right() > 0) {
+        across[i] = {(i + 1) % size, i};
+        for (Index k = 2; k < size; ++k) across[i].push_back(slots_++);
+      }
+    for (Index i = 0; i < size; ++i) {
+      const FanShape& shape = shapes[i];
+      const Index prev = (i + size - 1) % size;
+      std::vector<std::vector<Index>> faces(1), before;
+      for (Index k = 0; k < size; ++k) faces[0].push_back((i + k) % size);
+      const auto turned = [&](const std::vector<Index>& face) {  // from corner i on
+        std::vector<Index> result = face;
+        std::rotate(result.begin(), std::find(result.begin(), result.end(), i), result.end());
+        return result;
+      };
+      const auto on = [&](Index to) {
+        std::vector<Index> face{i, faces.back().back()};
+        for (Index k = 0; k < size - 3; ++k) face.push_back(slots_++);
+        face.push_back(to < 0 ? slots_++ : to);
+        faces.push_back(face);
+      };
+      if (shape.is_closed()) {
+        if (shape.faces > 1) faces.push_back(turned(across[prev]));
+        for (Index k = 3; k < shape.faces; ++k) on(k + 1 == shape.faces ? turned(across[i])[1] : -1);
+        if (shape.faces > 2) faces.push_back(turned(across[i]));
+        rings_.emplace_back(masks, level, std::move(faces), true, 0);
+        continue;
+      }
+      if (shape.left() > 1) faces.push_back(turned(across[prev]));
+      for (Index k = 2; k < shape.left(); ++k) on(-1);
+      if (shape.right() > 0) before.push_back(turned(across[i]));
+      for (Index k = 1; k < shape.right(); ++k) {
+        std::vector<Index> face{i};
+        for (Index m = 0; m < size - 2; ++m) face.push_back(slots_++);
+        face.push_back(before.back()[1]);
+        before.push_back(face);
+      }
+      faces.insert(faces.begin(), before.rbegin(), before.rend());
+      rings_.emplace_back(masks, level, std::move(faces), false, static_cast<int>(shape.start));
+    }
+    for (Index i = 0; i < size; ++i) has_across_.push_back(!across[i].empty());
+  }
+
+  int size() const { return static_cast<int>(rings_.size()); }
+  Index num_slots() const { return slots_; }
+  Stencil<T> corner(int i) const { return Stencil<T>(wrapped(i)); }
+  const Ring<T>& ring(int i) const { return rings_[wrapped(i)]; }
+  bool has_across(int i) const { return has_across_[wrapped(i)]; }
+  /// The child point on edge i, and on the opposite edge of the face across it.
+  Stencil<T> edge_point(int i) const { return Stencil<T>(slots_ + wrapped(i)); }
+  Stencil<T> edge_point_beyond(int i) const { return Stencil<T>(slots_ + size() + wrapped(i)); }
+
+ private:
+  int wrapped(int i) const { return (i % size() + size()) % size(); }
+  Index slots_ = 0;
+  std::vector<Ring<T>> rings_;
+  std::vector<bool> has_across_;
+};
+
+/// A vertex on a crease or boundary and its two neighbours along it. Slots: 0 the vertex, 1 and 2 the neighbours.
+template <class T>
+class CreaseSite : public Site<T> {
+ public:
+  using Site<T>::Site;
+  Stencil<T> center() const { return Stencil<T>(0); }
+  Stencil<T> before() const { return Stencil<T>(1); }
+  Stencil<T> after() const { return Stencil<T>(2); }
+};
+
+/// A sharp or boundary edge, and the curve that it is part of. Where a step makes several points on it, each sees the
+/// edge from its nearer end. Slots: 0 tail, 1 head, 2 and 3 the points before and after them on the curve.
+template <class T>
+class CreaseEdgeSite : public Site<T> {
+ public:
+  CreaseEdgeSite(const Masks<T>& masks, int level, bool has_before = true, bool has_after = true)
+      : Site<T>(masks, level), has_before_(has_before), has_after_(has_after) {}
+  Stencil<T> tail() const { return Stencil<T>(0); }
+  Stencil<T> head() const { return Stencil<T>(1); }
+  /// Where the curve ends in a corner, the next point is a virtual one, so that the end is the middle.
+  Stencil<T> before() const { return has_before_ ? Stencil<T>(2) : T(2) * tail() - head(); }
+  Stencil<T> after() const { return has_after_ ? Stencil<T>(3) : T(2) * head() - tail(); }
+
+ private:
+  bool has_before_, has_after_;
+};
+
+/// A mask: from the site to the stencil of the new point.
+template <class T, class Site>
+using Mask = std::function<Stencil<T>(const Site&)>;
+
+/// The masks of one step; a group that the step's split does not make stays empty.
+template <class T>
+struct Masks {
+  Mask<T, Ring<T>> vertex = {};
+  Mask<T, EdgeSite<T>> edge = {};
+  Mask<T, FaceSite<T>> face = {};
+  /// Of a dual split, for the point at corner 0 of the face.
+  Mask<T, FaceSite<T>> corner = {};
+  /// Instead of `edge` and `face`, where these need more of the mesh. A wide edge mask makes border points too, if
+  /// `wide_borders`; else the crease masks do.
+  Mask<T, WideEdgeSite<T>> wide_edge = {};
+  Mask<T, WideFaceSite<T>> wide_face = {};
+  bool wide_borders = false;
+};
+
+/// The masks along sharp edges and boundaries. A corner stays where it is.
+template <class T>
+struct CreaseMasks {
+  Mask<T, CreaseSite<T>> vertex = {};
+  Mask<T, CreaseEdgeSite<T>> edge = {};
+};
+
+}  // namespace sublimit

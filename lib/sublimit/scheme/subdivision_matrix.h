@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// x_{k+1} = S_k x_k: the subdivision matrix of one step, its rows filled from the masks.
+#include "sublimit/mesh/sharpness.h"
+#include "sublimit/mesh/topology.h"
+#include "sublimit/scheme/scheme.h"
+#include "sublimit/splits/split.h"
+
+namespace sublimit {
+
+template <class T>
+using SparseMatrixOf = Eigen::SparseMatrix<T, Eigen::RowMajor, Index>;
+
+/// Subdivision matrix of one step.
+///
+/// Row i holds the mask of child vertex i over the parent vertices, so x_child = S * x_parent.
+/// @param scheme      creases; its steps contain `step`
+/// @param step        masks and split; `step.split` is the split that produced `refinement`
+/// @param parent      connectivity before the step, #V vertices
+/// @param refinement  of `parent`; child order [from vertices | faces | edges]
+/// @param sharpness   per edge and vertex of `parent`
+/// @param child_sharpness  the same after the step: `refine(sharpness, parent, refinement)`
+/// @param level       of the parent, for masks that depend on it
+/// @return  S, #V' x #V, rows sum to 1 up to rounding, columns of a row ascending; non-negative if
+///          `scheme.claims.convex_hull`
+/// @throws ResourceError  more nonzeros than 32-bit indices, checked before memory is taken
+/// @note  Deterministic: same build and input, same bytes, whatever the number of threads.
+/// @note  T = double is compiled into the library; for other numbers include subdivision_matrix_impl.h.
+/// Source: Zorin, Schroeder et al., "Subdivision for Modeling and Animation", SIGGRAPH 2000 course notes.
+template <class T>
+SparseMatrixOf<T> subdivision_matrix(const Scheme<T>& scheme, const Step<T>& step, const Topology& parent,
+                                     const Refinement& refinement, const Sharpness& sharpness,
+                                     const Sharpness& child_sharpness, int level);
+
+extern template SparseMatrixOf<double> subdivision_matrix(const Scheme<double>&, const Step<double>&, const Topology&,
+                                                          const Refinement&, const Sharpness&, const Sharpness&, int);
+
+}  // namespace sublimit

@@ -1,9 +1,0 @@
-// SPDX-License-Identifier: Apache-2.0
-#include "sublimit/subdivision_matrix_impl.h"
-
-namespace sublimit {
-
-template SparseMatrixOf<double> subdivision_matrix(const Scheme<double>&, const Step<double>&, const Topology&,
-                                                   const Refinement&, const Sharpness&, const Sharpness&, int);
-
-}  // namespace sublimit

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sublimit/bake/applied_points.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "sublimit/base/atomic_file.h"
+#include "sublimit/base/format_number.h"
+#include "sublimit/base/parallel_for.h"
+#include "sublimit/limit/limit_status.h"
+#include "sublimit/point_addresses.h"
+
+namespace sublimit {
+namespace {
+
+constexpr std::int64_t rows_per_text = 2048, texts_at_once = 256;
+
+/// Derivatives that exist at each point: where they do not, the table has no weights, which shows on points that no
+/// combination of weights takes to zero by chance.
+template <class Real>
+std::vector<std::int8_t> orders_of(const PatternTable<Real>& table) {
+  std::vector<Real> probe(size_t(table.num_control_points())), result(size_t(table.num_points()) * table.quantities());
+  std::uint64_t state = 1;
+  for (Real& x : probe) {
+    state = state * 6364136223846793005u + 1442695040888963407u;  // Knuth's MMIX generator
+    x = static_cast<Real>(double(state >> 40) / double(1 << 24));
+  }
+  table.apply(probe, 1, result);
+  const auto n = static_cast<size_t>(table.num_points());
+  std::vector<std::int8_t> orders(n);
+  const auto any = [&](size_t i, int begin, int end) {
+    for (int q = begin; q < std::min(end, table.quantities()); ++q)
+      if (result[size_t(q) * n + i] != 0) return true;
+    return false;
+  };
+  for (size_t i = 0; i < n; ++i) orders[i] = any(i, 3, 6) ? 2 : any(i, 1, 3) ? 1 : 0;
+  return orders;
+}
+
+}  // namespace
+
+template <class Real>
+AppliedPoints::AppliedPoints(const BakedTable<Real>& table)
+    : num_points_(table.table.num_points()),
+      quantities_(table.table.quantities()),
+      addresses_(addresses_of(table)),
+      status_names_(table.info.statuses),
+      status_(statuses_of(table)) {
+  if (status_names_.empty()) status_names_.emplace_back("regular");
+  for (const std::string& name : status_names_) has_plane_.push_back(name != "undefined-normal");
+  // Positions of a level's limit come without.
+  has_status_ = table.info.rows == TableRows::grid || table.info.rows == TableRows::samples ||
+                (table.info.rows == TableRows::limit && (quantities_ > 1 || !status_.empty()));
+  if (quantities_ == 1) return;
+  order_ = orders_of(table.table);
+  // Where all is smooth derivatives that are always zero exist all the same.
+  const int all = quantities_ == 6 ? 2 : 1;
+  for (size_t i = 0; i < order_.size(); ++i) {
+    const std::string& status = status_names_[status_.empty() ? 0 : status_[i]];
+    if (status == "regular") order_[i] = static_cast<std::int8_t>(all);
+    if (status == "extraordinary") order_[i] = 0;  // tangents, but no derivatives
+  }
+}
+
+template <class Real>
+Points AppliedPoints::normals(std::span<const Real> values) const {
+  Points normals = Points::Zero(num_points_, 3);
+  if (quantities_ == 1) return normals;
+  using Row = Eigen::Matrix<Real, 1, 3>;
+  double largest = 0;
+  for (const Real x : values.first(size_t(3 * num_points_))) largest = std::max(largest, std::abs(double(x)));
+  // What a derivative, a sum of points with weights of a few times its size, has of rounding.
+  const double noise = 8 * double(std::numeric_limits<Real>::epsilon()) * largest;
+  parallel_for(num_points_, [&](std::int64_t i) {
+    if (!status_.empty() && !has_plane_[status_[size_t(i)]]) return;
+    const Eigen::RowVector3d du = Eigen::Map<const Row>(values.data() + 3 * (num_points_ + i)).template cast<double>();
+    const Eigen::RowVector3d dv =
+        Eigen::Map<const Row>(values.data() + 3 * (2 * num_points_ + i)).template cast<double>();
+    const Eigen::RowVector3d normal = du.cross(dv);
+    // Of parallel derivatives rounding is all that is left, and it points anywhere.
+    if (const double length = normal.norm(); length > noise * (du.norm() + dv.norm())) normals.row(i) = normal / length;
+  });
+  return normals;
+}
+
+template <class Real>
+MeshOutput AppliedPoints::mesh(const FaceList& faces, std::span<const Real> values) const {
+  MeshOutput out;
+  out.positions =
+      Eigen::Map<const Eigen::Matrix<Real, Eigen::Dynamic, 3, Eigen::RowMajor>>(values.data(), num_points_, 3)
+          .template cast<double>();
+  out.face_sizes.assign(faces.sizes.begin(), faces.sizes.end());
+  out.face_vertices.assign(faces.corners.begin(), faces.corners.end());
+  if (quantities_ > 1) out.normals = normals(values);
+  return out;
+}
+
+template <class Real>
+void AppliedPoints::append_row(std::string& out, std::int64_t point, size_t channels, std::span<const Real> values,
+                               const Points& normals) const {
+  const auto i = static_cast<size_t>(point);
+  bool first = true;
+  const auto begin = [&] {
+    if (!std::exchange(first, false)) out += ',';
+  };
+  if (!addresses_.faces.empty()) {
+    const bool exists = addresses_.faces[i] >= 0;
+    begin();
+    if (exists) append_number(out, addresses_.faces[i]);
+    for (size_t k = 0; k < 2; ++k) {
+      begin();
+      if (exists) append_number(out, addresses_.parameters[2 * i + k]);
+    }
+  }
+  if (has_status_) {
+    begin();
+    const std::string& status = status_names_[status_.empty() ? 0 : status_[i]];
+    const bool is_degenerate = normals.rows() > 0 && normals.row(point).isZero(0) && status != "hole";
+    out += is_degenerate ? name(LimitStatus::undefined_normal) : status;
+  }
+  for (int q = 0; q < quantities_; ++q) {
+    const bool exists = q == 0 || order_[i] >= (q < 3 ? 1 : 2);
+    for (size_t c = 0; c < channels; ++c) {
+      begin();
+      if (exists) append_number(out, values[(size_t(q) * size_t(num_points_) + i) * channels + c]);
+    }
+  }
+  for (Eigen::Index k = 0; k < 3 && normals.rows() > 0; ++k) {
+    begin();
+    if (!normals.row(point).isZero(0)) append_number(out, static_cast<Real>(normals(point, k)));
+  }
+  out += '\n';
+}
+
+template <class Real>
+void AppliedPoints::write_csv(const std::filesystem::path& path, const std::vector<std::string>& channels,
+                              std::span<const Real> values) const {
+  std::string header;
+  const auto add = [&](const std::string& name) { header += (header.empty() ? "" : ",") + name; };
+  if (!addresses_.faces.empty())
+    for (const char* name : {"face", "u", "v"}) add(name);
+  if (has_status_) add("status");
+  constexpr const char* quantities[] = {"", "u", "v", "uu", "uv", "vv"};
+  for (int q = 0; q < quantities_; ++q)
+    for (const std::string& channel : channels) add(channel + quantities[q]);
+  Points found;
+  if (channels.size() == 3 && quantities_ > 1) {
+    found = normals(values);
+    for (const char* name : {"nx", "ny", "nz"}) add(name);
+  }
+  AtomicFile file(path);
+  file.write(header + "\n");
+  std::vector<std::string> texts(texts_at_once);
+  for (std::int64_t first = 0; first < num_points_; first += rows_per_text * texts_at_once) {
+    parallel_for_blocks(
+        std::min(num_points_ - first, rows_per_text * texts_at_once),
+        [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
+          texts[size_t(block)].clear();
+          for (std::int64_t i = begin; i < end; ++i)
+            append_row(texts[size_t(block)], first + i, channels.size(), values, found);
+        },
+        rows_per_text);
+    for (std::string& text : texts) {
+      file.write(text);
+      text.clear();
+    }
+  }
+  file.commit();
+}
+
+template AppliedPoints::AppliedPoints(const BakedTable<float>&);
+template AppliedPoints::AppliedPoints(const BakedTable<double>&);
+template Points AppliedPoints::normals(std::span<const float>) const;
+template Points AppliedPoints::normals(std::span<const double>) const;
+template MeshOutput AppliedPoints::mesh(const FaceList&, std::span<const float>) const;
+template MeshOutput AppliedPoints::mesh(const FaceList&, std::span<const double>) const;
+template void AppliedPoints::write_csv(const std::filesystem::path&, const std::vector<std::string>&,
+                                       std::span<const float>) const;
+template void AppliedPoints::write_csv(const std::filesystem::path&, const std::vector<std::string>&,
+                                       std::span<const double>) const;
+
+}  // namespace sublimit

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// What a table made of one frame, as a mesh or as rows of a CSV.
+#include "sublimit/baked_table.h"
+#include "sublimit/io/write_mesh.h"
+
+namespace sublimit {
+
+/// What a table knows of its points besides their weights.
+class AppliedPoints {
+ public:
+  template <class Real>
+  explicit AppliedPoints(const BakedTable<Real>& table);
+
+  /// Unit normals from first derivatives, by the winding of faces; zero where there is no tangent plane, where these
+  /// derivatives are parallel within rounding, and everywhere if there are none.
+  /// @param values  quantities x points x 3, as the table's `apply` gives them
+  template <class Real>
+  Points normals(std::span<const Real> values) const;
+
+  /// The faces between the points, with normals if there are derivatives.
+  template <class Real>
+  MeshOutput mesh(const FaceList& faces, std::span<const Real> values) const;
+
+  /// A CSV, which appears whole or not at all:
+  ///
+  ///     [face,u,v,][status,]x,y,z[,xu,yu,zu,xv,yv,zv[,xuu,...]][,nx,ny,nz]
+  ///
+  /// addresses where the table knows them, statuses of points of the limit, normals of three channels with derivatives;
+  /// where one is zero the status is `undefined-normal`.
+  /// Numbers have the shortest form that reads back to the same bits; what does not exist is an empty field.
+  /// @param channels  their names: `x,y,z`
+  /// @param values    quantities x points x channels
+  template <class Real>
+  void write_csv(const std::filesystem::path& path, const std::vector<std::string>& channels,
+                 std::span<const Real> values) const;
+
+ private:
+  template <class Real>
+  void append_row(std::string& out, std::int64_t point, size_t channels, std::span<const Real> values,
+                  const Points& normals) const;
+  std::int64_t num_points_ = 0;
+  int quantities_ = 1;
+  bool has_status_ = false;
+  SampleAddresses addresses_;
+  std::vector<std::string> status_names_;
+  std::vector<std::uint8_t> status_;  // none: all are the first
+  std::vector<std::int8_t> order_;    // derivatives that exist; none: all
+  std::vector<bool> has_plane_;       // by status
+};
+
+}  // namespace sublimit

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// From a mesh to a table: of its level k, of that level's limit, of grids or lists of places on the limit.
+#include <limits>
+
+#include "sublimit/baked_table.h"
+#include "sublimit/limit/address.h"
+#include "sublimit/patterns/patterns.h"
+#include "sublimit/scheme/refine.h"
+
+namespace sublimit {
+
+/// How a table is made. All of them make the same points, to rounding; the order of points may differ.
+enum class BakeMethod {
+  automatic,           ///< the first of these that is possible, but the second where most types would be rare
+  patterns,            ///< a block for each type of neighbourhood
+  rows_then_patterns,  ///< level 1 by rows, then a block for each type on it
+  rows,                ///< a row for each point
+};
+/// "patterns", "rows then patterns", "rows".
+const char* name(BakeMethod method);
+
+/// What points a table is to make.
+struct BakeRequest {
+  TableRows rows = TableRows::level;
+  int level = 0;                     ///< k, of `level` (1 to 11) and `limit` (0 to 11)
+  int grid = 0;                      ///< N, of `grid`, 2 to 2048
+  std::vector<Sample> samples = {};  ///< of `samples`
+  int derivatives = 0;               ///< of the limit: 0, 1 or 2
+  BakeMethod method = BakeMethod::automatic;
+  // Of `level` and `limit`, for who writes a mesh of the points. Both refine the mesh itself, which takes the time and
+  // memory that tables save, and are as large as a mesh.
+  bool face_varying = false;  ///< the mesh's face-varying channels, refined, of the limit at their own limit
+  std::optional<FaceVaryingInterpolation> face_varying_interpolation = {};  ///< none: that of the mesh, else all
+  bool tags = false;  ///< creases and corners that level k has left
+};
+
+/// @throws InvalidParameter  a request outside these ranges, derivatives of a level
+void check(const BakeRequest& request);
+
+/// What became of the faces of a mesh.
+struct BakeStatistics {
+  BakeMethod method = BakeMethod::rows;  ///< that was taken
+  Index faces = 0;                       ///< that have patterns
+  Index types = 0;                       ///< of their neighbourhoods, rotations not counted
+  Index blocks = 0;                      ///< matrices in the table
+  Index groups = 0;                      ///< of patches that make the same rows of the same block
+  std::int64_t points = 0;
+  std::int64_t weights = 0;
+  std::int64_t bytes = 0;          ///< of the table in double; one in float takes 4 less a weight
+  std::int64_t channel_bytes = 0;  ///< of face-varying channels and tags, besides
+};
+
+/// A table with what its making told.
+///
+/// Points of levels by patterns stand face by face, in the order of the table: those inside a face, then those of its
+/// sides and corners that no other face has already, then isolated vertices. By rows they stand in the order of
+/// refinement. Those of grids and samples are as they were asked for.
+///
+/// At vertices of a level the derivatives are those of the face that has the point; at extraordinary vertices, and by
+/// rows, two tangents that span the plane. Statuses tell what there is.
+struct Baked {
+  BakedTable<double> table;
+  BakeStatistics statistics;
+};
+
+/// A table of any linear scheme.
+/// @param patterns  of the scheme; types that it does not know yet are added
+/// @throws InvalidParameter     a request outside these ranges, derivatives of a level, channels or tags of other
+///                              points, a place outside its address, a
+///                              method that is not possible
+/// @throws InvalidMesh, UnsupportedTopology  as refinement does
+/// @throws ResourceError        more points than memory, predicted before it is taken
+/// @note  Types on which finite sharpness matters keep the order of sums of the mesh that they were met in first; but
+///        for these, and for all with a fresh dictionary, the same request gives the same bits.
+Baked bake(Patterns& patterns, const ControlMesh& mesh, const BakeRequest& request,
+           const SubdivisionOptions& options = {});
+
+/// What a bake will make and take, found out at the cost of a look at every face.
+struct BakePlan {
+  /// Counted, but for tables by rows: their weights and bytes are estimated, and so are all `channel_bytes`.
+  BakeStatistics statistics;
+  double memory = 0;  ///< bytes that the bake takes at once, about, besides the mesh as it is given
+};
+
+/// Weights and the table are not made.
+/// @param limit  bytes of memory
+/// @throws ResourceError  the bake takes more than `limit`, thrown as soon as it is known; and what `bake` throws
+BakePlan bake_plan(Patterns& patterns, const ControlMesh& mesh, const BakeRequest& request,
+                   const SubdivisionOptions& options = {}, double limit = std::numeric_limits<double>::infinity());
+
+/// Level k, from 1 to 11.
+Baked bake_level(Patterns& patterns, const ControlMesh& mesh, int levels, const SubdivisionOptions& options = {});
+
+}  // namespace sublimit

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+// Vertices of level k, or their limits: points are shared between faces.
+#include <algorithm>
+#include <array>
+
+#include "sublimit/bake/bake_patterns.h"
+#include "sublimit/bake/bake_rows.h"
+#include "sublimit/bake/face_places.h"
+#include "sublimit/bake/pattern_counts.h"
+#include "sublimit/base/memory.h"
+#include "sublimit/limit/limit_status.h"
+
+namespace sublimit {
+
+std::optional<Baked> bake_lattices(Patterns& patterns, const Level& control, const BakeRequest& request,
+                                   const PatternBake& how) {
+  const bool first_by_rows = how.first_by_rows;
+  const Scheme<double>& scheme = patterns.scheme();
+  if (!Patterns::is_possible(scheme)) return std::nullopt;
+  const Index sides = scheme.face_size() == 3 ? 3 : 4;
+  const int levels = request.level - (first_by_rows ? 1 : 0);
+  if (levels < 0 || (!first_by_rows && control.topology().uniform_face_size() != sides)) return std::nullopt;
+  const bool limit = request.rows == TableRows::limit;
+
+  Baked baked;
+  PatternTable<double>::Arrays arrays;
+  arrays.quantities = num_quantities(request.derivatives);
+  std::optional<Level> refined;
+  if (first_by_rows) {
+    refined = next_level(scheme, control);
+    arrays.first = as_table(refined->S);
+  }
+  const Level& level = refined ? *refined : control;
+  const Topology& t = level.topology();
+  const Lattice lattice{Index{1} << levels, sides == 3};
+  const auto kind = sides == 3 ? Piece::Kind::triangle : Piece::Kind::quad;
+
+  const auto piece_at = [&](Index f) { return Piece{kind, t.first(Face{f})}; };
+  const PieceMatches pieces(patterns, level, t.num_faces(), piece_at);
+  std::vector<std::int8_t> turn(t.num_faces());
+  for (Index f = 0; f < t.num_faces(); ++f) turn[f] = static_cast<std::int8_t>(pieces.turn(f));
+  std::vector<LatticePlace> places;
+  if (!first_by_rows)
+    places = places_of_faces(turn);
+  else if (auto of_children = places_of_children(scheme, control, level, turn))
+    places = std::move(*of_children);
+  if (request.derivatives > 0 && places.empty() && t.num_faces() > 0) return std::nullopt;
+
+  FaceLattices::Arrays lattices = face_owners(t, lattice, turn, how.owners);
+  std::vector<std::uint8_t> share(t.num_faces());
+  parallel_for(t.num_faces(), [&](std::int64_t f) { share[f] = FaceLattices::share(lattices, static_cast<Index>(f)); });
+  // On coarse lattices all points of a face may be others'.
+  std::array<bool, 256> has_points{};
+  const bool has_inner = !LatticeRanks::rows(lattice, 0).empty();
+  for (size_t own = 0; own < has_points.size(); ++own)
+    has_points[own] = has_inner || !LatticeRanks::rows(lattice, static_cast<std::uint8_t>(own)).empty();
+  PatternBlocks blocks;
+  std::vector<Index> block_of(t.num_faces(), -1);
+  for (Index f = 0; f < t.num_faces(); ++f)
+    if (has_points[share[f]])
+      block_of[f] = blocks.add({&pieces.pattern(f), request.derivatives > 0 ? places[f] : LatticePlace{}}, f);
+  const double bytes = blocks.num_bytes(double(arrays.quantities) * lattice.size());
+  if (bytes > how.most_bytes) return std::nullopt;
+  check_memory(std::to_string(blocks.keys().size()) + " blocks of level " + std::to_string(request.level), 4 * bytes,
+               "use fewer levels");
+  const PatchGroups groups(pieces, block_of, share);
+  if (how.only_count) {
+    BakeStatistics& s = baked.statistics;
+    count(
+        blocks, groups, double(arrays.quantities) * lattice.size(),
+        [&](std::uint8_t own) { return std::ssize(LatticeRanks::rows(lattice, own)); }, s);
+    s.faces = t.num_faces();
+    s.types = num_types(pieces);
+    count_isolated(t, arrays.quantities, s);
+    if (arrays.first) {
+      s.weights += std::int64_t(arrays.first->weights().size());
+      s.bytes += arrays.first->num_bytes();
+    }
+    return baked;
+  }
+  const bool has_status = limit && request.derivatives > 0;
+  std::vector<const std::vector<std::uint8_t>*> status(blocks.keys().size(), nullptr);
+  const bool made = blocks.fill(arrays, lattice.size(), [&](Index b) -> const RowMatrix* {
+    const auto& [pattern, place] = blocks.keys()[b];
+    const Index f = blocks.piece(b);
+    const Patterns::Example example{level, piece_at(f), pieces.turn(f)};
+    if (!limit) return &patterns.rows(*pattern, example, levels);
+    if (request.derivatives == 0) return &patterns.limit_rows(*pattern, example, levels);
+    const Patterns::LimitBlock* block =
+        patterns.limit_block(*pattern, example, {lattice, place, false, request.derivatives});
+    if (!block) return nullptr;
+    status[b] = &block->status;
+    return &block->weights;
+  });
+  if (!made) return std::nullopt;
+
+  std::vector<std::int32_t> rows;
+  std::vector<std::uint8_t> row_status;
+  std::vector<std::int64_t> first_points(t.num_faces());
+  std::int64_t next = 0;
+  for (const PatchGroups::Group& group : groups.groups) {
+    const std::vector<std::int32_t> own = LatticeRanks::rows(lattice, group.share);
+    for (const Index f : group.pieces) {
+      first_points[f] = next;
+      next += std::int64_t(own.size());
+    }
+    arrays.groups.push_back({group.block, static_cast<std::int32_t>(own.size()), static_cast<std::int64_t>(rows.size()),
+                             std::int64_t(group.pieces.size())});
+    rows.insert(rows.end(), own.begin(), own.end());
+    if (has_status)
+      for (const std::int32_t row : own) row_status.push_back((*status[group.block])[row]);
+  }
+  // Isolated vertices stay where they are.
+  std::vector<Index> alone;
+  for (Index v = 0; v < t.num_vertices(); ++v)
+    if (t.is_isolated(Vertex{v})) alone.push_back(v);
+  if (!alone.empty()) {
+    std::vector<double> weights(arrays.weights.begin(), arrays.weights.end());
+    arrays.groups.push_back({static_cast<std::int32_t>(arrays.blocks.size()), 1, static_cast<std::int64_t>(rows.size()),
+                             std::int64_t(alone.size())});
+    arrays.blocks.push_back({1, 1, static_cast<std::int64_t>(weights.size())});
+    weights.push_back(1);
+    weights.resize(weights.size() + size_t(arrays.quantities) - 1, 0.0);
+    arrays.weights = std::move(weights);
+    rows.push_back(0);
+    if (has_status) row_status.push_back(std::uint8_t(LimitStatus::undefined_normal));
+  }
+  arrays.columns = all_columns(pieces, groups, alone);
+  arrays.rows = std::move(rows);
+  baked.table.row_status = std::move(row_status);
+  baked.table.table = PatternTable<double>(control.topology().num_vertices(), std::move(arrays));
+
+  if (!places.empty()) {
+    std::vector<std::int32_t> addresses;
+    std::vector<std::uint8_t> codes;
+    for (const LatticePlace& place : places) {
+      addresses.push_back(place.address);
+      codes.push_back(FaceLattices::code(place));
+    }
+    lattices.addresses = std::move(addresses);
+    lattices.places = std::move(codes);
+  }
+  lattices.first_points = std::move(first_points);
+  if (std::find(level.holes.begin(), level.holes.end(), true) != level.holes.end())
+    lattices.holes = std::vector<std::uint8_t>(level.holes.begin(), level.holes.end());
+  baked.table.lattices.emplace(baked.table.table.num_points(), std::move(lattices));
+  baked.statistics.faces = t.num_faces();
+  baked.statistics.types = num_types(pieces);
+  if (how.turns) *how.turns = std::move(turn);
+  return baked;
+}
+
+}  // namespace sublimit

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// Tables by patterns: a face is a block and a list of control points.
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "sublimit/bake/bake.h"
+#include "sublimit/bake/face_owners.h"
+
+namespace sublimit {
+
+struct PatternBake {
+  bool first_by_rows = false;                                   ///< level 1 is made by rows, and has the patterns
+  double most_bytes = std::numeric_limits<double>::infinity();  ///< of blocks
+  bool only_count = false;  ///< the table stays empty; `statistics` tell what would be in it
+  OwnerRule owners = OwnerRule::balanced;
+  std::vector<std::int8_t>* turns = nullptr;  ///< gets the corner of each face that its lattice begins with
+};
+
+/// A table by patterns, its `info` left empty.
+/// @return  nothing where that is not possible, or where blocks would be larger than they may
+std::optional<Baked> bake_by_patterns(Patterns& patterns, const Level& control, const BakeRequest& request,
+                                      const PatternBake& how = {});
+
+// Of the two kinds of requests that have patterns.
+std::optional<Baked> bake_lattices(Patterns& patterns, const Level& control, const BakeRequest& request,
+                                   const PatternBake& how);
+std::optional<Baked> bake_grids(Patterns& patterns, const Level& control, const BakeRequest& request,
+                                const PatternBake& how);
+
+}  // namespace sublimit

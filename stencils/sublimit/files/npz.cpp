@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sublimit/files/npz.h"
+
+#include <zip.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sublimit/base/error.h"
+#include "sublimit/base/file_error.h"
+#include "sublimit/files/npy.h"
+
+namespace sublimit {
+namespace {
+
+[[noreturn]] void fail(const std::filesystem::path& path, zip_error_t* error) {
+  if (zip_error_system_type(error) == ZIP_ET_SYS && zip_error_code_system(error) != 0)
+    throw_file_error(path, "write", zip_error_code_system(error));
+  throw IoError(path.string() + ": cannot write: " + zip_error_strerror(error));
+}
+
+/// One .npy file: a header, then data where it lies.
+struct Entry {
+  std::string header;
+  std::string_view data;
+  std::uint64_t at = 0;
+
+  std::uint64_t size() const { return header.size() + data.size(); }
+  std::uint64_t read(char* out, std::uint64_t length) {
+    std::uint64_t done = 0;
+    const auto copy = [&](std::string_view part, std::uint64_t offset) {
+      if (offset >= part.size()) return;
+      const std::uint64_t count = std::min<std::uint64_t>(length - done, part.size() - offset);
+      std::memcpy(out + done, part.data() + offset, count);
+      done += count;
+    };
+    if (at < header.size()) copy(header, at);
+    if (done < length) copy(data, at + done - header.size());
+    at += done;
+    return done;
+  }
+};
+
+/// What libzip asks of an entry.
+zip_int64_t answer(void* state, void* data, zip_uint64_t length, zip_source_cmd_t command) {
+  Entry& entry = *static_cast<Entry*>(state);
+  switch (command) {
+    case ZIP_SOURCE_OPEN:
+      entry.at = 0;
+      return 0;
+    case ZIP_SOURCE_READ:
+      return zip_int64_t(entry.read(static_cast<char*>(data), length));
+    case ZIP_SOURCE_STAT: {
+      auto* const status = static_cast<zip_stat_t*>(data);
+      zip_stat_init(status);
+      status->size = entry.size();
+      status->valid = ZIP_STAT_SIZE;
+      return sizeof(zip_stat_t);
+    }
+    case ZIP_SOURCE_ERROR: {
+      const int none[2] = {ZIP_ER_OK, 0};
+      std::memcpy(data, none, sizeof none);
+      return sizeof none;
+    }
+    case ZIP_SOURCE_SUPPORTS:
+      return zip_source_make_command_bitmap(ZIP_SOURCE_OPEN, ZIP_SOURCE_READ, ZIP_SOURCE_CLOSE, ZIP_SOURCE_STAT,
+                                            ZIP_SOURCE_ERROR, ZIP_SOURCE_FREE, ZIP_SOURCE_SUPPORTS, -1);
+    default:
+      return 0;
+  }
+}
+
+struct NamedEntry {
+  std::string name;
+  Entry entry;
+};
+
+void write_archive(const std::filesystem::path& path, std::vector<NamedEntry>& entries) {
+  int code = 0;
+  // libzip writes to a temporary next to the target, and renames it when it is closed.
+  std::unique_ptr<zip_t, void (*)(zip_t*)> open(zip_open(path.c_str(), ZIP_CREATE | ZIP_TRUNCATE, &code), zip_discard);
+  if (!open) {
+    zip_error_t error;
+    zip_error_init_with_code(&error, code);
+    if (zip_error_code_system(&error) == 0 && errno != 0 && code == ZIP_ER_OPEN) throw_file_error(path, "write", errno);
+    fail(path, &error);
+  }
+  for (NamedEntry& named : entries) {
+    zip_source_t* const source = zip_source_function(open.get(), answer, &named.entry);
+    const zip_int64_t index =
+        source ? zip_file_add(open.get(), (named.name + ".npy").c_str(), source, ZIP_FL_ENC_UTF_8) : -1;
+    constexpr std::uint16_t january_1980 = 1 << 5 | 1;  // as NumPy has it: no clock in the bytes
+    if (index < 0 || zip_set_file_compression(open.get(), zip_uint64_t(index), ZIP_CM_STORE, 0) != 0 ||
+        zip_file_set_dostime(open.get(), zip_uint64_t(index), 0, january_1980, 0) != 0)
+      fail(path, zip_get_error(open.get()));
+  }
+  if (zip_close(open.get()) != 0) fail(path, zip_get_error(open.get()));
+  (void)open.release();  // closing has freed it
+}
+
+std::string_view text(std::span<const std::byte> bytes) {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+}  // namespace
+
+void write_npz(const std::filesystem::path& path, std::span<const Tensor> arrays) {
+  std::vector<NamedEntry> entries;
+  for (const Tensor& t : arrays) entries.push_back({t.name, {npy_header(t.dtype, t.shape), text(t.bytes)}});
+  write_archive(path, entries);
+}
+
+template <class Real>
+void write_scipy_csr(const std::filesystem::path& path, const StencilTable<Real>& table) {
+  const std::vector<std::int64_t> shape{table.num_rows(), table.num_control_points()};
+  const std::vector<std::int64_t> entries{std::int64_t(table.columns().size())};
+  static constexpr std::int64_t none[] = {0};
+  const std::span<const std::int64_t> offsets = table.offsets().empty() ? none : table.offsets().span();
+  std::vector<NamedEntry> files;
+  const auto add = [&](const Tensor& t) { files.push_back({t.name, {npy_header(t.dtype, t.shape), text(t.bytes)}}); };
+  add(tensor("indices", table.columns().span(), entries));
+  add(tensor("indptr", offsets, {std::int64_t(offsets.size())}));
+  // An array without dimensions, of three bytes: b'csr'. Its header is that of a byte but for the type.
+  std::string header = npy_header(DType::U8, {});
+  header.replace(header.find("|u1"), 3, "|S3");
+  files.push_back({"format", {header, "csr"}});
+  add(tensor("shape", std::span<const std::int64_t>(shape), {2}));
+  add(tensor("data", table.weights().span(), entries));
+  write_archive(path, files);
+}
+
+template void write_scipy_csr(const std::filesystem::path&, const StencilTable<float>&);
+template void write_scipy_csr(const std::filesystem::path&, const StencilTable<double>&);
+
+}  // namespace sublimit

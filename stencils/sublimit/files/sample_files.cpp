@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sublimit/files/sample_files.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "sublimit/base/error.h"
+#include "sublimit/base/format_number.h"
+#include "sublimit/base/parallel_for.h"
+
+namespace sublimit {
+namespace {
+
+constexpr size_t samples_per_batch = 65536;
+constexpr std::int64_t rows_per_text = 2048;
+
+bool is_inside(double u, double v, bool triangle) {
+  return u >= 0 && v >= 0 && (triangle ? u + v <= 1 : u <= 1 && v <= 1);
+}
+
+std::string faces_in_words(const Addresses& addresses) {
+  return "faces are 0 to " + format_number(addresses.size() - 1) +
+         (addresses.triangles() ? ", the triangles of the mesh" : ", a quad each or a corner of another polygon");
+}
+
+void append_fields(std::string& out, const double* numbers, int count, bool exist) {
+  for (int i = 0; i < count; ++i) {
+    out += ',';
+    if (exist && std::isfinite(numbers[i])) append_number(out, numbers[i]);
+  }
+}
+
+void append_row(std::string& out, const Sample& s, const LimitSamples& found, std::int64_t i, SampleColumns columns) {
+  append_number(out, s.face);
+  out += ',';
+  append_number(out, s.u);
+  out += ',';
+  append_number(out, s.v);
+  out += ',';
+  out += name(found.status[i]);
+  const auto row = [&](const Points& m, bool exists) { append_fields(out, m.data() + 3 * i, 3, exists); };
+  const int order = found.order[i];
+  row(found.position, found.status[i] != LimitStatus::outside);
+  if (columns.derivatives >= 1)
+    for (const Points* m : {&found.du, &found.dv}) row(*m, order >= 1);
+  if (columns.derivatives >= 2)
+    for (const Points* m : {&found.duu, &found.duv, &found.dvv}) row(*m, order >= 2);
+  row(found.normal, !found.normal.row(i).isZero(0));
+  if (columns.curvature) {
+    const std::optional<Curvature> c = curvature(found, static_cast<Index>(i));
+    const double numbers[] = {c ? c->k1 : 0, c ? c->k2 : 0, c ? c->gauss : 0, c ? c->mean : 0};
+    append_fields(out, numbers, 4, c.has_value());
+  }
+  out += '\n';
+}
+
+}  // namespace
+
+Sample clamped(const Sample& s, bool triangle) {
+  if (triangle && s.u + s.v > 1) {
+    const double u = std::clamp((s.u - s.v + 1) / 2, 0.0, 1.0);
+    return {s.face, u, 1 - u};
+  }
+  return {s.face, std::clamp(s.u, 0.0, 1.0), std::clamp(s.v, 0.0, 1.0)};
+}
+
+void check_place(const Addresses& addresses, std::int64_t face, double u, double v, const std::string& where,
+                 const std::string& hint) {
+  if (face < 0 || face >= addresses.size())
+    throw FormatError(where + "face " + format_number(face) + " does not exist; " + faces_in_words(addresses));
+  if (!is_inside(u, v, addresses.triangles()))
+    throw FormatError(where + "(u, v) = (" + format_number(u) + ", " + format_number(v) + ") is outside the " +
+                      (addresses.triangles() ? "triangle u >= 0, v >= 0, u + v <= 1" : "square 0 <= u, v <= 1") + hint);
+}
+
+SampleReader::SampleReader(const std::filesystem::path& path, bool clamp)
+    : rows_(path, {"face", "u", "v"}), clamp_(clamp) {}
+
+void SampleReader::read(std::vector<Sample>& batch, size_t most, const Addresses& addresses) {
+  const std::string faces = faces_in_words(addresses);
+  batch.clear();
+  while (batch.size() < most && rows_.next()) {
+    const std::int64_t face = rows_.integer(0, faces);
+    Sample sample{static_cast<Index>(face), rows_.finite(1), rows_.finite(2)};
+    const bool inside = is_inside(sample.u, sample.v, addresses.triangles());
+    if (face < 0 || face >= addresses.size() || (!inside && !clamp_))
+      check_place(addresses, face, sample.u, sample.v, rows_.place(), "; --clamp moves such places to its rim");
+    if (!inside) {
+      sample = clamped(sample, addresses.triangles());
+      ++num_clamped_;
+    }
+    batch.push_back(sample);
+  }
+}
+
+SampleWriter::SampleWriter(const std::filesystem::path& path, SampleColumns columns) : file_(path), columns_(columns) {
+  std::string header = "face,u,v,status,x,y,z";
+  if (columns.derivatives >= 1) header += ",xu,yu,zu,xv,yv,zv";
+  if (columns.derivatives >= 2) header += ",xuu,yuu,zuu,xuv,yuv,zuv,xvv,yvv,zvv";
+  header += ",nx,ny,nz";
+  if (columns.curvature) header += ",k1,k2,gauss,mean";
+  file_.write(header + "\n");
+}
+
+void SampleWriter::write(std::span<const Sample> samples, const LimitSamples& found) {
+  const auto count = static_cast<std::int64_t>(samples.size());
+  texts_.resize(num_blocks(count, rows_per_text));
+  parallel_for_blocks(
+      count,
+      [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
+        std::string& text = texts_[block];
+        text.clear();
+        for (std::int64_t i = begin; i < end; ++i) append_row(text, samples[i], found, i, columns_);
+      },
+      rows_per_text);
+  for (const std::string& text : texts_) file_.write(text);
+}
+
+std::string SampleSummary::text() const {
+  std::string words;
+  for (size_t i = 0; i < by_status.size(); ++i)
+    if (by_status[i] > 0)
+      words += (words.empty() ? "" : ", ") + format_number(by_status[i]) + " " + name(LimitStatus(i));
+  return words;
+}
+
+SampleSummary write_samples(const std::filesystem::path& path, const LimitSurface& surface, const Points& points,
+                            const SampleSource& source, SampleColumns columns,
+                            const std::function<void(std::int64_t)>& progress) {
+  SampleWriter writer(path, columns);
+  SampleSummary summary;
+  std::optional<BoundLimitSurface> bound;
+  std::vector<Sample> batch;
+  LimitSamples found;
+  do {
+    source(batch, samples_per_batch);
+    const bool all = summary.num_samples == 0 && batch.size() < samples_per_batch;
+    if (all) {  // `evaluate` knows whether so few are worth a preparation of every piece
+      found = surface.evaluate(points, batch, columns.order());
+    } else {
+      if (!bound) bound.emplace(surface, points);
+      bound->evaluate(batch, columns.order(), true, found);
+    }
+    writer.write(batch, found);
+    summary.num_samples += static_cast<std::int64_t>(batch.size());
+    for (const LimitStatus status : found.status) ++summary.by_status[size_t(status)];
+    if (progress) progress(summary.num_samples);
+  } while (batch.size() == samples_per_batch);
+  writer.commit();
+  return summary;
+}
+
+double predicted_bytes(double num_samples, SampleColumns columns) {
+  return num_samples * (20 + 8 * columns.num_numbers());
+}
+
+}  // namespace sublimit

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// One scheme on one cage: its first levels and its limit, as pictures and as numbers.
+#include <string>
+#include <vector>
+
+#include "sublimit/gallery/cages.h"
+#include "sublimit/limit/limit_masks.h"
+#include "sublimit/picture/picture.h"
+
+namespace sublimit::gallery {
+
+/// Lengths are divided by the cage's diameter.
+struct Measured {
+  std::string scheme, cage;
+  bool interpolates = false, smooth = false;   ///< as the scheme claims: keeps old vertices; C^1 or better everywhere
+  int level = 0;                               ///< whose vertices, moved to the limit, are measured
+  Index faces = 0;                             ///< of that level
+  double volume = 0;                           ///< over the cage's
+  double mean_distance = 0, max_distance = 0;  ///< of the limit to the cage
+  double symmetry_defect = 0;                  ///< under all symmetries of the cage's points
+  double roundness = 0;                        ///< least over largest distance to the centre: 1 for a sphere
+  struct Bending {
+    int level = 0;
+    Index faces = 0;
+    double energy = 0;
+  };
+  /// Bending energy over a sphere's, on levels of about a sixteenth, a fourth and all of the faces.
+  std::vector<Bending> bending = {};
+
+  /// What fourfold refinement multiplies the bending energy by: 1 where curvature is square integrable.
+  double bending_growth() const { return bending.back().energy / bending[bending.size() - 2].energy; }
+};
+
+struct Exhibit {
+  Measured measured;
+  std::vector<Panel> panels;  ///< levels 0, 1, ..., then the limit
+  Panel small;                ///< the limit in fewer faces
+};
+
+struct ExhibitOptions {
+  int levels = 3;      ///< drawn
+  Index faces = 3000;  ///< at least, of the level that is measured and drawn as the limit
+};
+
+/// @throws AnalysisError  no limit
+Exhibit exhibit(const Cage& cage, LimitMaskCache& cache, const ExhibitOptions& options);
+
+}  // namespace sublimit::gallery

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// The gallery: every scheme on the same cages, level by level and in the limit, measured, and beside the numbers what
+// lecture notes say of the schemes.
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "sublimit/core/types.h"
+
+namespace sublimit {
+
+struct GalleryOptions {
+  int levels = 3;      ///< drawn, 0 to 5, and the limit of surfaces after them
+  Index faces = 3000;  ///< at least, of the surfaces that are measured and drawn as limits; 200 to 200 000
+};
+
+struct GalleryFile {
+  std::string name, text;
+};
+
+struct Gallery {
+  std::vector<GalleryFile> files;  ///< "index.html" (the last one) with its pictures, and "measures.json"
+  int confirmed = 0, statements = 0;
+};
+
+/// Draws and measures; writes nothing.
+/// @param progress  called with what is done and what there is to do, by one thread at a time, if given
+/// @throws InvalidParameter  an option outside its range
+/// @note  Deterministic: same build, same bytes, for any number of threads.
+Gallery make_gallery(const GalleryOptions& options = {}, const std::function<void(int, int)>& progress = {});
+
+/// Writes all files or none.
+/// @param directory  must exist
+/// @throws IoError  unwritable;  ResourceError  a full disk
+void write_gallery(const std::string& directory, const std::vector<GalleryFile>& files);
+
+}  // namespace sublimit

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// The gallery as one page of HTML, with its pictures beside it.
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "sublimit/gallery/statements.h"
+
+namespace sublimit::gallery {
+
+/// A line of pictures and what was measured on it.
+struct PageRow {
+  std::string name, source;
+  std::vector<std::pair<std::string, std::string>> numbers;  ///< what, and how much
+  std::string picture;                                       ///< a file
+};
+struct PageSection {
+  std::string id, title;
+  std::vector<PageRow> rows;
+};
+
+std::string page(const std::string& overview, std::span<const Statement> statements,
+                 std::span<const PageSection> sections);
+
+}  // namespace sublimit::gallery

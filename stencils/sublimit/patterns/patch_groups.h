@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// The patches of a table that is being made.
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "sublimit/patterns/piece_matches.h"
+
+namespace sublimit {
+
+/// Patches by block and share, those of a group in the order of their pieces.
+class PatchGroups {
+ public:
+  /// @param block  of a piece; -1: it makes no points
+  /// @param share  of a piece: what it has of its block's rows
+  PatchGroups(const PieceMatches& pieces, std::span<const Index> block, std::span<const std::uint8_t> share);
+
+  struct Group {
+    Index block;
+    std::uint8_t share;
+    std::vector<Index> pieces;
+  };
+  std::vector<Group> groups;
+};
+
+/// Control points of all patches, those of isolated points last.
+std::vector<std::int32_t> all_columns(const PieceMatches& pieces, const PatchGroups& groups,
+                                      std::span<const Index> alone);
+
+}  // namespace sublimit

@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sublimit/patterns/patterns.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "sublimit/base/error.h"
+#include "sublimit/patterns/type_limits.h"
+
+namespace sublimit {
+
+bool Patterns::is_possible(const Scheme<double>& scheme) {
+  return scheme.steps.size() == 1 && scheme.period == 1 &&
+         (scheme.steps[0].split == Split::pqq || scheme.steps[0].split == Split::ptq);
+}
+
+Patterns::Patterns(const Scheme<double>& scheme) : scheme_(scheme), types_(std::make_shared<PieceTypes>(scheme)) {}
+
+namespace {
+
+/// Corners that the walk may begin with.
+int num_turns(Piece::Kind kind) { return kind == Piece::Kind::quad ? 4 : kind == Piece::Kind::triangle ? 3 : 1; }
+
+/// Walks around a piece, begun at any of its corners.
+class Walks {
+ public:
+  Walks(const PieceTypes& types, const Level& level, const Piece& piece)
+      : level_(level), piece_(piece), rings_(types.rings(level.sharpness)) {}
+  Piece piece(int turn) const {
+    Piece turned = piece_;
+    for (int k = 0; k < turn; ++k) turned.start = level_.topology().next(turned.start);
+    return turned;
+  }
+  const PieceWalk& operator()(int turn) const {
+    static thread_local PieceWalker walker;
+    return walker.walk(level_.topology(), level_.sharpness, piece(turn), rings_, 0);
+  }
+
+ private:
+  const Level& level_;
+  Piece piece_;
+  int rings_;
+};
+
+}  // namespace
+
+bool Patterns::find(const Level& level, const Piece& piece, Match& match) const {
+  const Walks walk(*types_, level, piece);
+  const PieceWalk* own = &walk(0);
+  Turned found;
+  {
+    const std::shared_lock lock(mutex_);
+    const auto known = turned_.find(own->signature);
+    if (known == turned_.end()) return false;
+    found = known->second;
+  }
+  if (found.turn != 0) own = &walk(found.turn);
+  if (own->vertices.size() != size_t(found.pattern->num_slots))
+    throw FormatError("dictionary: a pattern is of " + std::to_string(found.pattern->num_slots) +
+                      " points, but pieces of its type have " + std::to_string(own->vertices.size()));
+  match.pattern = found.pattern;
+  match.turn = found.turn;
+  match.vertices = own->vertices;
+  return true;
+}
+
+const Pattern& Patterns::add_pattern(Piece::Kind kind, Index num_slots, bool decays) {
+  Pattern& pattern = patterns_.emplace_back();
+  pattern.number = patterns_.size() - 1;
+  pattern.kind = kind;
+  pattern.num_slots = num_slots;
+  pattern.decays = decays;
+  return pattern;
+}
+
+Patterns::Match Patterns::match(const Level& level, const Piece& piece) {
+  if (Match known; find(level, piece, known)) return known;
+  // New: the least of its rotations is the type; the next face may be seen from any of them.
+  const Walks walk(*types_, level, piece);
+  const int turns = num_turns(piece.kind);
+  std::vector<std::vector<std::uint32_t>> signatures;
+  std::vector<std::vector<Index>> vertices;
+  for (int turn = 0; turn < turns; ++turn) {
+    const PieceWalk& turned = walk(turn);
+    signatures.push_back(turned.signature);
+    vertices.push_back(turned.vertices);
+  }
+  const int least = static_cast<int>(std::min_element(signatures.begin(), signatures.end()) - signatures.begin());
+  const PieceType* type = types_->type(level, walk.piece(least), walk(least));
+  const std::unique_lock lock(mutex_);
+  if (const auto known = turned_.find(signatures[least]); known != turned_.end())  // another thread was faster
+    return {known->second.pattern, least, vertices[least]};
+  const Pattern& pattern = add_pattern(piece.kind, type->num_slots(), type->decays());
+  pattern.type = type;
+  for (int turn = 0; turn < turns; ++turn)
+    turned_.try_emplace(signatures[turn], Turned{&pattern, (least - turn + turns) % turns});
+  return {&pattern, least, vertices[least]};
+}
+
+const PieceType& Patterns::type(const Pattern& pattern, const Example& example) {
+  if (const PieceType* known = pattern.type) return *known;
+  const Walks walk(*types_, example.level, example.piece);
+  const PieceType* type = types_->type(example.level, walk.piece(example.turn), walk(example.turn));
+  pattern.type = type;
+  return *type;
+}
+
+const RowMatrix& Patterns::differences(const PieceType& type, int levels, Ends ends) {
+  const std::tuple key{&type, levels, ends};
+  {
+    const std::lock_guard lock(rows_mutex_);
+    if (const auto known = differences_.find(key); known != differences_.end()) return *known->second;
+  }
+  auto made = std::make_unique<const RowMatrix>(made_rows(type, levels, ends));
+  const std::lock_guard lock(rows_mutex_);
+  return *differences_.try_emplace(key, std::move(made)).first->second;
+}
+
+namespace {
+
+/// Calls visit(row, row of the child) for the points of a lattice that a child has and no child before it.
+template <class Visit>
+void visit_share(const Lattice& lattice, const PieceMap& map, std::vector<bool>& made, const Visit& visit) {
+  const Lattice half{lattice.n / 2, lattice.triangle};
+  const double n = lattice.n;
+  lattice.for_each([&](Index i, Index j) {
+    const Index row = lattice.row(i, j);
+    if (made[row]) return;
+    const Place place = lattice.triangle ? triangle_place(i / n, j / n) : quad_place(i / n, j / n);
+    if (!map.contains(place)) return;
+    const Place inside = map(place);
+    visit(row, half.row(static_cast<Index>(std::lround(inside.u * half.n)),
+                        static_cast<Index>(std::lround(inside.v * half.n))));
+    made[row] = true;
+  });
+}
+
+/// Points of level 1: rows of S, whatever the types of the children are, which need not be made.
+RowMatrix first_rows(const PieceType& type, const Lattice& lattice) {
+  const PieceType::ChildCorners corners = type.child_corners();
+  const Lattice half{1, lattice.triangle};
+  const Index sides = lattice.num_sides();
+  RowMatrix R = RowMatrix::Zero(lattice.size(), type.num_slots() - 1);
+  std::vector<bool> made(lattice.size(), false);
+  for (size_t c = 0; c < corners.maps.size(); ++c) {
+    const Index first = static_cast<Index>(c) * sides;
+    const auto row_of = [&](Index k) { return corners.rows.row(first + k).tail(R.cols()); };
+    visit_share(lattice, corners.maps[c], made, [&](Index row, Index of_child) {
+      Index k = 0;
+      while (half.on_side(k, 0) != of_child) ++k;
+      // In the order of the sums of blocks, so that either way has the same bits.
+      R.row(row) = row_of(k);
+      if (k > 0) R.row(row) = (R.row(row) - row_of(0)) + row_of(0);
+    });
+  }
+  return R;
+}
+
+}  // namespace
+
+/// In differences (piece_block.h).
+RowMatrix Patterns::made_rows(const PieceType& type, int levels, Ends ends) {
+  const Lattice lattice{Index{1} << levels, type.kind() == Piece::Kind::triangle};
+  const Eigen::Index slots = type.num_slots();
+  RowMatrix R = RowMatrix::Zero(lattice.size(), slots - 1);
+  if (levels == 0) {  // its own corners come first, counter-clockwise
+    for (int k = 0; k < lattice.num_sides(); ++k) {
+      if (ends == Ends::limits)
+        R.row(lattice.on_side(k, 0)) = type.corner_limit(k);
+      else if (k > 0)
+        R(lattice.on_side(k, 0), k - 1) = 1;
+    }
+    return R;
+  }
+  if (levels == 1 && ends == Ends::points) return first_rows(type, lattice);
+  std::vector<bool> made(lattice.size(), false);
+  for (const PieceLink& link : type.children()) {
+    const RowMatrix& child = differences(*link.type, levels - 1, ends);
+    std::vector<Index> own, of_child;
+    visit_share(lattice, link.map, made, [&](Index row, Index child_row) {
+      own.push_back(row);
+      of_child.push_back(child_row);
+    });
+    const RowMatrix rows = child(of_child, Eigen::all);
+    R(own, Eigen::all) = link.block.derivatives_pulled_back(rows).rowwise() + link.block.origin();
+  }
+  return R;
+}
+
+const RowMatrix& Patterns::whole_rows(const Pattern& pattern, const Example& example, int levels, Ends ends) {
+  const std::tuple key{pattern.number, levels, ends};
+  {
+    const std::lock_guard lock(rows_mutex_);
+    if (const auto known = rows_.find(key); known != rows_.end()) return *known->second;
+  }
+  const RowMatrix& D = differences(type(pattern, example), levels, ends);
+  auto made = std::make_unique<RowMatrix>(D.rows(), D.cols() + 1);
+  made->rightCols(D.cols()) = D;
+  made->col(0) = 1 - D.rowwise().sum().array();
+  const std::lock_guard lock(rows_mutex_);
+  return *rows_.try_emplace(key, std::move(made)).first->second;
+}
+
+const RowMatrix& Patterns::rows(const Pattern& pattern, const Example& example, int levels) {
+  return whole_rows(pattern, example, levels, Ends::points);
+}
+
+const RowMatrix* Patterns::known_rows(const Pattern& pattern, int levels) const {
+  const std::lock_guard lock(rows_mutex_);
+  const auto known = rows_.find({pattern.number, levels, Ends::points});
+  return known == rows_.end() ? nullptr : known->second.get();
+}
+
+const RowMatrix& Patterns::limit_rows(const Pattern& pattern, const Example& example, int levels) {
+  return whole_rows(pattern, example, levels, Ends::limits);
+}
+
+const Patterns::LimitBlock* Patterns::limit_block(const Pattern& pattern, const Example& example,
+                                                  const LimitRequest& request) {
+  const auto& [lattice, place, by_address, derivatives] = request;
+  const LimitKey key{pattern.number, lattice.n, place.turn, place.quarter, by_address, derivatives};
+  {
+    const std::lock_guard lock(rows_mutex_);
+    if (const auto known = limits_.find(key); known != limits_.end()) return known->second.get();
+  }
+  std::unique_ptr<const LimitBlock> made;
+  if (std::optional<LimitBlock> block = limits_of_type(types_, type(pattern, example), request))
+    made = std::make_unique<const LimitBlock>(std::move(*block));
+  const std::lock_guard lock(rows_mutex_);
+  return limits_.try_emplace(key, std::move(made)).first->second.get();
+}
+
+size_t Patterns::num_types() const {
+  const std::shared_lock lock(mutex_);
+  return patterns_.size();
+}
+
+size_t Patterns::num_matrices() const {
+  const std::lock_guard lock(rows_mutex_);
+  return rows_.size() + limits_.size();
+}
+
+std::vector<Patterns::Stored> Patterns::stored() const {
+  const std::shared_lock lock(mutex_);
+  const std::lock_guard rows_lock(rows_mutex_);
+  std::vector<Stored> all(patterns_.size());
+  for (const Pattern& pattern : patterns_) {
+    all[pattern.number].kind = pattern.kind;
+    all[pattern.number].num_slots = pattern.num_slots;
+    all[pattern.number].decays = pattern.decays;
+  }
+  for (const auto& [words, turned] : turned_) all[turned.pattern->number].signatures.push_back({turned.turn, words});
+  for (Stored& one : all)  // the same file whatever the order of a hash table
+    std::sort(one.signatures.begin(), one.signatures.end(),
+              [](const auto& a, const auto& b) { return std::tie(a.turn, a.words) < std::tie(b.turn, b.words); });
+  for (const auto& [key, rows] : rows_)
+    all[std::get<0>(key)].rows.push_back({std::get<1>(key), std::get<2>(key), *rows});
+  for (const auto& [key, block] : limits_) {
+    if (!block) continue;
+    const auto& [number, n, turn, quarter, by_address, derivatives] = key;
+    const bool triangle = all[number].kind == Piece::Kind::triangle;
+    all[number].limits.push_back({{{n, triangle},
+                                   {0, static_cast<std::int8_t>(turn), static_cast<std::int8_t>(quarter)},
+                                   by_address,
+                                   derivatives},
+                                  *block});
+  }
+  return all;
+}
+
+void Patterns::add(Stored stored) {
+  const std::unique_lock lock(mutex_);
+  const Pattern* pattern = nullptr;
+  for (const Stored::Signature& signature : stored.signatures)
+    if (const auto known = turned_.find(signature.words); known != turned_.end()) pattern = known->second.pattern;
+  if (pattern && pattern->num_slots != stored.num_slots) return;
+  if (!pattern) {
+    pattern = &add_pattern(stored.kind, stored.num_slots, stored.decays);
+    for (Stored::Signature& signature : stored.signatures)
+      turned_.try_emplace(std::move(signature.words), Turned{pattern, signature.turn});
+  }
+  const std::lock_guard rows_lock(rows_mutex_);
+  for (Stored::Rows& rows : stored.rows)
+    rows_.try_emplace({pattern->number, rows.levels, rows.ends},
+                      std::make_unique<const RowMatrix>(std::move(rows.weights)));
+  for (Stored::Limits& limits : stored.limits) {
+    const LimitRequest& r = limits.request;
+    limits_.try_emplace({pattern->number, r.lattice.n, r.place.turn, r.place.quarter, r.by_address, r.derivatives},
+                        std::make_unique<const LimitBlock>(std::move(limits.block)));
+  }
+}
+
+}  // namespace sublimit

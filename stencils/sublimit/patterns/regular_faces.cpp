@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sublimit/patterns/regular_faces.h"
+
+#include "sublimit/base/parallel_for.h"
+
+namespace sublimit {
+
+RegularFaces::RegularFaces(const Level& level, int corners)
+    : t_(level.topology()), corners_(corners), plain_(t_.num_vertices(), 0) {
+  const int valence = corners == 3 ? 6 : 4;
+  parallel_for(t_.num_vertices(), [&](std::int64_t i) {
+    const Vertex v{static_cast<Index>(i)};
+    if (t_.is_isolated(v) || t_.is_nonmanifold(v) || level.sharpness.vertex[i] != 0) return;
+    const HalfEdge first = t_.outgoing(v);
+    HalfEdge h = first;
+    int faces = 0;
+    do {
+      if (++faces > valence || t_.size(t_.face(h)) != corners || level.sharpness.edge[index(t_.edge(h))] != 0) return;
+      h = t_.ccw(h);
+    } while (exists(h) && h != first);
+    plain_[i] = exists(h) && faces == valence;
+  });
+}
+
+bool RegularFaces::points(Face face, Index* out) const {
+  const HalfEdge own[4] = {t_.corner(face, 0), t_.corner(face, 1), t_.corner(face, 2),
+                           corners_ == 4 ? t_.corner(face, 3) : no_half_edge};
+  for (int k = 0; k < corners_; ++k)
+    if (!plain_[index(t_.tail(own[k]))]) return false;
+  for (int k = 0; k < corners_; ++k) *out++ = index(t_.tail(own[k]));
+  // Around each corner counter-clockwise; what the corners before have seen is left out.
+  const auto beside = [&](HalfEdge g) { *out++ = index(t_.tail(t_.prev(g))); };
+  const auto across = [&](HalfEdge g) { *out++ = index(t_.tail(t_.next(t_.next(g)))); };
+  const auto turned = [&](HalfEdge g, int steps) {
+    for (; steps > 0; --steps) g = t_.ccw(g);
+    return g;
+  };
+  if (corners_ == 4) {
+    HalfEdge g = turned(own[0], 1);
+    across(g), beside(g);
+    g = turned(g, 1);
+    across(g), beside(g);
+    across(turned(g, 1));
+    for (int k = 1; k < 3; ++k) {
+      g = turned(own[k], 2);
+      across(g), beside(g);
+      across(turned(g, 1));
+    }
+    across(turned(own[3], 2));
+    return true;
+  }
+  HalfEdge g = own[0];
+  for (int k = 0; k < 4; ++k) beside(g = turned(g, 1));
+  g = turned(own[1], 1);
+  for (int k = 0; k < 3; ++k) beside(g = turned(g, 1));
+  g = turned(own[2], 1);
+  for (int k = 0; k < 2; ++k) beside(g = turned(g, 1));
+  return true;
+}
+
+}  // namespace sublimit

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// Limits of a type, with all that a limit surface tells: the surface of the type's own points.
+#include <memory>
+#include <optional>
+
+#include "sublimit/patterns/patterns.h"
+
+namespace sublimit {
+
+/// @return  nothing where limit masks reach beyond the points of the type
+std::optional<Patterns::LimitBlock> limits_of_type(const std::shared_ptr<PieceTypes>& types, const PieceType& type,
+                                                   const Patterns::LimitRequest& request);
+
+}  // namespace sublimit

@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sublimit/io/obj.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "sublimit/base/format_number.h"
+#include "support/temporary_directory.h"
+
+namespace sublimit::testing {
+namespace {
+
+const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n";
+
+using Ids = std::vector<Index>;
+
+TEST(Obj, ReadsPositionsAndFacesOfAnySize) {
+  std::string text = "v 0.1 -2e3 +.5\n";
+  for (int i = 1; i < 300; ++i) text += "v " + format_number(i) + " 0 1\n";
+  text += "f 1 2 3\nf";
+  for (int i = 1; i <= 300; ++i) text += " " + format_number(i);
+  const ControlMesh mesh = parse_obj(text, "a.obj");
+  EXPECT_EQ(mesh.num_vertices(), 300);
+  EXPECT_EQ(mesh.positions.row(0), Eigen::RowVector3d(0.1, -2000, 0.5));
+  EXPECT_EQ(mesh.positions(299, 0), 299);
+  EXPECT_EQ(mesh.face_sizes, (Ids{3, 300}));
+  EXPECT_EQ(mesh.face_vertices[2], 2);
+  EXPECT_EQ(mesh.face_vertices.back(), 299);
+  EXPECT_TRUE(mesh.warnings.empty());
+}
+
+TEST(Obj, CornersMayHaveTextureCoordinatesAndNormals) {
+  for (const char* const face : {"f 1/1 2/2 3/3", "f 1//1 2//2 3//3", "f 1/1/1 2/2/2 3/3/3", "f 1/ 2// 3/-1/-1"}) {
+    EXPECT_EQ(parse_obj(square + face, "a.obj").face_vertices, (Ids{0, 1, 2, 3, 0, 1, 2})) << face;
+  }
+}
+
+TEST(Obj, NegativeIndicesCountBackFromTheLastVertexSoFar) {
+  const ControlMesh mesh = parse_obj("v 0 0 0\nv 1 0 0\nv 1 1 0\nf -3 -2 -1\nv 0 1 0\nf -4/-1 -2 -1\n", "a.obj");
+  EXPECT_EQ(mesh.face_vertices, (Ids{0, 1, 2, 0, 2, 3}));
+}
+
+TEST(Obj, FacesAndTagsMayComeBeforeVertices) {
+  const ControlMesh mesh =
+      parse_obj("t crease 2/1/0 2 0 3\nt hole 1/0/0 0\nf 1 2 3\nv 0 0 0\nv 1 0 0\nv 1 1 0\n", "a.obj");
+  EXPECT_EQ(mesh.face_vertices, (Ids{0, 1, 2}));
+  ASSERT_EQ(mesh.creases.size(), 1u);
+  EXPECT_EQ(mesh.creases[0].tail, 2);
+  EXPECT_EQ(mesh.holes, (Ids{0}));
+}
+
+TEST(Obj, LinesMayBeContinuedAndEndInAnyWay) {
+  const ControlMesh plain = parse_obj(square, "a.obj");
+  for (const std::string text : {
+           "v 0 0 \\\n0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2\\\n 3 \\\n 4",
+           "v 0 0 0\r\nv 1 0 0\r\nv 1 1 0\r\nv 0 1 0\r\nf 1 2 \\\r\n3 4\r\n",
+           "v 0 0 0\rv 1 0 0\rv 1 1 0\rv 0 1 0\rf 1 2 3 4\r",
+           "\xEF\xBB\xBFv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4 \\",
+           "# a comment \\\n\n\tv\t0 0 0# here too\nv 1 0 0 #\n  v 1 1 0\n #\nv 0 1 0 \nf 1 2 3 4#",
+       }) {
+    const ControlMesh mesh = parse_obj(text, "a.obj");
+    EXPECT_EQ(mesh.positions, plain.positions) << text;
+    EXPECT_EQ(mesh.face_vertices, plain.face_vertices) << text;
+    EXPECT_TRUE(mesh.warnings.empty()) << text;
+  }
+}
+
+TEST(Obj, WeightsAndColoursAreDropped) {
+  const ControlMesh mesh = parse_obj("v 1 2 3 0.5\nv 4 5 6 0.1 0.2 0.3\nv 7 8 9 1 1 1 1\nf 1 2 3\n", "a.obj");
+  EXPECT_EQ(mesh.positions.row(1), Eigen::RowVector3d(4, 5, 6));
+  EXPECT_EQ(mesh.positions.row(2), Eigen::RowVector3d(7, 8, 9));
+}
+
+TEST(Obj, StatementsThatAreNoMeshAreSkippedInSilence) {
+  const ControlMesh mesh = parse_obj(
+      "mtllib a b.mtl\no x\ng a b\ns off\nvt 0 0\nvn 0 0 1\nvp 1\nusemtl steel\nl 1 2\np 1\n" + square, "a.obj");
+  EXPECT_EQ(mesh.num_faces(), 1);
+  EXPECT_TRUE(mesh.warnings.empty());
+}
+
+TEST(Obj, UnknownKeywordsAreWarnedAboutOnceEach) {
+  const ControlMesh mesh = parse_obj("curv 0 1\n" + square + "curv 0 2\nfoo\n", "a.obj");
+  ASSERT_EQ(mesh.warnings.size(), 2u);
+  EXPECT_EQ(mesh.warnings[0], "a.obj:1: unknown keyword 'curv' ignored");
+  EXPECT_EQ(mesh.warnings[1], "a.obj:8: unknown keyword 'foo' ignored");
+}
+
+TEST(Obj, WarningsDoNotGrowWithTheFile) {
+  std::string text = square;
+  for (int i = 0; i < 1000; ++i) text += "k" + format_number(i) + "\nt t" + format_number(i) + "\n";
+  EXPECT_LE(parse_obj(text, "a.obj").warnings.size(), 50u);
+}
+
+TEST(Obj, ReadsEveryTag) {
+  const ControlMesh mesh = parse_obj(square +
+                                         "t crease 2/1/0 0 1 2.5\n"
+                                         "t crease 4/1/0 1 2 3 2 inf\n"
+                                         "t crease 4/2/0 0 3 1 0 0.5 12\n"
+                                         "t corner 1/1/0 3 0.1\n"
+                                         "t corner 2/2/0 0 1 10 3\n"
+                                         "t hole 1/0/0 0\n"
+                                         "t interpolateboundary 1/0/0 2\n"
+                                         "t creasemethod 0/0/1 chaikin\n"
+                                         "t smoothtriangles 0/0/1 smooth\n"
+                                         "t facevaryinginterpolateboundary 1/0/0 5\n"
+                                         "t facevaryingpropagatecorners 1/0/0 1\n",
+                                     "a.obj");
+  ASSERT_EQ(mesh.creases.size(), 5u);
+  EXPECT_EQ(mesh.creases[0].head, 1);
+  EXPECT_EQ(mesh.creases[0].sharpness, 2.5f);
+  EXPECT_EQ(mesh.creases[2].tail, 3);
+  EXPECT_TRUE(std::isinf(mesh.creases[2].sharpness));
+  EXPECT_EQ(mesh.creases[3].sharpness, 0.5f);
+  EXPECT_EQ(mesh.creases[4].sharpness, 12.0f);
+  ASSERT_EQ(mesh.corners.size(), 3u);
+  EXPECT_EQ(mesh.corners[0].vertex, 3);
+  EXPECT_EQ(mesh.corners[0].sharpness, 0.1f);  // read as a float, not as a double made one
+  EXPECT_EQ(mesh.corners[2].sharpness, 3.0f);
+  EXPECT_EQ(mesh.holes, (Ids{0}));
+  EXPECT_EQ(mesh.boundary, Boundary::edge_only);
+  EXPECT_EQ(mesh.creasing, Creasing::chaikin);
+  EXPECT_EQ(mesh.triangles, Triangles::smooth);
+  EXPECT_EQ(mesh.face_varying_interpolation, FaceVaryingInterpolation::all);
+  EXPECT_TRUE(mesh.warnings.empty());
+}
+
+TEST(Obj, TheTagNamesEveryFaceVaryingInterpolation) {
+  using enum FaceVaryingInterpolation;
+  int number = 0;
+  for (const FaceVaryingInterpolation interpolation :
+       {none, corners_only, corners_plus1, corners_plus2, boundaries, all}) {
+    const std::string tag = "t facevaryinginterpolateboundary 1/0/0 " + format_number(number++) + "\n";
+    const ControlMesh mesh = parse_obj(square + tag, "a.obj");
+    EXPECT_EQ(mesh.face_varying_interpolation, interpolation);
+    EXPECT_NE(format_obj(output(mesh)).find(tag), std::string::npos);
+  }
+}
+
+TEST(Obj, TextureCoordinatesAreAChannel) {
+  const ControlMesh mesh = parse_obj(
+      "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0.5\nvt 1 2\nf 1/2 2/1 3/-1\nf 1/3/1 3/1/1 4/-2/1\n"
+      "vt 0.1 0.2 0.3 4\n",
+      "a.obj");
+  ASSERT_EQ(mesh.face_varying.size(), 1u);
+  EXPECT_EQ(mesh.face_varying[0].name, "uv");
+  Points values(3, 3);  // what a line leaves out is 0
+  values << 0.5, 0, 0, 1, 2, 0, 0.1, 0.2, 0.3;
+  EXPECT_EQ(mesh.face_varying[0].values, values);
+  EXPECT_EQ(mesh.face_varying[0].indices, (Ids{1, 0, 1, 2, 0, 0}));
+  EXPECT_TRUE(mesh.warnings.empty());
+
+  const ControlMesh again = parse_obj(format_obj(output(mesh)), "a.obj");
+  EXPECT_EQ(again.face_varying[0].values, values);
+  EXPECT_EQ(again.face_varying[0].indices, mesh.face_varying[0].indices);
+}
+
+TEST(Obj, TextureCoordinatesOfSomeCornersAreDropped) {
+  for (const char* const faces : {"f 1 2 3\nf 1/1 3/1 4/1\n", "f 1/1 2/1 3/1\nf 1 3/1 4/1\n", "f 1/1 2/1 3\nf 1 3 4\n",
+                                  "f 1/1 2/1 3//1\nf 1/1 3/1 4/1\n"}) {
+    const ControlMesh mesh = parse_obj("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\n" + std::string(faces), "a.obj");
+    EXPECT_EQ(mesh.num_faces(), 2);
+    EXPECT_TRUE(mesh.face_varying.empty());
+    ASSERT_EQ(mesh.warnings.size(), 1u) << faces;
+    const int line = std::string_view(faces).starts_with("f 1/1 2/1 3/1") ? 7 : 6;
+    EXPECT_EQ(mesh.warnings[0],
+              "a.obj:" + format_number(line) +
+                  ": corners without texture coordinate, which others have; texture coordinates are dropped");
+  }
+  EXPECT_TRUE(parse_obj("vt 0 0\n" + square, "a.obj").warnings.empty());  // no corner has any
+}
+
+TEST(Obj, OptionsAreAbsentWhereTheFileSaysNothing) {
+  const ControlMesh mesh = parse_obj(square, "a.obj");
+  EXPECT_FALSE(mesh.boundary || mesh.creasing || mesh.triangles);
+}
+
+TEST(Obj, LaterOptionsWin) {
+  const ControlMesh mesh = parse_obj(square +
+                                         "t interpolateboundary 1/0/0 0\nt interpolateboundary 1/0/0 1\n"
+                                         "t creasemethod 0/0/1 chaikin\nt creasemethod 0/0/1 normal\n"
+                                         "t smoothtriangles 0/0/1 smooth\nt smoothtriangles 0/0/1 catmark\n",
+                                     "a.obj");
+  EXPECT_EQ(mesh.boundary, Boundary::edge_and_corner);
+  EXPECT_EQ(mesh.creasing, Creasing::uniform);
+  EXPECT_EQ(mesh.triangles, Triangles::catmark);
+}
+
+TEST(Obj, HierarchicalEditsAndUnknownTagsAreWarnedAboutOnceEach) {
+  const ControlMesh mesh = parse_obj(square +
+                                         "t vertexedit 4/3/3 3 0 1 0 0 0 1 add P value\nt vertexedit\n"
+                                         "t edgeedit 1/0/0 1\nt faceedit x\nt glitter 0/0/1 much\n",
+                                     "a.obj");
+  ASSERT_EQ(mesh.warnings.size(), 4u);
+  EXPECT_EQ(mesh.warnings[0], "a.obj:6: tag 'vertexedit' ignored: hierarchical edits are not supported");
+  EXPECT_EQ(mesh.warnings[3], "a.obj:10: tag 'glitter' ignored: unknown tag");
+}
+
+TEST(Obj, CreasesMayRunAlongDegenerateEdges) {
+  EXPECT_EQ(parse_obj("v 0 0 0\nv 1 0 0\nf 1 2 2\nt crease 2/1/0 1 1 1\n", "a.obj").creases.size(), 1u);
+}
+
+// Time is no law, but a quadratic reader would take minutes here: all vertices, faces and creases meet in one vertex.
+TEST(Obj, PolesOfManyCreasesTakeLinearTime) {
+  const int n = 100000;
+  std::string text = "v 0 0 1\n";
+  for (int i = 1; i <= n; ++i) text += "v " + format_number(i) + " 0 0\n";
+  for (int i = 0; i < n; ++i) {
+    text += "f 1 " + format_number(i + 2) + " " + format_number((i + 1) % n + 2) + "\n";
+    text += "t crease 2/1/0 " + format_number(i + 1) + " 0 1\n";
+  }
+  const auto start = std::chrono::steady_clock::now();
+  EXPECT_EQ(parse_obj(text, "a.obj").creases.size(), std::size_t{n});
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(10));
+}
+
+TEST(Obj, ReadsFiles) {
+  const TemporaryDirectory directory;
+  EXPECT_EQ(read_obj(directory.write("a.obj", square)).num_faces(), 1);
+}
+
+}  // namespace
+}  // namespace sublimit::testing

@@ -1,0 +1,299 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sublimit/io/write_mesh.h"
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <bit>
+#include <cmath>
+#include <csignal>
+#include <cstdint>
+#include <cstdio>
+#include <limits>
+#include <random>
+#include <string>
+
+#include "sublimit/base/read_file.h"
+#include "sublimit/io/obj.h"
+#include "sublimit/io/ply.h"
+#include "sublimit/io/read_mesh.h"
+#include "support/expect_error.h"
+#include "support/temporary_directory.h"
+
+namespace sublimit::testing {
+namespace {
+
+/// Faces of 3 to 9 corners with vertices anywhere; coordinates of all bit patterns, subnormals and -0 among them.
+MeshOutput random_output(std::uint64_t seed, Index vertices, Index faces) {
+  std::mt19937_64 random(seed);
+  MeshOutput mesh;
+  mesh.positions.resize(vertices, 3);
+  for (Eigen::Index i = 0; i < mesh.positions.size(); ++i) {
+    double& value = mesh.positions.data()[i];
+    do {
+      value = std::bit_cast<double>(random());
+    } while (!std::isfinite(value));
+    if (i % 5 == 0) value = std::bit_cast<double>(random() >> 12);  // subnormal
+  }
+  mesh.positions(0, 0) = -0.0;
+  mesh.positions(0, 1) = std::numeric_limits<double>::max();
+  for (Index f = 0; f < faces; ++f) {
+    mesh.face_sizes.push_back(3 + Index(random() % 7));
+    for (Index i = 0; i < mesh.face_sizes.back(); ++i) mesh.face_vertices.push_back(Index(random() % vertices));
+  }
+  return mesh;
+}
+
+void add_tags(MeshOutput& mesh) {
+  std::mt19937 random(7);
+  for (std::size_t i = 0; i + 1 < 3; ++i) {
+    mesh.creases.push_back(
+        {.tail = mesh.face_vertices[i], .head = mesh.face_vertices[i + 1], .sharpness = float(random() % 1000) / 97});
+  }
+  mesh.creases.push_back({.tail = mesh.face_vertices[0], .head = mesh.face_vertices[1], .sharpness = 1e-45f});
+  mesh.corners = {{.vertex = 0, .sharpness = 0.1f}, {.vertex = 2, .sharpness = 12.5f}};
+  mesh.holes = {1, 0};
+  mesh.boundary = Boundary::none;
+  mesh.creasing = Creasing::chaikin;
+  mesh.triangles = Triangles::smooth;
+}
+
+void expect_same_bits(const Points& a, const Points& b) {
+  ASSERT_EQ(a.rows(), b.rows());
+  for (Eigen::Index i = 0; i < a.size(); ++i) {
+    ASSERT_EQ(std::bit_cast<std::uint64_t>(a.data()[i]), std::bit_cast<std::uint64_t>(b.data()[i]));
+  }
+}
+
+void expect_same_tags(const ControlMesh& a, const MeshOutput& b) {
+  ASSERT_EQ(a.creases.size(), b.creases.size());
+  for (std::size_t i = 0; i < a.creases.size(); ++i) {
+    EXPECT_EQ(a.creases[i].tail, b.creases[i].tail);
+    EXPECT_EQ(a.creases[i].head, b.creases[i].head);
+    EXPECT_EQ(a.creases[i].sharpness, b.creases[i].sharpness);
+  }
+  ASSERT_EQ(a.corners.size(), b.corners.size());
+  for (std::size_t i = 0; i < a.corners.size(); ++i) {
+    EXPECT_EQ(a.corners[i].vertex, b.corners[i].vertex);
+    EXPECT_EQ(a.corners[i].sharpness, b.corners[i].sharpness);
+  }
+  EXPECT_EQ(a.holes, b.holes);
+  EXPECT_EQ(a.boundary, b.boundary);
+  EXPECT_EQ(a.creasing, b.creasing);
+  EXPECT_EQ(a.triangles, b.triangles);
+}
+
+TEST(WriteMesh, ObjReadsBackToTheSameBitsAndTags) {
+  const TemporaryDirectory directory;
+  MeshOutput mesh = random_output(1, 30000, 20000);  // several chunks
+  add_tags(mesh);
+  mesh.comments = {"made by a test", "two\nlines # t crease"};
+  write_mesh(directory / "a.OBJ", mesh);
+  const ControlMesh read = read_mesh(directory / "a.OBJ");
+  expect_same_bits(read.positions, mesh.positions);
+  EXPECT_EQ(read.face_sizes, mesh.face_sizes);
+  EXPECT_EQ(read.face_vertices, mesh.face_vertices);
+  expect_same_tags(read, mesh);
+  EXPECT_TRUE(read.warnings.empty());
+  EXPECT_EQ(read_file(directory / "a.OBJ"), format_obj(mesh));
+  EXPECT_EQ(directory.num_files(), 1);
+}
+
+TEST(WriteMesh, EveryOptionReadsBack) {
+  MeshOutput mesh = random_output(2, 10, 4);
+  for (const Boundary boundary : {Boundary::none, Boundary::edge_only, Boundary::edge_and_corner}) {
+    for (const Creasing creasing : {Creasing::uniform, Creasing::chaikin}) {
+      for (const Triangles triangles : {Triangles::catmark, Triangles::smooth}) {
+        mesh.boundary = boundary;
+        mesh.creasing = creasing;
+        mesh.triangles = triangles;
+        expect_same_tags(parse_obj(format_obj(mesh), "a.obj"), mesh);
+      }
+    }
+  }
+}
+
+TEST(WriteMesh, InfiniteSharpnessIsWrittenAsTen) {
+  MeshOutput mesh = random_output(3, 10, 4);
+  mesh.corners = {{.vertex = 4, .sharpness = std::numeric_limits<float>::infinity()}};
+  EXPECT_EQ(parse_obj(format_obj(mesh), "a.obj").corners[0].sharpness, 10.0f);
+}
+
+TEST(WriteMesh, ObjIsWhatTheManualSays) {
+  MeshOutput mesh;
+  mesh.positions = (Points(3, 3) << 0, 0, 0, 0.1, 0, 0, 0, -1e300, 0).finished();
+  mesh.face_sizes = {3, 3, 3};
+  mesh.face_vertices = {0, 1, 2, 2, 1, 0, 0, 1, 2};
+  mesh.creases = {{.tail = 0, .head = 1, .sharpness = 2.5f}};
+  mesh.comments = {"hello"};
+  const std::string vertices = "# hello\nv 0 0 0\nv 0.1 0 0\nv 0 -1e+300 0\n";
+  const std::string crease = "t crease 2/1/0 0 1 2.5\n";
+  EXPECT_EQ(format_obj(mesh), vertices + "f 1 2 3\nf 3 2 1\nf 1 2 3\n" + crease);
+
+  mesh.normals = (Points(3, 3) << 0, 0, 1, 0, 1, 0, 1, 0, 0).finished();
+  const std::string normals = "vn 0 0 1\nvn 0 1 0\nvn 1 0 0\n";
+  EXPECT_EQ(format_obj(mesh), vertices + normals + "f 1//1 2//2 3//3\nf 3//3 2//2 1//1\nf 1//1 2//2 3//3\n" + crease);
+
+  mesh.face_normals = {2, 2, 2, 0, -1, 0, 0, 1, 0};
+  EXPECT_EQ(format_obj(mesh), vertices + normals + "f 1//3 2//3 3//3\nf 3 2 1\nf 1//1 2//2 3//1\n" + crease);
+}
+
+TEST(WriteMesh, PlyReadsBackToTheSameBits) {
+  const TemporaryDirectory directory;
+  MeshOutput mesh = random_output(4, 30000, 20000);
+  mesh.comments = {"made by a test", "two\nlines"};
+  write_mesh(directory / "a.ply", mesh);
+  ControlMesh read = read_mesh(directory / "a.ply");
+  expect_same_bits(read.positions, mesh.positions);
+  EXPECT_EQ(read.face_sizes, mesh.face_sizes);
+  EXPECT_EQ(read.face_vertices, mesh.face_vertices);
+  EXPECT_TRUE(read.warnings.empty());
+  EXPECT_EQ(read_file(directory / "a.ply"), format_ply(mesh));
+
+  mesh.normals = random_output(5, 30000, 1).positions;
+  read = parse_ply(format_ply(mesh), "a.ply");
+  expect_same_bits(read.positions, mesh.positions);
+  EXPECT_EQ(read.face_vertices, mesh.face_vertices);
+}
+
+TEST(WriteMesh, FacesOfAnySizeReadBack) {
+  MeshOutput mesh = random_output(6, 400, 3);
+  for (const Index size : {255, 256, 70000}) {
+    mesh.face_sizes.push_back(size);
+    for (Index i = 0; i < size; ++i) mesh.face_vertices.push_back(i % 400);
+    EXPECT_EQ(parse_ply(format_ply(mesh), "a.ply").face_sizes, mesh.face_sizes);
+    EXPECT_EQ(parse_obj(format_obj(mesh), "a.obj").face_vertices, mesh.face_vertices);
+  }
+}
+
+TEST(WriteMesh, ControlMeshIsWrittenWithItsTags) {
+  const ControlMesh mesh = parse_obj(
+      "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nt crease 2/1/0 0 1 3\nt corner 1/1/0 2 1\nt hole 1/0/0 0\n"
+      "t creasemethod 0/0/1 chaikin\n",
+      "a.obj");
+  expect_same_tags(parse_obj(format_obj(output(mesh)), "b.obj"), output(mesh));
+}
+
+TEST(WriteMesh, ObjHasRoomForOneChannelOfThreeColumns) {
+  MeshOutput mesh = random_output(9, 10, 4);
+  const std::vector<Index> indices(mesh.face_vertices.size(), 0);
+  mesh.face_varying = {{"uv", Points::Zero(1, 4), indices}};
+  expect_error<InvalidParameter>([&] { format_obj(mesh); }, {"1 to 3 columns"});
+  mesh.face_varying = {{"uv", Points::Zero(1, 2), indices}, {"st", Points::Zero(1, 2), indices}};
+  expect_error<InvalidParameter>([&] { format_obj(mesh); }, {"one face-varying channel"});
+  mesh.face_varying.pop_back();
+  EXPECT_EQ(parse_obj(format_obj(mesh), "a.obj").face_varying.size(), 1u);
+  EXPECT_EQ(format_ply(mesh).find("uv"), std::string::npos);
+}
+
+TEST(WriteMesh, ArraysThatDoNotFitAreRefused) {
+  const MeshOutput good = random_output(8, 10, 4);
+  const auto expect = [&](const char* part, const std::function<void(MeshOutput&)>& spoil) {
+    MeshOutput mesh = good;
+    spoil(mesh);
+    expect_error<InvalidParameter>([&] { format_obj(mesh); }, {part});
+    expect_error<InvalidParameter>([&] { format_ply(mesh); }, {part});
+  };
+  expect("3 columns", [](MeshOutput& mesh) { mesh.positions.conservativeResize(10, 2); });
+  expect("a vertex of a face is out of range", [](MeshOutput& mesh) { mesh.face_vertices[3] = 10; });
+  const auto with_channel = [](MeshOutput& mesh, Index columns) {
+    mesh.face_varying.push_back({"uv", Points::Zero(1, columns), std::vector<Index>(mesh.face_vertices.size(), 0)});
+  };
+  expect("a face-varying value of a corner is out of range", [&](MeshOutput& mesh) {
+    with_channel(mesh, 2);
+    mesh.face_varying[0].indices[1] = 1;
+  });
+  expect("there should be a face-varying value for each corner", [&](MeshOutput& mesh) {
+    with_channel(mesh, 2);
+    mesh.face_varying[0].indices.pop_back();
+  });
+  expect("a vertex of a face is out of range", [](MeshOutput& mesh) { mesh.face_vertices[3] = -1; });
+  expect("add up", [](MeshOutput& mesh) { mesh.face_vertices.pop_back(); });
+  expect("fewer than 3", [](MeshOutput& mesh) { mesh.face_sizes[0] = 2; });
+  expect("a normal for each vertex", [](MeshOutput& mesh) { mesh.normals = Points::Ones(9, 3); });
+  expect("a normal for each corner", [](MeshOutput& mesh) { mesh.face_normals = {0}; });
+  expect("a normal of a corner", [](MeshOutput& mesh) { mesh.face_normals.resize(mesh.face_vertices.size(), 0); });
+  expect("a vertex of a crease", [](MeshOutput& mesh) { mesh.creases = {{.tail = 0, .head = 10, .sharpness = 1}}; });
+  expect("the vertex of a corner", [](MeshOutput& mesh) { mesh.corners = {{.vertex = -1, .sharpness = 1}}; });
+  expect("the face of a hole", [](MeshOutput& mesh) { mesh.holes = {4}; });
+}
+
+TEST(WriteMesh, WhatNoReaderTakesBackIsNotWritten) {
+  const TemporaryDirectory directory;
+  MeshOutput mesh = random_output(9, 10, 4);
+  mesh.positions(7, 1) = std::numeric_limits<double>::infinity();
+  expect_error<InvalidMesh>([&] { write_mesh(directory / "a.obj", mesh); }, {"a.obj: vertex 7", "nothing is written"});
+  expect_error<InvalidMesh>([&] { write_mesh(directory / "a.ply", mesh); }, {"a.ply: vertex 7"});
+  mesh = random_output(9, 10, 4);
+  mesh.normals = Points::Constant(10, 3, std::numeric_limits<double>::quiet_NaN());
+  expect_error<InvalidMesh>([&] { write_mesh(directory / "a.obj", mesh); }, {"a.obj: normal 0"});
+  mesh.normals.resize(0, 3);
+  mesh.corners = {{.vertex = 0, .sharpness = -1}};
+  expect_error<InvalidMesh>([&] { write_mesh(directory / "a.obj", mesh); }, {"a.obj: a sharpness is -1"});
+  EXPECT_EQ(directory.num_files(), 0);
+}
+
+TEST(WriteMesh, PlyHasNoNormalsPerCorner) {
+  MeshOutput mesh = random_output(10, 10, 4);
+  mesh.normals = Points::Ones(1, 3);
+  mesh.face_normals.resize(mesh.face_vertices.size(), 0);
+  expect_error<InvalidParameter>([&] { format_ply(mesh); }, {"one normal per vertex", "write an .obj"});
+}
+
+TEST(WriteMesh, PlacesThatCannotBeWrittenAreNamed) {
+  const TemporaryDirectory directory;
+  directory.write("file", "");
+  const MeshOutput mesh = random_output(11, 10, 4);
+  for (const char* const name : {"a.stl", "a", "a.off"}) {
+    expect_error<InvalidOption>([&] { write_mesh(directory / name, mesh); }, {name, "as .obj or .ply"});
+  }
+  expect_error<IoError>([&] { write_mesh(directory / "no/a.obj", mesh); }, {"no/a.obj: cannot write"});
+  expect_error<IoError>([&] { write_mesh(directory / "file/a.ply", mesh); }, {"file/a.ply: cannot write"});
+  expect_error<IoError>([&] { write_mesh("/proc/a.obj", mesh); }, {"/proc/a.obj: cannot write"});
+  EXPECT_EQ(directory.num_files(), 1);
+}
+
+// Runs in a process of its own, with which the limit goes away.
+[[noreturn]] void write_beyond_limit(const std::filesystem::path& target, const MeshOutput& mesh) {
+  std::signal(SIGXFSZ, SIG_IGN);
+  const ::rlimit limit{.rlim_cur = 100000, .rlim_max = 100000};
+  ::setrlimit(RLIMIT_FSIZE, &limit);
+  int status = 0;
+  try {
+    write_mesh(target, mesh);
+  } catch (const Error& error) {
+    std::fputs(error.what(), stderr);
+    status = exit_status(error.code());
+  }
+  ::_exit(status);
+}
+
+TEST(WriteMeshDeathTest, FullDiskLeavesNoFile) {
+  const TemporaryDirectory directory;
+  const MeshOutput mesh = random_output(12, 30000, 20000);
+  for (const char* const name : {"a.obj", "a.ply"}) {
+    EXPECT_EXIT(write_beyond_limit(directory / name, mesh), ::testing::ExitedWithCode(4), "File too large");
+  }
+  EXPECT_EQ(directory.num_files(), 0);
+}
+
+TEST(ReadMesh, ChoosesByExtensionInEitherCase) {
+  const TemporaryDirectory directory;
+  const std::string off = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+  EXPECT_EQ(read_mesh(directory.write("a.off", off)).num_faces(), 1);
+  EXPECT_EQ(read_mesh(directory.write("b.Off", off)).num_faces(), 1);
+  expect_error<InvalidMesh>([&] { read_mesh(directory.write("c.obj", off)); }, {"c.obj: no vertices"});
+}
+
+TEST(ReadMesh, SaysWhatItCannotRead) {
+  const TemporaryDirectory directory;
+  directory.write("a.stl", "solid");
+  expect_error<FormatError>([&] { read_mesh(directory / "a.stl"); },
+                            {"a.stl: unknown kind of mesh '.stl'", ".obj, .ply and .off"});
+  expect_error<IoError>([&] { read_mesh(directory / "b.stl"); }, {"b.stl: cannot read", "No such file"});
+  expect_error<IoError>([&] { read_mesh(directory.path()); }, {"Is a directory"});
+}
+
+}  // namespace
+}  // namespace sublimit::testing

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+// Addresses of points are where they are: the limit there is the point. Normals are those of the limit.
+#include "sublimit/bake/applied_points.h"
+
+#include <gtest/gtest.h>
+
+#include "sublimit/bake/bake.h"
+#include "sublimit/base/read_file.h"
+#include "sublimit/limit/limit_surface.h"
+#include "sublimit/point_addresses.h"
+#include "sublimit/schemes.h"
+#include "support/meshes.h"
+#include "support/temporary_directory.h"
+#include "support/tolerance.h"
+
+namespace sublimit::testing {
+namespace {
+
+/// A limit table of a mesh, and what the surface says at its addresses.
+void expect_at_addresses(const std::string& name, const ControlMesh& mesh, const BakeRequest& request) {
+  SCOPED_TRACE(name + ", rows " + sublimit::name(request.rows));
+  Patterns patterns(find_scheme(name).value());
+  const BakedTable<double> table = bake(patterns, mesh, request).table;
+  const auto n = static_cast<size_t>(table.table.num_points());
+  std::vector<double> values(n * 3 * size_t(table.table.quantities()));
+  table.table.apply({mesh.positions.data(), size_t(mesh.positions.size())}, 3, values);
+  const SampleAddresses at = addresses_of(table);
+  ASSERT_EQ(at.faces.size(), n);
+  const LimitSurface surface(patterns.scheme(), mesh);
+  std::vector<Sample> samples;
+  for (size_t i = 0; i < n; ++i) samples.push_back({at.faces[i], at.parameters[2 * i], at.parameters[2 * i + 1]});
+  const LimitSamples found = surface.evaluate(mesh.positions, samples, 1);
+  const Points normals = AppliedPoints(table).normals<double>(values);
+  for (size_t i = 0; i < n; ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    for (Eigen::Index k = 0; k < 3; ++k)
+      EXPECT_NEAR(values[3 * i + size_t(k)], found.position(row, k), other_route) << "point " << i;
+    if (request.derivatives == 0) continue;
+    EXPECT_LT((normals.row(row) - found.normal.row(row)).norm(), reference_angle) << "point " << i;
+  }
+}
+
+TEST(AppliedPoints, AddressesAndNormalsAreThoseOfTheLimit) {
+  ControlMesh creased = jittered(cube());
+  creased.creases = {{0, 1, 10}, {1, 3, 10}, {3, 2, 10}, {2, 0, 10}};
+  const BakeRequest level{.rows = TableRows::limit, .level = 2},
+      grid{.rows = TableRows::grid, .grid = 4, .derivatives = 1},
+      list{.rows = TableRows::samples, .samples = {{0, 0.25, 0.125}, {4, 1, 0}, {2, 0.5, 0.5}}, .derivatives = 1};
+  BakeRequest with_normals = level;
+  with_normals.derivatives = 1;
+  for (const BakeRequest& request : {level, with_normals, grid, list}) {
+    expect_at_addresses("catmull-clark", jittered(torus(6, 5)), request);
+    expect_at_addresses("catmull-clark", jittered(prism(5)), request);
+    expect_at_addresses("catmull-clark", creased, request);
+    expect_at_addresses("loop", jittered(icosahedron()), request);
+  }
+}
+
+TEST(AppliedPoints, NoNormalsOfParallelDerivatives) {
+  Patterns patterns(find_scheme("catmull-clark").value());
+  const AppliedPoints applied(
+      bake(patterns, cube(), {.rows = TableRows::samples, .samples = {{0, 0.5, 0.5}, {1, 0.5, 0.5}}, .derivatives = 1})
+          .table);
+  // Positions, then derivatives along u, then along v; those of the first point are parallel but for rounding.
+  const std::vector<double> values{1, 0.5,  -1, 0, 0, 0, 0.333, -0.25, 0.333, 1, 0, 0, 0.1665, -0.125, 0.1665 + 1e-15,
+                                   1, 1e-6, 0};
+  const Points normals = applied.normals<double>(values);
+  EXPECT_TRUE(normals.row(0).isZero(0));
+  EXPECT_EQ(normals.row(1), Eigen::RowVector3d(0, 0, 1));
+  const TemporaryDirectory directory;
+  applied.write_csv<double>(directory / "points.csv", {"x", "y", "z"}, values);
+  EXPECT_EQ(read_file(directory / "points.csv"),
+            "face,u,v,status,x,y,z,xu,yu,zu,xv,yv,zv,nx,ny,nz\n"
+            "0,0.5,0.5,undefined-normal,1,0.5,-1,0.333,-0.25,0.333,0.1665,-0.125,0.166500000000001,,,\n"
+            "1,0.5,0.5,regular,0,0,0,1,0,0,1,1e-06,0,0,0,1\n");
+}
+
+TEST(AppliedPoints, NoAddressesByRows) {
+  Patterns patterns(find_scheme("doo-sabin").value());
+  EXPECT_TRUE(addresses_of(bake_level(patterns, cube(), 2).table).faces.empty());
+}
+
+}  // namespace
+}  // namespace sublimit::testing

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sublimit/gallery/gallery.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <nlohmann/json.hpp>
+
+#include "stencils/cli_program.h"
+#include "sublimit/curves/schemes/curve_schemes.h"
+#include "sublimit/gallery/statements.h"
+#include "sublimit/geometric/geometric_schemes.h"
+#include "sublimit/schemes.h"
+#include "support/expect_error.h"
+
+namespace sublimit::testing {
+namespace {
+
+using namespace gallery;
+using Json = nlohmann::json;
+
+/// What the statements ask for, such that all of them are confirmed.
+std::vector<Measured> agreeable() {
+  const auto of = [](const char* scheme, const char* cage, bool interpolates) {
+    Measured m{.scheme = scheme, .cage = cage, .interpolates = interpolates, .smooth = true};
+    m.volume = interpolates ? 1.5 : .1;
+    m.mean_distance = std::string(scheme) == "doo-sabin" ? .03 : .1;
+    m.symmetry_defect = std::string(scheme) == "loop" ? .05 : 0;
+    m.roundness = .999;
+    m.bending = {{1, 100, 1}, {2, 400, 1}, {3, 1600, interpolates ? 2. : 1}};
+    return m;
+  };
+  std::vector<Measured> all;
+  for (const char* cage : {"cube", "tetrahedron"})
+    for (const char* scheme : {"catmull-clark", "doo-sabin"}) all.push_back(of(scheme, cage, false));
+  for (const char* cage : {"cube-tetrahedral", "cube-irregular", "tetrahedron"}) {
+    all.push_back(of("loop", cage, false));
+    all.push_back(of("modified-butterfly", cage, true));
+  }
+  return all;
+}
+
+const Statement& about(const std::vector<Statement>& all, const std::string& words) {
+  static const Statement none;
+  for (const Statement& s : all)
+    if (s.sentence.find(words) != std::string::npos) return s;
+  ADD_FAILURE() << "nothing about " << words;
+  return none;
+}
+
+TEST(GalleryStatements, AllAreDecidedByTheNumbers) {
+  const std::vector<Statement> all = statements(agreeable());
+  EXPECT_GE(all.size(), 9u);
+  for (const Statement& s : all) {
+    EXPECT_TRUE(s.confirmed) << s.sentence << ": " << s.measured;
+    EXPECT_FALSE(s.criterion.empty() || s.measured.empty()) << s.sentence;
+  }
+  const struct {
+    const char *sentence, *scheme, *cage;
+    std::function<void(Measured&)> change;
+  } changes[] = {
+      {"nearer the cage", "doo-sabin", "cube", [](Measured& m) { m.mean_distance = .06; }},
+      {"nearer the cage", "doo-sabin", "tetrahedron", [](Measured& m) { m.mean_distance = .06; }},
+      {"asymmetric", "loop", "cube-irregular", [](Measured& m) { m.symmetry_defect = .001; }},
+      {"asymmetric", "catmull-clark", "cube", [](Measured& m) { m.symmetry_defect = .05; }},
+      {"of Catmull-Clark and Loop", "loop", "tetrahedron", [](Measured& m) { m.volume = .3; }},
+      {"of all approximating", "doo-sabin", "tetrahedron", [](Measured& m) { m.volume = .3; }},
+      {"worst: of a cube", "doo-sabin", "cube", [](Measured& m) { m.bending.back().energy = 3; }},
+      {"worst: of all", "loop", "tetrahedron", [](Measured& m) { m.bending.back().energy = 3; }},
+      {"swell", "modified-butterfly", "tetrahedron", [](Measured& m) { m.volume = .9; }},
+      {"sphere", "catmull-clark", "cube", [](Measured& m) { m.roundness = .97; }},
+      {"no curvature", "modified-butterfly", "cube-irregular", [](Measured& m) { m.bending.back().energy = 1.01; }},
+  };
+  for (const auto& change : changes) {
+    std::vector<Measured> other = agreeable();
+    for (Measured& m : other)
+      if (m.scheme == change.scheme && m.cage == change.cage) change.change(m);
+    EXPECT_FALSE(about(statements(other), change.sentence).confirmed) << change.sentence;
+  }
+}
+
+TEST(GalleryStatements, WhatCannotBeDecidedIsLeftOut) { EXPECT_TRUE(statements({}).empty()); }
+
+TEST(Gallery, RejectsOptionsOutsideTheirRange) {
+  EXPECT_THROW(make_gallery({.levels = -1}), InvalidParameter);
+  EXPECT_THROW(make_gallery({.faces = 10}), InvalidParameter);
+}
+
+TEST(Gallery, FilesAreWrittenAllOrNone) {
+  const TemporaryDirectory directory;
+  std::filesystem::create_directory(directory / "b.svg");
+  EXPECT_THROW(write_gallery(directory.path().string(), {{"a.svg", "a"}, {"b.svg", "b"}}), IoError);
+  EXPECT_EQ(directory.num_files(), 1);
+  write_gallery(directory.path().string(), {{"a.svg", "a"}, {"c.svg", "c"}});
+  EXPECT_EQ(directory.num_files(), 3);
+  EXPECT_EQ(read_file(directory / "c.svg"), "c");
+}
+
+/// Every file that the page shows or points to.
+std::vector<std::string> shown(const std::string& html) {
+  std::vector<std::string> files;
+  for (const std::string attribute : {"src=\"", "href=\""})
+    for (size_t at = html.find(attribute); at != std::string::npos; at = html.find(attribute, at + 1)) {
+      const size_t begin = at + attribute.size();
+      const std::string file = html.substr(begin, html.find('"', begin) - begin);
+      if (!file.starts_with("#")) files.push_back(file);
+    }
+  return files;
+}
+
+TEST(CliGallery, ShowsEverySchemeOnEveryCageAndPolygon) {
+  const TemporaryDirectory directory;
+  const std::filesystem::path gallery = directory / "a" / "gallery";
+  const std::vector<std::string> arguments{"schemes", "--gallery", gallery.string(), "--gallery-faces", "200"};
+  expect_parts(expect_done(sublimit(arguments)).out, {"pictures", "index.html"});
+
+  const std::string html = read_file(gallery / "index.html");
+  size_t surfaces = 0;
+  for (const Scheme<double>& scheme : all_schemes()) {
+    SCOPED_TRACE(scheme.name);
+    const size_t cages = scheme.face_size() == 3 ? 3 : 4;
+    EXPECT_EQ(count_of(html, "<h3>" + scheme.name + "</h3>"), cages);
+    for (const char* cage : {"cube-tetrahedral", "cube-irregular", "tetrahedron"})
+      EXPECT_EQ(count_of(html, "src=\"" + scheme.name + "-" + cage + ".svg\""), 1u) << cage;
+    surfaces += cages;
+  }
+  std::vector<std::string> curves;
+  for (const CurveScheme<double>& scheme : all_curve_schemes()) curves.push_back(scheme.name);
+  for (const GeometricCurveScheme& scheme : all_geometric_schemes()) curves.push_back(scheme.name);
+  for (const std::string& scheme : curves) {
+    SCOPED_TRACE(scheme);
+    EXPECT_EQ(count_of(html, "<h3>" + scheme + "</h3>"), 2u);
+    for (const char* polygon : {"open", "closed"}) {
+      EXPECT_EQ(count_of(html, "src=\"" + scheme + "-" + polygon + ".svg\""), 1u) << polygon;
+      EXPECT_EQ(count_of(read_file(gallery / (scheme + "-" + polygon + ".svg")), ">level "), 4u) << polygon;
+    }
+  }
+  const std::vector<std::string> files = shown(html);
+  EXPECT_GE(files.size(), surfaces + 2);
+  for (const std::string& file : files) {
+    EXPECT_EQ(file.find('/'), std::string::npos) << file << " is not beside the page";
+    const std::string text = read_file(gallery / file);
+    EXPECT_GT(text.size(), 1000u) << file;
+    if (!file.ends_with(".svg")) continue;
+    EXPECT_TRUE(text.starts_with("<svg") && text.ends_with("</svg>\n")) << file;
+    EXPECT_EQ(text.find("nan"), std::string::npos) << file;
+  }
+  EXPECT_LT(read_file(gallery / "overview.svg").size(), 400'000u);  // README shows it
+
+  const Json json = Json::parse(read_file(gallery / "measures.json"));
+  EXPECT_EQ(json["surfaces"].size(), surfaces);
+  size_t confirmed = 0;
+  for (const Json& statement : json["statements"]) confirmed += statement["confirmed"].get<bool>();
+  EXPECT_EQ(count_of(html, "\"verdict yes\""), confirmed);
+  EXPECT_EQ(count_of(html, "\"verdict no\""), json["statements"].size() - confirmed);
+  for (const Json& surface : json["surfaces"]) {
+    const bool bilinear = surface["scheme"] == "bilinear";
+    EXPECT_EQ(surface["mean_distance"].get<double>() < 1e-12, bilinear) << surface;
+    EXPECT_EQ(std::abs(surface["volume_ratio"].get<double>() - 1) < 1e-12, bilinear) << surface;
+    if (surface["cage"] == "cube" || surface["cage"] == "tetrahedron") {
+      EXPECT_LT(surface["symmetry_defect"].get<double>(), 1e-12) << surface;
+    }
+    EXPECT_GT(surface["bending_energy"][2]["energy"].get<double>(), .98) << surface;  // a sphere has least
+  }
+
+  // The same bytes with one thread; and nothing but the list with --json.
+  std::vector<std::string> again = arguments;
+  again[2] = (directory / "again").string();
+  again.insert(again.end(), {"--threads", "1", "--json"});
+  EXPECT_EQ(Json::parse(expect_done(sublimit(again)).out).size(), all_schemes().size() + all_curve_schemes().size() +
+                                                                      all_geometric_schemes().size() +
+                                                                      all_geometric_schemes<CurvatureMesh>().size());
+  EXPECT_EQ(read_file(directory / "again" / "index.html"), html);
+  for (const std::string& file : files)
+    EXPECT_EQ(read_file(directory / "again" / file), read_file(gallery / file)) << file;
+}
+
+TEST(CliGallery, UnwritablePlacesAreToldBeforeWorkStarts) {
+  const TemporaryDirectory directory;
+  directory.write("file", "");
+  for (const std::string place : {"file", "file/gallery"})
+    expect_failure(sublimit({"schemes", "--gallery", (directory / place).string()}), 3, {place, "directory"});
+  std::filesystem::create_directories(directory / "taken" / "index.html");
+  expect_failure(sublimit({"schemes", "--gallery", (directory / "taken").string()}), 3,
+                 {"index.html", "is a directory"});
+  EXPECT_EQ(directory.num_files(), 2);
+  expect_failure(sublimit({"schemes", "--gallery-faces", "300"}), 2, {"--gallery"});
+  expect_failure(sublimit({"schemes", "--gallery", "x", "--gallery-faces", "3"}), 2, {"200"});
+}
+
+}  // namespace
+}  // namespace sublimit::testing

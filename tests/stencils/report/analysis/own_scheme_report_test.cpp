@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+// Reports of schemes that the registry does not have, and of wrong ones: disproved, and for the right reason.
+#include <gtest/gtest.h>
+
+#include "stencils/cli_program.h"
+#include "sublimit/certificates/regularity/sweep.h"
+#include "sublimit/files/numbers.h"
+#include "sublimit/report/analysis/scheme_report.h"
+#include "sublimit/report/analysis/verify_report.h"
+#include "sublimit/report/statements/misreadings.h"
+
+namespace sublimit::testing {
+namespace {
+
+using report::Json;
+using report::ReportedScheme;
+
+/// A file of one's own: Catmull-Clark, but old vertices stay where they are.
+template <class T>
+Scheme<T> staying() {
+  Scheme<T> scheme = *find_scheme<T>("catmull-clark");
+  scheme.name = "staying";
+  scheme.steps[0].masks.vertex = [](const Ring<T>& v) { return v.center(); };
+  return scheme;
+}
+
+/// Another one: Catmull-Clark under a name of its own, and with a claim that is false.
+template <class T>
+Scheme<T> boasting() {
+  Scheme<T> scheme = *find_scheme<T>("catmull-clark");
+  scheme.name = "boasting";
+  scheme.claims.extraordinary = 2;
+  return scheme;
+}
+
+Json report_of(const ReportedScheme& scheme, const std::vector<int>& valences) {
+  const Json report = report::schemes_report({scheme}, {.valences = valences});
+  // Negative ones are sound reports too.
+  for (const std::string& finding : report::verify_report(report.dump()).findings) ADD_FAILURE() << finding;
+  return report;
+}
+
+/// The verdict on c1 inside, at valence (or of a face with) n.
+const Json& c1(const Json& report, int n) {
+  for (const Json& at : report["schemes"][0]["neighborhoods"])
+    if ((at["kind"] == "vertex" || at["kind"] == "face") && at["n"] == n)
+      for (const Json& v : at["verdicts"])
+        if (v["property"] == "c1") return v;
+  throw std::runtime_error("no verdict at n = " + std::to_string(n));
+}
+
+/// What fails, of the hypotheses of a verdict.
+std::string failing(const Json& verdict) {
+  std::string all;
+  for (const Json& h : verdict["hypotheses"])
+    if (h["holds"] == false) all += h["says"].get<std::string>() + ": " + h["value"].get<std::string>() + "\n";
+  return all;
+}
+
+/// The claim of this name.
+const Json& claim(const Json& report, const std::string& name) {
+  for (const Json& c : report["schemes"][0]["claims"])
+    if (c["claim"] == name) return c;
+  throw std::runtime_error("no claim " + name);
+}
+
+void expect_disproved(const Json& report, const std::vector<int>& valences,
+                      std::initializer_list<std::string_view> reasons) {
+  for (const int n : valences) {
+    SCOPED_TRACE(n);
+    EXPECT_EQ(c1(report, n)["verdict"], "disproved");
+    expect_parts(c1(report, n)["because"].get<std::string>() + "\n" + failing(c1(report, n)), reasons);
+  }
+}
+
+TEST(OwnSchemeReport, VerticesThatStayAreSpikes) {
+  const Json report = report_of({staying<double>(), staying<Algebraic>()}, {3, 4, 7});
+  // Block 0 of centre, ring and diagonals: 1 and the roots of x^2 - 3/4 x + 1/16, whatever the valence.
+  expect_disproved(report, {3, 4, 7}, {"block 0 leads", "3/8+sqrt(5/64)", "spike"});
+  EXPECT_EQ(claim(report, "extraordinary")["verdict"], "disproved");
+  EXPECT_EQ(claim(report, "regular")["verdict"], "disproved");
+  EXPECT_EQ(claim(report, "reproduces")["verdict"], "proved");
+  EXPECT_GE(report::contradicted_claims(report), 2);
+  EXPECT_EQ(report["summary"][0]["extraordinary"], "C^0");
+}
+
+TEST(OwnSchemeReport, ClaimsThatAreFalseAreDisproved) {
+  const Json report = report_of({boasting<double>(), boasting<Algebraic>()}, {3, 4, 5});
+  for (const int n : {3, 4, 5}) {
+    EXPECT_EQ(c1(report, n)["verdict"], "proved");
+    EXPECT_EQ(c1(report, n)["witness"]["scheme"], "boasting");
+  }
+  EXPECT_EQ(claim(report, "extraordinary")["verdict"], "disproved");
+  EXPECT_EQ(claim(report, "extraordinary")["found"], 1);
+  // At 3 mu/lambda^2 = 0.991: a flat spot, which is C^2.
+  expect_parts(claim(report, "extraordinary")["because"].get<std::string>(), {"disproved at 5", "proved at 3, 4"});
+  EXPECT_EQ(report::contradicted_claims(report), 1);
+}
+
+TEST(OwnSchemeReport, Sqrt3WithoutRelaxationHasSpikes) {
+  // Two steps of 2/3 in block 0, against (4/9) cos^2(pi/n).
+  expect_disproved(
+      report_of({misread::sqrt3_without_relaxation<double>(), misread::sqrt3_without_relaxation<Algebraic>()}, {3, 6}),
+      {3, 6}, {"block 0 leads", "4/9 in block 0", "spike"});
+}
+
+TEST(OwnSchemeReport, DooSabinWithMidpointsHasNoTangentPlane) {
+  const Json report =
+      report_of({misread::doo_sabin_halfway<double>(), misread::doo_sabin_halfway<Algebraic>()}, {4, 5});
+  expect_disproved(report, {4, 5}, {"blocks 1 and 2", "1/2 in block 2", "no tangent plane"});
+  EXPECT_NE(claim(report, "regular")["verdict"], "proved");
+}
+
+TEST(OwnSchemeReport, ButterflyFailsAtThreeAndNine) {
+  const Json report = report_of(report::reported_scheme("butterfly"), {3, 9});
+  expect_disproved(report, {3}, {"block 0 leads", "Jordan block of size 3", "spike"});
+  expect_disproved(report, {9}, {"block 2 leads", "winds 2 times"});
+}
+
+TEST(OwnSchemeReport, FourPointSchemeWithNegativeTensionIsNotC1) {
+  const Sweep swept = sweep("four-point", sweep_range("tension=-1:1:1"));
+  const auto answer = [&](size_t i) {
+    for (const Verdict& v : swept.points[i].smoothness.verdicts)
+      if (v.says == "C^1") return to_string(v.answer);
+    return std::string();
+  };
+  EXPECT_EQ(answer(0), "disproved");
+  EXPECT_LT(swept.points[0].smoothness.exponent_high, 1);
+  EXPECT_EQ(answer(1), "disproved");  // the polygon
+  EXPECT_EQ(answer(2), "proved");
+}
+
+}  // namespace
+}  // namespace sublimit::testing
