@@ -15,6 +15,7 @@
 #include "sublimit/core/sparse_product.h"
 #include "sublimit/files/sidecar.h"
 #include "sublimit/geometric/geometric_schemes.h"
+#include "sublimit/io/file_extension.h"
 #include "sublimit/io/read_mesh.h"
 #include "sublimit/limit/no_limit.h"
 #include "sublimit/scheme/prepare.h"
@@ -185,7 +186,7 @@ Points refined_points(const std::vector<Level>& levels, const Points& control) {
 
 std::vector<FaceVaryingLevel> refined_channel(const Common& common, const Loaded& loaded,
                                               const std::vector<Level>& levels, const std::string& output) {
-  const bool obj = output.ends_with("j") || output.ends_with("J");
+  const bool obj = file_extension(output) == ".obj";
   if (loaded.mesh.face_varying.empty() || !obj) return {};
   try {
     return refine_face_varying(*loaded.scheme, loaded.face_varying, loaded.mesh.face_varying[0], levels);

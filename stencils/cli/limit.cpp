@@ -7,6 +7,7 @@
 #include "curves.h"
 #include "sublimit/core/sparse_product.h"
 #include "sublimit/files/refined_mesh.h"
+#include "sublimit/io/file_extension.h"
 
 namespace sublimit::cli {
 namespace {
@@ -43,7 +44,7 @@ int run(const LimitOptions& options) {
   const Points points = refined_points(levels, loaded.mesh.positions);
   const LimitPoints at_limit = limit_points(limit, levels.back().topology(), points);
   progress.step("writing " + options.output);
-  const bool obj = options.output.ends_with("j") || options.output.ends_with("J");
+  const bool obj = file_extension(options.output) == ".obj";
   MeshOutput out = limit_mesh(levels.back(), limit, at_limit,
                               !options.normals ? Normals::none
                               : obj            ? Normals::per_corner

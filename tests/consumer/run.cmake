@@ -23,7 +23,7 @@ else()
   set(place -DCMAKE_PREFIX_PATH=${scratch}/prefix -DSUBLIMIT_README=${SOURCE}/README.md)
 endif()
 if(KIND STREQUAL lib)
-  list(APPEND targets own_arrays readme_example readme_limits readme_tables readme_curves readme_fit)
+  list(APPEND targets own_arrays readme_example readme_limits readme_tables readme_curves readme_scheme readme_fit)
 endif()
 
 run(log ${CMAKE_COMMAND} -S ${SOURCE}/tests/consumer/${KIND} -B ${binary} -G Ninja -DCMAKE_BUILD_TYPE=Release
@@ -36,6 +36,7 @@ if(KIND STREQUAL lib)
   run(log ${binary}/readme_limits)
   run(log ${binary}/readme_tables)
   run(log ${binary}/readme_curves)
+  run(log ${binary}/readme_scheme)
   run(log ${binary}/readme_fit)
   # A position and a normal for each of the 98 vertices of a cube's second level.
   file(WRITE ${binary}/cube.obj "v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\n"

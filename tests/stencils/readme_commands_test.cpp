@@ -51,7 +51,7 @@ struct Example {
   const char* reason;
 };
 constexpr Example examples[] = {
-    {"README.md", "cpp", 5, "consumer.lib compiles and runs them"},
+    {"README.md", "cpp", 6, "consumer.lib compiles and runs them"},
     {"eval/table_format.md", "python", 1, "TableInPython.MakesTheSamePoints runs it"},
 };
 

@@ -11,7 +11,6 @@
 
 #include "sublimit/mesh/control_mesh.h"
 #include "sublimit/mesh/topology.h"
-#include "sublimit/splits/split.h"
 
 namespace sublimit {
 
@@ -64,9 +63,6 @@ Sharpness initial_sharpness(const Topology& topology, const ControlMesh& tags, B
 /// edge that the tags leave less than infinitely sharp. (A boundary that is sharp by its tags needs no neighbours.)
 /// @throws InvalidMesh  a tag that names no face
 std::vector<bool> initial_holes(const Topology& topology, const ControlMesh& tags, Boundary boundary);
-
-/// Sharpness one level on.
-Sharpness refine(const Sharpness& sharpness, const Topology& parent, const Refinement& refinement);
 
 /// Edge between two vertices, the first one where there are several (`tail`, `head` in either order); -1 if there is none.
 Edge find_edge(const Topology& topology, Vertex a, Vertex b);

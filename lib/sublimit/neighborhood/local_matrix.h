@@ -9,6 +9,7 @@
 #include "sublimit/base/error.h"
 #include "sublimit/neighborhood/canonical_neighborhood.h"
 #include "sublimit/scheme/subdivision_matrix_impl.h"
+#include "sublimit/splits/child_sharpness.h"
 
 namespace sublimit {
 

@@ -10,6 +10,7 @@
 #include "sublimit/mesh/topology_builder.h"
 #include "sublimit/primvar/linear_scheme.h"
 #include "sublimit/primvar/value_rules.h"
+#include "sublimit/splits/child_sharpness.h"
 
 namespace sublimit {
 namespace {

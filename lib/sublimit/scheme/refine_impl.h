@@ -6,6 +6,7 @@
 #include "sublimit/core/sparse_product.h"
 #include "sublimit/scheme/refine.h"
 #include "sublimit/scheme/subdivision_matrix_impl.h"
+#include "sublimit/splits/child_sharpness.h"
 
 namespace sublimit {
 

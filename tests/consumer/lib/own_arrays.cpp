@@ -1,5 +1,5 @@
 // Meshes that are arrays already, as README says: Eigen matrices as libigl has them, and spans that are not copied.
-#include <sublimit/scheme/refine.h>
+#include <sublimit/subdivide.h>
 
 #include <vector>
 

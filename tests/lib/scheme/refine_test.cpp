@@ -10,6 +10,7 @@
 #include "sublimit/core/sparse_product.h"
 #include "sublimit/limit/limit_points.h"
 #include "sublimit/schemes.h"
+#include "sublimit/subdivide.h"
 #include "support/expect_error.h"
 #include "support/meshes.h"
 #include "support/tolerance.h"

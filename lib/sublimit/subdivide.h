@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// Subdivision of matrices in one line, for those who have their mesh in Eigen.
+#include <string>
+#include <utility>
+
+#include "sublimit/scheme/refine.h"
+
+namespace sublimit {
+
+/// Faces as rows of equal length (`F` of libigl and friends).
+using FaceMatrix = Eigen::Matrix<Index, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// For Eigen users, in one line: `auto [S, F1] = subdivide("loop", V.rows(), F, 2); V1 = S * V;`
+/// @param F  #F x 3 or #F x 4, counter-clockwise
+/// @return   the product of the levels' matrices, and the refined faces
+/// @throws InvalidOption  an unknown scheme; and whatever `refine` throws
+std::pair<SparseMatrix, FaceMatrix> subdivide(const std::string& scheme, Index num_vertices, const FaceMatrix& F,
+                                              int levels = 1, const SubdivisionOptions& options = {});
+
+}  // namespace sublimit
