@@ -81,6 +81,18 @@ TEST(FoundMesh, OfAFitWithoutSecondDerivativesIsRefused) {
   EXPECT_EQ(directory.num_files(), 0);
 }
 
+/// Poles of 360 edges: every face beside one depends on 720 points and more, and is like no other.
+TEST(FoundMesh, OfWidePolesIsRefusedWhereMemoryIsShort) {
+  const std::string mesh = (found / "pole360-memory.obj").string();
+  if (!fs::exists(mesh)) GTEST_SKIP() << "NO SHARED MESHES at " << found;
+  const TemporaryDirectory directory;
+  const Words sample = Words{"sample", mesh, "--quiet", "-s", "interpolatory-sqrt3", "--no-creases"} +
+                       Words{"--grid", "3", "--derivatives", "2", "-o", (directory / "g.csv").string()};
+  for (const char* limit : {"100M", "300M"})
+    expect_failure(sublimit(sample + Words{"--mem-limit", limit}), 4, {"points takes more than", "the limit is"});
+  EXPECT_EQ(directory.num_files(), 0);
+}
+
 class MemoryLimit : public ::testing::Test {
  protected:
   std::string mesh(const ControlMesh& control) const {
