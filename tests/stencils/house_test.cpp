@@ -64,5 +64,19 @@ TEST(House, RoomsKnowThoseBelowThem) {
   }
 }
 
+// Claims are for reports and laws: no result rests on them.
+TEST(House, NoRoomOfLibReadsClaims) {
+  const std::regex read("claims\\.\\w+(?!\\w)(?! *= )");
+  EXPECT_TRUE(std::regex_search(std::string("if (scheme.claims.regular == 1)"), read));
+  EXPECT_FALSE(std::regex_search(std::string("  linear.claims.limit = \"the faces\";"), read));
+  const fs::path folder = fs::path(SUBLIMIT_SOURCE) / "lib/sublimit";
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    if (entry.path().extension() != ".h" && entry.path().extension() != ".cpp") continue;
+    std::istringstream text(read_file(entry.path()));
+    for (std::string line; std::getline(text, line);)
+      EXPECT_FALSE(std::regex_search(line, read)) << entry.path() << ": " << line;
+  }
+}
+
 }  // namespace
 }  // namespace sublimit::testing

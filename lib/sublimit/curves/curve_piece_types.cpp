@@ -8,7 +8,7 @@ namespace {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
 constexpr int grid = 64;           // dyadic places that tell a polynomial
-constexpr int most_levels = 1100;  // deeper than any double
+constexpr int enough_levels = 1100;  // deeper than any double
 constexpr int most_powers = 11;    // a double starts with fewer than 2^11 zeros
 
 }  // namespace
@@ -17,7 +17,7 @@ constexpr int most_powers = 11;    // a double starts with fewer than 2^11 zeros
 int CurvePieces::settled_level(int level) const {
   const auto S = [&](int k) { return Matrix(curve_matrix(scheme_, {outline(2 * pad_ + 1)}, k)); };
   Matrix now = S(level);
-  for (int k = level; k < level + most_levels; ++k) {
+  for (int k = level; k < level + enough_levels; ++k) {
     Matrix next = S(k + 1);
     if (next.rows() != now.rows() || next.cols() != now.cols())
       throw AnalysisError(scheme_.name + ": the masks of levels " + std::to_string(k) + " and " +

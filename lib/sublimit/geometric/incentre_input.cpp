@@ -12,7 +12,6 @@
 namespace sublimit {
 namespace {
 
-constexpr double eps = std::numeric_limits<double>::epsilon();
 constexpr double unit_tolerance = 1e-6;  // of lengths of given tangents
 
 std::string place(const ControlPolygon& polygon, Index i) {
@@ -73,7 +72,7 @@ ControlPolygon checked_for_incentres(ControlPolygon polygon) {
     check_point(polygon, i);
     // Tangents that are units already keep their bits, so that refining twice by 1 is refining once by 2.
     const double length = polygon.tangents.row(i).norm();
-    if (std::abs(length - 1) > 4 * eps) polygon.tangents.row(i) /= length;
+    if (std::abs(length - 1) > 4 * std::numeric_limits<double>::epsilon()) polygon.tangents.row(i) /= length;
   }
   for (size_t c = 0; c < polygon.curves.size(); ++c) check_curve(polygon, c);
   return polygon;

@@ -13,8 +13,6 @@ constexpr int depth = 3;
 
 class Boxes {
  public:
-  explicit Boxes(bool convex) : convex_(convex) {}
-
   void extend(Eigen::AlignedBox3d& box, const PieceType& type, const Points& points, int levels) const {
     if (const PiecePolynomial* p = type.polynomial()) {
       const Points differences = points.bottomRows(points.rows() - 1).rowwise() - points.row(0);
@@ -30,13 +28,10 @@ class Boxes {
       return;
     }
     const Eigen::RowVector3d low = points.colwise().minCoeff(), high = points.colwise().maxCoeff();
-    const Eigen::RowVector3d margin = convex_ ? Eigen::RowVector3d::Zero().eval() : (reach(type) * (high - low)).eval();
+    const Eigen::RowVector3d margin = type.reach() * (high - low);
     box.extend(Eigen::Vector3d(low - margin));
     box.extend(Eigen::Vector3d(high + margin));
   }
-
- private:
-  bool convex_;
 };
 
 }  // namespace
@@ -48,7 +43,7 @@ std::vector<Eigen::AlignedBox3d> LimitSurface::bounding_boxes(const Points& poin
   const Parts::Pieces& pieces = parts.pieces();
   const Points fine = parts.prepared ? Points(parts.prepared->S * points) : Points();
   const Points& x = parts.prepared ? fine : points;
-  const Boxes boxes(parts.scheme.claims.convex_hull);
+  const Boxes boxes;
   std::vector<Eigen::AlignedBox3d> of_piece(parts.num_pieces());
   parallel_for_blocks(
       parts.num_pieces(),

@@ -32,7 +32,7 @@ using Hull = std::vector<Eigen::Vector3d>;
 
 class Cutter {
  public:
-  Cutter(bool convex, std::vector<LimitCell>& out) : convex_(convex), out_(out) {}
+  explicit Cutter(std::vector<LimitCell>& out) : out_(out) {}
 
   /// @param known  not empty
   void cut(const PieceType& type, const Points& points, const std::vector<Known>& known, int parts) {
@@ -64,7 +64,7 @@ class Cutter {
       out_.push_back(cell_of(hull, start, 0.25, 0.02));
     } else {
       for (Eigen::Index i = 0; i < points.rows(); ++i) hull.push_back(points.row(i));
-      out_.push_back(cell_of(hull, start, convex_ ? 0 : reach_of(type), 0));
+      out_.push_back(cell_of(hull, start, type.reach(), 0));
     }
   }
 
@@ -208,16 +208,9 @@ class Cutter {
   const BernsteinNets& nets_of(const PolynomialBasis& basis) {
     return nets_.try_emplace({basis.degree(), basis.total()}, basis).first->second;
   }
-  double reach_of(const PieceType& type) {
-    const auto [at, is_new] = reach_.try_emplace(&type, 0);
-    if (is_new) at->second = reach(type);
-    return at->second;
-  }
 
-  bool convex_;
   std::vector<LimitCell>& out_;
   std::map<std::pair<int, bool>, BernsteinNets> nets_;
-  std::map<const PieceType*, double> reach_;
   std::map<const PieceType*, RowMatrix> limits_;
 };
 
@@ -241,7 +234,7 @@ std::vector<LimitCell> limit_cells(const LimitSurface& surface, const Points& po
   parallel_for_blocks(
       count,
       [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
-        Cutter cutter(parts.scheme.claims.convex_hull, blocks[size_t(block)]);
+        Cutter cutter(blocks[size_t(block)]);
         for (std::int64_t a = begin; a < end; ++a) {
           std::map<Index, std::vector<Known>> known;  // by piece
           for (int j = 0; j < places_a_side; ++j)

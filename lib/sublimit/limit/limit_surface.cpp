@@ -49,7 +49,7 @@ LimitSurface::Parts::Found LimitSurface::Parts::find(const Target& at, int order
     apply_chain(chain, rows.rows);
     turn_tangents(chain, rows.tangents);
   }
-  if (order >= 2 && (rows.order < 2 || (rows.on_knot && scheme.claims.regular == 1))) {
+  if (order >= 2 && (rows.order < 2 || (rows.on_knot && types->regular_smoothness() == 1))) {
     if (found.status == LimitStatus::regular) found.status = LimitStatus::unbounded_second;
     if (rows.order == 2) {
       rows.order = 1;

@@ -2,7 +2,7 @@
 #pragma once
 // What holds a piece of the limit: a polynomial lies in the hull of its Bernstein coefficients; any other piece in the
 // hull of the points that it depends on, if no weight is negative. Where some are, a place has its weights' absolute
-// sum, at most `reach` times the points' distance from one of them.
+// sum, at most `PieceType::reach` times the points' distance from one of them.
 #include <array>
 
 #include "sublimit/limit/piece_types.h"
@@ -27,10 +27,6 @@ class BernsteinNets {
   Eigen::MatrixXd from_basis_;
   std::array<Eigen::MatrixXd, 4> quarters_;
 };
-
-/// How far the limit leaves the points, relative to their extent, where weights are negative: seen at the corners of
-/// descendants, and doubled for what lies between.
-double reach(const PieceType& type);
 
 /// Points of a child of a piece.
 Points child_points(const PieceLink& link, const Points& points);

@@ -3,6 +3,7 @@
 
 #include <Eigen/LU>
 #include <Eigen/SparseLU>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,6 +15,7 @@
 #include "sublimit/core/sparse_product.h"
 #include "sublimit/limit/limit_masks.h"
 #include "sublimit/limit/polynomial_search.h"
+#include "sublimit/limit/regular_smoothness.h"
 #include "sublimit/neighborhood/canonical_part.h"
 #include "sublimit/scheme/refine_impl.h"
 #include "sublimit/scheme/subdivision_rows.h"
@@ -411,7 +413,7 @@ const PieceType::CornerRows& PieceType::corner(int corner) const {
     const CornerPath path(this, corner);
     const auto& [at, own, link, ignored] = path.visits[path.first];
     const double scale = path.visits.size() == path.first + 1 ? pure_scale(link->map) : 0;
-    const int smoothness = types_->scheme_.claims.regular;
+    const int smoothness = types_->regular_smoothness();
     CornerRows result;
     RowMatrix& rows = result.rows;
     rows = path.first > 0 ? at->corner(own).rows : RowMatrix(corner_limit(corner));
@@ -440,6 +442,14 @@ PieceTypes::PieceTypes(const Scheme<double>& scheme, size_t max_types) : scheme_
 }
 
 PieceTypes::~PieceTypes() = default;
+
+int PieceTypes::regular_smoothness() const {
+  // Isolated: a thread that waits in here must not take up work that comes back for the same.
+  std::call_once(smoothness_once_, [&] {
+    tbb::this_task_arena::isolate([&] { smoothness_ = sublimit::regular_smoothness(scheme_); });
+  });
+  return smoothness_;
+}
 
 int PieceTypes::rings(const Sharpness& sharpness) const {
   // Under Chaikin creasing the sharpness of an edge's far half depends on the edges around its far end.

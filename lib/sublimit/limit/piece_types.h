@@ -73,6 +73,9 @@ class PieceType {
   /// @throws AnalysisError  no limit
   const CornerRows& corner(int corner) const;
   const Eigen::RowVectorXd& corner_limit(int corner) const;
+  /// How far the limit leaves the points, relative to their extent: 0 where no weight of its refinement is negative,
+  /// now or later; else as seen at the corners of its children, and doubled for what lies between.
+  double reach() const;
 
  private:
   struct CornerPath;
@@ -103,6 +106,8 @@ class PieceType {
   std::optional<Modes> modes(int corner, const Eigen::MatrixXd& D, double scale, int degree) const;
   /// Inside, of another valence than regular meshes have: no parameter is natural there.
   bool is_extraordinary(int corner) const;
+  /// No weight of its block is negative, nor of any descendant's.
+  bool has_only_means() const;
   friend class PieceTypes;
   friend class PolynomialSearch;
   PieceTypes* types_ = nullptr;
@@ -121,6 +126,9 @@ class PieceType {
   mutable std::array<std::once_flag, 4> limit_once_, corner_once_;
   mutable std::array<Eigen::RowVectorXd, 4> corner_limits_;
   mutable std::array<CornerRows, 4> corners_;
+  mutable std::atomic<int> only_means_{0};  // 0: not known, 1: no, 2: yes
+  mutable std::once_flag reach_once_;
+  mutable double reach_ = 0;
 };
 
 /// The types of one scheme, shared between surfaces and threads.
@@ -137,6 +145,8 @@ class PieceTypes {
   bool is_full() const { return size() >= max_types_; }
   /// No piece is a polynomial, as is known once a regular one has been looked at.
   bool has_no_polynomials() const { return has_none_.load(std::memory_order_relaxed); }
+  /// `sublimit::regular_smoothness` of the scheme, found when it is first asked for.
+  int regular_smoothness() const;
 
   /// The type of a piece, made if it is new.
   /// @param walk  of the piece
@@ -168,6 +178,8 @@ class PieceTypes {
   std::optional<PolynomialBasis> basis_;      // of the first regular piece's polynomial
   bool halves_ = false, searched_ = false;    // regular pieces are cut along u = v; have been looked at
   std::atomic<bool> has_none_{false};         // regular pieces are no polynomials
+  mutable std::once_flag smoothness_once_;
+  mutable int smoothness_ = 0;
 };
 
 /// Whether a place is where polynomials meet: on a side of its piece, or on the line that cuts the piece in two.

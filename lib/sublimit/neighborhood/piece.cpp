@@ -12,7 +12,6 @@
 namespace sublimit {
 namespace {
 
-using Kind = Piece::Kind;
 using Axis = PieceMap::Axis;
 
 Centre followed(Centre centre, const Topology& parent, std::span<const LevelStep> steps) {
@@ -54,10 +53,10 @@ std::vector<PieceChild> of_quad(HalfEdge start, const Topology& parent, std::spa
     at = at_vertex(h, parent, steps);
     h = parent.next(h);
   }
-  return {{{Kind::quad, g[0]}, quad_map(Span::lower, Span::lower)},
-          {{Kind::quad, t.prev(g[1])}, quad_map(Span::upper, Span::lower)},
-          {{Kind::quad, t.next(t.next(g[2]))}, quad_map(Span::upper, Span::upper)},
-          {{Kind::quad, t.next(g[3])}, quad_map(Span::lower, Span::upper)}};
+  return {{{Piece::Kind::quad, g[0]}, quad_map(Span::lower, Span::lower)},
+          {{Piece::Kind::quad, t.prev(g[1])}, quad_map(Span::upper, Span::lower)},
+          {{Piece::Kind::quad, t.next(t.next(g[2]))}, quad_map(Span::upper, Span::upper)},
+          {{Piece::Kind::quad, t.next(g[3])}, quad_map(Span::lower, Span::upper)}};
 }
 
 /// @param corners  barycentric coordinates of the child's corners in the parent, in the order of the piece
@@ -82,10 +81,10 @@ std::vector<PieceChild> of_triangle_in_four(HalfEdge start, const Topology& pare
     C << a, b, c;
     return triangle_map(C);
   };
-  return {{{Kind::triangle, g0}, with(I.row(0), m0, m2)},
-          {{Kind::triangle, t.prev(g1)}, with(m0, I.row(1), m1)},
-          {{Kind::triangle, t.next(g2)}, with(m2, m1, I.row(2))},
-          {{Kind::triangle, t.twin(t.next(g0))}, with(m2, m0, m1)}};
+  return {{{Piece::Kind::triangle, g0}, with(I.row(0), m0, m2)},
+          {{Piece::Kind::triangle, t.prev(g1)}, with(m0, I.row(1), m1)},
+          {{Piece::Kind::triangle, t.next(g2)}, with(m2, m1, I.row(2))},
+          {{Piece::Kind::triangle, t.twin(t.next(g0))}, with(m2, m0, m1)}};
 }
 
 /// Two steps of sqrt3: nine triangles, as long as a third of the parent, six as it lies and three turned by half.
@@ -108,7 +107,7 @@ std::vector<PieceChild> of_triangle_in_nine(HalfEdge start, const Topology& pare
     Eigen::Matrix3d C;
     for (int k = 0; k < 3; ++k) C.row((position + k) % 3) = corners[k];
     for (int k = position; k % 3 != 0; ++k) h = t.next(h);
-    result.push_back({{Kind::triangle, h}, triangle_map(C)});
+    result.push_back({{Piece::Kind::triangle, h}, triangle_map(C)});
   };
   for (int i = 0; i < 3; ++i) {
     const int j = (i + 1) % 3, k = (i + 2) % 3;
@@ -140,7 +139,7 @@ std::vector<PieceChild> of_corner(HalfEdge h, const Topology& parent, std::span<
   const auto add = [&](HalfEdge start, Axis u, Axis v) {
     PieceMap map;
     map.axes = {u, v};
-    result.push_back({{Kind::corner, start}, map});
+    result.push_back({{Piece::Kind::corner, start}, map});
   };
   add(face, {0, far_u, false}, {1, far_v, false});
   add(before, {1, far_v, false}, {0, near_u, true});
@@ -183,13 +182,13 @@ std::vector<PieceChild> of_corner(HalfEdge h, const Topology& parent, std::span<
 
 std::vector<PieceChild> children(const Piece& piece, const Topology& parent, std::span<const LevelStep> steps) {
   switch (piece.kind) {
-    case Kind::quad:
+    case Piece::Kind::quad:
       return of_quad(piece.start, parent, steps);
-    case Kind::triangle:
+    case Piece::Kind::triangle:
       return steps[0].refinement->split == Split::sqrt3 ? of_triangle_in_nine(piece.start, parent, steps)
                                                         : of_triangle_in_four(piece.start, parent, steps);
-    case Kind::cut:
-      return {{{Kind::quad, at_vertex(piece.start, parent, steps)}, quad_map(Span::whole, Span::whole)}};
+    case Piece::Kind::cut:
+      return {{{Piece::Kind::quad, at_vertex(piece.start, parent, steps)}, quad_map(Span::whole, Span::whole)}};
     default:
       return of_corner(piece.start, parent, steps);
   }

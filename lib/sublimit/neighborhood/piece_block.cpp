@@ -12,6 +12,7 @@ constexpr Eigen::Index few = 32, large = 192;
 }  // namespace
 
 PieceBlock::PieceBlock(const SparseMatrix& B) : B_(B), origin_(Eigen::RowVectorXd(B.row(0)).tail(B.cols() - 1)) {
+  for (Eigen::Index k = 0; k < B.nonZeros(); ++k) least_weight_ = std::min(least_weight_, B.valuePtr()[k]);
   if (std::max(B.rows(), B.cols()) > few) return;
   D_ = differences();
   SparseMatrix().swap(B_);

@@ -15,6 +15,8 @@ class PieceBlock {
   /// Of the rows of S for the points of the child.
   explicit PieceBlock(const SparseMatrix& B);
 
+  /// Of S, at most 0: the least of its entries.
+  double least_weight() const { return least_weight_; }
   Eigen::Index child_slots() const { return is_dense() ? D_.rows() + 1 : B_.rows(); }
   /// Slot 0 of the child less that of the parent.
   const Eigen::RowVectorXd& origin() const { return origin_; }
@@ -40,6 +42,7 @@ class PieceBlock {
   RowMatrix D_;     // of few points
   SparseMatrix B_;  // of more
   Eigen::RowVectorXd origin_;
+  double least_weight_ = 0;
 };
 
 }  // namespace sublimit

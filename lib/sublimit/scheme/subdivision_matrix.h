@@ -21,8 +21,7 @@ using SparseMatrixOf = Eigen::SparseMatrix<T, Eigen::RowMajor, Index>;
 /// @param sharpness   per edge and vertex of `parent`
 /// @param child_sharpness  the same after the step: `refine(sharpness, parent, refinement)`
 /// @param level       of the parent, for masks that depend on it
-/// @return  S, #V' x #V, rows sum to 1 up to rounding, columns of a row ascending; non-negative if
-///          `scheme.claims.convex_hull`
+/// @return  S, #V' x #V, rows sum to 1 up to rounding, columns of a row ascending
 /// @throws ResourceError  more nonzeros than 32-bit indices, checked before memory is taken
 /// @note  Deterministic: same build and input, same bytes, whatever the number of threads.
 /// @note  T = double is compiled into the library; for other numbers include subdivision_matrix_impl.h.

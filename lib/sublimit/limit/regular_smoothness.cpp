@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sublimit/limit/regular_smoothness.h"
+
+#include <cmath>
+
+#include "sublimit/base/error.h"
+#include "sublimit/core/dense_decompositions.h"
+#include "sublimit/limit/eigen_structure.h"
+#include "sublimit/limit/local_modes.h"
+#include "sublimit/neighborhood/local_patch.h"
+
+namespace sublimit {
+namespace {
+
+/// Eigenvalues of the neighbourhood of a regular vertex, or, where vertices become faces, of a regular face.
+Eigen::VectorXcd regular_spectrum(const Scheme<double>& scheme) {
+  LocalType type;
+  type.kind = scheme.is_dual() ? Centre::Kind::face : Centre::Kind::vertex;
+  type.faces = scheme.face_size() == 3 ? 6 : 4;
+  // All points that the faces around depend on: what decays slowly need not reach the centre.
+  const std::optional<LocalPatch<double>> patch = local_patch(scheme, type, scheme.is_dual() ? 1 : 2);
+  return patch ? eigenvalues(patch->A) : Eigen::VectorXcd();
+}
+
+}  // namespace
+
+int regular_smoothness(const Scheme<double>& scheme) {
+  Eigen::VectorXcd spectrum;
+  try {
+    spectrum = regular_spectrum(scheme);
+  } catch (const AnalysisError&) {
+    return 0;
+  }
+  const double dilation = period_dilation(scheme);
+  // Of degree k and below, as many as there are polynomials, and all of them of the moduli that those have.
+  int smoothness = -1;
+  Eigen::Index polynomials = 0;
+  for (int k = 0; k <= 2; ++k) {
+    polynomials += k + 1;
+    const double slowest = std::pow(dilation, -k) * (1 - cluster_tolerance);
+    if ((spectrum.array().abs() >= slowest).count() != polynomials) break;
+    const double decay = std::pow(dilation, -k) * (1 + cluster_tolerance);
+    if ((spectrum.array().abs() <= decay).count() != spectrum.size() - (polynomials - k - 1)) break;
+    smoothness = k;
+  }
+  return std::max(smoothness, 0);
+}
+
+}  // namespace sublimit
