@@ -103,7 +103,7 @@ Points guessed(const SparseMatrix& P, Points control, const std::vector<Carrier>
 /// @throws UnsupportedTopology  rows that need more points than these, no tangent plane for a normal
 PlanePolygon polygon_of(const Scheme<double>& scheme, const Carrier& carrier, const VertexTarget& target,
                         std::span<const Index> corners, const Points& points) {
-  if (target.normal && generic_status(carrier.rows, scheme) == LimitStatus::undefined_normal)
+  if (target.normal && carrier.rows.status == LimitStatus::undefined_normal)
     throw UnsupportedTopology(at(target) + ": the limit has no tangent plane there under " + scheme.name +
                               "; give its position only");
   const Eigen::Index n = Eigen::Index(corners.size());

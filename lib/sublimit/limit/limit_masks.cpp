@@ -247,12 +247,6 @@ LimitMasks limit_masks(const Scheme<double>& scheme, const CanonicalNeighborhood
                       " edges has no stationary neighbourhood after " + std::to_string(enough) + " levels");
 }
 
-bool has_one_ring_limits(const Scheme<double>& scheme) {
-  const Split split = scheme.steps[0].split;
-  return scheme.steps.size() == 1 && scheme.preparation.empty() && scheme.period == 1 && !scheme.is_wide() &&
-         (split == Split::pqq || split == Split::ptq);
-}
-
 std::optional<LoneLimit> lone_limit(const Scheme<double>& scheme, const LocalType& type) {
   const std::optional<LocalPatch<double>> patch = local_patch(scheme, type);
   if (!patch) return std::nullopt;

@@ -65,9 +65,6 @@ struct LoneLimit {
 /// @throws AnalysisError  no limit, as above
 std::optional<LoneLimit> lone_limit(const Scheme<double>& scheme, const LocalType& type);
 
-/// Everything at a vertex is known from its one-ring, any sharpness: primal schemes of one step with narrow masks.
-bool has_one_ring_limits(const Scheme<double>& scheme);
-
 /// Limit masks by signature, for one scheme. Shared between threads and meshes; grows by types, not by vertices.
 class LimitMaskCache {
  public:

@@ -64,11 +64,11 @@ LimitSurface::Parts::Found LimitSurface::Parts::find(const Target& at, int order
     if (order >= 1) found.tangents = tangents_on_side(type, at.place, found.vertices);
     if (order >= 1 && found.tangents.empty()) found.status = LimitStatus::undefined_normal;
   } else if (rows.at_corner && rows.order == 0 && !is_deep) {
-    const CornerLimit* limit = centre ? corners.at(*centre) : nullptr;
+    const LimitRows* limit = centre ? corners.at(*centre) : nullptr;
     found.status = limit ? limit->status : LimitStatus::undefined_normal;
     if (order >= 1 && limit && limit->status != LimitStatus::undefined_normal) {
-      found.tangents = {limit->rows.tangent1, limit->rows.tangent2};
-      found.tangents.insert(found.tangents.end(), limit->rows.second_order.begin(), limit->rows.second_order.end());
+      found.tangents = {limit->tangent1, limit->tangent2};
+      found.tangents.insert(found.tangents.end(), limit->second_order.begin(), limit->second_order.end());
     }
   }
   if (sides & hole) found.status = LimitStatus::hole;

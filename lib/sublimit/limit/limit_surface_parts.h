@@ -44,8 +44,7 @@ struct LimitSurface::Parts {
   }
   void check(const Sample& sample) const;
   bool cuts(HalfEdge h) const {
-    const Topology& t = base().topology();
-    return !exists(t.twin(h)) || is_infinite(base().sharpness.edge[index(t.edge(h))]) || types->regular_smoothness() == 0;
+    return is_cut(base().topology(), base().sharpness, h) || types->regular_smoothness() == 0;
   }
   /// Whether the tail of h is on a crease, border or corner, which the faces at h need not be beside.
   bool is_on_cut(HalfEdge h) const;

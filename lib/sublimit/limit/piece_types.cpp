@@ -17,6 +17,7 @@
 #include "sublimit/limit/polynomial_search.h"
 #include "sublimit/limit/regular_smoothness.h"
 #include "sublimit/neighborhood/canonical_part.h"
+#include "sublimit/neighborhood/closed_set.h"
 #include "sublimit/scheme/refine_impl.h"
 #include "sublimit/scheme/subdivision_rows.h"
 
@@ -86,15 +87,11 @@ Eigen::RowVectorXd fixed_row(const PieceBlock& block) {
 
 /// The same of rows of S, by the points that one of them depends on: all rows tend to this one.
 Eigen::RowVectorXd fixed_row(const SparseMatrix& B, Index slot) {
-  std::vector<Index> closed, position(B.rows(), -1);
-  const auto add = [&](Index s) {
-    if (position[s] >= 0) return;
-    position[s] = static_cast<Index>(closed.size());
-    closed.push_back(s);
-  };
-  add(slot);
-  for (size_t i = 0; i < closed.size(); ++i)
-    for (SparseMatrix::InnerIterator it(B, closed[i]); it; ++it) add(static_cast<Index>(it.col()));
+  const std::vector<Index> closed = closed_set({slot}, static_cast<Index>(B.rows()), [&](Index s, const auto& add) {
+    for (SparseMatrix::InnerIterator it(B, s); it; ++it) add(static_cast<Index>(it.col()));
+  });
+  std::vector<Index> position(B.rows(), -1);
+  for (size_t i = 0; i < closed.size(); ++i) position[closed[i]] = static_cast<Index>(i);
   // l (B - 1) = 0, one column of which follows from the others, and the sum of l is 1.
   const auto count = static_cast<Index>(closed.size());
   using Columns = Eigen::SparseMatrix<double, Eigen::ColMajor, Index>;
@@ -153,7 +150,7 @@ const PieceType::Surroundings& PieceType::surroundings() const {
   std::call_once(surroundings_once_, [&] {
     const Scheme<double>& scheme = types_->scheme_;
     const Index face = index(met_in_->topology().face(surroundings_.piece.start));
-    const bool narrow = has_one_ring_limits(scheme);
+    const bool narrow = scheme.has_one_ring_limits();
     // Masks near the rim of a part are not the mesh's: one more ring, where they look further.
     const int rings = types_->rings(met_in_->sharpness) +
                       (narrow || (scheme.is_dual() && scheme.steps.size() == 1) ? 0 : scheme.period);
@@ -375,7 +372,7 @@ bool PieceType::is_extraordinary(int corner) const {
     ++valence;
     h = t.ccw(h);
   } while (exists(h) && h != first);
-  return exists(h) && valence != (kind_ == Piece::Kind::triangle ? 6 : 4);
+  return exists(h) && valence != types_->scheme_.regular_valence();
 }
 
 std::optional<PieceType::Modes> PieceType::modes(int corner, const Eigen::MatrixXd& D, double scale, int degree) const {
@@ -453,7 +450,7 @@ int PieceTypes::regular_smoothness() const {
 
 int PieceTypes::rings(const Sharpness& sharpness) const {
   // Under Chaikin creasing the sharpness of an edge's far half depends on the edges around its far end.
-  if (has_one_ring_limits(scheme_)) return sharpness.creasing == Creasing::chaikin ? 2 : 1;
+  if (scheme_.has_one_ring_limits()) return sharpness.creasing == Creasing::chaikin ? 2 : 1;
   if (scheme_.steps.size() > 1) return static_cast<int>(scheme_.steps.size()) - 1;
   if (scheme_.is_dual())
     return scheme_.period == 1 ? 1 : 3;             // Habib and Warren's edges look at the corners beyond their ends

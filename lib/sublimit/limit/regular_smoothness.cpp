@@ -6,7 +6,6 @@
 #include "sublimit/base/error.h"
 #include "sublimit/core/dense_decompositions.h"
 #include "sublimit/limit/eigen_structure.h"
-#include "sublimit/limit/local_modes.h"
 #include "sublimit/neighborhood/local_patch.h"
 
 namespace sublimit {
@@ -16,7 +15,7 @@ namespace {
 Eigen::VectorXcd regular_spectrum(const Scheme<double>& scheme) {
   LocalType type;
   type.kind = scheme.is_dual() ? Centre::Kind::face : Centre::Kind::vertex;
-  type.faces = scheme.face_size() == 3 ? 6 : 4;
+  type.faces = scheme.regular_valence();
   // All points that the faces around depend on: what decays slowly need not reach the centre.
   const std::optional<LocalPatch<double>> patch = local_patch(scheme, type, scheme.is_dual() ? 1 : 2);
   return patch ? eigenvalues(patch->A) : Eigen::VectorXcd();
@@ -31,7 +30,7 @@ int regular_smoothness(const Scheme<double>& scheme) {
   } catch (const AnalysisError&) {
     return 0;
   }
-  const double dilation = period_dilation(scheme);
+  const double dilation = scheme.dilation();
   // Of degree k and below, as many as there are polynomials, and all of them of the moduli that those have.
   int smoothness = -1;
   Eigen::Index polynomials = 0;

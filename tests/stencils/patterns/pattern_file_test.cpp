@@ -31,7 +31,7 @@ void expect_equal(const Baked& a, const Baked& b) {
 /// Types of wide supports are large: only the last mesh, which has most in it.
 std::vector<ControlMesh> few_meshes(const Scheme<double>& scheme) {
   std::vector<ControlMesh> meshes = hard_meshes(scheme, 3);
-  if (!has_one_ring_limits(scheme)) meshes.erase(meshes.begin(), meshes.end() - 1);
+  if (!scheme.has_one_ring_limits()) meshes.erase(meshes.begin(), meshes.end() - 1);
   return meshes;
 }
 
@@ -80,7 +80,7 @@ TEST_P(PatternFile, KeepsWhatBakingTaught) {
 std::vector<TestedScheme> schemes_in_files() {
   // One with wide supports: their types are large.
   return schemes_and_degrees_if([](const Scheme<double>& scheme) {
-    return !scheme.is_dual() && (has_one_ring_limits(scheme) || scheme.name == "butterfly");
+    return !scheme.is_dual() && (scheme.has_one_ring_limits() || scheme.name == "butterfly");
   });
 }
 INSTANTIATE_TEST_SUITE_P(Schemes, PatternFile, ::testing::ValuesIn(schemes_in_files()), test_name);

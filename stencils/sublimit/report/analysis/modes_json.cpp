@@ -76,7 +76,7 @@ Json characteristic_map_json(const std::shared_ptr<PieceTypes>& pieces, const Lo
   }
   // Parameter lines: sides and middles of faces.
   const LimitSurface surface(scheme, mesh, rim_rules(), pieces);
-  const bool thirds = period_dilation(scheme) == 3;
+  const bool thirds = scheme.dilation() == 3;
   const int steps = thirds ? 3 : 4;
   const std::vector<double> at_values =
       thirds ? std::vector<double>{0, 1 / 3.0, 2 / 3.0, 1} : std::vector<double>{0, .5, 1};
@@ -155,7 +155,7 @@ SampleSurface sample_surface(const std::shared_ptr<PieceTypes>& pieces, const Lo
   // Normals of places on circles of 2^-step (3^-step) edges around the centre. Places are those of some level: where
   // limits are no polynomials, these are at hand and others are not.
   std::vector<Sample> samples;
-  const int base = period_dilation(scheme), circles = base == 3 ? 7 : 11, on_circle = base == 3 ? 4 : 5;
+  const int base = scheme.dilation(), circles = base == 3 ? 7 : 11, on_circle = base == 3 ? 4 : 5;
   int places = 0;
   for (int step = 0; step < circles; ++step) {
     const double r = std::pow(base, -step);

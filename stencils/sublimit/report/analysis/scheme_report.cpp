@@ -25,7 +25,7 @@ using Kind = NeighborhoodKind::Kind;
 /// Interior valences of which a surface is drawn: below, at and above the regular one, and a high one.
 bool has_picture(const Scheme<double>& scheme, const NeighborhoodKind& kind) {
   if (kind.kind != Kind::vertex && kind.kind != Kind::face) return false;
-  const int regular = scheme.face_size() == 3 ? 6 : 4;
+  const int regular = scheme.regular_valence();
   return kind.n == 3 || kind.n == regular || kind.n == regular + 1 || kind.n == 8;
 }
 
