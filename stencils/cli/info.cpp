@@ -7,6 +7,7 @@
 
 #include "common.h"
 #include "sublimit/base/error.h"
+#include "sublimit/files/rule_words.h"
 #include "sublimit/limit/address.h"
 
 namespace sublimit::cli {
@@ -58,27 +59,17 @@ Index num_boundary_loops(const Topology& t) {
 }
 
 // The rules in force: as asked for, else the file's tag, else the default.
-const char* word(std::optional<Boundary> asked, std::optional<Boundary> tag) {
-  switch (asked.value_or(tag.value_or(Boundary::edge_and_corner))) {
-    case Boundary::none:
-      return "none";
-    case Boundary::edge_only:
-      return "edge-only";
-    default:
-      return "edge-and-corner";
-  }
+template <class Rule>
+const char* in_force(std::optional<Rule> asked, std::optional<Rule> tag, Rule otherwise) {
+  return word(asked.value_or(tag.value_or(otherwise)));
 }
-const char* word(std::optional<Creasing> asked, std::optional<Creasing> tag) {
-  return asked.value_or(tag.value_or(Creasing::uniform)) == Creasing::chaikin ? "chaikin" : "uniform";
-}
-const char* word(std::optional<Triangles> asked, std::optional<Triangles> tag) {
-  return asked.value_or(tag.value_or(Triangles::catmark)) == Triangles::smooth ? "smooth" : "catmark";
-}
-
-const char* word(FaceVaryingInterpolation interpolation) {
-  constexpr const char* words[] = {"none", "corners-only", "corners-plus1", "corners-plus2", "boundaries", "all"};
-  return words[static_cast<int>(interpolation)];
-}
+struct RuleWords {
+  const char *boundary, *creasing, *triangles;
+  explicit RuleWords(const Loaded& loaded)
+      : boundary(in_force(loaded.rules.boundary, loaded.mesh.boundary, Boundary::edge_and_corner)),
+        creasing(in_force(loaded.rules.creasing, loaded.mesh.creasing, Creasing::uniform)),
+        triangles(in_force({}, loaded.mesh.triangles, Triangles::catmark)) {}
+};
 
 int run(const Common& common, bool as_json) {
   Common quiet = common;
@@ -87,6 +78,7 @@ int run(const Common& common, bool as_json) {
   const Loaded loaded = load(quiet, progress);  // warnings and faults are what this subcommand prints
   progress.step("");
   const ControlMesh& mesh = loaded.mesh;
+  const RuleWords rules(loaded);
   const Topology t(view(mesh));
   Histogram sizes, interior, boundary;
   for (Index f = 0; f < t.num_faces(); ++f) ++sizes[t.size(Face{f})];
@@ -125,9 +117,9 @@ int run(const Common& common, bool as_json) {
               {"creases", mesh.creases.size()},
               {"corners", mesh.corners.size()},
               {"holes", mesh.holes.size()},
-              {"boundary", word(loaded.rules.boundary, mesh.boundary)},
-              {"creasing", word(loaded.rules.creasing, mesh.creasing)},
-              {"triangles", word(std::optional<Triangles>(), mesh.triangles)},
+              {"boundary", rules.boundary},
+              {"creasing", rules.creasing},
+              {"triangles", rules.triangles},
               {"face_varying_channels", mesh.face_varying.size()},
               {"face_varying", word(loaded.face_varying)},
               {"warnings", mesh.warnings},
@@ -151,8 +143,8 @@ int run(const Common& common, bool as_json) {
   fmt::print("  tags               {} creases, {} corners, {} holes\n", mesh.creases.size(), mesh.corners.size(),
              mesh.holes.size());
   fmt::print("  rules              boundary {}, creasing {}, triangles {}\n",
-             word(loaded.rules.boundary, mesh.boundary), word(loaded.rules.creasing, mesh.creasing),
-             word(std::optional<Triangles>(), mesh.triangles));
+             rules.boundary, rules.creasing,
+             rules.triangles);
   for (const ControlMesh::FaceVarying& channel : mesh.face_varying)
     fmt::print("  face-varying       {}: {} values of {} numbers, interpolation {}\n", channel.name,
                channel.values.rows(), channel.values.cols(), word(loaded.face_varying));
