@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sublimit/fit/deviation.h"
+#include "support/deviation.h"
 #include "sublimit/geometric/torus_pieces.h"
 #include "sublimit/mesh/topology.h"
 #include "support/expect_error.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sublimit/fit/deviation.h"
+#include "support/deviation.h"
 
 #include <gtest/gtest.h>
 

@@ -11,7 +11,7 @@
 #include "sublimit/geometric/geometric_scheme.h"
 #include "sublimit/geometric/surface_point.h"
 
-namespace sublimit {
+namespace sublimit::testing {
 
 /// The surface f = 0 near which |gradient| > 0; normals along the gradient.
 struct ImplicitSurface {
@@ -52,4 +52,4 @@ std::vector<Deviation> deviations(const GeometricScheme<CurvatureMesh>& scheme, 
 /// Exact data of the surface at the points of it nearest to a mesh's vertices: targets to start from.
 std::vector<VertexTarget> targets_on(const ImplicitSurface& surface, const ControlMesh& mesh);
 
-}  // namespace sublimit
+}  // namespace sublimit::testing

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sublimit/geometric/torus_patch.h"
+#include "support/torus_patch.h"
 
 #include <Eigen/Geometry>
 
 #include <cmath>
 
-namespace sublimit {
+namespace sublimit::testing {
 
 using Eigen::Vector3d;
 
@@ -52,4 +52,4 @@ RationalPatch torus_patch(const TorusPiece& piece, const TorusPiece::Place& cent
   return patch;
 }
 
-}  // namespace sublimit
+}  // namespace sublimit::testing

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sublimit/fit/deviation.h"
+#include "support/deviation.h"
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
@@ -11,7 +11,7 @@
 #include "sublimit/base/format_number.h"
 #include "sublimit/mesh/topology.h"
 
-namespace sublimit {
+namespace sublimit::testing {
 namespace {
 
 using Eigen::Matrix3d, Eigen::Matrix4d, Eigen::Vector3d, Eigen::Vector4d;
@@ -132,4 +132,4 @@ std::vector<VertexTarget> targets_on(const ImplicitSurface& surface, const Contr
   return targets;
 }
 
-}  // namespace sublimit
+}  // namespace sublimit::testing

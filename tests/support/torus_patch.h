@@ -7,7 +7,7 @@
 
 #include "sublimit/geometric/torus_piece.h"
 
-namespace sublimit {
+namespace sublimit::testing {
 
 struct RationalPatch {
   /// Three along the tube, for each of three around: number 3 j + i.
@@ -23,4 +23,4 @@ struct RationalPatch {
 /// @param centre  w is ignored
 RationalPatch torus_patch(const TorusPiece& piece, const TorusPiece::Place& centre, double half_u, double half_v);
 
-}  // namespace sublimit
+}  // namespace sublimit::testing
