@@ -14,7 +14,7 @@ namespace sublimit {
 /// @param cross2    square of its length
 /// @param tangents2  product of the squares of theirs
 inline bool is_sound_normal(double cross2, double tangents2) {
-  return cross2 > 1e-20 * tangents2 && tangents2 > 1e-280 && tangents2 < 1e280;
+  return cross2 > 1e-12 * tangents2 && tangents2 > 1e-280 && tangents2 < 1e280;
 }
 
 struct LimitSurface::Parts {

@@ -507,6 +507,26 @@ const PieceType* PieceTypes::type(const Level& level, const Piece& piece, const 
   return kept(walk, std::move(type));
 }
 
+namespace {
+
+/// Along the tangent plane of a polynomial at a place next to a corner. Where both derivatives are parallel at the
+/// corner, as beside a crease that leaves one face, all that the plane is known by is a difference of the size of the
+/// distance: the way to the corner keeps it apart.
+RowMatrix polynomial_tangents(const PieceType& type, const PiecePolynomial& polynomial, Place place,
+                              const RowMatrix& rows) {
+  constexpr double near = 0x1p-12;  // nearer, more than a few digits would go
+  const int corner = nearest_corner(type.kind(), place);
+  const Place c = corner_place(type.kind(), corner);
+  if (std::abs(place.u - c.u) > near || std::abs(place.v - c.v) > near) return rows.middleRows(1, 2);
+  const PieceLink& link = type.child(place);
+  if (!link.repeats || corner_at(type.kind(), place) >= 0) return rows.middleRows(1, 2);
+  int times = 0;
+  for (; times < 4095 && link.map.contains(place); ++times) place = link.map(place);
+  return link.repeated.tangents_pulled_back(polynomial.rows(place, 1).middleRows(1, 2), times);
+}
+
+}  // namespace
+
 PieceRows piece_rows(const PieceType& root, Place place, int order, bool search) {
   struct Step {
     const PieceType* from;
@@ -526,6 +546,7 @@ PieceRows piece_rows(const PieceType& root, Place place, int order, bool search)
       result.order = order;
       result.on_knot = is_on_knot(place, type->kind() == Piece::Kind::triangle, type->kind() == Piece::Kind::corner,
                                   p->coefficients.size() > 1);
+      if (order > 0) result.tangents = polynomial_tangents(*type, *p, place, result.rows);
       break;
     }
     int corner = corner_at(type->kind(), place);
@@ -558,7 +579,7 @@ PieceRows piece_rows(const PieceType& root, Place place, int order, bool search)
       }
     type = link.type;
   }
-  if (result.order > 0) result.tangents = result.rows.middleRows(1, 2);
+  if (result.order > 0 && result.tangents.rows() == 0) result.tangents = result.rows.middleRows(1, 2);
   // Second derivatives of linear functions vanish. What rounding leaves of them would grow by the scale with every step
   // back. The functions are known of the type where the path ends, which is that of all regular pieces on it.
   const auto without_linear = [&](const PieceType* of) {
