@@ -84,10 +84,7 @@ int run(const DemoOptions& options) {
   picture.commit();
   // The same level 2 from a table, which needs the points of the mesh and nothing else.
   Patterns patterns(scheme);
-  Baked baked = bake_level(patterns, mesh, 2);
-  std::vector<std::string> statuses = std::move(baked.table.info.statuses);
-  baked.table.info = table_info(scheme, {}, mesh, {.level = 2});
-  baked.table.info.statuses = std::move(statuses);
+  const Baked baked = bake_level(patterns, mesh, 2);
   save_table(path("level2.safetensors"), in_float(baked.table));
   progress.step("");
   if (options.common.quiet) return 0;

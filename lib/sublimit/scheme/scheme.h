@@ -45,7 +45,8 @@ struct Scheme {
   std::vector<Step<T>> steps;  ///< in templates written `{Step<T>{...}}`: g++ 12 fails on nested plain braces
   CreaseMasks<T> creases;
   Claims claims = {};
-  std::vector<OptionInfo> options = {};
+  std::vector<OptionInfo> options = {};  ///< that it knows
+  SchemeOptions chosen = {};             ///< those that it was made with, the others have their defaults
   /// The masks repeat with this period in the level; 1 for stationary schemes. Rotating schemes (sqrt3, mid_edge) have
   /// 2: only then a neighbourhood lies as it lay before.
   int period = 1;
