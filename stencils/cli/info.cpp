@@ -89,7 +89,7 @@ int run(const Common& common, bool as_json) {
   const Index euler = t.num_vertices() - t.num_edges() + t.num_faces();
   const bool triangles = loaded.scheme && loaded.scheme->face_size() == 3;
   const Addresses addresses(t, triangles);
-  std::string takes = "yes";
+  std::string why_not;  // empty: the scheme takes the mesh
   std::vector<double> cost;
   if (loaded.scheme) {
     try {
@@ -97,7 +97,7 @@ int run(const Common& common, bool as_json) {
       if (loaded.scheme->face_size() == 3) check_triangles(t);
       for (int level = 1; level <= 6; ++level) cost.push_back(predicted_bytes(*loaded.scheme, t, level));
     } catch (const UnsupportedTopology& error) {
-      takes = std::string("no: ") + error.what();
+      why_not = error.what();
     }
   }
   if (as_json) {
@@ -111,7 +111,7 @@ int run(const Common& common, bool as_json) {
               {"components", num_components(t)},
               {"boundary_loops", num_boundary_loops(t)},
               {"face_sizes", to_json(sizes)},
-              {"addresses", takes == "yes" ? Json(addresses.size()) : Json()},
+              {"addresses", why_not.empty() ? Json(addresses.size()) : Json()},
               {"interior_valences", to_json(interior)},
               {"boundary_valences", to_json(boundary)},
               {"creases", mesh.creases.size()},
@@ -125,7 +125,7 @@ int run(const Common& common, bool as_json) {
               {"warnings", mesh.warnings},
               {"faults", faults}};
     if (loaded.scheme) {
-      json["scheme"] = {{"name", loaded.scheme->name}, {"takes_mesh", takes}, {"predicted_bytes_by_level", cost}};
+      json["scheme"] = {{"name", loaded.scheme->name}, {"takes_mesh", why_not.empty() ? "yes" : "no: " + why_not}, {"predicted_bytes_by_level", cost}};
     }
     fmt::print("{}\n", json.dump(2));
     return 0;
@@ -134,7 +134,7 @@ int run(const Common& common, bool as_json) {
   fmt::print("  {} vertices, {} edges, {} faces; Euler characteristic {}, {} component(s)\n", t.num_vertices(),
              t.num_edges(), t.num_faces(), euler, num_components(t));
   fmt::print("  face sizes         {}\n", to_text(sizes));
-  if (takes == "yes")
+  if (why_not.empty())
     fmt::print("  addresses          faces 0 to {} of `sublimit sample`: {}\n", addresses.size() - 1,
                triangles ? "the triangles" : "a quad is one, another polygon one a corner");
   fmt::print("  interior valences  {}\n", to_text(interior));
@@ -149,7 +149,7 @@ int run(const Common& common, bool as_json) {
     fmt::print("  face-varying       {}: {} values of {} numbers, interpolation {}\n", channel.name,
                channel.values.rows(), channel.values.cols(), word(loaded.face_varying));
   if (loaded.scheme) {
-    fmt::print("  {:<18} {}\n", loaded.scheme->name + ":", takes == "yes" ? "takes this mesh" : takes);
+    fmt::print("  {:<18} {}\n", loaded.scheme->name + ":", why_not.empty() ? "takes this mesh" : "no: " + why_not);
     for (size_t k = 0; k < cost.size(); ++k)
       fmt::print("    to level {}         about {:.1f} MB\n", k + 1, cost[k] / 1e6);
   }
