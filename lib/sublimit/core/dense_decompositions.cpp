@@ -5,7 +5,6 @@
 #include <Eigen/QR>
 #include <Eigen/SVD>
 
-
 namespace sublimit {
 
 SingularValues singular_values(const Eigen::MatrixXd& M) {
