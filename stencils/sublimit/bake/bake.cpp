@@ -113,9 +113,9 @@ Baked bake(Patterns& patterns, const ControlMesh& mesh, const BakeRequest& reque
         how.turns = &turn;
         return bake_by_patterns(patterns, control, request, how);
       },
-      [&] { return bake_by_rows(patterns, mesh, control, request, options); });
+      [&] { return bake_by_rows(patterns, control, request); });
   baked.table.info = table_info(scheme, mesh, request, options);
-  if (request.face_varying || request.tags) add_channels(scheme, mesh, request, options, turn, baked.table);
+  if (request.face_varying || request.tags) add_channels(scheme, mesh, control, request, options, turn, baked.table);
   BakeStatistics& s = baked.statistics;
   const auto& arrays = baked.table.table.arrays();
   s.blocks = static_cast<Index>(arrays.blocks.size());
