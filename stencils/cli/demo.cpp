@@ -52,7 +52,7 @@ int run(const DemoOptions& options) {
   const std::vector<Level> levels = refine(scheme, mesh, 3);
   std::vector<Points> points{mesh.positions};
   for (size_t k = 1; k < levels.size(); ++k) points.push_back(apply(levels[k].S, points.back()));
-  LimitMaskCache cache(scheme);
+  LimitTypes cache(scheme);
   const LimitMatrices limit = limit_matrices(levels[3], cache);
   const LimitPoints at_limit = limit_points(limit, levels[3].topology(), points[3]);
   const MeshOutput surface = limit_mesh(levels[3], limit, at_limit, Normals::per_corner);

@@ -257,7 +257,7 @@ TEST(Errata, InterpolatingTheCubeIsSingular) {
   const auto limits = [](const std::string& name, const ControlMesh& mesh) {
     const Scheme<double> scheme = find_scheme(name).value();
     const Level level = control_level(scheme, mesh);
-    LimitMaskCache cache(scheme);
+    LimitTypes cache(scheme);
     return Eigen::MatrixXd(limit_matrices(level, cache).position);
   };
   const auto smallest = [](const Eigen::MatrixXd& L) {

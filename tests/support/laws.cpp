@@ -339,7 +339,7 @@ std::string limits_agree_between_levels(const Scheme<double>& scheme) {
   const auto same_normal = [](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
     return (a - b).norm() <= eigen(10);
   };
-  LimitMaskCache cache(scheme);
+  LimitTypes cache(scheme);
   for (const ControlMesh& mesh : meshes_for(scheme)) {
     const std::vector<Level> levels = refine(scheme, mesh, 2);
     Points x = mesh.positions;
@@ -444,7 +444,7 @@ std::optional<Index> faces_before(const std::vector<Level>& levels, Vertex v) {
 
 std::vector<NormalPlace> normal_places(const Scheme<double>& scheme) {
   std::vector<NormalPlace> places;
-  LimitMaskCache cache(scheme);
+  LimitTypes cache(scheme);
   Index number = 0;
   for (const ControlMesh& mesh : meshes_for(scheme)) {
     const std::vector<Level> levels = refine(scheme, mesh, 1);

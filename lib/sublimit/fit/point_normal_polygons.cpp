@@ -157,7 +157,7 @@ PointNormalMesh point_normal_mesh(const Scheme<double>& scheme, const ControlMes
   check(scheme, mesh, targets, options);
   std::vector<Level> levels = refine(scheme, mesh, scheme.period, options.rules);
   std::vector<Carrier> all = carriers(levels, targets);
-  LimitMaskCache cache(scheme);
+  LimitTypes cache(scheme);
   std::vector<Centre> centres;
   for (const Carrier& carrier : all) centres.push_back(carrier.centre);
   std::vector<LimitRows> rows = limit_rows(levels.back(), cache, centres);

@@ -30,7 +30,7 @@ Centre descendant(Centre centre, std::span<const Level> levels) {
   return centre;
 }
 
-VertexLimits vertex_limits(std::span<const Level> levels, LimitMaskCache& cache, std::span<const Index> vertices) {
+VertexLimits vertex_limits(std::span<const Level> levels, LimitTypes& cache, std::span<const Index> vertices) {
   const Level& level = levels.back();
   const VertexSides sides = vertex_sides(levels.front());
   const std::vector<Index> number = numbers(vertices, levels.front().topology().num_vertices());

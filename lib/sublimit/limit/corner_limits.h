@@ -14,13 +14,13 @@ namespace sublimit {
 class CornerLimits {
  public:
   /// @param masks  of the scheme, shared with other levels
-  CornerLimits(LimitMaskCache& masks, const Level& level) : level_(level), masks_(masks) {}
+  CornerLimits(LimitTypes& masks, const Level& level) : level_(level), masks_(masks) {}
   /// Null where there is no limit. A vertex is seen from the face of `centre.start`.
   const LimitRows* at(const Centre& centre) const;
 
  private:
   const Level& level_;
-  LimitMaskCache& masks_;
+  LimitTypes& masks_;
   mutable std::mutex mutex_;
   mutable std::map<std::pair<int, Index>, std::optional<LimitRows>> known_;
 };

@@ -38,7 +38,7 @@ Vector3d turn_of(const LimitMatrices& limit, const Topology& t, Index side, cons
 
 }  // namespace
 
-LimitMatrices limit_matrices(const Level& level, LimitMaskCache& cache) {
+LimitMatrices limit_matrices(const Level& level, LimitTypes& cache) {
   const Index num_vertices = level.topology().num_vertices();
   VertexSides sides = vertex_sides(level);
   LimitMatrices result;
@@ -77,7 +77,7 @@ LimitMatrices limit_matrices(const Level& level, LimitMaskCache& cache) {
   return result;
 }
 
-LimitMatrices limit_matrices(const std::vector<Level>& levels, LimitMaskCache& cache) {
+LimitMatrices limit_matrices(const std::vector<Level>& levels, LimitTypes& cache) {
   try {
     return limit_matrices(levels.back(), cache);
   } catch (const NoLimit& error) {

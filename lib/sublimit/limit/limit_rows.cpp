@@ -53,7 +53,7 @@ LimitRows rows_of(const LimitMasks& masks, const LimitMasks::Side& side, const a
 }
 
 /// A vertex whose one-ring is all that its limit depends on, whatever is sharp there: the type is that of all its sides.
-LimitRows one_ring_rows(const Level& level, LimitMaskCache& cache, HalfEdge corner) {
+LimitRows one_ring_rows(const Level& level, LimitTypes& cache, HalfEdge corner) {
   const Topology& t = level.topology();
   const NeighborhoodAt at = neighborhood(t, level.sharpness, t.tail(corner));
   const LimitMasks& masks = cache.masks(at.type);
@@ -67,7 +67,7 @@ LimitRows one_ring_rows(const Level& level, LimitMaskCache& cache, HalfEdge corn
 }
 
 /// A centre that is alone among regular points, as far as its limit depends on them.
-std::optional<LimitRows> lone_rows(const Level& level, LimitMaskCache& cache, const Centre& centre) {
+std::optional<LimitRows> lone_rows(const Level& level, LimitTypes& cache, const Centre& centre) {
   if (centre.kind == Centre::Kind::edge) return std::nullopt;  // a vertex or face, one level on
   // Of dual schemes a vertex becomes a face, or the middle of a border edge, whose masks tell more.
   if (centre.kind == Centre::Kind::vertex && cache.scheme().is_dual()) return std::nullopt;
@@ -80,7 +80,7 @@ std::optional<LimitRows> lone_rows(const Level& level, LimitMaskCache& cache, co
                  [&](const LimitMasks::Mask& mask) { return gathered(mask, limit->slots, places.vertices); });
 }
 
-std::optional<LimitRows> known_rows(const Level& level, LimitMaskCache& cache, const Centre& centre) {
+std::optional<LimitRows> known_rows(const Level& level, LimitTypes& cache, const Centre& centre) {
   if (centre.kind == Centre::Kind::vertex && cache.scheme().has_one_ring_limits())
     return one_ring_rows(level, cache, centre.start);
   return lone_rows(level, cache, centre);
@@ -111,7 +111,7 @@ bool is_prepared_first(const Scheme<double>& scheme, const Level& level) {
 }
 
 /// @param why  for each place what keeps it from having a limit; empty if it has one
-std::vector<LimitRows> found_rows(const Level& level, LimitMaskCache& cache, const std::vector<Centre>& centres, int depth,
+std::vector<LimitRows> found_rows(const Level& level, LimitTypes& cache, const std::vector<Centre>& centres, int depth,
                                std::vector<std::string>& why) {
   const Scheme<double>& scheme = cache.scheme();
   const auto count = static_cast<std::int64_t>(centres.size());
@@ -237,7 +237,7 @@ LimitStatus status_of(const LimitRows& rows, const Scheme<double>& scheme) {
 
 }  // namespace
 
-std::vector<LimitRows> limit_rows(const Level& level, LimitMaskCache& cache, const std::vector<Centre>& centres) {
+std::vector<LimitRows> limit_rows(const Level& level, LimitTypes& cache, const std::vector<Centre>& centres) {
   std::vector<std::string> why(centres.size());
   std::vector<LimitRows> rows = found_rows(level, cache, centres, 12, why);
   const auto failed = std::ranges::find_if(why, [](const std::string& reason) { return !reason.empty(); });

@@ -4,7 +4,7 @@
 // the neighbourhood is a known type its masks are; elsewhere the faces around it are refined, by the scheme's own
 // matrices, until it is: L_k = L_{k+1} S_k. Places that never are have a position if their neighbourhood comes to repeat
 // itself.
-#include "sublimit/limit/limit_masks.h"
+#include "sublimit/limit/limit_types.h"
 #include "sublimit/limit/limit_status.h"
 #include "sublimit/limit/no_limit.h"
 #include "sublimit/scheme/refine.h"
@@ -25,7 +25,7 @@ struct LimitRows {
 
 /// @param centres  of vertices those of one side, as `vertex_sides` has them
 /// @throws NoLimit  naming the first place that has none
-std::vector<LimitRows> limit_rows(const Level& level, LimitMaskCache& cache, const std::vector<Centre>& centres);
+std::vector<LimitRows> limit_rows(const Level& level, LimitTypes& cache, const std::vector<Centre>& centres);
 
 /// Rows as a matrix.
 SparseMatrix matrix_of(std::span<const LimitRows::Row* const> rows, Index columns);

@@ -15,9 +15,9 @@
 
 namespace sublimit {
 LimitSurface::LimitSurface(const Scheme<double>& scheme, const ControlMesh& mesh, const SubdivisionOptions& options,
-                           std::shared_ptr<PieceTypes> types)
+                           std::shared_ptr<LimitTypes> types)
     : LimitSurface(scheme, control_level(scheme, mesh, options), std::move(types)) {}
-LimitSurface::LimitSurface(const Scheme<double>& scheme, Level level, std::shared_ptr<PieceTypes> types)
+LimitSurface::LimitSurface(const Scheme<double>& scheme, Level level, std::shared_ptr<LimitTypes> types)
     : parts_(std::make_unique<Parts>(scheme, std::move(level), std::move(types))) {}
 LimitSurface::~LimitSurface() = default;
 LimitSurface::LimitSurface(LimitSurface&&) noexcept = default;
@@ -49,7 +49,7 @@ LimitSurface::Parts::Found LimitSurface::Parts::find(const Target& at, int order
     apply_chain(chain, rows.rows);
     turn_tangents(chain, rows.tangents);
   }
-  if (order >= 2 && (rows.order < 2 || (rows.on_knot && types->regular_smoothness() == 1))) {
+  if (order >= 2 && (rows.order < 2 || (rows.on_knot && types->pieces().regular_smoothness() == 1))) {
     if (found.status == LimitStatus::regular) found.status = LimitStatus::unbounded_second;
     if (rows.order == 2) {
       rows.order = 1;

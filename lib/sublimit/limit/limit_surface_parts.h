@@ -25,10 +25,10 @@ struct LimitSurface::Parts {
   std::optional<Level> prepared;
   const Level& base() const { return prepared ? *prepared : level; }
   Addresses addresses;
-  std::shared_ptr<PieceTypes> types;
+  std::shared_ptr<LimitTypes> types;
   CornerLimits corners;
 
-  Parts(const Scheme<double>& scheme, Level level, std::shared_ptr<PieceTypes> shared);
+  Parts(const Scheme<double>& scheme, Level level, std::shared_ptr<LimitTypes> shared);
 
   /// A piece, the place in it, and how the parameters of the address become those of the piece.
   struct Target {
@@ -44,7 +44,7 @@ struct LimitSurface::Parts {
   }
   void check(const Sample& sample) const;
   bool cuts(HalfEdge h) const {
-    return is_cut(base().topology(), base().sharpness, h) || types->regular_smoothness() == 0;
+    return is_cut(base().topology(), base().sharpness, h) || types->pieces().regular_smoothness() == 0;
   }
   /// Whether the tail of h is on a crease, border or corner, which the faces at h need not be beside.
   bool is_on_cut(HalfEdge h) const;

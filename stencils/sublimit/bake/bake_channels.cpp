@@ -50,7 +50,7 @@ FaceVaryingValues refined_values(const Scheme<double>& scheme, FaceVaryingInterp
   const std::vector<FaceVaryingLevel> channel = refine_face_varying(scheme, interpolation, given, levels);
   Points values = refined_values(channel, given.values);
   if (limit) {
-    LimitMaskCache cache(face_varying_scheme(scheme, interpolation));
+    LimitTypes cache(face_varying_scheme(scheme, interpolation));
     values = apply(limit_matrices(channel.back().level, cache).position, values);
   }
   const Topology& t = channel.back().level.topology();

@@ -43,7 +43,7 @@ StencilTable<double> stacked(const std::vector<SparseMatrix>& parts) {
 /// Limits of the vertices of the last level, with the tangents of one side each.
 void add_limits(const Scheme<double>& scheme, const std::vector<Level>& levels, int derivatives, Baked& baked,
                 PatternTable<double>::Arrays& arrays) {
-  LimitMaskCache cache(scheme);
+  LimitTypes cache(scheme);
   const LimitMatrices limit = limit_matrices(levels, cache);
   const SparseMatrix P = refinement_matrix(levels);
   const Topology& t = levels.back().topology();

@@ -39,7 +39,7 @@ struct Limit {
   LimitMatrices matrices;
   LimitPoints points;
 
-  Limit(const Refined& refined, int k, LimitMaskCache& cache)
+  Limit(const Refined& refined, int k, LimitTypes& cache)
       : level(refined.levels[k]),
         matrices(limit_matrices(level, cache)),
         points(limit_points(matrices, level.topology(), refined.points[k])) {}
@@ -62,7 +62,7 @@ void measure(Measured& m, const Cage& cage, const Limit& fine) {
 
 }  // namespace
 
-Exhibit exhibit(const Cage& cage, LimitMaskCache& cache, const ExhibitOptions& options) {
+Exhibit exhibit(const Cage& cage, LimitTypes& cache, const ExhibitOptions& options) {
   const Refined refined(cache.scheme(), cage.mesh, options.levels, options.faces);
   const Claims& claims = cache.scheme().claims;
   Exhibit result;

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "sublimit/gallery/cages.h"
-#include "sublimit/limit/limit_masks.h"
+#include "sublimit/limit/limit_types.h"
 #include "sublimit/picture/picture.h"
 
 namespace sublimit::gallery {
@@ -44,6 +44,6 @@ struct ExhibitOptions {
 };
 
 /// @throws AnalysisError  no limit
-Exhibit exhibit(const Cage& cage, LimitMaskCache& cache, const ExhibitOptions& options);
+Exhibit exhibit(const Cage& cage, LimitTypes& cache, const ExhibitOptions& options);
 
 }  // namespace sublimit::gallery

@@ -120,10 +120,10 @@ Gallery make_gallery(const GalleryOptions& options, const std::function<void(int
     throw InvalidParameter("gallery: surfaces have 200 to 200000 faces");
   const std::vector<Scheme<double>> schemes = all_schemes();
   const std::vector<Cage> all_cages = cages();
-  std::vector<std::unique_ptr<LimitMaskCache>> caches;
+  std::vector<std::unique_ptr<LimitTypes>> caches;
   std::vector<Work> work;
   for (const Scheme<double>& scheme : schemes) {
-    caches.push_back(std::make_unique<LimitMaskCache>(scheme));
+    caches.push_back(std::make_unique<LimitTypes>(scheme));
     for (const Cage& cage : all_cages)
       if (scheme.face_size() == 0 || Topology(view(cage.mesh)).uniform_face_size() == scheme.face_size())
         work.push_back({static_cast<int>(caches.size()) - 1, &cage, {}});

@@ -36,7 +36,7 @@ std::vector<VertexTarget> with_normals(const ControlMesh& mesh) {
 
 /// Points and normals of the limit of what was found, by the way that knows nothing of fitting: vertices of one side.
 LimitPoints limits_of(const Scheme<double>& scheme, const Interpolation& found) {
-  LimitMaskCache cache(scheme);
+  LimitTypes cache(scheme);
   return limit_points(limit_matrices(found.level, cache), found.level.topology(), found.points);
 }
 

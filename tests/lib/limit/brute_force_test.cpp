@@ -62,7 +62,7 @@ void compare(const NamedMesh& tested, const std::string& scheme_name, Worst& wor
   const Scheme<Precise> precise = find_scheme<Precise>(scheme_name, options).value();
   const Level level = control_level(scheme, tested.mesh);
   const Topology& t = level.topology();
-  LimitMaskCache cache(scheme);
+  LimitTypes cache(scheme);
   const LimitMatrices limit = limit_matrices(level, cache);
   const LimitPoints ours = limit_points(limit, t, tested.mesh.positions);
   const double size = diagonal(tested.mesh.positions);

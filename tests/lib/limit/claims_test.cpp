@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "sublimit/fit/closest_point.h"
-#include "sublimit/limit/regular_smoothness.h"
+#include "sublimit/neighborhood/regular_smoothness.h"
 #include "support/laws.h"
 #include "support/places.h"
 #include "support/tested_schemes.h"

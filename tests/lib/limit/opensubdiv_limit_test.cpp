@@ -49,7 +49,7 @@ LimitDifferences compare_limits(const ControlMesh& mesh, const std::string& name
   const std::vector<Level> refined = refine(scheme, mesh, levels);
   Points x = mesh.positions;
   for (int k = 1; k <= levels; ++k) x = apply(refined[k].S, x);
-  LimitMaskCache cache(scheme);
+  LimitTypes cache(scheme);
   const Level& level = refined.back();
   const LimitMatrices limit = limit_matrices(level, cache);
   const LimitPoints ours = limit_points(limit, level.topology(), x);

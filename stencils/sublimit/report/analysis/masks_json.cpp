@@ -93,7 +93,7 @@ Json dart_masks_json(const Scheme<double>& scheme, const LocalPatch<Algebraic>& 
   SubdivisionOptions options;
   options.boundary = Boundary::edge_only;
   const Level level = control_level(scheme, creased_fan(n, n, size), options);
-  LimitMaskCache cache(scheme);
+  LimitTypes cache(scheme);
   const LimitRows rows = limit_rows(level, cache, {side_of(level, level.topology().outgoing(Vertex{0}))})[0];
   if (rows.tangent1.empty()) return nullptr;
   // Points of the fan, by the labels of the patch.

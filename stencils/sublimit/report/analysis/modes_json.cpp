@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "sublimit/limit/piece_types.h"
+#include "sublimit/limit/limit_types.h"
 
 namespace sublimit::report {
 namespace {
@@ -54,8 +54,8 @@ bool has_triangles(const Scheme<double>& scheme) { return scheme.face_size() == 
 
 }  // namespace
 
-Json characteristic_map_json(const std::shared_ptr<PieceTypes>& pieces, const LocalModes& modes) {
-  const Scheme<double>& scheme = pieces->scheme();
+Json characteristic_map_json(const std::shared_ptr<LimitTypes>& pieces, const LocalModes& modes) {
+  const Scheme<double>& scheme = pieces->pieces().scheme();
   const LocalMode& mode = modes.leading;
   if (mode.block == 0 || std::abs(mode.value.imag()) > 1e-9 * std::abs(mode.value)) return nullptr;
   const bool triangles = has_triangles(scheme);
@@ -127,9 +127,9 @@ Json eigenfunctions_json(const LocalModes& modes) {
   return json;
 }
 
-SampleSurface sample_surface(const std::shared_ptr<PieceTypes>& pieces, const LocalType& type, bool is_drawn,
+SampleSurface sample_surface(const std::shared_ptr<LimitTypes>& pieces, const LocalType& type, bool is_drawn,
                              bool is_dart) {
-  const Scheme<double>& scheme = pieces->scheme();
+  const Scheme<double>& scheme = pieces->pieces().scheme();
   constexpr int rings = 5;
   const bool open = type.open && !is_dart;
   const bool triangles = has_triangles(scheme), is_face = type.kind == Centre::Kind::face;

@@ -130,7 +130,7 @@ Finding border_depends_on_inside(const std::string& rule) {
 Finding interpolation_is_solvable(const std::vector<std::pair<std::string, ControlMesh>>& meshes,
                                   const std::string& scheme) {
   const Scheme<double> rules = named(scheme);
-  LimitMaskCache cache(rules);
+  LimitTypes cache(rules);
   std::vector<bool> is_so;
   Finding f;
   for (const auto& [name, mesh] : meshes) {

@@ -19,7 +19,6 @@
 
 namespace sublimit {
 
-class LimitMaskCache;
 class PieceType;
 class PieceTypes;
 
@@ -157,8 +156,6 @@ class PieceTypes {
   const PieceType* find(const std::vector<std::uint32_t>& signature) const;
   /// Bytes that the types and their blocks take, about.
   double memory() const { return memory_.load(std::memory_order_relaxed); }
-  /// Limit masks of the scheme, shared like the types.
-  LimitMaskCache& masks() { return *masks_; }
 
  private:
   friend class PieceType;
@@ -171,7 +168,6 @@ class PieceTypes {
   const PieceType* kept(const PieceWalk& walk, std::unique_ptr<PieceType> type);
   size_t max_types_;
   std::atomic<double> memory_{0};
-  std::unique_ptr<LimitMaskCache> masks_;
   mutable std::shared_mutex mutex_;
   std::unordered_map<std::vector<std::uint32_t>, std::unique_ptr<PieceType>, SignatureHash> types_;
   mutable std::recursive_mutex polynomials_;  // one search at a time

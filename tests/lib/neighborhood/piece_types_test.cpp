@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sublimit/limit/piece_types.h"
+#include "sublimit/neighborhood/piece_types.h"
 
 #include <gtest/gtest.h>
 

@@ -8,7 +8,7 @@
 // since the limit is the only solution of this equation that is continuous.
 #include <vector>
 
-#include "sublimit/limit/piece_types.h"
+#include "sublimit/neighborhood/piece_types.h"
 
 namespace sublimit {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sublimit/limit/piece_types.h"
+#include "sublimit/neighborhood/piece_types.h"
 
 #include <Eigen/LU>
 #include <Eigen/SparseLU>
@@ -13,9 +13,8 @@
 #include "sublimit/base/memory.h"
 #include "sublimit/core/dense_decompositions.h"
 #include "sublimit/core/sparse_product.h"
-#include "sublimit/limit/limit_masks.h"
-#include "sublimit/limit/polynomial_search.h"
-#include "sublimit/limit/regular_smoothness.h"
+#include "sublimit/neighborhood/polynomial_search.h"
+#include "sublimit/neighborhood/regular_smoothness.h"
 #include "sublimit/neighborhood/canonical_part.h"
 #include "sublimit/neighborhood/closed_set.h"
 #include "sublimit/scheme/refine_impl.h"
@@ -435,7 +434,6 @@ const PieceType::CornerRows& PieceType::corner(int corner) const {
 
 PieceTypes::PieceTypes(const Scheme<double>& scheme, size_t max_types) : scheme_(scheme), max_types_(max_types) {
   scheme_.preparation.clear();  // surfaces begin behind it
-  masks_ = std::make_unique<LimitMaskCache>(scheme_);
 }
 
 PieceTypes::~PieceTypes() = default;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sublimit/limit/polynomial_search.h"
+#include "sublimit/neighborhood/polynomial_search.h"
 
 #include <Eigen/LU>
 

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sublimit/limit/regular_smoothness.h"
+#include "sublimit/neighborhood/regular_smoothness.h"
 
 #include <cmath>
 
 #include "sublimit/base/error.h"
 #include "sublimit/core/dense_decompositions.h"
-#include "sublimit/limit/eigen_structure.h"
 #include "sublimit/neighborhood/local_patch.h"
 
 namespace sublimit {
 namespace {
+
+/// Moduli that differ by less, relatively, are the same: a Jordan block of two is known to the root of rounding.
+constexpr double same_modulus = 1e-5;
 
 /// Eigenvalues of the neighbourhood of a regular vertex, or, where vertices become faces, of a regular face.
 Eigen::VectorXcd regular_spectrum(const Scheme<double>& scheme) {
@@ -36,9 +38,9 @@ int regular_smoothness(const Scheme<double>& scheme) {
   Eigen::Index polynomials = 0;
   for (int k = 0; k <= 2; ++k) {
     polynomials += k + 1;
-    const double slowest = std::pow(dilation, -k) * (1 - cluster_tolerance);
+    const double slowest = std::pow(dilation, -k) * (1 - same_modulus);
     if ((spectrum.array().abs() >= slowest).count() != polynomials) break;
-    const double decay = std::pow(dilation, -k) * (1 + cluster_tolerance);
+    const double decay = std::pow(dilation, -k) * (1 + same_modulus);
     if ((spectrum.array().abs() <= decay).count() != spectrum.size() - (polynomials - k - 1)) break;
     smoothness = k;
   }
