@@ -103,7 +103,7 @@ TEST(Interpolation, CubeThroughItsOwnCornersIsTwiceAsLarge) {
   EXPECT_LE((found.points - 2 * cube().positions).cwiseAbs().maxCoeff(), on_target);
 }
 
-/// schemes.md section 4, by hand: all vertices of a platonic solid have valence n, with e the weight of a neighbour the
+/// By hand: all vertices of a platonic solid have valence n, with e the weight of a neighbour the
 /// eigenvalues are those of its graph.
 TEST(Interpolation, LoopSolidsHaveTheSmallestSingularValuesOfTheirGraphs) {
   const auto scheme = *find_scheme<double>("loop");

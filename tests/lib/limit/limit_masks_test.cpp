@@ -224,7 +224,7 @@ TEST(LimitMasks, RegularBoundaryCrossTangentsMatchTheClosedForm) {
   EXPECT_LE((across(triangles) - t.normalized()).norm(), closed_form);
 }
 
-// schemes.md section 3: with the plain rules the second sine mode decays faster than the tangent along the boundary up to 3
+// By hand: with the plain rules the second sine mode decays faster than the tangent along the boundary up to 3
 // quads and 5 triangles, equally at 4 and 6, slower beyond; corners fail from 3 quads and 4 triangles on.
 TEST(LimitMasks, PlanesAtBoundariesAndCornersAreAsAnalysed) {
   using Plane = LimitMasks::Plane;

@@ -18,7 +18,7 @@
 namespace sublimit::testing {
 namespace {
 
-/// Where the reference is exact (design.md section 7): position at smooth interior vertices, creases and corners whose
+/// Where the reference is exact (found by comparison with brute force): position at smooth interior vertices, creases and corners whose
 /// sharpness no longer changes and whose faces are all regular, other than Catmull-Clark's valence 2.
 bool exact_position(const ReferenceVertex& v, const std::string& scheme) {
   if (v.semisharp || v.irregular_face) return false;

@@ -147,7 +147,7 @@ TEST(CliGallery, ShowsEverySchemeOnEveryCageAndPolygon) {
     EXPECT_TRUE(text.starts_with("<svg") && text.ends_with("</svg>\n")) << file;
     EXPECT_EQ(text.find("nan"), std::string::npos) << file;
   }
-  EXPECT_LT(read_file(gallery / "overview.svg").size(), 400'000u);  // README shows it
+  EXPECT_LT(read_file(gallery / "overview.svg").size(), 400'000u);  // stencils/README.md shows it
 
   const Json json = Json::parse(read_file(gallery / "measures.json"));
   EXPECT_EQ(json["surfaces"].size(), surfaces);
