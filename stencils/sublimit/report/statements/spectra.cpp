@@ -39,7 +39,7 @@ Answer map_answer(const ReportedScheme& scheme, std::optional<SharedAnalysis>& s
     if (answer == Answer::proved || answer == Answer::disproved) return answer;
   }
   const std::optional<LocalModes> modes = local_modes(scheme.scheme, centre(scheme.scheme, n));
-  const Json map = modes ? characteristic_map_json(shared->pieces, *modes) : Json();
+  const Json map = modes ? characteristic_map_json(shared->types, *modes) : Json();
   return map.is_object() && map["jacobian"]["sign"] == 1 ? Answer::evidence_for : Answer::evidence_against;
 }
 
