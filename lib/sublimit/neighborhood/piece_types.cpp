@@ -510,14 +510,19 @@ namespace {
 /// Along the tangent plane of a polynomial at a place next to a corner. Where both derivatives are parallel at the
 /// corner, as beside a crease that leaves one face, all that the plane is known by is a difference of the size of the
 /// distance: the way to the corner keeps it apart.
-RowMatrix polynomial_tangents(const PieceType& type, const PiecePolynomial& polynomial, Place place,
-                              const RowMatrix& rows) {
+RowMatrix polynomial_tangents(const PieceType& type, const PiecePolynomial& polynomial, Place place) {
   constexpr double near = 0x1p-12;  // nearer, more than a few digits would go
-  const int corner = nearest_corner(type.kind(), place);
-  const Place c = corner_place(type.kind(), corner);
-  if (std::abs(place.u - c.u) > near || std::abs(place.v - c.v) > near) return rows.middleRows(1, 2);
-  const PieceLink& link = type.child(place);
-  if (!link.repeats || corner_at(type.kind(), place) >= 0) return rows.middleRows(1, 2);
+  const Place c = corner_place(type.kind(), nearest_corner(type.kind(), place));
+  const bool is_near = std::abs(place.u - c.u) <= near && std::abs(place.v - c.v) <= near;
+  const PieceLink* const child = is_near && corner_at(type.kind(), place) < 0 ? &type.child(place) : nullptr;
+  const PiecePolynomial* const next = child ? child->type->known_polynomial() : nullptr;
+  if (!next) return polynomial.rows(place, 1).middleRows(1, 2);
+  const PieceLink& link = *child;
+  if (!link.repeats) {
+    RowMatrix tangents = link.block.derivatives_pulled_back(polynomial_tangents(*link.type, *next, link.map(place)));
+    turn_tangents(link.map.chain(place), tangents);
+    return tangents;
+  }
   int times = 0;
   for (; times < 4095 && link.map.contains(place); ++times) place = link.map(place);
   return link.repeated.tangents_pulled_back(polynomial.rows(place, 1).middleRows(1, 2), times);
@@ -544,7 +549,7 @@ PieceRows piece_rows(const PieceType& root, Place place, int order, bool search)
       result.order = order;
       result.on_knot = is_on_knot(place, type->kind() == Piece::Kind::triangle, type->kind() == Piece::Kind::corner,
                                   p->coefficients.size() > 1);
-      if (order > 0) result.tangents = polynomial_tangents(*type, *p, place, result.rows);
+      if (order > 0) result.tangents = polynomial_tangents(*type, *p, place);
       break;
     }
     int corner = corner_at(type->kind(), place);
