@@ -66,8 +66,8 @@ bool contracts(const RegularPieces& pieces) {
           if (child.parent != piece) continue;
           std::map<LatticePoint, Points> finer;
           for (const LatticePoint p : pieces.pieces[child.piece].controls)
-            for (const auto& [offset, weight] : pieces.mask.weights) {
-              const auto Q = pieces.mask.parent(p + child.cell, offset);
+            for (const auto& [key, weight] : pieces.mask.weights) {
+              const auto Q = pieces.mask.parent(p + child.cell, pieces.mask.doubled(key));
               if (!Q) continue;
               const auto from = points.find(*Q);
               if (from == points.end()) return false;
@@ -117,11 +117,9 @@ bool is_rotation_symmetric(const LocalPatch<Algebraic>& patch) {
   return true;
 }
 
-LocalPatch<Algebraic> patch_of(const Scheme<Algebraic>& scheme, const PlaneMask& mask, int n) {
+LocalPatch<Algebraic> patch_of(const Scheme<Algebraic>& scheme, const RegularMask<Algebraic>& mask, int n) {
   // Rings enough for the mask to go on outwards by itself.
-  const LatticePoint low = mask.low(), high = mask.high();
-  const int reach2 = std::max({-low.x2, -low.y2, high.x2, high.y2});  // in halves
-  const int rings = mask.dual ? (reach2 + 1) / 2 - 1 : (reach2 + 1) / 2;
+  const int reach = (mask.reach2() + 1) / 2, rings = mask.dual ? reach - 1 : reach;
   auto patch = local_patch(scheme, {.kind = mask.dual ? Centre::Kind::face : Centre::Kind::vertex, .faces = n},
                            std::max(rings, 1));
   if (!patch) throw AnalysisError(scheme.name + ": no stationary neighbourhood of valence " + std::to_string(n));
@@ -130,7 +128,7 @@ LocalPatch<Algebraic> patch_of(const Scheme<Algebraic>& scheme, const PlaneMask&
 
 }  // namespace
 
-C1Prover::C1Prover(Scheme<Algebraic> scheme) : scheme_(std::move(scheme)), mask_(plane_mask(scheme_)) {
+C1Prover::C1Prover(Scheme<Algebraic> scheme) : scheme_(std::move(scheme)), mask_(regular_mask(scheme_)) {
   pieces_ = regular_pieces(mask_);
   if (pieces_) {
     functions_ = in_balls(*pieces_);

@@ -29,7 +29,7 @@ class C1Prover {
   /// The closed neighbourhood that `certify` looks at.
   LocalPatch<Algebraic> patch(int n) const;
 
-  const PlaneMask& mask() const { return mask_; }
+  const RegularMask<Algebraic>& mask() const { return mask_; }
   /// Nothing for schemes whose limits are not polynomials.
   const std::optional<RegularPieces>& pieces() const { return pieces_; }
   const BallFunctions& functions() const { return functions_; }
@@ -38,7 +38,7 @@ class C1Prover {
 
  private:
   Scheme<Algebraic> scheme_;
-  PlaneMask mask_;
+  RegularMask<Algebraic> mask_;
   std::optional<RegularPieces> pieces_;
   BallFunctions functions_;
   std::optional<DerivativeTail> tail_;

@@ -18,15 +18,15 @@ std::map<SectorLabel, Eigen::Index> places(const LocalPatch<Algebraic>& patch) {
 
 /// Row of the child point P, seen from sector 0, is the regular mask. Nothing where P is outside the patch.
 std::optional<bool> is_regular_row(const LocalPatch<Algebraic>& patch, const std::map<SectorLabel, Eigen::Index>& at,
-                                   const PlaneMask& mask, LatticePoint P) {
+                                   const RegularMask<Algebraic>& mask, LatticePoint P) {
   const int n = patch.type.faces;
   const auto label = label_at(P, mask.triangular, n);
   if (!label) return false;
   const auto row = at.find(*label);
   if (row == at.end()) return std::nullopt;
   std::map<Eigen::Index, Algebraic> expected;
-  for (const auto& [offset, weight] : mask.weights) {
-    const auto parent = mask.parent(P, offset);
+  for (const auto& [key, weight] : mask.weights) {
+    const auto parent = mask.parent(P, mask.doubled(key));
     if (!parent) continue;
     const LatticePoint Q = *parent;
     const auto from = label_at(Q, mask.triangular, n);
@@ -53,8 +53,8 @@ std::optional<ComplexBall> CharacteristicMap::at(LatticePoint p) {
   auto known = net.find(own);
   if (known == net.end()) {
     ComplexBall sum(0);
-    for (const auto& [offset, weight] : mask.weights) {
-      const auto parent = mask.parent(own, offset);
+    for (const auto& [key, weight] : mask.weights) {
+      const auto parent = mask.parent(own, mask.doubled(key));
       if (!parent) continue;
       const LatticePoint Q = *parent;
       const auto from = label_at(Q, mask.triangular, n);
@@ -94,7 +94,7 @@ DenseMatrix<ComplexBall> fourier_block(const LocalPatch<Algebraic>& patch, int k
   return B;
 }
 
-CharacteristicMap characteristic_map(const LocalPatch<Algebraic>& patch, const PlaneMask& mask,
+CharacteristicMap characteristic_map(const LocalPatch<Algebraic>& patch, const RegularMask<Algebraic>& mask,
                                      const LeadingPair& pair) {
   CharacteristicMap map{.n = patch.type.faces, .lambda = pair.value, .net = {}, .mask = mask};
   const std::vector<SectorLabel> labels = block_labels(patch, 1);

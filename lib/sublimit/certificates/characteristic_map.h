@@ -22,7 +22,7 @@ struct CharacteristicMap {
   int n = 0;
   ComplexBall lambda;
   std::map<LatticePoint, ComplexBall> net;  ///< of sector 0, by label; further rings are added as they are asked for
-  PlaneMask mask;                           ///< of the regular part
+  RegularMask<Algebraic> mask;              ///< of the regular part
 
   /// A point of the plane around sector 0. Nothing where it has no label, or the mask reaches too far.
   std::optional<ComplexBall> at(LatticePoint p);
@@ -34,7 +34,7 @@ DenseMatrix<ComplexBall> fourier_block(const LocalPatch<Algebraic>& patch, int k
 std::vector<SectorLabel> block_labels(const LocalPatch<Algebraic>& patch, int k);
 
 /// The net of the leading pair of block 1.
-CharacteristicMap characteristic_map(const LocalPatch<Algebraic>& patch, const PlaneMask& mask,
+CharacteristicMap characteristic_map(const LocalPatch<Algebraic>& patch, const RegularMask<Algebraic>& mask,
                                      const LeadingPair& pair);
 
 /// Where the neighbourhood is regular: the least r >= 1 such that all pieces of cells between rings r and D r (D:

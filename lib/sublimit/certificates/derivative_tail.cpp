@@ -80,18 +80,19 @@ Path path(LatticePoint from, int alpha, LatticePoint g, int beta, LatticePoint h
 
 }  // namespace
 
-std::optional<DerivativeTail> derivative_tail(const PlaneMask& mask, int most) {
+std::optional<DerivativeTail> derivative_tail(const RegularMask<Algebraic>& mask, int most) {
   if (mask.dual) return std::nullopt;
   const int D = mask.dilation;
   const LatticePoint e1{2, 0}, e2{0, 2}, e3{-2, 2};
   DerivativeTail tail;
-  const std::array<std::optional<Weights>, 2> first{divided(mask.weights, e1, D), divided(mask.weights, e2, D)};
+  const Weights weights = mask.plane_weights();
+  const std::array<std::optional<Weights>, 2> first{divided(weights, e1, D), divided(weights, e2, D)};
   if (!first[0] || !first[1]) return std::nullopt;
   const std::vector<std::pair<LatticePoint, LatticePoint>> pairs =
       mask.triangular ? std::vector<std::pair<LatticePoint, LatticePoint>>{{e1, e2}, {e1, e3}, {e2, e3}}
                       : std::vector<std::pair<LatticePoint, LatticePoint>>{{e1, e1}, {e1, e2}, {e2, e2}};
   for (const auto& [e, f] : pairs) {
-    auto once = divided(mask.weights, e, D);
+    auto once = divided(weights, e, D);
     auto twice = once ? divided(*once, f, D) : std::nullopt;
     if (!twice) return std::nullopt;
     tail.families.push_back({e, f, std::move(*twice)});

@@ -40,6 +40,6 @@ struct DerivativeTail {
 };
 
 /// @return  nothing where the mask does not divide, is dual, or no norm up to `most` steps is small enough
-std::optional<DerivativeTail> derivative_tail(const PlaneMask& mask, int most = 6);
+std::optional<DerivativeTail> derivative_tail(const RegularMask<Algebraic>& mask, int most = 6);
 
 }  // namespace sublimit

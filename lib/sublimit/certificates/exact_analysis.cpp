@@ -5,33 +5,9 @@
 #include <map>
 
 #include "sublimit/certificates/exact_masks.h"
+#include "sublimit/certificates/sector_chart.h"
 
 namespace sublimit {
-namespace {
-
-struct Place {
-  int x2 = 0, y2 = 0;  ///< in the chart of sector 0, doubled
-};
-
-/// Of a label, in the plane of its own regular centre: sector s is sector 0 turned s times.
-Place in_plane(const SectorLabel& label, bool triangles) {
-  Place p{label.x2, label.y2};
-  for (int s = 0; s < label.sector; ++s) p = triangles ? Place{-p.y2, p.x2 + p.y2} : Place{-p.y2, p.x2};
-  return p;
-}
-
-/// The other way round near an extraordinary centre, one sector to either side of sector 0.
-std::optional<SectorLabel> label_at(Place p, int n, bool triangles, bool is_face) {
-  const int least = is_face ? 1 : 0;
-  if (p.x2 == 0 && p.y2 == 0) return SectorLabel{};
-  if (p.x2 > 0 && p.y2 >= least) return SectorLabel{0, p.x2, p.y2};
-  const int sum = triangles ? p.x2 + p.y2 : 0;
-  if (p.x2 <= 0 && p.y2 > 0 && (!triangles || sum > 0)) return SectorLabel{1, triangles ? sum : p.y2, -p.x2};
-  if (p.y2 < 0 && p.x2 > 0 && (!triangles || sum >= 0)) return SectorLabel{n - 1, -p.y2, triangles ? sum : p.x2};
-  return std::nullopt;
-}
-
-}  // namespace
 
 std::optional<ExactAnalysis> exact_analysis(const Scheme<Algebraic>& scheme, const LocalType& type, int rings) {
   std::optional<LocalPatch<Algebraic>> patch = local_patch(scheme, type, rings);
@@ -45,7 +21,7 @@ std::optional<ExactAnalysis> exact_analysis(const Scheme<Algebraic>& scheme, con
                           .faces = scheme.regular_valence()};
   try {
     if (auto there = local_patch(scheme, regular)) {
-      analysis.regular_mask = exact_masks(*there).position;
+      analysis.regular_position = exact_masks(*there).position;
       analysis.regular = std::move(there);
     }
   } catch (const AnalysisError&) {  // no limit there: nothing will be seen
@@ -74,22 +50,21 @@ class RegularPlaces {
  public:
   explicit RegularPlaces(const ExactAnalysis& analysis)
       : analysis_(analysis),
-        triangles_(analysis.scheme.face_size() == 3),
-        is_face_(analysis.patch.type.kind == Centre::Kind::face),
+        triangular_(analysis.scheme.face_size() == 3),
         dilation_(analysis.scheme.steps[0].split == Split::sqrt3 ? 3 : 2) {
     for (size_t i = 0; i < analysis.patch.labels.size(); ++i)
       position_[analysis.patch.labels[i]] = static_cast<Index>(i);
-    for (const SectorLabel& label : analysis.regular->labels) offsets_.push_back(in_plane(label, triangles_));
+    for (const SectorLabel& label : analysis.regular->labels) offsets_.push_back(unrolled(label, triangular_));
   }
 
   /// Points around a place in the order of a regular centre's, -1 for those that the patch has not. Nothing where a
   /// point that the limit depends on is missing, or its like around the child, at dilation * place, is not made as on
   /// regular meshes. Points beyond the patch are.
-  std::optional<std::vector<Index>> around(Place place) const {
+  std::optional<std::vector<Index>> around(LatticePoint place) const {
     std::vector<Index> points;
-    for (const Place& offset : offsets_) points.push_back(find(place, 1, offset));
+    for (const LatticePoint offset : offsets_) points.push_back(find(place, 1, offset));
     for (size_t p = 0; p < offsets_.size(); ++p) {
-      if (analysis_.regular_mask[p].is_zero()) continue;
+      if (analysis_.regular_position[p].is_zero()) continue;
       if (points[p] < 0) return std::nullopt;
       const Index row = find(place, dilation_, offsets_[p]);
       if (row >= 0 && !is_regular_row(row, points, p)) return std::nullopt;
@@ -98,9 +73,8 @@ class RegularPlaces {
   }
 
  private:
-  Index find(Place place, int scale, Place offset) const {
-    const auto label =
-        label_at({scale * place.x2 + offset.x2, scale * place.y2 + offset.y2}, analysis_.n(), triangles_, is_face_);
+  Index find(LatticePoint place, int scale, LatticePoint offset) const {
+    const auto label = label_at(scale * place + offset, triangular_, analysis_.n());
     const auto at = label ? position_.find(*label) : position_.end();
     return at == position_.end() ? -1 : at->second;
   }
@@ -121,10 +95,10 @@ class RegularPlaces {
   }
 
   const ExactAnalysis& analysis_;
-  bool triangles_, is_face_;
+  bool triangular_;
   int dilation_;
   std::map<SectorLabel, Index> position_;
-  std::vector<Place> offsets_;
+  std::vector<LatticePoint> offsets_;
 };
 
 }  // namespace
@@ -136,7 +110,7 @@ std::optional<bool> look_for(const ExactAnalysis& analysis, const ExactEigenvalu
       exact_chain_ends(analysis.spectrum.blocks.blocks.at(value.block), value.value, value.largest_jordan());
   const RegularPlaces places(analysis);
   std::vector<std::vector<Index>> found;
-  for (const Place place : {Place{2, 0}, Place{2, 2}, Place{4, 0}, Place{4, 2}, Place{2, 4}, Place{4, 4}})
+  for (const LatticePoint place : {LatticePoint{2, 0}, {2, 2}, {4, 0}, {4, 2}, {2, 4}, {4, 4}})
     if (auto points = places.around(place)) found.push_back(std::move(*points));
   const PrecisionScope scope(128);
   for (int v = 0; v < static_cast<int>(kernel.vectors.size()); ++v) {
@@ -144,7 +118,8 @@ std::optional<bool> look_for(const ExactAnalysis& analysis, const ExactEigenvalu
     for (const std::vector<Index>& points : found) {
       ComplexBall limit;
       for (size_t p = 0; p < points.size(); ++p)
-        if (!analysis.regular_mask[p].is_zero()) limit += analysis.regular_mask[p].enclosure() * values[points[p]];
+        if (!analysis.regular_position[p].is_zero())
+          limit += analysis.regular_position[p].enclosure() * values[points[p]];
       if (!limit.contains_zero()) return true;
     }
   }
@@ -154,7 +129,7 @@ std::optional<bool> look_for(const ExactAnalysis& analysis, const ExactEigenvalu
 }  // namespace
 
 std::optional<bool> is_seen(const ExactAnalysis& analysis, const ExactEigenvalue& value) {
-  if (analysis.n() < 3 || analysis.regular_mask.empty()) return std::nullopt;
+  if (analysis.n() < 3 || analysis.regular_position.empty()) return std::nullopt;
   const ComplexBall& at = value.value.enclosure();
   const std::array<double, 4> key{double(value.rank), double(value.block), at.re().mid(), at.im().mid()};
   const auto found = analysis.seen.find(key);

@@ -18,7 +18,7 @@ struct ExactAnalysis {
   ExactSpectrum spectrum = {};
   /// A regular centre and the weights of its limit position, by point; nothing where they could not be had.
   std::optional<LocalPatch<Algebraic>> regular = {};
-  std::vector<Algebraic> regular_mask = {};
+  std::vector<Algebraic> regular_position = {};
 
   /// What `is_seen` has answered, by rank, block and place of the eigenvalue: several verdicts ask, and exact
   /// eigenvectors are long to find. An analysis belongs to one thread.

@@ -18,10 +18,9 @@ Ball around(const Ball& x, const Ball& error) {
 /// Everything between 0 and x.
 Ball part_of(const Ball& x) { return Ball::hull(Ball(0), Ball(1)) * x; }
 
-bool interpolates(const PlaneMask& mask) {
-  for (const auto& [at, weight] : mask.weights)
-    if (at.x2 % (2 * mask.dilation) == 0 && at.y2 % (2 * mask.dilation) == 0 &&
-        !(at == LatticePoint{} && weight.is_one()))
+bool interpolates(const RegularMask<Algebraic>& mask) {
+  for (const auto& [key, weight] : mask.weights)  // of a mask that is not dual
+    if (key[0] % mask.dilation == 0 && key[1] % mask.dilation == 0 && !(key == Offset{} && weight.is_one()))
       return false;
   return true;
 }

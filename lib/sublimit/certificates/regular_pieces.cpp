@@ -12,17 +12,20 @@ namespace {
 using Weights = std::map<LatticePoint, Algebraic>;
 
 /// Weights of the points around a corner of cells in its limit.
-std::optional<Weights> corner_weights(const PlaneMask& mask) {
+std::optional<Weights> corner_weights(const RegularMask<Algebraic>& mask) {
   const LatticePoint low = mask.low(), high = mask.high();
   std::vector<LatticePoint> around;
   for (int x = -high.x2; x <= -low.x2; ++x)
     for (int y = -high.y2; y <= -low.y2; ++y)
-      if ((x % 2 != 0) == mask.dual && (y % 2 != 0) == mask.dual) around.push_back({x, y});
+      if (mask.has_point({x, y})) around.push_back({x, y});
   const auto n = static_cast<Eigen::Index>(around.size());
+  const Weights step = mask.plane_weights();
   DenseMatrix<Algebraic> M(n, n);
   for (Eigen::Index q = 0; q < n; ++q) {
-    for (Eigen::Index p = 0; p < n; ++p)
-      M(q, p) = mask(around[static_cast<size_t>(p)] - 2 * around[static_cast<size_t>(q)]);
+    for (Eigen::Index p = 0; p < n; ++p) {
+      const auto a = step.find(around[static_cast<size_t>(p)] - 2 * around[static_cast<size_t>(q)]);
+      if (a != step.end()) M(q, p) = a->second;
+    }
     M(q, q) -= Algebraic(1);
   }
   const auto kernel = kernel_line(std::move(M));
@@ -38,7 +41,8 @@ std::optional<Weights> corner_weights(const PlaneMask& mask) {
 /// Limits at all places X/2^k by the points of the plane.
 class DyadicLimits {
  public:
-  DyadicLimits(const PlaneMask& mask, Weights corner) : mask_(mask), corner_(std::move(corner)) {
+  DyadicLimits(const RegularMask<Algebraic>& mask, Weights corner)
+      : step_(mask.plane_weights()), corner_(std::move(corner)) {
     powers_.push_back({{LatticePoint{}, Algebraic(1)}});  // level 0: the point itself, at offset 0
   }
   /// Weight of point Q in the limit at x = X/2^k; X in halves, even.
@@ -58,14 +62,13 @@ class DyadicLimits {
     while (static_cast<int>(powers_.size()) <= k) {
       Weights next;
       for (const auto& [at, weight] : powers_.back())
-        for (const auto& [offset, factor] : mask_.weights) next[offset + 2 * at] += factor * weight;
+        for (const auto& [offset, factor] : step_) next[offset + 2 * at] += factor * weight;
       powers_.push_back(std::move(next));
     }
     return powers_[static_cast<size_t>(k)];
   }
 
-  const PlaneMask& mask_;
-  Weights corner_;
+  Weights step_, corner_;
   std::vector<Weights> powers_;
 };
 
@@ -107,7 +110,7 @@ std::optional<DenseMatrix<Algebraic>> interpolation(PieceShape shape, int degree
 }
 
 /// Fills in controls and functions of a piece by interpolation.
-bool interpolate(RegularPiece& piece, const PlaneMask& mask, DyadicLimits& limits, int degree) {
+bool interpolate(RegularPiece& piece, const RegularMask<Algebraic>& mask, DyadicLimits& limits, int degree) {
   int k = 0, m = 1;
   while (m < degree) m *= 2, ++k;
   // Corners of quarter squares lie at odd halves: one level more brings all places to corners of cells.
@@ -117,7 +120,7 @@ bool interpolate(RegularPiece& piece, const PlaneMask& mask, DyadicLimits& limit
   const LatticePoint low = mask.low(), high = mask.high();
   for (int x = -high.x2; x <= 2 - low.x2; ++x)
     for (int y = -high.y2; y <= 2 - low.y2; ++y) {
-      if ((x % 2 != 0) != mask.dual || (y % 2 != 0) != mask.dual) continue;
+      if (!mask.has_point({x, y})) continue;
       Bernstein<Algebraic> f(piece.shape, degree, degree);
       DenseMatrix<Algebraic> values(inverse->rows(), 1);
       bool is_zero = true;
@@ -149,15 +152,15 @@ bool sums_to_one(const RegularPiece& piece) {
 }
 
 /// M_child S = D M, for one child and all points.
-bool refines(const std::vector<RegularPiece>& pieces, const PlaneMask& mask, const ChildPiece& child) {
+bool refines(const std::vector<RegularPiece>& pieces, const RegularMask<Algebraic>& mask, const ChildPiece& child) {
   const RegularPiece& parent = pieces[child.parent];
   const RegularPiece& fine = pieces[child.piece];
   std::map<LatticePoint, std::vector<Algebraic>> residual;
   const size_t size = fine.functions.front().coefficients().size();
   for (size_t p = 0; p < fine.controls.size(); ++p) {
     const LatticePoint P = fine.controls[p] + child.cell;
-    for (const auto& [offset, weight] : mask.weights) {
-      const auto parent_point = mask.parent(P, offset);
+    for (const auto& [key, weight] : mask.weights) {
+      const auto parent_point = mask.parent(P, mask.doubled(key));
       if (!parent_point) continue;
       const LatticePoint Q = *parent_point;
       std::vector<Algebraic>& r = residual.try_emplace(Q, size).first->second;
@@ -283,7 +286,7 @@ std::vector<ChildPiece> child_pieces(const std::vector<RegularPiece>& pieces, in
   return found;
 }
 
-std::optional<RegularPieces> regular_pieces(const PlaneMask& mask, int most) {
+std::optional<RegularPieces> regular_pieces(const RegularMask<Algebraic>& mask, int most) {
   if (mask.dilation != 2) return std::nullopt;  // pieces of sqrt(3) would have to be triangles of nine children
   auto corner = corner_weights(mask);
   if (!corner) return std::nullopt;

@@ -13,8 +13,9 @@
 #include <optional>
 #include <vector>
 
+#include "sublimit/certificates/algebraic.h"
 #include "sublimit/certificates/bernstein.h"
-#include "sublimit/certificates/plane_mask.h"
+#include "sublimit/neighborhood/regular_mask.h"
 
 namespace sublimit {
 
@@ -27,7 +28,7 @@ struct RegularPiece {
 };
 
 struct RegularPieces {
-  PlaneMask mask;
+  RegularMask<Algebraic> mask;
   int degree = 0;      ///< of each coordinate (squares), or in all (triangles)
   int continuity = 0;  ///< C^continuity across all edges, exactly; at least the degree where pieces are one polynomial
   std::vector<RegularPiece> pieces;
@@ -46,6 +47,6 @@ std::vector<RegularPiece> squares();
 std::vector<RegularPiece> triangles();
 
 /// Squares, triangles, or squares in four triangles, of the least degree up to `most`; nothing where none passes.
-std::optional<RegularPieces> regular_pieces(const PlaneMask& mask, int most = 6);
+std::optional<RegularPieces> regular_pieces(const RegularMask<Algebraic>& mask, int most = 6);
 
 }  // namespace sublimit

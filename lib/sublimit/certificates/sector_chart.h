@@ -4,7 +4,7 @@
 // like the regular mesh. What would lie on both sides of the centre at once has no label.
 #include <optional>
 
-#include "sublimit/certificates/plane_mask.h"
+#include "sublimit/neighborhood/regular_mask.h"
 
 namespace sublimit {
 

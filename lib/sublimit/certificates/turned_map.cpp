@@ -33,7 +33,7 @@ TurnedPoint TurnedMap::product(const TurnedPoint& x, const TurnedPoint& y) const
   return {x.a * y.a - square_ * x.b * y.b, x.a * y.b + x.b * y.a};
 }
 
-TurnedMap::TurnedMap(Ball h, Ball lambda, const PlaneMask& mask, const std::vector<SectorLabel>& labels,
+TurnedMap::TurnedMap(Ball h, Ball lambda, const RegularMask<Algebraic>& mask, const std::vector<SectorLabel>& labels,
                      const std::vector<Ball>& net)
     : h_(std::move(h)), lambda_(std::move(lambda)), mask_(mask) {
   square_ = Ball(1) - h_ * h_;
@@ -62,8 +62,8 @@ std::optional<TurnedPoint> TurnedMap::at(LatticePoint p) {
   auto known = net_.find(own);
   if (known == net_.end()) {
     TurnedPoint sum{Ball(0), Ball(0)};
-    for (const auto& [offset, weight] : mask_.weights) {
-      const auto Q = mask_.parent(own, offset);
+    for (const auto& [key, weight] : mask_.weights) {
+      const auto Q = mask_.parent(own, mask_.doubled(key));
       if (!Q) continue;
       const auto from = label_at(*Q, mask_.triangular, many);
       // Only what lies further in is known without going round in circles.

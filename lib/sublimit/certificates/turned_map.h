@@ -19,7 +19,7 @@ struct TurnedPoint {
 class TurnedMap {
  public:
   /// @param labels, net  of sector 0: the unknowns of `real_block`
-  TurnedMap(Ball h, Ball lambda, const PlaneMask& mask, const std::vector<SectorLabel>& labels,
+  TurnedMap(Ball h, Ball lambda, const RegularMask<Algebraic>& mask, const std::vector<SectorLabel>& labels,
             const std::vector<Ball>& net);
 
   /// A point of the plane around sector 0. Nothing where it has no label, or the mask reaches too far.
@@ -37,7 +37,7 @@ class TurnedMap {
 
   Ball h_, square_, lambda_;
   TurnedPoint turn_, back_;  // by a sector
-  const PlaneMask& mask_;
+  const RegularMask<Algebraic>& mask_;
   std::map<LatticePoint, TurnedPoint> net_;
 };
 

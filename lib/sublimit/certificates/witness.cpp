@@ -13,7 +13,7 @@ std::string c1_witness(const std::string& scheme, const C1Certificate& certifica
   w["grid"] = pieces.mask.triangular ? "triangular" : "square";
   w["dual"] = pieces.mask.dual;
   w["mask"] = Json::array();
-  for (const auto& [at, weight] : pieces.mask.weights) w["mask"].push_back({at.x2, at.y2, weight.exact_text()});
+  for (const auto& [at, weight] : pieces.mask.plane_weights()) w["mask"].push_back({at.x2, at.y2, weight.exact_text()});
   w["partition"] = pieces.mask.triangular ? "triangles" : pieces.pieces.size() == 1 ? "squares" : "quarter-squares";
   w["degree"] = pieces.degree;
   w["pieces"] = Json::array();

@@ -12,17 +12,17 @@ TEST(DerivativeTail, BoundsDerivativesOfKnownLimits) {
   // Of x^2 all second differences along e1, e1 are 2 (steps of 1), and the derivative at the far end of a piece is 2,
   // the difference 1: no bound below 1/2 of them could be true.
   for (const char* name : {"catmull-clark", "kobbelt"}) {
-    const auto tail = derivative_tail(plane_mask(*find_scheme<Algebraic>(name)));
+    const auto tail = derivative_tail(regular_mask(*find_scheme<Algebraic>(name)));
     ASSERT_TRUE(tail) << name;
     EXPECT_TRUE(certainly_less(tail->contraction, Ball(1))) << name;
     EXPECT_GE(tail->factor[0].upper(), 0.5) << name;
   }
   // Bicubic splines: each of the second differences has the norm 1/4 in a step, twice that is 1/2.
-  EXPECT_EQ(derivative_tail(plane_mask(*find_scheme<Algebraic>("catmull-clark")), 1)->contraction.mid(), 0.5);
+  EXPECT_EQ(derivative_tail(regular_mask(*find_scheme<Algebraic>("catmull-clark")), 1)->contraction.mid(), 0.5);
 }
 
 TEST(DerivativeTail, IsNotFoundForSchemesThatAreNotC1) {
-  EXPECT_FALSE(derivative_tail(plane_mask(*find_scheme<Algebraic>("bilinear"))));
+  EXPECT_FALSE(derivative_tail(regular_mask(*find_scheme<Algebraic>("bilinear"))));
 }
 
 TEST(NetProof, ProvesInterpolatingSchemes) {

@@ -8,7 +8,7 @@ namespace sublimit {
 namespace {
 
 std::optional<RegularPieces> pieces_of(const std::string& name, const SchemeOptions& options = {}) {
-  return regular_pieces(plane_mask(*find_scheme<Algebraic>(name, options)));
+  return regular_pieces(regular_mask(*find_scheme<Algebraic>(name, options)));
 }
 
 TEST(RegularPieces, AreThoseOfTheSplinesThatSchemesGeneralise) {
@@ -48,11 +48,11 @@ TEST(RegularPieces, AreNotFoundWhereThereAreNone) {
 }
 
 TEST(RegularPieces, OfAMaskThatIsSlightlyOffAreNotFound) {
-  PlaneMask mask = plane_mask(*find_scheme<Algebraic>("catmull-clark"));
+  RegularMask<Algebraic> mask = regular_mask(*find_scheme<Algebraic>("catmull-clark"));
   ASSERT_TRUE(regular_pieces(mask));
   // Rows still sum to one, and the mask keeps its support.
   mask.weights[{0, 0}] += Algebraic::ratio(1, 1000000);
-  mask.weights[{4, 0}] -= Algebraic::ratio(1, 1000000);
+  mask.weights[{2, 0}] -= Algebraic::ratio(1, 1000000);
   EXPECT_FALSE(regular_pieces(mask));
 }
 

@@ -5,8 +5,8 @@
 // the cell in question: one matrix for each of the cells that a cell is cut into. Their joint spectral radius says how
 // fast differences shrink. Source: Jia 1995, Subdivision schemes in L_p spaces; Cavaretta, Dahmen, Micchelli 1991,
 // Stationary subdivision, chapters 2 and 8.
-#include "sublimit/certificates/regularity/regular_mask.h"
 #include "sublimit/certificates/regularity/smoothness.h"
+#include "sublimit/neighborhood/regular_mask.h"
 
 namespace sublimit {
 

@@ -35,6 +35,18 @@ Interval enclosure_of(Integer value) {
   if (std::abs(d) < 0x1p126 && static_cast<Integer>(d) == value) return d;
   return {std::nextafter(d, -INFINITY), std::nextafter(d, INFINITY)};
 }
+Integer integer(const fmpz_t value) {
+  if (fmpz_bits(value) > 120) overflow();
+  fmpz_t high, low;
+  fmpz_init(high);
+  fmpz_init(low);
+  fmpz_fdiv_q_2exp(high, value, 60);
+  fmpz_fdiv_r_2exp(low, value, 60);
+  const Integer result = Integer{fmpz_get_si(high)} * (Integer{1} << 60) + fmpz_get_si(low);
+  fmpz_clear(high);
+  fmpz_clear(low);
+  return result;
+}
 std::string digits(Integer value) {
   if (value < 0) return "-" + digits(-value);
   std::string text;
@@ -68,6 +80,8 @@ Rational::Rational(double value) {
   if (exponent < -120 || exponent > 60) overflow();
   (exponent < 0 ? q_ : p_) *= Integer{1} << std::abs(exponent);
 }
+
+Rational::Rational(const fmpq_t value) : p_(integer(fmpq_numref(value))), q_(integer(fmpq_denref(value))) {}
 
 Interval Rational::enclosure() const {
   if (!is_ratio()) return {-INFINITY, INFINITY};

@@ -3,6 +3,8 @@
 // Exact ratios of 128-bit integers: masks of curve schemes and of regular meshes are such numbers. What does not fit
 // throws. An irrational constant is no ratio, and neither is what is computed from it: masks of irregular sites may
 // have such weights as long as nobody uses them.
+#include <flint/fmpq.h>
+
 #include <Eigen/Core>
 
 #include <compare>
@@ -28,6 +30,8 @@ class Rational {
   /// Exactly this double.
   /// @throws AnalysisError  it has no 128-bit numerator and denominator
   explicit Rational(double value);
+  /// @throws AnalysisError  it has no 128-bit numerator and denominator
+  explicit Rational(const fmpq_t value);
 
   Integer numerator() const { return p_; }
   Integer denominator() const { return q_; }
@@ -58,7 +62,9 @@ class Rational {
   Rational& operator-=(const Rational& b) { return *this = *this - b; }
   Rational& operator*=(const Rational& b) { return *this = *this * b; }
   Rational& operator/=(const Rational& b) { return *this = *this / b; }
-  friend bool operator==(const Rational& a, const Rational& b) { return a.p_ == b.p_ && a.q_ == b.q_; }
+  friend bool operator==(const Rational& a, const Rational& b) {
+    return a.is_ratio() && a.p_ == b.p_ && a.q_ == b.q_;  // which irrational number one is, is not known
+  }
   friend std::strong_ordering operator<=>(const Rational& a, const Rational& b) { return (a - b).p_ <=> Integer{0}; }
   friend Rational abs(const Rational& a) { return a.p_ < 0 ? -a : a; }
   friend Rational sqrt(const Rational& a);

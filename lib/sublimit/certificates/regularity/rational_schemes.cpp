@@ -9,4 +9,17 @@ template std::optional<CurveScheme<Rational>> find_curve_scheme<Rational>(const 
 template std::optional<LocalPatch<Rational>> local_patch<Rational>(const Scheme<Rational>&, LocalType, int,
                                                                    const ControlMesh*);
 
+std::optional<RegularMask<Rational>> rational_mask(const RegularMask<Algebraic>& mask) {
+  RegularMask<Rational> result{.triangular = mask.triangular, .dual = mask.dual, .dilation = mask.dilation};
+  for (const auto& [key, weight] : mask.weights) {
+    if (!weight.is_rational()) return std::nullopt;
+    fmpq_t ratio;
+    fmpq_init(ratio);
+    fmpq_poly_get_coeff_fmpq(ratio, weight.polynomial(), 0);
+    result.weights.emplace(key, ratio);
+    fmpq_clear(ratio);
+  }
+  return result;
+}
+
 }  // namespace sublimit

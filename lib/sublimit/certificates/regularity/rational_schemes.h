@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// The registries' schemes and local matrices in ratios, made once: else every file that uses them makes them all.
+// The registries' schemes and local matrices in ratios, made once: else every file that uses them makes them all. And
+// regular masks of schemes that are there in algebraic numbers.
+#include "sublimit/certificates/algebraic.h"
 #include "sublimit/certificates/regularity/rational.h"
 #include "sublimit/curves/schemes/curve_schemes.h"
-#include "sublimit/neighborhood/local_patch.h"
+#include "sublimit/neighborhood/regular_mask.h"
 #include "sublimit/schemes.h"
 
 namespace sublimit {
@@ -14,5 +16,8 @@ extern template std::optional<CurveScheme<Rational>> find_curve_scheme<Rational>
                                                                                  const SchemeOptions&);
 extern template std::optional<LocalPatch<Rational>> local_patch<Rational>(const Scheme<Rational>&, LocalType, int,
                                                                           const ControlMesh*);
+
+/// The same mask, exactly; nothing where a weight is irrational.
+std::optional<RegularMask<Rational>> rational_mask(const RegularMask<Algebraic>& mask);
 
 }  // namespace sublimit

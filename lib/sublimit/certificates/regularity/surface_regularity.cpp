@@ -63,19 +63,19 @@ std::string kind_of(const RegularMask<Rational>& mask, const Offset& r) {
   if (mask.dual) return "corner";
   if (r == Offset{0, 0}) return "vertex";
   if (mask.dilation == 3) return "other";
-  return mask.grid == RegularGrid::square && r == Offset{1, 1} ? "face" : "edge";
+  return !mask.triangular && r == Offset{1, 1} ? "face" : "edge";
 }
 
 std::vector<std::array<Rational, 2>> hull(const RegularMask<Rational>& mask) {
-  std::vector<Offset> points;
+  std::vector<LatticePoint> points;
   for (const auto& [key, weight] : mask.weights) points.push_back(mask.doubled(key));  // in order of x, then y
-  const auto turn = [](const Offset& a, const Offset& b, const Offset& c) {
+  const auto turn = [](LatticePoint a, LatticePoint b, LatticePoint c) {
     return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
   };
-  std::vector<Offset> chain;
+  std::vector<LatticePoint> chain;
   for (const int pass : {0, 1}) {
     const size_t start = chain.size();
-    for (const Offset& p : points) {
+    for (const LatticePoint p : points) {
       while (chain.size() >= start + 2 && turn(chain[chain.size() - 2], chain.back(), p) <= 0) chain.pop_back();
       chain.push_back(p);
     }
@@ -83,7 +83,7 @@ std::vector<std::array<Rational, 2>> hull(const RegularMask<Rational>& mask) {
     if (pass == 0) std::reverse(points.begin(), points.end());
   }
   std::vector<std::array<Rational, 2>> outline;  // offsets over dilation^1, dilation^2, ... add up
-  for (const Offset& p : chain)
+  for (const LatticePoint p : chain)
     outline.push_back({Rational(p[0]) / (2 * (mask.dilation - 1)), Rational(p[1]) / (2 * (mask.dilation - 1))});
   return outline;
 }

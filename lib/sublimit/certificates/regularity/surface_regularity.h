@@ -4,7 +4,7 @@
 // Tensor products of curve masks are as smooth as their curves; of others the differences decide, all directions
 // together.
 #include "sublimit/certificates/regularity/curve_regularity.h"
-#include "sublimit/certificates/regularity/regular_mask.h"
+#include "sublimit/neighborhood/regular_mask.h"
 
 namespace sublimit {
 

@@ -39,7 +39,7 @@ std::optional<ExactScheme> registered_scheme(const std::string& name, const Sche
   try {
     std::optional<Scheme<Algebraic>> scheme = find_scheme<Algebraic>(name, options);
     if (!scheme) return std::nullopt;
-    PlaneMask mask = plane_mask(*scheme);
+    RegularMask<Algebraic> mask = regular_mask(*scheme);
     return ExactScheme{std::move(*scheme), std::move(mask)};
   } catch (const Error&) {  // options that it does not have, or no one mask
     return std::nullopt;
@@ -50,7 +50,7 @@ std::string differs_from(const ExactScheme& exact, const Json& witness) {
   std::map<LatticePoint, Algebraic> mask;
   for (const Json& m : witness.at("mask"))
     mask[{m.at(0).get<int>(), m.at(1).get<int>()}] = Algebraic::parse(m.at(2).get<std::string>());
-  if (mask != exact.mask.weights) return "its mask is not that of the scheme on regular meshes";
+  if (mask != exact.mask.plane_weights()) return "its mask is not that of the scheme on regular meshes";
 
   int reach2 = 2;  // of labels, in half edges
   for (const Json& row : witness.at("rows"))

@@ -6,7 +6,8 @@
 #include <optional>
 #include <string>
 
-#include "sublimit/certificates/plane_mask.h"
+#include "sublimit/certificates/algebraic.h"
+#include "sublimit/neighborhood/regular_mask.h"
 #include "sublimit/scheme/scheme.h"
 
 namespace sublimit::report {
@@ -14,7 +15,7 @@ namespace sublimit::report {
 /// A scheme with exact masks, and its mask on regular meshes.
 struct ExactScheme {
   Scheme<Algebraic> scheme;
-  PlaneMask mask;
+  RegularMask<Algebraic> mask;
 };
 
 /// The registry's scheme of this name; nothing if there is none, or none with these options or one mask.

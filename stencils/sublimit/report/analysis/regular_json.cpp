@@ -165,14 +165,14 @@ Json to_json(const SurfaceRegularity& r) {
   std::vector<Rational> weights;
   const bool halves = r.mask.dual && r.mask.dilation % 2 == 0;
   for (const auto& [key, weight] : r.mask.weights) {
-    const Offset at = r.mask.doubled(key);
+    const LatticePoint at = r.mask.doubled(key);
     json["mask"].push_back({{"at", halves ? Json{at[0], at[1]} : Json{at[0] / 2, at[1] / 2}},
                             {"weight", coordinate(weight)},
                             {"exact", to_string(weight)}});
     weights.push_back(weight);
   }
   json["unit"] = halves ? Json(0.5) : Json(1);
-  json["grid"] = r.mask.grid == RegularGrid::square ? "square" : "triangular";
+  json["grid"] = r.mask.triangular ? "triangular" : "square";
   json["support"] = {{"text", support_text(r)}, {"outline", Json::array()}};
   for (const auto& p : r.outline) json["support"]["outline"].push_back({coordinate(p[0]), coordinate(p[1])});
   json["smoothness"] = smoothness_json(r.smoothness);
@@ -265,17 +265,8 @@ Json regular_json(const std::string& scheme, const SchemeOptions& options) {
 }
 
 Json regular_json(const Scheme<Algebraic>& scheme) {
-  const RegularMask<Algebraic> exact = regular_mask(scheme);
-  RegularMask<Rational> mask;
-  mask.grid = exact.grid;
-  mask.dilation = exact.dilation;
-  mask.dual = exact.dual;
-  for (const auto& [key, weight] : exact.weights) {
-    const std::optional<Rational> rational = weight.is_rational() ? typed_number(weight.exact_text()) : std::nullopt;
-    if (!rational) return nullptr;
-    mask.weights[key] = *rational;
-  }
-  return to_json(surface_regularity(mask));
+  const std::optional<RegularMask<Rational>> mask = rational_mask(regular_mask(scheme));
+  return mask ? to_json(surface_regularity(*mask)) : Json(nullptr);
 }
 
 Json curve_scheme_json(const std::string& name, const SchemeOptions& options) {

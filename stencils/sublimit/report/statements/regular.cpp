@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <climits>
 
-#include "sublimit/certificates/regularity/regular_mask.h"
+#include "sublimit/neighborhood/regular_mask.h"
 #include "sublimit/report/analysis/regular_json.h"
 
 namespace sublimit::report {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The masks that schemes have on regular meshes, against symbols multiplied out by hand.
-#include "sublimit/certificates/regularity/regular_mask.h"
+#include "sublimit/neighborhood/regular_mask.h"
 
 #include <gtest/gtest.h>
 
-#include "sublimit/certificates/regularity/rational.h"
+#include "sublimit/certificates/exact_schemes.h"
 #include "sublimit/certificates/regularity/rational_schemes.h"
 
 namespace sublimit {
@@ -66,6 +66,25 @@ TEST(RegularMask, ResiduesSumToOne) {
     EXPECT_EQ(moments[0], Rational(0)) << scheme.name;
     EXPECT_EQ(moments[1], Rational(0)) << scheme.name;
   }
+}
+
+TEST(RegularMask, LongNumbersStayExact) {
+  Scheme<Algebraic> scheme = *find_scheme<Algebraic>("bilinear");
+  const Algebraic w = Algebraic::parse("1234567890123456789013/9876543210987654321098");
+  scheme.steps[0].masks.vertex = [w](const Ring<Algebraic>& v) {
+    return (Algebraic(1) - w) * v.center() + w * v.neighbor_mean();
+  };
+  const std::optional<RegularMask<Rational>> mask = rational_mask(regular_mask(scheme));
+  ASSERT_TRUE(mask);
+  EXPECT_EQ(to_string(mask->weights.at({0, 0})), "8641975320864197532085/9876543210987654321098");
+  EXPECT_EQ(to_string(mask->weights.at({2, 0})), "1234567890123456789013/39506172843950617284392");
+}
+
+TEST(RegularMask, IrrationalWeightsMakeNoRationalMask) {
+  RegularMask<Algebraic> mask = regular_mask(*find_scheme<Algebraic>("loop"));
+  EXPECT_EQ(rational_mask(mask)->weights, mask_of("loop").weights);
+  mask.weights.at({0, 0}) += Number<Algebraic>::cos_2pi(1, 5);
+  EXPECT_FALSE(rational_mask(mask));
 }
 
 TEST(RegularMask, ButterflyHasItsWings) {
