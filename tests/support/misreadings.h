@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Rules as lecture notes print them, or as their words can be read, each a scheme of its own. Most are wrong: what
-// becomes of them is for experiments to say.
+// Rules of well-known schemes as they are sometimes misprinted, or as their words can be misread, each a scheme of its
+// own: what becomes of them is for tests to say (lib/errata_test.cpp). The rules in the registry are those of the papers.
 #include "sublimit/schemes.h"
 
-namespace sublimit::misread {
+namespace sublimit::testing::misread {
 
 /// "sqrt(3): centroids and flipped edges", and nothing else.
 template <class T>
@@ -85,19 +85,6 @@ template <class T>
 Scheme<T> catmull_clark_with_old_midpoints() {
   return catmull_clark_with<T>([](const Ring<T>& v, int i) { return (v.center() + v.neighbor(i)) / 2; });
 }
-/// On quads: 3/(2n) and 1/(4n) for all neighbours, and all diagonals, together.
-template <class T>
-Scheme<T> catmull_clark_by_totals() {
-  Scheme<T> scheme = *find_scheme<T>("catmull-clark");
-  scheme.steps[0].masks.vertex = [](const Ring<T>& v) {
-    const int n = v.valence();
-    const T beta = v.ratio(3, 2 * n), gamma = v.ratio(1, 4 * n);
-    Stencil<T> sum = (T(1) - beta - gamma) * v.center() + beta * v.neighbor_mean();
-    for (int i = 0; i < n; ++i) sum += gamma / n * v.diagonal(i);
-    return sum;
-  };
-  return scheme;
-}
 
 /// Loop's beta, the weight of the whole ring, divided by the valence once more.
 template <class T>
@@ -154,4 +141,4 @@ Scheme<T> kobbelt_one_way(int way, Ratio r) {
   return scheme;
 }
 
-}  // namespace sublimit::misread
+}  // namespace sublimit::testing::misread
