@@ -64,19 +64,16 @@ void measure(Measured& m, const Cage& cage, const Limit& fine) {
 
 Exhibit exhibit(const Cage& cage, LimitTypes& cache, const ExhibitOptions& options) {
   const Refined refined(cache.scheme(), cage.mesh, options.levels, options.faces);
-  const Claims& claims = cache.scheme().claims;
   Exhibit result;
   Measured& m = result.measured;
   m.scheme = cache.scheme().name;
   m.cage = cage.name;
-  m.interpolates = claims.interpolates;
-  m.smooth = claims.regular >= 1 && claims.extraordinary >= 1;
 
   PictureMesh wire = wire_picture(refined.levels[0], refined.points[0]);
   wire.faces = false;
   wire.color = cage_wire;
   const auto panel = [&](PictureMesh mesh, const std::string& caption, const std::string& note) {
-    mesh.color = m.interpolates ? interpolating : approximating;
+    mesh.color = cache.scheme().claims.interpolates ? interpolating : approximating;
     return Panel{{std::move(mesh), wire}, caption, note};
   };
   for (int k = 0; k <= options.levels; ++k) {
