@@ -19,11 +19,11 @@ bool takes(const Scheme<double>& scheme, const std::string& cage) { return schem
 
 /// Each is measured once.
 const Measured& measured(const std::string& scheme, const std::string& cage) {
-  static std::map<std::string, LimitMaskCache> caches;
+  static std::map<std::string, LimitTypes> caches;
   static std::map<std::pair<std::string, std::string>, Measured> all;
   const auto [found, fresh] = all.try_emplace({scheme, cage});
   if (fresh) {
-    LimitMaskCache& cache = caches.try_emplace(scheme, find_scheme(scheme).value()).first->second;
+    LimitTypes& cache = caches.try_emplace(scheme, find_scheme(scheme).value()).first->second;
     for (const Cage& one : cages())
       if (one.name == cage) found->second = exhibit(one, cache, {.levels = 0, .faces = 1000}).measured;
   }
