@@ -370,14 +370,14 @@ std::string limits_agree_between_levels(const Scheme<double>& scheme) {
       }
       const std::vector<LimitRows> rows = limit_rows(levels[k + 1], cache, children);
       for (size_t s = 0; s < rows.size(); ++s) {
-        const auto value = [&](const LimitRows::Row& row) {
+        const auto value = [&](LimitRows::Row row) {
           Eigen::Vector3d sum = Eigen::Vector3d::Zero();
           for (const auto& [c, w] : row) sum += w * next.row(c).transpose();
           return sum;
         };
-        if ((value(rows[s].position) - here.position.row(coarse.side_vertex[s]).transpose()).norm() > eigen(10))
+        if ((value(rows[s].position()) - here.position.row(coarse.side_vertex[s]).transpose()).norm() > eigen(10))
           return "vertex " + std::to_string(coarse.side_vertex[s]) + " has two limits";
-        const Eigen::Vector3d normal = value(rows[s].tangent1).cross(value(rows[s].tangent2)).normalized();
+        const Eigen::Vector3d normal = value(rows[s].tangent1()).cross(value(rows[s].tangent2())).normalized();
         if (here.status[s] != LimitStatus::undefined_normal && !same_normal(normal, here.normal.row(Index(s))))
           return "vertex " + std::to_string(coarse.side_vertex[s]) + " has two normals";
       }

@@ -79,7 +79,7 @@ std::vector<Carrier> carriers(const std::vector<Level>& levels, const std::vecto
   return all;
 }
 
-Vector3d applied(const LimitRows::Row& row, const Points& points, const Vector3d& origin) {
+Vector3d applied(LimitRows::Row row, const Points& points, const Vector3d& origin) {
   Vector3d sum = Vector3d::Zero();
   for (const auto& [column, weight] : row) sum += weight * (points.row(column).transpose() - origin);
   return sum;
@@ -94,7 +94,7 @@ Points guessed(const SparseMatrix& P, Points control, const std::vector<Carrier>
   for (const Carrier& carrier : all) {
     const VertexTarget& target = targets[carrier.target];
     control.row(target.vertex) -=
-        applied(carrier.rows.position, refined, target.position).transpose() / sheets[carrier.target];
+        applied(carrier.rows.position(), refined, target.position).transpose() / sheets[carrier.target];
   }
   return apply(P, control);
 }
@@ -110,9 +110,9 @@ PlanePolygon polygon_of(const Scheme<double>& scheme, const Carrier& carrier, co
   PlanePolygon polygon{.corners = Eigen::MatrixX3d(n, 3), .weights = Eigen::MatrixX3d::Zero(n, 3)};
   for (Eigen::Index i = 0; i < n; ++i) polygon.corners.row(i) = points.row(corners[size_t(i)]);
   int column = 0;
-  for (const LimitRows::Row* row : {&carrier.rows.position, &carrier.rows.tangent1, &carrier.rows.tangent2}) {
+  for (const LimitRows::Row row : {carrier.rows.position(), carrier.rows.tangent1(), carrier.rows.tangent2()}) {
     if (column > 0 && !target.normal) break;
-    for (const auto& [vertex, weight] : *row) {
+    for (const auto& [vertex, weight] : row) {
       const auto found = std::find(corners.begin(), corners.end(), vertex);
       if (found != corners.end()) {
         polygon.weights(found - corners.begin(), column) += weight;
@@ -139,11 +139,11 @@ void measure(PointNormalMesh& result, const std::vector<Carrier>& all, const std
   result.normal_residual = Eigen::VectorXd::Constant(count, std::numeric_limits<double>::quiet_NaN());
   for (const Carrier& carrier : all) {
     const VertexTarget& target = targets[carrier.target];
-    const auto from_target = [&](const LimitRows::Row& row) { return applied(row, result.points, target.position); };
+    const auto from_target = [&](LimitRows::Row row) { return applied(row, result.points, target.position); };
     double& distance = result.position_residual[Eigen::Index(carrier.target)];
-    distance = std::max(distance, from_target(carrier.rows.position).norm());
+    distance = std::max(distance, from_target(carrier.rows.position()).norm());
     if (!target.normal) continue;
-    const Vector3d normal = from_target(carrier.rows.tangent1).cross(from_target(carrier.rows.tangent2));
+    const Vector3d normal = from_target(carrier.rows.tangent1()).cross(from_target(carrier.rows.tangent2()));
     const double turned = angle(normal, target.normal->stableNormalized() * normal.norm());
     double& most = result.normal_residual[Eigen::Index(carrier.target)];
     most = std::isnan(most) ? turned : std::max(most, turned);

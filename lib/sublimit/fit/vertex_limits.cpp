@@ -50,16 +50,16 @@ VertexLimits vertex_limits(std::span<const Level> levels, LimitTypes& cache, std
   std::iota(order.begin(), order.end(), size_t{0});
   std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) { return number_of[a] < number_of[b]; });
   const bool dual = cache.scheme().is_dual();
-  std::vector<const LimitRows::Row*> position, tangent1, tangent2;
+  std::vector<LimitRows::Row> position, tangent1, tangent2;
   for (const size_t s : order) {
     const Index i = number_of[s];
     result.side_vertex.push_back(i);
     if (dual || result.position_vertex.empty() || result.position_vertex.back() != i) {
-      position.push_back(&rows[s].position);
+      position.push_back(rows[s].position());
       result.position_vertex.push_back(i);
     }
-    tangent1.push_back(&rows[s].tangent1);
-    tangent2.push_back(&rows[s].tangent2);
+    tangent1.push_back(rows[s].tangent1());
+    tangent2.push_back(rows[s].tangent2());
     result.status.push_back(sides.hole[chosen[s]] ? LimitStatus::hole : rows[s].status);
   }
   const Index columns = level.topology().num_vertices();

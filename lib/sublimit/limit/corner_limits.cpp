@@ -15,7 +15,7 @@ const LimitRows* CornerLimits::at(const Centre& centre) const {
   std::optional<LimitRows> limit;
   try {
     const Centre of = centre.kind == Centre::Kind::vertex ? side_of(level_, centre.start) : centre;
-    limit = limit_rows(level_, masks_, {of})[0];
+    limit = limit_rows(level_, masks_, of);
   } catch (const AnalysisError&) {
     // No tangents here; the position is known by the piece.
   }

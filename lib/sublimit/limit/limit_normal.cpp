@@ -70,12 +70,12 @@ Vector3d LimitSurface::Parts::normal_of(const LimitStencil& s, const Points& loc
     // more.
     const LimitRows* limit = corners.at(*centre);
     if (!limit || limit->status == LimitStatus::undefined_normal) return Vector3d::Zero();
-    const auto along = [&](const LimitRows::Row& row) {
+    const auto along = [&](LimitRows::Row row) {
       Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
       for (const auto& [v, weight] : row) sum += weight * ((around.row(v) - local.row(0)) * unit);
       return Vector3d(sum);
     };
-    const Vector3d t1 = along(limit->tangent1), t2 = along(limit->tangent2), n = t1.cross(t2);
+    const Vector3d t1 = along(limit->tangent1()), t2 = along(limit->tangent2()), n = t1.cross(t2);
     return n.norm() > 1e-10 * t1.norm() * t2.norm() ? Vector3d(n.normalized()) : Vector3d::Zero();
   }
   std::vector<Vector3d> higher;

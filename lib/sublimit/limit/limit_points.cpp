@@ -44,36 +44,51 @@ LimitMatrices limit_matrices(const Level& level, LimitTypes& cache) {
   LimitMatrices result;
   result.side_vertex = std::move(sides.vertex);
   result.corner_side = std::move(sides.corner_side);
-  const std::vector<LimitRows> rows = limit_rows(level, cache, sides.centres);
-  for (size_t s = 0; s < rows.size(); ++s)
-    result.status.push_back(sides.hole[s] ? LimitStatus::hole : rows[s].status);
+  const auto num_sides = static_cast<Index>(sides.centres.size());
+  std::vector<Index> first_side(static_cast<size_t>(num_vertices), -1);
+  for (Index s = num_sides; s-- > 0;) first_side[result.side_vertex[s]] = s;
 
+  // Block by block, so that rows of a large mesh are not there twice.
   using Row = LimitRows::Row;
-  const Row none;
-  std::vector<Row> isolated;
-  isolated.reserve(size_t(num_vertices));
-  std::vector<const Row*> list;
-  for (Index v = 0, side = 0; v < num_vertices; ++v) {
-    if (side == std::ssize(rows) || result.side_vertex[size_t(side)] != v) {
-      list.push_back(&isolated.emplace_back(Row{{v, 1.0}}));
-      continue;
+  const Index block = std::max<Index>(1 << 14, num_sides / 16);
+  std::vector<SparseMatrix> position, tangent1, tangent2;
+  std::vector<std::vector<SparseMatrix>> second_order;
+  for (Index begin = 0, v = 0; begin < num_sides || v < num_vertices; begin += block) {
+    const Index end = std::min(begin + block, num_sides);
+    const std::vector<LimitRows> rows =
+        limit_rows(level, cache, std::span(sides.centres).subspan(size_t(begin), size_t(end - begin)));
+    for (Index s = begin; s < end; ++s)
+      result.status.push_back(sides.hole[s] ? LimitStatus::hole : rows[s - begin].status);
+
+    const Index first = v;
+    while (v < num_vertices && first_side[v] < end) ++v;
+    std::vector<SparseRows::Term> isolated;
+    isolated.reserve(size_t(v - first));
+    std::vector<Row> list;
+    for (Index u = first; u < v; ++u)
+      list.push_back(first_side[u] < 0 ? Row(&isolated.emplace_back(u, 1.0), 1) : rows[first_side[u] - begin].position());
+    position.push_back(matrix_of(list, num_vertices));
+    const auto of_sides = [&](const auto& part) {
+      list.clear();
+      for (const LimitRows& row : rows) list.push_back(part(row));
+      return matrix_of(list, num_vertices);
+    };
+    tangent1.push_back(of_sides([](const LimitRows& row) { return row.tangent1(); }));
+    tangent2.push_back(of_sides([](const LimitRows& row) { return row.tangent2(); }));
+    size_t orders = second_order.size();
+    for (const LimitRows& row : rows) orders = std::max(orders, row.num_second_order());
+    second_order.resize(orders);
+    for (size_t k = 0; k < orders; ++k) {
+      if (second_order[k].empty() && begin > 0) second_order[k].push_back(SparseMatrix(begin, num_vertices));
+      second_order[k].push_back(
+          of_sides([&](const LimitRows& row) { return k < row.num_second_order() ? row.second_order(k) : Row(); }));
     }
-    list.push_back(&rows[size_t(side)].position);
-    while (side < std::ssize(rows) && result.side_vertex[size_t(side)] == v) ++side;
   }
-  result.position = matrix_of(list, num_vertices);
-  const auto of_sides = [&](const auto& part) {
-    list.clear();
-    for (const LimitRows& row : rows) list.push_back(part(row));
-    return matrix_of(list, num_vertices);
-  };
-  result.tangent1 = of_sides([](const LimitRows& row) { return &row.tangent1; });
-  result.tangent2 = of_sides([](const LimitRows& row) { return &row.tangent2; });
-  size_t orders = 0;
-  for (const LimitRows& row : rows) orders = std::max(orders, row.second_order.size());
-  for (size_t k = 0; k < orders; ++k)
-    result.second_order.push_back(of_sides(
-        [&](const LimitRows& row) { return k < row.second_order.size() ? &row.second_order[k] : &none; }));
+  result.position = stacked(std::move(position), num_vertices);
+  result.tangent1 = stacked(std::move(tangent1), num_vertices);
+  result.tangent2 = stacked(std::move(tangent2), num_vertices);
+  for (std::vector<SparseMatrix>& blocks : second_order)
+    result.second_order.push_back(stacked(std::move(blocks), num_vertices));
   return result;
 }
 

@@ -20,36 +20,31 @@ namespace {
 
 using Row = LimitRows::Row;
 
-/// A mask on the mesh.
-/// @param slots  of the mask's weights among `vertices`; empty: all of them, in order
-Row gathered(const LimitMasks::Mask& mask, const std::vector<Index>& slots, const std::vector<Index>& vertices) {
-  Row row;
-  row.reserve(size_t(mask.size()));
-  for (Eigen::Index i = 0; i < mask.size(); ++i)
-    if (mask[i] != 0) row.push_back({vertices[slots.empty() ? size_t(i) : size_t(slots[size_t(i)])], mask[i]});
-  std::sort(row.begin(), row.end());
-  size_t kept = 0;  // slots of one vertex add up
-  for (size_t i = 1; i < row.size(); ++i) {
-    if (row[i].first == row[kept].first)
-      row[kept].second += row[i].second;
-    else
-      row[++kept] = row[i];
-  }
-  row.resize(std::min(row.size(), kept + 1));
-  return row;
-}
-
-/// Rows of one side of a known type.
-LimitRows rows_of(const LimitMasks& masks, const LimitMasks::Side& side, const auto& gathered_row) {
-  LimitRows rows;
-  rows.position = gathered_row(masks.position);
-  rows.tangent1 = gathered_row(side.tangent1);
-  rows.tangent2 = gathered_row(side.tangent2);
-  for (const LimitMasks::Mask& mask : side.second_order) rows.second_order.push_back(gathered_row(mask));
-  rows.plane = side.plane;
-  rows.rule = masks.rule;
-  rows.faces = side.num_corners;
-  return rows;
+/// The masks of one side of a known type, on the mesh.
+/// @param slots  of the masks' weights among `vertices`; empty: all of them, in order
+LimitRows rows_of(const LimitMasks& masks, const LimitMasks::Side& side, std::span<const Index> slots,
+                  const std::vector<Index>& vertices) {
+  // Columns ascend: in what order weights come is the same for all masks.
+  std::vector<std::pair<Index, Eigen::Index>> terms(static_cast<size_t>(masks.position.size()));
+  for (size_t i = 0; i < terms.size(); ++i)
+    terms[i] = {vertices[slots.empty() ? i : static_cast<size_t>(slots[i])], static_cast<Eigen::Index>(i)};
+  std::sort(terms.begin(), terms.end());
+  LimitRows result;
+  result.plane = side.plane;
+  result.rule = masks.rule;
+  result.faces = side.num_corners;
+  result.rows.reserve(3 + side.second_order.size(), (3 + side.second_order.size()) * terms.size());
+  const auto add = [&](const LimitMasks::Mask& mask) {
+    if (mask.size() > 0)
+      for (const auto& [vertex, i] : terms)
+        if (mask[i] != 0) result.rows.add(vertex, mask[i]);
+    result.rows.end_row();
+  };
+  add(masks.position);
+  add(side.tangent1);
+  add(side.tangent2);
+  for (const LimitMasks::Mask& mask : side.second_order) add(mask);
+  return result;
 }
 
 /// A vertex whose one-ring is all that its limit depends on, whatever is sharp there: the type is that of all its sides.
@@ -61,7 +56,7 @@ LimitRows one_ring_rows(const Level& level, LimitTypes& cache, HalfEdge corner) 
     const std::vector<HalfEdge>& corners = at.corners[side.fan];
     for (Index c = 0; c < side.num_corners; ++c)
       if (corners[(side.first_corner + c) % corners.size()] == corner)
-        return rows_of(masks, side, [&](const LimitMasks::Mask& mask) { return gathered(mask, {}, at.vertices); });
+        return rows_of(masks, side, {}, at.vertices);
   }
   throw AnalysisError(cache.scheme().name + ": a corner is on no side of its vertex");
 }
@@ -76,8 +71,7 @@ std::optional<LimitRows> lone_rows(const Level& level, LimitTypes& cache, const 
   if (!limit) return std::nullopt;
   const Walk places = walk(level.topology(), level.sharpness, centre, limit->depth);
   if (places.decays || places.signature != limit->signature) return std::nullopt;
-  return rows_of(limit->masks, limit->masks.sides[0],
-                 [&](const LimitMasks::Mask& mask) { return gathered(mask, limit->slots, places.vertices); });
+  return rows_of(limit->masks, limit->masks.sides[0], limit->slots, places.vertices);
 }
 
 std::optional<LimitRows> known_rows(const Level& level, LimitTypes& cache, const Centre& centre) {
@@ -86,20 +80,18 @@ std::optional<LimitRows> known_rows(const Level& level, LimitTypes& cache, const
   return lone_rows(level, cache, centre);
 }
 
-/// row * S, with the columns of the result renamed.
-Row pulled_back(const Row& row, const SparseMatrix& S, const std::vector<Index>& name) {
-  std::map<Index, double> sum;
-  for (const auto& [r, weight] : row)
-    for (SparseMatrix::InnerIterator it(S, r); it; ++it) sum[name[it.col()]] += weight * it.value();
-  Row result;
-  for (const auto& [column, weight] : sum)
-    if (weight != 0) result.push_back({column, weight});
+/// rows * S, with the columns of the result renamed.
+SparseRows pulled_back(const SparseRows& rows, const SparseMatrix& S, const std::vector<Index>& name) {
+  SparseRows result;
+  for (size_t i = 0; i < rows.size(); ++i) {
+    std::map<Index, double> sum;
+    for (const auto& [r, weight] : rows[i])
+      for (SparseMatrix::InnerIterator it(S, r); it; ++it) sum[name[it.col()]] += weight * it.value();
+    for (const auto& [column, weight] : sum)
+      if (weight != 0) result.add(column, weight);
+    result.end_row();
+  }
   return result;
-}
-
-void for_each(LimitRows& rows, const auto& what) {
-  for (Row* row : {&rows.position, &rows.tangent1, &rows.tangent2}) what(*row);
-  for (Row& row : rows.second_order) what(row);
 }
 
 /// Rings of faces around the places that the next level's limits may depend on.
@@ -111,8 +103,8 @@ bool is_prepared_first(const Scheme<double>& scheme, const Level& level) {
 }
 
 /// @param why  for each place what keeps it from having a limit; empty if it has one
-std::vector<LimitRows> found_rows(const Level& level, LimitTypes& cache, const std::vector<Centre>& centres, int depth,
-                               std::vector<std::string>& why) {
+std::vector<LimitRows> found_rows(const Level& level, LimitTypes& cache, std::span<const Centre> centres, int depth,
+                                  std::vector<std::string>& why) {
   const Scheme<double>& scheme = cache.scheme();
   const auto count = static_cast<std::int64_t>(centres.size());
   std::vector<LimitRows> rows(centres.size());
@@ -177,17 +169,15 @@ std::vector<LimitRows> found_rows(const Level& level, LimitTypes& cache, const s
   std::vector<std::string> why_not(children.size());
   std::vector<LimitRows> fine = found_rows(child_level, cache, children, depth - 1, why_not);
   std::vector<Index> used;
-  for (LimitRows& row : fine)
-    for_each(row, [&](const Row& r) {
-      for (const auto& term : r) used.push_back(term.first);
-    });
+  for (const LimitRows& limit : fine)
+    for (size_t i = 0; i < limit.rows.size(); ++i)
+      for (const auto& term : limit.rows[i]) used.push_back(term.first);
   std::sort(used.begin(), used.end());
   used.erase(std::unique(used.begin(), used.end()), used.end());
   const SparseMatrix S = few ? subdivision_rows(scheme, parent, child_level, used) : child_level.S;
   parallel_for(static_cast<std::int64_t>(followed.size()), [&](std::int64_t i) {
-    LimitRows& row = fine[i];
-    for_each(row, [&](Row& r) { r = pulled_back(r, S, around.vertices); });
-    rows[followed[i]] = std::move(row);
+    fine[i].rows = pulled_back(fine[i].rows, S, around.vertices);
+    rows[followed[i]] = std::move(fine[i]);
     why[followed[i]] = std::move(why_not[i]);
   });
   return rows;
@@ -200,33 +190,32 @@ namespace {
 /// Whether control points move in one direction by all of `rows`, but for what goes along the tangents.
 bool is_one_direction(const LimitRows& limit) {
   std::map<Index, Eigen::Index> columns;
-  for (const Row* row : {&limit.tangent1, &limit.tangent2})
-    for (const auto& term : *row) columns.try_emplace(term.first, Eigen::Index(columns.size()));
-  for (const Row& row : limit.second_order)
-    for (const auto& term : row) columns.try_emplace(term.first, Eigen::Index(columns.size()));
-  const auto dense = [&](const Row& row) {
+  for (size_t i = 1; i < limit.rows.size(); ++i)
+    for (const auto& term : limit.rows[i]) columns.try_emplace(term.first, Eigen::Index(columns.size()));
+  const auto dense = [&](Row row) {
     Eigen::VectorXd all = Eigen::VectorXd::Zero(Eigen::Index(columns.size()));
     for (const auto& [column, weight] : row) all[columns.at(column)] += weight;
     return all;
   };
   Eigen::MatrixXd plane(Eigen::Index(columns.size()), 2);
-  plane << dense(limit.tangent1), dense(limit.tangent2);
+  plane << dense(limit.tangent1()), dense(limit.tangent2());
   const double inwards = plane.col(1).norm();
   if (!(inwards > 0)) return false;
   const PivotedQr qr(plane);
   if (qr.rank() < 2) return false;
   constexpr double rounding = 1e-10;  // of eigenvectors that a period or two carry back
-  return std::ranges::all_of(limit.second_order, [&](const Row& row) {
-    Eigen::VectorXd way = dense(row);
+  for (size_t k = 0; k < limit.num_second_order(); ++k) {
+    Eigen::VectorXd way = dense(limit.second_order(k));
     const Eigen::Vector2d parts = qr.solve(way);
     way.noalias() -= plane * parts;
-    return way.norm() <= rounding * inwards && parts[1] >= -rounding;
-  });
+    if (!(way.norm() <= rounding * inwards && parts[1] >= -rounding)) return false;
+  }
+  return true;
 }
 
 LimitStatus status_of(const LimitRows& rows, const Scheme<double>& scheme) {
   // Along a smooth crease of a single mesh edge the normal has a limit even where the normals inside have another.
-  const bool along_crease = rows.rule == Rule::crease && scheme.has_one_ring_limits() && !rows.tangent1.empty();
+  const bool along_crease = rows.rule == Rule::crease && scheme.has_one_ring_limits() && !rows.tangent1().empty();
   const bool has_plane =
       along_crease || (rows.plane == LimitMasks::Plane::tied ? is_one_direction(rows) : rows.plane != LimitMasks::Plane::no);
   if (!has_plane) return LimitStatus::undefined_normal;
@@ -237,7 +226,7 @@ LimitStatus status_of(const LimitRows& rows, const Scheme<double>& scheme) {
 
 }  // namespace
 
-std::vector<LimitRows> limit_rows(const Level& level, LimitTypes& cache, const std::vector<Centre>& centres) {
+std::vector<LimitRows> limit_rows(const Level& level, LimitTypes& cache, std::span<const Centre> centres) {
   std::vector<std::string> why(centres.size());
   std::vector<LimitRows> rows = found_rows(level, cache, centres, 12, why);
   const auto failed = std::ranges::find_if(why, [](const std::string& reason) { return !reason.empty(); });
@@ -253,23 +242,8 @@ std::vector<LimitRows> limit_rows(const Level& level, LimitTypes& cache, const s
   throw NoLimit(index(t.tail(centre.start)), level.number, *failed);
 }
 
-SparseMatrix matrix_of(std::span<const Row* const> rows, Index columns) {
-  std::int64_t nonzeros = 0;
-  for (const Row* row : rows) nonzeros += std::ssize(*row);
-  if (nonzeros > std::numeric_limits<Index>::max())
-    throw ResourceError("limit rows: more nonzeros than 32-bit indices count");
-  SparseMatrix M(std::ssize(rows), columns);
-  resize_nonzeros(M, nonzeros);
-  M.outerIndexPtr()[0] = 0;
-  for (size_t r = 0; r < rows.size(); ++r) M.outerIndexPtr()[r + 1] = M.outerIndexPtr()[r] + Index(rows[r]->size());
-  parallel_for(std::ssize(rows), [&](std::int64_t r) {
-    Index at = M.outerIndexPtr()[r];
-    for (const auto& [column, weight] : *rows[size_t(r)]) {
-      M.innerIndexPtr()[at] = column;
-      M.valuePtr()[at++] = weight;
-    }
-  });
-  return M;
+LimitRows limit_rows(const Level& level, LimitTypes& cache, const Centre& centre) {
+  return std::move(limit_rows(level, cache, std::span(&centre, 1))[0]);
 }
 
 }  // namespace sublimit

@@ -61,22 +61,20 @@ LimitSurface::Parts::Found LimitSurface::Parts::find(const Target& at, int order
   // Inside, where rounding ends the descent of a place at thirds at a corner, the position is all that was asked for.
   const bool is_deep = !centre && order == 0;
   if (on_cut && !centre && rows.order == 0) {
-    if (order >= 1) found.tangents = tangents_on_side(type, at.place, found.vertices);
-    if (order >= 1 && found.tangents.empty()) found.status = LimitStatus::undefined_normal;
+    if (order >= 1) rows.tangents = tangents_on_side(type, at.place);
+    if (order >= 1 && rows.tangents.rows() == 0) found.status = LimitStatus::undefined_normal;
   } else if (rows.at_corner && rows.order == 0 && !is_deep) {
     const LimitRows* limit = centre ? corners.at(*centre) : nullptr;
     found.status = limit ? limit->status : LimitStatus::undefined_normal;
     if (order >= 1 && limit && limit->status != LimitStatus::undefined_normal) {
-      found.tangents = {limit->tangent1, limit->tangent2};
-      found.tangents.insert(found.tangents.end(), limit->second_order.begin(), limit->second_order.end());
+      for (size_t i = 1; i < limit->rows.size(); ++i) found.tangents.add_row(limit->rows[i]);
     }
   }
   if (sides & hole) found.status = LimitStatus::hole;
   return found;
 }
 
-std::vector<LimitRows::Row> LimitSurface::Parts::tangents_on_side(const PieceType& type, const Place& place,
-                                                                  const std::vector<Index>& vertices) const {
+RowMatrix LimitSurface::Parts::tangents_on_side(const PieceType& type, const Place& place) const {
   // Normals inside tend to the one on the side, at least like a root of the distance: as near as places are told apart.
   constexpr double near = 0x1p-50;
   Place inside = place;
@@ -91,14 +89,7 @@ std::vector<LimitRows::Row> LimitSurface::Parts::tangents_on_side(const PieceTyp
     if (place.u1 == 0) inside.u1 = near, inside.u = 1 - near;
     if (place.v1 == 0) inside.v1 = near, inside.v = 1 - near;
   }
-  const PieceRows rows = piece_rows(type, inside, 1);
-  std::vector<LimitRows::Row> result(size_t(rows.tangents.rows()));
-  for (Eigen::Index k = 0; k < rows.tangents.rows(); ++k) {
-    result[size_t(k)].push_back({vertices[0], -rows.tangents.row(k).sum()});
-    for (Eigen::Index j = 0; j < rows.tangents.cols(); ++j)
-      result[size_t(k)].push_back({vertices[size_t(j) + 1], rows.tangents(k, j)});
-  }
-  return result;
+  return piece_rows(type, inside, 1).tangents;
 }
 
 LimitStencil LimitSurface::Parts::stencil(const Sample& s, int order) const {
@@ -110,7 +101,7 @@ LimitStencil LimitSurface::Parts::stencil(const Sample& s, int order) const {
   const RowMatrix &rows = found.rows.rows, &own_tangents = found.rows.tangents;
   const Eigen::Index num_weights = rows.rows(), slots = rows.cols() + 1;
   Eigen::Index columns = slots, row = num_weights;
-  for (const LimitRows::Row& mask : found.tangents) columns += Eigen::Index(mask.size());
+  columns += Eigen::Index(found.tangents.num_terms());
   const Eigen::Index num_tangents = own_tangents.rows() + Eigen::Index(found.tangents.size());
   RowMatrix W = RowMatrix::Zero(num_weights + num_tangents, columns);
   W.block(0, 1, num_weights, slots - 1) = rows;
@@ -118,13 +109,11 @@ LimitStencil LimitSurface::Parts::stencil(const Sample& s, int order) const {
   W.col(0) = -W.rowwise().sum();
   W(0, 0) += 1;
   Eigen::Index column = slots;
-  for (const LimitRows::Row& mask : found.tangents) {
-    for (const auto& [v, weight] : mask) {
+  for (size_t i = 0; i < found.tangents.size(); ++i, ++row)
+    for (const auto& [v, weight] : found.tangents[i]) {
       found.vertices.push_back(v);
       W(row, column++) = weight;
     }
-    ++row;
-  }
 
   // Over the vertices of the level, ascending, those without weight left out.
   struct Term {

@@ -66,16 +66,15 @@ struct LimitSurface::Parts {
   /// What there is at a place, over the vertices of its piece.
   struct Found {
     std::vector<Index> vertices;
-    PieceRows rows;                        ///< in differences, by the parameters of the address
-    std::vector<LimitRows::Row> tangents;  ///< by masks, where the piece has none: over vertices
+    PieceRows rows;       ///< in differences, by the parameters of the address
+    SparseRows tangents;  ///< by masks, where the piece has none: over vertices
     LimitStatus status = LimitStatus::regular;
   };
   /// @throws NoLimit  naming the face of the mesh
   Found find(const Target& at, int order) const;
-  /// Tangents on a side where the limit has no derivatives by u and v, though there is a tangent plane: rows over
-  /// `vertices`, none if there are none inside either.
-  std::vector<LimitRows::Row> tangents_on_side(const PieceType& type, const Place& place,
-                                               const std::vector<Index>& vertices) const;
+  /// Tangents on a side where the limit has no derivatives by u and v, though there is a tangent plane; none if there are
+  /// none inside either.
+  RowMatrix tangents_on_side(const PieceType& type, const Place& place) const;
   /// The same where the type is known.
   /// @param vertices  its points, by slot
   Found find(const Target& at, int order, const PieceType& type, std::vector<Index> vertices) const;

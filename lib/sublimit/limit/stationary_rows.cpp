@@ -117,9 +117,11 @@ std::optional<LimitRows> stationary_rows(const Level& whole, const Scheme<double
   if (!is_closed) return std::nullopt;
   LimitRows rows;
   const Eigen::VectorXd mask = position_mask(A, own, std::nullopt);
+  std::vector<SparseRows::Term> terms;
   for (Index i = 0; i < count; ++i)
-    if (mask[i] != 0) rows.position.push_back({around.vertices[before.vertices[i]], mask[i]});
-  std::sort(rows.position.begin(), rows.position.end());
+    if (mask[i] != 0) terms.push_back({around.vertices[before.vertices[i]], mask[i]});
+  std::sort(terms.begin(), terms.end());
+  rows.rows.add_row(terms);
   rows.plane = LimitMasks::Plane::no;
   const LocalType type = local_type(whole.topology(), whole.sharpness, from, whole.number, scheme.period);
   rows.rule = type.corner ? Rule::corner : type.open || type.kind == Centre::Kind::border ? Rule::crease : Rule::smooth;

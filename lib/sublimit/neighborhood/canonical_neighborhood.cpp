@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <map>
 
 #include "sublimit/mesh/topology_builder.h"
 
@@ -34,17 +33,28 @@ NeighborhoodAt walk(const Topology& t, const Sharpness& sharpness, Vertex v, con
   type.sharpness = sharpness.vertex[index(v)];
   type.creasing = sharpness.creasing;
   result.vertices = {index(v)};
-  std::map<Index, Index> spoke_of;  // edge -> spoke
+  std::vector<Edge> edges;  // of the spokes
+  size_t fan_begin = 0;
   // `end` is the far end as this corner sees it: that of a loop (v,v) is the vertex again.
   const auto spoke = [&](Edge e, Vertex end) {
-    const auto [at, is_new] = spoke_of.try_emplace(index(e), static_cast<Index>(type.spokes.size()));
-    if (is_new) {
+    // The last one, or the one that the fan began with; elsewhere only loops and what several fans share.
+    auto at = edges.end();
+    if (edges.size() > fan_begin && edges.back() == e)
+      at = edges.end() - 1;
+    else if (edges.size() > fan_begin && edges[fan_begin] == e)
+      at = edges.begin() + std::ptrdiff_t(fan_begin);
+    else if (end == v || t.is_nonmanifold(v))
+      at = std::find(edges.begin(), edges.end(), e);
+    const auto spoke = static_cast<Index>(at - edges.begin());
+    if (at == edges.end()) {
+      edges.push_back(e);
       type.spokes.push_back({sharpness.edge[index(e)], child_at_end(t, sharpness, e, end), type.num_slots++});
       result.vertices.push_back(index(end));
     }
-    return at->second;
+    return spoke;
   };
   for (const HalfEdge start : starts) {
+    fan_begin = edges.size();
     CanonicalNeighborhood::Fan fan;
     std::vector<HalfEdge> corners;
     HalfEdge h = start;
@@ -52,6 +62,7 @@ NeighborhoodAt walk(const Topology& t, const Sharpness& sharpness, Vertex v, con
       const HalfEdge last = t.prev(h);
       CanonicalNeighborhood::Corner corner;
       corner.face_size = t.size(t.face(h));
+      corner.slots.reserve(static_cast<size_t>(corner.face_size));
       corner.spoke = spoke(t.edge(h), t.head(h));
       corner.slots = {0, type.spokes[corner.spoke].slot};
       for (HalfEdge g = t.next(t.next(h)); g != last; g = t.next(g)) {

@@ -69,7 +69,7 @@ std::optional<Patterns::LimitBlock> limits_of_type(const std::shared_ptr<LimitTy
     target.outer = all.triangle ? triangle_place(p.u, p.v) : quad_place(p.u, p.v);
     target.place = map(target.outer);
     const LimitSurface::Parts::Found found = surface.find(target, request.derivatives, type, slots);
-    if (!found.tangents.empty() && has_several_fans()) beyond = true;
+    if (found.tangents.size() > 0 && has_several_fans()) beyond = true;
     const Eigen::Index row = all.row(i, j);
     block.status[size_t(row)] = static_cast<std::uint8_t>(found.status);
     const auto add = [&](Eigen::Index quantity, Index vertex, double weight) {
@@ -80,15 +80,19 @@ std::optional<Patterns::LimitBlock> limits_of_type(const std::shared_ptr<LimitTy
       else
         block.weights(quantity * count + row, slot) += weight;
     };
+    const auto add_differences = [&](Eigen::Index q, const auto& weights) {
+      for (Eigen::Index s = 0; s < weights.size(); ++s) add(q, found.vertices[s + 1], weights[s]);
+      add(q, found.vertices[0], (q == 0 ? 1 : 0) - weights.sum());
+    };
     const RowMatrix& rows = found.rows.rows;
-    for (Eigen::Index q = 0; q < rows.rows(); ++q) {
-      for (Eigen::Index s = 0; s < rows.cols(); ++s) add(q, found.vertices[s + 1], rows(q, s));
-      add(q, found.vertices[0], (q == 0 ? 1 : 0) - rows.row(q).sum());
-    }
+    for (Eigen::Index q = 0; q < rows.rows(); ++q) add_differences(q, rows.row(q));
+    if (request.derivatives == 0 || rows.rows() > 1) return;
     // Where there are no natural derivatives, two tangents that span the plane.
-    if (request.derivatives > 0 && rows.rows() == 1 && found.tangents.size() >= 2)
+    const RowMatrix& tangents = found.rows.tangents;
+    for (Eigen::Index q = 0; q < std::min<Eigen::Index>(tangents.rows(), 2); ++q) add_differences(q + 1, tangents.row(q));
+    if (found.tangents.size() >= 2)
       for (Eigen::Index q = 1; q <= 2; ++q)
-        for (const auto& [vertex, weight] : found.tangents[q - 1]) add(q, vertex, weight);
+        for (const auto& [vertex, weight] : found.tangents[size_t(q - 1)]) add(q, vertex, weight);
   });
   if (beyond) return std::nullopt;
   return block;

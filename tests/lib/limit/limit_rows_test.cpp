@@ -62,7 +62,7 @@ Eigen::RowVector3d seen(const Level& level, const Points& x, const Centre& centr
 
 Eigen::RowVector3d position(const LimitRows& rows, const Points& x) {
   Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
-  for (const auto& [column, weight] : rows.position) sum += weight * x.row(column);
+  for (const auto& [column, weight] : rows.position()) sum += weight * x.row(column);
   return sum;
 }
 

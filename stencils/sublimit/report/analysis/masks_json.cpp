@@ -94,10 +94,10 @@ Json dart_masks_json(const Scheme<double>& scheme, const LocalPatch<Algebraic>& 
   options.boundary = Boundary::edge_only;
   const Level level = control_level(scheme, creased_fan(n, n, size), options);
   LimitTypes cache(scheme);
-  const LimitRows rows = limit_rows(level, cache, {side_of(level, level.topology().outgoing(Vertex{0}))})[0];
-  if (rows.tangent1.empty()) return nullptr;
+  const LimitRows rows = limit_rows(level, cache, side_of(level, level.topology().outgoing(Vertex{0})));
+  if (rows.tangent1().empty()) return nullptr;
   // Points of the fan, by the labels of the patch.
-  const auto by_label = [&](const LimitRows::Row& row) {
+  const auto by_label = [&](LimitRows::Row row) {
     Eigen::VectorXd sorted = Eigen::VectorXd::Zero(Eigen::Index(exact.labels.size()));
     for (const auto& [v, weight] : row) {
       const Index spoke = (v - 1) / (size - 2);
@@ -110,9 +110,9 @@ Json dart_masks_json(const Scheme<double>& scheme, const LocalPatch<Algebraic>& 
     return sorted;
   };
   const ExactMasks exactly = exact_masks(exact);
-  return {{"position", mask_json(exact.labels, by_label(rows.position), &exactly.position)},
-          {"tangent1", mask_json(exact.labels, by_label(rows.tangent1), nullptr)},
-          {"tangent2", mask_json(exact.labels, by_label(rows.tangent2), nullptr)},
+  return {{"position", mask_json(exact.labels, by_label(rows.position()), &exactly.position)},
+          {"tangent1", mask_json(exact.labels, by_label(rows.tangent1()), nullptr)},
+          {"tangent2", mask_json(exact.labels, by_label(rows.tangent2()), nullptr)},
           {"second", nullptr}};
 } catch (const AnalysisError& error) {
   why = error.what();

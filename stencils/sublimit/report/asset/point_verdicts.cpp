@@ -121,8 +121,8 @@ const PointVerdict& PointVerdicts::dart(Index n) {
   try {
     const Level level = control_level(cache_.scheme(), creased_fan(n, n, cache_.scheme().face_size() == 3 ? 3 : 4));
     const HalfEdge any = level.topology().outgoing(Vertex{0});
-    const LimitRows rows = limit_rows(level, cache_, {side_of(level, any)})[0];
-    if (!rows.tangent1.empty()) at->second.plane = plane_verdict(rows.plane);
+    const LimitRows rows = limit_rows(level, cache_, side_of(level, any));
+    if (!rows.tangent1().empty()) at->second.plane = plane_verdict(rows.plane);
   } catch (const Error&) {
   }
   return at->second;

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// Sparse rows of a few terms each, one after the other in one piece of memory.
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "sublimit/core/types.h"
+
+namespace sublimit {
+
+class SparseRows {
+ public:
+  using Term = std::pair<Index, double>;
+  using Row = std::span<const Term>;  ///< columns ascending
+
+  size_t size() const { return ends_.size(); }
+  Row operator[](size_t i) const {
+    const size_t begin = i == 0 ? 0 : ends_[i - 1];
+    return Row(terms_).subspan(begin, ends_[i] - begin);
+  }
+  /// Of all rows together.
+  size_t num_terms() const { return terms_.size(); }
+
+  void reserve(size_t rows, size_t terms) {
+    ends_.reserve(rows);
+    terms_.reserve(terms);
+  }
+  /// To the row that is not ended yet. Columns of a row ascend; weights of one column add up.
+  void add(Index column, double weight) {
+    const size_t begin = ends_.empty() ? 0 : ends_.back();
+    if (terms_.size() > begin && terms_.back().first == column)
+      terms_.back().second += weight;
+    else
+      terms_.push_back({column, weight});
+  }
+  void end_row() { ends_.push_back(static_cast<std::uint32_t>(terms_.size())); }
+  void add_row(Row row) {
+    terms_.insert(terms_.end(), row.begin(), row.end());
+    end_row();
+  }
+
+ private:
+  std::vector<Term> terms_;
+  std::vector<std::uint32_t> ends_;
+};
+
+/// @throws ResourceError  more nonzeros than 32-bit indices count
+SparseMatrix matrix_of(std::span<const SparseRows::Row> rows, Index columns);
+
+/// One below the other; each block's memory is given back once it is there.
+/// @throws ResourceError  more nonzeros than 32-bit indices count
+SparseMatrix stacked(std::vector<SparseMatrix> blocks, Index columns);
+
+}  // namespace sublimit
