@@ -10,7 +10,6 @@
 #include "sublimit/base/parallel_for.h"
 #include "sublimit/core/dense_decompositions.h"
 #include "sublimit/core/sparse_product.h"
-#include "sublimit/limit/stationary_rows.h"
 #include "sublimit/neighborhood/walk.h"
 #include "sublimit/scheme/refine_impl.h"
 #include "sublimit/scheme/subdivision_rows.h"
@@ -80,6 +79,45 @@ std::optional<LimitRows> known_rows(const Level& level, LimitTypes& cache, const
   return lone_rows(level, cache, centre);
 }
 
+/// The corner of a piece that a centre is.
+std::pair<Piece, int> piece_corner(const Scheme<double>& scheme, const Topology& t, const Centre& centre) {
+  using Kind = Piece::Kind;
+  switch (centre.kind) {
+    case Centre::Kind::face: return {{Kind::corner, centre.start}, 2};
+    case Centre::Kind::border:
+    case Centre::Kind::edge: return {{Kind::corner, centre.start}, 1};
+    case Centre::Kind::vertex: break;
+  }
+  const Kind of_polygon = scheme.is_dual() ? Kind::corner : Kind::cut;
+  const Index size = t.size(t.face(centre.start));
+  const bool whole = !scheme.is_dual() && size == scheme.face_size();
+  return {{!whole ? of_polygon : size == 3 ? Kind::triangle : Kind::quad, centre.start}, 0};
+}
+
+/// A centre that never is alone, but comes to repeat itself: two faces back to back under a dual scheme, for one. The
+/// position is that of a corner of the piece there; what its tangents are is not known.
+LimitRows repeating_rows(const Level& level, LimitTypes& cache, const Centre& centre) {
+  const Scheme<double>& scheme = cache.scheme();
+  const auto [piece, corner] = piece_corner(scheme, level.topology(), centre);
+  PieceWalker walker;
+  const PieceWalk& walk = walker.walk(level.topology(), level.sharpness, piece, cache.pieces().rings(level.sharpness),
+                                      level.number % scheme.period);
+  const Eigen::RowVectorXd& differences = cache.pieces().type(level, piece, walk)->corner_limit(corner);
+  std::vector<SparseRows::Term> terms{{walk.vertices[0], 1 - differences.sum()}};
+  for (Eigen::Index i = 0; i < differences.size(); ++i) terms.push_back({walk.vertices[size_t(i) + 1], differences[i]});
+  std::sort(terms.begin(), terms.end());
+  LimitRows result;
+  for (const auto& [vertex, weight] : terms)
+    if (weight != 0) result.rows.add(vertex, weight);
+  result.rows.end_row();
+  result.plane = LimitMasks::Plane::no;
+  const LocalType type = local_type(level.topology(), level.sharpness, centre, level.number, scheme.period);
+  const bool open = type.open || type.kind == Centre::Kind::border;
+  result.rule = type.corner ? Rule::corner : open ? Rule::crease : Rule::smooth;
+  result.faces = type.faces;
+  return result;
+}
+
 /// rows * S, with the columns of the result renamed.
 SparseRows pulled_back(const SparseRows& rows, const SparseMatrix& S, const std::vector<Index>& name) {
   SparseRows result;
@@ -110,28 +148,22 @@ std::vector<LimitRows> found_rows(const Level& level, LimitTypes& cache, std::sp
   std::vector<LimitRows> rows(centres.size());
   std::vector<std::uint8_t> done(centres.size(), 0);
   const bool whole = is_prepared_first(scheme, level);
-  const auto try_each = [&](const auto& rows_at) {
+  if (!whole)
     parallel_for(count, [&](std::int64_t i) {
-      if (done[i]) return;
       try {
-        if (std::optional<LimitRows> known = rows_at(centres[i])) {
-          rows[i] = std::move(*known);
-          done[i] = 1;
-        }
+        std::optional<LimitRows> known = known_rows(level, cache, centres[i]);
+        if (!known && depth == 0) known = repeating_rows(level, cache, centres[i]);
+        if (!known) return;
+        rows[i] = std::move(*known);
       } catch (const AnalysisError& error) {
         why[i] = error.what();
-        done[i] = 1;
       }
+      done[i] = 1;
     });
-  };
-  if (!whole) try_each([&](const Centre& centre) { return known_rows(level, cache, centre); });
-  if (depth == 0) try_each([&](const Centre& centre) { return stationary_rows(level, scheme, centre); });
   std::vector<size_t> rest;
   for (size_t i = 0; i < centres.size(); ++i)
     if (!done[i]) rest.push_back(i);
-  if (depth == 0)
-    for (const size_t i : rest) why[i] = "its neighbourhood stays irregular under refinement";
-  if (rest.empty() || depth == 0) return rows;
+  if (rest.empty()) return rows;
 
   Part around;
   if (!whole) {
@@ -228,7 +260,9 @@ LimitStatus status_of(const LimitRows& rows, const Scheme<double>& scheme) {
 
 std::vector<LimitRows> limit_rows(const Level& level, LimitTypes& cache, std::span<const Centre> centres) {
   std::vector<std::string> why(centres.size());
-  std::vector<LimitRows> rows = found_rows(level, cache, centres, 12, why);
+  // Pieces are known of levels where a period begins.
+  const int period = cache.scheme().period, depth = 12 + (period - level.number % period) % period;
+  std::vector<LimitRows> rows = found_rows(level, cache, centres, depth, why);
   const auto failed = std::ranges::find_if(why, [](const std::string& reason) { return !reason.empty(); });
   if (failed == why.end()) {
     parallel_for(std::ssize(rows), [&](std::int64_t i) { rows[i].status = status_of(rows[i], cache.scheme()); });

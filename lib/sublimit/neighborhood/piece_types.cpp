@@ -334,7 +334,19 @@ struct PieceType::CornerPath {
     for (size_t i = first + 1; i < visits.size(); ++i) block = block.then(visits[i].link->block);
     return block;
   }
-  /// The same of large blocks.
+  /// Whether what a slot is after k cycles tends to a fixed row: one that repels is a fixed row as well.
+  bool attracts(const RowMatrix& fixed, Index slot) const {
+    RowMatrix rest = -fixed;
+    if (slot > 0) rest(0, slot - 1) += 1;
+    const double small = 0x1p-20 * rest.norm();
+    constexpr int enough = 1024;  // cycles: the slowest of our schemes shrink by 0.9
+    for (int k = 0; k < enough; ++k) {
+      if (rest.norm() <= small) return true;
+      for (size_t i = visits.size(); i-- > first;) rest = visits[i].link->block.derivatives_pulled_back(rest);
+    }
+    return false;
+  }
+  /// The cycle of large blocks.
   SparseMatrix rows() const {
     SparseMatrix B = visits[first].link->block.rows();
     for (size_t i = first + 1; i < visits.size(); ++i) SparseMatrix(product(visits[i].link->block.rows(), B)).swap(B);
@@ -352,8 +364,10 @@ const Eigen::RowVectorXd& PieceType::corner_limit(int corner) const {
     } else {
       const bool begins_here = kind_ == Piece::Kind::quad || kind_ == Piece::Kind::triangle;
       row = path.is_large() ? fixed_row(path.rows(), begins_here ? corner : 0) : fixed_row(path.cycle());
-      if (row.size() > 0 && !(row.cwiseAbs().maxCoeff() < 1e8))
-        throw AnalysisError(types_->scheme_.name + ": no limit where a neighbourhood repeats itself");
+      const Index slot = begins_here ? corner : 0;
+      if (row.size() > 0 && !(row.cwiseAbs().maxCoeff() < 1e8 && path.attracts(row, slot)))
+        throw AnalysisError(types_->scheme_.name +
+                            ": no limit where a neighbourhood repeats itself: eigenvalue 1 is not simple and dominant");
     }
     corner_limits_[corner] = row;
   });

@@ -174,6 +174,8 @@ TEST(LimitRows, NameTheFirstVertexThatHasNoLimit) {
     expect_error<NoLimit>([&] { limit_matrices(levels[0], cache); }, {"no limit at vertex 8:", "eigenvalue 1"});
     expect_error<NoLimit>([&] { limit_matrices(levels, cache); }, {"no limit at vertex 8:", "eigenvalue 1"});
     expect_error<NoLimit>([&] { limit_matrices(levels[1], cache); }, {"no limit at vertex 8 of level 1:"});
+    const LimitSurface surface(scheme, mesh);
+    expect_error<NoLimit>([&] { surface.stencil({6, 0, 0}, 0); }, {"no limit at some place of face 6:", "eigenvalue 1"});
   }
 }
 
