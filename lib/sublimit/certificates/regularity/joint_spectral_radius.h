@@ -2,12 +2,12 @@
 #pragma once
 // Joint spectral radius of a set of matrices: the growth per factor of their longest products. From below, spectral
 // radii of finite products; from above, a norm in which all of the matrices are small: that of a polytope which they
-// map into itself, up to a factor. Both are found with doubles and then verified with enclosures. Source: Rota, Strang
-// 1960; Guglielmi, Protasov 2013, "Exact computation of joint spectral characteristics of linear operators", Found.
-// Comput. Math. 13 (the polytope).
+// map into itself, up to a factor. Both are found with doubles, since thousands of products and points are tried, and
+// then verified with balls. Source: Rota, Strang 1960; Guglielmi, Protasov 2013, "Exact computation of joint spectral
+// characteristics of linear operators", Found. Comput. Math. 13 (the polytope).
 #include <vector>
 
-#include "sublimit/certificates/regularity/ball_matrix.h"
+#include "sublimit/certificates/ball_matrix.h"
 
 namespace sublimit {
 
@@ -31,6 +31,13 @@ JointSpectralRadius joint_spectral_radius(const std::vector<BallMatrix>& matrice
 /// The matrices in other coordinates, in which they are small together: joint spectral radii do not change, enclosures
 /// get better.
 std::vector<BallMatrix> balanced(const std::vector<BallMatrix>& matrices);
+
+/// Certain bound from above of the Euclidean norm of all members: |A|^2 < c where Cholesky's decomposition of c - A^T A
+/// is certain to exist.
+double euclidean_norm(const BallMatrix& A);
+
+/// Certain bound from below of the spectral radius of all members, from traces of powers: |tr A^k| <= n r(A)^k.
+double spectral_radius_below(BallMatrix A);
 
 /// Certain bound from below that a product gives: its spectral radius to the power of 1/length. Last factor first.
 double product_radius(const std::vector<BallMatrix>& matrices, const std::vector<int>& factors);
