@@ -20,7 +20,7 @@ ControlMesh torus(Index vertices) {
 
 FitProblem points(Index vertices) {
   const ControlMesh mesh = torus(vertices);
-  LimitMaskCache cache(find_scheme<double>("catmull-clark").value());
+  LimitTypes cache(find_scheme<double>("catmull-clark").value());
   FitProblem p;
   p.C = limit_matrices(refine(cache.scheme(), mesh, 0)[0], cache).position;
   p.d = p.x0 = mesh.positions;
@@ -30,7 +30,7 @@ FitProblem points(Index vertices) {
 FitProblem normals(Index vertices) {
   const ControlMesh mesh = torus(vertices / 4);
   const Index targets = Index(mesh.positions.rows());
-  LimitMaskCache cache(find_scheme<double>("catmull-clark").value());
+  LimitTypes cache(find_scheme<double>("catmull-clark").value());
   const auto levels = refine(cache.scheme(), mesh, 1);
   const LimitMatrices limit = limit_matrices(levels[1], cache);
   const Points refined = apply(refinement_matrix(levels), mesh.positions);
@@ -56,7 +56,7 @@ FitProblem normals(Index vertices) {
 
 FitProblem fairness(Index vertices) {
   const ControlMesh mesh = torus(vertices / 4);
-  LimitMaskCache cache(find_scheme<double>("catmull-clark").value());
+  LimitTypes cache(find_scheme<double>("catmull-clark").value());
   const auto levels = refine(cache.scheme(), mesh, 1);
   FitProblem p;
   p.C = limit_matrices(levels[1], cache).position.topRows(mesh.positions.rows());

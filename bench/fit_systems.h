@@ -15,10 +15,12 @@ struct FitSystem {
 };
 
 /// On tori of about `vertices` control points:
-///   points    Catmull-Clark through a point for each control point: square
-///   normals   points and normals of a quarter as many vertices, refined once: fewer conditions than unknowns, one
-///   channel fairness  points of a quarter as many vertices, refined once, with the least thin plate energy places
-///   least squares at four random places for each control point
+///
+///     points    Catmull-Clark through a point for each control point: square
+///     normals   points and normals of a quarter as many vertices, refined once: fewer conditions than unknowns, one
+///               channel
+///     fairness  points of a quarter as many vertices, refined once, with the least thin plate energy
+///     places    least squares at four random places for each control point
 std::vector<FitSystem> fit_systems(Index vertices);
 
 }  // namespace sublimit::bench

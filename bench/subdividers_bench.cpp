@@ -4,8 +4,8 @@
 // together.
 //   ours      from arrays, as ControlMesh: topology, S_k and positions of all levels
 //   again     positions of all levels for other control points: the matrices are there
-//   OpenMesh  from its own half-edge mesh, built before the clock starts, refined in place: the last level alone is
-//   left CGAL      likewise, a Surface_mesh
+//   OpenMesh  from its own half-edge mesh, built before the clock starts, refined in place: only the last level is left
+//   CGAL      likewise, a Surface_mesh
 // Both use one thread, always. On one thread the processor's time is taken, on several that of the wall; freeing memory
 // is left out for all. That all make the same points is what the tests prove. The limit is the time to write what ours
 // keeps, at the bandwidth of one thread.

@@ -9,15 +9,20 @@
 #include <functional>
 
 #include "sublimit/base/atomic_file.h"
-#include "sublimit/fit/deviation.h"
 #include "sublimit/geometric/torus_pieces.h"
 #include "sublimit/report/page/drawing.h"
 #include "sublimit/report/page/plot.h"
 #include "sublimit/report/page/style.h"
+#include "support/deviation.h"
 #include "support/meshes.h"
 
 namespace sublimit::bench {
 namespace {
+
+using testing::Deviation;
+using testing::deviations;
+using testing::ImplicitSurface;
+using testing::targets_on;
 
 using Eigen::Vector3d;
 constexpr int levels = 5;

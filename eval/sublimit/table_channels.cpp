@@ -3,8 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
+#include <span>
 
+#include "sublimit/base/rule_words.h"
 #include "sublimit/base/error.h"
 
 namespace sublimit {
@@ -12,7 +13,7 @@ namespace {
 
 [[noreturn]] void fail(const std::string& what) { throw InvalidParameter(what); }
 
-void check_word(const char* name, const std::string& word, std::initializer_list<const char*> right) {
+void check_word(const char* name, const std::string& word, std::span<const char* const> right) {
   std::string all;
   for (const char* known : right) {
     if (word == known) return;
@@ -42,8 +43,7 @@ void check_sharpness(const char* name, const SharedArray<float>& sharpness, size
 
 void check_channels(const TableChannels& channels, std::int64_t num_corners) {
   if (channels.list.empty()) return;
-  check_word("face_varying", channels.interpolation,
-             {"none", "corners-only", "corners-plus1", "corners-plus2", "boundaries", "all"});
+  check_word("face_varying", channels.interpolation, face_varying_words);
   for (size_t c = 0; c < channels.list.size(); ++c) {
     const FaceVaryingValues& channel = channels.list[c];
     const std::string name = "face_varying." + std::to_string(c);
@@ -61,8 +61,8 @@ void check_channels(const TableChannels& channels, std::int64_t num_corners) {
 }
 
 void check_tags(const TableTags& tags, std::int64_t num_points) {
-  check_word("tags.boundary", tags.boundary, {"edge-only", "edge-and-corner"});
-  check_word("tags.creasing", tags.creasing, {"uniform", "chaikin"});
+  check_word("tags.boundary", tags.boundary, std::span(boundary_words).last(2));  // `none` has been made holes
+  check_word("tags.creasing", tags.creasing, creasing_words);
   if (tags.creases.size() % 2 != 0) fail("tags.creases has a point without another one");
   check_indices("tags.creases", tags.creases, num_points, "point");
   check_indices("tags.corners", tags.corners, num_points, "point");

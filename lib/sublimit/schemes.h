@@ -56,7 +56,9 @@ std::optional<Scheme<T>> find_scheme(const std::string& name, const SchemeOption
   for (const SchemeEntry<T>& entry : registry<T>) {
     if (name != entry.name) continue;
     check_options(name, entry.make({}).options, options);
-    return entry.make(options);
+    Scheme<T> scheme = entry.make(options);
+    scheme.chosen = options;
+    return scheme;
   }
   return std::nullopt;
 }

@@ -146,7 +146,6 @@ int analyze_schemes(const AnalyzeOptions& options) {
     make_output_directory(options.exports);
     check_output_path(options.exports + "/matrix.txt", {});
   }
-  wanted.statements = options.common.scheme == "all";
   Progress progress(options.common.quiet);
   progress.step("analysing");
   wanted.progress = [&](int done, int all) { progress.note(fmt::format("analysing: {} of {} parts", done, all)); };

@@ -110,8 +110,7 @@ BakeOutcome bake_table(const BakeJob& job, Dictionaries& dictionaries, Progress&
   naming_mesh(job.common, [&] {
     BakeRequest request = request_of(job);
     if (reader) request.samples = places_of(*reader, loaded);
-    TableInfo info = table_info(*loaded.scheme, loaded.options, loaded.mesh, request, loaded.rules);
-    if (keep && is_there(job, info, request)) {
+    if (keep && is_there(job, table_info(*loaded.scheme, loaded.mesh, request, loaded.rules), request)) {
       outcome.was_there = true;
       return;
     }
@@ -126,10 +125,8 @@ BakeOutcome bake_table(const BakeJob& job, Dictionaries& dictionaries, Progress&
       if (job.is_plan) return;
     }
     progress.step("baking");
-    Baked baked = bake(patterns, loaded.mesh, request, loaded.rules);
+    const Baked baked = bake(patterns, loaded.mesh, request, loaded.rules);
     outcome.statistics = baked.statistics;
-    info.statuses = std::move(baked.table.info.statuses);
-    baked.table.info = std::move(info);
     progress.step("writing " + job.output);
     check_disk("tables", job.output,
                double(baked.statistics.bytes) / (job.is_float ? 2 : 1) + double(baked.statistics.channel_bytes),

@@ -8,11 +8,14 @@
 #include <algorithm>
 #include <cctype>
 #include <memory>
+#include <span>
 
 #include "curves.h"
 #include "sublimit/base/error.h"
 #include "sublimit/base/memory.h"
+#include "sublimit/base/rule_words.h"
 #include "sublimit/core/sparse_product.h"
+#include "sublimit/files/rule_words.h"
 #include "sublimit/files/sidecar.h"
 #include "sublimit/geometric/geometric_schemes.h"
 #include "sublimit/io/file_extension.h"
@@ -26,12 +29,9 @@ namespace {
 std::mutex directories_mutex;
 std::vector<std::string> directories;  // of outputs, for the one who cleans up after an interrupt
 
-/// The value that a word stands for; CLI11 has checked that it is one of them.
-template <class T>
-std::optional<T> meaning(const std::string& word, const std::vector<std::pair<std::string, T>>& words) {
-  for (const auto& [name, value] : words)
-    if (name == word) return value;
-  return std::nullopt;
+/// The words as CLI11's set of choices.
+CLI::IsMember one_of(std::span<const char* const> words) {
+  return CLI::IsMember(std::vector<std::string>(words.begin(), words.end()));
 }
 
 bool knows(const Scheme<double>& scheme, const std::string& option) {
@@ -79,19 +79,19 @@ void add_mesh(CLI::App& command, Common& common, bool scheme_required) {
   auto* scheme = command.add_option("-s,--scheme", common.scheme, "Scheme (see `sublimit schemes`)");
   if (scheme_required) scheme->required();
   command.add_option("--boundary", common.boundary, "Boundary rule (default: the file's tag, else edge-and-corner)")
-      ->check(CLI::IsMember({"none", "edge-only", "edge-and-corner"}));
+      ->check(one_of(boundary_words));
   command.add_option("--creasing", common.creasing, "How sharpness decays (default: the file's tag, else uniform)")
-      ->check(CLI::IsMember({"uniform", "chaikin"}));
+      ->check(one_of(creasing_words));
   command
       .add_option("--triangles", common.triangles,
                   "Catmull-Clark next to triangles (default: the file's tag, else catmark)")
-      ->check(CLI::IsMember({"catmark", "smooth"}));
+      ->check(one_of(triangles_words));
   command
       .add_option(
           "--face-varying", common.face_varying,
           "Where texture coordinates are linear, by OpenSubdiv's names (default: the file's tag, else all, which is "
           "OpenSubdiv's default)")
-      ->check(CLI::IsMember({"none", "corners-only", "corners-plus1", "corners-plus2", "boundaries", "all"}));
+      ->check(one_of(face_varying_words));
   command.add_option("--option", common.options, "An option of the scheme, name=value; may be repeated")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
@@ -139,19 +139,10 @@ Loaded load(const Common& common, Progress& progress) {
     loaded.scheme = scheme_or_throw(common.scheme, options);
   }
   loaded.options = std::move(options);
-  loaded.rules.boundary = meaning<Boundary>(
-      common.boundary,
-      {{"none", Boundary::none}, {"edge-only", Boundary::edge_only}, {"edge-and-corner", Boundary::edge_and_corner}});
-  loaded.rules.creasing =
-      meaning<Creasing>(common.creasing, {{"uniform", Creasing::uniform}, {"chaikin", Creasing::chaikin}});
-  using enum FaceVaryingInterpolation;
-  loaded.face_varying = meaning<FaceVaryingInterpolation>(common.face_varying, {{"none", none},
-                                                                                {"corners-only", corners_only},
-                                                                                {"corners-plus1", corners_plus1},
-                                                                                {"corners-plus2", corners_plus2},
-                                                                                {"boundaries", boundaries},
-                                                                                {"all", all}})
-                            .value_or(loaded.mesh.face_varying_interpolation.value_or(all));
+  loaded.rules.boundary = rule_of<Boundary>(common.boundary);
+  loaded.rules.creasing = rule_of<Creasing>(common.creasing);
+  loaded.face_varying = rule_of<FaceVaryingInterpolation>(common.face_varying)
+                            .value_or(loaded.mesh.face_varying_interpolation.value_or(FaceVaryingInterpolation::all));
   if (common.quiet && !common.strict) return loaded;
   std::vector<std::string> faults;
   const Topology topology(view(loaded.mesh));

@@ -52,7 +52,7 @@ int run(const DemoOptions& options) {
   const std::vector<Level> levels = refine(scheme, mesh, 3);
   std::vector<Points> points{mesh.positions};
   for (size_t k = 1; k < levels.size(); ++k) points.push_back(apply(levels[k].S, points.back()));
-  LimitMaskCache cache(scheme);
+  LimitTypes cache(scheme);
   const LimitMatrices limit = limit_matrices(levels[3], cache);
   const LimitPoints at_limit = limit_points(limit, levels[3].topology(), points[3]);
   const MeshOutput surface = limit_mesh(levels[3], limit, at_limit, Normals::per_corner);
@@ -84,10 +84,7 @@ int run(const DemoOptions& options) {
   picture.commit();
   // The same level 2 from a table, which needs the points of the mesh and nothing else.
   Patterns patterns(scheme);
-  Baked baked = bake_level(patterns, mesh, 2);
-  std::vector<std::string> statuses = std::move(baked.table.info.statuses);
-  baked.table.info = table_info(scheme, {}, mesh, {.level = 2});
-  baked.table.info.statuses = std::move(statuses);
+  const Baked baked = bake_level(patterns, mesh, 2);
   save_table(path("level2.safetensors"), in_float(baked.table));
   progress.step("");
   if (options.common.quiet) return 0;

@@ -30,15 +30,14 @@ void draw_gallery(const GalleryRun& run, bool silent) {
   check_output_path(index.string(), {});
   limit_threads(run.common);
   Progress progress(run.common.quiet);
-  const Gallery gallery = make_gallery({.faces = run.faces}, [&](int done, int total) {
+  const std::vector<GalleryFile> files = make_gallery({.faces = run.faces}, [&](int done, int total) {
     progress.step(fmt::format("drawing and measuring, {} of {}", done, total));
   });
   progress.step("writing " + run.directory);
-  write_gallery(run.directory, gallery.files);
+  write_gallery(run.directory, files);
   progress.step("");
   if (run.common.quiet || silent) return;
-  fmt::print("{} pictures; {} of {} sentences from lecture notes are confirmed by measurements:\n  {}\n",
-             gallery.files.size() - 2, gallery.confirmed, gallery.statements,
+  fmt::print("{} pictures, and what was measured:\n  {}\n", files.size() - 2,
              std::filesystem::absolute(index).string());
 }
 

@@ -7,6 +7,7 @@
 
 #include "common.h"
 #include "sublimit/base/error.h"
+#include "sublimit/files/rule_words.h"
 #include "sublimit/limit/address.h"
 
 namespace sublimit::cli {
@@ -58,27 +59,17 @@ Index num_boundary_loops(const Topology& t) {
 }
 
 // The rules in force: as asked for, else the file's tag, else the default.
-const char* word(std::optional<Boundary> asked, std::optional<Boundary> tag) {
-  switch (asked.value_or(tag.value_or(Boundary::edge_and_corner))) {
-    case Boundary::none:
-      return "none";
-    case Boundary::edge_only:
-      return "edge-only";
-    default:
-      return "edge-and-corner";
-  }
+template <class Rule>
+const char* in_force(std::optional<Rule> asked, std::optional<Rule> tag, Rule otherwise) {
+  return word(asked.value_or(tag.value_or(otherwise)));
 }
-const char* word(std::optional<Creasing> asked, std::optional<Creasing> tag) {
-  return asked.value_or(tag.value_or(Creasing::uniform)) == Creasing::chaikin ? "chaikin" : "uniform";
-}
-const char* word(std::optional<Triangles> asked, std::optional<Triangles> tag) {
-  return asked.value_or(tag.value_or(Triangles::catmark)) == Triangles::smooth ? "smooth" : "catmark";
-}
-
-const char* word(FaceVaryingInterpolation interpolation) {
-  constexpr const char* words[] = {"none", "corners-only", "corners-plus1", "corners-plus2", "boundaries", "all"};
-  return words[static_cast<int>(interpolation)];
-}
+struct RuleWords {
+  const char *boundary, *creasing, *triangles;
+  explicit RuleWords(const Loaded& loaded)
+      : boundary(in_force(loaded.rules.boundary, loaded.mesh.boundary, Boundary::edge_and_corner)),
+        creasing(in_force(loaded.rules.creasing, loaded.mesh.creasing, Creasing::uniform)),
+        triangles(in_force({}, loaded.mesh.triangles, Triangles::catmark)) {}
+};
 
 int run(const Common& common, bool as_json) {
   Common quiet = common;
@@ -87,6 +78,7 @@ int run(const Common& common, bool as_json) {
   const Loaded loaded = load(quiet, progress);  // warnings and faults are what this subcommand prints
   progress.step("");
   const ControlMesh& mesh = loaded.mesh;
+  const RuleWords rules(loaded);
   const Topology t(view(mesh));
   Histogram sizes, interior, boundary;
   for (Index f = 0; f < t.num_faces(); ++f) ++sizes[t.size(Face{f})];
@@ -97,7 +89,7 @@ int run(const Common& common, bool as_json) {
   const Index euler = t.num_vertices() - t.num_edges() + t.num_faces();
   const bool triangles = loaded.scheme && loaded.scheme->face_size() == 3;
   const Addresses addresses(t, triangles);
-  std::string takes = "yes";
+  std::string why_not;  // empty: the scheme takes the mesh
   std::vector<double> cost;
   if (loaded.scheme) {
     try {
@@ -105,7 +97,7 @@ int run(const Common& common, bool as_json) {
       if (loaded.scheme->face_size() == 3) check_triangles(t);
       for (int level = 1; level <= 6; ++level) cost.push_back(predicted_bytes(*loaded.scheme, t, level));
     } catch (const UnsupportedTopology& error) {
-      takes = std::string("no: ") + error.what();
+      why_not = error.what();
     }
   }
   if (as_json) {
@@ -119,21 +111,21 @@ int run(const Common& common, bool as_json) {
               {"components", num_components(t)},
               {"boundary_loops", num_boundary_loops(t)},
               {"face_sizes", to_json(sizes)},
-              {"addresses", takes == "yes" ? Json(addresses.size()) : Json()},
+              {"addresses", why_not.empty() ? Json(addresses.size()) : Json()},
               {"interior_valences", to_json(interior)},
               {"boundary_valences", to_json(boundary)},
               {"creases", mesh.creases.size()},
               {"corners", mesh.corners.size()},
               {"holes", mesh.holes.size()},
-              {"boundary", word(loaded.rules.boundary, mesh.boundary)},
-              {"creasing", word(loaded.rules.creasing, mesh.creasing)},
-              {"triangles", word(std::optional<Triangles>(), mesh.triangles)},
+              {"boundary", rules.boundary},
+              {"creasing", rules.creasing},
+              {"triangles", rules.triangles},
               {"face_varying_channels", mesh.face_varying.size()},
               {"face_varying", word(loaded.face_varying)},
               {"warnings", mesh.warnings},
               {"faults", faults}};
     if (loaded.scheme) {
-      json["scheme"] = {{"name", loaded.scheme->name}, {"takes_mesh", takes}, {"predicted_bytes_by_level", cost}};
+      json["scheme"] = {{"name", loaded.scheme->name}, {"takes_mesh", why_not.empty() ? "yes" : "no: " + why_not}, {"predicted_bytes_by_level", cost}};
     }
     fmt::print("{}\n", json.dump(2));
     return 0;
@@ -142,7 +134,7 @@ int run(const Common& common, bool as_json) {
   fmt::print("  {} vertices, {} edges, {} faces; Euler characteristic {}, {} component(s)\n", t.num_vertices(),
              t.num_edges(), t.num_faces(), euler, num_components(t));
   fmt::print("  face sizes         {}\n", to_text(sizes));
-  if (takes == "yes")
+  if (why_not.empty())
     fmt::print("  addresses          faces 0 to {} of `sublimit sample`: {}\n", addresses.size() - 1,
                triangles ? "the triangles" : "a quad is one, another polygon one a corner");
   fmt::print("  interior valences  {}\n", to_text(interior));
@@ -151,13 +143,13 @@ int run(const Common& common, bool as_json) {
   fmt::print("  tags               {} creases, {} corners, {} holes\n", mesh.creases.size(), mesh.corners.size(),
              mesh.holes.size());
   fmt::print("  rules              boundary {}, creasing {}, triangles {}\n",
-             word(loaded.rules.boundary, mesh.boundary), word(loaded.rules.creasing, mesh.creasing),
-             word(std::optional<Triangles>(), mesh.triangles));
+             rules.boundary, rules.creasing,
+             rules.triangles);
   for (const ControlMesh::FaceVarying& channel : mesh.face_varying)
     fmt::print("  face-varying       {}: {} values of {} numbers, interpolation {}\n", channel.name,
                channel.values.rows(), channel.values.cols(), word(loaded.face_varying));
   if (loaded.scheme) {
-    fmt::print("  {:<18} {}\n", loaded.scheme->name + ":", takes == "yes" ? "takes this mesh" : takes);
+    fmt::print("  {:<18} {}\n", loaded.scheme->name + ":", why_not.empty() ? "takes this mesh" : "no: " + why_not);
     for (size_t k = 0; k < cost.size(); ++k)
       fmt::print("    to level {}         about {:.1f} MB\n", k + 1, cost[k] / 1e6);
   }

@@ -30,14 +30,14 @@ int run(const LimitOptions& options) {
   std::vector<FaceVaryingLevel> channel;
   Points limit_values;
   LimitMatrices limit;
-  LimitMaskCache cache(*loaded.scheme);
+  LimitTypes cache(*loaded.scheme);
   naming_mesh(options.common, [&] {
     levels = refined_levels(loaded, options.levels, progress);
     progress.step("limits");
     limit = limit_matrices(levels, cache);
     channel = refined_channel(options.common, loaded, levels, options.output);
     if (channel.empty()) return;
-    LimitMaskCache channel_cache(face_varying_scheme(*loaded.scheme, loaded.face_varying));
+    LimitTypes channel_cache(face_varying_scheme(*loaded.scheme, loaded.face_varying));
     limit_values = apply(limit_matrices(channel.back().level, channel_cache).position,
                          refined_values(channel, loaded.mesh.face_varying[0].values));
   });

@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/core.h>
+#include <array>
 
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <sstream>
 
 #include "bake_manifest.h"
 #include "sublimit/base/error.h"
 #include "sublimit/base/format_number.h"
 #include "sublimit/base/read_file.h"
+#include "sublimit/base/rule_words.h"
 
 namespace sublimit::cli {
 namespace {
@@ -52,7 +55,7 @@ class Line {
       fail(key, value, "a whole number");
     return value;
   }
-  std::string one_of(const std::string& key, const nlohmann::json& value, std::initializer_list<const char*> words) const {
+  std::string one_of(const std::string& key, const nlohmann::json& value, std::span<const char* const> words) const {
     std::string right;
     for (const char* known : words) {
       if (value.is_string() && value == known) return known;
@@ -80,16 +83,15 @@ class Line {
       job.derivatives = whole(key, value);
       if (job.derivatives > 2) fail(key, value, "0, 1 or 2");
     } else if (key == "precision") {
-      job.is_float = one_of(key, value, {"float", "double"}) == "float";
+      job.is_float = one_of(key, value, std::array{"float", "double"}) == "float";
     } else if (key == "boundary") {
-      job.common.boundary = one_of(key, value, {"none", "edge-only", "edge-and-corner"});
+      job.common.boundary = one_of(key, value, boundary_words);
     } else if (key == "creasing") {
-      job.common.creasing = one_of(key, value, {"uniform", "chaikin"});
+      job.common.creasing = one_of(key, value, creasing_words);
     } else if (key == "triangles") {
-      job.common.triangles = one_of(key, value, {"catmark", "smooth"});
+      job.common.triangles = one_of(key, value, triangles_words);
     } else if (key == "face-varying") {
-      job.common.face_varying =
-          one_of(key, value, {"none", "corners-only", "corners-plus1", "corners-plus2", "boundaries", "all"});
+      job.common.face_varying = one_of(key, value, face_varying_words);
     } else if (key == "tags") {
       job.tags = flag(key, value);
     } else if (key == "triangulate") {

@@ -12,7 +12,7 @@
 #include "sublimit/base/memory.h"
 #include "sublimit/files/random_samples.h"
 #include "sublimit/files/sample_files.h"
-#include "sublimit/limit/piece_types.h"
+#include "sublimit/limit/limit_types.h"
 
 namespace sublimit::cli {
 namespace {
@@ -92,7 +92,7 @@ int run(const SampleOptions& options) {
   Progress progress(job.common.quiet);
   const Loaded loaded = load(job.common, progress);
   check_mesh_memory(job.common.mesh, loaded.mesh);
-  const auto types = std::make_shared<PieceTypes>(*loaded.scheme);
+  const auto types = std::make_shared<LimitTypes>(*loaded.scheme);
   SampleSummary summary;
   naming_mesh(job.common, [&] {
     progress.step("sampling");
@@ -109,7 +109,7 @@ int run(const SampleOptions& options) {
   progress.step("");
   if (!job.common.quiet) {
     fmt::print("{}: {} samples", job.output, summary.num_samples);
-    if (summary.num_samples > 0) fmt::print(" ({}), {} types of pieces", summary.text(), types->size());
+    if (summary.num_samples > 0) fmt::print(" ({}), {} types of pieces", summary.text(), types->pieces().size());
     if (reader && reader->num_clamped() > 0) fmt::print(", {} moved to the rim of their face", reader->num_clamped());
     fmt::print("\n");
   }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rules that lecture notes and texts print and that are wrong, each as a scheme of its own, and what becomes of it.
+// Rules that are misprinted or misread in circulation (support/misreadings.h), each as a scheme of its own, and what
+// becomes of it: the reasons why the registry has the rules that it has.
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
@@ -8,12 +9,12 @@
 
 #include "sublimit/core/dense_decompositions.h"
 #include "sublimit/limit/limit_points.h"
-#include "sublimit/report/statements/misreadings.h"  // the rules: reports decide on them too
 #include "sublimit/scheme/refine.h"
 #include "sublimit/schemes.h"
 #include "support/closed_form.h"
 #include "support/match_meshes.h"
 #include "support/meshes.h"
+#include "support/misreadings.h"
 #include "support/regular_limit.h"
 #include "support/tolerance.h"
 
@@ -70,6 +71,28 @@ TEST(Errata, DooSabinHalfwayToTheCentroidKeepsQuadsSkew) {
   EXPECT_LT(spread(find_scheme("doo-sabin").value()), 1e-5);
 }
 
+// Doo and Sabin's weights, summed over i = 0 ... n: a face has n corners, so corner 0 comes twice, the sum is not 1,
+// and the surface does not move with its points.
+TEST(Errata, DooSabinWithOneTermMoreIsNotAffine) {
+  for (int n = 3; n <= 20; ++n) {
+    const double sum = local_patch(doo_sabin_with_one_term_more<double>(), face_of(n))->A.row(0).sum();
+    EXPECT_NEAR(sum, 1 + (n + 5) / (4.0 * n), rounding(2 * n)) << n;
+  }
+}
+
+// "The mean of centroid, corner and the midpoints of its two edges" is repeated averaging at every face. The weights
+// with cosines are another rule: both continue the tensor mask of quads.
+TEST(Errata, DooSabinsMeanOfFourHasTheWeightsWithCosinesOnQuadsOnly) {
+  for (int n = 3; n <= 20; ++n) {
+    const auto difference = [&](const char* name) {
+      const auto ours = local_patch(find_scheme(name).value(), face_of(n));
+      return (local_patch(doo_sabin_mean_of_four<double>(), face_of(n))->A - ours->A).cwiseAbs().maxCoeff();
+    };
+    EXPECT_LE(difference("doo-sabin-averaging"), rounding(8)) << n;
+    EXPECT_EQ(difference("doo-sabin") <= rounding(8), n == 4) << n;
+  }
+}
+
 // "Mid-edge twice is Doo-Sabin": the same faces at the same places, other points. They would be the same with weights
 // 1/4, 1/2, 1/4 on three corners.
 TEST(Errata, TwoMidEdgeStepsHaveTheConnectivityOfDooSabinAndNotItsPositions) {
@@ -120,6 +143,15 @@ TEST(Errata, CatmullClarkWithTheMeanOfNewEdgePointsIsNoBSpline) {
   expect_eigenvalues(LocalSpectrum(catmull_clark_with_new_edge_points<Precise>(), 4), 0, {1, ratio(1, 8), ratio(1, 8)});
   const auto bicubic = [](double x, double y) { return cardinal_bspline(3, x) * cardinal_bspline(3, y); };
   EXPECT_GT(regular_limit_error(misread, bicubic), 1e-2);
+}
+// With the midpoints of the old edges these words are our rule, at all valences and whatever the faces: F + 2 R is the
+// mean of the neighbours and of the face points, and v once more.
+TEST(Errata, CatmullClarkWithTheMeanOfOldMidpointsIsTheRule) {
+  for (const ControlMesh& mesh : {prism(5), prism(7), octahedron(), icosahedron(), fan(8)}) {
+    const Eigen::MatrixXd S(refine(catmull_clark_with_old_midpoints<double>(), mesh, 1)[1].S);
+    const Eigen::MatrixXd T(refine(find_scheme("catmull-clark").value(), mesh, 1)[1].S);
+    EXPECT_LE((S - T).cwiseAbs().maxCoeff(), rounding(16));
+  }
 }
 
 // Loop's beta is the weight of the whole ring. Divided by the valence once more, regular vertices are spikes.
@@ -257,7 +289,7 @@ TEST(Errata, InterpolatingTheCubeIsSingular) {
   const auto limits = [](const std::string& name, const ControlMesh& mesh) {
     const Scheme<double> scheme = find_scheme(name).value();
     const Level level = control_level(scheme, mesh);
-    LimitMaskCache cache(scheme);
+    LimitTypes cache(scheme);
     return Eigen::MatrixXd(limit_matrices(level, cache).position);
   };
   const auto smallest = [](const Eigen::MatrixXd& L) {

@@ -87,7 +87,7 @@ TEST_P(EveryScheme, TakesTheSharedMeshes) {
   if (shared_meshes().empty())
     GTEST_SKIP() << "NO SHARED MESHES at " << SUBLIMIT_SHARED_MESHES << ": 122 meshes are not refined";
   const Scheme<double> scheme = *find_scheme(GetParam());
-  LimitMaskCache cache(scheme);
+  LimitTypes cache(scheme);
   int meshes = 0;
   for (const SharedMesh& shared : shared_meshes()) {
     ControlMesh mesh = read_mesh(shared.path);

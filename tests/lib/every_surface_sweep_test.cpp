@@ -11,7 +11,7 @@
 #include "sublimit/base/error.h"
 #include "sublimit/io/read_mesh.h"
 #include "sublimit/limit/limit_surface.h"
-#include "sublimit/limit/piece_types.h"
+#include "sublimit/limit/limit_types.h"
 #include "sublimit/scheme/prepare.h"
 #include "sublimit/schemes.h"
 #include "support/limits_at_thirds.h"
@@ -67,7 +67,7 @@ TEST_P(EverySurface, HasStencilsOnTheSharedMeshes) {
   if (shared_meshes().empty())
     GTEST_SKIP() << "NO SHARED MESHES at " << SUBLIMIT_SHARED_MESHES << ": 122 meshes have no limit surfaces";
   const Scheme<double> scheme = *find_scheme(GetParam());
-  const auto types = std::make_shared<PieceTypes>(scheme, 4096);
+  const auto types = std::make_shared<LimitTypes>(scheme, 4096);
   std::mt19937 random(1);
   std::set<std::string> without_limits;
   std::int64_t stencils = 0;
@@ -112,7 +112,7 @@ TEST(RotatingSurfaces, AreWhatRefinementMakesOnTheSharedMeshes) {
   if (shared_meshes().empty()) GTEST_SKIP() << "NO SHARED MESHES at " << SUBLIMIT_SHARED_MESHES;
   for (const char* name : {"sqrt3", "interpolatory-sqrt3"}) {
     const Scheme<double> scheme = *find_scheme(name);
-    const auto types = std::make_shared<PieceTypes>(scheme, 4096);
+    const auto types = std::make_shared<LimitTypes>(scheme, 4096);
     for (const SharedMesh& shared : shared_meshes()) {
       const ControlMesh mesh = without_creases(triangulated(read_mesh(shared.path)));
       if (mesh.num_faces() >= (full_sweep() ? 200 : 30)) continue;

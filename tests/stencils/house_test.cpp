@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The house as README draws it: rooms know those below them and no others.
+// The house as README.md draws it: rooms know those below them and no others, and documents lead to each of them.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -61,6 +61,20 @@ TEST(House, RoomsKnowThoseBelowThem) {
     EXPECT_GT(arrows, 100u);
     EXPECT_EQ(rooms.size(), floor.rooms.size() + floor.doors.size()) << floor.folder;
     for (const std::string& room : floor.rooms) EXPECT_TRUE(fs::exists(folder / room / "README.md")) << room;
+  }
+}
+
+TEST(House, DocumentsLeadToEveryRoom) {
+  const fs::path root = SUBLIMIT_SOURCE;
+  const std::string front = read_file(root / "README.md"), house = front.substr(front.find("## The house\n"));
+  for (const Floor& floor : floors) {
+    const fs::path folder = floor.folder;  // lib/sublimit
+    const std::string page = read_file(root / folder.parent_path() / "README.md");
+    for (const std::string& room : floor.rooms) {
+      EXPECT_NE(house.find(" " + room + "/"), std::string::npos) << "README.md draws no " << room;
+      EXPECT_NE(page.find("(sublimit/" + room + "/README.md)"), std::string::npos)
+          << floor.folder << " leads not to " << room;
+    }
   }
 }
 

@@ -51,7 +51,11 @@ struct Example {
   const char* reason;
 };
 constexpr Example examples[] = {
-    {"README.md", "cpp", 6, "consumer.lib compiles and runs them"},
+    {"README.md", "cpp", 1, "consumer.lib compiles and runs it"},
+    {"lib/README.md", "cpp", 4, "consumer.lib compiles and runs them"},
+    {"stencils/README.md", "cpp", 1, "consumer.lib compiles and runs it"},
+    {"eval/README.md", "cpp", 2, "consumer.eval compiles and runs them"},
+    {"eval/README.md", "c", 1, "consumer.eval compiles and runs it"},
     {"eval/table_format.md", "python", 1, "TableInPython.MakesTheSamePoints runs it"},
 };
 
@@ -120,6 +124,8 @@ void expect_readable(const Path& file) {
     EXPECT_EQ(count_of(first, ","), count_of(head, ",")) << head << "\n" << first;
   } else if (kind == ".mtx") {
     EXPECT_TRUE(read_file(file).starts_with("%%MatrixMarket matrix coordinate real general\n"));
+  } else if (kind == ".npz") {
+    EXPECT_TRUE(read_file(file).starts_with("PK"));
   } else if (kind == ".svg" || kind == ".html") {
     const std::string text = read_file(file);
     EXPECT_EQ(read_markup(text).fault, "");
@@ -172,16 +178,15 @@ void first_vertices_are_the_targets(const Path& folder) {
 
 const std::vector<Section>& sections() {
   static const std::vector<Section> all = {
-      {"README.md", "The program", run_demo, {}},
-      {"README.md", "Tables", write_cages,
-       [](const Path& folder) {
-         log_has_what_the_document_shows(folder);
-         frames_are_refined(folder);
-       }},
-      {"README.md", "Continuity reports", run_demo,
+      {"README.md", "In the shell", {}, {}},
+      {"stencils/README.md", "The program", run_demo, {}},
+      {"stencils/README.md", "Curves", write_polygon, {}},
+      {"stencils/README.md", "Tables", write_cages, frames_are_refined},
+      {"stencils/README.md", "Many tables", write_cages, log_has_what_the_document_shows},
+      {"stencils/README.md", "Continuity reports", run_demo,
        [](const Path& folder) { expect_rows_name_their_valences(Json::parse(read_file(folder / "schemes.json"))); }},
-      {"README.md", "Surfaces through given data", write_cube_with_normals, first_vertices_are_the_targets},
-      {"README.md",
+      {"stencils/README.md", "Surfaces through given data", write_cube_with_normals, first_vertices_are_the_targets},
+      {"stencils/README.md",
        "Gallery",
        {},
        [](const Path& folder) {

@@ -26,6 +26,11 @@ inline void run_demo(const std::filesystem::path& folder) {
 
 inline void write_text(const std::filesystem::path& path, const std::string& text) { std::ofstream(path) << text; }
 
+/// The square's corners: polygon.csv.
+inline void write_polygon(const std::filesystem::path& folder) {
+  write_text(folder / "polygon.csv", "0,0\n1,0\n1,1\n0,1\n");
+}
+
 /// The jobs that a document shows, an object a line.
 inline std::vector<nlohmann::ordered_json> shown_jobs() {
   std::vector<nlohmann::ordered_json> jobs;

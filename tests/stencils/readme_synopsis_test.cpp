@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Verbs and options that documents name are those of the program, and the README has every verb.
+// Verbs and options that documents name are those of the program, and one document has a synopsis of every verb.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -55,17 +55,18 @@ TEST(ReadmeSynopsis, NamesVerbsAndOptionsOfTheProgram) {
 TEST(ReadmeSynopsis, HasEveryVerb) {
   std::set<std::string> described;
   for (const CommandLine& command : command_lines())
-    if (command.document == "README.md" && command.section == "The program")
+    if (command.document == "stencils/README.md" && command.section == "The program")
       described.merge(matches(command.text, std::regex(R"((?:^sublimit +|\|)([a-z]+))")));
   EXPECT_GE(verbs().size(), 12u);
   for (const auto& [name, options] : verbs()) {
-    EXPECT_TRUE(described.contains(name)) << "README.md does not describe " << name;
+    EXPECT_TRUE(described.contains(name)) << "stencils/README.md does not describe " << name;
     EXPECT_TRUE(options.contains("--help")) << name;
   }
 }
 
 TEST(ReadmeSynopsis, OptionsInSentencesAreOfSomeVerb) {
-  std::set<std::string> options = {"--version", "--keep-memory"};  // of the program itself; of the benchmarks
+  // Of the program itself; of the benchmarks.
+  std::set<std::string> options = {"--version", "--ratios", "--keep-memory"};
   for (const auto& [name, own] : verbs()) options.insert(own.begin(), own.end());
   int seen = 0;
   for (const auto& [document, page] : pages())

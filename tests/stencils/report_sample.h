@@ -269,18 +269,6 @@ inline SampleJson sample_schemes(int first = 3, int last = 12) {
                                  {"extraordinary_verdict", "evidence-for"},
                                  {"valences", "3-12"},
                                  {"notes", "curvature diverges for valence 5 and more, mu > lambda^2"}});
-  report["statements"] = {{{"where", "000, sqrt3"},
-                           {"says", "interpolating, centroid and flips only"},
-                           {"verdict", "refuted"},
-                           {"right", "approximating with relaxation a_n = (4-2cos(2pi/n))/9"},
-                           {"experiment", "block 0 of the scheme without relaxation has 2/3"},
-                           {"numbers", {{"block 0", .6667}, {"block 1", {.33, .47}}}}},
-                          {{"where", "003"},
-                           {"says", "C^1 at singular points"},
-                           {"verdict", "confirmed"},
-                           {"right", nullptr},
-                           {"experiment", "spectrum"},
-                           {"numbers", nullptr}}};
   return report;
 }
 

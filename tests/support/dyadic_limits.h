@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "sublimit/limit/address.h"
-#include "sublimit/limit/limit_masks.h"
+#include "sublimit/limit/limit_types.h"
 #include "sublimit/scheme/refine.h"
 
 namespace sublimit::testing {
@@ -46,7 +46,7 @@ class DyadicLimits {
   Points points_;
   Level level_;
   Addresses addresses_;
-  LimitMaskCache cache_;
+  LimitTypes cache_;
 };
 
 }  // namespace sublimit::testing

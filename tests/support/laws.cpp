@@ -339,7 +339,7 @@ std::string limits_agree_between_levels(const Scheme<double>& scheme) {
   const auto same_normal = [](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
     return (a - b).norm() <= eigen(10);
   };
-  LimitMaskCache cache(scheme);
+  LimitTypes cache(scheme);
   for (const ControlMesh& mesh : meshes_for(scheme)) {
     const std::vector<Level> levels = refine(scheme, mesh, 2);
     Points x = mesh.positions;
@@ -347,56 +347,39 @@ std::string limits_agree_between_levels(const Scheme<double>& scheme) {
       const Points next = apply(levels[k + 1].S, x);
       const LimitMatrices coarse = limit_matrices(levels[k], cache);
       const LimitPoints here = limit_points(coarse, levels[k].topology(), x);
-      if (has_one_ring_limits(scheme)) {
-        const LimitMatrices fine = limit_matrices(levels[k + 1], cache);
-        const Points there = apply(fine.position, next);
-        for (Index v = 0; v < x.rows(); ++v)
-          if ((here.position.row(v) - there.row(v)).norm() > eigen())
-            return "vertex " + std::to_string(v) + " has two limits";
-        // Old vertices come first, and so do their sides: of these meshes there is one each.
-        const LimitPoints finer = limit_points(fine, levels[k + 1].topology(), next);
-        for (Index s = 0; s < std::ssize(coarse.side_vertex); ++s) {
-          if (coarse.side_vertex[s] != s || fine.side_vertex[s] != s)
-            return "vertex " + std::to_string(s) + " has several sides";
-          if (here.status[s] == LimitStatus::undefined_normal) continue;  // they are counted: NormalPlaces
-          if (!same_normal(finer.normal.row(s), here.normal.row(s)))
-            return "vertex " + std::to_string(s) + " has two normals";
+      std::vector<Centre> children;
+      for (Index s = 0; s < std::ssize(coarse.side_vertex); ++s) {
+        // The side's first corner: the one whose clockwise neighbour is of another side, or any.
+        HalfEdge start = no_half_edge;
+        for (const HalfEdge fan : levels[k].topology().fans(Vertex{coarse.side_vertex[s]})) {
+          const Topology& t = levels[k].topology();
+          HalfEdge h = fan;
+          do {
+            const bool first = is_cut(t, levels[k].sharpness, h);
+            if (coarse.corner_side[index(h)] == s && (first || !exists(start))) start = h;
+            h = t.ccw(h);
+          } while (exists(h) && h != fan);
         }
-      } else {
-        std::vector<Centre> children;
-        for (Index s = 0; s < std::ssize(coarse.side_vertex); ++s) {
-          // The side's first corner: the one whose clockwise neighbour is of another side, or any.
-          HalfEdge start = no_half_edge;
-          for (const HalfEdge fan : levels[k].topology().fans(Vertex{coarse.side_vertex[s]})) {
-            const Topology& t = levels[k].topology();
-            HalfEdge h = fan;
-            do {
-              const bool first = !exists(t.twin(h)) || is_sharp(levels[k].sharpness.edge[index(t.edge(h))]);
-              if (coarse.corner_side[index(h)] == s && (first || !exists(start))) start = h;
-              h = t.ccw(h);
-            } while (exists(h) && h != fan);
-          }
-          Centre centre{Centre::Kind::vertex, start};
-          const Topology* before = &levels[k].topology();
-          for (const Refinement& step : levels[k + 1].steps) {
-            centre = child(centre, *before, step, k);
-            before = &step.topology;
-          }
-          children.push_back(centre);
+        Centre centre{Centre::Kind::vertex, start};
+        const Topology* before = &levels[k].topology();
+        for (const Refinement& step : levels[k + 1].steps) {
+          centre = child(centre, *before, step, k);
+          before = &step.topology;
         }
-        const std::vector<LimitRows> rows = limit_rows(levels[k + 1], cache, children);
-        for (size_t s = 0; s < rows.size(); ++s) {
-          const auto value = [&](const LimitRows::Row& row) {
-            Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-            for (const auto& [c, w] : row) sum += w * next.row(c).transpose();
-            return sum;
-          };
-          if ((value(rows[s].position) - here.position.row(coarse.side_vertex[s]).transpose()).norm() > eigen(10))
-            return "vertex " + std::to_string(coarse.side_vertex[s]) + " has two limits";
-          const Eigen::Vector3d normal = value(rows[s].tangent1).cross(value(rows[s].tangent2)).normalized();
-          if (here.status[s] != LimitStatus::undefined_normal && !same_normal(normal, here.normal.row(Index(s))))
-            return "vertex " + std::to_string(coarse.side_vertex[s]) + " has two normals";
-        }
+        children.push_back(centre);
+      }
+      const std::vector<LimitRows> rows = limit_rows(levels[k + 1], cache, children);
+      for (size_t s = 0; s < rows.size(); ++s) {
+        const auto value = [&](const LimitRows::Row& row) {
+          Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+          for (const auto& [c, w] : row) sum += w * next.row(c).transpose();
+          return sum;
+        };
+        if ((value(rows[s].position) - here.position.row(coarse.side_vertex[s]).transpose()).norm() > eigen(10))
+          return "vertex " + std::to_string(coarse.side_vertex[s]) + " has two limits";
+        const Eigen::Vector3d normal = value(rows[s].tangent1).cross(value(rows[s].tangent2)).normalized();
+        if (here.status[s] != LimitStatus::undefined_normal && !same_normal(normal, here.normal.row(Index(s))))
+          return "vertex " + std::to_string(coarse.side_vertex[s]) + " has two normals";
       }
       x = next;
     }
@@ -461,7 +444,7 @@ std::optional<Index> faces_before(const std::vector<Level>& levels, Vertex v) {
 
 std::vector<NormalPlace> normal_places(const Scheme<double>& scheme) {
   std::vector<NormalPlace> places;
-  LimitMaskCache cache(scheme);
+  LimitTypes cache(scheme);
   Index number = 0;
   for (const ControlMesh& mesh : meshes_for(scheme)) {
     const std::vector<Level> levels = refine(scheme, mesh, 1);

@@ -7,7 +7,7 @@
 namespace sublimit::testing {
 
 SparseMatrix limit_system(const std::string& scheme, const ControlMesh& mesh) {
-  LimitMaskCache cache(find_scheme<double>(scheme).value());
+  LimitTypes cache(find_scheme<double>(scheme).value());
   return limit_matrices(refine(cache.scheme(), mesh, 0)[0], cache).position;
 }
 

@@ -195,7 +195,10 @@ TruePoint true_limit(const Scheme<Precise>& scheme, const Level& level, const Po
         const bool has_slopes = spline.kind == Spline::Kind::none && has_regular_place(stage);
         const bool settled = result.error <= options.accuracy * size &&
                              (!has_slopes || result.first_error <= options.first_accuracy * slope);
-        quiet = settled && !is_decaying(stage.level) ? quiet + 1 : 0;
+        // Beside a corner a place stays on the chord of its crease until it is a vertex: no change says nothing yet.
+        constexpr int levels_to_a_place = 44;
+        const bool says_something = result.error > 0 || result.levels >= levels_to_a_place;
+        quiet = settled && says_something && !is_decaying(stage.level) ? quiet + 1 : 0;
         if (quiet >= 3 || result.levels >= options.most_levels) {
           result.position = now.position;
           result.du = now.du, result.dv = now.dv;

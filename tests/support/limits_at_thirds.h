@@ -16,7 +16,7 @@ namespace sublimit::testing {
 inline std::string wrong_at_thirds(const LimitSurface& surface, const Scheme<double>& scheme) {
   const Level one = next_level(scheme, surface.level()), two = next_level(scheme, one);
   const SparseMatrix P = two.S * one.S;
-  LimitMaskCache cache(scheme);
+  LimitTypes cache(scheme);
   const SparseMatrix corners = limit_matrices(surface.level(), cache).position,
                      middles = limit_matrices(one, cache).position * one.S,
                      thirds = limit_matrices(two, cache).position * P;

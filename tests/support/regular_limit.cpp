@@ -120,7 +120,7 @@ double regular_limit_error(const Scheme<double>& scheme, const Generator& phi) {
   for (Index v = 0; v < m * n; ++v) place.row(v) << v / n, v % n;
   SparseMatrix P(m * n, m * n);
   P.setIdentity();
-  LimitMaskCache cache(scheme);
+  LimitTypes cache(scheme);
   std::map<std::pair<double, double>, double> known;
   double worst = 0;
   for (const Level& level : levels) {
@@ -167,7 +167,7 @@ int largest_degree(const Scheme<double>& scheme, const Pass& pass) {
   Points x(mesh.positions.rows(), 2);
   for (Index v = 0; v < x.rows(); ++v) x.row(v) << (v % (m + 1) - m / 2) / 4.0, (v / (m + 1) - m / 2) / 4.0;
   const std::vector<Level> levels = refine(scheme, mesh, scheme.period);
-  LimitMaskCache cache(scheme);
+  LimitTypes cache(scheme);
   const LimitMatrices limit = limit_matrices(levels.back(), cache);
   const auto limits = [&](Points values) {
     for (size_t k = 1; k < levels.size(); ++k) values = apply(levels[k].S, values);

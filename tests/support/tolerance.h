@@ -21,7 +21,7 @@ inline constexpr double reference = 1e-13;
 /// Angles between normals, radians: cross products of tangents that are exact to a few ulps.
 inline constexpr double reference_angle = 1e-9;
 /// Derivatives of limits against the truth, relative to their own size, as near as 2^-40 to extraordinary vertices:
-/// what the README promises.
+/// what lib/README.md promises.
 inline constexpr double first_derivative = 1e-11, second_derivative = 1e-9;
 
 /// The same weights by another route: seen from another face, by eigenvectors instead of blocks. Hundreds of terms

@@ -62,7 +62,7 @@ struct ResourceError : Error {
   explicit ResourceError(const std::string& message) : Error(ErrorCode::resource_error, message) {}
 };
 
-/// Exit status of the program for an error of this code (README, "Exit codes").
+/// Exit status of the program for an error of this code (stencils/README.md, "Exit codes").
 constexpr int exit_status(ErrorCode code) {
   switch (code) {
     case ErrorCode::invalid_option:

@@ -18,7 +18,7 @@ std::optional<ExactAnalysis> exact_analysis(const Scheme<Algebraic>& scheme, con
   analysis.spectrum = exact_spectrum(analysis.patch);
   const bool is_face = scheme.is_dual();
   const LocalType regular{.kind = is_face ? Centre::Kind::face : Centre::Kind::vertex,
-                          .faces = scheme.face_size() == 3 ? 6 : 4};
+                          .faces = scheme.regular_valence()};
   try {
     if (auto there = local_patch(scheme, regular)) {
       analysis.regular_position = exact_masks(*there).position;

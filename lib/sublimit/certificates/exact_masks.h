@@ -16,8 +16,7 @@ struct ExactMasks {
   std::optional<std::vector<Algebraic>> tangent1, tangent2;  ///< of closed centres; scaled as those of `lone_limit`
 };
 
-/// @param lambda  a real number that may be an eigenvalue of block 1; tangents are left out if it is none, or not
-/// simple
+/// @param lambda  a real number that may be an eigenvalue of block 1; tangents are left out if it is no simple one
 /// @throws AnalysisError  eigenvalue 1 is not simple
 ExactMasks exact_masks(const LocalPatch<Algebraic>& patch, const std::optional<Algebraic>& lambda = std::nullopt);
 

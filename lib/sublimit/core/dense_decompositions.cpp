@@ -5,8 +5,6 @@
 #include <Eigen/QR>
 #include <Eigen/SVD>
 
-#include "sublimit/base/error.h"
-
 namespace sublimit {
 
 SingularValues singular_values(const Eigen::MatrixXd& M) {
@@ -74,13 +72,6 @@ SymmetricEigenvectors symmetric_eigenvectors(const Eigen::MatrixXd& M) {
 
 Eigen::VectorXd symmetric_eigenvalues(const Eigen::MatrixXd& M) {
   return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(M, Eigen::EigenvaluesOnly).eigenvalues();
-}
-
-Eigen::VectorXd tridiagonal_eigenvalues(const Eigen::VectorXd& diagonal, const Eigen::VectorXd& beside) {
-  Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver;
-  solver.computeFromTridiagonal(diagonal, beside, Eigen::EigenvaluesOnly);
-  if (solver.info() != Eigen::Success) throw AnalysisError("the eigenvalues of a tridiagonal matrix do not converge");
-  return solver.eigenvalues();
 }
 
 }  // namespace sublimit

@@ -60,8 +60,4 @@ SymmetricEigenvectors symmetric_eigenvectors(const Eigen::MatrixXd& M);
 /// Of a symmetric matrix, ascending.
 Eigen::VectorXd symmetric_eigenvalues(const Eigen::MatrixXd& M);
 
-/// Of the symmetric matrix with this diagonal and these numbers beside it, ascending.
-/// @throws AnalysisError  the iteration does not converge
-Eigen::VectorXd tridiagonal_eigenvalues(const Eigen::VectorXd& diagonal, const Eigen::VectorXd& beside);
-
 }  // namespace sublimit

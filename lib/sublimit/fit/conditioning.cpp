@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sublimit/fit/conditioning.h"
 
-#include <Eigen/SVD>
-
 #include <algorithm>
 #include <cmath>
 
@@ -24,17 +22,15 @@ Conditioning sized(const SparseMatrix& rows) {
   return result;
 }
 
-/// All of them, ascending, as the positive half of the eigenvalues +-s of a tridiagonal matrix: those of the bidiagonal
-/// one between zeros (Golub, Kahan 1965). Eigen 3.4's BDCSVD reads beyond its arrays at some matrices of low rank.
+/// All of them, ascending, as the positive half of the eigenvalues +-s of (0 R; R^T 0), R the triangular factor (Golub,
+/// Kahan 1965). Eigen 3.4's BDCSVD reads beyond its arrays at some matrices of low rank.
 Eigen::VectorXd all_singular_values(const Eigen::MatrixXd& rows) {
-  const Eigen::MatrixXd tall = rows.rows() < rows.cols() ? rows.transpose() : rows;
-  const Eigen::Index n = tall.cols();
-  if (n == 1) return tall.colwise().norm().transpose();
-  const Eigen::MatrixXd B = Eigen::internal::UpperBidiagonalization<Eigen::MatrixXd>(tall).bidiagonal().toDenseMatrix();
-  Eigen::VectorXd between(2 * n - 1);
-  for (Eigen::Index i = 0; i < n; ++i) between[2 * i] = B(i, i);
-  for (Eigen::Index i = 0; i + 1 < n; ++i) between[2 * i + 1] = B(i, i + 1);
-  return tridiagonal_eigenvalues(Eigen::VectorXd::Zero(2 * n), between).tail(n).cwiseMax(0);
+  const Eigen::MatrixXd R = triangular_factor(rows.rows() < rows.cols() ? rows.transpose() : rows);
+  const Eigen::Index n = R.cols();
+  Eigen::MatrixXd both = Eigen::MatrixXd::Zero(2 * n, 2 * n);
+  both.topRightCorner(n, n) = R;
+  both.bottomLeftCorner(n, n) = R.transpose();
+  return symmetric_eigenvalues(both).tail(n).cwiseMax(0);
 }
 
 /// Of what is perpendicular to the columns, at most so many directions.

@@ -97,7 +97,7 @@ Points meeting(const VertexConditions& conditions, FitProblem linear, const Poin
   return conditions.coupled ? Points(x.reshaped<Eigen::RowMajor>(x0.rows(), 3)) : x;
 }
 
-void attempt(const Problem& problem, LimitMaskCache& cache, Interpolation& result) {
+void attempt(const Problem& problem, LimitTypes& cache, Interpolation& result) {
   const std::vector<VertexTarget>& targets = problem.targets;
   std::vector<Index> vertices;
   for (const VertexTarget& target : targets) vertices.push_back(target.vertex);
@@ -160,7 +160,7 @@ Interpolation interpolate(const Scheme<double>& scheme, const ControlMesh& mesh,
   const UnitFrame frame = unit_frame(asked, mesh.positions);
   for (VertexTarget& target : asked) target.position = frame.inside(target.position.transpose()).transpose();
 
-  LimitMaskCache cache(scheme);
+  LimitTypes cache(scheme);
   Interpolation result;
   std::int64_t conditions = 0;
   for (const VertexTarget& target : asked) conditions += target.normal ? 5 : 3;

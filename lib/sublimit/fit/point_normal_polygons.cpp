@@ -103,7 +103,7 @@ Points guessed(const SparseMatrix& P, Points control, const std::vector<Carrier>
 /// @throws UnsupportedTopology  rows that need more points than these, no tangent plane for a normal
 PlanePolygon polygon_of(const Scheme<double>& scheme, const Carrier& carrier, const VertexTarget& target,
                         std::span<const Index> corners, const Points& points) {
-  if (target.normal && generic_status(carrier.rows, scheme) == LimitStatus::undefined_normal)
+  if (target.normal && carrier.rows.status == LimitStatus::undefined_normal)
     throw UnsupportedTopology(at(target) + ": the limit has no tangent plane there under " + scheme.name +
                               "; give its position only");
   const Eigen::Index n = Eigen::Index(corners.size());
@@ -157,7 +157,7 @@ PointNormalMesh point_normal_mesh(const Scheme<double>& scheme, const ControlMes
   check(scheme, mesh, targets, options);
   std::vector<Level> levels = refine(scheme, mesh, scheme.period, options.rules);
   std::vector<Carrier> all = carriers(levels, targets);
-  LimitMaskCache cache(scheme);
+  LimitTypes cache(scheme);
   std::vector<Centre> centres;
   for (const Carrier& carrier : all) centres.push_back(carrier.centre);
   std::vector<LimitRows> rows = limit_rows(levels.back(), cache, centres);

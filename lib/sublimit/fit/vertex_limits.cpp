@@ -4,60 +4,17 @@
 #include <algorithm>
 #include <numeric>
 
-#include "sublimit/core/sparse_product.h"
-#include "sublimit/limit/limit_points.h"
 #include "sublimit/limit/limit_rows.h"
 #include "sublimit/neighborhood/vertex_sides.h"
 
 namespace sublimit {
 namespace {
 
-SparseMatrix matrix(const std::vector<const LimitRows::Row*>& rows, Index columns) {
-  SparseMatrix M(static_cast<Index>(rows.size()), columns);
-  for (size_t r = 0; r < rows.size(); ++r) {
-    M.startVec(static_cast<Index>(r));
-    for (const auto& [column, weight] : *rows[r]) M.insertBack(static_cast<Index>(r), column) = weight;
-  }
-  M.finalize();
-  return M;
-}
-
-/// Chosen rows of a matrix.
-SparseMatrix selected(const SparseMatrix& M, const std::vector<Index>& rows) {
-  SparseMatrix choice(static_cast<Index>(rows.size()), static_cast<Index>(M.rows()));
-  for (size_t r = 0; r < rows.size(); ++r) {
-    choice.startVec(static_cast<Index>(r));
-    choice.insertBack(static_cast<Index>(r), rows[r]) = 1;
-  }
-  choice.finalize();
-  return product(choice, M);
-}
-
 /// Number of each vertex in the list, -1 for the others.
 std::vector<Index> numbers(std::span<const Index> vertices, Index num_vertices) {
   std::vector<Index> number(num_vertices, -1);
   for (size_t i = 0; i < vertices.size(); ++i) number[vertices[i]] = static_cast<Index>(i);
   return number;
-}
-
-/// Everything at a vertex is known from its one-ring, and vertices keep their numbers.
-VertexLimits from_matrices(const Level& level, LimitMaskCache& cache, std::span<const Index> vertices) {
-  const LimitMatrices L = limit_matrices(level, cache);
-  VertexLimits result;
-  result.position = selected(L.position, {vertices.begin(), vertices.end()});
-  result.position_vertex.resize(vertices.size());
-  std::iota(result.position_vertex.begin(), result.position_vertex.end(), 0);
-  const std::vector<Index> number = numbers(vertices, level.topology().num_vertices());
-  std::vector<Index> sides;
-  for (size_t s = 0; s < L.side_vertex.size(); ++s)
-    if (const Index i = number[L.side_vertex[s]]; i >= 0) {
-      sides.push_back(static_cast<Index>(s));
-      result.side_vertex.push_back(i);
-      result.status.push_back(L.status[s]);
-    }
-  result.tangent1 = selected(L.tangent1, sides);
-  result.tangent2 = selected(L.tangent2, sides);
-  return result;
 }
 
 }  // namespace
@@ -73,10 +30,8 @@ Centre descendant(Centre centre, std::span<const Level> levels) {
   return centre;
 }
 
-VertexLimits vertex_limits(std::span<const Level> levels, LimitMaskCache& cache, std::span<const Index> vertices) {
+VertexLimits vertex_limits(std::span<const Level> levels, LimitTypes& cache, std::span<const Index> vertices) {
   const Level& level = levels.back();
-  if (has_one_ring_limits(cache.scheme())) return from_matrices(level, cache, vertices);
-
   const VertexSides sides = vertex_sides(levels.front());
   const std::vector<Index> number = numbers(vertices, levels.front().topology().num_vertices());
   VertexLimits result;
@@ -105,12 +60,12 @@ VertexLimits vertex_limits(std::span<const Level> levels, LimitMaskCache& cache,
     }
     tangent1.push_back(&rows[s].tangent1);
     tangent2.push_back(&rows[s].tangent2);
-    result.status.push_back(sides.hole[chosen[s]] ? LimitStatus::hole : generic_status(rows[s], cache.scheme()));
+    result.status.push_back(sides.hole[chosen[s]] ? LimitStatus::hole : rows[s].status);
   }
   const Index columns = level.topology().num_vertices();
-  result.position = matrix(position, columns);
-  result.tangent1 = matrix(tangent1, columns);
-  result.tangent2 = matrix(tangent2, columns);
+  result.position = matrix_of(position, columns);
+  result.tangent1 = matrix_of(tangent1, columns);
+  result.tangent2 = matrix_of(tangent2, columns);
   return result;
 }
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "sublimit/limit/limit_masks.h"
+#include "sublimit/limit/limit_types.h"
 #include "sublimit/limit/limit_status.h"
 #include "sublimit/neighborhood/centre.h"
 #include "sublimit/scheme/refine.h"
@@ -28,6 +28,6 @@ Centre descendant(Centre centre, std::span<const Level> levels);
 /// @param levels    0 to any
 /// @param vertices  of level 0, none isolated
 /// @throws AnalysisError  a vertex without a limit
-VertexLimits vertex_limits(std::span<const Level> levels, LimitMaskCache& cache, std::span<const Index> vertices);
+VertexLimits vertex_limits(std::span<const Level> levels, LimitTypes& cache, std::span<const Index> vertices);
 
 }  // namespace sublimit

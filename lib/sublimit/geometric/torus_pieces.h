@@ -23,7 +23,7 @@
 // depends, on a sphere, on the arbitrary directions, and degenerates along principal circles. Here it is the place of
 // the torus piece nearest to the middle of the edge, seen as two arcs with the ends' angles, with the normal and second
 // form that the piece has there, plus those of the bend: what the patch around that place would give at its middle,
-// which torus_patch.h builds for who wants patches and the tests compare; the scheme itself needs none. Averages are
+// which the tests build and compare; the scheme itself needs none. Averages are
 // taken of points, of normals and of second forms as tensors of space; principal data are their eigenvectors, k1 >= k2.
 //
 // Topology. With the new points a triangle is a hexagon. Two corners are cut off; the quadrilateral left at the third,

@@ -3,36 +3,26 @@
 // Limits of the places where pieces meet that are no polynomials: vertices of a level, and middles of its faces. Their
 // tangents are those of the characteristic map, or of one side of a crease.
 #include <map>
-#include <memory>
 #include <mutex>
 #include <optional>
 
 #include "sublimit/limit/limit_rows.h"
-#include "sublimit/limit/limit_status.h"
 
 namespace sublimit {
-
-struct CornerLimit {
-  LimitStatus status = LimitStatus::extraordinary;
-  LimitRows rows;  ///< over the vertices of the level
-};
 
 /// Computed when asked for, kept, by threads together.
 class CornerLimits {
  public:
   /// @param masks  of the scheme, shared with other levels
-  CornerLimits(LimitMaskCache& masks, const Level& level) : level_(level), masks_(masks) {}
+  CornerLimits(LimitTypes& masks, const Level& level) : level_(level), masks_(masks) {}
   /// Null where there is no limit. A vertex is seen from the face of `centre.start`.
-  const CornerLimit* at(const Centre& centre) const;
+  const LimitRows* at(const Centre& centre) const;
 
  private:
-  std::optional<CornerLimit> computed(const Centre& centre) const;
-  std::optional<CornerLimit> of_vertex(const Level& level, HalfEdge corner) const;
-
   const Level& level_;
-  LimitMaskCache& masks_;
+  LimitTypes& masks_;
   mutable std::mutex mutex_;
-  mutable std::map<std::pair<int, Index>, std::optional<CornerLimit>> known_;
+  mutable std::map<std::pair<int, Index>, std::optional<LimitRows>> known_;
 };
 
 }  // namespace sublimit

@@ -121,7 +121,7 @@ LimitSamples LimitSurface::evaluate_grid(const Points& points, int N, int order,
   const std::vector<Sample> samples = grid(N);
   LimitSamples result = evaluate(points, samples, order, normals);
   for (const auto& [row, first] :
-       shared_grid_places(parts_->level.topology(), parts_->addresses, N, parts_->types->scheme().is_dual()))
+       shared_grid_places(parts_->level.topology(), parts_->addresses, N, parts_->types->pieces().scheme().is_dual()))
     result.position.row(row) = result.position.row(first);
   return result;
 }

@@ -247,12 +247,6 @@ LimitMasks limit_masks(const Scheme<double>& scheme, const CanonicalNeighborhood
                       " edges has no stationary neighbourhood after " + std::to_string(enough) + " levels");
 }
 
-bool has_one_ring_limits(const Scheme<double>& scheme) {
-  const Split split = scheme.steps[0].split;
-  return scheme.steps.size() == 1 && scheme.preparation.empty() && scheme.period == 1 && !scheme.is_wide() &&
-         (split == Split::pqq || split == Split::ptq);
-}
-
 std::optional<LoneLimit> lone_limit(const Scheme<double>& scheme, const LocalType& type) {
   const std::optional<LocalPatch<double>> patch = local_patch(scheme, type);
   if (!patch) return std::nullopt;
@@ -303,21 +297,6 @@ std::optional<LoneLimit> lone_limit(const Scheme<double>& scheme, const LocalTyp
   }
   masks.sides.push_back(std::move(side));
   return limit;
-}
-
-const LoneLimit* LimitMaskCache::lone(const LocalType& type) {
-  const std::lock_guard lock(mutex_);
-  const auto [at, is_new] = lone_.try_emplace(type);
-  if (is_new) at->second = lone_limit(scheme_, type);
-  return at->second ? &*at->second : nullptr;
-}
-
-const LimitMasks& LimitMaskCache::masks(const CanonicalNeighborhood& type) {
-  std::vector<std::uint32_t> key = type.signature();
-  const auto found = types_.find(key);
-  if (found != types_.end()) return *found->second;
-  auto masks = std::make_shared<const LimitMasks>(limit_masks(scheme_, type));
-  return *types_.emplace(std::move(key), std::move(masks)).first->second;
 }
 
 }  // namespace sublimit

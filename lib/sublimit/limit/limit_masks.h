@@ -7,15 +7,9 @@
 //
 // Infinitely sharp edges and boundaries cut the neighbourhood into sides, each with tangents of its own.
 // Sources: Halstead, Kass, DeRose 1993; Reif 1995; Biermann, Levin, Zorin 2000 (boundaries, creases, corners).
-#include <tbb/concurrent_unordered_map.h>
-
-#include <map>
-#include <memory>
-#include <mutex>
 #include <optional>
 #include <vector>
 
-#include "sublimit/core/signature_hash.h"
 #include "sublimit/neighborhood/canonical_neighborhood.h"
 #include "sublimit/neighborhood/local_type.h"
 #include "sublimit/scheme/scheme.h"
@@ -64,28 +58,5 @@ struct LoneLimit {
 /// Limit masks of a type, or nothing where it does not have a child of its own type.
 /// @throws AnalysisError  no limit, as above
 std::optional<LoneLimit> lone_limit(const Scheme<double>& scheme, const LocalType& type);
-
-/// Everything at a vertex is known from its one-ring, any sharpness: primal schemes of one step with narrow masks.
-bool has_one_ring_limits(const Scheme<double>& scheme);
-
-/// Limit masks by signature, for one scheme. Shared between threads and meshes; grows by types, not by vertices.
-class LimitMaskCache {
- public:
-  explicit LimitMaskCache(const Scheme<double>& scheme) : scheme_(scheme) {}
-
-  /// The masks of this type, computed at the first request. The reference stays valid as long as the cache.
-  const LimitMasks& masks(const CanonicalNeighborhood& type);
-  /// The same for lone centres; null where there is nothing.
-  const LoneLimit* lone(const LocalType& type);
-
-  const Scheme<double>& scheme() const { return scheme_; }
-  size_t num_types() const { return types_.size() + lone_.size(); }
-
- private:
-  Scheme<double> scheme_;
-  std::mutex mutex_;  // of lone_
-  std::map<LocalType, std::optional<LoneLimit>> lone_;
-  tbb::concurrent_unordered_map<std::vector<std::uint32_t>, std::shared_ptr<const LimitMasks>, SignatureHash> types_;
-};
 
 }  // namespace sublimit

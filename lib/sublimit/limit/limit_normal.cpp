@@ -68,14 +68,14 @@ Vector3d LimitSurface::Parts::normal_of(const LimitStencil& s, const Points& loc
   if (s.tangents.rows() == 2) {
     // Natural derivatives that are degenerate by the mesh: one triangle between two parts of a crease. Limit masks know
     // more.
-    const CornerLimit* limit = corners.at(*centre);
+    const LimitRows* limit = corners.at(*centre);
     if (!limit || limit->status == LimitStatus::undefined_normal) return Vector3d::Zero();
     const auto along = [&](const LimitRows::Row& row) {
       Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
       for (const auto& [v, weight] : row) sum += weight * ((around.row(v) - local.row(0)) * unit);
       return Vector3d(sum);
     };
-    const Vector3d t1 = along(limit->rows.tangent1), t2 = along(limit->rows.tangent2), n = t1.cross(t2);
+    const Vector3d t1 = along(limit->tangent1), t2 = along(limit->tangent2), n = t1.cross(t2);
     return n.norm() > 1e-10 * t1.norm() * t2.norm() ? Vector3d(n.normalized()) : Vector3d::Zero();
   }
   std::vector<Vector3d> higher;

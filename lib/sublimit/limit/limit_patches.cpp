@@ -357,7 +357,7 @@ void LimitPatches::evaluate(std::span<const Sample> samples, std::int64_t begin,
   const Loop loop{parts_,
                   bound_.data(),
                   coefficients_.data(),
-                  parts_.types->regular_smoothness() == 1,
+                  parts_.types->pieces().regular_smoothness() == 1,
                   parts_.scheme.is_dual(),
                   !parts_.prepared && !parts_.scheme.is_dual(),
                   parts_.addresses.triangles()};

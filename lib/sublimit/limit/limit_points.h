@@ -3,7 +3,7 @@
 // Limit positions and normals of all vertices of a level, as matrices over its points and as points.
 #include <vector>
 
-#include "sublimit/limit/limit_masks.h"
+#include "sublimit/limit/limit_types.h"
 #include "sublimit/limit/limit_status.h"
 #include "sublimit/limit/no_limit.h"
 #include "sublimit/scheme/refine.h"
@@ -21,9 +21,9 @@ struct LimitMatrices {
 };
 
 /// @throws NoLimit  naming the first vertex without one
-LimitMatrices limit_matrices(const Level& level, LimitMaskCache& cache);
+LimitMatrices limit_matrices(const Level& level, LimitTypes& cache);
 /// Of the last of levels 0 to any; what has no limit is named by where it is on level 0.
-LimitMatrices limit_matrices(const std::vector<Level>& levels, LimitMaskCache& cache);
+LimitMatrices limit_matrices(const std::vector<Level>& levels, LimitTypes& cache);
 
 struct LimitPoints {
   Points position;                  ///< #V x 3

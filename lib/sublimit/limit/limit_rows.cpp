@@ -9,6 +9,7 @@
 #include "sublimit/base/error.h"
 #include "sublimit/base/parallel_for.h"
 #include "sublimit/core/dense_decompositions.h"
+#include "sublimit/core/sparse_product.h"
 #include "sublimit/limit/stationary_rows.h"
 #include "sublimit/neighborhood/walk.h"
 #include "sublimit/scheme/refine_impl.h"
@@ -19,10 +20,13 @@ namespace {
 
 using Row = LimitRows::Row;
 
+/// A mask on the mesh.
+/// @param slots  of the mask's weights among `vertices`; empty: all of them, in order
 Row gathered(const LimitMasks::Mask& mask, const std::vector<Index>& slots, const std::vector<Index>& vertices) {
   Row row;
-  for (size_t i = 0; i < slots.size(); ++i)
-    if (mask[Eigen::Index(i)] != 0) row.push_back({vertices[slots[i]], mask[Eigen::Index(i)]});
+  row.reserve(size_t(mask.size()));
+  for (Eigen::Index i = 0; i < mask.size(); ++i)
+    if (mask[i] != 0) row.push_back({vertices[slots.empty() ? size_t(i) : size_t(slots[size_t(i)])], mask[i]});
   std::sort(row.begin(), row.end());
   size_t kept = 0;  // slots of one vertex add up
   for (size_t i = 1; i < row.size(); ++i) {
@@ -35,26 +39,51 @@ Row gathered(const LimitMasks::Mask& mask, const std::vector<Index>& slots, cons
   return row;
 }
 
-std::optional<LimitRows> lone_rows(const Level& level, LimitMaskCache& cache, const Centre& centre) {
+/// Rows of one side of a known type.
+LimitRows rows_of(const LimitMasks& masks, const LimitMasks::Side& side, const auto& gathered_row) {
+  LimitRows rows;
+  rows.position = gathered_row(masks.position);
+  rows.tangent1 = gathered_row(side.tangent1);
+  rows.tangent2 = gathered_row(side.tangent2);
+  for (const LimitMasks::Mask& mask : side.second_order) rows.second_order.push_back(gathered_row(mask));
+  rows.plane = side.plane;
+  rows.rule = masks.rule;
+  rows.faces = side.num_corners;
+  return rows;
+}
+
+/// A vertex whose one-ring is all that its limit depends on, whatever is sharp there: the type is that of all its sides.
+LimitRows one_ring_rows(const Level& level, LimitTypes& cache, HalfEdge corner) {
+  const Topology& t = level.topology();
+  const NeighborhoodAt at = neighborhood(t, level.sharpness, t.tail(corner));
+  const LimitMasks& masks = cache.masks(at.type);
+  for (const LimitMasks::Side& side : masks.sides) {
+    const std::vector<HalfEdge>& corners = at.corners[side.fan];
+    for (Index c = 0; c < side.num_corners; ++c)
+      if (corners[(side.first_corner + c) % corners.size()] == corner)
+        return rows_of(masks, side, [&](const LimitMasks::Mask& mask) { return gathered(mask, {}, at.vertices); });
+  }
+  throw AnalysisError(cache.scheme().name + ": a corner is on no side of its vertex");
+}
+
+/// A centre that is alone among regular points, as far as its limit depends on them.
+std::optional<LimitRows> lone_rows(const Level& level, LimitTypes& cache, const Centre& centre) {
   if (centre.kind == Centre::Kind::edge) return std::nullopt;  // a vertex or face, one level on
   // Of dual schemes a vertex becomes a face, or the middle of a border edge, whose masks tell more.
   if (centre.kind == Centre::Kind::vertex && cache.scheme().is_dual()) return std::nullopt;
-  const LocalType type =
-      local_type(level.topology(), level.sharpness, centre, level.number, cache.scheme().period);
+  const LocalType type = local_type(level.topology(), level.sharpness, centre, level.number, cache.scheme().period);
   const LoneLimit* limit = cache.lone(type);
   if (!limit) return std::nullopt;
   const Walk places = walk(level.topology(), level.sharpness, centre, limit->depth);
-  if (places.signature != limit->signature) return std::nullopt;
-  const LimitMasks::Side& side = limit->masks.sides[0];
-  LimitRows rows;
-  rows.position = gathered(limit->masks.position, limit->slots, places.vertices);
-  rows.tangent1 = gathered(side.tangent1, limit->slots, places.vertices);
-  rows.tangent2 = gathered(side.tangent2, limit->slots, places.vertices);
-  for (const LimitMasks::Mask& mask : side.second_order)
-    rows.second_order.push_back(gathered(mask, limit->slots, places.vertices));
-  rows.plane = side.plane;
-  rows.type = type;
-  return rows;
+  if (places.decays || places.signature != limit->signature) return std::nullopt;
+  return rows_of(limit->masks, limit->masks.sides[0],
+                 [&](const LimitMasks::Mask& mask) { return gathered(mask, limit->slots, places.vertices); });
+}
+
+std::optional<LimitRows> known_rows(const Level& level, LimitTypes& cache, const Centre& centre) {
+  if (centre.kind == Centre::Kind::vertex && cache.scheme().has_one_ring_limits())
+    return one_ring_rows(level, cache, centre.start);
+  return lone_rows(level, cache, centre);
 }
 
 /// row * S, with the columns of the result renamed.
@@ -74,7 +103,7 @@ void for_each(LimitRows& rows, const auto& what) {
 }
 
 /// Rings of faces around the places that the next level's limits may depend on.
-constexpr int rings_needed = 5;
+int rings_needed(const Scheme<double>& scheme) { return scheme.has_one_ring_limits() ? 1 : 5; }
 
 /// Which faces are cut before the first level depends on all of them.
 bool is_prepared_first(const Scheme<double>& scheme, const Level& level) {
@@ -82,7 +111,7 @@ bool is_prepared_first(const Scheme<double>& scheme, const Level& level) {
 }
 
 /// @param why  for each place what keeps it from having a limit; empty if it has one
-std::vector<LimitRows> rows_of(const Level& level, LimitMaskCache& cache, const std::vector<Centre>& centres, int depth,
+std::vector<LimitRows> found_rows(const Level& level, LimitTypes& cache, const std::vector<Centre>& centres, int depth,
                                std::vector<std::string>& why) {
   const Scheme<double>& scheme = cache.scheme();
   const auto count = static_cast<std::int64_t>(centres.size());
@@ -103,7 +132,7 @@ std::vector<LimitRows> rows_of(const Level& level, LimitMaskCache& cache, const 
       }
     });
   };
-  if (!whole) try_each([&](const Centre& centre) { return lone_rows(level, cache, centre); });
+  if (!whole) try_each([&](const Centre& centre) { return known_rows(level, cache, centre); });
   if (depth == 0) try_each([&](const Centre& centre) { return stationary_rows(level, scheme, centre); });
   std::vector<size_t> rest;
   for (size_t i = 0; i < centres.size(); ++i)
@@ -116,7 +145,7 @@ std::vector<LimitRows> rows_of(const Level& level, LimitMaskCache& cache, const 
   if (!whole) {
     std::vector<Index> faces;
     for (const size_t i : rest) faces.push_back(index(level.topology().face(centres[i].start)));
-    around = part(level, faces, rings_needed);
+    around = part(level, faces, rings_needed(scheme));
   } else {
     around.vertices.resize(level.topology().num_vertices());
     std::iota(around.vertices.begin(), around.vertices.end(), 0);
@@ -146,7 +175,7 @@ std::vector<LimitRows> rows_of(const Level& level, LimitMaskCache& cache, const 
     }
   }
   std::vector<std::string> why_not(children.size());
-  std::vector<LimitRows> fine = rows_of(child_level, cache, children, depth - 1, why_not);
+  std::vector<LimitRows> fine = found_rows(child_level, cache, children, depth - 1, why_not);
   std::vector<Index> used;
   for (LimitRows& row : fine)
     for_each(row, [&](const Row& r) {
@@ -195,38 +224,52 @@ bool is_one_direction(const LimitRows& limit) {
   });
 }
 
-LimitStatus status_of(bool has_normal, Rule rule, Index faces, const Scheme<double>& scheme) {
-  if (!has_normal) return LimitStatus::undefined_normal;
-  if (rule == Rule::crease || rule == Rule::corner) return LimitStatus::crease;
-  const Index regular = scheme.face_size() == 3 ? 6 : 4;
-  return rule == Rule::smooth && faces == regular ? LimitStatus::regular : LimitStatus::extraordinary;
+LimitStatus status_of(const LimitRows& rows, const Scheme<double>& scheme) {
+  // Along a smooth crease of a single mesh edge the normal has a limit even where the normals inside have another.
+  const bool along_crease = rows.rule == Rule::crease && scheme.has_one_ring_limits() && !rows.tangent1.empty();
+  const bool has_plane =
+      along_crease || (rows.plane == LimitMasks::Plane::tied ? is_one_direction(rows) : rows.plane != LimitMasks::Plane::no);
+  if (!has_plane) return LimitStatus::undefined_normal;
+  if (rows.rule == Rule::crease || rows.rule == Rule::corner) return LimitStatus::crease;
+  return rows.rule == Rule::smooth && rows.faces == scheme.regular_valence() ? LimitStatus::regular
+                                                                             : LimitStatus::extraordinary;
 }
 
 }  // namespace
 
-LimitStatus generic_status(const LimitRows& rows, const Scheme<double>& scheme) {
-  const bool has_plane = rows.plane == LimitMasks::Plane::tied ? is_one_direction(rows) : rows.plane != LimitMasks::Plane::no;
-  const bool closed = !rows.type.open && rows.type.kind != Centre::Kind::border;
-  return status_of(has_plane, closed ? Rule::smooth : Rule::crease, rows.type.faces, scheme);
-}
-
-LimitStatus generic_status(const LimitMasks& masks, const LimitMasks::Side& side, const Scheme<double>& scheme) {
-  // Along a smooth crease the normal has a limit even where the normals inside have another.
-  const bool along_crease = masks.rule == Rule::crease && side.tangent1.squaredNorm() > 0;
-  return status_of(side.plane < LimitMasks::Plane::tied || along_crease, masks.rule, side.num_corners, scheme);
-}
-
-std::vector<LimitRows> limit_rows(const Level& level, LimitMaskCache& cache, const std::vector<Centre>& centres) {
+std::vector<LimitRows> limit_rows(const Level& level, LimitTypes& cache, const std::vector<Centre>& centres) {
   std::vector<std::string> why(centres.size());
-  std::vector<LimitRows> rows = rows_of(level, cache, centres, 12, why);
+  std::vector<LimitRows> rows = found_rows(level, cache, centres, 12, why);
   const auto failed = std::ranges::find_if(why, [](const std::string& reason) { return !reason.empty(); });
-  if (failed == why.end()) return rows;
+  if (failed == why.end()) {
+    parallel_for(std::ssize(rows), [&](std::int64_t i) { rows[i].status = status_of(rows[i], cache.scheme()); });
+    return rows;
+  }
   const Centre& centre = centres[failed - why.begin()];
   const Topology& t = level.topology();
   const std::string of_level = level.number == 0 ? "" : " of level " + std::to_string(level.number);
   if (centre.kind == Centre::Kind::face)
     throw NoLimit("the middle of face " + std::to_string(index(t.face(centre.start))) + of_level, *failed);
   throw NoLimit(index(t.tail(centre.start)), level.number, *failed);
+}
+
+SparseMatrix matrix_of(std::span<const Row* const> rows, Index columns) {
+  std::int64_t nonzeros = 0;
+  for (const Row* row : rows) nonzeros += std::ssize(*row);
+  if (nonzeros > std::numeric_limits<Index>::max())
+    throw ResourceError("limit rows: more nonzeros than 32-bit indices count");
+  SparseMatrix M(std::ssize(rows), columns);
+  resize_nonzeros(M, nonzeros);
+  M.outerIndexPtr()[0] = 0;
+  for (size_t r = 0; r < rows.size(); ++r) M.outerIndexPtr()[r + 1] = M.outerIndexPtr()[r] + Index(rows[r]->size());
+  parallel_for(std::ssize(rows), [&](std::int64_t r) {
+    Index at = M.outerIndexPtr()[r];
+    for (const auto& [column, weight] : *rows[size_t(r)]) {
+      M.innerIndexPtr()[at] = column;
+      M.valuePtr()[at++] = weight;
+    }
+  });
+  return M;
 }
 
 }  // namespace sublimit

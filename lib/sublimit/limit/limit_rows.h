@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Limit rows of any places of a level. Where a place is alone among regular points its masks are known by its type; elsewhere the
-// faces around it are refined, by the scheme's own matrices, until it is: L_k = L_{k+1} S_k. Places that never are have a position
-// if their neighbourhood comes to repeat itself.
-#include "sublimit/limit/limit_masks.h"
+// Limit rows of any places of a level, of any scheme: the one way to the limits of vertices, faces and borders. Where
+// the neighbourhood is a known type its masks are; elsewhere the faces around it are refined, by the scheme's own
+// matrices, until it is: L_k = L_{k+1} S_k. Places that never are have a position if their neighbourhood comes to repeat
+// itself.
+#include "sublimit/limit/limit_types.h"
 #include "sublimit/limit/limit_status.h"
 #include "sublimit/limit/no_limit.h"
 #include "sublimit/scheme/refine.h"
@@ -16,15 +17,17 @@ struct LimitRows {
   Row position, tangent1, tangent2;
   std::vector<Row> second_order;
   LimitMasks::Plane plane = LimitMasks::Plane::yes;
-  LocalType type;  ///< once it is alone, or repeats itself
+  Rule rule = Rule::smooth;  ///< once all finite sharpness is gone
+  Index faces = 0;           ///< around the place on its side, once it is alone, or repeats itself
+  /// What there is, seen from this side, for generic points; holes are not known here.
+  LimitStatus status = LimitStatus::regular;
 };
 
-/// What there is at the place, seen from its side, for generic points; holes are not known here. Limits of vertices and
-/// samples at corners of faces are told by these two alone.
-LimitStatus generic_status(const LimitRows& rows, const Scheme<double>& scheme);
-LimitStatus generic_status(const LimitMasks& masks, const LimitMasks::Side& side, const Scheme<double>& scheme);
-
+/// @param centres  of vertices those of one side, as `vertex_sides` has them
 /// @throws NoLimit  naming the first place that has none
-std::vector<LimitRows> limit_rows(const Level& level, LimitMaskCache& cache, const std::vector<Centre>& centres);
+std::vector<LimitRows> limit_rows(const Level& level, LimitTypes& cache, const std::vector<Centre>& centres);
+
+/// Rows as a matrix.
+SparseMatrix matrix_of(std::span<const LimitRows::Row* const> rows, Index columns);
 
 }  // namespace sublimit

@@ -15,9 +15,9 @@
 
 namespace sublimit {
 LimitSurface::LimitSurface(const Scheme<double>& scheme, const ControlMesh& mesh, const SubdivisionOptions& options,
-                           std::shared_ptr<PieceTypes> types)
+                           std::shared_ptr<LimitTypes> types)
     : LimitSurface(scheme, control_level(scheme, mesh, options), std::move(types)) {}
-LimitSurface::LimitSurface(const Scheme<double>& scheme, Level level, std::shared_ptr<PieceTypes> types)
+LimitSurface::LimitSurface(const Scheme<double>& scheme, Level level, std::shared_ptr<LimitTypes> types)
     : parts_(std::make_unique<Parts>(scheme, std::move(level), std::move(types))) {}
 LimitSurface::~LimitSurface() = default;
 LimitSurface::LimitSurface(LimitSurface&&) noexcept = default;
@@ -49,7 +49,7 @@ LimitSurface::Parts::Found LimitSurface::Parts::find(const Target& at, int order
     apply_chain(chain, rows.rows);
     turn_tangents(chain, rows.tangents);
   }
-  if (order >= 2 && (rows.order < 2 || (rows.on_knot && types->regular_smoothness() == 1))) {
+  if (order >= 2 && (rows.order < 2 || (rows.on_knot && types->pieces().regular_smoothness() == 1))) {
     if (found.status == LimitStatus::regular) found.status = LimitStatus::unbounded_second;
     if (rows.order == 2) {
       rows.order = 1;
@@ -64,11 +64,11 @@ LimitSurface::Parts::Found LimitSurface::Parts::find(const Target& at, int order
     if (order >= 1) found.tangents = tangents_on_side(type, at.place, found.vertices);
     if (order >= 1 && found.tangents.empty()) found.status = LimitStatus::undefined_normal;
   } else if (rows.at_corner && rows.order == 0 && !is_deep) {
-    const CornerLimit* limit = centre ? corners.at(*centre) : nullptr;
+    const LimitRows* limit = centre ? corners.at(*centre) : nullptr;
     found.status = limit ? limit->status : LimitStatus::undefined_normal;
     if (order >= 1 && limit && limit->status != LimitStatus::undefined_normal) {
-      found.tangents = {limit->rows.tangent1, limit->rows.tangent2};
-      found.tangents.insert(found.tangents.end(), limit->rows.second_order.begin(), limit->rows.second_order.end());
+      found.tangents = {limit->tangent1, limit->tangent2};
+      found.tangents.insert(found.tangents.end(), limit->second_order.begin(), limit->second_order.end());
     }
   }
   if (sides & hole) found.status = LimitStatus::hole;

@@ -20,7 +20,7 @@
 
 namespace sublimit {
 
-class PieceTypes;
+class LimitTypes;
 class LimitPatches;
 
 /// Weights over control vertices of one place.
@@ -60,9 +60,9 @@ class LimitSurface {
   /// @param types  shared between surfaces of the same scheme, if given
   /// @throws InvalidMesh, UnsupportedTopology  as refinement does
   LimitSurface(const Scheme<double>& scheme, const ControlMesh& mesh, const SubdivisionOptions& options = {},
-               std::shared_ptr<PieceTypes> types = nullptr);
+               std::shared_ptr<LimitTypes> types = nullptr);
   /// Of a level, with stencils over its vertices.
-  LimitSurface(const Scheme<double>& scheme, Level level, std::shared_ptr<PieceTypes> types = nullptr);
+  LimitSurface(const Scheme<double>& scheme, Level level, std::shared_ptr<LimitTypes> types = nullptr);
   ~LimitSurface();
   LimitSurface(LimitSurface&&) noexcept;
   LimitSurface& operator=(LimitSurface&&) noexcept;

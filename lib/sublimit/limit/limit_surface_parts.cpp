@@ -61,13 +61,13 @@ Scheme<double> without_preparation(Scheme<double> scheme) {
 
 }  // namespace
 
-LimitSurface::Parts::Parts(const Scheme<double>& s, Level l, std::shared_ptr<PieceTypes> shared)
+LimitSurface::Parts::Parts(const Scheme<double>& s, Level l, std::shared_ptr<LimitTypes> shared)
     : scheme(without_preparation(s)),
       level(std::move(l)),
       prepared(prepared_level(s, level)),
       addresses(level.topology(), scheme.face_size() == 3),
-      types(shared && !shared->is_full() ? std::move(shared) : std::make_shared<PieceTypes>(scheme)),
-      corners(types->masks(), base()) {
+      types(shared && !shared->pieces().is_full() ? std::move(shared) : std::make_shared<LimitTypes>(scheme)),
+      corners(*types, base()) {
   if (level.number % scheme.period != 0)
     throw InvalidParameter(scheme.name + ": limits are taken from levels whose number is a multiple of " +
                            std::to_string(scheme.period) + ", not from level " + std::to_string(level.number));
@@ -163,10 +163,10 @@ std::optional<Centre> LimitSurface::Parts::centre(const Target& target) const {
 
 const PieceType* LimitSurface::Parts::type_of(const Piece& piece, std::vector<Index>& vertices) const {
   static thread_local PieceWalker walker;
-  const PieceWalk& walk = walker.walk(base().topology(), base().sharpness, piece, types->rings(base().sharpness),
+  const PieceWalk& walk = walker.walk(base().topology(), base().sharpness, piece, types->pieces().rings(base().sharpness),
                                       base().number % scheme.period);
   vertices = walk.vertices;
-  return types->type(base(), piece, walk);
+  return types->pieces().type(base(), piece, walk);
 }
 
 Piece LimitSurface::Parts::piece(Index number) const {

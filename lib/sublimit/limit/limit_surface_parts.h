@@ -14,7 +14,7 @@ namespace sublimit {
 /// @param cross2    square of its length
 /// @param tangents2  product of the squares of theirs
 inline bool is_sound_normal(double cross2, double tangents2) {
-  return cross2 > 1e-20 * tangents2 && tangents2 > 1e-280 && tangents2 < 1e280;
+  return cross2 > 1e-12 * tangents2 && tangents2 > 1e-280 && tangents2 < 1e280;
 }
 
 struct LimitSurface::Parts {
@@ -25,10 +25,10 @@ struct LimitSurface::Parts {
   std::optional<Level> prepared;
   const Level& base() const { return prepared ? *prepared : level; }
   Addresses addresses;
-  std::shared_ptr<PieceTypes> types;
+  std::shared_ptr<LimitTypes> types;
   CornerLimits corners;
 
-  Parts(const Scheme<double>& scheme, Level level, std::shared_ptr<PieceTypes> shared);
+  Parts(const Scheme<double>& scheme, Level level, std::shared_ptr<LimitTypes> shared);
 
   /// A piece, the place in it, and how the parameters of the address become those of the piece.
   struct Target {
@@ -44,8 +44,7 @@ struct LimitSurface::Parts {
   }
   void check(const Sample& sample) const;
   bool cuts(HalfEdge h) const {
-    const Topology& t = base().topology();
-    return !exists(t.twin(h)) || is_infinite(base().sharpness.edge[index(t.edge(h))]) || types->regular_smoothness() == 0;
+    return is_cut(base().topology(), base().sharpness, h) || types->pieces().regular_smoothness() == 0;
   }
   /// Whether the tail of h is on a crease, border or corner, which the faces at h need not be beside.
   bool is_on_cut(HalfEdge h) const;

@@ -41,8 +41,6 @@ LocalMode mode_on(const SectorMesh& net, const LocalPatch<double>& patch, const 
 
 }  // namespace
 
-int period_dilation(const Scheme<double>& scheme) { return scheme.steps[0].split == Split::sqrt3 ? 3 : 2; }
-
 std::optional<LocalModes> local_modes(const Scheme<double>& scheme, const LocalType& type, int rings) {
   const bool is_face = type.kind == Centre::Kind::face;
   const auto patch = local_patch(scheme, type, rings);
@@ -50,7 +48,7 @@ std::optional<LocalModes> local_modes(const Scheme<double>& scheme, const LocalT
   const auto fourier = fourier_blocks(patch->A, aligned_orbits(*patch));
   if (!fourier) throw AnalysisError(scheme.name + ": a lone neighbourhood is not rotationally symmetric");
   LocalModes result;
-  result.dilation = period_dilation(scheme);
+  result.dilation = scheme.dilation();
   result.net = sector_mesh(type.kind, type.faces, scheme.face_size() == 3 ? 3 : 4, rings);
   std::vector<EigenCluster> clusters;
   for (int k = 0; 2 * k <= fourier->n; ++k)

@@ -36,7 +36,4 @@ struct LocalModes {
 /// @throws AnalysisError  the neighbourhood is not closed, or has no rotational symmetry
 std::optional<LocalModes> local_modes(const Scheme<double>& scheme, const LocalType& type, int rings = 5);
 
-/// Dilation of labels over one period: 2, or 3 for sqrt(3) schemes.
-int period_dilation(const Scheme<double>& scheme);
-
 }  // namespace sublimit

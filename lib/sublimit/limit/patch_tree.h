@@ -9,7 +9,7 @@
 #include <memory>
 #include <vector>
 
-#include "sublimit/limit/piece_types.h"
+#include "sublimit/neighborhood/piece_types.h"
 
 namespace sublimit {
 

@@ -5,7 +5,7 @@
 // sum, at most `PieceType::reach` times the points' distance from one of them.
 #include <array>
 
-#include "sublimit/limit/piece_types.h"
+#include "sublimit/neighborhood/piece_types.h"
 
 namespace sublimit {
 

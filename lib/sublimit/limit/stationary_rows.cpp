@@ -6,6 +6,7 @@
 
 #include "sublimit/core/sparse_product.h"
 #include "sublimit/limit/tangents.h"
+#include "sublimit/neighborhood/closed_set.h"
 #include "sublimit/neighborhood/local_patch.h"
 #include "sublimit/neighborhood/walk.h"
 
@@ -102,28 +103,27 @@ std::optional<LimitRows> stationary_rows(const Level& whole, const Scheme<double
   std::fill_n(is_inner.begin(), before.num_inner, true);
   for (const Index i : before.curves) is_inner[i] = true;
   Eigen::MatrixXd A = Eigen::MatrixXd::Zero(count, count);
-  std::vector<bool> known(count, false);
   const std::vector<Index> own(before.point.begin(), before.point.begin() + before.walk.ring_end[0]);
-  std::vector<Index> open = own;
-  while (!open.empty()) {
-    const Index i = open.back();
-    open.pop_back();
-    if (known[i]) continue;
-    known[i] = true;
-    for (SparseMatrix::InnerIterator it(S, after.vertices[i]); it; ++it) {
+  bool is_closed = true;
+  closed_set(own, count, [&](Index i, const auto& add) {
+    for (SparseMatrix::InnerIterator it(S, after.vertices[i]); is_closed && it; ++it) {
       const Index j = point_of[it.col()];
-      if (j < 0 || !is_inner[j]) return std::nullopt;
+      is_closed = j >= 0 && is_inner[j];
+      if (!is_closed) return;
       A(i, j) += it.value();
-      open.push_back(j);
+      add(j);
     }
-  }
+  });
+  if (!is_closed) return std::nullopt;
   LimitRows rows;
   const Eigen::VectorXd mask = position_mask(A, own, std::nullopt);
   for (Index i = 0; i < count; ++i)
     if (mask[i] != 0) rows.position.push_back({around.vertices[before.vertices[i]], mask[i]});
   std::sort(rows.position.begin(), rows.position.end());
   rows.plane = LimitMasks::Plane::no;
-  rows.type = local_type(whole.topology(), whole.sharpness, from, whole.number, scheme.period);
+  const LocalType type = local_type(whole.topology(), whole.sharpness, from, whole.number, scheme.period);
+  rows.rule = type.corner ? Rule::corner : type.open || type.kind == Centre::Kind::border ? Rule::crease : Rule::smooth;
+  rows.faces = type.faces;
   return rows;
 }
 

@@ -64,6 +64,12 @@ Sharpness initial_sharpness(const Topology& topology, const ControlMesh& tags, B
 /// @throws InvalidMesh  a tag that names no face
 std::vector<bool> initial_holes(const Topology& topology, const ControlMesh& tags, Boundary boundary);
 
+/// The surface has two sides at this edge, or ends: there is no face beyond, or a crease that never gets smooth. Where a
+/// vertex has a single such edge inside, they are the same side.
+inline bool is_cut(const Topology& t, const Sharpness& sharpness, HalfEdge h) {
+  return !exists(t.twin(h)) || is_infinite(sharpness.edge[index(t.edge(h))]);
+}
+
 /// Edge between two vertices, the first one where there are several (`tail`, `head` in either order); -1 if there is none.
 Edge find_edge(const Topology& topology, Vertex a, Vertex b);
 

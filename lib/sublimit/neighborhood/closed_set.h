@@ -1,29 +1,40 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 // What a local matrix needs: rows depend on other rows.
+#include <utility>
 #include <vector>
 
 #include "sublimit/core/types.h"
 
 namespace sublimit {
 
-/// Indices that the given rows depend on, themselves included: the smallest set with A(set, rest) = 0. Ascending.
-template <class Matrix>
-std::vector<Index> closed_set(const Matrix& A, std::vector<Index> open) {
-  using Number = typename Matrix::Scalar;
-  std::vector<bool> in(A.rows(), false);
+/// Indices that the given rows depend on, themselves included. Ascending.
+/// @param count       of all indices
+/// @param depends_on  depends_on(i, add) calls add(j) for what row i depends on
+template <class DependsOn>
+std::vector<Index> closed_set(std::vector<Index> open, Index count, const DependsOn& depends_on) {
+  std::vector<bool> in(size_t(count), false);
   while (!open.empty()) {
     const Index i = open.back();
     open.pop_back();
-    if (in[i]) continue;
-    in[i] = true;
-    for (Index j = 0; j < A.cols(); ++j)
-      if (A(i, j) != Number(0)) open.push_back(j);
+    if (in[size_t(i)]) continue;
+    in[size_t(i)] = true;
+    depends_on(i, [&](Index j) { open.push_back(j); });
   }
   std::vector<Index> set;
-  for (Index i = 0; i < A.rows(); ++i)
-    if (in[i]) set.push_back(i);
+  for (Index i = 0; i < count; ++i)
+    if (in[size_t(i)]) set.push_back(i);
   return set;
+}
+
+/// The same of a dense matrix: the smallest set with A(set, rest) = 0.
+template <class Matrix>
+std::vector<Index> closed_set(const Matrix& A, std::vector<Index> open) {
+  using Number = typename Matrix::Scalar;
+  return closed_set(std::move(open), static_cast<Index>(A.rows()), [&](Index i, const auto& add) {
+    for (Index j = 0; j < A.cols(); ++j)
+      if (A(i, j) != Number(0)) add(j);
+  });
 }
 
 }  // namespace sublimit

@@ -17,12 +17,11 @@ LocalType local_type(const Topology& t, const Sharpness& sharpness, const Centre
     type.faces = t.size(t.face(centre.start));
     return type;
   }
-  const auto is_cut = [&](HalfEdge h) { return !exists(t.twin(h)) || is_sharp(sharpness.edge[index(t.edge(h))]); };
   HalfEdge h = centre.start;
   do {
     ++type.faces;
     const HalfEdge into = t.prev(h);
-    type.open = is_cut(into);
+    type.open = is_cut(t, sharpness, into);
     if (type.open) break;
     h = t.twin(into);
   } while (h != centre.start);

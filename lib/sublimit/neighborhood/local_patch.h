@@ -3,8 +3,10 @@
 // Local subdivision matrices of any scheme: a centre of one type, alone among regular points, refined until there are
 // rings enough, then over one whole period. Its matrix takes the points around the centre to those around its child.
 #include <algorithm>
+#include <numeric>
 #include <optional>
 
+#include "sublimit/neighborhood/closed_set.h"
 #include "sublimit/neighborhood/local_matrix.h"
 #include "sublimit/neighborhood/local_type.h"
 #include "sublimit/neighborhood/sector_labels.h"
@@ -87,15 +89,9 @@ std::optional<LocalPatch<T>> local_patch(const Scheme<T>& scheme, LocalType type
     }
     level = std::move(next);
   };
-  // Growth of the rings from level to level: 2, sqrt 3 or sqrt 2.
-  const double growth = scheme.steps[0].split == Split::sqrt3      ? 1.7
-                        : scheme.steps[0].split == Split::mid_edge ? 1.4
-                                                                   : 2;
   int levels = type.phase;
-  for (double have = 1; have < rings + margin + 3 || levels < 2 * scheme.period;) {
-    for (int k = 0; k < scheme.period; ++k) have *= growth;
+  for (int have = 1; have < rings + margin + 3 || levels < 2 * scheme.period; have *= scheme.dilation())
     levels += scheme.period;
-  }
   for (int k = 0; k < levels; ++k) follow(next_topology(scheme, level, [](const auto&...) {}));
   const int deep = rings + margin;
   LocalPatch<T> patch;
@@ -122,28 +118,19 @@ std::optional<LocalPatch<T>> local_patch(const Scheme<T>& scheme, LocalType type
   for (size_t s = 0; s < parent.vertices.size(); ++s) slot_of[parent.vertices[s]] = static_cast<Index>(s);
   // The smallest closed set that holds the rings asked for.
   const Index known = parent.ring_end.back();
-  std::vector<bool> in(known, false);
-  std::vector<Index> open_slots;
-  for (Index s = 0; s < parent.ring_end[rings]; ++s) open_slots.push_back(s);
-  while (!open_slots.empty()) {
-    const Index s = open_slots.back();
-    open_slots.pop_back();
-    if (in[s]) continue;
-    in[s] = true;
+  std::vector<Index> wanted(parent.ring_end[rings]);
+  std::iota(wanted.begin(), wanted.end(), Index{0});
+  patch.slots = closed_set(std::move(wanted), known, [&](Index s, const auto& add) {
     for (typename SparseMatrixOf<T>::InnerIterator it(S, after.vertices[s]); it; ++it) {
       const Index column = slot_of[it.col()];
       if (column < 0 || column >= parent.ring_end[deep - 1])
         throw AnalysisError(scheme.name + ": a neighbourhood is not closed under refinement");
-      open_slots.push_back(column);
+      add(column);
     }
-  }
+  });
   std::vector<Index> position(known, -1);
-  for (Index s = 0; s < known; ++s) {
-    if (!in[s]) continue;
-    position[s] = static_cast<Index>(patch.slots.size());
-    patch.slots.push_back(s);
-    while (patch.depth < deep && s >= parent.ring_end[patch.depth]) ++patch.depth;
-  }
+  for (size_t i = 0; i < patch.slots.size(); ++i) position[patch.slots[i]] = static_cast<Index>(i);
+  while (patch.depth < deep && patch.slots.back() >= parent.ring_end[patch.depth]) ++patch.depth;
   ++patch.depth;
   patch.places = walk(before.topology(), before.sharpness, before_centre, patch.depth);
   const std::map<Index, SectorLabel> labels = sector_labels(before.topology(), before_centre, patch.depth + 1);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "sublimit/core/dense_decompositions.h"
 
@@ -76,13 +77,13 @@ const std::vector<std::unique_ptr<RepeatedBlock::Stage>>& RepeatedBlock::stages(
   return stages_;
 }
 
-Eigen::RowVectorXd RepeatedBlock::shrunk(Eigen::RowVectorXd row, int times, size_t least_stage) const {
+Eigen::RowVectorXd RepeatedBlock::shrunk(Eigen::RowVectorXd row, double size, int times, size_t least_stage) const {
   const auto& all = stages();
   size_t stage = 0;
   while (stage + 1 < all.size()) {
     const Stage& next = *all[stage + 1];
     const Eigen::RowVectorXd part = row * next.right;
-    if (stage + 1 > least_stage && !(part.norm() <= negligible * row.norm())) break;
+    if (stage + 1 > least_stage && !(part.norm() <= negligible * size)) break;
     row -= part * next.left;
     ++stage;
   }
@@ -102,7 +103,11 @@ RowMatrix RepeatedBlock::pulled_back(const RowMatrix& rows, int times) const {
     if (times >> i & 1) result = power(i).pulled_back(result);
   if (times < few) return result;
   result.conservativeResize(rows.rows(), Eigen::NoChange);
-  for (Eigen::Index k = 1; k < rows.rows(); ++k) result.row(k) = shrunk(rows.row(k), times, 0);
+  for (const auto& [first, count] : {std::pair{1, 2}, {3, 3}}) {  // of one order
+    if (first >= rows.rows()) break;
+    const double size = rows.middleRows(first, count).rowwise().norm().maxCoeff();
+    for (int k = first; k < first + count; ++k) result.row(k) = shrunk(rows.row(k), size, times, 0);
+  }
   return result;
 }
 
@@ -112,10 +117,14 @@ RowMatrix RepeatedBlock::tangents_pulled_back(RowMatrix tangents, int times) con
     return tangents;
   }
   const auto& all = stages();
+  const double size = tangents.rowwise().norm().maxCoeff();
+  size_t first = 1;  // the eigenvectors that shrink the least, of those that the rows see: others are of far points
+  const auto seen = [&] { return RowMatrix(tangents * all[first]->right); };
+  while (first < all.size() && seen().rowwise().norm().maxCoeff() <= negligible * size) ++first;
   int across = -1;  // the row without that direction
-  if (times >= few && all.size() > 1) {
-    // What the rows have of the eigenvectors that shrink the least: one direction, or a plane.
-    const RowMatrix leading = tangents * all[1]->right;
+  if (times >= few && first < all.size()) {
+    // What the rows have of them: one direction, or a plane.
+    const RowMatrix leading = seen();
     const int most = leading.row(0).norm() >= leading.row(1).norm() ? 0 : 1, least = 1 - most;
     const double square = leading.row(most).squaredNorm();
     const double factor = square > 0 ? leading.row(least).dot(leading.row(most)) / square : 0;
@@ -127,9 +136,9 @@ RowMatrix RepeatedBlock::tangents_pulled_back(RowMatrix tangents, int times) con
   }
   RowMatrix result(2, tangents.cols());
   for (int k = 0; k < 2; ++k) {
-    result.row(k) = shrunk(tangents.row(k), times, across == k ? 1 : 0);
-    const double size = result.row(k).norm();  // their lengths mean nothing
-    if (size > 0) result.row(k) /= size;
+    result.row(k) = shrunk(tangents.row(k), size, times, across == k ? first : 0);
+    const double length = result.row(k).norm();  // it means nothing
+    if (length > 0) result.row(k) /= length;
   }
   return result;
 }

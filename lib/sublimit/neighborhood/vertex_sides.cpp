@@ -5,9 +5,7 @@ namespace sublimit {
 
 VertexSides vertex_sides(const Level& level) {
   const Topology& t = level.topology();
-  const auto is_cut = [&](HalfEdge h) {
-    return !exists(t.twin(h)) || is_sharp(level.sharpness.edge[index(t.edge(h))]);
-  };
+  const auto is_cut = [&](HalfEdge h) { return sublimit::is_cut(t, level.sharpness, h); };
   VertexSides sides;
   sides.corner_side.assign(t.num_half_edges(), -1);
   for (Index v = 0; v < t.num_vertices(); ++v)
@@ -35,6 +33,16 @@ VertexSides vertex_sides(const Level& level) {
       } while (exists(h) && h != start);
     }
   return sides;
+}
+
+Centre side_of(const Level& level, HalfEdge corner) {
+  const Topology& t = level.topology();
+  HalfEdge h = corner;
+  while (!is_cut(t, level.sharpness, h)) {
+    h = t.next(t.twin(h));
+    if (h == corner) break;
+  }
+  return {Centre::Kind::vertex, h};
 }
 
 std::vector<bool> vertices_without_surface(const Topology& t, const std::vector<bool>& holes) {

@@ -18,6 +18,10 @@ struct VertexSides {
 
 VertexSides vertex_sides(const Level& level);
 
+/// The side of its tail that a half-edge's face is on: such a centre as `vertex_sides` has, but for where a closed one
+/// starts.
+Centre side_of(const Level& level, HalfEdge corner);
+
 /// By vertex: it is in no face, or in holes alone.
 /// @param holes  per face
 std::vector<bool> vertices_without_surface(const Topology& topology, const std::vector<bool>& holes);

@@ -12,7 +12,7 @@ Walk walk(const Topology& t, const Sharpness& sharpness, const Centre& centre, i
   Walk result;
   std::unordered_map<std::int64_t, Index> slot_of;
   std::vector<HalfEdge> found_at;  // a half-edge that leaves the point, by slot
-  const auto is_cut = [&](HalfEdge h) { return !exists(t.twin(h)) || is_sharp(sharpness.edge[index(t.edge(h))]); };
+  const auto is_cut = [&](HalfEdge h) { return sublimit::is_cut(t, sharpness, h); };
   // Where sheets meet a point is one for each of its fans: on either side of an edge that ends inside a sheet, for one.
   // Edges and faces have the masks of their own side, so that the sheet is unfolded as far as it is looked at.
   const auto place = [&](HalfEdge h) -> std::int64_t {
@@ -66,6 +66,7 @@ Walk walk(const Topology& t, const Sharpness& sharpness, const Centre& centre, i
       HalfEdge into = no_half_edge;
       for (;;) {
         ++faces;
+        result.decays |= is_semi_sharp(sharpness.edge[index(t.edge(h))]);
         result.signature.push_back(static_cast<std::uint32_t>(t.size(t.face(h))));
         HalfEdge g = h;
         do {
@@ -83,6 +84,7 @@ Walk walk(const Topology& t, const Sharpness& sharpness, const Centre& centre, i
       // Between the two sides of one edge, but on a curve that goes on along another: the vertex has not its own rule.
       if (open && !sharp && t.edge(first) == t.edge(into)) result.signature.push_back(~0u);
       result.on_border.push_back(open);
+      result.decays |= is_semi_sharp(sharpness.vertex[result.vertices[next]]);
     }
     result.ring_end.push_back(static_cast<Index>(result.vertices.size()));
   }

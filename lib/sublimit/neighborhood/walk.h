@@ -15,10 +15,11 @@ struct Walk {
   std::vector<Index> ring_end;  ///< slots of rings 0 to r
   std::vector<bool> on_border;  ///< by slot, of the slots whose fans were walked
   std::vector<std::uint32_t> signature;
+  bool decays = false;  ///< finite sharpness was met: the next level looks otherwise
 };
 
-/// Walks the fans of the points in rings 0 to depth - 1, which finds ring `depth`. Sharp edges cut fans, as boundaries do; a
-/// non-manifold vertex has a slot for each of its fans that is met.
+/// Walks the fans of the points in rings 0 to depth - 1, which finds ring `depth`. Infinitely sharp edges cut fans, as
+/// boundaries do; a non-manifold vertex has a slot for each of its fans that is met.
 Walk walk(const Topology& topology, const Sharpness& sharpness, const Centre& centre, int depth);
 
 }  // namespace sublimit

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "sublimit/base/error.h"
+#include "sublimit/base/rule_words.h"
 #include "sublimit/core/sparse_product.h"
 #include "sublimit/mesh/topology_builder.h"
 #include "sublimit/primvar/linear_scheme.h"
@@ -15,10 +16,7 @@
 namespace sublimit {
 namespace {
 
-const char* name(FaceVaryingInterpolation interpolation) {
-  constexpr const char* names[] = {"none", "corners-only", "corners-plus1", "corners-plus2", "boundaries", "all"};
-  return names[static_cast<int>(interpolation)];
-}
+const char* name(FaceVaryingInterpolation interpolation) { return face_varying_words[size_t(interpolation)]; }
 
 void check(const ControlMesh::FaceVarying& channel, const Topology& t) {
   const std::string what = "face-varying channel '" + channel.name + "': ";

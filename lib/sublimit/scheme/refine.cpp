@@ -159,8 +159,13 @@ template LevelOf<double> next_level<double>(const Scheme<double>&, const LevelOf
 
 std::vector<Level> refine(const Scheme<double>& scheme, const ControlMesh& mesh, int levels,
                           const SubdivisionOptions& options, const std::function<void(int)>& progress) {
+  return refine(scheme, control_level(scheme, mesh, options), levels, progress);
+}
+
+std::vector<Level> refine(const Scheme<double>& scheme, Level control, int levels,
+                          const std::function<void(int)>& progress) {
   std::vector<Level> result;
-  result.push_back(control_level(scheme, mesh, options));
+  result.push_back(std::move(control));
   check_levels(scheme, result[0].topology(), levels);
   result.reserve(levels + 1);
   for (int k = 1; k <= levels; ++k) {

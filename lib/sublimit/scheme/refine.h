@@ -66,6 +66,9 @@ LevelOf<T> next_level(const Scheme<T>& scheme, const LevelOf<T>& parent);
 ///                           memory is taken
 std::vector<Level> refine(const Scheme<double>& scheme, const ControlMesh& mesh, int levels,
                           const SubdivisionOptions& options = {}, const std::function<void(int)>& progress = {});
+/// The same from a control level that is there.
+std::vector<Level> refine(const Scheme<double>& scheme, Level control, int levels,
+                          const std::function<void(int)>& progress = {});
 
 /// P_k = S_{k-1} ... S_0: level k from the control points. The identity for k = 0.
 SparseMatrix refinement_matrix(const std::vector<Level>& levels);

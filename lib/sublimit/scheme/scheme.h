@@ -45,7 +45,8 @@ struct Scheme {
   std::vector<Step<T>> steps;  ///< in templates written `{Step<T>{...}}`: g++ 12 fails on nested plain braces
   CreaseMasks<T> creases;
   Claims claims = {};
-  std::vector<OptionInfo> options = {};
+  std::vector<OptionInfo> options = {};  ///< that it knows
+  SchemeOptions chosen = {};             ///< those that it was made with, the others have their defaults
   /// The masks repeat with this period in the level; 1 for stationary schemes. Rotating schemes (sqrt3, mid_edge) have
   /// 2: only then a neighbourhood lies as it lay before.
   int period = 1;
@@ -60,6 +61,10 @@ struct Scheme {
            : steps[0].split == Split::ptq || steps[0].split == Split::sqrt3 ? 3
                                                                             : 0;
   }
+  /// How much finer a mesh is after one period.
+  int dilation() const { return steps[0].split == Split::sqrt3 ? 3 : 2; }
+  /// Faces around a vertex of a regular mesh.
+  int regular_valence() const { return face_size() == 3 ? 6 : 4; }
   /// Steps of one level.
   std::vector<Step<T>> steps_at(int level, const Topology& topology) const {
     if (level > 0 || preparation.empty() || topology.uniform_face_size() == corners) return steps;
@@ -72,6 +77,11 @@ struct Scheme {
     for (const Step<T>& step : steps)
       if (step.masks.wide_edge || step.masks.wide_face) return true;
     return false;
+  }
+  /// Limits of vertices depend on the faces around them alone.
+  bool has_one_ring_limits() const {
+    return steps.size() == 1 && preparation.empty() && period == 1 && !is_wide() &&
+           (steps[0].split == Split::pqq || steps[0].split == Split::ptq);
   }
   /// A vertex has no child vertex: its limit is that of the face (or border edge) that it becomes.
   bool is_dual() const {

@@ -3,15 +3,16 @@
 
 #include <array>
 #include <cmath>
+#include <functional>
 #include <string>
 
 #include "sublimit/bake/bake_channels.h"
 #include "sublimit/bake/bake_patterns.h"
 #include "sublimit/bake/bake_rows.h"
+#include "sublimit/bake/table_info.h"
 #include "sublimit/base/error.h"
 #include "sublimit/base/memory.h"
 #include "sublimit/limit/address.h"
-#include "sublimit/limit/limit_status.h"
 
 namespace sublimit {
 namespace {
@@ -22,12 +23,6 @@ constexpr int last_level = 11, last_grid = 2048;
 /// Points that a face has, most of them.
 double points_of_face(const BakeRequest& r) {
   return r.rows == TableRows::grid ? double(r.grid) * r.grid : std::pow(4.0, r.level);
-}
-
-std::vector<std::string> status_names() {
-  std::vector<std::string> names;
-  for (int s = 0; s <= int(LimitStatus::outside); ++s) names.push_back(name(LimitStatus(s)));
-  return names;
 }
 
 /// Statistics alone.
@@ -58,28 +53,22 @@ void check_limit(double bytes, double limit) {
                         bytes_in_words(limit) + "; use fewer points or a smaller mesh");
 }
 
-Baked bake_somehow(Patterns& patterns, const ControlMesh& mesh, const Level& control, const BakeRequest& request,
-                   const SubdivisionOptions& options, bool only_count = false,
-                   std::vector<std::int8_t>* turn = nullptr) {
-  constexpr double any = 1e300;
+/// What is made in the first way of the request that is possible.
+/// @param by_patterns  (how): nothing where that is not possible
+Baked first_possible(const Patterns& patterns, const Level& control, const BakeRequest& request,
+                     const std::function<std::optional<Baked>(PatternBake)>& by_patterns,
+                     const std::function<Baked()>& by_rows) {
   const bool automatic = request.method == BakeMethod::automatic;
   if (automatic || request.method == BakeMethod::patterns) {
+    PatternBake how;
     // Rows of level 1 take about 600 bytes a face, and lists of control points four times as many.
-    const double alternative = 1000.0 * control.topology().num_faces() + 1e6;
     const bool can_go_on = request.rows != TableRows::grid && request.level > 1;
-    std::optional<Baked> baked = bake_by_patterns(
-        patterns, control, request,
-        {.most_bytes = automatic && can_go_on ? 4 * alternative : any, .only_count = only_count, .turns = turn});
-    if (baked) return std::move(*baked);
+    if (automatic && can_go_on) how.most_bytes = 4 * (1000.0 * control.topology().num_faces() + 1e6);
+    if (std::optional<Baked> baked = by_patterns(how)) return *std::move(baked);
   }
   if (automatic || request.method == BakeMethod::rows_then_patterns)
-    if (std::optional<Baked> baked = bake_by_patterns(patterns, control, request,
-                                                      {.first_by_rows = true, .only_count = only_count, .turns = turn}))
-      return std::move(*baked);
-  if (automatic || request.method == BakeMethod::rows) {
-    if (only_count) return estimate_of_rows(patterns.scheme(), control.topology(), request);
-    return bake_by_rows(patterns, mesh, control, request, options);
-  }
+    if (std::optional<Baked> baked = by_patterns({.first_by_rows = true})) return *std::move(baked);
+  if (automatic || request.method == BakeMethod::rows) return by_rows();
   throw InvalidParameter(patterns.scheme().name + ": such a table cannot be made by " + name(request.method));
 }
 
@@ -118,16 +107,15 @@ Baked bake(Patterns& patterns, const ControlMesh& mesh, const BakeRequest& reque
                                                : "points of level " + std::to_string(request.level),
                bytes, "use fewer");
   std::vector<std::int8_t> turn;
-  Baked baked = bake_somehow(patterns, mesh, control, request, options, false, &turn);
-  TableInfo& info = baked.table.info;
-  info.scheme = scheme.name;
-  info.rows = request.rows;
-  info.level = request.level;
-  info.grid = request.grid;
-  info.triangles = scheme.face_size() == 3;
-  info.topology_hash = topology_hash(control.topology().num_vertices(), mesh.face_sizes, mesh.face_vertices);
-  if (request.rows != TableRows::level) info.statuses = status_names();
-  if (request.face_varying || request.tags) add_channels(scheme, mesh, request, options, turn, baked.table);
+  Baked baked = first_possible(
+      patterns, control, request,
+      [&](PatternBake how) {
+        how.turns = &turn;
+        return bake_by_patterns(patterns, control, request, how);
+      },
+      [&] { return bake_by_rows(patterns, control, request); });
+  baked.table.info = table_info(scheme, mesh, request, options);
+  if (request.face_varying || request.tags) add_channels(scheme, mesh, control, request, options, turn, baked.table);
   BakeStatistics& s = baked.statistics;
   const auto& arrays = baked.table.table.arrays();
   s.blocks = static_cast<Index>(arrays.blocks.size());
@@ -160,7 +148,14 @@ BakePlan bake_plan(Patterns& patterns, const ControlMesh& mesh, const BakeReques
   BakePlan plan;
   plan.memory = predicted_bytes(scheme, t, refines ? 1 : 0);
   check_limit(plan.memory, limit);
-  plan.statistics = bake_somehow(patterns, mesh, control, request, options, true).statistics;
+  plan.statistics = first_possible(
+                        patterns, control, request,
+                        [&](PatternBake how) {
+                          how.only_count = true;
+                          return bake_by_patterns(patterns, control, request, how);
+                        },
+                        [&] { return estimate_of_rows(scheme, t, request); })
+                        .statistics;
   const BakeStatistics& s = plan.statistics;
   if (s.method == BakeMethod::rows) {
     plan.memory = predicted_bytes(scheme, t, by_level ? request.level : 0) + 2.5 * double(s.bytes);

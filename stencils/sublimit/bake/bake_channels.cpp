@@ -50,7 +50,7 @@ FaceVaryingValues refined_values(const Scheme<double>& scheme, FaceVaryingInterp
   const std::vector<FaceVaryingLevel> channel = refine_face_varying(scheme, interpolation, given, levels);
   Points values = refined_values(channel, given.values);
   if (limit) {
-    LimitMaskCache cache(face_varying_scheme(scheme, interpolation));
+    LimitTypes cache(face_varying_scheme(scheme, interpolation));
     values = apply(limit_matrices(channel.back().level, cache).position, values);
   }
   const Topology& t = channel.back().level.topology();
@@ -109,9 +109,10 @@ double predicted_channel_bytes(const Scheme<double>& scheme, const Topology& con
   return (1 + channels) * predicted_bytes(scheme, control, request.level);
 }
 
-void add_channels(const Scheme<double>& scheme, const ControlMesh& mesh, const BakeRequest& request,
-                  const SubdivisionOptions& options, std::span<const std::int8_t> turn, BakedTable<double>& table) {
-  const std::vector<Level> levels = refine(scheme, mesh, request.level, options);
+void add_channels(const Scheme<double>& scheme, const ControlMesh& mesh, const Level& control,
+                  const BakeRequest& request, const SubdivisionOptions& options, std::span<const std::int8_t> turn,
+                  BakedTable<double>& table) {
+  const std::vector<Level> levels = refine(scheme, control, request.level);
   check_memory("face-varying channels and tags of level " + std::to_string(request.level),
                predicted_channel_bytes(scheme, levels[0].topology(), mesh, request) -
                    predicted_bytes(scheme, levels[0].topology(), request.level),

@@ -14,10 +14,12 @@ double predicted_channel_bytes(const Scheme<double>& scheme, const Topology& con
                                const BakeRequest& request);
 
 /// Adds what `request` asks for to a table of a level or its limit.
-/// @param turn  of a table by patterns: of each face with a lattice, its corner that is the lattice's first one
+/// @param control  level 0 of the mesh
+/// @param turn     of a table by patterns: of each face with a lattice, its corner that is the lattice's first one
 /// @throws UnsupportedTopology, InvalidOption  a channel that the scheme cannot refine; see primvar/face_varying.h
 /// @throws ResourceError  the mesh, refined, does not fit into memory
-void add_channels(const Scheme<double>& scheme, const ControlMesh& mesh, const BakeRequest& request,
-                  const SubdivisionOptions& options, std::span<const std::int8_t> turn, BakedTable<double>& table);
+void add_channels(const Scheme<double>& scheme, const ControlMesh& mesh, const Level& control,
+                  const BakeRequest& request, const SubdivisionOptions& options, std::span<const std::int8_t> turn,
+                  BakedTable<double>& table);
 
 }  // namespace sublimit

@@ -43,7 +43,7 @@ StencilTable<double> stacked(const std::vector<SparseMatrix>& parts) {
 /// Limits of the vertices of the last level, with the tangents of one side each.
 void add_limits(const Scheme<double>& scheme, const std::vector<Level>& levels, int derivatives, Baked& baked,
                 PatternTable<double>::Arrays& arrays) {
-  LimitMaskCache cache(scheme);
+  LimitTypes cache(scheme);
   const LimitMatrices limit = limit_matrices(levels, cache);
   const SparseMatrix P = refinement_matrix(levels);
   const Topology& t = levels.back().topology();
@@ -137,15 +137,14 @@ std::vector<std::int32_t> grid_copies(const Topology& t, const Addresses& addres
 
 StencilTable<double> as_table(const SparseMatrix& S) { return stacked({S}); }
 
-Baked bake_by_rows(Patterns& patterns, const ControlMesh& mesh, const Level& control, const BakeRequest& request,
-                   const SubdivisionOptions& options) {
+Baked bake_by_rows(Patterns& patterns, const Level& control, const BakeRequest& request) {
   const Scheme<double>& scheme = patterns.scheme();
   Baked baked;
   PatternTable<double>::Arrays arrays;
   arrays.quantities = num_quantities(request.derivatives);
   const Index num_control_points = control.topology().num_vertices();
   if (request.rows == TableRows::level || request.rows == TableRows::limit) {
-    const std::vector<Level> levels = refine(scheme, mesh, request.level, options);
+    const std::vector<Level> levels = refine(scheme, control, request.level);
     if (request.rows == TableRows::limit) {
       if (request.derivatives > 1)
         throw InvalidParameter(scheme.name +

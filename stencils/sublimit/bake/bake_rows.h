@@ -6,8 +6,7 @@
 namespace sublimit {
 
 /// A table by rows, its `info` left empty.
-Baked bake_by_rows(Patterns& patterns, const ControlMesh& mesh, const Level& control, const BakeRequest& request,
-                   const SubdivisionOptions& options);
+Baked bake_by_rows(Patterns& patterns, const Level& control, const BakeRequest& request);
 
 /// Points of grids that lie on several addresses, to and from in turn.
 std::vector<std::int32_t> grid_copies(const Topology& t, const Addresses& addresses, int N, bool dual);

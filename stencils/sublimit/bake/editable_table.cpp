@@ -214,7 +214,7 @@ typename EditableTable<Real>::Change EditableTable<Real>::edit(const MeshEdit& e
   change.faces = faces_around(touched);
   Sharpness rules;
   rules.creasing = options_.creasing.value_or(tags_.creasing.value_or(Creasing::uniform));
-  const int rings = patterns_.types()->rings(rules);
+  const int rings = patterns_.types()->pieces().rings(rules);
   for (int ring = 1; ring < rings; ++ring) change.faces = with_neighbors(change.faces);
   std::vector<Index> around = change.faces, vertices;
   for (int ring = 0; ring < rings; ++ring) around = with_neighbors(around);

@@ -8,6 +8,7 @@
 
 #include "sublimit/bake/bake_channels.h"
 #include "sublimit/files/rule_words.h"
+#include "sublimit/limit/limit_status.h"
 
 namespace sublimit {
 namespace {
@@ -55,11 +56,11 @@ std::uint64_t topology_hash(const ControlMesh& mesh) {
   return topology_hash(mesh.num_vertices(), mesh.face_sizes, mesh.face_vertices);
 }
 
-TableInfo table_info(const Scheme<double>& scheme, const SchemeOptions& given, const ControlMesh& mesh,
-                     const BakeRequest& request, const SubdivisionOptions& rules) {
+TableInfo table_info(const Scheme<double>& scheme, const ControlMesh& mesh, const BakeRequest& request,
+                     const SubdivisionOptions& rules) {
   TableInfo info;
   info.scheme = scheme.name;
-  for (const OptionInfo& known : scheme.options) info.options[known.name] = value_of(known, given);
+  for (const OptionInfo& known : scheme.options) info.options[known.name] = value_of(known, scheme.chosen);
   info.options["boundary"] = word(rules.boundary.value_or(mesh.boundary.value_or(Boundary::edge_and_corner)));
   const Creasing creasing = rules.creasing.value_or(mesh.creasing.value_or(Creasing::uniform));
   info.options["creasing"] = word(creasing);
@@ -75,6 +76,8 @@ TableInfo table_info(const Scheme<double>& scheme, const SchemeOptions& given, c
   info.triangles = scheme.face_size() == 3;
   info.topology_hash = topology_hash(mesh);
   info.tool = "sublimit " SUBLIMIT_VERSION;
+  if (request.rows != TableRows::level)
+    for (int s = 0; s <= int(LimitStatus::outside); ++s) info.statuses.push_back(name(LimitStatus(s)));
   return info;
 }
 

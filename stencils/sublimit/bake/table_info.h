@@ -6,7 +6,7 @@
 
 namespace sublimit {
 
-/// All of `TableInfo` but the names of statuses, which the table's maker knows.
+/// All of `TableInfo`.
 ///
 /// `options` has every option of the scheme, with its default where none is given, and
 ///
@@ -16,10 +16,9 @@ namespace sublimit {
 ///     tags-left   written                 of tables with the tags that are left
 ///     tags      none, or 64 bits of the creases, corners and holes, as 16 hexadecimal digits
 ///
-/// @param given  options that the scheme was made with
-/// @param mesh   as it is refined: cut into triangles, if that was asked for
-TableInfo table_info(const Scheme<double>& scheme, const SchemeOptions& given, const ControlMesh& mesh,
-                     const BakeRequest& request, const SubdivisionOptions& rules = {});
+/// @param mesh  as it is refined: cut into triangles, if that was asked for
+TableInfo table_info(const Scheme<double>& scheme, const ControlMesh& mesh, const BakeRequest& request,
+                     const SubdivisionOptions& rules = {});
 
 /// Of the cage, as `topology_hash` of its arrays.
 std::uint64_t topology_hash(const ControlMesh& mesh);

@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sublimit/files/rule_words.h"
 
-#include <array>
+#include "sublimit/base/rule_words.h"
 
 namespace sublimit {
 namespace {
-
-// In the order of the enumerators.
-constexpr std::array boundaries{"none", "edge-only", "edge-and-corner"};
-constexpr std::array creasings{"uniform", "chaikin"};
-constexpr std::array interpolations{"none", "corners-only", "corners-plus1", "corners-plus2", "boundaries", "all"};
 
 template <class Rule, size_t N>
 std::optional<Rule> find(const std::array<const char*, N>& words, const std::string& word) {
@@ -20,21 +15,26 @@ std::optional<Rule> find(const std::array<const char*, N>& words, const std::str
 
 }  // namespace
 
-const char* word(Boundary rule) { return boundaries[size_t(rule)]; }
-const char* word(Creasing rule) { return creasings[size_t(rule)]; }
-const char* word(FaceVaryingInterpolation rule) { return interpolations[size_t(rule)]; }
+const char* word(Boundary rule) { return boundary_words[size_t(rule)]; }
+const char* word(Creasing rule) { return creasing_words[size_t(rule)]; }
+const char* word(FaceVaryingInterpolation rule) { return face_varying_words[size_t(rule)]; }
+const char* word(Triangles rule) { return triangles_words[size_t(rule)]; }
 
 template <>
 std::optional<Boundary> rule_of(const std::string& word) {
-  return find<Boundary>(boundaries, word);
+  return find<Boundary>(boundary_words, word);
 }
 template <>
 std::optional<Creasing> rule_of(const std::string& word) {
-  return find<Creasing>(creasings, word);
+  return find<Creasing>(creasing_words, word);
 }
 template <>
 std::optional<FaceVaryingInterpolation> rule_of(const std::string& word) {
-  return find<FaceVaryingInterpolation>(interpolations, word);
+  return find<FaceVaryingInterpolation>(face_varying_words, word);
+}
+template <>
+std::optional<Triangles> rule_of(const std::string& word) {
+  return find<Triangles>(triangles_words, word);
 }
 
 }  // namespace sublimit

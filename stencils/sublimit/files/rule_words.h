@@ -14,6 +14,8 @@ const char* word(Boundary rule);
 const char* word(Creasing rule);
 /// none, corners-only, corners-plus1, corners-plus2, boundaries, all
 const char* word(FaceVaryingInterpolation rule);
+/// catmark, smooth
+const char* word(Triangles rule);
 
 /// The rule of a word, if there is one: `rule_of<Boundary>("edge-only")`.
 template <class Rule>

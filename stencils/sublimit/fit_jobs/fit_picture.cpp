@@ -30,7 +30,7 @@ PictureMesh limit_picture(const Scheme<double>& scheme, Level level, Points poin
     level = next_level(scheme, level);
     points = apply(level.S, points);
   }
-  LimitMaskCache cache(scheme);
+  LimitTypes cache(scheme);
   const LimitMatrices limit = limit_matrices(level, cache);
   return surface_picture(limit_mesh(level, limit, limit_points(limit, level.topology(), points), Normals::per_corner));
 }

@@ -39,7 +39,7 @@ struct Limit {
   LimitMatrices matrices;
   LimitPoints points;
 
-  Limit(const Refined& refined, int k, LimitMaskCache& cache)
+  Limit(const Refined& refined, int k, LimitTypes& cache)
       : level(refined.levels[k]),
         matrices(limit_matrices(level, cache)),
         points(limit_points(matrices, level.topology(), refined.points[k])) {}
@@ -62,21 +62,18 @@ void measure(Measured& m, const Cage& cage, const Limit& fine) {
 
 }  // namespace
 
-Exhibit exhibit(const Cage& cage, LimitMaskCache& cache, const ExhibitOptions& options) {
+Exhibit exhibit(const Cage& cage, LimitTypes& cache, const ExhibitOptions& options) {
   const Refined refined(cache.scheme(), cage.mesh, options.levels, options.faces);
-  const Claims& claims = cache.scheme().claims;
   Exhibit result;
   Measured& m = result.measured;
   m.scheme = cache.scheme().name;
   m.cage = cage.name;
-  m.interpolates = claims.interpolates;
-  m.smooth = claims.regular >= 1 && claims.extraordinary >= 1;
 
   PictureMesh wire = wire_picture(refined.levels[0], refined.points[0]);
   wire.faces = false;
   wire.color = cage_wire;
   const auto panel = [&](PictureMesh mesh, const std::string& caption, const std::string& note) {
-    mesh.color = m.interpolates ? interpolating : approximating;
+    mesh.color = cache.scheme().claims.interpolates ? interpolating : approximating;
     return Panel{{std::move(mesh), wire}, caption, note};
   };
   for (int k = 0; k <= options.levels; ++k) {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "sublimit/gallery/cages.h"
-#include "sublimit/limit/limit_masks.h"
+#include "sublimit/limit/limit_types.h"
 #include "sublimit/picture/picture.h"
 
 namespace sublimit::gallery {
@@ -13,7 +13,6 @@ namespace sublimit::gallery {
 /// Lengths are divided by the cage's diameter.
 struct Measured {
   std::string scheme, cage;
-  bool interpolates = false, smooth = false;   ///< as the scheme claims: keeps old vertices; C^1 or better everywhere
   int level = 0;                               ///< whose vertices, moved to the limit, are measured
   Index faces = 0;                             ///< of that level
   double volume = 0;                           ///< over the cage's
@@ -27,9 +26,6 @@ struct Measured {
   };
   /// Bending energy over a sphere's, on levels of about a sixteenth, a fourth and all of the faces.
   std::vector<Bending> bending = {};
-
-  /// What fourfold refinement multiplies the bending energy by: 1 where curvature is square integrable.
-  double bending_growth() const { return bending.back().energy / bending[bending.size() - 2].energy; }
 };
 
 struct Exhibit {
@@ -44,6 +40,6 @@ struct ExhibitOptions {
 };
 
 /// @throws AnalysisError  no limit
-Exhibit exhibit(const Cage& cage, LimitMaskCache& cache, const ExhibitOptions& options);
+Exhibit exhibit(const Cage& cage, LimitTypes& cache, const ExhibitOptions& options);
 
 }  // namespace sublimit::gallery

@@ -14,6 +14,7 @@
 #include "sublimit/base/error.h"
 #include "sublimit/base/parallel_for.h"
 #include "sublimit/gallery/curves.h"
+#include "sublimit/gallery/exhibit.h"
 #include "sublimit/gallery/page.h"
 #include "sublimit/schemes.h"
 
@@ -88,10 +89,11 @@ PageRow page_row(const Work& w, const std::string& source) {
           w.picture()};
 }
 
-std::string json(const std::vector<Measured>& measured, const std::vector<Statement>& decided) {
+std::string json(const std::vector<Work>& work) {
   using Json = nlohmann::ordered_json;
-  Json surfaces = Json::array(), said = Json::array();
-  for (const Measured& m : measured) {
+  Json surfaces = Json::array();
+  for (const Work& w : work) {
+    const Measured& m = w.exhibit.measured;
     Json bending = Json::array();
     for (const Measured::Bending& b : m.bending)
       bending.push_back({{"level", b.level}, {"faces", b.faces}, {"energy", b.energy}});
@@ -106,24 +108,21 @@ std::string json(const std::vector<Measured>& measured, const std::vector<Statem
                         {"roundness", m.roundness},
                         {"bending_energy", bending}});
   }
-  for (const Statement& s : decided)
-    said.push_back(
-        {{"sentence", s.sentence}, {"criterion", s.criterion}, {"measured", s.measured}, {"confirmed", s.confirmed}});
-  return Json{{"surfaces", surfaces}, {"statements", said}}.dump(1) + "\n";
+  return Json{{"surfaces", surfaces}}.dump(1) + "\n";
 }
 
 }  // namespace
 
-Gallery make_gallery(const GalleryOptions& options, const std::function<void(int, int)>& progress) {
+std::vector<GalleryFile> make_gallery(const GalleryOptions& options, const std::function<void(int, int)>& progress) {
   if (options.levels < 0 || options.levels > 5) throw InvalidParameter("gallery: 0 to 5 levels can be drawn");
   if (options.faces < 200 || options.faces > 200'000)
     throw InvalidParameter("gallery: surfaces have 200 to 200000 faces");
   const std::vector<Scheme<double>> schemes = all_schemes();
   const std::vector<Cage> all_cages = cages();
-  std::vector<std::unique_ptr<LimitMaskCache>> caches;
+  std::vector<std::unique_ptr<LimitTypes>> caches;
   std::vector<Work> work;
   for (const Scheme<double>& scheme : schemes) {
-    caches.push_back(std::make_unique<LimitMaskCache>(scheme));
+    caches.push_back(std::make_unique<LimitTypes>(scheme));
     for (const Cage& cage : all_cages)
       if (scheme.face_size() == 0 || Topology(view(cage.mesh)).uniform_face_size() == scheme.face_size())
         work.push_back({static_cast<int>(caches.size()) - 1, &cage, {}});
@@ -160,9 +159,6 @@ Gallery make_gallery(const GalleryOptions& options, const std::function<void(int
   step();
   files.push_back({"overview.svg", overview(work)});
 
-  std::vector<Measured> measured;
-  for (const Work& w : work) measured.push_back(w.exhibit.measured);
-  const std::vector<Statement> decided = statements(measured);
   std::vector<PageSection> sections;
   for (const Cage& cage : all_cages) {
     sections.push_back({cage.name, cage.title, {}});
@@ -172,11 +168,9 @@ Gallery make_gallery(const GalleryOptions& options, const std::function<void(int
   CurvePictures curves = curve_pictures(options.levels);
   for (auto& [name, text] : curves.files) files.push_back({name, std::move(text)});
   for (PageSection& section : curves.sections) sections.push_back(std::move(section));
-  files.push_back({"measures.json", json(measured, decided)});
-  files.push_back({"index.html", page("overview.svg", decided, sections)});
-  Gallery result{std::move(files), 0, static_cast<int>(decided.size())};
-  for (const Statement& s : decided) result.confirmed += s.confirmed;
-  return result;
+  files.push_back({"measures.json", json(work)});
+  files.push_back({"index.html", page("overview.svg", sections)});
+  return files;
 }
 
 void write_gallery(const std::string& directory, const std::vector<GalleryFile>& files) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// The gallery: every scheme on the same cages, level by level and in the limit, measured, and beside the numbers what
-// lecture notes say of the schemes.
+// The gallery: every scheme on the same cages, level by level and in the limit, measured.
 #include <functional>
 #include <string>
 #include <vector>
@@ -19,16 +18,13 @@ struct GalleryFile {
   std::string name, text;
 };
 
-struct Gallery {
-  std::vector<GalleryFile> files;  ///< "index.html" (the last one) with its pictures, and "measures.json"
-  int confirmed = 0, statements = 0;
-};
-
 /// Draws and measures; writes nothing.
+/// @return  "index.html" (the last one) with its pictures, and "measures.json"
 /// @param progress  called with what is done and what there is to do, by one thread at a time, if given
 /// @throws InvalidParameter  an option outside its range
 /// @note  Deterministic: same build, same bytes, for any number of threads.
-Gallery make_gallery(const GalleryOptions& options = {}, const std::function<void(int, int)>& progress = {});
+std::vector<GalleryFile> make_gallery(const GalleryOptions& options = {},
+                                      const std::function<void(int, int)>& progress = {});
 
 /// Writes all files or none.
 /// @param directory  must exist

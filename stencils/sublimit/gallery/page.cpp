@@ -25,15 +25,6 @@ nav { margin: 14px 0 22px; color: var(--quiet) }
 a { color: #33658a }
 nav a { margin-right: 18px; text-decoration: none }
 img { display: block; max-width: 100%; height: auto }
-table { border-collapse: collapse; margin: 16px 0; width: 100% }
-th { text-align: left; font-size: 13px; color: var(--quiet); font-weight: 600 }
-th, td { padding: 9px 14px 9px 0; border-bottom: 1px solid var(--line); vertical-align: top }
-td.said { font-weight: 600; width: 24% }
-td.rule, td.numbers { font-size: 14px; width: 32% }
-td.rule { color: var(--quiet); width: 27% }
-.verdict { display: inline-block; white-space: nowrap; padding: 1px 10px; border-radius: 10px; font-size: 13px; font-weight: 600 }
-.yes { background: #dcebdf; color: #23613a }
-.no { background: #f6e0d8; color: #97391c }
 .row { display: grid; grid-template-columns: 270px 1fr; gap: 20px; align-items: center; margin: 14px 0 }
 .row h3 { font: 600 16px/1.3 ui-monospace, monospace; margin: 0 }
 .source { color: var(--quiet); font-size: 12.5px; line-height: 1.35; margin: 3px 0 8px }
@@ -65,32 +56,20 @@ std::string row(const PageRow& row) {
          ", level by level\"></div>\n";
 }
 
-std::string table(std::span<const Statement> statements) {
-  std::string html =
-      "<h2 id=\"said\">What is said, and what is measured</h2>\n<table>\n"
-      "<tr><th>Lecture notes say</th><th>Confirmed if</th><th>Measured</th><th>Verdict</th></tr>\n";
-  for (const Statement& s : statements)
-    html += "<tr><td class=\"said\">" + escaped(s.sentence) + "</td><td class=\"rule\">" + escaped(s.criterion) +
-            "</td><td class=\"numbers\">" + escaped(s.measured) + "</td><td><span class=\"verdict " +
-            (s.confirmed ? "yes\">confirmed" : "no\">not confirmed") + "</span></td></tr>\n";
-  return html + "</table>\n";
-}
-
 }  // namespace
 
-std::string page(const std::string& overview, std::span<const Statement> statements,
-                 std::span<const PageSection> sections) {
+std::string page(const std::string& overview, std::span<const PageSection> sections) {
   std::string html = head;
   html +=
       "<h1>Subdivision schemes side by side</h1>\n<p>Every scheme on the same cages, level by level and in the limit, "
       "made by "
       "<code>sublimit schemes --gallery</code>. All of it comes from the schemes' masks; the numbers are in "
-      "<a href=\"measures.json\">measures.json</a>.</p>\n<nav><a href=\"#said\">Said and measured</a>";
+      "<a href=\"measures.json\">measures.json</a>.</p>\n<nav><a href=\"#how\">How it is measured</a>";
   for (const PageSection& section : sections)
     html += "<a href=\"#" + escaped(section.id) + "\">" + escaped(section.title) + "</a>";
   html += "</nav>\n<img src=\"" + escaped(overview) +
           "\" alt=\"Limits of the cube and of the tetrahedron under every scheme\">\n";
-  html += table(statements) + how;
+  html += how;
   for (const PageSection& section : sections) {
     html += "<h2 id=\"" + escaped(section.id) + "\">" + escaped(section.title) + "</h2>\n";
     for (const PageRow& r : section.rows) html += row(r);

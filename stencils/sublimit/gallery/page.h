@@ -6,8 +6,6 @@
 #include <utility>
 #include <vector>
 
-#include "sublimit/gallery/statements.h"
-
 namespace sublimit::gallery {
 
 /// A line of pictures and what was measured on it.
@@ -21,7 +19,6 @@ struct PageSection {
   std::vector<PageRow> rows;
 };
 
-std::string page(const std::string& overview, std::span<const Statement> statements,
-                 std::span<const PageSection> sections);
+std::string page(const std::string& overview, std::span<const PageSection> sections);
 
 }  // namespace sublimit::gallery

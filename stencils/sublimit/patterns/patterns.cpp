@@ -16,7 +16,7 @@ bool Patterns::is_possible(const Scheme<double>& scheme) {
          (scheme.steps[0].split == Split::pqq || scheme.steps[0].split == Split::ptq);
 }
 
-Patterns::Patterns(const Scheme<double>& scheme) : scheme_(scheme), types_(std::make_shared<PieceTypes>(scheme)) {}
+Patterns::Patterns(const Scheme<double>& scheme) : scheme_(scheme), types_(std::make_shared<LimitTypes>(scheme)) {}
 
 namespace {
 
@@ -47,7 +47,7 @@ class Walks {
 }  // namespace
 
 bool Patterns::find(const Level& level, const Piece& piece, Match& match) const {
-  const Walks walk(*types_, level, piece);
+  const Walks walk(types_->pieces(), level, piece);
   const PieceWalk* own = &walk(0);
   Turned found;
   {
@@ -78,7 +78,7 @@ const Pattern& Patterns::add_pattern(Piece::Kind kind, Index num_slots, bool dec
 Patterns::Match Patterns::match(const Level& level, const Piece& piece) {
   if (Match known; find(level, piece, known)) return known;
   // New: the least of its rotations is the type; the next face may be seen from any of them.
-  const Walks walk(*types_, level, piece);
+  const Walks walk(types_->pieces(), level, piece);
   const int turns = num_turns(piece.kind);
   std::vector<std::vector<std::uint32_t>> signatures;
   std::vector<std::vector<Index>> vertices;
@@ -88,7 +88,7 @@ Patterns::Match Patterns::match(const Level& level, const Piece& piece) {
     vertices.push_back(turned.vertices);
   }
   const int least = static_cast<int>(std::min_element(signatures.begin(), signatures.end()) - signatures.begin());
-  const PieceType* type = types_->type(level, walk.piece(least), walk(least));
+  const PieceType* type = types_->pieces().type(level, walk.piece(least), walk(least));
   const std::unique_lock lock(mutex_);
   if (const auto known = turned_.find(signatures[least]); known != turned_.end())  // another thread was faster
     return {known->second.pattern, least, vertices[least]};
@@ -101,8 +101,8 @@ Patterns::Match Patterns::match(const Level& level, const Piece& piece) {
 
 const PieceType& Patterns::type(const Pattern& pattern, const Example& example) {
   if (const PieceType* known = pattern.type) return *known;
-  const Walks walk(*types_, example.level, example.piece);
-  const PieceType* type = types_->type(example.level, walk.piece(example.turn), walk(example.turn));
+  const Walks walk(types_->pieces(), example.level, example.piece);
+  const PieceType* type = types_->pieces().type(example.level, walk.piece(example.turn), walk(example.turn));
   pattern.type = type;
   return *type;
 }

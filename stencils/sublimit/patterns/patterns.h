@@ -13,7 +13,7 @@
 #include <shared_mutex>
 
 #include "sublimit/face_lattices.h"
-#include "sublimit/limit/piece_types.h"
+#include "sublimit/limit/limit_types.h"
 
 namespace sublimit {
 
@@ -74,7 +74,7 @@ class Patterns {
   const LimitBlock* limit_block(const Pattern& pattern, const Example& example, const LimitRequest& request);
 
   const Scheme<double>& scheme() const { return scheme_; }
-  const std::shared_ptr<PieceTypes>& types() const { return types_; }
+  const std::shared_ptr<LimitTypes>& types() const { return types_; }
   /// Types that faces have had, rotations not counted.
   size_t num_types() const;
   /// Matrices of rows and blocks of limits that have been made or read.
@@ -119,7 +119,7 @@ class Patterns {
   const RowMatrix& whole_rows(const Pattern& pattern, const Example& example, int levels, Ends ends);
   const Pattern& add_pattern(Piece::Kind kind, Index num_slots, bool decays);
   Scheme<double> scheme_;
-  std::shared_ptr<PieceTypes> types_;
+  std::shared_ptr<LimitTypes> types_;
   mutable std::shared_mutex mutex_;  // of the patterns and their signatures
   std::deque<Pattern> patterns_;
   std::unordered_map<std::vector<std::uint32_t>, Turned, SignatureHash> turned_;

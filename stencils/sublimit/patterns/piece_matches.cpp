@@ -21,7 +21,7 @@ struct RegularType {
     const int corners = level.topology().uniform_face_size();
     const auto kind = corners == 3 ? Piece::Kind::triangle : Piece::Kind::quad;
     if ((corners != 3 && corners != 4) || count == 0 || piece_at(0).kind != kind ||
-        patterns.types()->rings(level.sharpness) != 1)
+        patterns.types()->pieces().rings(level.sharpness) != 1)
       return;
     faces.emplace(level, corners);
     std::vector<Index> points(size_t(faces->num_points()));

@@ -36,12 +36,12 @@ PieceMap lattice_map(const LatticePlace& place, bool triangle) {
 
 }  // namespace
 
-std::optional<Patterns::LimitBlock> limits_of_type(const std::shared_ptr<PieceTypes>& types, const PieceType& type,
+std::optional<Patterns::LimitBlock> limits_of_type(const std::shared_ptr<LimitTypes>& types, const PieceType& type,
                                                    const Patterns::LimitRequest& request) {
   const auto& [lattice, place, by_address, derivatives] = request;
   Level level = type.level();
   level.holes.assign(level.holes.size(), false);  // of the mesh that the type was met in first
-  const LimitSurface::Parts surface(types->scheme(), std::move(level), types);
+  const LimitSurface::Parts surface(types->pieces().scheme(), std::move(level), types);
   const PieceMap map = lattice_map(place, lattice.triangle);
   std::vector<Eigen::Index> slot_of(type.level().topology().num_vertices(), -1);
   for (size_t s = 0; s < type.slots().size(); ++s) slot_of[type.slots()[s]] = Eigen::Index(s);

@@ -9,7 +9,7 @@
 namespace sublimit {
 
 /// @return  nothing where limit masks reach beyond the points of the type
-std::optional<Patterns::LimitBlock> limits_of_type(const std::shared_ptr<PieceTypes>& types, const PieceType& type,
+std::optional<Patterns::LimitBlock> limits_of_type(const std::shared_ptr<LimitTypes>& types, const PieceType& type,
                                                    const Patterns::LimitRequest& request);
 
 }  // namespace sublimit

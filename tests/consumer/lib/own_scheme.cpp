@@ -34,7 +34,7 @@ int main() {
   cube.face_vertices = {0, 2, 3, 1, 4, 5, 7, 6, 0, 1, 5, 4, 2, 6, 7, 3, 0, 4, 6, 2, 1, 3, 7, 5};
   const Scheme<double> scheme = my_averaging<double>();
   const std::vector<Level> levels = refine(scheme, cube, 2);
-  LimitMaskCache cache(scheme);
+  LimitTypes cache(scheme);
   const LimitPoints limit = limit_points(limit_matrices(levels[0], cache), levels[0].topology(), cube.positions);
   const Eigen::RowVector3d corner = limit.position.row(7), normal = limit.normal.row(0);
   std::printf("%td points on level 2; the corner's limit is (%g, %g, %g)\n", levels[2].S.rows(), corner[0], corner[1],

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Exact spectra against closed forms (schemes.md, sections 2, 3 and 7) and against 256-bit floats.
+// Exact spectra against closed forms and against 256-bit floats.
 #include "sublimit/certificates/exact_spectrum.h"
 
 #include <gtest/gtest.h>

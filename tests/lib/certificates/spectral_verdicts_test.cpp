@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "lib/certificates/exact_analyses.h"
+#include "support/misreadings.h"
 
 namespace sublimit {
 namespace {
@@ -70,8 +71,7 @@ TEST(SpectralVerdicts, MidEdgeHasAJordanCase) {
 }
 
 TEST(SpectralVerdicts, WithoutRelaxationSqrt3HasSpikes) {
-  Scheme<Algebraic> scheme = sqrt3<Algebraic>({});
-  scheme.steps[0].masks.vertex = [](const Ring<Algebraic>& v) { return v.center(); };
+  const Scheme<Algebraic> scheme = testing::misread::sqrt3_without_relaxation<Algebraic>();
   for (const int n : {3, 5, 6, 8}) {
     const Verdict c1 = spectral_c1(analyzed(scheme, n, 2));
     EXPECT_EQ(c1.answer, Answer::disproved) << n;
@@ -80,10 +80,8 @@ TEST(SpectralVerdicts, WithoutRelaxationSqrt3HasSpikes) {
 }
 
 TEST(SpectralVerdicts, DooSabinWithMidpointsHasNoTangentPlane) {
-  // New corners halfway between centroid and corner, as some notes have it: all modes of a ring have 1/2.
-  const Scheme<Algebraic> scheme = doo_sabin_with<Algebraic>("midpoints", "", [](const FaceSite<Algebraic>& f, int j) {
-    return f.ratio(1, 2 * f.size()) + (j == 0 ? f.ratio(1, 2) : Algebraic(0));
-  });
+  // New corners halfway between centroid and corner: all modes of a ring have 1/2.
+  const Scheme<Algebraic> scheme = testing::misread::doo_sabin_halfway<Algebraic>();
   for (const int n : {4, 5, 6}) {
     const Verdict c1 = spectral_c1(analyzed(scheme, n, 2));
     EXPECT_EQ(c1.answer, Answer::disproved) << n << ": " << c1.because;

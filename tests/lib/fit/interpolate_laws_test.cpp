@@ -11,7 +11,7 @@
 
 #include "sublimit/fit/interpolate.h"
 #include "sublimit/limit/limit_surface.h"
-#include "sublimit/limit/piece_types.h"
+#include "sublimit/limit/limit_types.h"
 #include "sublimit/neighborhood/centre.h"
 #include "support/expect_error.h"
 #include "support/places.h"
@@ -55,7 +55,7 @@ Vector3d random_vector(std::mt19937& random) {
 class InterpolationLaws : public ::testing::TestWithParam<TestedScheme> {
  protected:
   const Scheme<double> scheme_ = GetParam().scheme();
-  const std::shared_ptr<PieceTypes> types_ = std::make_shared<PieceTypes>(scheme_);
+  const std::shared_ptr<LimitTypes> types_ = std::make_shared<LimitTypes>(scheme_);
 
   /// The places of a vertex on a level: corners of its faces, or the middle of the face (border edge) that it becomes.
   struct Limit {

@@ -36,7 +36,7 @@ std::vector<VertexTarget> with_normals(const ControlMesh& mesh) {
 
 /// Points and normals of the limit of what was found, by the way that knows nothing of fitting: vertices of one side.
 LimitPoints limits_of(const Scheme<double>& scheme, const Interpolation& found) {
-  LimitMaskCache cache(scheme);
+  LimitTypes cache(scheme);
   return limit_points(limit_matrices(found.level, cache), found.level.topology(), found.points);
 }
 
@@ -103,7 +103,7 @@ TEST(Interpolation, CubeThroughItsOwnCornersIsTwiceAsLarge) {
   EXPECT_LE((found.points - 2 * cube().positions).cwiseAbs().maxCoeff(), on_target);
 }
 
-/// schemes.md section 4, by hand: all vertices of a platonic solid have valence n, with e the weight of a neighbour the
+/// By hand: all vertices of a platonic solid have valence n, with e the weight of a neighbour the
 /// eigenvalues are those of its graph.
 TEST(Interpolation, LoopSolidsHaveTheSmallestSingularValuesOfTheirGraphs) {
   const auto scheme = *find_scheme<double>("loop");

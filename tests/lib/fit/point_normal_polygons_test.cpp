@@ -9,7 +9,7 @@
 #include <random>
 
 #include "sublimit/limit/limit_surface.h"
-#include "sublimit/limit/piece_types.h"
+#include "sublimit/limit/limit_types.h"
 #include "sublimit/schemes.h"
 #include "support/expect_error.h"
 #include "support/irregular_meshes.h"
@@ -111,7 +111,7 @@ class PointNormalPolygons : public ::testing::TestWithParam<std::string> {
   LimitSurface surface(const ControlMesh& mesh) const { return {scheme_, mesh, {}, types_}; }
 
  private:
-  const std::shared_ptr<PieceTypes> types_ = std::make_shared<PieceTypes>(scheme_);
+  const std::shared_ptr<LimitTypes> types_ = std::make_shared<LimitTypes>(scheme_);
 };
 INSTANTIATE_TEST_SUITE_P(All, PointNormalPolygons,
                          ::testing::Values("doo-sabin", "doo-sabin-averaging", "mid-edge", "mid-edge-habib-warren"),

@@ -59,7 +59,7 @@ TEST(SharedMeshInterpolation, PassesThroughPointsAndNormals) {
       const Interpolation found = interpolate(scheme, mesh, targets, {.conditioning = false});
       EXPECT_TRUE(found.solved()) << why_unsolved(found.attempts.back());
       // By the way that knows nothing of fitting.
-      LimitMaskCache cache(scheme);
+      LimitTypes cache(scheme);
       const LimitMatrices L = limit_matrices(found.level, cache);
       const LimitPoints limits = limit_points(L, found.level.topology(), found.points);
       std::vector<Index> side(found.level.topology().num_vertices(), -1);

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sublimit/fit/deviation.h"
+#include "support/deviation.h"
 #include "sublimit/geometric/torus_pieces.h"
 #include "sublimit/mesh/topology.h"
 #include "support/expect_error.h"
@@ -20,7 +20,7 @@ namespace {
 using Eigen::Vector3d;
 
 /// x^2/4 + y^2 + z^2 = 1: bent most at its two tips.
-const ImplicitSurface ellipsoid{[](const Vector3d& x) {
+const ImplicitSurface oblate{[](const Vector3d& x) {
   const Vector3d a(0.25, 1, 1);
   return ImplicitSurface::Jet{x.dot(a.cwiseProduct(x)) - 1, 2 * a.cwiseProduct(x), 2 * a.asDiagonal().toDenseMatrix()};
 }};
@@ -28,7 +28,7 @@ CurvatureMesh fine() {
   ControlMesh mesh = icosahedron();
   mesh.positions.rowwise().normalize();
   mesh.positions.col(0) *= 2;
-  return refine(torus_pieces({}), curvature_mesh(mesh, targets_on(ellipsoid, mesh)), 3);
+  return refine(torus_pieces({}), curvature_mesh(mesh, targets_on(oblate, mesh)), 3);
 }
 
 TEST(Thinning, KeepsTheBentPointsOfAManifold) {

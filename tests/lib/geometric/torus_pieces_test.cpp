@@ -11,7 +11,7 @@
 #include <numbers>
 #include <random>
 
-#include "sublimit/fit/deviation.h"
+#include "support/deviation.h"
 #include "sublimit/geometric/geometric_schemes.h"
 #include "sublimit/geometric/torus_edge.h"
 #include "sublimit/mesh/topology.h"

@@ -62,7 +62,7 @@ void compare(const NamedMesh& tested, const std::string& scheme_name, Worst& wor
   const Scheme<Precise> precise = find_scheme<Precise>(scheme_name, options).value();
   const Level level = control_level(scheme, tested.mesh);
   const Topology& t = level.topology();
-  LimitMaskCache cache(scheme);
+  LimitTypes cache(scheme);
   const LimitMatrices limit = limit_matrices(level, cache);
   const LimitPoints ours = limit_points(limit, t, tested.mesh.positions);
   const double size = diagonal(tested.mesh.positions);
@@ -84,18 +84,30 @@ void compare(const NamedMesh& tested, const std::string& scheme_name, Worst& wor
 
     // Corners by side; those of the rings stand in the same order.
     std::map<Index, std::vector<size_t>> sides;
+    std::map<Index, HalfEdge> corner_of;  // any of each side
     size_t corner = 0;
     for (const HalfEdge start : t.fans(Vertex{v})) {
       HalfEdge h = start;
       do {
         sides[limit.corner_side[index(h)]].push_back(corner++);
+        corner_of[limit.corner_side[index(h)]] = h;
         h = t.ccw(h);
       } while (exists(h) && h != start);
     }
-    const LimitMasks& masks = cache.masks(neighborhood(t, level.sharpness, Vertex{v}).type);
+    const NeighborhoodAt at = neighborhood(t, level.sharpness, Vertex{v});
+    const LimitMasks& masks = cache.masks(at.type);
+    // Sides of a mesh and of a type are numbered each in an order of their own.
+    const auto side_at = [&](HalfEdge h) {
+      return *std::find_if(masks.sides.begin(), masks.sides.end(), [&](const LimitMasks::Side& side) {
+        const std::vector<HalfEdge>& all = at.corners[side.fan];
+        const auto place = std::find(all.begin(), all.end(), h) - all.begin();
+        const auto n = std::ssize(all);
+        return place < n && (place - side.first_corner + n) % n < side.num_corners;
+      });
+    };
     for (auto& [side, corners] : sides) {
       if (ours.status[side] == LimitStatus::undefined_normal || ours.normal.row(side).isZero()) continue;
-      const LimitMasks::Side& generic = masks.sides.at(side - sides.begin()->first);
+      const LimitMasks::Side generic = side_at(corner_of.at(side));
       const auto normal = [&](const RefinedRing& at) {
         const auto sharp = [&](size_t i) {
           const Edge e = at.level.topology().edge(at.corners.at(i));

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "sublimit/fit/closest_point.h"
-#include "sublimit/limit/regular_smoothness.h"
+#include "sublimit/neighborhood/regular_smoothness.h"
 #include "support/laws.h"
 #include "support/places.h"
 #include "support/tested_schemes.h"
@@ -23,7 +23,7 @@ TEST(RegularSmoothness, IsThatOfTheLiterature) {
 TEST(RegularSmoothness, DoesNotNeedPolynomialsNorClaims) {
   // Catmull-Clark's edge and face points around a vertex that keeps less: the limit is no spline, and no better than C^1.
   Scheme<double> scheme = *find_scheme("catmull-clark");
-  scheme.claims = {.regular = 7};
+  scheme.claims.regular = 7;
   EXPECT_EQ(regular_smoothness(scheme), 2);
   scheme.steps[0].masks.vertex = [](const Ring<double>& v) {
     return v.center() / 2 + (4 * v.neighbor_mean() + 4 * v.face_centroid_mean() - v.center()) / 14;
@@ -31,7 +31,7 @@ TEST(RegularSmoothness, DoesNotNeedPolynomialsNorClaims) {
   EXPECT_EQ(regular_smoothness(scheme), 1);
   // Faces alone, cut in four.
   scheme.steps[0].masks.vertex = [](const Ring<double>& v) { return v.center(); };
-  scheme.steps[0].masks.edge = [](const EdgeSite<double>& e) { return e.midpoint(); };
+  scheme.steps[0].masks.edge = [](const EdgeSite<double>& e) { return (e.tail() + e.head()) / 2; };
   EXPECT_EQ(regular_smoothness(scheme), 0);
 }
 
@@ -59,7 +59,9 @@ class ErasedClaims : public ::testing::TestWithParam<TestedScheme> {};
 TEST_P(ErasedClaims, SteerNothing) {
   const Scheme<double> scheme = GetParam().scheme();
   // None at all, as users write schemes; and wrong ones.
-  const Claims wrong{.regular = scheme.claims.regular == 1 ? 2 : 1, .convex_hull = !scheme.claims.convex_hull};
+  Claims wrong;
+  wrong.regular = scheme.claims.regular == 1 ? 2 : 1;
+  wrong.convex_hull = !scheme.claims.convex_hull;
   for (const Claims& claims : {Claims{}, wrong}) {
     Scheme<double> other = scheme;
     other.claims = claims;

@@ -138,7 +138,7 @@ TEST_P(EverySchemeLimit, IsWhereRefinementGoes) {
   for (const ControlMesh& mesh : meshes_for(scheme)) {
     const Level level = control_level(scheme, mesh);
     const Topology& t = level.topology();
-    LimitMaskCache cache(scheme);
+    LimitTypes cache(scheme);
     const LimitMatrices limit = limit_matrices(level, cache);
     const LimitPoints points = limit_points(limit, t, mesh.positions);
     for (Index s = 0; s < std::ssize(limit.side_vertex); ++s) {

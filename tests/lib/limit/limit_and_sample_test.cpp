@@ -7,7 +7,7 @@
 
 #include "sublimit/limit/limit_points.h"
 #include "sublimit/limit/limit_surface.h"
-#include "sublimit/limit/piece_types.h"
+#include "sublimit/limit/limit_types.h"
 #include "support/laws.h"
 #include "support/limit_truth.h"
 #include "support/places.h"
@@ -60,8 +60,8 @@ class LimitAndSample : public ::testing::TestWithParam<Variant> {};
 
 TEST_P(LimitAndSample, SayTheSameOfVertices) {
   const Scheme<double> scheme = find_scheme(GetParam().first, GetParam().second).value();
-  LimitMaskCache cache(scheme);
-  const auto types = std::make_shared<PieceTypes>(scheme);
+  LimitTypes cache(scheme);
+  const auto types = std::make_shared<LimitTypes>(scheme);
   int compared = 0;
   for (const ControlMesh& mesh : meshes_to_sample(scheme)) {
     if (!scheme.preparation.empty() && GetParam().second.contains("quads") &&
@@ -223,7 +223,7 @@ TEST(LimitStatus, BilinearSidesOfSeveralFacesHaveNoNormal) {
   for (const Boundary boundary : {Boundary::edge_only, Boundary::edge_and_corner}) {
     const ControlMesh mesh = jittered(grid(3, 3));
     const Level level = control_level(scheme, mesh, {.boundary = boundary, .creasing = {}});
-    LimitMaskCache cache(scheme);
+    LimitTypes cache(scheme);
     const LimitMatrices matrices = limit_matrices(level, cache);
     const LimitPoints points = limit_points(matrices, level.topology(), mesh.positions);
     for (Index s = 0; s < std::ssize(matrices.side_vertex); ++s) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Closed forms from the literature, checked against the eigenvectors: they live here, never in the library.
-#include "sublimit/limit/limit_masks.h"
+#include "sublimit/limit/limit_types.h"
 
 #include <gtest/gtest.h>
 
@@ -224,7 +224,7 @@ TEST(LimitMasks, RegularBoundaryCrossTangentsMatchTheClosedForm) {
   EXPECT_LE((across(triangles) - t.normalized()).norm(), closed_form);
 }
 
-// schemes.md section 3: with the plain rules the second sine mode decays faster than the tangent along the boundary up to 3
+// By hand: with the plain rules the second sine mode decays faster than the tangent along the boundary up to 3
 // quads and 5 triangles, equally at 4 and 6, slower beyond; corners fail from 3 quads and 4 triangles on.
 TEST(LimitMasks, PlanesAtBoundariesAndCornersAreAsAnalysed) {
   using Plane = LimitMasks::Plane;
@@ -246,7 +246,7 @@ TEST(LimitMasks, PlanesAtBoundariesAndCornersAreAsAnalysed) {
 }
 
 TEST(LimitMasks, AreComputedOncePerType) {
-  LimitMaskCache cache(find_scheme("catmull-clark").value());
+  LimitTypes cache(find_scheme("catmull-clark").value());
   const LimitMasks* first = &cache.masks(smooth_type(5, 4));
   EXPECT_EQ(first, &cache.masks(smooth_type(5, 4)));
   EXPECT_NE(first, &cache.masks(smooth_type(6, 4)));

@@ -82,7 +82,7 @@ TEST_P(EverySchemesRows, AreWhereRefinementGoes) {
     const std::vector<Level> levels = refine(scheme, mesh, after);
     std::vector<Points> x{mesh.positions};
     for (int k = 1; k <= after; ++k) x.push_back(apply(levels[k].S, x.back()));
-    LimitMaskCache cache(scheme);
+    LimitTypes cache(scheme);
     const VertexSides sides = vertex_sides(levels[0]);
     std::vector<LimitRows> rows;
     ASSERT_NO_THROW(rows = limit_rows(levels[0], cache, sides.centres)) << named.name;
@@ -103,7 +103,7 @@ TEST_P(EverySchemesRows, AreThoseOfTheSurface) {
     const ControlMesh mesh = taken(named.mesh);
     const LimitSurface surface(scheme, mesh);
     const Topology& t = surface.level().topology();
-    LimitMaskCache cache(scheme);
+    LimitTypes cache(scheme);
     const VertexSides sides = vertex_sides(surface.level());
     const std::vector<LimitRows> rows = limit_rows(surface.level(), cache, sides.centres);
     for (Index a = 0; a < surface.addresses().size(); ++a) {
@@ -145,7 +145,7 @@ TEST(LimitRows, KnowThatThePreparationComesFirst) {
   mesh.face_vertices.erase(mesh.face_vertices.begin());
   mesh.face_sizes[0] = 3;
   const std::vector<Level> levels = refine(scheme, mesh, 1);
-  LimitMaskCache cache(scheme);
+  LimitTypes cache(scheme);
   const LimitMatrices coarse = limit_matrices(levels[0], cache), fine = limit_matrices(levels[1], cache);
   const Points x = apply(levels[1].S, mesh.positions);
   const LimitPoints at_0 = limit_points(coarse, levels[0].topology(), mesh.positions);
@@ -170,7 +170,7 @@ TEST(LimitRows, NameTheFirstVertexThatHasNoLimit) {
     };
     const ControlMesh mesh = disjoint_union(cube(), fan(5, 4, 2));
     const std::vector<Level> levels = refine(scheme, mesh, 1);
-    LimitMaskCache cache(scheme);
+    LimitTypes cache(scheme);
     expect_error<NoLimit>([&] { limit_matrices(levels[0], cache); }, {"no limit at vertex 8:", "eigenvalue 1"});
     expect_error<NoLimit>([&] { limit_matrices(levels, cache); }, {"no limit at vertex 8:", "eigenvalue 1"});
     expect_error<NoLimit>([&] { limit_matrices(levels[1], cache); }, {"no limit at vertex 8 of level 1:"});

@@ -10,7 +10,7 @@
 #include <thread>
 
 #include "sublimit/limit/limit_surface.h"
-#include "sublimit/limit/piece_types.h"
+#include "sublimit/limit/limit_types.h"
 #include "support/expect_error.h"
 #include "support/places.h"
 #include "support/tested_schemes.h"
@@ -160,7 +160,7 @@ TEST_P(LimitSurfaceEvaluation, BoundPointsGiveTheSame) {
 }
 
 TEST_P(LimitSurfaceEvaluation, TypesAreSharedBetweenSurfacesAndThreads) {
-  const auto types = std::make_shared<PieceTypes>(scheme_);
+  const auto types = std::make_shared<LimitTypes>(scheme_);
   const LimitSamples expected = surface_->evaluate(mesh_.positions, few_, 2);
   std::vector<LimitSamples> found(3);
   std::vector<std::thread> threads;
@@ -171,11 +171,11 @@ TEST_P(LimitSurfaceEvaluation, TypesAreSharedBetweenSurfacesAndThreads) {
     });
   for (std::thread& thread : threads) thread.join();
   for (const LimitSamples& samples : found) EXPECT_TRUE(same_bits(samples, expected));
-  const size_t known = types->size();
+  const size_t known = types->pieces().size();
   EXPECT_GT(known, 1u);
   const LimitSurface again(scheme_, mesh_, {}, types);
   EXPECT_TRUE(same_bits(again.evaluate(mesh_.positions, few_, 2), expected));
-  EXPECT_EQ(types->size(), known);
+  EXPECT_EQ(types->pieces().size(), known);
 }
 
 // Degrees from 4 on have large types and nothing of their own here.
@@ -184,16 +184,16 @@ INSTANTIATE_TEST_SUITE_P(Schemes, LimitSurfaceEvaluation, ::testing::ValuesIn(sc
 TEST(PieceTypes, ThatAreFullLeaveASurfaceToItself) {
   const Scheme<double> scheme = find_scheme("catmull-clark").value();
   const ControlMesh mesh = hard_polygons(1);
-  const auto small = std::make_shared<PieceTypes>(scheme, 5);
+  const auto small = std::make_shared<LimitTypes>(scheme, 5);
   const LimitSurface own(scheme, mesh), first(scheme, mesh, {}, small);
   const std::vector<Sample> places = some_places(own, 100, 3);
   const LimitSamples expected = own.evaluate(mesh.positions, places, 2);
   EXPECT_TRUE(same_bits(first.evaluate(mesh.positions, places, 2), expected));
-  EXPECT_TRUE(small->is_full());
-  const size_t size = small->size();
+  EXPECT_TRUE(small->pieces().is_full());
+  const size_t size = small->pieces().size();
   const LimitSurface second(scheme, hard_polygons(3), {}, small);
   second.prepare();
-  EXPECT_EQ(small->size(), size);
+  EXPECT_EQ(small->pieces().size(), size);
 }
 
 TEST(LimitSurface, PlacesOutsideAreRowsOfTheirOwn) {

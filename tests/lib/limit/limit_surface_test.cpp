@@ -11,7 +11,7 @@
 #include <random>
 
 #include "sublimit/limit/limit_points.h"
-#include "sublimit/limit/piece_types.h"
+#include "sublimit/limit/limit_types.h"
 #include "support/places.h"
 #include "support/tested_schemes.h"
 #include "support/tolerance.h"
@@ -42,7 +42,7 @@ class LimitSurfaceLaws : public ::testing::TestWithParam<TestedScheme> {
  protected:
   void SetUp() override {
     scheme_ = GetParam().scheme();
-    types_ = std::make_shared<PieceTypes>(scheme_);
+    types_ = std::make_shared<LimitTypes>(scheme_);
   }
   template <class Law>
   void on_hard_meshes(const Law& law) const {
@@ -73,7 +73,7 @@ class LimitSurfaceLaws : public ::testing::TestWithParam<TestedScheme> {
   double rounded() const { return eigen(scheme_.claims.regular < 7 ? 10 : 100); }
 
   Scheme<double> scheme_;
-  std::shared_ptr<PieceTypes> types_;  // shared by all surfaces of a test
+  std::shared_ptr<LimitTypes> types_;  // shared by all surfaces of a test
 };
 
 TEST_P(LimitSurfaceLaws, PositionsSumToOneAndDerivativesToZero) {
@@ -214,7 +214,7 @@ TEST_P(LimitSurfaceLaws, CornersAreTheLimitsOfVertices) {
   on_hard_meshes([&](const LimitSurface& surface, const ControlMesh& mesh) {
     const Topology& t = surface.level().topology();
     const bool prepared = !scheme_.preparation.empty();
-    LimitMaskCache cache(scheme_);
+    LimitTypes cache(scheme_);
     const Level level = prepared ? next_level(scheme_, surface.level()) : surface.level();
     const LimitMatrices L = limit_matrices(level, cache);
     const SparseMatrix position = prepared ? SparseMatrix(L.position * level.S) : L.position;

@@ -181,7 +181,7 @@ TEST(LimitTruth, EndsInTheLimitsAndNormalsOfVertices) {
       const Level level = level_of(t, mesh);
       const Topology& topology = level.topology();
       const Addresses addresses(topology, t.triangles());
-      LimitMaskCache cache(t.scheme);
+      LimitTypes cache(t.scheme);
       // Masks of a level whose faces need no preparation.
       const bool is_prepared = t.scheme.preparation.empty();
       Level first = is_prepared ? level : next_level(t.scheme, level);
@@ -267,7 +267,7 @@ TEST(LimitTruth, DualSurfacesStartInTheBorderRow) {
     const Tested t{find_scheme(name).value(), find_scheme<Precise>(name).value(), name};
     const ControlMesh mesh = grid(5, 4);
     const Level level = level_of(t, mesh), first = next_level(t.scheme, level);
-    LimitMaskCache cache(t.scheme);
+    LimitTypes cache(t.scheme);
     const Points limits =
         limit_points(limit_matrices(first, cache), first.topology(), first.S * mesh.positions).position;
     const HalfEdge corner = level.topology().corner(Face{2}, 0);  // beside the border from corner 0 to 1

@@ -116,7 +116,7 @@ INSTANTIATE_TEST_SUITE_P(OpenSubdivLimitPoints, TriangleMeshPoints, ::testing::V
 class TaggedMeshPoints : public ::testing::TestWithParam<NamedMesh> {};
 TEST_P(TaggedMeshPoints, EqualFar) {
   for (const std::string& scheme : GetParam().schemes) {
-    // Far extrapolates Chaikin's fractional weights (README.md).
+    // Far extrapolates Chaikin's fractional weights (lib/README.md).
     if (scheme == "bilinear" || GetParam().name.starts_with("chain_uneven_chaikin")) continue;
     expect_equal(GetParam().mesh, scheme, 10);
   }

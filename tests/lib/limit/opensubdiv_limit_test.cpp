@@ -18,7 +18,7 @@
 namespace sublimit::testing {
 namespace {
 
-/// Where the reference is exact (design.md section 7): position at smooth interior vertices, creases and corners whose
+/// Where the reference is exact (found by comparison with brute force): position at smooth interior vertices, creases and corners whose
 /// sharpness no longer changes and whose faces are all regular, other than Catmull-Clark's valence 2.
 bool exact_position(const ReferenceVertex& v, const std::string& scheme) {
   if (v.semisharp || v.irregular_face) return false;
@@ -49,7 +49,7 @@ LimitDifferences compare_limits(const ControlMesh& mesh, const std::string& name
   const std::vector<Level> refined = refine(scheme, mesh, levels);
   Points x = mesh.positions;
   for (int k = 1; k <= levels; ++k) x = apply(refined[k].S, x);
-  LimitMaskCache cache(scheme);
+  LimitTypes cache(scheme);
   const Level& level = refined.back();
   const LimitMatrices limit = limit_matrices(level, cache);
   const LimitPoints ours = limit_points(limit, level.topology(), x);

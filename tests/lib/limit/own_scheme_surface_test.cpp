@@ -8,7 +8,7 @@
 
 #include "sublimit/limit/limit_points.h"
 #include "sublimit/limit/limit_surface.h"
-#include "sublimit/limit/piece_types.h"
+#include "sublimit/limit/limit_types.h"
 #include "sublimit/schemes/cubic_bspline_creases.h"
 #include "sublimit/schemes.h"
 #include "support/hard_meshes.h"
@@ -56,7 +56,7 @@ double norm1(const RowMatrix& row) { return row.cwiseAbs().sum(); }
 void expect_dyadic_limits(const Scheme<double>& scheme, const ControlMesh& mesh, int k, int stride) {
   const LimitSurface surface(scheme, mesh);
   const std::vector<Level> levels = refine(scheme, mesh, k);
-  LimitMaskCache cache(scheme);
+  LimitTypes cache(scheme);
   const SparseMatrix limits = limit_matrices(levels[size_t(k)], cache).position * refinement_matrix(levels);
   const Topology& t = surface.level().topology();
   const bool triangles = surface.addresses().triangles();
@@ -93,10 +93,10 @@ TEST(OwnScheme, WithPolynomialsIsCatmullClarkOnRegularMeshes) {
 
 TEST(OwnScheme, WithoutPolynomialsEqualsRefinementAndLimitMasks) {
   for (const double center : {0.5, 0.55, 0.6}) {
-    const auto types = std::make_shared<PieceTypes>(leaning(center));
+    const auto types = std::make_shared<LimitTypes>(leaning(center));
     const LimitSurface surface(leaning(center), torus(7, 6), {}, types);
     surface.stencil({0, 0.25, 0.375}, 1);
-    EXPECT_TRUE(types->has_no_polynomials());
+    EXPECT_TRUE(types->pieces().has_no_polynomials());
     expect_dyadic_limits(leaning(center), hard_polygons(1), 3, 5);
     expect_dyadic_limits(leaning(center), hard_polygons(2, {.open = true, .semi_sharp = true}), 3, 5);
   }

@@ -12,7 +12,7 @@
 #include <random>
 
 #include "sublimit/limit/limit_surface.h"
-#include "sublimit/limit/piece_types.h"
+#include "sublimit/limit/limit_types.h"
 #include "sublimit/scheme/refine_impl.h"
 #include "sublimit/schemes.h"
 #include "support/hard_meshes.h"
@@ -278,10 +278,10 @@ TEST(SecondDerivativesOfSqrt3, AgreeAcrossEdges) {
 /// but for rounding is on the border, not 2^-54 inside, where second derivatives are 1e14 and their rounding 1e-2.
 TEST(SecondDerivativesOfSqrt3, DoNotExistWhereSumsRoundToABorder) {
   for (const char* name : {"sqrt3", "interpolatory-sqrt3"}) {
-    const auto types = std::make_shared<PieceTypes>(find_scheme(name).value());
+    const auto types = std::make_shared<LimitTypes>(find_scheme(name).value());
     for (const Index faces : {1, 2, 4, 5}) {
       const ControlMesh mesh = jittered(open_fan(faces, 3, 1));
-      const LimitSurface surface(types->scheme(), mesh, {}, types);
+      const LimitSurface surface(types->pieces().scheme(), mesh, {}, types);
       const Topology& t = surface.level().topology();
       int borders = 0;
       for (Index i = 0; i < t.num_half_edges(); ++i) {

@@ -27,6 +27,36 @@ TEST(Topology, IsConsistentOnEveryTestMeshAndItsRefinements) {
   }
 }
 
+// Every edge of a closed mesh has two ends and two faces, so the 4 - valence of the vertices and the 4 - corners of the
+// faces sum to 4 (V - E + F), and of triangles the 6 - valence to 6 (V - E + F). A net without extraordinary places is
+// therefore a torus (or open): on a sphere they sum to that of eight vertices of valence 3, or twelve of valence 5.
+TEST(Topology, ExtraordinaryPlacesOfClosedMeshesSumToTheEulerCharacteristic) {
+  const std::pair<ControlMesh, Index> closed[] = {{cube(), 2},
+                                                  {prism(5), 2},
+                                                  {pole(5), 2},
+                                                  {quads_from_triangles(icosahedron()), 2},
+                                                  {tetrahedron(), 2},
+                                                  {octahedron(), 2},
+                                                  {icosahedron(), 2},
+                                                  {torus(4, 5), 0},
+                                                  {triangle_torus(4, 5), 0}};
+  for (const auto& [mesh, euler] : closed) {
+    const Topology t(view(mesh));
+    SCOPED_TRACE("V = " + std::to_string(t.num_vertices()) + ", F = " + std::to_string(t.num_faces()));
+    EXPECT_EQ(euler_characteristic(t), euler);
+    Index quads = 0, triangles = 0;
+    for (Index v = 0; v < t.num_vertices(); ++v) {
+      quads += 4 - t.num_faces(Vertex{v});
+      triangles += 6 - t.num_faces(Vertex{v});
+    }
+    for (Index f = 0; f < t.num_faces(); ++f) quads += 4 - t.size(Face{f});
+    EXPECT_EQ(quads, 4 * euler);
+    if (t.uniform_face_size() == 3) {
+      EXPECT_EQ(triangles, 6 * euler);
+    }
+  }
+}
+
 // V' = V + F + E, F' = corners, E' = 2 E + corners; triangles: V' = V + E, F' = 4 F, E' = 2 E + 3 F.
 TEST(Split, CountsAreTheSplits) {
   for (const NamedMesh& named : tagged_meshes()) {

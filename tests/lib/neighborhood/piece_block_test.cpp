@@ -5,7 +5,7 @@
 
 #include <random>
 
-#include "sublimit/limit/piece_types.h"
+#include "sublimit/neighborhood/piece_types.h"
 #include "sublimit/schemes.h"
 #include "support/meshes.h"
 #include "support/tolerance.h"

@@ -249,7 +249,7 @@ TEST(FaceVarying, LimitsAreTheSameFromEveryLevel) {
         const ControlMesh mesh = with_random_channel(plain, 0.3);
         const std::vector<Level> levels = refine(scheme, mesh, 2);
         const auto channel = refine_face_varying(scheme, interpolation, mesh.face_varying[0], levels);
-        LimitMaskCache cache(face_varying_scheme(scheme, interpolation));
+        LimitTypes cache(face_varying_scheme(scheme, interpolation));
         const Points given = control_values(channel[0], mesh.face_varying[0].values);
         const Points one = apply(channel[1].level.S, given), two = apply(channel[2].level.S, one);
         const Points from_0 = apply(limit_matrices(channel[0].level, cache).position, given);

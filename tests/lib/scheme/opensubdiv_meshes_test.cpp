@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What is compared with OpenSubdiv where no regression shapes lie beside the checkout: our own tagged meshes reach
-// every rule that README speaks of, for every scheme that has it.
+// every rule that lib/README.md speaks of, for every scheme that has it.
 #include <gtest/gtest.h>
 
 #include <set>

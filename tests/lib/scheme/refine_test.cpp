@@ -169,7 +169,7 @@ TEST(Schemes, AreFoundByNameAndOffered) {
 // next modes only if these span a plane.
 TEST(LimitPoints, DegenerateTangentsHaveAStatus) {
   ControlMesh mesh = fan(6, 4);
-  LimitMaskCache cache(catmull_clark_scheme);
+  LimitTypes cache(catmull_clark_scheme);
   const Level level = control_level(catmull_clark_scheme, mesh);
   const LimitMatrices limit = limit_matrices(level, cache);
   const auto side = size_t(std::find(limit.side_vertex.begin(), limit.side_vertex.end(), 0) - limit.side_vertex.begin());

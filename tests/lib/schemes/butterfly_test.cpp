@@ -110,7 +110,7 @@ TEST(Butterfly, RegularTangentsMatchTheClosedForm) {
   const Scheme<double> scheme = find_scheme("butterfly").value();
   const int m_columns = 10, width = m_columns + 1, centre = 5 * width + 5;
   const Level level = control_level(scheme, triangle_grid(m_columns, m_columns));
-  LimitMaskCache cache(scheme);
+  LimitTypes cache(scheme);
   const LimitMatrices limit = limit_matrices(level, cache);
   // Neighbours in the grid, counter-clockwise: the diagonal goes from (i, j) to (i + 1, j + 1).
   const int steps[] = {1, width + 1, width, -1, -width - 1, -width};

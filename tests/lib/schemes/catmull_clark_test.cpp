@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Catmull, Clark 1978: weights, spectra and curvature as in Ball, Storry 1988 and Reif, Schroeder 2001. Limit masks are
-// in analysis/limit_masks_test.cpp.
+// in limit/limit_masks_test.cpp.
 #include "sublimit/schemes/catmull_clark.h"
 
 #include <gtest/gtest.h>

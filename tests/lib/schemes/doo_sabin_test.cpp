@@ -119,7 +119,7 @@ TEST(DooSabin, CubeCornersTendToTwoThirds) {
   for (const std::string name : {"doo-sabin", "doo-sabin-averaging"}) {
     const Scheme<double> scheme = find_scheme(name).value();
     const Level level = control_level(scheme, cube());
-    LimitMaskCache cache(scheme);
+    LimitTypes cache(scheme);
     const LimitPoints limit = limit_points(limit_matrices(level, cache), level.topology(), cube().positions);
     EXPECT_LE((limit.position - cube().positions * (2.0 / 3)).norm(), eigen()) << name;
     for (Index v = 0; v < 8; ++v)

@@ -98,7 +98,7 @@ TEST(Kobbelt, RegularTangentsAreTheFourPointDerivative) {
   for (const auto& [text, g] : {std::pair{"1", 1.0}, std::pair{"1/2", 0.5}}) {
     const Scheme<double> scheme = find_scheme("kobbelt", {{"tension", text}}).value();
     const Level level = control_level(scheme, grid(width - 1, width - 1));
-    LimitMaskCache cache(scheme);
+    LimitTypes cache(scheme);
     const LimitMatrices limit = limit_matrices(level, cache);
     Eigen::VectorXd along = Eigen::VectorXd::Zero(width * width), across = along;
     for (const int sign : {-1, 1}) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Loop 1987 and Warren 1995: weights, spectra and curvature. Limit masks are in analysis/limit_masks_test.cpp.
+// Loop 1987 and Warren 1995: weights, spectra and curvature. Limit masks are in limit/limit_masks_test.cpp.
 #include "sublimit/schemes/loop.h"
 
 #include <gtest/gtest.h>

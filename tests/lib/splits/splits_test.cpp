@@ -80,6 +80,25 @@ TEST(Splits, MakeTheCountsOfTheirKind) {
   }
 }
 
+// New vertices on edges are regular, so extraordinary vertices come apart and get no more. On the border that is
+// valence 3 among quads and 4 among triangles; only old vertices have others, as corners of a single face have 2.
+TEST(Splits, VerticesOnEdgesAreRegular) {
+  for (const ControlMesh& mesh : meshes()) {
+    const Topology t{view(mesh)};
+    for (const Split split : {Split::pqq, Split::ptq}) {
+      if (split == Split::ptq && t.uniform_face_size() != 3) continue;
+      const Refinement r = refine(t, split);
+      const Index inside = split == Split::pqq ? 4 : 6;
+      EXPECT_EQ(r.from_edges, t.num_edges());
+      for (Index v = 0; v < r.topology.num_vertices(); ++v)
+        if (r.origin(Vertex{v}) == Refinement::Origin::edge) {
+          EXPECT_EQ(r.topology.num_faces(Vertex{v}), on_border(r.topology, v) ? inside / 2 : inside);
+          EXPECT_EQ(on_border(r.topology, v), t.is_boundary(Edge{r.parent(Vertex{v})}));
+        }
+    }
+  }
+}
+
 // A quad for each edge (a, b): a, the right face's point, b, the left face's; a border has its midpoint for the face
 // that is missing.
 TEST(Splits, QuadsStandOnEdges) {

@@ -146,7 +146,7 @@ TEST(BakedChannel, OfTheLimitIsAtItsLimit) {
       request.face_varying_interpolation = FaceVaryingInterpolation::boundaries;
       const ControlMesh made = applied(bake(patterns, mesh, request).table, mesh);
       const std::vector<Level> all = refine(scheme, mesh, levels);
-      LimitMaskCache cache(scheme);
+      LimitTypes cache(scheme);
       Points points = mesh.positions;
       for (int k = 1; k <= levels; ++k) points = apply(all[k].S, points);
       MeshOutput out =

@@ -91,7 +91,7 @@ void expect_the_limit(const Baked& baked, const LimitSurface& surface, std::span
 /// Types of wide supports are large: only the last mesh, which has most in it.
 std::vector<ControlMesh> few_hard_meshes(const Scheme<double>& scheme, unsigned seed) {
   std::vector<ControlMesh> meshes = hard_meshes(scheme, seed);
-  if (!has_one_ring_limits(scheme)) meshes.erase(meshes.begin(), meshes.end() - 1);
+  if (!scheme.has_one_ring_limits()) meshes.erase(meshes.begin(), meshes.end() - 1);
   return meshes;
 }
 

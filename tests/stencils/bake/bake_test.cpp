@@ -189,7 +189,7 @@ TEST_P(BakedLevels, AreRefinementOnTheSharedMeshes) {
     if (takes_triangles(scheme_)) mesh = triangulated(mesh);
     if (scheme_.sharpening != Sharpening::semi_sharp) mesh = without_creases(mesh);
     // Types of wide supports are large.
-    if (mesh.num_faces() >= (full_sweep() ? 1000 : has_one_ring_limits(scheme_) ? 300 : 30)) continue;
+    if (mesh.num_faces() >= (full_sweep() ? 1000 : scheme_.has_one_ring_limits() ? 300 : 30)) continue;
     SCOPED_TRACE(shared.name);
     expect_refinement(patterns, mesh, 2);
   }

@@ -332,7 +332,7 @@ TEST(CliDemo, WritesItsFilesAndElevenLines) {
   const std::string picture = read_file(demo / "picture.svg");
   EXPECT_NE(picture.find("<svg"), std::string::npos);
   EXPECT_TRUE(picture.ends_with("</svg>\n"));
-  EXPECT_LT(picture.size(), 700'000u);  // README shows it
+  EXPECT_LT(picture.size(), 700'000u);  // README.md shows it
   EXPECT_EQ(expect_done(sublimit({"demo", demo.string(), "--quiet", "--threads", "1"})).out, "");
 }
 

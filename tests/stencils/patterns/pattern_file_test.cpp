@@ -31,7 +31,7 @@ void expect_equal(const Baked& a, const Baked& b) {
 /// Types of wide supports are large: only the last mesh, which has most in it.
 std::vector<ControlMesh> few_meshes(const Scheme<double>& scheme) {
   std::vector<ControlMesh> meshes = hard_meshes(scheme, 3);
-  if (!has_one_ring_limits(scheme)) meshes.erase(meshes.begin(), meshes.end() - 1);
+  if (!scheme.has_one_ring_limits()) meshes.erase(meshes.begin(), meshes.end() - 1);
   return meshes;
 }
 
@@ -66,7 +66,7 @@ TEST_P(PatternFile, KeepsWhatBakingTaught) {
     for (const BakeRequest& request : requests(scheme)) expect_equal(bake(second, mesh, request), fresh[next++]);
   EXPECT_EQ(second.num_types(), first.num_types());
   if (scheme.face_size() == 3 || scheme.preparation.empty()) {
-    EXPECT_EQ(second.types()->size(), 0u);  // nothing had to be made
+    EXPECT_EQ(second.types()->pieces().size(), 0u);  // nothing had to be made
   }
   save_patterns(again, second);
   EXPECT_EQ(contents(again), contents(path));
@@ -80,7 +80,7 @@ TEST_P(PatternFile, KeepsWhatBakingTaught) {
 std::vector<TestedScheme> schemes_in_files() {
   // One with wide supports: their types are large.
   return schemes_and_degrees_if([](const Scheme<double>& scheme) {
-    return !scheme.is_dual() && (has_one_ring_limits(scheme) || scheme.name == "butterfly");
+    return !scheme.is_dual() && (scheme.has_one_ring_limits() || scheme.name == "butterfly");
   });
 }
 INSTANTIATE_TEST_SUITE_P(Schemes, PatternFile, ::testing::ValuesIn(schemes_in_files()), test_name);

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sublimit/report/analysis/masks_json.h"
 
+#include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "sublimit/limit/eigen_structure.h"
-#include "sublimit/limit/limit_masks.h"
+#include "sublimit/limit/limit_rows.h"
+#include "sublimit/neighborhood/vertex_sides.h"
 
 namespace sublimit::report {
 namespace {
@@ -88,32 +89,30 @@ Json masks_json(const Scheme<double>& scheme, const LocalPatch<Algebraic>* exact
 }
 
 Json dart_masks_json(const Scheme<double>& scheme, const LocalPatch<Algebraic>& exact, std::string& why) try {
-  if (!has_one_ring_limits(scheme)) return nullptr;
   const Index n = exact.type.faces, size = scheme.face_size() == 3 ? 3 : 4;
-  const ControlMesh mesh = creased_fan(n, n, size);
   SubdivisionOptions options;
   options.boundary = Boundary::edge_only;
-  const Level level = control_level(scheme, mesh, options);
-  const NeighborhoodAt at = neighborhood(level.topology(), level.sharpness, Vertex{0});
-  const LimitMasks masks = limit_masks(scheme, at.type);
-  // Points of the fan by slot; those of the patch by their labels.
-  std::map<SectorLabel, Index> slot_of;
-  for (size_t s = 0; s < at.vertices.size(); ++s) {
-    const Index v = at.vertices[s], spoke = (v - 1) / (size - 2);
-    const bool is_diagonal = size == 4 && v > 0 && (v - 1) % 2 == 1;
-    slot_of[v == 0 ? SectorLabel{} : SectorLabel{spoke, 2, is_diagonal ? 2 : 0}] = static_cast<Index>(s);
-  }
-  const auto by_label = [&](const LimitMasks::Mask& mask) {
-    Eigen::VectorXd sorted(exact.labels.size());
-    for (size_t i = 0; i < exact.labels.size(); ++i)
-      sorted[static_cast<Eigen::Index>(i)] = mask[slot_of.at(exact.labels[i])];
+  const Level level = control_level(scheme, creased_fan(n, n, size), options);
+  LimitTypes cache(scheme);
+  const LimitRows rows = limit_rows(level, cache, {side_of(level, level.topology().outgoing(Vertex{0}))})[0];
+  if (rows.tangent1.empty()) return nullptr;
+  // Points of the fan, by the labels of the patch.
+  const auto by_label = [&](const LimitRows::Row& row) {
+    Eigen::VectorXd sorted = Eigen::VectorXd::Zero(Eigen::Index(exact.labels.size()));
+    for (const auto& [v, weight] : row) {
+      const Index spoke = (v - 1) / (size - 2);
+      const bool is_diagonal = size == 4 && v > 0 && (v - 1) % 2 == 1;
+      const SectorLabel label = v == 0 ? SectorLabel{} : SectorLabel{spoke, 2, is_diagonal ? 2 : 0};
+      const auto at = std::find(exact.labels.begin(), exact.labels.end(), label);
+      if (at == exact.labels.end()) throw AnalysisError(scheme.name + ": a dart's limit depends on points beyond its ring");
+      sorted[at - exact.labels.begin()] = weight;
+    }
     return sorted;
   };
   const ExactMasks exactly = exact_masks(exact);
-  const LimitMasks::Side& side = masks.sides.at(0);
-  return {{"position", mask_json(exact.labels, by_label(masks.position), &exactly.position)},
-          {"tangent1", mask_json(exact.labels, by_label(side.tangent1), nullptr)},
-          {"tangent2", mask_json(exact.labels, by_label(side.tangent2), nullptr)},
+  return {{"position", mask_json(exact.labels, by_label(rows.position), &exactly.position)},
+          {"tangent1", mask_json(exact.labels, by_label(rows.tangent1), nullptr)},
+          {"tangent2", mask_json(exact.labels, by_label(rows.tangent2), nullptr)},
           {"second", nullptr}};
 } catch (const AnalysisError& error) {
   why = error.what();

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "sublimit/limit/piece_types.h"
+#include "sublimit/limit/limit_types.h"
 
 namespace sublimit::report {
 namespace {
@@ -54,8 +54,8 @@ bool has_triangles(const Scheme<double>& scheme) { return scheme.face_size() == 
 
 }  // namespace
 
-Json characteristic_map_json(const std::shared_ptr<PieceTypes>& pieces, const LocalModes& modes) {
-  const Scheme<double>& scheme = pieces->scheme();
+Json characteristic_map_json(const std::shared_ptr<LimitTypes>& pieces, const LocalModes& modes) {
+  const Scheme<double>& scheme = pieces->pieces().scheme();
   const LocalMode& mode = modes.leading;
   if (mode.block == 0 || std::abs(mode.value.imag()) > 1e-9 * std::abs(mode.value)) return nullptr;
   const bool triangles = has_triangles(scheme);
@@ -76,7 +76,7 @@ Json characteristic_map_json(const std::shared_ptr<PieceTypes>& pieces, const Lo
   }
   // Parameter lines: sides and middles of faces.
   const LimitSurface surface(scheme, mesh, rim_rules(), pieces);
-  const bool thirds = period_dilation(scheme) == 3;
+  const bool thirds = scheme.dilation() == 3;
   const int steps = thirds ? 3 : 4;
   const std::vector<double> at_values =
       thirds ? std::vector<double>{0, 1 / 3.0, 2 / 3.0, 1} : std::vector<double>{0, .5, 1};
@@ -127,9 +127,9 @@ Json eigenfunctions_json(const LocalModes& modes) {
   return json;
 }
 
-SampleSurface sample_surface(const std::shared_ptr<PieceTypes>& pieces, const LocalType& type, bool is_drawn,
+SampleSurface sample_surface(const std::shared_ptr<LimitTypes>& pieces, const LocalType& type, bool is_drawn,
                              bool is_dart) {
-  const Scheme<double>& scheme = pieces->scheme();
+  const Scheme<double>& scheme = pieces->pieces().scheme();
   constexpr int rings = 5;
   const bool open = type.open && !is_dart;
   const bool triangles = has_triangles(scheme), is_face = type.kind == Centre::Kind::face;
@@ -155,7 +155,7 @@ SampleSurface sample_surface(const std::shared_ptr<PieceTypes>& pieces, const Lo
   // Normals of places on circles of 2^-step (3^-step) edges around the centre. Places are those of some level: where
   // limits are no polynomials, these are at hand and others are not.
   std::vector<Sample> samples;
-  const int base = period_dilation(scheme), circles = base == 3 ? 7 : 11, on_circle = base == 3 ? 4 : 5;
+  const int base = scheme.dilation(), circles = base == 3 ? 7 : 11, on_circle = base == 3 ? 4 : 5;
   int places = 0;
   for (int step = 0; step < circles; ++step) {
     const double r = std::pow(base, -step);

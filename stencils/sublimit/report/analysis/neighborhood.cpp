@@ -10,7 +10,7 @@
 #include "sublimit/certificates/spectral_verdicts.h"
 #include "sublimit/certificates/witness.h"
 #include "sublimit/limit/eigen_structure.h"
-#include "sublimit/limit/piece_types.h"
+#include "sublimit/limit/limit_types.h"
 #include "sublimit/report/analysis/masks_json.h"
 #include "sublimit/report/analysis/modes_json.h"
 #include "sublimit/report/analysis/spectrum_json.h"
@@ -157,7 +157,7 @@ SharedAnalysis shared_analysis(const ReportedScheme& scheme) {
     shared.prover.emplace(scheme.exact);
   } catch (const AnalysisError&) {  // no mask of regular meshes: evidence is all there is
   }
-  shared.pieces = std::make_shared<PieceTypes>(scheme.scheme);
+  shared.types = std::make_shared<LimitTypes>(scheme.scheme);
   return shared;
 }
 
@@ -193,7 +193,7 @@ Neighborhood neighborhood(const ReportedScheme& scheme, const SharedAnalysis& sh
   Json map;
   if (closed) {
     if (const std::optional<LocalModes> modes = local_modes(scheme.scheme, type)) {
-      map = characteristic_map_json(shared.pieces, *modes);
+      map = characteristic_map_json(shared.types, *modes);
       json["eigenfunctions"] = eigenfunctions_json(*modes);
     }
   }
@@ -207,7 +207,7 @@ Neighborhood neighborhood(const ReportedScheme& scheme, const SharedAnalysis& sh
     verdicts.push_back(is_dart ? dart_tangent_plane(analysis) : tangent_plane(analysis));
   }
   json["characteristic_map"] = std::move(map);
-  SampleSurface sample = sample_surface(shared.pieces, type, is_drawn, is_dart);
+  SampleSurface sample = sample_surface(shared.types, type, is_drawn, is_dart);
   json["surface"] = std::move(sample.surface);
   json["normals"] = std::move(sample.normals);
   json["verdicts"] = Json::array();

@@ -15,7 +15,6 @@
 #include "sublimit/report/analysis/claims_json.h"
 #include "sublimit/report/analysis/neighborhood.h"
 #include "sublimit/report/analysis/regular_json.h"
-#include "sublimit/report/statements/statements.h"
 
 namespace sublimit::report {
 namespace {
@@ -25,7 +24,7 @@ using Kind = NeighborhoodKind::Kind;
 /// Interior valences of which a surface is drawn: below, at and above the regular one, and a high one.
 bool has_picture(const Scheme<double>& scheme, const NeighborhoodKind& kind) {
   if (kind.kind != Kind::vertex && kind.kind != Kind::face) return false;
-  const int regular = scheme.face_size() == 3 ? 6 : 4;
+  const int regular = scheme.regular_valence();
   return kind.n == 3 || kind.n == regular || kind.n == regular + 1 || kind.n == 8;
 }
 
@@ -93,8 +92,6 @@ Json schemes_report(const std::vector<ReportedScheme>& schemes, const ReportOpti
   }
   for (size_t c = 0; c < curves.size(); ++c)
     jobs.push_back([&, c] { curves[c] = curve_scheme_json(options.curves[c].name, options.curves[c].options); });
-  Json statements;
-  if (options.statements) jobs.push_back([&] { statements = statements_json(); });
   std::mutex telling;
   int done = 0;
   for_all(jobs.size(), [&](size_t i) {
@@ -131,7 +128,6 @@ Json schemes_report(const std::vector<ReportedScheme>& schemes, const ReportOpti
   for (Json& curve : curves) report["schemes"].push_back(std::move(curve));
   report["summary"] = Json::array();
   for (const Json& scheme : report["schemes"]) report["summary"].push_back(summary_row(scheme));
-  if (options.statements) report["statements"] = std::move(statements);
   return report;
 }
 

@@ -34,7 +34,6 @@ ReportedScheme reported_scheme(const std::string& name, const SchemeOptions& opt
 struct ReportOptions {
   std::vector<int> valences = {3, 4, 5, 6, 7, 8, 9, 10, 11, 12};  ///< ascending, from least_valence to greatest_valence
   std::vector<ReportedCurve> curves = {};                         ///< after the surfaces
-  bool statements = false;                                        ///< sentences of lecture notes, decided
   /// Jobs done and jobs in all; by one thread at a time.
   std::function<void(int, int)> progress = {};
 };

@@ -5,7 +5,7 @@
 
 #include "sublimit/base/error.h"
 #include "sublimit/limit/limit_surface.h"
-#include "sublimit/limit/piece_types.h"
+#include "sublimit/limit/limit_types.h"
 #include "sublimit/report/asset/curvature_statistics.h"
 #include "sublimit/report/asset/display_surface.h"
 #include "sublimit/report/asset/seams.h"
@@ -44,7 +44,7 @@ AssetReport asset_report(const Scheme<double>& scheme, const ControlMesh& mesh, 
       if (progress) progress(int(parts * (from + done * (to - from))), parts);
     };
   };
-  const auto types = std::make_shared<PieceTypes>(scheme);
+  const auto types = std::make_shared<LimitTypes>(scheme);
   const LimitSurface surface(scheme, mesh, subdivision, types);
   const Topology& t = surface.level().topology();
 
@@ -64,7 +64,7 @@ AssetReport asset_report(const Scheme<double>& scheme, const ControlMesh& mesh, 
   part(0, .1)(1);
   const BoundLimitSurface bound(surface, mesh.positions);
   part(0, .2)(1);
-  const asset::LimitTraits traits{.polynomial = !types->has_no_polynomials(),
+  const asset::LimitTraits traits{.polynomial = !types->pieces().has_no_polynomials(),
                                   .dual = scheme.is_dual(),
                                   .thirds = scheme.steps[0].split == Split::sqrt3};
   const asset::SeamPlaces places(scheme, surface, inventory, traits.polynomial);

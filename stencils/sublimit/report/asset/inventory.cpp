@@ -72,7 +72,7 @@ VertexKind vertex_kind(const Scheme<double>& scheme, const Level& level, Vertex 
               : pinned || cuts > 2                ? What::corner
               : cuts == 1                         ? What::dart
               : cuts == 2                         ? (kind.at_border ? What::border : What::crease)
-              : kind.n == regular_valence(scheme) ? What::regular
+              : kind.n == scheme.regular_valence() ? What::regular
                                                   : What::extraordinary;
   if (kind.what == What::regular || kind.what == What::extraordinary || kind.what == What::dart) kind.sides.clear();
   return kind;

@@ -31,7 +31,6 @@ PointVerdict verdict_of(const VertexKind& kind, PointVerdicts& verdicts);
 
 /// Regular size of a scheme's faces, and valence of its vertices.
 inline Index regular_size(const Scheme<double>& scheme) { return scheme.face_size() == 3 ? 3 : 4; }
-inline Index regular_valence(const Scheme<double>& scheme) { return scheme.face_size() == 3 ? 6 : 4; }
 
 struct Inventory {
   std::vector<VertexKind> vertices;

@@ -6,7 +6,9 @@
 
 #include "sublimit/base/error.h"
 #include "sublimit/limit/eigen_structure.h"
+#include "sublimit/limit/limit_rows.h"
 #include "sublimit/neighborhood/local_patch.h"
+#include "sublimit/neighborhood/vertex_sides.h"
 
 namespace sublimit {
 
@@ -82,13 +84,10 @@ void find_curvature(const Scheme<double>& scheme, const LocalType& type, double 
                                         : CurvatureVerdict::bounded;
 }
 
-PlaneVerdict plane_of(const LimitMasks& masks) {
-  PlaneVerdict worst = masks.sides.empty() ? PlaneVerdict::unknown : PlaneVerdict::yes;
-  for (const LimitMasks::Side& side : masks.sides)
-    worst = std::max(worst, side.plane >= LimitMasks::Plane::tied   ? PlaneVerdict::no
-                            : side.plane == LimitMasks::Plane::slow ? PlaneVerdict::slow
-                                                                    : PlaneVerdict::yes);
-  return worst;
+PlaneVerdict plane_verdict(LimitMasks::Plane plane) {
+  return plane >= LimitMasks::Plane::tied   ? PlaneVerdict::no
+         : plane == LimitMasks::Plane::slow ? PlaneVerdict::slow
+                                            : PlaneVerdict::yes;
 }
 
 }  // namespace
@@ -101,7 +100,7 @@ const PointVerdict& PointVerdicts::of(const LocalType& type) {
     const std::optional<LocalType> lasting = lasting_type(cache_.scheme(), type);
     const LoneLimit* limit = lasting ? cache_.lone(*lasting) : nullptr;
     if (!limit) return verdict;
-    verdict.plane = plane_of(limit->masks);
+    verdict.plane = plane_verdict(limit->masks.sides.at(0).plane);
     // The masks know of no plane at any border of mid-edge, regular ones included, while normals next to it agree in
     // all directions: not decided.
     if (type.open && cache_.scheme().steps[0].split == Split::mid_edge && verdict.plane == PlaneVerdict::no)
@@ -118,12 +117,12 @@ const PointVerdict& PointVerdicts::of(const LocalType& type) {
 
 const PointVerdict& PointVerdicts::dart(Index n) {
   const auto [at, is_new] = darts_.try_emplace(n);
-  if (!is_new || !has_one_ring_limits(cache_.scheme())) return at->second;
+  if (!is_new) return at->second;
   try {
-    ControlMesh fan = lone_fan(n, cache_.scheme().face_size() == 3 ? 3 : 4, false);
-    fan.creases.push_back({0, 1, infinite_sharpness});
-    const Level level = control_level(cache_.scheme(), fan);
-    at->second.plane = plane_of(cache_.masks(neighborhood(level.topology(), level.sharpness, Vertex{0}).type));
+    const Level level = control_level(cache_.scheme(), creased_fan(n, n, cache_.scheme().face_size() == 3 ? 3 : 4));
+    const HalfEdge any = level.topology().outgoing(Vertex{0});
+    const LimitRows rows = limit_rows(level, cache_, {side_of(level, any)})[0];
+    if (!rows.tangent1.empty()) at->second.plane = plane_verdict(rows.plane);
   } catch (const Error&) {
   }
   return at->second;

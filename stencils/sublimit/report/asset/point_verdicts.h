@@ -5,7 +5,7 @@
 #include <map>
 #include <tuple>
 
-#include "sublimit/limit/limit_masks.h"
+#include "sublimit/limit/limit_types.h"
 #include "sublimit/report/asset/asset_report.h"
 
 namespace sublimit::asset {
@@ -24,7 +24,7 @@ class PointVerdicts {
 
  private:
   const PointVerdict& of(const LocalType& type);
-  LimitMaskCache cache_;
+  LimitTypes cache_;
   std::map<LocalType, PointVerdict> known_;
   std::map<Index, PointVerdict> darts_;
 };

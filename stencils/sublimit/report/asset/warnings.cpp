@@ -59,7 +59,7 @@ std::optional<Finding> plane_finding(const VertexKind& kind, const PointVerdict&
 std::optional<Finding> valence_finding(const Scheme<double>& scheme, const VertexKind& kind,
                                        const PointVerdict& verdict) {
   if (kind.what != What::extraordinary || verdict.plane == PlaneVerdict::no) return std::nullopt;
-  const Index regular = regular_valence(scheme);
+  const Index regular = scheme.regular_valence();
   const std::string words = curvature_words(verdict), and_words = words.empty() ? "" : ": " + words;
   const std::string what = "vertex of valence " + std::to_string(kind.n);
   if (kind.n <= 2)

@@ -87,7 +87,6 @@ std::string report_page(const nlohmann::ordered_json& report) {
   if (at(report, "curve").is_object()) add(curve_section(at(report, "curve")), "curve", "The knots");
   if (at(report, "sweep").is_object()) add(sweep_section(at(report, "sweep")), "sweep", "Over the option");
   add(summary_section(report), "summary", "Schemes side by side");
-  add(statements_section(report), "statements", "What lecture notes say");
   if (kind == "schemes") add(words_key, "key", "How to read it");
   std::set<std::string> used;
   std::vector<std::string> ids;

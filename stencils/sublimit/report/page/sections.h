@@ -8,9 +8,8 @@
 
 namespace sublimit::page {
 
-/// The summary table as textbooks have it, and what becomes of sentences of lecture notes.
+/// The summary table as textbooks have it.
 std::string summary_section(const Json& report);
-std::string statements_section(const Json& report);
 
 /// A scheme: what it is, what it claims, its regular part, its neighbourhoods.
 std::string scheme_section(const Json& scheme, const std::string& id, bool many_schemes);

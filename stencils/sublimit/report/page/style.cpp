@@ -36,11 +36,11 @@ nav.contents li { padding: 1px 0; break-inside: avoid }
 .counts { display: flex; flex-wrap: wrap; gap: 6px 14px; margin: 14px 0; padding: 0; list-style: none }
 .badge { display: inline-block; white-space: nowrap; padding: 0 9px 1px; border-radius: 11px; border: 1.5px solid transparent;
   font: 600 13px/20px system-ui, "DejaVu Sans", sans-serif; color: var(--quiet) }
-.proved, .confirmed { color: var(--good); background: var(--good-bg); border-color: var(--good) }
-.disproved, .refuted { color: var(--bad); background: var(--bad-bg); border-color: var(--bad) }
+.proved { color: var(--good); background: var(--good-bg); border-color: var(--good) }
+.disproved { color: var(--bad); background: var(--bad-bg); border-color: var(--bad) }
 .evidence-for { color: var(--good); border: 1.5px dashed var(--good) }
 .evidence-against { color: var(--bad); border: 1.5px dashed var(--bad) }
-.borderline, .depends { color: var(--mid); background: var(--mid-bg); border: 1.5px dotted var(--mid) }
+.borderline { color: var(--mid); background: var(--mid-bg); border: 1.5px dotted var(--mid) }
 .unknown { border: 1.5px dotted var(--quiet) }
 .scroll { overflow-x: auto; margin: 12px 0; max-width: 100% }
 table { border-collapse: collapse; font-size: 14.5px; line-height: 1.4; font-variant-numeric: tabular-nums lining-nums }

@@ -14,24 +14,6 @@ std::string where(const Json& valences) {
   return string(valences).empty() ? std::string() : " at valence " + literal(valences);
 }
 
-std::string numbers(const Json& list) {
-  if (!list.is_object() || list.empty()) return {};
-  std::string text = "<br><span class=\"quiet\">";
-  bool first = true;
-  for (const auto& [key, value] : list.items()) {
-    text += (first ? "" : "; ") + escaped(key) + ": ";
-    if (value.is_array()) {
-      std::string row;
-      for (const Json& v : value) row += (row.empty() ? "" : ", ") + literal(v);
-      text += row;
-    } else {
-      text += literal(value);
-    }
-    first = false;
-  }
-  return text + "</span>";
-}
-
 }  // namespace
 
 std::string summary_section(const Json& report) {
@@ -50,19 +32,6 @@ std::string summary_section(const Json& report) {
          prose(at(row, "notes"))});
   }
   return "<section id=\"summary\"><h2>Schemes side by side</h2>\n" + html(table) + "</section>\n";
-}
-
-std::string statements_section(const Json& report) {
-  const Json& list = at(report, "statements");
-  if (!list.is_array() || list.empty()) return {};
-  Table table{"Sentences of lecture notes, and the experiment that decides each",
-              {"where", "what is said", "verdict", "what is right", "experiment"},
-              {},
-              "wide text"};
-  for (const Json& s : list)
-    table.rows.push_back({prose(at(s, "where")), prose(at(s, "says")), badge(at(s, "verdict")), prose(at(s, "right")),
-                          prose(at(s, "experiment")) + numbers(at(s, "numbers"))});
-  return "<section id=\"statements\"><h2>What lecture notes say</h2>\n" + html(table) + "</section>\n";
 }
 
 }  // namespace sublimit::page

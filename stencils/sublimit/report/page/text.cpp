@@ -155,14 +155,11 @@ std::string identifier(std::string_view name) {
 }
 
 std::string badge(const Json& verdict) {
-  static constexpr std::array<std::array<const char*, 3>, 9> known = {{{"proved", "✓", "proved"},
+  static constexpr std::array<std::array<const char*, 3>, 6> known = {{{"proved", "✓", "proved"},
                                                                        {"disproved", "✗", "disproved"},
                                                                        {"evidence-for", "✓", "evidence for"},
                                                                        {"evidence-against", "✗", "evidence against"},
                                                                        {"borderline", "±", "borderline"},
-                                                                       {"confirmed", "✓", "confirmed"},
-                                                                       {"refuted", "✗", "refuted"},
-                                                                       {"depends", "±", "depends"},
                                                                        {"unknown", "?", "unknown"}}};
   const std::string word = string(verdict);
   for (const auto& [name, sign, says] : known)

@@ -41,6 +41,36 @@ TEST(CurveJoints, UniformCubicSplinePiecesAreC2) {
   EXPECT_NEAR(j.ratios[0], 1, testing::other_route);
 }
 
+/// The polar form at three parameters of the cubic spline's piece between knots j and j + 1, by de Boor's algorithm: at
+/// (a, a, a), (a, a, b), (a, b, b), (b, b, b) it has the Bezier points of the piece from a to b (Ramshaw 1989).
+Eigen::RowVector2d polar(const std::vector<double>& knots, Eigen::MatrixXd d, int j, std::array<double, 3> at) {
+  for (int step = 1; step <= 3; ++step)
+    for (int i = j; i > j - 4 + step; --i) {
+      const double a = (at[step - 1] - knots[i]) / (knots[i + 4 - step] - knots[i]);
+      d.row(i) = (1 - a) * d.row(i - 1) + a * d.row(i);
+    }
+  return d.row(j);
+}
+
+// Cubic splines are C^2 at simple knots alone, and C^(3 - r) at a knot of multiplicity r (Curry, Schoenberg 1966).
+TEST(CurveJoints, SplinesLoseADerivativeWithEachKnotThatCoincides) {
+  const Eigen::MatrixXd control = points({{0, 0}, {1, 2}, {3, 3}, {4, -1}, {6, 0}, {7, 2}, {9, 1}, {8, -2}});
+  for (int r = 1; r <= 4; ++r) {
+    std::vector<double> knots{0, 1, 2, 3};
+    knots.insert(knots.end(), r, 4.0);
+    knots.insert(knots.end(), {5, 6, 7, 8});
+    const auto piece = [&](int j, double a, double b) {
+      Eigen::MatrixXd bezier(4, 2);
+      bezier << polar(knots, control, j, {a, a, a}), polar(knots, control, j, {a, a, b}),
+          polar(knots, control, j, {a, b, b}), polar(knots, control, j, {b, b, b});
+      return bezier;
+    };
+    const CurveJoint joint = joint_of(piece(3, 3, 4), piece(3 + r, 4, 5));
+    EXPECT_EQ(joint.c, 3 - r) << r;
+    EXPECT_FALSE(joint.same_polynomial) << r;
+  }
+}
+
 TEST(CurveJoints, ReparametrisedPiecesAreGeometricallySmooth) {
   // The parabola (t, t^2): from -1 to 0, and from 0 on at twice the pace with (2 s + 3 s^2, (2 s + 3 s^2)^2), quartic.
   const Eigen::MatrixXd before = points({{-1, 1}, {-0.5, 0}, {0, 0}});

@@ -49,6 +49,18 @@ TEST(CurveRegularity, SplinesHaveTheExponentOfTheirDegree) {
   EXPECT_EQ(named("chaikin").smoothness.exponent_high, 2);
 }
 
+// Points are doubled, 1 + z, and averaged `degree` times, (1 + z)/2 each. Midpoints that are inserted are the first of
+// these averagings: n more of them make degree n + 1.
+TEST(CurveRegularity, LaneRiesenfeldAveragesDoubledPoints) {
+  std::vector<Rational> mask{1, 1};
+  for (int degree = 1; degree <= 15; ++degree) {
+    mask.push_back(0);
+    for (size_t i = mask.size() - 1; i > 0; --i) mask[i] = (mask[i] + mask[i - 1]) / 2;
+    mask[0] = mask[0] / 2;
+    EXPECT_EQ(named("lane-riesenfeld", {{"degree", std::to_string(degree)}}).mask.coefficients, mask) << degree;
+  }
+}
+
 TEST(CurveRegularity, FourPointNormOfTwoStepsIsOneWhereItShouldBe) {
   // C^1: w = (sqrt 5 - 1)/8; C^0: w = (sqrt 13 - 1)/8 and -3/8 (where it is 1 exactly).
   const double c1 = (std::sqrt(5.0) - 1) / 8, c0 = (std::sqrt(13.0) - 1) / 8;

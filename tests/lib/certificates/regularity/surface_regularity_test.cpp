@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "sublimit/certificates/regularity/rational_schemes.h"
+#include "support/misreadings.h"
 
 namespace sublimit {
 namespace {
@@ -76,9 +77,7 @@ TEST(SurfaceRegularity, InterpolatorySqrt3IsEnclosed) {
 
 TEST(SurfaceRegularity, Sqrt3WithoutRelaxationDoesNotConverge) {
   // Two steps of centroids alone: the mask of sqrt3 with vertices that stay. One step: vertex 1, three faces 1/3.
-  Scheme<Rational> spikes = *find_scheme<Rational>("sqrt3");
-  spikes.steps[0].masks.vertex = [](const Ring<Rational>& v) { return v.center(); };
-  const SurfaceRegularity r = surface_regularity(regular_mask(spikes));
+  const SurfaceRegularity r = surface_regularity(regular_mask(testing::misread::sqrt3_without_relaxation<Rational>()));
   EXPECT_NE(answer(r, 1), Answer::proved);
   EXPECT_EQ(answer(r, 1), Answer::disproved);
 }

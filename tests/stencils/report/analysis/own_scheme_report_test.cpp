@@ -7,7 +7,7 @@
 #include "sublimit/files/numbers.h"
 #include "sublimit/report/analysis/scheme_report.h"
 #include "sublimit/report/analysis/verify_report.h"
-#include "sublimit/report/statements/misreadings.h"
+#include "support/misreadings.h"
 
 namespace sublimit::testing {
 namespace {

@@ -50,6 +50,15 @@ TEST(VerifyReport, SeesSoundOnesAgain) {
   EXPECT_GE(found.verdicts, found.seen_again + found.decided);
 }
 
+/// Readers do (report_format.md); `statements`, which earlier builds wrote, is such a key, whatever is in it.
+TEST(VerifyReport, IgnoresKeysThatItDoesNotKnow) {
+  for (const Json& statements : {Json(), Json("words"), Json{{{"says", "C^1"}, {"verdict", "refuted"}}}}) {
+    Json old = good();
+    old["statements"] = statements;
+    EXPECT_EQ(findings(old), "") << statements;
+  }
+}
+
 TEST(VerifyReport, TakesNoOpenHypothesisOfAllValences) {
   Json bad = good();
   Json& all = bad["schemes"][0]["all_valences"];

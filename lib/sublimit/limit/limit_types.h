@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// The dictionary of a scheme: what its limits need to know of neighbourhoods, each found once, by signature, when it is
+// first asked for. Shared between meshes, surfaces and threads; grows by types, not by vertices.
+#include <tbb/concurrent_unordered_map.h>
+
+#include <map>
+#include <memory>
+#include <mutex>
+
+#include "sublimit/core/signature_hash.h"
+#include "sublimit/limit/limit_masks.h"
+#include "sublimit/neighborhood/piece_types.h"
+
+namespace sublimit {
+
+class LimitTypes {
+ public:
+  /// @param max_pieces  a surface that needs more types of pieces, when there are so many, keeps them for itself
+  explicit LimitTypes(const Scheme<double>& scheme, size_t max_pieces = size_t(1) << 16)
+      : scheme_(scheme), pieces_(scheme, max_pieces) {}
+
+  /// Limit masks of a vertex whose one-ring is all that they depend on. The reference stays valid as long as this.
+  const LimitMasks& masks(const CanonicalNeighborhood& type);
+  /// The same for lone centres; null where there is nothing.
+  const LoneLimit* lone(const LocalType& type);
+  /// What lies between vertices.
+  PieceTypes& pieces() { return pieces_; }
+
+  const Scheme<double>& scheme() const { return scheme_; }
+  /// Of vertices, faces and borders.
+  size_t num_types() const { return types_.size() + lone_.size(); }
+
+ private:
+  Scheme<double> scheme_;
+  PieceTypes pieces_;
+  std::mutex mutex_;  // of lone_
+  std::map<LocalType, std::optional<LoneLimit>> lone_;
+  tbb::concurrent_unordered_map<std::vector<std::uint32_t>, std::shared_ptr<const LimitMasks>, SignatureHash> types_;
+};
+
+}  // namespace sublimit

@@ -1,0 +1,617 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sublimit/neighborhood/piece_types.h"
+
+#include <Eigen/LU>
+#include <Eigen/SparseLU>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "sublimit/base/error.h"
+#include "sublimit/base/memory.h"
+#include "sublimit/core/dense_decompositions.h"
+#include "sublimit/core/sparse_product.h"
+#include "sublimit/neighborhood/polynomial_search.h"
+#include "sublimit/neighborhood/regular_smoothness.h"
+#include "sublimit/neighborhood/canonical_part.h"
+#include "sublimit/neighborhood/closed_set.h"
+#include "sublimit/scheme/refine_impl.h"
+#include "sublimit/scheme/subdivision_rows.h"
+
+namespace sublimit {
+namespace {
+
+/// Parameters of the corners of a piece, counter-clockwise.
+Place corner_place(Piece::Kind kind, int corner) {
+  if (kind == Piece::Kind::triangle) return triangle_place(corner == 1, corner == 2);
+  return quad_place(corner == 1 || corner == 2, corner >= 2);
+}
+
+/// The corner that a place is at, or -1.
+int corner_at(Piece::Kind kind, const Place& p) {
+  if (kind == Piece::Kind::triangle)
+    return p.u == 0 && p.v == 0 ? 0 : p.v == 0 && p.u1 == 0 ? 1 : p.u == 0 && p.u1 == 0 ? 2 : -1;
+  if ((p.u != 0 && p.u1 != 0) || (p.v != 0 && p.v1 != 0)) return -1;
+  return p.v == 0 ? (p.u == 0 ? 0 : 1) : (p.u == 0 ? 3 : 2);
+}
+
+int nearest_corner(Piece::Kind kind, const Place& p) {
+  if (kind == Piece::Kind::triangle) return p.u1 >= p.u && p.u1 >= p.v ? 0 : p.u >= p.v ? 1 : 2;
+  return sublimit::nearest_corner(p.u, p.v);
+}
+
+/// Factor of a map that only scales, as it lies; 0 of any other.
+double pure_scale(const PieceMap& map) {
+  if (!map.is_triangle)
+    for (int i = 0; i < 2; ++i)
+      if (map.axes[i].from != i || map.axes[i].reversed || map.axes[i].span > Span::upper) return 0;
+  const PieceMap::Chain c = map.chain(Place{});
+  return c.first[0][0] == c.first[1][1] && c.first[0][1] == 0 && c.first[1][0] == 0 ? c.first[0][0] : 0;
+}
+
+/// A basis of the null space of M by columns.
+Eigen::MatrixXd null_space(const Eigen::MatrixXd& M) {
+  if (std::optional<Eigen::MatrixXd> clear = clear_null_space(M)) return *std::move(clear);
+  const auto [sigma, right] = singular_values(M);
+  Eigen::Index rank = 0;
+  while (rank < sigma.size() && sigma[rank] > 1e-10 * sigma[0]) ++rank;
+  return right.rightCols(M.cols() - rank);
+}
+
+/// Eigenvectors of one eigenvalue, left * right = 1.
+struct Eigenspace {
+  Eigen::MatrixXd left, right;
+};
+
+/// Nothing if the eigenvalue has not this multiplicity, or is defective.
+std::optional<Eigenspace> eigenspace(const Eigen::MatrixXd& D, double lambda, Eigen::Index multiplicity) {
+  const Eigen::MatrixXd shifted = D - lambda * Eigen::MatrixXd::Identity(D.rows(), D.cols());
+  const Eigen::MatrixXd right = null_space(shifted);
+  if (right.cols() != multiplicity) return std::nullopt;
+  const Eigen::MatrixXd left = null_space(shifted.transpose());
+  if (left.cols() != multiplicity) return std::nullopt;
+  const Eigen::MatrixXd pairing = left.transpose() * right;
+  if (!(std::abs(pairing.determinant()) > 1e-6)) return std::nullopt;
+  return Eigenspace{pairing.inverse() * left.transpose(), right};
+}
+
+/// p = origin + p D: the left eigenvector of eigenvalue 1, in differences.
+Eigen::RowVectorXd fixed_row(const PieceBlock& block) {
+  const auto n = block.origin().size();
+  const Eigen::PartialPivLU<Eigen::MatrixXd> lu((RowMatrix::Identity(n, n) - block.differences()).transpose());
+  return lu.solve(block.origin().transpose()).transpose();
+}
+
+/// The same of rows of S, by the points that one of them depends on: all rows tend to this one.
+Eigen::RowVectorXd fixed_row(const SparseMatrix& B, Index slot) {
+  const std::vector<Index> closed = closed_set({slot}, static_cast<Index>(B.rows()), [&](Index s, const auto& add) {
+    for (SparseMatrix::InnerIterator it(B, s); it; ++it) add(static_cast<Index>(it.col()));
+  });
+  std::vector<Index> position(B.rows(), -1);
+  for (size_t i = 0; i < closed.size(); ++i) position[closed[i]] = static_cast<Index>(i);
+  // l (B - 1) = 0, one column of which follows from the others, and the sum of l is 1.
+  const auto count = static_cast<Index>(closed.size());
+  using Columns = Eigen::SparseMatrix<double, Eigen::ColMajor, Index>;
+  std::vector<Eigen::Triplet<double, Index>> entries;
+  for (Index i = 0; i < count; ++i) {
+    entries.push_back({0, i, 1.0});
+    if (i > 0) entries.push_back({i, i, -1.0});
+    for (SparseMatrix::InnerIterator it(B, closed[i]); it; ++it)
+      if (position[it.col()] > 0) entries.push_back({position[it.col()], i, it.value()});
+  }
+  Columns equations(count, count);
+  equations.setFromTriplets(entries.begin(), entries.end());
+  const Eigen::SparseLU<Columns> lu(equations);
+  Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(B.cols() - 1);
+  if (lu.info() != Eigen::Success) return Eigen::RowVectorXd::Constant(B.cols() - 1, INFINITY);
+  const Eigen::VectorXd weights = lu.solve(Eigen::VectorXd::Unit(count, 0));
+  for (Index i = 0; i < count; ++i)
+    if (closed[i] > 0) row[closed[i] - 1] = weights[i];
+  return row;
+}
+
+/// Homogeneous polynomials whose derivatives at 0 of this degree, (u, v) or (uu, uv, vv), are 1 each.
+Eigen::RowVectorXd monomials(int degree, double u, double v) {
+  if (degree == 1) return Eigen::RowVector2d(u, v);
+  return Eigen::RowVector3d(u * u / 2, u * v, v * v / 2);
+}
+
+}  // namespace
+
+void apply_chain(const PieceMap::Chain& c, RowMatrix& rows) {
+  if (rows.rows() < 3) return;
+  const RowMatrix old = rows;
+  for (int i = 0; i < 2; ++i) rows.row(1 + i) = c.first[i][0] * old.row(1) + c.first[i][1] * old.row(2);
+  if (rows.rows() < 6) return;
+  for (int i = 0; i < 3; ++i)
+    rows.row(3 + i) = c.second[i][0] * old.row(3) + c.second[i][1] * old.row(4) + c.second[i][2] * old.row(5) +
+                      c.bend[i][0] * old.row(1) + c.bend[i][1] * old.row(2);
+}
+
+void turn_tangents(const PieceMap::Chain& c, RowMatrix& tangents) {
+  if (tangents.rows() < 2) return;
+  const RowMatrix old = tangents;
+  for (int i = 0; i < 2; ++i) tangents.row(i) = c.first[i][0] * old.row(0) + c.first[i][1] * old.row(1);
+}
+
+namespace {
+
+/// What a level's topology and sharpness take, about.
+double bytes_of(const Topology& t) {
+  return 24.0 * t.num_half_edges() + 24.0 * t.num_vertices() + 16.0 * t.num_edges();
+}
+
+}  // namespace
+
+const PieceType::Surroundings& PieceType::surroundings() const {
+  std::call_once(surroundings_once_, [&] {
+    const Scheme<double>& scheme = types_->scheme_;
+    const Index face = index(met_in_->topology().face(surroundings_.piece.start));
+    const bool narrow = scheme.has_one_ring_limits();
+    // Masks near the rim of a part are not the mesh's: one more ring, where they look further.
+    const int rings = types_->rings(met_in_->sharpness) +
+                      (narrow || (scheme.is_dual() && scheme.steps.size() == 1) ? 0 : scheme.period);
+    Part around = part(*met_in_, std::span(&face, 1), rings);
+    types_->take(bytes_of(around.level.topology()), num_slots());
+    const auto position = [](const std::vector<Index>& list, Index i) {
+      return static_cast<Index>(std::lower_bound(list.begin(), list.end(), i) - list.begin());
+    };
+    Surroundings own;
+    for (const Index v : surroundings_.slots) own.slots.push_back(position(around.vertices, v));
+    own.piece = {kind_, HalfEdge{position(around.halves, index(surroundings_.piece.start))}};
+    if (decays_) {
+      // Means of sharpness are float sums in the order of the mesh, as the reference has them.
+      own.level = std::move(around.level);
+    } else {
+      CanonicalPart canonical = canonical_part(around.level, own.slots);
+      own.level = std::move(canonical.level);
+      own.piece.start = HalfEdge{canonical.half_edge[index(own.piece.start)]};
+      std::iota(own.slots.begin(), own.slots.end(), 0);
+    }
+    surroundings_ = std::move(own);
+    met_in_.reset();
+  });
+  return surroundings_;
+}
+
+PieceType::Refined PieceType::refined() const {
+  const Scheme<double>& scheme = types_->scheme_;
+  const auto& [level, piece, slots] = surroundings();
+  Refined result;
+  std::vector<LevelStep> steps;
+  for (int k = 0; k < scheme.period; ++k) {
+    const Level& before = k == 0 ? level : *result.levels.back();
+    result.levels.push_back(std::make_shared<const Level>(
+        scheme.steps.size() > 1 ? next_level(scheme, before) : next_topology(scheme, before, [](const auto&...) {})));
+    types_->take(bytes_of(result.levels.back()->topology()), num_slots());
+    for (const Refinement& step : result.levels.back()->steps) steps.push_back({&step, before.number});
+  }
+  result.slot_of.assign(level.topology().num_vertices(), -1);
+  for (size_t s = 0; s < slots.size(); ++s) result.slot_of[slots[s]] = static_cast<Index>(s);
+  result.children = sublimit::children(piece, level.topology(), steps);
+  return result;
+}
+
+SparseMatrix PieceType::rows_of(const Refined& refined, std::vector<Index> vertices) const {
+  const Scheme<double>& scheme = types_->scheme_;
+  SparseMatrix S;
+  for (size_t k = refined.levels.size(); k-- > 0;) {
+    std::sort(vertices.begin(), vertices.end());
+    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    const Level &before = k == 0 ? level() : *refined.levels[k - 1], &after = *refined.levels[k];
+    // Most of the points are around the children. Those of several steps are multiplied as a whole.
+    const SparseMatrix rows = subdivision_rows(scheme, before, after, vertices);
+    vertices.assign(rows.innerIndexPtr(), rows.innerIndexPtr() + rows.nonZeros());
+    S = S.size() == 0 ? rows : product(S, rows);
+  }
+  return S;
+}
+
+SparseMatrix PieceType::rows_over_slots(const Refined& refined, const SparseMatrix& S,
+                                        std::span<const Index> vertices) const {
+  SparseMatrix B(std::ssize(vertices), num_slots());
+  std::vector<std::pair<Index, double>> row;
+  for (Index i = 0; i < B.rows(); ++i) {
+    row.clear();
+    for (SparseMatrix::InnerIterator it(S, vertices[i]); it; ++it) {
+      if (it.value() == 0) continue;
+      const Index slot = refined.slot_of[it.col()];
+      if (slot < 0)
+        throw AnalysisError(types_->scheme_.name + ": a piece of the limit depends on points beyond " +
+                            std::to_string(types_->rings(refined.levels.back()->sharpness)) + " rings");
+      row.push_back({slot, it.value()});
+    }
+    std::sort(row.begin(), row.end());
+    B.startVec(i);
+    for (const auto& [slot, weight] : row) B.insertBack(i, slot) = weight;
+  }
+  B.finalize();
+  return B;
+}
+
+PieceType::ChildCorners PieceType::child_corners() const {
+  const Refined after = refined();
+  const Topology& t = after.levels.back()->topology();
+  ChildCorners result;
+  std::vector<Index> vertices;
+  for (const PieceChild& child : after.children) {
+    result.maps.push_back(child.map);
+    HalfEdge h = child.piece.start;
+    do {
+      vertices.push_back(index(t.tail(h)));
+      h = t.next(h);
+    } while (h != child.piece.start);
+  }
+  result.rows = RowMatrix(rows_over_slots(after, rows_of(after, vertices), vertices));
+  return result;
+}
+
+const std::deque<PieceLink>& PieceType::children() const {
+  std::call_once(children_once_, [&] {
+    const Refined after = refined();
+    const Level& fine = *after.levels.back();
+    PieceWalker walker;
+    std::deque<PieceLink> links;
+    std::vector<std::vector<Index>> vertices;  // of the children
+    std::vector<Index> all;
+    for (const PieceChild& child : after.children) {
+      const PieceWalk& walk = walker.walk(fine.topology(), fine.sharpness, child.piece, types_->rings(fine.sharpness),
+                                          fine.number % types_->scheme_.period);
+      PieceLink& link = links.emplace_back();
+      link.map = child.map;
+      link.type = types_->type(after.levels.back(), child.piece, walk);
+      link.repeats = link.type == this && pure_scale(link.map) != 0;
+      all.insert(all.end(), walk.vertices.begin(), walk.vertices.end());
+      vertices.push_back(walk.vertices);
+    }
+    // Masks have some 12 points, and S and the blocks have each of the children's points once.
+    constexpr double bytes_of_row = 12 * 12 + 16, bytes_of_slot = 64;
+    types_->take(bytes_of_row * double(all.size()) + bytes_of_slot * double(links.size()) * num_slots(), num_slots());
+    const SparseMatrix S = rows_of(after, std::move(all));
+    for (size_t i = 0; i < links.size(); ++i) links[i].block = PieceBlock(rows_over_slots(after, S, vertices[i]));
+    children_ = std::move(links);
+  });
+  return children_;
+}
+
+const PieceLink& PieceType::child(const Place& place) const {
+  const std::deque<PieceLink>& all = children();
+  for (const PieceLink& link : all)
+    if (link.map.contains(place)) return link;
+  // Between two triangles by rounding: the one that it is least outside of.
+  const PieceLink* best = &all[0];
+  double least = 1e300;
+  for (const PieceLink& link : all) {
+    const Place p = link.map(place);
+    const double outside = -std::min({p.u, p.v, p.u1, kind_ == Piece::Kind::triangle ? 0 : p.v1});
+    if (outside < least) least = outside, best = &link;
+  }
+  return *best;
+}
+
+const PiecePolynomial* PieceType::polynomial() const {
+  const int state = polynomial_state_.load(std::memory_order_acquire);
+  if (state == 0) PolynomialSearch(*types_).decide(*this);
+  return polynomial_state_.load(std::memory_order_acquire) == 2 ? &*candidate_ : nullptr;
+}
+
+/// The types that a corner comes through, until it comes to one that has been there: a cycle, of one step but at the
+/// borders of dual schemes.
+struct PieceType::CornerPath {
+  struct Visit {
+    const PieceType* type;
+    int corner;
+    const PieceLink* link;
+    Place place;
+  };
+  std::vector<Visit> visits;
+  size_t first = 0;  // of the cycle
+
+  CornerPath(const PieceType* type, int corner) {
+    for (;;) {
+      first = 0;
+      while (first < visits.size() && !(visits[first].type == type && visits[first].corner == corner)) ++first;
+      if (first < visits.size()) return;
+      // Around faces that visit a vertex twice each step may double what there is.
+      const bool grows = !visits.empty() && type->num_slots() > 4 * visits[0].type->num_slots() + 1000;
+      if (visits.size() > 64 || grows)
+        throw AnalysisError(type->types_->scheme_.name + ": a neighbourhood never comes to repeat itself");
+      const Place place = corner_place(type->kind_, corner);
+      const PieceLink& link = type->child(place);
+      visits.push_back({type, corner, &link, place});
+      corner = nearest_corner(link.type->kind_, link.map(place));
+      type = link.type;
+    }
+  }
+  bool is_large() const {
+    return std::all_of(visits.begin() + Eigen::Index(first), visits.end(),
+                       [](const Visit& visit) { return visit.link->block.is_large(); });
+  }
+  PieceBlock cycle() const {
+    PieceBlock block = visits[first].link->block;
+    for (size_t i = first + 1; i < visits.size(); ++i) block = block.then(visits[i].link->block);
+    return block;
+  }
+  /// The same of large blocks.
+  SparseMatrix rows() const {
+    SparseMatrix B = visits[first].link->block.rows();
+    for (size_t i = first + 1; i < visits.size(); ++i) SparseMatrix(product(visits[i].link->block.rows(), B)).swap(B);
+    return B;
+  }
+};
+
+const Eigen::RowVectorXd& PieceType::corner_limit(int corner) const {
+  std::call_once(limit_once_[corner], [&] {
+    const CornerPath path(this, corner);
+    RowMatrix row;
+    if (path.first > 0) {  // where the cycle begins the limit is known, or becomes known for all that come there
+      row = path.visits[path.first].type->corner_limit(path.visits[path.first].corner);
+      for (size_t i = path.first; i-- > 0;) row = path.visits[i].link->block.pulled_back(row);
+    } else {
+      const bool begins_here = kind_ == Piece::Kind::quad || kind_ == Piece::Kind::triangle;
+      row = path.is_large() ? fixed_row(path.rows(), begins_here ? corner : 0) : fixed_row(path.cycle());
+      if (row.size() > 0 && !(row.cwiseAbs().maxCoeff() < 1e8))
+        throw AnalysisError(types_->scheme_.name + ": no limit where a neighbourhood repeats itself");
+    }
+    corner_limits_[corner] = row;
+  });
+  return corner_limits_[corner];
+}
+
+bool PieceType::is_extraordinary(int corner) const {
+  if (kind_ != Piece::Kind::quad && kind_ != Piece::Kind::triangle) return false;
+  const Topology& t = level().topology();
+  HalfEdge h = piece().start;
+  for (int i = 0; i < corner; ++i) h = t.next(h);
+  const HalfEdge first = h;
+  Index valence = 0;
+  do {
+    ++valence;
+    h = t.ccw(h);
+  } while (exists(h) && h != first);
+  return exists(h) && valence != types_->scheme_.regular_valence();
+}
+
+std::optional<PieceType::Modes> PieceType::modes(int corner, const Eigen::MatrixXd& D, double scale, int degree) const {
+  const auto space = eigenspace(D, std::pow(scale, -degree), degree + 1);
+  if (!space) return std::nullopt;
+  const int corners = kind_ == Piece::Kind::triangle ? 3 : 4;
+  const Place here = corner_place(kind_, corner);
+  const Eigen::RowVectorXd& origin = corner_limit(corner);
+  const auto there = [&](double u, double v) { return corners == 3 ? triangle_place(u, v) : quad_place(u, v); };
+  const auto value = [&](const Place& p) -> Eigen::RowVectorXd {
+    return (piece_rows(*this, p, 0, false).rows.row(0) - origin) * space->right;
+  };
+  const auto polynomials = [&](const Place& p) { return monomials(degree, p.u - here.u, p.v - here.v); };
+  // Their coefficients, by two other corners and the middle between these.
+  const Place a = corner_place(kind_, (corner + 1) % corners),
+              b = corner_place(kind_, (corner + corners - 1) % corners);
+  const Place known[] = {a, b, there((a.u + b.u) / 2, (a.v + b.v) / 2)};
+  Eigen::MatrixXd places(degree + 1, degree + 1), values(degree + 1, degree + 1);
+  for (int i = 0; i <= degree; ++i) {
+    places.row(i) = polynomials(known[i]);
+    values.row(i) = value(known[i]);
+  }
+  const Eigen::MatrixXd coefficients = places.inverse() * values;
+  // They are polynomials of the parameters where the neighbourhood is regular; around an extraordinary vertex whose
+  // eigenvalue happens to be the same, they are not.
+  for (const auto& [u, v] : {std::pair{0.5, 0.25}, {0.25, 0.5}, {0.5, 0.5}}) {
+    const Place p = there(u, v);
+    if (!((value(p) - polynomials(p) * coefficients).norm() < 1e-9 * coefficients.norm())) return std::nullopt;
+  }
+  return Modes{coefficients * space->left, space->right * coefficients.inverse()};
+}
+
+const PieceType::CornerRows& PieceType::corner(int corner) const {
+  std::call_once(corner_once_[corner], [&] {
+    const CornerPath path(this, corner);
+    const auto& [at, own, link, ignored] = path.visits[path.first];
+    const double scale = path.visits.size() == path.first + 1 ? pure_scale(link->map) : 0;
+    const int smoothness = types_->regular_smoothness();
+    CornerRows result;
+    RowMatrix& rows = result.rows;
+    rows = path.first > 0 ? at->corner(own).rows : RowMatrix(corner_limit(corner));
+    if (path.first == 0 && scale != 0 && !at->is_extraordinary(own) && types_->has_no_polynomials() &&
+        smoothness >= 1 && !link->block.is_large()) {
+      const Eigen::MatrixXd D = link->block.differences();
+      const std::optional<Modes> linear = at->modes(own, D, scale, 1);
+      const std::optional<Modes> quadratic = linear && smoothness >= 2 ? at->modes(own, D, scale, 2) : std::nullopt;
+      rows.conservativeResize(quadratic ? 6 : linear ? 3 : 1, Eigen::NoChange);
+      if (linear) rows.middleRows(1, 2) = linear->derivatives;
+      if (quadratic) rows.bottomRows(3) = quadratic->derivatives;
+      if (linear) result.linear = linear->functions;
+    }
+    for (size_t i = path.first; i-- > 0;) {
+      rows = path.visits[i].link->block.pulled_back(rows);
+      apply_chain(path.visits[i].link->map.chain(path.visits[i].place), rows);
+    }
+    corners_[corner] = std::move(result);
+  });
+  return corners_[corner];
+}
+
+PieceTypes::PieceTypes(const Scheme<double>& scheme, size_t max_types) : scheme_(scheme), max_types_(max_types) {
+  scheme_.preparation.clear();  // surfaces begin behind it
+}
+
+PieceTypes::~PieceTypes() = default;
+
+int PieceTypes::regular_smoothness() const {
+  // Isolated: a thread that waits in here must not take up work that comes back for the same.
+  std::call_once(smoothness_once_, [&] {
+    tbb::this_task_arena::isolate([&] { smoothness_ = sublimit::regular_smoothness(scheme_); });
+  });
+  return smoothness_;
+}
+
+int PieceTypes::rings(const Sharpness& sharpness) const {
+  // Under Chaikin creasing the sharpness of an edge's far half depends on the edges around its far end.
+  if (scheme_.has_one_ring_limits()) return sharpness.creasing == Creasing::chaikin ? 2 : 1;
+  if (scheme_.steps.size() > 1) return static_cast<int>(scheme_.steps.size()) - 1;
+  if (scheme_.is_dual())
+    return scheme_.period == 1 ? 1 : 3;             // Habib and Warren's edges look at the corners beyond their ends
+  return scheme_.steps[0].masks.wide_face ? 4 : 3;  // Kobbelt's face points are made of edge points around
+}
+
+void PieceTypes::take(double bytes, Index slots) {
+  double before = memory_.load(std::memory_order_relaxed);
+  while (!memory_.compare_exchange_weak(before, before + bytes)) continue;
+  if (before + bytes <= memory_limit()) return;
+  throw ResourceError(scheme_.name + ": the limit of pieces that depend on up to " + std::to_string(slots) +
+                      " points takes more than " + bytes_in_words(before + bytes) + " of memory; " +
+                      memory_limit_in_words() + "; vertices of fewer edges, or faces of fewer corners, need less");
+}
+
+size_t PieceTypes::size() const {
+  const std::shared_lock lock(mutex_);
+  return types_.size();
+}
+
+const PieceType* PieceTypes::find(const std::vector<std::uint32_t>& signature) const {
+  const std::shared_lock lock(mutex_);
+  const auto at = types_.find(signature);
+  return at == types_.end() ? nullptr : at->second.get();
+}
+
+std::unique_ptr<PieceType> PieceTypes::made(std::shared_ptr<const Level> level, const Piece& piece,
+                                            const PieceWalk& walk) {
+  auto type = std::make_unique<PieceType>();
+  type->num_slots_ = static_cast<Index>(walk.vertices.size());
+  take(4.0 * double(walk.signature.size() + walk.vertices.size()), type->num_slots_);
+  type->types_ = this;
+  type->kind_ = piece.kind;
+  type->decays_ = walk.decays;
+  type->surroundings_ = {{}, piece, walk.vertices};
+  type->met_in_ = std::move(level);
+  return type;
+}
+
+const PieceType* PieceTypes::kept(const PieceWalk& walk, std::unique_ptr<PieceType> type) {
+  const std::unique_lock lock(mutex_);
+  return types_.try_emplace(walk.signature, std::move(type)).first->second.get();
+}
+
+const PieceType* PieceTypes::type(const std::shared_ptr<const Level>& level, const Piece& piece, const PieceWalk& walk) {
+  if (const PieceType* known = find(walk.signature)) return known;
+  return kept(walk, made(level, piece, walk));
+}
+
+const PieceType* PieceTypes::type(const Level& level, const Piece& piece, const PieceWalk& walk) {
+  if (const PieceType* known = find(walk.signature)) return known;
+  std::unique_ptr<PieceType> type = made({std::shared_ptr<const Level>(), &level}, piece, walk);
+  type->surroundings();
+  return kept(walk, std::move(type));
+}
+
+namespace {
+
+/// Along the tangent plane of a polynomial at a place next to a corner. Where both derivatives are parallel at the
+/// corner, as beside a crease that leaves one face, all that the plane is known by is a difference of the size of the
+/// distance: the way to the corner keeps it apart.
+RowMatrix polynomial_tangents(const PieceType& type, const PiecePolynomial& polynomial, Place place) {
+  constexpr double near = 0x1p-12;  // nearer, more than a few digits would go
+  const Place c = corner_place(type.kind(), nearest_corner(type.kind(), place));
+  const bool is_near = std::abs(place.u - c.u) <= near && std::abs(place.v - c.v) <= near;
+  const PieceLink* const child = is_near && corner_at(type.kind(), place) < 0 ? &type.child(place) : nullptr;
+  const PiecePolynomial* const next = child ? child->type->known_polynomial() : nullptr;
+  if (!next) return polynomial.rows(place, 1).middleRows(1, 2);
+  const PieceLink& link = *child;
+  if (!link.repeats) {
+    RowMatrix tangents = link.block.derivatives_pulled_back(polynomial_tangents(*link.type, *next, link.map(place)));
+    turn_tangents(link.map.chain(place), tangents);
+    return tangents;
+  }
+  int times = 0;
+  for (; times < 4095 && link.map.contains(place); ++times) place = link.map(place);
+  return link.repeated.tangents_pulled_back(polynomial.rows(place, 1).middleRows(1, 2), times);
+}
+
+}  // namespace
+
+PieceRows piece_rows(const PieceType& root, Place place, int order, bool search) {
+  struct Step {
+    const PieceType* from;
+    const PieceLink* link;
+    Place place;
+    int times;
+  };
+  // Below this many levels the rest of a cell is less than the rounding of its place.
+  constexpr int enough_halves = 54, enough_thirds = 35;
+  std::vector<Step> path;
+  const PieceType* type = &root;
+  const PieceType::CornerRows* last = nullptr;
+  PieceRows result;
+  for (int levels = 0;; ++levels) {
+    if (const PiecePolynomial* p = search ? type->polynomial() : type->known_polynomial()) {
+      result.rows = p->rows(place, order);
+      result.order = order;
+      result.on_knot = is_on_knot(place, type->kind() == Piece::Kind::triangle, type->kind() == Piece::Kind::corner,
+                                  p->coefficients.size() > 1);
+      if (order > 0) result.tangents = polynomial_tangents(*type, *p, place);
+      break;
+    }
+    int corner = corner_at(type->kind(), place);
+    if (corner >= 0 && type->child(place).type != type) corner = -1;  // it may become a polynomial yet
+    if (corner >= 0 || levels >= (type->children().size() == 9 ? enough_thirds : enough_halves)) {
+      result.at_corner = corner >= 0;
+      if (corner < 0) corner = nearest_corner(type->kind(), place);
+      if (order == 0) {
+        result.rows = type->corner_limit(corner);
+      } else {
+        last = &type->corner(corner);
+        result.order = std::min(order, last->order());
+        result.rows = last->rows.topRows(result.order == 0 ? 1 : result.order == 1 ? 3 : 6);
+      }
+      break;
+    }
+    const PieceLink& link = type->child(place);
+    path.push_back({type, &link, place, 1});
+    Place before = place;
+    place = link.map(place);
+    if (link.repeats)
+      while (path.back().times < 4095 && corner_at(type->kind(), place) < 0 && link.map.contains(place)) {
+        if (place.u == before.u && place.v == before.v) {  // it stays where it is, between corners
+          path.back().times = levels = enough_halves;
+          break;
+        }
+        before = place;
+        place = link.map(place);
+        ++path.back().times;
+      }
+    type = link.type;
+  }
+  if (result.order > 0 && result.tangents.rows() == 0) result.tangents = result.rows.middleRows(1, 2);
+  // Second derivatives of linear functions vanish. What rounding leaves of them would grow by the scale with every step
+  // back. The functions are known of the type where the path ends, which is that of all regular pieces on it.
+  const auto without_linear = [&](const PieceType* of) {
+    if (of != type || !last || last->linear.size() == 0 || result.order < 2) return;
+    result.rows.bottomRows(3) -= result.rows.bottomRows(3) * last->linear * last->rows.middleRows(1, 2);
+  };
+  for (auto step = path.rbegin(); step != path.rend(); ++step) {
+    const PieceLink& link = *step->link;
+    const PieceMap::Chain chain = result.order > 0 ? link.map.chain(step->place) : PieceMap::Chain{};
+    if (step->times == 1) {
+      result.rows = link.block.pulled_back(result.rows);
+      if (result.order == 0) continue;
+      result.tangents = link.block.derivatives_pulled_back(result.tangents);
+      turn_tangents(chain, result.tangents);
+      apply_chain(chain, result.rows);
+      without_linear(step->from);
+      continue;
+    }
+    result.rows = link.repeated.pulled_back(result.rows, step->times);
+    if (result.order == 0) continue;
+    result.tangents = link.repeated.tangents_pulled_back(std::move(result.tangents), step->times);
+    const double factor = std::pow(chain.first[0][0], step->times);
+    result.rows.middleRows(1, 2) *= factor;
+    if (result.rows.rows() < 6) continue;
+    result.rows.bottomRows(3) *= factor;
+    result.rows.bottomRows(3) *= factor;
+    without_linear(step->from);
+  }
+  return result;
+}
+
+}  // namespace sublimit

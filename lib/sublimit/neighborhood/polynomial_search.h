@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// Which pieces are polynomials. No spline is written down anywhere: the limit is taken at points enough for a
+// polynomial through them, and the polynomial is believed if it satisfies the refinement equation
+//
+//   p(u,v) x = p_child(map(u,v)) B x      for all children, as many points of each as the degree asks for
+//
+// since the limit is the only solution of this equation that is continuous.
+#include <vector>
+
+#include "sublimit/neighborhood/piece_types.h"
+
+namespace sublimit {
+
+class PolynomialSearch {
+ public:
+  explicit PolynomialSearch(PieceTypes& types) : types_(types), lock_(types.polynomials_) {}
+  /// Sets whether a type is a polynomial.
+  void decide(const PieceType& type);
+
+ private:
+  struct Verdict {
+    bool polynomial;
+    size_t lowest;  ///< of the types on the stack that this was assumed for
+  };
+  Verdict verdict(const PieceType& type);
+  const PiecePolynomial* candidate(const PieceType& type);
+  std::optional<PiecePolynomial> interpolated(const PieceType& type, const PolynomialBasis& basis, bool halves,
+                                              bool wide) const;
+  bool satisfies_refinement(const PieceType& type, const PiecePolynomial& p, double tolerance);
+
+  PieceTypes& types_;
+  std::unique_lock<std::recursive_mutex> lock_;
+  std::vector<const PieceType*> stack_;
+};
+
+}  // namespace sublimit
