@@ -3,6 +3,7 @@
 
 #include <Eigen/LU>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -30,8 +31,8 @@ Eigen::RowVectorXd least_combination(const Eigen::MatrixXd& points, const Eigen:
     Eigen::Index entering = 0;
     const double most = values.cwiseAbs().maxCoeff(&entering), sum = weights.sum();
     if (most <= 1 + 1e-11) break;
-    if (level && (sum <= *level || sum > *level * most))
-      break;  // prices/most are a dual point: no sum is below sum/most
+    // prices/most are a dual point: no combination has a sum below sum/most.
+    if (level && (sum <= *level || sum > *level * most)) break;
     const double side = values[entering] < 0 ? -1 : 1;
     const Eigen::RowVectorXd direction = side * points.row(entering) * inverse;
     // Of those whose weights reach zero (nearly) first, the one that the basis changes most by: else it degenerates.

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sublimit/certificates/regularity/joint_spectral_radius.h"
 
-#include <Eigen/LU>
-
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "sublimit/certificates/regularity/absolute_hull.h"
@@ -15,6 +14,7 @@ namespace {
 
 using Matrices = std::vector<BallMatrix>;
 using Doubles = std::vector<Eigen::MatrixXd>;
+constexpr double on_the_polytope = 1 + 1e-9;  // up to rounding
 constexpr double unbounded = std::numeric_limits<double>::infinity();
 
 struct Product {
@@ -112,8 +112,7 @@ std::optional<Eigen::MatrixXd> invariant_polytope(const Doubles& matrices,
   const Eigen::Index n = matrices[0].rows();
   Eigen::MatrixXd points = 0.25 * Eigen::MatrixXd::Identity(n, n);
   const auto is_inside = [&](const Eigen::RowVectorXd& x) {
-    constexpr double level = 1 + 1e-9;
-    return least_combination(points, x, level).lpNorm<1>() <= level;
+    return least_combination(points, x, on_the_polytope).lpNorm<1>() <= on_the_polytope;
   };
   const auto add = [&](const Eigen::RowVectorXd& x) {
     points.conservativeResize(points.rows() + 1, Eigen::NoChange);
@@ -183,12 +182,10 @@ double product_radius(const Matrices& matrices, const std::vector<int>& factors)
   return arb_le(power.get(), low.get()) ? root.mid() : root.lower();  // powers of two have their roots
 }
 
-double norm_bound(const Matrices& matrices, const Eigen::MatrixXd& polytope) {
+double norm_bound(const Matrices& matrices, const Eigen::MatrixXd& polytope, std::optional<double> level) {
   const Eigen::Index n = polytope.cols(), count = polytope.rows();
   const double unit = polytope(0, 0);
-  int exponent = 0;
-  if (polytope.topRows(n) != unit * Eigen::MatrixXd::Identity(n, n) || std::frexp(unit, &exponent) != 0.5)
-    return unbounded;
+  if (!(unit > 0) || polytope.topRows(n) != unit * Eigen::MatrixXd::Identity(n, n)) return unbounded;
   const BallMatrix exact(polytope);
   double bound = 0;
   for (const BallMatrix& A : matrices) {
@@ -196,7 +193,7 @@ double norm_bound(const Matrices& matrices, const Eigen::MatrixXd& polytope) {
     const Eigen::MatrixXd image = polytope * A.middle();
     BallMatrix rest = exact * A;
     for (Eigen::Index i = 0; i < count; ++i) {
-      const Eigen::RowVectorXd C = least_combination(polytope, image.row(i));
+      const Eigen::RowVectorXd C = least_combination(polytope, image.row(i), level);
       Ball row;
       for (Eigen::Index j = 0; j < count; ++j) {
         if (C[j] == 0) continue;  // most of them
@@ -245,7 +242,7 @@ JointSpectralRadius joint_spectral_radius(const Matrices& given, const JointSpec
     if (slack < options.least_slack) break;
     const std::optional<Eigen::MatrixXd> polytope = invariant_polytope(near, leading, rate, options);
     if (!polytope) break;  // the closer the rate, the more vertices
-    const double bound = norm_bound(matrices, *polytope);
+    const double bound = norm_bound(matrices, *polytope, rate * on_the_polytope);
     if (bound >= result.high) break;
     result.high = bound;
     result.vertices = static_cast<int>(polytope->rows());

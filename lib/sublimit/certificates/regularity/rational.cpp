@@ -10,18 +10,14 @@ namespace sublimit {
 
 Rational::Rational(long p, long q) : Rational() {
   if (q == 0) throw AnalysisError("division of a ratio by zero");
-  fmpq_set_si(x_, q < 0 ? -p : p, static_cast<ulong>(std::abs(q)));
+  fmpz_set_si(fmpq_numref(x_), p);
+  fmpz_set_si(fmpq_denref(x_), q);
+  fmpq_canonicalise(x_);
 }
 
 Rational::Rational(double value) : Rational() {
   if (!std::isfinite(value)) throw AnalysisError("a number is not finite");
-  int exponent = 0;
-  fmpz_set_d(fmpq_numref(x_), std::ldexp(std::frexp(value, &exponent), 53));
-  exponent -= 53;
-  if (exponent < 0)
-    fmpq_div_2exp(x_, x_, static_cast<ulong>(-exponent));
-  else
-    fmpq_mul_2exp(x_, x_, static_cast<ulong>(exponent));
+  arf_get_fmpq(x_, arb_midref(Ball(value).get()));
 }
 
 Ball Rational::enclosure() const {

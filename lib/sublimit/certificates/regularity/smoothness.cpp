@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sublimit/certificates/regularity/smoothness.h"
 
-#include <flint/fmpq_mat.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -119,21 +117,12 @@ std::optional<Verdict> disproved(const Smoothness& s, const DifferenceTransition
 }  // namespace
 
 bool has_unit_eigenvalue(const RationalMatrix& A, const Rational& factor) {
-  fmpq_mat_t M;
-  fmpq_t determinant;
-  fmpq_mat_init(M, A.rows(), A.cols());
-  fmpq_init(determinant);
-  bool found = false;
   for (const int sign : {1, -1}) {
-    for (Eigen::Index i = 0; i < A.rows(); ++i)
-      for (Eigen::Index j = 0; j < A.cols(); ++j)
-        fmpq_set(fmpq_mat_entry(M, i, j), (factor * A(i, j) - Rational(i == j ? sign : 0)).get());
-    fmpq_mat_det(determinant, M);
-    found |= fmpq_is_zero(determinant);
+    RationalMatrix M = A * factor;
+    for (Eigen::Index i = 0; i < M.rows(); ++i) M(i, i) -= sign;
+    if (is_singular(M)) return true;
   }
-  fmpq_clear(determinant);
-  fmpq_mat_clear(M);
-  return found;
+  return false;
 }
 
 Ball exponent_of(double radius, int dilation) {

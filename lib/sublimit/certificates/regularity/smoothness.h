@@ -8,12 +8,10 @@
 #include <vector>
 
 #include "sublimit/certificates/regularity/joint_spectral_radius.h"
-#include "sublimit/certificates/regularity/rational.h"
+#include "sublimit/certificates/regularity/rational_matrix.h"
 #include "sublimit/limit/verdict.h"
 
 namespace sublimit {
-
-using RationalMatrix = Eigen::Matrix<Rational, Eigen::Dynamic, Eigen::Dynamic>;
 
 /// Matrices whose products take differences of order `order` to those of all finer levels.
 struct DifferenceTransitions {

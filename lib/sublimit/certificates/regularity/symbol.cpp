@@ -65,8 +65,8 @@ Symbol difference_symbol(Symbol a, int m) {
 }
 
 bool has_independent_shifts(const Symbol& a) {
-  std::vector<Algebraic> all,
-      parity[2];  // a(z) = even(z^2) + z odd(z^2): zeros common to a(z) and a(-z) are common to both
+  // a(z) = even(z^2) + z odd(z^2): zeros common to a(z) and a(-z) are common to both. None is 0, a being trimmed.
+  std::vector<Algebraic> all, parity[2];
   for (const Rational& c : trimmed(a).coefficients) {
     parity[all.size() % 2].emplace_back(c.get());
     all.emplace_back(c.get());

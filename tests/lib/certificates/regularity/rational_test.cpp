@@ -17,6 +17,7 @@ TEST(Rational, HasAsManyDigitsAsItNeeds) {
   for (int k = 0; k < 100; ++k) power /= third;
   EXPECT_EQ(power, Rational(1));
   EXPECT_EQ(to_string(Rational(6, -8)), "-3/4");
+  EXPECT_EQ(to_string(Rational(1, std::numeric_limits<long>::min())), "-1/9223372036854775808");
   EXPECT_EQ(to_string(Rational(Ratio{4, 2})), "2");
   EXPECT_EQ(to_string(Rational(std::numeric_limits<unsigned long>::max())), "18446744073709551615");
 }

@@ -55,7 +55,7 @@ TEST(SurfaceRegularity, InterpolatingSchemesAreOnlyC1) {
   expect(regularity_of("kobbelt", {{"tension", "3"}}), 1, 1.0244);
 }
 
-TEST(SurfaceRegularity, PolytopesShowWhatLengthsDoNot) {
+TEST(SurfaceRegularity, PolytopeNormsAreSmallerThanTheEuclideanOne) {
   // The Euclidean norm is above 1/2, and the polytope's only below it where its points are combined with care.
   expect(regularity_of("butterfly", {{"tension", "1/3"}}), 1, 1.138);
 }
