@@ -37,17 +37,9 @@ long positive_remainder(long k, long n) { return (k % n + n) % n; }
 
 Algebraic::Algebraic(double value) : Algebraic() {
   if (!std::isfinite(value)) throw AnalysisError("infinity and NaN are no algebraic numbers");
-  int exponent = 0;
-  const double mantissa = std::frexp(value, &exponent);
   fmpq_t q;
   fmpq_init(q);
-  fmpz_set_d(fmpq_numref(q), std::ldexp(mantissa, 53));
-  fmpq_canonicalise(q);
-  exponent -= 53;
-  if (exponent >= 0)
-    fmpq_mul_2exp(q, q, static_cast<ulong>(exponent));
-  else
-    fmpq_div_2exp(q, q, static_cast<ulong>(-exponent));
+  arf_get_fmpq(q, arb_midref(Ball(value).get()));
   fmpq_poly_set_fmpq(p_, q);
   fmpq_clear(q);
 }

@@ -53,6 +53,12 @@ Ball abs(const Ball& x) {
   return r;
 }
 
+Ball max(const Ball& a, const Ball& b) {
+  Ball r;
+  arb_max(r.get(), a.get(), b.get(), PrecisionScope::bits());
+  return r;
+}
+
 Ball sqrt(const Ball& x) {
   Ball r;
   arb_sqrt(r.get(), x.get(), PrecisionScope::bits());

@@ -101,6 +101,8 @@ inline bool certainly_less(const Ball& a, const Ball& b) { return arb_lt(a.get()
 inline bool certainly_positive(const Ball& a) { return arb_is_positive(a.get()); }
 inline bool certainly_negative(const Ball& a) { return arb_is_negative(a.get()); }
 Ball abs(const Ball& x);
+/// The greater one of two numbers, one of each ball.
+Ball max(const Ball& a, const Ball& b);
 Ball sqrt(const Ball& x);
 Ball log(const Ball& x);
 /// Whatever is in both. Where nothing is, one of the two was wrong.

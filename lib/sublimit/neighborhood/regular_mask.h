@@ -48,6 +48,8 @@ struct RegularMask {
   int dilation = 2;
   std::map<Offset, T> weights = {};  ///< by i - dilation j; none is zero
 
+  bool operator==(const RegularMask&) const = default;
+
   /// P - dilation Q of a weight's key, P and Q being places.
   LatticePoint doubled(const Offset& key) const { return {2 * key[0] - shift(), 2 * key[1] - shift()}; }
   /// The weights by that.

@@ -13,22 +13,23 @@
 namespace sublimit {
 namespace {
 
-using Intervals = std::vector<Interval>;
+using Balls = std::vector<Ball>;
 
 /// p(z) r(z^step).
-Intervals times_spread(const Intervals& p, const Intervals& r, size_t step) {
-  Intervals product(p.size() + step * (r.size() - 1));
+Balls times_spread(const Balls& p, const Balls& r, size_t step) {
+  Balls product(p.size() + step * (r.size() - 1));
   for (size_t j = 0; j < r.size(); ++j)
-    for (size_t i = 0; i < p.size(); ++i) product[i + step * j] += p[i] * r[j];
+    for (size_t i = 0; i < p.size(); ++i)
+      arb_addmul(product[i + step * j].get(), p[i].get(), r[j].get(), PrecisionScope::bits());
   return product;
 }
 
 /// Largest sum of moduli over a residue class.
-Interval residue_norm(const Intervals& p, size_t modulus) {
-  Intervals sums(modulus);
+Ball residue_norm(const Balls& p, size_t modulus) {
+  Balls sums(modulus);
   for (size_t i = 0; i < p.size(); ++i) sums[i % modulus] += abs(p[i]);
-  Interval largest = 0;
-  for (const Interval& s : sums) largest = max(largest, s);
+  Ball largest;
+  for (const Ball& s : sums) largest = max(largest, s);
   return largest;
 }
 
@@ -173,14 +174,14 @@ DifferenceNorm difference_norm(const Symbol& a, int order, int most_steps) {
   Symbol r = difference_symbol(a, order);
   for (Rational& c : r.coefficients)
     for (int i = 1; i < order; ++i) c *= 2;
-  Intervals once;
+  Balls once;
   for (const Rational& c : r.coefficients) once.push_back(c.enclosure());
   DifferenceNorm best{.order = order, .steps = 1, .norm = residue_norm(once, 2)};
-  Intervals product = once;
-  for (int steps = 2; steps <= most_steps && best.norm.high >= 1; ++steps) {
+  Balls product = once;
+  for (int steps = 2; steps <= most_steps && best.norm.upper() >= 1; ++steps) {
     product = times_spread(product, once, size_t{1} << (steps - 1));
-    const Interval norm = residue_norm(product, size_t{1} << steps);
-    if (norm.high < best.norm.high) best = {order, steps, norm};
+    const Ball norm = residue_norm(product, size_t{1} << steps);
+    if (norm.upper() < best.norm.upper()) best = {order, steps, norm};
   }
   return best;
 }

@@ -113,22 +113,9 @@ Functional limit_functional(const RegularMask<Rational>& mask) {
     M(n, i) = 1;
   }
   M(n, n) = 1;  // last column: right sides
-  Eigen::Index rank = 0;
-  for (Eigen::Index column = 0; column < n; ++column) {
-    Eigen::Index pivot = rank;
-    while (pivot <= n && M(pivot, column).is_zero()) ++pivot;
-    if (pivot > n) return {};
-    M.row(rank).swap(M.row(pivot));
-    const Rational lead = M(rank, column);
-    for (Eigen::Index j = column; j <= n; ++j) M(rank, j) /= lead;
-    for (Eigen::Index i = 0; i <= n; ++i) {
-      if (i == rank || M(i, column).is_zero()) continue;
-      const Rational share = M(i, column);
-      for (Eigen::Index j = column; j <= n; ++j) M(i, j) -= share * M(rank, j);
-    }
-    ++rank;
-  }
-  if (!M(n, n).is_zero()) return {};
+  // One solution: a pivot in each column but the last.
+  const std::vector<Eigen::Index> pivots = reduce_rows(M);
+  if (static_cast<Eigen::Index>(pivots.size()) != n || pivots.back() != n - 1) return {};
   Functional result;
   for (Eigen::Index i = 0; i < n; ++i)
     if (!M(i, n).is_zero()) result[places[i]] = M(i, n);

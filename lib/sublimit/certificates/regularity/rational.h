@@ -1,76 +1,98 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Exact ratios of 128-bit integers: masks of curve schemes and of regular meshes are such numbers. What does not fit
-// throws. An irrational constant is no ratio, and neither is what is computed from it: masks of irregular sites may
-// have such weights as long as nobody uses them.
+// Exact ratios, of any length, by FLINT: masks of curve schemes and of regular meshes are such numbers. An irrational
+// constant is no ratio, and neither is what is computed from it: masks of irregular sites may have such weights as long
+// as nobody uses them.
 #include <flint/fmpq.h>
-
-#include <Eigen/Core>
 
 #include <compare>
 #include <concepts>
 #include <string>
+#include <utility>
 
-#include "sublimit/certificates/regularity/interval.h"
-#include "sublimit/core/number.h"
+#include "sublimit/certificates/ball.h"
 #include "sublimit/core/scheme_options.h"
 
 namespace sublimit {
 
 class Rational {
  public:
-  __extension__ using Integer = __int128;
-
-  Rational() = default;
+  Rational() { fmpq_init(x_); }
   template <std::integral I>
-  Rational(I value) : p_(value) {}           // NOLINT: whole numbers are ratios
+  Rational(I value) : Rational() {  // NOLINT: whole numbers are ratios
+    if constexpr (std::is_signed_v<I>)
+      fmpz_set_si(fmpq_numref(x_), value);
+    else
+      fmpz_set_ui(fmpq_numref(x_), value);
+  }
   Rational(Ratio r) : Rational(r.p, r.q) {}  // NOLINT: so are options
   /// @throws AnalysisError  q = 0
-  Rational(Integer p, Integer q);
+  Rational(long p, long q);
   /// Exactly this double.
-  /// @throws AnalysisError  it has no 128-bit numerator and denominator
+  /// @throws AnalysisError  it is not finite
   explicit Rational(double value);
-  /// @throws AnalysisError  it has no 128-bit numerator and denominator
-  explicit Rational(const fmpq_t value);
+  explicit Rational(const fmpq_t value) : Rational() { fmpq_set(x_, value); }
+  Rational(const Rational& other) : Rational() { *this = other; }
+  Rational(Rational&& other) noexcept : Rational() { swap(other); }
+  Rational& operator=(const Rational& other) {
+    fmpq_set(x_, other.x_);
+    is_ratio_ = other.is_ratio_;
+    return *this;
+  }
+  Rational& operator=(Rational&& other) noexcept {
+    swap(other);
+    return *this;
+  }
+  ~Rational() { fmpq_clear(x_); }
+  void swap(Rational& other) noexcept {
+    fmpq_swap(x_, other.x_);
+    std::swap(is_ratio_, other.is_ratio_);
+  }
 
-  Integer numerator() const { return p_; }
-  Integer denominator() const { return q_; }
-  bool is_zero() const { return p_ == 0 && q_ != 0; }
+  const fmpq* get() const { return x_; }
+  bool is_zero() const { return is_ratio_ && fmpq_is_zero(x_); }
   /// False of what has an irrational number in it.
-  bool is_ratio() const { return q_ != 0; }
+  bool is_ratio() const { return is_ratio_; }
   static Rational irrational() {
     Rational r;
-    r.q_ = 0;
+    r.is_ratio_ = false;
     return r;
   }
-  /// Encloses it, without width where it is a double.
-  Interval enclosure() const;
-  double value() const { return enclosure().middle(); }
+  /// As tight as the thread's precision (PrecisionScope) makes it; everything, of an irrational number.
+  Ball enclosure() const;
+  double value() const { return enclosure().mid(); }
   explicit operator double() const { return value(); }
 
-  /// @throws AnalysisError  (all four) the result does not fit, or division by 0
-  friend Rational operator+(const Rational& a, const Rational& b);
-  friend Rational operator-(const Rational& a, const Rational& b) { return a + -b; }
-  friend Rational operator*(const Rational& a, const Rational& b);
-  friend Rational operator/(const Rational& a, const Rational& b);
-  friend Rational operator-(const Rational& a) {
-    Rational r = a;
-    r.p_ = -r.p_;
+  Rational& operator+=(const Rational& b) { return fmpq_add(x_, x_, b.x_), with(b); }
+  Rational& operator-=(const Rational& b) { return fmpq_sub(x_, x_, b.x_), with(b); }
+  Rational& operator*=(const Rational& b) { return fmpq_mul(x_, x_, b.x_), with(b); }
+  /// @throws AnalysisError  division by 0
+  Rational& operator/=(const Rational& b);
+  Rational operator-() const {
+    Rational r(*this);
+    fmpq_neg(r.x_, r.x_);
     return r;
   }
-  Rational& operator+=(const Rational& b) { return *this = *this + b; }
-  Rational& operator-=(const Rational& b) { return *this = *this - b; }
-  Rational& operator*=(const Rational& b) { return *this = *this * b; }
-  Rational& operator/=(const Rational& b) { return *this = *this / b; }
+  friend Rational operator+(Rational a, const Rational& b) { return std::move(a += b); }
+  friend Rational operator-(Rational a, const Rational& b) { return std::move(a -= b); }
+  friend Rational operator*(Rational a, const Rational& b) { return std::move(a *= b); }
+  friend Rational operator/(Rational a, const Rational& b) { return std::move(a /= b); }
+  /// Nothing is equal to, below or above an irrational number: which one it is, is not known.
   friend bool operator==(const Rational& a, const Rational& b) {
-    return a.is_ratio() && a.p_ == b.p_ && a.q_ == b.q_;  // which irrational number one is, is not known
+    return a.is_ratio_ && b.is_ratio_ && fmpq_equal(a.x_, b.x_);
   }
-  friend std::strong_ordering operator<=>(const Rational& a, const Rational& b) { return (a - b).p_ <=> Integer{0}; }
-  friend Rational abs(const Rational& a) { return a.p_ < 0 ? -a : a; }
+  friend std::partial_ordering operator<=>(const Rational& a, const Rational& b) {
+    return a.is_ratio_ && b.is_ratio_ ? std::partial_ordering(fmpq_cmp(a.x_, b.x_) <=> 0)
+                                      : std::partial_ordering::unordered;
+  }
+  friend Rational abs(Rational a) { return fmpq_abs(a.x_, a.x_), a; }
   friend Rational sqrt(const Rational& a);
 
  private:
-  Integer p_ = 0, q_ = 1;  ///< no common divisor, q_ > 0; q_ = 0 where it is irrational
+  Rational& with(const Rational& b) { return is_ratio_ = is_ratio_ && b.is_ratio_, *this; }
+
+  fmpq_t x_;
+  bool is_ratio_ = true;
 };
 
 /// `-9/64`, or `2`.
@@ -78,7 +100,7 @@ std::string to_string(const Rational& r);
 
 template <>
 struct Number<Rational> {
-  static Rational ratio(int p, int q) { return {Rational::Integer{p}, Rational::Integer{q}}; }
+  static Rational ratio(int p, int q) { return {p, q}; }
   /// Other than 0, +-1/2 and +-1 such cosines are irrational.
   static Rational cos_2pi(int k, int n);
 };
@@ -86,21 +108,4 @@ struct Number<Rational> {
 }  // namespace sublimit
 
 template <>
-struct Eigen::NumTraits<sublimit::Rational> : Eigen::GenericNumTraits<sublimit::Rational> {
-  using Real = sublimit::Rational;
-  using NonInteger = sublimit::Rational;
-  using Nested = sublimit::Rational;
-  using Literal = sublimit::Rational;
-  enum {
-    IsComplex = 0,
-    IsInteger = 0,
-    IsSigned = 1,
-    RequireInitialization = 1,
-    ReadCost = 2,
-    AddCost = 50,
-    MulCost = 50
-  };
-  static Real epsilon() { return 0; }
-  static Real dummy_precision() { return 0; }
-  static int digits10() { return 0; }
-};
+struct Eigen::NumTraits<sublimit::Rational> : sublimit::RingTraits<sublimit::Rational> {};

@@ -8,11 +8,10 @@
 #include <vector>
 
 #include "sublimit/certificates/regularity/joint_spectral_radius.h"
+#include "sublimit/certificates/regularity/rational_matrix.h"
 #include "sublimit/limit/verdict.h"
 
 namespace sublimit {
-
-using RationalMatrix = Eigen::Matrix<Rational, Eigen::Dynamic, Eigen::Dynamic>;
 
 /// Matrices whose products take differences of order `order` to those of all finer levels.
 struct DifferenceTransitions {
@@ -29,7 +28,7 @@ struct DifferenceTransitions {
 /// the limit is C^(order - 1).
 struct DifferenceNorm {
   int order = 1, steps = 1;
-  Interval norm;
+  Ball norm;
 };
 
 struct Smoothness {
@@ -53,8 +52,8 @@ struct Smoothness {
 Smoothness smoothness(const DifferenceTransitions& transitions, const std::vector<DifferenceNorm>& norms, int sum_rules,
                       const JointSpectralRadiusOptions& options = {}, const DifferenceTransitions* of_limits = nullptr);
 
-/// Bounds of the exponent -log(rho)/log(dilation), rounded outwards.
-Interval exponent_of(const Interval& radius, int dilation);
+/// The exponent -log(radius)/log(dilation), enclosed; of a power of two at dilation 2 exactly.
+Ball exponent_of(double radius, int dilation);
 
 /// 1 or -1 is an eigenvalue of dilation^k times one of the matrices, exactly.
 bool has_unit_eigenvalue(const RationalMatrix& A, const Rational& factor);

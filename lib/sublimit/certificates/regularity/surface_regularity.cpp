@@ -118,7 +118,7 @@ void use_differences(SurfaceRegularity& s, const JointSpectralRadiusOptions& opt
     if (!values.empty()) {
       try {
         while (s.degrees.generates < 8 && generates(s.mask, values, s.degrees.generates + 1)) ++s.degrees.generates;
-      } catch (const AnalysisError&) {  // numbers too long: what was found is a lower bound
+      } catch (const AnalysisError&) {  // too many dimensions: what was found is a lower bound
       }
       limits = difference_transitions(s.mask, std::min(s.degrees.generates + 1, 4), values);
       limits.stable = false;
@@ -185,7 +185,7 @@ SurfaceRegularity surface_regularity(const RegularMask<Rational>& mask, const Jo
   } else {
     try {
       use_differences(s, options);
-    } catch (const AnalysisError& error) {  // numbers too long
+    } catch (const AnalysisError& error) {  // too many dimensions
       s.smoothness.possible = s.sum_rules;
       s.smoothness.notes.push_back(error.what());
       s.smoothness.verdicts.push_back({.property = "regular-smoothness",

@@ -22,7 +22,6 @@ struct SurfaceRegularity {
 };
 
 /// @param options  how much effort goes into joint spectral radii
-/// @throws AnalysisError  weights that need more than 128 bits
 SurfaceRegularity surface_regularity(const RegularMask<Rational>& mask, const JointSpectralRadiusOptions& options);
 SurfaceRegularity surface_regularity(const RegularMask<Rational>& mask);
 

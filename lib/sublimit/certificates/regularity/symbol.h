@@ -39,9 +39,8 @@ Symbol difference_symbol(Symbol a, int m);
 
 /// The integer shifts of the limit function are linearly independent: what happens to points then happens to the limit,
 /// so that conditions on the differences of points are necessary and not only sufficient. It holds if a(z) and a(-z)
-/// have no common zero except 0, and no cyclotomic polynomial of order 2m, m > 1 odd, divides a. True is certain
-/// (computed modulo a prime, where divisors can only be more); false means not shown. Source: Jia, Wang 1993,
-/// "Stability and linear independence associated with wavelet decompositions", Proc. AMS 117.
+/// have no common zero except 0, and no cyclotomic polynomial of order 2m, m > 1 odd, divides a. Source: Jia, Wang
+/// 1993, "Stability and linear independence associated with wavelet decompositions", Proc. AMS 117.
 bool has_independent_shifts(const Symbol& a);
 
 /// sum a_j at z = 1 (sign 1) or z = -1 (sign -1).

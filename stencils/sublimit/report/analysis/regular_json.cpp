@@ -35,8 +35,8 @@ Json norms_json(const Smoothness& s) {
   for (const DifferenceNorm& n : s.norms)
     json.push_back({{"order", n.order},
                     {"steps", n.steps},
-                    {"norm", stated(n.norm.middle())},
-                    {"enclosure", {format_number(n.norm.low), format_number(n.norm.high)}}});
+                    {"norm", stated(n.norm.mid())},
+                    {"enclosure", {format_number(n.norm.lower()), format_number(n.norm.upper())}}});
   return json;
 }
 

@@ -68,14 +68,14 @@ TEST(CurveRegularity, FourPointNormOfTwoStepsIsOneWhereItShouldBe) {
     return difference_norm(four_point_symbol(static_cast<int>(std::lround(w * 1e6)), 1000000), order, 2);
   };
   constexpr double step = 2e-6;
-  EXPECT_LT(norm(c1 - step, 2).norm.high, 1);
-  EXPECT_GT(norm(c1 + step, 2).norm.low, 1);
-  EXPECT_LT(norm(c0 - step, 1).norm.high, 1);
-  EXPECT_GT(norm(c0 + step, 1).norm.low, 1);
+  EXPECT_LT(norm(c1 - step, 2).norm.upper(), 1);
+  EXPECT_GT(norm(c1 + step, 2).norm.lower(), 1);
+  EXPECT_LT(norm(c0 - step, 1).norm.upper(), 1);
+  EXPECT_GT(norm(c0 + step, 1).norm.lower(), 1);
   const DifferenceNorm end = difference_norm(four_point_symbol(-3, 8), 1, 2);
-  EXPECT_EQ(end.norm.low, 1);
-  EXPECT_EQ(end.norm.high, 1);
-  EXPECT_LT(norm(-0.375 + step, 1).norm.high, 1);
+  EXPECT_EQ(end.norm.lower(), 1);
+  EXPECT_EQ(end.norm.upper(), 1);
+  EXPECT_LT(norm(-0.375 + step, 1).norm.upper(), 1);
 }
 
 TEST(CurveRegularity, FourPointIsC1UpToTheEndOfItsRange) {

@@ -6,6 +6,7 @@
 
 #include "sublimit/certificates/exact_schemes.h"
 #include "sublimit/certificates/regularity/rational_schemes.h"
+#include "support/tolerance.h"
 
 namespace sublimit {
 namespace {
@@ -66,6 +67,26 @@ TEST(RegularMask, ResiduesSumToOne) {
     EXPECT_EQ(moments[0], Rational(0)) << scheme.name;
     EXPECT_EQ(moments[1], Rational(0)) << scheme.name;
   }
+}
+
+TEST(RegularMask, IsTheSameInEveryNumberType) {
+  const auto check = [](const std::string& name, const SchemeOptions& options = {}) {
+    const RegularMask<Algebraic> exact = regular_mask(*find_scheme<Algebraic>(name, options));
+    const std::optional<RegularMask<Rational>> ratios = rational_mask(exact);
+    ASSERT_TRUE(ratios) << name << ": cosines are for extraordinary places";
+    EXPECT_EQ(mask_of(name, options), *ratios) << name;
+    const RegularMask<double> floating = regular_mask(*find_scheme<double>(name, options));
+    EXPECT_EQ(floating.triangular, exact.triangular) << name;
+    EXPECT_EQ(floating.dual, exact.dual) << name;
+    EXPECT_EQ(floating.dilation, exact.dilation) << name;
+    ASSERT_EQ(floating.weights.size(), exact.weights.size()) << name;
+    for (const auto& [key, weight] : ratios->weights)
+      EXPECT_NEAR(floating.weights.at(key), weight.value(), testing::rounding(8)) << name;
+  };
+  for (const Scheme<double>& scheme : all_schemes()) check(scheme.name);
+  for (const char* tension : {"0", "1/3", "0.7"})
+    for (const char* name : {"butterfly", "kobbelt"}) check(name, {{"tension", tension}});
+  for (const char* degree : {"2", "5", "8", "9"}) check("averaging", {{"degree", degree}});
 }
 
 TEST(RegularMask, LongNumbersStayExact) {

@@ -57,6 +57,20 @@ TEST(RegularJson, SchemesOutsideTheRegistryAreTaken) {
     EXPECT_EQ(report::regular_json(*find_scheme<Algebraic>(name)).dump(), report::regular_json(name).dump()) << name;
 }
 
+TEST(RegularJson, LongNumbersStayExact) {
+  Scheme<Algebraic> scheme = find_scheme<Algebraic>("bilinear").value();
+  const Algebraic w = Algebraic::parse("1234567890123456789013/9876543210987654321098");
+  scheme.steps[0].masks.vertex = [w](const Ring<Algebraic>& v) {
+    return (Algebraic(1) - w) * v.center() + w * v.neighbor_mean();
+  };
+  const Json json = report::regular_json(scheme);
+  ASSERT_TRUE(json.is_object());
+  size_t found = 0;
+  for (const Json& weight : json["mask"]) found += weight["exact"] == "8641975320864197532085/9876543210987654321098";
+  EXPECT_EQ(found, 1u);
+  EXPECT_TRUE(json["smoothness"]["exponent"].is_array());
+}
+
 TEST(RegularJson, SweepsCurvesAndMasks) {
   const Json swept = report::to_json(sweep("lane-riesenfeld", sweep_range("degree=0:3:1")));
   EXPECT_EQ(swept["values"], Json::parse("[0.0, 1.0, 2.0, 3.0]"));
