@@ -32,6 +32,9 @@ struct TableInfo {
   std::uint64_t topology_hash = 0;    ///< of the cage; 0: not known
   std::string tool;                   ///< name and version of what made it
   std::vector<std::string> statuses;  ///< what the numbers of statuses stand for: "regular", ...
+  /// Derivatives that exist at points of each status, 0 to 2, as many: rows of the others are zero, or two tangents
+  /// that no parameter belongs to. None: all that the table has.
+  std::vector<std::int8_t> orders;
 };
 
 /// 64 bits of the connectivity of a cage, the same on all machines. Tags and positions are no part of it.

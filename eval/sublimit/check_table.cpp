@@ -26,6 +26,11 @@ void check_info(const TableInfo& info, std::int64_t num_points) {
   if (info.statuses.size() > 256) fail(std::to_string(info.statuses.size()) + " statuses; a byte counts 256");
   for (const std::string& status : info.statuses)
     if (status.empty() || status.find(' ') != std::string::npos) fail("the status '" + status + "' is not one word");
+  if (!info.orders.empty() && info.orders.size() != info.statuses.size())
+    fail("orders has " + std::to_string(info.orders.size()) + " entries, not one for each of " +
+         std::to_string(info.statuses.size()) + " statuses");
+  for (const int order : info.orders)
+    if (order < 0 || order > 2) fail("orders has " + std::to_string(order) + "; 0, 1 and 2 derivatives are right");
   if (info.rows != TableRows::grid) return;
   if (info.grid < 2 || info.grid > last_grid)
     fail("a grid of " + std::to_string(info.grid) + "; 2 to " + std::to_string(last_grid) + " are right");

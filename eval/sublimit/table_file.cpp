@@ -180,11 +180,11 @@ class TableReader {
       if (end.ec != std::errc() || end.ptr != hash.data() + hash.size() || hash.size() != 16)
         fail("metadata: topology_hash is '" + hash + "', not 16 hexadecimal digits");
     }
-    const std::string statuses = text("statuses");
-    for (size_t at = 0; at < statuses.size();) {
-      const size_t end = std::min(statuses.find(' ', at), statuses.size());
-      info.statuses.push_back(statuses.substr(at, end - at));
-      at = end + 1;
+    info.statuses = words("statuses");
+    for (const std::string& order : words("orders")) {
+      if (order != "0" && order != "1" && order != "2")
+        fail("metadata: orders has '" + order + "'; 0, 1 and 2 derivatives are right");
+      info.orders.push_back(static_cast<std::int8_t>(order[0] - '0'));
     }
     return info;
   }
@@ -208,6 +208,18 @@ class TableReader {
   std::string text(const std::string& key, const std::string& otherwise = "") const {
     const auto at = file_.metadata.find(key);
     return at == file_.metadata.end() ? otherwise : at->second;
+  }
+
+  /// With a space between.
+  std::vector<std::string> words(const std::string& key) const {
+    const std::string all = text(key);
+    std::vector<std::string> words;
+    for (size_t at = 0; at < all.size();) {
+      const size_t end = std::min(all.find(' ', at), all.size());
+      words.push_back(all.substr(at, end - at));
+      at = end + 1;
+    }
+    return words;
   }
 
   std::int64_t number(const std::string& key, std::int64_t least, std::int64_t most,

@@ -105,6 +105,10 @@ TableTensors::TableTensors(const BakedTable<Real>& table) {
     std::string& words = m["statuses"];
     words += (words.empty() ? "" : " ") + status;
   }
+  for (const int order : info.orders) {
+    std::string& words = m["orders"];
+    words += (words.empty() ? "" : " ") + std::to_string(order);
+  }
 }
 
 template TableTensors::TableTensors(const BakedTable<float>&);

@@ -197,8 +197,10 @@ TEST_F(ChangedFile, IsRefusedForItsMetadata) {
   expect("address_shape", "round", {"address_shape is 'round'"});
   expect("topology_hash", "12", {"topology_hash is '12'"});
   expect("topology_hash", "00c0ffee1234567g", {"topology_hash"});
-  expect("statuses", "regular", {"row_status has the status 1; there are 1"});
+  expect("statuses", "regular", {"orders has 2 entries, not one for each of 1 statuses"});
   expect("statuses", "regular  crease", {"''"});
+  expect("orders", "1 3", {"orders has '3'", "0, 1 and 2"});
+  expect("orders", "1", {"orders has 1 entries, not one for each of 2 statuses"});
   expect("lattice", "4096", {"a lattice of 4096 is larger"});
   expect("lattice", "0", {"lattice is '0'"});
   expect("lattice", "3", {"points of face"});
@@ -295,6 +297,15 @@ TEST(TableFile, IsNotWrittenWrong) {
   table = everything<double>();
   table.info.statuses = {"two words", "one"};
   expect_error<InvalidParameter>([&] { save_table(directory / "t", table); }, {"'two words'"});
+  table = everything<double>();
+  table.info.orders = {1};
+  expect_error<InvalidParameter>([&] { save_table(directory / "t", table); }, {"orders has 1 entries", "2 statuses"});
+  table.info.statuses = {"regular"};
+  expect_error<InvalidParameter>([&] { save_table(directory / "t", table); },
+                                 {"row_status has the status 1; there are 1"});
+  table = everything<double>();
+  table.info.orders = {3, 0};
+  expect_error<InvalidParameter>([&] { save_table(directory / "t", table); }, {"orders has 3;"});
   EXPECT_EQ(directory.num_files(), 0);
 }
 

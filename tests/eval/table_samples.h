@@ -65,7 +65,8 @@ BakedTable<Real> two_quads(int quantities = 1) {
                 .level = 1,
                 .topology_hash = 0x00c0ffee12345678u,
                 .tool = "sublimit 0.1.0",
-                .statuses = {"regular", "crease"}};
+                .statuses = {"regular", "crease"},
+                .orders = {1, 0}};
   return baked;
 }
 
@@ -203,6 +204,7 @@ void expect_equal(const BakedTable<Real>& x, const BakedTable<Real>& y) {
   EXPECT_EQ(x.info.topology_hash, y.info.topology_hash);
   EXPECT_EQ(x.info.tool, y.info.tool);
   EXPECT_EQ(x.info.statuses, y.info.statuses);
+  EXPECT_EQ(x.info.orders, y.info.orders);
 }
 
 }  // namespace sublimit::testing

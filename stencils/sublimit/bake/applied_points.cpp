@@ -19,28 +19,6 @@ namespace {
 
 constexpr std::int64_t rows_per_text = 2048, texts_at_once = 256;
 
-/// Derivatives that exist at each point: where they do not, the table has no weights, which shows on points that no
-/// combination of weights takes to zero by chance.
-template <class Real>
-std::vector<std::int8_t> orders_of(const PatternTable<Real>& table) {
-  std::vector<Real> probe(size_t(table.num_control_points())), result(size_t(table.num_points()) * table.quantities());
-  std::uint64_t state = 1;
-  for (Real& x : probe) {
-    state = state * 6364136223846793005u + 1442695040888963407u;  // Knuth's MMIX generator
-    x = static_cast<Real>(double(state >> 40) / double(1 << 24));
-  }
-  table.apply(probe, 1, result);
-  const auto n = static_cast<size_t>(table.num_points());
-  std::vector<std::int8_t> orders(n);
-  const auto any = [&](size_t i, int begin, int end) {
-    for (int q = begin; q < std::min(end, table.quantities()); ++q)
-      if (result[size_t(q) * n + i] != 0) return true;
-    return false;
-  };
-  for (size_t i = 0; i < n; ++i) orders[i] = any(i, 3, 6) ? 2 : any(i, 1, 3) ? 1 : 0;
-  return orders;
-}
-
 }  // namespace
 
 template <class Real>
@@ -49,21 +27,13 @@ AppliedPoints::AppliedPoints(const BakedTable<Real>& table)
       quantities_(table.table.quantities()),
       addresses_(addresses_of(table)),
       status_names_(table.info.statuses),
+      orders_(table.info.orders),
       status_(statuses_of(table)) {
   if (status_names_.empty()) status_names_.emplace_back("regular");
   for (const std::string& name : status_names_) has_plane_.push_back(name != "undefined-normal");
   // Positions of a level's limit come without.
   has_status_ = table.info.rows == TableRows::grid || table.info.rows == TableRows::samples ||
                 (table.info.rows == TableRows::limit && (quantities_ > 1 || !status_.empty()));
-  if (quantities_ == 1) return;
-  order_ = orders_of(table.table);
-  // Where all is smooth derivatives that are always zero exist all the same.
-  const int all = quantities_ == 6 ? 2 : 1;
-  for (size_t i = 0; i < order_.size(); ++i) {
-    const std::string& status = status_names_[status_.empty() ? 0 : status_[i]];
-    if (status == "regular") order_[i] = static_cast<std::int8_t>(all);
-    if (status == "extraordinary") order_[i] = 0;  // tangents, but no derivatives
-  }
 }
 
 template <class Real>
@@ -122,8 +92,9 @@ void AppliedPoints::append_row(std::string& out, std::int64_t point, size_t chan
     const bool is_degenerate = normals.rows() > 0 && normals.row(point).isZero(0) && status != "hole";
     out += is_degenerate ? name(LimitStatus::undefined_normal) : status;
   }
+  const int order = orders_.empty() ? 2 : orders_[status_.empty() ? 0 : status_[i]];
   for (int q = 0; q < quantities_; ++q) {
-    const bool exists = q == 0 || order_[i] >= (q < 3 ? 1 : 2);
+    const bool exists = q == 0 || order >= (q < 3 ? 1 : 2);
     for (size_t c = 0; c < channels; ++c) {
       begin();
       if (exists) append_number(out, values[(size_t(q) * size_t(num_points_) + i) * channels + c]);

@@ -44,8 +44,8 @@ class AppliedPoints {
   bool has_status_ = false;
   SampleAddresses addresses_;
   std::vector<std::string> status_names_;
+  std::vector<std::int8_t> orders_;   // by status
   std::vector<std::uint8_t> status_;  // none: all are the first
-  std::vector<std::int8_t> order_;    // derivatives that exist; none: all
   std::vector<bool> has_plane_;       // by status
 };
 

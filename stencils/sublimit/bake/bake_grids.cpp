@@ -7,7 +7,7 @@
 #include "sublimit/bake/bake_rows.h"
 #include "sublimit/bake/pattern_counts.h"
 #include "sublimit/base/memory.h"
-#include "sublimit/limit/limit_status.h"
+#include "sublimit/patterns/point_status.h"
 #include "sublimit/limit/limit_surface.h"
 
 namespace sublimit {
@@ -72,7 +72,7 @@ std::optional<Baked> bake_grids(Patterns& patterns, const Level& control, const 
     for (const Index a : group.pieces) patch_points.push_back(std::int64_t{a} * lattice.size());
     for (std::int32_t i = 0; i < lattice.size(); ++i) rows.push_back(i);
     const std::vector<std::uint8_t>& status = limit_block(group.block)->status;
-    for (const std::uint8_t s : status) row_status.push_back(group.share ? std::uint8_t(LimitStatus::hole) : s);
+    for (const std::uint8_t s : status) row_status.push_back(group.share ? in_hole(s) : s);
   }
   arrays.rows = std::move(rows);
   arrays.columns = all_columns(pieces, groups, {});

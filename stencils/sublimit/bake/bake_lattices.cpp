@@ -8,7 +8,7 @@
 #include "sublimit/bake/face_places.h"
 #include "sublimit/bake/pattern_counts.h"
 #include "sublimit/base/memory.h"
-#include "sublimit/limit/limit_status.h"
+#include "sublimit/patterns/point_status.h"
 
 namespace sublimit {
 
@@ -123,7 +123,7 @@ std::optional<Baked> bake_lattices(Patterns& patterns, const Level& control, con
     weights.resize(weights.size() + size_t(arrays.quantities) - 1, 0.0);
     arrays.weights = std::move(weights);
     rows.push_back(0);
-    if (has_status) row_status.push_back(std::uint8_t(LimitStatus::undefined_normal));
+    if (has_status) row_status.push_back(point_status(LimitStatus::undefined_normal, 0, request.derivatives));
   }
   arrays.columns = all_columns(pieces, groups, alone);
   arrays.rows = std::move(rows);

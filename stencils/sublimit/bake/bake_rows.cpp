@@ -8,6 +8,7 @@
 #include "sublimit/base/parallel_for.h"
 #include "sublimit/limit/limit_points.h"
 #include "sublimit/limit/limit_surface.h"
+#include "sublimit/patterns/point_status.h"
 
 namespace sublimit {
 namespace {
@@ -50,9 +51,13 @@ void add_limits(const Scheme<double>& scheme, const std::vector<Level>& levels, 
   std::vector<Index> side(t.num_vertices(), -1);
   for (Index s = static_cast<Index>(limit.side_vertex.size()); s-- > 0;) side[limit.side_vertex[s]] = s;
   std::vector<SparseMatrix> parts{SparseMatrix(limit.position * P)};
-  std::vector<std::uint8_t> status(t.num_vertices(), std::uint8_t(LimitStatus::undefined_normal));
-  for (Index v = 0; v < t.num_vertices(); ++v)
-    if (side[v] >= 0) status[v] = static_cast<std::uint8_t>(limit.status[side[v]]);
+  std::vector<std::uint8_t> status(t.num_vertices(), point_status(LimitStatus::undefined_normal, 0, derivatives));
+  for (Index v = 0; v < t.num_vertices(); ++v) {
+    if (side[v] < 0) continue;
+    const LimitStatus of = limit.status[side[v]];
+    const bool natural = of == LimitStatus::regular || of == LimitStatus::crease;
+    status[v] = point_status(of, natural ? 1 : 0, derivatives);
+  }
   if (derivatives > 0)
     for (const SparseMatrix* tangent : {&limit.tangent1, &limit.tangent2}) {
       SparseMatrix chosen(t.num_vertices(), tangent->cols());
@@ -89,7 +94,8 @@ void add_places(const LimitSurface& surface, std::span<const Sample> samples, in
       [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
         for (std::int64_t i = begin; i < end; ++i) {
           const LimitStencil stencil = surface.stencil(samples[i], derivatives);
-          status[i] = static_cast<std::uint8_t>(stencil.status);
+          const int order = stencil.weights.rows() == 6 ? 2 : stencil.weights.rows() == 3 ? 1 : 0;
+          status[i] = point_status(stencil.status, order, derivatives);
           for (Eigen::Index q = 0; q < quantities; ++q) {
             Rows& to = rows[size_t(q * blocks + block)];
             // Where there are no natural derivatives, two tangents that span the plane.

@@ -8,7 +8,7 @@
 
 #include "sublimit/bake/bake_channels.h"
 #include "sublimit/files/rule_words.h"
-#include "sublimit/limit/limit_status.h"
+#include "sublimit/patterns/point_status.h"
 
 namespace sublimit {
 namespace {
@@ -76,8 +76,11 @@ TableInfo table_info(const Scheme<double>& scheme, const ControlMesh& mesh, cons
   info.triangles = scheme.face_size() == 3;
   info.topology_hash = topology_hash(mesh);
   info.tool = "sublimit " SUBLIMIT_VERSION;
-  if (request.rows != TableRows::level)
-    for (int s = 0; s <= int(LimitStatus::outside); ++s) info.statuses.push_back(name(LimitStatus(s)));
+  if (request.rows != TableRows::level) {
+    PointStatuses statuses(request.derivatives);
+    info.statuses = std::move(statuses.words);
+    if (request.derivatives > 0) info.orders = std::move(statuses.orders);
+  }
   return info;
 }
 

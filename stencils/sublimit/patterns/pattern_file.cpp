@@ -18,7 +18,7 @@ namespace sublimit {
 namespace {
 
 constexpr const char* format = "sublimit-dictionary";
-constexpr const char* schema_version = "1";
+constexpr const char* schema_version = "2";
 
 // Arrays of a file; each pattern's parts follow those of the pattern before.
 //   patterns    P x 6: kind, points, decays, numbers of signatures, of matrices of rows, of blocks of limits

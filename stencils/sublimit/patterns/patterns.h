@@ -62,7 +62,7 @@ class Patterns {
   /// Limits with derivatives along u and v of the address that a lattice lies in.
   struct LimitBlock {
     RowMatrix weights;  ///< quantity after quantity (1, 3 or 6), a row a point each; what does not exist is zero
-    std::vector<std::uint8_t> status;  ///< LimitStatus of each point, but for holes
+    std::vector<std::uint8_t> status;  ///< `point_status` of each point, but for holes
   };
   struct LimitRequest {
     Lattice lattice;

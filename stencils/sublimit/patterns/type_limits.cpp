@@ -5,6 +5,7 @@
 
 #include "sublimit/limit/limit_surface_parts.h"
 #include "sublimit/pattern_table.h"
+#include "sublimit/patterns/point_status.h"
 
 namespace sublimit {
 namespace {
@@ -71,7 +72,7 @@ std::optional<Patterns::LimitBlock> limits_of_type(const std::shared_ptr<LimitTy
     const LimitSurface::Parts::Found found = surface.find(target, request.derivatives, type, slots);
     if (found.tangents.size() > 0 && has_several_fans()) beyond = true;
     const Eigen::Index row = all.row(i, j);
-    block.status[size_t(row)] = static_cast<std::uint8_t>(found.status);
+    block.status[size_t(row)] = point_status(found.status, found.rows.order, request.derivatives);
     const auto add = [&](Eigen::Index quantity, Index vertex, double weight) {
       if (weight == 0) return;
       const Eigen::Index slot = slot_of[vertex];

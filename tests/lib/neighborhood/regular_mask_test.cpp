@@ -40,7 +40,7 @@ TEST(RegularMask, IsThatOfTheMatrixOnATorus) {
     for (const auto& [place, vertex] : by_place(*before, centre, near, mask.triangular)) {
       std::map<Index, double> row;
       for (SparseMatrix::InnerIterator it(P, vertex); it; ++it)
-        if (std::abs(it.value()) > testing::rounding(8)) row[it.col()] = it.value();
+        if (std::abs(it.value()) > testing::rounding(8)) row[static_cast<Index>(it.col())] = it.value();
       size_t count = 0;
       for (const auto& [key, weight] : mask.weights) {
         const auto from = mask.parent(place, mask.doubled(key));

@@ -29,13 +29,18 @@ void expect_at_addresses(const std::string& name, const ControlMesh& mesh, const
   const LimitSurface surface(patterns.scheme(), mesh);
   std::vector<Sample> samples;
   for (size_t i = 0; i < n; ++i) samples.push_back({at.faces[i], at.parameters[2 * i], at.parameters[2 * i + 1]});
-  const LimitSamples found = surface.evaluate(mesh.positions, samples, 1);
+  const LimitSamples found = surface.evaluate(mesh.positions, samples, std::max(request.derivatives, 1));
   const Points normals = AppliedPoints(table).normals<double>(values);
+  const std::vector<std::uint8_t> statuses = statuses_of(table);
   for (size_t i = 0; i < n; ++i) {
     const auto row = static_cast<Eigen::Index>(i);
     for (Eigen::Index k = 0; k < 3; ++k)
       EXPECT_NEAR(values[3 * i + size_t(k)], found.position(row, k), other_route) << "point " << i;
     if (request.derivatives == 0) continue;
+    const size_t status = statuses.empty() ? 0 : statuses[i];
+    EXPECT_EQ(int(table.info.orders[status]), int(found.order[row])) << "point " << i;
+    if (found.status[row] == LimitStatus::undefined_normal) continue;  // by these points, perhaps
+    EXPECT_EQ(table.info.statuses[status], sublimit::name(found.status[row])) << "point " << i;
     EXPECT_LT((normals.row(row) - found.normal.row(row)).norm(), reference_angle) << "point " << i;
   }
 }
@@ -46,13 +51,16 @@ TEST(AppliedPoints, AddressesAndNormalsAreThoseOfTheLimit) {
   const BakeRequest level{.rows = TableRows::limit, .level = 2},
       grid{.rows = TableRows::grid, .grid = 4, .derivatives = 1},
       list{.rows = TableRows::samples, .samples = {{0, 0.25, 0.125}, {4, 1, 0}, {2, 0.5, 0.5}}, .derivatives = 1};
-  BakeRequest with_normals = level;
+  BakeRequest with_normals = level, with_second = grid, list_with_second = list;
   with_normals.derivatives = 1;
-  for (const BakeRequest& request : {level, with_normals, grid, list}) {
+  with_second.derivatives = list_with_second.derivatives = 2;
+  for (const BakeRequest& request : {level, with_normals, grid, list, with_second, list_with_second}) {
     expect_at_addresses("catmull-clark", jittered(torus(6, 5)), request);
     expect_at_addresses("catmull-clark", jittered(prism(5)), request);
     expect_at_addresses("catmull-clark", creased, request);
     expect_at_addresses("loop", jittered(icosahedron()), request);
+    expect_at_addresses("bilinear", creased, request);
+    if (request.rows != TableRows::limit) expect_at_addresses("doo-sabin", jittered(cube()), request);
   }
 }
 

@@ -70,11 +70,14 @@ void expect_the_limit(const Baked& baked, const LimitSurface& surface, std::span
   const TableRowsOf rows{expanded, baked.table.table.num_points()};
   ASSERT_EQ(rows.num_points, std::int64_t(samples.size()));
   const std::vector<std::uint8_t> statuses = statuses_of(baked.table);
+  const TableInfo& info = baked.table.info;
   double position = 0, derivative = 0;
   int wrong_status = 0;
   for (std::int64_t i = 0; i < rows.num_points; ++i) {
     const LimitStencil stencil = surface.stencil(samples[i], derivatives);
-    wrong_status += stencil.status != (statuses.empty() ? LimitStatus::regular : LimitStatus(statuses[i]));
+    const size_t status = statuses.empty() ? 0 : statuses[size_t(i)];
+    wrong_status += info.statuses[status] != name(stencil.status);
+    if (derivatives > 0) wrong_status += num_quantities(info.orders[status]) != stencil.weights.rows();
     position = std::max(position, compare(rows(i, 0), stencil, stencil.weights, 0).difference);
     const bool tangents = derivatives > 0 && stencil.weights.rows() == 1 && stencil.tangents.rows() >= 2;
     if (tangents) derivative = std::max(derivative, off_plane(rows(i, 1), rows(i, 2), stencil));
