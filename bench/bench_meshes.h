@@ -17,8 +17,8 @@ struct Case {
   ControlMesh mesh;
 };
 
-/// The car, where it exists; tori of 100k quads and of 100k triangles, regular throughout; 33k triangles split into 100k
-/// quads, which makes half of the vertices extraordinary.
+/// The car, where it exists; tori of 100k quads and of 100k triangles, regular throughout; 33k triangles split into
+/// 100k quads, which makes half of the vertices extraordinary.
 inline std::vector<Case> cases() {
   std::vector<Case> list;
   const std::filesystem::path car = std::filesystem::path(SUBLIMIT_SHARED_MESHES) / "catmark_car.obj";

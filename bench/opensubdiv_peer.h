@@ -33,7 +33,8 @@ struct PeerStencils {
 /// Connectivity of all levels: `TopologyRefinerFactory::Create` and `RefineUniform`, both in the constructor.
 ///
 /// Options are those that make it fastest: no validation, vertices ordered from vertices first, and of the last level
-/// the face vertices only, which is all that interpolation and stencils need; or, on demand, its edges and the rest too.
+/// the face vertices only, which is all that interpolation and stencils need; or, on demand, its edges and the rest
+/// too.
 class PeerRefiner {
  public:
   /// @throws std::runtime_error  if OpenSubdiv refuses the mesh

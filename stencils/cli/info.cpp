@@ -125,7 +125,9 @@ int run(const Common& common, bool as_json) {
               {"warnings", mesh.warnings},
               {"faults", faults}};
     if (loaded.scheme) {
-      json["scheme"] = {{"name", loaded.scheme->name}, {"takes_mesh", why_not.empty() ? "yes" : "no: " + why_not}, {"predicted_bytes_by_level", cost}};
+      json["scheme"] = {{"name", loaded.scheme->name},
+                        {"takes_mesh", why_not.empty() ? "yes" : "no: " + why_not},
+                        {"predicted_bytes_by_level", cost}};
     }
     fmt::print("{}\n", json.dump(2));
     return 0;
@@ -142,8 +144,7 @@ int run(const Common& common, bool as_json) {
   fmt::print("  boundary loops     {}\n", num_boundary_loops(t));
   fmt::print("  tags               {} creases, {} corners, {} holes\n", mesh.creases.size(), mesh.corners.size(),
              mesh.holes.size());
-  fmt::print("  rules              boundary {}, creasing {}, triangles {}\n",
-             rules.boundary, rules.creasing,
+  fmt::print("  rules              boundary {}, creasing {}, triangles {}\n", rules.boundary, rules.creasing,
              rules.triangles);
   for (const ControlMesh::FaceVarying& channel : mesh.face_varying)
     fmt::print("  face-varying       {}: {} values of {} numbers, interpolation {}\n", channel.name,

@@ -292,9 +292,7 @@ TEST(Errata, InterpolatingTheCubeIsSingular) {
     LimitTypes cache(scheme);
     return Eigen::MatrixXd(limit_matrices(level, cache).position);
   };
-  const auto smallest = [](const Eigen::MatrixXd& L) {
-    return symmetric_eigenvalues(L);
-  };
+  const auto smallest = [](const Eigen::MatrixXd& L) { return symmetric_eigenvalues(L); };
   const Eigen::VectorXd values = smallest(limits("catmull-clark", cube()));
   const double expected[] = {0, 1.0 / 6, 1.0 / 6, 1.0 / 6, 0.5, 0.5, 0.5, 1};
   for (int i = 0; i < 8; ++i) EXPECT_NEAR(values[i], expected[i], closed_form);

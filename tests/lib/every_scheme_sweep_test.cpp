@@ -19,8 +19,8 @@
 namespace sublimit::testing {
 namespace {
 
-/// Largest difference of a row's sum from `sum`, relative to the sum of its weights' sizes and, where a row has more than
-/// `terms` of them, to their number; infinite if not finite.
+/// Largest difference of a row's sum from `sum`, relative to the sum of its weights' sizes and, where a row has more
+/// than `terms` of them, to their number; infinite if not finite.
 double worst_sum(const SparseMatrix& M, double sum, double terms) {
   double worst = 0;
   for (Index r = 0; r < M.rows(); ++r) {
@@ -53,7 +53,8 @@ std::string wrong_with(const Scheme<double>& scheme, const std::vector<Level>& l
     }
     if (level.S.rows() != level.topology().num_vertices()) return at + "S has the wrong number of rows";
     if (std::ssize(level.holes) != level.topology().num_faces()) return at + "holes are not one per face";
-    const double terms = 16.0 * double(level.steps.size()), sum = worst_sum(level.S, 1, terms), allowed = rounding(terms);
+    const double terms = 16.0 * double(level.steps.size()), sum = worst_sum(level.S, 1, terms),
+                 allowed = rounding(terms);
     if (!(sum <= allowed)) return at + "a row sum is off by " + std::to_string(sum / eps) + " eps";
     if (scheme.claims.convex_hull)
       for (Index i = 0; i < level.S.nonZeros(); ++i)

@@ -24,9 +24,9 @@ const MaySkip may_skip[] = {
     {"OpenSubdiv's regression shapes and meshes that fuzzing found are not ours to publish; a clone without "
      "../shared/meshes compares meshes of the tests' own",
      {"lib/every_scheme_sweep_test.cpp", "lib/every_surface_sweep_test.cpp", "lib/fit/shared_meshes_fit_test.cpp",
-      "lib/fit/shared_meshes_polygons_test.cpp", "lib/primvar/opensubdiv_face_varying_test.cpp", "lib/shared_meshes_test.cpp",
-      "stencils/report/asset/asset_shared_meshes_test.cpp", "stencils/bake/bake_test.cpp", "stencils/cli/cli_found_limits_test.cpp",
-      "stencils/cli/cli_found_test.cpp"}},
+      "lib/fit/shared_meshes_polygons_test.cpp", "lib/primvar/opensubdiv_face_varying_test.cpp",
+      "lib/shared_meshes_test.cpp", "stencils/report/asset/asset_shared_meshes_test.cpp", "stencils/bake/bake_test.cpp",
+      "stencils/cli/cli_found_limits_test.cpp", "stencils/cli/cli_found_test.cpp"}},
     {"the sanitizers keep memory that is given back, and need the address space that a limit takes away; other trees "
      "run these",
      {"stencils/cli/cli_apply_test.cpp", "stencils/cli/cli_errors_test.cpp", "stencils/cli/cli_sample_test.cpp"}},
@@ -60,8 +60,8 @@ TEST(Skips, AreThoseOfTheListAndNoOthers) {
 TEST(Skips, NoTestThatNeedsAProgramPassesWithoutIt) {
   std::set<std::string> needing = files_with("SUBLIMIT_NEEDS_PROGRAM");
   needing.erase("support/skip.h");
-  EXPECT_EQ(needing,
-            (std::set<std::string>{"stencils/files/export_table_test.cpp", "stencils/report/page/report_page_browser_test.cpp"}));
+  EXPECT_EQ(needing, (std::set<std::string>{"stencils/files/export_table_test.cpp",
+                                            "stencils/report/page/report_page_browser_test.cpp"}));
   std::set<std::string> looking = files_with("command -v");
   looking.merge(files_with("\"python3\""));
   EXPECT_TRUE(std::ranges::includes(needing, looking)) << "name the program with SUBLIMIT_NEEDS_PROGRAM";

@@ -24,7 +24,8 @@ std::string differences(const Level& ours, const ReferenceLevel& theirs, const s
     if (t.size(Face{f}) != theirs.face_sizes[g]) return where + "has another size";
     if (bool(ours.holes[f]) != bool(theirs.face_hole[g])) return where + "differs in being a hole";
     for (Index k = 0; k < t.size(Face{f}); ++k) {
-      if (vertex_map[t.vertices(Face{f})[k]] != theirs.face_vertices[first_corner[g] + k]) return where + "has other vertices";
+      if (vertex_map[t.vertices(Face{f})[k]] != theirs.face_vertices[first_corner[g] + k])
+        return where + "has other vertices";
       const float s = ours.sharpness.edge[index(t.edge(t.corner(Face{f}, k)))];
       const float r = theirs.corner_edge_sharpness[first_corner[g] + k];
       if (s != r && !(is_infinite(s) && is_infinite(r)))
@@ -49,7 +50,8 @@ Scheme<double> scheme_for(const ControlMesh& mesh, const std::string& name) {
 
 Comparison compare_with_opensubdiv(const ControlMesh& mesh, const std::string& scheme_name, int levels) {
   Comparison result;
-  const std::vector<ReferenceLevel> expected_levels = reference_refine(mesh, reference_options(mesh, scheme_name, levels));
+  const std::vector<ReferenceLevel> expected_levels =
+      reference_refine(mesh, reference_options(mesh, scheme_name, levels));
   const Scheme<double> scheme = scheme_for(mesh, scheme_name);
   const std::vector<Level> refined = refine(scheme, mesh, levels);
   const double size = diagonal(mesh.positions);
@@ -62,9 +64,9 @@ Comparison compare_with_opensubdiv(const ControlMesh& mesh, const std::string& s
     const Topology& t = refined[k].topology();
     const ReferenceLevel& theirs = expected_levels[k];
     if (t.num_vertices() != theirs.num_vertices() || t.num_faces() != theirs.num_faces()) {
-      result.mismatch = at_level(k) + std::to_string(t.num_vertices()) + " vertices and " + std::to_string(t.num_faces()) +
-                        " faces, not " + std::to_string(theirs.num_vertices()) + " and " +
-                        std::to_string(theirs.num_faces());
+      result.mismatch = at_level(k) + std::to_string(t.num_vertices()) + " vertices and " +
+                        std::to_string(t.num_faces()) + " faces, not " + std::to_string(theirs.num_vertices()) +
+                        " and " + std::to_string(theirs.num_faces());
       return result;
     }
     if (std::string what = differences(refined[k], theirs, vertex_map, face_map); !what.empty()) {
@@ -79,7 +81,8 @@ Comparison compare_with_opensubdiv(const ControlMesh& mesh, const std::string& s
     std::vector<Index> first_corner{0};
     for (const Index n : theirs.face_sizes) first_corner.push_back(first_corner.back() + n);
     std::vector<Index> child_vertices(r.topology.num_vertices(), -1), child_faces(r.topology.num_faces(), -1);
-    for (Index v = 0; v < t.num_vertices(); ++v) child_vertices[index(r.child(Vertex{v}))] = theirs.vertex_child[vertex_map[v]];
+    for (Index v = 0; v < t.num_vertices(); ++v)
+      child_vertices[index(r.child(Vertex{v}))] = theirs.vertex_child[vertex_map[v]];
     for (Index f = 0, child = 0; f < t.num_faces(); ++f) {
       const Index g = face_map[f];
       if (r.from_faces) child_vertices[index(r.child(Face{f}))] = theirs.face_child[g];
@@ -89,8 +92,8 @@ Comparison compare_with_opensubdiv(const ControlMesh& mesh, const std::string& s
         Index& mapped = child_vertices[index(r.child(t.edge(t.corner(Face{f}, i))))];
         const Index expected = theirs.corner_edge_child[first_corner[g] + i];
         if (mapped >= 0 && mapped != expected) {
-          result.mismatch = at_level(k) + "edge " + std::to_string(i) + " of face " + std::to_string(f) +
-                            " is shared differently";
+          result.mismatch =
+              at_level(k) + "edge " + std::to_string(i) + " of face " + std::to_string(f) + " is shared differently";
           return result;
         }
         mapped = expected;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Our levels against OpenSubdiv's, vertex by vertex through provenance (numbers of vertices and edges differ), face by face.
+// Our levels against OpenSubdiv's, vertex by vertex through provenance (numbers of vertices and edges differ), face by
+// face.
 #include <string>
 #include <vector>
 
@@ -11,9 +12,9 @@
 namespace sublimit::testing {
 
 struct Comparison {
-  std::string mismatch;            ///< what differs in connectivity or tags, empty if nothing does
-  double error = 0;                ///< largest distance of positions, all levels, over the bounding box
-  std::vector<Index> vertex_map;   ///< reference vertex of every vertex of the last level
+  std::string mismatch;           ///< what differs in connectivity or tags, empty if nothing does
+  double error = 0;               ///< largest distance of positions, all levels, over the bounding box
+  std::vector<Index> vertex_map;  ///< reference vertex of every vertex of the last level
 };
 
 /// Options of the mesh's own tags; scheme "loop-warren" has no reference.

@@ -27,7 +27,7 @@ struct NormalPlace {
   Index from_faces = 0;    ///< of the vertex of level 0 that it comes from; as `faces` if it comes from none
   bool one_sided = false;  ///< the vertex is on the border or on sharp edges
   bool corner = false;     ///< and stays where it is
-  bool defined = false;  ///< the library has a normal
+  bool defined = false;    ///< the library has a normal
 };
 /// All sides on levels 0 and 1 of the laws' meshes.
 std::vector<NormalPlace> normal_places(const Scheme<double>& scheme);

@@ -279,7 +279,8 @@ std::vector<ReferenceLevel> reference_refine(const ControlMesh& mesh, const Refe
   std::vector<Point> parent = points(mesh.positions);
   std::vector<Value> values;
   if (options.face_varying)
-    for (Index i = 0; i < mesh.face_varying[0].values.rows(); ++i) values.push_back({mesh.face_varying[0].values.row(i)});
+    for (Index i = 0; i < mesh.face_varying[0].values.rows(); ++i)
+      values.push_back({mesh.face_varying[0].values.row(i)});
   for (int k = 0; k <= options.levels; ++k) {
     const Far::TopologyLevel& level = refined->GetLevel(k);
     if (k > 0 && options.face_varying) {

@@ -7,7 +7,8 @@
 namespace sublimit::testing {
 
 /// 77 decimal digits, 256 bits.
-using Precise = boost::multiprecision::number<boost::multiprecision::mpfr_float_backend<77, boost::multiprecision::allocate_stack>,
-                                              boost::multiprecision::et_off>;
+using Precise =
+    boost::multiprecision::number<boost::multiprecision::mpfr_float_backend<77, boost::multiprecision::allocate_stack>,
+                                  boost::multiprecision::et_off>;
 
 }  // namespace sublimit::testing

@@ -3,9 +3,10 @@
 
 namespace sublimit {
 
-template std::optional<Scheme<testing::Precise>> find_scheme<testing::Precise>(const std::string&, const SchemeOptions&);
-template std::optional<CurveScheme<testing::Precise>> find_curve_scheme<testing::Precise>(
-    const std::string&, const SchemeOptions&);
+template std::optional<Scheme<testing::Precise>> find_scheme<testing::Precise>(const std::string&,
+                                                                               const SchemeOptions&);
+template std::optional<CurveScheme<testing::Precise>> find_curve_scheme<testing::Precise>(const std::string&,
+                                                                                          const SchemeOptions&);
 template LevelOf<testing::Precise> control_level(const Scheme<testing::Precise>&, const ControlMesh&,
                                                  const SubdivisionOptions&);
 template LevelOf<testing::Precise> next_level(const Scheme<testing::Precise>&, const LevelOf<testing::Precise>&);

@@ -9,9 +9,10 @@
 
 namespace sublimit {
 
-extern template std::optional<Scheme<testing::Precise>> find_scheme<testing::Precise>(const std::string&, const SchemeOptions&);
-extern template std::optional<CurveScheme<testing::Precise>> find_curve_scheme<testing::Precise>(
-    const std::string&, const SchemeOptions&);
+extern template std::optional<Scheme<testing::Precise>> find_scheme<testing::Precise>(const std::string&,
+                                                                                      const SchemeOptions&);
+extern template std::optional<CurveScheme<testing::Precise>> find_curve_scheme<testing::Precise>(const std::string&,
+                                                                                                 const SchemeOptions&);
 extern template LevelOf<testing::Precise> control_level(const Scheme<testing::Precise>&, const ControlMesh&,
                                                         const SubdivisionOptions&);
 extern template LevelOf<testing::Precise> next_level(const Scheme<testing::Precise>&, const LevelOf<testing::Precise>&);

@@ -18,9 +18,7 @@
 namespace sublimit::testing {
 namespace {
 
-Eigen::VectorXd monomial(const Points& at, int p, int q) {
-  return at.col(0).array().pow(p) * at.col(1).array().pow(q);
-}
+Eigen::VectorXd monomial(const Points& at, int p, int q) { return at.col(0).array().pow(p) * at.col(1).array().pow(q); }
 
 bool takes_triangles(const Scheme<double>& scheme) { return scheme.face_size() == 3; }
 

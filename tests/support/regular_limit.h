@@ -35,8 +35,8 @@ using Generator = std::function<double(double x, double y)>;
 /// against sums of phi(place - control point) over the control points: the largest difference of a weight.
 double regular_limit_error(const Scheme<double>& scheme, const Generator& phi);
 
-/// The largest degree up to 10 whose polynomials, taken at the places of a flat regular mesh, are the limits of their own
-/// values.
+/// The largest degree up to 10 whose polynomials, taken at the places of a flat regular mesh, are the limits of their
+/// own values.
 int reproduced_degree(const Scheme<double>& scheme);
 
 /// The same where the limits are other polynomials with the same leading terms.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// OpenSubdiv's regression shapes as OBJ files with tags, where a checkout has them beside it. Never part of the project.
+// OpenSubdiv's regression shapes as OBJ files with tags, where a checkout has them beside it. Never part of the
+// project.
 #include <algorithm>
 #include <filesystem>
 #include <string>

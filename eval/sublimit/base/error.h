@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Errors. Broken input throws once, at the door, with a message that says what is wrong, where, and what would be right.
-// Every error carries a code; the program maps a code to its exit status, the C interface to its return value.
+// Errors. Broken input throws once, at the door, with a message that says what is wrong, where, and what would be
+// right. Every error carries a code; the program maps a code to its exit status, the C interface to its return value.
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -49,7 +49,8 @@ struct InvalidParameter : Error {
 struct FormatError : Error {
   explicit FormatError(const std::string& message) : Error(ErrorCode::format_error, message) {}
 };
-/// A local matrix whose spectrum has no limit: eigenvalue 1 not simple and dominant, a neighbourhood that is not closed.
+/// A local matrix whose spectrum has no limit: eigenvalue 1 not simple and dominant, a neighbourhood that is not
+/// closed.
 struct AnalysisError : Error {
   explicit AnalysisError(const std::string& message) : Error(ErrorCode::analysis_error, message) {}
 };

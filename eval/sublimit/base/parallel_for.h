@@ -25,9 +25,9 @@ constexpr std::int64_t num_blocks(std::int64_t count, std::int64_t size = block_
   return (count + size - 1) / size;
 }
 
-/// Calls body(block, begin, end) for every block of [0, count), in parallel. It returns when all are done, and throws what one
-/// of them threw; the rest may then be left out. Loops inside of others go on by themselves: TBB's own would return halfway
-/// where another block of the outer one has failed.
+/// Calls body(block, begin, end) for every block of [0, count), in parallel. It returns when all are done, and throws
+/// what one of them threw; the rest may then be left out. Loops inside of others go on by themselves: TBB's own would
+/// return halfway where another block of the outer one has failed.
 template <class Body>
 void parallel_for_blocks(std::int64_t count, const Body& body, std::int64_t size = block_size) {
   const std::int64_t blocks = num_blocks(count, size);

@@ -46,8 +46,8 @@ Eigen::MatrixXd triangular_factor(const Eigen::MatrixXd& X);
 Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& M);
 
 struct Eigenvectors {
-  Eigen::VectorXcd values;  ///< in no order
-  Eigen::MatrixXcd vectors; ///< by columns
+  Eigen::VectorXcd values;   ///< in no order
+  Eigen::MatrixXcd vectors;  ///< by columns
 };
 Eigenvectors eigenvectors(const Eigen::MatrixXd& M);
 

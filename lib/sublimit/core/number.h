@@ -13,8 +13,8 @@ struct Number {
   /// cos(2 pi k/n), n > 0; exact where it is 0, +-1/2 or +-1.
   static T cos_2pi(int k, int n) {
     k = k % n < 0 ? k % n + n : k % n;
-    if (2 * k > n) k = n - k;                            // cos is even
-    if (4 * k > n) return -cos_2pi(n - 2 * k, 2 * n);    // and changes sign at a half turn
+    if (2 * k > n) k = n - k;                          // cos is even
+    if (4 * k > n) return -cos_2pi(n - 2 * k, 2 * n);  // and changes sign at a half turn
     if (k == 0) return T(1);
     if (4 * k == n) return T(0);
     if (6 * k == n) return ratio(1, 2);

@@ -32,8 +32,8 @@ void apply_rows(const SparseMatrix& S, const double* in, double* out, std::int64
   }
 }
 
-/// One row of A * B at a time. The rows of B that meet in a row of A belong to neighbouring points and share most columns: the
-/// longest of them gives the columns to start from, which in regular regions are all there are.
+/// One row of A * B at a time. The rows of B that meet in a row of A belong to neighbouring points and share most
+/// columns: the longest of them gives the columns to start from, which in regular regions are all there are.
 class RowProduct {
  public:
   RowProduct(const SparseMatrix& A, const SparseMatrix& B) : A_(A), B_(B), place_(B.cols(), 0) {}

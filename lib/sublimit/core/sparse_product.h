@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Products of stencil matrices with points and with each other, in parallel blocks of rows. Every row is summed in the order
-// of its columns, so the bits do not depend on the number of threads.
+// Products of stencil matrices with points and with each other, in parallel blocks of rows. Every row is summed in the
+// order of its columns, so the bits do not depend on the number of threads.
 #include "sublimit/core/types.h"
 
 namespace sublimit {

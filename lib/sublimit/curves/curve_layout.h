@@ -6,7 +6,8 @@
 //   primal              0   2   4   6 ..           a point and the middle of its leg have the children 2X and 2X + 2
 //   dual, kept ends     0 1   3   5 ..     2n - 4  the children of an inner point lie at 2X - 1 and 2X + 1
 //   free ends      -s  2-s 4-s ..                  the limit starts s/2 legs after the first point
-//   closed              X, X + 2, ..               modulo 2n; X = 0 for primal schemes, 2^(k+1) - 1 for dual ones, whose
+//   closed              X, X + 2, ..               modulo 2n; X = 0 for primal schemes, 2^(k+1) - 1 for dual ones,
+//   whose
 //                                                  leg a has the children 2a and 2a + 1
 #include <cassert>
 #include <cstdint>

@@ -77,7 +77,8 @@ CurveLimits CurveAnalysis::limits(const CurveOutline& curve, int level, const st
     position.append(terms(rows.position, 1));
     first.append(terms(rows.first, inwards));
     result.order.push_back(rows.order());
-    second.append(result.order.back() < 2 ? std::vector<std::pair<Index, double>>{} : terms(rows.second[0], legs * legs));
+    second.append(result.order.back() < 2 ? std::vector<std::pair<Index, double>>{}
+                                          : terms(rows.second[0], legs * legs));
   }
   result.position = position.finish();
   result.first = first.finish();
@@ -87,7 +88,8 @@ CurveLimits CurveAnalysis::limits(const CurveOutline& curve, int level, const st
 
 CurveLimits CurveAnalysis::limits(const CurveLevelOf<double>& level) {
   const Index columns = level.num_points() * level.unknowns;
-  CurveRows<double> rows[] = {{level.num_points(), columns}, {level.num_points(), columns}, {level.num_points(), columns}};
+  CurveRows<double> rows[] = {
+      {level.num_points(), columns}, {level.num_points(), columns}, {level.num_points(), columns}};
   CurveLimits result;
   Index start = 0;
   for (const CurveOutline& curve : level.curves) {
@@ -127,8 +129,7 @@ Eigen::VectorXd CurveAnalysis::constant(const std::vector<CurveUnknown>& unknown
 
 Eigen::VectorXd CurveAnalysis::linear(const std::vector<CurveUnknown>& unknowns) {
   Vector x(unknowns.size());
-  for (Eigen::Index i = 0; i < x.size(); ++i)
-    x[i] = unknowns[i].is_point() ? double(unknowns[i].position) / 2 : 1;
+  for (Eigen::Index i = 0; i < x.size(); ++i) x[i] = unknowns[i].is_point() ? double(unknowns[i].position) / 2 : 1;
   return x;
 }
 
@@ -311,12 +312,10 @@ const CurveAnalysis::Rows& CurveAnalysis::rows_near_end(int level, std::int64_t 
 CurveAnalysis::Rows CurveAnalysis::on_canonical(const Rows& rows, const CurveOutline& curve, std::int64_t at) const {
   Rows result = rows;
   result.unknowns = unknowns_of(curve);
-  result.position = result.first = result.second[0] = result.second[1] =
-      Vector::Zero(curve.size * layout_.unknowns());
+  result.position = result.first = result.second[0] = result.second[1] = Vector::Zero(curve.size * layout_.unknowns());
   for (size_t i = 0; i < rows.unknowns.size(); ++i) {
     const Eigen::Index row = Eigen::Index(i);
-    if (rows.position[row] == 0 && rows.first[row] == 0 && rows.second[0][row] == 0 &&
-        rows.second[1][row] == 0)
+    if (rows.position[row] == 0 && rows.first[row] == 0 && rows.second[0][row] == 0 && rows.second[1][row] == 0)
       continue;
     const Index a = column(curve, rows.unknowns[i], at);
     result.position[a] = rows.position[i];

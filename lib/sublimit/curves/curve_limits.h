@@ -37,7 +37,8 @@ struct CurveNeighborhood {
 
 /// Functionals of the points of a level: the limit and its derivatives at each of the requested positions.
 struct CurveLimits {
-  CurveMatrix<double> position, first, second;  ///< derivatives per leg of the control polygon; empty rows if there is none
+  CurveMatrix<double> position, first,
+      second;              ///< derivatives per leg of the control polygon; empty rows if there is none
   std::vector<int> order;  ///< per row: the highest derivative that exists there, 0 to 2
 };
 
@@ -64,8 +65,8 @@ class CurveAnalysis {
   using Matrix = Eigen::MatrixXd;
   using Vector = Eigen::VectorXd;
 
-  /// Weights around a position inside (offsets from it), or over the whole canonical curve from an end on. Derivatives per leg
-  /// of the level, inwards at an end.
+  /// Weights around a position inside (offsets from it), or over the whole canonical curve from an end on. Derivatives
+  /// per leg of the level, inwards at an end.
   struct Rows {
     std::vector<CurveUnknown> unknowns;
     Vector position, first;

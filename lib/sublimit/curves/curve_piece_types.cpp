@@ -7,9 +7,9 @@ namespace sublimit {
 namespace {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
-constexpr int grid = 64;           // dyadic places that tell a polynomial
+constexpr int grid = 64;             // dyadic places that tell a polynomial
 constexpr int enough_levels = 1100;  // deeper than any double
-constexpr int most_powers = 11;    // a double starts with fewer than 2^11 zeros
+constexpr int most_powers = 11;      // a double starts with fewer than 2^11 zeros
 
 }  // namespace
 

@@ -48,7 +48,8 @@ class OffReader {
                           " has points of other than 3 dimensions; 'OFF' can be read");
       }
     }
-    throw FormatError(scanner_.place() + "the file starts with " + in_quotes(keyword) + "; an OFF file starts with 'OFF'");
+    throw FormatError(scanner_.place() + "the file starts with " + in_quotes(keyword) +
+                      "; an OFF file starts with 'OFF'");
   }
 
   // Counts may follow the keyword on its line or stand on the next one; that of edges is never used.

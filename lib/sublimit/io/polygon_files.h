@@ -7,8 +7,8 @@
 // coordinates first: x,y,tx,ty. The format has no word for closed curves, so the caller says.
 //
 // OBJ: `v x y z` and `l a b c ...`, one curve a line statement, indices as in faces (negative ones count backwards); a
-// curve that comes back to its first point is closed. Lines of two points, each from where the one before ended, are one
-// curve.
+// curve that comes back to its first point is closed. Lines of two points, each from where the one before ended, are
+// one curve.
 #include <filesystem>
 #include <string>
 #include <string_view>

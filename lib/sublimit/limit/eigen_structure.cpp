@@ -24,7 +24,8 @@ Eigen::MatrixXcd null_space(const Eigen::MatrixXcd& M, int at_most) {
     const double shift = std::numeric_limits<double>::epsilon() * std::max(1.0, M.norm());
     const Eigen::PartialPivLU<Eigen::MatrixXcd> lu(M + shift * Eigen::MatrixXcd::Identity(size, size));
     Eigen::VectorXcd x = Eigen::VectorXcd::Ones(size);
-    for (Eigen::Index i = 0; i < size; ++i) x[i] += 0.5 * std::sin(static_cast<double>(i));  // no symmetry to be blind to
+    for (Eigen::Index i = 0; i < size; ++i)
+      x[i] += 0.5 * std::sin(static_cast<double>(i));  // no symmetry to be blind to
     for (int k = 0; k < 4; ++k) x = lu.solve(x.normalized()).eval();
     return x.normalized();
   }
@@ -49,8 +50,8 @@ EigenStructure eigen_structure(const Eigen::MatrixXcd& A, int block, int leading
   const Eigen::ComplexEigenSolver<Eigen::MatrixXcd> solver(A, false);
   if (solver.info() != Eigen::Success) throw AnalysisError("the eigenvalues of a local matrix did not converge");
   std::vector<Complex> values(solver.eigenvalues().begin(), solver.eigenvalues().end());
-  const double scale = std::abs(*std::max_element(values.begin(), values.end(),
-                                                  [](Complex a, Complex b) { return std::abs(a) < std::abs(b); }));
+  const double scale = std::abs(
+      *std::max_element(values.begin(), values.end(), [](Complex a, Complex b) { return std::abs(a) < std::abs(b); }));
   while (!values.empty() && static_cast<int>(result.clusters.size()) < leading) {
     const auto largest = std::max_element(values.begin(), values.end(), [](Complex a, Complex b) {
       return std::pair(std::abs(a), a.real()) < std::pair(std::abs(b), b.real());
@@ -97,9 +98,12 @@ std::optional<FourierBlocks> fourier_blocks(const Eigen::MatrixXd& A, std::vecto
   FourierBlocks result;
   std::stable_partition(orbits.begin(), orbits.end(), [](const auto& orbit) { return orbit.size() == 1; });
   for (const auto& orbit : orbits) {
-    if (orbit.size() == 1) ++result.fixed;
-    else if (result.n != 0 && result.n != static_cast<int>(orbit.size())) return std::nullopt;
-    else result.n = static_cast<int>(orbit.size());
+    if (orbit.size() == 1)
+      ++result.fixed;
+    else if (result.n != 0 && result.n != static_cast<int>(orbit.size()))
+      return std::nullopt;
+    else
+      result.n = static_cast<int>(orbit.size());
   }
   const int n = result.n, fixed = result.fixed, size = static_cast<int>(orbits.size());
   if (n < 2) return std::nullopt;
@@ -144,8 +148,9 @@ Eigen::VectorXcd FourierBlocks::mask(int k, const Eigen::VectorXcd& l) const {
   Eigen::VectorXcd result = Eigen::VectorXcd::Zero(fixed + n * (size - fixed));
   for (int i = first; i < size; ++i)
     for (int s = 0; s < static_cast<int>(orbits[i].size()); ++s)
-      result[orbits[i][s]] =
-          i < fixed ? l[i] : l[i - first] * std::conj(root_of_unity(static_cast<long long>(k) * s, n)) / static_cast<double>(n);
+      result[orbits[i][s]] = i < fixed ? l[i]
+                                       : l[i - first] * std::conj(root_of_unity(static_cast<long long>(k) * s, n)) /
+                                             static_cast<double>(n);
   return result;
 }
 

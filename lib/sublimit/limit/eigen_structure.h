@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 // Eigenvalues and eigenvectors of local matrices. Defective clusters lose half their digits in a general solver, so a
-// cluster's value is its mean (which keeps them) and its eigenvectors are the null space at that value, by rank decision.
-// Rotationally symmetric neighbourhoods are taken apart into Fourier blocks first: conjugate blocks would otherwise give
-// double eigenvalues with arbitrary bases.
+// cluster's value is its mean (which keeps them) and its eigenvectors are the null space at that value, by rank
+// decision. Rotationally symmetric neighbourhoods are taken apart into Fourier blocks first: conjugate blocks would
+// otherwise give double eigenvalues with arbitrary bases.
 #include <Eigen/Core>
 
 #include <complex>
@@ -15,10 +15,10 @@ namespace sublimit {
 /// Equal eigenvalues of one block.
 struct EigenCluster {
   std::complex<double> value;
-  int block = 0;            ///< Fourier index
-  int multiplicity = 1;     ///< algebraic
+  int block = 0;                 ///< Fourier index
+  int multiplicity = 1;          ///< algebraic
   Eigen::MatrixXcd left, right;  ///< eigenvectors as columns, as many as the geometric multiplicity
-  double conditioning = 1;  ///< 1 / |l . r| of unit vectors, infinite if defective
+  double conditioning = 1;       ///< 1 / |l . r| of unit vectors, infinite if defective
 
   int geometric() const { return static_cast<int>(left.cols()); }
   bool is_jordan() const { return geometric() < multiplicity; }
@@ -39,8 +39,8 @@ EigenStructure eigen_structure(const Eigen::MatrixXcd& matrix, int block = 0, in
 /// Left eigenvectors l^T A = value l^T (columns, an orthonormal basis of the null space of A^T - value).
 Eigen::MatrixXcd left_eigenvectors(const Eigen::MatrixXcd& A, std::complex<double> value);
 
-/// A matrix that commutes with a rotation, taken apart. Slots are in orbits: n places that the rotation takes into each other, or
-/// a single one that stays.
+/// A matrix that commutes with a rotation, taken apart. Slots are in orbits: n places that the rotation takes into each
+/// other, or a single one that stays.
 struct FourierBlocks {
   int n = 0;
   std::vector<std::vector<int>> orbits;  ///< slots, sector by sector; those of size 1 first
@@ -48,7 +48,8 @@ struct FourierBlocks {
   /// Block k acts on the orbits' amplitudes x_i w^(k s), w = exp(2 pi i/n); only block 0 has the fixed places.
   std::vector<Eigen::MatrixXcd> blocks;
 
-  /// Left eigenvector l of block k as a mask over the slots: sum_s sum_i l_i w^(-k s) x_(s,i) / n, and the fixed places'.
+  /// Left eigenvector l of block k as a mask over the slots: sum_s sum_i l_i w^(-k s) x_(s,i) / n, and the fixed
+  /// places'.
   Eigen::VectorXcd mask(int k, const Eigen::VectorXcd& l) const;
 };
 

@@ -29,7 +29,7 @@ class LimitPatches {
   const LimitSurface::Parts::Pieces& pieces_;
   struct Bound {
     const PatchTree* tree = nullptr;
-    std::int64_t first = 0;  // of its coefficients
+    std::int64_t first = 0;   // of its coefficients
     std::uint16_t sides = 0;  // Parts::sides
   };
   std::vector<Bound> bound_;                  // by piece

@@ -20,7 +20,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// How the faces of a side turn around the vertex, twice the area that they sweep: tells the two sides of a plane apart.
+/// How the faces of a side turn around the vertex, twice the area that they sweep: tells the two sides of a plane
+/// apart.
 Vector3d turn_of(const LimitMatrices& limit, const Topology& t, Index side, const Points& points) {
   const Vertex v{limit.side_vertex[side]};
   const Vector3d centre = points.row(index(v));
@@ -66,7 +67,8 @@ LimitMatrices limit_matrices(const Level& level, LimitTypes& cache) {
     isolated.reserve(size_t(v - first));
     std::vector<Row> list;
     for (Index u = first; u < v; ++u)
-      list.push_back(first_side[u] < 0 ? Row(&isolated.emplace_back(u, 1.0), 1) : rows[first_side[u] - begin].position());
+      list.push_back(first_side[u] < 0 ? Row(&isolated.emplace_back(u, 1.0), 1)
+                                       : rows[first_side[u] - begin].position());
     position.push_back(matrix_of(list, num_vertices));
     const auto of_sides = [&](const auto& part) {
       list.clear();
@@ -102,7 +104,8 @@ LimitMatrices limit_matrices(const std::vector<Level>& levels, LimitTypes& cache
 }
 
 LimitPoints limit_points(const LimitMatrices& limit, const Topology& topology, const Points& points) {
-  if (points.cols() != 3) throw InvalidParameter("limit points need 3 coordinates, not " + std::to_string(points.cols()));
+  if (points.cols() != 3)
+    throw InvalidParameter("limit points need 3 coordinates, not " + std::to_string(points.cols()));
   LimitPoints result;
   result.position = apply(limit.position, points);
   result.status = limit.status;
@@ -130,8 +133,7 @@ LimitPoints limit_points(const LimitMatrices& limit, const Topology& topology, c
     }
     std::vector<Vector3d> modes;
     for (const Points& values : higher) modes.push_back(values.row(s));
-    const Vector3d normal =
-        degenerate_normal(a, b, modes, scale, turn_of(limit, topology, static_cast<Index>(s), x));
+    const Vector3d normal = degenerate_normal(a, b, modes, scale, turn_of(limit, topology, static_cast<Index>(s), x));
     if (normal.isZero()) {
       result.status[s] = LimitStatus::undefined_normal;
       return;

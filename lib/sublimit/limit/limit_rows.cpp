@@ -46,7 +46,8 @@ LimitRows rows_of(const LimitMasks& masks, const LimitMasks::Side& side, std::sp
   return result;
 }
 
-/// A vertex whose one-ring is all that its limit depends on, whatever is sharp there: the type is that of all its sides.
+/// A vertex whose one-ring is all that its limit depends on, whatever is sharp there: the type is that of all its
+/// sides.
 LimitRows one_ring_rows(const Level& level, LimitTypes& cache, HalfEdge corner) {
   const Topology& t = level.topology();
   const NeighborhoodAt at = neighborhood(t, level.sharpness, t.tail(corner));
@@ -54,8 +55,7 @@ LimitRows one_ring_rows(const Level& level, LimitTypes& cache, HalfEdge corner) 
   for (const LimitMasks::Side& side : masks.sides) {
     const std::vector<HalfEdge>& corners = at.corners[side.fan];
     for (Index c = 0; c < side.num_corners; ++c)
-      if (corners[(side.first_corner + c) % corners.size()] == corner)
-        return rows_of(masks, side, {}, at.vertices);
+      if (corners[(side.first_corner + c) % corners.size()] == corner) return rows_of(masks, side, {}, at.vertices);
   }
   throw AnalysisError(cache.scheme().name + ": a corner is on no side of its vertex");
 }
@@ -83,10 +83,13 @@ std::optional<LimitRows> known_rows(const Level& level, LimitTypes& cache, const
 std::pair<Piece, int> piece_corner(const Scheme<double>& scheme, const Topology& t, const Centre& centre) {
   using Kind = Piece::Kind;
   switch (centre.kind) {
-    case Centre::Kind::face: return {{Kind::corner, centre.start}, 2};
+    case Centre::Kind::face:
+      return {{Kind::corner, centre.start}, 2};
     case Centre::Kind::border:
-    case Centre::Kind::edge: return {{Kind::corner, centre.start}, 1};
-    case Centre::Kind::vertex: break;
+    case Centre::Kind::edge:
+      return {{Kind::corner, centre.start}, 1};
+    case Centre::Kind::vertex:
+      break;
   }
   const Kind of_polygon = scheme.is_dual() ? Kind::corner : Kind::cut;
   const Index size = t.size(t.face(centre.start));
@@ -248,8 +251,8 @@ bool is_one_direction(const LimitRows& limit) {
 LimitStatus status_of(const LimitRows& rows, const Scheme<double>& scheme) {
   // Along a smooth crease of a single mesh edge the normal has a limit even where the normals inside have another.
   const bool along_crease = rows.rule == Rule::crease && scheme.has_one_ring_limits() && !rows.tangent1().empty();
-  const bool has_plane =
-      along_crease || (rows.plane == LimitMasks::Plane::tied ? is_one_direction(rows) : rows.plane != LimitMasks::Plane::no);
+  const bool has_plane = along_crease || (rows.plane == LimitMasks::Plane::tied ? is_one_direction(rows)
+                                                                                : rows.plane != LimitMasks::Plane::no);
   if (!has_plane) return LimitStatus::undefined_normal;
   if (rows.rule == Rule::crease || rows.rule == Rule::corner) return LimitStatus::crease;
   return rows.rule == Rule::smooth && rows.faces == scheme.regular_valence() ? LimitStatus::regular

@@ -2,8 +2,8 @@
 #pragma once
 // Limit rows of any places of a level, of any scheme: the one way to the limits of vertices, faces and borders. Where
 // the neighbourhood is a known type its masks are; elsewhere the faces around it are refined, by the scheme's own
-// matrices, until it is: L_k = L_{k+1} S_k. Places that never are have a position if their neighbourhood comes to repeat
-// itself.
+// matrices, until it is: L_k = L_{k+1} S_k. Places that never are have a position if their neighbourhood comes to
+// repeat itself.
 #include "sublimit/core/sparse_rows.h"
 #include "sublimit/limit/limit_types.h"
 #include "sublimit/limit/limit_status.h"

@@ -48,8 +48,8 @@ struct LimitSurface::Parts {
   }
   /// Whether the tail of h is on a crease, border or corner, which the faces at h need not be beside.
   bool is_on_cut(HalfEdge h) const;
-  /// What cuts the surface of a piece: bit k for side k, from corner k on, bit 5 + k for corner k; `hole` for a piece in
-  /// a hole.
+  /// What cuts the surface of a piece: bit k for side k, from corner k on, bit 5 + k for corner k; `hole` for a piece
+  /// in a hole.
   unsigned sides(const Piece& piece) const;
   static constexpr unsigned hole = 16, first_corner = 32;
   /// Sides and corners that a place is on, as these bits.
@@ -72,8 +72,8 @@ struct LimitSurface::Parts {
   };
   /// @throws NoLimit  naming the face of the mesh
   Found find(const Target& at, int order) const;
-  /// Tangents on a side where the limit has no derivatives by u and v, though there is a tangent plane; none if there are
-  /// none inside either.
+  /// Tangents on a side where the limit has no derivatives by u and v, though there is a tangent plane; none if there
+  /// are none inside either.
   RowMatrix tangents_on_side(const PieceType& type, const Place& place) const;
   /// The same where the type is known.
   /// @param vertices  its points, by slot

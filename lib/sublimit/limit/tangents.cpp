@@ -122,19 +122,20 @@ Plane ring_plane(const FourierBlocks& fourier) { return ring_plane(eigen_structu
 namespace {
 
 /// Several modes across that decay alike, at the middle of a border edge: where the points beside the outline go from
-/// their neighbours on it, at this rate, each for itself, and in the mean. Nothing is added where that is not to be seen.
+/// their neighbours on it, at this rate, each for itself, and in the mean. Nothing is added where that is not to be
+/// seen.
 /// @param rate   eigenvalue of the modes
 /// @param along  by slot, how far along the outline points are
 bool add_ways_inwards(Side& side, const MatrixXd& whole, const Outline& outline, std::complex<double> rate,
                       const VectorXd& along) {
   if (outline.centre.size() != 2 || outline.inner_ring.empty()) return false;
   const EigenStructure structure = eigen_structure(whole.cast<std::complex<double>>());
-  const auto modes = std::find_if(structure.clusters.begin(), structure.clusters.end(), [&](const EigenCluster& c) {
-    return std::abs(c.value - rate) <= cluster_tolerance;
-  });
+  const auto modes = std::find_if(structure.clusters.begin(), structure.clusters.end(),
+                                  [&](const EigenCluster& c) { return std::abs(c.value - rate) <= cluster_tolerance; });
   if (modes == structure.clusters.end() || modes->is_jordan()) return false;
   const MatrixXcd pairing = modes->left.transpose() * modes->right;
-  const MatrixXd projector = (modes->right * Eigen::FullPivLU<MatrixXcd>(pairing).solve(modes->left.transpose())).real();
+  const MatrixXd projector =
+      (modes->right * Eigen::FullPivLU<MatrixXcd>(pairing).solve(modes->left.transpose())).real();
   VectorXd mean = VectorXd::Zero(whole.rows());
   std::vector<VectorXd> ways;
   for (const Index i : outline.inner) {
@@ -240,7 +241,8 @@ void add_border_tangents(Side& side, const MatrixXd& whole, const Outline& outli
   const auto extended = [&](const EigenCluster& mode, Eigen::Index k) {  // a mode of the outline over the inner points
     const VectorXd right = made_real(mode.right.col(k));
     const MatrixXd shifted = D - mode.value.real() * MatrixXd::Identity(D.rows(), D.cols());
-    return VectorXd(embedded(right, curve, size) + embedded(least_norm_solution(shifted, -(B * right), 1e-10), inner, size));
+    return VectorXd(embedded(right, curve, size) +
+                    embedded(least_norm_solution(shifted, -(B * right), 1e-10), inner, size));
   };
   // How far points next to the centre stand off the outline. Those of a border edge lie beside its ends; around a
   // vertex they lie elsewhere along the outline, and what a parabola along it does is taken off.
@@ -292,10 +294,10 @@ void add_border_tangents(Side& side, const MatrixXd& whole, const Outline& outli
   if (modulus(1) > side.lambda1 * (1 + same_rate)) side.plane = Plane::no;
   if (std::abs(modulus(1) - side.lambda1) <= side.lambda1 * same_rate) side.plane = Plane::slow;
   if (leading.multiplicity > 1) {
-    side.plane = side.plane != Plane::no && add_ways_inwards(side, whole, outline, leading.value,
-                                                             extended(modes.clusters[1], 0))
-                     ? Plane::tied
-                     : Plane::no;
+    side.plane =
+        side.plane != Plane::no && add_ways_inwards(side, whole, outline, leading.value, extended(modes.clusters[1], 0))
+            ? Plane::tied
+            : Plane::no;
     if (side.plane == Plane::tied) return;
   }
   double lowest = 0, highest = 0;

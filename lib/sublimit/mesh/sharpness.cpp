@@ -9,8 +9,9 @@
 namespace sublimit {
 namespace {
 
-/// Decay of the edges around a vertex at that vertex. Chaikin: 3/4 of the edge and 1/4 of the mean of the other semi-sharp
-/// ones, less 1; the sum runs over all and takes the edge itself off again, so that the float bits are the reference's.
+/// Decay of the edges around a vertex at that vertex. Chaikin: 3/4 of the edge and 1/4 of the mean of the other
+/// semi-sharp ones, less 1; the sum runs over all and takes the edge itself off again, so that the float bits are the
+/// reference's.
 std::vector<float> decayed_around(std::span<const float> edges, Creasing creasing) {
   std::vector<float> result(edges.size());
   float sum = 0;
@@ -64,7 +65,10 @@ float decayed(float sharpness) {
 }
 
 VertexSharpness::VertexSharpness(float vertex_, std::vector<float> edges_, Creasing creasing)
-    : vertex(vertex_), child_vertex(decayed(vertex_)), edges(std::move(edges_)), child_edges(decayed_around(edges, creasing)) {}
+    : vertex(vertex_),
+      child_vertex(decayed(vertex_)),
+      edges(std::move(edges_)),
+      child_edges(decayed_around(edges, creasing)) {}
 
 VertexSharpness::VertexSharpness(const Topology& topology, const Sharpness& sharpness, Vertex v)
     : VertexSharpness(sharpness.vertex[index(v)], sharpness_around(topology, sharpness, v), sharpness.creasing) {}

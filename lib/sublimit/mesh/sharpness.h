@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Semi-sharp creases, once for all schemes: how sharp edges and vertices are, how sharpness decays, which rule a vertex or
-// edge takes, and how two rules blend while sharpness runs out.
+// Semi-sharp creases, once for all schemes: how sharp edges and vertices are, how sharpness decays, which rule a vertex
+// or edge takes, and how two rules blend while sharpness runs out.
 //
 // Sharpness is counted in levels and kept in float, as OpenSubdiv keeps it: double would differ from it by 1e-9.
-// Sources: Hoppe et al. 1994; DeRose, Kass, Truong 1998 (semi-sharp, Chaikin decay); the blending of rules is OpenSubdiv's.
+// Sources: Hoppe et al. 1994; DeRose, Kass, Truong 1998 (semi-sharp, Chaikin decay); the blending of rules is
+// OpenSubdiv's.
 #include <span>
 #include <utility>
 #include <vector>
@@ -59,18 +60,20 @@ float decayed(float sharpness);
 /// @throws InvalidMesh  a tag that names no vertex or edge, negative or non-finite sharpness
 Sharpness initial_sharpness(const Topology& topology, const ControlMesh& tags, Boundary boundary, Creasing creasing);
 
-/// Which faces are holes: the tagged ones and, under Boundary::none, all that touch the boundary at a vertex with a boundary
-/// edge that the tags leave less than infinitely sharp. (A boundary that is sharp by its tags needs no neighbours.)
+/// Which faces are holes: the tagged ones and, under Boundary::none, all that touch the boundary at a vertex with a
+/// boundary edge that the tags leave less than infinitely sharp. (A boundary that is sharp by its tags needs no
+/// neighbours.)
 /// @throws InvalidMesh  a tag that names no face
 std::vector<bool> initial_holes(const Topology& topology, const ControlMesh& tags, Boundary boundary);
 
-/// The surface has two sides at this edge, or ends: there is no face beyond, or a crease that never gets smooth. Where a
-/// vertex has a single such edge inside, they are the same side.
+/// The surface has two sides at this edge, or ends: there is no face beyond, or a crease that never gets smooth. Where
+/// a vertex has a single such edge inside, they are the same side.
 inline bool is_cut(const Topology& t, const Sharpness& sharpness, HalfEdge h) {
   return !exists(t.twin(h)) || is_infinite(sharpness.edge[index(t.edge(h))]);
 }
 
-/// Edge between two vertices, the first one where there are several (`tail`, `head` in either order); -1 if there is none.
+/// Edge between two vertices, the first one where there are several (`tail`, `head` in either order); -1 if there is
+/// none.
 Edge find_edge(const Topology& topology, Vertex a, Vertex b);
 
 }  // namespace sublimit

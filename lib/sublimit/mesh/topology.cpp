@@ -51,7 +51,9 @@ struct Buckets {
     std::vector<Index> at(start.begin(), start.end() - 1);
     for (size_t i = 0; i < key.size(); ++i) items[at[key[i]]++] = static_cast<Index>(i);
   }
-  std::span<const Index> operator[](Index b) const { return {items.data() + start[b], size_t(start[b + 1] - start[b])}; }
+  std::span<const Index> operator[](Index b) const {
+    return {items.data() + start[b], size_t(start[b + 1] - start[b])};
+  }
 };
 
 /// Matches the corners of loose faces: which half-edges are twins, which share a non-manifold edge, which fans meet.
@@ -93,8 +95,9 @@ class Matcher {
   void fault(Topology::Fault::Kind kind, std::string message) { b.faults.push_back({kind, std::move(message)}); }
 
   // The rules of which half-edges make one edge are OpenSubdiv's (Vtr level from face-vertices), so that refined meshes
-  // agree with it: a loop (v,v) is always an edge of its own; an edge met again in the face that it was last used by gets
-  // a second instance, and both are non-manifold; otherwise all half-edges between two vertices share the first instance.
+  // agree with it: a loop (v,v) is always an edge of its own; an edge met again in the face that it was last used by
+  // gets a second instance, and both are non-manifold; otherwise all half-edges between two vertices share the first
+  // instance.
   void match_edges() {
     std::vector<Index> low(b.tail.size());
     for (size_t h = 0; h < low.size(); ++h) low[h] = std::min(b.tail[h], head(static_cast<Index>(h)));
@@ -132,7 +135,8 @@ class Matcher {
       if (face_[shared_.back()] == face_[h]) {
         bad = true;
         add_nonmanifold({h});
-        fault(Kind::repeated_edge, "face " + number(face_[h]) + " uses edge " + edge_name(h) + " twice; split the face");
+        fault(Kind::repeated_edge,
+              "face " + number(face_[h]) + " uses edge " + edge_name(h) + " twice; split the face");
         continue;
       }
       if (shared_.size() == 1 && b.tail[shared_[0]] == b.tail[h]) {
@@ -167,7 +171,8 @@ class Matcher {
       const auto bad_edge = [&](Index h) { return nonmanifold_[h] || nonmanifold_[prev(h)]; };
       if (fans.starts.size() > 1 && std::none_of(fans.starts.begin(), fans.starts.end(), bad_edge))
         fault(Kind::several_fans, "the faces around vertex " + number(fans.vertex) + " form " +
-                                      number(Index(fans.starts.size())) + " fans; split the vertex, or accept a corner");
+                                      number(Index(fans.starts.size())) +
+                                      " fans; split the vertex, or accept a corner");
     }
   }
 

@@ -4,8 +4,8 @@
 //
 // A half-edge is a corner of a face: it starts at the corner's vertex and runs counter-clockwise to the next one; the
 // half-edges of a face are contiguous. Half-edges have twins only where the mesh is a manifold: two faces, consistently
-// wound. A non-manifold edge is one edge without twins, so walks around a vertex stay on one sheet (a fan), while vertices
-// and edges keep their identity: what the sheets share is welded by being the same element.
+// wound. A non-manifold edge is one edge without twins, so walks around a vertex stay on one sheet (a fan), while
+// vertices and edges keep their identity: what the sheets share is welded by being the same element.
 #include <span>
 #include <string>
 #include <vector>
@@ -129,12 +129,13 @@ class Topology {
   const NonManifoldEdge* find_nonmanifold(Edge e) const;
 
   Index num_faces_ = 0;
-  Index uniform_ = 0;            // face size, or 0 for mixed sizes
-  std::vector<Index> offsets_;   // mixed sizes: first half-edge of each face, and the end
-  std::vector<Index> face_;      // mixed sizes: face of each half-edge
+  Index uniform_ = 0;           // face size, or 0 for mixed sizes
+  std::vector<Index> offsets_;  // mixed sizes: first half-edge of each face, and the end
+  std::vector<Index> face_;     // mixed sizes: face of each half-edge
   UninitializedVector<Index> tail_, twin_, edge_;
-  UninitializedVector<Index> edge_half_;   // first half-edge of each edge
-  UninitializedVector<Index> vertex_out_;  // half-edge, `isolated`, or first_nonmanifold - position in nonmanifold_vertices_
+  UninitializedVector<Index> edge_half_;  // first half-edge of each edge
+  UninitializedVector<Index>
+      vertex_out_;  // half-edge, `isolated`, or first_nonmanifold - position in nonmanifold_vertices_
   UninitializedVector<Index> degree_;
   std::vector<NonManifoldVertex> nonmanifold_vertices_;
   std::vector<NonManifoldEdge> nonmanifold_edges_;  // ascending

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// The door through which a split makes a Topology: it knows the children's twins and fans from the parents', and hands the
-// arrays over; edges are numbered here.
+// The door through which a split makes a Topology: it knows the children's twins and fans from the parents', and hands
+// the arrays over; edges are numbered here.
 #include "sublimit/core/uninitialized.h"
 #include "sublimit/mesh/topology.h"
 

@@ -19,8 +19,8 @@ float child_at_end(const Topology& t, const Sharpness& sharpness, Edge e, Vertex
   return VertexSharpness(t, sharpness, end).child_edges[at];
 }
 
-/// Means of sharpness are float sums in the order of the edges, and three or more terms can round differently in another:
-/// such a ring keeps the mesh's own order.
+/// Means of sharpness are float sums in the order of the edges, and three or more terms can round differently in
+/// another: such a ring keeps the mesh's own order.
 bool depends_on_order(const Topology& t, const Sharpness& sharpness, Vertex v) {
   int terms = is_semi_sharp(sharpness.vertex[index(v)]);
   for (const Edge e : t.edges(v)) terms += is_semi_sharp(sharpness.edge[index(e)]);
@@ -89,7 +89,8 @@ std::vector<std::uint32_t> CanonicalNeighborhood::signature() const {
   for (const Fan& fan : fans) {
     words.push_back(static_cast<std::uint32_t>(2 * fan.corners.size() + fan.closed));
     for (const Corner& corner : fan.corners) {
-      for (const Index i : {corner.face_size, corner.spoke, corner.next_spoke}) words.push_back(static_cast<std::uint32_t>(i));
+      for (const Index i : {corner.face_size, corner.spoke, corner.next_spoke})
+        words.push_back(static_cast<std::uint32_t>(i));
       for (const Index i : {corner.spoke, corner.next_spoke}) {
         words.push_back(std::bit_cast<std::uint32_t>(spokes[i].sharpness));
         words.push_back(std::bit_cast<std::uint32_t>(spokes[i].far_child));
@@ -114,7 +115,8 @@ NeighborhoodAt neighborhood(const Topology& t, const Sharpness& sharpness, Verte
     HalfEdge h = starts[0];
     do {
       const Edge e = t.edge(h);
-      words.push_back({static_cast<std::uint32_t>(t.size(t.face(h))), std::bit_cast<std::uint32_t>(sharpness.edge[index(e)]),
+      words.push_back({static_cast<std::uint32_t>(t.size(t.face(h))),
+                       std::bit_cast<std::uint32_t>(sharpness.edge[index(e)]),
                        std::bit_cast<std::uint32_t>(child_at_end(t, sharpness, e, t.head(h)))});
       halves.push_back(h);
       h = t.ccw(h);

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// The neighbourhood of a vertex as far as its limit depends on it: the faces around it and the sharpness of the vertex and
-// of its edges, unfolded, in a canonical order. Equal signatures, equal limits: whatever is expensive is done once for each.
+// The neighbourhood of a vertex as far as its limit depends on it: the faces around it and the sharpness of the vertex
+// and of its edges, unfolded, in a canonical order. Equal signatures, equal limits: whatever is expensive is done once
+// for each.
 //
-// Slots number the points: 0 the vertex, then, walking each fan counter-clockwise, the corners of its faces in order, each
-// once (a fan's first edge, the rest of the face, the next edge ...). Points that coincide on a small mesh have slots of
-// their own; only edges that really are one edge (non-manifold ones) share their end.
+// Slots number the points: 0 the vertex, then, walking each fan counter-clockwise, the corners of its faces in order,
+// each once (a fan's first edge, the rest of the face, the next edge ...). Points that coincide on a small mesh have
+// slots of their own; only edges that really are one edge (non-manifold ones) share their end.
 #include <vector>
 
 #include "sublimit/mesh/sharpness.h"
@@ -50,8 +51,8 @@ struct NeighborhoodAt {
   std::vector<std::vector<HalfEdge>> corners;  ///< by fan
 };
 
-/// Neighbourhood of a vertex. A closed fan starts where its signature is least over all rotations (not reflections), unless
-/// `aligned`: then it starts at `outgoing`, as its children do.
+/// Neighbourhood of a vertex. A closed fan starts where its signature is least over all rotations (not reflections),
+/// unless `aligned`: then it starts at `outgoing`, as its children do.
 NeighborhoodAt neighborhood(const Topology& topology, const Sharpness& sharpness, Vertex v, bool aligned = false);
 
 /// The neighbourhood as a mesh of its own: vertex i is slot i.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Local subdivision matrices: how the points of a neighbourhood make those of the same vertex one level on. Assembled by
-// the same code as S, on the unfolded patch.
+// Local subdivision matrices: how the points of a neighbourhood make those of the same vertex one level on. Assembled
+// by the same code as S, on the unfolded patch.
 #include <Eigen/Core>
 
 #include <string>
@@ -23,11 +23,13 @@ struct LocalStep {
   DenseMatrix<T> matrix;
 };
 
-/// The step of `scheme` at a neighbourhood. Where the child has the same signature the matrix is square, and stationary.
+/// The step of `scheme` at a neighbourhood. Where the child has the same signature the matrix is square, and
+/// stationary.
 /// @throws AnalysisError  the rows would use points outside the neighbourhood
 template <class T>
 LocalStep<T> local_step(const Scheme<T>& scheme, const CanonicalNeighborhood& type, int level = 0) {
-  if (scheme.steps.size() != 1) throw AnalysisError(scheme.name + ": local analysis of several steps at once is not known");
+  if (scheme.steps.size() != 1)
+    throw AnalysisError(scheme.name + ": local analysis of several steps at once is not known");
   const UnfoldedPatch patch = unfold(type);
   const Step<T>& step = scheme.steps[0];
   const Refinement refinement = refine(patch.topology, step.split);
@@ -61,7 +63,8 @@ LocalStep<T> local_step(const Scheme<T>& scheme, const CanonicalNeighborhood& ty
       default:
         break;
     }
-    if (!closed) throw AnalysisError(scheme.name + ": the one-ring is not closed under refinement; more rings are needed");
+    if (!closed)
+      throw AnalysisError(scheme.name + ": the one-ring is not closed under refinement; more rings are needed");
     for (typename SparseMatrixOf<T>::InnerIterator it(S, index(v)); it; ++it)
       result.matrix(slot, it.col()) = it.value();
   }

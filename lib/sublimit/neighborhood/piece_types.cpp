@@ -454,9 +454,8 @@ PieceTypes::~PieceTypes() = default;
 
 int PieceTypes::regular_smoothness() const {
   // Isolated: a thread that waits in here must not take up work that comes back for the same.
-  std::call_once(smoothness_once_, [&] {
-    tbb::this_task_arena::isolate([&] { smoothness_ = sublimit::regular_smoothness(scheme_); });
-  });
+  std::call_once(smoothness_once_,
+                 [&] { tbb::this_task_arena::isolate([&] { smoothness_ = sublimit::regular_smoothness(scheme_); }); });
   return smoothness_;
 }
 
@@ -507,7 +506,8 @@ const PieceType* PieceTypes::kept(const PieceWalk& walk, std::unique_ptr<PieceTy
   return types_.try_emplace(walk.signature, std::move(type)).first->second.get();
 }
 
-const PieceType* PieceTypes::type(const std::shared_ptr<const Level>& level, const Piece& piece, const PieceWalk& walk) {
+const PieceType* PieceTypes::type(const std::shared_ptr<const Level>& level, const Piece& piece,
+                                  const PieceWalk& walk) {
   if (const PieceType* known = find(walk.signature)) return known;
   return kept(walk, made(level, piece, walk));
 }

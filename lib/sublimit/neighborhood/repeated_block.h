@@ -38,7 +38,8 @@ class RepeatedBlock {
   const PieceBlock& power(int i) const;
   const std::vector<std::unique_ptr<Stage>>& stages() const;
   /// A derivative row, by the stage that its leading part allows.
-  /// @param size  of rows like this one: what is small is measured by it, as the row itself may be what rounding left of 0
+  /// @param size  of rows like this one: what is small is measured by it, as the row itself may be what rounding left
+  /// of 0
   Eigen::RowVectorXd shrunk(Eigen::RowVectorXd row, double size, int times, size_t least_stage) const;
 
   const PieceBlock& block_;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// The points around a centre in a canonical order, ring by ring, counter-clockwise, and the signature of what was seen: the
-// shapes of the fans and which corners are the same point. Equal signatures, equal limits.
+// The points around a centre in a canonical order, ring by ring, counter-clockwise, and the signature of what was seen:
+// the shapes of the fans and which corners are the same point. Equal signatures, equal limits.
 #include <cstdint>
 #include <vector>
 

@@ -12,8 +12,8 @@ namespace sublimit {
 /// @throws ResourceError     more elements than 32-bit indices, or more memory than the machine has
 void check_levels(const Scheme<double>& scheme, const Topology& control, int levels);
 
-/// Levels that may be made of something if the last one shall have no more than `limit`, level 0 has `first` of it and every
-/// level `factor` times as many as the one before.
+/// Levels that may be made of something if the last one shall have no more than `limit`, level 0 has `first` of it and
+/// every level `factor` times as many as the one before.
 inline int most_levels(double first, double factor, double limit) {
   return first > limit ? 0 : static_cast<int>(std::log(limit / first) / std::log(factor));
 }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Masks as numbers, one evaluation per type of site. A mask depends on face sizes alone (sharpness is blended outside), so
-// a mesh of a million vertices asks a mask a handful of times; `visit_site` goes through a site's vertices in the order of its slots.
+// Masks as numbers, one evaluation per type of site. A mask depends on face sizes alone (sharpness is blended outside),
+// so a mesh of a million vertices asks a mask a handful of times; `visit_site` goes through a site's vertices in the
+// order of its slots.
 #include <algorithm>
 #include <map>
 #include <span>
@@ -235,8 +236,9 @@ FanShape fan_shape(const Topology& t, HalfEdge h, const IsCut& is_cut) {
   return shape;
 }
 
-/// Calls visit(vertex) for what a ring adds beyond the site's own faces: `first` is the half-edge, with the ring's vertex as its
-/// tail, of the first face counter-clockwise, for `count` faces; `ends_known`: the last one's far end has a slot already.
+/// Calls visit(vertex) for what a ring adds beyond the site's own faces: `first` is the half-edge, with the ring's
+/// vertex as its tail, of the first face counter-clockwise, for `count` faces; `ends_known`: the last one's far end has
+/// a slot already.
 template <class Visit>
 void visit_faces_ccw(const Topology& t, HalfEdge first, Index count, bool ends_known, const Visit& visit) {
   HalfEdge h = first;
@@ -246,7 +248,8 @@ void visit_faces_ccw(const Topology& t, HalfEdge first, Index count, bool ends_k
     if (k + 1 < count) h = t.ccw(h);
   }
 }
-/// Clockwise: `first` is the half-edge of the face nearest to the site; each face shows its corners from its first edge on.
+/// Clockwise: `first` is the half-edge of the face nearest to the site; each face shows its corners from its first edge
+/// on.
 template <class Visit>
 void visit_faces_cw(const Topology& t, HalfEdge first, Index count, const Visit& visit) {
   HalfEdge h = first;
@@ -256,7 +259,8 @@ void visit_faces_cw(const Topology& t, HalfEdge first, Index count, const Visit&
   }
 }
 
-/// Calls visit(vertex) around an edge in the order of WideEdgeSite's slots; `left` runs along the edge, its face is the left one.
+/// Calls visit(vertex) around an edge in the order of WideEdgeSite's slots; `left` runs along the edge, its face is the
+/// left one.
 template <class Visit>
 void visit_wide_edge(const Topology& t, HalfEdge left, FanShape tail, FanShape head, const Visit& visit) {
   const bool has_right = tail.is_closed() || tail.right() > 0;

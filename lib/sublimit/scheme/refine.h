@@ -79,10 +79,10 @@ double predicted_vertices(const Scheme<double>& scheme, const Topology& control,
 /// Bytes of memory that `levels` levels take, about, matrices included.
 double predicted_bytes(const Scheme<double>& scheme, const Topology& control, int levels);
 
-/// Some faces of a level as a level of their own. Its rim is no boundary of the mesh, but takes a boundary's rules: what is made
-/// near it means nothing.
+/// Some faces of a level as a level of their own. Its rim is no boundary of the mesh, but takes a boundary's rules:
+/// what is made near it means nothing.
 struct Part {
-  Level level;  ///< without a matrix
+  Level level;                                 ///< without a matrix
   std::vector<Index> faces, vertices, halves;  ///< their numbers in the whole, ascending
 };
 /// The faces and `rings` rings of faces around them.
@@ -90,13 +90,14 @@ Part part(const Level& whole, std::span<const Index> faces, int rings);
 
 /// A part of a mesh: chosen faces with as many rings of faces around them as their next refinement needs.
 struct Subset {
-  Level level;               ///< the part, numbered on its own; S has a row per vertex, over those of where it came from
-  std::vector<Index> faces;  ///< the chosen faces, in the part's numbers
+  Level level;  ///< the part, numbered on its own; S has a row per vertex, over those of where it came from
+  std::vector<Index> faces;    ///< the chosen faces, in the part's numbers
   std::vector<Index> parents;  ///< of every face of the part: its number in the whole, ascending
 };
 
 /// Part of a level. `level.S` of the result selects vertices of the whole.
-/// @param rings  of faces around them; `rings_for_refinement` says how many the scheme needs, 1 is enough for narrow primal ones
+/// @param rings  of faces around them; `rings_for_refinement` says how many the scheme needs, 1 is enough for narrow
+/// primal ones
 /// @throws InvalidParameter  a face that does not exist
 Subset subset(const Level& level, std::span<const Index> faces, int rings = 1);
 int rings_for_refinement(const Scheme<double>& scheme);

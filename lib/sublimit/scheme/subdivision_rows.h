@@ -14,7 +14,8 @@ SparseMatrix subdivision_rows(const Scheme<double>& scheme, const Step<double>& 
                               const Refinement& refinement, const Sharpness& sharpness,
                               const Sharpness& child_sharpness, int level, std::span<const Index> rows);
 
-/// Rows of the matrix from a level to the next one: of these vertices, and where a level takes several steps all that there are.
+/// Rows of the matrix from a level to the next one: of these vertices, and where a level takes several steps all that
+/// there are.
 /// @param vertices  of the next level, ascending
 SparseMatrix subdivision_rows(const Scheme<double>& scheme, const Level& parent, const Level& child,
                               std::span<const Index> vertices);

@@ -19,8 +19,12 @@ Scheme<T> doo_sabin_with(const char* name, const char* source, const Weight& wei
           .source = source,
           .steps = {step},
           .creases = {.edge = [](const CreaseEdgeSite<T>& e) { return (3 * e.tail() + e.head()) / 4; }},
-          .claims =
-              {.regular = 1, .extraordinary = 1, .generates = 2, .reproduces = 1, .convex_hull = true, .limit = "biquadratic B-spline"},
+          .claims = {.regular = 1,
+                     .extraordinary = 1,
+                     .generates = 2,
+                     .reproduces = 1,
+                     .convex_hull = true,
+                     .limit = "biquadratic B-spline"},
           .sharpening = Sharpening::boundary};
 }
 

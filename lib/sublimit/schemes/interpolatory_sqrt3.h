@@ -45,18 +45,22 @@ Scheme<T> interpolatory_sqrt3(const SchemeOptions&) {
                                      }
                                      return count == 0 ? regular(f) : sum / T(count);
                                    }}};
-  return {
-      .name = "interpolatory-sqrt3",
-      .source = "Labsik, Greiner 2000, Interpolatory sqrt(3)-subdivision",
-      .steps = {step},
-      .creases = {.vertex = [](const CreaseSite<T>& v) { return v.center(); },
-                  .edge =
-                      [](const CreaseEdgeSite<T>& e) {
-                        return (60 * e.tail() + 30 * e.head() - 5 * e.before() - 4 * e.after()) / 81;
-                      }},
-      .claims = {.regular = 1, .extraordinary = 1, .generates = 3, .reproduces = 3, .interpolates = true, .limit = "no closed form"},
-      .period = 2,
-      .sharpening = Sharpening::boundary};
+  return {.name = "interpolatory-sqrt3",
+          .source = "Labsik, Greiner 2000, Interpolatory sqrt(3)-subdivision",
+          .steps = {step},
+          .creases = {.vertex = [](const CreaseSite<T>& v) { return v.center(); },
+                      .edge =
+                          [](const CreaseEdgeSite<T>& e) {
+                            return (60 * e.tail() + 30 * e.head() - 5 * e.before() - 4 * e.after()) / 81;
+                          }},
+          .claims = {.regular = 1,
+                     .extraordinary = 1,
+                     .generates = 3,
+                     .reproduces = 3,
+                     .interpolates = true,
+                     .limit = "no closed form"},
+          .period = 2,
+          .sharpening = Sharpening::boundary};
 }
 
 }  // namespace sublimit

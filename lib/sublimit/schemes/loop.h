@@ -25,8 +25,12 @@ Scheme<T> loop_with(const char* name, const char* source, const Beta& beta) {
                                             8;
                                    }}}},
           .creases = cubic_bspline_creases<T>(),
-          .claims = {
-              .regular = 2, .extraordinary = 1, .generates = 3, .reproduces = 1, .convex_hull = true, .limit = "quartic box spline"}};
+          .claims = {.regular = 2,
+                     .extraordinary = 1,
+                     .generates = 3,
+                     .reproduces = 1,
+                     .convex_hull = true,
+                     .limit = "quartic box spline"}};
 }
 
 template <class T>

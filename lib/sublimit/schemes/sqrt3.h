@@ -24,7 +24,12 @@ Scheme<T> sqrt3(const SchemeOptions&) {
                     return v.level() % 2 == 0 ? v.center() : (4 * v.before() + 19 * v.center() + 4 * v.after()) / 27;
                   },
               .edge = [](const CreaseEdgeSite<T>& e) { return (e.before() + 16 * e.tail() + 10 * e.head()) / 27; }},
-          .claims = {.regular = 2, .extraordinary = 1, .generates = 2, .reproduces = 1, .convex_hull = true, .limit = "no closed form"},
+          .claims = {.regular = 2,
+                     .extraordinary = 1,
+                     .generates = 2,
+                     .reproduces = 1,
+                     .convex_hull = true,
+                     .limit = "no closed form"},
           .period = 2,
           .sharpening = Sharpening::boundary};
 }

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Dual quadrilateral split. Every corner of a face becomes a point; corner h keeps its number. Faces from faces have the
-// parents' half-edges, a face from an edge (a, b) has the points
+// Dual quadrilateral split. Every corner of a face becomes a point; corner h keeps its number. Faces from faces have
+// the parents' half-edges, a face from an edge (a, b) has the points
 //   left at a, right at a, right at b, left at b        (right: of the two border points, where there is no right face)
-// and a face from a vertex has the corners around it, counter-clockwise, closed by the border points of its two border edges.
+// and a face from a vertex has the corners around it, counter-clockwise, closed by the border points of its two border
+// edges.
 #include "sublimit/splits/sheets.h"
 
 namespace sublimit {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Dual: every face becomes a point, every vertex the face of the points around it. The half-edge that leaves the point of
-// corner h crosses the edge before h. Border edges become points too, so that the border is refined and does not shrink.
+// Dual: every face becomes a point, every vertex the face of the points around it. The half-edge that leaves the point
+// of corner h crosses the edge before h. Border edges become points too, so that the border is refined and does not
+// shrink.
 #include "sublimit/splits/sheets.h"
 
 namespace sublimit {
@@ -42,7 +43,8 @@ Refinement refine_dual(const Topology& t) {
     const bool open = sheets.is_open(fan);
     Index at = b.face_offsets[i];
     r.face_parent[i] = index(t.face(start));
-    if (open) {  // from the border point of the first edge to the first face: seen from the edge's other end, the way back
+    if (open) {  // from the border point of the first edge to the first face: seen from the edge's other end, the way
+                 // back
       b.tail[at] = border_point(start);
       b.twin[at] = position[index(t.next(start))];
       ++at;

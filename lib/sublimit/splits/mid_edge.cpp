@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Mid-edge split. Every edge becomes a point; a face from a face has the parents' half-edges, half-edge h now running from the
-// point of h to that of the next one; a face from a vertex has the points of its edges, counter-clockwise.
+// Mid-edge split. Every edge becomes a point; a face from a face has the parents' half-edges, half-edge h now running
+// from the point of h to that of the next one; a face from a vertex has the points of its edges, counter-clockwise.
 //
-// At borders two steps must double the points, as they do inside: even levels keep the vertex, so that its face ends in it, odd
-// levels cut it off. So the border runs through p, m, q and then through the quarter points, as Chaikin's.
+// At borders two steps must double the points, as they do inside: even levels keep the vertex, so that its face ends in
+// it, odd levels cut it off. So the border runs through p, m, q and then through the quarter points, as Chaikin's.
 #include "sublimit/splits/sheets.h"
 
 namespace sublimit {

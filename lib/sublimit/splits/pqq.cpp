@@ -46,7 +46,8 @@ Refinement refine_pqq(const Topology& parent) {
   b.degree.resize(num_vertices);
   r.face_parent.resize(corners);
 
-  const PrimalHalves halves(parent, [&](Index h) { return pqq.first_half(h); }, [&](Index h) { return pqq.second_half(h); });
+  const PrimalHalves halves(
+      parent, [&](Index h) { return pqq.first_half(h); }, [&](Index h) { return pqq.second_half(h); });
 
   parallel_for(parent.num_faces(), [&](std::int64_t i) {
     const Face f{static_cast<Index>(i)};

@@ -57,8 +57,8 @@ class PrimalHalves {
     }
   }
 
-  /// Half-edge to start from and number of corners of the children of vertices and edges; `corners_at_edge` is the number
-  /// of child corners that one half-edge contributes at its edge's point.
+  /// Half-edge to start from and number of corners of the children of vertices and edges; `corners_at_edge` is the
+  /// number of child corners that one half-edge contributes at its edge's point.
   void set_fans(TopologyBuilder& b, const Refinement& r, Index corners_at_edge) const {
     parallel_for(t_.num_vertices(), [&](std::int64_t i) {
       const Vertex v{static_cast<Index>(i)};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One quadrilateral for each edge (a, b): a, the right face's point, b, the left face's. A border has its midpoint for the face
-// that is missing, so that it stays a quadrilateral.
+// One quadrilateral for each edge (a, b): a, the right face's point, b, the left face's. A border has its midpoint for
+// the face that is missing, so that it stays a quadrilateral.
 #include "sublimit/splits/sheets.h"
 
 namespace sublimit {
@@ -23,8 +23,10 @@ Refinement refine_quads(const Topology& t) {
   for (Index e = 0; e <= sheets.num_cut_edges(); ++e) b.face_offsets.push_back(4 * e);
   const auto is_first = [&](HalfEdge h) { return t.half_edge(t.edge(h)) == h || !exists(t.twin(h)); };
   // Sides of the quad: a to the right face's point and on to b, on to the left face's point, back to a.
-  const auto to_point = [&](HalfEdge h) { return 4 * sheets.cut_edge(h) + (is_first(h) ? 2 : 0); };    // head to h's face
-  const auto from_point = [&](HalfEdge h) { return 4 * sheets.cut_edge(h) + (is_first(h) ? 3 : 1); };  // h's face to tail
+  const auto to_point = [&](HalfEdge h) { return 4 * sheets.cut_edge(h) + (is_first(h) ? 2 : 0); };  // head to h's face
+  const auto from_point = [&](HalfEdge h) {
+    return 4 * sheets.cut_edge(h) + (is_first(h) ? 3 : 1);
+  };  // h's face to tail
   for (Index i = 0; i < t.num_half_edges(); ++i) {
     const HalfEdge h{i}, g = t.twin(h);
     b.twin[to_point(h)] = from_point(t.next(h));

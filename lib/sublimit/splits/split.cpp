@@ -63,8 +63,9 @@ void check_triangles(const Topology& t) {
 Refinement refine(const Topology& parent, Split split, int level) {
   const std::int64_t count = num_child_half_edges(parent, split);
   if (count > std::numeric_limits<Index>::max())
-    throw ResourceError("the next level has " + std::to_string(count) + " face corners, more than 32-bit indices count (" +
-                        std::to_string(std::numeric_limits<Index>::max()) + "); use fewer levels or refine fewer faces");
+    throw ResourceError(
+        "the next level has " + std::to_string(count) + " face corners, more than 32-bit indices count (" +
+        std::to_string(std::numeric_limits<Index>::max()) + "); use fewer levels or refine fewer faces");
   switch (split) {
     case Split::pqq:
       return refine_pqq(parent);

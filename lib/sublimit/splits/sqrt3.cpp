@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// sqrt(3) split (Kobbelt 2000): a point for each face, joined to its corners and, across flipped old edges, to its neighbours.
-// Half-edge h with a twin becomes triangle (tail, point of the twin's side, point of h's side). A border edge is left alone in
-// even levels: triangle (tail, head, point). In odd levels it is trisected; its face then gets no point of its own, since two
-// steps together cut every old triangle into nine: the border half-edge becomes (first third, second third, opposite corner), and
-// for the face's other edges the nearer one of the two is the point of this side.
+// sqrt(3) split (Kobbelt 2000): a point for each face, joined to its corners and, across flipped old edges, to its
+// neighbours. Half-edge h with a twin becomes triangle (tail, point of the twin's side, point of h's side). A border
+// edge is left alone in even levels: triangle (tail, head, point). In odd levels it is trisected; its face then gets no
+// point of its own, since two steps together cut every old triangle into nine: the border half-edge becomes (first
+// third, second third, opposite corner), and for the face's other edges the nearer one of the two is the point of this
+// side.
 #include "sublimit/splits/sheets.h"
 
 namespace sublimit {
@@ -17,7 +18,8 @@ class Sqrt3 {
     if (trisects) {
       std::vector<Index> count(t.num_faces(), 0);
       for (const Index h : sheets.borders()) ++count[index(t.face(HalfEdge{h}))];
-      for (const Index h : sheets.borders())  // a face with several borders keeps its point (not met after an even level)
+      for (const Index h :
+           sheets.borders())  // a face with several borders keeps its point (not met after an even level)
         if (count[index(t.face(HalfEdge{h}))] == 1) border_of[index(t.face(HalfEdge{h}))] = h;
     }
     point_of.resize(t.num_faces());
@@ -99,7 +101,7 @@ Refinement refine_sqrt3(const Topology& t, int level) {
   b.outgoing.resize(vertices);
   b.degree.resize(vertices);
   r.face_parent.resize(r.faces_from_faces);
-  const auto set = [&](Index at, const Index (&tails)[3], const Index (&twins)[3], Face parent) {
+  const auto set = [&](Index at, const Index(&tails)[3], const Index(&twins)[3], Face parent) {
     std::copy_n(tails, 3, &b.tail[at]);
     std::copy_n(twins, 3, &b.twin[at]);
     r.face_parent[at / 3] = index(parent);
@@ -108,7 +110,8 @@ Refinement refine_sqrt3(const Topology& t, int level) {
     const HalfEdge h{static_cast<Index>(i)}, g = t.twin(h);
     const Index tail = index(t.tail(h)), head = index(t.head(h)), at = s.first(h);
     const Face f = t.face(h);
-    if (exists(g)) return set(at, {tail, s.point(g), s.point(h)}, {s.beside_head(g), s.first(g) + 1, s.beside_tail(h)}, f);
+    if (exists(g))
+      return set(at, {tail, s.point(g), s.point(h)}, {s.beside_head(g), s.first(g) + 1, s.beside_tail(h)}, f);
     if (!trisects) return set(at, {tail, head, s.point(h)}, {-1, s.beside_head(h), s.beside_tail(h)}, f);
     const Index one = s.third(h, 0), two = s.third(h, 1);
     if (s.border_of[index(f)] >= 0)

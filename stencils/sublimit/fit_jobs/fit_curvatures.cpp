@@ -74,8 +74,7 @@ void check_size(const ControlMesh& mesh, int levels) {
   const int most = most_levels(triangles, 4, std::min(most_triangles, memory_limit() / bytes));
   const std::string advice = "use at most " + format_number(most);
   triangles *= std::pow(4.0, levels);
-  if (triangles > most_triangles)
-    throw ResourceError(what + " have more corners than 32-bit indices count; " + advice);
+  if (triangles > most_triangles) throw ResourceError(what + " have more corners than 32-bit indices count; " + advice);
   check_memory(what, triangles * bytes, advice);
 }
 

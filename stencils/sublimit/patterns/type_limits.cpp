@@ -90,7 +90,8 @@ std::optional<Patterns::LimitBlock> limits_of_type(const std::shared_ptr<LimitTy
     if (request.derivatives == 0 || rows.rows() > 1) return;
     // Where there are no natural derivatives, two tangents that span the plane.
     const RowMatrix& tangents = found.rows.tangents;
-    for (Eigen::Index q = 0; q < std::min<Eigen::Index>(tangents.rows(), 2); ++q) add_differences(q + 1, tangents.row(q));
+    for (Eigen::Index q = 0; q < std::min<Eigen::Index>(tangents.rows(), 2); ++q)
+      add_differences(q + 1, tangents.row(q));
     if (found.tangents.size() >= 2)
       for (Eigen::Index q = 1; q <= 2; ++q)
         for (const auto& [vertex, weight] : found.tangents[size_t(q - 1)]) add(q, vertex, weight);

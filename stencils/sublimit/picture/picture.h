@@ -52,9 +52,10 @@ struct PictureOptions {
   bool ground_shadow = true;
   bool plate = true;         ///< a light background
   double caption_size = 17;  ///< pixels; notes are smaller
-  /// For those who cannot see the picture; with a title it is an image of that name, as pages with pictures inline need.
+  /// For those who cannot see the picture; with a title it is an image of that name, as pages with pictures inline
+  /// need.
   std::string title = {}, description = {};
-  int columns = 0;           ///< panels in a row, 0: all
+  int columns = 0;  ///< panels in a row, 0: all
   /// #x3, kept in view though nothing draws them: pictures of what lies within the same ones have the same camera.
   Points in_view = {};
 };

@@ -42,8 +42,6 @@ std::string pixels(double value) {
   return tenths < 0 ? "-" + text : text;
 }
 
-Spot spot(double x, double y) {
-  return {nearest(x * units), nearest(y * units)};
-}
+Spot spot(double x, double y) { return {nearest(x * units), nearest(y * units)}; }
 
 }  // namespace sublimit::svg

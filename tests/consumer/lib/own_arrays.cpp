@@ -1,4 +1,5 @@
-// Meshes that are arrays already, as lib/README.md says: Eigen matrices as libigl has them, and spans that are not copied.
+// Meshes that are arrays already, as lib/README.md says: Eigen matrices as libigl has them, and spans that are not
+// copied.
 #include <sublimit/subdivide.h>
 
 #include <vector>

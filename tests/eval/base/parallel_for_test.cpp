@@ -15,8 +15,8 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// Where a block of a loop fails while another is inside of a loop of its own, that one is done to its end: what comes behind it
-/// relies on all that it writes.
+/// Where a block of a loop fails while another is inside of a loop of its own, that one is done to its end: what comes
+/// behind it relies on all that it writes.
 TEST(ParallelFor, LoopsInsideGoOnWhereTheOuterOneFails) {
   std::atomic<bool> another{false}, fails{false};
   std::atomic<int> loops{0}, halfway{0};
@@ -29,7 +29,8 @@ TEST(ParallelFor, LoopsInsideGoOnWhereTheOuterOneFails) {
       until(fails);
       for (const auto end = std::chrono::steady_clock::now() + 100ms; std::chrono::steady_clock::now() < end; ++loops) {
         std::atomic<int> done{0};
-        parallel_for_blocks(64, [&](std::int64_t, std::int64_t, std::int64_t) { ++done; }, 1);
+        parallel_for_blocks(
+            64, [&](std::int64_t, std::int64_t, std::int64_t) { ++done; }, 1);
         halfway += done != 64;
       }
     } else if (!fails.exchange(true)) {

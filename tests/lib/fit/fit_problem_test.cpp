@@ -96,7 +96,8 @@ Reference null_space_method(const FitProblem& p) {
     if (seen) result.narrowest = std::min(result.narrowest, l / Q.norm());
     l = seen ? 1 / l : 0;
   }
-  result.x += N * (eigen.vectors * inverse.asDiagonal() * (eigen.vectors.transpose() * (N.transpose() * (force - Q * y))));
+  result.x +=
+      N * (eigen.vectors * inverse.asDiagonal() * (eigen.vectors.transpose() * (N.transpose() * (force - Q * y))));
   return result;
 }
 

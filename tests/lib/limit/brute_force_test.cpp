@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Limits against brute force: the mesh around a vertex, refined again and again in 256-bit floats, without eigenvectors and
-// without unfolding. Every kind of vertex, semi-sharp ones from level 0 included.
+// Limits against brute force: the mesh around a vertex, refined again and again in 256-bit floats, without eigenvectors
+// and without unfolding. Every kind of vertex, semi-sharp ones from level 0 included.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -24,8 +24,8 @@ PreciseVector cross(const PreciseVector& a, const PreciseVector& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-/// Normal of a side from its refined ring, of any length: for a side between sharp edges the edge and the way inwards, for a
-/// ring the area that it sweeps.
+/// Normal of a side from its refined ring, of any length: for a side between sharp edges the edge and the way inwards,
+/// for a ring the area that it sweeps.
 PreciseVector ring_normal(const RefinedRing& ring, const std::vector<HalfEdge>& side, bool between_edges) {
   const Topology& t = ring.level.topology();
   const PreciseVector centre = row(ring.points, ring.vertex);
@@ -127,8 +127,9 @@ void compare(const NamedMesh& tested, const std::string& scheme_name, Worst& wor
       // At a single quad of a crease the moduli differ so much that more depth would cost all digits.
       const bool flat = corners.size() == 1 && generic.lambda2 < 0.3;
       Eigen::Vector3d brute = direction(normal(flat ? rings[1] : ring));
-      // A Jordan block makes directions turn like 1/k: normals of depth k are (lambda1 lambda2)^k (k a + b) + ..., where what
-      // follows dies out, so that two depths give a. Where they come to rest a is zero, and the direction is b.
+      // A Jordan block makes directions turn like 1/k: normals of depth k are (lambda1 lambda2)^k (k a + b) + ...,
+      // where what follows dies out, so that two depths give a. Where they come to rest a is zero, and the direction is
+      // b.
       const bool slow = generic.plane == LimitMasks::Plane::slow;
       if (slow) {
         const Precise shrink = Precise(generic.lambda1) * Precise(generic.lambda2);
@@ -139,8 +140,8 @@ void compare(const NamedMesh& tested, const std::string& scheme_name, Worst& wor
       }
       const Eigen::Vector3d limit_normal = ours.normal.row(side);
       const double angle = std::atan2(brute.cross(limit_normal).norm(), brute.dot(limit_normal));
-      EXPECT_LE(angle, brute_angle) << tested.name << " vertex " << v << " side of " << corners.size() << " faces, status "
-                                    << name(ours.status[side]) << (slow ? ", slow" : "");
+      EXPECT_LE(angle, brute_angle) << tested.name << " vertex " << v << " side of " << corners.size()
+                                    << " faces, status " << name(ours.status[side]) << (slow ? ", slow" : "");
       worst.normal = std::max(worst.normal, angle);
       ++worst.normals;
     }

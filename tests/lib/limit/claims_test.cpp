@@ -21,7 +21,8 @@ TEST(RegularSmoothness, IsThatOfTheLiterature) {
 }
 
 TEST(RegularSmoothness, DoesNotNeedPolynomialsNorClaims) {
-  // Catmull-Clark's edge and face points around a vertex that keeps less: the limit is no spline, and no better than C^1.
+  // Catmull-Clark's edge and face points around a vertex that keeps less: the limit is no spline, and no better than
+  // C^1.
   Scheme<double> scheme = *find_scheme("catmull-clark");
   scheme.claims.regular = 7;
   EXPECT_EQ(regular_smoothness(scheme), 2);
@@ -49,8 +50,8 @@ void expect_same(const LimitSamples& a, const LimitSamples& b) {
   EXPECT_EQ(a.status, b.status);
   EXPECT_EQ(a.order, b.order);
   EXPECT_EQ(a.position, b.position);
-  for (const auto part : {&LimitSamples::du, &LimitSamples::dv, &LimitSamples::duu, &LimitSamples::duv, &LimitSamples::dvv,
-                          &LimitSamples::normal})
+  for (const auto part : {&LimitSamples::du, &LimitSamples::dv, &LimitSamples::duu, &LimitSamples::duv,
+                          &LimitSamples::dvv, &LimitSamples::normal})
     EXPECT_EQ(a.*part, b.*part);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Limits of every scheme against refinement: the faces around a place, refined again and again by the scheme's own matrices, come
-// to lie at the limit point and in the tangent plane.
+// Limits of every scheme against refinement: the faces around a place, refined again and again by the scheme's own
+// matrices, come to lie at the limit point and in the tangent plane.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -72,12 +72,12 @@ std::vector<ControlMesh> meshes_for(const Scheme<double>& scheme) {
   if (scheme.face_size() == 3) {
     ControlMesh sharp = jittered(octahedron());
     if (scheme.sharpening != Sharpening::boundary) sharp.creases = {{0, 2, 10}, {2, 1, 10}, {1, 3, 10}, {3, 0, 10}};
-    return {jittered(icosahedron()), jittered(tetrahedron()), jittered(triangle_grid(3, 3)), sharp,
-            jittered(fan(7, 3, 2)), jittered(open_fan(4, 3, 2))};
+    return {jittered(icosahedron()), jittered(tetrahedron()),    jittered(triangle_grid(3, 3)), sharp,
+            jittered(fan(7, 3, 2)),  jittered(open_fan(4, 3, 2))};
   }
   ControlMesh sharp = jittered(cube());
   if (scheme.sharpening != Sharpening::boundary) sharp.creases = {{0, 1, 10}, {1, 3, 10}, {3, 2, 10}, {2, 0, 10}};
-  return {jittered(prism(5)), sharp, jittered(grid(3, 3)), jittered(octahedron()), jittered(fan(7, 4, 2)),
+  return {jittered(prism(5)),         sharp, jittered(grid(3, 3)), jittered(octahedron()), jittered(fan(7, 4, 2)),
           jittered(open_fan(3, 4, 2))};
 }
 
@@ -118,7 +118,8 @@ constexpr Expected expected[] = {
     {"modified-butterfly --option t=-1/64", 0, 0, 0.02, 0},
     {"modified-butterfly --option boundary-rule=virtual-vertex", 5, 0, 0.0005, 0},
     {"kobbelt --option tension=0", 88, 0, 0, 0},
-    // At border vertices of a single face the border's bend decays slower than what leaves the border: no tangent plane.
+    // At border vertices of a single face the border's bend decays slower than what leaves the border: no tangent
+    // plane.
     {"kobbelt --option tension=1/2", 5, 0, 0.003, 0},
     {"kobbelt --option tension=3/2", 5, 0, 1e-4, 0},
     {"kobbelt --option quads=edges", 1, 0, 0.04, 0},

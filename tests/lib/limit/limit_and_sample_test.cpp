@@ -35,7 +35,8 @@ std::vector<Variant> quick_variants() {
   return all;
 }
 
-/// Borders of 1 to 5 faces, corners, an extraordinary vertex; creases, darts and sharp vertices, where the scheme has them.
+/// Borders of 1 to 5 faces, corners, an extraordinary vertex; creases, darts and sharp vertices, where the scheme has
+/// them.
 std::vector<ControlMesh> meshes_to_sample(const Scheme<double>& scheme) {
   const Index size = scheme.face_size() == 3 ? 3 : 4, step = size == 3 ? 1 : 2;
   std::vector<ControlMesh> meshes{jittered(open_fan(1, size, 1)), jittered(fan(5, size, 2)),
@@ -133,9 +134,17 @@ Border lower_border(const Scheme<double>& scheme) {
 }
 
 TEST(NormalsOnBorders, AreThoseThatComeFromInside) {
-  const Variant variants[] = {{"averaging", {{"degree", "2"}}}, {"averaging", {{"degree", "4"}}}, {"doo-sabin", {}},
-                              {"mid-edge", {}}, {"mid-edge-habib-warren", {}}, {"sqrt3", {}}, {"interpolatory-sqrt3", {}},
-                              {"loop", {}}, {"butterfly", {}}, {"kobbelt", {}}, {"catmull-clark", {}}};
+  const Variant variants[] = {{"averaging", {{"degree", "2"}}},
+                              {"averaging", {{"degree", "4"}}},
+                              {"doo-sabin", {}},
+                              {"mid-edge", {}},
+                              {"mid-edge-habib-warren", {}},
+                              {"sqrt3", {}},
+                              {"interpolatory-sqrt3", {}},
+                              {"loop", {}},
+                              {"butterfly", {}},
+                              {"kobbelt", {}},
+                              {"catmull-clark", {}}};
   for (const Variant& variant : variants) {
     const Scheme<double> scheme = find_scheme(variant.first, variant.second).value();
     const Border border = lower_border(scheme);

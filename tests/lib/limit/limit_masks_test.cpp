@@ -58,8 +58,9 @@ TEST(LimitMasks, CatmullClarkPositionMatchesHalstead1993) {
   }
 }
 
-// Tangents: A cos(2 pi i/n) e_i + (cos(2 pi i/n) + cos(2 pi (i+1)/n)) f_i, A = 1 + c + cos(pi/n) sqrt(2 (9 + c)); the second
-// tangent of the pair has sines. Ours are scaled so that the characteristic map has its first edge at distance 1.
+// Tangents: A cos(2 pi i/n) e_i + (cos(2 pi i/n) + cos(2 pi (i+1)/n)) f_i, A = 1 + c + cos(pi/n) sqrt(2 (9 + c)); the
+// second tangent of the pair has sines. Ours are scaled so that the characteristic map has its first edge at
+// distance 1.
 TEST(LimitMasks, CatmullClarkTangentsMatchTheClosedForm) {
   const Scheme<double> scheme = find_scheme("catmull-clark").value();
   for (int n = 3; n <= 50; ++n) {
@@ -81,7 +82,8 @@ TEST(LimitMasks, CatmullClarkTangentsMatchTheClosedForm) {
   }
 }
 
-// Limit of Loop's scheme: centre 3/(3 + 8 beta), each neighbour 8 beta/(n (3 + 8 beta)); tangents cos and sin of 2 pi i/n.
+// Limit of Loop's scheme: centre 3/(3 + 8 beta), each neighbour 8 beta/(n (3 + 8 beta)); tangents cos and sin of 2 pi
+// i/n.
 TEST(LimitMasks, LoopMatchesLoop1987AndWarren1995) {
   for (const std::string name : {"loop", "loop-warren"}) {
     const Scheme<double> scheme = find_scheme(name).value();
@@ -109,7 +111,8 @@ TEST(LimitMasks, BilinearVerticesStay) {
   }
 }
 
-// Whole spectrum of the one-ring: block 0 has 1 and (3n - 7 +- sqrt(5 n^2 - 30 n + 49))/(8n), block k the two lambdas of c_k.
+// Whole spectrum of the one-ring: block 0 has 1 and (3n - 7 +- sqrt(5 n^2 - 30 n + 49))/(8n), block k the two lambdas
+// of c_k.
 TEST(EigenStructure, CatmullClarkSpectrumMatchesTheClosedForm) {
   const Scheme<double> scheme = find_scheme("catmull-clark").value();
   for (int n = 3; n <= 50; ++n) {
@@ -151,8 +154,8 @@ TEST(EigenStructure, LoopSpectrumMatchesTheClosedForm) {
   }
 }
 
-// A smooth boundary vertex with m faces: {1, 1/2, 1/4}, the sine modes of the doubled valence, and for quads one 1/4 more.
-// Defective pairs (m = 1, 4 and 6) split by about sqrt(eps) in a general solver; sums of the spectrum do not.
+// A smooth boundary vertex with m faces: {1, 1/2, 1/4}, the sine modes of the doubled valence, and for quads one 1/4
+// more. Defective pairs (m = 1, 4 and 6) split by about sqrt(eps) in a general solver; sums of the spectrum do not.
 TEST(EigenStructure, BoundarySpectraMatchTheClosedForm) {
   for (int m = 1; m <= 50; ++m) {
     for (const bool quads : {true, false}) {
@@ -207,8 +210,8 @@ TEST(LimitMasks, BoundaryPositionAndTangentAreTheCubicBSplines) {
     }
 }
 
-// Regular boundary: across, Catmull-Clark 4 v + e_0 + e_2 - 4 e_1 - f_0 - f_1, Loop 2 v + v_0 + v_3 - 2 v_1 - 2 v_2, modulo
-// the tangent along (which is antisymmetric, these are symmetric).
+// Regular boundary: across, Catmull-Clark 4 v + e_0 + e_2 - 4 e_1 - f_0 - f_1, Loop 2 v + v_0 + v_3 - 2 v_1 - 2 v_2,
+// modulo the tangent along (which is antisymmetric, these are symmetric).
 TEST(LimitMasks, RegularBoundaryCrossTangentsMatchTheClosedForm) {
   const LimitMasks quads = limit_masks(find_scheme("catmull-clark").value(), boundary_type(2, 4));
   const LimitMasks triangles = limit_masks(find_scheme("loop").value(), boundary_type(3, 3));
@@ -253,7 +256,8 @@ TEST(LimitMasks, AreComputedOncePerType) {
   EXPECT_EQ(cache.num_types(), 2u);
 }
 
-// The start of the walk does not matter: a ring of mixed faces with one crease has one signature, whatever face comes first.
+// The start of the walk does not matter: a ring of mixed faces with one crease has one signature, whatever face comes
+// first.
 TEST(CanonicalNeighborhood, SignatureDoesNotDependOnNumbering) {
   const std::vector<Index> sizes{3, 5, 4, 4, 6};
   std::vector<std::uint32_t> signature;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Limits at places that never come to be alone among regular points, and what is said where there is none: sheets that meet
-// along edges that end inside them, faces back to back, vertices of two faces.
+// Limits at places that never come to be alone among regular points, and what is said where there is none: sheets that
+// meet along edges that end inside them, faces back to back, vertices of two faces.
 #include "sublimit/limit/limit_rows.h"
 
 #include <gtest/gtest.h>
@@ -109,7 +109,8 @@ TEST_P(EverySchemesRows, AreThoseOfTheSurface) {
     for (Index a = 0; a < surface.addresses().size(); ++a) {
       const Addresses::Place place = surface.addresses().place(a);
       const HalfEdge corner = t.corner(place.face, std::max<Index>(place.corner, 0));
-      // Left to do: at a vertex of two faces the parameters of mid-edge surfaces lead to the middle of the face opposite.
+      // Left to do: at a vertex of two faces the parameters of mid-edge surfaces lead to the middle of the face
+      // opposite.
       const HalfEdge other = t.ccw(corner);
       const bool two_faces = exists(other) && other != corner && t.ccw(other) == corner;
       if (scheme.name.starts_with("mid-edge") && two_faces) continue;
@@ -126,7 +127,8 @@ TEST_P(EverySchemesRows, AreThoseOfTheSurface) {
 INSTANTIATE_TEST_SUITE_P(All, EverySchemesRows, ::testing::ValuesIn([] {
                            std::vector<std::pair<std::string, SchemeOptions>> all;
                            for (const Scheme<double>& scheme : all_schemes()) all.push_back({scheme.name, {}});
-                           for (const char* degree : {"2", "4", "5"}) all.push_back({"averaging", {{"degree", degree}}});
+                           for (const char* degree : {"2", "4", "5"})
+                             all.push_back({"averaging", {{"degree", degree}}});
                            return all;
                          }()),
                          [](const auto& tested) {
@@ -175,7 +177,11 @@ TEST(LimitRows, NameTheFirstVertexThatHasNoLimit) {
     expect_error<NoLimit>([&] { limit_matrices(levels, cache); }, {"no limit at vertex 8:", "eigenvalue 1"});
     expect_error<NoLimit>([&] { limit_matrices(levels[1], cache); }, {"no limit at vertex 8 of level 1:"});
     const LimitSurface surface(scheme, mesh);
-    expect_error<NoLimit>([&] { surface.stencil({6, 0, 0}, 0); }, {"no limit at some place of face 6:", "eigenvalue 1"});
+    expect_error<NoLimit>(
+        [&] {
+          surface.stencil({6, 0, 0}, 0);
+        },
+        {"no limit at some place of face 6:", "eigenvalue 1"});
   }
 }
 

@@ -18,8 +18,8 @@
 namespace sublimit::testing {
 namespace {
 
-/// Where the reference is exact (found by comparison with brute force): position at smooth interior vertices, creases and corners whose
-/// sharpness no longer changes and whose faces are all regular, other than Catmull-Clark's valence 2.
+/// Where the reference is exact (found by comparison with brute force): position at smooth interior vertices, creases
+/// and corners whose sharpness no longer changes and whose faces are all regular, other than Catmull-Clark's valence 2.
 bool exact_position(const ReferenceVertex& v, const std::string& scheme) {
   if (v.semisharp || v.irregular_face) return false;
   if (v.rule == ReferenceVertex::Rule::dart) return false;
@@ -32,9 +32,7 @@ bool exact_normal(const ReferenceVertex& v, const std::string& scheme) {
   return v.side_corner >= 0 && v.side_faces <= (scheme == "loop" ? 3 : 2);
 }
 
-double angle(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  return std::atan2(a.cross(b).norm(), a.dot(b));
-}
+double angle(const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
 
 struct LimitDifferences {
   double position = 0, normal = 0;
@@ -80,9 +78,9 @@ LimitDifferences compare_limits(const ControlMesh& mesh, const std::string& name
     for (const HalfEdge start : t.fans(Vertex{v})) {
       HalfEdge h = start;
       do {
-        const bool leading = kind.side_corner < 0 ||
-                             (corner_at[kind.side_corner] ==
-                              std::pair(c.vertex_map[index(t.tail(h))], c.vertex_map[index(t.head(h))]));
+        const bool leading =
+            kind.side_corner < 0 ||
+            (corner_at[kind.side_corner] == std::pair(c.vertex_map[index(t.tail(h))], c.vertex_map[index(t.head(h))]));
         if (leading) side = limit.corner_side[index(h)];
         h = t.ccw(h);
       } while (exists(h) && h != start && side < 0);

@@ -10,9 +10,9 @@
 namespace sublimit::testing {
 namespace {
 
-/// Under Chaikin creasing an edge of sharpness s > 1 can be smooth one level on. Sdc clamps the weight of its crease mask
-/// to 1 (a full crease, as here); Far hands Sdc the rules it has found and thereby skips the clamp: its edge point is
-/// s * midpoint + (1 - s) * smooth, with negative weights, outside the convex hull. Here we differ, on purpose.
+/// Under Chaikin creasing an edge of sharpness s > 1 can be smooth one level on. Sdc clamps the weight of its crease
+/// mask to 1 (a full crease, as here); Far hands Sdc the rules it has found and thereby skips the clamp: its edge point
+/// is s * midpoint + (1 - s) * smooth, with negative weights, outside the convex hull. Here we differ, on purpose.
 bool far_extrapolates(const std::string& name) { return name.starts_with("chain_uneven_chaikin"); }
 
 class TaggedMesh : public ::testing::TestWithParam<NamedMesh> {};

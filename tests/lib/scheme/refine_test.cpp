@@ -20,8 +20,8 @@ namespace {
 
 const Scheme<double> catmull_clark_scheme = find_scheme("catmull-clark").value();
 
-// Corner (1,1,1) of the cube: n = 3, (n-2)/n v = 1/3, neighbours' mean (1,1,-1)+.. = 1/3 each, face centroids' mean 1/3 each:
-// (1 + 1/3 + 1/3) / 3 = 5/9. An edge point: (0, 1, 1) with face points (0,1,0) and (0,0,1): 3/4. A face point: 1.
+// Corner (1,1,1) of the cube: n = 3, (n-2)/n v = 1/3, neighbours' mean (1,1,-1)+.. = 1/3 each, face centroids' mean 1/3
+// each: (1 + 1/3 + 1/3) / 3 = 5/9. An edge point: (0, 1, 1) with face points (0,1,0) and (0,0,1): 3/4. A face point: 1.
 TEST(Refine, CubeCornerIsAtFiveNinths) {
   const std::vector<Level> levels = refine(catmull_clark_scheme, cube(), 1);
   const Points x = apply(levels[1].S, cube().positions);
@@ -107,8 +107,8 @@ TEST(Refine, TellsWhatCannotBe) {
   EXPECT_THROW(subset(levels[0], std::vector<Index>{6}), InvalidParameter);
 }
 
-// Masks that look beyond their face count on its size. A preparation that was taken away, or that a level says to have behind
-// it, has not made these faces quadrilaterals.
+// Masks that look beyond their face count on its size. A preparation that was taken away, or that a level says to have
+// behind it, has not made these faces quadrilaterals.
 TEST(Refine, RefusesFacesThatAPreparationShouldHaveCut) {
   const Scheme<double> whole = find_scheme("kobbelt").value();
   Scheme<double> cleared = whole;
@@ -129,8 +129,11 @@ TEST(Refine, RefusesFacesThatAPreparationShouldHaveCut) {
   // A scheme of one's own that says nothing of sizes: all faces like the first one, here the triangle in the middle.
   Scheme<double> own = cleared;
   own.corners = 0;
-  expect_error<UnsupportedTopology>([&] { next_level(own, control_level(own, polygon_ring({4, 4, 5}))); },
-                                    {"face 1 of level 0", "faces of 3"});
+  expect_error<UnsupportedTopology>(
+      [&] {
+        next_level(own, control_level(own, polygon_ring({4, 4, 5})));
+      },
+      {"face 1 of level 0", "faces of 3"});
 }
 
 TEST(Refine, HasTheSameBitsForAnyNumberOfThreads) {
@@ -172,7 +175,8 @@ TEST(LimitPoints, DegenerateTangentsHaveAStatus) {
   LimitTypes cache(catmull_clark_scheme);
   const Level level = control_level(catmull_clark_scheme, mesh);
   const LimitMatrices limit = limit_matrices(level, cache);
-  const auto side = size_t(std::find(limit.side_vertex.begin(), limit.side_vertex.end(), 0) - limit.side_vertex.begin());
+  const auto side =
+      size_t(std::find(limit.side_vertex.begin(), limit.side_vertex.end(), 0) - limit.side_vertex.begin());
   EXPECT_NE(limit_points(limit, level.topology(), mesh.positions).status[side], LimitStatus::undefined_normal);
   mesh.positions.setZero();  // all points in one
   EXPECT_EQ(limit_points(limit, level.topology(), mesh.positions).status[side], LimitStatus::undefined_normal);

@@ -136,7 +136,8 @@ TEST_P(EditableTables, FollowExtrusionsRemovalsAndTags) {
 }
 
 TEST_P(EditableTables, CreasesCanBeTakenAway) {
-  ASSERT_NE(scheme_.sharpening, Sharpening::boundary) << "a pattern scheme without creases: choose those that have them";
+  ASSERT_NE(scheme_.sharpening, Sharpening::boundary)
+      << "a pattern scheme without creases: choose those that have them";
   Patterns patterns(scheme_);
   EditableTable<double> table(patterns, mesh(), level);
   const Made before = made_by(table);

@@ -166,7 +166,7 @@ TEST(CliCommandLine, Values) {
   expect_refused_by_all({"-s", "catmull-clark", "-l", "1", "--triangles", "round"}, 2, {"round", "smooth"});
   expect_refused_by_all({"-s", "catmull-clark", "-l", "1", "--threads", "0"}, 2, {"threads"});
   expect_refused_by_all({"-s", "catmull-clark", "-l", "1", "--option", "triangles=round"}, 2,
-                 {"triangles", "round", "smooth"});
+                        {"triangles", "round", "smooth"});
   expect_refused_by_all({"-s", "catmull-clark", "-l", "1", "--option", "triangles"}, 2, {"triangles", "name=value"});
   expect_refused_by_all({"-s", "catmull-clark", "-l", "1", "--option", "tension=1"}, 2, {"tension", "catmull-clark"});
   expect_refused_by_all({"-s", "bilinear", "-l", "1", "--triangles", "smooth"}, 2, {"triangles", "bilinear"});

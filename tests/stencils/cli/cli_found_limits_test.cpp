@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Meshes that the program once called a fault of its own, or that one command took and another refused: limits at vertices, of
-// tables and at places are one answer. The meshes that random changes found, where a checkout has them beside it, and small
-// ones that show the same.
+// Meshes that the program once called a fault of its own, or that one command took and another refused: limits at
+// vertices, of tables and at places are one answer. The meshes that random changes found, where a checkout has them
+// beside it, and small ones that show the same.
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -103,8 +103,16 @@ void expect_one_answer(const std::string& mesh, const Found& command, int level,
 /// Places at the corners of faces have a row each, and are some vertex's limit.
 void expect_places(const std::string& mesh, const Found& command, const TemporaryDirectory& directory) {
   SCOPED_TRACE(mesh + " under " + command.scheme);
-  std::vector<std::string> all{"sample", mesh,   "-s",           command.scheme, "--quiet",
-                               "--grid", "2",    "--derivatives", "1",           "-o",
+  std::vector<std::string> all{"sample",
+                               mesh,
+                               "-s",
+                               command.scheme,
+                               "--quiet",
+                               "--grid",
+                               "2",
+                               "--derivatives",
+                               "1",
+                               "-o",
                                (directory / "places.csv").string()};
   all.insert(all.end(), command.arguments.begin(), command.arguments.end());
   expect_done(sublimit(all));
@@ -155,9 +163,9 @@ TEST(CliFoundLimits, FitsToTheTargetsFoundByRandomChanges) {
   if (!std::filesystem::is_directory(folder)) GTEST_SKIP() << "NO SHARED MESHES at " << folder << ": a fit is not made";
   const TemporaryDirectory directory;
   const std::string name = "w1-0012-70-fit";
-  const Outcome outcome = sublimit({"fit", (folder / (name + ".obj")).string(), "--targets",
-                                    (folder / (name + ".csv")).string(), "-s", "averaging", "--no-creases", "--boundary",
-                                    "edge-only", "--method", "iterative", "-o", (directory / "fitted.obj").string()});
+  const Outcome outcome = sublimit(
+      {"fit", (folder / (name + ".obj")).string(), "--targets", (folder / (name + ".csv")).string(), "-s", "averaging",
+       "--no-creases", "--boundary", "edge-only", "--method", "iterative", "-o", (directory / "fitted.obj").string()});
   // Whether the targets can be met is another question; the limits at their vertices exist.
   EXPECT_EQ(outcome.err.find("fault of ours"), std::string::npos) << outcome.err;
   EXPECT_EQ(outcome.err.find("no limit"), std::string::npos) << outcome.err;

@@ -45,8 +45,8 @@ const Found timeouts[] = {
     {"w1-0028-timeout-bake",
      Words{"bake"} + butterfly + Words{"t=-1/32", "--no-creases", "--creasing", "uniform"} + limit_table},
     {"w1-0037-timeout-grid", Words{"sample", "-s", "interpolatory-sqrt3", "--triangulate", "--no-creases"} + grid3},
-    {"w1-0041-timeout-grid", Words{"sample", "-s", "mid-edge-habib-warren", "--triangulate", "--no-creases",
-                                   "--creasing", "uniform"} + grid3},
+    {"w1-0041-timeout-grid",
+     Words{"sample", "-s", "mid-edge-habib-warren", "--triangulate", "--no-creases", "--creasing", "uniform"} + grid3},
 };
 
 class FoundMeshes : public ::testing::TestWithParam<Found> {};
@@ -71,12 +71,14 @@ INSTANTIATE_TEST_SUITE_P(Commands, FoundMeshes, ::testing::ValuesIn(timeouts), [
 });
 
 TEST(FoundMesh, OfAFitWithoutSecondDerivativesIsRefused) {
-  const std::string mesh = (found / "w1-0029-timeout-fit.obj").string(), targets = (found / "w1-0029-timeout-fit.csv").string();
+  const std::string mesh = (found / "w1-0029-timeout-fit.obj").string(),
+                    targets = (found / "w1-0029-timeout-fit.csv").string();
   if (!fs::exists(mesh)) GTEST_SKIP() << "NO SHARED MESHES at " << found;
   const TemporaryDirectory directory;
-  const Words fit = Words{"fit", mesh, "--quiet", "--targets", targets, "-s"} + Words(butterfly.begin() + 1, butterfly.end()) +
-                    Words{"t=-1/32", "--no-creases", "--creasing", "uniform", "--thin-plate", "1e9", "-o",
-                          (directory / "f.obj").string()};
+  const Words fit = Words{"fit", mesh, "--quiet", "--targets", targets, "-s"} +
+                    Words(butterfly.begin() + 1, butterfly.end()) +
+                    Words{"t=-1/32",      "--no-creases", "--creasing", "uniform",
+                          "--thin-plate", "1e9",          "-o",         (directory / "f.obj").string()};
   expect_failure(sublimit(fit), 2, {"second derivatives"});
   EXPECT_EQ(directory.num_files(), 0);
 }

@@ -75,7 +75,8 @@ TEST(CliHermiteIncentre, HasNoMatrixAndIsListed) {
   expect_failure(sublimit({"refine", in, "-s", "hermite-incenter", "-l", "1", "-o", (directory / "o.csv").string()}), 2,
                  {"hermite-incentre"});
   expect_failure(sublimit({"info", in, "-s", "hermite-incentre"}), 2, {"hermite-incentre refines curves"});
-  expect_failure(sublimit({"refine", in, "-s", "hermite-incentre", "-l", "31", "-o", out}), 4, {"31 levels", "use at most 2"});
+  expect_failure(sublimit({"refine", in, "-s", "hermite-incentre", "-l", "31", "-o", out}), 4,
+                 {"31 levels", "use at most 2"});
   expect_failure(sublimit({"refine", in, "-s", "hermite-incentre", "-l", "-1", "-o", out}), 2, {"-1"});
   EXPECT_EQ(directory.num_files(), 1);
   expect_parts(expect_done(sublimit({"schemes"})).out, {"\nhermite-incentre ", "G^1", "circles", "Not linear"});

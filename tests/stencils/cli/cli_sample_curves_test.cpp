@@ -16,7 +16,8 @@ TEST(CliSampleCurves, FourPointOnAGrid) {
   expect_parts(outcome.out, {"18 samples"});
   const std::string text = read_file(out);
   EXPECT_TRUE(text.starts_with("segment,t,status,x,y,xt,yt,nx,ny\n0,0,crease,0,0,")) << text;
-  expect_parts(text, {"\n0,1,unbounded-second,1,2,", "\n1,0,unbounded-second,1,2,", "\n5,1,crease,7,0,"});  // it interpolates
+  expect_parts(text,
+               {"\n0,1,unbounded-second,1,2,", "\n1,0,unbounded-second,1,2,", "\n5,1,crease,7,0,"});  // it interpolates
 }
 
 TEST(CliSampleCurves, PlacesBeforeTheStartAreOutside) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Numbers that no machine has room for, and outputs that cannot be: told at once, before any work, with what would be right.
+// Numbers that no machine has room for, and outputs that cannot be: told at once, before any work, with what would be
+// right.
 #include <chrono>
 
 #include "stencils/cli_tables.h"
@@ -25,7 +26,8 @@ class Refusals {
   }
   std::string path(const std::string& name) const { return (directory / name).string(); }
   /// Refused with this status, at once, in finite numbers, and without a trace.
-  void expect(int status, const std::vector<std::string>& arguments, std::initializer_list<std::string_view> parts) const {
+  void expect(int status, const std::vector<std::string>& arguments,
+              std::initializer_list<std::string_view> parts) const {
     std::string trace;
     for (const std::string& word : arguments) trace += " " + word;
     SCOPED_TRACE(trace);
@@ -34,7 +36,8 @@ class Refusals {
     const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
     expect_failure(outcome, status, parts);
     EXPECT_LT(time.count(), at_once);
-    for (const char* odd : {" inf ", " nan ", "fault of ours"}) EXPECT_EQ(outcome.err.find(odd), std::string::npos) << outcome.err;
+    for (const char* odd : {" inf ", " nan ", "fault of ours"})
+      EXPECT_EQ(outcome.err.find(odd), std::string::npos) << outcome.err;
     EXPECT_LT(outcome.err.size(), 400 + 2 * directory.path().string().size()) << outcome.err;
     EXPECT_EQ(directory.num_files(), files);
   }
@@ -56,9 +59,11 @@ TEST(CliSizes, LevelsBeyondAnyMemory) {
                       {"2000000000 levels", "use at most "});
   for (const char* levels : {"12", "2000000000"})
     for (const char* limit : {"--limit", "--quiet"})
-      refusals.expect(2, {"bake", path("mesh.obj"), "-s", "catmull-clark", "-l", levels, limit, "-o", path("out.safetensors")},
-                      {levels, "to 11 are right"});
-  refusals.expect(2, {"bake", path("mesh.obj"), "-s", "catmull-clark", "-l", "2000000000", "--plan"}, {"to 11 are right"});
+      refusals.expect(
+          2, {"bake", path("mesh.obj"), "-s", "catmull-clark", "-l", levels, limit, "-o", path("out.safetensors")},
+          {levels, "to 11 are right"});
+  refusals.expect(2, {"bake", path("mesh.obj"), "-s", "catmull-clark", "-l", "2000000000", "--plan"},
+                  {"to 11 are right"});
 }
 
 TEST(CliSizes, LevelsThatAreNone) {
@@ -75,8 +80,9 @@ TEST(CliSizes, PlacesBeyondAnyMemory) {
   for (const char* count : {"2000000000", "9223372036854775807", "99999999999999999999"}) {
     refusals.expect(4, {"sample", path("mesh.obj"), "-s", "catmull-clark", "--grid", count, "-o", path("out.csv")},
                     {"--grid", "use fewer"});
-    refusals.expect(4, {"sample", path("mesh.obj"), "-s", "catmull-clark", "--random",
-                        count == "2000000000"s ? "2000000000000000" : count, "-o", path("out.csv")},
+    refusals.expect(4,
+                    {"sample", path("mesh.obj"), "-s", "catmull-clark", "--random",
+                     count == "2000000000"s ? "2000000000000000" : count, "-o", path("out.csv")},
                     {"--random", "use fewer"});
   }
   for (const char* count : {"-1", "1", "1.5", "many"})
@@ -86,8 +92,8 @@ TEST(CliSizes, PlacesBeyondAnyMemory) {
     refusals.expect(2, {"sample", path("mesh.obj"), "-s", "catmull-clark", "--random", count, "-o", path("out.csv")},
                     {"--random", count, "0 or more"});
   for (const char* count : {"-1", "1", "1.5", "2049", "2000000000", "99999999999999999999"})
-    refusals.expect(2, {"bake", path("mesh.obj"), "-s", "catmull-clark", "--grid", count, "-o", path("out.safetensors")},
-                    {count});
+    refusals.expect(
+        2, {"bake", path("mesh.obj"), "-s", "catmull-clark", "--grid", count, "-o", path("out.safetensors")}, {count});
 }
 
 // Whatever its name ends in, and whatever else is missing.
@@ -107,14 +113,17 @@ TEST(CliOutput, ThatIsAFolder) {
       expect({"fit", in, "--targets", path("targets.csv"), "-s", "catmull-clark", "-o", folder});
       for (const char* option : {"--report", "--picture"})
         expect({"fit", in, "--targets", path("targets.csv"), "-s", "catmull-clark", "-o", good, option, folder});
-      for (const char* option : {"-o", "--json", "--picture"}) expect({"analyze", in, "-s", "catmull-clark", option, folder});
+      for (const char* option : {"-o", "--json", "--picture"})
+        expect({"analyze", in, "-s", "catmull-clark", option, folder});
     }
-    for (const char* verb : {"refine", "limit"}) expect({verb, path("line.csv"), "-s", "chaikin", "-l", "1", "-o", folder});
+    for (const char* verb : {"refine", "limit"})
+      expect({verb, path("line.csv"), "-s", "chaikin", "-l", "1", "-o", folder});
     expect({"analyze", "-s", "catmull-clark", "-o", folder});
     expect({"apply", path("missing.safetensors"), mesh, "-o", folder});
   }
   refusals.expect(3, {"export", path("missing.safetensors"), "-o", path("folder.obj")}, {"it is a directory"});
-  refusals.directory.write("jobs.jsonl", R"({"mesh": "mesh.obj", "scheme": "loop", "levels": 1, "output": "a.safetensors"})");
+  refusals.directory.write("jobs.jsonl",
+                           R"({"mesh": "mesh.obj", "scheme": "loop", "levels": 1, "output": "a.safetensors"})");
   const Outcome log = sublimit({"bake", "--manifest", path("jobs.jsonl"), "--log", path("folder")});
   expect_failure(log, 3, {"folder", "cannot write", "directory"});
   EXPECT_FALSE(std::filesystem::exists(path("a.safetensors")));

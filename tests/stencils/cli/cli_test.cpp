@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The program as a user meets it: run as a process on files, judged by exit status, messages and what lies there afterwards.
+// The program as a user meets it: run as a process on files, judged by exit status, messages and what lies there
+// afterwards.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -64,8 +65,8 @@ std::string contents(const std::filesystem::path& path) {
 constexpr const char* quad = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 
 /// Refining `text` fails with `status` and a message with all of `words`, and leaves no output behind.
-void expect_refused(const std::string& text, const std::string& scheme, int status, const std::vector<std::string>& words,
-                    const std::vector<std::string>& more = {"-l", "1"}) {
+void expect_refused(const std::string& text, const std::string& scheme, int status,
+                    const std::vector<std::string>& words, const std::vector<std::string>& more = {"-l", "1"}) {
   SCOPED_TRACE(text.substr(0, 200));
   const TemporaryDirectory directory;
   const auto mesh = directory.write("mesh.obj", text);
@@ -122,8 +123,8 @@ TEST(Program, RefusesFilesThatAreNotThere) {
   };
   EXPECT_EQ(refine_to((directory / "out.stl").string()).status, 2);
   EXPECT_EQ(refine_to((directory / "none" / "out.obj").string()).status, 3);
-  EXPECT_EQ(refine_to(mesh + "/out.obj").status, 3);          // below a file
-  EXPECT_EQ(refine_to("/proc/sublimit_out.obj").status, 3);   // read-only, for root too
+  EXPECT_EQ(refine_to(mesh + "/out.obj").status, 3);         // below a file
+  EXPECT_EQ(refine_to("/proc/sublimit_out.obj").status, 3);  // read-only, for root too
   EXPECT_EQ(directory.num_files(), 1);
 }
 
@@ -143,8 +144,8 @@ TEST(Program, AcceptsOddMeshesWithAWarningAndRejectsThemWhenStrict) {
                                    {"v 0 0 1\nf 1 2 3\nf 1 2 5\nf 3 4 1\n", "same direction"}}) {
     const TemporaryDirectory directory;
     const auto mesh = directory.write("mesh.obj", quad + text);
-    const std::vector<std::string> arguments{"refine", mesh.string(), "-s", "catmull-clark", "-l", "1", "-o",
-                                             (directory / "out.obj").string()};
+    const std::vector<std::string> arguments{"refine", mesh.string(), "-s", "catmull-clark",
+                                             "-l",     "1",           "-o", (directory / "out.obj").string()};
     const Ending accepted = run(arguments);
     EXPECT_EQ(accepted.status, 0) << accepted.text;
     EXPECT_NE(accepted.text.find("warning"), std::string::npos) << accepted.text;
@@ -163,15 +164,16 @@ TEST(Program, RefiningTwiceByOneIsRefiningOnceByTwo) {
   for (const NamedMesh& named : tagged_meshes()) {
     const std::string& name = named.name;
     const bool wanted = name == "boundary_none" || name == "boundary_edge_only" || name == "boundary_edge_and_corner" ||
-                        name == "boundary_none_partly_sharpened" || name == "chain_uniform" || name == "chain_chaikin" ||
-                        name == "holes_in_cube" || name == "holes_and_crease" || name == "star_3_infinite_uniform" ||
-                        name == "boundary_tags" || name == "cubes_share_a_vertex";
+                        name == "boundary_none_partly_sharpened" || name == "chain_uniform" ||
+                        name == "chain_chaikin" || name == "holes_in_cube" || name == "holes_and_crease" ||
+                        name == "star_3_infinite_uniform" || name == "boundary_tags" || name == "cubes_share_a_vertex";
     if (!wanted) continue;
     const TemporaryDirectory directory;
     const auto path = [&](const char* file) { return (directory / file).string(); };
     write_mesh(path("mesh.obj"), output(named.mesh));
     const auto refine_by = [&](const char* from, const char* levels, const char* to) {
-      const Ending outcome = run({"refine", path(from), "-s", "catmull-clark", "-l", levels, "-o", path(to), "--quiet"});
+      const Ending outcome =
+          run({"refine", path(from), "-s", "catmull-clark", "-l", levels, "-o", path(to), "--quiet"});
       EXPECT_EQ(outcome.status, 0) << name << ": " << outcome.text;
     };
     refine_by("mesh.obj", "1", "one.obj");
@@ -189,7 +191,9 @@ TEST(Program, WritesMatricesThatMakeItsMeshes) {
   const ControlMesh mesh = jittered(torus(4, 5));
   write_mesh(path("mesh.obj"), output(mesh));
   ASSERT_EQ(run({"refine", path("mesh.obj"), "-s", "catmull-clark", "-l", "2", "-o", path("out.obj"), "--matrix",
-                 path("P.mtx")}).status, 0);
+                 path("P.mtx")})
+                .status,
+            0);
   std::ifstream file(path("P.mtx"));
   std::string header;
   std::getline(file, header);
@@ -213,15 +217,16 @@ TEST(Program, MovesVerticesToTheLimitWithNormals) {
   const TemporaryDirectory directory;
   const auto path = [&](const char* file) { return (directory / file).string(); };
   write_mesh(path("cube.obj"), output(cube()));
-  const Ending outcome =
-      run({"limit", path("cube.obj"), "-s", "catmull-clark", "--normals", "-o", path("limit.obj")});
+  const Ending outcome = run({"limit", path("cube.obj"), "-s", "catmull-clark", "--normals", "-o", path("limit.obj")});
   EXPECT_EQ(outcome.status, 0) << outcome.text;
-  // Halstead 1993 at n = 3: (9 v + 4 sum e + sum f) / 24; a cube's corner (1,1,1): (9 + 4 + (-1)(...)) -> (9 + 4 - 1 ...)/24.
-  // Per coordinate: v = 1; e: 1, 1, -1; f: 1, -1, -1: (9 + 4 - 1) / 24 = 1/2.
+  // Halstead 1993 at n = 3: (9 v + 4 sum e + sum f) / 24; a cube's corner (1,1,1): (9 + 4 + (-1)(...)) -> (9 + 4 - 1
+  // ...)/24. Per coordinate: v = 1; e: 1, 1, -1; f: 1, -1, -1: (9 + 4 - 1) / 24 = 1/2.
   const ControlMesh limit = read_mesh(path("limit.obj"));
   EXPECT_LE((limit.positions.cwiseAbs().array() - 0.5).abs().maxCoeff(), 1e-15 * 16);
   EXPECT_NE(contents(path("limit.obj")).find("vn "), std::string::npos);
-  EXPECT_EQ(run({"limit", path("cube.obj"), "-s", "catmull-clark", "-l", "2", "--normals", "-o", path("limit.ply")}).status, 0);
+  EXPECT_EQ(
+      run({"limit", path("cube.obj"), "-s", "catmull-clark", "-l", "2", "--normals", "-o", path("limit.ply")}).status,
+      0);
   EXPECT_EQ(read_mesh(path("limit.ply")).num_vertices(), 98);
 }
 
@@ -231,7 +236,8 @@ TEST(Program, DescribesSchemesAndMeshes) {
   EXPECT_EQ(schemes[1]["name"], "catmull-clark");
   const TemporaryDirectory directory;
   write_mesh(directory / "cube.obj", output(cube()));
-  const auto info = nlohmann::json::parse(run({"info", (directory / "cube.obj").string(), "-s", "loop", "--json"}).text);
+  const auto info =
+      nlohmann::json::parse(run({"info", (directory / "cube.obj").string(), "-s", "loop", "--json"}).text);
   EXPECT_EQ(info["edges"], 12);
   EXPECT_EQ(info["euler_characteristic"], 2);
   EXPECT_EQ(info["interior_valences"]["3"], 8);

@@ -104,7 +104,8 @@ Json dart_masks_json(const Scheme<double>& scheme, const LocalPatch<Algebraic>& 
       const bool is_diagonal = size == 4 && v > 0 && (v - 1) % 2 == 1;
       const SectorLabel label = v == 0 ? SectorLabel{} : SectorLabel{spoke, 2, is_diagonal ? 2 : 0};
       const auto at = std::find(exact.labels.begin(), exact.labels.end(), label);
-      if (at == exact.labels.end()) throw AnalysisError(scheme.name + ": a dart's limit depends on points beyond its ring");
+      if (at == exact.labels.end())
+        throw AnalysisError(scheme.name + ": a dart's limit depends on points beyond its ring");
       sorted[at - exact.labels.begin()] = weight;
     }
     return sorted;

@@ -30,7 +30,7 @@ std::optional<LocalPatch<Algebraic>> local_patch(const Scheme<Algebraic>& scheme
 
 /// What the neighbourhoods of one scheme share.
 struct SharedAnalysis {
-  std::optional<C1Prover> prover;      ///< none where the rules on regular meshes are not one mask
+  std::optional<C1Prover> prover;     ///< none where the rules on regular meshes are not one mask
   std::shared_ptr<LimitTypes> types;  ///< of its limit surfaces
 };
 SharedAnalysis shared_analysis(const ReportedScheme& scheme);

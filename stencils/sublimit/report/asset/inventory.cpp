@@ -67,13 +67,13 @@ VertexKind vertex_kind(const Scheme<double>& scheme, const Level& level, Vertex 
   std::sort(kind.sides.rbegin(), kind.sides.rend());
   // Dual schemes round corners.
   const bool pinned = !scheme.is_dual() && is_infinite(level.sharpness.vertex[index(v)]);
-  kind.what = in_hole                             ? What::in_hole
-              : t.is_nonmanifold(v)               ? What::non_manifold
-              : pinned || cuts > 2                ? What::corner
-              : cuts == 1                         ? What::dart
-              : cuts == 2                         ? (kind.at_border ? What::border : What::crease)
+  kind.what = in_hole                              ? What::in_hole
+              : t.is_nonmanifold(v)                ? What::non_manifold
+              : pinned || cuts > 2                 ? What::corner
+              : cuts == 1                          ? What::dart
+              : cuts == 2                          ? (kind.at_border ? What::border : What::crease)
               : kind.n == scheme.regular_valence() ? What::regular
-                                                  : What::extraordinary;
+                                                   : What::extraordinary;
   if (kind.what == What::regular || kind.what == What::extraordinary || kind.what == What::dart) kind.sides.clear();
   return kind;
 }
