@@ -13,7 +13,7 @@ sublimit_status load(std::uint32_t flags, sublimit_table** table, const Load& lo
     c::check_pointer(table, "table");
     *table = nullptr;
     c::check_flags(flags);
-    std::visit([&](auto&& baked) { c::hand_out(std::move(baked), flags, table); },
+    std::visit([&](auto&& baked) { c::hand_out(std::forward<decltype(baked)>(baked), flags, table); },
                load_it(LoadOptions{.checksums = (flags & SUBLIMIT_CHECKSUMS) != 0}));
   });
 }

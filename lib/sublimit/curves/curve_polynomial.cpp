@@ -14,7 +14,7 @@ using Real = CurvePolynomial::Real;
 using Row = CurvePolynomial::Row;
 using MatrixL = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-constexpr double eps = std::numeric_limits<double>::epsilon();
+constexpr double double_epsilon = std::numeric_limits<double>::epsilon();
 constexpr int most_degree = 20;  // above, Bernstein coefficients would lose the digits that long double adds
 
 /// Weights of the Bernstein polynomials of a degree, by their recurrence: sums of positive terms.
@@ -34,7 +34,7 @@ std::optional<CurvePolynomial> polynomial_through(const std::vector<CurvePolynom
   const int last = static_cast<int>(values.size()) - 1;
   const Index width = static_cast<Index>(values[0].size());
   MatrixL best;
-  Real least = 16 * Real(eps);
+  Real least = 16 * Real(double_epsilon);
   highest = std::min(highest, most_degree);
   // The leading terms of high degrees are small, so the first that fits need not be the one: it goes on as long as one
   // of the next two (polynomials may be odd) fits better by far.
@@ -63,7 +63,7 @@ std::optional<CurvePolynomial> polynomial_through(const std::vector<CurvePolynom
     for (int i = 0; i <= last && error <= least; ++i)
       error = std::max(error, (at(i) * C - values[i]).cwiseAbs().maxCoeff());
     if (error > least) continue;
-    best = C.unaryExpr([](Real x) { return std::abs(x) < Real(eps) / 16 ? Real(0) : x; });
+    best = C.unaryExpr([](Real x) { return std::abs(x) < Real(double_epsilon) / 16 ? Real(0) : x; });
     least = error / 8;
   }
   if (best.rows() == 0) return std::nullopt;

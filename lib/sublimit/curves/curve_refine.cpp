@@ -25,9 +25,9 @@ std::vector<CurveLevel> refine(const CurveScheme<double>& scheme, const ControlP
   const std::string amount =
       std::to_string(levels) + " levels of " + std::to_string(result[0].num_points()) + " points";
   const double first = double(result[0].num_points()) * result[0].unknowns, points = std::ldexp(first, levels);
-  constexpr double most_points = std::numeric_limits<Index>::max() / 8;
-  double terms =
-      0;  // of all masks; all levels together are twice the last, and rows are appended to arrays that double
+  constexpr double most_points = double(std::numeric_limits<Index>::max()) / 8;
+  // Of all masks; all levels together are twice the last, and rows are appended to arrays that double.
+  double terms = 0;
   for (int which : {0, 1})
     for (int component = 0; component < result[0].unknowns; ++component)
       terms += static_cast<double>(

@@ -35,8 +35,8 @@ Index squares_in_a_row(Index corners) { return static_cast<Index>(std::sqrt(doub
 }  // namespace
 
 BfrParameter to_bfr(Index corners, Index corner, double u, double v) {
-  const Index w = squares_in_a_row(corners);
-  return {double(corner % w) + u / 2, double(corner / w) + v / 2};
+  const Index w = squares_in_a_row(corners), column = corner % w, row = corner / w;
+  return {double(column) + u / 2, double(row) + v / 2};
 }
 
 Sample from_bfr(Index corners, const BfrParameter& p) {

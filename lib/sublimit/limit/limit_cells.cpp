@@ -167,7 +167,7 @@ class Cutter {
 
   /// The last direction is across the longest extent of the points and the longest one across that.
   static Eigen::Matrix3d frame_of(const Hull& hull) {
-    const Eigen::Vector3d from = hull.front();
+    const Eigen::Vector3d& from = hull.front();
     Eigen::Vector3d x = Eigen::Vector3d::Zero(), z = Eigen::Vector3d::Zero();
     for (const Eigen::Vector3d& p : hull)
       if ((p - from).squaredNorm() > x.squaredNorm()) x = p - from;
