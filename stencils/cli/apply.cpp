@@ -175,12 +175,10 @@ Command add_apply(CLI::App& app) {
       "  sublimit apply level3.safetensors cage.obj -o level3.obj\n"
       "  sublimit apply limit.safetensors pose.csv -o surface.csv\n"
       "  sublimit apply level3.safetensors animation.npy -o refined.npy\n"
-      "Frames of an .npy are read, applied and written one by one, so that any number of them takes the memory of "
-      "one.\n"
+      "Frames of an .npy are read, applied and written one by one, so that any number of them takes the memory of one.\n"
       "OUT.npy is in the table's precision: [frames x] [quantities x] points x channels; quantities, if there are\n"
       "derivatives, are position, u, v[, uu, uv, vv]. Columns of OUT.csv: face,u,v and status where the table knows\n"
-      "them, then x,y,z[,xu,...][,nx,ny,nz] as `sample` has them, or the channels' own names. Where creases meet, and "
-      "in\n"
+      "them, then x,y,z[,xu,...][,nx,ny,nz] as `sample` has them, or the channels' own names. Where creases meet, and in\n"
       "tables by rows, two tangents of the surface stand for first derivatives that do not exist.");
   return [=] { return run(*options); };
 }

@@ -105,9 +105,7 @@ int run(const DemoOptions& options) {
              samples.text());
   fmt::print("Files: {}, refined.obj (level 2, with the tags that are left),\n", path("control.obj"));
   fmt::print(
-      "  limit.obj (points and normals on the surface), targets.csv, samples.csv, level2.safetensors, and the picture "
-      "of all three "
-      "meshes:\n");
+      "  limit.obj (points and normals on the surface), targets.csv, samples.csv, level2.safetensors, and the picture of all three meshes:\n");
   fmt::print("  {}\n", std::filesystem::absolute(directory / "picture.svg").string());
   return 0;
 }

@@ -258,12 +258,9 @@ Command add_fit(CLI::App& app) {
       "  face,u,v,x,y,z[,weight]                       the limit at a place, as in `sublimit sample`: least squares\n"
       "A cloud should lie near the limit of MESH, which is its first guess.\n"
       "Points alone are as many conditions as there are control points, which may depend on each other (a cube's do);\n"
-      "normals are more. Then MESH is refined, and of all control points that meet the targets those nearest to it "
-      "are\n"
-      "taken, or the fairest ones (--thin-plate, --membrane). Under schemes that keep vertices the first ones of OUT "
-      "are\n"
-      "those of MESH, in order. torus-pieces takes everything at every vertex, k1 being the curvature along (d1x, d1y, "
-      "d1z)\n"
+      "normals are more. Then MESH is refined, and of all control points that meet the targets those nearest to it are\n"
+      "taken, or the fairest ones (--thin-plate, --membrane). Under schemes that keep vertices the first ones of OUT are\n"
+      "those of MESH, in order. torus-pieces takes everything at every vertex, k1 being the curvature along (d1x, d1y, d1z)\n"
       "and positive where the surface bends towards its normal, and writes refined triangles.");
   return [=] {
     for (const CLI::Option* option : command->get_options())

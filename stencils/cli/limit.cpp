@@ -77,12 +77,10 @@ Command add_limit(CLI::App& app) {
       "Examples:\n"
       "  sublimit limit cage.obj -s catmull-clark -l 3 --normals -o surface.obj\n"
       "  sublimit limit cage.obj -s loop -o control_points_at_the_limit.ply\n"
-      "Curves: MESH is a .csv of points or an .obj with lines, OUT a .csv or .obj; --normals adds unit tangents as "
-      "columns\n"
+      "Curves: MESH is a .csv of points or an .obj with lines, OUT a .csv or .obj; --normals adds unit tangents as columns\n"
       "tx,ty,... of a .csv, empty where there is none:\n"
       "  sublimit limit polygon.csv -s four-point -l 4 --normals -o curve.csv\n"
-      "hermite-incentre takes points with unit tangents, x,y,tx,ty or x,y,z,tx,ty,tz; its points of a level are on "
-      "the\n"
+      "hermite-incentre takes points with unit tangents, x,y,tx,ty or x,y,z,tx,ty,tz; its points of a level are on the\n"
       "limit, and are placed on its exact arcs.");
   return [=] { return run(*options); };
 }

@@ -91,8 +91,7 @@ int main(int argc, char** argv) {
       "  sublimit fit cage.obj --targets points.csv -s catmull-clark -o fitted.obj\n"
       "  sublimit bake cage.obj -s catmull-clark -l 3 -o level3.safetensors\n"
       "  sublimit apply level3.safetensors animation.npy -o refined.npy\n"
-      "Exit status: 0 done; 1 the verdict is no (verify); 2 bad command line; 3 bad input or unwritable output; 4 too "
-      "little\n"
+      "Exit status: 0 done; 1 the verdict is no (verify); 2 bad command line; 3 bad input or unwritable output; 4 too little\n"
       "memory or disk; 70 a fault of ours; 130 interrupted.");
   std::vector<std::pair<std::string, cli::Command>> commands{
       {"schemes", cli::add_schemes(app)}, {"info", cli::add_info(app)},     {"refine", cli::add_refine(app)},

@@ -62,8 +62,7 @@ Command add_refine(CLI::App& app) {
       "  sublimit refine cage.obj -s catmull-clark -l 2 -o refined.obj\n"
       "  sublimit refine cage.obj -s loop -l 3 -o refined.ply --matrix stencils.mtx\n"
       "  sublimit refine cage.obj -s catmull-clark -l 2 --face-varying boundaries -o refined.obj\n"
-      "Curves: MESH is a .csv of points (a line each; a blank line begins another curve) or an .obj with lines, OUT a "
-      ".csv or .obj:\n"
+      "Curves: MESH is a .csv of points (a line each; a blank line begins another curve) or an .obj with lines, OUT a .csv or .obj:\n"
       "  sublimit refine polygon.csv -s chaikin -l 3 --closed -o curve.csv\n"
       "hermite-incentre takes and writes points with unit tangents, x,y,tx,ty or x,y,z,tx,ty,tz; it has no matrix.");
   return [=] { return run(*options); };

@@ -172,11 +172,9 @@ int run(bool as_json) {
   fmt::print(
       "\npqq: an n-gon becomes n quads; ptq: a triangle becomes four; dqq: faces for faces, edges and vertices; these "
       "are of\n"
-      "arity 2 (edges are half as long). mid-edge: faces for faces and vertices, arity sqrt(2); sqrt3: a triangle "
-      "becomes\n"
+      "arity 2 (edges are half as long). mid-edge: faces for faces and vertices, arity sqrt(2); sqrt3: a triangle becomes\n"
       "three and old edges flip, arity sqrt(3). regular, extraordinary: smoothness of the limit there; degree: of the\n"
-      "polynomials that regular meshes reproduce; convex hull: no negative weights. Faces: --triangulate makes "
-      "triangles.\n");
+      "polynomials that regular meshes reproduce; convex hull: no negative weights. Faces: --triangulate makes triangles.\n");
   print_curves();
   return 0;
 }

@@ -118,13 +118,11 @@ Command add_verify(CLI::App& app) {
       "Examples:\n"
       "  sublimit verify level3.safetensors\n"
       "  sublimit verify report.json\n"
-      "Checked of tables: the layout of the file (every tensor within it, no overlaps, no holes, sizes that fit their "
-      "shapes),\n"
+      "Checked of tables: the layout of the file (every tensor within it, no overlaps, no holes, sizes that fit their shapes),\n"
       "indices, that weights are finite, that those of a position sum to one and those of a derivative to zero, that\n"
       "every point is made once, and checksums. Checked of reports: that each witness proves C^1 at its neighbourhood\n"
       "(by a checker of its own, and on the masks of the scheme's file where the scheme is one of ours), that C^1 is\n"
-      "nowhere said to be proved without one (but by refined nets, of which there are none yet), and that verdicts "
-      "agree with their hypotheses and with the summary.\n"
+      "nowhere said to be proved without one (but by refined nets, of which there are none yet), and that verdicts agree with their hypotheses and with the summary.\n"
       "Exit status 1 if a check fails, 3 if the file cannot be read.");
   return [=] { return verify(*options); };
 }

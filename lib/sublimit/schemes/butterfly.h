@@ -12,11 +12,11 @@ namespace sublimit {
 template <class T, class Edge>
 Scheme<T> butterfly_with(const char* name, const char* source, const SchemeOptions& options,
                          std::vector<OptionInfo> infos, const Ratio& g, const Edge& edge) {
-  const OptionInfo border{.name = "boundary-rule",
-                          .values = {"four-point", "virtual-vertex"},
-                          .meaning =
-                              "the border as a curve of its own, or continued to parallelograms, so that it depends on "
-                              "the inside (and sharp edges have no rule)"};
+  const OptionInfo border{
+      .name = "boundary-rule",
+      .values = {"four-point", "virtual-vertex"},
+      .meaning =
+          "the border as a curve of its own, or continued to parallelograms, so that it depends on the inside (and sharp edges have no rule)"};
   infos.push_back(border);
   const Step<T> step{.split = Split::ptq,
                      .masks = {.vertex = [](const Ring<T>& v) { return v.center(); },
