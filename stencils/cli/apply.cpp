@@ -14,6 +14,7 @@
 #include "sublimit/base/memory.h"
 #include "sublimit/files/frames.h"
 #include "sublimit/files/npy.h"
+#include "sublimit/io/file_extension.h"
 #include "sublimit/pattern_evaluator.h"
 #include "sublimit/scheme/prepare.h"
 #include "sublimit/table_file.h"
@@ -26,12 +27,6 @@ struct ApplyOptions {
   std::string table, points, output;
   bool any_cage = false;
 };
-
-bool ends_in(const std::string& path, const char* extension) {
-  std::string own = std::filesystem::path(path).extension().string();
-  for (char& c : own) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return own == extension;
-}
 
 std::string cage_of(const TableInfo& info, std::int64_t points) {
   return fmt::format("{} of a cage of {} points", info.scheme.empty() ? "a table" : info.scheme + " table", points);
@@ -64,14 +59,14 @@ template <class Real>
 void write_one(const ApplyOptions& options, const BakedTable<Real>& table, const FrameReader& frames,
                std::span<const Real> values) {
   const AppliedPoints applied(table);
-  if (ends_in(options.output, ".csv")) {
+  if (file_extension(options.output) == ".csv") {
     applied.write_csv(options.output, frames.columns(), values);
     return;
   }
   MeshOutput mesh = applied.mesh(faces_of(table), values);
-  if (mesh.normals.rows() > 0 && ends_in(options.output, ".obj"))  // which leaves out those that do not exist
+  if (mesh.normals.rows() > 0 && file_extension(options.output) == ".obj")  // which leaves out those that do not exist
     for (const Index v : mesh.face_vertices) mesh.face_normals.push_back(mesh.normals.row(v).isZero(0) ? -1 : v);
-  if (ends_in(options.output, ".obj")) add_channels(mesh, table);  // a .ply has no place for them
+  if (file_extension(options.output) == ".obj") add_channels(mesh, table);  // a .ply has no place for them
   write_mesh(options.output, mesh);
 }
 
@@ -90,9 +85,9 @@ std::int64_t apply_table(const ApplyOptions& options, const BakedTable<Real>& ta
   FrameReader frames(options.points);
   const PatternTable<Real>& t = table.table;
   check_cage(options, table.info, t.num_control_points(), frames);
-  const bool to_array = ends_in(options.output, ".npy");
+  const bool to_array = file_extension(options.output) == ".npy";
   if (!to_array) check_one_frame(options, frames);
-  if (!to_array && !ends_in(options.output, ".csv") && frames.num_channels() != 3)
+  if (!to_array && file_extension(options.output) != ".csv" && frames.num_channels() != 3)
     throw InvalidOption(fmt::format("{} has {} channels and a mesh has x, y, z; write an .npy or .csv", options.points,
                                     frames.num_channels()));
   const double numbers = double(t.quantities()) * double(t.num_points()) * frames.num_channels();

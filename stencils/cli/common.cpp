@@ -209,9 +209,8 @@ void check_output_path(const std::string& path, const std::vector<std::string>& 
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored))  // whatever its name ends in
     throw IoError("cannot write " + path + ": it is a directory; name a file in it");
-  std::string extension = std::filesystem::path(path).extension().string(), names;
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return std::tolower(c); });
+  const std::string extension = file_extension(path);
+  std::string names;
   for (const std::string& known : extensions) names += (names.empty() ? "" : " or ") + known;
   if (!extensions.empty() && std::find(extensions.begin(), extensions.end(), extension) == extensions.end())
     throw InvalidOption("cannot write " + path + ": its name must end in " + names);

@@ -51,8 +51,10 @@ TEST(Skips, AreThoseOfTheListAndNoOthers) {
   std::set<std::string> listed;
   for (const MaySkip& kind : may_skip) listed.insert(kind.files.begin(), kind.files.end());
   EXPECT_EQ(files_with("GTEST_SKIP"), listed);
-  for (const char* word : {"DISABLED", "SKIP_RETURN_CODE", "SKIP_REGULAR_EXPRESSION"})
+  for (const char* word : {"DISABLED", "SKIP_RETURN_CODE"})
     EXPECT_EQ(files_with(word), std::set<std::string>()) << word;
+  // Of style.cmake, which looks for clang's programs: a failure in CI too.
+  EXPECT_EQ(files_with("SKIP_REGULAR_EXPRESSION"), std::set<std::string>{"CMakeLists.txt"});
 }
 
 /// Tests that look for a program say so with SUBLIMIT_NEEDS_PROGRAM; they are looked for by how programs are looked

@@ -15,6 +15,7 @@
 #include "sublimit/files/matrix_market.h"
 #include "sublimit/files/npy.h"
 #include "sublimit/files/npz.h"
+#include "sublimit/io/file_extension.h"
 #include "sublimit/table_tensors.h"
 
 namespace sublimit {
@@ -72,7 +73,7 @@ void write_directory(const std::filesystem::path& path, const Safetensors& file)
 }  // namespace
 
 void export_table(const std::filesystem::path& path, const AnyTable& table) {
-  const std::string extension = path.extension().string();
+  const std::string extension = file_extension(path);
   std::visit(
       [&](const auto& baked) {
         if (extension == ".npz") return write_scipy_csr(path, baked.table.expanded());

@@ -8,6 +8,7 @@
 #include "sublimit/base/error.h"
 #include "sublimit/base/format_number.h"
 #include "sublimit/files/npy.h"
+#include "sublimit/io/file_extension.h"
 #include "sublimit/io/polygon_files.h"
 #include "sublimit/io/read_mesh.h"
 
@@ -21,12 +22,6 @@ std::vector<std::string> names_of_channels(std::int64_t count) {
   return names;
 }
 
-std::string extension_of(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return extension;
-}
-
 /// The next numbers of a file.
 template <class T>
 bool read_numbers(std::ifstream& file, std::span<T> out) {
@@ -37,7 +32,7 @@ bool read_numbers(std::ifstream& file, std::span<T> out) {
 }  // namespace
 
 FrameReader::FrameReader(const std::filesystem::path& path) : path_(path) {
-  const std::string extension = extension_of(path);
+  const std::string extension = file_extension(path);
   if (extension == ".obj" || extension == ".ply" || extension == ".off") {
     mesh_ = read_mesh(path);
     points_ = mesh_->positions;

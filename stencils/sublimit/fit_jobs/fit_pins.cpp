@@ -7,6 +7,7 @@
 #include "sublimit/base/format_number.h"
 #include "sublimit/files/csv_rows.h"
 #include "sublimit/fit_jobs/fit_job.h"
+#include "sublimit/io/file_extension.h"
 
 namespace sublimit {
 namespace {
@@ -56,7 +57,7 @@ Pins read_pins(const std::string& text, Index num_vertices) {
                                 [](unsigned char c) { return std::isdigit(c) || c == ',' || c == '-' || c == ' '; });
   if (list) return from_list(text, pinned);
   std::error_code ignored;
-  if (!text.ends_with(".csv") && !std::filesystem::exists(text, ignored))
+  if (file_extension(text) != ".csv" && !std::filesystem::exists(text, ignored))
     throw InvalidOption("--pin " + text + ": neither a list of vertices, as 3,7, nor a file");
   return from_file(text, pinned);
 }
