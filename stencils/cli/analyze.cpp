@@ -250,6 +250,8 @@ int analyze(const AnalyzeOptions& options) {
   if (!options.page.empty()) check_output_path(options.page, {".html", ".htm"});
   if (!options.picture.empty()) check_output_path(options.picture, {".svg"});
   if (!options.json.empty()) check_output_path(options.json, {".json"});
+  if (!options.json.empty() && !options.common.mesh.empty())
+    check_not_sidecar("--json", options.json, options.common.mesh);
   const int jobs = !options.common.mesh.empty() + options.has("--mask") + options.has("--sweep");
   if (jobs > 1) throw InvalidOption("a mesh or curve, --mask and --sweep are jobs of their own; give one of them");
   if (options.has("--mask")) return refuse_others(options, "a mask"), analyze_mask(options);

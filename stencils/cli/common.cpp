@@ -226,6 +226,12 @@ void check_output_path(const std::string& path, const std::vector<std::string>& 
   if (std::find(directories.begin(), directories.end(), name) == directories.end()) directories.push_back(name);
 }
 
+void check_not_sidecar(const std::string& option, const std::string& path, const std::string& mesh) {
+  const auto sidecar = find_sidecar(mesh);
+  if (std::error_code ignored; sidecar && std::filesystem::equivalent(*sidecar, path, ignored))
+    throw InvalidOption(fmt::format("{} {}: this file holds tags of {}; choose another name", option, path, mesh));
+}
+
 void check_disk(const std::string& what, const std::string& path, double bytes, const std::string& advice) {
   std::error_code failed;
   if (std::filesystem::exists(path, failed) && !std::filesystem::is_regular_file(path, failed)) return;

@@ -95,6 +95,9 @@ Scheme<double> scheme_or_throw(const std::string& name, const SchemeOptions& opt
 /// Fails before any work if an output cannot be written: its extension, its directory, a file in its place that must
 /// not be touched. An empty list takes any extension.
 void check_output_path(const std::string& path, const std::vector<std::string>& extensions);
+/// Fails if an output would overwrite the tags that lie beside a mesh.
+/// @param option  that names the output
+void check_not_sidecar(const std::string& option, const std::string& path, const std::string& mesh);
 
 /// Fails before any work if a file of about so many bytes has no room beside `path`. Devices and pipes take any.
 /// @param what    the job, in the plural

@@ -10,7 +10,6 @@
 #include "sublimit/base/atomic_file.h"
 #include "sublimit/base/error.h"
 #include "sublimit/files/refined_mesh.h"
-#include "sublimit/files/sidecar.h"
 #include "sublimit/fit_jobs/fit_picture.h"
 
 namespace sublimit::cli {
@@ -170,11 +169,9 @@ int run(const FitOptions& options) {
     throw InvalidOption(fmt::format("--levels {}: it should be 0 or more", options.settings.levels));
   check_output_path(options.output, {".obj", ".ply"});
   if (!options.report.empty()) check_output_path(options.report, {".json"});
-  for (const std::string& mesh : {options.common.mesh, options.output})
-    if (const auto sidecar = find_sidecar(mesh); !options.report.empty() && sidecar)
-      if (std::error_code ignored; std::filesystem::equivalent(*sidecar, options.report, ignored))
-        throw InvalidOption(
-            fmt::format("--report {}: this file holds tags of {}; choose another name", options.report, mesh));
+  if (!options.report.empty())
+    for (const std::string& mesh : {options.common.mesh, options.output})
+      check_not_sidecar("--report", options.report, mesh);
   if (!options.picture.empty()) check_output_path(options.picture, {".svg"});
   Progress progress(options.common.quiet);
   if (options.cloud.empty() == options.targets.empty())

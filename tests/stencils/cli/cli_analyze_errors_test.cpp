@@ -2,6 +2,8 @@
 // What `sublimit analyze` refuses: the exit status, a message that says what, where and what would be right, no output.
 #include <gtest/gtest.h>
 
+#include <fstream>
+
 #include "stencils/cli_program.h"
 #include "sublimit/io/obj.h"
 #include "support/meshes.h"
@@ -26,6 +28,18 @@ void expect_refused(std::vector<std::string> arguments, int status, Parts parts)
   EXPECT_TRUE(outcome.err.starts_with("sublimit: ")) << outcome.err;
   EXPECT_EQ(count_of(outcome.err, "\n"), 1u) << outcome.err;
   EXPECT_EQ(directory.num_files(), 0);
+}
+
+TEST(CliAnalyzeErrors, TagsBesideTheMeshAreNotOverwritten) {
+  const TemporaryDirectory directory;
+  write_obj(directory / "cage.obj",
+            {.positions = cube().positions, .face_sizes = cube().face_sizes, .face_vertices = cube().face_vertices});
+  const std::string tags = (directory / "cage.json").string(), text = "{\"holeIndices\": [3]}";
+  std::ofstream(tags) << text;
+  const Outcome outcome =
+      sublimit({"analyze", (directory / "cage.obj").string(), "-s", "catmull-clark", "--json", tags});
+  expect_failure(outcome, 2, {"--json " + tags, "holds tags of", "choose another name"});
+  EXPECT_EQ(read_file(tags), text);
 }
 
 TEST(CliAnalyzeErrors, ValencesThatMakeNoSense) {
