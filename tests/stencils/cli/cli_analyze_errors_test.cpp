@@ -32,8 +32,11 @@ void expect_refused(std::vector<std::string> arguments, int status, Parts parts)
 
 TEST(CliAnalyzeErrors, TagsBesideTheMeshAreNotOverwritten) {
   const TemporaryDirectory directory;
-  write_obj(directory / "cage.obj",
-            {.positions = cube().positions, .face_sizes = cube().face_sizes, .face_vertices = cube().face_vertices});
+  MeshOutput cage;
+  cage.positions = cube().positions;
+  cage.face_sizes = cube().face_sizes;
+  cage.face_vertices = cube().face_vertices;
+  write_obj(directory / "cage.obj", cage);
   const std::string tags = (directory / "cage.json").string(), text = "{\"holeIndices\": [3]}";
   std::ofstream(tags) << text;
   const Outcome outcome =
