@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "curves.h"
+#include "free_form.h"
 #include "memory_limit.h"
 #include "sublimit/base/error.h"
 #include "sublimit/base/format_number.h"
@@ -13,6 +14,7 @@
 #include "sublimit/files/random_samples.h"
 #include "sublimit/files/sample_files.h"
 #include "sublimit/limit/limit_types.h"
+#include "sublimit/patches/free_form_patches.h"
 
 namespace sublimit::cli {
 namespace {
@@ -61,9 +63,9 @@ void check_size(const SampleJob& job, const std::string& what, double count, dou
 }
 
 /// N x N samples a square, or N (N + 1) / 2 a triangle.
-SampleSource grid_source(const SampleJob& job, const LimitSurface& surface, SampleColumns columns) {
-  const double N = double(*job.grid), faces = surface.addresses().size();
-  const double count = faces * (surface.addresses().triangles() ? N * (N + 1) / 2 : N * N);
+SampleSource grid_source(const SampleJob& job, const LinearSource& surface, SampleColumns columns) {
+  const double N = double(*job.grid), faces = surface.faces().size;
+  const double count = faces * (surface.faces().triangles ? N * (N + 1) / 2 : N * N);
   check_size(job, fmt::format("--grid {}: samples of {} faces", *job.grid, faces), count, count * sizeof(Sample),
              columns);
   auto samples = std::make_shared<std::vector<Sample>>(surface.grid(static_cast<int>(*job.grid)));
@@ -74,45 +76,74 @@ SampleSource grid_source(const SampleJob& job, const LimitSurface& surface, Samp
   };
 }
 
-SampleSource random_source(const SampleJob& job, const LimitSurface& surface, SampleColumns columns) {
+SampleSource random_source(const SampleJob& job, const LinearSource& surface, SampleColumns columns) {
   check_size(job, fmt::format("--random {}: samples", *job.random_count), double(*job.random_count), 0, columns);
-  return [samples = RandomSamples(surface.addresses(), *job.random_count, job.seed)](
+  return [samples = RandomSamples(surface.faces(), *job.random_count, job.seed)](
              std::vector<Sample>& batch, size_t most) mutable { samples.read(batch, most); };
+}
+
+/// Samples of a surface, of any kind, into the file.
+SampleSummary sample_source(const SampleJob& job, const LinearSource& surface, const Points& points,
+                            SampleReader* reader, Progress& progress) {
+  const SampleColumns columns{job.derivatives, job.curvature};
+  progress.step("sampling");
+  SampleSource places;
+  if (reader) {
+    places = [&](std::vector<Sample>& batch, size_t most) { reader->read(batch, most, surface.faces()); };
+  } else {
+    places = job.grid ? grid_source(job, surface, columns) : random_source(job, surface, columns);
+  }
+  SampleSummary summary = write_samples(job.output, surface, points, places, columns, [&](std::int64_t done) {
+    progress.note(fmt::format("sampling: {} done", done));
+  });
+  progress.step("");
+  return summary;
+}
+
+void print_summary(const SampleJob& job, const SampleSummary& summary, const std::string& of,
+                   const SampleReader* reader) {
+  if (job.common.quiet) return;
+  fmt::print("{}: {} samples", job.output, summary.num_samples);
+  if (summary.num_samples > 0) fmt::print(" ({}), {}", summary.text(), of);
+  if (reader && reader->num_clamped() > 0) fmt::print(", {} moved to the rim of their face", reader->num_clamped());
+  fmt::print("\n");
+}
+
+/// The free-form surfaces of a file: without a scheme.
+void sample_patches(const SampleJob& job, SampleReader* reader, Progress& progress) {
+  refuse_mesh_options(job.common);
+  limit_threads(job.common);
+  progress.step("reading " + job.common.mesh);
+  const FreeFormPatches found = free_form_patches(load_free_form(job.common), job.common.mesh);
+  const SampleSummary summary = sample_source(job, found.patches, found.columns, reader, progress);
+  print_summary(job, summary,
+                fmt::format("{} faces of {} surfaces", found.patches.faces().size, found.patches.patches().size()),
+                reader);
+}
+
+void sample_mesh(const SampleJob& job, SampleReader* reader, Progress& progress) {
+  const Loaded loaded = load(job.common, progress);
+  check_mesh_memory(job.common.mesh, loaded.mesh);
+  const auto types = std::make_shared<LimitTypes>(*loaded.scheme);
+  SampleSummary summary;
+  naming_mesh(job.common, [&] {
+    const LimitSurface surface(*loaded.scheme, loaded.mesh, loaded.rules, types);
+    summary = sample_source(job, surface, loaded.mesh.positions, reader, progress);
+  });
+  print_summary(job, summary, fmt::format("{} types of pieces", types->pieces().size()), reader);
 }
 
 int run(const SampleOptions& options) {
   const SampleJob job = checked(options);
   limit_memory(options.memory_limit);
   if (is_curve_job(job.common)) return sample_curves(job);
-  check_mesh_job(job.common, job.closed);
+  const bool free_form = is_free_form_job(job.common);
+  if (!free_form) check_mesh_job(job.common, job.closed);
   check_output_path(job.output, {".csv"});
-  const SampleColumns columns{job.derivatives, job.curvature};
   std::unique_ptr<SampleReader> reader;  // a wrong header is told before a large mesh is read
   if (!job.at.empty()) reader = std::make_unique<SampleReader>(job.at, job.clamp);
   Progress progress(job.common.quiet);
-  const Loaded loaded = load(job.common, progress);
-  check_mesh_memory(job.common.mesh, loaded.mesh);
-  const auto types = std::make_shared<LimitTypes>(*loaded.scheme);
-  SampleSummary summary;
-  naming_mesh(job.common, [&] {
-    progress.step("sampling");
-    const LimitSurface surface(*loaded.scheme, loaded.mesh, loaded.rules, types);
-    SampleSource source;
-    if (reader) {
-      source = [&](std::vector<Sample>& batch, size_t most) { reader->read(batch, most, surface.addresses()); };
-    } else {
-      source = job.grid ? grid_source(job, surface, columns) : random_source(job, surface, columns);
-    }
-    summary = write_samples(job.output, surface, loaded.mesh.positions, source, columns,
-                            [&](std::int64_t done) { progress.note(fmt::format("sampling: {} done", done)); });
-  });
-  progress.step("");
-  if (!job.common.quiet) {
-    fmt::print("{}: {} samples", job.output, summary.num_samples);
-    if (summary.num_samples > 0) fmt::print(" ({}), {} types of pieces", summary.text(), types->pieces().size());
-    if (reader && reader->num_clamped() > 0) fmt::print(", {} moved to the rim of their face", reader->num_clamped());
-    fmt::print("\n");
-  }
+  (free_form ? sample_patches : sample_mesh)(job, reader.get(), progress);
   return 0;
 }
 
@@ -122,7 +153,7 @@ Command add_sample(CLI::App& app) {
   auto* command = app.add_subcommand("sample", "The exact limit anywhere: points, derivatives, normals, curvature");
   auto options = std::make_shared<SampleOptions>();
   SampleJob& job = options->job;
-  add_mesh(*command, job.common, true);
+  add_mesh(*command, job.common, false);
   command->add_option("--at", job.at, "Places from a CSV with the header face,u,v");
   command->add_option("--grid", options->grid,
                       "N x N places a face, ends included, u fastest; triangles N (N + 1) / 2");
@@ -142,11 +173,14 @@ Command add_sample(CLI::App& app) {
       "  sublimit sample cage.obj -s catmull-clark --grid 5 -o points.csv\n"
       "  sublimit sample cage.obj -s loop --random 1000000 --seed 7 --derivatives 1 -o points.csv\n"
       "  sublimit sample cage.obj -s catmull-clark --at places.csv --derivatives 2 --curvature -o points.csv\n"
+      "  sublimit sample teapot.obj --grid 9 --derivatives 1 -o points.csv       free-form surfaces: without a scheme\n"
       "Faces are numbered from 0 as Ptex does. A quad is one face: (0,0) at its first corner, u towards the second, v\n"
       "towards the last one. Any other polygon of n corners is n faces, one a corner: (0,0) at the corner, u towards the\n"
       "middle of the edge to the next corner, v towards the middle of the edge before, (1,1) in the centre. Under schemes\n"
       "for triangles a triangle is one face: (0,0), (1,0), (0,1) at its corners. `sublimit info MESH -s SCHEME` counts\n"
       "them. Derivatives are per unit of u and v.\n"
+      "Free-form surfaces of an .obj (cstype bezier, bspline, rat): a face is a span of both knots that is not empty, u\n"
+      "fastest, surface after surface; u and v go from 0 to 1 in it.\n"
       "Curves: MESH is a .csv of points or an .obj with lines, places are segment,t: from point segment (t = 0) to the\n"
       "next; derivatives are columns xt,..., xtt,...:\n"
       "  sublimit sample polygon.csv -s four-point --grid 9 --derivatives 2 -o curve.csv\n"

@@ -18,6 +18,12 @@ struct Sample {
   double u = 0, v = 0;
 };
 
+/// How many faces places can be on, and what shape all of them have.
+struct FaceCount {
+  Index size = 0;
+  bool triangles = false;
+};
+
 /// Numbers of the squares (triangles) of a mesh.
 class Addresses {
  public:
@@ -35,6 +41,7 @@ class Addresses {
   /// First address of a face; those of its other corners follow.
   Index first(Face f) const { return first_.empty() ? index(f) : first_[index(f)]; }
   bool triangles() const { return triangles_; }
+  operator FaceCount() const { return {size_, triangles_}; }
 
  private:
   bool triangles_ = false;

@@ -8,25 +8,6 @@
 
 namespace sublimit {
 
-std::vector<Sample> LimitSurface::grid(int N) const {
-  if (N < 2)
-    throw InvalidParameter("a grid of " + std::to_string(N) + " samples a side; there are 2 at least, the ends");
-  const bool triangles = parts_->addresses.triangles();
-  const std::int64_t per_face = triangles ? std::int64_t(N) * (N + 1) / 2 : std::int64_t(N) * N;
-  const Index faces = parts_->addresses.size();
-  std::vector<Sample> samples;
-  if (double(per_face) * faces * sizeof(Sample) > double(samples.max_size()) / 2)
-    throw ResourceError("a grid of " + std::to_string(N) + " samples a side on " + std::to_string(faces) + " faces");
-  samples.reserve(per_face * faces);
-  for (Index f = 0; f < faces; ++f)
-    for (int j = 0; j < N; ++j)
-      for (int i = 0; i < (triangles ? N - j : N); ++i) {
-        const double u = double(i) / (N - 1), v = double(j) / (N - 1);
-        samples.push_back({f, triangles && u + v > 1 ? 1 - v : u, v});  // a rounded sum must not leave the triangle
-      }
-  return samples;
-}
-
 namespace {
 
 constexpr std::int64_t nobody = -1;

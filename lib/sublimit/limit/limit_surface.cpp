@@ -146,6 +146,12 @@ LimitStencil LimitSurface::Parts::stencil(const Sample& s, int order) const {
   return result;
 }
 
+Index LimitSurface::num_points() const { return level().topology().num_vertices(); }
+
+std::unique_ptr<BoundSource> LimitSurface::bound(const Points& points) const {
+  return std::make_unique<BoundLimitSurface>(*this, points);
+}
+
 LimitStencil LimitSurface::stencil(const Sample& sample, int order) const {
   check_order(order);
   parts_->check(sample);

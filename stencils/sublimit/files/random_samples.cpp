@@ -21,10 +21,10 @@ void RandomSamples::read(std::vector<Sample>& batch, size_t most) {
   left_ -= count;
   batch.resize(size_t(count));
   for (Sample& s : batch) {
-    s.face = static_cast<Index>(below(std::uint64_t(addresses_.size())));
+    s.face = static_cast<Index>(below(std::uint64_t(faces_.size)));
     s.u = fraction();
     s.v = fraction();
-    if (addresses_.triangles() && s.u + s.v > 1) {  // the other half of the square; both differences are exact
+    if (faces_.triangles && s.u + s.v > 1) {  // the other half of the square; both differences are exact
       s.u = 1 - s.u;
       s.v = 1 - s.v;
     }

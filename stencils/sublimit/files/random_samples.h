@@ -14,9 +14,8 @@ namespace sublimit {
 class RandomSamples {
  public:
   /// @param count  of samples in all
-  /// @param addresses  which must stay
-  RandomSamples(const Addresses& addresses, std::int64_t count, std::uint64_t seed)
-      : addresses_(addresses), left_(addresses.size() > 0 ? count : 0), numbers_(seed) {}
+  RandomSamples(FaceCount faces, std::int64_t count, std::uint64_t seed)
+      : faces_(faces), left_(faces.size > 0 ? count : 0), numbers_(seed) {}
 
   /// The next samples: `batch` becomes at most `most` long, shorter only at the end. Their order does not depend on how
   /// they are asked for.
@@ -26,7 +25,7 @@ class RandomSamples {
   std::uint64_t below(std::uint64_t end);
   double fraction();
 
-  const Addresses& addresses_;
+  FaceCount faces_;
   std::int64_t left_;
   std::mt19937_64 numbers_;
 };

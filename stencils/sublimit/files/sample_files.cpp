@@ -19,9 +19,9 @@ bool is_inside(double u, double v, bool triangle) {
   return u >= 0 && v >= 0 && (triangle ? u + v <= 1 : u <= 1 && v <= 1);
 }
 
-std::string faces_in_words(const Addresses& addresses) {
-  return "faces are 0 to " + format_number(addresses.size() - 1) +
-         (addresses.triangles() ? ", the triangles of the mesh" : ", a quad each or a corner of another polygon");
+std::string faces_in_words(FaceCount faces) {
+  return "faces are 0 to " + format_number(faces.size - 1) +
+         (faces.triangles ? ", the triangles of the mesh" : ", a quad each or a corner of another polygon");
 }
 
 void append_fields(std::string& out, const double* numbers, int count, bool exist) {
@@ -65,29 +65,29 @@ Sample clamped(const Sample& s, bool triangle) {
   return {s.face, std::clamp(s.u, 0.0, 1.0), std::clamp(s.v, 0.0, 1.0)};
 }
 
-void check_place(const Addresses& addresses, std::int64_t face, double u, double v, const std::string& where,
+void check_place(FaceCount faces, std::int64_t face, double u, double v, const std::string& where,
                  const std::string& hint) {
-  if (face < 0 || face >= addresses.size())
-    throw FormatError(where + "face " + format_number(face) + " does not exist; " + faces_in_words(addresses));
-  if (!is_inside(u, v, addresses.triangles()))
+  if (face < 0 || face >= faces.size)
+    throw FormatError(where + "face " + format_number(face) + " does not exist; " + faces_in_words(faces));
+  if (!is_inside(u, v, faces.triangles))
     throw FormatError(where + "(u, v) = (" + format_number(u) + ", " + format_number(v) + ") is outside the " +
-                      (addresses.triangles() ? "triangle u >= 0, v >= 0, u + v <= 1" : "square 0 <= u, v <= 1") + hint);
+                      (faces.triangles ? "triangle u >= 0, v >= 0, u + v <= 1" : "square 0 <= u, v <= 1") + hint);
 }
 
 SampleReader::SampleReader(const std::filesystem::path& path, bool clamp)
     : rows_(path, {"face", "u", "v"}), clamp_(clamp) {}
 
-void SampleReader::read(std::vector<Sample>& batch, size_t most, const Addresses& addresses) {
-  const std::string faces = faces_in_words(addresses);
+void SampleReader::read(std::vector<Sample>& batch, size_t most, FaceCount faces) {
+  const std::string known = faces_in_words(faces);
   batch.clear();
   while (batch.size() < most && rows_.next()) {
-    const std::int64_t face = rows_.integer(0, faces);
+    const std::int64_t face = rows_.integer(0, known);
     Sample sample{static_cast<Index>(face), rows_.finite(1), rows_.finite(2)};
-    const bool inside = is_inside(sample.u, sample.v, addresses.triangles());
-    if (face < 0 || face >= addresses.size() || (!inside && !clamp_))
-      check_place(addresses, face, sample.u, sample.v, rows_.place(), "; --clamp moves such places to its rim");
+    const bool inside = is_inside(sample.u, sample.v, faces.triangles);
+    if (face < 0 || face >= faces.size || (!inside && !clamp_))
+      check_place(faces, face, sample.u, sample.v, rows_.place(), "; --clamp moves such places to its rim");
     if (!inside) {
-      sample = clamped(sample, addresses.triangles());
+      sample = clamped(sample, faces.triangles);
       ++num_clamped_;
     }
     batch.push_back(sample);
@@ -125,12 +125,12 @@ std::string SampleSummary::text() const {
   return words;
 }
 
-SampleSummary write_samples(const std::filesystem::path& path, const LimitSurface& surface, const Points& points,
+SampleSummary write_samples(const std::filesystem::path& path, const LinearSource& surface, const Points& points,
                             const SampleSource& source, SampleColumns columns,
                             const std::function<void(std::int64_t)>& progress) {
   SampleWriter writer(path, columns);
   SampleSummary summary;
-  std::optional<BoundLimitSurface> bound;
+  std::unique_ptr<BoundSource> bound;
   std::vector<Sample> batch;
   LimitSamples found;
   do {
@@ -139,7 +139,7 @@ SampleSummary write_samples(const std::filesystem::path& path, const LimitSurfac
     if (all) {  // `evaluate` knows whether so few are worth a preparation of every piece
       found = surface.evaluate(points, batch, columns.order());
     } else {
-      if (!bound) bound.emplace(surface, points);
+      if (!bound) bound = surface.bound(points);
       bound->evaluate(batch, columns.order(), true, found);
     }
     writer.write(batch, found);

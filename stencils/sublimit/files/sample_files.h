@@ -28,7 +28,7 @@ using SampleSource = std::function<void(std::vector<Sample>& batch, size_t most)
 /// @param where  what the message begins with
 /// @param hint   what it ends with
 /// @throws FormatError  a face that does not exist, parameters outside its square or triangle
-void check_place(const Addresses& addresses, std::int64_t face, double u, double v, const std::string& where,
+void check_place(FaceCount faces, std::int64_t face, double u, double v, const std::string& where,
                  const std::string& hint = "");
 
 /// Samples from a file.
@@ -38,10 +38,10 @@ class SampleReader {
   /// @throws IoError, FormatError  as CsvRows
   explicit SampleReader(const std::filesystem::path& path, bool clamp = false);
 
-  /// @param addresses  what the faces of the file are
+  /// @param faces  that the file is about
   /// @throws FormatError  rows that are no samples, with file:line: not three fields, a face that does not exist,
   ///                      parameters that are not finite or outside the domain
-  void read(std::vector<Sample>& batch, size_t most, const Addresses& addresses);
+  void read(std::vector<Sample>& batch, size_t most, FaceCount faces);
 
   /// Samples that were moved.
   std::int64_t num_clamped() const { return num_clamped_; }
@@ -88,10 +88,10 @@ struct SampleSummary {
 };
 
 /// Evaluates all samples of a source and writes them.
-/// @param points    of the surface's level, #V x 3
+/// @param points    columns of the surface's control points
 /// @param progress  called with the number of samples written so far, if given
 /// @note  Memory does not grow with the number of samples. The same bytes for any number of threads.
-SampleSummary write_samples(const std::filesystem::path& path, const LimitSurface& surface, const Points& points,
+SampleSummary write_samples(const std::filesystem::path& path, const LinearSource& surface, const Points& points,
                             const SampleSource& source, SampleColumns columns,
                             const std::function<void(std::int64_t)>& progress = {});
 
