@@ -74,19 +74,16 @@ class DirectionCheck {
   }
 
  private:
-  // Of knots inside; only at the very ends there may be one more. The values do not fall.
   void check_multiplicities() const {
     const std::vector<double>& t = direction_.parameters;
-    const std::size_t degree = static_cast<std::size_t>(direction_.degree);
-    for (std::size_t i = 1; i + degree + 1 < t.size(); ++i) {
-      if (t[i] < t[i + degree]) continue;
-      const auto same = std::equal_range(t.begin(), t.end(), t[i]);
-      throw FormatError(place() + parm_ + ": knot " + format_number(t[i]) + " is there " +
-                        format_number(same.second - same.first) + " times, from value " +
-                        format_number(same.first - t.begin() + 1) + " on; of degree " + format_number(degree) +
-                        " a knot can be there " + format_number(degree) + " times, at the ends " +
-                        format_number(degree + 1));
-    }
+    const std::size_t knot = first_excess_knot(t, direction_.degree);
+    if (knot == t.size()) return;
+    const auto same = std::equal_range(t.begin(), t.end(), t[knot]);
+    throw FormatError(place() + parm_ + ": knot " + format_number(t[knot]) + " is there " +
+                      format_number(same.second - same.first) + " times, from value " +
+                      format_number(same.first - t.begin() + 1) + " on; of degree " + format_number(direction_.degree) +
+                      " it can be there " + format_number(direction_.degree) + " times, at the ends " +
+                      format_number(direction_.degree + 1));
   }
 
   void cut_range(double from, double to, FreeFormWarnings& warnings) const {

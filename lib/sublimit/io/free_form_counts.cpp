@@ -53,4 +53,11 @@ std::pair<double, double> free_form_domain(FreeFormBasis basis, const FreeFormDi
   return {t[static_cast<std::size_t>(direction.degree)], t[static_cast<std::size_t>(direction.count)]};
 }
 
+std::size_t first_excess_knot(const std::vector<double>& knots, int degree) {
+  const auto order = static_cast<std::size_t>(degree) + 1;
+  for (std::size_t i = 1; i + order < knots.size(); ++i)
+    if (!(knots[i] < knots[i + order - 1])) return i;
+  return knots.size();
+}
+
 }  // namespace sublimit

@@ -44,4 +44,8 @@ class FreeFormCounts {
 /// The values between which all segments are defined, for as many parameters as `direction.count` asks for.
 std::pair<double, double> free_form_domain(FreeFormBasis basis, const FreeFormDirection& direction);
 
+/// The first of knots that do not fall which is there more than `degree` times, at the very ends degree + 1 times;
+/// knots.size() if none is.
+std::size_t first_excess_knot(const std::vector<double>& knots, int degree);
+
 }  // namespace sublimit

@@ -86,9 +86,15 @@ class FreeFormOutputCheck {
         counts.fits(direction.count) && counts.parameters(direction.count) == std::int64_t(direction.parameters.size()),
         "values of parm fit the number of control points");
     require_finite(direction.parameters);
-    require(std::ranges::is_sorted(direction.parameters), "values of parm do not fall");
-    require_finite(std::isfinite(direction.first) && std::isfinite(direction.last));
-    require(direction.first < direction.last, "a range rises");
+    const auto falls = [&](double a, double b) { return basis == FreeFormBasis::bspline ? a > b : a >= b; };
+    require(std::ranges::adjacent_find(direction.parameters, falls) == direction.parameters.end(),
+            "knots do not fall, other values of parm rise");
+    require(basis != FreeFormBasis::bspline ||
+                first_excess_knot(direction.parameters, direction.degree) == direction.parameters.size(),
+            "knots inside are there at most degree times");
+    const auto [from, to] = free_form_domain(basis, direction);
+    require(from <= direction.first && direction.first < direction.last && direction.last <= to,
+            "a range rises within the domain");
   }
 
   void check(const FreeFormCurve& curve, std::int64_t num_points) const {
