@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Any bytes as an OBJ file with tags: an Error that says where, or a mesh that is written and read back to the same
-// bits and that has a topology with its sharpness; never a crash.
+// Any bytes as an OBJ file. With tags: an Error that says where, or a mesh that is written and read back to the same
+// bits and that has a topology with its sharpness. With free-form curves and surfaces: an Error that says where, or
+// shapes whose text reads back to the same text. Never a crash.
 #include <bit>
 #include <cmath>
 #include <cstddef>
@@ -10,6 +11,7 @@
 #include <string_view>
 
 #include "sublimit/base/error.h"
+#include "sublimit/io/free_form.h"
 #include "sublimit/io/obj.h"
 #include "sublimit/io/write_mesh.h"
 #include "sublimit/mesh/sharpness.h"
@@ -49,17 +51,13 @@ void require_same(const ControlMesh& a, const ControlMesh& b) {
   }
 }
 
-}  // namespace
-}  // namespace sublimit
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using namespace sublimit;
+void check_mesh(std::string_view text) {
   ControlMesh mesh;
   try {
-    mesh = parse_obj(std::string_view(reinterpret_cast<const char*>(data), size), "fuzz.obj");
+    mesh = parse_obj(text, "fuzz.obj");
   } catch (const Error& error) {
     require(std::string_view(error.what()).starts_with("fuzz.obj:"));
-    return 0;
+    return;
   }
   const ControlMesh again = parse_obj(format_obj(output(mesh)), "again.obj");  // an Error here is a crash
   require_same(mesh, again);
@@ -71,5 +69,29 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     initial_holes(topology, mesh, Boundary::none);
   } catch (const Error&) {
   }
+}
+
+void check_free_form(std::string_view text) {
+  FreeForm shapes;
+  try {
+    shapes = parse_free_form(text, "fuzz.obj");
+  } catch (const Error& error) {
+    require(std::string_view(error.what()).starts_with("fuzz.obj:"));
+    return;
+  }
+  const std::string written = format_free_form(shapes);  // an Error here or below is a crash
+  const FreeForm again = parse_free_form(written, "again.obj");
+  require(again.curves.size() == shapes.curves.size() && again.surfaces.size() == shapes.surfaces.size());
+  require(again.curves_2d.size() == shapes.curves_2d.size() && again.connections.size() == shapes.connections.size());
+  require(format_free_form(again) == written);
+}
+
+}  // namespace
+}  // namespace sublimit
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string_view text(reinterpret_cast<const char*>(data), size);
+  sublimit::check_mesh(text);
+  sublimit::check_free_form(text);
   return 0;
 }

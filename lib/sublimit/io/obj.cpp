@@ -2,23 +2,18 @@
 #include "sublimit/io/obj.h"
 
 #include <algorithm>
-#include <array>
 #include <limits>
-#include <unordered_set>
 
 #include "sublimit/base/error.h"
 #include "sublimit/base/format_number.h"
 #include "sublimit/base/read_file.h"
+#include "sublimit/io/obj_indices.h"
+#include "sublimit/io/obj_keywords.h"
 #include "sublimit/io/obj_tags.h"
 #include "sublimit/io/text_scanner.h"
 
 namespace sublimit {
 namespace {
-
-// Statements that say nothing about the control mesh.
-constexpr std::array<std::string_view, 19> skipped_keywords{
-    "vn", "vp",  "g",     "o",        "s",        "l",          "p",         "usemtl", "mtllib", "usemap",
-    "mg", "lod", "bevel", "c_interp", "d_interp", "shadow_obj", "trace_obj", "maplib", "call"};
 
 class ObjReader {
  public:
@@ -36,8 +31,10 @@ class ObjReader {
         read_face();
       } else if (keyword == "t") {
         tags_.read(scanner_, mesh_);
-      } else if (!keyword.empty() && std::ranges::find(skipped_keywords, keyword) == skipped_keywords.end()) {
-        skip_unknown(keyword);
+      } else if (keyword == "vn" || keyword == "vp" || is_attribute_keyword(keyword)) {
+        continue;
+      } else if (!keyword.empty() && !elements_.count(scanner_, keyword) && !is_free_form_keyword(keyword)) {
+        unknown_.warn(scanner_, keyword, mesh_.warnings);
       }
     }
     finish();
@@ -80,7 +77,7 @@ class ObjReader {
   // One corner: its vertex, then perhaps a texture coordinate and a normal, which is checked for form only.
   void read_corner(std::string_view token) {
     std::size_t slash = token.find('/');
-    mesh_.face_vertices.push_back(vertex(scanner_.integer(token.substr(0, slash), "index")));
+    mesh_.face_vertices.push_back(indices_.read(scanner_, token.substr(0, slash), num_vertices_));
     std::int64_t value = 0;  // none
     for (int part = 0; slash != std::string_view::npos; ++part) {
       const std::size_t first = slash + 1;
@@ -92,7 +89,7 @@ class ObjReader {
       }
       if (index.empty()) continue;
       const std::int64_t number = scanner_.integer(index, "index");
-      if (number == 0) zero_index();
+      if (number == 0) reject_index_zero(scanner_);
       if (part == 0) value = number;
     }
     if (value != 0 || !texture_.corners.empty()) add_texture_corner(value);
@@ -110,50 +107,21 @@ class ObjReader {
     texture_.corners.back() = static_cast<Index>(std::clamp<std::int64_t>(index, 0, std::numeric_limits<Index>::max()));
   }
 
-  Index vertex(std::int64_t index) {
-    if (index == 0) zero_index();
-    if (index < 0) {
-      if (index >= -num_vertices_) return static_cast<Index>(num_vertices_ + index);
-      throw InvalidMesh(scanner_.place() + "index " + format_number(index) + " counts back beyond the first of " +
-                        format_number(num_vertices_) + " vertices so far; relative indices start at -1, the last one");
-    }
-    // It may be defined later. Only an index above all earlier ones can be the first that is not.
-    if (index > num_vertices_ && (forward_.empty() || index > forward_.back().index)) {
-      forward_.push_back({.index = index, .line = scanner_.line()});
-    }
-    return static_cast<Index>(std::min<std::int64_t>(index - 1, std::numeric_limits<Index>::max()));
-  }
-
-  [[noreturn]] void zero_index() const {
-    throw FormatError(scanner_.place() + "index 0; indices of an OBJ face count from 1, or backwards from -1");
-  }
-
-  void skip_unknown(std::string_view keyword) {
-    constexpr std::size_t most = 20;
-    const auto is_text = [](char c) { return c >= 0x20 && c < 0x7f; };
-    if (!std::ranges::all_of(keyword, is_text)) {
-      throw FormatError(scanner_.place() + "the line starts with " + in_quotes(keyword) +
-                        ", so this is not a text OBJ file; statements such as 'v' and 'f' are expected");
-    }
-    if (unknown_.size() >= most || !unknown_.emplace(keyword).second) return;
-    mesh_.warnings.push_back(scanner_.place() + "unknown keyword " + in_quotes(keyword) + " ignored");
-    if (unknown_.size() == most) mesh_.warnings.push_back(scanner_.place() + "further unknown keywords are not listed");
-  }
-
   void finish() {
     const std::string& name = scanner_.name();
+    if (mesh_.face_sizes.empty() && elements_.has_free_form())
+      throw InvalidMesh(scanner_.place(elements_.first_free_form) + "the file holds " + elements_.free_form() +
+                        ", which are free-form statements, and no mesh; a mesh has lines 'f a b c ...'");
     if (num_vertices_ == 0) throw InvalidMesh(name + ": no vertices; an OBJ mesh has lines 'v x y z'");
     if (mesh_.face_sizes.empty()) throw InvalidMesh(name + ": no faces; an OBJ mesh has lines 'f a b c ...'");
     const Index vertices = checked_index(num_vertices_, name, "vertices");
-    for (const Forward& forward : forward_) {
-      if (forward.index <= vertices) continue;
-      throw InvalidMesh(scanner_.place(forward.line) + "index " + format_number(forward.index) +
-                        " is out of range; the file has " + format_number(vertices) + " vertices, 1 to " +
-                        format_number(vertices));
-    }
+    indices_.check(scanner_, vertices);
     mesh_.positions = Eigen::Map<const Points>(coordinates_.data(), vertices, 3);
     tags_.check(scanner_, mesh_);
     finish_texture_coordinates();
+    if (elements_.has_free_form())
+      mesh_.warnings.push_back(scanner_.place(elements_.first_free_form) + "the file also holds " +
+                               elements_.free_form() + " (free-form statements), which are no part of the mesh");
   }
 
   void finish_texture_coordinates() {
@@ -197,9 +165,10 @@ class ObjReader {
   ObjTags tags_;
   std::vector<double> coordinates_;
   std::int64_t num_vertices_ = 0;
-  std::vector<Forward> forward_;  // ascending
+  ObjIndices indices_{"vertices"};
   Texture texture_;
-  std::unordered_set<std::string> unknown_;
+  ObjElements elements_;
+  UnknownKeywords unknown_;
 };
 
 }  // namespace

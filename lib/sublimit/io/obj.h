@@ -20,7 +20,7 @@
 // Texture coordinates, `vt u [v [w]]`, become the face-varying channel "uv" where every corner of every face has one;
 // where only some have, none is kept, and a warning says so. Indices into a file without `vt` are skipped. Normals,
 // groups, materials, points and lines are skipped; unknown keywords, unknown tags and hierarchical edits are skipped
-// with a warning.
+// with a warning. So are free-form curves and surfaces, which free_form.h reads: the warning says how many there are.
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -32,7 +32,8 @@ namespace sublimit {
 
 /// The mesh in a file.
 /// @throws FormatError    what cannot be understood, with file:line and what would be right
-/// @throws InvalidMesh    what can, but is no mesh: indices out of range, tags of edges that no face has, no faces
+/// @throws InvalidMesh    what can, but is no mesh: indices out of range, tags of edges that no face has, no faces,
+///                        free-form curves and surfaces only
 /// @throws IoError        missing, unreadable;  ResourceError  more than memory or 32-bit indices hold
 ControlMesh read_obj(const std::filesystem::path& path);
 

@@ -6,6 +6,8 @@
 #include "sublimit/base/format_number.h"
 #include "sublimit/base/read_file.h"
 #include "sublimit/io/file_extension.h"
+#include "sublimit/io/obj_indices.h"
+#include "sublimit/io/obj_keywords.h"
 #include "sublimit/io/polygon_files.h"
 #include "sublimit/io/text_scanner.h"
 
@@ -27,30 +29,30 @@ class ObjCurveReader {
           scanner_.real(token, "number behind a point");
       } else if (keyword == "l") {
         read_curve();
-      } else if (keyword == "f") {
-        ++faces_;
-      } else if (!std::ranges::all_of(keyword, [](char c) { return c >= 0x20 && c < 0x7f; })) {
+      } else if (!elements_.count(scanner_, keyword) &&
+                 !std::ranges::all_of(keyword, [](char c) { return c >= 0x20 && c < 0x7f; })) {
         throw FormatError(scanner_.place() + "the line starts with " + in_quotes(keyword) +
                           ", so this is not a text OBJ file");
       }
     }
     const Index count = checked_index(std::int64_t(coordinates_.size() / 3), scanner_.name(), "points");
+    const std::int64_t faces = elements_.faces;
+    if (polygon_.curves.empty() && elements_.has_free_form())
+      throw InvalidMesh(scanner_.place(elements_.first_free_form) + "the file holds " + elements_.free_form() +
+                        ", which are free-form statements, and no polygons; a polygon is a line 'l 1 2 3 ...' through "
+                        "vertices");
     if (polygon_.curves.empty())
-      throw InvalidMesh(
-          scanner_.name() +
-          (faces_ > 0 ? ": a mesh of " + format_number(faces_) + (faces_ == 1 ? " face" : " faces") + " and no curves"
-                      : std::string(": no curves")) +
-          "; a curve is a line 'l 1 2 3 ...' through vertices" +
-          (faces_ > 0 ? ", and faces are for surface schemes such as catmull-clark" : ""));
-    if (faces_ > 0)
-      polygon_.warnings.push_back(scanner_.name() + ": " + format_number(faces_) +
+      throw InvalidMesh(scanner_.name() +
+                        (faces > 0 ? ": a mesh of " + counted(faces, "face") + " and no curves" : ": no curves") +
+                        "; a curve is a line 'l 1 2 3 ...' through vertices" +
+                        (faces > 0 ? ", and faces are for surface schemes such as catmull-clark" : ""));
+    if (faces > 0)
+      polygon_.warnings.push_back(scanner_.name() + ": " + format_number(faces) +
                                   " faces left out; curve schemes refine lines");
-    for (size_t c = 0; c < polygon_.curves.size(); ++c)
-      for (const Index i : polygon_.curves[c].points)
-        if (i >= count)
-          throw InvalidMesh(scanner_.place(lines_[c]) + "index " + format_number(i + 1) +
-                            " is out of range; the file has " + format_number(count) + " vertices, 1 to " +
-                            format_number(count));
+    if (elements_.has_free_form())
+      polygon_.warnings.push_back(scanner_.place(elements_.first_free_form) + "the file also holds " +
+                                  elements_.free_form() + " (free-form statements), which are no polygons");
+    indices_.check(scanner_, count);
     polygon_.points = Eigen::Map<const Points>(coordinates_.data(), count, 3);
     return std::move(polygon_);
   }
@@ -60,13 +62,7 @@ class ObjCurveReader {
     ControlPolygon::Curve curve;
     for (std::string_view token; !(token = scanner_.token()).empty();) {
       const std::int64_t so_far = std::int64_t(coordinates_.size() / 3);
-      const std::int64_t index = scanner_.integer(token.substr(0, token.find('/')), "index");
-      if (index == 0)
-        throw FormatError(scanner_.place() + "index 0; indices of an OBJ line count from 1, or backwards from -1");
-      if (index < -so_far)
-        throw InvalidMesh(scanner_.place() + "index " + format_number(index) + " counts back beyond the first of " +
-                          format_number(so_far) + " vertices so far");
-      curve.points.push_back(checked_index(index < 0 ? so_far + index : index - 1, scanner_.name(), "points"));
+      curve.points.push_back(indices_.read(scanner_, token.substr(0, token.find('/')), so_far));
     }
     if (curve.points.size() < 2)
       throw FormatError(scanner_.place() + "a line of " + format_number(curve.points.size()) +
@@ -75,7 +71,6 @@ class ObjCurveReader {
     if (is_segment && in_segments_ && polygon_.curves.back().points.back() == curve.points[0]) {
       polygon_.curves.back().points.push_back(curve.points[1]);
     } else {
-      lines_.push_back(scanner_.line());
       polygon_.curves.push_back(std::move(curve));
     }
     ControlPolygon::Curve& last = polygon_.curves.back();
@@ -89,8 +84,8 @@ class ObjCurveReader {
   TextScanner scanner_;
   ControlPolygon polygon_;
   std::vector<double> coordinates_;
-  std::vector<std::int64_t> lines_;  // of the curves
-  std::int64_t faces_ = 0;
+  ObjIndices indices_{"vertices"};
+  ObjElements elements_;
   bool in_segments_ = false;  // the last curve is made of lines of two points each
 };
 

@@ -83,9 +83,9 @@ TEST(Obj, StatementsThatAreNoMeshAreSkippedInSilence) {
 }
 
 TEST(Obj, UnknownKeywordsAreWarnedAboutOnceEach) {
-  const ControlMesh mesh = parse_obj("curv 0 1\n" + square + "curv 0 2\nfoo\n", "a.obj");
+  const ControlMesh mesh = parse_obj("bzp 1 2\n" + square + "bzp 0 2\nfoo\n", "a.obj");
   ASSERT_EQ(mesh.warnings.size(), 2u);
-  EXPECT_EQ(mesh.warnings[0], "a.obj:1: unknown keyword 'curv' ignored");
+  EXPECT_EQ(mesh.warnings[0], "a.obj:1: unknown keyword 'bzp' ignored");
   EXPECT_EQ(mesh.warnings[1], "a.obj:8: unknown keyword 'foo' ignored");
 }
 
