@@ -68,14 +68,13 @@ class FreeFormReader {
   void read_vertex() {
     for (const char* const what : {"coordinate x", "coordinate y", "coordinate z"})
       vertices_.push_back(scanner_.finite(scanner_.token(), what));
-    double behind[4];  // a weight, a colour, or who knows
+    std::string_view last;
     int count = 0;
     for (std::string_view token; !(token = scanner_.token()).empty(); ++count) {
-      const double value =
-          count == 0 ? scanner_.finite(token, "weight") : scanner_.real(token, "number behind a vertex");
-      if (count < 4) behind[count] = value;
+      scanner_.real(token, count == 0 ? "weight" : "number behind a vertex");
+      last = token;
     }
-    shapes_.weights.push_back(count == 1 ? behind[0] : 1);
+    shapes_.weights.push_back(count == 1 ? scanner_.finite(last, "weight") : 1);
     if ((count == 2 || count > 3) && !odd_vertex_) {
       odd_vertex_ = true;
       warnings_.add(scanner_.place() + "vertex of " + format_number(3 + count) +
@@ -88,7 +87,7 @@ class FreeFormReader {
     const int count = read_numbers("parameter", 1, values);
     parameters_.insert(parameters_.end(), values, values + 2);
     shapes_.parameter_weights.push_back(values[2]);
-    parameter_sizes_.push_back(static_cast<char>(count));
+    parameter_sizes_.push_back(static_cast<char>(std::min(count, 3)));
   }
 
   // Up to three numbers, and what comes behind them checked for form only. Those that are absent stay.

@@ -145,7 +145,9 @@ TEST(FreeFormErrors, KnotsAndParametersOutOfOrder) {
        {"a.obj:13: parm u: knot 1 is there 3 times, from value 4 on; of degree 2 it can be there 2 times, at the ends "
         "3"}},
       {curve("bspline", "1", "1 2 3 4", "0 0 0 1 2 2"), {"a.obj:13: parm u: knot 0 is there 3 times, from value 1 on"}},
-      {curve("bspline", "1", "1 2 3 4", "-1 0 0 1 1 1"), {"a.obj:13: parm u: knot 1 is there 3 times", "ends 2"}},
+      {curve("bspline", "1", "1 2 3 4", "-1 0 0 1 1 1"),
+       {"a.obj:13: parm u: knot 0 is there 2 times, from value 2 on; of degree 1 it can be there 1 time, at the ends "
+        "2"}},
   });
 }
 
@@ -166,7 +168,7 @@ TEST(FreeFormErrors, NumbersThatAreNoneOrNotFinite) {
       {"bmat u 1 nan\n", {"a.obj:10: entry of the basis matrix is 'nan'"}},
       {curve("bezier", "1", "1 2", "0 inf"), {"a.obj:13: parm u is 'inf'; it should be a finite number"}},
       {"cstype bezier\ndeg 1\ncurv nan 1 1 2\n", {"a.obj:12: start of the range is 'nan'"}},
-      {"cstype bezier\ndeg 1\nsurf 0 1 0 inf 1 2 3 4\n", {"a.obj:12: end of the range is 'inf'"}},
+      {"cstype bezier\ndeg 1 1\nsurf 0 1 0 inf 1 2 3 4\n", {"a.obj:12: end of the range is 'inf'"}},
   });
 }
 
@@ -207,7 +209,9 @@ TEST(FreeFormErrors, IndicesThatPointNowhere) {
        {"a.obj:15: index 1 is out of range; the file has no curves 'curv2'"}},
       {bezier + "curv 0 1 1 2\nsp 1\nparm u 0 1\nend\n", {"a.obj:13: index 1", "no points 'vp'"}},
       {bezier + "curv 0 1 1 2" + rest + "con 1 0 1 1 2 0 1 1\n",
-       {"a.obj:15: index 2 is out of range; the file has no surfaces"}},
+       {"a.obj:15: index 1 is out of range; the file has no curves 'curv2'"}},
+      {"vp 0 0\nvp 1 1\n" + bezier + "curv2 1 2" + rest + "con 1 0 1 1 2 0 1 1\n",
+       {"a.obj:17: index 1 is out of range; the file has no surfaces"}},
   });
 }
 

@@ -282,7 +282,7 @@ TEST(FreeForm, StateHoldsUntilItIsChanged) {
   EXPECT_EQ(shapes.curves[2].group, -1);
   EXPECT_FALSE(shapes.curves[2].rational);
   EXPECT_EQ(shapes.curves[2].u.degree, 3);
-  EXPECT_EQ(shapes.curves[2].line, 15);
+  EXPECT_EQ(shapes.curves[2].line, 18);
   expect_round_trip(text);
 }
 
