@@ -82,7 +82,7 @@ class DirectionCheck {
     throw FormatError(place() + parm_ + ": knot " + format_number(t[knot]) + " is there " +
                       format_number(same.second - same.first) + " times, from value " +
                       format_number(same.first - t.begin() + 1) + " on; of degree " + format_number(direction_.degree) +
-                      " it can be there " + format_number(direction_.degree) + " times, at the ends " +
+                      " it can be there " + counted(direction_.degree, "time") + ", at the ends " +
                       format_number(direction_.degree + 1));
   }
 
