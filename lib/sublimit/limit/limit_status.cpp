@@ -17,6 +17,8 @@ const char* name(LimitStatus status) {
       return "hole";
     case LimitStatus::undefined_normal:
       return "undefined-normal";
+    case LimitStatus::pole:
+      return "pole";
     default:
       return "outside";
   }
