@@ -83,6 +83,12 @@ std::vector<T> hodograph_row(std::span<const T> t, Index p, Index k, int order, 
   return row;
 }
 
+/// Coordinates from -1 to 1.
+inline Points random_points(std::mt19937& random, Index rows, Index columns) {
+  std::uniform_real_distribution<double> coordinate(-1, 1);
+  return Points::NullaryExpr(rows, columns, [&] { return coordinate(random); });
+}
+
 /// Knots of some faces, with gaps that are multiples of 1/8 up to 2: every multiplicity up to degree + 1 occurs, at
 /// ends and inside; closed ones with any number of points.
 template <class T>

@@ -79,6 +79,11 @@ class Knots {
   Index num_functions() const { return static_cast<Index>(knots_.size()) - degree_ - 1; }
   /// The control point of a basis function.
   Index point(Index function) const { return is_closed_ ? function % num_points_ : function; }
+  /// A basis function of a control point that is not zero in all of the domain. (Of an open spline there may be none:
+  /// repeated knots at the start of the domain and others before it.)
+  Index function(Index point) const {
+    return is_closed_ && !(begin() < knots_[point + degree_ + 1]) ? point + num_points_ : point;
+  }
   /// All of them, those beyond the domain included.
   std::span<const T> all() const { return knots_; }
   /// Break points of a closed spline, and knots of the domain of an open one.

@@ -27,7 +27,7 @@ Row weights_at(const Knots<Fraction>& knots, Index face, const Row& points) {
 }
 
 /// Random points, some of them outside the domain.
-Row random_points(std::mt19937& random, int count) {
+Row random_arguments(std::mt19937& random, int count) {
   std::uniform_int_distribution<int> draw(-90, 90);
   Row points;
   for (int i = 0; i < count; ++i) points.push_back(Fraction(draw(random)) / 7);
@@ -46,7 +46,7 @@ void for_random_pieces(const Law& law) {
 
 TEST(Blossom, IsSymmetric) {
   for_random_pieces([](std::mt19937& random, const Knots<Fraction>& knots, Index face) {
-    Row points = random_points(random, knots.degree());
+    Row points = random_arguments(random, knots.degree());
     const Row row = weights_at(knots, face, points);
     std::shuffle(points.begin(), points.end(), random);
     EXPECT_EQ(weights_at(knots, face, points), row);
@@ -55,8 +55,8 @@ TEST(Blossom, IsSymmetric) {
 
 TEST(Blossom, IsAffineInEveryArgument) {
   for_random_pieces([](std::mt19937& random, const Knots<Fraction>& knots, Index face) {
-    Row points = random_points(random, knots.degree());
-    const Row ends = random_points(random, 3);
+    Row points = random_arguments(random, knots.degree());
+    const Row ends = random_arguments(random, 3);
     const size_t which = random() % points.size();
     const auto at = [&](const Fraction& t) {
       points[which] = t;
@@ -85,7 +85,7 @@ TEST(Blossom, OnTheDiagonalIsCoxDeBoorAndDeBoor) {
     const Fraction t = knots.parameter({face, Fraction(static_cast<int>(random() % 8)) / 7});
     const Row row = weights_at(knots, face, Row(p, t));
     EXPECT_EQ(std::accumulate(row.begin(), row.end(), Fraction(0)), 1);
-    const Row points = random_points(random, p + 1);
+    const Row points = random_arguments(random, p + 1);
     Fraction sum(0);
     for (Index i = 0; i <= p; ++i) {
       EXPECT_EQ(row[i], cox_de_boor(knots.all(), k, k - p + i, p, t));
@@ -98,11 +98,11 @@ TEST(Blossom, OnTheDiagonalIsCoxDeBoorAndDeBoor) {
 
 TEST(Blossom, OfADirectionIsADifferenceOfPoints) {
   for_random_pieces([](std::mt19937& random, const Knots<Fraction>& knots, Index face) {
-    const Row points = random_points(random, knots.degree());
+    const Row points = random_arguments(random, knots.degree());
     std::vector<Argument> arguments;
     for (const Fraction& t : points) arguments.push_back(Argument::point(t));
     const size_t which = random() % points.size();
-    const Fraction d = random_points(random, 1)[0];
+    const Fraction d = random_arguments(random, 1)[0];
     const Row from = weights(knots, face, arguments);
     arguments[which] = Argument::point(points[which] + d);
     Row to = weights(knots, face, arguments);
