@@ -25,8 +25,8 @@ struct Floor {
 };
 const Floor floors[] = {
     {"lib/sublimit",
-     {"core", "mesh", "splits", "io", "scheme", "neighborhood", "limit", "geometric", "curves", "schemes", "primvar",
-      "fit", "certificates"},
+     {"core", "mesh", "splits", "io", "scheme", "neighborhood", "limit", "geometric", "curves", "patches", "schemes",
+      "primvar", "fit", "certificates"},
      {"schemes.h", "subdivide.h"}},
     {"stencils/sublimit", {"files", "patterns", "bake", "picture", "fit_jobs", "gallery", "report"}, {}},
 };

@@ -41,7 +41,7 @@ void append_row(std::string& out, const Sample& s, const LimitSamples& found, st
   out += name(found.status[i]);
   const auto row = [&](const Points& m, bool exists) { append_fields(out, m.data() + 3 * i, 3, exists); };
   const int order = found.order[i];
-  row(found.position, found.status[i] != LimitStatus::outside);
+  row(found.position, has_position(found.status[i]));
   if (columns.derivatives >= 1)
     for (const Points* m : {&found.du, &found.dv}) row(*m, order >= 1);
   if (columns.derivatives >= 2)

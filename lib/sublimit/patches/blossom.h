@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// The blossom (polar form) of a polynomial piece of a B-spline: the one primitive that every row of this room is made
+// of. f(x_1, .., x_p) is symmetric, affine in each argument, and f(t, .., t) is the curve; homogenised, an argument is
+// a pair (x, w): (t, 1) is a point, (d, 0) a direction, and the r-th derivative along d is
+//
+//   p!/(p-r)! f((d,0)^r, (t,1)^(p-r))
+//
+// Control points are values at consecutive knots, P_i = f(t_{i+1}, .., t_{i+p}); so are those of any other net of the
+// same curve: finer knots, a higher degree, a Bezier piece, other end knots.
+// Source: Ramshaw 1989, "Blossoms are polar forms".
+#include <algorithm>
+#include <cassert>
+#include <span>
+
+#include "sublimit/core/types.h"
+
+namespace sublimit {
+
+/// An argument of a blossom, by its distances to knots, so that none of them is a difference of rounded numbers.
+template <class T>
+class BlossomArgument {
+ public:
+  BlossomArgument() = default;
+  static BlossomArgument point(const T& t) { return {t, t, T(0), T(0), false}; }
+  static BlossomArgument direction(const T& d) { return {T(0), T(0), d, T(-d), true}; }
+  /// The point (1 - u) a + u b; distances to knots that are not between a and b are sums of positive terms.
+  static BlossomArgument between(const T& a, const T& b, const T& u) {
+    const T length = b - a;
+    return {a, b, T(u * length), T((T(1) - u) * length), false};
+  }
+
+  /// x - w t
+  T after(const T& t) const { return is_direction_ ? above_ : T((low_ - t) + above_); }
+  /// w t - x
+  T before(const T& t) const { return is_direction_ ? below_ : T((t - high_) + below_); }
+
+ private:
+  BlossomArgument(const T& low, const T& high, const T& above, const T& below, bool is_direction)
+      : low_(low), high_(high), above_(above), below_(below), is_direction_(is_direction) {}
+
+  T low_{}, high_{}, above_{}, below_{};  // x = low + above = high - below
+  bool is_direction_ = false;
+};
+
+/// Weights of the blossom of the piece in span k over the control points k-p .. k, p the number of arguments.
+///
+/// Inside the span the weights of a point (all arguments equal) are sums of positive terms. Derivatives stay near the
+/// rounding of their terms if directions come last.
+/// @param knots      t_0 <= t_1 <= ..; t_k < t_{k+1}, and k-p+1 .. k+p exist
+/// @param arguments  in the order of the steps; any order gives the same up to rounding
+/// @param weights    p+1 of them
+template <class T>
+void blossom(std::span<const T> knots, Index k, std::span<const BlossomArgument<T>> arguments, std::span<T> weights) {
+  const Index degree = static_cast<Index>(arguments.size());
+  assert(k >= degree - 1 && k + std::max<Index>(degree, 1) < std::ssize(knots) && knots[k] < knots[k + 1]);
+  weights[0] = T(1);
+  for (Index q = 1; q <= degree; ++q) {
+    const BlossomArgument<T>& x = arguments[q - 1];
+    T carried(0);
+    for (Index r = 0; r < q; ++r) {
+      // The knots of step q on both sides of the span; they differ, since the span is not empty.
+      const T &left = knots[k - q + 1 + r], &right = knots[k + 1 + r];
+      const T share = weights[r] / (right - left);
+      weights[r] = carried + share * x.before(right);
+      carried = share * x.after(left);
+    }
+    weights[q] = carried;
+  }
+}
+
+/// Puts arguments that are knots, or points between them, into the order in which weights come out without
+/// cancellation: those up to the span from the right to the left, then those after it. If every knot of the piece
+/// between two arguments is an argument too, as in any refinement, all terms are positive.
+/// @param points  ascending; reordered
+template <class T>
+void order_for_span(std::span<T> points, const T& span_begin) {
+  const auto after = std::upper_bound(points.begin(), points.end(), span_begin);
+  std::reverse(points.begin(), after);
+}
+
+}  // namespace sublimit
