@@ -35,6 +35,9 @@ struct TableInfo {
   /// Derivatives that exist at points of each status, 0 to 2, as many: rows of the others are zero, or two tangents
   /// that no parameter belongs to. None: all that the table has.
   std::vector<std::int8_t> orders;
+  /// Control points are homogeneous columns (w x, w y, w z, w), and so is what the weights make of them: the points are
+  /// the quotients, see `Evaluation::rational`. Texture coordinates are none of these.
+  bool rational = false;
 };
 
 /// 64 bits of the connectivity of a cage, the same on all machines. Tags and positions are no part of it.

@@ -186,6 +186,8 @@ sublimit_status evaluate(const sublimit_table* table, const Given* given) {
     e.bitangents = result(g.bitangents);
     e.normals = result(g.normals);
     e.result_layout = layout_of(g.result_layout);
+    e.rational = g.rational != 0;
+    e.least_weight = g.least_weight;
     handle.evaluator.apply(e);
   });
 }
@@ -260,6 +262,9 @@ int64_t sublimit_table_num_points(const sublimit_table* table) {
 }
 int32_t sublimit_table_num_quantities(const sublimit_table* table) {
   return c::ask<int32_t>(table, [](const auto& t) { return t.table.quantities(); });
+}
+int32_t sublimit_table_is_rational(const sublimit_table* table) {
+  return c::ask<int32_t>(table, [](const auto& t) { return t.info.rational ? 1 : 0; });
 }
 uint64_t sublimit_table_topology_hash(const sublimit_table* table) {
   return c::ask<uint64_t>(table, [](const auto& t) { return t.info.topology_hash; });

@@ -140,6 +140,8 @@ int64_t sublimit_table_num_points(const sublimit_table* table);
 int32_t sublimit_table_num_quantities(const sublimit_table* table);
 /* Of the connectivity of the cage that it was baked for; 0: not known. */
 uint64_t sublimit_table_topology_hash(const sublimit_table* table);
+/* 1 if its control points are homogeneous columns (w x, w y, w z, w): see `rational` below. */
+int32_t sublimit_table_is_rational(const sublimit_table* table);
 /* Name of the scheme, "" if not known; as long as the table is there. */
 const char* sublimit_table_scheme(const sublimit_table* table);
 /* Hash of a cage, to be compared with a table's: faces as sizes and corners, face by face. Null faces: 0. */
@@ -153,7 +155,7 @@ sublimit_status sublimit_table_faces(const sublimit_table* table, int64_t* num_f
 
 /* ---- Every frame ---- */
 
-/* New points = table * control points.
+/* New points = table * control points; of rational tables homogeneous columns from columns, nothing is divided.
  * points  num_control_points x channels, interleaved
  * result  quantities x num_points x channels, interleaved: all positions first; must not overlap the points */
 sublimit_status sublimit_apply_f(const sublimit_table* table, const float* points, size_t num_point_numbers,
@@ -177,6 +179,11 @@ typedef struct sublimit_evaluation_f {
   float *tangents, *bitangents, *normals; /* unit vectors t, n x t, n; zero where n is not defined */
   size_t num_result_numbers;              /* of each result */
   sublimit_layout result_layout;
+  /* 1: the points' last channel is a weight, the others are multiplied by it; results are divided by it and have one
+   * channel less, derivatives follow the quotient rule. Where the weight's magnitude is not larger than `least_weight`,
+   * results are zero: a pole. */
+  int32_t rational;
+  float least_weight;
 } sublimit_evaluation_f;
 typedef struct sublimit_evaluation_d {
   int32_t channels;
@@ -188,6 +195,8 @@ typedef struct sublimit_evaluation_d {
   double *tangents, *bitangents, *normals;
   size_t num_result_numbers;
   sublimit_layout result_layout;
+  int32_t rational;
+  double least_weight;
 } sublimit_evaluation_d;
 
 sublimit_status sublimit_evaluate_f(const sublimit_table* table, const sublimit_evaluation_f* evaluation);

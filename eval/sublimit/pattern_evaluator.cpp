@@ -10,12 +10,15 @@
 #include "sublimit/base/parallel_for.h"
 #include "sublimit/kernels/apply_patches.h"
 #include "sublimit/kernels/apply_rows.h"
+#include "sublimit/kernels/project_points.h"
 
 namespace sublimit {
 namespace {
 
 // Some tens of microseconds each.
 constexpr std::int64_t patches_per_block = 256, rows_per_block = 2048;
+// Of rational ones, whose columns are to be in a near cache until they are divided.
+constexpr std::int64_t rational_points_at_once = 256;
 
 constexpr int most_channels = 64;
 
@@ -108,7 +111,57 @@ kernels::Rows<Real> rows_of(const StencilTable<Real>& table, std::int64_t begin,
   return rows;
 }
 
+/// Matrices that an evaluation needs: a rational derivative those of lower order too.
+template <class Real>
+int num_needed(const Evaluation<Real>& e) {
+  const auto wanted = [&](int first, int last) {
+    return std::any_of(e.quantities.begin() + first, e.quantities.begin() + last,
+                       [](std::span<Real> all) { return !all.empty(); });
+  };
+  if (wanted(3, 6)) return 6;
+  return wanted(1, 3) || !e.tangents.empty() || !e.bitangents.empty() || !e.normals.empty() ? 3 : 1;
+}
+
+/// Planes of homogeneous columns, before they are divided.
+template <class Real>
+struct Columns {
+  std::int64_t plane = 0;  ///< with what registers read beyond the last point
+  typename BufferPool<Real>::Lease buffer;
+
+  Columns(BufferPool<Real>& pool, int quantities, int channels, std::int64_t points)
+      : plane(points + 64 / std::int64_t(sizeof(Real))), buffer(pool.take(size_t(quantities * channels * plane))) {}
+  Real* quantity(int q, int channels) const { return buffer.span().data() + q * channels * plane; }
+};
+
+/// To where point number `at` of a frame goes, and those after it.
+template <class Real>
+kernels::Projection<Real> projection(const Evaluation<Real>& e, const Layout& results, int frame, std::int64_t at) {
+  kernels::Projection<Real> p;
+  p.channels = e.result_channels();
+  p.least_weight = e.least_weight;
+  p.out = results.strides;
+  const auto result = [&](std::span<Real> all) {
+    return all.empty() ? nullptr : all.data() + frame * results.frame + at * results.strides.point;
+  };
+  for (int q = 0; q < 6; ++q) p.results[q] = result(e.quantities[size_t(q)]);
+  p.frames = {result(e.tangents), result(e.bitangents), result(e.normals)};
+  return p;
+}
+
 }  // namespace
+
+template <class Real>
+Real noise_of_weights(const Evaluation<Real>& e, std::int64_t num_points) {
+  const Layout given = resolved("points", e.point_layout, num_points, e.channels, e.frames);
+  if (e.frames == 0) return 0;
+  check_length("points", e.points, given);
+  Real largest = 0;
+  for (int frame = 0; frame < e.frames; ++frame)
+    for (std::int64_t i = 0; i < num_points; ++i)
+      largest = std::max(largest, std::abs(e.points[size_t(frame * given.frame + i * given.strides.point +
+                                                           (e.channels - 1) * given.strides.channel)]));
+  return 4 * std::numeric_limits<Real>::epsilon() * largest;
+}
 
 template <class Real>
 struct PatternEvaluator<Real>::Layouts {
@@ -127,12 +180,15 @@ PatternEvaluator<Real>::PatternEvaluator(const PatternTable<Real>& table, Option
 
 template <class Real>
 auto PatternEvaluator<Real>::check(const Evaluation<Real>& e) const -> Layouts {
-  if (e.channels < 1 || e.channels > most_channels)
-    fail(std::to_string(e.channels) + " channels; 1 to " + std::to_string(most_channels) + " are right");
+  const int least_channels = e.rational ? 2 : 1;
+  if (e.channels < least_channels || e.channels > most_channels)
+    fail(std::to_string(e.channels) + (e.rational ? " channels of rational points; " : " channels; ") +
+         std::to_string(least_channels) + " to " + std::to_string(most_channels) + " are right");
+  if (!(e.least_weight >= 0)) fail("a least weight of " + std::to_string(e.least_weight));
   if (e.frames < 0) fail(std::to_string(e.frames) + " frames");
   Layouts layouts;
   layouts.given = resolved("points", e.point_layout, table_.num_control_points(), e.channels, e.frames);
-  layouts.results = resolved("results", e.result_layout, table_.num_points(), e.channels, e.frames);
+  layouts.results = resolved("results", e.result_layout, table_.num_points(), e.result_channels(), e.frames);
   const auto& first = table_.arrays().first;
   layouts.inputs = first ? resolved("points", {}, first->num_rows(), e.channels, e.frames) : layouts.given;
   if (e.frames == 0) return layouts;
@@ -152,7 +208,8 @@ auto PatternEvaluator<Real>::check(const Evaluation<Real>& e) const -> Layouts {
   check_result("normals", e.normals);
   if (e.tangents.empty() && e.bitangents.empty() && e.normals.empty()) return layouts;
   if (table_.quantities() < 3) fail("tangent frames of a table without derivatives");
-  if (e.channels != 3) fail("tangent frames of " + std::to_string(e.channels) + " channels; they need 3");
+  if (e.result_channels() != 3)
+    fail("tangent frames of " + std::to_string(e.result_channels()) + " channels; they need 3");
   return layouts;
 }
 
@@ -222,6 +279,45 @@ void PatternEvaluator<Real>::apply_run(const Evaluation<Real>& e, const Layouts&
 }
 
 template <class Real>
+void PatternEvaluator<Real>::apply_rational_run(const Evaluation<Real>& e, const Layouts& layouts, const Real* points,
+                                                int frame, size_t g, std::int64_t first, std::int64_t count) const {
+  const auto& a = table_.arrays();
+  const auto& group = a.groups[g];
+  const auto packed = packed_.group(g);
+  if (group.num_rows == 0) return;
+  const int needed = num_needed(e);
+  const std::int64_t at_once = std::clamp<std::int64_t>(rational_points_at_once / group.num_rows, 1, count);
+  const Columns<Real> columns(*buffers_, needed, e.channels, at_once * group.num_rows);
+  for (const std::int64_t end = first + count; first < end; first += at_once) {
+    kernels::Patches<Real> patches;
+    patches.stride = packed.stride;
+    patches.rows = packed.rows;
+    patches.columns = a.blocks[group.block].columns;
+    patches.num_rows = group.num_rows;
+    patches.control_points =
+        a.columns.data() + table_.starts()[g].columns + (first - table_.starts()[g].patch) * patches.columns;
+    patches.count = std::min(at_once, end - first);
+    patches.points = points;
+    patches.in = layouts.inputs.strides;
+    patches.out = {1, columns.plane};
+    patches.channels = e.channels;
+    for (int q = 0; q < needed; ++q) {
+      patches.weights = packed.weights + q * packed.quantity;
+      patches.result = columns.quantity(q, e.channels);
+      kernels::apply_patches(patches, !options_.reproducible);
+    }
+    const bool apart = !a.patch_points.empty();
+    for (std::int64_t i = 0; i < (apart ? patches.count : 1); ++i) {
+      auto p = projection(e, layouts.results, frame, table_.first_point(g, first + i));
+      p.values = columns.quantity(0, e.channels) + i * group.num_rows;
+      p.plane = columns.plane;
+      p.count = group.num_rows * (apart ? 1 : patches.count);
+      kernels::project_points(p, !options_.reproducible);
+    }
+  }
+}
+
+template <class Real>
 void PatternEvaluator<Real>::apply_patches(const Evaluation<Real>& e, const Layouts& layouts,
                                            std::span<const Real> inputs, std::int64_t begin, std::int64_t end) const {
   const std::span<const Real> points = table_.arrays().first ? inputs : e.points;
@@ -232,8 +328,11 @@ void PatternEvaluator<Real>::apply_patches(const Evaluation<Real>& e, const Layo
         const std::int64_t frame = task / blocks, first = begin + task % blocks * patches_per_block;
         table_.for_each_run(first, std::min(end, first + patches_per_block),
                             [&](size_t g, std::int64_t patch, std::int64_t count) {
-                              apply_run(e, layouts, points.data() + frame * layouts.inputs.frame,
-                                        static_cast<int>(frame), g, patch, count);
+                              const Real* const own = points.data() + frame * layouts.inputs.frame;
+                              if (e.rational)
+                                apply_rational_run(e, layouts, own, static_cast<int>(frame), g, patch, count);
+                              else
+                                apply_run(e, layouts, own, static_cast<int>(frame), g, patch, count);
                             });
       },
       1);
@@ -264,6 +363,33 @@ void PatternEvaluator<Real>::apply_frames_of_rest(const Evaluation<Real>& e, con
   }
 }
 
+/// Of the points of no patch with numbers [begin, end) among these.
+template <class Real>
+void PatternEvaluator<Real>::apply_rational_rest(const Evaluation<Real>& e, const Layouts& layouts, const Real* points,
+                                                 int frame, std::int64_t begin, std::int64_t end) const {
+  const StencilTable<Real>& rest = *table_.arrays().rest;
+  const std::int64_t count = rest.num_rows() / table_.quantities(), before = table_.num_points() - count;
+  const int needed = num_needed(e);
+  const Columns<Real> columns(*buffers_, needed, e.channels, rational_points_at_once);
+  for (; begin < end; begin += rational_points_at_once) {
+    const std::int64_t last = std::min(end, begin + rational_points_at_once);
+    for (int q = 0; q < needed; ++q) {
+      auto rows = rows_of(rest, q * count + begin, q * count + last);
+      rows.points = points;
+      rows.in = layouts.inputs.strides;
+      rows.result = columns.quantity(q, e.channels);
+      rows.out = {1, columns.plane};
+      rows.channels = e.channels;
+      kernels::apply_rows(rows, !options_.reproducible);
+    }
+    auto p = projection(e, layouts.results, frame, before + begin);
+    p.values = columns.quantity(0, e.channels);
+    p.plane = columns.plane;
+    p.count = last - begin;
+    kernels::project_points(p, !options_.reproducible);
+  }
+}
+
 template <class Real>
 void PatternEvaluator<Real>::apply_rest(const Evaluation<Real>& e, const Layouts& layouts,
                                         std::span<const Real> inputs) const {
@@ -278,6 +404,7 @@ void PatternEvaluator<Real>::apply_rest(const Evaluation<Real>& e, const Layouts
           const std::int64_t frame = task / blocks, begin = task % blocks * rows_per_block,
                              end = std::min(count, begin + rows_per_block);
           const Real* const points = (a.first ? inputs : e.points).data() + frame * layouts.inputs.frame;
+          if (e.rational) return apply_rational_rest(e, layouts, points, static_cast<int>(frame), begin, end);
           for (int q = 0; q < a.quantities; ++q) {
             if (e.quantities[q].empty()) continue;
             auto rows = rows_of(*a.rest, q * count + begin, q * count + end);
@@ -301,7 +428,7 @@ void PatternEvaluator<Real>::apply_rest(const Evaluation<Real>& e, const Layouts
     parallel_for(static_cast<std::int64_t>(a.copies.size() / 2), [&, point = point, channel = channel](std::int64_t i) {
       Real* const to = positions + pairs[2 * i] * point;
       const Real* const from = positions + pairs[2 * i + 1] * point;
-      for (int c = 0; c < e.channels; ++c) to[c * channel] = from[c * channel];
+      for (int c = 0; c < e.result_channels(); ++c) to[c * channel] = from[c * channel];
     });
   }
 }
@@ -360,6 +487,8 @@ void PatternEvaluator<Real>::apply_transpose(std::span<const Real> values, int c
   transpose_.apply(values, channels, result, !options_.reproducible, *buffers_);
 }
 
+template float noise_of_weights(const Evaluation<float>&, std::int64_t);
+template double noise_of_weights(const Evaluation<double>&, std::int64_t);
 template class PatternEvaluator<float>;
 template class PatternEvaluator<double>;
 

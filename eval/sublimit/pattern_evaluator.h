@@ -66,6 +66,10 @@ class PatternEvaluator {
                      std::int64_t begin, std::int64_t end) const;
   void apply_run(const Evaluation<Real>& evaluation, const Layouts& layouts, const Real* points, int frame,
                  size_t group, std::int64_t first, std::int64_t count) const;
+  void apply_rational_run(const Evaluation<Real>& evaluation, const Layouts& layouts, const Real* points, int frame,
+                          size_t group, std::int64_t first, std::int64_t count) const;
+  void apply_rational_rest(const Evaluation<Real>& evaluation, const Layouts& layouts, const Real* points, int frame,
+                           std::int64_t begin, std::int64_t end) const;
   void apply_rest(const Evaluation<Real>& evaluation, const Layouts& layouts, std::span<const Real> inputs) const;
   void apply_frames_of_rest(const Evaluation<Real>& evaluation, const Layouts& layouts, const Real* points, int frame,
                             std::int64_t begin, std::int64_t end) const;

@@ -174,6 +174,11 @@ class TableReader {
     info.level = static_cast<int>(number("level", 0, 30, "0"));
     info.grid = static_cast<int>(number("grid", 0, 4097, "0"));
     info.triangles = is_triangle("address_shape");
+    if (const std::string coordinates = text("coordinates"); !coordinates.empty()) {
+      if (coordinates != table_words::homogeneous)
+        fail("metadata: coordinates is '" + coordinates + "'; '" + table_words::homogeneous + "' is right, or no word");
+      info.rational = true;
+    }
     if (const std::string hash = text("topology_hash"); !hash.empty()) {
       const std::from_chars_result end =
           std::from_chars(hash.data(), hash.data() + hash.size(), info.topology_hash, 16);

@@ -83,7 +83,7 @@ TableTensors::TableTensors(const BakedTable<Real>& table) {
   const TableInfo& info = table.info;
   auto& m = file_.metadata;
   m["format"] = table_words::format;
-  m["schema"] = std::to_string(table_words::schema_version);
+  m["schema"] = std::to_string(table_words::schema_of(info));
   m["order"] = table_words::order;
   m["precision"] = name(dtype_of<Real>());
   m["quantities"] = table_words::quantities(a.quantities);
@@ -93,6 +93,7 @@ TableTensors::TableTensors(const BakedTable<Real>& table) {
   m["level"] = std::to_string(info.level);
   m["grid"] = std::to_string(info.grid);
   m["address_shape"] = table_words::shape(info.triangles);
+  if (info.rational) m["coordinates"] = table_words::homogeneous;
   if (!info.scheme.empty()) m["scheme"] = info.scheme;
   if (!info.tool.empty()) m["tool"] = info.tool;
   for (const auto& [key, value] : info.options) m[std::string(table_words::option_prefix) + key] = value;

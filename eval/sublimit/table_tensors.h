@@ -12,7 +12,10 @@ namespace sublimit {
 namespace table_words {
 
 inline constexpr const char* format = "sublimit-table";
-inline constexpr int schema_version = 1;
+/// The newest that is read; what is written has the oldest that can say it.
+inline constexpr int schema_version = 2;
+constexpr int schema_of(const TableInfo& info) { return info.rational ? 2 : 1; }
+inline constexpr const char* homogeneous = "homogeneous";
 /// One quantity after the other, each for all points.
 inline constexpr const char* order = "quantity,point";
 inline constexpr const char* option_prefix = "option.";

@@ -179,7 +179,7 @@ TEST_F(ChangedFile, IsRefusedForItsMetadata) {
     expect_refused([&](Safetensors& f) { f.metadata[key] = value; }, words);
   };
   expect("format", "other", {"format", "sublimit-table"});
-  expect("schema", "2", {"its schema is 2, written by sublimit 0.1.0", "up to 1", "newer"});
+  expect("schema", "3", {"its schema is 3, written by sublimit 0.1.0", "up to 2", "newer"});
   expect("schema", "one", {"schema is 'one'"});
   expect("schema", "0", {"schema is '0'"});
   expect("order", "point,quantity", {"order is 'point,quantity'"});
@@ -195,6 +195,7 @@ TEST_F(ChangedFile, IsRefusedForItsMetadata) {
   expect("rows", "grid", {"a grid of 0"});
   expect("level", "31", {"level is '31'"});
   expect("address_shape", "round", {"address_shape is 'round'"});
+  expect("coordinates", "polar", {"coordinates is 'polar'", "'homogeneous'"});
   expect("topology_hash", "12", {"topology_hash is '12'"});
   expect("topology_hash", "00c0ffee1234567g", {"topology_hash"});
   expect("statuses", "regular", {"orders has 2 entries, not one for each of 1 statuses"});

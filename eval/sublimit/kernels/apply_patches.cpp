@@ -11,21 +11,11 @@
 #include <hwy/foreach_target.h>  // NOLINT: must come first
 #include <hwy/highway.h>
 
+#include "sublimit/kernels/channels-inl.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace sublimit::kernels::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
-
-template <bool Contract, class V>
-HWY_INLINE V mul_add(V a, V b, V sum) {
-  if constexpr (Contract) return hn::MulAdd(a, b, sum);
-  return hn::Add(hn::Mul(a, b), sum);
-}
-
-/// `Channels` channels of as many rows as there are lanes.
-template <int Channels, class V>
-struct Values {
-  V of[Channels];
-};
 
 /// sums[i][v] = rows[v] of the weights * control points of patch i, of channels from `points` on. Several patches share
 /// what is read of the weights, and keep the multipliers busy where there are few rows.
@@ -53,23 +43,6 @@ HWY_INLINE void sum(D d, const Patches<Real>& p, const Real* weights, const Real
       }
     }
   }
-}
-
-template <class D, class V, class Real>
-HWY_INLINE void store_interleaved(D d, const Values<1, V>& x, Real* out) {
-  hn::StoreU(x.of[0], d, out);
-}
-template <class D, class V, class Real>
-HWY_INLINE void store_interleaved(D d, const Values<2, V>& x, Real* out) {
-  hn::StoreInterleaved2(x.of[0], x.of[1], d, out);
-}
-template <class D, class V, class Real>
-HWY_INLINE void store_interleaved(D d, const Values<3, V>& x, Real* out) {
-  hn::StoreInterleaved3(x.of[0], x.of[1], x.of[2], d, out);
-}
-template <class D, class V, class Real>
-HWY_INLINE void store_interleaved(D d, const Values<4, V>& x, Real* out) {
-  hn::StoreInterleaved4(x.of[0], x.of[1], x.of[2], x.of[3], d, out);
 }
 
 /// Rows that are taken go to `out`, the first point of their patch.
@@ -193,35 +166,6 @@ void apply(const Patches<Real>& p) {
 void apply_float(const Patches<float>& p, bool contract) { contract ? apply<true>(p) : apply<false>(p); }
 void apply_double(const Patches<double>& p, bool contract) { contract ? apply<true>(p) : apply<false>(p); }
 
-template <bool Contract, class V>
-HWY_INLINE V dot(const Values<3, V>& a, const Values<3, V>& b) {
-  return mul_add<Contract>(a.of[2], b.of[2], mul_add<Contract>(a.of[1], b.of[1], hn::Mul(a.of[0], b.of[0])));
-}
-
-template <class V>
-HWY_INLINE Values<3, V> cross(const Values<3, V>& a, const Values<3, V>& b) {
-  // Never contracted: u x u is zero then.
-  Values<3, V> n;
-  for (int c = 0; c < 3; ++c) {
-    const int i = (c + 1) % 3, j = (c + 2) % 3;
-    n.of[c] = hn::Sub(hn::Mul(a.of[i], b.of[j]), hn::Mul(a.of[j], b.of[i]));
-  }
-  return n;
-}
-
-/// Divided by the largest of its magnitudes, so that squares neither overflow nor vanish, and then by its length. Zero
-/// stays zero.
-template <bool Contract, class D, class V = hn::Vec<D>>
-HWY_INLINE Values<3, V> unit(D d, Values<3, V> a) {
-  const V zero = hn::Zero(d), one = hn::Set(d, hn::TFromD<D>(1));
-  const V largest = hn::Max(hn::Max(hn::Abs(a.of[0]), hn::Abs(a.of[1])), hn::Abs(a.of[2]));
-  const V scale = hn::IfThenElse(hn::Gt(largest, zero), largest, one);
-  for (int c = 0; c < 3; ++c) a.of[c] = hn::Div(a.of[c], scale);
-  const V square = dot<Contract>(a, a), length = hn::Sqrt(hn::IfThenElse(hn::Gt(square, zero), square, one));
-  for (int c = 0; c < 3; ++c) a.of[c] = hn::Div(a.of[c], length);
-  return a;
-}
-
 template <bool Contract, class Real>
 void frames(const Patches<Real>& p, const Patches<Real>& q, const TangentFrames<Real>& f) {
   const hn::ScalableTag<Real> d;
@@ -235,17 +179,10 @@ void frames(const Patches<Real>& p, const Patches<Real>& q, const TangentFrames<
     const Values<3, V>&u = sums[0][0], &v = sums[1][0];
     if (p.result) store<3>(d, u, rows, p, p.result + begin);
     if (q.result) store<3>(d, v, rows, p, q.result + begin);
-    // Directions first: their cross product is not too large or small to be normalised.
-    Values<3, V> t = unit<Contract>(d, u), n = unit<Contract>(d, cross(t, unit<Contract>(d, v)));
-    const V size = dot<Contract>(n, n);  // one, zero, or no number
-    const auto valid = hn::Gt(size, hn::Zero(d));
-    for (int c = 0; c < 3; ++c) {
-      t.of[c] = hn::IfThenElseZero(valid, t.of[c]);
-      n.of[c] = hn::IfThenElseZero(valid, n.of[c]);
-    }
-    if (f.tangents) store<3>(d, t, rows, p, f.tangents + begin);
-    if (f.bitangents) store<3>(d, cross(n, t), rows, p, f.bitangents + begin);
-    if (f.normals) store<3>(d, n, rows, p, f.normals + begin);
+    const Frame<V> frame = tangent_frame<Contract>(d, u, v);
+    if (f.tangents) store<3>(d, frame.t, rows, p, f.tangents + begin);
+    if (f.bitangents) store<3>(d, cross(frame.n, frame.t), rows, p, f.bitangents + begin);
+    if (f.normals) store<3>(d, frame.n, rows, p, f.normals + begin);
   };
   for_each_part(d, p, [&](std::span<const PackedRows> all) {
     for (std::int64_t i = 0; i < p.count; ++i)
