@@ -25,9 +25,9 @@ struct Metric {
   double uu[3][3] = {};  ///< (xx, xy, yy) from (uu, uv, vv)
 };
 
-Metric square_metric(double side) {
-  const double s = 1 / side;
-  return {side * side, {{s, 0}, {0, s}}, {{s * s, 0, 0}, {0, s * s, 0}, {0, 0, s * s}}};
+Metric square_metric(const FaceLengths& sides) {
+  const double u = 1 / sides.u, v = 1 / sides.v;
+  return {sides.u * sides.v, {{u, 0}, {0, v}}, {{u * u, 0, 0}, {0, u * v, 0}, {0, 0, v * v}}};
 }
 
 /// x = u + v/2, y = sqrt(3)/2 v.
@@ -36,14 +36,14 @@ Metric triangle_metric() {
   return {r / 2, {{1, 0}, {-1 / r, 2 / r}}, {{1, 0, 0}, {-1 / r, 2 / r, 0}, {1. / 3, -4. / 3, 4. / 3}}};
 }
 
-bool jumps(const LimitSurface& surface, Index address, const Eigen::Vector2d& at) {
+bool jumps(const LinearSource& surface, Index address, const Eigen::Vector2d& at) {
   return surface.stencil({address, at.x(), at.y()}, 2).status == LimitStatus::unbounded_second;
 }
 
 /// Polynomials of dual schemes meet at the middle of a quadrilateral, those of four-direction splines on the diagonals
 /// too. The surface tells by what it says of places there.
-std::vector<Cell> cells(const LimitSurface& surface, Index address) {
-  if (surface.addresses().triangles()) return {{{0, 0}, {1, 0}, {0, 1}, true}};
+std::vector<Cell> cells(const LinearSource& surface, Index address) {
+  if (surface.faces().triangles) return {{{0, 0}, {1, 0}, {0, 1}, true}};
   constexpr double off = 5. / 16;  // where nothing else is
   const int halves = jumps(surface, address, {0.5, off}) ? 2 : 1;
   const double side = 1. / halves;
@@ -73,7 +73,7 @@ struct LocalEnergy {
 
 class Assembly {
  public:
-  Assembly(const LimitSurface& surface, const Fairness& fairness)
+  Assembly(const LinearSource& surface, const Fairness& fairness)
       : surface_(surface),
         fairness_(fairness),
         square_(square_rule(fairness.quadrature)),
@@ -81,10 +81,9 @@ class Assembly {
 
   LocalEnergy local(Index address) const {
     LocalEnergy energy;
-    const Addresses& addresses = surface_.addresses();
-    const bool triangles = addresses.triangles();
+    const bool triangles = surface_.faces().triangles;
     if (surface_.stencil({address, triangles ? 0.3125 : 0.4375, 0.3125}).status == LimitStatus::hole) return energy;
-    const Metric metric = triangles ? triangle_metric() : square_metric(addresses.place(address).corner < 0 ? 1 : 0.5);
+    const Metric metric = triangles ? triangle_metric() : square_metric(surface_.lengths(address));
     const int order = fairness_.thin_plate > 0 ? 2 : 1;
     std::vector<LimitStencil> stencils;
     std::vector<double> weights;
@@ -127,7 +126,7 @@ class Assembly {
   }
 
  private:
-  const LimitSurface& surface_;
+  const LinearSource& surface_;
   const Fairness& fairness_;
   std::vector<QuadraturePoint> square_, triangle_;
 };
@@ -198,9 +197,9 @@ void check(const Fairness& f) {
 
 }  // namespace
 
-SparseMatrix fairness_energy(const LimitSurface& surface, const Fairness& fairness) {
+SparseMatrix fairness_energy(const LinearSource& surface, const Fairness& fairness) {
   check(fairness);
-  const Index n = surface.level().topology().num_vertices(), count = surface.addresses().size();
+  const Index n = surface.num_points(), count = surface.faces().size;
   if (fairness.empty()) return SparseMatrix(n, n);
   const Assembly assembly(surface, fairness);
   std::vector<LocalEnergy> parts(count);

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Fairness of a limit surface as a quadratic form of its control points: thin plate energy, the integral over all faces
+// Fairness of a surface as a quadratic form of its control points: thin plate energy, the integral over all faces
 // of |xuu|^2 + 2 |xuv|^2 + |xvv|^2, and membrane energy, of |xu|^2 + |xv|^2, by Gauss quadrature with exact stencils.
 //
 // The parameters are natural ones: quadrilaterals are unit squares, triangles equilateral ones with unit sides, and the
 // square at a corner of any other polygon has sides of 1/2, as a quarter of a quadrilateral has. So the energy does not
 // depend on which corner of a face comes first, and the mesh after one step has the same membrane energy and a quarter
-// of the thin plate energy.
+// of the thin plate energy. Of patches they are their own.
 // Source: Halstead, Kass, DeRose 1993, "Efficient, fair interpolation using Catmull-Clark surfaces".
-#include "sublimit/limit/limit_surface.h"
+#include "sublimit/limit/linear_source.h"
 
 namespace sublimit {
 
@@ -20,12 +20,12 @@ struct Fairness {
   bool empty() const { return thin_plate == 0 && membrane == 0; }
 };
 
-/// H, #V x #V over the vertices of the surface's level, symmetric to the last bit, positive semidefinite: the energy is
+/// H, over the control points of the surface, symmetric to the last bit, positive semidefinite: the energy is
 /// the trace of x^T H x. Holes are left out. Of schemes whose second derivatives jump (doo-sabin, mid-edge), squares
 /// are cut where they do, as far as that is at the middle or on the diagonals. At a quadrature point without second
 /// derivatives only membrane energy counts.
 /// @throws InvalidParameter  weights that are negative or not finite, another number of quadrature points; thin plate
 ///                           energy of a surface that has second derivatives at no quadrature point (butterfly)
-SparseMatrix fairness_energy(const LimitSurface& surface, const Fairness& fairness);
+SparseMatrix fairness_energy(const LinearSource& surface, const Fairness& fairness);
 
 }  // namespace sublimit

@@ -11,28 +11,27 @@
 namespace sublimit {
 namespace {
 
-void check(const Addresses& addresses, const Sample& s, size_t i) {
+void check(const FaceCount& faces, const Sample& s, size_t i) {
   const auto error = [i](const std::string& what) {
     throw InvalidParameter("target " + std::to_string(i) + ": " + what);
   };
-  const bool triangles = addresses.triangles();
-  if (s.face < 0 || s.face >= addresses.size())
-    error("face " + std::to_string(s.face) + " does not exist; there are " + std::to_string(addresses.size()) +
-          (triangles ? " triangles" : " squares") + ", counted from 0");
+  if (s.face < 0 || s.face >= faces.size)
+    error("face " + std::to_string(s.face) + " does not exist; there are " + std::to_string(faces.size) +
+          (faces.triangles ? " triangles" : " squares") + ", counted from 0");
   if (!std::isfinite(s.u) || !std::isfinite(s.v)) error("its parameters u, v are not finite numbers");
-  const bool inside = s.u >= 0 && s.v >= 0 && (triangles ? s.u + s.v <= 1 : s.u <= 1 && s.v <= 1);
+  const bool inside = s.u >= 0 && s.v >= 0 && (faces.triangles ? s.u + s.v <= 1 : s.u <= 1 && s.v <= 1);
   if (!inside)
     error("(" + std::to_string(s.u) + ", " + std::to_string(s.v) + ") is outside of face " + std::to_string(s.face) +
-          ", the " + (triangles ? "triangle u, v >= 0, u + v <= 1" : "square 0 <= u, v <= 1"));
+          ", the " + (faces.triangles ? "triangle u, v >= 0, u + v <= 1" : "square 0 <= u, v <= 1"));
 }
 
 }  // namespace
 
-SparseMatrix place_rows(const LimitSurface& surface, const std::vector<Sample>& places) {
+SparseMatrix place_rows(const LinearSource& surface, const std::vector<Sample>& places) {
   const size_t count = places.size();
   if (count > size_t(std::numeric_limits<Index>::max()))
     throw ResourceError(std::to_string(count) + " targets; 32-bit indices count fewer");
-  for (size_t i = 0; i < count; ++i) check(surface.addresses(), places[i], i);
+  for (size_t i = 0; i < count; ++i) check(surface.faces(), places[i], i);
   std::vector<LimitStencil> stencils(count);
   parallel_for_blocks(
       std::int64_t(count),
@@ -45,12 +44,14 @@ SparseMatrix place_rows(const LimitSurface& surface, const std::vector<Sample>& 
     if (stencils[i].status == LimitStatus::hole)
       throw InvalidParameter("target " + std::to_string(i) + ": face " + std::to_string(places[i].face) +
                              " is a hole, which is not part of the limit");
+    if (!has_position(stencils[i].status))
+      throw InvalidParameter("target " + std::to_string(i) + ": the surface has a pole there, and no point");
     entries += double(stencils[i].vertices.size());
   }
   if (entries > double(std::numeric_limits<Index>::max()))
     throw ResourceError("rows of " + std::to_string(count) + " targets with " + std::to_string(entries) +
                         " weights; 32-bit indices count fewer");
-  SparseMatrix A(Index(count), surface.level().topology().num_vertices());
+  SparseMatrix A(Index(count), surface.num_points());
   A.reserve(Eigen::Index(entries));
   for (size_t i = 0; i < count; ++i) {
     A.startVec(Eigen::Index(i));

@@ -12,11 +12,11 @@ namespace {
 
 std::string shape(const Points& m) { return std::to_string(m.rows()) + " x " + std::to_string(m.cols()); }
 
-void check(const PlaceTargets& targets, const Points& guess, Index num_vertices) {
+void check(const PlaceTargets& targets, const Points& guess, Index num_points) {
   const size_t count = targets.places.size();
-  if (guess.rows() != num_vertices || guess.cols() < 1)
+  if (guess.rows() != num_points || guess.cols() < 1)
     throw InvalidParameter("the first guess is " + shape(guess) + "; it needs a row for each of " +
-                           std::to_string(num_vertices) + " control points and a column for each channel");
+                           std::to_string(num_points) + " control points and a column for each channel");
   if (!guess.allFinite()) {
     Index row = 0;
     while (guess.row(row).allFinite()) ++row;
@@ -77,9 +77,9 @@ SparseMatrix conditions(const SparseMatrix& A, const std::vector<double>& weight
 
 }  // namespace
 
-ScatteredFit fit_places(const LimitSurface& surface, const PlaceTargets& targets, const Points& guess,
+ScatteredFit fit_places(const LinearSource& surface, const PlaceTargets& targets, const Points& guess,
                         const ScatteredFitOptions& options) {
-  const Index n = surface.level().topology().num_vertices();
+  const Index n = surface.num_points();
   check(targets, guess, n);
   check(options.pins, guess);
   FitProblem problem;

@@ -28,7 +28,7 @@ struct ScatteredFitOptions {
 };
 
 struct ScatteredFit {
-  Points points;                ///< control points, #V x channels
+  Points points;                ///< control points, #control points x channels
   FitSolution solution;         ///< how they were found
   Eigen::VectorXd residuals;    ///< distance |x - b| by target, those of weight 0 too
   double rms = 0, largest = 0;  ///< of them: root of the weighted mean square; maximum
@@ -37,15 +37,16 @@ struct ScatteredFit {
   std::optional<Conditioning> conditioning;
 };
 
-/// @param guess  #V x channels: the control points that the result stays near to, where the targets do not say
+/// @param surface  any source: the limit of a scheme, patches, rational ones whose weights stay (weighted_source.h)
+/// @param guess    #control points x channels: what the result stays near to, where the targets do not say
 /// @throws InvalidParameter  says which row: a place on no face, outside its face or on a hole, numbers that are not
 ///                           finite, negative weights; a pin on no vertex, or two on one; shapes that do not fit
 /// @throws ResourceError     more memory than there is
-ScatteredFit fit_places(const LimitSurface& surface, const PlaceTargets& targets, const Points& guess,
+ScatteredFit fit_places(const LinearSource& surface, const PlaceTargets& targets, const Points& guess,
                         const ScatteredFitOptions& options = {});
 
-/// Position rows of places, #places x #V.
+/// Position rows of places, #places x #control points.
 /// @throws InvalidParameter  as `fit_places` does
-SparseMatrix place_rows(const LimitSurface& surface, const std::vector<Sample>& places);
+SparseMatrix place_rows(const LinearSource& surface, const std::vector<Sample>& places);
 
 }  // namespace sublimit

@@ -24,6 +24,12 @@ struct FaceCount {
   bool triangles = false;
 };
 
+/// How long a face is in the surface's natural parameters: derivatives per unit of them are those per unit of the face
+/// divided by it.
+struct FaceLengths {
+  double u = 1, v = 1;
+};
+
 /// Numbers of the squares (triangles) of a mesh.
 class Addresses {
  public:

@@ -11,9 +11,10 @@ enum class LimitStatus {
   crease,            ///< on a crease, boundary or corner: tangents and normal are one-sided
   hole,              ///< all faces of this side are holes
   undefined_normal,  ///< there is no tangent plane, or these control points make it degenerate
-  pole,              ///< a rational surface has no point here: its denominator is 0
+  pole,              ///< no point here: of a rational surface, its denominator is 0
   outside,           ///< the parameters are outside the domain
 };
+constexpr int num_limit_statuses = int(LimitStatus::outside) + 1;
 /// The word of a status, as files and messages have it.
 const char* name(LimitStatus status);
 /// Whether there is a point at all.

@@ -24,6 +24,11 @@ LimitSurface::LimitSurface(LimitSurface&&) noexcept = default;
 LimitSurface& LimitSurface::operator=(LimitSurface&&) noexcept = default;
 
 const Addresses& LimitSurface::addresses() const { return parts_->addresses; }
+
+FaceLengths LimitSurface::lengths(Index address) const {
+  if (addresses().place(address).corner < 0) return {};
+  return {.u = 0.5, .v = 0.5};
+}
 const Level& LimitSurface::level() const { return parts_->level; }
 
 LimitSurface::Parts::Found LimitSurface::Parts::find(const Target& at, int order) const {

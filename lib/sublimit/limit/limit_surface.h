@@ -50,6 +50,7 @@ class LimitSurface : public LinearSource {
 
   Index num_points() const override;
   FaceCount faces() const override { return addresses(); }
+  FaceLengths lengths(Index address) const override;
   LimitStencil stencil(const Sample& sample, int order = 0) const override;
   /// @param points  of the level, #V x 3
   LimitSamples evaluate(const Points& points, std::span<const Sample> samples, int order = 0,

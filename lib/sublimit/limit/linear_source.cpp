@@ -23,12 +23,12 @@ class UnpreparedSource : public BoundSource {
 
 }  // namespace
 
-std::vector<Sample> LinearSource::grid(int N) const {
+std::vector<Sample> grid_places(FaceCount face_count, int N) {
   if (N < 2)
     throw InvalidParameter("a grid of " + std::to_string(N) + " samples a side; there are 2 at least, the ends");
-  const bool triangles = this->faces().triangles;
+  const bool triangles = face_count.triangles;
   const std::int64_t per_face = triangles ? std::int64_t(N) * (N + 1) / 2 : std::int64_t(N) * N;
-  const Index faces = this->faces().size;
+  const Index faces = face_count.size;
   std::vector<Sample> samples;
   if (double(per_face) * faces * sizeof(Sample) > double(samples.max_size()) / 2)
     throw ResourceError("a grid of " + std::to_string(N) + " samples a side on " + std::to_string(faces) + " faces");

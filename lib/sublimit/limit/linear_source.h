@@ -19,6 +19,11 @@ class BoundSource {
   virtual void evaluate(std::span<const Sample> samples, int order, bool normals, LimitSamples& out) const = 0;
 };
 
+/// Places of a grid on every face: N x N, ends included, row-major, u fastest; triangles N (N + 1) / 2.
+/// @throws InvalidParameter  N < 2
+/// @throws ResourceError     more samples than memory can hold
+std::vector<Sample> grid_places(FaceCount faces, int N);
+
 class LinearSource {
  public:
   virtual ~LinearSource() = default;
@@ -26,6 +31,9 @@ class LinearSource {
   /// Control points.
   virtual Index num_points() const = 0;
   virtual FaceCount faces() const = 0;
+  /// Of the own parameters of a patch; of a mesh, whose quadrilaterals have sides of 1, the square at a corner of any
+  /// other polygon has sides of 1/2.
+  virtual FaceLengths lengths(Index) const { return {}; }
 
   /// Stencil of one place. Every request has an answer: what does not exist there is told by the status.
   /// @param order  of derivatives: 0, 1 or 2
@@ -38,10 +46,8 @@ class LinearSource {
   virtual LimitSamples evaluate(const Points& points, std::span<const Sample> samples, int order = 0,
                                 bool normals = true) const = 0;
 
-  /// Places of a grid: N x N a face, ends included, row-major, u fastest; triangles N (N + 1) / 2.
-  /// @throws InvalidParameter  N < 2
-  /// @throws ResourceError     more samples than memory can hold
-  std::vector<Sample> grid(int N) const;
+  /// `grid_places` of these faces.
+  std::vector<Sample> grid(int N) const { return grid_places(faces(), N); }
 
   /// @return  which needs this source to stay
   virtual std::unique_ptr<BoundSource> bound(const Points& points) const;

@@ -7,6 +7,7 @@
 
 #include "sublimit/core/sparse_product.h"
 #include "sublimit/limit/limit_points.h"
+#include "sublimit/limit/limit_surface.h"
 #include "sublimit/schemes.h"
 #include "support/expect_error.h"
 #include "support/meshes.h"
