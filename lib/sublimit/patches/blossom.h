@@ -43,6 +43,45 @@ class BlossomArgument {
   bool is_direction_ = false;
 };
 
+/// Knots around a span: those of step q on its left, r = 0 .. q-1 from far to near, and on its right, near to far.
+template <class T>
+struct SpanKnots {
+  std::span<const T> knots;
+  Index k = 0;
+  const T& left(Index q, Index r) const { return knots[k - q + 1 + r]; }
+  const T& right(Index r) const { return knots[k + 1 + r]; }
+};
+
+/// A Bezier piece over [0, 1]: all knots on its left are 0, on its right 1. Arguments are those of UnitArgument.
+template <class T>
+struct UnitSpan {
+  static constexpr T left(Index, Index) { return T(0); }
+  static constexpr T right(Index) { return T(1); }
+};
+template <class T>
+struct UnitArgument {
+  T above, below;  // x and 1 - x of a point, d and -d of a direction
+  static UnitArgument point(const T& u) { return {u, T(1) - u}; }
+  static UnitArgument direction() { return {T(1), T(-1)}; }
+  const T& after(const T&) const { return above; }
+  const T& before(const T&) const { return below; }
+};
+
+/// One argument more, in place: step q of all rows of this room.
+/// @param weights  of q - 1 arguments; room for one more
+template <class Span, class Argument, class T>
+inline void blossom_step(const Span& span, Index q, const Argument& x, T* weights) {
+  T carried(0);
+  for (Index r = 0; r < q; ++r) {
+    // The knots of step q on both sides of the span; they differ, since the span is not empty.
+    const T &left = span.left(q, r), &right = span.right(r);
+    const T share = weights[r] / (right - left);
+    weights[r] = carried + share * x.before(right);
+    carried = share * x.after(left);
+  }
+  weights[q] = carried;
+}
+
 /// Weights of the blossom of the piece in span k over the control points k-p .. k, p the number of arguments.
 ///
 /// Inside the span the weights of a point (all arguments equal) are sums of positive terms. Derivatives stay near the
@@ -55,18 +94,7 @@ void blossom(std::span<const T> knots, Index k, std::span<const BlossomArgument<
   const Index degree = static_cast<Index>(arguments.size());
   assert(k >= degree - 1 && k + std::max<Index>(degree, 1) < std::ssize(knots) && knots[k] < knots[k + 1]);
   weights[0] = T(1);
-  for (Index q = 1; q <= degree; ++q) {
-    const BlossomArgument<T>& x = arguments[q - 1];
-    T carried(0);
-    for (Index r = 0; r < q; ++r) {
-      // The knots of step q on both sides of the span; they differ, since the span is not empty.
-      const T &left = knots[k - q + 1 + r], &right = knots[k + 1 + r];
-      const T share = weights[r] / (right - left);
-      weights[r] = carried + share * x.before(right);
-      carried = share * x.after(left);
-    }
-    weights[q] = carried;
-  }
+  for (Index q = 1; q <= degree; ++q) blossom_step(SpanKnots<T>{knots, k}, q, arguments[q - 1], weights.data());
 }
 
 /// Puts arguments that are knots, or points between them, into the order in which weights come out without

@@ -2,16 +2,133 @@
 #include "sublimit/patches/free_form_patches.h"
 
 #include <algorithm>
+#include <array>
+#include <map>
+#include <memory>
+#include <numeric>
 
 #include "sublimit/base/error.h"
+#include "sublimit/io/free_form_counts.h"
+#include "sublimit/patches/basis_surface.h"
+#include "sublimit/patches/cut_patch.h"
+#include "sublimit/patches/spline_curve.h"
+#include "sublimit/patches/spline_rows.h"
+#include "sublimit/patches/spline_surface.h"
 
 namespace sublimit {
 namespace {
 
 std::string at(const std::string& name, std::int64_t line) { return name + ":" + std::to_string(line) + ": "; }
 
-/// Knots of one direction of a surface.
-Knots<double> knots_of(FreeFormBasis basis, const FreeFormDirection& direction) {
+std::shared_ptr<const Patch> patch_of(const FreeForm& shapes, const FreeFormSurface& s) {
+  std::shared_ptr<const Patch> patch;
+  if (s.basis == FreeFormBasis::bezier || s.basis == FreeFormBasis::bspline)
+    patch = std::make_shared<const SplineSurface>(free_form_knots(s.basis, s.u), free_form_knots(s.basis, s.v));
+  else
+    patch = std::make_shared<const BasisSurface>(free_form_segments(shapes, s.basis, s.u),
+                                                 free_form_segments(shapes, s.basis, s.v));
+  const auto [u0, u1] = free_form_domain(s.basis, s.u);
+  const auto [v0, v1] = free_form_domain(s.basis, s.v);
+  if (s.u.first == u0 && s.u.last == u1 && s.v.first == v0 && s.v.last == v1) return patch;
+  return std::make_shared<const CutPatch>(std::move(patch), Eigen::Array2d(s.u.first, s.v.first),
+                                          Eigen::Array2d(s.u.last, s.v.last));
+}
+
+/// A column for each vertex of the file, so that patches share what they name together; and one more where a vertex
+/// that has a weight is used by a surface that is not rational.
+class ControlColumns {
+ public:
+  ControlColumns(const FreeForm& shapes, bool rational)
+      : shapes_(shapes), rational_(rational), size_(static_cast<Index>(shapes.vertices.rows())) {}
+
+  std::vector<Index> of(const FreeFormElement& element) {
+    std::vector<Index> points = element.points;
+    if (!rational_ || element.rational) return points;
+    for (Index& v : points) {
+      if (shapes_.weights[size_t(v)] == 1) continue;
+      const auto [at, is_new] = plain_.try_emplace(v, size());
+      if (is_new) append(shapes_.vertices.row(v));
+      v = at->second;
+    }
+    return points;
+  }
+  /// More points of weight 1; where the first one is.
+  Index append(const Points& points) {
+    const Index first = size();
+    for (const auto& point : points.rowwise()) more_.emplace_back(point[0], point[1], point[2], 1);
+    return first;
+  }
+  Index size() const { return size_ + static_cast<Index>(more_.size()); }
+  Points matrix() const {
+    Points columns(size(), rational_ ? 4 : 3);
+    for (Index v = 0; v < size_; ++v) {
+      const double w = rational_ ? shapes_.weights[size_t(v)] : 1;
+      columns.row(v).head(3) = (w == 0 ? 1 : w) * shapes_.vertices.row(v);
+      if (rational_) columns(v, 3) = w;
+    }
+    for (size_t i = 0; i < more_.size(); ++i) columns.row(size_ + Eigen::Index(i)) = more_[i].head(columns.cols());
+    return columns;
+  }
+
+ private:
+  const FreeForm& shapes_;
+  bool rational_;
+  Index size_;
+  std::vector<Eigen::RowVector4d> more_;
+  std::map<Index, Index> plain_;
+};
+
+PatchSet::Member member_of(const FreeForm& shapes, const FreeFormSurface& s, bool rational, ControlColumns& columns) {
+  std::shared_ptr<const Patch> patch = patch_of(shapes, s);
+  if (!rational || s.rational || patch->is_affine()) return {std::move(patch), columns.of(s)};
+  // Coefficients are no points that a weight of 1 could stand beside: the Bezier pieces' control points are.
+  const Patch::Refined pieces = patch->refined();
+  if (!pieces.patch)
+    throw InvalidParameter(
+        "a part of a polynomial by its coefficients beside rational surfaces; put them in files of "
+        "their own, or take all of its range");
+  const Points net = pieces.S * Points(shapes.vertices(s.points, Eigen::all));
+  std::vector<Index> points(size_t(net.rows()));
+  std::iota(points.begin(), points.end(), columns.append(net));
+  return {pieces.patch, std::move(points)};
+}
+
+/// Clamped knots of the part [first, last] of a curve.
+Knots<double> part_knots(const Knots<double>& whole, double first, double last) {
+  const auto p = static_cast<size_t>(whole.degree());
+  std::vector<double> knots(p + 1, first);
+  for (const double t : whole.in_domain())
+    if (first < t && t < last) knots.push_back(t);
+  knots.insert(knots.end(), p + 1, last);
+  return Knots<double>::open(whole.degree(), static_cast<Index>(knots.size() - p - 1), std::move(knots));
+}
+
+/// Its control points over those of the whole curve: blossoms at its knots.
+SparseMatrix part_matrix(const Knots<double>& whole, const Knots<double>& part) {
+  const Index p = whole.degree();
+  BandRows<double> rows{.width = p + 1};
+  std::array<double, max_degree> points;
+  for (Index j = 0; j < part.num_points(); ++j) {
+    const Index face = whole.place(part.all()[j]).face;
+    std::copy_n(part.all().begin() + j + 1, p, points.begin());
+    blossom_row(whole, face, std::span<double>(points).first(size_t(p)), rows.add(whole.span(face) - p));
+  }
+  return point_matrix(rows, whole);
+}
+
+/// Knots and points of a direction with its ends open.
+FreeFormDirection direction_of(const Knots<double>& knots) {
+  FreeFormDirection direction;
+  direction.degree = knots.degree();
+  direction.count = knots.num_functions();
+  direction.parameters.assign(knots.all().begin(), knots.all().end());
+  direction.first = knots.begin(), direction.last = knots.end();
+  return direction;
+}
+
+}  // namespace
+
+Knots<double> free_form_knots(FreeFormBasis basis, const FreeFormDirection& direction) {
   const std::vector<double>& values = direction.parameters;
   if (basis == FreeFormBasis::bspline) return Knots<double>::open(direction.degree, direction.count, values);
   // Pieces side by side share a control point, so that inner ends are there once for each degree.
@@ -21,7 +138,41 @@ Knots<double> knots_of(FreeFormBasis basis, const FreeFormDirection& direction) 
   return Knots<double>::open(direction.degree, direction.count, std::move(knots));
 }
 
-}  // namespace
+SegmentBasis free_form_segments(const FreeForm& shapes, FreeFormBasis basis, const FreeFormDirection& direction) {
+  if (basis == FreeFormBasis::cardinal) return SegmentBasis::cardinal(direction.parameters);
+  if (basis == FreeFormBasis::taylor) return SegmentBasis::taylor(direction.degree, direction.parameters);
+  return SegmentBasis(direction.degree, direction.step, shapes.matrices[size_t(direction.matrix)].values,
+                      direction.parameters);
+}
+
+FreeForm to_free_form(const PatchSet& patches, const Points& columns) {
+  check_columns(columns, patches.num_points(), patches.coordinates());
+  const bool rational = patches.coordinates() == Coordinates::homogeneous;
+  FreeForm file;
+  file.vertices = columns.leftCols(3);
+  file.weights.assign(size_t(columns.rows()), 1);
+  for (Eigen::Index i = 0; i < columns.rows() && rational; ++i) {
+    const double w = columns(i, 3);
+    file.weights[size_t(i)] = w;
+    if (w != 0) file.vertices.row(i) /= w;  // else a direction, as it is
+  }
+  for (size_t p = 0; p < patches.members().size(); ++p) {
+    const auto& [patch, points] = patches.members()[p];
+    const auto* const spline = dynamic_cast<const SplineSurface*>(patch.get());
+    if (!spline) throw UnsupportedTopology("patch " + std::to_string(p) + " is no B-spline, which a file could have");
+    FreeFormSurface surface;
+    surface.basis = FreeFormBasis::bspline;
+    surface.rational = rational;
+    surface.u = direction_of(spline->u());
+    surface.v = direction_of(spline->v());
+    for (Index j = 0; j < surface.v.count; ++j)
+      for (Index i = 0; i < surface.u.count; ++i)
+        surface.points.push_back(
+            points[size_t(spline->u().point(i) + spline->u().num_points() * spline->v().point(j))]);
+    file.surfaces.push_back(std::move(surface));
+  }
+  return file;
+}
 
 FreeFormPatches free_form_patches(const FreeForm& shapes, const std::string& name) {
   if (shapes.surfaces.empty())
@@ -29,30 +180,70 @@ FreeFormPatches free_form_patches(const FreeForm& shapes, const std::string& nam
                               " curves and no surfaces; give a file with `surf`");
   const bool rational =
       std::ranges::any_of(shapes.surfaces, [](const FreeFormSurface& surface) { return surface.rational; });
-  std::vector<SplineSurface> patches;
+  std::vector<PatchSet::Member> members;
   std::vector<std::int64_t> lines;
-  Index num_points = 0;
+  ControlColumns columns(shapes, rational);
   for (const FreeFormSurface& surface : shapes.surfaces) {
-    if (surface.basis != FreeFormBasis::bezier && surface.basis != FreeFormBasis::bspline)
-      throw UnsupportedTopology(at(name, surface.line) + "surfaces of cstype bezier and bspline are taken so far");
     try {
-      patches.emplace_back(knots_of(surface.basis, surface.u), knots_of(surface.basis, surface.v));
+      members.push_back(member_of(shapes, surface, rational, columns));
     } catch (const InvalidParameter& error) {
-      throw InvalidParameter(at(name, surface.line) + error.what());
+      throw FormatError(at(name, surface.line) + error.what());
     }
     lines.push_back(surface.line);
-    num_points += static_cast<Index>(surface.points.size());
   }
-  Points columns(num_points, rational ? 4 : 3);
-  Index row = 0;
-  for (const FreeFormSurface& surface : shapes.surfaces)
-    for (const Index v : surface.points) {
-      const double w = surface.rational ? shapes.weights[size_t(v)] : 1;
-      columns.row(row).head(3) = (w == 0 ? 1 : w) * shapes.vertices.row(v);
-      if (rational) columns(row, 3) = w;
-      ++row;
+  const Index num_points = columns.size();
+  return {PatchSet(std::move(members), num_points, rational ? Coordinates::homogeneous : Coordinates::plain),
+          columns.matrix(), std::move(lines)};
+}
+
+FreeFormCurves free_form_curves(const FreeForm& shapes, const std::string& name) {
+  if (shapes.curves.empty())
+    throw UnsupportedTopology(name + ": " + std::to_string(shapes.surfaces.size()) +
+                              " surfaces and no curves; give a file with `curv`");
+  const bool rational = std::ranges::any_of(shapes.curves, [](const FreeFormCurve& curve) { return curve.rational; });
+  std::vector<std::shared_ptr<const LinearCurve>> curves;
+  std::vector<Points> parts;
+  std::vector<std::int64_t> lines;
+  Eigen::Index size = 0;
+  for (const FreeFormCurve& curve : shapes.curves) {
+    Points own(std::ssize(curve.points), rational ? 4 : 3);
+    for (Eigen::Index i = 0; i < own.rows(); ++i) {
+      const Index v = curve.points[size_t(i)];
+      const double w = curve.rational ? shapes.weights[size_t(v)] : 1;
+      own.row(i).head(3) = (w == 0 ? 1 : w) * shapes.vertices.row(v);
+      if (rational) own(i, 3) = w;
     }
-  return {PatchSet(std::move(patches), rational ? Coordinates::homogeneous : Coordinates::plain), std::move(columns),
+    try {
+      const auto [first, last] = free_form_domain(curve.basis, curve.u);
+      std::optional<SplineCurve> whole;
+      if (curve.basis == FreeFormBasis::bezier || curve.basis == FreeFormBasis::bspline) {
+        whole.emplace(free_form_knots(curve.basis, curve.u));
+      } else {
+        const SegmentBasis basis = free_form_segments(shapes, curve.basis, curve.u);
+        whole.emplace(basis.knots_of_pieces());
+        own = basis.matrix_of_pieces() * own;
+      }
+      if (curve.u.first != first || curve.u.last != last) {
+        // The part inside: other ends, which are knots of full multiplicity then.
+        const Knots<double> part = part_knots(whole->knots(), curve.u.first, curve.u.last);
+        own = part_matrix(whole->knots(), part) * own;
+        whole.emplace(part);
+      }
+      curves.push_back(std::make_shared<const SplineCurve>(*std::move(whole)));
+    } catch (const InvalidParameter& error) {
+      throw FormatError(at(name, curve.line) + error.what());
+    }
+    size += own.rows();
+    parts.push_back(std::move(own));
+    lines.push_back(curve.line);
+  }
+  Points columns(size, rational ? 4 : 3);
+  Eigen::Index row = 0;
+  for (const Points& own : parts) {
+    columns.middleRows(row, own.rows()) = own;
+    row += own.rows();
+  }
+  return {CurveSet(std::move(curves)), std::move(columns), rational ? Coordinates::homogeneous : Coordinates::plain,
           std::move(lines)};
 }
 

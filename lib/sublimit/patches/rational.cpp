@@ -29,6 +29,13 @@ Index num_weights_not_positive(const Points& homogeneous) {
   return static_cast<Index>((homogeneous.rightCols(1).array() <= 0).count());
 }
 
+void check_columns(const Points& columns, Index num_points, Coordinates coordinates) {
+  const Index width = coordinates == Coordinates::homogeneous ? 4 : 3;
+  if (columns.rows() != num_points || columns.cols() != width)
+    throw InvalidParameter("columns are " + format_number(columns.rows()) + " x " + format_number(columns.cols()) +
+                           ", not " + format_number(num_points) + " x " + format_number(width));
+}
+
 namespace {
 
 /// A term of the quotient rule for row r: factor * w_row x_lower, of row r of A = w x.
@@ -48,7 +55,7 @@ std::span<const Term> terms(int variables, Eigen::Index row) {
 
 }  // namespace
 
-RowValues row_values(const WeightRows& rows, int variables, Points columns, Coordinates coordinates) {
+RowValues row_values(const WeightRows& rows, int variables, Points columns, Coordinates coordinates, bool affine) {
   RowValues result;
   const bool rational = coordinates == Coordinates::homogeneous;
   const Eigen::Index dimension = columns.cols() - (rational ? 1 : 0);
@@ -68,7 +75,8 @@ RowValues row_values(const WeightRows& rows, int variables, Points columns, Coor
   // exactly where control points coincide.
   Eigen::Index nearest = 0;
   (rows.row(0).transpose().cwiseProduct(weights)).cwiseAbs().maxCoeff(&nearest);
-  const Eigen::RowVectorXd origin = columns.row(nearest).head(dimension) / weights[nearest];
+  Eigen::RowVectorXd origin = Eigen::RowVectorXd::Zero(dimension);
+  if (rational || affine) origin = columns.row(nearest).head(dimension) / weights[nearest];
   columns.leftCols(dimension) -= weights * origin;
   const Points A = rows * columns.leftCols(dimension);
   result.values.resize(rows.rows(), dimension);

@@ -21,6 +21,9 @@ Points homogeneous(const Points& points, const Eigen::VectorXd& weights);
 /// Weights that are not positive: the convex hull property is lost, and there may be poles.
 Index num_weights_not_positive(const Points& homogeneous);
 
+/// @throws InvalidParameter  not #points x 3, or x 4 if they are homogeneous
+void check_columns(const Points& columns, Index num_points, Coordinates coordinates);
+
 using WeightRows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 /// What rows give for control columns.
@@ -34,6 +37,8 @@ struct RowValues {
 /// wanted
 /// @param variables  1 of a curve, 2 of a surface
 /// @param columns    as many as rows are wide
-RowValues row_values(const WeightRows& rows, int variables, Points columns, Coordinates coordinates);
+/// @param affine     rows of points sum to 1, of derivatives to 0: control points are points, none of them vectors
+RowValues row_values(const WeightRows& rows, int variables, Points columns, Coordinates coordinates,
+                     bool affine = true);
 
 }  // namespace sublimit

@@ -29,11 +29,14 @@ PointRows point_rows(const Knots<double>& knots, const KnotPlace<double>& place,
     if (at == result.points.end() || *at != points[i]) continue;
     for (int r = 0; r <= order; ++r) result.weights(r, at - result.points.begin()) += rows[r * width + i];
   }
-  if (place.u == 0 || place.u == 1) {
-    const std::optional<int> smooth = knots.continuity(place.face, place.u == 0 ? KnotSide::left : KnotSide::right);
-    result.sides_differ = smooth && *smooth < order;
-  }
+  result.sides_differ = sides_differ(knots, place, order);
   return result;
+}
+
+bool sides_differ(const Knots<double>& knots, const KnotPlace<double>& place, int order) {
+  if (place.u != 0 && place.u != 1) return false;
+  const std::optional<int> smooth = knots.continuity(place.face, place.u == 0 ? KnotSide::left : KnotSide::right);
+  return smooth && *smooth < order;
 }
 
 SparseMatrix point_matrix(const BandRows<double>& rows, const Knots<double>& knots) {

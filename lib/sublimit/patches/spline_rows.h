@@ -189,11 +189,14 @@ BandRows<T> bezier_rows(const Knots<T>& knots, Index face) {
   return rows;
 }
 
+/// Whether a place is a knot where the other side has other rows, of those asked for.
+bool sides_differ(const Knots<double>& knots, const KnotPlace<double>& place, int order);
+
 /// Rows of a place over the control points.
 struct PointRows {
   std::vector<Index> points;  ///< ascending, those without weight left out
   WeightRows weights;         ///< position, then derivatives per unit of the face; a column for each point
-  bool sides_differ = false;  ///< at a knot where the other side has other rows, of those asked for
+  bool sides_differ = false;
 };
 PointRows point_rows(const Knots<double>& knots, const KnotPlace<double>& place, int order);
 

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sublimit/patches/spline_surface.h"
 
-#include <Eigen/Geometry>
-
+#include <algorithm>
+#include <array>
+#include <cstring>
 #include <limits>
 #include <utility>
 
+#include "sublimit/base/error.h"
+#include "sublimit/base/format_number.h"
 #include "sublimit/base/parallel_for.h"
 #include "sublimit/core/uninitialized.h"
-#include "sublimit/limit/derivative_order.h"
 #include "sublimit/patches/collapsed_side.h"
 #include "sublimit/patches/finer_knots.h"
 #include "sublimit/patches/spline_rows.h"
@@ -16,21 +18,27 @@
 namespace sublimit {
 namespace {
 
-KnotPlace<double> u_place(const SplineSurface& surface, const Sample& s) {
-  return {s.face % surface.u().num_faces(), s.u};
-}
-KnotPlace<double> v_place(const SplineSurface& surface, const Sample& s) {
-  return {s.face / surface.u().num_faces(), s.v};
+void append_type(std::string& bytes, const Knots<double>& knots, Index face) {
+  bytes += char(knots.degree());
+  for (const double distance : knots.type(face)) {
+    char item[sizeof distance];
+    std::memcpy(item, &distance, sizeof distance);
+    bytes.append(item, sizeof distance);
+  }
 }
 
-/// Unit normal of derivatives that are not parallel, as far as rounding tells, else zero.
-Eigen::Vector3d plain_normal(const RowValues& at) {
-  if (!(at.sizes[1] > 0) || !(at.sizes[2] > 0)) return Eigen::Vector3d::Zero();
-  // In units of their terms: squares of huge or tiny ones would leave the range of numbers.
-  const Eigen::Vector3d du = at.values.row(1) / at.sizes[1], dv = at.values.row(2) / at.sizes[2];
-  const Eigen::Vector3d normal = du.cross(dv);
-  const double noise = 64 * std::numeric_limits<double>::epsilon() * (du.norm() + dv.norm());
-  return normal.norm() > noise ? normal.normalized() : Eigen::Vector3d::Zero();
+/// Of each control point the Greville abscissa, inside the domain.
+std::vector<double> point_abscissae(const Knots<double>& knots) {
+  const std::vector<double> all = knots.greville();
+  std::vector<double> result;
+  for (Index point = 0; point < knots.num_points(); ++point) {
+    double t = all[size_t(knots.function(point))];
+    const double begin = knots.begin(), end = knots.end();
+    if (knots.is_closed() && t >= end) t -= end - begin;
+    if (knots.is_closed() && t < begin) t += end - begin;
+    result.push_back(std::clamp(t, begin, end));
+  }
+  return result;
 }
 
 }  // namespace
@@ -46,77 +54,78 @@ Sample SplineSurface::place(const Parameters& parameters) const {
   return {.face = u.face + u_.num_faces() * v.face, .u = u.u, .v = v.u};
 }
 
-SplineSurface::Parameters SplineSurface::parameters(const Sample& place) const {
+Patch::Parameters SplineSurface::parameters(const Sample& place) const {
   const auto side = [](double t) { return t == 1 ? KnotSide::left : KnotSide::right; };
-  return {.u = u_.parameter(u_place(*this, place)),
-          .v = v_.parameter(v_place(*this, place)),
+  return {.u = u_.parameter(u_place(place)),
+          .v = v_.parameter(v_place(place)),
           .u_side = side(place.u),
           .v_side = side(place.v)};
 }
 
-LimitStencil SplineSurface::rows(const Sample& sample, int order) const {
-  const PointRows in_u = point_rows(u_, u_place(*this, sample), order);
-  const PointRows in_v = point_rows(v_, v_place(*this, sample), order);
-  LimitStencil result;
-  if (in_u.sides_differ || in_v.sides_differ) result.status = LimitStatus::crease;
-  for (const Index j : in_v.points)
-    for (const Index i : in_u.points) result.vertices.push_back(i + u_.num_points() * j);
-  constexpr std::pair<int, int> orders[] = {{0, 0}, {1, 0}, {0, 1}, {2, 0}, {1, 1}, {0, 2}};
-  result.weights.resize(order == 0 ? 1 : order == 1 ? 3 : 6, std::ssize(result.vertices));
-  const Eigen::Index width = std::ssize(in_u.points);
-  for (Eigen::Index r = 0; r < result.weights.rows(); ++r)
-    for (Eigen::Index j = 0; j < in_v.weights.cols(); ++j)
-      result.weights.row(r).segment(j * width, width) =
-          in_v.weights(orders[r].second, j) * in_u.weights.row(orders[r].first);
-  return result;
+Patch::Lengths SplineSurface::lengths(Index face) const {
+  return {u_.length(face % u_.num_faces()), v_.length(face / u_.num_faces())};
 }
 
-LimitStencil SplineSurface::stencil(const Sample& sample, int order) const {
-  check_order(order);
-  if (sample.face < 0 || sample.face >= num_faces())
-    throw InvalidParameter("face " + format_number(sample.face) + " does not exist; there are " +
-                           format_number(num_faces()) + " squares");
-  if (!is_inside(sample))
-    throw InvalidParameter("(" + format_number(sample.u) + ", " + format_number(sample.v) +
-                           ") is outside the square 0 <= u, v <= 1");
-  LimitStencil result = rows(sample, order);
-  if (order >= 1) result.tangents = result.weights.middleRows(1, 2);
-  return result;
+std::vector<Index> SplineSurface::slots(Index face) const {
+  const Index in_u = face % u_.num_faces(), in_v = face / u_.num_faces();
+  const Index i0 = u_.span(in_u) - u_.degree(), j0 = v_.span(in_v) - v_.degree();
+  std::vector<Index> points;
+  points.reserve(size_t(u_.degree() + 1) * size_t(v_.degree() + 1));
+  for (Index j = j0; j <= j0 + v_.degree(); ++j)
+    for (Index i = i0; i <= i0 + u_.degree(); ++i) points.push_back(u_.point(i) + u_.num_points() * v_.point(j));
+  return points;
 }
 
-LimitSamples SplineSurface::evaluate(const Points& columns, std::span<const Sample> samples, int order,
-                                     Coordinates coordinates) const {
-  check_order(order);
-  const Index width = coordinates == Coordinates::homogeneous ? 4 : 3;
-  if (columns.rows() != num_points() || columns.cols() != width)
-    throw InvalidParameter("columns are " + format_number(columns.rows()) + " x " + format_number(columns.cols()) +
-                           ", not " + format_number(num_points()) + " x " + format_number(width));
-  LimitSamples out;
-  const auto count = std::ssize(samples);
-  Points* const targets[] = {&out.position, &out.du, &out.dv, &out.duu, &out.duv, &out.dvv};
-  for (int k = 0; k < 6; ++k) targets[k]->setZero(k == 0 || order >= (k < 3 ? 1 : 2) ? count : 0, 3);
-  out.normal.setZero(order >= 1 ? count : 0, 3);
-  out.status.assign(static_cast<size_t>(count), LimitStatus::outside);
-  out.order.assign(static_cast<size_t>(count), 0);
-  const auto fill = [&](std::int64_t, std::int64_t begin, std::int64_t end) {
-    for (std::int64_t i = begin; i < end; ++i) {
-      const Sample& sample = samples[static_cast<size_t>(i)];
-      if (!is_inside(sample)) continue;
-      const LimitStencil found = rows(sample, order);
-      const RowValues at = row_values(found.weights, 2, columns(found.vertices, Eigen::all), coordinates);
-      out.status[i] = at.is_pole ? LimitStatus::pole : found.status;
-      if (at.is_pole) continue;
-      out.order[i] = static_cast<std::int8_t>(order);
-      for (Eigen::Index k = 0; k < at.values.rows(); ++k) targets[k]->row(i) = at.values.row(k);
-      if (order == 0) continue;
-      Eigen::Vector3d normal = plain_normal(at);
-      if (normal.isZero(0)) normal = collapsed_side_normal(*this, columns, coordinates, sample);
-      out.normal.row(i) = normal;
-      if (normal.isZero(0)) out.status[i] = LimitStatus::undefined_normal;
+LimitStatus SplineSurface::rows(const Sample& sample, int order, WeightRows& weights) const {
+  const KnotPlace<double> at_u = u_place(sample), at_v = v_place(sample);
+  const Eigen::Index m = u_.degree() + 1, n = v_.degree() + 1;
+  std::array<double, 3 * (max_degree + 1)> in_u, in_v;
+  span_rows(u_, at_u.face, at_u.u, order, std::span<double>(in_u).first(size_t((order + 1) * m)));
+  span_rows(v_, at_v.face, at_v.u, order, std::span<double>(in_v).first(size_t((order + 1) * n)));
+  product_rows(in_u, m, in_v, n, order, weights);
+  return sides_differ(u_, at_u, order) || sides_differ(v_, at_v, order) ? LimitStatus::crease : LimitStatus::regular;
+}
+
+std::string SplineSurface::type(Index face) const {
+  std::string bytes = "spline";
+  append_type(bytes, u_, face % u_.num_faces());
+  append_type(bytes, v_, face / u_.num_faces());
+  return bytes;
+}
+
+std::string SplineSurface::ends(Index face) const {
+  std::string bytes;
+  for (const auto& [knots, at] : {std::pair(&u_, face % u_.num_faces()), std::pair(&v_, face / u_.num_faces())})
+    for (const KnotSide end : {KnotSide::left, KnotSide::right})
+      bytes += char(std::min(knots->continuity(at, end).value_or(2), 2));
+  return bytes;
+}
+
+Patch::Refined SplineSurface::refined() const {
+  auto fine = std::make_shared<const SplineSurface>(halved(*this));
+  SparseMatrix S = refinement_matrix(*this, *fine);
+  return {std::move(fine), std::move(S)};
+}
+
+Patch::Net SplineSurface::net() const {
+  const std::vector<double> u = point_abscissae(u_), v = point_abscissae(v_);
+  Net net;
+  for (const double y : v)
+    for (const double x : u) net.places.push_back({.u = x, .v = y});
+  const Index m = u_.num_points(), n = v_.num_points();
+  for (Index j = 0; j < n - (v_.is_closed() ? 0 : 1); ++j)
+    for (Index i = 0; i < m - (u_.is_closed() ? 0 : 1); ++i) {
+      const Index right = (i + 1) % m, above = (j + 1) % n;
+      if (right == i || above == j) continue;  // closed with a single point
+      net.sizes.push_back(4);
+      net.vertices.insert(net.vertices.end(), {i + m * j, right + m * j, right + m * above, i + m * above});
     }
-  };
-  parallel_for_blocks(count, fill, 256);
-  return out;
+  return net;
+}
+
+Eigen::Vector3d SplineSurface::limit_normal(const Points& columns, Coordinates coordinates,
+                                            const Sample& sample) const {
+  return collapsed_side_normal(*this, columns, coordinates, sample);
 }
 
 SplineSurface halved(const SplineSurface& surface) { return {halved_knots(surface.u()), halved_knots(surface.v())}; }

@@ -1,61 +1,48 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// A tensor product of two B-splines as a linear source: what LimitSurface is for schemes. Control points are a grid, u
-// fastest; faces are the spans of the knots that are not empty, u fastest; the square of a face is its span in u times
-// that in v, and derivatives are per unit of it.
+// A tensor product of two B-splines. Control points are a grid, u fastest; faces are the spans of the knots that are
+// not empty, u fastest; the square of a face is its span in u times that in v, and derivatives are per unit of it.
 //
 //   x(f,u,v) = (b_v (x) b_u) x_0       S = S_v (x) S_u
 //
 // Closed knots give cylinders and tori; a row of equal control points, a pole.
-#include <span>
-
-#include "sublimit/limit/limit_surface.h"
 #include "sublimit/patches/knots.h"
-#include "sublimit/patches/rational.h"
+#include "sublimit/patches/patch.h"
 
 namespace sublimit {
 
-class SplineSurface {
+class SplineSurface : public Patch {
  public:
   /// @throws ResourceError  more control points than 32-bit indices count
   SplineSurface(Knots<double> u, Knots<double> v);
 
   const Knots<double>& u() const { return u_; }
   const Knots<double>& v() const { return v_; }
-  Index num_points() const { return u_.num_points() * v_.num_points(); }
+  Index num_points() const override { return u_.num_points() * v_.num_points(); }
   Index num_faces() const { return u_.num_faces() * v_.num_faces(); }
+  FaceCount faces() const override { return {num_faces(), false}; }
 
-  /// Parameters of the knots, the second way to name a place. A knot belongs to the piece on the side that is asked
-  /// for, see Knots.
-  struct Parameters {
-    double u = 0, v = 0;
-    KnotSide u_side = KnotSide::right, v_side = KnotSide::right;
-  };
-  /// @throws InvalidParameter  outside the domain
-  Sample place(const Parameters& parameters) const;
-  Parameters parameters(const Sample& place) const;
+  /// Weights depend on the types of the two spans alone.
+  std::vector<Index> slots(Index face) const override;
+  LimitStatus rows(const Sample& sample, int order, WeightRows& weights) const override;
+  std::string type(Index face) const override;
+  std::string ends(Index face) const override;
 
-  /// Rows over the control points, of the face's side at knots. Status: `crease` where the other side has other rows,
-  /// of those asked for, else `regular`. Weights depend on the types of the two spans alone.
-  /// @throws InvalidParameter  a face that does not exist, parameters outside the square or not finite, another order
-  LimitStencil stencil(const Sample& sample, int order = 0) const;
+  Sample place(const Parameters& parameters) const override;
+  Parameters parameters(const Sample& place) const override;
+  Lengths lengths(Index face) const override;
+  Refined refined() const override;
+  /// Places are the Greville abscissae, those outside the domain moved to its ends.
+  Net net() const override;
 
-  /// Points with derivatives and normals; in parallel. A place where w = 0 has the status `pole`, one outside its
-  /// square `outside`, and nothing else.
-  ///
-  /// Normals are du x dv, by the order of u and v. Where a whole side of the domain is one point, it is the limit
-  /// normal of the pieces around, if these touch one plane and turn around it once (a sphere's pole, not a cone's);
-  /// elsewhere parallel derivatives are `undefined-normal`.
-  /// @param columns  #points x 3, or x 4 if they are homogeneous
-  /// @throws InvalidParameter  an array of another size, another order
-  LimitSamples evaluate(const Points& columns, std::span<const Sample> samples, int order = 0,
-                        Coordinates coordinates = Coordinates::plain) const;
+ protected:
+  /// Where a whole side of the domain is one point: the limit normal of the pieces around, if these touch one plane and
+  /// turn around it once (a sphere's pole, not a cone's).
+  Eigen::Vector3d limit_normal(const Points& columns, Coordinates coordinates, const Sample& sample) const override;
 
  private:
-  bool is_inside(const Sample& s) const {
-    return s.face >= 0 && s.face < num_faces() && s.u >= 0 && s.u <= 1 && s.v >= 0 && s.v <= 1;
-  }
-  LimitStencil rows(const Sample& sample, int order) const;
+  KnotPlace<double> u_place(const Sample& s) const { return {s.face % u_.num_faces(), s.u}; }
+  KnotPlace<double> v_place(const Sample& s) const { return {s.face / u_.num_faces(), s.v}; }
 
   Knots<double> u_, v_;
 };

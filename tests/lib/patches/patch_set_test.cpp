@@ -7,47 +7,17 @@
 #include <cmath>
 #include <random>
 
-#include "sublimit/base/format_number.h"
 #include "sublimit/patches/free_form_patches.h"
 #include "support/expect_error.h"
+#include "support/free_form_shapes.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {
 namespace {
 
-/// A curve of x >= 0 and z, weighted, turned about the z axis by the circle of nine points: `v` lines and a surface.
-struct Turned {
-  std::vector<std::array<double, 3>> profile;  // x, z, weight
-  std::string knots;                           // of degree 2
-};
-
-std::string free_form_text(const std::vector<Turned>& all) {
-  const double h = std::sqrt(0.5);
-  const double circle[9][3] = {{1, 0, 1},   {1, 1, h},  {0, 1, 1},  {-1, 1, h}, {-1, 0, 1},
-                               {-1, -1, h}, {0, -1, 1}, {1, -1, h}, {1, 0, 1}};
-  std::string text = "cstype rat bspline\ndeg 2 2\n";
-  for (const Turned& turned : all) {
-    const int count = 9 * int(turned.profile.size());
-    for (const auto& [x, z, w] : turned.profile)
-      for (const auto& [c, s, weight] : circle)
-        text += "v " + format_number(x * c) + " " + format_number(x * s) + " " + format_number(z) + " " +
-                format_number(w * weight) + "\n";
-    text += "surf 0 4 0 " + turned.knots.substr(turned.knots.rfind(' ') + 1);
-    for (int i = count; i > 0; --i) text += " -" + std::to_string(i);
-    text += "\nparm u 0 0 0 1 1 2 2 3 3 4 4 4\nparm v " + turned.knots + "\nend\n";
-  }
-  return text;
-}
-
-const double half = std::sqrt(0.5);
-const Turned sphere{{{0, -1, 1}, {1, -1, half}, {1, 0, 1}, {1, 1, half}, {0, 1, 1}}, "0 0 0 1 1 2 2 2"};
-const Turned torus{
-    {{4, 0, 1}, {4, 1, half}, {3, 1, 1}, {2, 1, half}, {2, 0, 1}, {2, -1, half}, {3, -1, 1}, {4, -1, half}, {4, 0, 1}},
-    "0 0 0 1 1 2 2 3 3 4 4 4"};
-
 TEST(PatchSet, SphereAndTorusOfAFile) {
-  const FreeFormPatches found =
-      free_form_patches(parse_free_form(free_form_text({sphere, torus}), "round.obj"), "round.obj");
+  const FreeFormPatches found = free_form_patches(
+      parse_free_form(format_free_form(free_form_of({unit_sphere(), torus()})), "round.obj"), "round.obj");
   const PatchSet& set = found.patches;
   ASSERT_EQ(found.columns.cols(), 4);
   ASSERT_EQ(set.faces().size, 4 * 2 + 4 * 4);
@@ -76,7 +46,7 @@ TEST(PatchSet, SphereAndTorusOfAFile) {
 }
 
 TEST(PatchSet, RefusesWhatIsNoFace) {
-  const FreeFormPatches found = free_form_patches(parse_free_form(free_form_text({sphere}), "s.obj"), "s.obj");
+  const FreeFormPatches found = free_form_patches(free_form_of({unit_sphere()}), "s.obj");
   expect_error<InvalidParameter>([&] { found.patches.stencil({8, 0, 0}); }, {"face 8 does not exist", "there are 8"});
   EXPECT_EQ(found.patches.evaluate(found.columns, std::vector<Sample>{{8, 0, 0}}).status[0], LimitStatus::outside);
 }

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// Coons patches: surfaces with given boundary curves on the unit square,
+//
+//   c0(u) = S(u,0), c1(u) = S(u,1), d0(v) = S(0,v), d1(v) = S(1,v)
+//
+// as boolean sums (boolean_sum.h) with linear blending, with cubic blending (cross derivatives depend on the ends of
+// the side curves alone, so that patches over a C^1 network join C^1), or with given cross derivatives. Of splines
+// these are splines: the exact net, linear in the control points of the curves. Source: Coons 1967, "Surfaces for
+// computer-aided design of space forms"; Gregory 1974.
+#include <array>
+#include <string>
+
+#include "sublimit/patches/constructions/spline_net.h"
+
+namespace sublimit {
+
+enum class CoonsBlending {
+  bilinear,  ///< 1 - t, t: at least of degree 1 in each direction; Greville's abscissae as weights
+  bicubic,   ///< F1, F2: at least of degree 3; twists at the corners are 0
+};
+
+/// c0, c1, d0, d1, and, of general patches, also S_v(u,0), S_v(u,1), S_u(0,v), S_u(1,v).
+using CoonsBoundary = std::array<CurveNet, 4>;
+using CoonsFields = std::array<CurveNet, 4>;
+
+/// Names of curves and fields in messages and files.
+inline constexpr const char* coons_names[] = {"c0", "c1", "d0", "d1", "xv0", "xv1", "xu0", "xu1"};
+/// The corners (0,0), (1,0), (0,1), (1,1), in this order.
+inline constexpr const char* coons_corners[] = {"(0,0)", "(1,0)", "(0,1)", "(1,1)"};
+
+/// The net over the control points of c0, c1, d0, d1, one curve after the other. What the curves have in common, their
+/// corners, is taken from c0 and c1.
+/// @param knots  of the curves; ends interpolated
+/// @throws InvalidParameter  curves that are not on [0, 1] or whose ends are not interpolated, naming the curve
+NetBuilder coons_builder(const std::array<Knots<double>, 4>& knots, CoonsBlending blending);
+/// The same of general patches: over the control points of c0, c1, d0, d1, xv0, xv1, xu0, xu1, and the twists S_uv at
+/// (0,0), (1,0), (0,1), (1,1).
+NetBuilder general_coons_builder(const std::array<Knots<double>, 8>& knots);
+
+/// How far ends of curves are apart at a corner.
+struct CornerGap {
+  double distance = 0;
+  std::string corner{}, curves{};
+};
+/// The largest one. Of rational curves columns are compared: weights have to agree too.
+CornerGap boundary_gap(const CoonsBoundary& curves);
+
+/// Distances up to this one are taken as rounding: corners are then averaged. By default 1e-9 of the size of the data.
+double default_gap(const CoonsBoundary& curves);
+
+/// @param tolerance  for corners; < 0: default_gap
+/// @throws InvalidParameter  curves that are not on [0, 1], naming the curve
+/// @throws InvalidMesh       corners that are farther apart, naming the corner, the curves and the gap
+SplineNet coons(const CoonsBoundary& curves, CoonsBlending blending, double tolerance = -1);
+
+/// The patch that has given cross derivatives ("general bicubic"), of degree 3 at least. It reproduces every bicubic
+/// surface from its own data.
+/// @param twists     4 x 3: S_uv at (0,0), (1,0), (0,1), (1,1)
+/// @param tolerance  for corners, ends of fields and twists; < 0: default_gap
+/// @throws InvalidParameter  as above; rational curves
+/// @throws InvalidMesh       as above; cross derivatives that do not end in the derivatives of the side curves, or
+/// whose
+///                           own derivatives are not the twists, naming the corner and the gap (fields that disagree
+///                           are for gregory.h)
+SplineNet general_coons(const CoonsBoundary& curves, const CoonsFields& fields, const Points& twists,
+                        double tolerance = -1);
+
+/// What general_coons and gregory_patch share: the data, checked but for the twists.
+struct CheckedCoons {
+  std::array<CurveNet, 8> curves;  ///< ends interpolated, corners the same
+  /// Derivatives of the fields at the corners, by coons_corners: d/du of xv and d/dv of xu.
+  Points twists_of_xv, twists_of_xu;
+  double tolerance = 0;
+
+  /// Control points one curve after the other, and twists: the data of general_coons_builder.
+  Points data(const Points& twists) const;
+  std::array<Knots<double>, 8> knots() const;
+};
+CheckedCoons checked_coons(const CoonsBoundary& curves, const CoonsFields& fields, double tolerance);
+
+}  // namespace sublimit

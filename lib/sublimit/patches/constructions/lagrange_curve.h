@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// The polynomial curve through points at nodes (lagrange_basis.h): one segment, its rows over all points.
+#include <optional>
+
+#include "sublimit/patches/constructions/lagrange_basis.h"
+#include "sublimit/patches/constructions/spline_net.h"
+#include "sublimit/patches/linear_curve.h"
+
+namespace sublimit {
+
+class LagrangeCurve : public LinearCurve {
+ public:
+  explicit LagrangeCurve(LagrangeBasis basis) : basis_(std::move(basis)) {}
+
+  const LagrangeBasis& basis() const { return basis_; }
+  Index num_segments() const override { return 1; }
+  Index num_points() const override { return basis_.size(); }
+  CurveSample place(double t, KnotSide side = KnotSide::right) const override;
+  double length(Index) const override { return basis_.length(); }
+  CurveStencil stencil(const CurveSample& sample, int order = 0) const override;
+
+ private:
+  LagrangeBasis basis_;
+};
+
+/// What conversions to Bezier form lose at most, relative to the size of the points.
+inline constexpr double lagrange_net_accuracy = 1e-12;
+
+/// The same polynomial as a Bezier curve over the nodes' domain; nothing where its control points lose more than
+/// `lagrange_net_accuracy`, which is measured between the nodes, or its degree is above max_degree.
+std::optional<CurveNet> lagrange_net(const LagrangeBasis& basis, const Points& points);
+/// The same of surfaces.
+std::optional<SplineNet> lagrange_net(const LagrangeBasis& u, const LagrangeBasis& v, const Points& points);
+
+}  // namespace sublimit

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sublimit/patches/cut_patch.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "sublimit/base/error.h"
+#include "sublimit/base/format_number.h"
+
+namespace sublimit {
+
+CutPatch::CutPatch(std::shared_ptr<const Patch> patch, Eigen::Array2d first, Eigen::Array2d last)
+    : patch_(std::move(patch)) {
+  // Both corners must be places; what lies between is found face by face.
+  patch_->place({.u = first[0], .v = first[1]});
+  patch_->place({.u = last[0], .v = last[1], .u_side = KnotSide::left, .v_side = KnotSide::left});
+  for (Index face = 0; face < patch_->faces().size; ++face) {
+    const Parameters corner = patch_->parameters({.face = face});
+    const Lengths length = patch_->lengths(face);
+    const auto fraction = [](double t, double begin, double whole) {
+      return std::clamp((t - begin) / whole, 0.0, 1.0);
+    };
+    const Part part{.face = face,
+                    .u0 = fraction(first[0], corner.u, length.u),
+                    .v0 = fraction(first[1], corner.v, length.v),
+                    .u1 = fraction(last[0], corner.u, length.u),
+                    .v1 = fraction(last[1], corner.v, length.v)};
+    if (part.u0 < part.u1 && part.v0 < part.v1) parts_.push_back(part);
+  }
+  if (parts_.empty())
+    throw InvalidParameter("from (" + format_number(first[0]) + ", " + format_number(first[1]) + ") to (" +
+                           format_number(last[0]) + ", " + format_number(last[1]) + ") there is no area");
+}
+
+Sample CutPatch::inner(const Sample& s) const {
+  const Part& part = parts_[size_t(s.face)];
+  const auto between = [](double a, double b, double t) { return t == 1 ? b : std::min(b, a + t * (b - a)); };
+  return {.face = part.face, .u = between(part.u0, part.u1, s.u), .v = between(part.v0, part.v1, s.v)};
+}
+
+LimitStatus CutPatch::rows(const Sample& sample, int order, WeightRows& weights) const {
+  const LimitStatus status = patch_->rows(inner(sample), order, weights);
+  const Part& part = parts_[size_t(sample.face)];
+  const double u = part.u1 - part.u0, v = part.v1 - part.v0;
+  const double scales[] = {1, u, v, u * u, u * v, v * v};
+  for (Eigen::Index r = 1; r < weights.rows(); ++r) weights.row(r) *= scales[r];
+  return status;
+}
+
+std::string CutPatch::type(Index face) const {
+  const Part& part = parts_[size_t(face)];
+  std::string bytes = "cut" + patch_->type(part.face);
+  for (const double t : {part.u0, part.v0, part.u1, part.v1}) bytes.append(reinterpret_cast<const char*>(&t), sizeof t);
+  return bytes;
+}
+
+Sample CutPatch::place(const Parameters& parameters) const {
+  const Sample found = patch_->place(parameters);
+  for (size_t i = 0; i < parts_.size(); ++i) {
+    const Part& part = parts_[i];
+    if (part.face != found.face || found.u < part.u0 || found.u > part.u1 || found.v < part.v0 || found.v > part.v1)
+      continue;
+    return {.face = static_cast<Index>(i),
+            .u = (found.u - part.u0) / (part.u1 - part.u0),
+            .v = (found.v - part.v0) / (part.v1 - part.v0)};
+  }
+  throw InvalidParameter("(" + format_number(parameters.u) + ", " + format_number(parameters.v) +
+                         ") is outside the part of the domain that is kept");
+}
+
+Patch::Parameters CutPatch::parameters(const Sample& place) const {
+  Parameters result = patch_->parameters(inner(place));
+  result.u_side = place.u == 1 ? KnotSide::left : KnotSide::right;
+  result.v_side = place.v == 1 ? KnotSide::left : KnotSide::right;
+  return result;
+}
+
+Patch::Lengths CutPatch::lengths(Index face) const {
+  const Part& part = parts_[size_t(face)];
+  const Lengths whole = patch_->lengths(part.face);
+  return {whole.u * (part.u1 - part.u0), whole.v * (part.v1 - part.v0)};
+}
+
+}  // namespace sublimit
