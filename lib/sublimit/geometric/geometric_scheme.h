@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 // Schemes that are not linear: no masks, no matrix, but a step from data to data and, if it is known, the limit in
-// closed form. `Data` is what the scheme refines: a ControlPolygon with tangents for curves, a CurvatureMesh for
-// surfaces.
+// closed form. `Data` is what the scheme refines: a ControlPolygon with tangents for curves, for surfaces a
+// CurvatureMesh, or a NormalMesh where the surface is known and there are no steps.
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -34,6 +35,8 @@ struct LegPlace {
 /// The limit of a leg over t in [0, 1]; where pieces meet inside, that of the piece before or behind.
 using LegCurve = std::function<LegPlace(double t, bool before)>;
 
+class PlacedSurface;
+
 template <class Data>
 struct GeometricScheme {
   std::string name;
@@ -41,11 +44,14 @@ struct GeometricScheme {
   /// Data fit for `refine` and `limit`.
   /// @throws InvalidMesh, UnsupportedTopology  what the scheme cannot take, where, and what would be right
   std::function<Data(Data)> checked;
-  std::function<Data(const Data&)> refine;  ///< one step, of checked or refined data
+  /// One step, of checked or refined data; empty where the surface is made at once, not by steps.
+  std::function<Data(const Data&)> refine;
   /// Data of level `levels`, on the exact limit of checked data; empty where the limit is not known in closed form.
   std::function<Data(const Data&, int levels)> limit = {};
   /// Curves with a known limit: the exact limit of checked data anywhere, of each curve its legs in order.
   std::function<std::vector<std::vector<LegCurve>>(const Data&)> legs = {};
+  /// Surfaces with a known limit: the exact limit of checked data anywhere.
+  std::function<std::shared_ptr<const PlacedSurface>(const Data&)> surface = {};
   /// Notes worth telling about checked data: where the scheme fell back on another rule.
   std::function<std::vector<std::string>(const Data&)> notes;
   GeometricClaims claims;

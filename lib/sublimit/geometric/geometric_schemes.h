@@ -4,6 +4,8 @@
 #include <optional>
 
 #include "sublimit/geometric/hermite_incentre.h"
+#include "sublimit/geometric/nielson.h"
+#include "sublimit/geometric/piper.h"
 #include "sublimit/geometric/torus_pieces.h"
 
 namespace sublimit {
@@ -24,6 +26,11 @@ inline constexpr GeometricSchemeEntry<ControlPolygon> geometric_registry<Control
 template <>
 inline constexpr GeometricSchemeEntry<CurvatureMesh> geometric_registry<CurvatureMesh>[] = {
     {"torus-pieces", torus_pieces},
+};
+template <>
+inline constexpr GeometricSchemeEntry<NormalMesh> geometric_registry<NormalMesh>[] = {
+    {"nielson", nielson},
+    {"piper", piper},
 };
 
 /// Every scheme for this kind of data with its default options.

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sublimit/schemes.h"
 
-#include <algorithm>
-#include <numeric>
+#include <utility>
 
+#include "sublimit/core/nearest_names.h"
 #include "sublimit/curves/schemes/curve_schemes.h"
 #include "sublimit/geometric/geometric_schemes.h"
 
@@ -14,38 +14,14 @@ template std::optional<Scheme<double>> find_scheme<double>(const std::string&, c
 template std::vector<CurveScheme<double>> all_curve_schemes<double>();
 template std::optional<CurveScheme<double>> find_curve_scheme<double>(const std::string&, const SchemeOptions&);
 
-namespace {
-
-size_t edit_distance(const std::string& a, const std::string& b) {
-  std::vector<size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), size_t{0});
-  for (size_t i = 0; i < a.size(); ++i) {
-    size_t diagonal = row[0];
-    row[0] = i + 1;
-    for (size_t j = 0; j < b.size(); ++j) {
-      const size_t replace = diagonal + (a[i] != b[j]);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({replace, row[j] + 1, row[j + 1] + 1});
-    }
-  }
-  return row.back();
-}
-
-}  // namespace
-
 std::vector<std::string> nearest_scheme_names(const std::string& name, int count) {
   std::vector<std::string> names;
   for (const SchemeEntry<double>& entry : registry<double>) names.push_back(entry.name);
   for (const CurveSchemeEntry<double>& entry : curve_registry<double>) names.push_back(entry.name);
   for (const auto& entry : geometric_registry<ControlPolygon>) names.push_back(entry.name);
   for (const auto& entry : geometric_registry<CurvatureMesh>) names.push_back(entry.name);
-  // A prefix ("catmull") counts as nearer than any misspelling.
-  const auto distance = [&](const std::string& other) {
-    return !name.empty() && other.starts_with(name) ? 0 : edit_distance(name, other);
-  };
-  std::stable_sort(names.begin(), names.end(), [&](const auto& a, const auto& b) { return distance(a) < distance(b); });
-  names.resize(std::min(names.size(), static_cast<size_t>(count)));
-  return names;
+  for (const auto& entry : geometric_registry<NormalMesh>) names.push_back(entry.name);
+  return nearest_names(name, std::move(names), count);
 }
 
 }  // namespace sublimit
