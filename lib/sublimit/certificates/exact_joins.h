@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// Joins of curves and patches decided without rounding: every double is a ratio, and so is what recipes give as p/q.
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "sublimit/certificates/regularity/rational.h"
+#include "sublimit/patches/joins/curve_join.h"
+#include "sublimit/patches/joins/patch_seams.h"
+#include "sublimit/patches/joins/surface_join.h"
+
+namespace sublimit {
+
+/// Exactly these doubles.
+/// @throws AnalysisError  one is not finite
+BezierPiece<Rational> in_ratios(const BezierPiece<double>& piece);
+BezierPatch<Rational> in_ratios(const BezierPatch<double>& patch);
+
+/// See curve_join: `orders` hold exactly; distances, angles and curvatures are those of the nearest doubles.
+CurveJoin exact_curve_join(const BezierPiece<Rational>& left, const BezierPiece<Rational>& right);
+/// See surface_join: with `exact`.
+SurfaceJoin exact_surface_join(const BezierPatch<Rational>& left, const BezierPatch<Rational>& right,
+                               const JoinTolerance& tolerance = {});
+
+/// Of every seam of kind `knot`, `period` or `sides` the orders that hold for the patches of exactly these doubles:
+/// sides that are equal but for the last bit have a gap. Of others nothing.
+/// @param seams  found in the same patches (patch_seams)
+std::vector<std::optional<JoinOrders>> exact_seams(std::span<const PatchColumns> patches, Coordinates coordinates,
+                                                   std::span<const PatchSeam> seams);
+
+}  // namespace sublimit
