@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// `sublimit analyze`: what a scheme's limit is like, and what a mesh's is.
+// `sublimit analyze`: what a scheme's limit is like, what a mesh's is, and how free-form curves and surfaces, or those
+// of recipes, join.
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "common.h"
+#include "free_form.h"
 #include "memory_limit.h"
+#include "recipes.h"
 #include "sublimit/base/atomic_file.h"
 #include "sublimit/base/error.h"
 #include "sublimit/base/read_file.h"
@@ -44,8 +48,8 @@ constexpr std::pair<const char*, const char*> owners[] = {
     {"--valence", "schemes"},
     {"--claim", "schemes"},
     {"--export", "schemes"},
-    {"--tolerance", "meshes"},
-    {"--mem-limit", "meshes"},
+    {"--tolerance", "meshes and free-form shapes"},
+    {"--mem-limit", "meshes and free-form shapes"},
 };
 
 /// An option that would be ignored is a mistake of whoever gave it.
@@ -244,6 +248,18 @@ int analyze_mesh(const AnalyzeOptions& options) {
   return found.seams.within_tolerance ? 0 : negative_verdict;
 }
 
+int analyze_shapes(const AnalyzeOptions& options) {
+  Progress progress(options.common.quiet);
+  const Json report = analyze_free_form(options.common, options.tolerances, progress);
+  write_outputs(options, report, progress);
+  progress.step("");
+  if (!options.common.quiet) print_free_form_report(report);
+  return report["free_form"]["within_tolerance"].get<bool>() ? 0 : negative_verdict;
+}
+
+/// Whether the file is one of recipes, or an .obj that has free-form curves or surfaces.
+bool has_shapes(const Common& common) { return is_recipe_job(common) || has_free_form(common.mesh); }
+
 int analyze(const AnalyzeOptions& options) {
   limit_threads(options.common);
   limit_memory(options.memory_limit);
@@ -252,14 +268,24 @@ int analyze(const AnalyzeOptions& options) {
   if (!options.json.empty()) check_output_path(options.json, {".json"});
   if (!options.json.empty() && !options.common.mesh.empty())
     check_not_sidecar("--json", options.json, options.common.mesh);
+  if (std::error_code ignored; !options.json.empty() && is_recipe_job(options.common) &&
+                               std::filesystem::equivalent(options.json, options.common.mesh, ignored))
+    throw InvalidOption("--json " + options.json + ": this file holds the recipes; choose another name");
   const int jobs = !options.common.mesh.empty() + options.has("--mask") + options.has("--sweep");
   if (jobs > 1) throw InvalidOption("a mesh or curve, --mask and --sweep are jobs of their own; give one of them");
   if (options.has("--mask")) return refuse_others(options, "a mask"), analyze_mask(options);
   if (options.has("--sweep")) return refuse_others(options, "sweeps"), analyze_sweep(options);
   const bool is_curve = file_extension(options.common.mesh) == ".csv";
   if (is_curve) return refuse_others(options, "a curve"), analyze_curve(options);
+  if (options.common.scheme.empty() && has_shapes(options.common))
+    return refuse_others(options, "free-form shapes"), analyze_shapes(options);
   if (options.common.scheme.empty())
-    throw InvalidOption("name a scheme with -s, or all; `sublimit schemes` lists them");
+    throw InvalidOption(
+        "name a scheme with -s, or all; `sublimit schemes` lists them" +
+        std::string(options.common.mesh.empty()
+                        ? ""
+                        : "; only an .obj with free-form curves or surfaces and a .json with recipes need none, and " +
+                              options.common.mesh + " is none"));
   if (options.common.mesh.empty()) return refuse_others(options, "schemes"), analyze_schemes(options);
   if (options.common.scheme == "all") throw InvalidOption("a mesh is analysed under one scheme; name it with -s");
   return refuse_others(options, "meshes"), analyze_mesh(options);
@@ -268,17 +294,18 @@ int analyze(const AnalyzeOptions& options) {
 }  // namespace
 
 Command add_analyze(CLI::App& app) {
-  auto* command = app.add_subcommand("analyze", "How smooth a scheme's limit is, or a mesh's, with proofs");
+  auto* command = app.add_subcommand("analyze", "How smooth a scheme's limit is, or a mesh's, or free-form shapes");
   auto options = std::make_shared<AnalyzeOptions>();
   command->add_option("MESH", options->common.mesh,
-                      "A mesh, .obj, .off or .ply: how smooth its own limit is; or a curve of Bezier pieces, .csv");
+                      "A mesh, .obj, .off or .ply: how smooth its own limit is; an .obj of free-form curves and "
+                      "surfaces or a .json of recipes, without -s: how they join; or a curve of Bezier pieces, .csv");
   command->add_option("-s,--scheme", options->common.scheme, "A scheme, or all");
   command->add_option("--valence", options->valences, "Valences, as in 3-12 or 3-8,12")->capture_default_str();
   command->add_option("-o,--output", options->page, "The report as a page, .html");
   command->add_option("--picture", options->picture, "The page's first figure on its own, .svg");
   command->add_option("--json", options->json, "The report as data, .json");
   command->add_option("--tolerance", options->tolerances,
-                      "Of a mesh's seams: g0=1e-9, g1=0.1deg, g2=5%; exit 1 beyond");
+                      "Of seams and joints: g0=1e-9, g1=0.1deg, g2=5%; exit 1 beyond");
   command->add_option("--mask", options->mask, "A curve mask, as in \"1 4 6 4 1 /8\"");
   command->add_option("--sweep", options->sweep, "Smoothness over an option: tension=0:4:0.05");
   command->add_option("--claim", options->claims,
@@ -293,10 +320,12 @@ Command add_analyze(CLI::App& app) {
       "  sublimit analyze -s catmull-clark -o report.html\n"
       "  sublimit analyze -s all --valence 3-8 -o report.html --json report.json\n"
       "  sublimit analyze cage.obj -s catmull-clark --tolerance g1=0.1deg -o smooth.html\n"
+      "  sublimit analyze teapot.obj --tolerance g1=0.1deg -o teapot.html   (free-form surfaces need no scheme)\n"
+      "  sublimit analyze shapes.json -o shapes.html          (recipes: their exact nets, and curve_join, surface_join)\n"
       "  sublimit analyze -s four-point --sweep tension=0:4:0.05 -o sweep.html\n"
       "  sublimit analyze --mask \"1 4 6 4 1 /8\" -o mask.html\n"
       "  sublimit analyze pieces.csv -o joints.html   (header piece,x,y or piece,x,y,z: Bezier control points)\n"
-      "Exit status 1 if a claim of a scheme is contradicted, or seams of a mesh are beyond a tolerance.");
+      "Exit status 1 if a claim of a scheme is contradicted, or seams of a mesh or of patches are beyond a tolerance.");
   return [=] {
     for (const auto& [option, owner] : owners)
       if (command->count(option) > 0) options->given.emplace_back(option);

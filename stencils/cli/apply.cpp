@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "common.h"
+#include "free_form.h"
 #include "sublimit/bake/applied_points.h"
 #include "sublimit/bake/table_info.h"
 #include "sublimit/bake/table_mesh.h"
@@ -15,6 +16,7 @@
 #include "sublimit/files/frames.h"
 #include "sublimit/files/npy.h"
 #include "sublimit/io/file_extension.h"
+#include "sublimit/patches/free_form_patches.h"
 #include "sublimit/pattern_evaluator.h"
 #include "sublimit/scheme/prepare.h"
 #include "sublimit/table_file.h"
@@ -48,6 +50,31 @@ void check_cage(const ApplyOptions& options, const TableInfo& info, std::int64_t
                     options.points, options.table, cage_of(info, points)));
 }
 
+/// Points of a table's control points: of a table of patches, columns of a file's free-form surfaces.
+FrameReader frames_of(const ApplyOptions& options, const TableInfo& info) {
+  const std::string extension = file_extension(options.points);
+  if (info.scheme != free_form_scheme || (extension != ".obj" && extension != ".json"))
+    return FrameReader(options.points);
+  Common common = options.common;
+  common.mesh = options.points;
+  LoadedPatches found = load_patches(common);
+  if (!options.any_cage && info.topology_hash != 0 && found.patches.hash() != info.topology_hash)
+    throw InvalidMesh(
+        fmt::format("{}: its surfaces have other knots, degrees or control points than those that {} was baked from; "
+                    "bake a table of this file, or, if its points are the same in the same order, give --any-cage",
+                    options.points, options.table));
+  std::vector<std::string> names{"x", "y", "z"};
+  if (found.columns.cols() == 4) names.emplace_back("w");
+  return FrameReader(options.points, std::move(found.columns), std::move(names));
+}
+
+/// That there are weights to divide by.
+void check_columns(const ApplyOptions& options, const TableInfo& info, const FrameReader& frames) {
+  if (info.rational && frames.num_channels() != 4)
+    throw InvalidOption(fmt::format("{}: {} channels; {} is rational: give columns w x, w y, w z, w, or the .obj",
+                                    options.points, frames.num_channels(), options.table));
+}
+
 /// The one frame of a mesh or CSV.
 void check_one_frame(const ApplyOptions& options, const FrameReader& frames) {
   if (frames.num_frames() != 1)
@@ -55,12 +82,55 @@ void check_one_frame(const ApplyOptions& options, const FrameReader& frames) {
                                     options.output));
 }
 
+/// A frame of homogeneous columns as an evaluation.
+template <class Real>
+Evaluation<Real> rational_evaluation(std::span<const Real> columns, std::int64_t num_control_points) {
+  Evaluation<Real> e;
+  e.channels = 4;
+  e.points = columns;
+  e.rational = true;
+  e.least_weight = noise_of_weights(e, num_control_points);
+  return e;
+}
+
+/// Points, quotients of columns if the table is rational.
+template <class Real>
+void apply_frame(const PatternEvaluator<Real>& evaluator, bool rational, std::span<const Real> points, int channels,
+                 std::span<Real> values) {
+  if (!rational) return evaluator.apply(points, channels, values);
+  Evaluation<Real> e = rational_evaluation(points, evaluator.table().num_control_points());
+  const size_t quantity = values.size() / size_t(evaluator.table().quantities());
+  for (size_t q = 0; q < size_t(evaluator.table().quantities()); ++q)
+    e.quantities[q] = values.subspan(q * quantity, quantity);
+  evaluator.apply(e);
+}
+
+/// Where the weight is zero within rounding.
+template <class Real>
+std::vector<std::uint8_t> poles_of(const PatternEvaluator<Real>& evaluator, std::span<const Real> columns) {
+  const PatternTable<Real>& table = evaluator.table();
+  const Real noise = rational_evaluation(columns, table.num_control_points()).least_weight;
+  std::vector<Real> weights(size_t(table.num_points()));
+  Evaluation<Real> e;
+  e.channels = 1;
+  e.points = columns.subspan(3);
+  e.point_layout = PointLayout::interleaved(4);
+  e.quantities[0] = weights;
+  evaluator.apply(e);
+  std::vector<std::uint8_t> poles(weights.size());
+  for (size_t i = 0; i < poles.size(); ++i) poles[i] = !(std::abs(weights[i]) > noise);
+  return poles;
+}
+
 template <class Real>
 void write_one(const ApplyOptions& options, const BakedTable<Real>& table, const FrameReader& frames,
-               std::span<const Real> values) {
-  const AppliedPoints applied(table);
+               std::vector<std::uint8_t> poles, std::span<const Real> values) {
+  AppliedPoints applied(table);
+  std::vector<std::string> names = frames.columns();
+  if (table.info.rational) names.pop_back();
+  if (std::ranges::any_of(poles, [](std::uint8_t p) { return p != 0; })) applied.set_poles(std::move(poles));
   if (file_extension(options.output) == ".csv") {
-    applied.write_csv(options.output, frames.columns(), values);
+    applied.write_csv(options.output, names, values);
     return;
   }
   MeshOutput mesh = applied.mesh(faces_of(table), values);
@@ -71,27 +141,30 @@ void write_one(const ApplyOptions& options, const BakedTable<Real>& table, const
 }
 
 /// Frames x quantities x points x channels, dimensions of one frame and of one quantity left out.
-std::vector<std::int64_t> shape_of(const FrameReader& frames, int quantities, std::int64_t points) {
+std::vector<std::int64_t> shape_of(const FrameReader& frames, int channels, int quantities, std::int64_t points) {
   std::vector<std::int64_t> shape;
   if (frames.has_frames()) shape.push_back(frames.num_frames());
   if (quantities > 1) shape.push_back(quantities);
   shape.push_back(points);
-  shape.push_back(frames.num_channels());
+  shape.push_back(channels);
   return shape;
 }
 
 template <class Real>
 std::int64_t apply_table(const ApplyOptions& options, const BakedTable<Real>& table, Progress& progress) {
-  FrameReader frames(options.points);
+  FrameReader frames = frames_of(options, table.info);
   const PatternTable<Real>& t = table.table;
+  const bool rational = table.info.rational;
+  const int channels = frames.num_channels() - (rational ? 1 : 0);  // of results
+  check_columns(options, table.info, frames);
   check_cage(options, table.info, t.num_control_points(), frames);
   const bool to_array = file_extension(options.output) == ".npy";
   if (!to_array) check_one_frame(options, frames);
-  if (!to_array && file_extension(options.output) != ".csv" && frames.num_channels() != 3)
+  if (!to_array && file_extension(options.output) != ".csv" && channels != 3)
     throw InvalidOption(fmt::format("{} has {} channels and a mesh has x, y, z; write an .npy or .csv", options.points,
                                     frames.num_channels()));
-  const double numbers = double(t.quantities()) * double(t.num_points()) * frames.num_channels();
-  check_memory(fmt::format("{} points of {} channels", t.num_points(), frames.num_channels()), numbers * sizeof(Real),
+  const double numbers = double(t.quantities()) * double(t.num_points()) * channels;
+  check_memory(fmt::format("{} points of {} channels", t.num_points(), channels), numbers * sizeof(Real),
                "use a table of fewer points");
   check_disk(fmt::format("{} frames", frames.num_frames()), options.output,
              numbers * double(frames.num_frames()) * (to_array ? sizeof(Real) : 8), "use fewer frames");
@@ -99,8 +172,8 @@ std::int64_t apply_table(const ApplyOptions& options, const BakedTable<Real>& ta
   const PatternEvaluator<Real> evaluator(t);
   std::unique_ptr<NpyWriter> array;
   if (to_array)
-    array =
-        std::make_unique<NpyWriter>(options.output, dtype_of<Real>(), shape_of(frames, t.quantities(), t.num_points()));
+    array = std::make_unique<NpyWriter>(options.output, dtype_of<Real>(),
+                                        shape_of(frames, channels, t.quantities(), t.num_points()));
   std::vector<double> read(size_t(frames.num_points()) * size_t(frames.num_channels()));
   std::vector<Real> points(read.size()), values(static_cast<size_t>(numbers));
   for (std::int64_t frame = 0; frame < frames.num_frames(); ++frame) {
@@ -112,14 +185,15 @@ std::int64_t apply_table(const ApplyOptions& options, const BakedTable<Real>& ta
       throw InvalidMesh(fmt::format("{}: frame {}, point {}: {} is too large for a table in float; bake one in double",
                                     options.points, frame, (bad - points.begin()) / frames.num_channels(),
                                     format_number(read[size_t(bad - points.begin())])));
-    evaluator.apply(points, frames.num_channels(), values);
+    apply_frame<Real>(evaluator, rational, points, frames.num_channels(), values);
     if (array) array->write<Real>(values);
   }
   progress.step("writing " + options.output);
   if (array)
     array->commit();
   else
-    write_one<Real>(options, table, frames, values);
+    write_one<Real>(options, table, frames, rational ? poles_of<Real>(evaluator, points) : std::vector<std::uint8_t>{},
+                    values);
   return frames.num_frames();
 }
 
@@ -155,7 +229,7 @@ Command add_apply(CLI::App& app) {
       ->add_option(
           "POINTS", options->points,
           "Points of the cage: the vertices of an .obj, .ply or .off; the lines of a .csv; an .npy of vertices "
-          "x channels or frames x vertices x channels")
+          "x channels or frames x vertices x channels. Of rational free-form surfaces columns w x, w y, w z, w")
       ->required();
   command
       ->add_option(
@@ -170,11 +244,13 @@ Command add_apply(CLI::App& app) {
       "  sublimit apply level3.safetensors cage.obj -o level3.obj\n"
       "  sublimit apply limit.safetensors pose.csv -o surface.csv\n"
       "  sublimit apply level3.safetensors animation.npy -o refined.npy\n"
+      "  sublimit apply teapot.safetensors teapot.obj -o points.csv               free-form surfaces\n"
       "Frames of an .npy are read, applied and written one by one, so that any number of them takes the memory of one.\n"
       "OUT.npy is in the table's precision: [frames x] [quantities x] points x channels; quantities, if there are\n"
       "derivatives, are position, u, v[, uu, uv, vv]. Columns of OUT.csv: face,u,v and status where the table knows\n"
       "them, then x,y,z[,xu,...][,nx,ny,nz] as `sample` has them, or the channels' own names. Where creases meet, and in\n"
-      "tables by rows, two tangents of the surface stand for first derivatives that do not exist.");
+      "tables by rows, two tangents of the surface stand for first derivatives that do not exist. Tables of rational\n"
+      "surfaces divide by the weight; where it is zero the status is `pole` and nothing else is there.");
   return [=] { return run(*options); };
 }
 

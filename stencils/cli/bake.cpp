@@ -11,6 +11,7 @@
 
 #include "bake_manifest.h"
 #include "curves.h"
+#include "free_form.h"
 #include "memory_limit.h"
 #include "sublimit/base/error.h"
 #include "sublimit/base/memory.h"
@@ -51,11 +52,11 @@ int run(const BakeOptions& options) {
   for (const auto& [name, given] : {std::pair("--shard", &options.shard), std::pair("--log", &options.log)})
     if (!given->empty()) throw InvalidOption(std::string(name) + " is for --manifest JOBS.jsonl");
   job.is_float = options.precision == "float";
-  for (const auto& [name, given] : {std::pair("MESH", &job.common.mesh), std::pair("-s SCHEME", &job.common.scheme),
-                                    std::pair("-o TABLE.safetensors", &job.output)})
+  for (const auto& [name, given] :
+       {std::pair("MESH", &job.common.mesh), std::pair("-o TABLE.safetensors", &job.output)})
     if (given->empty() && !(job.is_plan && given == &job.output))
       throw InvalidOption(std::string(name) + " is missing: bake MESH -s SCHEME -l LEVELS -o TABLE");
-  check_mesh_job(job.common, false);
+  if (!is_free_form_job(job.common)) check_mesh_job(job.common, false);
   check(job);
   Progress progress(job.common.quiet);
   Dictionaries dictionaries(options.dictionary);
@@ -89,7 +90,9 @@ Command add_bake(CLI::App& app) {
   command->add_flag("--limit", job.limit, "These moved to the limit");
   command->add_option("--grid", job.grid,
                       "N x N places a face on the limit, ends included, u fastest; triangles N (N + 1) / 2");
-  command->add_option("--at", job.at, "Places on the limit from a CSV with the header face,u,v, as those of `sample`");
+  command->add_option("--at", job.at,
+                      "Places on the limit from a CSV with the header face,u,v, as those of `sample`; of free-form "
+                      "surfaces patch,u,v[,side] too");
   command
       ->add_option("--derivatives", job.derivatives,
                    "Of the limit, along u and v: 1 first ones, from which `apply` makes normals, 2 second ones too "
@@ -127,6 +130,7 @@ Command add_bake(CLI::App& app) {
       "  sublimit bake cage.obj -s catmull-clark --grid 9 --precision double -o grid.safetensors\n"
       "  sublimit bake cage.obj -s catmull-clark -l 2 --face-varying all --tags -o mesh.safetensors\n"
       "  sublimit bake cage.obj -s catmull-clark -l 5 --plan\n"
+      "  sublimit bake teapot.obj --grid 9 --derivatives 1 -o teapot.safetensors      free-form surfaces: no scheme\n"
       "  sublimit apply level3.safetensors frames.npy -o level3.npy\n"
       "  sublimit bake --manifest jobs.jsonl --shard 3/8 --log log.jsonl\n"
       "  sublimit bake cage.obj -s catmull-clark -l 3 --dictionary types.safetensors -o level3.safetensors\n"

@@ -2,12 +2,17 @@
 // One table, from a mesh file to a file of its own.
 #include <fmt/core.h>
 
+#include <functional>
+
 #include "bake.h"
+#include "free_form.h"
 #include "sublimit/bake/table_info.h"
 #include "sublimit/base/error.h"
 #include "sublimit/base/memory.h"
+#include "sublimit/files/patch_places.h"
 #include "sublimit/files/rule_words.h"
 #include "sublimit/files/sample_files.h"
+#include "sublimit/patches/free_form_patches.h"
 #include "sublimit/patterns/pattern_file.h"
 #include "sublimit/table_file.h"
 
@@ -16,12 +21,11 @@ namespace {
 
 constexpr size_t places_per_batch = 65536;
 
-std::vector<Sample> places_of(SampleReader& reader, const Loaded& loaded) {
-  const Topology topology(view(loaded.mesh));
-  const Addresses addresses(topology, loaded.scheme->face_size() == 3);
+/// All of a file, a batch after the other.
+std::vector<Sample> places_of(const std::function<void(std::vector<Sample>& batch, size_t most)>& read) {
   std::vector<Sample> all, batch;
   do {
-    reader.read(batch, places_per_batch, addresses);
+    read(batch, places_per_batch);
     all.insert(all.end(), batch.begin(), batch.end());
   } while (batch.size() == places_per_batch);
   return all;
@@ -100,8 +104,68 @@ void Dictionaries::save() {
   }
 }
 
+namespace {
+
+void write_table(const BakeJob& job, const Baked& baked, BakeOutcome& outcome, Progress& progress) {
+  outcome.statistics = baked.statistics;
+  progress.step("writing " + job.output);
+  check_disk("tables", job.output,
+             double(baked.statistics.bytes) / (job.is_float ? 2 : 1) + double(baked.statistics.channel_bytes),
+             "use fewer points");
+  if (job.is_float) {
+    const BakedTable<float> table = in_float(baked.table);
+    outcome.statistics.bytes = table.table.num_bytes();
+    save_table(job.output, table);
+  } else {
+    save_table(job.output, baked.table);
+  }
+  outcome.file_bytes = static_cast<std::int64_t>(std::filesystem::file_size(job.output));
+}
+
+/// A table of the free-form surfaces of a file: without a scheme.
+BakeOutcome bake_free_form(const BakeJob& job, Progress& progress, bool keep) {
+  refuse_mesh_options(job.common);
+  if (job.tags) throw InvalidOption("--tags are those of meshes, which need -s SCHEME");
+  if (job.limit) throw InvalidOption("--limit is for meshes: points of a net have no places; take --grid N");
+  if (job.is_plan) throw InvalidOption("--plan is for meshes, which need -s SCHEME");
+  std::unique_ptr<SampleReader> reader;
+  std::unique_ptr<OwnPlaceReader> own_reader;
+  if (!job.at.empty() && has_own_places(job.at, "patch")) {
+    if (job.derivatives > 0)
+      throw InvalidOption(
+          "--derivatives with places patch,u,v: derivatives of a table are per unit of its faces; name "
+          "the places as face,u,v");
+    own_reader = std::make_unique<OwnPlaceReader>(job.at);
+  } else if (!job.at.empty()) {
+    reader = std::make_unique<SampleReader>(job.at);
+  }
+  limit_threads(job.common);
+  progress.step("reading " + job.common.mesh);
+  const LoadedPatches found = load_patches(job.common);
+  BakeOutcome outcome;
+  outcome.control_points = found.patches.num_points();
+  BakeRequest request = request_of(job);
+  if (reader)
+    request.samples =
+        places_of([&](std::vector<Sample>& batch, size_t most) { reader->read(batch, most, found.patches.faces()); });
+  OwnPlaces own;
+  if (own_reader)
+    request.samples =
+        places_of([&](std::vector<Sample>& batch, size_t most) { own_reader->read(batch, own, most, found.patches); });
+  if (keep && is_there(job, table_info(found.patches, request), request)) {
+    outcome.was_there = true;
+    return outcome;
+  }
+  progress.step("baking");
+  naming_mesh(job.common, [&] { write_table(job, bake(found.patches, request), outcome, progress); });
+  return outcome;
+}
+
+}  // namespace
+
 BakeOutcome bake_table(const BakeJob& job, Dictionaries& dictionaries, Progress& progress, bool keep) {
   if (!job.is_plan) check_output_path(job.output, {".safetensors"});
+  if (is_free_form_job(job.common)) return bake_free_form(job, progress, keep);
   std::unique_ptr<SampleReader> reader;  // a wrong header is told before a large mesh is read
   if (!job.at.empty()) reader = std::make_unique<SampleReader>(job.at);
   const Loaded loaded = load(job.common, progress);
@@ -109,7 +173,12 @@ BakeOutcome bake_table(const BakeJob& job, Dictionaries& dictionaries, Progress&
   outcome.control_points = loaded.mesh.num_vertices();
   naming_mesh(job.common, [&] {
     BakeRequest request = request_of(job);
-    if (reader) request.samples = places_of(*reader, loaded);
+    if (reader) {
+      const Topology topology(view(loaded.mesh));
+      const Addresses addresses(topology, loaded.scheme->face_size() == 3);
+      request.samples =
+          places_of([&](std::vector<Sample>& batch, size_t most) { reader->read(batch, most, addresses); });
+    }
     if (keep && is_there(job, table_info(*loaded.scheme, loaded.mesh, request, loaded.rules), request)) {
       outcome.was_there = true;
       return;
@@ -126,19 +195,7 @@ BakeOutcome bake_table(const BakeJob& job, Dictionaries& dictionaries, Progress&
     }
     progress.step("baking");
     const Baked baked = bake(patterns, loaded.mesh, request, loaded.rules);
-    outcome.statistics = baked.statistics;
-    progress.step("writing " + job.output);
-    check_disk("tables", job.output,
-               double(baked.statistics.bytes) / (job.is_float ? 2 : 1) + double(baked.statistics.channel_bytes),
-               "use fewer points");
-    if (job.is_float) {
-      const BakedTable<float> table = in_float(baked.table);
-      outcome.statistics.bytes = table.table.num_bytes();
-      save_table(job.output, table);
-    } else {
-      save_table(job.output, baked.table);
-    }
-    outcome.file_bytes = static_cast<std::int64_t>(std::filesystem::file_size(job.output));
+    write_table(job, baked, outcome, progress);
   });
   return outcome;
 }

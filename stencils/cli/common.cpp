@@ -111,6 +111,11 @@ Scheme<double> scheme_or_throw(const std::string& name, const SchemeOptions& opt
   for (const auto& entry : geometric_registry<CurvatureMesh>)
     if (name == entry.name)
       throw InvalidOption(name + " refines points with normals and curvatures; it is for `sublimit fit`");
+  for (const auto& entry : geometric_registry<NormalMesh>)
+    if (name == entry.name)
+      throw InvalidOption(name +
+                          " makes surfaces through points with normals and has no matrix; it is for `sublimit sample`, "
+                          "`refine`, `limit` and `info`");
   std::string offers;
   for (const std::string& other : nearest_scheme_names(name)) offers += (offers.empty() ? "" : ", ") + other;
   throw InvalidOption("unknown scheme '" + name + "'; the nearest are " + offers + " (`sublimit schemes` lists all)");
@@ -191,7 +196,7 @@ std::vector<FaceVaryingLevel> refined_channel(const Common& common, const Loaded
 }
 
 void naming_mesh(const Common& common, const std::function<void()>& body) {
-  const std::string place = common.mesh + ": " + common.scheme + ": ";
+  const std::string place = common.mesh + ": " + (common.scheme.empty() ? "" : common.scheme + ": ");
   try {
     body();
   } catch (const InvalidMesh& error) {

@@ -6,6 +6,7 @@
 
 #include "common.h"
 #include "curves.h"
+#include "free_form.h"
 #include "memory_limit.h"
 #include "sublimit/base/atomic_file.h"
 #include "sublimit/base/error.h"
@@ -77,15 +78,15 @@ MeshOutput mesh_output(const FitOptions& options, const Loaded& loaded, const Fi
   return out;
 }
 
-/// The mesh first: no report of what could not be written.
-void write_outputs(const FitOptions& options, const MeshOutput& mesh, const std::string& picture, FitReport& report,
-                   Progress& progress) {
+/// The result first: no report of what could not be written.
+void write_outputs(const FitOptions& options, const std::function<void()>& write_result, const std::string& picture,
+                   FitReport& report, Progress& progress) {
   report.mesh = options.common.mesh;
   report.targets = options.cloud.empty() ? options.targets : options.cloud;
   report.output = options.output;
   report.options = options.given;
   progress.step("writing " + options.output);
-  write_mesh(options.output, mesh);
+  write_result();
   if (!options.picture.empty()) write_text(options.picture, picture);
   if (!options.report.empty()) write_text(options.report, fit_report(report));
   progress.step("");
@@ -112,7 +113,8 @@ int fit_linear(const FitOptions& options, Progress& progress,
     picture = fit_picture(*loaded.scheme, control_level(*loaded.scheme, loaded.mesh, loaded.rules),
                           loaded.mesh.positions, fit);
   });
-  write_outputs(options, mesh, picture, fit.report, progress);
+  write_outputs(
+      options, [&] { write_mesh(options.output, mesh); }, picture, fit.report, progress);
   return 0;
 }
 
@@ -151,16 +153,34 @@ int fit_geometric(const FitOptions& options, const FitTargets& targets, const Ge
   });
   progress.step("drawing");
   if (!options.picture.empty()) picture = fit_picture(fit);
-  write_outputs(options, output(fit.refined), picture, fit.report, progress);
+  write_outputs(
+      options, [&] { write_mesh(options.output, output(fit.refined)); }, picture, fit.report, progress);
+  return 0;
+}
+
+int fit_patch_points(const FitOptions& options, Progress& progress) {
+  if (!options.cloud.empty())
+    throw InvalidOption("--cloud is for meshes; free-form surfaces take --targets IN.csv with places");
+  refuse_others(options, "places", "free-form surfaces");
+  if (!options.picture.empty()) throw InvalidOption("--picture is for meshes; leave it out");
+  check_output_path(options.output, {".obj"});
+  const FitTargets targets = read_fit_targets(options.targets);
+  FitSettings settings = options.settings;
+  settings.progress = [&](const std::string& what) { progress.note(what); };
+  FreeFormFit fit;
+  naming_mesh(options.common, [&] { fit = fit_free_form(options.common, targets, settings, options.pin, progress); });
+  write_outputs(
+      options, [&] { write_free_form(options.output, fit.shapes); }, "", fit.report, progress);
   return 0;
 }
 
 int run(const FitOptions& options) {
   limit_memory(options.memory_limit);
-  if (is_curve_job(options.common))
+  const bool free_form = is_free_form_job(options.common);
+  if (!free_form && is_curve_job(options.common))
     throw InvalidOption(options.common.scheme + " refines curves; fits are of surfaces (`sublimit schemes` lists all)");
   const auto geometric = find_geometric_scheme<CurvatureMesh>(options.common.scheme, given_options(options.common));
-  if (!geometric) (void)scheme_or_throw(options.common.scheme, given_options(options.common));
+  if (!free_form && !geometric) (void)scheme_or_throw(options.common.scheme, given_options(options.common));
   for (const auto& [name, weight] : {std::pair{"--thin-plate", options.settings.fairness.thin_plate},
                                      {"--membrane", options.settings.fairness.membrane}})
     if (!(weight >= 0 && std::isfinite(weight)))
@@ -179,6 +199,7 @@ int run(const FitOptions& options) {
         options.cloud.empty()
             ? "neither --targets IN.csv nor --cloud POINTS; one of them says what the limit shall be near"
             : "both --targets and --cloud; a fit has one of them");
+  if (free_form) return fit_patch_points(options, progress);
   if (!options.cloud.empty()) {
     if (geometric)
       throw InvalidOption(options.common.scheme + " takes --targets with normals and curvatures, and no --cloud");
@@ -208,7 +229,7 @@ Command add_fit(CLI::App& app) {
   auto* command = app.add_subcommand("fit", "Control points whose limit goes through given points and normals");
   auto options = std::make_shared<FitOptions>();
   FitSettings& settings = options->settings;
-  add_mesh(*command, options->common, true);
+  add_mesh(*command, options->common, false);
   command->add_option("--targets", options->targets, "IN.csv: what the limit shall go through, see below");
   command->add_option("--cloud", options->cloud,
                       "Or points without order: a .csv with the header x,y,z[,weight], or the vertices of a mesh");
@@ -249,16 +270,19 @@ Command add_fit(CLI::App& app) {
       "  sublimit fit cage.obj --cloud scan.ply -s catmull-clark --thin-plate 1e-5 -o fitted.obj\n"
       "  sublimit fit cage.obj --targets normals.csv -s doo-sabin --construct -o fitted.obj\n"
       "  sublimit fit mesh.obj --targets curvatures.csv -s torus-pieces -l 4 -o surface.obj --picture fit.svg\n"
+      "  sublimit fit nurbs.obj --targets places.csv --thin-plate 1e-6 -o fitted.obj\n"
       "IN.csv begins with one of these lines:\n"
       "  vertex,x,y,z[,nx,ny,nz[,k1,k2,d1x,d1y,d1z]]   the limit of a vertex of MESH, counted from 0; a normal of any\n"
       "                                                length, or three empty fields\n"
       "  face,u,v,x,y,z[,weight]                       the limit at a place, as in `sublimit sample`: least squares\n"
+      "  patch,u,v,x,y,z[,weight]                      the same of free-form surfaces, by their own parameters\n"
       "A cloud should lie near the limit of MESH, which is its first guess.\n"
       "Points alone are as many conditions as there are control points, which may depend on each other (a cube's do);\n"
       "normals are more. Then MESH is refined, and of all control points that meet the targets those nearest to it are\n"
       "taken, or the fairest ones (--thin-plate, --membrane). Under schemes that keep vertices the first ones of OUT are\n"
       "those of MESH, in order. torus-pieces takes everything at every vertex, k1 being the curvature along (d1x, d1y, d1z)\n"
-      "and positive where the surface bends towards its normal, and writes refined triangles.");
+      "and positive where the surface bends towards its normal, and writes refined triangles. Free-form surfaces keep their\n"
+      "knots and weights.");
   return [=] {
     for (const CLI::Option* option : command->get_options())
       if (option->count() > 0 && !option->get_lnames().empty())

@@ -3,20 +3,27 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <array>
+#include <filesystem>
 #include <utility>
 
+#include "recipes.h"
 #include "sublimit/base/error.h"
+#include "sublimit/base/read_file.h"
 #include "sublimit/io/file_extension.h"
+#include "sublimit/patches/free_form_patches.h"
+#include "sublimit/recipes/recipe_sources.h"
 
 namespace sublimit::cli {
 
 bool is_free_form_job(const Common& common) {
   if (!common.scheme.empty()) return false;
-  if (file_extension(common.mesh) == ".obj") return true;
+  if (is_recipe_job(common) || has_free_form(common.mesh)) return true;
   throw InvalidOption(
-      "-s SCHEME is missing: meshes need one (see `sublimit schemes`); an .obj with free-form surfaces " +
-      std::string("does not, and ") + common.mesh + " is none");
+      "-s SCHEME is missing: --scheme is required for meshes (see `sublimit schemes`), but not for an .obj with free-form "
+      "curves or surfaces or a .json with recipes; " +
+      common.mesh + " is none of these");
 }
 
 void refuse_mesh_options(const Common& common) {
@@ -39,6 +46,67 @@ FreeForm load_free_form(const Common& common) {
     fmt::print(stderr, "sublimit: warning: {}: {} faces of a mesh too, which need -s SCHEME\n", common.mesh,
                shapes.num_faces);
   return shapes;
+}
+
+LoadedPatches load_patches(const Common& common) {
+  if (is_recipe_job(common)) {
+    const std::vector<Recipe> recipes = load_recipes(common);
+    RecipePatches found = recipe_patches(recipes, common.mesh);
+    tell_left_out(common, recipes, Sampled::surfaces);
+    return {std::move(found.patches), std::move(found.columns)};
+  }
+  const FreeForm shapes = load_free_form(common);
+  FreeFormPatches found = free_form_patches(shapes, common.mesh);
+  if (!shapes.curves.empty() && !common.quiet)
+    fmt::print(stderr, "sublimit: warning: {}: {} curves are left out; `sample` takes them with --curves\n",
+               common.mesh, shapes.curves.size());
+  return {std::move(found.patches), std::move(found.columns)};
+}
+
+LoadedCurves load_patch_curves(const Common& common) {
+  if (is_recipe_job(common)) {
+    const std::vector<Recipe> recipes = load_recipes(common);
+    RecipeCurves found = recipe_curves(recipes, common.mesh);
+    tell_left_out(common, recipes, Sampled::curves);
+    return {std::move(found.curves), std::move(found.columns), found.coordinates};
+  }
+  const FreeForm shapes = load_free_form(common);
+  FreeFormCurves found = free_form_curves(shapes, common.mesh);
+  if (!shapes.surfaces.empty() && !common.quiet)
+    fmt::print(stderr, "sublimit: warning: {}: {} surfaces are left out; without --curves they are taken\n",
+               common.mesh, shapes.surfaces.size());
+  return {std::move(found.curves), std::move(found.columns), found.coordinates};
+}
+
+bool has_curves_alone(const Common& common) {
+  Common quiet = common;
+  quiet.quiet = true;
+  if (is_recipe_job(common)) {
+    const std::vector<Recipe> recipes = load_recipes(quiet);
+    return std::ranges::any_of(recipes, [](const Recipe& recipe) { return recipe.curve() != nullptr; }) &&
+           std::ranges::none_of(recipes,
+                                [](const Recipe& recipe) { return recipe.surface() || recipe.normal_triangles(); });
+  }
+  const FreeForm shapes = load_free_form(quiet);
+  return !shapes.curves.empty() && shapes.surfaces.empty();
+}
+
+bool has_free_form(const std::string& path) {
+  if (file_extension(path) != ".obj") return false;
+  // What is no file, a pipe, can be read once: by the reader of meshes.
+  std::error_code ignored;  // of a name too long, say: its reader tells
+  if (const auto status = std::filesystem::status(path, ignored);
+      std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
+    return false;
+  const std::string text = read_file(path);
+  for (const std::string_view keyword : {"curv", "surf"})
+    for (size_t at = text.find(keyword); at != std::string::npos; at = text.find(keyword, at + 1)) {
+      const size_t before = text.find_last_not_of(" \t", at == 0 ? std::string::npos : at - 1);
+      const bool begins = at == 0 || before == std::string::npos || text[before] == '\n' || text[before] == '\r';
+      const char after = at + 4 < text.size() ? text[at + 4] : ' ';
+      if (begins && (after == ' ' || after == '\t' || after == '2' || after == '\n')) return true;
+    }
+  return false;
 }
 
 }  // namespace sublimit::cli

@@ -3,6 +3,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "sublimit/gallery/gallery.h"
@@ -15,7 +16,8 @@ std::shared_ptr<GalleryRun> add_gallery(CLI::App& command) {
   auto* gallery =
       command.add_option("--gallery", run->directory,
                          "Draw cube and tetrahedron, an open and a closed polygon under every scheme, level by "
-                         "level, measure the limit surfaces; DIR/index.html shows it all");
+                         "level, measure the limit surfaces; draw classical surfaces with their nets; "
+                         "DIR/index.html shows it all");
   gallery->type_name("DIR");
   command.add_option("--gallery-faces", run->faces, "Least faces of the gallery's limit surfaces (default: 3000)")
       ->needs(gallery)
@@ -37,8 +39,8 @@ void draw_gallery(const GalleryRun& run, bool silent) {
   write_gallery(run.directory, files);
   progress.step("");
   if (run.common.quiet || silent) return;
-  fmt::print("{} pictures, and what was measured:\n  {}\n", files.size() - 2,
-             std::filesystem::absolute(index).string());
+  const auto pictures = std::ranges::count_if(files, [](const GalleryFile& f) { return f.name.ends_with(".svg"); });
+  fmt::print("{} pictures, and what was measured:\n  {}\n", pictures, std::filesystem::absolute(index).string());
 }
 
 }  // namespace sublimit::cli

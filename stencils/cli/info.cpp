@@ -6,6 +6,9 @@
 #include <numeric>
 
 #include "common.h"
+#include "free_form.h"
+#include "normal_surfaces.h"
+#include "recipes.h"
 #include "sublimit/base/error.h"
 #include "sublimit/files/rule_words.h"
 #include "sublimit/limit/address.h"
@@ -72,9 +75,24 @@ struct RuleWords {
 };
 
 int run(const Common& common, bool as_json) {
+  if (is_recipe_job(common)) {
+    print_recipes(common, read_recipes(common.mesh), as_json);
+    return 0;
+  }
+  if (common.scheme.empty() && has_free_form(common.mesh)) {
+    const FreeForm shapes = read_free_form(common.mesh);
+    print_free_form(common, shapes, as_json);
+    if (shapes.num_faces == 0 || as_json) return 0;
+  }
   Common quiet = common;
   quiet.quiet = true;
   Progress progress(common.quiet);
+  const bool normals = is_normal_job(common);
+  if (normals) {
+    check_normal_job(common, false);
+    quiet.scheme.clear();
+    quiet.options.clear();
+  }
   const Loaded loaded = load(quiet, progress);  // warnings and faults are what this subcommand prints
   progress.step("");
   const ControlMesh& mesh = loaded.mesh;
@@ -87,7 +105,7 @@ int run(const Common& common, bool as_json) {
     if (exists(h)) ++(exists(t.twin(h)) ? interior : boundary)[static_cast<Index>(t.edges(Vertex{v}).size())];
   }
   const Index euler = t.num_vertices() - t.num_edges() + t.num_faces();
-  const bool triangles = loaded.scheme && loaded.scheme->face_size() == 3;
+  const bool triangles = normals || (loaded.scheme && loaded.scheme->face_size() == 3);
   const Addresses addresses(t, triangles);
   std::string why_not;  // empty: the scheme takes the mesh
   std::vector<double> cost;
@@ -100,6 +118,7 @@ int run(const Common& common, bool as_json) {
       why_not = error.what();
     }
   }
+  if (normals) why_not = why_no_normal_surface(common, loaded.mesh);
   if (as_json) {
     Json faults = Json::array();
     for (const auto& fault : t.faults()) faults.push_back(fault.message);
@@ -124,8 +143,8 @@ int run(const Common& common, bool as_json) {
               {"face_varying", word(loaded.face_varying)},
               {"warnings", mesh.warnings},
               {"faults", faults}};
-    if (loaded.scheme) {
-      json["scheme"] = {{"name", loaded.scheme->name},
+    if (loaded.scheme || normals) {
+      json["scheme"] = {{"name", common.scheme},
                         {"takes_mesh", why_not.empty() ? "yes" : "no: " + why_not},
                         {"predicted_bytes_by_level", cost}};
     }
@@ -149,8 +168,8 @@ int run(const Common& common, bool as_json) {
   for (const ControlMesh::FaceVarying& channel : mesh.face_varying)
     fmt::print("  face-varying       {}: {} values of {} numbers, interpolation {}\n", channel.name,
                channel.values.rows(), channel.values.cols(), word(loaded.face_varying));
-  if (loaded.scheme) {
-    fmt::print("  {:<18} {}\n", loaded.scheme->name + ":", why_not.empty() ? "takes this mesh" : "no: " + why_not);
+  if (loaded.scheme || normals) {
+    fmt::print("  {:<18} {}\n", common.scheme + ":", why_not.empty() ? "takes this mesh" : "no: " + why_not);
     for (size_t k = 0; k < cost.size(); ++k)
       fmt::print("    to level {}         about {:.1f} MB\n", k + 1, cost[k] / 1e6);
   }
@@ -170,7 +189,10 @@ Command add_info(CLI::App& app) {
   auto as_json = std::make_shared<bool>(false);
   add_mesh(*command, *common, false);
   command->add_flag("--json", *as_json, "As JSON");
-  command->footer("Examples:\n  sublimit info cage.obj\n  sublimit info cage.obj -s loop --json");
+  command->footer(
+      "Examples:\n  sublimit info cage.obj\n  sublimit info cage.obj -s loop --json\n"
+      "Of an .obj with free-form curves and surfaces: bases, degrees, knots, continuity, weights, collapsed sides, trims.\n"
+      "Of recipes (.json): kinds, faces or segments, control points, whether there is an exact net.");
   return [=] { return run(*common, *as_json); };
 }
 

@@ -5,6 +5,9 @@
 
 #include "common.h"
 #include "curves.h"
+#include "free_form.h"
+#include "normal_surfaces.h"
+#include "sublimit/base/error.h"
 #include "sublimit/core/sparse_product.h"
 #include "sublimit/files/refined_mesh.h"
 #include "sublimit/io/file_extension.h"
@@ -22,6 +25,15 @@ struct LimitOptions {
 int run(const LimitOptions& options) {
   if (is_curve_job(options.common))
     return limit_curves({&options.common, options.levels, options.output, "", options.closed, options.normals});
+  if (is_normal_job(options.common)) {
+    check_normal_job(options.common, options.closed);
+    return write_normal_surface({&options.common, options.levels, options.output, "", options.normals});
+  }
+  if (is_free_form_job(options.common)) {
+    if (options.closed) throw InvalidOption("--closed is for curves");
+    limit_free_form(options.common, options.levels, options.output, options.normals);
+    return 0;
+  }
   check_mesh_job(options.common, options.closed);
   check_output_path(options.output, {".obj", ".ply"});
   Progress progress(options.common.quiet);
@@ -66,7 +78,7 @@ int run(const LimitOptions& options) {
 Command add_limit(CLI::App& app) {
   auto* command = app.add_subcommand("limit", "Move the vertices of a level to the limit surface");
   auto options = std::make_shared<LimitOptions>();
-  add_mesh(*command, options->common, true);
+  add_mesh(*command, options->common, false);
   command->add_option("-l,--levels", options->levels, "Level whose vertices are moved (default 0, the control mesh)");
   command->add_flag("--normals", options->normals,
                     "Limit normals too: per corner in .obj (one for each side of a crease), per vertex in .ply");
@@ -80,8 +92,12 @@ Command add_limit(CLI::App& app) {
       "Curves: MESH is a .csv of points or an .obj with lines, OUT a .csv or .obj; --normals adds unit tangents as columns\n"
       "tx,ty,... of a .csv, empty where there is none:\n"
       "  sublimit limit polygon.csv -s four-point -l 4 --normals -o curve.csv\n"
+      "Free-form surfaces of an .obj, without -s: control points of the nets of a level, moved to where they tend to:\n"
+      "  sublimit limit teapot.obj -l 3 --normals -o surface.ply\n"
       "hermite-incentre takes points with unit tangents, x,y,tx,ty or x,y,z,tx,ty,tz; its points of a level are on the\n"
-      "limit, and are placed on its exact arcs.");
+      "limit, and are placed on its exact arcs.\n"
+      "Recipes (.json, see `sublimit construct --help`) stand wherever free-form surfaces do, and, of kinds nielson and\n"
+      "piper, meshes with normals, without -s.");
   return [=] { return run(*options); };
 }
 

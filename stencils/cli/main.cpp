@@ -93,11 +93,19 @@ int main(int argc, char** argv) {
       "  sublimit apply level3.safetensors animation.npy -o refined.npy\n"
       "Exit status: 0 done; 1 the verdict is no (verify); 2 bad command line; 3 bad input or unwritable output; 4 too little\n"
       "memory or disk; 70 a fault of ours; 130 interrupted.");
-  std::vector<std::pair<std::string, cli::Command>> commands{
-      {"schemes", cli::add_schemes(app)}, {"info", cli::add_info(app)},     {"refine", cli::add_refine(app)},
-      {"limit", cli::add_limit(app)},     {"sample", cli::add_sample(app)}, {"bake", cli::add_bake(app)},
-      {"apply", cli::add_apply(app)},     {"verify", cli::add_verify(app)}, {"export", cli::add_export(app)},
-      {"analyze", cli::add_analyze(app)}, {"fit", cli::add_fit(app)},       {"demo", cli::add_demo(app)}};
+  std::vector<std::pair<std::string, cli::Command>> commands{{"schemes", cli::add_schemes(app)},
+                                                             {"info", cli::add_info(app)},
+                                                             {"refine", cli::add_refine(app)},
+                                                             {"limit", cli::add_limit(app)},
+                                                             {"sample", cli::add_sample(app)},
+                                                             {"bake", cli::add_bake(app)},
+                                                             {"construct", cli::add_construct(app)},
+                                                             {"apply", cli::add_apply(app)},
+                                                             {"verify", cli::add_verify(app)},
+                                                             {"export", cli::add_export(app)},
+                                                             {"analyze", cli::add_analyze(app)},
+                                                             {"fit", cli::add_fit(app)},
+                                                             {"demo", cli::add_demo(app)}};
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

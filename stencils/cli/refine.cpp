@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common.h"
 #include "curves.h"
+#include "free_form.h"
+#include "normal_surfaces.h"
+#include "sublimit/base/error.h"
 #include "sublimit/files/matrix_market.h"
 #include "sublimit/files/refined_mesh.h"
 
@@ -17,6 +20,17 @@ struct RefineOptions {
 int run(const RefineOptions& options) {
   if (is_curve_job(options.common))
     return refine_curves({&options.common, options.levels, options.output, options.matrix, options.closed});
+  if (is_normal_job(options.common)) {
+    check_normal_job(options.common, options.closed);
+    return write_normal_surface({&options.common, options.levels, options.output, options.matrix});
+  }
+  if (is_free_form_job(options.common)) {
+    if (options.no_tags || options.closed)
+      throw InvalidOption(std::string(options.closed ? "--closed is for curves" : "--no-tags is for meshes") +
+                          "; free-form surfaces have neither");
+    refine_free_form(options.common, options.levels, options.output, options.matrix);
+    return 0;
+  }
   check_mesh_job(options.common, options.closed);
   check_output_path(options.output, {".obj", ".ply"});
   if (!options.matrix.empty()) check_output_path(options.matrix, {".mtx"});
@@ -50,7 +64,7 @@ int run(const RefineOptions& options) {
 Command add_refine(CLI::App& app) {
   auto* command = app.add_subcommand("refine", "Refine a mesh or curves");
   auto options = std::make_shared<RefineOptions>();
-  add_mesh(*command, options->common, true);
+  add_mesh(*command, options->common, false);
   command->add_option("-l,--levels", options->levels, "Levels of refinement")->required();
   command->add_option("-o,--output", options->output, "OUT.obj (with tags, so that refining can go on) or OUT.ply")
       ->required();
@@ -64,7 +78,13 @@ Command add_refine(CLI::App& app) {
       "  sublimit refine cage.obj -s catmull-clark -l 2 --face-varying boundaries -o refined.obj\n"
       "Curves: MESH is a .csv of points (a line each; a blank line begins another curve) or an .obj with lines, OUT a .csv or .obj:\n"
       "  sublimit refine polygon.csv -s chaikin -l 3 --closed -o curve.csv\n"
-      "hermite-incentre takes and writes points with unit tangents, x,y,tx,ty or x,y,z,tx,ty,tz; it has no matrix.");
+      "Free-form surfaces of an .obj, without -s: the middle of every span becomes a knot; OUT.obj has the finer nets as\n"
+      "bspline surfaces, OUT.ply their polygons:\n"
+      "  sublimit refine teapot.obj -l 2 -o nets.obj --matrix S.mtx\n"
+      "hermite-incentre takes and writes points with unit tangents, x,y,tx,ty or x,y,z,tx,ty,tz; it has no matrix.\n"
+      "nielson, piper: points of their surface with normals, which are those of `limit`; nothing refines them further:\n"
+      "  sublimit refine triangles.obj -s nielson -l 3 -o surface.obj\n"
+      "Recipes (.json, see `sublimit construct --help`) stand wherever such surfaces do, without -s.");
   return [=] { return run(*options); };
 }
 

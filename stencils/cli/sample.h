@@ -19,10 +19,13 @@ struct SampleJob {
   int derivatives = 0;  ///< 0, 1 or 2
   bool clamp = false, curvature = false;
   bool closed = false;  ///< curves of a CSV
+  bool curves = false;  ///< of recipes, not the surfaces
   std::string output;
 };
 
 /// What `sample` does when the scheme is one for curves.
 int sample_curves(const SampleJob& job);
+/// What it does for the curves of a free-form file or recipes.
+int sample_patch_curves(const SampleJob& job);
 
 }  // namespace sublimit::cli

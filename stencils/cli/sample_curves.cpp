@@ -3,6 +3,8 @@
 //
 //   in    segment,t
 //   out   segment,t,status,x,y[,z],[xt,yt,zt,[xtt,ytt,ztt,]]nx,ny[,nz]
+//
+// or, of free-form files and recipes, curve,t[,side] in both: see patch_places.h.
 #include <fmt/core.h>
 
 #include <cmath>
@@ -11,6 +13,7 @@
 #include <random>
 
 #include "curves.h"
+#include "free_form.h"
 #include "sample.h"
 #include "sublimit/base/atomic_file.h"
 #include "sublimit/base/error.h"
@@ -18,6 +21,7 @@
 #include "sublimit/curves/limit_curve.h"
 #include "sublimit/curves/schemes/curve_schemes.h"
 #include "sublimit/files/csv_rows.h"
+#include "sublimit/files/patch_places.h"
 #include "sublimit/geometric/geometric_schemes.h"
 
 namespace sublimit::cli {
@@ -72,10 +76,11 @@ std::string coordinate(Index i, Index dimension) {
   return dimension <= 3 ? std::string(1, "xyz"[i]) : fmt::format("x{}", i);
 }
 
+/// @param own  of each batch, filled by `source`: places as own parameters; its sides are known before
 std::int64_t write(const SampleJob& job, Index dimension, const Source& source, const Evaluation& evaluate,
-                   Progress& progress) {
+                   Progress& progress, const OwnCurvePlaces* own = nullptr) {
   AtomicFile file(job.output);
-  std::string text = "segment,t,status";
+  std::string text = (own ? own->header() : "segment,t") + ",status";
   const auto names = [&](const char* before, const char* behind) {
     for (Index i = 0; i < dimension; ++i) text += fmt::format(",{}{}{}", before, coordinate(i, dimension), behind);
   };
@@ -87,13 +92,18 @@ std::int64_t write(const SampleJob& job, Index dimension, const Source& source, 
   std::int64_t written = 0;
   for (;;) {
     const std::vector<CurveSample> batch = source(samples_per_batch);
-    const CurveSamples found = evaluate(batch);
+    CurveSamples found = evaluate(batch);
+    if (own) own->scale(found);
     text.clear();
     for (size_t i = 0; i < batch.size(); ++i) {
       const auto row = static_cast<Eigen::Index>(i);
-      append_number(text, batch[i].segment);
-      text += ',';
-      append_number(text, batch[i].t);
+      if (own) {
+        own->append(text, i);
+      } else {
+        append_number(text, batch[i].segment);
+        text += ',';
+        append_number(text, batch[i].t);
+      }
       text += ',';
       text += name(found.status[i]);
       const auto append = [&](const Points& m, bool exists) {
@@ -117,14 +127,65 @@ std::int64_t write(const SampleJob& job, Index dimension, const Source& source, 
   return written;
 }
 
-}  // namespace
-
-int sample_curves(const SampleJob& job) {
+void check_curve_samples(const SampleJob& job) {
   if (job.curvature)
     throw InvalidOption("--curvature is for surfaces; --derivatives 2 has what the curvature of a curve is made of");
   check_output_path(job.output, {".csv"});
+}
+
+/// Places of --at, if it is given.
+/// @param right  headers that would be right
+std::shared_ptr<CsvRows> open_places(const SampleJob& job, const std::string& right) {
+  if (job.at.empty()) return nullptr;
+  return std::make_shared<CsvRows>(job.at, std::vector<std::vector<std::string>>{{"segment", "t"}}, right);
+}
+
+/// Normals in the plane take one derivative, in space two.
+int order_for(const SampleJob& job, Index dimension) { return std::max(job.derivatives, dimension == 2 ? 1 : 2); }
+
+}  // namespace
+
+int sample_patch_curves(const SampleJob& job) {
+  refuse_mesh_options(job.common);
+  limit_threads(job.common);
+  check_curve_samples(job);
   std::shared_ptr<CsvRows> rows;
-  if (!job.at.empty()) rows = std::make_shared<CsvRows>(job.at, std::vector<std::string>{"segment", "t"});
+  std::unique_ptr<OwnCurvePlaceReader> own_reader;
+  OwnCurvePlaces own;
+  if (!job.at.empty() && has_own_places(job.at, "curve")) {
+    if (job.clamp) throw InvalidOption("--clamp is for places segment,t; " + job.at + " has curve,t");
+    own_reader = std::make_unique<OwnCurvePlaceReader>(job.at);
+    own.has_sides = own_reader->has_sides();
+  } else {
+    rows = open_places(job, "segment,t or curve,t or curve,t,side");
+  }
+  Progress progress(job.common.quiet);
+  const LoadedCurves found = load_patch_curves(job.common);
+  progress.step("sampling");
+  const auto dimension =
+      static_cast<Index>(found.columns.cols() - (found.coordinates == Coordinates::homogeneous ? 1 : 0));
+  const int order = order_for(job, dimension);
+  const auto own_source = [&](size_t most) {
+    std::vector<CurveSample> batch;
+    own_reader->read(batch, own, most, found.curves);
+    return batch;
+  };
+  const std::int64_t written = write(
+      job, dimension, own_reader ? Source(own_source) : source_of(job, found.curves.num_segments(), rows),
+      [&](std::span<const CurveSample> batch) {
+        return found.curves.evaluate(found.columns, batch, order, found.coordinates);
+      },
+      progress, own_reader ? &own : nullptr);
+  progress.step("");
+  if (!job.common.quiet)
+    fmt::print("{}: {} samples of {} segments of {} curves\n", job.output, written, found.curves.num_segments(),
+               found.curves.num_curves());
+  return 0;
+}
+
+int sample_curves(const SampleJob& job) {
+  check_curve_samples(job);
+  const std::shared_ptr<CsvRows> rows = open_places(job, "segment,t");
   Progress progress(job.common.quiet);
   const CurveJob curve_job{&job.common, 0, job.output, "", job.closed, false};
   const SchemeOptions options = curve_options(job.common);
@@ -135,8 +196,7 @@ int sample_curves(const SampleJob& job) {
   std::int64_t written = 0;
   naming_mesh(job.common, [&] {
     progress.step("sampling");
-    // Normals in the plane take one derivative, in space two.
-    const int order = std::max(job.derivatives, polygon.dimension() == 2 ? 1 : 2);
+    const int order = order_for(job, polygon.dimension());
     if (geometric) {
       Index segments = 0;
       for (const ControlPolygon::Curve& curve : polygon.curves)

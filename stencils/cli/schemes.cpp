@@ -101,6 +101,8 @@ void add_curves(nlohmann::ordered_json& all) {
   for (const GeometricCurveScheme& scheme : all_geometric_schemes()) add_geometric(all, scheme, "curve", "primal");
   for (const GeometricSurfaceScheme& scheme : all_geometric_schemes<CurvatureMesh>())
     add_geometric(all, scheme, "surface", name(Split::ptq));
+  for (const GeometricNormalScheme& scheme : all_geometric_schemes<NormalMesh>())
+    add_geometric(all, scheme, "surface", name(Split::ptq));
 }
 
 void print_curves() {
@@ -129,6 +131,11 @@ void print_curves() {
     fmt::print(
         "\n{:<19} surface through points with normals and curvatures, triangles, not linear; interpolates; {}: {}\n",
         scheme.name, scheme.claims.reproduces, scheme.source);
+    for (const OptionInfo& info : scheme.options) print(info);
+  }
+  for (const GeometricNormalScheme& scheme : all_geometric_schemes<NormalMesh>()) {
+    fmt::print("\n{:<19} surface through points with normals (vn), triangles, G^{}, not linear; {}; interpolates: {}\n",
+               scheme.name, scheme.claims.regular.value_or(0), scheme.claims.limit, scheme.source);
     for (const OptionInfo& info : scheme.options) print(info);
   }
 }

@@ -74,6 +74,7 @@ void AppliedPoints::append_row(std::string& out, std::int64_t point, size_t chan
                                const Points& normals) const {
   const auto i = static_cast<size_t>(point);
   bool first = true;
+  const bool is_pole = !poles_.empty() && poles_[i] != 0;
   const auto begin = [&] {
     if (!std::exchange(first, false)) out += ',';
   };
@@ -89,12 +90,12 @@ void AppliedPoints::append_row(std::string& out, std::int64_t point, size_t chan
   if (has_status_) {
     begin();
     const std::string& status = status_names_[status_.empty() ? 0 : status_[i]];
-    const bool is_degenerate = normals.rows() > 0 && normals.row(point).isZero(0) && status != "hole";
-    out += is_degenerate ? name(LimitStatus::undefined_normal) : status;
+    const bool is_degenerate = !is_pole && normals.rows() > 0 && normals.row(point).isZero(0) && status != "hole";
+    out += is_pole ? name(LimitStatus::pole) : is_degenerate ? name(LimitStatus::undefined_normal) : status;
   }
   const int order = orders_.empty() ? 2 : orders_[status_.empty() ? 0 : status_[i]];
   for (int q = 0; q < quantities_; ++q) {
-    const bool exists = q == 0 || order >= (q < 3 ? 1 : 2);
+    const bool exists = !is_pole && (q == 0 || order >= (q < 3 ? 1 : 2));
     for (size_t c = 0; c < channels; ++c) {
       begin();
       if (exists) append_number(out, values[(size_t(q) * size_t(num_points_) + i) * channels + c]);

@@ -12,6 +12,9 @@ class AppliedPoints {
   template <class Real>
   explicit AppliedPoints(const BakedTable<Real>& table);
 
+  /// Points that do not exist, of a rational table: one for each, 1 at a pole.
+  void set_poles(std::vector<std::uint8_t> poles) { poles_ = std::move(poles); }
+
   /// Unit normals from first derivatives, by the winding of faces; zero where there is no tangent plane, where these
   /// derivatives are parallel within rounding, and everywhere if there are none.
   /// @param values  quantities x points x 3, as the table's `apply` gives them
@@ -47,6 +50,7 @@ class AppliedPoints {
   std::vector<std::int8_t> orders_;   // by status
   std::vector<std::uint8_t> status_;  // none: all are the first
   std::vector<bool> has_plane_;       // by status
+  std::vector<std::uint8_t> poles_;   // none: all points exist
 };
 
 }  // namespace sublimit

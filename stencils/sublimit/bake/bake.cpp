@@ -96,6 +96,17 @@ const char* name(BakeMethod method) {
   return names[size_t(method)];
 }
 
+void count_table(Baked& baked) {
+  BakeStatistics& s = baked.statistics;
+  const auto& arrays = baked.table.table.arrays();
+  s.blocks = static_cast<Index>(arrays.blocks.size());
+  s.groups = static_cast<Index>(arrays.groups.size());
+  s.points = baked.table.table.num_points();
+  s.bytes = baked.table.table.num_bytes();
+  s.weights = std::int64_t(arrays.weights.size()) + (arrays.first ? std::ssize(arrays.first->weights().span()) : 0) +
+              (arrays.rest ? std::ssize(arrays.rest->weights().span()) : 0);
+}
+
 Baked bake(Patterns& patterns, const ControlMesh& mesh, const BakeRequest& request, const SubdivisionOptions& options) {
   check(request);
   const Scheme<double>& scheme = patterns.scheme();
@@ -116,14 +127,8 @@ Baked bake(Patterns& patterns, const ControlMesh& mesh, const BakeRequest& reque
       [&] { return bake_by_rows(patterns, control, request); });
   baked.table.info = table_info(scheme, mesh, request, options);
   if (request.face_varying || request.tags) add_channels(scheme, mesh, control, request, options, turn, baked.table);
+  count_table(baked);
   BakeStatistics& s = baked.statistics;
-  const auto& arrays = baked.table.table.arrays();
-  s.blocks = static_cast<Index>(arrays.blocks.size());
-  s.groups = static_cast<Index>(arrays.groups.size());
-  s.points = baked.table.table.num_points();
-  s.bytes = baked.table.table.num_bytes();
-  s.weights = std::int64_t(arrays.weights.size()) + (arrays.first ? std::ssize(arrays.first->weights().span()) : 0) +
-              (arrays.rest ? std::ssize(arrays.rest->weights().span()) : 0);
   for (const FaceVaryingValues& channel : baked.table.channels.list)
     s.channel_bytes += channel.values.num_bytes() + channel.indices.num_bytes();
   if (const std::optional<TableTags>& tags = baked.table.tags)

@@ -5,6 +5,7 @@
 
 #include "sublimit/baked_table.h"
 #include "sublimit/limit/address.h"
+#include "sublimit/patches/patch_set.h"
 #include "sublimit/patterns/patterns.h"
 #include "sublimit/scheme/refine.h"
 
@@ -75,6 +76,14 @@ struct Baked {
 ///        for these, and for all with a fresh dictionary, the same request gives the same bits.
 Baked bake(Patterns& patterns, const ControlMesh& mesh, const BakeRequest& request,
            const SubdivisionOptions& options = {});
+
+/// A table of classical patches: grids by patterns, a block for each type of face; places by rows; of `level` the
+/// control points of the nets that halving every span k times gives, patch after patch. `TableInfo::rational` tables
+/// are to be applied to homogeneous columns.
+/// @throws InvalidParameter     as above; channels, tags and limits of levels, which patches do not have
+/// @throws UnsupportedTopology  a level of patches that have no nets
+/// @throws ResourceError        more than memory, predicted before it is taken
+Baked bake(const PatchSet& patches, const BakeRequest& request);
 
 /// What a bake will make and take, found out at the cost of a look at every face.
 struct BakePlan {

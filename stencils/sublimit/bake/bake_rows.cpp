@@ -74,8 +74,9 @@ void add_limits(const Scheme<double>& scheme, const std::vector<Level>& levels, 
     baked.table.rest_status = std::move(status);
 }
 
-/// Limits of places, in parallel.
-void add_places(const LimitSurface& surface, std::span<const Sample> samples, int derivatives, Baked& baked,
+}  // namespace
+
+void add_places(const LinearSource& surface, std::span<const Sample> samples, int derivatives, Baked& baked,
                 PatternTable<double>::Arrays& arrays) {
   const auto count = static_cast<std::int64_t>(samples.size());
   const int quantities = arrays.quantities;
@@ -124,13 +125,20 @@ void add_places(const LimitSurface& surface, std::span<const Sample> samples, in
     weights.insert(weights.end(), part.weights.begin(), part.weights.end());
     part = {};
   }
-  arrays.rest = StencilTable<double>(surface.level().topology().num_vertices(), std::move(offsets), std::move(columns),
-                                     std::move(weights));
+  arrays.rest = StencilTable<double>(surface.num_points(), std::move(offsets), std::move(columns), std::move(weights));
   if (std::any_of(status.begin(), status.end(), [](std::uint8_t s) { return s != 0; }))
     baked.table.rest_status = std::move(status);
 }
 
-}  // namespace
+void set_addresses(std::span<const Sample> samples, Baked& baked) {
+  std::vector<std::int32_t> faces;
+  std::vector<double> parameters;
+  for (const Sample& s : samples) {
+    faces.push_back(s.face);
+    parameters.insert(parameters.end(), {s.u, s.v});
+  }
+  baked.table.addresses = {std::move(faces), std::move(parameters)};
+}
 
 std::vector<std::int32_t> grid_copies(const Topology& t, const Addresses& addresses, int N, bool dual) {
   std::vector<std::int32_t> list;
@@ -168,13 +176,7 @@ Baked bake_by_rows(Patterns& patterns, const Level& control, const BakeRequest& 
       arrays.copies = grid_copies(control.topology(), surface.addresses(), request.grid, scheme.is_dual());
     } else {
       add_places(surface, request.samples, request.derivatives, baked, arrays);
-      std::vector<std::int32_t> faces;
-      std::vector<double> parameters;
-      for (const Sample& s : request.samples) {
-        faces.push_back(s.face);
-        parameters.insert(parameters.end(), {s.u, s.v});
-      }
-      baked.table.addresses = {std::move(faces), std::move(parameters)};
+      set_addresses(request.samples, baked);
     }
   }
   baked.table.table = PatternTable<double>(num_control_points, std::move(arrays));

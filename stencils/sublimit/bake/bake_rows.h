@@ -2,14 +2,25 @@
 #pragma once
 // Tables by rows: any scheme, any request.
 #include "sublimit/bake/bake.h"
+#include "sublimit/limit/linear_source.h"
 
 namespace sublimit {
 
 /// A table by rows, its `info` left empty.
 Baked bake_by_rows(Patterns& patterns, const Level& control, const BakeRequest& request);
 
+/// Rows of places of any source, which become the table's `rest`, with their statuses; in parallel.
+/// @throws ResourceError  more than memory, predicted before it is taken
+void add_places(const LinearSource& surface, std::span<const Sample> samples, int derivatives, Baked& baked,
+                PatternTable<double>::Arrays& arrays);
+/// That these are the points of a table.
+void set_addresses(std::span<const Sample> samples, Baked& baked);
+
 /// Points of grids that lie on several addresses, to and from in turn.
 std::vector<std::int32_t> grid_copies(const Topology& t, const Addresses& addresses, int N, bool dual);
+
+/// Statistics of a table that is made.
+void count_table(Baked& baked);
 
 /// A matrix as rows of a table.
 StencilTable<double> as_table(const SparseMatrix& S);

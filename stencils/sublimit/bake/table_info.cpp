@@ -50,6 +50,18 @@ std::string value_of(const OptionInfo& known, const SchemeOptions& given) {
   return to_string({ratio.p / divisor, ratio.q / divisor});
 }
 
+/// What tables of any source say.
+void add_request(const BakeRequest& request, TableInfo& info) {
+  info.rows = request.rows;
+  if (request.rows == TableRows::level || request.rows == TableRows::limit) info.level = request.level;
+  if (request.rows == TableRows::grid) info.grid = request.grid;
+  info.tool = "sublimit " SUBLIMIT_VERSION;
+  if (request.rows == TableRows::level) return;
+  PointStatuses statuses(request.derivatives);
+  info.statuses = std::move(statuses.words);
+  if (request.derivatives > 0) info.orders = std::move(statuses.orders);
+}
+
 }  // namespace
 
 std::uint64_t topology_hash(const ControlMesh& mesh) {
@@ -70,17 +82,19 @@ TableInfo table_info(const Scheme<double>& scheme, const ControlMesh& mesh, cons
     info.options["face-varying-values"] = channels_of(mesh);
   }
   if (request.tags) info.options["tags-left"] = "written";
-  info.rows = request.rows;
-  if (request.rows == TableRows::level || request.rows == TableRows::limit) info.level = request.level;
-  if (request.rows == TableRows::grid) info.grid = request.grid;
   info.triangles = scheme.face_size() == 3;
   info.topology_hash = topology_hash(mesh);
-  info.tool = "sublimit " SUBLIMIT_VERSION;
-  if (request.rows != TableRows::level) {
-    PointStatuses statuses(request.derivatives);
-    info.statuses = std::move(statuses.words);
-    if (request.derivatives > 0) info.orders = std::move(statuses.orders);
-  }
+  add_request(request, info);
+  return info;
+}
+
+TableInfo table_info(const PatchSet& patches, const BakeRequest& request) {
+  TableInfo info;
+  info.scheme = free_form_scheme;
+  info.triangles = patches.faces().triangles;
+  info.topology_hash = patches.hash();
+  info.rational = patches.coordinates() == Coordinates::homogeneous;
+  add_request(request, info);
   return info;
 }
 
@@ -89,7 +103,7 @@ bool is_table_of(const BakedTable<Real>& table, const TableInfo& info, const Bak
   const TableInfo& own = table.info;
   if (own.scheme != info.scheme || own.options != info.options || own.rows != info.rows || own.level != info.level ||
       own.grid != info.grid || own.triangles != info.triangles || own.topology_hash != info.topology_hash ||
-      own.tool != info.tool)
+      own.tool != info.tool || own.rational != info.rational)
     return false;
   constexpr int quantities[] = {1, 3, 6};
   if (table.table.quantities() != quantities[request.derivatives]) return false;

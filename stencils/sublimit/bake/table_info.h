@@ -20,6 +20,10 @@ namespace sublimit {
 TableInfo table_info(const Scheme<double>& scheme, const ControlMesh& mesh, const BakeRequest& request,
                      const SubdivisionOptions& rules = {});
 
+/// Of patches: `scheme` is `free_form_scheme`, there are no rules, and `topology_hash` is that of the patches.
+TableInfo table_info(const PatchSet& patches, const BakeRequest& request);
+inline constexpr const char* free_form_scheme = "free-form";
+
 /// Of the cage, as `topology_hash` of its arrays.
 std::uint64_t topology_hash(const ControlMesh& mesh);
 

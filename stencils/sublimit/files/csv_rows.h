@@ -36,6 +36,7 @@ class CsvRows {
   double finite(size_t column) const;
 
   const std::vector<std::string>& columns() const { return columns_; }
+  std::string_view text(size_t column) const { return fields_[column]; }
   bool is_empty(size_t column) const { return fields_[column].empty(); }
   /// Number of this row's line, from 1.
   std::int64_t line() const { return line_; }

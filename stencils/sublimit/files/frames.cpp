@@ -65,6 +65,9 @@ FrameReader::FrameReader(const std::filesystem::path& path) : path_(path) {
   num_points_ = points_.rows();
 }
 
+FrameReader::FrameReader(const std::filesystem::path& path, Points points, std::vector<std::string> columns)
+    : path_(path), num_points_(points.rows()), columns_(std::move(columns)), points_(std::move(points)) {}
+
 void FrameReader::next(std::span<double> points) {
   if (!array_.is_open()) {
     std::copy_n(points_.data(), points.size(), points.data());

@@ -21,6 +21,8 @@ class FrameReader {
   /// @throws FormatError  another extension, what its reader cannot understand, an array of another shape
   /// @throws InvalidMesh  numbers that are not finite;  IoError  missing, unreadable
   explicit FrameReader(const std::filesystem::path& path);
+  /// One frame that is there already: points x channels.
+  FrameReader(const std::filesystem::path& path, Points points, std::vector<std::string> columns);
 
   std::int64_t num_frames() const { return num_frames_; }
   std::int64_t num_points() const { return num_points_; }

@@ -24,6 +24,29 @@ std::string faces_in_words(FaceCount faces) {
          (faces.triangles ? ", the triangles of the mesh" : ", a quad each or a corner of another polygon");
 }
 
+/// Evaluates a batch; `all` if there is no other.
+using Evaluation = std::function<void(std::span<const Sample> batch, bool all, LimitSamples& found)>;
+
+SampleSummary write_batches(const std::filesystem::path& path, const Evaluation& evaluate, const SampleSource& source,
+                            SampleColumns columns, const std::function<void(std::int64_t)>& progress,
+                            const OwnPlaces* own) {
+  std::unique_ptr<SampleWriter> writer;  // once the header of own places is known
+  SampleSummary summary;
+  std::vector<Sample> batch;
+  LimitSamples found;
+  do {
+    source(batch, samples_per_batch);
+    evaluate(batch, summary.num_samples == 0 && batch.size() < samples_per_batch, found);
+    if (!writer) writer = std::make_unique<SampleWriter>(path, columns, own);
+    writer->write(batch, found);
+    summary.num_samples += static_cast<std::int64_t>(batch.size());
+    for (const LimitStatus status : found.status) ++summary.by_status[size_t(status)];
+    if (progress) progress(summary.num_samples);
+  } while (batch.size() == samples_per_batch);
+  writer->commit();
+  return summary;
+}
+
 void append_fields(std::string& out, const double* numbers, int count, bool exist) {
   for (int i = 0; i < count; ++i) {
     out += ',';
@@ -31,12 +54,15 @@ void append_fields(std::string& out, const double* numbers, int count, bool exis
   }
 }
 
-void append_row(std::string& out, const Sample& s, const LimitSamples& found, std::int64_t i, SampleColumns columns) {
+void append_place(std::string& out, const Sample& s) {
   append_number(out, s.face);
   out += ',';
   append_number(out, s.u);
   out += ',';
   append_number(out, s.v);
+}
+
+void append_row(std::string& out, const LimitSamples& found, std::int64_t i, SampleColumns columns) {
   out += ',';
   out += name(found.status[i]);
   const auto row = [&](const Points& m, bool exists) { append_fields(out, m.data() + 3 * i, 3, exists); };
@@ -94,8 +120,9 @@ void SampleReader::read(std::vector<Sample>& batch, size_t most, FaceCount faces
   }
 }
 
-SampleWriter::SampleWriter(const std::filesystem::path& path, SampleColumns columns) : file_(path), columns_(columns) {
-  std::string header = "face,u,v,status,x,y,z";
+SampleWriter::SampleWriter(const std::filesystem::path& path, SampleColumns columns, const OwnPlaces* own)
+    : file_(path), columns_(columns), own_(own) {
+  std::string header = (own ? own->header() : "face,u,v") + ",status,x,y,z";
   if (columns.derivatives >= 1) header += ",xu,yu,zu,xv,yv,zv";
   if (columns.derivatives >= 2) header += ",xuu,yuu,zuu,xuv,yuv,zuv,xvv,yvv,zvv";
   header += ",nx,ny,nz";
@@ -111,7 +138,13 @@ void SampleWriter::write(std::span<const Sample> samples, const LimitSamples& fo
       [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
         std::string& text = texts_[block];
         text.clear();
-        for (std::int64_t i = begin; i < end; ++i) append_row(text, samples[i], found, i, columns_);
+        for (std::int64_t i = begin; i < end; ++i) {
+          if (own_)
+            own_->append(text, static_cast<size_t>(i));
+          else
+            append_place(text, samples[i]);
+          append_row(text, found, i, columns_);
+        }
       },
       rows_per_text);
   for (const std::string& text : texts_) file_.write(text);
@@ -127,28 +160,26 @@ std::string SampleSummary::text() const {
 
 SampleSummary write_samples(const std::filesystem::path& path, const LinearSource& surface, const Points& points,
                             const SampleSource& source, SampleColumns columns,
-                            const std::function<void(std::int64_t)>& progress) {
-  SampleWriter writer(path, columns);
-  SampleSummary summary;
+                            const std::function<void(std::int64_t)>& progress, const OwnPlaces* own) {
   std::unique_ptr<BoundSource> bound;
-  std::vector<Sample> batch;
-  LimitSamples found;
-  do {
-    source(batch, samples_per_batch);
-    const bool all = summary.num_samples == 0 && batch.size() < samples_per_batch;
+  const auto evaluate = [&](std::span<const Sample> batch, bool all, LimitSamples& found) {
     if (all) {  // `evaluate` knows whether so few are worth a preparation of every piece
       found = surface.evaluate(points, batch, columns.order());
     } else {
       if (!bound) bound = surface.bound(points);
       bound->evaluate(batch, columns.order(), true, found);
     }
-    writer.write(batch, found);
-    summary.num_samples += static_cast<std::int64_t>(batch.size());
-    for (const LimitStatus status : found.status) ++summary.by_status[size_t(status)];
-    if (progress) progress(summary.num_samples);
-  } while (batch.size() == samples_per_batch);
-  writer.commit();
-  return summary;
+    if (own) own->scale(found);
+  };
+  return write_batches(path, evaluate, source, columns, progress, own);
+}
+
+SampleSummary write_samples(const std::filesystem::path& path, const BoundSource& surface, const SampleSource& source,
+                            SampleColumns columns, const std::function<void(std::int64_t)>& progress) {
+  const auto evaluate = [&](std::span<const Sample> batch, bool, LimitSamples& found) {
+    surface.evaluate(batch, columns.order(), true, found);
+  };
+  return write_batches(path, evaluate, source, columns, progress, nullptr);
 }
 
 double predicted_bytes(double num_samples, SampleColumns columns) {

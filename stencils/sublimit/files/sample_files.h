@@ -17,6 +17,7 @@
 
 #include "sublimit/base/atomic_file.h"
 #include "sublimit/files/csv_rows.h"
+#include "sublimit/files/patch_places.h"
 #include "sublimit/limit/limit_surface.h"
 
 namespace sublimit {
@@ -68,7 +69,8 @@ struct SampleColumns {
 /// Samples and what was found there, into a file that appears whole or not at all.
 class SampleWriter {
  public:
-  SampleWriter(const std::filesystem::path& path, SampleColumns columns);
+  /// @param own  places as own parameters, if that is how they were asked for
+  SampleWriter(const std::filesystem::path& path, SampleColumns columns, const OwnPlaces* own = nullptr);
   /// @param found  of order `columns.order()`, with normals
   void write(std::span<const Sample> samples, const LimitSamples& found);
   void commit() { file_.commit(); }
@@ -76,12 +78,13 @@ class SampleWriter {
  private:
   AtomicFile file_;
   SampleColumns columns_;
+  const OwnPlaces* own_;
   std::vector<std::string> texts_;  // of a batch, a block each
 };
 
 struct SampleSummary {
   std::int64_t num_samples = 0;
-  std::array<std::int64_t, 7> by_status{};  ///< in the order of LimitStatus
+  std::array<std::int64_t, num_limit_statuses> by_status{};  ///< in the order of LimitStatus
 
   /// `24 regular, 8 extraordinary`, in the order of LimitStatus.
   std::string text() const;
@@ -90,10 +93,15 @@ struct SampleSummary {
 /// Evaluates all samples of a source and writes them.
 /// @param points    columns of the surface's control points
 /// @param progress  called with the number of samples written so far, if given
+/// @param own       of each batch, filled by `source`: places as own parameters
 /// @note  Memory does not grow with the number of samples. The same bytes for any number of threads.
 SampleSummary write_samples(const std::filesystem::path& path, const LinearSource& surface, const Points& points,
                             const SampleSource& source, SampleColumns columns,
-                            const std::function<void(std::int64_t)>& progress = {});
+                            const std::function<void(std::int64_t)>& progress = {}, const OwnPlaces* own = nullptr);
+
+/// The same of a source that has its points already, which may be one that is not linear.
+SampleSummary write_samples(const std::filesystem::path& path, const BoundSource& surface, const SampleSource& source,
+                            SampleColumns columns, const std::function<void(std::int64_t)>& progress = {});
 
 /// Bytes that a file of so many samples has at least, about.
 double predicted_bytes(double num_samples, SampleColumns columns);

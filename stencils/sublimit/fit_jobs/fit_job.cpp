@@ -4,6 +4,7 @@
 #include "sublimit/base/error.h"
 #include "sublimit/base/format_number.h"
 #include "sublimit/fit/point_normal_polygons.h"
+#include "sublimit/patches/weighted_source.h"
 
 namespace sublimit {
 namespace {
@@ -91,18 +92,43 @@ Fit interpolated(const Scheme<double>& scheme, const ControlMesh& mesh, const Fi
   return fit;
 }
 
+/// Points of any source near targets at places.
+std::pair<Points, FitReport> least_squares(const LinearSource& surface, const std::string& scheme, const Points& guess,
+                                           const FitTargets& targets, const FitSettings& settings) {
+  ScatteredFit found = fit_places(surface, targets.places, guess,
+                                  {.fairness = settings.fairness,
+                                   .pins = settings.pins,
+                                   .solver = solver_of(settings),
+                                   .conditioning = settings.rank});
+  FitReport report = report_of("least-squares", scheme, guess, surface.faces().size, targets);
+  report.position_error = std::move(found.residuals);
+  report.conditioning = std::move(found.conditioning);
+  report.solution = std::move(found.solution);
+  report.pinned = settings.pins.vertices;
+  if (report.conditioning && report.conditioning->rank < report.conditioning->columns && settings.fairness.empty())
+    report.notes.push_back(
+        "the targets do not determine all control points; of all best fits the nearest to what "
+        "was given is taken (--thin-plate or --membrane would take the fairest)");
+  return {std::move(found.points), std::move(report)};
+}
+
 }  // namespace
 
 FitReport report_of(const std::string& kind, const std::string& scheme, const ControlMesh& mesh,
                     const FitTargets& targets) {
+  return report_of(kind, scheme, mesh.positions, mesh.num_faces(), targets);
+}
+
+FitReport report_of(const std::string& kind, const std::string& scheme, const Points& control_points, Index faces,
+                    const FitTargets& targets) {
   FitReport report;
   report.kind = kind;
   report.scheme = scheme;
-  report.mesh_vertices = mesh.num_vertices();
-  report.mesh_faces = mesh.num_faces();
+  report.mesh_vertices = static_cast<Index>(control_points.rows());
+  report.mesh_faces = faces;
   report.expected = targets.positions();
   report.box = diagonal(report.expected);
-  if (!(report.box > 0)) report.box = diagonal(mesh.positions);
+  if (!(report.box > 0)) report.box = diagonal(control_points);
   if (!(report.box > 0)) report.box = 1;
   for (const VertexTarget& target : targets.vertices) report.vertices.push_back(target.vertex);
   if (targets.num_normals > 0) report.normals = Points::Zero(report.expected.rows(), 3);
@@ -133,25 +159,30 @@ Fit fit_scattered(const Scheme<double>& scheme, const ControlMesh& mesh, const F
   tell(settings, "taking stencils");
   const LimitSurface surface(scheme, mesh, settings.rules);
   check_places(targets, surface.addresses(), surface.level().holes);
-  ScatteredFit found = fit_places(surface, targets.places, mesh.positions,
-                                  {.fairness = settings.fairness,
-                                   .pins = settings.pins,
-                                   .solver = solver_of(settings),
-                                   .conditioning = settings.rank});
-  Fit fit{.level = surface.level(),
-          .points = std::move(found.points),
-          .report = report_of("least-squares", scheme.name, mesh, targets)};
-  FitReport& report = fit.report;
-  report.position_error = std::move(found.residuals);
-  report.conditioning = std::move(found.conditioning);
-  report.solution = std::move(found.solution);
-  report.pinned = settings.pins.vertices;
-  if (report.conditioning && report.conditioning->rank < report.conditioning->columns && settings.fairness.empty())
-    report.notes.push_back(
-        "the targets do not determine all control points; of all best fits the nearest to the mesh "
-        "is taken (--thin-plate or --membrane would take the fairest)");
+  auto [points, report] = least_squares(surface, scheme.name, mesh.positions, targets, settings);
+  Fit fit{.level = surface.level(), .points = std::move(points), .report = std::move(report)};
+  fit.report.mesh_faces = mesh.num_faces();
   count(fit, scheme);
   return fit;
+}
+
+std::pair<Points, FitReport> fit_patches(const PatchSet& patches, const Points& columns, const FitTargets& targets,
+                                         const FitSettings& settings) {
+  tell(settings, "taking stencils");
+  FitSettings own = settings;
+  own.fairness.quadrature = 8;  // of degrees above 3 too
+  const FitTargets placed = targets_on(patches, targets);
+  const auto fit = [&](const LinearSource& source, const Points& points) {
+    auto result = least_squares(source, "free-form", points, placed, own);
+    result.second.output_vertices = source.num_points();
+    result.second.output_faces = source.faces().size;
+    return result;
+  };
+  if (patches.coordinates() == Coordinates::plain) return fit(patches, columns);
+  const Eigen::VectorXd weights = columns.col(3);
+  auto result = fit(WeightedSource(patches, weights), columns.leftCols(3).array().colwise() / weights.array());
+  result.first = homogeneous(result.first, weights);
+  return result;
 }
 
 Fit fit_near_cloud(const Scheme<double>& scheme, const ControlMesh& mesh, const Cloud& cloud,

@@ -3,6 +3,7 @@
 // One fit from data to a control mesh and a report; files are somebody else's.
 #include <functional>
 #include <string>
+#include <utility>
 
 #include "sublimit/fit/cloud_fit.h"
 #include "sublimit/fit_jobs/fit_report.h"
@@ -34,6 +35,8 @@ struct Fit {
 /// A report with what is known before the fit: counts, targets, box.
 FitReport report_of(const std::string& kind, const std::string& scheme, const ControlMesh& mesh,
                     const FitTargets& targets);
+FitReport report_of(const std::string& kind, const std::string& scheme, const Points& control_points, Index faces,
+                    const FitTargets& targets);
 
 /// Through points, and perhaps normals, at vertices: a linear system, or a construction.
 /// @throws FormatError  what `check_vertices` refuses; curvatures, which are for torus pieces
@@ -46,6 +49,15 @@ Fit fit_vertices(const Scheme<double>& scheme, const ControlMesh& mesh, const Fi
 /// @throws FormatError  what `check_places` refuses
 Fit fit_scattered(const Scheme<double>& scheme, const ControlMesh& mesh, const FitTargets& targets,
                   const FitSettings& settings);
+
+/// Free-form surfaces near points at places, least squares. Weights of rational ones stay; so do control points that no
+/// target sees.
+/// @param columns  of the control points
+/// @return         columns, and a report without names of files
+/// @throws FormatError       what `targets_on` refuses
+/// @throws InvalidParameter  a control point of weight 0
+std::pair<Points, FitReport> fit_patches(const PatchSet& patches, const Points& columns, const FitTargets& targets,
+                                         const FitSettings& settings);
 
 /// Near a cloud of points: projections and least squares in turn.
 Fit fit_near_cloud(const Scheme<double>& scheme, const ControlMesh& mesh, const Cloud& cloud,

@@ -11,6 +11,7 @@
 #include "sublimit/base/error.h"
 #include "sublimit/base/format_number.h"
 #include "sublimit/files/csv_rows.h"
+#include "sublimit/files/patch_places.h"
 #include "sublimit/files/sample_files.h"
 #include "sublimit/geometric/curvature_mesh.h"
 #include "sublimit/neighborhood/vertex_sides.h"
@@ -26,9 +27,12 @@ const std::vector<std::vector<std::string>> headers = {
     {"vertex", "x", "y", "z", "nx", "ny", "nz", "k1", "k2", "d1x", "d1y", "d1z"},
     {"face", "u", "v", "x", "y", "z"},
     {"face", "u", "v", "x", "y", "z", "weight"},
+    {"patch", "u", "v", "x", "y", "z"},
+    {"patch", "u", "v", "x", "y", "z", "weight"},
 };
 
-constexpr const char* right = "vertex,x,y,z[,nx,ny,nz[,k1,k2,d1x,d1y,d1z]] or face,u,v,x,y,z[,weight]";
+constexpr const char* right =
+    "vertex,x,y,z[,nx,ny,nz[,k1,k2,d1x,d1y,d1z]] or face,u,v,x,y,z[,weight] or patch,u,v,x,y,z[,weight]";
 
 std::string in_words(const Vector3d& v) {
   return "(" + format_number(v.x()) + ", " + format_number(v.y()) + ", " + format_number(v.z()) + ")";
@@ -117,14 +121,16 @@ FitTargets read_fit_targets(const std::filesystem::path& path) {
   CsvRows rows(path, headers, right);
   FitTargets targets;
   targets.file = path;
-  targets.by_place = rows.columns()[0] == "face";
+  targets.by_patch = rows.columns()[0] == "patch";
+  targets.by_place = targets.by_patch || rows.columns()[0] == "face";
   const bool weighted = rows.columns().back() == "weight";
   std::unordered_map<Index, std::int64_t> seen;
   std::vector<double> values;
   while (rows.next()) {
     targets.lines.push_back(rows.line());
     if (targets.by_place) {
-      targets.places.places.push_back({number(rows, "faces"), rows.finite(1), rows.finite(2)});
+      targets.places.places.push_back(
+          {number(rows, targets.by_patch ? "patches" : "faces"), rows.finite(1), rows.finite(2)});
       for (size_t c = 3; c < 6; ++c) values.push_back(rows.finite(c));
       if (weighted) targets.places.weights.push_back(weight(rows));
       continue;
@@ -159,7 +165,28 @@ void check_vertices(const FitTargets& targets, const Topology& topology, const s
   }
 }
 
+FitTargets targets_on(const PatchSet& patches, const FitTargets& targets) {
+  if (!targets.by_place)
+    throw FormatError(targets.file.string() +
+                      ": targets at vertices are for meshes; of free-form surfaces the header should be "
+                      "patch,u,v,x,y,z[,weight] or face,u,v,x,y,z[,weight]");
+  FitTargets result = targets;
+  result.by_patch = false;
+  for (size_t i = 0; i < result.places.places.size(); ++i) {
+    Sample& s = result.places.places[i];
+    if (targets.by_patch)
+      s = own_place(patches, s.face, {.u = s.u, .v = s.v}, targets.where(i));
+    else
+      check_place(patches.faces(), s.face, s.u, s.v, targets.where(i));
+  }
+  return result;
+}
+
 void check_places(const FitTargets& targets, const Addresses& addresses, const std::vector<bool>& holes) {
+  if (targets.by_patch)
+    throw FormatError(targets.file.string() +
+                      ": targets on patches are for free-form surfaces; of meshes the header should be "
+                      "face,u,v,x,y,z[,weight]");
   for (size_t i = 0; i < targets.places.places.size(); ++i) {
     const Sample& s = targets.places.places[i];
     check_place(addresses, s.face, s.u, s.v, targets.where(i));

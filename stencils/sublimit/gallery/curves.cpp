@@ -140,7 +140,7 @@ CurvePictures curve_pictures(int levels) {
     View view;
     for (const Shown& one : all)
       for (const Points& level : one.levels) view.extend(level);
-    PageSection section{named.name, named.title, {}};
+    PageSection section{.id = named.name, .title = named.title, .rows = {}};
     for (const Shown& one : all) {
       const std::string file = one.scheme + "-" + named.name + ".svg";
       result.files.push_back({file, picture(one.levels, named.polygon, one.interpolates, view)});

@@ -16,6 +16,7 @@
 #include "sublimit/gallery/curves.h"
 #include "sublimit/gallery/exhibit.h"
 #include "sublimit/gallery/page.h"
+#include "sublimit/gallery/patch_pictures.h"
 #include "sublimit/schemes.h"
 
 namespace sublimit {
@@ -129,7 +130,7 @@ std::vector<GalleryFile> make_gallery(const GalleryOptions& options, const std::
   }
   std::mutex mutex;
   int done = 0;
-  const int total = 2 * static_cast<int>(work.size()) + 1;
+  const int total = 2 * static_cast<int>(work.size()) + 2;
   const auto step = [&] {
     const std::lock_guard lock(mutex);
     if (progress) progress(done, total);
@@ -161,13 +162,17 @@ std::vector<GalleryFile> make_gallery(const GalleryOptions& options, const std::
 
   std::vector<PageSection> sections;
   for (const Cage& cage : all_cages) {
-    sections.push_back({cage.name, cage.title, {}});
+    sections.push_back({.id = cage.name, .title = cage.title, .rows = {}});
     for (const Work& w : work)
       if (w.cage == &cage) sections.back().rows.push_back(page_row(w, schemes[w.scheme].source));
   }
   CurvePictures curves = curve_pictures(options.levels);
   for (auto& [name, text] : curves.files) files.push_back({name, std::move(text)});
   for (PageSection& section : curves.sections) sections.push_back(std::move(section));
+  step();
+  PatchPictures patches = patch_pictures();
+  for (auto& [name, text] : patches.files) files.push_back({name, std::move(text)});
+  sections.push_back(std::move(patches.section));
   files.push_back({"measures.json", json(work)});
   files.push_back({"index.html", page("overview.svg", sections)});
   return files;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// The gallery: every scheme on the same cages, level by level and in the limit, measured.
+// The gallery: every scheme on the same cages, level by level and in the limit, measured; classical surfaces with their
+// nets.
 #include <functional>
 #include <string>
 #include <vector>
@@ -19,7 +20,7 @@ struct GalleryFile {
 };
 
 /// Draws and measures; writes nothing.
-/// @return  "index.html" (the last one) with its pictures, and "measures.json"
+/// @return  "index.html" (the last one) with its pictures, "measures.json", and the recipes "patches.json"
 /// @param progress  called with what is done and what there is to do, by one thread at a time, if given
 /// @throws InvalidParameter  an option outside its range
 /// @note  Deterministic: same build, same bytes, for any number of threads.

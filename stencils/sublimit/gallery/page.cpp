@@ -31,6 +31,10 @@ img { display: block; max-width: 100%; height: auto }
 dl { display: grid; grid-template-columns: auto 1fr; gap: 1px 12px; margin: 0; font-size: 12.5px }
 dt { color: var(--quiet) }
 dd { margin: 0; font-variant-numeric: tabular-nums }
+table { border-collapse: collapse; margin: 14px 0; font-size: 13px; font-variant-numeric: tabular-nums }
+th { text-align: left; font-weight: 600 }
+td:not(:last-child) { white-space: nowrap }
+th, td { padding: 3px 18px 3px 0; border-bottom: 1px solid var(--line); vertical-align: top }
 @media (max-width: 800px) { .row { grid-template-columns: 1fr } }
 </style>
 </head>
@@ -48,12 +52,27 @@ integral of squared mean curvature over that of a sphere, by cotangents, on mesh
 1 for a sphere; three numbers that agree are the energy of the surface, numbers that grow say that it has none.</p>
 )";
 
+std::string image(const std::string& file, const std::string& description) {
+  return "<img src=\"" + escaped(file) + "\" alt=\"" + escaped(description) + "\">";
+}
+
 std::string row(const PageRow& row) {
   std::string html = "<div class=\"row\"><div><h3>" + escaped(row.name) + "</h3><p class=\"source\">" +
                      escaped(row.source) + "</p><dl>";
   for (const auto& [what, value] : row.numbers) html += "<dt>" + escaped(what) + "</dt><dd>" + escaped(value) + "</dd>";
-  return html + "</dl></div><img src=\"" + escaped(row.picture) + "\" alt=\"" + escaped(row.name) +
-         ", level by level\"></div>\n";
+  return html + "</dl></div>" + image(row.picture, row.name + ", level by level") + "</div>\n";
+}
+
+std::string table(const PageTable& table) {
+  if (table.rows.empty()) return {};
+  const auto line = [](const std::vector<std::string>& cells, const std::string& tag) {
+    std::string html = "<tr>";
+    for (const std::string& cell : cells) html += "<" + tag + ">" + escaped(cell) + "</" + tag + ">";
+    return html + "</tr>\n";
+  };
+  std::string html = "<table>\n" + line(table.columns, "th");
+  for (const std::vector<std::string>& cells : table.rows) html += line(cells, "td");
+  return html + "</table>\n";
 }
 
 }  // namespace
@@ -63,15 +82,17 @@ std::string page(const std::string& overview, std::span<const PageSection> secti
   html +=
       "<h1>Subdivision schemes side by side</h1>\n<p>Every scheme on the same cages, level by level and in the limit, "
       "made by "
-      "<code>sublimit schemes --gallery</code>. All of it comes from the schemes' masks; the numbers are in "
-      "<a href=\"measures.json\">measures.json</a>.</p>\n<nav><a href=\"#how\">How it is measured</a>";
+      "<code>sublimit schemes --gallery</code>. All of that comes from the schemes' masks; the numbers are in "
+      "<a href=\"measures.json\">measures.json</a>. At the end, classical surfaces with their nets.</p>\n<nav><a href=\"#how\">How it is measured</a>";
   for (const PageSection& section : sections)
     html += "<a href=\"#" + escaped(section.id) + "\">" + escaped(section.title) + "</a>";
-  html += "</nav>\n<img src=\"" + escaped(overview) +
-          "\" alt=\"Limits of the cube and of the tetrahedron under every scheme\">\n";
+  html += "</nav>\n" + image(overview, "Limits of the cube and of the tetrahedron under every scheme") + "\n";
   html += how;
   for (const PageSection& section : sections) {
     html += "<h2 id=\"" + escaped(section.id) + "\">" + escaped(section.title) + "</h2>\n";
+    html += section.text;
+    if (!section.picture.empty()) html += image(section.picture, section.description) + "\n";
+    html += table(section.table);
     for (const PageRow& r : section.rows) html += row(r);
   }
   return html + "</body>\n</html>\n";

@@ -14,9 +14,17 @@ struct PageRow {
   std::vector<std::pair<std::string, std::string>> numbers;  ///< what, and how much
   std::string picture;                                       ///< a file
 };
+struct PageTable {
+  std::vector<std::string> columns;
+  std::vector<std::vector<std::string>> rows;
+};
+/// Text, a picture of all that it has, a table and rows, as far as there are any.
 struct PageSection {
   std::string id, title;
   std::vector<PageRow> rows;
+  std::string text = {};                       ///< HTML as it is
+  std::string picture = {}, description = {};  ///< a file, and what it shows
+  PageTable table = {};
 };
 
 std::string page(const std::string& overview, std::span<const PageSection> sections);

@@ -10,8 +10,6 @@
 
 namespace sublimit {
 
-constexpr int num_limit_statuses = int(LimitStatus::outside) + 1;
-
 /// 0 where all is regular, and every derivative asked for is there.
 /// @param order        derivatives that exist, 0 to 2
 /// @param derivatives  those that the table has

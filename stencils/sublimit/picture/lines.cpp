@@ -75,10 +75,14 @@ void write_lines(std::string& svg, const SeenPanel& seen, int layer) {
   const int first = seen.scene.first_point[layer];
   std::map<double, svg::Path> creases;
   for (const PictureMesh::Line& line : mesh.creases) {
-    add_visible(seen, creases[line.strength], first + line.tail, first + line.head,
+    add_visible(seen, creases[mesh.ink ? 0 : line.strength], first + line.tail, first + line.head,
                 faces_of(first + line.tail, first + line.head));
   }
   for (const auto& [strength, path] : creases) {
+    if (mesh.ink) {
+      write_stroke(svg, mesh.ink->color, static_cast<int>(std::lround(svg::units * mesh.ink->width)), 1, path.data());
+      continue;
+    }
     write_stroke(svg, mix({.95, .62, .15}, {.80, .16, .12}, strength),
                  static_cast<int>(std::lround(14 + 10 * strength)), 1, path.data());
   }

@@ -41,6 +41,10 @@ void check(const PictureMesh& mesh, int panel, int layer) {
     need(line.strength >= 0 && line.strength <= 1, "a crease's strength is outside 0..1");
   }
   need(mesh.dot_size >= 0 && mesh.dot_size <= 2, "the size of dots is 0 to 2");
+  if (mesh.ink) {
+    need(mesh.ink->width >= 0 && mesh.ink->width <= 5, "the width of lines is 0 to 5 pixels");
+    for (double c : mesh.ink->color) need(c >= 0 && c <= 1, "a colour is outside 0..1");
+  }
   for (double c : mesh.color) need(c >= 0 && c <= 1, "a colour is outside 0..1");
   const auto normals = [&](const Points& n, Eigen::Index rows) {
     need(n.size() == 0 || (n.rows() == rows && n.cols() == 3),

@@ -5,6 +5,7 @@
 // pixel, so that a limit surface of 20 000 faces takes some 200 KB.
 #include <Eigen/Core>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,11 @@ struct PictureMesh {
     double strength = 1;  ///< 0..1: from thin amber to strong red
   };
   std::vector<Line> creases;
+  struct Ink {
+    Color color = {};
+    double width = 1;  ///< pixels, 0..5
+  };
+  std::optional<Ink> ink;   ///< of all creases, whatever their strength
   std::vector<Index> dots;  ///< vertices to mark
   double dot_size = 1;      ///< 0..2
 

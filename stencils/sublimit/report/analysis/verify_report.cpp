@@ -192,8 +192,8 @@ Json parsed(const std::string& text) {
     throw FormatError("version " + report.value("version", Json()).dump() +
                       " of the report is not known; this program reads version 1");
   const Json kind = report.value("kind", Json());
-  if (kind != "schemes" && kind != "mesh" && kind != "curve" && kind != "sweep")
-    throw FormatError("kind " + kind.dump() + " is none of schemes, mesh, curve and sweep");
+  if (kind != "schemes" && kind != "mesh" && kind != "free-form" && kind != "curve" && kind != "sweep")
+    throw FormatError("kind " + kind.dump() + " is none of schemes, mesh, free-form, curve and sweep");
   return report;
 }
 

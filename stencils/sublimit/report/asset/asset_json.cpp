@@ -70,27 +70,6 @@ Json places(const std::vector<AssetPlace>& list) {
   return j;
 }
 
-Json surface(const AssetSurface& s, double diagonal) {
-  const double unit = diagonal > 0 && std::isfinite(diagonal) ? std::pow(10., 6 - std::floor(std::log10(diagonal))) : 1;
-  Json positions = Json::array(), normals = Json::array(), faces = Json::array(), curvature = Json::array();
-  const auto row = [](const Points& m, Eigen::Index i, double u) {
-    return Json::array({rounded(m(i, 0), u), rounded(m(i, 1), u), rounded(m(i, 2), u)});
-  };
-  for (Eigen::Index i = 0; i < s.positions.rows(); ++i) {
-    positions.push_back(row(s.positions, i, std::isfinite(unit) ? unit : 1));
-    normals.push_back(row(s.normals, i, 1e4));
-    const auto& c = s.curvature[size_t(i)];
-    curvature.push_back(c ? Json::array({short_number((*c)[0]), short_number((*c)[1])}) : Json(nullptr));
-  }
-  size_t at = 0;
-  for (const Index size : s.face_sizes) {
-    faces.push_back(std::vector<Index>(s.face_vertices.begin() + std::ptrdiff_t(at),
-                                       s.face_vertices.begin() + std::ptrdiff_t(at + size_t(size))));
-    at += size_t(size);
-  }
-  return {{"positions", positions}, {"faces", faces}, {"normals", normals}, {"curvature", curvature}};
-}
-
 std::string where(const AssetWarning& w) {
   const bool is_face = !w.faces.empty();
   const std::vector<Index>& list = is_face ? w.faces : w.vertices;
@@ -119,6 +98,27 @@ Json list(const std::vector<T>& values, const F& f) {
 }
 
 }  // namespace
+
+Json surface_json(const AssetSurface& s, double diagonal) {
+  const double unit = diagonal > 0 && std::isfinite(diagonal) ? std::pow(10., 6 - std::floor(std::log10(diagonal))) : 1;
+  Json positions = Json::array(), normals = Json::array(), faces = Json::array(), curvature = Json::array();
+  const auto row = [](const Points& m, Eigen::Index i, double u) {
+    return Json::array({rounded(m(i, 0), u), rounded(m(i, 1), u), rounded(m(i, 2), u)});
+  };
+  for (Eigen::Index i = 0; i < s.positions.rows(); ++i) {
+    positions.push_back(row(s.positions, i, std::isfinite(unit) ? unit : 1));
+    normals.push_back(row(s.normals, i, 1e4));
+    const auto& c = s.curvature[size_t(i)];
+    curvature.push_back(c ? Json::array({short_number((*c)[0]), short_number((*c)[1])}) : Json(nullptr));
+  }
+  size_t at = 0;
+  for (const Index size : s.face_sizes) {
+    faces.push_back(std::vector<Index>(s.face_vertices.begin() + std::ptrdiff_t(at),
+                                       s.face_vertices.begin() + std::ptrdiff_t(at + size_t(size))));
+    at += size_t(size);
+  }
+  return {{"positions", positions}, {"faces", faces}, {"normals", normals}, {"curvature", curvature}};
+}
 
 Json to_json(const AssetReport& r, const std::string& file) {
   const AssetSeams& s = r.seams;
@@ -152,7 +152,7 @@ Json to_json(const AssetReport& r, const std::string& file) {
                     {"total_gauss", number(c.total_gauss)},
                     {"samples", c.samples},
                     {"without", c.without}};
-  j["surface"] = r.surface.positions.rows() > 0 ? surface(r.surface, diagonal) : Json(nullptr);
+  j["surface"] = r.surface.positions.rows() > 0 ? surface_json(r.surface, diagonal) : Json(nullptr);
   j["worst"] = places(r.worst);
   j["warnings"] = list(r.warnings, warning);
   return j;

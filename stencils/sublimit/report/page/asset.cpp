@@ -12,13 +12,6 @@
 namespace sublimit::page {
 namespace {
 
-std::string place(const Json& at_) {
-  if (!at_.is_array()) return dash;
-  std::string text = "(";
-  for (std::size_t i = 0; i < at_.size(); ++i) text += (i > 0 ? ", " : "") + shown(at(at_, i), 4);
-  return text + ")";
-}
-
 std::string inventory(const Json& list) {
   if (!list.is_array() || list.empty()) return {};
   Table table{"What is not an inner regular vertex or face",
@@ -156,7 +149,16 @@ std::string worst_places(const Json& list) {
   return "<section id=\"worst\"><h2>Worst places</h2>\n" + html(table) + "</section>\n";
 }
 
-std::string warnings(const Json& list) {
+}  // namespace
+
+std::string place(const Json& at_) {
+  if (!at_.is_array()) return dash;
+  std::string text = "(";
+  for (std::size_t i = 0; i < at_.size(); ++i) text += (i > 0 ? ", " : "") + shown(at(at_, i), 4);
+  return text + ")";
+}
+
+std::string warnings_section(const Json& list) {
   if (!list.is_array() || list.empty()) return {};
   Table table{"", {"severity", "what", "where", "advice"}, {}, "wide text"};
   for (const Json& w : list) {
@@ -169,8 +171,6 @@ std::string warnings(const Json& list) {
   return "<section id=\"warnings\"><h2>Warnings</h2>\n" + html(table) + "</section>\n";
 }
 
-}  // namespace
-
 std::string mesh_section(const Json& mesh) {
   const Json& counts = at(mesh, "counts");
   const Json& box = at(mesh, "box");
@@ -181,8 +181,8 @@ std::string mesh_section(const Json& mesh) {
                  {"Edges", shown(at(counts, "edges"))},
                  {"Box", box.is_array() ? place(at(box, 0)) + " to " + place(at(box, 1)) : dash}});
   text += figures(asset_figure(mesh)) + "</section>\n";
-  return text + warnings(at(mesh, "warnings")) + worst_places(at(mesh, "worst")) + inventory(at(mesh, "inventory")) +
-         seams(at(mesh, "seams")) + curvature(at(mesh, "curvature"));
+  return text + warnings_section(at(mesh, "warnings")) + worst_places(at(mesh, "worst")) +
+         inventory(at(mesh, "inventory")) + seams(at(mesh, "seams")) + curvature(at(mesh, "curvature"));
 }
 
 }  // namespace sublimit::page

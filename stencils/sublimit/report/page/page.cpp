@@ -31,6 +31,7 @@ std::string title_of(const Json& report) {
   const Json& schemes = at(report, "schemes");
   if (kind == "mesh") return "How smooth is the limit of " + string(at(at(report, "mesh"), "file"), "this mesh") + "?";
   if (kind == "curve") return "How smooth is this curve?";
+  if (kind == "free-form") return "How smooth is " + string(at(at(report, "free_form"), "file"), "this file") + "?";
   if (kind == "sweep")
     return "How smooth is " + string(at(at(schemes, 0), "name"), "the scheme") + ", by " +
            string(at(at(report, "sweep"), "option"), "option") + "?";
@@ -44,6 +45,9 @@ std::string lead_of(const Json& report) {
     return "The limit surface of this control mesh: what its irregular places do to it, how well its patches meet, and "
            "where it is worst.";
   if (kind == "curve") return "How the pieces of the curve meet at its knots.";
+  if (kind == "free-form")
+    return "How the patches and curves of this file meet: measured, and decided without rounding where the file's numbers "
+           "allow it; and what of them is degenerate.";
   if (kind == "sweep") return "Smoothness of the limit as one option of the scheme varies.";
   return "Everything on this page is computed from the masks of the schemes. A verdict is <em>proved</em> or "
          "<em>disproved</em> only where it rests on "
@@ -82,6 +86,15 @@ std::string report_page(const nlohmann::ordered_json& report) {
                                     {"inventory", "Inventory"},
                                     {"seams", "Seams"},
                                     {"curvature", "Curvature"}})
+      if (body.find(std::string("<section id=\"") + id + "\"") != std::string::npos) contents.push_back({id, words});
+  }
+  if (at(report, "free_form").is_object()) {
+    add(free_form_section(at(report, "free_form")), "shapes", "The verdict");
+    for (const auto& [id, words] : {std::pair{"warnings", "Warnings"},
+                                    {"seams", "Seams"},
+                                    {"vertices", "Vertices"},
+                                    {"curves", "Curves"},
+                                    {"patches", "Patches"}})
       if (body.find(std::string("<section id=\"") + id + "\"") != std::string::npos) contents.push_back({id, words});
   }
   if (at(report, "curve").is_object()) add(curve_section(at(report, "curve")), "curve", "The knots");

@@ -32,6 +32,12 @@ std::string neighborhood_details(const Json& neighborhood, const std::string& sc
 std::string edge_neighborhoods(const Json& neighborhoods, const std::string& scheme, const std::string& id,
                                Detail detail);
 
+/// What a modeller should know: of meshes and of free-form shapes.
+std::string warnings_section(const Json& list);
+/// A point of the report: "(1, 0, 2.5)".
+std::string place(const Json& at);
+
+std::string free_form_section(const Json& free_form);
 std::string mesh_section(const Json& mesh);
 std::string curve_section(const Json& curve);
 std::string sweep_section(const Json& sweep);

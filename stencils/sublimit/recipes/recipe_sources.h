@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// All surfaces of a file, or all its curves, as one linear source with its control points.
+#include "sublimit/patches/curve_set.h"
+#include "sublimit/patches/patch_set.h"
+#include "sublimit/recipes/recipe.h"
+
+namespace sublimit {
+
+struct RecipePatches {
+  PatchSet patches;
+  Points columns;                     ///< x 3, or x 4, homogeneous, if one of them is rational
+  std::vector<const Recipe*> recipe;  ///< of each patch
+};
+/// @param recipes  have to stay
+/// @param name     of the file, for messages
+/// @throws UnsupportedTopology  no surfaces; triangles beside squares
+RecipePatches recipe_patches(const std::vector<Recipe>& recipes, const std::string& name);
+
+struct RecipeCurves {
+  CurveSet curves;
+  Points columns;  ///< of the largest dimension, 0 where a curve has less
+  Coordinates coordinates = Coordinates::plain;
+  std::vector<const Recipe*> recipe;  ///< of each curve
+};
+/// @throws UnsupportedTopology  no curves
+RecipeCurves recipe_curves(const std::vector<Recipe>& recipes, const std::string& name);
+
+}  // namespace sublimit
