@@ -34,7 +34,7 @@ constexpr NotRun not_run[] = {
     {R"(cmake --build --preset release --target gallery)", "remakes the pictures of the source tree"},
     {R"(ctest --test-dir .* -L LABEL)", "the tests themselves"},
     {R"(build/\S+/bin/\w+_(bench|accuracy|scaling)( .*)?)", "a benchmark: minutes, on a machine of its own"},
-    {R"(build/\S+/bin/fuzz_\w+)", "a place of a program; fuzz.obj and fuzz.table run them"},
+    {R"(build/\S+/bin/fuzz_\w+)", "a place of a program; fuzz.obj, fuzz.table and fuzz.recipe run them"},
 };
 
 /// Why a command line is not run; empty if it is.
@@ -190,7 +190,8 @@ const std::vector<Section>& sections() {
        "Gallery",
        {},
        [](const Path& folder) {
-         for (const char* name : {"DIR/overview.svg", "DIR/index.html", "DIR/measures.json"})
+         for (const char* name :
+              {"DIR/overview.svg", "DIR/patches.svg", "DIR/patches.json", "DIR/index.html", "DIR/measures.json"})
            expect_readable(folder / name);
        }},
   };

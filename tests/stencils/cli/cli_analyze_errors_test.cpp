@@ -14,7 +14,7 @@ namespace {
 using Parts = std::initializer_list<std::string_view>;
 
 /// Runs `analyze` with outputs in an empty directory, where it must leave nothing.
-void expect_refused(std::vector<std::string> arguments, int status, Parts parts) {
+void expect_analysis_refused(std::vector<std::string> arguments, int status, Parts parts) {
   const TemporaryDirectory directory;
   std::string trace;
   for (const std::string& argument : arguments) trace += " '" + argument + "'";
@@ -47,7 +47,7 @@ TEST(CliAnalyzeErrors, TagsBesideTheMeshAreNotOverwritten) {
 
 TEST(CliAnalyzeErrors, ValencesThatMakeNoSense) {
   const auto refused = [](const std::string& valences, Parts parts) {
-    expect_refused({"-s", "loop", "--valence", valences}, 2, parts);
+    expect_analysis_refused({"-s", "loop", "--valence", valences}, 2, parts);
   };
   refused("2-5", {"--valence 2-5", "2 is below 3"});
   refused("5-3", {"5-3 is empty", "did you mean 3-5?"});
@@ -60,28 +60,29 @@ TEST(CliAnalyzeErrors, ValencesThatMakeNoSense) {
 }
 
 TEST(CliAnalyzeErrors, SchemesAndOptions) {
-  expect_refused({}, 2, {"name a scheme with -s", "all"});
-  expect_refused({"-s", "lop"}, 2, {"unknown scheme 'lop'", "nearest are loop"});
-  expect_refused({"-s", "four-pint", "--sweep", "tension=0:1:1"}, 2, {"'four-pint'", "nearest are four-point"});
-  expect_refused({"-s", "hermite-incentre"}, 2, {"hermite-incentre", "not linear", "gallery"});
-  expect_refused({"-s", "hermite-incentre", "--sweep", "tension=0:1:1"}, 2, {"not linear"});
-  expect_refused({"-s", "averaging", "--option", "degree=99"}, 2, {"degree=99", "from 2 to 9"});
-  expect_refused({"-s", "loop", "--option", "degree=3"}, 2, {"loop has no option 'degree'"});
-  expect_refused({"-s", "loop", "--option", "degree"}, 2, {"name=value"});
-  expect_refused({"-s", "all", "--option", "degree=3"}, 2, {"--option belongs to one scheme"});
-  expect_refused({"-s", "all", "--claim", "regular=2"}, 2, {"--claim belongs to one scheme"});
-  expect_refused({"-s", "loop", "--claim", "smooth=2"}, 2, {"no such claim", "regular=N"});
-  expect_refused({"-s", "loop", "--claim", "regular=two"}, 2, {"whole number"});
+  expect_analysis_refused({}, 2, {"name a scheme with -s", "all"});
+  expect_analysis_refused({"-s", "lop"}, 2, {"unknown scheme 'lop'", "nearest are loop"});
+  expect_analysis_refused({"-s", "four-pint", "--sweep", "tension=0:1:1"}, 2,
+                          {"'four-pint'", "nearest are four-point"});
+  expect_analysis_refused({"-s", "hermite-incentre"}, 2, {"hermite-incentre", "not linear", "gallery"});
+  expect_analysis_refused({"-s", "hermite-incentre", "--sweep", "tension=0:1:1"}, 2, {"not linear"});
+  expect_analysis_refused({"-s", "averaging", "--option", "degree=99"}, 2, {"degree=99", "from 2 to 9"});
+  expect_analysis_refused({"-s", "loop", "--option", "degree=3"}, 2, {"loop has no option 'degree'"});
+  expect_analysis_refused({"-s", "loop", "--option", "degree"}, 2, {"name=value"});
+  expect_analysis_refused({"-s", "all", "--option", "degree=3"}, 2, {"--option belongs to one scheme"});
+  expect_analysis_refused({"-s", "all", "--claim", "regular=2"}, 2, {"--claim belongs to one scheme"});
+  expect_analysis_refused({"-s", "loop", "--claim", "smooth=2"}, 2, {"no such claim", "regular=N"});
+  expect_analysis_refused({"-s", "loop", "--claim", "regular=two"}, 2, {"whole number"});
 }
 
 TEST(CliAnalyzeErrors, MasksAndSweeps) {
-  expect_refused({"--mask", ""}, 2, {"at least 2 weights", "1 4 6 4 1 /8"});
-  expect_refused({"--mask", "1"}, 2, {"at least 2 weights", "there is 1"});
-  expect_refused({"--mask", "1 2 x"}, 2, {"weight 3", "'x'"});
-  expect_refused({"--mask", "1 2 1 /0"}, 2, {"'/0'", "denominator"});
-  expect_refused({"--mask", "0 0 0"}, 2, {"all weights are zero"});
+  expect_analysis_refused({"--mask", ""}, 2, {"at least 2 weights", "1 4 6 4 1 /8"});
+  expect_analysis_refused({"--mask", "1"}, 2, {"at least 2 weights", "there is 1"});
+  expect_analysis_refused({"--mask", "1 2 x"}, 2, {"weight 3", "'x'"});
+  expect_analysis_refused({"--mask", "1 2 1 /0"}, 2, {"'/0'", "denominator"});
+  expect_analysis_refused({"--mask", "0 0 0"}, 2, {"all weights are zero"});
   const auto refused = [](const std::string& sweep, Parts parts) {
-    expect_refused({"-s", "four-point", "--sweep", sweep}, 2, parts);
+    expect_analysis_refused({"-s", "four-point", "--sweep", sweep}, 2, parts);
   };
   refused("", {"tension=0:4:0.05"});
   refused("tension", {"=", "tension=0:4:0.05"});
@@ -91,38 +92,38 @@ TEST(CliAnalyzeErrors, MasksAndSweeps) {
   refused("tension=a:4:1", {"'a' is not a number"});
   refused("tension=0:4:0.0001", {"more than 2001 values"});
   refused("degree=0:4:1", {"four-point has no option 'degree'"});
-  expect_refused({"-s", "all", "--sweep", "tension=0:1:1"}, 2, {"one scheme"});
+  expect_analysis_refused({"-s", "all", "--sweep", "tension=0:1:1"}, 2, {"one scheme"});
 }
 
 TEST(CliAnalyzeErrors, JobsThatDoNotGoTogether) {
-  expect_refused({"--mask", "1 2 1 /2", "--sweep", "tension=0:1:1"}, 2, {"give one of them"});
-  expect_refused({"mesh.obj", "-s", "loop", "--mask", "1 2 1 /2"}, 2, {"give one of them"});
-  expect_refused({"--mask", "1 2 1 /2", "-s", "loop"}, 2, {"--scheme is for", "a mask"});
-  expect_refused({"-s", "loop", "--tolerance", "g1=1"}, 2, {"--tolerance is for meshes"});
-  expect_refused({"mesh.obj", "-s", "loop", "--valence", "3"}, 2, {"--valence is for schemes"});
-  expect_refused({"-s", "chaikin", "--valence", "3"}, 2, {"--valence", "chaikin refines curves"});
-  expect_refused({"mesh.obj", "-s", "all"}, 2, {"one scheme"});
-  expect_refused({"mesh.obj"}, 2, {"name a scheme"});
+  expect_analysis_refused({"--mask", "1 2 1 /2", "--sweep", "tension=0:1:1"}, 2, {"give one of them"});
+  expect_analysis_refused({"mesh.obj", "-s", "loop", "--mask", "1 2 1 /2"}, 2, {"give one of them"});
+  expect_analysis_refused({"--mask", "1 2 1 /2", "-s", "loop"}, 2, {"--scheme is for", "a mask"});
+  expect_analysis_refused({"-s", "loop", "--tolerance", "g1=1"}, 2, {"--tolerance is for meshes"});
+  expect_analysis_refused({"mesh.obj", "-s", "loop", "--valence", "3"}, 2, {"--valence is for schemes"});
+  expect_analysis_refused({"-s", "chaikin", "--valence", "3"}, 2, {"--valence", "chaikin refines curves"});
+  expect_analysis_refused({"mesh.obj", "-s", "all"}, 2, {"one scheme"});
+  expect_analysis_refused({"mesh.obj"}, 2, {"name a scheme"});
 }
 
 TEST(CliAnalyzeErrors, MeshesAndCurves) {
   const TemporaryDirectory directory;
   write_obj(directory / "cube.obj", output(cube()));
   const std::string mesh = (directory / "cube.obj").string();
-  expect_refused({mesh, "-s", "loop"}, 3, {"cube.obj", "loop", "face 0", "4 corners", "triangles"});
-  expect_refused({(directory / "none.obj").string(), "-s", "loop"}, 3, {"none.obj", "No such file"});
-  expect_refused({directory.write("bad.obj", "v 0 0\n").string(), "-s", "loop"}, 3, {"bad.obj:1"});
-  expect_refused({(directory / "none.csv").string()}, 3, {"none.csv", "No such file"});
-  expect_refused({directory.write("bad.csv", "a,b\n").string()}, 3, {"bad.csv", "line 1", "piece,x,y"});
+  expect_analysis_refused({mesh, "-s", "loop"}, 3, {"cube.obj", "loop", "face 0", "4 corners", "triangles"});
+  expect_analysis_refused({(directory / "none.obj").string(), "-s", "loop"}, 3, {"none.obj", "No such file"});
+  expect_analysis_refused({directory.write("bad.obj", "v 0 0\n").string(), "-s", "loop"}, 3, {"bad.obj:1"});
+  expect_analysis_refused({(directory / "none.csv").string()}, 3, {"none.csv", "No such file"});
+  expect_analysis_refused({directory.write("bad.csv", "a,b\n").string()}, 3, {"bad.csv", "line 1", "piece,x,y"});
   for (const char* tolerance : {"g1", "g1=abc", "g3=1", "g1=-1deg", "g0=1deg"})
-    expect_refused({mesh, "-s", "catmull-clark", "--tolerance", tolerance}, 2, {tolerance, "g1=0.1deg"});
+    expect_analysis_refused({mesh, "-s", "catmull-clark", "--tolerance", tolerance}, 2, {tolerance, "g1=0.1deg"});
 }
 
 TEST(CliAnalyzeErrors, OutputsAreCheckedBeforeWorkStarts) {
   const TemporaryDirectory directory;
   const std::string missing = (directory / "missing.obj").string();  // what is wrong with the output is told first
   const auto refused = [&](const char* option, const std::string& path, int status, Parts parts) {
-    expect_refused({missing, "-s", "loop", option, path}, status, parts);
+    expect_analysis_refused({missing, "-s", "loop", option, path}, status, parts);
   };
   refused("-o", (directory / "r.pdf").string(), 2, {"r.pdf", ".html or .htm"});
   refused("--json", (directory / "r.html").string(), 2, {"r.html", ".json"});
@@ -132,7 +133,8 @@ TEST(CliAnalyzeErrors, OutputsAreCheckedBeforeWorkStarts) {
   std::filesystem::create_directory(directory / "folder.json");
   refused("--json", (directory / "folder.json").string(), 3, {"folder.json", "directory"});
   directory.write("file", "");
-  expect_refused({"-s", "loop", "--export", (directory / "file").string()}, 3, {"cannot make the directory", "file"});
+  expect_analysis_refused({"-s", "loop", "--export", (directory / "file").string()}, 3,
+                          {"cannot make the directory", "file"});
   EXPECT_EQ(directory.num_files(), 2);
 }
 

@@ -14,10 +14,11 @@ namespace {
 /// A quarter of the unit circle, then an inflection.
 const std::string curve = "x,y,tx,ty\n1,0,0,1\n0,1,-1,0\n-1,3,-1,0\n";
 
-void expect_refused(const std::string& name, const std::string& text, std::initializer_list<std::string_view> parts,
-                    int status = 3, std::vector<std::string> more = {}) {
+void expect_hermite_refused(const std::string& name, const std::string& text,
+                            std::initializer_list<std::string_view> parts, int status = 3,
+                            std::vector<std::string> more = {}) {
   more.insert(more.end(), {"-s", "hermite-incentre"});
-  testing::expect_refused(name, text, more, status, parts, "o.csv");
+  expect_refused(name, text, more, status, parts, "o.csv");
 }
 
 TEST(CliHermiteIncentre, RefinesAndGoesOn) {
@@ -51,19 +52,19 @@ TEST(CliHermiteIncentre, RefinesAndGoesOn) {
 }
 
 TEST(CliHermiteIncentre, RefusesBadCurves) {
-  expect_refused("p.csv", "0,0,1,0\n1,0,1,0\n2,0,3,4\n", {"p.csv:3", "point 2", "length 5", "length 1"});
-  expect_refused("p.csv", "x,y,tx,ty\n0,0,1,0\n1,0,0,0\n", {"p.csv:3", "point 1", "length 0"});
-  expect_refused("p.csv", "0,0,1,0\n\n# again\n1,0,1,0\n1,0,0,1\n", {"p.csv:1", "1 point", "at least 2"});
-  expect_refused("p.csv", "0,0,1,0\n1,0,1,0\n1,0,0,1\n", {"p.csv:3", "points 1 and 2", "equal", "leave one"});
-  expect_refused("p.csv", "0,0,1,0\n1,0,nan,0\n", {"p.csv:2", "'nan'"});
-  expect_refused("p.csv", "0,0,1,0\n", {"p.csv:1", "1 point", "at least 2"});
-  expect_refused("p.csv", "x,y\n0,0\n1,0\n", {"p.csv:1", "2 columns", "x,y,tx,ty"});
-  expect_refused("p.csv", "0,0,0\n1,0,0\n", {"p.csv:1", "3 columns", "x,y,tx,ty"});
-  expect_refused("p.csv", "0,0,0,0,1,0,0,0\n1,0,0,0,1,0,0,0\n", {"p.csv", "4", "x,y,z,tx,ty,tz"});
-  expect_refused("p.obj", "v 0 0 0\nv 1 0 0\nl 1 2\n", {"p.obj", "tangents", "x,y,tx,ty"});
-  expect_refused("p.csv", "", {"p.csv", "no points"});
-  expect_refused("p.csv", curve, {"hermite-incentre has no option 'a'"}, 2, {"--option", "a=1"});
-  expect_refused("p.csv", curve, {"--boundary", "meshes"}, 2, {"--boundary", "none"});
+  expect_hermite_refused("p.csv", "0,0,1,0\n1,0,1,0\n2,0,3,4\n", {"p.csv:3", "point 2", "length 5", "length 1"});
+  expect_hermite_refused("p.csv", "x,y,tx,ty\n0,0,1,0\n1,0,0,0\n", {"p.csv:3", "point 1", "length 0"});
+  expect_hermite_refused("p.csv", "0,0,1,0\n\n# again\n1,0,1,0\n1,0,0,1\n", {"p.csv:1", "1 point", "at least 2"});
+  expect_hermite_refused("p.csv", "0,0,1,0\n1,0,1,0\n1,0,0,1\n", {"p.csv:3", "points 1 and 2", "equal", "leave one"});
+  expect_hermite_refused("p.csv", "0,0,1,0\n1,0,nan,0\n", {"p.csv:2", "'nan'"});
+  expect_hermite_refused("p.csv", "0,0,1,0\n", {"p.csv:1", "1 point", "at least 2"});
+  expect_hermite_refused("p.csv", "x,y\n0,0\n1,0\n", {"p.csv:1", "2 columns", "x,y,tx,ty"});
+  expect_hermite_refused("p.csv", "0,0,0\n1,0,0\n", {"p.csv:1", "3 columns", "x,y,tx,ty"});
+  expect_hermite_refused("p.csv", "0,0,0,0,1,0,0,0\n1,0,0,0,1,0,0,0\n", {"p.csv", "4", "x,y,z,tx,ty,tz"});
+  expect_hermite_refused("p.obj", "v 0 0 0\nv 1 0 0\nl 1 2\n", {"p.obj", "tangents", "x,y,tx,ty"});
+  expect_hermite_refused("p.csv", "", {"p.csv", "no points"});
+  expect_hermite_refused("p.csv", curve, {"hermite-incentre has no option 'a'"}, 2, {"--option", "a=1"});
+  expect_hermite_refused("p.csv", curve, {"--boundary", "meshes"}, 2, {"--boundary", "none"});
 }
 
 TEST(CliHermiteIncentre, HasNoMatrixAndIsListed) {

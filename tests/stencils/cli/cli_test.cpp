@@ -65,8 +65,8 @@ std::string contents(const std::filesystem::path& path) {
 constexpr const char* quad = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 
 /// Refining `text` fails with `status` and a message with all of `words`, and leaves no output behind.
-void expect_refused(const std::string& text, const std::string& scheme, int status,
-                    const std::vector<std::string>& words, const std::vector<std::string>& more = {"-l", "1"}) {
+void expect_cli_refused(const std::string& text, const std::string& scheme, int status,
+                        const std::vector<std::string>& words, const std::vector<std::string>& more = {"-l", "1"}) {
   SCOPED_TRACE(text.substr(0, 200));
   const TemporaryDirectory directory;
   const auto mesh = directory.write("mesh.obj", text);
@@ -80,34 +80,34 @@ void expect_refused(const std::string& text, const std::string& scheme, int stat
 
 TEST(Program, RefusesBadMeshesWithFileAndLine) {
   const std::string f = quad;
-  expect_refused("", "catmull-clark", 3, {"mesh.obj"});
-  expect_refused(std::string("\x7f\x45\x4c\x46\0\0\0\1\2\3", 10), "catmull-clark", 3, {"mesh.obj"});
-  expect_refused(f, "catmull-clark", 3, {"mesh.obj", "face"});  // no face at all
-  expect_refused(f + "f 0 1 2\n", "catmull-clark", 3, {"mesh.obj:5"});
-  expect_refused(f + "f 1 2 9\n", "catmull-clark", 3, {"mesh.obj:5", "9"});
-  expect_refused(f + "f -9 1 2\n", "catmull-clark", 3, {"mesh.obj:5", "-9"});
-  expect_refused(f + "f 1 2\n", "catmull-clark", 3, {"mesh.obj:5"});
-  expect_refused("v 0 nan 0\n" + f + "f 1 2 3\n", "catmull-clark", 3, {"mesh.obj:1"});
-  expect_refused("v 0 inf 0\n" + f + "f 1 2 3\n", "catmull-clark", 3, {"mesh.obj:1"});
-  expect_refused("v 0 1e999 0\n" + f + "f 1 2 3\n", "catmull-clark", 3, {"mesh.obj:1"});
-  expect_refused("v 0 x 0\n" + f + "f 1 2 3\n", "catmull-clark", 3, {"mesh.obj:1"});
-  expect_refused(f + "f 1 2 3 4\nt crease 2/1/0 0 2 1\n", "catmull-clark", 3, {"mesh.obj:6"});
-  expect_refused(f + "f 1 2 3 4\nt crease 2/1/0 0 7 1\n", "catmull-clark", 3, {"mesh.obj:6"});
-  expect_refused(f + "f 1 2 3 4\nt crease 2/1/0 0 1\n", "catmull-clark", 3, {"mesh.obj:6"});
-  expect_refused(f + "f 1 2 3 4\nt corner 1/1/0 0 -2\n", "catmull-clark", 3, {"mesh.obj:6"});
-  expect_refused(f + "f 1 2 3 4\nt hole 1/0/0 5\n", "catmull-clark", 3, {"mesh.obj:6"});
+  expect_cli_refused("", "catmull-clark", 3, {"mesh.obj"});
+  expect_cli_refused(std::string("\x7f\x45\x4c\x46\0\0\0\1\2\3", 10), "catmull-clark", 3, {"mesh.obj"});
+  expect_cli_refused(f, "catmull-clark", 3, {"mesh.obj", "face"});  // no face at all
+  expect_cli_refused(f + "f 0 1 2\n", "catmull-clark", 3, {"mesh.obj:5"});
+  expect_cli_refused(f + "f 1 2 9\n", "catmull-clark", 3, {"mesh.obj:5", "9"});
+  expect_cli_refused(f + "f -9 1 2\n", "catmull-clark", 3, {"mesh.obj:5", "-9"});
+  expect_cli_refused(f + "f 1 2\n", "catmull-clark", 3, {"mesh.obj:5"});
+  expect_cli_refused("v 0 nan 0\n" + f + "f 1 2 3\n", "catmull-clark", 3, {"mesh.obj:1"});
+  expect_cli_refused("v 0 inf 0\n" + f + "f 1 2 3\n", "catmull-clark", 3, {"mesh.obj:1"});
+  expect_cli_refused("v 0 1e999 0\n" + f + "f 1 2 3\n", "catmull-clark", 3, {"mesh.obj:1"});
+  expect_cli_refused("v 0 x 0\n" + f + "f 1 2 3\n", "catmull-clark", 3, {"mesh.obj:1"});
+  expect_cli_refused(f + "f 1 2 3 4\nt crease 2/1/0 0 2 1\n", "catmull-clark", 3, {"mesh.obj:6"});
+  expect_cli_refused(f + "f 1 2 3 4\nt crease 2/1/0 0 7 1\n", "catmull-clark", 3, {"mesh.obj:6"});
+  expect_cli_refused(f + "f 1 2 3 4\nt crease 2/1/0 0 1\n", "catmull-clark", 3, {"mesh.obj:6"});
+  expect_cli_refused(f + "f 1 2 3 4\nt corner 1/1/0 0 -2\n", "catmull-clark", 3, {"mesh.obj:6"});
+  expect_cli_refused(f + "f 1 2 3 4\nt hole 1/0/0 5\n", "catmull-clark", 3, {"mesh.obj:6"});
 }
 
 TEST(Program, RefusesBadCommandLines) {
   const std::string good = std::string(quad) + "f 1 2 3 4\n";
-  expect_refused(good, "catmul-clark", 2, {"catmull-clark"});
-  expect_refused(good, "catmull-clark", 2, {"levels"}, {"-l", "-1"});
-  expect_refused(good, "catmull-clark", 2, {"boundary"}, {"-l", "1", "--boundary", "soft"});
-  expect_refused(good, "catmull-clark", 2, {"name=value"}, {"-l", "1", "--option", "triangles"});
-  expect_refused(good, "catmull-clark", 2, {"option"}, {"-l", "1", "--option", "tension=1"});
-  expect_refused(good, "bilinear", 2, {"triangles"}, {"-l", "1", "--triangles", "smooth"});
-  expect_refused(good, "catmull-clark", 4, {"memory", "32-bit"}, {"-l", "40"});
-  expect_refused(good, "loop", 3, {"face 0", "4 corners", "triangles"});
+  expect_cli_refused(good, "catmul-clark", 2, {"catmull-clark"});
+  expect_cli_refused(good, "catmull-clark", 2, {"levels"}, {"-l", "-1"});
+  expect_cli_refused(good, "catmull-clark", 2, {"boundary"}, {"-l", "1", "--boundary", "soft"});
+  expect_cli_refused(good, "catmull-clark", 2, {"name=value"}, {"-l", "1", "--option", "triangles"});
+  expect_cli_refused(good, "catmull-clark", 2, {"option"}, {"-l", "1", "--option", "tension=1"});
+  expect_cli_refused(good, "bilinear", 2, {"triangles"}, {"-l", "1", "--triangles", "smooth"});
+  expect_cli_refused(good, "catmull-clark", 4, {"memory", "32-bit"}, {"-l", "40"});
+  expect_cli_refused(good, "loop", 3, {"face 0", "4 corners", "triangles"});
   EXPECT_EQ(run({}).status, 2);
   EXPECT_EQ(run({"refin"}).status, 2);
 }

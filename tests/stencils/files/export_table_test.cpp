@@ -14,11 +14,13 @@
 #include "sublimit/base/read_file.h"
 #include "sublimit/files/npy.h"
 #include "sublimit/files/npz.h"
+#include "sublimit/pattern_evaluator.h"
 #include "sublimit/patterns/demo_mesh.h"
 #include "sublimit/scheme/prepare.h"
 #include "sublimit/schemes.h"
 #include "sublimit/table_file.h"
 #include "support/expect_error.h"
+#include "support/free_form_shapes.h"
 #include "support/skip.h"
 #include "support/temporary_directory.h"
 
@@ -106,17 +108,24 @@ class PythonFiles {
     export_table(directory_ / (name + ".mtx"), table);
     export_table(directory_ / (name + "_arrays"), table);
     std::mt19937 random(7);
-    std::vector<Real> points(size_t(table.table.num_control_points()) * 3);
-    for (Real& x : points) x = Real(random()) / Real(std::mt19937::max());
+    const std::int64_t controls = table.table.num_control_points(), channels = table.info.rational ? 4 : 3;
+    std::vector<Real> points(size_t(controls * channels));
+    for (Real& x : points) x = Real(1) + Real(random()) / Real(std::mt19937::max());
     const std::int64_t count = table.table.num_points(), quantities = table.table.quantities();
     std::vector<Real> made(size_t(count * quantities) * 3);
-    table.table.apply(points, 3, made);
+    Evaluation<Real> e;
+    e.channels = static_cast<int>(channels);
+    e.points = points;
+    e.rational = table.info.rational;
+    for (size_t q = 0; q < size_t(quantities); ++q)
+      e.quantities[q] = std::span<Real>(made).subspan(q * size_t(3 * count), size_t(3 * count));
+    PatternEvaluator<Real>(table.table).apply(e);
     const auto write = [&](const std::string& what, const std::vector<Real>& numbers, std::vector<std::int64_t> shape) {
       NpyWriter file(directory_ / (name + what), dtype_of<Real>(), std::move(shape));
       file.write(std::span<const Real>(numbers));
       file.commit();
     };
-    write(".points.npy", points, {table.table.num_control_points(), 3});
+    write(".points.npy", points, {controls, channels});
     write(".expected.npy", made, {quantities, count, 3});
     names_ += " " + name;
   }
@@ -146,6 +155,10 @@ TEST(TableInPython, MakesTheSamePoints) {
   files.add("limit", bake_one("loop", triangulated(mesh), limit));
   files.add("grid", bake_one("catmull-clark", mesh, grid));
   files.add("rows", bake_one("doo-sabin", without_creases(mesh), level));
+  const RationalShape shape = elevated(unit_sphere());
+  files.add(
+      "rational",
+      bake(PatchSet({std::make_shared<const SplineSurface>(shape.surface)}, Coordinates::homogeneous), grid).table);
   EXPECT_EQ(std::system((interpreter + " " + SUBLIMIT_SOURCE + "/tests/stencils/read_table.py " + SUBLIMIT_SOURCE +
                          "/eval/table_format.md " + files.arguments())
                             .c_str()),

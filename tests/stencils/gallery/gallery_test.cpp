@@ -49,7 +49,7 @@ TEST(CliGallery, ShowsEverySchemeOnEveryCageAndPolygon) {
   const TemporaryDirectory directory;
   const std::filesystem::path gallery = directory / "a" / "gallery";
   const std::vector<std::string> arguments{"schemes", "--gallery", gallery.string(), "--gallery-faces", "200"};
-  expect_parts(expect_done(sublimit(arguments)).out, {"pictures", "index.html"});
+  const std::string says = expect_done(sublimit(arguments)).out;
 
   const std::string html = read_file(gallery / "index.html");
   size_t surfaces = 0;
@@ -82,7 +82,13 @@ TEST(CliGallery, ShowsEverySchemeOnEveryCageAndPolygon) {
     EXPECT_TRUE(text.starts_with("<svg") && text.ends_with("</svg>\n")) << file;
     EXPECT_EQ(text.find("nan"), std::string::npos) << file;
   }
-  EXPECT_LT(read_file(gallery / "overview.svg").size(), 400'000u);  // stencils/README.md shows it
+  for (const char* file : {"overview.svg", "patches.svg"}) {
+    EXPECT_EQ(count_of(html, "src=\"" + std::string(file) + "\""), 1u) << file;
+    EXPECT_LT(read_file(gallery / file).size(), 400'000u) << file;  // stencils/README.md shows them
+  }
+  EXPECT_EQ(count_of(html, "href=\"patches.json\""), 1u);
+  const auto pictures = std::ranges::count_if(files, [](const std::string& file) { return file.ends_with(".svg"); });
+  expect_parts(says, {std::to_string(pictures) + " pictures", "index.html"});
 
   const Json json = Json::parse(read_file(gallery / "measures.json"));
   EXPECT_EQ(json["surfaces"].size(), surfaces);
@@ -100,9 +106,9 @@ TEST(CliGallery, ShowsEverySchemeOnEveryCageAndPolygon) {
   std::vector<std::string> again = arguments;
   again[2] = (directory / "again").string();
   again.insert(again.end(), {"--threads", "1", "--json"});
-  EXPECT_EQ(Json::parse(expect_done(sublimit(again)).out).size(), all_schemes().size() + all_curve_schemes().size() +
-                                                                      all_geometric_schemes().size() +
-                                                                      all_geometric_schemes<CurvatureMesh>().size());
+  EXPECT_EQ(Json::parse(expect_done(sublimit(again)).out).size(),
+            all_schemes().size() + all_curve_schemes().size() + all_geometric_schemes().size() +
+                all_geometric_schemes<CurvatureMesh>().size() + all_geometric_schemes<NormalMesh>().size());
   EXPECT_EQ(read_file(directory / "again" / "index.html"), html);
   for (const std::string& file : files)
     EXPECT_EQ(read_file(directory / "again" / file), read_file(gallery / file)) << file;

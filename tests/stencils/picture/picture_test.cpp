@@ -187,6 +187,17 @@ TEST(Picture, CutsALineWhereItGoesBehindAFace) {
   EXPECT_EQ(count(path, "m"), 2u) << path;  // to the left of the square and to its right
 }
 
+TEST(Picture, InkIsOneColourAndWidthForAllLines) {
+  PictureMesh lines = square(1, 0);
+  lines.faces = false;
+  lines.creases = {{0, 1, 0}, {1, 2, 1}};
+  EXPECT_EQ(count(svg_picture({{{lines}, "", ""}}, from_the_front()), "<path"), 2u) << "by strength";
+  lines.ink = {{1, 0, 0}, 2.5};
+  const std::string svg = svg_picture({{{lines}, "", ""}}, from_the_front());
+  EXPECT_EQ(count(svg, "<path"), 1u);
+  EXPECT_EQ(count(svg, "stroke=\"#ff0000\" stroke-width=\"25\""), 1u) << "tenths of a pixel";
+}
+
 TEST(Picture, ShowsTheBackOfAnOpenSurfaceInAnotherColour) {
   PictureMesh turned = square(1, 0);
   turned.face_vertices = {3, 2, 1, 0};
@@ -257,6 +268,12 @@ TEST(Picture, RejectsArraysThatDoNotFit) {
       },
       [](PictureMesh& m) { m.dots = {-1}; },
       [](PictureMesh& m) { m.color[0] = 2; },
+      [](PictureMesh& m) {
+        m.ink = {{0, 0, 0}, 6};
+      },
+      [](PictureMesh& m) {
+        m.ink = {{0, -1, 0}, 1};
+      },
   };
   for (std::size_t i = 0; i < faults.size(); ++i) {
     SCOPED_TRACE(i);

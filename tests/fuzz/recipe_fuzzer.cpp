@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// Any bytes as recipes: an Error that says where, or curves and surfaces that have points, and nets whose text reads
+// back. Never a crash.
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <span>
+#include <string_view>
+
+#include "sublimit/base/error.h"
+#include "sublimit/recipes/net_file.h"
+#include "sublimit/recipes/recipe.h"
+
+namespace sublimit {
+namespace {
+
+void require_recipe(bool holds) {
+  if (!holds) std::abort();
+}
+
+void check_recipe(const Recipe& recipe) {
+  if (const RecipeCurve* const curve = recipe.curve()) {
+    const CurveSample places[] = {{0, 0}, {curve->curve->num_segments() - 1, 0.7}};
+    const CurveSamples at = curve->curve->evaluate(curve->columns, places, 2, curve->coordinates);
+    require_recipe(at.position.rows() == 2);
+  }
+  if (const RecipeSurface* const surface = recipe.surface()) {
+    const Sample places[] = {{0, 0, 0}, {surface->patch->faces().size - 1, 0.25, 0.5}};
+    const LimitSamples at = surface->patch->evaluate(surface->columns, places, 2, surface->coordinates);
+    require_recipe(at.position.rows() == 2);
+  }
+}
+
+void check_recipes(std::string_view text) {
+  std::vector<Recipe> recipes;
+  try {
+    recipes = parse_recipes(text, "fuzz.json");
+  } catch (const Error& error) {
+    require_recipe(std::string_view(error.what()).starts_with("fuzz.json:"));
+    return;
+  }
+  for (const Recipe& recipe : recipes) check_recipe(recipe);
+  FreeForm nets;
+  try {
+    nets = net_file(recipes);
+  } catch (const UnsupportedTopology& error) {
+    require_recipe(std::string_view(error.what()).starts_with("fuzz.json:"));
+    return;
+  }
+  std::string written;
+  try {
+    written = format_free_form(nets);
+  } catch (const InvalidMesh&) {  // numbers that have become too large
+    return;
+  }
+  const FreeForm again = parse_free_form(written, "again.obj");  // an Error here is a crash
+  require_recipe(again.curves.size() == nets.curves.size() && again.surfaces.size() == nets.surfaces.size());
+}
+
+}  // namespace
+}  // namespace sublimit
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  sublimit::check_recipes(std::string_view(reinterpret_cast<const char*>(data), size));
+  return 0;
+}
