@@ -7,6 +7,7 @@
 #include "sublimit/schemes/bilinear.h"
 #include "sublimit/schemes/butterfly.h"
 #include "sublimit/schemes/catmull_clark.h"
+#include "sublimit/schemes/catmull_clark_intervals.h"
 #include "sublimit/schemes/doo_sabin.h"
 #include "sublimit/schemes/interpolatory_sqrt3.h"
 #include "sublimit/schemes/kobbelt.h"
@@ -27,6 +28,7 @@ template <class T>
 inline constexpr SchemeEntry<T> registry[] = {
     {"bilinear", bilinear<T>},
     {"catmull-clark", catmull_clark<T>},
+    {"catmull-clark-intervals", catmull_clark_intervals<T>},
     {"loop", loop<T>},
     {"loop-warren", loop_warren<T>},
     {"doo-sabin", doo_sabin<T>},

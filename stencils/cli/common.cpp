@@ -143,6 +143,9 @@ Loaded load(const Common& common, Progress& progress) {
     options["triangles"] = "smooth";  // a tag of the file is for schemes that know it
     loaded.scheme = scheme_or_throw(common.scheme, options);
   }
+  if (!loaded.mesh.knot_intervals.empty() && loaded.scheme && loaded.scheme->knots == NewKnots::none)
+    loaded.mesh.warnings.push_back(common.mesh + ": knot intervals ignored: " + common.scheme +
+                                   " knows none; catmull-clark-intervals does");
   loaded.options = std::move(options);
   loaded.rules.boundary = rule_of<Boundary>(common.boundary);
   loaded.rules.creasing = rule_of<Creasing>(common.creasing);

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
+#include <span>
 
 #include "sublimit/base/error.h"
 #include "sublimit/base/format_number.h"
@@ -81,6 +83,7 @@ constexpr TagForm forms[] = {
     {"crease", "t crease 2/1/0 VERTEX VERTEX SHARPNESS", -1, -1, 0},
     {"corner", "t corner 1/1/0 VERTEX SHARPNESS", -1, -1, 0},
     {"hole", "t hole 1/0/0 FACE", -1, 0, 0},
+    {"knotinterval", "t knotinterval 2/1/0 VERTEX VERTEX INTERVAL", 2, 1, 0},
     {"interpolateboundary", "t interpolateboundary 1/0/0 0|1|2", 1, 0, 0},
     {"creasemethod", "t creasemethod 0/0/1 normal|chaikin", 0, 0, 1},
     {"smoothtriangles", "t smoothtriangles 0/0/1 catmark|smooth", 0, 0, 1},
@@ -130,6 +133,7 @@ void ObjTags::read(TextScanner& scanner, ControlMesh& mesh) {
   if (name == "crease") return read_crease(scanner, arguments, mesh);
   if (name == "corner") return read_corner(scanner, arguments, mesh);
   if (name == "hole") return read_hole(scanner, arguments, mesh);
+  if (name == "knotinterval") return read_knot_interval(scanner, arguments, mesh);
   if (name == "interpolateboundary") {
     constexpr std::array values{Boundary::none, Boundary::edge_and_corner, Boundary::edge_only};
     mesh.boundary = choice(scanner, arguments.ints[0], values, "interpolateboundary");
@@ -170,6 +174,17 @@ void ObjTags::read_hole(const TextScanner& scanner, const Arguments& arguments, 
   }
 }
 
+void ObjTags::read_knot_interval(const TextScanner& scanner, const Arguments& arguments, ControlMesh& mesh) {
+  const double length = scanner.real(arguments.floats[0], "knot interval");
+  if (!std::isfinite(length) || length < 0)
+    throw FormatError(scanner.place() + "knot interval is " + in_quotes(arguments.floats[0]) +
+                      "; it should be a positive number");
+  mesh.knot_intervals.push_back({.tail = id(scanner, arguments.ints[0], "vertex"),
+                                 .head = id(scanner, arguments.ints[1], "vertex"),
+                                 .length = length});
+  interval_lines_.push_back(scanner.line());
+}
+
 void ObjTags::skip(const TextScanner& scanner, std::string_view name, const char* why, ControlMesh& mesh) {
   constexpr std::size_t most = 20;
   if (skipped_.size() >= most || std::find(skipped_.begin(), skipped_.end(), name) != skipped_.end()) return;
@@ -195,13 +210,22 @@ void ObjTags::check(const TextScanner& scanner, const ControlMesh& mesh) const {
   for (std::size_t i = 0; i < mesh.holes.size(); ++i) {
     check_id(hole_lines_[i], "hole", "face", mesh.holes[i], mesh.num_faces());
   }
-  const std::vector<bool> found = along_edges(mesh, mesh.creases);
-  const auto missing = std::find(found.begin(), found.end(), false);
-  if (missing == found.end()) return;
-  const auto i = static_cast<std::size_t>(missing - found.begin());
-  throw InvalidMesh(scanner.place(crease_lines_[i]) + "crease: no face has an edge between vertices " +
-                    format_number(mesh.creases[i].tail) + " and " + format_number(mesh.creases[i].head) +
-                    "; a crease runs along an edge (ids in tags count from 0)");
+  for (std::size_t i = 0; i < mesh.knot_intervals.size(); ++i) {
+    check_id(interval_lines_[i], "knotinterval", "vertex", mesh.knot_intervals[i].tail, mesh.num_vertices());
+    check_id(interval_lines_[i], "knotinterval", "vertex", mesh.knot_intervals[i].head, mesh.num_vertices());
+  }
+  const auto check_edges = [&](std::span<const ControlMesh::Crease> edges, const std::vector<std::int64_t>& lines,
+                               const char* tag, const char* rule) {
+    const std::vector<bool> found = along_edges(mesh, edges);
+    const auto missing = std::find(found.begin(), found.end(), false);
+    if (missing == found.end()) return;
+    const auto i = static_cast<std::size_t>(missing - found.begin());
+    throw InvalidMesh(scanner.place(lines[i]) + tag + ": no face has an edge between vertices " +
+                      format_number(edges[i].tail) + " and " + format_number(edges[i].head) + "; " + rule +
+                      " (ids in tags count from 0)");
+  };
+  check_edges(mesh.creases, crease_lines_, "crease", "a crease runs along an edge");
+  check_edges(edges_of(mesh.knot_intervals), interval_lines_, "knotinterval", "an interval is of an edge");
 }
 
 }  // namespace sublimit

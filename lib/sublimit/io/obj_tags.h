@@ -17,18 +17,19 @@ class ObjTags {
   /// Reads the rest of a line behind its `t` into the mesh.
   void read(TextScanner& scanner, ControlMesh& mesh);
   /// Checks every tag against the whole mesh, whose faces are valid.
-  /// @throws InvalidMesh  an id out of range, a crease where no face has an edge; with the line of the tag
+  /// @throws InvalidMesh  an id out of range, a crease or interval where no face has an edge; with the line of the tag
   void check(const TextScanner& scanner, const ControlMesh& mesh) const;
 
  private:
   struct Arguments;
   void read_crease(const TextScanner& scanner, const Arguments& arguments, ControlMesh& mesh);
   void read_corner(const TextScanner& scanner, const Arguments& arguments, ControlMesh& mesh);
+  void read_knot_interval(const TextScanner& scanner, const Arguments& arguments, ControlMesh& mesh);
   void read_hole(const TextScanner& scanner, const Arguments& arguments, ControlMesh& mesh);
   void skip(const TextScanner& scanner, std::string_view name, const char* why, ControlMesh& mesh);
 
-  std::vector<std::int64_t> crease_lines_, corner_lines_, hole_lines_;  // of each entry in the mesh
-  std::vector<std::string> skipped_;                                    // names warned about
+  std::vector<std::int64_t> crease_lines_, corner_lines_, hole_lines_, interval_lines_;  // of each entry in the mesh
+  std::vector<std::string> skipped_;                                                     // names warned about
 };
 
 }  // namespace sublimit

@@ -91,6 +91,16 @@ void emit_tags(const MeshOutput& mesh, std::string& out, const Flush& flush) {
     append_sharpness(out, corner.sharpness);
     flush(out);
   }
+  for (const ControlMesh::KnotInterval& interval : mesh.knot_intervals) {
+    out += "t knotinterval 2/1/0 ";
+    append_number(out, interval.tail);
+    out += ' ';
+    append_number(out, interval.head);
+    out += ' ';
+    append_number(out, interval.length);
+    out += '\n';
+    flush(out);
+  }
   for (const Index hole : mesh.holes) {
     out += "t hole 1/0/0 ";
     append_number(out, hole);

@@ -48,6 +48,7 @@ MeshOutput output(const ControlMesh& mesh) {
           .creases = mesh.creases,
           .corners = mesh.corners,
           .holes = mesh.holes,
+          .knot_intervals = mesh.knot_intervals,
           .boundary = mesh.boundary,
           .creasing = mesh.creasing,
           .triangles = mesh.triangles,
@@ -86,6 +87,11 @@ void check_output(const MeshOutput& mesh, const std::string& name) {
   for (const ControlMesh::Crease& crease : mesh.creases) {
     require(in_range({crease.tail, crease.head}, 0, vertices), name, "a vertex of a crease is out of range");
     check_sharpness(crease.sharpness, name);
+  }
+  for (const ControlMesh::KnotInterval& interval : mesh.knot_intervals) {
+    require(in_range({interval.tail, interval.head}, 0, vertices), name, "a vertex of a knot interval is out of range");
+    if (!std::isfinite(interval.length) || interval.length < 0)
+      throw InvalidMesh(name + ": a knot interval is " + format_number(interval.length) + "; it should be positive");
   }
   for (const ControlMesh::Corner& corner : mesh.corners) {
     require(in_range({corner.vertex}, 0, vertices), name, "the vertex of a corner is out of range");

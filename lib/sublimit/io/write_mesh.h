@@ -27,6 +27,7 @@ struct MeshOutput {
   std::vector<ControlMesh::Crease> creases;
   std::vector<ControlMesh::Corner> corners;
   std::vector<Index> holes;
+  std::vector<ControlMesh::KnotInterval> knot_intervals;
   std::optional<Boundary> boundary;
   std::optional<Creasing> creasing;
   std::optional<Triangles> triangles;

@@ -73,12 +73,6 @@ std::optional<LimitRows> lone_rows(const Level& level, LimitTypes& cache, const 
   return rows_of(limit->masks, limit->masks.sides[0], limit->slots, places.vertices);
 }
 
-std::optional<LimitRows> known_rows(const Level& level, LimitTypes& cache, const Centre& centre) {
-  if (centre.kind == Centre::Kind::vertex && cache.scheme().has_one_ring_limits())
-    return one_ring_rows(level, cache, centre.start);
-  return lone_rows(level, cache, centre);
-}
-
 /// The corner of a piece that a centre is.
 std::pair<Piece, int> piece_corner(const Scheme<double>& scheme, const Topology& t, const Centre& centre) {
   using Kind = Piece::Kind;
@@ -97,28 +91,60 @@ std::pair<Piece, int> piece_corner(const Scheme<double>& scheme, const Topology&
   return {{!whole ? of_polygon : size == 3 ? Kind::triangle : Kind::quad, centre.start}, 0};
 }
 
-/// A centre that never is alone, but comes to repeat itself: two faces back to back under a dual scheme, for one. The
-/// position is that of a corner of the piece there; what its tangents are is not known.
-LimitRows repeating_rows(const Level& level, LimitTypes& cache, const Centre& centre) {
-  const Scheme<double>& scheme = cache.scheme();
-  const auto [piece, corner] = piece_corner(scheme, level.topology(), centre);
-  PieceWalker walker;
-  const PieceWalk& walk = walker.walk(level.topology(), level.sharpness, piece, cache.pieces().rings(level.sharpness),
-                                      level.number % scheme.period);
-  const Eigen::RowVectorXd& differences = cache.pieces().type(level, piece, walk)->corner_limit(corner);
-  std::vector<SparseRows::Term> terms{{walk.vertices[0], 1 - differences.sum()}};
-  for (Eigen::Index i = 0; i < differences.size(); ++i) terms.push_back({walk.vertices[size_t(i) + 1], differences[i]});
+/// Adds a row over the vertices of a piece, which is given in differences from the first.
+/// @param own  weight of the first besides
+void add_differences(const Eigen::RowVectorXd& differences, double own, const std::vector<Index>& vertices,
+                     SparseRows& rows) {
+  std::vector<SparseRows::Term> terms{{vertices[0], own - differences.sum()}};
+  for (Eigen::Index i = 0; i < differences.size(); ++i) terms.push_back({vertices[size_t(i) + 1], differences[i]});
   std::sort(terms.begin(), terms.end());
-  LimitRows result;
   for (const auto& [vertex, weight] : terms)
-    if (weight != 0) result.rows.add(vertex, weight);
-  result.rows.end_row();
-  result.plane = LimitMasks::Plane::no;
-  const LocalType type = local_type(level.topology(), level.sharpness, centre, level.number, scheme.period);
+    if (weight != 0) rows.add(vertex, weight);
+  rows.end_row();
+}
+
+/// What is told of a centre besides its rows.
+LimitRows without_rows(const Level& level, LimitTypes& cache, const Centre& centre) {
+  LimitRows result;
+  const LocalType type = local_type(level.topology(), level.sharpness, centre, level.number, cache.scheme().period);
   const bool open = type.open || type.kind == Centre::Kind::border;
   result.rule = type.corner ? Rule::corner : open ? Rule::crease : Rule::smooth;
   result.faces = type.faces;
   return result;
+}
+
+/// A centre that never is alone, but comes to repeat itself: two faces back to back under a dual scheme, for one. The
+/// position is that of a corner of the piece there; what its tangents are is not known.
+LimitRows repeating_rows(const Level& level, LimitTypes& cache, const Centre& centre) {
+  const auto [piece, corner] = piece_corner(cache.scheme(), level.topology(), centre);
+  PieceWalker walker;
+  const PieceWalk& walk = walker.walk(level, piece, cache.pieces().rings(level.sharpness), cache.scheme().period);
+  LimitRows result = without_rows(level, cache, centre);
+  add_differences(cache.pieces().type(level, piece, walk)->corner_limit(corner), 1, walk.vertices, result.rows);
+  result.plane = LimitMasks::Plane::no;
+  return result;
+}
+
+/// A vertex whose knots are not those of equal intervals: by the polynomial that meets it.
+std::optional<LimitRows> polynomial_rows(const Level& level, LimitTypes& cache, const Centre& centre) {
+  if (centre.kind != Centre::Kind::vertex) return std::nullopt;
+  const auto [piece, corner] = piece_corner(cache.scheme(), level.topology(), centre);
+  if (piece.kind != Piece::Kind::quad) return std::nullopt;
+  PieceWalker walker;
+  const PieceWalk& walk = walker.walk(level, piece, cache.pieces().rings(level.sharpness), cache.scheme().period);
+  const PiecePolynomial* const polynomial = cache.pieces().type(level, piece, walk)->polynomial();
+  if (!polynomial) return std::nullopt;
+  LimitRows result = without_rows(level, cache, centre);
+  const RowMatrix rows = polynomial->rows(quad_place(0, 0), 1);
+  for (int i = 0; i < 3; ++i) add_differences(rows.row(i), i == 0 ? 1 : 0, walk.vertices, result.rows);
+  return result;
+}
+
+std::optional<LimitRows> known_rows(const Level& level, LimitTypes& cache, const Centre& centre) {
+  if (!level.intervals.empty()) return polynomial_rows(level, cache, centre);
+  if (centre.kind == Centre::Kind::vertex && cache.scheme().has_one_ring_limits())
+    return one_ring_rows(level, cache, centre.start);
+  return lone_rows(level, cache, centre);
 }
 
 /// rows * S, with the columns of the result renamed.
@@ -136,7 +162,9 @@ SparseRows pulled_back(const SparseRows& rows, const SparseMatrix& S, const std:
 }
 
 /// Rings of faces around the places that the next level's limits may depend on.
-int rings_needed(const Scheme<double>& scheme) { return scheme.has_one_ring_limits() ? 1 : 5; }
+int rings_needed(const Scheme<double>& scheme, const Level& level) {
+  return scheme.has_one_ring_limits() && level.intervals.empty() ? 1 : 5;
+}
 
 /// Which faces are cut before the first level depends on all of them.
 bool is_prepared_first(const Scheme<double>& scheme, const Level& level) {
@@ -172,7 +200,7 @@ std::vector<LimitRows> found_rows(const Level& level, LimitTypes& cache, std::sp
   if (!whole) {
     std::vector<Index> faces;
     for (const size_t i : rest) faces.push_back(index(level.topology().face(centres[i].start)));
-    around = part(level, faces, rings_needed(scheme));
+    around = part(level, faces, rings_needed(scheme, level));
   } else {
     around.vertices.resize(level.topology().num_vertices());
     std::iota(around.vertices.begin(), around.vertices.end(), 0);

@@ -163,8 +163,7 @@ std::optional<Centre> LimitSurface::Parts::centre(const Target& target) const {
 
 const PieceType* LimitSurface::Parts::type_of(const Piece& piece, std::vector<Index>& vertices) const {
   static thread_local PieceWalker walker;
-  const PieceWalk& walk = walker.walk(base().topology(), base().sharpness, piece,
-                                      types->pieces().rings(base().sharpness), base().number % scheme.period);
+  const PieceWalk& walk = walker.walk(base(), piece, types->pieces().rings(base().sharpness), scheme.period);
   vertices = walk.vertices;
   return types->pieces().type(base(), piece, walk);
 }

@@ -37,7 +37,8 @@ bool in_four(const std::deque<PieceLink>& links) {
     const PieceMap& map = links[i].map;
     const Span u = i == 1 || i == 2 ? Span::upper : Span::lower, v = i >= 2 ? Span::upper : Span::lower;
     if (map.is_triangle || map.axes[0].from != 0 || map.axes[1].from != 1 || map.axes[0].reversed ||
-        map.axes[1].reversed || map.axes[0].span != u || map.axes[1].span != v)
+        map.axes[1].reversed || map.axes[0].span != u || map.axes[1].span != v || map.axes[0].scale != 2 ||
+        map.axes[1].scale != 2)
       return false;
   }
   return true;

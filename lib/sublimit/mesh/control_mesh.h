@@ -45,7 +45,13 @@ struct ControlMesh {
   };
   std::vector<Crease> creases;  ///< the last entry for an edge wins
   std::vector<Corner> corners;
-  std::vector<Index> holes;  ///< faces that are refined but are not part of the limit
+  /// Distance between the knots at the ends of an edge: of its strip, all edges opposite to it in quadrilaterals.
+  struct KnotInterval {
+    Index tail = 0, head = 0;
+    double length = 1;
+  };
+  std::vector<KnotInterval> knot_intervals;  ///< 1 of edges whose strip has none
+  std::vector<Index> holes;                  ///< faces that are refined but are not part of the limit
 
   /// Absent where the file says nothing; the defaults are edge_and_corner, uniform, catmark.
   std::optional<Boundary> boundary;

@@ -69,4 +69,10 @@ std::vector<bool> along_edges(const ControlMesh& mesh, std::span<const ControlMe
   return found;
 }
 
+std::vector<ControlMesh::Crease> edges_of(std::span<const ControlMesh::KnotInterval> intervals) {
+  std::vector<ControlMesh::Crease> result;
+  for (const ControlMesh::KnotInterval& interval : intervals) result.push_back({interval.tail, interval.head, 0});
+  return result;
+}
+
 }  // namespace sublimit

@@ -12,4 +12,7 @@ namespace sublimit {
 /// @pre  sizes of faces fit their vertices
 std::vector<bool> along_edges(const ControlMesh& mesh, std::span<const ControlMesh::Crease> creases);
 
+/// The edges of knot intervals, to be looked up like creases.
+std::vector<ControlMesh::Crease> edges_of(std::span<const ControlMesh::KnotInterval> intervals);
+
 }  // namespace sublimit

@@ -40,10 +40,21 @@ HalfEdge at_vertex(HalfEdge h, const Topology& parent, std::span<const LevelStep
   return at;
 }
 
-PieceMap quad_map(Span u, Span v) {
+/// @param cut_u, cut_v  where the parent is cut
+PieceMap quad_map(Span u, Span v, double cut_u = 0.5, double cut_v = 0.5) {
+  const auto scale = [](Span span, double cut) { return 1 / (span == Span::upper ? 1 - cut : cut); };
   PieceMap map;
-  map.axes = {Axis{0, u, false}, Axis{1, v, false}};
+  map.axes = {Axis{0, u, false, scale(u, cut_u)}, Axis{1, v, false, scale(v, cut_v)}};
   return map;
+}
+
+/// Where a new knot cuts an edge, from the tail of its half-edge on, as a part of its length.
+double cut(HalfEdge h, const Topology& parent, std::span<const LevelStep> steps) {
+  const KnotSplit* const knots = steps[0].knots;
+  if (!knots) return 0.5;
+  const Index e = index(parent.edge(h));
+  const double at_tail = knots->at_tail[e] / knots->length[e];
+  return parent.forward(h) ? at_tail : 1 - at_tail;
 }
 
 std::vector<PieceChild> of_quad(HalfEdge start, const Topology& parent, std::span<const LevelStep> steps) {
@@ -53,10 +64,11 @@ std::vector<PieceChild> of_quad(HalfEdge start, const Topology& parent, std::spa
     at = at_vertex(h, parent, steps);
     h = parent.next(h);
   }
-  return {{{Piece::Kind::quad, g[0]}, quad_map(Span::lower, Span::lower)},
-          {{Piece::Kind::quad, t.prev(g[1])}, quad_map(Span::upper, Span::lower)},
-          {{Piece::Kind::quad, t.next(t.next(g[2]))}, quad_map(Span::upper, Span::upper)},
-          {{Piece::Kind::quad, t.next(g[3])}, quad_map(Span::lower, Span::upper)}};
+  const double u = cut(start, parent, steps), v = 1 - cut(parent.prev(start), parent, steps);
+  return {{{Piece::Kind::quad, g[0]}, quad_map(Span::lower, Span::lower, u, v)},
+          {{Piece::Kind::quad, t.prev(g[1])}, quad_map(Span::upper, Span::lower, u, v)},
+          {{Piece::Kind::quad, t.next(t.next(g[2]))}, quad_map(Span::upper, Span::upper, u, v)},
+          {{Piece::Kind::quad, t.next(g[3])}, quad_map(Span::lower, Span::upper, u, v)}};
 }
 
 /// @param corners  barycentric coordinates of the child's corners in the parent, in the order of the piece

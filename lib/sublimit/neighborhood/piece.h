@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "sublimit/mesh/knot_intervals.h"
 #include "sublimit/neighborhood/piece_map.h"
 #include "sublimit/splits/split.h"
 
@@ -31,6 +32,7 @@ struct PieceChild {
 struct LevelStep {
   const Refinement* refinement;
   int level;
+  const KnotSplit* knots = nullptr;  ///< null: new ones are in the middle
 };
 
 /// Children of a piece after one period of its scheme.

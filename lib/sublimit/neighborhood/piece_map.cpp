@@ -48,16 +48,16 @@ Coordinate parent_axis(const Place& p, int axis) {
   return {x, rest};
 }
 
-Coordinate spanned(const Coordinate& c, Span span) {
+Coordinate spanned(const Coordinate& c, Span span, double scale) {
   const double x = c.x.value, rest = c.rest.value, root = std::sqrt(x);
   const auto made = [&](double value, double from_one, double d, double dd) {
     return Coordinate{c.x.under(value, d, dd), c.x.under(from_one, -d, -dd)};
   };
   switch (span) {
     case Span::lower:
-      return made(2 * x, 1 - 2 * x, 2, 0);
+      return made(scale * x, 1 - scale * x, scale, 0);
     case Span::upper:
-      return made(1 - 2 * rest, 2 * rest, 2, 0);
+      return made(1 - scale * rest, scale * rest, scale, 0);
     case Span::border:
       return made(4 * x, 1 - 4 * x, 4, 0);
     case Span::beside:
@@ -116,8 +116,8 @@ std::array<Coordinate, 2> mapped(const PieceMap& map, const Place& p) {
   }
   std::array<Coordinate, 2> result;
   for (int i = 0; i < 2; ++i) {
-    result[i] =
-        spanned(map.radial ? radial_axis(p, map.axes[i].from) : parent_axis(p, map.axes[i].from), map.axes[i].span);
+    const PieceMap::Axis& axis = map.axes[i];
+    result[i] = spanned(map.radial ? radial_axis(p, axis.from) : parent_axis(p, axis.from), axis.span, axis.scale);
     if (map.axes[i].reversed) std::swap(result[i].x, result[i].rest);
   }
   return result;
@@ -137,8 +137,8 @@ Place PieceMap::operator()(const Place& p) const {
     Place child;
     for (int i = 0; i < 2; ++i) {
       double x = axes[i].from == 0 ? p.u : p.v, rest = axes[i].from == 0 ? p.u1 : p.v1;
-      if (axes[i].span == Span::lower) x = 2 * x, rest = 1 - x;
-      if (axes[i].span == Span::upper) rest = 2 * rest, x = 1 - rest;
+      if (axes[i].span == Span::lower) x = axes[i].scale * x, rest = 1 - x;
+      if (axes[i].span == Span::upper) rest = axes[i].scale * rest, x = 1 - rest;
       if (axes[i].reversed) std::swap(x, rest);
       (i == 0 ? child.u : child.v) = x;
       (i == 0 ? child.u1 : child.v1) = rest;

@@ -22,8 +22,8 @@ inline int nearest_corner(double u, double v) { return v < 0.5 ? (u < 0.5 ? 0 : 
 /// How a coordinate x of the parent becomes one of its child.
 enum class Span : std::uint8_t {
   whole,  ///< x
-  lower,  ///< 2 x
-  upper,  ///< 2 x - 1
+  lower,  ///< scale x
+  upper,  ///< 1 - scale (1 - x)
   // Across the border x = 0 of a dual scheme. The border's points stay on it and the first ones inside come four times
   // as near, while all others come twice as near: rows of the parent's mesh lie at 0, 1, 2, ..., of the child's at 0,
   // 1/4, 3/4, 5/4, ... Chaikin's limit, a straight leg up to 1/2 and then uniform quadratics, has this parameter: 4 t
@@ -47,6 +47,7 @@ struct PieceMap {
     std::uint8_t from = 0;
     Span span = Span::whole;
     bool reversed = false;
+    double scale = 2;  ///< of `lower` and `upper`: 2 in the middle, else 1 / length of the part
   };
   std::array<Axis, 2> axes{Axis{0}, Axis{1}};
   bool radial = false;  ///< of (u, v) (2 sqrt(r) - 1) / r instead of (u, v): beyond the first quarter of a spoke

@@ -151,7 +151,8 @@ const PieceType::Surroundings& PieceType::surroundings() const {
     const Index face = index(met_in_->topology().face(surroundings_.piece.start));
     const bool narrow = scheme.has_one_ring_limits();
     // Masks near the rim of a part are not the mesh's: one more ring, where they look further.
-    const int rings = types_->rings(met_in_->sharpness) +
+    // (and one for the knots of those).
+    const int rings = rings_ + (met_in_->intervals.empty() ? 0 : 1) +
                       (narrow || (scheme.is_dual() && scheme.steps.size() == 1) ? 0 : scheme.period);
     Part around = part(*met_in_, std::span(&face, 1), rings);
     types_->take(bytes_of(around.level.topology()), num_slots());
@@ -181,12 +182,14 @@ PieceType::Refined PieceType::refined() const {
   const auto& [level, piece, slots] = surroundings();
   Refined result;
   std::vector<LevelStep> steps;
+  const std::optional<KnotSplit> knots = level.knots();
   for (int k = 0; k < scheme.period; ++k) {
     const Level& before = k == 0 ? level : *result.levels.back();
     result.levels.push_back(std::make_shared<const Level>(
         scheme.steps.size() > 1 ? next_level(scheme, before) : next_topology(scheme, before, [](const auto&...) {})));
     types_->take(bytes_of(result.levels.back()->topology()), num_slots());
-    for (const Refinement& step : result.levels.back()->steps) steps.push_back({&step, before.number});
+    for (const Refinement& step : result.levels.back()->steps)
+      steps.push_back({&step, before.number, knots ? &*knots : nullptr});
   }
   result.slot_of.assign(level.topology().num_vertices(), -1);
   for (size_t s = 0; s < slots.size(); ++s) result.slot_of[slots[s]] = static_cast<Index>(s);
@@ -220,7 +223,7 @@ SparseMatrix PieceType::rows_over_slots(const Refined& refined, const SparseMatr
       const Index slot = refined.slot_of[it.col()];
       if (slot < 0)
         throw AnalysisError(types_->scheme_.name + ": a piece of the limit depends on points beyond " +
-                            std::to_string(types_->rings(refined.levels.back()->sharpness)) + " rings");
+                            std::to_string(rings_) + " rings");
       row.push_back({slot, it.value()});
     }
     std::sort(row.begin(), row.end());
@@ -257,8 +260,7 @@ const std::deque<PieceLink>& PieceType::children() const {
     std::vector<std::vector<Index>> vertices;  // of the children
     std::vector<Index> all;
     for (const PieceChild& child : after.children) {
-      const PieceWalk& walk = walker.walk(fine.topology(), fine.sharpness, child.piece, types_->rings(fine.sharpness),
-                                          fine.number % types_->scheme_.period);
+      const PieceWalk& walk = walker.walk(fine, child.piece, types_->rings(fine.sharpness), types_->scheme_.period);
       PieceLink& link = links.emplace_back();
       link.map = child.map;
       link.type = types_->type(after.levels.back(), child.piece, walk);
@@ -495,6 +497,7 @@ std::unique_ptr<PieceType> PieceTypes::made(std::shared_ptr<const Level> level, 
   take(4.0 * double(walk.signature.size() + walk.vertices.size()), type->num_slots_);
   type->types_ = this;
   type->kind_ = piece.kind;
+  type->rings_ = walk.rings;
   type->decays_ = walk.decays;
   type->surroundings_ = {{}, piece, walk.vertices};
   type->met_in_ = std::move(level);

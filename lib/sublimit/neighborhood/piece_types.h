@@ -111,6 +111,7 @@ class PieceType {
   friend class PolynomialSearch;
   PieceTypes* types_ = nullptr;
   Piece::Kind kind_ = Piece::Kind::quad;
+  int rings_ = 1;        // of faces around it that it depends on
   bool decays_ = false;  // finite sharpness: its children are others, and it is no polynomial
   Index num_slots_ = 0;
   mutable std::once_flag surroundings_once_;
@@ -138,7 +139,7 @@ class PieceTypes {
   ~PieceTypes();
 
   const Scheme<double>& scheme() const { return scheme_; }
-  /// Rings of faces around a piece that it depends on.
+  /// Rings of faces around a piece that it depends on, where intervals between knots are equal.
   int rings(const Sharpness& sharpness) const;
   size_t size() const;
   bool is_full() const { return size() >= max_types_; }

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sublimit/neighborhood/piece_walk.h"
 
+#include <algorithm>
 #include <bit>
+#include <cmath>
 
 namespace sublimit {
 
@@ -35,6 +37,7 @@ const PieceWalk& PieceWalker::walk(const Topology& t, const Sharpness& sharpness
     words.push_back(std::bit_cast<std::uint32_t>(value));
     walk_.decays |= is_sharp(value) && !is_infinite(value);
   };
+  walk_.rings = rings;
   put(4 * phase + int(piece.kind) + (sharpness.creasing == Creasing::chaikin ? 1 << 16 : 0));
 
   HalfEdge h = piece.start;
@@ -49,7 +52,7 @@ const PieceWalk& PieceWalker::walk(const Topology& t, const Sharpness& sharpness
   // The size of its own face, since the walk below counts corners from there.
   put(t.size(t.face(piece.start)));
 
-  size_t next = 0;
+  size_t next = 0;  // vertices before it have been walked around
   for (int ring = 0; ring < rings; ++ring) {
     const size_t end = walk_.vertices.size();
     for (; next < end; ++next) {
@@ -131,7 +134,65 @@ const PieceWalk& PieceWalker::walk(const Topology& t, const Sharpness& sharpness
       }
     }
   }
+  walk_.inner = next;
   return walk_;
+}
+
+bool PieceWalker::add_intervals(const KnotIntervals& intervals, const Piece& piece, size_t points) {
+  const Topology& t = *t_;
+  std::vector<std::uint32_t>& words = walk_.signature;
+  const double own = intervals.length[index(t.edge(piece.start))];
+  int exponent = 0;
+  std::frexp(own, &exponent);
+  const auto put = [&](double length) {
+    const auto bits = std::bit_cast<std::uint64_t>(std::ldexp(length, -exponent));
+    words.push_back(static_cast<std::uint32_t>(bits));
+    words.push_back(static_cast<std::uint32_t>(bits >> 32));
+  };
+  bool differ = false;
+  unsigned all_ends = 0;
+  const auto put_edge = [&](HalfEdge h) {
+    const Index e = index(t.edge(h));
+    const unsigned ends = intervals.ends.empty() ? 0 : intervals.ends[e];
+    put(intervals.length[e]);
+    words.push_back(t.forward(h) ? ends : (ends & 5) << 1 | (ends & 10) >> 1);
+    differ |= intervals.length[e] != own;
+    all_ends |= ends;
+  };
+  // Of every face around these points, as the walk came to it.
+  for (size_t i = 0; i < points; ++i)
+    for (const HalfEdge start : t.fans(Vertex{walk_.vertices[i]})) {
+      HalfEdge from = start;
+      for (HalfEdge h = start; exists(h);) {
+        if (h == found_at_[i]) from = h;
+        h = t.ccw(h);
+        if (h == start) break;
+      }
+      if (!exists(t.twin(start))) from = start;  // an open fan has a first half-edge
+      HalfEdge h = from;
+      do {
+        HalfEdge k = h;
+        do {
+          put_edge(k);
+          k = t.next(k);
+        } while (k != h);
+        h = t.ccw(h);
+      } while (exists(h) && h != from);
+    }
+  if (!differ && (all_ends == 0 || own == intervals.least)) return false;
+  put(all_ends == 0 ? 0 : intervals.least);
+  words.push_back(intervals.plain);
+  return true;
+}
+
+const PieceWalk& PieceWalker::walk(const Level& level, const Piece& piece, int rings, int period) {
+  const int phase = level.number % period;
+  if (!level.intervals.empty()) {
+    constexpr int needed = 2;  // knots of two spans beyond a piece
+    walk(level.topology(), level.sharpness, piece, std::max(rings, needed), phase);
+    if (add_intervals(level.intervals, piece, walk_.inner)) return walk_;
+  }
+  return walk(level.topology(), level.sharpness, piece, rings, phase);
 }
 
 }  // namespace sublimit

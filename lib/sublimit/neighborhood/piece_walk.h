@@ -7,12 +7,15 @@
 
 #include "sublimit/mesh/sharpness.h"
 #include "sublimit/neighborhood/piece.h"
+#include "sublimit/scheme/refine.h"
 
 namespace sublimit {
 
 struct PieceWalk {
   std::vector<Index> vertices;  ///< by slot: the piece's own first, then ring by ring
   std::vector<std::uint32_t> signature;
+  int rings = 1;        ///< of faces around the piece
+  size_t inner = 0;     ///< points that stand before those of the last ring
   bool decays = false;  ///< some finite sharpness matters
 };
 
@@ -21,9 +24,15 @@ class PieceWalker {
  public:
   /// @param phase  of the level, modulo the period of the scheme
   const PieceWalk& walk(const Topology& topology, const Sharpness& sharpness, const Piece& piece, int rings, int phase);
+  /// The same where intervals between knots may differ: then two rings at least, and the intervals up to a power of
+  /// two.
+  /// @param rings  that a piece depends on where they are equal
+  const PieceWalk& walk(const Level& level, const Piece& piece, int rings, int period);
 
  private:
   Index slot(HalfEdge h);
+  /// Adds the intervals around the points that were walked around; false if all are equal, and stay so.
+  bool add_intervals(const KnotIntervals& intervals, const Piece& piece, size_t points);
   const Topology* t_ = nullptr;
   PieceWalk walk_;
   std::vector<HalfEdge> found_at_;           // by slot: a half-edge that leaves the point

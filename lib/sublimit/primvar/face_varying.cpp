@@ -198,8 +198,12 @@ FaceVaryingLevel next_face_varying(const Scheme<double>& scheme, FaceVaryingInte
       child_sharpness =
           value_sharpness(mesh, mesh_child.sharpness, refinement.topology, child.vertices, child.rules, interpolation);
     }
-    SparseMatrix S =
-        subdivision_matrix(own, steps[i], *topology, refinement, *sharpness, child_sharpness, mesh_parent.number);
+    std::optional<KnotSplit> knots;
+    if (!mesh_parent.intervals.empty())
+      knots = new_knots(
+          renumbered(mesh_parent.intervals, mesh_parent.topology(), *topology, [](HalfEdge h) { return index(h); }));
+    SparseMatrix S = subdivision_matrix(own, steps[i], *topology, refinement, *sharpness, child_sharpness,
+                                        mesh_parent.number, knots && !knots->length.empty() ? &*knots : nullptr);
     if (i == 0) {
       level.S.swap(S);
     } else {

@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <map>
 #include <span>
+#include <type_traits>
 #include <vector>
 
+#include "sublimit/base/error.h"
 #include "sublimit/mesh/topology.h"
 #include "sublimit/scheme/sites.h"
 
@@ -86,6 +88,48 @@ class MaskTable {
     return weights;
   }
 
+  /// Knots of the edges of a site's faces, face by face.
+  using Knots = std::vector<std::vector<EdgeKnots<double>>>;
+  /// Whether they are those that a mask has where it is told none.
+  static bool are_equal(const Knots& knots) {
+    const double d = knots[0][0].length;
+    for (const std::vector<EdgeKnots<double>>& face : knots)
+      for (const EdgeKnots<double>& k : face)
+        if (k.length != d || k.split != d / 2 || k.before != d || k.after != d) return false;
+    return true;
+  }
+  // Sites whose intervals differ: found by their knots. Valid until the next call.
+  const Weights& face(const Knots& knots) {
+    return known(knots, 'f', [&] {
+      const auto size = static_cast<Index>(knots[0].size());
+      std::vector<Index> slots(size);
+      for (Index i = 0; i < size; ++i) slots[i] = i;
+      return dense(masks_->face(FaceSite<T>(*masks_, level_, slots, cast(knots[0]))), size);
+    });
+  }
+  /// @param knots  of the left face from the edge on, then of the right one
+  const Weights& edge(const Knots& knots) {
+    return known(knots, 'e', [&] {
+      const auto left = static_cast<Index>(knots[0].size()), right = static_cast<Index>(knots[1].size());
+      return dense(masks_->edge(EdgeSite<T>(*masks_, level_, left, right, cast(knots[0]), cast(knots[1]))),
+                   left + right - 2);
+    });
+  }
+  /// @param knots  of each face from the vertex on
+  const Weights& vertex(const Knots& knots) {
+    return known(knots, 'v', [&] {
+      std::vector<Index> sizes;
+      std::vector<std::vector<EdgeKnots<T>>> own;
+      Index slots = 1;
+      for (const std::vector<EdgeKnots<double>>& face : knots) {
+        sizes.push_back(static_cast<Index>(face.size()));
+        slots += sizes.back() - 2;
+        own.push_back(cast(face));
+      }
+      return dense(masks_->vertex(Ring<T>(*masks_, level_, sizes, std::move(own))), slots);
+    });
+  }
+
   /// Where all faces of a mesh have one size, types are found without a search.
   const Weights& vertex(Index valence, Index face_size) {
     Weights& weights = at(rings_, valence);
@@ -97,7 +141,35 @@ class MaskTable {
     return *uniform_edge_;
   }
 
+  static EdgeKnots<T> cast(const EdgeKnots<double>& k) {
+    return {number(k.length), number(k.split), number(k.before), number(k.after)};
+  }
+
  private:
+  static T number(double x) {
+    if constexpr (std::is_constructible_v<T, double>)
+      return T(x);
+    else
+      throw InvalidParameter("knot intervals are floating-point numbers; this type of numbers has none");
+  }
+  static std::vector<EdgeKnots<T>> cast(const std::vector<EdgeKnots<double>>& knots) {
+    std::vector<EdgeKnots<T>> result;
+    for (const EdgeKnots<double>& k : knots) result.push_back(cast(k));
+    return result;
+  }
+  template <class Make>
+  const Weights& known(const Knots& knots, char kind, const Make& make) {
+    key_.assign(1, kind);
+    for (const std::vector<EdgeKnots<double>>& face : knots) {
+      key_.push_back(static_cast<double>(face.size()));
+      for (const EdgeKnots<double>& k : face) key_.insert(key_.end(), {k.length, k.split, k.before, k.after});
+    }
+    constexpr size_t enough = 4096;
+    if (by_knots_.size() > enough) by_knots_.clear();
+    Weights& weights = by_knots_[key_];
+    if (weights.empty()) weights = make();
+    return weights;
+  }
   static Weights& at(std::vector<Weights>& list, Index i) {
     if (static_cast<size_t>(i) >= list.size()) list.resize(i + 1);
     return list[i];
@@ -169,6 +241,8 @@ class MaskTable {
   std::map<std::vector<Index>, Weights> vertices_;
   std::vector<Weights> rings_;
   const Weights* uniform_edge_ = nullptr;
+  std::map<std::vector<double>, Weights> by_knots_;
+  std::vector<double> key_;
 };
 
 /// Calls visit(vertex) for the corners of a half-edge's face, from the `skip`-th after the half-edge's own on, `count`

@@ -15,6 +15,7 @@ ControlMesh triangulated(const ControlMesh& mesh) {
   result.face_sizes.clear();
   result.face_vertices.clear();
   result.holes.clear();
+  result.knot_intervals.clear();  // of strips of quadrilaterals
   for (ControlMesh::FaceVarying& channel : result.face_varying) {
     if (channel.indices.size() != mesh.face_vertices.size())
       throw InvalidMesh("face-varying channel '" + channel.name + "' has " + std::to_string(channel.indices.size()) +

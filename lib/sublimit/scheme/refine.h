@@ -26,10 +26,15 @@ struct LevelOf {
   /// provenance.
   std::vector<Refinement> steps;
   Sharpness sharpness;
+  KnotIntervals intervals;  ///< empty where all are equal
   std::vector<bool> holes;  ///< per face
   SparseMatrixOf<T> S;      ///< from the level before (empty for level 0): x_k = S * x_{k-1}
 
   const Topology& topology() const { return steps.back().topology; }
+  /// New knots of the step to the next level; none where all intervals are equal.
+  std::optional<KnotSplit> knots() const {
+    return intervals.empty() ? std::nullopt : std::optional(new_knots(intervals));
+  }
 
   LevelOf() = default;
   LevelOf(const LevelOf&) = default;
@@ -40,6 +45,7 @@ struct LevelOf {
     number = other.number;
     steps = std::move(other.steps);
     sharpness = std::move(other.sharpness);
+    intervals = std::move(other.intervals);
     holes = std::move(other.holes);
     S.swap(other.S);
     return *this;
@@ -48,7 +54,7 @@ struct LevelOf {
 using Level = LevelOf<double>;
 
 /// Level 0 of a control mesh.
-/// @throws InvalidMesh           bad connectivity, a tag that points nowhere
+/// @throws InvalidMesh           bad connectivity, a tag that points nowhere, knot intervals that contradict each other
 /// @note  Boundary::none makes no holes for a scheme whose faces need no neighbours (bilinear).
 template <class T>
 LevelOf<T> control_level(const Scheme<T>& scheme, const ControlMesh& mesh, const SubdivisionOptions& options = {});

@@ -6,6 +6,7 @@
 #include "sublimit/core/sparse_product.h"
 #include "sublimit/scheme/refine.h"
 #include "sublimit/scheme/subdivision_matrix_impl.h"
+#include "sublimit/splits/child_intervals.h"
 #include "sublimit/splits/child_sharpness.h"
 
 namespace sublimit {
@@ -50,12 +51,13 @@ LevelOf<T> control_level(const Scheme<T>& scheme, const ControlMesh& mesh, const
   level.sharpness = initial_sharpness(level.topology(), mesh, boundary, creasing);
   check_sharpness(scheme.name, scheme.sharpening, scheme.is_dual(), level.topology(), level.sharpness, mesh);
   const bool holes_at_boundary = boundary == Boundary::none && needs_neighbors(scheme);
+  level.intervals = initial_intervals(level.topology(), mesh, scheme.knots);
   level.holes = initial_holes(level.topology(), mesh, holes_at_boundary ? boundary : Boundary::edge_only);
   return level;
 }
 
 /// The level after `parent`, without its matrix.
-/// @param on_step  called for each step: (step, topology, refinement, sharpness, child sharpness)
+/// @param on_step  called for each step: (step, topology, refinement, sharpness, child sharpness, new knots or null)
 template <class T, class OnStep>
 LevelOf<T> next_topology(const Scheme<T>& scheme, const LevelOf<T>& parent, const OnStep& on_step) {
   LevelOf<T> child;
@@ -63,6 +65,7 @@ LevelOf<T> next_topology(const Scheme<T>& scheme, const LevelOf<T>& parent, cons
   const Topology* topology = &parent.topology();
   const Sharpness* sharpness = &parent.sharpness;
   const std::vector<bool>* holes = &parent.holes;
+  const KnotIntervals* intervals = &parent.intervals;
   const std::vector<Step<T>> steps = scheme.steps_at(parent.number, *topology);
   child.steps.reserve(steps.size());
   for (const Step<T>& step : steps) {
@@ -70,7 +73,13 @@ LevelOf<T> next_topology(const Scheme<T>& scheme, const LevelOf<T>& parent, cons
     if (step.masks.wide_edge || step.masks.wide_face)
       check_wide_faces(scheme.name, scheme.corners, *topology, parent.number);
     Sharpness child_sharpness = refine(*sharpness, *topology, refinement);
-    on_step(step, *topology, refinement, *sharpness, child_sharpness);
+    std::optional<KnotSplit> knots;
+    if (!intervals->empty()) knots = new_knots(*intervals);
+    on_step(step, *topology, refinement, *sharpness, child_sharpness, knots ? &*knots : nullptr);
+    KnotIntervals own_intervals;
+    if (knots) own_intervals = child_intervals(*topology, refinement, *intervals, *knots);
+    child.intervals = std::move(own_intervals);
+    intervals = &child.intervals;
     std::vector<bool> child_holes = refine_holes(*holes, *topology, refinement);
     child.holes = std::move(child_holes);
     child.sharpness = std::move(child_sharpness);
@@ -86,17 +95,18 @@ template <class T>
 LevelOf<T> next_level(const Scheme<T>& scheme, const LevelOf<T>& parent) {
   SparseMatrixOf<T> product_of_steps;
   bool first = true;
-  LevelOf<T> child = next_topology(scheme, parent,
-                                   [&](const Step<T>& step, const Topology& topology, const Refinement& refinement,
-                                       const Sharpness& sharpness, const Sharpness& child_sharpness) {
-                                     SparseMatrixOf<T> S = subdivision_matrix(
-                                         scheme, step, topology, refinement, sharpness, child_sharpness, parent.number);
-                                     if (first)
-                                       product_of_steps.swap(S);
-                                     else
-                                       product(S, product_of_steps).swap(product_of_steps);
-                                     first = false;
-                                   });
+  LevelOf<T> child =
+      next_topology(scheme, parent,
+                    [&](const Step<T>& step, const Topology& topology, const Refinement& refinement,
+                        const Sharpness& sharpness, const Sharpness& child_sharpness, const KnotSplit* knots) {
+                      SparseMatrixOf<T> S = subdivision_matrix(scheme, step, topology, refinement, sharpness,
+                                                               child_sharpness, parent.number, knots);
+                      if (first)
+                        product_of_steps.swap(S);
+                      else
+                        product(S, product_of_steps).swap(product_of_steps);
+                      first = false;
+                    });
   child.S.swap(product_of_steps);
   return child;
 }

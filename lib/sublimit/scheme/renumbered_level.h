@@ -52,6 +52,7 @@ Level renumbered_level(const Level& whole, const RenumberedFaces& part, Index nu
   level.sharpness.edge.resize(own.num_edges());
   for (Index i = 0; i < corners; ++i)
     level.sharpness.edge[index(own.edge(HalfEdge{i}))] = whole.sharpness.edge[index(t.edge(HalfEdge{part.corners[i]}))];
+  level.intervals = renumbered(whole.intervals, t, own, [&](HalfEdge h) { return part.corners[index(h)]; });
   for (const Index f : part.faces) level.holes.push_back(whole.holes[f]);
   return level;
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "sublimit/core/scheme_options.h"
+#include "sublimit/mesh/knot_intervals.h"
 #include "sublimit/scheme/sites.h"
 #include "sublimit/splits/split.h"
 
@@ -51,6 +52,8 @@ struct Scheme {
   /// 2: only then a neighbourhood lies as it lay before.
   int period = 1;
   Sharpening sharpening = Sharpening::semi_sharp;
+  /// Where new knots go, of schemes whose masks know intervals.
+  NewKnots knots = NewKnots::none;
   /// Corners of the faces it takes, 0 for any (or what its split takes).
   int corners = 0;
   /// Steps before those of level 0 where a control mesh has other faces than `corners`: they become such faces.

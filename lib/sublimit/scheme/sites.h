@@ -17,6 +17,17 @@ namespace sublimit {
 template <class T>
 struct Masks;
 
+/// Knots along an edge, seen from one of its ends, for schemes that know them: intervals and the new knot of the step.
+template <class T>
+struct EdgeKnots {
+  T length = T(1);                   ///< of the edge
+  T split = Number<T>::ratio(1, 2);  ///< from this end to the new knot
+  T before = T(1), after = T(1);  ///< intervals beyond this end and beyond the other: means where several edges go on
+  const T& near() const { return split; }
+  T far() const { return length - split; }
+  EdgeKnots reversed() const { return {length, far(), after, before}; }
+};
+
 /// What every site knows: the level of the parent (0 for the control mesh), constants in the number type, and the masks
 /// of the step, for child points that are already made.
 template <class T>
@@ -36,9 +47,11 @@ class Site {
 template <class T>
 class FaceSite : public Site<T> {
  public:
-  FaceSite(const Masks<T>& masks, int level, std::vector<Index> slots)
-      : Site<T>(masks, level), slots_(std::move(slots)) {}
+  FaceSite(const Masks<T>& masks, int level, std::vector<Index> slots, std::vector<EdgeKnots<T>> knots = {})
+      : Site<T>(masks, level), slots_(std::move(slots)), knots_(std::move(knots)) {}
   int size() const { return static_cast<int>(slots_.size()); }
+  /// Of the edge from corner i to the next one, seen from there.
+  EdgeKnots<T> knots(int i) const { return knots_.empty() ? EdgeKnots<T>{} : knots_[i]; }
   Stencil<T> corner(int i) const { return Stencil<T>(slots_[i]); }
   Stencil<T> centroid() const {
     Stencil<T> sum;
@@ -50,6 +63,7 @@ class FaceSite : public Site<T> {
 
  private:
   std::vector<Index> slots_;
+  std::vector<EdgeKnots<T>> knots_;  // none: all are equal
 };
 
 /// An interior edge with its two faces. The left one starts with (tail, head), the right one with (head, tail).
@@ -57,7 +71,9 @@ class FaceSite : public Site<T> {
 template <class T>
 class EdgeSite : public Site<T> {
  public:
-  EdgeSite(const Masks<T>& masks, int level, int left_size, int right_size) : Site<T>(masks, level) {
+  EdgeSite(const Masks<T>& masks, int level, int left_size, int right_size, std::vector<EdgeKnots<T>> left_knots = {},
+           std::vector<EdgeKnots<T>> right_knots = {})
+      : Site<T>(masks, level), left_knots_(std::move(left_knots)), right_knots_(std::move(right_knots)) {
     left_ = {0, 1};
     right_ = {1, 0};
     Index slot = 2;
@@ -66,11 +82,14 @@ class EdgeSite : public Site<T> {
   }
   Stencil<T> tail() const { return Stencil<T>(0); }
   Stencil<T> head() const { return Stencil<T>(1); }
-  FaceSite<T> left_face() const { return {*this->masks_, this->level_, left_}; }
-  FaceSite<T> right_face() const { return {*this->masks_, this->level_, right_}; }
+  FaceSite<T> left_face() const { return {*this->masks_, this->level_, left_, left_knots_}; }
+  FaceSite<T> right_face() const { return {*this->masks_, this->level_, right_, right_knots_}; }
+  /// Seen from the tail.
+  EdgeKnots<T> knots() const { return left_face().knots(0); }
 
  private:
   std::vector<Index> left_, right_;
+  std::vector<EdgeKnots<T>> left_knots_, right_knots_;
 };
 
 /// A vertex with its faces, counter-clockwise; the ring is closed around an interior vertex, and open where a boundary
@@ -80,7 +99,10 @@ class EdgeSite : public Site<T> {
 template <class T>
 class Ring : public Site<T> {
  public:
-  Ring(const Masks<T>& masks, int level, std::span<const Index> face_sizes) : Site<T>(masks, level) {
+  /// @param knots  of each face, from the vertex on; none: all are equal
+  Ring(const Masks<T>& masks, int level, std::span<const Index> face_sizes,
+       std::vector<std::vector<EdgeKnots<T>>> knots = {})
+      : Site<T>(masks, level), knots_(std::move(knots)) {
     Index slot = 1;
     for (const Index size : face_sizes) {
       faces_.push_back({0});
@@ -102,7 +124,12 @@ class Ring : public Site<T> {
     return Stencil<T>(at == n ? faces_[n - 1].back() : faces_[at][1]);
   }
   bool has_neighbor(int i) const { return closed_ || (start_ + i >= 0 && start_ + i <= valence()); }
-  FaceSite<T> face(int i) const { return {*this->masks_, this->level_, faces_[position(i)]}; }
+  FaceSite<T> face(int i) const {
+    const int at = position(i);
+    return {*this->masks_, this->level_, faces_[at], knots_.empty() ? std::vector<EdgeKnots<T>>{} : knots_[at]};
+  }
+  /// Of edge i of a closed ring, seen from the vertex.
+  EdgeKnots<T> knots(int i) const { return knots_.empty() ? EdgeKnots<T>{} : knots_[position(i)][0]; }
   /// The corner of the quadrilateral face i that is opposite to the vertex.
   Stencil<T> diagonal(int i) const { return Stencil<T>(faces_[position(i)][2]); }
 
@@ -138,6 +165,7 @@ class Ring : public Site<T> {
     return std::move(sum) / T(valence());
   }
   std::vector<std::vector<Index>> faces_;
+  std::vector<std::vector<EdgeKnots<T>>> knots_;
   bool closed_ = true;
   int start_ = 0;
 };
@@ -291,10 +319,17 @@ class WideFaceSite : public Site<T> {
 template <class T>
 class CreaseSite : public Site<T> {
  public:
-  using Site<T>::Site;
+  CreaseSite(const Masks<T>& masks, int level, EdgeKnots<T> knots_before = {}, EdgeKnots<T> knots_after = {})
+      : Site<T>(masks, level), knots_before_(std::move(knots_before)), knots_after_(std::move(knots_after)) {}
   Stencil<T> center() const { return Stencil<T>(0); }
   Stencil<T> before() const { return Stencil<T>(1); }
   Stencil<T> after() const { return Stencil<T>(2); }
+  /// Of the edges to these neighbours, seen from the vertex.
+  const EdgeKnots<T>& knots_before() const { return knots_before_; }
+  const EdgeKnots<T>& knots_after() const { return knots_after_; }
+
+ private:
+  EdgeKnots<T> knots_before_, knots_after_;
 };
 
 /// A sharp or boundary edge, and the curve that it is part of. Where a step makes several points on it, each sees the
@@ -302,16 +337,20 @@ class CreaseSite : public Site<T> {
 template <class T>
 class CreaseEdgeSite : public Site<T> {
  public:
-  CreaseEdgeSite(const Masks<T>& masks, int level, bool has_before = true, bool has_after = true)
-      : Site<T>(masks, level), has_before_(has_before), has_after_(has_after) {}
+  CreaseEdgeSite(const Masks<T>& masks, int level, bool has_before = true, bool has_after = true,
+                 EdgeKnots<T> knots = {})
+      : Site<T>(masks, level), has_before_(has_before), has_after_(has_after), knots_(std::move(knots)) {}
   Stencil<T> tail() const { return Stencil<T>(0); }
   Stencil<T> head() const { return Stencil<T>(1); }
   /// Where the curve ends in a corner, the next point is a virtual one, so that the end is the middle.
   Stencil<T> before() const { return has_before_ ? Stencil<T>(2) : T(2) * tail() - head(); }
   Stencil<T> after() const { return has_after_ ? Stencil<T>(3) : T(2) * head() - tail(); }
+  /// Seen from the tail.
+  const EdgeKnots<T>& knots() const { return knots_; }
 
  private:
   bool has_before_, has_after_;
+  EdgeKnots<T> knots_;
 };
 
 /// A mask: from the site to the stencil of the new point.

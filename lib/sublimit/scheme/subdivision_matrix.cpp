@@ -4,6 +4,7 @@
 namespace sublimit {
 
 template SparseMatrixOf<double> subdivision_matrix(const Scheme<double>&, const Step<double>&, const Topology&,
-                                                   const Refinement&, const Sharpness&, const Sharpness&, int);
+                                                   const Refinement&, const Sharpness&, const Sharpness&, int,
+                                                   const KnotSplit*);
 
 }  // namespace sublimit

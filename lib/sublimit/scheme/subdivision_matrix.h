@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 // x_{k+1} = S_k x_k: the subdivision matrix of one step, its rows filled from the masks.
+#include "sublimit/mesh/knot_intervals.h"
 #include "sublimit/mesh/sharpness.h"
 #include "sublimit/mesh/topology.h"
 #include "sublimit/scheme/scheme.h"
@@ -21,6 +22,7 @@ using SparseMatrixOf = Eigen::SparseMatrix<T, Eigen::RowMajor, Index>;
 /// @param sharpness   per edge and vertex of `parent`
 /// @param child_sharpness  the same after the step: `refine(sharpness, parent, refinement)`
 /// @param level       of the parent, for masks that depend on it
+/// @param knots       intervals and new knots of the parent's edges; null: all intervals are equal
 /// @return  S, #V' x #V, rows sum to 1 up to rounding, columns of a row ascending
 /// @throws ResourceError  more nonzeros than 32-bit indices, checked before memory is taken
 /// @note  Deterministic: same build and input, same bytes, whatever the number of threads.
@@ -29,9 +31,10 @@ using SparseMatrixOf = Eigen::SparseMatrix<T, Eigen::RowMajor, Index>;
 template <class T>
 SparseMatrixOf<T> subdivision_matrix(const Scheme<T>& scheme, const Step<T>& step, const Topology& parent,
                                      const Refinement& refinement, const Sharpness& sharpness,
-                                     const Sharpness& child_sharpness, int level);
+                                     const Sharpness& child_sharpness, int level, const KnotSplit* knots = nullptr);
 
 extern template SparseMatrixOf<double> subdivision_matrix(const Scheme<double>&, const Step<double>&, const Topology&,
-                                                          const Refinement&, const Sharpness&, const Sharpness&, int);
+                                                          const Refinement&, const Sharpness&, const Sharpness&, int,
+                                                          const KnotSplit*);
 
 }  // namespace sublimit

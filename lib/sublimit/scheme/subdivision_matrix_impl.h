@@ -8,12 +8,14 @@
 #include <algorithm>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <string>
 #include <type_traits>
 
 #include "sublimit/base/error.h"
 #include "sublimit/base/parallel_for.h"
 #include "sublimit/core/uninitialized.h"
+#include "sublimit/scheme/level_knots.h"
 #include "sublimit/scheme/mask_table.h"
 #include "sublimit/scheme/subdivision_matrix.h"
 
@@ -29,15 +31,19 @@ class RowMaker {
   using Weights = typename MaskTable<T>::Weights;
 
   RowMaker(const Scheme<T>& scheme, const Step<T>& step, const Topology& parent, const Refinement& refinement,
-           const Sharpness& sharpness, const Sharpness& child_sharpness, int level,
+           const Sharpness& sharpness, const Sharpness& child_sharpness, int level, const KnotSplit* split,
            const std::vector<std::uint8_t>& is_plain)
       : t_(parent),
         refinement_(refinement),
         sharpness_(sharpness),
         child_sharpness_(child_sharpness),
         is_plain_(is_plain),
-        masks_(step.masks, level) {
-    const CreaseMasks<T>& creases = step.creases.edge ? step.creases : scheme.creases;
+        masks_(step.masks, level),
+        creases_(step.creases.edge ? step.creases : scheme.creases),
+        step_masks_(step.masks),
+        level_(level) {
+    if (split) knots_.emplace(parent, *split);
+    const CreaseMasks<T>& creases = creases_;
     if (creases.vertex) crease_vertex_ = dense(creases.vertex(CreaseSite<T>(step.masks, level)), 3);
     for (const int before : {0, 1})
       for (const int after : {0, 1})
@@ -60,7 +66,7 @@ class RowMaker {
     return smooth_weights(e).count();
   }
   Index length(Face f) {
-    if (!wide_face_) return t_.size(f);
+    if (!wide_face_) return t_.size(f);  // with intervals at most
     const Weights& weights = wide_weights(f);
     return weights.on_edges.empty() ? weights.count() : static_cast<Index>(row(f, weights).size());
   }
@@ -74,7 +80,7 @@ class RowMaker {
 
   /// Writes the row of the child of an element, columns ascending, zeros dropped; returns its length.
   Index write(Face f, Index* columns, T* values) {
-    if (!wide_face_) return write_smooth(f, masks_.face(t_.size(f)), columns, values);
+    if (!wide_face_) return write_smooth(f, smooth_weights(f), columns, values);
     const Weights& weights = wide_weights(f);
     if (!weights.on_edges.empty()) return write(row(f, weights), columns, values);
     return write_smooth(f, weights, columns, values);
@@ -150,22 +156,34 @@ class RowMaker {
       before = along_curve(e, tail);
       after = along_curve(e, head);
     }
-    const std::vector<T>& weights = crease_edge_[before >= 0][after >= 0];
+    const std::vector<T>& weights =
+        knots_ ? curve_ = dense(creases_.edge(CreaseEdgeSite<T>(step_masks_, level_, before >= 0, after >= 0,
+                                                                curve_knots(e, tail, head))),
+                                4)
+               : crease_edge_[before >= 0][after >= 0];
     const Index ends[] = {index(tail), index(head), before, after};
     for (int i = 0; i < 4; ++i)
       if (ends[i] >= 0 && weights[i] != T(0)) row_.push_back({ends[i], factor * weights[i]});
   }
-  /// The next vertex of a crease beyond one of its ends, -1 if the curve ends there.
-  Index along_curve(Edge e, Vertex end) const {
-    if (is_sharp(sharpness_.vertex[index(end)])) return -1;  // a corner, perhaps of very many edges
-    Edge other{-1};
+  EdgeKnots<T> curve_knots(Edge e, Vertex from, Vertex to) const {
+    return MaskTable<T>::cast(knots_->along(e, from, next_on_curve(e, from), next_on_curve(e, to)));
+  }
+  /// The next edge of a crease beyond one of its ends, none if the curve ends there.
+  std::optional<Edge> next_on_curve(Edge e, Vertex end) const {
+    if (is_sharp(sharpness_.vertex[index(end)])) return std::nullopt;  // a corner, perhaps of very many edges
+    Edge other = e;
     int count = 0;
     for (const Edge sharp : t_.edges(end)) {
       if (!is_sharp(sharpness_.edge[index(sharp)])) continue;
-      if (++count > 2) return -1;
+      if (++count > 2) return std::nullopt;
       if (sharp != e) other = sharp;
     }
-    return count == 2 ? other_end(index(other) < 0 ? e : other, end) : -1;
+    return count == 2 ? std::optional(other) : std::nullopt;
+  }
+  /// The next vertex there, or -1.
+  Index along_curve(Edge e, Vertex end) const {
+    const std::optional<Edge> next = next_on_curve(e, end);
+    return next ? other_end(*next, end) : -1;
   }
 
   const std::vector<Term>& row(Vertex v) {
@@ -197,11 +215,25 @@ class RowMaker {
   }
 
   const Weights& smooth_weights(Vertex v) {
+    if (knots_) {
+      site_knots_.clear();
+      HalfEdge h = t_.outgoing(v);
+      do {
+        site_knots_.push_back(knots_->of_face(h));
+        h = t_.ccw(h);
+      } while (h != t_.outgoing(v));
+      if (!MaskTable<T>::are_equal(site_knots_)) return masks_.vertex(site_knots_);
+    }
     if (t_.uniform_face_size()) return masks_.vertex(t_.num_faces(v), t_.uniform_face_size());
     face_sizes_around(t_, v, sizes_);
     return masks_.vertex(sizes_);
   }
   const Weights& smooth_weights(Edge e) {
+    if (knots_) {
+      const HalfEdge left = t_.half_edge(e);
+      site_knots_ = {knots_->of_face(left), knots_->of_face(t_.twin(left))};
+      if (!MaskTable<T>::are_equal(site_knots_)) return masks_.edge(site_knots_);
+    }
     if (wide_edge_) {
       const auto [tail, head] = shapes(e);
       return masks_.wide_edge(t_.uniform_face_size(), tail, head);
@@ -209,6 +241,14 @@ class RowMaker {
     if (t_.uniform_face_size()) return masks_.uniform_edge(t_.uniform_face_size());
     const HalfEdge h = t_.half_edge(e);
     return masks_.edge(t_.size(t_.face(h)), t_.size(t_.face(t_.twin(h))));
+  }
+
+  const Weights& smooth_weights(Face f) {
+    if (knots_) {
+      site_knots_ = {knots_->of_face(t_.first(f))};
+      if (!MaskTable<T>::are_equal(site_knots_)) return masks_.face(site_knots_);
+    }
+    return masks_.face(t_.size(f));
   }
 
   bool is_cut(HalfEdge h) const { return !exists(t_.twin(h)) || is_sharp(sharpness_.edge[index(t_.edge(h))]); }
@@ -311,9 +351,17 @@ class RowMaker {
     } else if (rule == Rule::crease) {
       const std::vector<Edge> around = t_.edges(v);
       const auto [first, last] = crease_ends(edges);
-      row_.push_back({index(v), w * crease_vertex_[0]});
-      row_.push_back({other_end(around[first], v), w * crease_vertex_[1]});
-      row_.push_back({other_end(around[last], v), w * crease_vertex_[2]});
+      const Edge ends[] = {around[first], around[last]};
+      const Index vertices[] = {index(v), other_end(ends[0], v), other_end(ends[1], v)};
+      std::vector<T>& weights = knots_ ? curve_ : crease_vertex_;
+      if (knots_) {
+        const auto seen = [&](int k) {
+          const std::optional<Edge> beyond = next_on_curve(ends[k], Vertex{vertices[k + 1]});
+          return MaskTable<T>::cast(knots_->along(ends[k], v, ends[1 - k], beyond));
+        };
+        weights = dense(creases_.vertex(CreaseSite<T>(step_masks_, level_, seen(0), seen(1))), 3);
+      }
+      for (int k = 0; k < 3; ++k) row_.push_back({vertices[k], w * weights[k]});
     } else {
       add(v, w, smooth_weights(v));
     }
@@ -377,7 +425,12 @@ class RowMaker {
   const Sharpness& child_sharpness_;
   const std::vector<std::uint8_t>& is_plain_;
   MaskTable<T> masks_;
-  std::vector<T> crease_vertex_, crease_edge_[2][2];
+  const CreaseMasks<T>& creases_;
+  const Masks<T>& step_masks_;
+  int level_;
+  std::optional<LevelKnots> knots_;  // where intervals differ
+  typename MaskTable<T>::Knots site_knots_;
+  std::vector<T> crease_vertex_, crease_edge_[2][2], curve_;
   bool crease_is_wide_ = false, wide_edge_ = false, wide_face_ = false, wide_borders_ = false;
   std::vector<Index> sizes_, gathered_;
   std::vector<FanShape> shapes_;
@@ -480,7 +533,7 @@ SparseMatrixOf<T> assemble(Index rows, Index columns, const MakeMaker& make_make
 template <class T>
 SparseMatrixOf<T> subdivision_matrix(const Scheme<T>& scheme, const Step<T>& step, const Topology& parent,
                                      const Refinement& refinement, const Sharpness& sharpness,
-                                     const Sharpness& child_sharpness, int level) {
+                                     const Sharpness& child_sharpness, int level, const KnotSplit* knots) {
   const std::vector<std::uint8_t> plain = assembly::plain_vertices(parent, sharpness);
   using Maker = assembly::RowMaker<T>;
   const auto visit = [&](Index r, const auto& body) {
@@ -500,7 +553,7 @@ SparseMatrixOf<T> subdivision_matrix(const Scheme<T>& scheme, const Step<T>& ste
   };
   return assembly::assemble<T>(
       refinement.topology.num_vertices(), parent.num_vertices(),
-      [&] { return Maker(scheme, step, parent, refinement, sharpness, child_sharpness, level, plain); },
+      [&] { return Maker(scheme, step, parent, refinement, sharpness, child_sharpness, level, knots, plain); },
       [&](Maker& maker, Index r) { return visit(r, [&](auto element) { return maker.length(element); }); },
       [&](Maker& maker, Index r, Index* columns, T* values) {
         return visit(r, [&](auto element) { return maker.write(element, columns, values); });

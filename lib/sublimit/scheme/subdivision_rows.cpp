@@ -32,9 +32,10 @@ Index write(Maker& maker, const Refinement& refinement, Vertex child, Index* col
 
 SparseMatrix subdivision_rows(const Scheme<double>& scheme, const Step<double>& step, const Topology& parent,
                               const Refinement& refinement, const Sharpness& sharpness,
-                              const Sharpness& child_sharpness, int level, std::span<const Index> rows) {
+                              const Sharpness& child_sharpness, int level, std::span<const Index> rows,
+                              const KnotSplit* knots) {
   const std::vector<std::uint8_t> plain = assembly::plain_vertices(parent, sharpness);
-  Maker maker(scheme, step, parent, refinement, sharpness, child_sharpness, level, plain);
+  Maker maker(scheme, step, parent, refinement, sharpness, child_sharpness, level, knots, plain);
   const Index count = refinement.topology.num_vertices(), width = parent.num_vertices();
   SparseMatrix S(count, width);
   Index* const outer = S.outerIndexPtr();
@@ -62,8 +63,9 @@ SparseMatrix subdivision_rows(const Scheme<double>& scheme, const Step<double>& 
 SparseMatrix subdivision_rows(const Scheme<double>& scheme, const Level& parent, const Level& child,
                               std::span<const Index> vertices) {
   if (scheme.steps.size() > 1) return child.S;
+  const std::optional<KnotSplit> knots = parent.knots();
   return subdivision_rows(scheme, scheme.steps[0], parent.topology(), child.steps[0], parent.sharpness, child.sharpness,
-                          parent.number, vertices);
+                          parent.number, vertices, knots ? &*knots : nullptr);
 }
 
 }  // namespace sublimit

@@ -12,7 +12,8 @@ namespace sublimit {
 /// @param rows  children, ascending
 SparseMatrix subdivision_rows(const Scheme<double>& scheme, const Step<double>& step, const Topology& parent,
                               const Refinement& refinement, const Sharpness& sharpness,
-                              const Sharpness& child_sharpness, int level, std::span<const Index> rows);
+                              const Sharpness& child_sharpness, int level, std::span<const Index> rows,
+                              const KnotSplit* knots = nullptr);
 
 /// Rows of the matrix from a level to the next one: of these vertices, and where a level takes several steps all that
 /// there are.

@@ -5,6 +5,7 @@ namespace sublimit {
 
 std::optional<Baked> bake_by_patterns(Patterns& patterns, const Level& control, const BakeRequest& request,
                                       const PatternBake& how) {
+  if (!control.intervals.empty()) return std::nullopt;  // lattices have new knots in the middle
   std::optional<Baked> baked;
   if (request.rows == TableRows::level || request.rows == TableRows::limit)
     baked = bake_lattices(patterns, control, request, how);

@@ -26,8 +26,10 @@ std::string digits_of(std::uint64_t hash) {
 
 std::string tags_of(const ControlMesh& mesh) {
   static_assert(sizeof(ControlMesh::Crease) == 12 && sizeof(ControlMesh::Corner) == 8, "no bytes between members");
-  if (mesh.creases.empty() && mesh.corners.empty() && mesh.holes.empty()) return "none";
-  const std::uint64_t hash = hash_of(mesh.holes, hash_of(mesh.corners, hash_of(mesh.creases, mesh.creases.size())));
+  static_assert(sizeof(ControlMesh::KnotInterval) == 16, "no bytes between members");
+  if (mesh.creases.empty() && mesh.corners.empty() && mesh.holes.empty() && mesh.knot_intervals.empty()) return "none";
+  std::uint64_t hash = hash_of(mesh.holes, hash_of(mesh.corners, hash_of(mesh.creases, mesh.creases.size())));
+  if (!mesh.knot_intervals.empty()) hash = hash_of(mesh.knot_intervals, hash);
   return digits_of(hash);
 }
 

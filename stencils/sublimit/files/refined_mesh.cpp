@@ -37,6 +37,8 @@ MeshOutput refined_mesh(const Level& level, const Points& points, const ControlM
     if (level.holes[f]) out.holes.push_back(f);
   for (const Edge e : left.creases)
     out.creases.push_back({index(t.tail(e)), index(t.head(e)), level.sharpness.edge[index(e)]});
+  for (size_t e = 0; e < level.intervals.length.size(); ++e)
+    out.knot_intervals.push_back({index(t.tail(Edge(e))), index(t.head(Edge(e))), level.intervals.length[e]});
   for (const Vertex v : left.corners) out.corners.push_back({index(v), level.sharpness.vertex[index(v)]});
   return out;
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <fstream>
 #include <initializer_list>
 #include <limits>
@@ -32,6 +33,7 @@ class Sidecar {
     // All of it is read and checked before any of it is applied.
     std::vector<ControlMesh::Crease> creases = read_creases(mesh);
     std::vector<ControlMesh::Corner> corners = read_corners(mesh);
+    std::vector<ControlMesh::KnotInterval> intervals = read_intervals(mesh);
     std::vector<Index> holes = read_ids("holeIndices", mesh.num_faces(), "face");
     const auto boundary = choice<Boundary>(
         "interpolateBoundary",
@@ -50,6 +52,7 @@ class Sidecar {
                                                                             {"all", all}});
     if (find("creaseIndices")) mesh.creases = std::move(creases);
     if (find("cornerIndices")) mesh.corners = std::move(corners);
+    if (find("knotIntervals")) mesh.knot_intervals = std::move(intervals);
     if (find("holeIndices")) mesh.holes = std::move(holes);
     if (boundary) mesh.boundary = boundary;
     if (creasing) mesh.creasing = creasing;
@@ -215,6 +218,36 @@ class Sidecar {
     std::vector<ControlMesh::Corner> corners;
     for (std::size_t i = 0; i < ids.size(); ++i) corners.push_back({.vertex = ids[i], .sharpness = sharpnesses[i]});
     return corners;
+  }
+
+  /// `knotIntervals` as numbers, `knotIntervalEdges` as two vertices for each.
+  std::vector<ControlMesh::KnotInterval> read_intervals(const ControlMesh& mesh) {
+    const std::vector<Index> ids = read_ids("knotIntervalEdges", mesh.num_vertices(), "vertex");
+    if (!find("knotIntervals")) {
+      if (find("knotIntervalEdges")) fail("knotIntervalEdges comes without knotIntervals");
+      return {};
+    }
+    list_beside("knotIntervalEdges", "knotIntervals");
+    const json& lengths = *find_list("knotIntervals");
+    if (ids.size() != 2 * lengths.size())
+      fail("knotIntervalEdges has " + format_number(ids.size()) + " vertices; it should have " +
+           format_number(2 * lengths.size()) + ", two for each of knotIntervals");
+    std::vector<ControlMesh::KnotInterval> intervals;
+    for (std::size_t i = 0; i < lengths.size(); ++i) {
+      if (!lengths[i].is_number())
+        fail(entry("knotIntervals", i) + " is " + show(lengths[i]) + "; it should be a number");
+      const double length = lengths[i].get<double>();
+      if (!std::isfinite(length) || length < 0)
+        fail(entry("knotIntervals", i) + " is " + format_number(length) + "; an interval should be a positive number");
+      intervals.push_back({.tail = ids[2 * i], .head = ids[2 * i + 1], .length = length});
+    }
+    const std::vector<bool> found = along_edges(mesh, edges_of(intervals));
+    for (std::size_t i = 0; i < intervals.size(); ++i)
+      if (!found[i])
+        fail(entry("knotIntervalEdges", 2 * i) + ": no face has an edge between vertices " +
+             format_number(intervals[i].tail) + " and " + format_number(intervals[i].head) +
+             "; an interval is of an edge");
+    return intervals;
   }
 
   template <class T>

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// Knots as sites see them, from the intervals and the new knots of a level's edges.
+#include <optional>
+#include <vector>
+
+#include "sublimit/mesh/knot_intervals.h"
+#include "sublimit/scheme/sites.h"
+
+namespace sublimit {
+
+class LevelKnots {
+ public:
+  LevelKnots(const Topology& topology, const KnotSplit& split) : t_(topology), split_(split) {}
+
+  /// Of the edge of a half-edge, seen from its tail.
+  EdgeKnots<double> at(HalfEdge h) const {
+    return {length(h), split(h), beyond(h, true).value_or(length(h)), beyond(h, false).value_or(length(h))};
+  }
+  /// Of all edges of its face, from this half-edge on.
+  std::vector<EdgeKnots<double>> of_face(HalfEdge h) const {
+    std::vector<EdgeKnots<double>> result;
+    HalfEdge k = h;
+    do {
+      result.push_back(at(k));
+      k = t_.next(k);
+    } while (k != h);
+    return result;
+  }
+  /// Of an edge of a curve, seen from one of its ends. Where the curve ends its own interval goes on, mirrored.
+  /// @param before, after  the curve's edges beyond this end and beyond the other
+  EdgeKnots<double> along(Edge e, Vertex from, std::optional<Edge> before, std::optional<Edge> after) const {
+    const double d = split_.length[index(e)], s = split_.at_tail[index(e)];
+    const auto own = [&](const std::optional<Edge>& other) { return other ? split_.length[index(*other)] : d; };
+    return {d, t_.tail(e) == from ? s : d - s, own(before), own(after)};
+  }
+
+ private:
+  double length(HalfEdge h) const { return split_.length[index(t_.edge(h))]; }
+  double split(HalfEdge h) const {
+    const double s = split_.at_tail[index(t_.edge(h))];
+    return t_.forward(h) ? s : length(h) - s;
+  }
+  /// Mean interval of the edges two turns away around an end of h, on either side; none where the faces end before.
+  std::optional<double> beyond(HalfEdge h, bool at_tail) const {
+    const HalfEdge twin = t_.twin(h);
+    // Half-edges that leave that end: counter-clockwise from the edge's own one, clockwise from the one beside it.
+    const HalfEdge out = at_tail ? h : twin, into = at_tail ? twin : h;
+    double sum = 0;
+    int count = 0;
+    const auto add = [&](HalfEdge k) {
+      sum += length(k);
+      ++count;
+    };
+    if (exists(out))
+      if (const HalfEdge g = t_.ccw(out); exists(g)) add(t_.prev(g));
+    if (exists(into))
+      if (const HalfEdge g = t_.twin(t_.next(into)); exists(g)) add(t_.next(g));
+    if (count == 0) return std::nullopt;
+    return sum / count;
+  }
+
+  const Topology& t_;
+  const KnotSplit& split_;
+};
+
+}  // namespace sublimit
