@@ -58,7 +58,7 @@ void simplify(KnotIntervals& intervals);
 template <class WholeHalf>
 KnotIntervals renumbered(const KnotIntervals& intervals, const Topology& whole, const Topology& part,
                          const WholeHalf& whole_half) {
-  KnotIntervals result{.least = intervals.least, .plain = intervals.plain};
+  KnotIntervals result{.length = {}, .ends = {}, .least = intervals.least, .plain = intervals.plain};
   if (intervals.empty()) return result;
   const bool has_ends = !intervals.ends.empty();
   result.length.resize(part.num_edges());

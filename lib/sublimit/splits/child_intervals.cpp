@@ -5,7 +5,7 @@ namespace sublimit {
 
 KnotIntervals child_intervals(const Topology& parent, const Refinement& refinement, const KnotIntervals& intervals,
                               const KnotSplit& split) {
-  KnotIntervals result{.least = intervals.least / 2};
+  KnotIntervals result{.length = {}, .ends = {}, .least = intervals.least / 2, .plain = false};
   if (intervals.empty()) return result;
   const Topology& t = refinement.topology;
   const bool has_ends = !intervals.ends.empty();

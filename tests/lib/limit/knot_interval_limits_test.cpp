@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: Apache-2.0
+// Limits of meshes with knot intervals: non-uniform B-splines where the mesh is regular, the same surface from every
+// level around extraordinary vertices.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "sublimit/limit/limit_points.h"
+#include "sublimit/limit/limit_surface.h"
+#include "sublimit/patches/patch_set.h"
+#include "sublimit/patches/spline_surface.h"
+#include "sublimit/schemes.h"
+#include "support/meshes.h"
+
+namespace sublimit::testing {
+namespace {
+
+const Scheme<double> levelled = *find_scheme("catmull-clark-intervals");
+const Scheme<double> halves = *find_scheme("catmull-clark-intervals", {{"levelling", "off"}});
+
+std::vector<double> random_lengths(std::mt19937& random, Index count) {
+  std::uniform_real_distribution<double> positive(0.2, 3);
+  std::vector<double> result(count);
+  for (double& d : result) d = positive(random);
+  return result;
+}
+std::vector<double> breaks_of(const std::vector<double>& lengths) {
+  std::vector<double> breaks{0};
+  for (const double d : lengths) breaks.push_back(breaks.back() + d);
+  return breaks;
+}
+
+/// Intervals of a mesh whose vertex (i,j) has number i * n + j: a[i] from row i on, b[j] from column j on.
+void set_intervals(ControlMesh& mesh, Index n, const std::vector<double>& a, const std::vector<double>& b) {
+  for (size_t i = 0; i < a.size(); ++i)
+    mesh.knot_intervals.push_back({Index(i) * n, Index((i + 1) * n) % mesh.num_vertices(), a[i]});
+  for (size_t j = 0; j < b.size(); ++j) mesh.knot_intervals.push_back({Index(j), Index(j + 1) % n, b[j]});
+}
+
+/// A mesh as a spline: the face of the spline and the place in it of a place on the mesh.
+struct Twin {
+  ControlMesh mesh;
+  SplineSurface spline;
+  Points points;                  ///< of the spline
+  Index n, m;                     ///< columns (along v of the torus, u of the spline), rows of vertices
+  Index first_row, first_column;  ///< of the spline's first face
+};
+
+void expect_same_surface(const Scheme<double>& scheme, const Twin& twin, double tolerance, unsigned seed) {
+  const LimitSurface surface(scheme, twin.mesh);
+  const Topology& t = surface.level().topology();
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> inside(0, 1);
+  std::vector<Sample> samples, others;
+  std::vector<std::array<double, 4>> turns;  // (u, v) of the mesh's face by those of the spline: rows of the Jacobian
+  const Index columns = twin.spline.u().num_faces(), rows = twin.spline.v().num_faces();
+  for (int k = 0; k < 400; ++k) {
+    const Index face = static_cast<Index>(random() % t.num_faces());
+    const auto parameter = [&] { return random() % 5 == 0 ? double(random() % 2) : inside(random); };
+    const double u = parameter(), v = parameter();
+    const auto corners = t.vertices(Face{face});
+    const auto row = [&](Index vertex) { return vertex / twin.n; };
+    const auto column = [&](Index vertex) { return vertex % twin.n; };
+    // Which corner comes first in rows and columns.
+    const auto low = [](Index x, Index y, Index count) { return (x + 1) % count == y ? x : y; };
+    const bool u_is_row = row(corners[0]) != row(corners[1]);
+    const Index r0 =
+        u_is_row ? low(row(corners[0]), row(corners[1]), twin.m) : low(row(corners[0]), row(corners[3]), twin.m);
+    const Index c0 = u_is_row ? low(column(corners[0]), column(corners[3]), twin.n)
+                              : low(column(corners[0]), column(corners[1]), twin.n);
+    const double along_row = u_is_row ? (row(corners[0]) == r0 ? u : 1 - u) : (row(corners[0]) == r0 ? v : 1 - v);
+    const double along_column =
+        u_is_row ? (column(corners[0]) == c0 ? v : 1 - v) : (column(corners[0]) == c0 ? u : 1 - u);
+    const Index spline_row = (r0 - twin.first_row + twin.m) % twin.m,
+                spline_column = (c0 - twin.first_column + twin.n) % twin.n;
+    if (spline_row >= rows || spline_column >= columns) continue;
+    samples.push_back({face, u, v});
+    others.push_back({spline_row * columns + spline_column, along_column, along_row});
+    const double lr = twin.spline.v().length(spline_row), lc = twin.spline.u().length(spline_column);
+    const double sr = u_is_row ? (row(corners[0]) == r0 ? 1 : -1) : (row(corners[0]) == r0 ? 1 : -1);
+    const double sc = (column(corners[0]) == c0 ? 1 : -1);
+    // d/du = u_is_row ? sr lr d/drow : sc lc d/dcolumn, and so on.
+    turns.push_back(u_is_row ? std::array{0.0, sr * lr, sc * lc, 0.0} : std::array{sc * lc, 0.0, 0.0, sr * lr});
+  }
+  ASSERT_GT(samples.size(), 100u);
+  const LimitSamples own = surface.evaluate(twin.mesh.positions, samples, 2);
+  const PatchSet patches({std::make_shared<SplineSurface>(twin.spline)});
+  const LimitSamples other = patches.evaluate(twin.points, others, 2);  // by the spline's own knots
+  double size = 1;
+  for (size_t i = 0; i < samples.size(); ++i) {
+    const auto at = static_cast<Index>(i);
+    Eigen::MatrixXd D(6, 3);
+    D << other.position.row(at), other.du.row(at), other.dv.row(at), other.duu.row(at), other.duv.row(at),
+        other.dvv.row(at);
+    const auto& J = turns[i];
+    const Eigen::RowVector3d du = J[0] * D.row(1) + J[1] * D.row(2), dv = J[2] * D.row(1) + J[3] * D.row(2);
+    const Eigen::RowVector3d duu = J[0] * J[0] * D.row(3) + 2 * J[0] * J[1] * D.row(4) + J[1] * J[1] * D.row(5);
+    const Eigen::RowVector3d duv =
+        J[0] * J[2] * D.row(3) + (J[0] * J[3] + J[1] * J[2]) * D.row(4) + J[1] * J[3] * D.row(5);
+    const Eigen::RowVector3d dvv = J[2] * J[2] * D.row(3) + 2 * J[2] * J[3] * D.row(4) + J[3] * J[3] * D.row(5);
+    size = std::max({size, D.row(0).norm(), du.norm(), dv.norm()});
+    EXPECT_LE((own.position.row(at) - D.row(0)).norm(), tolerance * size) << i;
+    EXPECT_LE((own.du.row(at) - du).norm(), tolerance * size) << i;
+    EXPECT_LE((own.dv.row(at) - dv).norm(), tolerance * size) << i;
+    const double bend = std::max({size, duu.norm(), duv.norm(), dvv.norm()});
+    EXPECT_LE((own.duu.row(at) - duu).norm(), 10 * tolerance * bend) << i;
+    EXPECT_LE((own.duv.row(at) - duv).norm(), 10 * tolerance * bend) << i;
+    EXPECT_LE((own.dvv.row(at) - dvv).norm(), 10 * tolerance * bend) << i;
+  }
+}
+
+Twin torus_twin(std::mt19937& random, Index m, Index n) {
+  const std::vector<double> a = random_lengths(random, m), b = random_lengths(random, n);
+  ControlMesh mesh = jittered(torus(m, n), 0.2, random());
+  set_intervals(mesh, n, a, b);
+  using K = Knots<double>;
+  SplineSurface spline(K::closed(3, breaks_of(b)), K::closed(3, breaks_of(a)));
+  Points points(m * n, 3);
+  for (Index i = 0; i < m; ++i)
+    for (Index j = 0; j < n; ++j) points.row((i + 1) % m * n + (j + 1) % n) = mesh.positions.row(i * n + j);
+  return {std::move(mesh), std::move(spline), std::move(points), n, m, 0, 0};
+}
+
+TEST(KnotIntervalLimits, OfATorusAreTheBSplineOfItsKnots) {
+  std::mt19937 random(3);
+  for (int run = 0; run < 4; ++run) {
+    const Twin twin = torus_twin(random, 4 + run, 8 - run);
+    expect_same_surface(levelled, twin, 1e-13, unsigned(run));
+    expect_same_surface(halves, twin, 1e-13, unsigned(run));
+  }
+}
+
+/// Points of a level-0 place from the surface of the control mesh, and from that of level 1, which is read as a mesh.
+TEST(KnotIntervalLimits, AreTheSameFromTheNextLevel) {
+  std::mt19937 random(9);
+  for (ControlMesh mesh : {jittered(cube(), 0.2), jittered(quads_from_triangles(octahedron()), 0.1),
+                           jittered(fan(5, 4, 3), 0.2), jittered(prism(5), 0.1), jittered(grid(3, 3), 0.1)}) {
+    const Topology t(view(mesh));
+    std::vector<std::uint8_t> known(t.num_edges(), 0);
+    for (Index e = 0; e < t.num_edges(); ++e) {
+      if (known[e]) continue;
+      bool whole = true;
+      std::vector<Index> strip{e};
+      for (size_t i = 0; i < strip.size(); ++i) {
+        if (known[strip[i]]) continue;
+        known[strip[i]] = 1;
+        for (const HalfEdge h : t.half_edges(Edge{strip[i]})) {
+          whole &= t.size(t.face(h)) == 4;
+          if (t.size(t.face(h)) == 4) strip.push_back(index(t.edge(t.next(t.next(h)))));
+        }
+      }
+      if (whole || t.uniform_face_size() == 4)
+        mesh.knot_intervals.push_back({index(t.tail(Edge{e})), index(t.head(Edge{e})), 1.0 + double(random() % 4)});
+    }
+    const Level control = control_level(levelled, mesh);
+    if (control.intervals.empty()) continue;
+    const Level next = next_level(levelled, control);
+    const LimitSurface coarse(levelled, control), fine(levelled, next);
+    const Points points = mesh.positions, fine_points = next.S * mesh.positions;
+    const KnotSplit split = *control.knots();
+    std::uniform_real_distribution<double> inside(0, 1);
+    for (int k = 0; k < 200; ++k) {
+      const Index f = static_cast<Index>(random() % t.num_faces());
+      if (t.size(Face{f}) != 4 || t.uniform_face_size() != 4) continue;
+      const Index quarter = static_cast<Index>(random() % 4);
+      const double x = random() % 4 == 0 ? double(random() % 2) : inside(random),
+                   y = random() % 4 == 0 ? double(random() % 2) : inside(random);
+      const HalfEdge h = t.corner(Face{f}, 0), p = t.prev(h);
+      const auto cut = [&](HalfEdge g, bool from_tail) {
+        const Index e = index(t.edge(g));
+        const double at = split.at_tail[e] / split.length[e];
+        return t.forward(g) == from_tail ? at : 1 - at;
+      };
+      const double cu = cut(h, true), cv = cut(p, false);
+      const bool right = quarter == 1 || quarter == 2, up = quarter >= 2;
+      const double u = right ? cu + (1 - cu) * x : cu * x, v = up ? cv + (1 - cv) * y : cv * y;
+      const LimitStencil a = coarse.stencil({f, u, v}, 1), b = fine.stencil({4 * f + quarter, x, y}, 1);
+      const auto value = [](const LimitStencil& stencil, const Points& at, Index q) {
+        Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
+        for (size_t i = 0; i < stencil.vertices.size(); ++i)
+          sum += stencil.weights(q, Index(i)) * at.row(stencil.vertices[i]);
+        return sum;
+      };
+      EXPECT_LE((value(a, points, 0) - value(b, fine_points, 0)).norm(), 1e-13);
+      if (a.weights.rows() < 3 || b.weights.rows() < 3) continue;
+      const double lu = right ? 1 - cu : cu, lv = up ? 1 - cv : cv;
+      EXPECT_LE((value(a, points, 1) * lu - value(b, fine_points, 1)).norm(), 1e-12);
+      EXPECT_LE((value(a, points, 2) * lv - value(b, fine_points, 2)).norm(), 1e-12);
+    }
+    // Vertices too: their limits are those of their children.
+    LimitTypes types(levelled);
+    const LimitPoints own = limit_points(limit_matrices(control, types), t, points),
+                      child = limit_points(limit_matrices(next, types), next.topology(), fine_points);
+    for (Index v = 0; v < t.num_vertices(); ++v) EXPECT_LE((own.position.row(v) - child.position.row(v)).norm(), 1e-13);
+  }
+}
+
+}  // namespace
+}  // namespace sublimit::testing
