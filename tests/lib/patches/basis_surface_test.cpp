@@ -153,6 +153,16 @@ TEST(CutPatch, IsThePartInside) {
   expect_error<InvalidParameter>([&] { CutPatch(whole, {0.5, 0}, {5, 1}); }, {"5"});
   expect_error<InvalidParameter>([&] { CutPatch(whole, {1, 0}, {1, 1}); }, {"no area"});
   expect_error<InvalidParameter>([&] { part.place({.u = 0.2, .v = 0.5}); }, {"outside the part"});
+  // Its end u = 3 is a knot: the piece behind it is another part's.
+  const Sample end = part.place({.u = 3, .v = 0.25});
+  EXPECT_EQ(end.face, 1);
+  EXPECT_EQ(end.u, 1);
+  const CutPatch middle(whole, {1, 1}, {3, 2});
+  EXPECT_EQ(middle.faces().size, 1);
+  const Sample begin = middle.place({.u = 1, .v = 1, .u_side = KnotSide::left, .v_side = KnotSide::left});
+  EXPECT_EQ(begin.face, 0);
+  EXPECT_EQ(begin.u, 0);
+  EXPECT_EQ(begin.v, 0);
 }
 
 TEST(Patches, FacesOfOneTypeHaveTheSameRowsAndStatuses) {
