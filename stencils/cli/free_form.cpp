@@ -10,6 +10,7 @@
 
 #include "recipes.h"
 #include "sublimit/base/error.h"
+#include "sublimit/base/memory.h"
 #include "sublimit/base/read_file.h"
 #include "sublimit/io/file_extension.h"
 #include "sublimit/patches/free_form_patches.h"
@@ -98,6 +99,8 @@ bool has_free_form(const std::string& path) {
   if (const auto status = std::filesystem::status(path, ignored);
       std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
     return false;
+  if (const auto size = static_cast<double>(std::filesystem::file_size(path, ignored)); !ignored)
+    check_memory(path + ": " + bytes_in_words(size) + " of text", size, "put it into several files");
   const std::string text = read_file(path);
   for (const std::string_view keyword : {"curv", "surf"})
     for (size_t at = text.find(keyword); at != std::string::npos; at = text.find(keyword, at + 1)) {

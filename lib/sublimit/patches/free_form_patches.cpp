@@ -158,6 +158,11 @@ FreeFormPatches free_form_patches(const FreeForm& shapes, const std::string& nam
                               " curves and no surfaces; give a file with `surf`");
   const bool rational =
       std::ranges::any_of(shapes.surfaces, [](const FreeFormSurface& surface) { return surface.rational; });
+  std::int64_t points = 0;
+  for (const FreeFormSurface& surface : shapes.surfaces) points += std::ssize(surface.points);
+  constexpr double bytes_of_point = 4 + 4 * 8;  // which it is, and its column
+  check_memory(name + ": surfaces of " + format_number(points) + " control points", bytes_of_point * double(points),
+               "put them into several files");
   std::vector<PatchSet::Member> members;
   std::vector<std::int64_t> lines;
   ControlColumns columns(shapes, rational);
