@@ -61,6 +61,10 @@ LoadedPatches load_patches(const Common& common) {
   if (!shapes.curves.empty() && !common.quiet)
     fmt::print(stderr, "sublimit: warning: {}: {} curves are left out; `sample` takes them with --curves\n",
                common.mesh, shapes.curves.size());
+  const auto trimmed = std::ranges::count_if(shapes.surfaces, is_trimmed);
+  if (trimmed > 0 && !common.quiet)
+    fmt::print(stderr, "sublimit: warning: {}: {} of {} surfaces have trimming loops; they are taken untrimmed\n",
+               common.mesh, trimmed, shapes.surfaces.size());
   return {std::move(found.patches), std::move(found.columns)};
 }
 
