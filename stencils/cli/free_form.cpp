@@ -10,6 +10,7 @@
 
 #include "recipes.h"
 #include "sublimit/base/error.h"
+#include "sublimit/base/memory.h"
 #include "sublimit/base/read_file.h"
 #include "sublimit/io/file_extension.h"
 #include "sublimit/patches/free_form_patches.h"
@@ -60,6 +61,10 @@ LoadedPatches load_patches(const Common& common) {
   if (!shapes.curves.empty() && !common.quiet)
     fmt::print(stderr, "sublimit: warning: {}: {} curves are left out; `sample` takes them with --curves\n",
                common.mesh, shapes.curves.size());
+  const auto trimmed = std::ranges::count_if(shapes.surfaces, is_trimmed);
+  if (trimmed > 0 && !common.quiet)
+    fmt::print(stderr, "sublimit: warning: {}: {} of {} surfaces have trimming loops; they are taken untrimmed\n",
+               common.mesh, trimmed, shapes.surfaces.size());
   return {std::move(found.patches), std::move(found.columns)};
 }
 
@@ -98,6 +103,8 @@ bool has_free_form(const std::string& path) {
   if (const auto status = std::filesystem::status(path, ignored);
       std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
     return false;
+  if (const auto size = static_cast<double>(std::filesystem::file_size(path, ignored)); !ignored)
+    check_memory(path + ": " + bytes_in_words(size) + " of text", size, "put it into several files");
   const std::string text = read_file(path);
   for (const std::string_view keyword : {"curv", "surf"})
     for (size_t at = text.find(keyword); at != std::string::npos; at = text.find(keyword, at + 1)) {

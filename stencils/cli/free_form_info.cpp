@@ -161,10 +161,10 @@ void print_free_form(const Common& common, const FreeForm& shapes, bool json) {
     fmt::print("{}\n", as_json(common, shapes).dump(2));
     return;
   }
+  std::optional<FreeFormPatches> patches;  // first: what is wrong with them is told alone
+  if (!shapes.surfaces.empty()) patches.emplace(free_form_patches(shapes, common.mesh));
   fmt::print("{}\n  {} surfaces, {} curves, {} curves in parameter space, {} vertices\n", common.mesh,
              shapes.surfaces.size(), shapes.curves.size(), shapes.curves_2d.size(), shapes.vertices.rows());
-  std::optional<FreeFormPatches> patches;
-  if (!shapes.surfaces.empty()) patches.emplace(free_form_patches(shapes, common.mesh));
   for (size_t i = 0; i < shapes.surfaces.size(); ++i) {
     const FreeFormSurface& s = shapes.surfaces[i];
     fmt::print("  surface {} (line {}): {} of degree {} x {}, {} x {} control points\n", i, s.line, basis_words(s),

@@ -12,6 +12,7 @@
 #include "sublimit/io/file_extension.h"
 #include "sublimit/io/write_mesh.h"
 #include "sublimit/patches/free_form_patches.h"
+#include "sublimit/patches/patch_levels.h"
 
 namespace sublimit::cli {
 namespace {
@@ -24,6 +25,7 @@ struct FineNets {
 };
 
 FineNets refined_nets(LoadedPatches found, int levels, bool matrix, Progress& progress) {
+  check_levels(found.patches, levels, matrix);
   FineNets nets{std::move(found.patches), std::move(found.columns), std::nullopt};
   for (int k = 1; k <= levels; ++k) {
     progress.step(fmt::format("refining to level {}", k));

@@ -9,6 +9,7 @@
 
 #include "sublimit/base/error.h"
 #include "sublimit/base/format_number.h"
+#include "sublimit/base/memory.h"
 #include "sublimit/base/read_file.h"
 #include "sublimit/io/free_form_checks.h"
 #include "sublimit/io/free_form_counts.h"
@@ -447,7 +448,16 @@ class FreeFormReader {
 
 }  // namespace
 
-FreeForm read_free_form(const std::filesystem::path& path) { return parse_free_form(read_file(path), path.string()); }
+FreeForm read_free_form(const std::filesystem::path& path) {
+  std::error_code ignored;  // of a pipe, or no file at all: its reader says what is wrong
+  if (std::filesystem::is_regular_file(path, ignored)) {
+    // The text, and of a control point, which is two characters at least, an index in a list that doubles.
+    const auto size = static_cast<double>(std::filesystem::file_size(path, ignored));
+    check_memory(path.string() + ": " + bytes_in_words(size) + " of curves and surfaces", 7 * size,
+                 "put them into several files");
+  }
+  return parse_free_form(read_file(path), path.string());
+}
 
 FreeForm parse_free_form(std::string_view text, std::string_view name) {
   require_text(text, name, "OBJ");

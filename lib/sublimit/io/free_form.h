@@ -13,6 +13,7 @@
 // surface have the basis of its points, without weights.
 //
 // Trimming loops are kept as they are; nothing here says which part of a surface they cut off.
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -84,6 +85,12 @@ struct FreeFormSurface : FreeFormElement {
   std::vector<Index> texture, normals;  ///< of each control point; empty: none
   std::vector<FreeFormLoop> loops;
 };
+
+/// Whether loops cut parts off, or holes into it.
+inline bool is_trimmed(const FreeFormSurface& surface) {
+  return std::ranges::any_of(surface.loops,
+                             [](const FreeFormLoop& loop) { return loop.kind != FreeFormLoop::Kind::scrv; });
+}
 
 /// `con`: two surfaces meet along these curves of theirs.
 struct FreeFormConnection {

@@ -10,7 +10,7 @@
 namespace sublimit {
 
 CutPatch::CutPatch(std::shared_ptr<const Patch> patch, Eigen::Array2d first, Eigen::Array2d last)
-    : patch_(std::move(patch)) {
+    : patch_(std::move(patch)), first_(first), last_(last) {
   // Both corners must be places; what lies between is found face by face.
   patch_->place({.u = first[0], .v = first[1]});
   patch_->place({.u = last[0], .v = last[1], .u_side = KnotSide::left, .v_side = KnotSide::left});
@@ -55,17 +55,23 @@ std::string CutPatch::type(Index face) const {
 }
 
 Sample CutPatch::place(const Parameters& parameters) const {
-  const Sample found = patch_->place(parameters);
-  for (size_t i = 0; i < parts_.size(); ++i) {
-    const Part& part = parts_[i];
-    if (part.face != found.face || found.u < part.u0 || found.u > part.u1 || found.v < part.v0 || found.v > part.v1)
-      continue;
-    return {.face = static_cast<Index>(i),
-            .u = (found.u - part.u0) / (part.u1 - part.u0),
-            .v = (found.v - part.v0) / (part.v1 - part.v0)};
-  }
-  throw InvalidParameter("(" + format_number(parameters.u) + ", " + format_number(parameters.v) +
-                         ") is outside the part of the domain that is kept");
+  // At its ends a place belongs to the piece inside, also where these are knots of the whole.
+  Parameters inside = parameters;
+  const auto turn = [](double t, double first, double last, KnotSide& side) {
+    if (t == first) side = KnotSide::right;
+    if (t == last) side = KnotSide::left;
+  };
+  turn(inside.u, first_[0], last_[0], inside.u_side);
+  turn(inside.v, first_[1], last_[1], inside.v_side);
+  const Sample found = patch_->place(inside);
+  const auto part = std::ranges::lower_bound(parts_, found.face, {}, &Part::face);
+  if (part == parts_.end() || part->face != found.face || found.u < part->u0 || found.u > part->u1 ||
+      found.v < part->v0 || found.v > part->v1)
+    throw InvalidParameter("(" + format_number(parameters.u) + ", " + format_number(parameters.v) +
+                           ") is outside the part of the domain that is kept");
+  return {.face = static_cast<Index>(part - parts_.begin()),
+          .u = (found.u - part->u0) / (part->u1 - part->u0),
+          .v = (found.v - part->v0) / (part->v1 - part->v0)};
 }
 
 Patch::Parameters CutPatch::parameters(const Sample& place) const {

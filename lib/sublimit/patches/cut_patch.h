@@ -32,7 +32,8 @@ class CutPatch : public Patch {
   Sample inner(const Sample& sample) const;
 
   std::shared_ptr<const Patch> patch_;
-  std::vector<Part> parts_;
+  Eigen::Array2d first_, last_;
+  std::vector<Part> parts_;  ///< by ascending faces
 };
 
 }  // namespace sublimit

@@ -82,12 +82,17 @@ template <class T>
 Knots<T> bezier_pieces(const Knots<T>& knots) {
   const Knots<T> open = clamped_knots(knots);
   const int p = open.degree();
-  std::vector<T> all(open.all().begin(), open.all().end());
+  std::vector<T> all;
+  auto next = open.all().begin();
   for (Index face = 1; face < open.num_faces(); ++face) {
+    const Index k = open.span(face);  // the last of its equals
+    const auto end = open.all().begin() + k + 1;
+    all.insert(all.end(), next, end);
     const int more = *open.continuity(face, KnotSide::left);  // C^(p-r) lacks p - r knots
-    const T& knot = open.all()[open.span(face)];
-    if (more > 0) all.insert(std::upper_bound(all.begin(), all.end(), knot), static_cast<size_t>(more), knot);
+    if (more > 0) all.insert(all.end(), static_cast<size_t>(more), open.all()[k]);
+    next = end;
   }
+  all.insert(all.end(), next, open.all().end());
   return cut_to_domain(p, all, open.begin(), open.end());
 }
 

@@ -2,12 +2,13 @@
 #include "sublimit/patches/free_form_patches.h"
 
 #include <algorithm>
-#include <array>
 #include <map>
 #include <memory>
 #include <numeric>
 
 #include "sublimit/base/error.h"
+#include "sublimit/base/format_number.h"
+#include "sublimit/base/memory.h"
 #include "sublimit/io/free_form_counts.h"
 #include "sublimit/patches/basis_surface.h"
 #include "sublimit/patches/cut_patch.h"
@@ -93,29 +94,6 @@ PatchSet::Member member_of(const FreeForm& shapes, const FreeFormSurface& s, boo
   return {pieces.patch, std::move(points)};
 }
 
-/// Clamped knots of the part [first, last] of a curve.
-Knots<double> part_knots(const Knots<double>& whole, double first, double last) {
-  const auto p = static_cast<size_t>(whole.degree());
-  std::vector<double> knots(p + 1, first);
-  for (const double t : whole.in_domain())
-    if (first < t && t < last) knots.push_back(t);
-  knots.insert(knots.end(), p + 1, last);
-  return Knots<double>::open(whole.degree(), static_cast<Index>(knots.size() - p - 1), std::move(knots));
-}
-
-/// Its control points over those of the whole curve: blossoms at its knots.
-SparseMatrix part_matrix(const Knots<double>& whole, const Knots<double>& part) {
-  const Index p = whole.degree();
-  BandRows<double> rows{.width = p + 1};
-  std::array<double, max_degree> points;
-  for (Index j = 0; j < part.num_points(); ++j) {
-    const Index face = whole.place(part.all()[j]).face;
-    std::copy_n(part.all().begin() + j + 1, p, points.begin());
-    blossom_row(whole, face, std::span<double>(points).first(size_t(p)), rows.add(whole.span(face) - p));
-  }
-  return point_matrix(rows, whole);
-}
-
 /// Knots and points of a direction with its ends open.
 FreeFormDirection direction_of(const Knots<double>& knots) {
   FreeFormDirection direction;
@@ -180,6 +158,11 @@ FreeFormPatches free_form_patches(const FreeForm& shapes, const std::string& nam
                               " curves and no surfaces; give a file with `surf`");
   const bool rational =
       std::ranges::any_of(shapes.surfaces, [](const FreeFormSurface& surface) { return surface.rational; });
+  std::int64_t points = 0;
+  for (const FreeFormSurface& surface : shapes.surfaces) points += std::ssize(surface.points);
+  constexpr double bytes_of_point = 4 + 4 * 8;  // which it is, and its column
+  check_memory(name + ": surfaces of " + format_number(points) + " control points", bytes_of_point * double(points),
+               "put them into several files");
   std::vector<PatchSet::Member> members;
   std::vector<std::int64_t> lines;
   ControlColumns columns(shapes, rational);

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "sublimit/base/error.h"
+#include "sublimit/base/memory.h"
 #include "sublimit/base/parallel_for.h"
 #include "sublimit/core/signature_hash.h"
 #include "sublimit/core/sparse_rows.h"
@@ -147,7 +148,7 @@ LimitSamples PatchSet::evaluate(const Points& columns, std::span<const Sample> s
 }
 
 std::unique_ptr<BoundSource> PatchSet::bound(const Points& columns) const {
-  constexpr double most = 1 << 28;  // two gigabytes
+  const double most = std::min<double>(1 << 28, memory_limit() / 32);  // two gigabytes, a quarter of what there is
   if (const double numbers = BezierPieces::num_numbers(*this); numbers == 0 || numbers > most)
     return LinearSource::bound(columns);
   return std::make_unique<BezierPieces>(*this, columns);

@@ -62,4 +62,26 @@ SparseMatrix refinement_matrix(const Knots<double>& coarse, const Knots<double>&
       fine.degree() == coarse.degree() + 1 ? elevation_rows(coarse, fine) : refinement_rows(coarse, fine), coarse);
 }
 
+Knots<double> part_knots(const Knots<double>& whole, double first, double last) {
+  const auto order = static_cast<size_t>(whole.degree()) + 1;
+  std::vector<double> knots(order, first);
+  for (const double t : whole.in_domain())
+    if (first < t && t < last) knots.push_back(t);
+  knots.insert(knots.end(), order, last);
+  const auto points = static_cast<Index>(knots.size() - order);  // counted before they are moved
+  return Knots<double>::open(whole.degree(), points, std::move(knots));
+}
+
+SparseMatrix part_matrix(const Knots<double>& whole, const Knots<double>& part) {
+  const Index p = whole.degree();
+  BandRows<double> rows{.width = p + 1};
+  std::array<double, max_degree> points;
+  for (Index j = 0; j < part.num_points(); ++j) {
+    const Index face = whole.place(part.all()[j]).face;
+    std::copy_n(part.all().begin() + j + 1, p, points.begin());
+    blossom_row(whole, face, std::span<double>(points).first(size_t(p)), rows.add(whole.span(face) - p));
+  }
+  return point_matrix(rows, whole);
+}
+
 }  // namespace sublimit

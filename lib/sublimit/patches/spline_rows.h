@@ -208,4 +208,11 @@ SparseMatrix point_matrix(const BandRows<double>& rows, const Knots<double>& kno
 /// @throws InvalidParameter  see refinement_rows, and elevation_rows if `fine` is of one degree more
 SparseMatrix refinement_matrix(const Knots<double>& coarse, const Knots<double>& fine);
 
+/// The knots of a part of the domain, its ends interpolated.
+/// @throws InvalidParameter  a part without length
+Knots<double> part_knots(const Knots<double>& whole, double first, double last);
+
+/// Control points over the knots of a part, as rows over those of the whole.
+SparseMatrix part_matrix(const Knots<double>& whole, const Knots<double>& part);
+
 }  // namespace sublimit

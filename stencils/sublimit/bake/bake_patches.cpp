@@ -13,6 +13,7 @@
 #include "sublimit/base/memory.h"
 #include "sublimit/base/parallel_for.h"
 #include "sublimit/core/sparse_product.h"
+#include "sublimit/patches/patch_levels.h"
 #include "sublimit/patterns/point_status.h"
 
 namespace sublimit {
@@ -126,6 +127,7 @@ PatternTable<double> grid_table(const PatchSet& patches, const BakeRequest& requ
 
 /// Points of the nets of level k.
 SparseMatrix level_matrix(const PatchSet& patches, int level) {
+  check_levels(patches, level, true);
   auto [fine, P] = patches.refined();
   for (int k = 1; k < level; ++k) {
     auto [next, S] = fine.refined();

@@ -6,6 +6,7 @@
 
 #include <map>
 #include <random>
+#include <tuple>
 
 #include "sublimit/patches/cut_patch.h"
 #include "sublimit/patches/finer_knots.h"
@@ -152,6 +153,16 @@ TEST(CutPatch, IsThePartInside) {
   expect_error<InvalidParameter>([&] { CutPatch(whole, {0.5, 0}, {5, 1}); }, {"5"});
   expect_error<InvalidParameter>([&] { CutPatch(whole, {1, 0}, {1, 1}); }, {"no area"});
   expect_error<InvalidParameter>([&] { part.place({.u = 0.2, .v = 0.5}); }, {"outside the part"});
+  // Its end u = 3 is a knot: the piece behind it is another part's.
+  const Sample end = part.place({.u = 3, .v = 0.25});
+  EXPECT_EQ(end.face, 1);
+  EXPECT_EQ(end.u, 1);
+  const CutPatch middle(whole, {1, 1}, {3, 2});
+  EXPECT_EQ(middle.faces().size, 1);
+  const Sample begin = middle.place({.u = 1, .v = 1, .u_side = KnotSide::left, .v_side = KnotSide::left});
+  EXPECT_EQ(begin.face, 0);
+  EXPECT_EQ(begin.u, 0);
+  EXPECT_EQ(begin.v, 0);
 }
 
 TEST(Patches, FacesOfOneTypeHaveTheSameRowsAndStatuses) {
@@ -240,6 +251,43 @@ TEST(FreeFormPatches, HaveEveryBasisAndThePartThatIsMeant) {
              bezier.patches.evaluate(bezier.columns, std::vector<Sample>{{0, 0.25, 0.5}}).position)
                 .norm(),
             rounding(8));
+}
+
+TEST(FreeFormCurves, AreThePartThatIsMeant) {
+  const std::string points = "v 0 0 0\nv 1 2 0\nv 2 0 1\nv 3 1 0\nv 4 0 0\nv 5 1 2\nv 6 0 0\n",
+                    list = " 1 2 3 4 5 6 7\nparm u ";
+  const auto read = [&](const std::string& text) {
+    return free_form_curves(parse_free_form(points + text + "\nend\n", "c.obj"), "c.obj");
+  };
+  for (const auto& [state, knots, first, last] :
+       {std::tuple("cstype bspline\ndeg 3\n", "0 0 0 0 1 1 2 3 3 3 3", 0.0, 3.0),
+        {"cstype bspline\ndeg 3\n", "-3 -2 -1 0 1 3 4 5 6 7 8", 0.0, 5.0},
+        {"cstype bezier\ndeg 3\n", "0 1 3", 0.0, 3.0},
+        {"cstype cardinal\ndeg 3\n", "0 1 2 3 4", 0.0, 4.0}}) {
+    SCOPED_TRACE(std::string(state) + knots);
+    const auto curve = [&](double from, double to) {
+      return read(state + ("curv " + std::to_string(from) + " " + std::to_string(to)) + list + knots);
+    };
+    const FreeFormCurves whole = curve(first, last);
+    for (const auto& [from, to] : {std::pair(0.25, 2.5), {1.0, 2.0}, {first, 1.0}, {1.5, last}, {0.25, 0.5}}) {
+      const FreeFormCurves part = curve(from, to);
+      EXPECT_EQ(part.curves.curve(0).place(from, KnotSide::right).segment, 0);
+      for (const double t : {from, from + (to - from) / 3, to})
+        for (const KnotSide side : {KnotSide::left, KnotSide::right}) {
+          const CurveSample of_part = part.curves.curve(0).place(t, side);
+          const KnotSide same = t == from ? KnotSide::right : t == to ? KnotSide::left : side;
+          const CurveSample of_whole = whole.curves.curve(0).place(t, same);
+          const CurveSamples x = part.curves.evaluate(part.columns, {&of_part, 1}, 1),
+                             y = whole.curves.evaluate(whole.columns, {&of_whole, 1}, 1);
+          EXPECT_LE((x.position - y.position).norm(), rounding(16, 6)) << t;
+          EXPECT_LE((x.first / part.curves.curve(0).length(of_part.segment) -
+                     y.first / whole.curves.curve(0).length(of_whole.segment))
+                        .norm(),
+                    1e-12 * (1 + y.first.norm()))
+              << t;
+        }
+    }
+  }
 }
 
 }  // namespace

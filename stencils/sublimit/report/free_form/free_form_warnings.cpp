@@ -139,9 +139,7 @@ void add_elements(FreeFormWarnings& all, const FreeFormReport& report) {
   all.begin(Severity::hint, "trimming loops: this is about the untrimmed surfaces",
             "seams along trimming curves are not looked for");
   for (size_t p = 0; p < shapes.surfaces.size(); ++p)
-    if (std::ranges::any_of(shapes.surfaces[p].loops,
-                            [](const FreeFormLoop& loop) { return loop.kind != FreeFormLoop::Kind::scrv; }))
-      all.add_patch(p);
+    if (is_trimmed(shapes.surfaces[p])) all.add_patch(p);
   all.begin(Severity::hint, "nets that are not the file's: joins are measured, and not decided exactly",
             "give Bezier or B-spline surfaces over their whole domain for exact verdicts");
   for (size_t p = 0; p < shapes.surfaces.size(); ++p)

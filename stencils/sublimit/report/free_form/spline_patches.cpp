@@ -1,37 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sublimit/report/free_form/spline_patches.h"
 
-#include <algorithm>
-
 #include "sublimit/io/free_form_counts.h"
 #include "sublimit/patches/free_form_patches.h"
+#include "sublimit/patches/spline_rows.h"
 
 namespace sublimit {
 namespace {
-
-/// The knots of a part of the domain, its ends interpolated.
-Knots<double> part_knots(const Knots<double>& knots, double first, double last) {
-  const auto order = static_cast<size_t>(knots.degree()) + 1;
-  std::vector<double> all(order, first);
-  for (const double t : knots.all())
-    if (first < t && t < last) all.push_back(t);
-  all.insert(all.end(), order, last);
-  const auto points = static_cast<Index>(all.size() - order);
-  return Knots<double>::open(knots.degree(), points, std::move(all));
-}
-
-/// Control points over the knots of a part as rows over those of the whole: blossoms, as for finer knots.
-SparseMatrix part_matrix(const Knots<double>& whole, const Knots<double>& part) {
-  const Index p = whole.degree();
-  BandRows<double> rows{.width = p + 1};
-  std::vector<double> points(static_cast<size_t>(p));
-  for (Index i = 0; i < part.num_points(); ++i) {
-    const Index face = whole.place(part.all()[size_t(i)]).face;
-    std::copy_n(part.all().begin() + i + 1, p, points.begin());
-    blossom_row(whole, face, std::span<double>(points), rows.add(whole.span(face) - p));
-  }
-  return point_matrix(rows, whole);
-}
 
 /// Sets the part of the domain that is meant to all of it.
 /// @return  whether it was less
