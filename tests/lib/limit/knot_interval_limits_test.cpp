@@ -7,9 +7,11 @@
 
 #include "sublimit/limit/limit_points.h"
 #include "sublimit/limit/limit_surface.h"
+#include "sublimit/patches/interval_mesh.h"
 #include "sublimit/patches/patch_set.h"
 #include "sublimit/patches/spline_surface.h"
 #include "sublimit/schemes.h"
+#include "support/expect_error.h"
 #include "support/meshes.h"
 
 namespace sublimit::testing {
@@ -193,6 +195,54 @@ TEST(KnotIntervalLimits, AreTheSameFromTheNextLevel) {
                       child = limit_points(limit_matrices(next, types), next.topology(), fine_points);
     for (Index v = 0; v < t.num_vertices(); ++v) EXPECT_LE((own.position.row(v) - child.position.row(v)).norm(), 1e-13);
   }
+}
+
+/// A rational surface as a mesh: the same points at all places, open and closed.
+TEST(KnotIntervalLimits, OfAnImportedSurfaceAreTheSurface) {
+  std::mt19937 random(21);
+  std::uniform_real_distribution<double> inside(0, 1), weight(0.5, 2);
+  using K = Knots<double>;
+  const auto clamped = [&](Index spans) {
+    std::vector<double> knots(4, 0.0);
+    for (const double d : random_lengths(random, spans)) knots.push_back(knots.back() + d);
+    knots.insert(knots.end(), 3, knots.back());
+    return K::open(3, spans + 3, knots);
+  };
+  const auto loop = [&](Index spans) { return K::closed(3, breaks_of(random_lengths(random, spans))); };
+  for (int run = 0; run < 6; ++run) {
+    const SplineSurface surface(run % 3 == 1 ? loop(4) : clamped(1 + run),
+                                run % 3 == 2 ? loop(3) : clamped(5 - run % 4));
+    Points columns(surface.num_points(), 4);
+    for (Index i = 0; i < columns.rows(); ++i) {
+      const double w = weight(random);
+      columns.row(i) << w * inside(random), w * inside(random), w * inside(random), w;
+    }
+    const IntervalMesh imported = interval_mesh(surface);
+    const LimitSurface limit(levelled, imported.mesh);
+    const Points points = imported.from_points * columns;
+    const PatchSet patches({std::make_shared<SplineSurface>(surface)}, Coordinates::homogeneous);
+    for (int k = 0; k < 100; ++k) {
+      const Index face = static_cast<Index>(random() % surface.num_faces());
+      const Sample at{face, random() % 5 == 0 ? double(random() % 2) : inside(random), inside(random)};
+      const LimitStencil stencil = limit.stencil({imported.faces[face], at.u, at.v}, 0);
+      Eigen::RowVector4d sum = Eigen::RowVector4d::Zero();
+      for (size_t i = 0; i < stencil.vertices.size(); ++i)
+        sum += stencil.weights(0, Index(i)) * points.row(stencil.vertices[i]);
+      const LimitSamples truth = patches.evaluate(columns, std::span(&at, 1));
+      EXPECT_LE((sum.head<3>() / sum[3] - truth.position.row(0)).norm(), 1e-13) << run << ' ' << k;
+    }
+  }
+}
+
+TEST(KnotIntervalLimits, SurfacesThatAreNoMeshAreRefused) {
+  using K = Knots<double>;
+  const K simple = K::open(3, 5, {0, 0, 0, 0, 1, 2, 2, 2, 2});
+  const auto refuses = [](const K& u, const K& v, std::initializer_list<std::string_view> words) {
+    expect_error<InvalidParameter>([&] { interval_mesh(SplineSurface(u, v)); }, words);
+  };
+  refuses(K::open(2, 3, {0, 0, 0, 1, 1, 1}), simple, {"degree 2", "in u"});
+  refuses(simple, K::open(3, 6, {0, 0, 0, 0, 1, 1, 2, 2, 2, 2}), {"knot 1 of v", "more than once"});
+  refuses(K::closed(3, {0, 1, 2}), simple, {"three or more faces", "u has 2"});
 }
 
 }  // namespace
