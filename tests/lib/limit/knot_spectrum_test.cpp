@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// Spectra between unequal knot intervals: known ones of equal intervals, tensor products, and tables made elsewhere.
+#include "sublimit/limit/knot_spectrum.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "sublimit/schemes.h"
+#include "support/expect_error.h"
+
+namespace sublimit::testing {
+namespace {
+
+const Scheme<double> halves = *find_scheme("catmull-clark-intervals", {{"levelling", "off"}});
+
+std::vector<double> moduli(std::initializer_list<double> intervals) {
+  std::vector<double> result;
+  for (const auto& value : knot_spectrum(halves, intervals)) result.push_back(std::abs(value));
+  return result;
+}
+
+/// Catmull and Clark's own: lambda = (c + 5 + sqrt((c + 9) (c + 1))) / 16, c = cos(2 pi / n), twice.
+TEST(KnotSpectrum, OfEqualIntervalsIsCatmullClarks) {
+  for (const int n : {3, 4, 5, 6, 8}) {
+    const std::vector<double> equal(size_t(n), 2.5);
+    const double c = std::cos(2 * std::numbers::pi / n), lambda = (c + 5 + std::sqrt((c + 9) * (c + 1))) / 16;
+    const auto values = knot_spectrum(halves, equal);
+    EXPECT_NEAR(std::abs(values[0]), 1, 1e-12);
+    EXPECT_NEAR(std::abs(values[1]), lambda, 1e-12);
+    EXPECT_NEAR(std::abs(values[2]), lambda, 1e-12);
+  }
+}
+
+TEST(KnotSpectrum, OfTensorProductsIsThatOfKnotInsertion) {
+  const std::vector<double> own = moduli({1, 5, 1, 5});
+  const double expected[] = {1, 0.5, 0.5, 0.25, 0.25, 0.25};
+  for (size_t i = 0; i < 6; ++i) EXPECT_NEAR(own[i], expected[i], 1e-7) << i;  // of Jordan's blocks half the digits
+}
+
+/// Moduli computed for the same rules by another program, to five digits.
+TEST(KnotSpectrum, OfUnequalIntervalsAreThoseOfTheTable) {
+  const std::pair<std::initializer_list<double>, std::array<double, 3>> table[] = {
+      {{1, 1, 4}, {.41121, .38979, .22595}},          {{1, 1, 16}, {.45948, .43943, .24661}},
+      {{1, 1, 1, 1, 4}, {.64653, .53608, .38377}},    {{1, 1, 1, 1, 16}, {.74765, .61895, .47735}},
+      {{1, 4, 1, 4, 1}, {.67152, .47695, .35530}},    {{1, 8, 1, 8, 1, 8}, {.57968, .57968, .41010}},
+      {{1, 1, 1, 8, 8, 8}, {.72904, .70359, .42991}},
+  };
+  for (const auto& [intervals, expected] : table) {
+    const std::vector<double> own = moduli(intervals);
+    for (size_t i = 0; i < 3; ++i) EXPECT_NEAR(own[i + 1], expected[i], 1e-5) << intervals.size() << ' ' << i;
+  }
+}
+
+TEST(KnotSpectrum, RefusesWhatDoesNotStay) {
+  const double good[] = {1, 2, 3}, bad[] = {1, 0, 3}, two[] = {1, 2};
+  expect_error<InvalidParameter>([&] { knot_spectrum(*find_scheme("catmull-clark-intervals"), good); },
+                                 {"in the middle"});
+  expect_error<InvalidParameter>([&] { knot_spectrum(halves, bad); }, {"interval 0", "positive"});
+  expect_error<InvalidParameter>([&] { knot_spectrum(halves, two); }, {"three spokes"});
+}
+
+}  // namespace
+}  // namespace sublimit::testing
