@@ -93,6 +93,7 @@ constexpr double digits = 1e-14;  // of points, by rounding alone
 constexpr Expected expected[] = {
     {"bilinear", 88, 0, 0, 0},
     {"catmull-clark", 0, 2e-06, 0.02, 0},
+    {"catmull-clark-intervals", 0, 2e-06, 0.02, 0},
     {"loop", 0, 4e-08, 0.001, 0},
     {"loop-warren", 0, 7e-08, 0.001, 0},
     {"doo-sabin", 0, digits, 4e-08, 0},
@@ -106,6 +107,7 @@ constexpr Expected expected[] = {
     {"interpolatory-sqrt3", 0, 0, 0.001, 0},
     {"kobbelt", 1, 0, 0.04, 0},
     {"catmull-clark --option triangles=smooth", 0, 2e-06, 0.02, 0},
+    {"catmull-clark-intervals --option levelling=off", 0, 2e-06, 0.02, 0},
     {"averaging --option degree=2", 0, digits, 2e-06, 0},
     {"averaging --option degree=4", 0, 4e-08, 3e-06, 0},
     {"averaging --option degree=5", 0, 1e-07, 0.001, 0},

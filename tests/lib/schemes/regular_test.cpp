@@ -38,6 +38,7 @@ TEST(RegularLimit, IsTheSplineOfTheScheme) {
                                                         {"doo-sabin", tensor(2)},
                                                         {"doo-sabin-averaging", tensor(2)},
                                                         {"catmull-clark", tensor(3)},
+                                                        {"catmull-clark-intervals", tensor(3)},
                                                         {"loop", quartic},
                                                         {"loop-warren", quartic},
                                                         {"mid-edge", zwart_powell},
