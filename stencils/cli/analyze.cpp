@@ -127,11 +127,16 @@ void print_summary(const Json& report) {
       fmt::print(", {} ({}) at valence {}", text("extraordinary"), text("extraordinary_verdict"), text("valences"));
     fmt::print("{}{}\n", text("notes").empty() ? "" : "; ", text("notes"));
   }
-  for (const Json& scheme : report.value("schemes", Json::array()))
+  for (const Json& scheme : report.value("schemes", Json::array())) {
+    if (const auto knots = scheme.find("knot_intervals"); knots != scheme.end() && knots->is_object())
+      fmt::print("{}: unequal knot intervals, {}: {}: {}\n", scheme["name"].get<std::string>(),
+                 (*knots)["rule"].get<std::string>(), (*knots)["verdict"]["verdict"].get<std::string>(),
+                 (*knots)["verdict"]["because"].get<std::string>());
     for (const Json& claim : scheme.value("claims", Json::array()))
       if (claim.value("verdict", "") == "disproved")
         fmt::print("{}: the claim {} = {} is disproved: {}\n", scheme["name"].get<std::string>(),
                    claim["claim"].get<std::string>(), claim["claimed"].dump(), claim["because"].get<std::string>());
+  }
 }
 
 int finish(const AnalyzeOptions& options, const Json& report, Progress& progress) {

@@ -13,6 +13,7 @@
 #include "sublimit/base/parallel_for.h"
 #include "sublimit/certificates/all_valences.h"
 #include "sublimit/report/analysis/claims_json.h"
+#include "sublimit/report/analysis/knot_json.h"
 #include "sublimit/report/analysis/neighborhood.h"
 #include "sublimit/report/analysis/regular_json.h"
 
@@ -121,6 +122,7 @@ Json schemes_report(const std::vector<ReportedScheme>& schemes, const ReportOpti
       json["neighborhoods"].push_back(std::move(n.json));
     }
     json["all_valences"] = std::move(all[s]);
+    json["knot_intervals"] = knot_json(schemes[s].scheme, json["all_valences"]);
     use_regular(json);
     json["claims"] = claims_json(schemes[s].scheme.claims, json, weights);
     report["schemes"].push_back(std::move(json));

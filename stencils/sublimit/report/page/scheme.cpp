@@ -78,6 +78,22 @@ std::string extraordinary(const Json& neighborhoods, const std::string& name, co
   return text;
 }
 
+/// Unequal knot intervals at extraordinary vertices; nothing of other schemes.
+std::string knot_intervals(const Json& knots) {
+  if (!knots.is_object()) return {};
+  std::string text = "<h3>Unequal knot intervals</h3>\n" + verdicts(Json::array({at(knots, "verdict")}));
+  const Json& spectra = at(knots, "spectra");
+  if (!spectra.is_array() || spectra.empty()) return text;
+  Table table{"Eigenvalues where the intervals of the spokes stay unequal", {"spokes", "moduli"}, {}, "numbers"};
+  for (const Json& row : spectra) {
+    std::string spokes, moduli;
+    for (const Json& d : at(row, "intervals")) spokes += (spokes.empty() ? "" : ", ") + shown(d);
+    for (const Json& value : at(row, "moduli")) moduli += (moduli.empty() ? "" : ", ") + shown(value, 5);
+    table.rows.push_back({spokes, moduli});
+  }
+  return text + html(table);
+}
+
 }  // namespace
 
 std::string scheme_section(const Json& scheme, const std::string& id, bool many_schemes) {
@@ -98,6 +114,7 @@ std::string scheme_section(const Json& scheme, const std::string& id, bool many_
   text += regular_part(at(scheme, "regular"), name);
   if (const Json& all = at(scheme, "all_valences"); !all.is_null())
     text += "<h3>All valences at once</h3>\n" + verdicts(Json::array({all}));
+  text += knot_intervals(at(scheme, "knot_intervals"));
   text += extraordinary(neighborhoods, name, id, many_schemes);
   text += edge_neighborhoods(neighborhoods, name, id, many_schemes ? Detail::numbers : Detail::diagrams);
   return text + "</section>\n";

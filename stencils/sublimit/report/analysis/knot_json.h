@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// What unequal knot intervals do at extraordinary vertices.
+#include "sublimit/files/numbers.h"
+#include "sublimit/scheme/scheme.h"
+
+namespace sublimit::report {
+
+/// KNOTS of a scheme; null of those that know no intervals.
+/// @param all_valences  VERDICT of equal intervals for all valences, or null
+Json knot_json(const Scheme<double>& scheme, const Json& all_valences);
+
+}  // namespace sublimit::report
