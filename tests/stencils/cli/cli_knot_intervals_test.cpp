@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+// Knot intervals through the program: tags and sidecars read and written back, tables, reports, what is refused.
+#include <gtest/gtest.h>
+
+#include "stencils/cli_program.h"
+#include "sublimit/io/read_mesh.h"
+#include "sublimit/io/write_mesh.h"
+#include "sublimit/schemes.h"
+#include "sublimit/scheme/refine.h"
+#include "support/meshes.h"
+
+namespace sublimit::testing {
+namespace {
+
+const std::string scheme_name = "catmull-clark-intervals";
+
+/// The cube with three intervals, one for each direction.
+ControlMesh box() {
+  ControlMesh mesh = cube();
+  mesh.knot_intervals = {{0, 1, 1}, {0, 2, 2.5}, {0, 4, 4}};
+  return mesh;
+}
+
+void expect_done(const Outcome& outcome) { EXPECT_EQ(outcome.status, 0) << outcome.err; }
+
+std::string mesh_file(const TemporaryDirectory& directory, const std::string& name, const ControlMesh& mesh) {
+  write_mesh(directory / name, output(mesh));
+  return (directory / name).string();
+}
+
+TEST(CliKnotIntervals, AreRefinedAndWrittenBack) {
+  const TemporaryDirectory directory;
+  const std::string mesh = mesh_file(directory, "box.obj", box());
+  const auto path = [&](const char* name) { return (directory / name).string(); };
+  expect_done(sublimit({"refine", mesh, "-s", scheme_name, "-l", "3", "-o", path("three.obj")}));
+  expect_done(sublimit({"refine", mesh, "-s", scheme_name, "-l", "1", "-o", path("one.obj")}));
+  expect_done(sublimit({"refine", path("one.obj"), "-s", scheme_name, "-l", "2", "-o", path("again.obj")}));
+  const ControlMesh three = read_mesh(path("three.obj")), one = read_mesh(path("one.obj")),
+                    again = read_mesh(path("again.obj"));
+  EXPECT_EQ(one.knot_intervals.size(), 48u);
+  ASSERT_EQ(three.positions.rows(), again.positions.rows());
+  EXPECT_LE((three.positions - again.positions).norm(), 1e-14);
+  // And it is not what other schemes make of it.
+  expect_done(sublimit({"refine", mesh, "-s", "catmull-clark", "-l", "3", "-o", path("equal.obj")}));
+  EXPECT_GT((three.positions - read_mesh(path("equal.obj")).positions).norm(), 0.1);
+}
+
+TEST(CliKnotIntervals, AreReadFromTheSidecar) {
+  const TemporaryDirectory directory;
+  const std::string tagged = mesh_file(directory, "tagged.obj", box()),
+                    plain = mesh_file(directory, "plain.obj", cube());
+  directory.write("plain.json", R"({"knotIntervals": [1, 2.5, 4], "knotIntervalEdges": [0, 1, 0, 2, 0, 4]})");
+  const auto refined = [&](const std::string& mesh) {
+    const std::string out = (directory / "out.obj").string();
+    expect_done(sublimit({"refine", mesh, "-s", scheme_name, "-l", "2", "-o", out}));
+    return read_mesh(out).positions;
+  };
+  EXPECT_EQ((refined(tagged) - refined(plain)).norm(), 0);
+  directory.write("plain.json", R"({"knotIntervals": [1, 2.5], "knotIntervalEdges": [0, 1, 0]})");
+  expect_failure(sublimit({"info", plain}), 3, {"knotIntervalEdges has 3 vertices", "should have 4"});
+  directory.write("plain.json", R"({"knotIntervals": [-1], "knotIntervalEdges": [0, 1]})");
+  expect_failure(sublimit({"info", plain}), 3, {"knotIntervals[0] is -1", "positive"});
+  directory.write("plain.json", R"({"knotIntervals": [1], "knotIntervalEdges": [0, 7]})");
+  expect_failure(sublimit({"info", plain}), 3, {"no face has an edge between vertices 0 and 7"});
+  directory.write("plain.json", R"({"knotIntervalEdges": [0, 1]})");
+  expect_failure(sublimit({"info", plain}), 3, {"comes without knotIntervals"});
+}
+
+TEST(CliKnotIntervals, TablesAreThoseOfTheIntervals) {
+  const TemporaryDirectory directory;
+  const std::string mesh = mesh_file(directory, "box.obj", box());
+  const auto path = [&](const char* name) { return (directory / name).string(); };
+  expect_done(sublimit({"bake", mesh, "-s", scheme_name, "-l", "2", "-o", path("table.slt")}));
+  expect_done(sublimit({"apply", path("table.slt"), mesh, "-o", path("applied.obj")}));
+  expect_done(sublimit({"refine", mesh, "-s", scheme_name, "-l", "2", "-o", path("refined.obj")}));
+  EXPECT_LE((read_mesh(path("applied.obj")).positions - read_mesh(path("refined.obj")).positions).norm(), 1e-5);
+  expect_done(sublimit({"bake", mesh, "-s", scheme_name, "--grid", "3", "--derivatives", "1", "-o", path("grid.slt")}));
+  expect_done(sublimit({"apply", path("grid.slt"), mesh, "-o", path("grid.csv")}));
+  expect_done(sublimit({"sample", mesh, "-s", scheme_name, "--grid", "3", "-o", path("samples.csv")}));
+}
+
+TEST(CliKnotIntervals, OtherSchemesSayThatTheyKnowNone) {
+  const TemporaryDirectory directory;
+  const std::string mesh = mesh_file(directory, "box.obj", box());
+  const Outcome outcome =
+      sublimit({"refine", mesh, "-s", "catmull-clark", "-l", "1", "-o", (directory / "out.obj").string()});
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_NE(outcome.err.find("knot intervals ignored"), std::string::npos) << outcome.err;
+}
+
+TEST(CliKnotIntervals, WhatContradictsIsRefused) {
+  const std::string text =
+      "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0\nv 2 1 0\nf 1 2 3 4\nf 2 5 6 3\n";  // lines 1 to 8
+  const auto refuses = [&](const std::string& tags, std::initializer_list<std::string_view> parts) {
+    const TemporaryDirectory directory;
+    const std::string mesh = directory.write("mesh.obj", text + tags).string();
+    expect_failure(sublimit({"refine", mesh, "-s", scheme_name, "-l", "1", "-o", (directory / "out.obj").string()}), 3,
+                   parts);
+    EXPECT_EQ(directory.num_files(), 1);
+  };
+  refuses("t knotinterval 2/1/0 0 1 2\nt knotinterval 2/1/0 3 2 3\n", {"face 0", "opposite edges", "2", "3"});
+  refuses("t knotinterval 2/1/0 0 1 0\n", {"(0,1)", "t crease 2/1/0 0 1 10"});
+  refuses("t knotinterval 2/1/0 0 1 -2\n", {"mesh.obj:9", "-2", "positive"});
+  refuses("t knotinterval 2/1/0 0 1 nan\n", {"mesh.obj:9", "nan"});
+  refuses("t knotinterval 2/1/0 0 1 inf\n", {"mesh.obj:9", "inf"});
+  refuses("t knotinterval 2/1/0 0 4 1\n", {"mesh.obj:9", "no face has an edge between vertices 0 and 4"});
+  refuses("t knotinterval 2/1/0 0 9 1\n", {"mesh.obj:9", "vertex 9 is out of range"});
+  refuses("t knotinterval 1/1/0 0 1\n", {"mesh.obj:9", "t knotinterval 2/1/0 VERTEX VERTEX INTERVAL"});
+}
+
+TEST(CliKnotIntervals, ReportsSayWhatIsProvedAndWhatIsEvidence) {
+  const TemporaryDirectory directory;
+  const std::string json = (directory / "report.json").string();
+  const Outcome levelled = sublimit({"analyze", "-s", scheme_name, "--valence", "3,5", "--json", json});
+  EXPECT_EQ(levelled.status, 0) << levelled.err;
+  EXPECT_NE(levelled.out.find("levelling: proved: from the third level on"), std::string::npos) << levelled.out;
+  const Outcome halves =
+      sublimit({"analyze", "-s", scheme_name, "--option", "levelling=off", "--valence", "3,5", "--json", json});
+  EXPECT_EQ(halves.status, 0) << halves.err;
+  EXPECT_NE(halves.out.find("halving: evidence-for: intervals stay unequal"), std::string::npos) << halves.out;
+}
+
+}  // namespace
+}  // namespace sublimit::testing
