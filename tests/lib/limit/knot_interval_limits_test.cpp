@@ -78,16 +78,15 @@ void expect_same_surface(const Scheme<double>& scheme, const Twin& twin, double 
     if (spline_row >= rows || spline_column >= columns) continue;
     samples.push_back({face, u, v});
     others.push_back({spline_row * columns + spline_column, along_column, along_row});
-    const double lr = twin.spline.v().length(spline_row), lc = twin.spline.u().length(spline_column);
     const double sr = u_is_row ? (row(corners[0]) == r0 ? 1 : -1) : (row(corners[0]) == r0 ? 1 : -1);
     const double sc = (column(corners[0]) == c0 ? 1 : -1);
-    // d/du = u_is_row ? sr lr d/drow : sc lc d/dcolumn, and so on.
-    turns.push_back(u_is_row ? std::array{0.0, sr * lr, sc * lc, 0.0} : std::array{sc * lc, 0.0, 0.0, sr * lr});
+    // d/du = u_is_row ? sr d/drow : sc d/dcolumn, and so on.
+    turns.push_back(u_is_row ? std::array{0.0, sr, sc, 0.0} : std::array{sc, 0.0, 0.0, sr});
   }
   ASSERT_GT(samples.size(), 100u);
   const LimitSamples own = surface.evaluate(twin.mesh.positions, samples, 2);
   const PatchSet patches({std::make_shared<SplineSurface>(twin.spline)});
-  const LimitSamples other = patches.evaluate(twin.points, others, 2);  // by the spline's own knots
+  const LimitSamples other = patches.evaluate(twin.points, others, 2);
   double size = 1;
   for (size_t i = 0; i < samples.size(); ++i) {
     const auto at = static_cast<Index>(i);
@@ -125,8 +124,8 @@ Twin torus_twin(std::mt19937& random, Index m, Index n) {
 
 TEST(KnotIntervalLimits, OfATorusAreTheBSplineOfItsKnots) {
   std::mt19937 random(3);
-  for (int run = 0; run < 4; ++run) {
-    const Twin twin = torus_twin(random, 4 + run, 8 - run);
+  for (int run = 0; run < 2; ++run) {
+    const Twin twin = torus_twin(random, 4 + run, 6 - run);
     expect_same_surface(levelled, twin, 1e-13, unsigned(run));
     expect_same_surface(halves, twin, 1e-13, unsigned(run));
   }
