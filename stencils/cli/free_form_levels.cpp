@@ -43,8 +43,8 @@ Points euclidean(const PatchSet& patches, const Points& columns) {
   Points points(columns.rows(), 3);
   for (Eigen::Index i = 0; i < columns.rows(); ++i) {
     if (columns(i, 3) == 0)
-      throw InvalidParameter("point " + format_number(i) +
-                             " of the net has the weight 0: a direction, which a mesh cannot hold; write an .obj");
+      throw InvalidMesh("point " + format_number(i) +
+                        " of the net has the weight 0: a direction, which a mesh cannot hold; write an .obj");
     points.row(i) = columns.row(i).head(3) / columns(i, 3);
   }
   return points;
@@ -96,7 +96,7 @@ void limit_free_form(const Common& common, int levels, const std::string& output
     const LimitSamples at = nets.patches.evaluate(nets.columns, net.places, normals ? 1 : 0);
     for (size_t i = 0; i < at.status.size(); ++i)
       if (!has_position(at.status[i]))
-        throw InvalidParameter("point " + format_number(i) + " of the net tends to a pole: its weight is 0");
+        throw InvalidMesh("point " + format_number(i) + " of the net tends to a pole: its weight is 0");
     MeshOutput mesh;
     mesh.positions = at.position;
     mesh.face_sizes = std::move(net.sizes);

@@ -3,9 +3,11 @@
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <vector>
 
 #include "sublimit/core/dense_decompositions.h"
@@ -16,33 +18,59 @@ namespace {
 
 using Eigen::Vector3d;
 
+/// The one point that homogeneous columns are; nothing if they are several, or a direction.
+std::optional<Eigen::RowVector3d> one_point(const Points& columns, double noise) {
+  Eigen::Index heaviest = 0;
+  columns.col(3).cwiseAbs().maxCoeff(&heaviest);
+  if (columns(heaviest, 3) == 0) return std::nullopt;
+  const Eigen::RowVector3d point = columns.row(heaviest).head(3) / columns(heaviest, 3);
+  for (const auto& column : columns.rowwise())
+    if (!((column.head(3) - column[3] * point).norm() <= noise)) return std::nullopt;
+  return point;
+}
+
+/// A direction of the surface, and the place of a sample in it.
+struct Direction {
+  const Knots<double>& knots;
+  KnotPlace<double> place;
+  Index stride;  ///< from a control point to the next
+};
+
 /// Control vectors of the derivative across a side that is one point, along the side; empty if it is not.
-/// @param across      the knots of the parameter that goes inwards, and the place on the side
-/// @param stride      from a control point to the next across the side, and along it
-std::vector<Vector3d> vectors_at_point(const Points& columns, bool rational, const Knots<double>& across,
-                                       const KnotPlace<double>& place, Index stride_across, Index num_along,
-                                       Index stride_along) {
-  const PointRows rows = point_rows(across, place, 1);
-  const auto sum = [&](int r, Index along) {
+/// @param across  the parameter that goes inwards, and the place on the side
+std::vector<Vector3d> vectors_at_point(const Points& columns, bool rational, const Direction& across,
+                                       const Direction& along) {
+  constexpr double ulps = 64 * std::numeric_limits<double>::epsilon();
+  const PointRows rows = point_rows(across.knots, across.place, 1);
+  double size = 0;  // of the terms of sums
+  const auto sum = [&](int r, Index point_along) {
     Eigen::RowVector4d value(0, 0, 0, 0);
+    double terms = 0;
     for (size_t j = 0; j < rows.points.size(); ++j) {
-      const Index point = rows.points[j] * stride_across + along * stride_along;
-      value.head(columns.cols()) += rows.weights(r, Eigen::Index(j)) * columns.row(point);
-      if (!rational && r == 0) value[3] += rows.weights(r, Eigen::Index(j));
+      const Index point = rows.points[j] * across.stride + point_along * along.stride;
+      const double weight = rows.weights(r, Eigen::Index(j));
+      value.head(columns.cols()) += weight * columns.row(point);
+      terms += std::abs(weight) * columns.row(point).cwiseAbs().maxCoeff();
+      if (!rational && r == 0) value[3] += weight;
     }
+    size = std::max(size, terms);
     return value;
   };
+  // What the sample's own piece has there comes first: a side can be long, and most samples are on none that is a
+  // point.
+  const Index p = along.knots.degree(), first = along.knots.span(along.place.face) - p;
+  Points near(p + 1, 4);
+  for (Index i = 0; i <= p; ++i) near.row(i) = sum(0, along.knots.point(first + i));
+  if (!one_point(near, ulps * size)) return {};
+  const Index num_along = along.knots.num_points();
   Points ends(num_along, 4), inwards(num_along, 4);
   for (Index i = 0; i < num_along; ++i) ends.row(i) = sum(0, i), inwards.row(i) = sum(1, i);
-  Eigen::Index heaviest = 0;
-  ends.col(3).cwiseAbs().maxCoeff(&heaviest);
-  if (ends(heaviest, 3) == 0) return {};
-  const Eigen::RowVector3d point = ends.row(heaviest).head(3) / ends(heaviest, 3);
-  const double noise = 64 * std::numeric_limits<double>::epsilon() * columns.cwiseAbs().maxCoeff();
+  const double noise = ulps * columns.cwiseAbs().maxCoeff();
+  const std::optional<Eigen::RowVector3d> point = one_point(ends, noise);
+  if (!point) return {};
   std::vector<Vector3d> vectors;
   for (Index i = 0; i < num_along; ++i) {
-    if ((ends.row(i).head(3) - ends(i, 3) * point).norm() > noise) return {};
-    const Vector3d vector = inwards.row(i).head(3) - inwards(i, 3) * point;
+    const Vector3d vector = inwards.row(i).head(3) - inwards(i, 3) * *point;
     if (vector.norm() > noise) vectors.push_back(vector);
   }
   return vectors;
@@ -84,13 +112,12 @@ Vector3d collapsed_side_normal(const SplineSurface& surface, const Points& colum
     normal = sign * turning_normal(vectors, is_closed);
     ++sides;
   };
+  const Direction along_u{u, in_u, 1}, along_v{v, in_v, u.num_points()};
   // du x dv = (v - v_0) T' x T for vectors T along u, and (u - u_0) T x T' for those along v.
   if (sample.v == 0 || sample.v == 1)
-    add(vectors_at_point(columns, rational, v, in_v, u.num_points(), u.num_points(), 1), u.is_closed(),
-        sample.v == 0 ? -1 : 1);
+    add(vectors_at_point(columns, rational, along_v, along_u), u.is_closed(), sample.v == 0 ? -1 : 1);
   if (sample.u == 0 || sample.u == 1)
-    add(vectors_at_point(columns, rational, u, in_u, 1, v.num_points(), u.num_points()), v.is_closed(),
-        sample.u == 0 ? 1 : -1);
+    add(vectors_at_point(columns, rational, along_u, along_v), v.is_closed(), sample.u == 0 ? 1 : -1);
   return sides == 1 ? normal : Vector3d::Zero();
 }
 

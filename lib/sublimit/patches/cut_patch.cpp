@@ -6,6 +6,9 @@
 
 #include "sublimit/base/error.h"
 #include "sublimit/base/format_number.h"
+#include "sublimit/core/sparse_product.h"
+#include "sublimit/patches/spline_rows.h"
+#include "sublimit/patches/spline_surface.h"
 
 namespace sublimit {
 
@@ -85,6 +88,19 @@ Patch::Lengths CutPatch::lengths(Index face) const {
   const Part& part = parts_[size_t(face)];
   const Lengths whole = patch_->lengths(part.face);
   return {whole.u * (part.u1 - part.u0), whole.v * (part.v1 - part.v0)};
+}
+
+Patch::Refined CutPatch::refined() const {
+  Refined whole{patch_, {}};
+  if (!std::dynamic_pointer_cast<const SplineSurface>(patch_)) whole = patch_->refined();
+  const auto* const spline = dynamic_cast<const SplineSurface*>(whole.patch.get());
+  if (!spline) return {};
+  const SplineSurface part(part_knots(spline->u(), first_[0], last_[0]), part_knots(spline->v(), first_[1], last_[1]));
+  auto fine = std::make_shared<const SplineSurface>(halved(part));
+  SparseMatrix S = product(refinement_matrix(part, *fine),
+                           kronecker(part_matrix(spline->v(), part.v()), part_matrix(spline->u(), part.u())));
+  if (whole.S.size() > 0) S = product(S, whole.S);
+  return {std::move(fine), std::move(S)};
 }
 
 }  // namespace sublimit

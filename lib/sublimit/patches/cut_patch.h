@@ -22,6 +22,8 @@ class CutPatch : public Patch {
   Sample place(const Parameters& parameters) const override;
   Parameters parameters(const Sample& place) const override;
   Lengths lengths(Index face) const override;
+  /// Of parts of B-splines, and of what is refined to one: its net has the part's ends for ends.
+  Refined refined() const override;
 
  private:
   /// A face of the patch, and what is left of it.

@@ -35,6 +35,15 @@ std::shared_ptr<const Patch> patch_of(const FreeForm& shapes, const FreeFormSurf
                                           Eigen::Array2d(s.u.last, s.v.last));
 }
 
+/// A vertex times its weight; a direction where that is 0.
+Eigen::RowVector3d weighted(const std::string& name, const FreeForm& shapes, Index vertex, double weight) {
+  const Eigen::RowVector3d product = (weight == 0 ? 1 : weight) * shapes.vertices.row(vertex);
+  if (!product.allFinite())
+    throw InvalidMesh(name + ": vertex " + format_number(vertex + 1) + ": its coordinates times its weight, " +
+                      format_number(weight) + ", are beyond the largest number; scale the weights down");
+  return product;
+}
+
 /// A column for each vertex of the file, so that patches share what they name together; and one more where a vertex
 /// that has a weight is used by a surface that is not rational.
 class ControlColumns {
@@ -60,11 +69,12 @@ class ControlColumns {
     return first;
   }
   Index size() const { return size_ + static_cast<Index>(more_.size()); }
-  Points matrix() const {
+  /// @throws InvalidMesh  products with weights that are beyond all numbers
+  Points matrix(const std::string& name) const {
     Points columns(size(), rational_ ? 4 : 3);
     for (Index v = 0; v < size_; ++v) {
       const double w = rational_ ? shapes_.weights[size_t(v)] : 1;
-      columns.row(v).head(3) = (w == 0 ? 1 : w) * shapes_.vertices.row(v);
+      columns.row(v).head(3) = weighted(name, shapes_, v, w);
       if (rational_) columns(v, 3) = w;
     }
     for (size_t i = 0; i < more_.size(); ++i) columns.row(size_ + Eigen::Index(i)) = more_[i].head(columns.cols());
@@ -138,6 +148,10 @@ FreeForm to_free_form(const PatchSet& patches, const Points& columns) {
     const auto& [patch, points] = patches.members()[p];
     const auto* const spline = dynamic_cast<const SplineSurface*>(patch.get());
     if (!spline) throw UnsupportedTopology("patch " + std::to_string(p) + " is no B-spline, which a file could have");
+    for (const auto& [name, knots] : {std::pair('u', &spline->u()), std::pair('v', &spline->v())})
+      if (knots->degree() < 1)
+        throw UnsupportedTopology("patch " + std::to_string(p) + " has degree 0 in " + name +
+                                  ", which OBJ does not have");
     FreeFormSurface surface;
     surface.basis = FreeFormBasis::bspline;
     surface.rational = rational;
@@ -176,7 +190,7 @@ FreeFormPatches free_form_patches(const FreeForm& shapes, const std::string& nam
   }
   const Index num_points = columns.size();
   return {PatchSet(std::move(members), num_points, rational ? Coordinates::homogeneous : Coordinates::plain),
-          columns.matrix(), std::move(lines)};
+          columns.matrix(name), std::move(lines)};
 }
 
 FreeFormCurves free_form_curves(const FreeForm& shapes, const std::string& name) {
@@ -193,7 +207,7 @@ FreeFormCurves free_form_curves(const FreeForm& shapes, const std::string& name)
     for (Eigen::Index i = 0; i < own.rows(); ++i) {
       const Index v = curve.points[size_t(i)];
       const double w = curve.rational ? shapes.weights[size_t(v)] : 1;
-      own.row(i).head(3) = (w == 0 ? 1 : w) * shapes.vertices.row(v);
+      own.row(i).head(3) = weighted(name, shapes, v, w);
       if (rational) own(i, 3) = w;
     }
     try {

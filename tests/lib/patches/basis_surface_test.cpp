@@ -157,6 +157,12 @@ TEST(CutPatch, IsThePartInside) {
   const Sample end = part.place({.u = 3, .v = 0.25});
   EXPECT_EQ(end.face, 1);
   EXPECT_EQ(end.u, 1);
+  // Finer nets are the part's own.
+  const Patch::Refined fine = part.refined();
+  ASSERT_TRUE(fine.patch);
+  EXPECT_EQ(fine.patch->faces().size, 8);
+  const Points net = fine.S * columns;
+  expect_same_surface(*fine.patch, net, *whole, columns, random_places(*fine.patch, random), 1e-12);
   const CutPatch middle(whole, {1, 1}, {3, 2});
   EXPECT_EQ(middle.faces().size, 1);
   const Sample begin = middle.place({.u = 1, .v = 1, .u_side = KnotSide::left, .v_side = KnotSide::left});

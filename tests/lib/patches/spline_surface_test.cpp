@@ -13,7 +13,6 @@
 #include "sublimit/patches/finer_knots.h"
 #include "sublimit/patches/spline_curve.h"
 #include "sublimit/limit/limit_surface.h"
-#include "sublimit/limit/limit_surface.h"
 #include "sublimit/schemes.h"
 #include "support/classical_splines.h"
 #include "support/expect_error.h"

@@ -189,6 +189,33 @@ TEST(CliFreeFormErrors, PolesOfCurvesHaveNoPoint) {
   expect_parts(files[1].sampled({"--grid", "3"}).err, {"1 weights are not positive", "poles"});
 }
 
+TEST(CliFreeFormErrors, NetsThatFilesCannotHoldAreNamed) {
+  // w = 1 - 2u: of the finer net the middle row has the weight 0.
+  const WrongShape pole("s.obj",
+                        "v 0 0 0 1\nv 1 0 0 -1\nv 0 1 0 1\nv 1 1 0 -1\ncstype rat bezier\ndeg 1 1\n"
+                        "surf 0 1 0 1 1 2 3 4\nparm u 0 1\nparm v 0 1\nend\n");
+  const auto quiet = [](std::vector<std::string> command) {
+    command.push_back("--quiet");
+    return sublimit(command);
+  };
+  expect_failure(quiet({"limit", pole.shape, "-l", "1", "-o", pole.path("o.ply")}), 3,
+                 {"s.obj: point 1 of the net tends to a pole"});
+  expect_failure(quiet({"refine", pole.shape, "-l", "1", "-o", pole.path("o.ply")}), 3,
+                 {"s.obj: point 1 of the net has the weight 0", "write an .obj"});
+  EXPECT_EQ(pole.directory.num_files(), 1);
+  expect_done(quiet({"refine", pole.shape, "-l", "1", "-o", pole.path("o.obj")}));
+  const WrongShape steps("r.json", R"({"kind": "bspline_surface", "degree": [0, 1], "shape": [2, 2],)"
+                                   R"("knots_u": [0, 1, 2], "knots_v": [0, 0, 1, 1],)"
+                                   R"("points": [[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0]]})");
+  expect_failure(sublimit({"refine", steps.shape, "-l", "1", "-o", steps.path("o.obj")}), 3,
+                 {"r.json: patch 0 has degree 0 in u, which OBJ does not have"});
+  const Outcome analyzed = sublimit({"analyze", steps.shape});
+  expect_failure(analyzed, 3, {"r.json: recipe 0 (bspline_surface): no exact net"});
+  EXPECT_EQ(count_of(analyzed.err, "r.json"), 1u) << analyzed.err;
+  const WrongShape heavy("h.obj", "v 0 0 0\nv 3 0 0 1e308\ncstype rat bezier\ndeg 1\ncurv 0 1 1 2\nparm u 0 1\nend\n");
+  expect_failure(heavy.sampled({"--grid", "3"}), 3, {"h.obj: vertex 2", "1e+308", "scale the weights down"});
+}
+
 // Control vector (0,1) between (1,0) and (-1,0): half of a circle, and no pole though a weight is 0.
 TEST(CliFreeFormErrors, AWeightOfZeroIsADirection) {
   for (const auto& [name, text] :

@@ -154,7 +154,7 @@ FreeFormReport recipe_report(const std::vector<Recipe>& recipes, const std::stri
   }
   shapes.finish();
   if (surface_recipes.empty() && curve_recipes.empty())
-    throw UnsupportedTopology(nets.left_out[0].recipe->place +
+    throw UnsupportedTopology(label(*nets.left_out[0].recipe) +
                               ": no exact net, so that there are no joins to analyse: " + nets.left_out[0].why);
   FreeFormReport report = free_form_report(std::move(nets.shapes), name, options, joins);
   report.surface_recipes = std::move(surface_recipes);
