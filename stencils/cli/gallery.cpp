@@ -7,6 +7,8 @@
 #include <filesystem>
 
 #include "sublimit/gallery/gallery.h"
+#include "sublimit/report/asset/asset_json.h"
+#include "sublimit/report/page/page.h"
 
 namespace sublimit::cli {
 
@@ -32,9 +34,14 @@ void draw_gallery(const GalleryRun& run, bool silent) {
   check_output_path(index.string(), {});
   limit_threads(run.common);
   Progress progress(run.common.quiet);
-  const std::vector<GalleryFile> files = make_gallery({.faces = run.faces}, [&](int done, int total) {
-    progress.step(fmt::format("drawing and measuring, {} of {}", done, total));
-  });
+  const auto page_of = [](const ControlMesh& mesh, const std::string& scheme) {
+    nlohmann::ordered_json json = report::report_head("mesh");
+    json["mesh"] = to_json(asset_report(scheme_or_throw(scheme, {}), mesh, {}, {}), "stitched.obj");
+    return report_page(json);
+  };
+  const std::vector<GalleryFile> files = make_gallery(
+      {.levels = GalleryOptions{}.levels, .faces = run.faces, .report = page_of},
+      [&](int done, int total) { progress.step(fmt::format("drawing and measuring, {} of {}", done, total)); });
   progress.step("writing " + run.directory);
   write_gallery(run.directory, files);
   progress.step("");

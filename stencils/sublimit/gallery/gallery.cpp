@@ -17,6 +17,7 @@
 #include "sublimit/gallery/exhibit.h"
 #include "sublimit/gallery/page.h"
 #include "sublimit/gallery/patch_pictures.h"
+#include "sublimit/gallery/stitched.h"
 #include "sublimit/schemes.h"
 
 namespace sublimit {
@@ -130,7 +131,7 @@ std::vector<GalleryFile> make_gallery(const GalleryOptions& options, const std::
   }
   std::mutex mutex;
   int done = 0;
-  const int total = 2 * static_cast<int>(work.size()) + 2;
+  const int total = 2 * static_cast<int>(work.size()) + 3;
   const auto step = [&] {
     const std::lock_guard lock(mutex);
     if (progress) progress(done, total);
@@ -173,6 +174,10 @@ std::vector<GalleryFile> make_gallery(const GalleryOptions& options, const std::
   PatchPictures patches = patch_pictures();
   for (auto& [name, text] : patches.files) files.push_back({name, std::move(text)});
   sections.push_back(std::move(patches.section));
+  step();
+  StitchedPictures stitched = stitched_pictures(options.report);
+  for (auto& [name, text] : stitched.files) files.push_back({name, std::move(text)});
+  sections.push_back(std::move(stitched.section));
   files.push_back({"measures.json", json(work)});
   files.push_back({"index.html", page("overview.svg", sections)});
   return files;

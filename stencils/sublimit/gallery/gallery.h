@@ -6,13 +6,15 @@
 #include <string>
 #include <vector>
 
-#include "sublimit/core/types.h"
+#include "sublimit/mesh/control_mesh.h"
 
 namespace sublimit {
 
 struct GalleryOptions {
   int levels = 3;      ///< drawn, 0 to 5, and the limit of surfaces after them
   Index faces = 3000;  ///< at least, of the surfaces that are measured and drawn as limits; 200 to 200 000
+  /// Makes the page of a report on a mesh under a scheme; none: the gallery has no such page.
+  std::function<std::string(const ControlMesh&, const std::string&)> report = {};
 };
 
 struct GalleryFile {
