@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "sublimit/files/numbers.h"
 #include "sublimit/gallery/gallery.h"
 #include "sublimit/report/asset/asset_json.h"
 #include "sublimit/report/page/page.h"
