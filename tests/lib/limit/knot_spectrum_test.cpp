@@ -13,11 +13,11 @@
 namespace sublimit::testing {
 namespace {
 
-const Scheme<double> halves = *find_scheme("catmull-clark-intervals", {{"levelling", "off"}});
+const Scheme<double> halving = *find_scheme("catmull-clark-intervals", {{"levelling", "off"}});
 
 std::vector<double> moduli(const std::vector<double>& intervals) {
   std::vector<double> result;
-  for (const auto& value : knot_spectrum(halves, intervals)) result.push_back(std::abs(value));
+  for (const auto& value : knot_spectrum(halving, intervals)) result.push_back(std::abs(value));
   return result;
 }
 
@@ -26,7 +26,7 @@ TEST(KnotSpectrum, OfEqualIntervalsIsCatmullClarks) {
   for (const int n : {3, 4, 5, 6, 8}) {
     const std::vector<double> equal(size_t(n), 2.5);
     const double c = std::cos(2 * std::numbers::pi / n), lambda = (c + 5 + std::sqrt((c + 9) * (c + 1))) / 16;
-    const auto values = knot_spectrum(halves, equal);
+    const auto values = knot_spectrum(halving, equal);
     EXPECT_NEAR(std::abs(values[0]), 1, 1e-12);
     EXPECT_NEAR(std::abs(values[1]), lambda, 1e-12);
     EXPECT_NEAR(std::abs(values[2]), lambda, 1e-12);
@@ -57,8 +57,8 @@ TEST(KnotSpectrum, RefusesWhatDoesNotStay) {
   const double good[] = {1, 2, 3}, bad[] = {1, 0, 3}, two[] = {1, 2};
   expect_error<InvalidParameter>([&] { knot_spectrum(*find_scheme("catmull-clark-intervals"), good); },
                                  {"in the middle"});
-  expect_error<InvalidParameter>([&] { knot_spectrum(halves, bad); }, {"interval 0", "positive"});
-  expect_error<InvalidParameter>([&] { knot_spectrum(halves, two); }, {"three spokes"});
+  expect_error<InvalidParameter>([&] { knot_spectrum(halving, bad); }, {"interval 0", "positive"});
+  expect_error<InvalidParameter>([&] { knot_spectrum(halving, two); }, {"three spokes"});
 }
 
 }  // namespace
