@@ -196,6 +196,61 @@ TEST(KnotIntervalLimits, AreTheSameFromTheNextLevel) {
   }
 }
 
+/// Borders are those of a spline with mirrored intervals and points beyond them, 2 p_0 - p_1.
+TEST(KnotIntervalLimits, OfAnOpenGridAreTheBSplineWithPhantomPoints) {
+  std::mt19937 random(31);
+  constexpr Index m = 5, n = 4;
+  const std::vector<double> a = random_lengths(random, m), b = random_lengths(random, n);
+  ControlMesh mesh = jittered(grid(m, n), 0.2);
+  for (Index i = 0; i < m; ++i) mesh.knot_intervals.push_back({i, i + 1, a[i]});
+  for (Index j = 0; j < n; ++j) mesh.knot_intervals.push_back({j * (m + 1), (j + 1) * (m + 1), b[j]});
+  const auto knots = [](const std::vector<double>& lengths) {
+    std::vector<double> breaks = breaks_of(lengths);
+    const auto count = static_cast<Index>(lengths.size());
+    for (Index k = 0; k < 3; ++k) {
+      breaks.insert(breaks.begin(), breaks.front() - lengths[k]);
+      breaks.push_back(breaks.back() + lengths[count - 1 - k]);
+    }
+    return Knots<double>::open(3, count + 3, breaks);
+  };
+  const SplineSurface spline(knots(a), knots(b));
+  // Columns first, then rows, so that corners get phantoms of phantoms.
+  Points columns((m + 3) * (n + 3), 3);
+  const auto at = [&](Index i, Index j) { return columns.row((j + 1) * (m + 3) + i + 1); };
+  for (Index j = 0; j <= n; ++j)
+    for (Index i = 0; i <= m; ++i) at(i, j) = mesh.positions.row(j * (m + 1) + i);
+  for (Index j = 0; j <= n; ++j) {
+    at(-1, j) = 2 * at(0, j) - at(1, j);
+    at(m + 1, j) = 2 * at(m, j) - at(m - 1, j);
+  }
+  for (Index i = -1; i <= m + 1; ++i) {
+    at(i, -1) = 2 * at(i, 0) - at(i, 1);
+    at(i, n + 1) = 2 * at(i, n) - at(i, n - 1);
+  }
+  const PatchSet patches({std::make_shared<SplineSurface>(spline)});
+  const LimitSurface surface(levelled, mesh);
+  const Topology& t = surface.level().topology();
+  std::uniform_real_distribution<double> inside(0, 1);
+  for (Index f = 0; f < t.num_faces(); ++f)
+    for (int k = 0; k < 10; ++k) {
+      const double u = k < 4 ? k % 2 : inside(random), v = k < 4 ? k / 2 : inside(random);
+      const double weight[] = {(1 - u) * (1 - v), u * (1 - v), u * v, (1 - u) * v};
+      double x = 0, y = 0;  // in the grid
+      Index i = m, j = n;
+      for (size_t c = 0; c < 4; ++c) {
+        const Index vertex = t.vertices(Face{f})[c];
+        x += weight[c] * double(vertex % (m + 1));
+        y += weight[c] * double(vertex / (m + 1));
+        i = std::min(i, vertex % (m + 1));
+        j = std::min(j, vertex / (m + 1));
+      }
+      const Sample own{f, u, v}, other{j * m + i, x - double(i), y - double(j)};
+      const Points p = surface.evaluate(mesh.positions, std::span(&own, 1)).position,
+                   q = patches.evaluate(columns, std::span(&other, 1)).position;
+      EXPECT_LE((p - q).norm(), 1e-13) << f << ' ' << u << ' ' << v;
+    }
+}
+
 /// A rational surface as a mesh: the same points at all places, open and closed.
 TEST(KnotIntervalLimits, OfAnImportedSurfaceAreTheSurface) {
   std::mt19937 random(21);
