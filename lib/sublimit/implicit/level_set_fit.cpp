@@ -9,6 +9,7 @@
 #include "sublimit/fit/fairness.h"
 #include "sublimit/fit/for_coordinates.h"
 #include "sublimit/fit/scattered_fit.h"
+#include "sublimit/fit/sparse_factors.h"
 #include "sublimit/fit/tangent_rows.h"
 
 namespace sublimit {
@@ -22,6 +23,8 @@ constexpr double first_tangential = .1, last_tangential = 1e-3;
 /// Thin plate energy keeps control points apart while the surface is far, and is next to nothing at the end. Relative
 /// to mean squares of distances.
 constexpr double first_fairness = .3, fairness_ratio = .25;
+/// Of the largest entry of the diagonal.
+constexpr double damped = 1e-7;
 /// Normals further than that from the gradient: faces are folded.
 constexpr double folded = 1;
 /// Grids of so many places a side of each face tell rounds apart.
@@ -87,6 +90,25 @@ SparseMatrix fairness_of(const LimitSurface& surface) {
   }
 }
 
+/// Towards the least of the sum, from x: targets move in the next round, so one solution of a system that is a little
+/// damped does. What no place sees stays.
+Points step(const FitProblem& problem, const Points& x) {
+  const SparseMatrix At = problem.A.transpose();
+  SparseMatrix M = At * problem.weights.asDiagonal() * problem.A;
+  Points force = At * problem.weights.cwiseProduct((problem.b - problem.A * x).col(0));
+  if (problem.H.rows() > 0) {
+    M += problem.H;
+    force -= problem.H * x;
+  }
+  double largest = 0;
+  for (Index i = 0; i < M.rows(); ++i) largest = std::max(largest, M.coeff(i, i));
+  SparseMatrix damping(M.rows(), M.cols());
+  damping.setIdentity();
+  M += damped * largest * damping;
+  const Points move = SparseFactors(M).solve(force);
+  return Eigen::Map<const Points>(move.data(), move.rows() / 3, 3);
+}
+
 }  // namespace
 
 LevelSetFit fit_level_set(const LimitSurface& surface, const Cage& cage, const FieldSides& sides, int rounds,
@@ -120,9 +142,7 @@ LevelSetFit fit_level_set(const LimitSurface& surface, const Cage& cage, const F
     add_tangent_rows(problem, A, targets, normals, weights,
                      std::max(last_tangential, first_tangential * std::pow(.25, round)));
     if (H.rows() > 0) problem.H = first_fairness * std::pow(fairness_ratio, round) / faces * H;
-    problem.x0 = Eigen::Map<const Points>(x.data(), x.size(), 1);
-    const FitSolution solution = solve(problem, {.tolerance = 1e-12});
-    x = Eigen::Map<const Points>(solution.x.data(), x.rows(), 3);
+    x += step(problem, Eigen::Map<const Points>(x.data(), x.size(), 1));
     if (!x.allFinite()) break;
     const LevelSetError error = level_set_error(surface, x, sides.field(), checked, false);
     best.rounds.push_back(error.largest);
