@@ -85,6 +85,8 @@ class Maker {
     try {
       tell("polygonising " + format_number(2 * cells) + " cells");
       fine = polygons(2 * cells).counts;
+    } catch (const InvalidParameter&) {  // seen by more places: the surface touches the rim, say
+      throw;
     } catch (const Error& error) {
       notes.push_back("with twice as many cells: " + std::string(error.what()));
     }

@@ -17,7 +17,7 @@ template <class Numbers>
 void append_numbers(std::string& row, const Numbers& numbers, bool there) {
   for (Eigen::Index i = 0; i < numbers.size(); ++i) {
     row += ',';
-    if (there) append_number(row, numbers[i]);
+    if (there) append_number(row, numbers[i] + 0.);  // -0 is 0
   }
 }
 
@@ -38,7 +38,7 @@ std::int64_t write_field_samples(const std::filesystem::path& in, const std::fil
       throw FormatError(rows.place() + "the field is " + format_number(jet.value) + " there; it should be a number");
     std::string row;
     for (int i = 0; i < 3; ++i) append_number(row, x[i]), row += ',';
-    append_number(row, jet.value);
+    append_number(row, jet.value + 0.);
     const Eigen::Matrix3d& H = jet.hessian;
     Eigen::Matrix<double, 6, 1> upper;
     upper << H(0, 0), H(0, 1), H(0, 2), H(1, 1), H(1, 2), H(2, 2);
