@@ -119,6 +119,7 @@ Command add_refine(CLI::App& app);
 Command add_limit(CLI::App& app);
 Command add_sample(CLI::App& app);
 Command add_construct(CLI::App& app);
+Command add_implicit(CLI::App& app);
 Command add_bake(CLI::App& app);
 Command add_apply(CLI::App& app);
 Command add_verify(CLI::App& app);

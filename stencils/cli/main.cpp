@@ -100,6 +100,7 @@ int main(int argc, char** argv) {
                                                              {"sample", cli::add_sample(app)},
                                                              {"bake", cli::add_bake(app)},
                                                              {"construct", cli::add_construct(app)},
+                                                             {"implicit", cli::add_implicit(app)},
                                                              {"apply", cli::add_apply(app)},
                                                              {"verify", cli::add_verify(app)},
                                                              {"export", cli::add_export(app)},

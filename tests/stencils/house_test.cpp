@@ -26,7 +26,7 @@ struct Floor {
 const Floor floors[] = {
     {"lib/sublimit",
      {"core", "mesh", "splits", "io", "scheme", "neighborhood", "limit", "geometric", "curves", "patches", "schemes",
-      "primvar", "fit", "certificates"},
+      "primvar", "fit", "implicit", "certificates"},
      {"schemes.h", "subdivide.h"}},
     {"stencils/sublimit", {"recipes", "files", "patterns", "bake", "picture", "fit_jobs", "gallery", "report"}, {}},
 };

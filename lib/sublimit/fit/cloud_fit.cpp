@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sublimit/fit/cloud_fit.h"
 #include "sublimit/fit/for_coordinates.h"
-
-#include <Eigen/Geometry>
+#include "sublimit/fit/tangent_rows.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 
 #include "sublimit/base/error.h"
@@ -102,35 +100,12 @@ class Iteration {
   }
 
  private:
-  /// Three rows a point: across the surface, and twice along it.
+  /// Along borders, and where there is no plane, distances are from points.
   void couple(const SparseMatrix& A, const ClosestPoints& feet, double tangential, FitProblem& problem) const {
-    const Index count = Index(A.rows());
-    if (9 * double(A.nonZeros()) > double(std::numeric_limits<Index>::max()))
-      throw ResourceError("a cloud of " + std::to_string(count) +
-                          " points has more weights than 32-bit indices count; tangential = 1 needs a ninth of them");
-    problem.A.resize(3 * count, 3 * A.cols());
-    problem.A.reserve(9 * A.nonZeros());
-    problem.b.resize(3 * count, 1);
-    problem.weights.resize(3 * count);
-    for (Index i = 0; i < count; ++i) {
-      Eigen::Vector3d normal = feet.normals.row(i);
-      // Along borders, and where there is no plane, distances are from points.
-      const bool has_plane = !normal.isZero(0) && feet.status[size_t(i)] != LimitStatus::crease;
-      if (!has_plane) normal = Eigen::Vector3d::UnitZ();
-      Eigen::Matrix3d frame;
-      frame.row(0) = normal;
-      frame.row(1) = normal.unitOrthogonal();
-      frame.row(2) = normal.cross(Eigen::Vector3d(frame.row(1)));
-      for (Index k = 0; k < 3; ++k) {
-        const Index row = 3 * i + k;
-        problem.A.startVec(row);
-        for (SparseMatrix::InnerIterator it(A, i); it; ++it)
-          for (Index c = 0; c < 3; ++c) problem.A.insertBack(row, 3 * Index(it.col()) + c) = it.value() * frame(k, c);
-        problem.b(row, 0) = frame.row(k).dot(cloud_.points.row(i));
-        problem.weights[row] = weights_[i] * (k == 0 || !has_plane ? 1 : tangential);
-      }
-    }
-    problem.A.finalize();
+    Points normals = feet.normals;
+    for (Eigen::Index i = 0; i < normals.rows(); ++i)
+      if (feet.status[size_t(i)] == LimitStatus::crease) normals.row(i).setZero();
+    add_tangent_rows(problem, A, cloud_.points, normals, weights_, tangential);
   }
 
   const LimitSurface& surface_;
