@@ -262,8 +262,12 @@ int analyze_shapes(const AnalyzeOptions& options) {
   return report["free_form"]["within_tolerance"].get<bool>() ? 0 : negative_verdict;
 }
 
-/// Whether the file is one of recipes, or an .obj that has free-form curves or surfaces.
-bool has_shapes(const Common& common) { return is_recipe_job(common) || has_free_form(common.mesh); }
+/// Whether the file is one of recipes, or an .obj that is there and has free-form curves or surfaces.
+bool has_shapes(const Common& common) {
+  std::error_code ignored;
+  return is_recipe_job(common) ||
+         (std::filesystem::is_regular_file(common.mesh, ignored) && has_free_form(common.mesh));
+}
 
 int analyze(const AnalyzeOptions& options) {
   limit_threads(options.common);

@@ -112,7 +112,7 @@ std::int64_t write(const SampleJob& job, Index dimension, const Source& source, 
           if (exists && std::isfinite(m(row, k))) append_number(text, m(row, k));
         }
       };
-      append(found.position, has_position(found.status[i]));
+      append(found.position, found.status[i] != LimitStatus::pole);
       if (job.derivatives >= 1) append(found.first, found.order[i] >= 1);
       if (job.derivatives >= 2) append(found.second, found.order[i] >= 2);
       if (dimension <= 3) append(found.normal, !found.normal.row(row).isZero(0));

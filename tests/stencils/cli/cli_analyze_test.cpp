@@ -56,7 +56,7 @@ TEST(CliAnalyze, ReportHasEveryKeyOfTheFormatInOrder) {
   EXPECT_EQ(report["version"], 1);
   const Json& scheme = report["schemes"][0];
   EXPECT_EQ(keys(scheme), (Keys{"name", "kind", "options", "source", "mesh", "split", "interpolates", "claims",
-                                "regular", "neighborhoods", "all_valences"}));
+                                "regular", "neighborhoods", "all_valences", "knot_intervals"}));
   EXPECT_EQ(keys(scheme["claims"][0]), (Keys{"claim", "claimed", "found", "verdict", "because"}));
   EXPECT_EQ(keys(scheme["regular"]),
             (Keys{"dilation", "mask", "unit", "grid", "support", "smoothness", "norms", "joint_spectral_radius",

@@ -315,6 +315,7 @@ Json curve_scheme_json(const std::string& name, const SchemeOptions& options) {
   json["regular"] = r ? to_json(*r) : Json(nullptr);
   json["neighborhoods"] = Json::array();
   json["all_valences"] = nullptr;
+  json["knot_intervals"] = nullptr;
   return json;
 }
 
@@ -323,7 +324,7 @@ Json mask_scheme_json(const std::string& mask) {
   return {{"name", "mask " + mask},         {"kind", "curve"},         {"options", Json::object()},
           {"source", "typed in"},           {"mesh", "line"},          {"split", Json::array()},
           {"interpolates", r.interpolates}, {"claims", Json::array()}, {"regular", to_json(r)},
-          {"neighborhoods", Json::array()}, {"all_valences", nullptr}};
+          {"neighborhoods", Json::array()}, {"all_valences", nullptr}, {"knot_intervals", nullptr}};
 }
 
 }  // namespace sublimit::report
