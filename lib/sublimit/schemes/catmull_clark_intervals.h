@@ -32,6 +32,7 @@ Scheme<T> catmull_clark_intervals(const SchemeOptions& options) {
   const OptionInfo levelling{.name = "levelling",
                              .values = {"on", "off"},
                              .meaning = "new knots that make intervals around extraordinary vertices equal"};
+  const NewKnots knots = option(options, levelling) == "on" ? NewKnots::levelling : NewKnots::halving;
   const auto face = [](const FaceSite<T>& f) {
     if (f.size() != 4) return f.centroid();  // its edges have one interval
     // Weights of both ends of edge 0 and of edge 1; the edges opposite to them have the same new knots.
@@ -81,7 +82,7 @@ Scheme<T> catmull_clark_intervals(const SchemeOptions& options) {
                      .convex_hull = true,
                      .limit = "bicubic B-spline"},
           .options = {levelling},
-          .knots = option(options, levelling) == "on" ? NewKnots::levelling : NewKnots::halving};
+          .knots = knots};
 }
 
 }  // namespace sublimit
