@@ -40,7 +40,8 @@ struct Part {
   std::vector<Index> vertices;
 };
 
-const std::vector<double> lid_u{1, 1, 2, 1.5, 1}, lid_v{1, 0.5, 1, 3, 1}, wall_v{1, 2, 1, 1};
+// The first two and the last two are equal, as those of surfaces without multiple end knots in a mesh are.
+const std::vector<double> lid_u{1, 1, 2, 1.5, 1.5}, lid_v{0.5, 0.5, 1, 3, 3}, wall_v{2, 2, 1, 1};
 
 Part lid() {
   Part part{{cubic_knots(lid_u), cubic_knots(lid_v)}, Points(lid_points * lid_points, 3), {}};
