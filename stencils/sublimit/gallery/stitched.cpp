@@ -99,6 +99,7 @@ PictureMesh surface_of(const Part& part, Color color) {
                        return patches->evaluate(points, samples, 1);
                      }});
   mesh.color = color;
+  mesh.ink = {Color{.20, .26, .30}, .6};
   return mesh;
 }
 
