@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <utility>
 
 #include "sublimit/base/error.h"
 #include "sublimit/base/format_number.h"
+#include "sublimit/limit/limit_types.h"
 
 namespace sublimit {
 namespace {
@@ -109,7 +111,7 @@ class Maker {
     for (double before = -1;; cage = split(cage, sides)) {
       LevelSetAttempt attempt{
           .cells = cells, .splits = splits_of(cage, coarse.cell), .faces = cage.mesh.num_faces(), .error = {}};
-      const LimitSurface surface(scheme_, cage.mesh);
+      const LimitSurface surface(scheme_, cage.mesh, {}, types_);
       LevelSetFit fit = fit_level_set(surface, cage, sides, options_.rounds, [&](int round) {
         tell("fitting " + format_number(attempt.faces) + " faces, round " + format_number(round + 1) + " of " +
              format_number(options_.rounds));
@@ -152,6 +154,7 @@ class Maker {
   const Scheme<double>& scheme_;
   const Polygonizer& polygonize_;
   const LevelSetOptions& options_;
+  std::shared_ptr<LimitTypes> types_ = std::make_shared<LimitTypes>(scheme_);  // of all cages
   LevelSetMesh result_;
   std::vector<LevelSetAttempt> attempts_;
   bool made_ = false, is_full_ = false;
