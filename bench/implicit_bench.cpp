@@ -55,7 +55,7 @@ double polygon_error(const Field& field, const ControlMesh& mesh, double cell) {
       for (int j = 0; j <= n; ++j) {
         const double u = double(i) / n, v = double(j) / n;
         const Vector3d x = (1 - v) * ((1 - u) * at(0) + u * at(1)) + v * ((1 - u) * at(3) + u * at(2));
-        const Jet jet = field.jet(x);
+        const FieldJet jet = field.jet(x);
         largest = std::max(largest, std::abs(jet.value) / std::max(1e-12, jet.gradient.norm()));
       }
     first += size_t(size);

@@ -136,7 +136,7 @@ FieldSides::FieldSides(FieldPointer field, bool sharp)
 
 size_t FieldSides::side_at(const Vector3d& x) const { return sharp_ ? field_->pieces(x, 0).front().name : 0; }
 
-Jet FieldSides::jet(size_t side, const Vector3d& x) const {
+FieldJet FieldSides::jet(size_t side, const Vector3d& x) const {
   if (!sharp_) return field_->jet(x);
   for (const FieldPiece& piece : field_->pieces(x, everything))
     if (piece.name == side) return piece.jet;
@@ -152,7 +152,7 @@ Projection FieldSides::project(std::span<const size_t> sides, const Vector3d& x,
     Eigen::Matrix<double, Eigen::Dynamic, 3> J(count, 3);
     Eigen::VectorXd values(count);
     for (Eigen::Index i = 0; i < count; ++i) {
-      const Jet jet = this->jet(sides[size_t(i)], result.point);
+      const FieldJet jet = this->jet(sides[size_t(i)], result.point);
       if (i == 0) result.jet = jet;
       const double length = jet.gradient.norm();
       if (!(length > 0) || !std::isfinite(length)) return result;

@@ -23,7 +23,7 @@ class FieldSides {
   bool has_edges() const { return sharp_; }
   /// The side that is the surface nearest to a place.
   size_t side_at(const Eigen::Vector3d& x) const;
-  Jet jet(size_t side, const Eigen::Vector3d& x) const;
+  FieldJet jet(size_t side, const Eigen::Vector3d& x) const;
   /// The place where all of these sides are 0, nearest to x in the sense of Newton's method.
   /// @param reach  how far it may be
   Projection project(std::span<const size_t> sides, const Eigen::Vector3d& x, double reach) const;

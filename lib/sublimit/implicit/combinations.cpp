@@ -47,8 +47,8 @@ class Choice final : public Field {
     }
     return sign_ * least;
   }
-  Jet jet(const Vector3d& x) const override {
-    Jet least = sign_of(0) * fields_[0]->jet(x);
+  FieldJet jet(const Vector3d& x) const override {
+    FieldJet least = sign_of(0) * fields_[0]->jet(x);
     for (size_t i = 1; i < fields_.size(); ++i) least = lesser(least, sign_of(i) * fields_[i]->jet(x));
     return sign_ * least;
   }
@@ -104,8 +104,8 @@ class SmoothUnion final : public Field {
     for (size_t i = 1; i < fields_.size(); ++i) result = joined(result, fields_[i]->value(x));
     return result;
   }
-  Jet jet(const Vector3d& x) const override {
-    Jet result = fields_[0]->jet(x);
+  FieldJet jet(const Vector3d& x) const override {
+    FieldJet result = fields_[0]->jet(x);
     for (size_t i = 1; i < fields_.size(); ++i) result = joined(result, fields_[i]->jet(x));
     return result;
   }
@@ -141,7 +141,7 @@ class Offset final : public Field {
     if (!std::isfinite(by)) throw InvalidParameter("the offset is not finite; it should be a number");
   }
   double value(const Vector3d& x) const override { return field_->value(x) - by_; }
-  Jet jet(const Vector3d& x) const override { return field_->jet(x) - by_; }
+  FieldJet jet(const Vector3d& x) const override { return field_->jet(x) - by_; }
   Extent extent(double level) const override { return field_->extent(level + by_); }
   void pieces(const Vector3d& x, double width, std::vector<FieldPiece>& out) const override {
     const size_t first = out.size();
@@ -174,7 +174,7 @@ class Transformed final : public Field {
     shift_ = matrix.topRightCorner<3, 1>();
   }
   double value(const Vector3d& x) const override { return scale_ * field_->value(inverse_ * (x - shift_)); }
-  Jet jet(const Vector3d& x) const override { return moved(field_->jet(inverse_ * (x - shift_))); }
+  FieldJet jet(const Vector3d& x) const override { return moved(field_->jet(inverse_ * (x - shift_))); }
   Extent extent(double level) const override {
     const Extent own = field_->extent(level / scale_);
     if (!own || own->isEmpty()) return own;
@@ -190,7 +190,7 @@ class Transformed final : public Field {
   bool has_edges() const override { return field_->has_edges(); }
 
  private:
-  Jet moved(Jet jet) const {
+  FieldJet moved(FieldJet jet) const {
     jet.value *= scale_;
     jet.gradient = scale_ * (inverse_.transpose() * jet.gradient);
     jet.hessian = scale_ * (inverse_.transpose() * jet.hessian * inverse_);

@@ -11,16 +11,16 @@ namespace {
 
 class CallbackField final : public Field {
  public:
-  CallbackField(std::function<Jet(const Eigen::Vector3d&)> jet, std::optional<Eigen::AlignedBox3d> box)
+  CallbackField(std::function<FieldJet(const Eigen::Vector3d&)> jet, std::optional<Eigen::AlignedBox3d> box)
       : jet_(std::move(jet)), box_(std::move(box)) {}
   double value(const Eigen::Vector3d& x) const override { return jet_(x).value; }
-  Jet jet(const Eigen::Vector3d& x) const override { return jet_(x); }
+  FieldJet jet(const Eigen::Vector3d& x) const override { return jet_(x); }
   std::optional<Eigen::AlignedBox3d> extent(double level) const override {
     return level <= 0 ? box_ : std::nullopt;  // the box is of the surface, not of others around it
   }
 
  private:
-  std::function<Jet(const Eigen::Vector3d&)> jet_;
+  std::function<FieldJet(const Eigen::Vector3d&)> jet_;
   std::optional<Eigen::AlignedBox3d> box_;
 };
 
@@ -34,13 +34,13 @@ std::vector<FieldPiece> Field::pieces(const Eigen::Vector3d& x, double width) co
   return all;
 }
 
-std::optional<Eigen::Vector3d> level_normal(const Jet& jet) {
+std::optional<Eigen::Vector3d> level_normal(const FieldJet& jet) {
   const double length = jet.gradient.norm();
   if (jet.order < 1 || !(length > 0) || !std::isfinite(length)) return std::nullopt;
   return Eigen::Vector3d(jet.gradient / length);
 }
 
-std::optional<LevelCurvature> level_curvature(const Jet& jet) {
+std::optional<LevelCurvature> level_curvature(const FieldJet& jet) {
   const std::optional<Eigen::Vector3d> normal = level_normal(jet);
   if (!normal || jet.order < 2) return std::nullopt;
   const double length = jet.gradient.norm();
@@ -79,7 +79,8 @@ Projection project(const Field& field, const Eigen::Vector3d& x, double reach) {
   return result;
 }
 
-FieldPointer callback_field(std::function<Jet(const Eigen::Vector3d&)> jet, std::optional<Eigen::AlignedBox3d> box) {
+FieldPointer callback_field(std::function<FieldJet(const Eigen::Vector3d&)> jet,
+                            std::optional<Eigen::AlignedBox3d> box) {
   if (!jet) throw InvalidParameter("a field without a function; give it one");
   return std::make_shared<const CallbackField>(std::move(jet), std::move(box));
 }

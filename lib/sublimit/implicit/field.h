@@ -15,7 +15,7 @@ namespace sublimit {
 
 /// One of the smooth pieces that minima and maxima of fields choose from.
 struct FieldPiece {
-  Jet jet;          ///< of the piece, as if it were chosen
+  FieldJet jet;     ///< of the piece, as if it were chosen
   size_t name = 0;  ///< the same piece has the same name everywhere in a field
 };
 
@@ -26,7 +26,7 @@ class Field {
 
   virtual double value(const Eigen::Vector3d& x) const = 0;
   /// Value, gradient and Hessian; `order` tells which exist.
-  virtual Jet jet(const Eigen::Vector3d& x) const = 0;
+  virtual FieldJet jet(const Eigen::Vector3d& x) const = 0;
   Eigen::Vector3d gradient(const Eigen::Vector3d& x) const { return jet(x).gradient; }
   Eigen::Matrix3d hessian(const Eigen::Vector3d& x) const { return jet(x).hessian; }
 
@@ -57,22 +57,22 @@ struct LevelCurvature {
 };
 /// Nothing where a derivative does not exist or the gradient is zero.
 /// Source: Goldman 2005, "Curvature formulas for implicit curves and surfaces".
-std::optional<LevelCurvature> level_curvature(const Jet& jet);
+std::optional<LevelCurvature> level_curvature(const FieldJet& jet);
 /// Unit normal; nothing where the gradient does not exist or is zero.
-std::optional<Eigen::Vector3d> level_normal(const Jet& jet);
+std::optional<Eigen::Vector3d> level_normal(const FieldJet& jet);
 
 /// What became of a place that was moved to the level set.
 struct Projection {
   Eigen::Vector3d point;
-  Jet jet;                 ///< there
+  FieldJet jet;            ///< there
   bool converged = false;  ///< |F| / |grad F| is at the level of rounding, within `reach` of the start
 };
 /// Newton's method along the gradient, x - F g / |g|^2, at most 20 steps.
 /// @param reach  how far it may go
 Projection project(const Field& field, const Eigen::Vector3d& x, double reach);
 
-/// A formula as a field: `formula(const Triple<T>&)` for T = double and T = Jet, from +, -, *, /, sqrt, exp, sin, cos,
-/// power, lesser, greater and magnitude. Derivatives follow by themselves.
+/// A formula as a field: `formula(const Triple<T>&)` for T = double and T = FieldJet, from +, -, *, /, sqrt, exp, sin,
+/// cos, power, lesser, greater and magnitude. Derivatives follow by themselves.
 template <class Formula>
 class FormulaField final : public Field {
  public:
@@ -80,7 +80,7 @@ class FormulaField final : public Field {
   explicit FormulaField(Formula formula, Extent extent = {})
       : formula_(std::move(formula)), extent_(std::move(extent)) {}
   double value(const Eigen::Vector3d& x) const override { return formula_(plain_place(x)); }
-  Jet jet(const Eigen::Vector3d& x) const override { return formula_(variables(x)); }
+  FieldJet jet(const Eigen::Vector3d& x) const override { return formula_(variables(x)); }
   std::optional<Eigen::AlignedBox3d> extent(double level) const override {
     return extent_ ? extent_(level) : std::nullopt;
   }
@@ -98,7 +98,7 @@ FieldPointer formula_field(Formula formula, typename FormulaField<Formula>::Exte
 /// A program's own function with derivatives of its own.
 /// @param jet  value, gradient, Hessian; called from many threads
 /// @param box  that holds the surface, if known
-FieldPointer callback_field(std::function<Jet(const Eigen::Vector3d&)> jet,
+FieldPointer callback_field(std::function<FieldJet(const Eigen::Vector3d&)> jet,
                             std::optional<Eigen::AlignedBox3d> box = std::nullopt);
 
 }  // namespace sublimit

@@ -13,91 +13,91 @@
 
 namespace sublimit {
 
-struct Jet {
+struct FieldJet {
   double value = 0;
   Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
   Eigen::Matrix3d hessian = Eigen::Matrix3d::Zero();
   /// Of the highest derivatives that exist here, 0 to 2; those above are one side's, or zero.
   int order = 2;
 
-  Jet() = default;
-  Jet(double constant) : value(constant) {}  // NOLINT: numbers are jets
+  FieldJet() = default;
+  FieldJet(double constant) : value(constant) {}  // NOLINT: numbers are jets
 };
 
 /// A function of one variable, by its value and derivatives at a.value.
-inline Jet chained(const Jet& a, double f, double df, double ddf) {
-  Jet result(f);
+inline FieldJet chained(const FieldJet& a, double f, double df, double ddf) {
+  FieldJet result(f);
   result.gradient = df * a.gradient;
   result.hessian = df * a.hessian + ddf * (a.gradient * a.gradient.transpose());
   result.order = a.order;
   return result;
 }
 
-inline Jet operator+(const Jet& a, const Jet& b) {
-  Jet result(a.value + b.value);
+inline FieldJet operator+(const FieldJet& a, const FieldJet& b) {
+  FieldJet result(a.value + b.value);
   result.gradient = a.gradient + b.gradient;
   result.hessian = a.hessian + b.hessian;
   result.order = std::min(a.order, b.order);
   return result;
 }
-inline Jet operator*(const Jet& a, const Jet& b) {
-  Jet result(a.value * b.value);
+inline FieldJet operator*(const FieldJet& a, const FieldJet& b) {
+  FieldJet result(a.value * b.value);
   result.gradient = a.value * b.gradient + b.value * a.gradient;
   result.hessian = a.value * b.hessian + b.value * a.hessian + a.gradient * b.gradient.transpose() +
                    b.gradient * a.gradient.transpose();
   result.order = std::min(a.order, b.order);
   return result;
 }
-inline Jet operator-(const Jet& a) { return chained(a, -a.value, -1, 0); }
-inline Jet operator-(const Jet& a, const Jet& b) { return a + -b; }
-inline Jet operator/(const Jet& a, const Jet& b) {
+inline FieldJet operator-(const FieldJet& a) { return chained(a, -a.value, -1, 0); }
+inline FieldJet operator-(const FieldJet& a, const FieldJet& b) { return a + -b; }
+inline FieldJet operator/(const FieldJet& a, const FieldJet& b) {
   const double r = 1 / b.value;
   return a * chained(b, r, -r * r, 2 * r * r * r);
 }
-inline Jet exp(const Jet& a) {
+inline FieldJet exp(const FieldJet& a) {
   const double e = std::exp(a.value);
   return chained(a, e, e, e);
 }
-inline Jet sin(const Jet& a) { return chained(a, std::sin(a.value), std::cos(a.value), -std::sin(a.value)); }
-inline Jet cos(const Jet& a) { return chained(a, std::cos(a.value), -std::sin(a.value), -std::cos(a.value)); }
+inline FieldJet sin(const FieldJet& a) { return chained(a, std::sin(a.value), std::cos(a.value), -std::sin(a.value)); }
+inline FieldJet cos(const FieldJet& a) { return chained(a, std::cos(a.value), -std::sin(a.value), -std::cos(a.value)); }
 /// Without derivatives at 0, whatever is below the root.
-inline Jet sqrt(const Jet& a) {
+inline FieldJet sqrt(const FieldJet& a) {
   const double root = std::sqrt(a.value);
   if (!(root > 0)) {
-    Jet none(root);
+    FieldJet none(root);
     none.order = 0;
     return none;
   }
   return chained(a, root, .5 / root, -.25 / (root * a.value));
 }
 /// a^n, n >= 0.
-inline Jet power(const Jet& a, int n) {
+inline FieldJet power(const FieldJet& a, int n) {
   const double x = a.value;
   return chained(a, std::pow(x, n), n < 1 ? 0 : n * std::pow(x, n - 1), n < 2 ? 0 : n * (n - 1) * std::pow(x, n - 2));
 }
 
 /// The smaller one. Where both are equal, only derivatives exist that they share.
-inline Jet lesser(const Jet& a, const Jet& b) {
+inline FieldJet lesser(const FieldJet& a, const FieldJet& b) {
   if (a.value != b.value) return a.value < b.value ? a : b;
-  Jet result = a;
+  FieldJet result = a;
   result.order = std::min(a.order, b.order);
   if (a.gradient != b.gradient) result.order = 0;
   if (a.hessian != b.hessian) result.order = std::min(result.order, 1);
   return result;
 }
-inline Jet greater(const Jet& a, const Jet& b) { return -lesser(-a, -b); }
-inline Jet magnitude(const Jet& a) { return greater(a, -a); }
+inline FieldJet greater(const FieldJet& a, const FieldJet& b) { return -lesser(-a, -b); }
+inline FieldJet magnitude(const FieldJet& a) { return greater(a, -a); }
 
 // The same of plain numbers, so that a formula is written once.
 inline double value_of(double a) { return a; }
-inline double value_of(const Jet& a) { return a.value; }
+inline double value_of(const FieldJet& a) { return a.value; }
 inline double power(double a, int n) { return std::pow(a, n); }
 inline double lesser(double a, double b) { return b < a ? b : a; }
 inline double greater(double a, double b) { return b > a ? b : a; }
 inline double magnitude(double a) { return std::abs(a); }
 /// Derivatives above `order` do not exist.
 inline double up_to(double a, int) { return a; }
-inline Jet up_to(Jet a, int order) {
+inline FieldJet up_to(FieldJet a, int order) {
   a.order = std::min(a.order, order);
   return a;
 }
@@ -108,8 +108,8 @@ using Triple = std::array<T, 3>;
 
 inline Triple<double> plain_place(const Eigen::Vector3d& x) { return {x[0], x[1], x[2]}; }
 /// x, y and z themselves, as jets.
-inline Triple<Jet> variables(const Eigen::Vector3d& x) {
-  Triple<Jet> all{x[0], x[1], x[2]};
+inline Triple<FieldJet> variables(const Eigen::Vector3d& x) {
+  Triple<FieldJet> all{x[0], x[1], x[2]};
   for (int i = 0; i < 3; ++i) all[size_t(i)].gradient[i] = 1;
   return all;
 }

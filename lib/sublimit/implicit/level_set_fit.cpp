@@ -166,7 +166,7 @@ LevelSetError level_set_error(const LimitSurface& surface, const Points& points,
   parallel_for(std::int64_t(grid.size()), [&](std::int64_t i) {
     One& one = all[size_t(i)];
     const Vector3d x = found.position.row(i), normal = found.normal.row(i);
-    const Jet jet = field.jet(x);
+    const FieldJet jet = field.jet(x);
     const double length = jet.gradient.norm();
     one.distance = length > 0 ? std::abs(jet.value) / length : std::abs(jet.value);
     if (!normal.isZero(0) && level_normal(jet)) {

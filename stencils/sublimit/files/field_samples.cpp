@@ -33,7 +33,7 @@ std::int64_t write_field_samples(const std::filesystem::path& in, const std::fil
   for (; rows.next(); ++count) {
     if (progress && count % told == 0) progress(count);
     const Eigen::Vector3d x(rows.finite(0), rows.finite(1), rows.finite(2));
-    const Jet jet = field.jet(x);
+    const FieldJet jet = field.jet(x);
     if (!std::isfinite(jet.value))
       throw FormatError(rows.place() + "the field is " + format_number(jet.value) + " there; it should be a number");
     std::string row;

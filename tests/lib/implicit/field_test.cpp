@@ -68,13 +68,13 @@ TEST(Field, DerivativesAreThoseOfTheValues) {
     const Field& field = *named.field;
     for (int i = 0; i < 60; ++i) {
       const Vector3d x(anywhere(random), anywhere(random), anywhere(random));
-      const Jet jet = field.jet(x);
+      const FieldJet jet = field.jet(x);
       EXPECT_NEAR(jet.value, field.value(x), rounding(50, 10));
       EXPECT_EQ(jet.order, 2);
       EXPECT_LE((jet.hessian - jet.hessian.transpose()).norm(), rounding(50, 1 + jet.hessian.norm()));
       for (int k = 0; k < 3; ++k) {
         const Vector3d up = x + step * Vector3d::Unit(k), down = x - step * Vector3d::Unit(k);
-        const Jet above = field.jet(up), below = field.jet(down);
+        const FieldJet above = field.jet(up), below = field.jet(down);
         // Not across an edge.
         if ((above.gradient - below.gradient).norm() > 1e3 * step ||
             (above.hessian - below.hessian).norm() > 1e4 * step)
@@ -161,7 +161,7 @@ TEST(Field, CurvatureOfSpheresAndTori) {
 TEST(Field, SaysWhatDoesNotExist) {
   EXPECT_EQ(distance_to_point({0, 0, 0}, 1)->jet({0, 0, 0}).order, 0);
   EXPECT_FALSE(level_normal(distance_to_point({0, 0, 0}, 1)->jet({0, 0, 0})));
-  const Jet center = sphere_field({0, 0, 0}, 1)->jet({0, 0, 0});
+  const FieldJet center = sphere_field({0, 0, 0}, 1)->jet({0, 0, 0});
   EXPECT_EQ(center.order, 2);
   EXPECT_FALSE(level_normal(center));
   EXPECT_FALSE(level_curvature(center));

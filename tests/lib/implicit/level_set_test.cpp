@@ -117,7 +117,7 @@ TEST(FieldGrid, SaysWhatIsWrong) {
   expect_error<ResourceError>([&] { sample_field(*sphere, box, 100'000); },
                               {"100000 x 100000 x 100000", "fewer cells"});
   const FieldPointer hole = callback_field(
-      [](const Vector3d& x) { return Jet(x.norm() < 1 ? std::numeric_limits<double>::quiet_NaN() : 1); });
+      [](const Vector3d& x) { return FieldJet(x.norm() < 1 ? std::numeric_limits<double>::quiet_NaN() : 1); });
   expect_error<InvalidParameter>([&] { sample_field(*hole, box, 8); }, {"the field is nan at ("});
   expect_error<InvalidParameter>([&] { padded_extent(*distance_to_line({0, 0, 0}, {1, 0, 0}, 1), 8); }, {"give a box"});
   expect_error<InvalidParameter>([&] { made(sphere, "loop", {.tolerance = -1}); }, {"the tolerance is -1"});
