@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "stencils/cli_program.h"
+#include "stencils/csv_fields.h"
 #include "stencils/markup.h"
 #include "sublimit/base/format_number.h"
 #include "support/free_form_shapes.h"
@@ -23,29 +24,6 @@ struct ChainShape {
   std::function<double(int face, double u, double v, const Eigen::Vector3d& x)> distance;
   std::vector<std::string> info;  ///< that `info` should say
 };
-
-using ChainRow = std::vector<std::string>;
-
-std::vector<ChainRow> chain_rows(const std::string& path) {
-  std::vector<ChainRow> rows{{""}};
-  for (const char c : read_file(path)) {
-    if (c == '\n') {
-      rows.push_back({""});
-    } else if (c == ',') {
-      rows.back().emplace_back();
-    } else {
-      rows.back().back() += c;
-    }
-  }
-  rows.pop_back();
-  return rows;
-}
-
-double chain_number(const std::string& text) {
-  const Parsed<double> parsed = parse_number<double>(text);
-  EXPECT_TRUE(parsed) << "'" << text << "'";
-  return parsed.value;
-}
 
 /// The bicubic patch of a face, by Bernstein's polynomials.
 Eigen::Vector3d bernstein_point(const FreeForm& shapes, int face, double u, double v) {
@@ -97,23 +75,22 @@ TEST(CliFreeFormChain, FromInfoToReport) {
 
     // Samples, and tables applied, are on the closed form, with unit normals.
     const auto expect_shape = [&](const std::string& file, bool by_table) {
-      const std::vector<ChainRow> rows = chain_rows(file);
+      const std::vector<CsvRow> rows = csv_rows(file);
       ASSERT_GT(rows.size(), 81u);
       ASSERT_EQ(rows[0][4], "x");
       size_t without_normal = 0;
       for (size_t i = 1; i < rows.size(); ++i) {
-        const ChainRow& row = rows[i];
-        const Eigen::Vector3d x(chain_number(row[4]), chain_number(row[5]), chain_number(row[6]));
-        const int face = int(chain_number(row[0]));
-        EXPECT_NEAR(shape.distance(face, chain_number(row[1]), chain_number(row[2]), x), 0, rounding(16, size)) << i;
+        const CsvRow& row = rows[i];
+        const Eigen::Vector3d x(csv_number(row[4]), csv_number(row[5]), csv_number(row[6]));
+        const int face = int(csv_number(row[0]));
+        EXPECT_NEAR(shape.distance(face, csv_number(row[1]), csv_number(row[2]), x), 0, rounding(16, size)) << i;
         if (row.back().empty()) {
           EXPECT_EQ(row[3], "undefined-normal");
           ++without_normal;
           continue;
         }
         const size_t n = row.size() - 3;
-        EXPECT_NEAR(std::hypot(chain_number(row[n]), chain_number(row[n + 1]), chain_number(row[n + 2])), 1,
-                    rounding(4));
+        EXPECT_NEAR(std::hypot(csv_number(row[n]), csv_number(row[n + 1]), csv_number(row[n + 2])), 1, rounding(4));
       }
       // Normals of sides that are one point are limits, which a table does not know.
       if (!by_table) {
@@ -140,11 +117,11 @@ TEST(CliFreeFormChain, FromInfoToReport) {
     const std::string at = directory.write("at.csv", places).string();
     expect_done(sublimit({"sample", obj, "--at", at, "-o", path("coarse.csv")}));
     expect_done(sublimit({"sample", fine, "--at", at, "-o", path("fine.csv")}));
-    const std::vector<ChainRow> coarse = chain_rows(path("coarse.csv")), finer = chain_rows(path("fine.csv"));
+    const std::vector<CsvRow> coarse = csv_rows(path("coarse.csv")), finer = csv_rows(path("fine.csv"));
     ASSERT_EQ(finer.size(), coarse.size());
     for (size_t i = 1; i < coarse.size(); ++i)
       for (size_t k = 4; k < 7; ++k)
-        EXPECT_NEAR(chain_number(finer[i][k]), chain_number(coarse[i][k]), rounding(32, size)) << i;
+        EXPECT_NEAR(csv_number(finer[i][k]), csv_number(coarse[i][k]), rounding(32, size)) << i;
 
     const Outcome said =
         sublimit({"analyze", obj, "-o", path("page.html"), "--picture", path("p.svg"), "--json", path("r.json")});

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "stencils/cli_program.h"
+#include "stencils/csv_fields.h"
 #include "sublimit/base/format_number.h"
 #include "sublimit/files/npy.h"
 #include "sublimit/io/read_mesh.h"
@@ -14,30 +15,8 @@
 namespace sublimit::testing {
 namespace {
 
-using Row = std::vector<std::string>;
-
-std::vector<Row> rows_of_csv(const std::filesystem::path& path) {
-  std::vector<Row> rows{{""}};
-  for (const char c : read_file(path)) {
-    if (c == '\n') {
-      rows.push_back({""});
-    } else if (c == ',') {
-      rows.back().emplace_back();
-    } else {
-      rows.back().back() += c;
-    }
-  }
-  rows.pop_back();
-  return rows;
-}
-
-double value_of(const std::string& field) {
-  const Parsed<double> parsed = parse_number<double>(field);
-  EXPECT_TRUE(parsed) << "'" << field << "'";
-  return parsed.value;
-}
-Eigen::Vector3d vector_at(const Row& row, size_t column) {
-  return {value_of(row.at(column)), value_of(row.at(column + 1)), value_of(row.at(column + 2))};
+Eigen::Vector3d vector_at(const CsvRow& row, size_t column) {
+  return {csv_number(row.at(column)), csv_number(row.at(column + 1)), csv_number(row.at(column + 2))};
 }
 
 class FreeFormFile {
@@ -56,16 +35,16 @@ TEST(CliFreeForm, SamplesABicubicSphere) {
   const FreeFormFile on(bicubic_sphere());
   const std::string out = on.path("out.csv");
   expect_done(sublimit({"sample", on.obj, "--random", "500", "--derivatives", "2", "--curvature", "-o", out}));
-  const std::vector<Row> rows = rows_of_csv(out);
+  const std::vector<CsvRow> rows = csv_rows(out);
   ASSERT_EQ(rows.size(), 501u);
   for (size_t i = 1; i < rows.size(); ++i) {
-    const Row& row = rows[i];
+    const CsvRow& row = rows[i];
     EXPECT_EQ(row[3], "regular");
     const Eigen::Vector3d x = vector_at(row, 4), n = vector_at(row, row.size() - 7);
     EXPECT_NEAR(x.norm(), 1, rounding(8));
     EXPECT_LE((n - x).norm(), rounding(200));
-    EXPECT_NEAR(value_of(row[row.size() - 2]), 1, 1e-11) << "Gauss curvature";
-    EXPECT_NEAR(value_of(row[row.size() - 1]), -1, 1e-11) << "mean curvature";
+    EXPECT_NEAR(csv_number(row[row.size() - 2]), 1, 1e-11) << "Gauss curvature";
+    EXPECT_NEAR(csv_number(row[row.size() - 1]), -1, 1e-11) << "mean curvature";
   }
 }
 
@@ -92,7 +71,7 @@ TEST(CliFreeForm, TablesHaveTheRowsOfSamples) {
         expect_done(sublimit(bake));
         expect_done(sublimit({"apply", on.table, on.obj, "-o", applied}));
         expect_done(sublimit({"verify", on.table}));
-        const std::vector<Row> expected = rows_of_csv(sampled), made = rows_of_csv(applied);
+        const std::vector<CsvRow> expected = csv_rows(sampled), made = csv_rows(applied);
         ASSERT_EQ(made.size(), expected.size());
         const bool has_address = made[0][0] == "face";
         ASSERT_TRUE(has_address);
@@ -108,7 +87,7 @@ TEST(CliFreeForm, TablesHaveTheRowsOfSamples) {
           for (size_t k = 4; k < 4 + numbers; ++k) {
             ASSERT_EQ(made[i][k].empty(), expected[i][k].empty()) << i;
             if (made[i][k].empty()) continue;
-            EXPECT_NEAR(value_of(made[i][k]), value_of(expected[i][k]), 1e-13) << i << " " << k;
+            EXPECT_NEAR(csv_number(made[i][k]), csv_number(expected[i][k]), 1e-13) << i << " " << k;
           }
           if (numbers == 3 || collapsed || expected[i][3] == "undefined-normal") continue;
           EXPECT_LE((vector_at(made[i], 4 + numbers) - vector_at(expected[i], 4 + numbers)).norm(), 1e-11) << i;
@@ -123,7 +102,7 @@ TEST(CliFreeForm, TablesTakePlacesOfPatches) {
   expect_done(sublimit({"sample", on.obj, "--at", own, "-o", sampled}));
   expect_done(sublimit({"bake", on.obj, "--at", own, "--precision", "double", "-o", on.table}));
   expect_done(sublimit({"apply", on.table, on.obj, "-o", applied}));
-  const std::vector<Row> expected = rows_of_csv(sampled), made = rows_of_csv(applied);
+  const std::vector<CsvRow> expected = csv_rows(sampled), made = csv_rows(applied);
   ASSERT_EQ(made.size(), 4u);
   EXPECT_EQ(made[0][0], "face");  // the place on the face that the parameters name
   for (size_t i = 1; i < made.size(); ++i) EXPECT_LE((vector_at(made[i], 4) - vector_at(expected[i], 4)).norm(), 1e-14);
@@ -171,7 +150,7 @@ TEST(CliFreeForm, LevelsAreNetsThatTendToTheSurface) {
   expect_done(sublimit({"bake", on.obj, "-l", "2", "--precision", "double", "-o", on.table}));
   expect_done(sublimit({"apply", on.table, on.obj, "-o", on.path("out.csv")}));
   // Halved twice, a cubic piece has 7 control points a side.
-  EXPECT_EQ(rows_of_csv(on.path("out.csv")).size(), 1 + 32 * 49u);
+  EXPECT_EQ(csv_rows(on.path("out.csv")).size(), 1 + 32 * 49u);
 }
 
 /// Points of samples at a grid of every face, by rows.
@@ -179,7 +158,7 @@ Points sampled(const FreeFormFile& on, const std::string& file, const std::vecto
   std::vector<std::string> all{"sample", file, "-o", on.path("points.csv")};
   all.insert(all.end(), more.begin(), more.end());
   expect_done(sublimit(all));
-  const std::vector<Row> rows = rows_of_csv(on.path("points.csv"));
+  const std::vector<CsvRow> rows = csv_rows(on.path("points.csv"));
   Points points(std::ssize(rows) - 1, 3);
   for (Eigen::Index i = 0; i < points.rows(); ++i) {
     const size_t column = size_t(std::ranges::find(rows[0], "x") - rows[0].begin());
@@ -224,9 +203,9 @@ TEST(CliFreeForm, OwnParametersGiveDerivativesPerUnitOfThem) {
   // u = 1 is a knot: the columns' derivative has two sides there.
   const std::string own = on.directory.write("own.csv", "patch,u,v,side\n0,1,0.5,+-\n0,1,0.5,--\n0,1.5,2,\n").string();
   expect_done(sublimit({"sample", on.obj, "--at", own, "--derivatives", "2", "-o", on.path("own.out.csv")}));
-  const std::vector<Row> rows = rows_of_csv(on.path("own.out.csv"));
+  const std::vector<CsvRow> rows = csv_rows(on.path("own.out.csv"));
   ASSERT_EQ(rows.size(), 4u);
-  EXPECT_EQ(Row(rows[0].begin(), rows[0].begin() + 6), (Row{"patch", "u", "v", "side", "status", "x"}));
+  EXPECT_EQ(CsvRow(rows[0].begin(), rows[0].begin() + 6), (CsvRow{"patch", "u", "v", "side", "status", "x"}));
   EXPECT_EQ(rows[1][3], "+-");
   EXPECT_EQ(rows[1][4], "crease");
   // The circle is C^1 though the columns are not; second derivatives jump.
@@ -266,10 +245,10 @@ TEST(CliFreeForm, PolesAreSaid) {
                               .string();
   const std::string table = (directory / "t.safetensors").string(), out = (directory / "out.csv").string();
   expect_done(sublimit({"sample", obj, "--grid", "3", "-o", out}), true);
-  EXPECT_EQ(rows_of_csv(out)[2][3], "pole");
+  EXPECT_EQ(csv_rows(out)[2][3], "pole");
   expect_done(sublimit({"bake", obj, "--grid", "3", "--derivatives", "1", "-o", table}), true);
   expect_done(sublimit({"apply", table, obj, "-o", out}), true);
-  const std::vector<Row> rows = rows_of_csv(out);
+  const std::vector<CsvRow> rows = csv_rows(out);
   for (size_t i = 1; i < rows.size(); ++i) {
     const bool pole = rows[i][1] == "0.5";
     EXPECT_EQ(rows[i][3] == "pole", pole) << i;

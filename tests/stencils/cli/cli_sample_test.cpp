@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "stencils/cli_program.h"
+#include "stencils/csv_fields.h"
 #include "sublimit/base/format_number.h"
 #include "sublimit/files/random_samples.h"
 #include "sublimit/io/obj.h"
@@ -24,37 +25,15 @@ namespace sublimit::testing {
 namespace {
 
 using Parts = std::initializer_list<std::string_view>;
-using Row = std::vector<std::string>;
 
-std::vector<Row> rows_of(const std::filesystem::path& path) {
-  const std::string text = read_file(path);
-  std::vector<Row> rows{{""}};
-  for (const char c : text) {
-    if (c == '\n') {
-      rows.push_back({""});
-    } else if (c == ',') {
-      rows.back().emplace_back();
-    } else {
-      rows.back().back() += c;
-    }
-  }
-  rows.pop_back();  // what follows the last line
-  return rows;
-}
-
-double number(const std::string& field) {
-  const Parsed<double> parsed = parse_number<double>(field);
-  EXPECT_TRUE(parsed) << "'" << field << "'";
-  return parsed.value;
-}
-Sample sample_of(const Row& row) { return {Index(number(row[0])), number(row[1]), number(row[2])}; }
+Sample sample_of(const CsvRow& row) { return {Index(csv_number(row[0])), csv_number(row[1]), csv_number(row[2])}; }
 
 /// Three fields from `column` on; nothing if they are empty. Some but not all empty is a failure.
-std::optional<Eigen::Vector3d> vector_of(const Row& row, size_t column) {
+std::optional<Eigen::Vector3d> vector_of(const CsvRow& row, size_t column) {
   const bool absent = row.at(column).empty();
   for (size_t k = 0; k < 3; ++k) EXPECT_EQ(row.at(column + k).empty(), absent);
   if (absent) return std::nullopt;
-  return Eigen::Vector3d(number(row[column]), number(row[column + 1]), number(row[column + 2]));
+  return Eigen::Vector3d(csv_number(row[column]), csv_number(row[column + 1]), csv_number(row[column + 2]));
 }
 
 /// A mesh in a directory, and the program on it.
@@ -70,9 +49,10 @@ class Sampling {
     return sublimit(all, prepare);
   }
   /// Rows of the output, the header first.
-  std::vector<Row> rows(const std::vector<std::string>& arguments, const std::string& scheme = "catmull-clark") const {
+  std::vector<CsvRow> rows(const std::vector<std::string>& arguments,
+                           const std::string& scheme = "catmull-clark") const {
     expect_done(run(arguments, scheme));
-    return rows_of(out);
+    return csv_rows(out);
   }
   std::string at(const std::string& text) const { return directory.write("in.csv", text).string(); }
 
@@ -127,11 +107,11 @@ TEST(CliSample, RowsAreTheStencilsOfTheirPlaces) {
     std::string text = "face,u,v\n";
     for (const Sample& s : samples)
       text += format_number(s.face) + "," + format_number(s.u) + "," + format_number(s.v) + "\n";
-    const std::vector<Row> rows = on.rows({"--at", on.at(text), "--derivatives", "2", "--curvature"});
+    const std::vector<CsvRow> rows = on.rows({"--at", on.at(text), "--derivatives", "2", "--curvature"});
     ASSERT_EQ(rows.size(), samples.size() + 1);
     const LimitSamples found = surface.evaluate(read.positions, samples, 2);
     for (size_t i = 0; i < samples.size(); ++i) {
-      const Row& row = rows[i + 1];
+      const CsvRow& row = rows[i + 1];
       SCOPED_TRACE(row[0] + "," + row[1] + "," + row[2] + " " + row[3]);
       ASSERT_EQ(row.size(), 29u);
       const Sample s = sample_of(row);
@@ -169,16 +149,16 @@ TEST(CliSample, CurvatureOfAParabolicCylinder) {
     mesh.positions.row(i) << x, i / 6, x * x;
   }
   const Sampling on(mesh);
-  const std::vector<Row> rows =
+  const std::vector<CsvRow> rows =
       on.rows({"--at", on.at("face,u,v\n12,0,0\n12,0.5,0.25\n12,1,1\n"), "--derivatives", "2", "--curvature"});
   ASSERT_EQ(rows.size(), 4u);
   for (size_t i = 1; i < 4; ++i) {
-    const double x = number(rows[i][1]), k = 2 / std::pow(1 + 4 * x * x, 1.5);
+    const double x = csv_number(rows[i][1]), k = 2 / std::pow(1 + 4 * x * x, 1.5);
     EXPECT_EQ(rows[i][3], "regular");
-    EXPECT_NEAR(number(rows[i][4]), x, rounding(16, 4));
-    EXPECT_NEAR(number(rows[i][6]), x * x + 1.0 / 3, rounding(16, 9));
+    EXPECT_NEAR(csv_number(rows[i][4]), x, rounding(16, 4));
+    EXPECT_NEAR(csv_number(rows[i][6]), x * x + 1.0 / 3, rounding(16, 9));
     const double expected[] = {k, 0, 0, k / 2};  // it bends towards its normal
-    for (size_t c = 0; c < 4; ++c) EXPECT_NEAR(number(rows[i][25 + c]), expected[c], rounding(100, 9));
+    for (size_t c = 0; c < 4; ++c) EXPECT_NEAR(csv_number(rows[i][25 + c]), expected[c], rounding(100, 9));
   }
 }
 
@@ -187,7 +167,7 @@ TEST(CliSample, GridsAreRowMajorWithUFastest) {
   for (const bool whole : {false, true}) {
     const Sampling& on = whole ? triangles : squares;
     const std::string scheme = whole ? "loop" : "catmull-clark";
-    const std::vector<Row> rows = on.rows({"--grid", "4"}, scheme);
+    const std::vector<CsvRow> rows = on.rows({"--grid", "4"}, scheme);
     EXPECT_EQ(rows.size(), 1u + (whole ? 20 * 10 : 15 * 16));
     const std::vector<Sample> grid =
         LimitSurface(find_scheme(scheme).value(), whole ? icosahedron() : prism(5)).grid(4);
@@ -202,7 +182,7 @@ TEST(CliSample, GridsAreRowMajorWithUFastest) {
   // More than one batch.
   const std::vector<Sample> grid = LimitSurface(find_scheme("catmull-clark").value(), prism(5)).grid(70);
   ASSERT_GT(grid.size(), 70'000u);
-  const std::vector<Row> rows = squares.rows({"--grid", "70"});
+  const std::vector<CsvRow> rows = squares.rows({"--grid", "70"});
   ASSERT_EQ(rows.size(), grid.size() + 1);
   for (size_t i = 0; i < grid.size(); ++i) {
     const Sample s = sample_of(rows[i + 1]);
@@ -216,7 +196,7 @@ TEST(CliSample, RulesAreThoseAskedFor) {
     rules.insert(rules.end(), {"--at", on.at("face,u,v\n0,0.125,0.25\n")});
     return on.rows(rules).at(1);
   };
-  const Row ends = first(open, {});
+  const CsvRow ends = first(open, {});
   EXPECT_EQ(first(open, {"--boundary", "edge-and-corner"}), ends);
   EXPECT_NE(first(open, {"--boundary", "edge-only"}), ends);
   EXPECT_EQ(first(open, {"--boundary", "none"})[3], "hole");
@@ -266,16 +246,17 @@ TEST(CliSample, ThreadsChangeNoBit) {
 TEST(CliSample, StatusesAndWhatIsEmptyThere) {
   const auto row = [](const ControlMesh& mesh, const std::string& place, const std::string& scheme = "catmull-clark") {
     const Sampling on(mesh);
-    const std::vector<Row> rows = on.rows({"--at", on.at("face,u,v\n" + place + "\n"), "--derivatives", "2"}, scheme);
+    const std::vector<CsvRow> rows =
+        on.rows({"--at", on.at("face,u,v\n" + place + "\n"), "--derivatives", "2"}, scheme);
     EXPECT_EQ(rows.size(), 2u);
     return rows.at(1);
   };
-  const auto present = [](const Row& r) {  // position, first, second derivatives, normal
+  const auto present = [](const CsvRow& r) {  // position, first, second derivatives, normal
     std::string which;
     for (const size_t column : {4, 7, 10, 13, 16, 19, 22}) which += vector_of(r, column) ? '1' : '0';
     return which;
   };
-  Row r = row(torus(5, 5), "3,0,0");
+  CsvRow r = row(torus(5, 5), "3,0,0");
   EXPECT_EQ(r[3], "regular");
   EXPECT_EQ(present(r), "1111111");
   r = row(cube(), "0,0,0");
@@ -303,7 +284,7 @@ TEST(CliSample, ClampMovesPlacesToTheRim) {
   expect_failure(on.run({"--at", in}), 3, {"in.csv:3", "(1.5, 0.25)", "outside", "square", "--clamp"});
   EXPECT_EQ(on.directory.num_files(), 2);
   expect_parts(expect_done(on.run({"--at", in, "--clamp"})).out, {"3 samples", "2 moved to the rim"});
-  const std::vector<Row> rows = rows_of(on.out);
+  const std::vector<CsvRow> rows = csv_rows(on.out);
   EXPECT_TRUE(rows.at(2)[1] == "1" && rows.at(2)[2] == "0.25");
   EXPECT_TRUE(rows.at(3)[1] == "0" && rows.at(3)[2] == "0");
   const Sampling triangles(icosahedron());
@@ -426,7 +407,7 @@ TEST(CliSample, EverySchemeRuns) {
     const Sampling on(jittered(cube()));
     std::vector<std::string> arguments{"--grid", "4", "--derivatives", "2", "--curvature"};
     if (scheme.face_size() == 3) arguments.push_back("--triangulate");
-    const std::vector<Row> rows = on.rows(arguments, scheme.name);
+    const std::vector<CsvRow> rows = on.rows(arguments, scheme.name);
     ASSERT_EQ(rows.size(), 1u + (scheme.face_size() == 3 ? 12 * 10 : 6 * 16));
     for (size_t i = 1; i < rows.size(); ++i) {
       EXPECT_TRUE(vector_of(rows[i], 4)) << i;
