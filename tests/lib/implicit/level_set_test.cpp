@@ -47,6 +47,34 @@ TEST(LevelSetMesh, BoxIsExactWithCreases) {
   EXPECT_EQ(mesh.counts.euler, 2);
 }
 
+/// Nearness measured again at other places, shape and winding of the cage.
+void expect_near(const FieldPointer& field, const std::string& scheme, const ClosedMeshCounts& counts,
+                 Index most_faces) {
+  SCOPED_TRACE(scheme);
+  const LevelSetMesh mesh = made(field, scheme);
+  EXPECT_TRUE(mesh.met());
+  EXPECT_LE(mesh.tolerance, 2.5e-4 * mesh.diagonal);
+  EXPECT_EQ(closed_mesh_counts(mesh.cage), counts);
+  EXPECT_EQ(mesh.counts, mesh.fine_counts);
+  EXPECT_LE(mesh.cage.num_faces(), most_faces);
+  const LimitSurface surface(find_scheme(scheme).value(), mesh.cage);
+  const LimitSamples samples = surface.evaluate(mesh.cage.positions, surface.grid(5), 1);
+  for (Eigen::Index i = 0; i < samples.position.rows(); ++i) {
+    const FieldJet jet = field->jet(samples.position.row(i));
+    EXPECT_LE(std::abs(jet.value), 1.05 * mesh.tolerance * jet.gradient.norm());
+    EXPECT_GT(Vector3d(samples.normal.row(i)).dot(jet.gradient), 0);
+  }
+}
+
+TEST(LevelSetMesh, TorusHasOneHole) {
+  expect_near(distance_to_circle({0, 0, 0}, {0, 0, 1}, 1, .4), "catmull-clark", {.euler = 0, .components = 1}, 768);
+}
+
+TEST(LevelSetMesh, BallsThatMergeAreOne) {
+  const FieldPointer balls = metaballs_field(.4, {{{0, 0, 0}, 1, 1}, {{.9, 0, 0}, 1, 1}, {{.4, .8, 0}, 1, 1}});
+  for (const char* scheme : {"catmull-clark", "loop"}) expect_near(balls, scheme, {.euler = 2, .components = 1}, 1216);
+}
+
 TEST(LevelSetMesh, IsRoundedWhereASchemeHasNoCreases) {
   const LevelSetMesh mesh =
       made(box_field({0, 0, 0}, {1, 1, 1}), "doo-sabin", {.cells = 6, .tolerance = 1, .rounds = 1});
