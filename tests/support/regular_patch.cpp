@@ -359,7 +359,7 @@ bool is_regular_corner(const Level& level, HalfEdge corner, Index valence) {
 Spline spline_of(const Scheme<Precise>& scheme) {
   const std::string& name = scheme.name;
   if (name == "bilinear") return {Spline::Kind::tensor, 1};
-  if (name == "catmull-clark") return {Spline::Kind::tensor, 3};
+  if (name == "catmull-clark" || name == "catmull-clark-intervals") return {Spline::Kind::tensor, 3};
   if (name == "averaging") return {Spline::Kind::tensor, scheme.claims.regular + 1};
   if (name.starts_with("doo-sabin")) return {Spline::Kind::tensor, 2};
   if (name.starts_with("mid-edge")) return {Spline::Kind::zwart_powell, 2, name == "mid-edge-habib-warren"};
