@@ -65,8 +65,7 @@ std::optional<PublishedValues> published_values(const Scheme<double>& scheme, in
     return cubics ? values(1, 1, of_tension_1[n - 3], eight_decimals) : values(1, 1, std::nullopt);
   };
   if (name == "bilinear") return values(1, 1, 0.5);
-  if (name == "catmull-clark" || name == "catmull-clark-intervals")
-    return values(n / (n + 5.0), cubic, catmull_clark);
+  if (name == "catmull-clark" || name == "catmull-clark-intervals") return values(n / (n + 5.0), cubic, catmull_clark);
   if (name == "loop") return values(3 / (3 + 8 * (5.0 / 8 - a * a)), cubic, a);
   if (name == "loop-warren") return values(3 / (3 + 8 * (n == 3 ? 9.0 / 16 : 3.0 / 8)), cubic, a);
   if (name == "doo-sabin" || name == "mid-edge-habib-warren") return values(1.0 / n, quadratic, 0.5);

@@ -72,7 +72,8 @@ TEST(CliKnotIntervals, TablesAreThoseOfTheIntervals) {
   expect_done(sublimit({"apply", path("table.safetensors"), mesh, "-o", path("applied.obj")}));
   expect_done(sublimit({"refine", mesh, "-s", scheme_name, "-l", "2", "-o", path("refined.obj")}));
   EXPECT_LE((read_mesh(path("applied.obj")).positions - read_mesh(path("refined.obj")).positions).norm(), 1e-5);
-  expect_done(sublimit({"bake", mesh, "-s", scheme_name, "--grid", "3", "--derivatives", "1", "-o", path("grid.safetensors")}));
+  expect_done(
+      sublimit({"bake", mesh, "-s", scheme_name, "--grid", "3", "--derivatives", "1", "-o", path("grid.safetensors")}));
   expect_done(sublimit({"apply", path("grid.safetensors"), mesh, "-o", path("grid.csv")}));
   expect_done(sublimit({"sample", mesh, "-s", scheme_name, "--grid", "3", "-o", path("samples.csv")}));
 }
