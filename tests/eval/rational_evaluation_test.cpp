@@ -149,12 +149,15 @@ TEST(RationalEvaluation, HasFramesOfDividedDerivatives) {
       if (const double cosine = dot(xu, xv) / std::sqrt(dot(xu, xu) * dot(xv, xv)); std::abs(cosine) > 1 - 1e-6)
         continue;
       ++count;
-      EXPECT_NEAR(dot(n, n), 1, 1e-14);
-      EXPECT_NEAR(dot(t, t), 1, 1e-14);
-      EXPECT_NEAR(dot(b, b), 1, 1e-9);
-      EXPECT_NEAR(dot(n, xu), 0, 1e-9 * std::sqrt(dot(xu, xu)));
-      EXPECT_NEAR(dot(n, xv), 0, 1e-9 * std::sqrt(dot(xv, xv)));
-      EXPECT_NEAR(dot(t, xu), std::sqrt(dot(xu, xu)), 1e-12 * std::sqrt(dot(xu, xu)));
+      // Lengths from a square root and a division; of crossed directions, which may be that near to parallel, and of
+      // the binormal made of them, a thousand times as much may cancel and more.
+      constexpr double unit = 1e-14, along = 1e-12, crossed = 1e-9;
+      EXPECT_NEAR(dot(n, n), 1, unit);
+      EXPECT_NEAR(dot(t, t), 1, unit);
+      EXPECT_NEAR(dot(b, b), 1, crossed);
+      EXPECT_NEAR(dot(n, xu), 0, crossed * std::sqrt(dot(xu, xu)));
+      EXPECT_NEAR(dot(n, xv), 0, crossed * std::sqrt(dot(xv, xv)));
+      EXPECT_NEAR(dot(t, xu), std::sqrt(dot(xu, xu)), along * std::sqrt(dot(xu, xu)));
     }
   }
   EXPECT_GT(count, 1000);

@@ -113,14 +113,26 @@ LimitRows without_rows(const Level& level, LimitTypes& cache, const Centre& cent
   return result;
 }
 
-/// A centre that never is alone, but comes to repeat itself: two faces back to back under a dual scheme, for one. The
-/// position is that of a corner of the piece there; what its tangents are is not known.
-LimitRows repeating_rows(const Level& level, LimitTypes& cache, const Centre& centre) {
+/// The piece that has a centre as one of its corners.
+struct CornerPiece {
+  Piece::Kind kind;
+  int corner;
+  const PieceType* type;
+  std::vector<Index> vertices;  ///< by slot
+};
+CornerPiece corner_piece(const Level& level, LimitTypes& cache, const Centre& centre) {
   const auto [piece, corner] = piece_corner(cache.scheme(), level.topology(), centre);
   PieceWalker walker;
   const PieceWalk& walk = walker.walk(level, piece, cache.pieces().rings(level.sharpness), cache.scheme().period);
+  return {piece.kind, corner, cache.pieces().type(level, piece, walk), walk.vertices};
+}
+
+/// A centre that never is alone, but comes to repeat itself: two faces back to back under a dual scheme, for one. The
+/// position is that of a corner of the piece there; what its tangents are is not known.
+LimitRows repeating_rows(const Level& level, LimitTypes& cache, const Centre& centre) {
+  const CornerPiece piece = corner_piece(level, cache, centre);
   LimitRows result = without_rows(level, cache, centre);
-  add_differences(cache.pieces().type(level, piece, walk)->corner_limit(corner), 1, walk.vertices, result.rows);
+  add_differences(piece.type->corner_limit(piece.corner), 1, piece.vertices, result.rows);
   result.plane = LimitMasks::Plane::no;
   return result;
 }
@@ -128,15 +140,12 @@ LimitRows repeating_rows(const Level& level, LimitTypes& cache, const Centre& ce
 /// A vertex whose knots are not those of equal intervals: by the polynomial that meets it.
 std::optional<LimitRows> polynomial_rows(const Level& level, LimitTypes& cache, const Centre& centre) {
   if (centre.kind != Centre::Kind::vertex) return std::nullopt;
-  const auto [piece, corner] = piece_corner(cache.scheme(), level.topology(), centre);
-  if (piece.kind != Piece::Kind::quad) return std::nullopt;
-  PieceWalker walker;
-  const PieceWalk& walk = walker.walk(level, piece, cache.pieces().rings(level.sharpness), cache.scheme().period);
-  const PiecePolynomial* const polynomial = cache.pieces().type(level, piece, walk)->polynomial();
+  const CornerPiece piece = corner_piece(level, cache, centre);
+  const PiecePolynomial* const polynomial = piece.kind == Piece::Kind::quad ? piece.type->polynomial() : nullptr;
   if (!polynomial) return std::nullopt;
   LimitRows result = without_rows(level, cache, centre);
   const RowMatrix rows = polynomial->rows(quad_place(0, 0), 1);
-  for (int i = 0; i < 3; ++i) add_differences(rows.row(i), i == 0 ? 1 : 0, walk.vertices, result.rows);
+  for (int i = 0; i < 3; ++i) add_differences(rows.row(i), i == 0 ? 1 : 0, piece.vertices, result.rows);
   return result;
 }
 

@@ -19,7 +19,8 @@ TEST(ExactJoins, CurvesOfDoublesAreDecidedToTheLastBit) {
   const CurveJoin exact = exact_curve_join(in_ratios(left), in_ratios(right));
   EXPECT_EQ(exact.orders.c, 0);  // 0.1 + 0.9 is not 1
   EXPECT_EQ(exact.orders.g, 0);
-  EXPECT_LT(*exact.angle, 1e-15);
+  constexpr double last_bit = 1e-15;  // of one coordinate, as an angle
+  EXPECT_LT(*exact.angle, last_bit);
   // Dyadic ones are equal.
   const BezierPiece<double> dyadic{.degree = 2, .columns = {0, 0, 0.125, 0.25, 0.5, 0.5}};
   right.columns = {0.5, 0.5, 0.875, 0.75, 1, 0};

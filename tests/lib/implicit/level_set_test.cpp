@@ -23,7 +23,8 @@ LevelSetMesh made(const FieldPointer& field, const std::string& scheme, const Le
 
 TEST(LevelSetMesh, SphereToOneThousandth) {
   const FieldPointer sphere = sphere_field({.1, .2, .3}, 1);
-  const LevelSetMesh mesh = made(sphere, "catmull-clark", {.tolerance = 1e-3});
+  constexpr double asked = 1e-3;
+  const LevelSetMesh mesh = made(sphere, "catmull-clark", {.tolerance = asked});
   EXPECT_TRUE(mesh.met());
   EXPECT_EQ(closed_mesh_counts(mesh.cage), (ClosedMeshCounts{.euler = 2, .components = 1}));
   EXPECT_EQ(mesh.counts, mesh.fine_counts);
@@ -32,7 +33,7 @@ TEST(LevelSetMesh, SphereToOneThousandth) {
   const LimitSamples samples = surface.evaluate(mesh.cage.positions, surface.grid(11), 1);
   for (Eigen::Index i = 0; i < samples.position.rows(); ++i) {
     const Vector3d x = samples.position.row(i).transpose() - Vector3d(.1, .2, .3);
-    EXPECT_NEAR(x.norm(), 1, 1e-3);
+    EXPECT_NEAR(x.norm(), 1, asked);
     EXPECT_GT(Vector3d(samples.normal.row(i)).dot(x), 0);  // outside is outside
   }
 }
@@ -43,7 +44,8 @@ TEST(LevelSetMesh, BoxIsExactWithCreases) {
   EXPECT_GE(mesh.cage.creases.size(), 12u);
   // Places are moved to the planes until they are nearer than 1e-10 of a cell, and control points are their
   // combinations.
-  EXPECT_LE(mesh.attempt.error.largest, 1e-9);
+  constexpr double moved = 1e-9;
+  EXPECT_LE(mesh.attempt.error.largest, moved);
   EXPECT_EQ(mesh.counts.euler, 2);
 }
 

@@ -13,6 +13,7 @@
 #include "sublimit/schemes.h"
 #include "support/expect_error.h"
 #include "support/meshes.h"
+#include "support/tolerance.h"
 
 namespace sublimit::testing {
 namespace {
@@ -48,7 +49,7 @@ struct Twin {
   Index first_row, first_column;  ///< of the spline's first face
 };
 
-void expect_same_surface(const Scheme<double>& scheme, const Twin& twin, double tolerance, unsigned seed) {
+void expect_same_surface(const Scheme<double>& scheme, const Twin& twin, unsigned seed) {
   const LimitSurface surface(scheme, twin.mesh);
   const Topology& t = surface.level().topology();
   std::mt19937 random(seed);
@@ -100,13 +101,13 @@ void expect_same_surface(const Scheme<double>& scheme, const Twin& twin, double 
         J[0] * J[2] * D.row(3) + (J[0] * J[3] + J[1] * J[2]) * D.row(4) + J[1] * J[3] * D.row(5);
     const Eigen::RowVector3d dvv = J[2] * J[2] * D.row(3) + 2 * J[2] * J[3] * D.row(4) + J[3] * J[3] * D.row(5);
     size = std::max({size, D.row(0).norm(), du.norm(), dv.norm()});
-    EXPECT_LE((own.position.row(at) - D.row(0)).norm(), tolerance * size) << i;
-    EXPECT_LE((own.du.row(at) - du).norm(), tolerance * size) << i;
-    EXPECT_LE((own.dv.row(at) - dv).norm(), tolerance * size) << i;
+    EXPECT_LE((own.position.row(at) - D.row(0)).norm(), reference * size) << i;
+    EXPECT_LE((own.du.row(at) - du).norm(), reference * size) << i;
+    EXPECT_LE((own.dv.row(at) - dv).norm(), reference * size) << i;
     const double bend = std::max({size, duu.norm(), duv.norm(), dvv.norm()});
-    EXPECT_LE((own.duu.row(at) - duu).norm(), 10 * tolerance * bend) << i;
-    EXPECT_LE((own.duv.row(at) - duv).norm(), 10 * tolerance * bend) << i;
-    EXPECT_LE((own.dvv.row(at) - dvv).norm(), 10 * tolerance * bend) << i;
+    EXPECT_LE((own.duu.row(at) - duu).norm(), other_route * bend) << i;
+    EXPECT_LE((own.duv.row(at) - duv).norm(), other_route * bend) << i;
+    EXPECT_LE((own.dvv.row(at) - dvv).norm(), other_route * bend) << i;
   }
 }
 
@@ -126,8 +127,8 @@ TEST(KnotIntervalLimits, OfATorusAreTheBSplineOfItsKnots) {
   std::mt19937 random(3);
   for (int run = 0; run < 2; ++run) {
     const Twin twin = torus_twin(random, 4 + run, 6 - run);
-    expect_same_surface(levelled, twin, 1e-13, unsigned(run));
-    expect_same_surface(halves, twin, 1e-13, unsigned(run));
+    expect_same_surface(levelled, twin, unsigned(run));
+    expect_same_surface(halves, twin, unsigned(run));
   }
 }
 
@@ -182,17 +183,18 @@ TEST(KnotIntervalLimits, AreTheSameFromTheNextLevel) {
           sum += stencil.weights(q, Index(i)) * at.row(stencil.vertices[i]);
         return sum;
       };
-      EXPECT_LE((value(a, points, 0) - value(b, fine_points, 0)).norm(), 1e-13);
+      EXPECT_LE((value(a, points, 0) - value(b, fine_points, 0)).norm(), reference);
       if (a.weights.rows() < 3 || b.weights.rows() < 3) continue;
       const double lu = right ? 1 - cu : cu, lv = up ? 1 - cv : cv;
-      EXPECT_LE((value(a, points, 1) * lu - value(b, fine_points, 1)).norm(), 1e-12);
-      EXPECT_LE((value(a, points, 2) * lv - value(b, fine_points, 2)).norm(), 1e-12);
+      EXPECT_LE((value(a, points, 1) * lu - value(b, fine_points, 1)).norm(), other_route);
+      EXPECT_LE((value(a, points, 2) * lv - value(b, fine_points, 2)).norm(), other_route);
     }
     // Vertices too: their limits are those of their children.
     LimitTypes types(levelled);
     const LimitPoints own = limit_points(limit_matrices(control, types), t, points),
                       child = limit_points(limit_matrices(next, types), next.topology(), fine_points);
-    for (Index v = 0; v < t.num_vertices(); ++v) EXPECT_LE((own.position.row(v) - child.position.row(v)).norm(), 1e-13);
+    for (Index v = 0; v < t.num_vertices(); ++v)
+      EXPECT_LE((own.position.row(v) - child.position.row(v)).norm(), reference);
   }
 }
 
@@ -247,7 +249,7 @@ TEST(KnotIntervalLimits, OfAnOpenGridAreTheBSplineWithPhantomPoints) {
       const Sample own{f, u, v}, other{j * m + i, x - double(i), y - double(j)};
       const Points p = surface.evaluate(mesh.positions, std::span(&own, 1)).position,
                    q = patches.evaluate(columns, std::span(&other, 1)).position;
-      EXPECT_LE((p - q).norm(), 1e-13) << f << ' ' << u << ' ' << v;
+      EXPECT_LE((p - q).norm(), reference) << f << ' ' << u << ' ' << v;
     }
 }
 
@@ -283,7 +285,7 @@ TEST(KnotIntervalLimits, OfAnImportedSurfaceAreTheSurface) {
       for (size_t i = 0; i < stencil.vertices.size(); ++i)
         sum += stencil.weights(0, Index(i)) * points.row(stencil.vertices[i]);
       const LimitSamples truth = patches.evaluate(columns, std::span(&at, 1));
-      EXPECT_LE((sum.head<3>() / sum[3] - truth.position.row(0)).norm(), 1e-13) << run << ' ' << k;
+      EXPECT_LE((sum.head<3>() / sum[3] - truth.position.row(0)).norm(), reference) << run << ' ' << k;
     }
   }
 }

@@ -19,6 +19,7 @@
 #include "support/expect_error.h"
 #include "support/fraction.h"
 #include "support/meshes.h"
+#include "support/tolerance.h"
 
 namespace sublimit::testing {
 namespace {
@@ -172,6 +173,9 @@ ControlMesh with_intervals(ControlMesh mesh, unsigned seed, int most = 7) {
 
 Eigen::MatrixXd dense(const SparseMatrix& S) { return Eigen::MatrixXd(S); }
 
+/// Of weights below 1 whose true value is rounded once, and which are ratios of a few sums.
+constexpr double last_bits = 4e-16;
+
 /// Three levels by the library and by hand.
 void expect_hand_rules(const Scheme<double>& scheme, const ControlMesh& mesh, bool levelling) {
   Level level = control_level(scheme, mesh);
@@ -195,7 +199,7 @@ void expect_hand_rules(const Scheme<double>& scheme, const ControlMesh& mesh, bo
     const auto expect_row = [&](Vertex child, const HandMesh::Row& row, const char* what) {
       Eigen::RowVectorXd own = Eigen::RowVectorXd::Zero(S.cols());
       for (const auto& [point, weight] : row) own[point] = static_cast<double>(weight);
-      EXPECT_LE((S.row(index(child)) - own).cwiseAbs().maxCoeff(), 4e-16)
+      EXPECT_LE((S.row(index(child)) - own).cwiseAbs().maxCoeff(), last_bits)
           << what << ' ' << index(child) << " of level " << k;
     };
     HandMesh fine(next.topology());
@@ -288,7 +292,8 @@ TEST(KnotIntervals, AnyNewKnotsOfATorusAreKnotInsertion) {
     const auto fine_number = [&](Index i, Index j) { return (i + 1) % (2 * m) * 2 * n + (j + 1) % (2 * n); };
     const auto expect_row = [&](Vertex child, Index i, Index j) {
       for (Index v = 0; v < t.num_vertices(); ++v)
-        EXPECT_NEAR(own(index(child), v), B(fine_number(i, j), coarse_number(v)), 1e-14) << i << ' ' << j << ' ' << v;
+        EXPECT_NEAR(own(index(child), v), B(fine_number(i, j), coarse_number(v)), rounding(12))
+            << i << ' ' << j << ' ' << v;
     };
     const auto place = [](Index v, Index w, Index count) {  // of the middle between neighbours, or of one
       if (v == w) return 2 * v;
@@ -307,6 +312,9 @@ TEST(KnotIntervals, AnyNewKnotsOfATorusAreKnotInsertion) {
   }
 }
 
+/// Of the same weights as ratios of intervals and as numbers.
+constexpr double same_weights = 1e-15;
+
 /// Children of the elements around an extraordinary vertex of level 3 have Catmull-Clark's rows; of level 4 those of
 /// the vertices next to it too.
 void expect_uniform_rows(const ControlMesh& mesh, const std::string& name, int number) {
@@ -323,7 +331,7 @@ void expect_uniform_rows(const ControlMesh& mesh, const std::string& name, int n
   const auto expect_same = [&](Vertex child) {
     const auto row = [&](const SparseMatrix& S) { return Eigen::RowVectorXd(S.row(index(child))); };
     ++seen;
-    EXPECT_LE((row(own.S) - row(other.S)).cwiseAbs().maxCoeff(), 1e-15) << index(child);
+    EXPECT_LE((row(own.S) - row(other.S)).cwiseAbs().maxCoeff(), same_weights) << index(child);
   };
   for (Index i = 0; i < t.num_vertices(); ++i) {
     const Vertex v{i};
@@ -370,7 +378,8 @@ TEST(KnotIntervals, EqualOnesAreCatmullClark) {
     for (Index e = 0; e < t.num_edges(); ++e)
       mesh.knot_intervals.push_back({index(t.tail(Edge{e})), index(t.head(Edge{e})), 3.25});
     const std::vector<Level> own = refine(levelled, mesh, 2), other = refine(uniform, plain, 2);
-    for (size_t k = 1; k <= 2; ++k) EXPECT_LE((dense(own[k].S) - dense(other[k].S)).cwiseAbs().maxCoeff(), 1e-15);
+    for (size_t k = 1; k <= 2; ++k)
+      EXPECT_LE((dense(own[k].S) - dense(other[k].S)).cwiseAbs().maxCoeff(), same_weights);
   }
 }
 
