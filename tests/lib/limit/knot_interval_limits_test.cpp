@@ -113,7 +113,7 @@ void expect_same_surface(const Scheme<double>& scheme, const Twin& twin, unsigne
 
 Twin torus_twin(std::mt19937& random, Index m, Index n) {
   const std::vector<double> a = random_lengths(random, m), b = random_lengths(random, n);
-  ControlMesh mesh = jittered(torus(m, n), 0.2, random());
+  ControlMesh mesh = jittered(torus(m, n), 0.2, unsigned(random()));
   set_intervals(mesh, n, a, b);
   using K = Knots<double>;
   SplineSurface spline(K::closed(3, breaks_of(b)), K::closed(3, breaks_of(a)));
