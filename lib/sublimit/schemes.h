@@ -9,6 +9,7 @@
 #include "sublimit/schemes/catmull_clark.h"
 #include "sublimit/schemes/catmull_clark_intervals.h"
 #include "sublimit/schemes/doo_sabin.h"
+#include "sublimit/schemes/doo_sabin_intervals.h"
 #include "sublimit/schemes/interpolatory_sqrt3.h"
 #include "sublimit/schemes/kobbelt.h"
 #include "sublimit/schemes/loop.h"
@@ -33,6 +34,7 @@ inline constexpr SchemeEntry<T> registry[] = {
     {"loop-warren", loop_warren<T>},
     {"doo-sabin", doo_sabin<T>},
     {"doo-sabin-averaging", doo_sabin_averaging<T>},
+    {"doo-sabin-intervals", doo_sabin_intervals<T>},
     {"mid-edge", mid_edge<T>},
     {"mid-edge-habib-warren", mid_edge_habib_warren<T>},
     {"averaging", averaging<T>},

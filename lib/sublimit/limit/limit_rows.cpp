@@ -137,14 +137,17 @@ LimitRows repeating_rows(const Level& level, LimitTypes& cache, const Centre& ce
   return result;
 }
 
-/// A vertex whose knots are not those of equal intervals: by the polynomial that meets it.
+/// A place whose knots are not those of equal intervals: by the polynomial that meets it.
 std::optional<LimitRows> polynomial_rows(const Level& level, LimitTypes& cache, const Centre& centre) {
-  if (centre.kind != Centre::Kind::vertex) return std::nullopt;
+  const bool is_dual = cache.scheme().is_dual();
+  if (centre.kind != (is_dual ? Centre::Kind::face : Centre::Kind::vertex)) return std::nullopt;
   const CornerPiece piece = corner_piece(level, cache, centre);
-  const PiecePolynomial* const polynomial = piece.kind == Piece::Kind::quad ? piece.type->polynomial() : nullptr;
+  const bool of_polygon = piece.kind == Piece::Kind::cut;
+  const PiecePolynomial* const polynomial = of_polygon ? nullptr : piece.type->polynomial();
   if (!polynomial) return std::nullopt;
   LimitRows result = without_rows(level, cache, centre);
-  const RowMatrix rows = polynomial->rows(quad_place(0, 0), 1);
+  const double at = is_dual ? 1 : 0;
+  const RowMatrix rows = polynomial->rows(quad_place(at, at), 1);
   for (int i = 0; i < 3; ++i) add_differences(rows.row(i), i == 0 ? 1 : 0, piece.vertices, result.rows);
   return result;
 }

@@ -20,8 +20,9 @@ std::string edge_name(Index a, Index b) {
 std::string edge_name(const Topology& t, Index e) { return edge_name(index(t.tail(Edge{e})), index(t.head(Edge{e}))); }
 
 /// Intervals as given, 0 where none is.
-std::vector<double> given_lengths(const Topology& t, const ControlMesh& mesh) {
-  std::vector<double> length(t.num_edges(), 0);
+std::vector<double> given_lengths(const Topology& t, const ControlMesh& mesh, KnotOwner owner) {
+  const bool of_points = owner == KnotOwner::point;
+  std::vector<double> length(size_t(t.num_edges()) * (of_points ? 2 : 1), 0);
   for (const ControlMesh::KnotInterval& given : mesh.knot_intervals) {
     const auto fail = [&](const std::string& why) {
       throw InvalidMesh("knot interval of edge " + edge_name(given.tail, given.head) + ": " + why);
@@ -33,11 +34,13 @@ std::vector<double> given_lengths(const Topology& t, const ControlMesh& mesh) {
     if (index(e) < 0) fail("no face has this edge");
     if (!std::isfinite(given.length) || given.length < 0)
       fail("it is " + format_number(given.length) + "; it must be a positive number");
+    if (given.length == 0 && of_points) fail("it is 0; double knots are not refined: it must be a positive number");
     if (given.length == 0)
       fail("it is 0; strips of interval 0 are not refined: merge their two sides, and for a sharp line there tag its " +
            std::string("edges as creases, as in 't crease 2/1/0 ") + std::to_string(given.tail) + " " +
            std::to_string(given.head) + " 10'");
-    double& own = length[index(e)];
+    const size_t at_head = index(t.tail(e)) == given.tail ? 0 : 1;
+    double& own = length[of_points ? 2 * size_t(index(e)) + at_head : size_t(index(e))];
     if (own != 0 && own != given.length)
       fail("given twice, as " + format_number(own) + " and as " + format_number(given.length));
     own = given.length;
@@ -68,6 +71,46 @@ void fill_strips(const Topology& t, std::vector<double>& length) {
     if (own == 0) own = 1;
 }
 
+/// Of each vertex of four edges, the two pairs of opposite ones, of a regular border vertex its two border edges, as
+/// entries at that vertex.
+template <class Pair>
+void visit_opposites(const Topology& t, const Pair& pair) {
+  for (Index i = 0; i < t.num_vertices(); ++i) {
+    const Vertex v{i};
+    if (t.is_isolated(v) || t.is_nonmanifold(v)) continue;
+    const auto entry = [&](HalfEdge h) { return knot_entry(KnotOwner::point, t, h); };
+    const HalfEdge first = t.outgoing(v);
+    if (exists(t.twin(first))) {
+      if (t.num_faces(v) != 4) continue;
+      HalfEdge h[4] = {first};
+      for (int k = 1; k < 4; ++k) h[k] = t.ccw(h[k - 1]);
+      pair(v, entry(h[0]), entry(h[2]));
+      pair(v, entry(h[1]), entry(h[3]));
+    } else if (t.num_faces(v) == 2) {
+      pair(v, entry(first), other_end(entry(t.prev(t.ccw(first)))));
+    }
+  }
+}
+
+/// Gives opposite ends at a vertex the interval that one of them has.
+void fill_opposites(const Topology& t, std::vector<double>& length) {
+  const auto far_vertex = [&](size_t entry) {
+    const Edge e{static_cast<Index>(entry / 2)};
+    return std::to_string(index(entry % 2 == 0 ? t.head(e) : t.tail(e)));
+  };
+  visit_opposites(t, [&](Vertex v, size_t a, size_t b) {
+    if (length[a] == 0) length[a] = length[b];
+    if (length[b] == 0) length[b] = length[a];
+    if (length[a] != length[b])
+      throw InvalidMesh("vertex " + std::to_string(index(v)) + ": its knot interval is " + format_number(length[a]) +
+                        " towards vertex " + far_vertex(a) + ", and " + format_number(length[b]) +
+                        " towards the opposite vertex " + far_vertex(b) +
+                        "; opposite edges at a vertex have one interval of it");
+  });
+  for (double& own : length)
+    if (own == 0) own = 1;
+}
+
 void check_polygons(const Topology& t, const std::vector<double>& length) {
   if (t.uniform_face_size() == 4) return;
   for (Index i = 0; i < t.num_faces(); ++i) {
@@ -86,11 +129,12 @@ void check_polygons(const Topology& t, const std::vector<double>& length) {
 }
 
 /// Where the limit is no tensor product, whatever the intervals.
-bool is_extraordinary(const Topology& t, Vertex v) {
+/// @param corners  whether the only face at a border vertex makes it one: where borders are rounded
+bool is_extraordinary(const Topology& t, Vertex v, bool corners = false) {
   if (t.is_isolated(v)) return false;
   if (t.is_nonmanifold(v)) return true;
   const bool boundary = !exists(t.twin(t.outgoing(v)));
-  return boundary ? t.num_faces(v) > 2 : t.num_faces(v) != 4;
+  return boundary ? t.num_faces(v) > 2 || (corners && t.num_faces(v) == 1) : t.num_faces(v) != 4;
 }
 
 /// Fills `ends` and `least`.
@@ -135,7 +179,7 @@ void find_ends(const Topology& t, KnotIntervals& intervals) {
   }
 }
 
-/// Whether levelling moves the new knot of an edge from the middle.
+/// Whether levelling moves the new knot of an entry from the middle.
 bool is_levelled(const KnotIntervals& intervals, size_t e) {
   if (intervals.plain || intervals.ends.empty()) return false;
   const unsigned ends = intervals.ends[e] & 3u;
@@ -144,10 +188,44 @@ bool is_levelled(const KnotIntervals& intervals, size_t e) {
 
 }  // namespace
 
-KnotIntervals initial_intervals(const Topology& t, const ControlMesh& mesh, NewKnots rule) {
+void find_point_ends(const Topology& t, KnotIntervals& intervals) {
+  constexpr std::uint8_t own = 1, beyond = 2;
+  intervals.ends.assign(intervals.length.size(), 0);
+  const auto flag = [&](HalfEdge h, bool both) {
+    const size_t entry = knot_entry(KnotOwner::point, t, h);
+    intervals.ends[entry] |= own;
+    if (both) intervals.ends[other_end(entry)] |= own;
+  };
+  for (Index i = 0; i < t.num_half_edges(); ++i) {
+    const HalfEdge h{i};
+    if (t.size(t.face(h)) != 4) flag(h, true);
+    if (is_extraordinary(t, t.tail(h), true)) flag(h, false);
+    // The same at its head, as a border's last half-edge has no twin to say it.
+    if (is_extraordinary(t, t.head(h), true)) intervals.ends[other_end(knot_entry(KnotOwner::point, t, h))] |= own;
+  }
+  visit_opposites(t, [&](Vertex, size_t a, size_t b) {
+    if (intervals.ends[a] & own) intervals.ends[b] |= beyond;
+    if (intervals.ends[b] & own) intervals.ends[a] |= beyond;
+  });
+}
+
+KnotIntervals initial_intervals(const Topology& t, const ControlMesh& mesh, NewKnots rule, KnotOwner owner) {
   KnotIntervals result;
+  result.owner = owner;
   if (mesh.knot_intervals.empty() || rule == NewKnots::none) return result;
-  result.length = given_lengths(t, mesh);
+  result.length = given_lengths(t, mesh, owner);
+  if (owner == KnotOwner::point) {
+    fill_opposites(t, result.length);
+    if (rule == NewKnots::levelling) {
+      find_point_ends(t, result);
+      double least = INFINITY;
+      for (size_t i = 0; i < result.length.size(); ++i)
+        if (result.ends[i] & 1u) least = std::min(least, result.length[i]);
+      result.least = std::isfinite(least) ? least : 0;
+    }
+    simplify(result);
+    return result;
+  }
   fill_strips(t, result.length);
   check_polygons(t, result.length);
   if (rule == NewKnots::levelling) find_ends(t, result);
@@ -156,12 +234,12 @@ KnotIntervals initial_intervals(const Topology& t, const ControlMesh& mesh, NewK
 }
 
 KnotSplit new_knots(const KnotIntervals& intervals) {
-  KnotSplit split{intervals.length, std::vector<double>(intervals.length.size())};
-  for (size_t e = 0; e < split.length.size(); ++e) {
-    const double d = split.length[e];
-    split.at_tail[e] = !is_levelled(intervals, e)      ? d / 2
-                       : (intervals.ends[e] & 1u) != 0 ? intervals.least / 2
-                                                       : d - intervals.least / 2;
+  KnotSplit split{intervals.owner, intervals.length, std::vector<double>(intervals.length.size())};
+  for (size_t i = 0; i < split.length.size(); ++i) {
+    const double d = split.length[i];
+    split.distance[i] = !is_levelled(intervals, i)      ? d / 2
+                        : (intervals.ends[i] & 1u) != 0 ? intervals.least / 2
+                                                        : d - intervals.least / 2;
   }
   return split;
 }

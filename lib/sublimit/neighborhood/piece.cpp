@@ -53,8 +53,26 @@ double cut(HalfEdge h, const Topology& parent, std::span<const LevelStep> steps)
   const KnotSplit* const knots = steps[0].knots;
   if (!knots) return 0.5;
   const Index e = index(parent.edge(h));
-  const double at_tail = knots->at_tail[e] / knots->length[e];
+  const double at_tail = knots->distance[e] / knots->length[e];
   return parent.forward(h) ? at_tail : 1 - at_tail;
+}
+
+/// Where intervals are of points a piece is what the new knots leave of its point's, and the next ones cut it: how far
+/// from the first of these two, as a part of it. Along the edge of a half-edge that leaves the child.
+double cut_of_point(HalfEdge h, const Topology& child, const KnotSplit* knots) {
+  if (!knots) return 0.5;
+  const size_t entry = knot_entry(KnotOwner::point, child, h);
+  return 1 - knots->distance[entry] / knots->length[entry];
+}
+
+/// Limits next to borders of dual schemes have parameters of their own, which know equal intervals alone.
+void check_border(HalfEdge corner, const Topology& t, const KnotSplit* knots) {
+  if (!knots) return;
+  const double d = knots->length[knot_entry(KnotOwner::point, t, corner)];
+  for (const size_t entry :
+       {knot_entry(KnotOwner::point, t, corner), other_end(knot_entry(KnotOwner::point, t, t.prev(corner)))})
+    if (knots->length[entry] != d || knots->distance[entry] != d / 2)
+      throw AnalysisError("next to borders limits are known where knot intervals are equal; boundary none has them");
 }
 
 std::vector<PieceChild> of_quad(HalfEdge start, const Topology& parent, std::span<const LevelStep> steps) {
@@ -145,6 +163,10 @@ std::vector<PieceChild> of_corner(HalfEdge h, const Topology& parent, std::span<
   if (folded) edge = vertex;
   if (!exists(edge) || t.ccw(edge) != face) throw AnalysisError("a corner's point has not four faces");
   const bool border_u = !exists(parent.twin(parent.prev(h))), border_v = !exists(parent.twin(h));
+  if (border_u || border_v) check_border(h, parent, steps.back().knots);
+  // Cut where the children's new knots are; next to borders these are in the middle as well.
+  const KnotSplit* const knots = steps.back().child_knots;
+  const double cut_u = cut_of_point(face, t, knots), cut_v = cut_of_point(before, t, knots);
   const Span far_u = border_u ? Span::beyond : Span::upper, near_u = border_u ? Span::beside : Span::lower;
   const Span far_v = border_v ? Span::beyond : Span::upper, near_v = border_v ? Span::beside : Span::lower;
   std::vector<PieceChild> result;
@@ -153,10 +175,12 @@ std::vector<PieceChild> of_corner(HalfEdge h, const Topology& parent, std::span<
     map.axes = {u, v};
     result.push_back({{Piece::Kind::corner, start}, map});
   };
-  add(face, {0, far_u, false}, {1, far_v, false});
-  add(before, {1, far_v, false}, {0, near_u, true});
-  if (!folded) add(vertex, {0, near_u, true}, {1, near_v, true});
-  add(edge, {1, near_v, true}, {0, far_u, false});
+  const Axis upper_u{0, far_u, false, 1 / (1 - cut_u)}, upper_v{1, far_v, false, 1 / (1 - cut_v)};
+  const Axis lower_u{0, near_u, true, 1 / cut_u}, lower_v{1, near_v, true, 1 / cut_v};
+  add(face, upper_u, upper_v);
+  add(before, upper_v, lower_u);
+  if (!folded) add(vertex, lower_u, lower_v);
+  add(edge, lower_v, upper_u);
   if (folded) add(edge, {0, Span::fold, false}, {0, Span::fold, false});
   const bool rounded = border_u && border_v;
   if (HalfEdge first = h; !border_u && !border_v) {  // clockwise to where the fan begins, if it is open
@@ -172,20 +196,20 @@ std::vector<PieceChild> of_corner(HalfEdge h, const Topology& parent, std::span<
   }
   if (border_v) {  // the two at the border point of this edge, on either side of it
     const HalfEdge along = t.next(edge);
-    add(along, {0, far_u, false}, {1, Span::border, false});
+    add(along, upper_u, {1, Span::border, false});
     if (rounded)
       add(t.ccw(along), {1, Span::wedge, false}, {1, Span::wedge, false});
     else
-      add(t.ccw(along), {1, Span::border, false}, {0, near_u, true});
+      add(t.ccw(along), {1, Span::border, false}, lower_u);
   }
   if (border_u) {
     const HalfEdge inwards = t.prev(before);
-    add(inwards, {0, Span::border, false}, {1, far_v, false});
+    add(inwards, {0, Span::border, false}, upper_v);
     const HalfEdge back = t.next(t.twin(inwards));
     if (rounded)
       add(back, {0, Span::wedge, true}, {0, Span::wedge, true});
     else
-      add(back, {1, near_v, true}, {0, Span::border, false});
+      add(back, lower_v, {0, Span::border, false});
   }
   return result;
 }

@@ -32,7 +32,8 @@ struct PieceChild {
 struct LevelStep {
   const Refinement* refinement;
   int level;
-  const KnotSplit* knots = nullptr;  ///< null: new ones are in the middle
+  const KnotSplit* knots = nullptr;        ///< null: new ones are in the middle
+  const KnotSplit* child_knots = nullptr;  ///< of the refined level; null: the same
 };
 
 /// Children of a piece after one period of its scheme.

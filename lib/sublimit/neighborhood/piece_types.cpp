@@ -191,6 +191,8 @@ PieceType::Refined PieceType::refined() const {
     for (const Refinement& step : result.levels.back()->steps)
       steps.push_back({&step, before.number, knots ? &*knots : nullptr});
   }
+  const std::optional<KnotSplit> child_knots = result.levels.back()->knots();
+  steps.back().child_knots = child_knots ? &*child_knots : nullptr;
   result.slot_of.assign(level.topology().num_vertices(), -1);
   for (size_t s = 0; s < slots.size(); ++s) result.slot_of[slots[s]] = static_cast<Index>(s);
   result.children = sublimit::children(piece, level.topology(), steps);

@@ -141,7 +141,7 @@ const PieceWalk& PieceWalker::walk(const Topology& t, const Sharpness& sharpness
 bool PieceWalker::add_intervals(const KnotIntervals& intervals, const Piece& piece, size_t points) {
   const Topology& t = *t_;
   std::vector<std::uint32_t>& words = walk_.signature;
-  const double own = intervals.length[index(t.edge(piece.start))];
+  const double own = intervals.length[knot_entry(intervals.owner, t, piece.start)];
   int exponent = 0;
   std::frexp(own, &exponent);
   const auto put = [&](double length) {
@@ -151,13 +151,18 @@ bool PieceWalker::add_intervals(const KnotIntervals& intervals, const Piece& pie
   };
   bool differ = false;
   unsigned all_ends = 0;
-  const auto put_edge = [&](HalfEdge h) {
-    const Index e = index(t.edge(h));
-    const unsigned ends = intervals.ends.empty() ? 0 : intervals.ends[e];
-    put(intervals.length[e]);
-    words.push_back(t.forward(h) ? ends : (ends & 5) << 1 | (ends & 10) >> 1);
-    differ |= intervals.length[e] != own;
+  const auto put_entry = [&](size_t entry, bool turned) {
+    const unsigned ends = intervals.ends.empty() ? 0 : intervals.ends[entry];
+    put(intervals.length[entry]);
+    words.push_back(turned ? (ends & 5) << 1 | (ends & 10) >> 1 : ends);
+    differ |= intervals.length[entry] != own;
     all_ends |= ends;
+  };
+  const bool of_points = intervals.owner == KnotOwner::point;
+  const auto put_edge = [&](HalfEdge h) {
+    const size_t entry = knot_entry(intervals.owner, t, h);
+    put_entry(entry, !of_points && !t.forward(h));
+    if (of_points) put_entry(other_end(entry), false);
   };
   // Of every face around these points, as the walk came to it.
   for (size_t i = 0; i < points; ++i)

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "sublimit/core/dense_decompositions.h"
+#include "sublimit/neighborhood/sector_mesh.h"
 
 namespace sublimit {
 namespace {
@@ -63,12 +64,29 @@ bool is_regular(const PieceType& type) {
 
 void PolynomialSearch::decide(const PieceType& type) {
   if (type.polynomial_state_.load() != 0) return;
+  // Between unequal intervals types may come back in turns, without one that is its own children's.
+  if (!types_.searched_ && !type.level().intervals.empty()) start_from_equal_intervals();
   if (types_.searched_ && !types_.basis_) {
     type.polynomial_state_.store(1, std::memory_order_release);
     return;
   }
   const bool is = verdict(type).polynomial;
   type.polynomial_state_.store(is ? 2 : 1, std::memory_order_release);
+}
+
+void PolynomialSearch::start_from_equal_intervals() {
+  const Scheme<double>& scheme = types_.scheme();
+  const bool is_dual = scheme.is_dual();
+  const Centre::Kind middle = is_dual ? Centre::Kind::face : Centre::Kind::vertex;
+  constexpr int rings = 4;
+  const SectorMesh around = sector_mesh(middle, scheme.regular_valence(), 4, rings);
+  const auto level = std::make_shared<const Level>(control_level(scheme, around.mesh));
+  const Topology& t = level->topology();
+  const Index first = around.find.at(is_dual ? SectorLabel{0, 1, 1} : SectorLabel{0, 0, 0});
+  const Piece piece{is_dual ? Piece::Kind::corner : Piece::Kind::quad, t.outgoing(Vertex{first})};
+  PieceWalker walker;
+  const PieceWalk& walk = walker.walk(*level, piece, types_.rings(level->sharpness), scheme.period);
+  verdict(*types_.type(level, piece, walk));
 }
 
 PolynomialSearch::Verdict PolynomialSearch::verdict(const PieceType& type) {

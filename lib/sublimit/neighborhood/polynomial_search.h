@@ -24,6 +24,8 @@ class PolynomialSearch {
     size_t lowest;  ///< of the types on the stack that this was assumed for
   };
   Verdict verdict(const PieceType& type);
+  /// Decides a regular piece between equal knot intervals, from whose polynomial all others are known.
+  void start_from_equal_intervals();
   const PiecePolynomial* candidate(const PieceType& type);
   std::optional<PiecePolynomial> interpolated(const PieceType& type, const PolynomialBasis& basis, bool halves,
                                               bool wide) const;

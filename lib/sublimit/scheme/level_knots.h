@@ -15,6 +15,7 @@ class LevelKnots {
 
   /// Of the edge of a half-edge, seen from its tail.
   EdgeKnots<double> at(HalfEdge h) const {
+    if (split_.owner == KnotOwner::point) return of_points(knot_entry(split_.owner, t_, h));
     return {length(h), split(h), beyond(h, true).value_or(length(h)), beyond(h, false).value_or(length(h))};
   }
   /// Of all edges of its face, from this half-edge on.
@@ -30,15 +31,20 @@ class LevelKnots {
   /// Of an edge of a curve, seen from one of its ends. Where the curve ends its own interval goes on, mirrored.
   /// @param before, after  the curve's edges beyond this end and beyond the other
   EdgeKnots<double> along(Edge e, Vertex from, std::optional<Edge> before, std::optional<Edge> after) const {
-    const double d = split_.length[index(e)], s = split_.at_tail[index(e)];
+    if (split_.owner == KnotOwner::point) return of_points(2 * size_t(index(e)) + (t_.tail(e) == from ? 0 : 1));
+    const double d = split_.length[index(e)], s = split_.distance[index(e)];
     const auto own = [&](const std::optional<Edge>& other) { return other ? split_.length[index(*other)] : d; };
     return {d, t_.tail(e) == from ? s : d - s, own(before), own(after)};
   }
 
  private:
+  EdgeKnots<double> of_points(size_t near) const {
+    const size_t far = other_end(near);
+    return {split_.length[near], split_.distance[near], split_.distance[far], split_.length[far]};
+  }
   double length(HalfEdge h) const { return split_.length[index(t_.edge(h))]; }
   double split(HalfEdge h) const {
-    const double s = split_.at_tail[index(t_.edge(h))];
+    const double s = split_.distance[index(t_.edge(h))];
     return t_.forward(h) ? s : length(h) - s;
   }
   /// Mean interval of the edges two turns away around an end of h, on either side; none where the faces end before.

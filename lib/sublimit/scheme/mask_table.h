@@ -91,21 +91,20 @@ class MaskTable {
   /// Knots of the edges of a site's faces, face by face.
   using Knots = std::vector<std::vector<EdgeKnots<double>>>;
   /// Whether they are those that a mask has where it is told none.
-  static bool are_equal(const Knots& knots) {
-    const double d = knots[0][0].length;
+  static bool are_equal(const Knots& knots, KnotOwner owner = KnotOwner::edge) {
+    const double d = knots[0][0].length, before = owner == KnotOwner::edge ? d : d / 2;
     for (const std::vector<EdgeKnots<double>>& face : knots)
       for (const EdgeKnots<double>& k : face)
-        if (k.length != d || k.split != d / 2 || k.before != d || k.after != d) return false;
+        if (k.length != d || k.split != d / 2 || k.before != before || k.after != d) return false;
     return true;
   }
   // Sites whose intervals differ: found by their knots. Valid until the next call.
   const Weights& face(const Knots& knots) {
-    return known(knots, 'f', [&] {
-      const auto size = static_cast<Index>(knots[0].size());
-      std::vector<Index> slots(size);
-      for (Index i = 0; i < size; ++i) slots[i] = i;
-      return dense(masks_->face(FaceSite<T>(*masks_, level_, slots, cast(knots[0]))), size);
-    });
+    return known(knots, 'f', [&] { return of_face(masks_->face, knots); });
+  }
+  /// @param knots  of the face from the corner on
+  const Weights& corner(const Knots& knots) {
+    return known(knots, 'c', [&] { return of_face(masks_->corner, knots); });
   }
   /// @param knots  of the left face from the edge on, then of the right one
   const Weights& edge(const Knots& knots) {
@@ -146,6 +145,12 @@ class MaskTable {
   }
 
  private:
+  Weights of_face(const Mask<T, FaceSite<T>>& mask, const Knots& knots) {
+    const auto size = static_cast<Index>(knots[0].size());
+    std::vector<Index> slots(size);
+    for (Index i = 0; i < size; ++i) slots[i] = i;
+    return dense(mask(FaceSite<T>(*masks_, level_, slots, cast(knots[0]))), size);
+  }
   static T number(double x) {
     if constexpr (std::is_constructible_v<T, double>)
       return T(x);

@@ -51,7 +51,8 @@ LevelOf<T> control_level(const Scheme<T>& scheme, const ControlMesh& mesh, const
   level.sharpness = initial_sharpness(level.topology(), mesh, boundary, creasing);
   check_sharpness(scheme.name, scheme.sharpening, scheme.is_dual(), level.topology(), level.sharpness, mesh);
   const bool holes_at_boundary = boundary == Boundary::none && needs_neighbors(scheme);
-  level.intervals = initial_intervals(level.topology(), mesh, scheme.knots);
+  level.intervals =
+      initial_intervals(level.topology(), mesh, scheme.knots, scheme.is_dual() ? KnotOwner::point : KnotOwner::edge);
   level.holes = initial_holes(level.topology(), mesh, holes_at_boundary ? boundary : Boundary::edge_only);
   return level;
 }

@@ -18,6 +18,8 @@ template <class T>
 struct Masks;
 
 /// Knots along an edge, seen from one of its ends, for schemes that know them: intervals and the new knot of the step.
+/// Where intervals belong to points (`PointKnots`), length and split are the near end's, after and before the far
+/// one's.
 template <class T>
 struct EdgeKnots {
   T length = T(1);                   ///< of the edge
@@ -26,6 +28,17 @@ struct EdgeKnots {
   const T& near() const { return split; }
   T far() const { return length - split; }
   EdgeKnots reversed() const { return {length, far(), after, before}; }
+};
+
+/// Knots of a point along one of its edges, in degree 2, where the knot between two points is on the edge.
+template <class T>
+struct PointKnots {
+  T length = T(1);                   ///< the point's interval
+  T split = Number<T>::ratio(1, 2);  ///< from the knot on the edge to the new one in the interval
+  PointKnots() = default;
+  PointKnots(T own_length, T own_split) : length(std::move(own_length)), split(std::move(own_split)) {}
+  /// How far the child towards this edge lies from the point that would be on the knot, seen from there.
+  T part() const { return split / length; }
 };
 
 /// What every site knows: the level of the parent (0 for the control mesh), constants in the number type, and the masks
@@ -52,6 +65,17 @@ class FaceSite : public Site<T> {
   int size() const { return static_cast<int>(slots_.size()); }
   /// Of the edge from corner i to the next one, seen from there.
   EdgeKnots<T> knots(int i) const { return knots_.empty() ? EdgeKnots<T>{} : knots_[i]; }
+  /// Degree 2: of corner i, along the edge to the next corner and along that to the one before.
+  PointKnots<T> knots_to_next(int i) const {
+    if (knots_.empty()) return {};
+    const EdgeKnots<T>& k = knots_[i];
+    return {k.length, k.split};
+  }
+  PointKnots<T> knots_to_previous(int i) const {
+    if (knots_.empty()) return {};
+    const EdgeKnots<T>& k = knots_[(i + size() - 1) % size()];
+    return {k.after, k.before};
+  }
   Stencil<T> corner(int i) const { return Stencil<T>(slots_[i]); }
   Stencil<T> centroid() const {
     Stencil<T> sum;

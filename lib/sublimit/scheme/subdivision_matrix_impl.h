@@ -70,7 +70,7 @@ class RowMaker {
     const Weights& weights = wide_weights(f);
     return weights.on_edges.empty() ? weights.count() : static_cast<Index>(row(f, weights).size());
   }
-  Index length(HalfEdge corner) { return masks_.corner(t_.size(t_.face(corner))).count(); }
+  Index length(HalfEdge corner) { return smooth_weights(corner).count(); }
   /// A point on a half-edge without twin, `part` from its tail on.
   struct Border {
     HalfEdge half;
@@ -94,7 +94,7 @@ class RowMaker {
     return write_smooth(v, smooth_weights(v), columns, values);
   }
   Index write(HalfEdge corner, Index* columns, T* values) {
-    return write_smooth(corner, masks_.corner(t_.size(t_.face(corner))), columns, values);
+    return write_smooth(corner, smooth_weights(corner), columns, values);
   }
   Index write(const Border& border, Index* columns, T* values) { return write(row(border), columns, values); }
 
@@ -243,6 +243,13 @@ class RowMaker {
     return masks_.edge(t_.size(t_.face(h)), t_.size(t_.face(t_.twin(h))));
   }
 
+  const Weights& smooth_weights(HalfEdge corner) {
+    if (knots_) {
+      site_knots_ = {knots_->of_face(corner)};
+      if (!MaskTable<T>::are_equal(site_knots_, KnotOwner::point)) return masks_.corner(site_knots_);
+    }
+    return masks_.corner(t_.size(t_.face(corner)));
+  }
   const Weights& smooth_weights(Face f) {
     if (knots_) {
       site_knots_ = {knots_->of_face(t_.first(f))};

@@ -4,7 +4,7 @@
 // Sederberg, Zheng, Sewell, Sabin 1998, "Non-uniform recursive subdivision surfaces", SIGGRAPH 98, whose rules put new
 // knots in the middle; here they may lie anywhere. Option levelling=on puts them where intervals around extraordinary
 // vertices become equal, so that from the third level on all rows there are Catmull-Clark's.
-#include "sublimit/scheme/scheme.h"
+#include "sublimit/schemes/levelling.h"
 
 namespace sublimit {
 
@@ -29,10 +29,8 @@ CreaseMasks<T> knot_interval_creases() {
 
 template <class T>
 Scheme<T> catmull_clark_intervals(const SchemeOptions& options) {
-  const OptionInfo levelling{.name = "levelling",
-                             .values = {"on", "off"},
-                             .meaning = "new knots that make intervals around extraordinary vertices equal"};
-  const NewKnots knots = option(options, levelling) == "on" ? NewKnots::levelling : NewKnots::halving;
+  const NewKnots knots = levelling(options);
+  const std::vector<OptionInfo> known_options{levelling_option()};
   const auto face = [](const FaceSite<T>& f) {
     if (f.size() != 4) return f.centroid();  // its edges have one interval
     // Weights of both ends of edge 0 and of edge 1; the edges opposite to them have the same new knots.
@@ -81,7 +79,7 @@ Scheme<T> catmull_clark_intervals(const SchemeOptions& options) {
                      .reproduces = 1,
                      .convex_hull = true,
                      .limit = "bicubic B-spline"},
-          .options = {levelling},
+          .options = known_options,
           .knots = knots};
 }
 

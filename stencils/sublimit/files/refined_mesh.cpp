@@ -37,8 +37,13 @@ MeshOutput refined_mesh(const Level& level, const Points& points, const ControlM
     if (level.holes[f]) out.holes.push_back(f);
   for (const Edge e : left.creases)
     out.creases.push_back({index(t.tail(e)), index(t.head(e)), level.sharpness.edge[index(e)]});
-  for (size_t e = 0; e < level.intervals.length.size(); ++e)
-    out.knot_intervals.push_back({index(t.tail(Edge(e))), index(t.head(Edge(e))), level.intervals.length[e]});
+  for (Index i = 0; i < t.num_edges() && !level.intervals.empty(); ++i) {
+    const Index tail = index(t.tail(Edge{i})), head = index(t.head(Edge{i}));
+    const size_t entry = knot_entry(level.intervals.owner, t, t.half_edge(Edge{i}));
+    out.knot_intervals.push_back({tail, head, level.intervals.length[entry]});
+    if (level.intervals.owner == KnotOwner::point)
+      out.knot_intervals.push_back({head, tail, level.intervals.length[other_end(entry)]});
+  }
   for (const Vertex v : left.corners) out.corners.push_back({index(v), level.sharpness.vertex[index(v)]});
   return out;
 }

@@ -170,7 +170,7 @@ TEST(KnotIntervalLimits, AreTheSameFromTheNextLevel) {
       const HalfEdge h = t.corner(Face{f}, 0), p = t.prev(h);
       const auto cut = [&](HalfEdge g, bool from_tail) {
         const Index e = index(t.edge(g));
-        const double at = split.at_tail[e] / split.length[e];
+        const double at = split.distance[e] / split.length[e];
         return t.forward(g) == from_tail ? at : 1 - at;
       };
       const double cu = cut(h, true), cv = cut(p, false);

@@ -254,7 +254,7 @@ TEST(KnotIntervals, AnyNewKnotsOfATorusAreKnotInsertion) {
     for (Index i = 0; i < m; ++i) a[i] = positive(random), at_a[i] = part(random) * a[i];
     for (Index j = 0; j < n; ++j) b[j] = positive(random), at_b[j] = part(random) * b[j];
     // Vertex (i,j) has number i n + j; new knots of edges from (i,j) to (i+1,j) and to (i,j+1).
-    KnotSplit split{std::vector<double>(t.num_edges()), std::vector<double>(t.num_edges())};
+    KnotSplit split{KnotOwner::edge, std::vector<double>(t.num_edges()), std::vector<double>(t.num_edges())};
     for (Index e = 0; e < t.num_edges(); ++e) {
       const Index v = index(t.tail(Edge{e})), w = index(t.head(Edge{e}));
       const bool along_a = v % n == w % n;
@@ -263,7 +263,7 @@ TEST(KnotIntervals, AnyNewKnotsOfATorusAreKnotInsertion) {
       const Index strip = forward ? x : y;
       const double length = along_a ? a[strip] : b[strip], at = along_a ? at_a[strip] : at_b[strip];
       split.length[e] = length;
-      split.at_tail[e] = forward ? at : length - at;
+      split.distance[e] = forward ? at : length - at;
     }
     const Refinement r = refine(t, Split::pqq);
     const Level level = control_level(halved_knots, mesh);
