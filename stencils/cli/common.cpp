@@ -145,7 +145,7 @@ Loaded load(const Common& common, Progress& progress) {
   }
   if (!loaded.mesh.knot_intervals.empty() && loaded.scheme && loaded.scheme->knots == NewKnots::none)
     loaded.mesh.warnings.push_back(common.mesh + ": knot intervals ignored: " + common.scheme +
-                                   " knows none; catmull-clark-intervals does");
+                                   " knows none; catmull-clark-intervals and doo-sabin-intervals do");
   loaded.options = std::move(options);
   loaded.rules.boundary = rule_of<Boundary>(common.boundary);
   loaded.rules.creasing = rule_of<Creasing>(common.creasing);

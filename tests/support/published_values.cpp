@@ -69,7 +69,8 @@ std::optional<PublishedValues> published_values(const Scheme<double>& scheme, in
   if (name == "loop") return values(3 / (3 + 8 * (5.0 / 8 - a * a)), cubic, a);
   if (name == "loop-warren") return values(3 / (3 + 8 * (n == 3 ? 9.0 / 16 : 3.0 / 8)), cubic, a);
   if (name == "doo-sabin" || name == "mid-edge-habib-warren") return values(1.0 / n, quadratic, 0.5);
-  if (name == "doo-sabin-averaging") return values(1.0 / n, quadratic, n == 3 ? 3.0 / 8 : 0.5 + c / 4);
+  if (name == "doo-sabin-averaging" || name == "doo-sabin-intervals")
+    return values(1.0 / n, quadratic, n == 3 ? 3.0 / 8 : 0.5 + c / 4);
   if (name == "mid-edge") return values(1.0 / n, quadratic, (1 + c) / 2);
   if (name == "averaging") return averaging_values(averaging_degree(scheme), scheme.is_dual(), n);
   if (name == "sqrt3") return values(1 / (1 + 3 * b), cubic, 2.0 / 9 * (1 + c));

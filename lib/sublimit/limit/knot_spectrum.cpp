@@ -13,18 +13,11 @@
 #include "sublimit/scheme/refine.h"
 
 namespace sublimit {
+namespace {
 
-std::vector<std::complex<double>> knot_spectrum(const Scheme<double>& scheme, std::span<const double> intervals) {
+/// The interval of a spoke is that of all edges which run like it.
+void set_spokes(SectorMesh& around, const Topology& t, std::span<const double> intervals) {
   const int n = static_cast<int>(intervals.size());
-  if (scheme.knots != NewKnots::halving)
-    throw InvalidParameter(scheme.name +
-                           " does not put new knots in the middle: intervals around a vertex do not stay");
-  if (n < 3) throw InvalidParameter("a vertex has three spokes or more, not " + std::to_string(n));
-  for (const double d : intervals)
-    if (!(d > 0 && std::isfinite(d))) throw InvalidParameter("interval " + format_number(d) + " is not positive");
-  constexpr int rings = 4, inner = 2;  // knots two rings beyond matter
-  SectorMesh around = sector_mesh(Centre::Kind::vertex, n, 4, rings);
-  const Topology t(view(around.mesh));
   for (Index e = 0; e < t.num_edges(); ++e) {
     // Along x of a sector its spoke runs, along y the next one; labels on a spoke are of the sector that it begins.
     const Index ends[] = {index(t.tail(Edge{e})), index(t.head(Edge{e}))};
@@ -42,10 +35,49 @@ std::vector<std::complex<double>> knot_spectrum(const Scheme<double>& scheme, st
     }
     around.mesh.knot_intervals.push_back({ends[0], ends[1], intervals[size_t(spoke)]});
   }
-  const Level control = control_level(scheme, around.mesh), next = next_level(scheme, control);
-  const Vertex middle{around.find.at({0, 0, 0})};
-  const Centre centre{Centre::Kind::vertex, t.outgoing(middle)};
-  const Centre child_centre = child(centre, t, next.steps[0], 0);
+}
+
+/// Towards the next corner of the face in the middle a corner has its interval, towards the one before 1.
+void set_corners(SectorMesh& around, std::span<const double> intervals) {
+  const int n = static_cast<int>(intervals.size());
+  const auto corner = [&](int i) { return around.find.at({(i + n) % n, 1, 1}); };
+  for (int i = 0; i < n; ++i) {
+    around.mesh.knot_intervals.push_back({corner(i), corner(i + 1), intervals[size_t(i)]});
+    around.mesh.knot_intervals.push_back({corner(i), corner(i - 1), 1});
+  }
+}
+
+}  // namespace
+
+std::vector<std::complex<double>> knot_spectrum(const Scheme<double>& scheme, std::span<const double> intervals) {
+  const int n = static_cast<int>(intervals.size());
+  if (scheme.knots != NewKnots::halving)
+    throw InvalidParameter(scheme.name +
+                           " does not put new knots in the middle: intervals around a centre do not stay");
+  if (n < 3)
+    throw InvalidParameter("a vertex has three spokes or more, a face three corners, not " + std::to_string(n));
+  for (const double d : intervals)
+    if (!(d > 0 && std::isfinite(d))) throw InvalidParameter("interval " + format_number(d) + " is not positive");
+  constexpr int rings = 4, inner = 2;  // knots two rings beyond matter
+  const bool of_points = scheme.is_dual();
+  SectorMesh around = sector_mesh(of_points ? Centre::Kind::face : Centre::Kind::vertex, n, 4, rings);
+  if (of_points)
+    set_corners(around, intervals);
+  else
+    set_spokes(around, Topology(view(around.mesh)), intervals);
+  Level level = control_level(scheme, around.mesh);
+  const Topology& control = level.topology();
+  Centre centre{Centre::Kind::face, control.corner(Face{0}, 0)};
+  if (!of_points) centre = {Centre::Kind::vertex, control.outgoing(Vertex{around.find.at({0, 0, 0})})};
+  // What is beyond a face has its corners' intervals from the next level on.
+  for (int k = 0; of_points && k < 2; ++k) {
+    Level finer = next_level(scheme, level);
+    centre = child(centre, level.topology(), finer.steps[0], k);
+    level = std::move(finer);
+  }
+  const Level next = next_level(scheme, level);
+  const Topology& t = level.topology();
+  const Centre child_centre = child(centre, t, next.steps[0], level.number);
   std::map<SectorLabel, Index> number;  // of what two rings have
   std::vector<Index> coarse, fine;
   for (const auto& [vertex, label] : sector_labels(t, centre, inner)) {

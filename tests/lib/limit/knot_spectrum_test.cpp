@@ -56,6 +56,24 @@ TEST(KnotSpectrum, OfUnequalIntervalsAreThoseOfTheTable) {
   }
 }
 
+/// patches.md 10.3; of equal ones Doo-Sabin's by averaging: 1/2 + cos(2 pi / n) / 4 (3/8 of a triangle).
+TEST(KnotSpectrum, OfFacesMaySpiral) {
+  const Scheme<double> points = *find_scheme("doo-sabin-intervals", {{"levelling", "off"}});
+  const auto expect_pair = [&](const std::vector<double>& intervals, std::complex<double> expected, double allowed) {
+    const auto values = knot_spectrum(points, intervals);
+    EXPECT_NEAR(values[0].real(), 1, rounding(12));
+    for (const size_t i : {1, 2}) {
+      EXPECT_NEAR(values[i].real(), expected.real(), allowed);
+      EXPECT_NEAR(std::abs(values[i].imag()), expected.imag(), allowed);
+    }
+  };
+  expect_pair({1, 1, 1}, 0.375, rounding(1e6));
+  expect_pair({1, 1, 1, 1, 1}, (2 + std::cos(2 * std::numbers::pi / 5)) / 4, rounding(1e6));
+  constexpr double four_digits = 1e-4;
+  expect_pair({1, 2, 4}, {0.375, 0.0559}, four_digits);
+  expect_pair({1, 8, 1, 8, 1, 8}, {0.6446, 0.0728}, four_digits);
+}
+
 TEST(KnotSpectrum, RefusesWhatDoesNotStay) {
   const double good[] = {1, 2, 3}, bad[] = {1, 0, 3}, two[] = {1, 2};
   expect_error<InvalidParameter>([&] { knot_spectrum(*find_scheme("catmull-clark-intervals"), good); },

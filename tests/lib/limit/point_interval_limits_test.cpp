@@ -179,7 +179,7 @@ TEST(PointIntervalLimits, NextToBordersIntervalsAreEqual) {
       mesh.knot_intervals.insert(mesh.knot_intervals.end(), {{i, i + 1, 1.0 + i % 6}, {i + 1, i, 2.0 + i % 6}});
   expect_error<NoLimit>(
       [&] {
-        LimitSurface(of_points, mesh).stencil({0, 0.2, 0.2}, 0);
+        LimitSurface(of_points, mesh).stencil({2, 0.2, 0.2}, 0);
       },
       {"borders", "intervals are equal", "boundary none"});
   // Without borders there are the faces inside.

@@ -37,6 +37,7 @@ TEST(RegularLimit, IsTheSplineOfTheScheme) {
   const std::pair<const char*, Generator> expected[] = {{"bilinear", tensor(1)},
                                                         {"doo-sabin", tensor(2)},
                                                         {"doo-sabin-averaging", tensor(2)},
+                                                        {"doo-sabin-intervals", tensor(2)},
                                                         {"catmull-clark", tensor(3)},
                                                         {"catmull-clark-intervals", tensor(3)},
                                                         {"loop", quartic},

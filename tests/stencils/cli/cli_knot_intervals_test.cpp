@@ -8,6 +8,7 @@
 #include "sublimit/schemes.h"
 #include "sublimit/scheme/refine.h"
 #include "support/meshes.h"
+#include "support/point_intervals.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {
@@ -80,6 +81,36 @@ TEST(CliKnotIntervals, TablesAreThoseOfTheIntervals) {
   expect_done(sublimit({"sample", mesh, "-s", scheme_name, "--grid", "3", "-o", path("samples.csv")}));
 }
 
+/// Degree 2: the interval of vertex a towards b.
+TEST(CliKnotIntervals, OfPointsAreWrittenBackAndBaked) {
+  const TemporaryDirectory directory;
+  const std::string scheme = "doo-sabin-intervals",
+                    mesh = mesh_file(directory, "points.obj", with_point_intervals(octahedron(), 5));
+  const auto path = [&](const char* name) { return (directory / name).string(); };
+  const auto refined = [&](const std::string& from, const char* levels, const char* to) {
+    expect_done(sublimit({"refine", from, "-s", scheme, "-l", levels, "-o", path(to)}));
+    return read_mesh(path(to));
+  };
+  const ControlMesh three = refined(mesh, "3", "three.obj"), one = refined(mesh, "1", "one.obj"),
+                    again = refined(path("one.obj"), "2", "again.obj");
+  EXPECT_EQ(one.knot_intervals.size(), 2 * 48u);  // both ends of the edges
+  ASSERT_EQ(three.positions.rows(), again.positions.rows());
+  EXPECT_LE((three.positions - again.positions).norm(), rounding(24));
+  expect_done(sublimit({"bake", mesh, "-s", scheme, "-l", "3", "-o", path("table.safetensors")}));
+  expect_done(sublimit({"apply", path("table.safetensors"), mesh, "-o", path("applied.obj")}));
+  const Points applied = read_mesh(path("applied.obj")).positions;
+  EXPECT_LE((applied - three.positions).rowwise().norm().maxCoeff(), float_reference * diagonal(applied));
+  expect_done(sublimit({"sample", mesh, "-s", scheme, "--grid", "3", "--derivatives", "1", "-o", path("samples.csv")}));
+  expect_done(sublimit({"limit", mesh, "-s", scheme, "-l", "1", "-o", path("limit.obj")}));
+
+  const std::string text = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0\nv 2 1 0\nf 1 2 3 4\nf 2 5 6 3\n";
+  const std::string tags = "t knotinterval 2/1/0 1 0 2\nt knotinterval 2/1/0 1 4 3\n";
+  const std::string bad = directory.write("bad.obj", text + tags).string();
+  expect_failure(sublimit({"refine", bad, "-s", scheme, "-l", "1", "-o", path("none.obj")}), 3,
+                 {"vertex 1", "towards vertex 0", "towards the opposite vertex 4", "2", "3"});
+  EXPECT_FALSE(std::filesystem::exists(path("none.obj")));
+}
+
 TEST(CliKnotIntervals, OtherSchemesSayThatTheyKnowNone) {
   const TemporaryDirectory directory;
   const std::string mesh = mesh_file(directory, "box.obj", box());
@@ -119,6 +150,16 @@ TEST(CliKnotIntervals, ReportsSayWhatIsProvedAndWhatIsEvidence) {
       sublimit({"analyze", "-s", scheme_name, "--option", "levelling=off", "--valence", "3,5", "--json", json});
   EXPECT_EQ(halves.status, 0) << halves.err;
   EXPECT_NE(halves.out.find("halving: evidence-for: intervals stay unequal"), std::string::npos) << halves.out;
+  const Outcome faces = sublimit({"analyze", "-s", "doo-sabin-intervals", "--valence", "3,5", "--json", json});
+  EXPECT_EQ(faces.status, 0) << faces.err;
+  EXPECT_NE(faces.out.find("levelling: proved: from the third level on the rows around extraordinary faces"),
+            std::string::npos)
+      << faces.out;
+  const Outcome spirals =
+      sublimit({"analyze", "-s", "doo-sabin-intervals", "--option", "levelling=off", "--valence", "3", "--json", json});
+  EXPECT_NE(spirals.out.find("halving: unknown: intervals stay unequal, and the two eigenvalues may be complex"),
+            std::string::npos)
+      << spirals.out;
 }
 
 }  // namespace

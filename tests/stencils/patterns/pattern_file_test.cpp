@@ -140,6 +140,8 @@ TEST(PatternFiles, TellMasksApart) {
   }
   EXPECT_EQ(hashes.size(), count);
   EXPECT_EQ(mask_hash(find_scheme("catmull-clark-intervals").value()), mask_hash(find_scheme("catmull-clark").value()));
+  EXPECT_EQ(mask_hash(find_scheme("doo-sabin-intervals").value()),
+            mask_hash(find_scheme("doo-sabin-averaging").value()));
   EXPECT_NE(mask_hash(find_scheme("kobbelt").value()), mask_hash(find_scheme("kobbelt", {{"tension", "1/2"}}).value()));
 }
 

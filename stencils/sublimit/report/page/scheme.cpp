@@ -84,7 +84,11 @@ std::string knot_intervals(const Json& knots) {
   std::string text = "<h3>Unequal knot intervals</h3>\n" + verdicts(Json::array({at(knots, "verdict")}));
   const Json& spectra = at(knots, "spectra");
   if (!spectra.is_array() || spectra.empty()) return text;
-  Table table{"Eigenvalues where the intervals of the spokes stay unequal", {"spokes", "moduli"}, {}, "numbers"};
+  Table table{
+      "Eigenvalues where the intervals of the spokes, or of a face's corners towards the next one, stay unequal",
+      {"intervals", "moduli"},
+      {},
+      "numbers"};
   for (const Json& row : spectra) {
     std::string spokes, moduli;
     for (const Json& d : at(row, "intervals")) spokes += (spokes.empty() ? "" : ", ") + shown(d);
