@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Refinement against OpenSubdiv, in one run.
+//   BM_RefineMesh    positions and faces of the last level       | Create + RefineUniform + PrimvarRefiner::Interpolate
 //   BM_Refine        topology, S_k and positions of all levels   | Create + RefineUniform + PrimvarRefiner::Interpolate
 //   BM_StencilTable  P_k, the levels given                       | StencilTableFactory::Create, the refiner given
 //   BM_Baked         P_k from the control mesh                   | Create + RefineUniform + StencilTableFactory::Create
@@ -20,7 +21,7 @@
 #include "bench_meshes.h"
 #include "measuring.h"
 #include "sublimit/core/sparse_product.h"
-#include "sublimit/scheme/refine.h"
+#include "sublimit/scheme/refine_points.h"
 #include "sublimit/schemes.h"
 
 namespace sublimit::bench {
@@ -52,6 +53,12 @@ Made made_of(const SparseMatrix& S) {
   return {rows, nonzeros, 12 * nonzeros + 4 * rows};
 }
 
+Made ours_refined_mesh(const Job& job) {
+  const RefinedPoints refined = refine_points(job.scheme, job.mesh.mesh, job.levels);
+  benchmark::DoNotOptimize(refined.points.data());
+  const double rows = double(refined.points.rows());
+  return {rows, 0, 24 * rows};
+}
 Made ours_refine(const Job& job) {
   const std::vector<Level> levels = refine(job.scheme, job.mesh.mesh, job.levels);
   std::vector<Points> positions;
@@ -94,6 +101,7 @@ struct Measured {
   Run ours, theirs, theirs_float;
 };
 constexpr Measured measured[] = {
+    {"BM_RefineMesh", false, ours_refined_mesh, theirs_refine<double, false>, theirs_refine<float, false>},
     {"BM_Refine", false, ours_refine, theirs_refine<double, false>, theirs_refine<float, false>},
     {"BM_RefineWhole", false, ours_refine, theirs_refine<double, true>, theirs_refine<float, true>},
     {"BM_StencilTable", true, ours_stencils, theirs_stencils<double>, theirs_stencils<float>},

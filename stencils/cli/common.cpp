@@ -183,10 +183,12 @@ Points refined_points(const std::vector<Level>& levels, const Points& control) {
   return points;
 }
 
+bool has_channel(const Loaded& loaded, const std::string& output) {
+  return !loaded.mesh.face_varying.empty() && file_extension(output) == ".obj";
+}
 std::vector<FaceVaryingLevel> refined_channel(const Common& common, const Loaded& loaded,
                                               const std::vector<Level>& levels, const std::string& output) {
-  const bool obj = file_extension(output) == ".obj";
-  if (loaded.mesh.face_varying.empty() || !obj) return {};
+  if (!has_channel(loaded, output)) return {};
   try {
     return refine_face_varying(*loaded.scheme, loaded.face_varying, loaded.mesh.face_varying[0], levels);
   } catch (const Error& error) {

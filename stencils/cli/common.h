@@ -81,6 +81,9 @@ std::vector<Level> refined_levels(const Loaded& loaded, int count, Progress& pro
 /// Points of the last level, from those of the first.
 Points refined_points(const std::vector<Level>& levels, const Points& control);
 
+/// Whether the mesh has texture coordinates that the output has room for.
+bool has_channel(const Loaded& loaded, const std::string& output);
+
 /// Levels of the mesh's texture coordinates, if it has any and the output has room for them. Where the scheme cannot
 /// refine them they are dropped with a warning, unless --face-varying asks for them.
 std::vector<FaceVaryingLevel> refined_channel(const Common& common, const Loaded& loaded,

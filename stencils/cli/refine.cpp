@@ -6,6 +6,7 @@
 #include "sublimit/base/error.h"
 #include "sublimit/files/matrix_market.h"
 #include "sublimit/files/refined_mesh.h"
+#include "sublimit/scheme/refine_points.h"
 
 namespace sublimit::cli {
 namespace {
@@ -36,20 +37,29 @@ int run(const RefineOptions& options) {
   if (!options.matrix.empty()) check_output_path(options.matrix, {".mtx"});
   Progress progress(options.common.quiet);
   const Loaded loaded = load(options.common, progress);
-  std::vector<Level> levels;
   std::vector<FaceVaryingLevel> channel;
-  naming_mesh(options.common, [&] {
-    levels = refined_levels(loaded, options.levels, progress);
-    channel = refined_channel(options.common, loaded, levels, options.output);
-  });
-  const Points points = refined_points(levels, loaded.mesh.positions);
-  // The matrix first: if it does not fit, there is no mesh without its matrix.
-  if (!options.matrix.empty()) {
-    progress.step("multiplying");
-    write_matrix_market(options.matrix, refinement_matrix(levels));
+  RefinedPoints refined;
+  if (options.matrix.empty() && !has_channel(loaded, options.output)) {
+    naming_mesh(options.common, [&] {
+      refined = refine_points(*loaded.scheme, loaded.mesh, options.levels, loaded.rules,
+                              telling_levels(progress, options.levels));
+    });
+  } else {
+    std::vector<Level> levels;
+    naming_mesh(options.common, [&] {
+      levels = refined_levels(loaded, options.levels, progress);
+      channel = refined_channel(options.common, loaded, levels, options.output);
+    });
+    // The matrix first: if it does not fit, there is no mesh without its matrix.
+    if (!options.matrix.empty()) {
+      progress.step("multiplying");
+      write_matrix_market(options.matrix, refinement_matrix(levels));
+    }
+    refined.points = refined_points(levels, loaded.mesh.positions);
+    refined.level = std::move(levels.back());
   }
   progress.step("writing " + options.output);
-  MeshOutput out = refined_mesh(levels.back(), points, loaded.mesh, loaded.rules, !options.no_tags);
+  MeshOutput out = refined_mesh(refined.level, refined.points, loaded.mesh, loaded.rules, !options.no_tags);
   if (!channel.empty()) {
     add_channel(out, channel.back(), loaded.mesh.face_varying[0].name,
                 refined_values(channel, loaded.mesh.face_varying[0].values));

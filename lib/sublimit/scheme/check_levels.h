@@ -7,10 +7,17 @@
 
 namespace sublimit {
 
+/// What is there when the last level is made.
+enum class LevelMemory {
+  matrices,  ///< all levels, with matrices and positions
+  points,    ///< the last two, with positions
+};
+
 /// What `refine` checks before the first level is made; for those who make levels one by one.
 /// @throws InvalidParameter  negative `levels`
 /// @throws ResourceError     more elements than 32-bit indices, or more memory than the machine has
-void check_levels(const Scheme<double>& scheme, const Topology& control, int levels);
+void check_levels(const Scheme<double>& scheme, const Topology& control, int levels,
+                  LevelMemory memory = LevelMemory::matrices);
 
 /// Levels that may be made of something if the last one shall have no more than `limit`, level 0 has `first` of it and
 /// every level `factor` times as many as the one before.

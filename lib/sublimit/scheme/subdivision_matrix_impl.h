@@ -444,6 +444,30 @@ class RowMaker {
   std::vector<Term> row_;
 };
 
+/// Calls body with the element of the parent that a child comes from.
+template <class T, class Body>
+auto with_parent(const Refinement& refinement, Vertex child, const Body& body) {
+  const Index parent = refinement.parent(child);
+  switch (refinement.origin(child)) {
+    case Refinement::Origin::vertex:
+      return body(Vertex{parent});
+    case Refinement::Origin::face:
+      return body(Face{parent});
+    case Refinement::Origin::edge:
+      return body(Edge{parent});
+    case Refinement::Origin::corner:
+      return body(HalfEdge{parent});
+    default:
+      return body(typename RowMaker<T>::Border{HalfEdge{parent}, refinement.part(child), refinement.border_points});
+  }
+}
+
+/// Writes the row of a child; returns its length.
+template <class T>
+Index write_row(RowMaker<T>& maker, const Refinement& refinement, Vertex child, Index* columns, T* values) {
+  return with_parent<T>(refinement, child, [&](auto element) { return maker.write(element, columns, values); });
+}
+
 /// Per vertex: interior of a manifold, and neither it nor an edge of it is sharp.
 inline std::vector<std::uint8_t> plain_vertices(const Topology& t, const Sharpness& sharpness) {
   std::vector<std::uint8_t> plain(t.num_vertices());
@@ -543,27 +567,14 @@ SparseMatrixOf<T> subdivision_matrix(const Scheme<T>& scheme, const Step<T>& ste
                                      const Sharpness& child_sharpness, int level, const KnotSplit* knots) {
   const std::vector<std::uint8_t> plain = assembly::plain_vertices(parent, sharpness);
   using Maker = assembly::RowMaker<T>;
-  const auto visit = [&](Index r, const auto& body) {
-    const Index p = refinement.parent(Vertex{r});
-    switch (refinement.origin(Vertex{r})) {
-      case Refinement::Origin::vertex:
-        return body(Vertex{p});
-      case Refinement::Origin::face:
-        return body(Face{p});
-      case Refinement::Origin::edge:
-        return body(Edge{p});
-      case Refinement::Origin::corner:
-        return body(HalfEdge{p});
-      default:
-        return body(typename Maker::Border{HalfEdge{p}, refinement.part(Vertex{r}), refinement.border_points});
-    }
-  };
   return assembly::assemble<T>(
       refinement.topology.num_vertices(), parent.num_vertices(),
       [&] { return Maker(scheme, step, parent, refinement, sharpness, child_sharpness, level, knots, plain); },
-      [&](Maker& maker, Index r) { return visit(r, [&](auto element) { return maker.length(element); }); },
+      [&](Maker& maker, Index r) {
+        return assembly::with_parent<T>(refinement, Vertex{r}, [&](auto element) { return maker.length(element); });
+      },
       [&](Maker& maker, Index r, Index* columns, T* values) {
-        return visit(r, [&](auto element) { return maker.write(element, columns, values); });
+        return assembly::write_row(maker, refinement, Vertex{r}, columns, values);
       });
 }
 

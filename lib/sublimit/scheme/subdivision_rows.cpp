@@ -10,24 +10,6 @@ namespace {
 
 using Maker = assembly::RowMaker<double>;
 
-/// Writes the row of one child; returns its length.
-Index write(Maker& maker, const Refinement& refinement, Vertex child, Index* columns, double* values) {
-  const Index parent = refinement.parent(child);
-  switch (refinement.origin(child)) {
-    case Refinement::Origin::vertex:
-      return maker.write(Vertex{parent}, columns, values);
-    case Refinement::Origin::face:
-      return maker.write(Face{parent}, columns, values);
-    case Refinement::Origin::edge:
-      return maker.write(Edge{parent}, columns, values);
-    case Refinement::Origin::corner:
-      return maker.write(HalfEdge{parent}, columns, values);
-    default:
-      return maker.write(Maker::Border{HalfEdge{parent}, refinement.part(child), refinement.border_points}, columns,
-                         values);
-  }
-}
-
 }  // namespace
 
 SparseMatrix subdivision_rows(const Scheme<double>& scheme, const Step<double>& step, const Topology& parent,
@@ -51,7 +33,7 @@ SparseMatrix subdivision_rows(const Scheme<double>& scheme, const Step<double>& 
       columns.resize(2 * columns.size() + size_t(width));
       values.resize(columns.size());
     }
-    at += write(maker, refinement, Vertex{r}, columns.data() + at, values.data() + at);
+    at += assembly::write_row(maker, refinement, Vertex{r}, columns.data() + at, values.data() + at);
   }
   outer[count] = at;
   resize_nonzeros(S, at);
