@@ -12,6 +12,7 @@
 #include "sublimit/patches/spline_surface.h"
 #include "sublimit/schemes.h"
 #include "support/expect_error.h"
+#include "support/knot_breaks.h"
 #include "support/meshes.h"
 #include "support/tolerance.h"
 
@@ -26,11 +27,6 @@ std::vector<double> random_lengths(std::mt19937& random, Index count) {
   std::vector<double> result(count);
   for (double& d : result) d = positive(random);
   return result;
-}
-std::vector<double> breaks_of(const std::vector<double>& lengths) {
-  std::vector<double> breaks{0};
-  for (const double d : lengths) breaks.push_back(breaks.back() + d);
-  return breaks;
 }
 
 /// Intervals of a mesh whose vertex (i,j) has number i * n + j: a[i] from row i on, b[j] from column j on.

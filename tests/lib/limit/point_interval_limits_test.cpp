@@ -11,6 +11,7 @@
 #include "sublimit/patches/spline_surface.h"
 #include "sublimit/schemes.h"
 #include "support/expect_error.h"
+#include "support/knot_breaks.h"
 #include "support/meshes.h"
 #include "support/point_intervals.h"
 #include "support/tolerance.h"
@@ -61,14 +62,9 @@ TEST(PointIntervalLimits, OfATorusAreTheBSplineOfItsKnots) {
         mesh.knot_intervals.push_back({i * n + j, (i + 1) % m * n + j, a[i]});
         mesh.knot_intervals.push_back({i * n + j, i * n + (j + 1) % n, b[j]});
       }
-    const auto breaks = [](const std::vector<double>& lengths) {
-      std::vector<double> result{0};
-      for (const double d : lengths) result.push_back(result.back() + d);
-      return result;
-    };
     using K = Knots<double>;
     const PatchSet patches(
-        {std::make_shared<SplineSurface>(SplineSurface(K::closed(2, breaks(b)), K::closed(2, breaks(a))))});
+        {std::make_shared<SplineSurface>(SplineSurface(K::closed(2, breaks_of(b)), K::closed(2, breaks_of(a))))});
     Points points(m * n, 3);
     for (Index i = 0; i < m; ++i)
       for (Index j = 0; j < n; ++j) points.row((i + 1) % m * n + (j + 1) % n) = mesh.positions.row(i * n + j);

@@ -18,6 +18,7 @@
 #include "sublimit/splits/child_sharpness.h"
 #include "support/expect_error.h"
 #include "support/fraction.h"
+#include "support/knot_breaks.h"
 #include "support/meshes.h"
 #include "support/tolerance.h"
 
@@ -271,21 +272,9 @@ TEST(KnotIntervals, AnyNewKnotsOfATorusAreKnotInsertion) {
     const SparseMatrix S =
         subdivision_matrix(halved_knots, halved_knots.steps[0], t, r, level.sharpness, fine_sharpness, 0, &split);
 
-    const auto knots = [](const std::vector<double>& lengths) {
-      std::vector<double> breaks{0};
-      for (const double d : lengths) breaks.push_back(breaks.back() + d);
-      return breaks;
-    };
-    const auto refined_knots = [&](const std::vector<double>& lengths, const std::vector<double>& at) {
-      std::vector<double> fine;
-      const std::vector<double> breaks = knots(lengths);
-      for (size_t i = 0; i < lengths.size(); ++i) fine.insert(fine.end(), {breaks[i], breaks[i] + at[i]});
-      fine.push_back(breaks.back());
-      return fine;
-    };
     using K = Knots<double>;
-    const SplineSurface coarse(K::closed(3, knots(b)), K::closed(3, knots(a)));
-    const SplineSurface fine(K::closed(3, refined_knots(b, at_b)), K::closed(3, refined_knots(a, at_a)));
+    const SplineSurface coarse(K::closed(3, breaks_of(b)), K::closed(3, breaks_of(a)));
+    const SplineSurface fine(K::closed(3, finer_breaks(b, at_b)), K::closed(3, finer_breaks(a, at_a)));
     const Eigen::MatrixXd B = dense(refinement_matrix(coarse, fine)), own = dense(S);
     // The control point of knot i is the spline's number i + 1.
     const auto coarse_number = [&](Index v) { return (v / n + 1) % m * n + (v % n + 1) % n; };

@@ -17,6 +17,7 @@
 #include "sublimit/splits/child_sharpness.h"
 #include "support/expect_error.h"
 #include "support/fraction.h"
+#include "support/knot_breaks.h"
 #include "support/meshes.h"
 #include "support/point_intervals.h"
 #include "support/tolerance.h"
@@ -162,21 +163,9 @@ TEST(PointIntervals, AnyNewKnotsOfATorusAreKnotInsertion) {
     const Sharpness fine_sharpness = refine(level.sharpness, t, r);
     const Eigen::MatrixXd own = all_rows(
         subdivision_matrix(point_halved, point_halved.steps[0], t, r, level.sharpness, fine_sharpness, 0, &split));
-    const auto breaks = [](const std::vector<double>& lengths) {
-      std::vector<double> result{0};
-      for (const double d : lengths) result.push_back(result.back() + d);
-      return result;
-    };
-    const auto finer = [&](const std::vector<double>& lengths, const std::vector<double>& at) {
-      std::vector<double> result;
-      const std::vector<double> coarse = breaks(lengths);
-      for (size_t i = 0; i < lengths.size(); ++i) result.insert(result.end(), {coarse[i], coarse[i] + at[i]});
-      result.push_back(coarse.back());
-      return result;
-    };
     using K = Knots<double>;
-    const SplineSurface coarse(K::closed(2, breaks(b)), K::closed(2, breaks(a)));
-    const SplineSurface fine(K::closed(2, finer(b, at_b)), K::closed(2, finer(a, at_a)));
+    const SplineSurface coarse(K::closed(2, breaks_of(b)), K::closed(2, breaks_of(a)));
+    const SplineSurface fine(K::closed(2, finer_breaks(b, at_b)), K::closed(2, finer_breaks(a, at_a)));
     const Eigen::MatrixXd B = all_rows(refinement_matrix(coarse, fine));
     // The point of interval i is the spline's number i + 1.
     const auto coarse_number = [&](Index v) { return (v / n + 1) % m * n + (v % n + 1) % n; };
