@@ -17,6 +17,9 @@ using Eigen::Vector3d;
 
 constexpr int relaxations = 10;
 constexpr double least_angle = 10 * 3.14159265358979323846 / 180;  // that an edge is sharp at
+/// Faces across an edge are as near to one side as to the other, but for this part of a cell: all are of the same one,
+/// so that seams run straight.
+constexpr double tied = .3;
 constexpr double everything = std::numeric_limits<double>::infinity();
 
 /// Faces of the vertex have these sides.
@@ -54,6 +57,53 @@ void smooth_sides(const Topology& topology, std::vector<size_t>& side) {
     }
     if (!changed) return;
   }
+}
+
+bool is_edge(const Topology& topology, Index from, Index to) {
+  const HalfEdge first = topology.outgoing(Vertex{from});
+  HalfEdge h = first;
+  do {
+    if (index(topology.head(h)) == to) return true;
+    h = topology.ccw(h);
+  } while (h != first);
+  return false;
+}
+
+/// Where a seam turns at a corner of a single face, both of its edges come to lie along one smooth curve, and the face
+/// would have a corner of 180 degrees. It is cut in two from there, so that no corner has more than about 90.
+void cut_corners_of_seams(Cage& cage, const Topology& topology) {
+  const std::vector<std::vector<size_t>> own = sides_of_vertices(topology, cage.side);
+  std::vector<Index> sizes, corners;
+  std::vector<size_t> side;
+  const auto add = [&](Face f, std::initializer_list<Index> at) {
+    sizes.push_back(Index(at.size()));
+    for (const Index i : at) corners.push_back(topology.vertices(f)[size_t(i % topology.size(f))]);
+    side.push_back(cage.side[size_t(index(f))]);
+  };
+  for (Index i = 0; i < topology.num_faces(); ++i) {
+    const Face f{i};
+    const auto is_seam = [&](Index k) {
+      return cage.side[size_t(index(topology.face(topology.twin(topology.corner(f, k)))))] != cage.side[size_t(i)];
+    };
+    Index at = -1;
+    for (Index k = 0; k < topology.size(f) && at < 0; ++k)
+      if (is_seam(k) && is_seam((k + topology.size(f) - 1) % topology.size(f)) &&
+          own[size_t(topology.vertices(f)[size_t(k)])].size() == 2)
+        at = k;
+    // A second edge between the same vertices would be no manifold.
+    if (at < 0 || topology.size(f) != 4 ||
+        is_edge(topology, topology.vertices(f)[size_t(at)], topology.vertices(f)[size_t((at + 2) % 4)])) {
+      sizes.push_back(topology.size(f));
+      corners.insert(corners.end(), topology.vertices(f).begin(), topology.vertices(f).end());
+      side.push_back(cage.side[size_t(i)]);
+      continue;
+    }
+    add(f, {at, at + 1, at + 2});
+    add(f, {at, at + 2, at + 3});
+  }
+  cage.mesh.face_sizes = std::move(sizes);
+  cage.mesh.face_vertices = std::move(corners);
+  cage.side = std::move(side);
 }
 
 /// Where sides meet at an angle: creases, and corners where three or more of them end.
@@ -134,7 +184,13 @@ void finish(Cage& cage, const FieldSides& sides, int rounds) {
 FieldSides::FieldSides(FieldPointer field, bool sharp)
     : field_(std::move(field)), sharp_(sharp && field_->has_edges()) {}
 
-size_t FieldSides::side_at(const Vector3d& x) const { return sharp_ ? field_->pieces(x, 0).front().name : 0; }
+size_t FieldSides::side_at(const Vector3d& x, double width) const {
+  if (!sharp_) return 0;
+  const double steep = field_->jet(x).gradient.norm();
+  size_t least = std::numeric_limits<size_t>::max();
+  for (const FieldPiece& piece : field_->pieces(x, width * steep)) least = std::min(least, piece.name);
+  return least;
+}
 
 FieldJet FieldSides::jet(size_t side, const Vector3d& x) const {
   if (!sharp_) return field_->jet(x);
@@ -180,8 +236,11 @@ Cage make_cage(ControlMesh mesh, const FieldSides& sides, double cell) {
     if (p.converged) cage.mesh.positions.row(v) = p.point;
   }
   for (Index f = 0; f < topology.num_faces(); ++f)
-    cage.side.push_back(sides.side_at(face_center(cage.mesh, topology, Face{f})));
-  if (sides.has_edges()) smooth_sides(topology, cage.side);
+    cage.side.push_back(sides.side_at(face_center(cage.mesh, topology, Face{f}), tied * cell));
+  if (sides.has_edges()) {
+    smooth_sides(topology, cage.side);
+    cut_corners_of_seams(cage, topology);
+  }
   finish(cage, sides, relaxations);
   return cage;
 }

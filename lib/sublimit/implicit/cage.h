@@ -21,8 +21,8 @@ class FieldSides {
   FieldSides(FieldPointer field, bool sharp);
   const Field& field() const { return *field_; }
   bool has_edges() const { return sharp_; }
-  /// The side that is the surface nearest to a place.
-  size_t side_at(const Eigen::Vector3d& x) const;
+  /// The side that is the surface nearest to a place; always the same one of those that are as near, but for `width`.
+  size_t side_at(const Eigen::Vector3d& x, double width) const;
   FieldJet jet(size_t side, const Eigen::Vector3d& x) const;
   /// The place where all of these sides are 0, nearest to x in the sense of Newton's method.
   /// @param reach  how far it may be

@@ -22,7 +22,12 @@ struct LevelSetError {
   double mean_angle = 0;
   Index curvatures = 0;                  ///< places where the limit and the field have second derivatives
   double gauss = 0, mean_curvature = 0;  ///< there: means of |difference| to the curvature of the level set
+  /// Faces are folded or inside out: near to the surface, they need not cover it.
+  bool is_folded() const { return largest_angle > folded_angle; }
 };
+
+/// Whether a is the better one. Folded ones are last: a limit that is all at one point of a surface has no distance.
+bool is_nearer(const LevelSetError& a, const LevelSetError& b);
 
 struct LevelSetFit {
   Points points;               ///< control points
@@ -35,9 +40,9 @@ struct LevelSetFit {
 LevelSetFit fit_level_set(const LimitSurface& surface, const Cage& cage, const FieldSides& sides, int rounds,
                           const std::function<void(int)>& progress = {});
 
-/// Measured on grids of N x N places a face.
+/// Measured on grids of N x N places a face, normals beside the gradient of the side that the face is of.
 /// @param curved  whether to compare curvatures, too
-LevelSetError level_set_error(const LimitSurface& surface, const Points& points, const Field& field, int N = 7,
-                              bool curved = true);
+LevelSetError level_set_error(const LimitSurface& surface, const Points& points, const Cage& cage,
+                              const FieldSides& sides, int N = 7, bool curved = true);
 
 }  // namespace sublimit

@@ -14,7 +14,7 @@ namespace sublimit {
 namespace {
 
 constexpr int tried_cells[] = {5, 6, 8, 12, 16, 24, 32, 48, 64};
-constexpr double default_tolerance = 2.5e-4;
+constexpr double default_tolerance = 1e-4;
 /// A split that does not bring the limit that much nearer is no way to go on.
 constexpr double least_gain = 1.5;
 
@@ -118,7 +118,7 @@ class Maker {
       });
       attempt.error = fit.error;
       attempts_.push_back(attempt);
-      if (!made_ || attempt.error.largest < result_.attempt.error.largest) {
+      if (!made_ || is_nearer(attempt.error, result_.attempt.error)) {
         result_ = LevelSetMesh{.cage = cage.mesh,
                                .attempt = attempt,
                                .attempts = {},
@@ -134,12 +134,16 @@ class Maker {
         if (cage.rounded > 0)
           result_.notes.push_back(format_number(cage.rounded) +
                                   " edges between parts of the field that meet smoothly are not creases");
+        if (attempt.error.is_folded())
+          result_.notes.push_back("normals are off by up to " +
+                                  format_number(std::round(attempt.error.largest_angle * 100) / 100) +
+                                  " rad: faces are folded; take more cells");
         made_ = true;
       }
       result_.attempts = attempts_;
-      if (attempt.error.largest <= tolerance) return;
+      if (attempt.met(tolerance)) return;
       const bool stuck = before > 0 && attempt.error.largest * least_gain > before;
-      if (only_right && (stuck || attempt.error.largest_angle > folded_angle)) return;
+      if (only_right && (stuck || attempt.error.is_folded())) return;
       before = attempt.error.largest;
       if (4. * cage.mesh.num_faces() > options_.most_faces) {
         is_full_ = true;

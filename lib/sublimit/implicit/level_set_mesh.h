@@ -20,7 +20,7 @@ using Polygonizer = std::function<ControlMesh(const FieldGrid&)>;
 struct LevelSetOptions {
   std::optional<Eigen::AlignedBox3d> box = std::nullopt;  ///< absent: the field's extent, with a cell of air
   int cells = 0;         ///< along the longest side of the box; 0: as few as show the shape, 5 to 64
-  double tolerance = 0;  ///< for the largest distance; 0: 2.5e-4 of the diagonal of the surface
+  double tolerance = 0;  ///< for the largest distance; 0: 1e-4 of the diagonal of the surface
   int rounds = 6;        ///< of fitting
   Index most_faces = 20'000;
   std::function<void(const std::string&)> progress = {};
@@ -31,6 +31,7 @@ struct LevelSetAttempt {
   int cells = 0, splits = 0;
   Index faces = 0;
   LevelSetError error;
+  bool met(double tolerance) const { return error.largest <= tolerance && !error.is_folded(); }
 };
 
 struct LevelSetMesh {
@@ -43,7 +44,8 @@ struct LevelSetMesh {
   ClosedMeshCounts counts;
   std::optional<ClosedMeshCounts> fine_counts;  ///< with twice as many cells; absent: told in the notes
   std::vector<std::string> notes;               ///< what should be known
-  bool met() const { return attempt.error.largest <= tolerance; }
+  /// Near enough, and no face is folded.
+  bool met() const { return attempt.met(tolerance); }
 };
 
 /// @return  the first cage that meets the tolerance, or the nearest one of those that were tried
