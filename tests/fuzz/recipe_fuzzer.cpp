@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Any bytes as recipes: an Error that says where, or curves and surfaces that have points, and nets whose text reads
-// back. Never a crash.
+// Any bytes as recipes: an Error that says where, or curves and surfaces that have points, nets whose text reads back,
+// and fields that have values. Never a crash.
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -8,6 +9,7 @@
 #include <string_view>
 
 #include "sublimit/base/error.h"
+#include "sublimit/recipes/field_recipe.h"
 #include "sublimit/recipes/net_file.h"
 #include "sublimit/recipes/recipe.h"
 
@@ -29,6 +31,23 @@ void check_recipe(const Recipe& recipe) {
     const LimitSamples at = surface->patch->evaluate(surface->columns, places, 2, surface->coordinates);
     require_recipe(at.position.rows() == 2);
   }
+}
+
+void check_field(std::string_view text) {
+  FieldJob job;
+  try {
+    job = parse_field_job(text, "fuzz.json");
+  } catch (const Error& error) {
+    require_recipe(std::string_view(error.what()).starts_with("fuzz.json:"));
+    return;
+  }
+  require_recipe(job.field != nullptr);
+  for (const Eigen::Vector3d& x : {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(.5, -.25, 2)}) {
+    const FieldJet jet = job.field->jet(x);
+    require_recipe(jet.order >= 0 && jet.order <= 2);
+    require_recipe(std::isnan(job.field->value(x)) || !std::isnan(jet.value));
+  }
+  if (const auto box = job.field->extent()) require_recipe(box->isEmpty() || !(box->sizes().minCoeff() < 0));
 }
 
 void check_recipes(std::string_view text) {
@@ -61,6 +80,8 @@ void check_recipes(std::string_view text) {
 }  // namespace sublimit
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  sublimit::check_recipes(std::string_view(reinterpret_cast<const char*>(data), size));
+  const std::string_view text(reinterpret_cast<const char*>(data), size);
+  sublimit::check_recipes(text);
+  sublimit::check_field(text);
   return 0;
 }
