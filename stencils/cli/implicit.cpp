@@ -195,7 +195,7 @@ Command add_implicit(CLI::App& app) {
   command->add_option("--at", job->at, "IN.csv with the header x,y,z: the field there, and no mesh");
   command->add_option("--cells", job->cells, "Along the longest side of the box (default: as few as show the shape)");
   command->add_option("--tolerance", job->tolerance,
-                      "Largest distance of the limit, a length (default: 1e-4 of the surface's diagonal)");
+                      "Largest distance of the limit, a length (default: 1e-4 of the box's diagonal)");
   command->add_option("-o,--output", job->output, "CAGE.obj with creases as tags; with --at OUT.csv")->required();
   command->add_option("--report", job->report, "Everything that was found, as data, .json");
   command->add_option("--picture", job->picture, "Control mesh and limit, .svg");

@@ -107,7 +107,9 @@ class Maker {
     if (scheme_.face_size() == 3) cage = triangulated(cage, sides);
     const Points& corners = cage.mesh.positions;
     const double diagonal = (corners.colwise().maxCoeff() - corners.colwise().minCoeff()).norm();
-    const double tolerance = options_.tolerance > 0 ? options_.tolerance : default_tolerance * diagonal;
+    const double size = options_.box ? options_.box->diagonal().norm() : diagonal;
+    const double tolerance = options_.tolerance > 0 ? options_.tolerance : default_tolerance * size;
+    bool was_folded = false;
     for (double before = -1;; cage = split(cage, sides)) {
       LevelSetAttempt attempt{
           .cells = cells, .splits = splits_of(cage, coarse.cell), .faces = cage.mesh.num_faces(), .error = {}};
@@ -144,6 +146,8 @@ class Maker {
       if (attempt.met(tolerance)) return;
       const bool stuck = before > 0 && attempt.error.largest * least_gain > before;
       if (only_right && (stuck || attempt.error.is_folded())) return;
+      if (was_folded && attempt.error.is_folded()) return;  // splits rarely unfold a cage
+      was_folded = attempt.error.is_folded();
       before = attempt.error.largest;
       if (4. * cage.mesh.num_faces() > options_.most_faces) {
         is_full_ = true;

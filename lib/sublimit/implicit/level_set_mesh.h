@@ -19,9 +19,10 @@ using Polygonizer = std::function<ControlMesh(const FieldGrid&)>;
 
 struct LevelSetOptions {
   std::optional<Eigen::AlignedBox3d> box = std::nullopt;  ///< absent: the field's extent, with a cell of air
-  int cells = 0;         ///< along the longest side of the box; 0: as few as show the shape, 5 to 64
-  double tolerance = 0;  ///< for the largest distance; 0: 1e-4 of the diagonal of the surface
-  int rounds = 6;        ///< of fitting
+  int cells = 0;  ///< along the longest side of the box; 0: as few as show the shape, 5 to 64
+  /// For the largest distance; 0: 1e-4 of the diagonal of the box, or of the surface's own if none is given.
+  double tolerance = 0;
+  int rounds = 6;  ///< of fitting
   Index most_faces = 20'000;
   std::function<void(const std::string&)> progress = {};
 };

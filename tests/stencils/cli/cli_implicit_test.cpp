@@ -2,7 +2,11 @@
 // `sublimit implicit`.
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+#include <set>
+
 #include "stencils/cli_program.h"
+#include "stencils/recipes/field_samples.h"
 #include "sublimit/io/read_mesh.h"
 
 namespace sublimit::testing {
@@ -78,6 +82,93 @@ TEST(CliImplicit, SphereAsAControlMesh) {
   EXPECT_GT(read_mesh(out).num_faces(), 0);
 }
 
+TEST(CliImplicit, ReportsHaveTheirKeys) {
+  const TemporaryDirectory directory;
+  const std::string in = directory.write("f.json", sphere).string(), out = (directory / "cage.obj").string(),
+                    path = (directory / "r.json").string();
+  expect_done(sublimit({"implicit", in, "--tolerance", "1e-2", "-o", out, "--report", path, "--quiet"}));
+  const nlohmann::json report = nlohmann::json::parse(read_file(path));
+  const auto keys = [](const nlohmann::json& object) {
+    std::set<std::string> all;
+    for (const auto& [key, value] : object.items()) all.insert(key);
+    return all;
+  };
+  EXPECT_EQ(keys(report),
+            (std::set<std::string>{"field", "kind", "scheme", "output", "tolerance", "met", "diagonal", "cell",
+                                   "field_range", "vertices", "faces", "creases", "corners", "topology",
+                                   "topology_of_twice_as_many_cells", "result", "attempts", "notes"}));
+  EXPECT_EQ(keys(report["topology"]), (std::set<std::string>{"euler_characteristic", "components"}));
+  EXPECT_EQ(report["topology"], report["topology_of_twice_as_many_cells"]);
+  EXPECT_EQ(keys(report["result"]),
+            (std::set<std::string>{"cells", "splits", "faces", "samples", "largest_distance", "mean_distance",
+                                   "largest_angle", "mean_angle", "curvature_samples", "mean_gauss_difference",
+                                   "mean_mean_curvature_difference"}));
+  EXPECT_EQ(report["attempts"].back(), report["result"]);
+  EXPECT_EQ(report["faces"], read_mesh(out).num_faces());
+  EXPECT_EQ(report["kind"], "sphere");
+  EXPECT_LE(report["result"]["largest_distance"], report["tolerance"]);
+}
+
+TEST(CliImplicit, InterpolatingSchemesAreFitted) {
+  const TemporaryDirectory directory;
+  const std::string out = (directory / "cage.obj").string(), ball = directory.write("s.json", sphere).string(),
+                    torus = directory.write("t.json", field_documents()[3]).string();
+  for (const char* scheme : {"modified-butterfly", "kobbelt"}) {
+    SCOPED_TRACE(scheme);
+    expect_parts(expect_done(sublimit({"implicit", ball, "-s", scheme, "--tolerance", "1e-2", "-o", out})).out,
+                 {"Euler characteristic 2, 1 components", ": met"});
+    expect_parts(expect_done(sublimit({"implicit", torus, "-s", scheme, "--tolerance", "1e-2", "-o", out})).out,
+                 {"Euler characteristic 0, 1 components", ": met"});
+  }
+}
+
+TEST(CliImplicit, APartHasCreases) {
+  const TemporaryDirectory directory;
+  const std::string in =
+                        directory
+                            .write("f.json", R"({"field": "difference", "of": [)"
+                                             R"({"field": "box", "center": [0, 0, 0], "half": [1, 1, 0.5]},)"
+                                             R"({"field": "distance-line", "point": [0, 0, 0], "direction": [0, 0, 1],)"
+                                             R"("radius": 0.5}]})")
+                            .string(),
+                    out = (directory / "cage.obj").string();
+  const Outcome outcome = expect_done(sublimit({"implicit", in, "-o", out}));
+  expect_parts(outcome.out, {"8 corners", "Euler characteristic 0, 1 components", ": met"});
+  const ControlMesh cage = read_mesh(out);
+  EXPECT_GT(cage.creases.size(), 20u);
+  EXPECT_EQ(cage.corners.size(), 8u);
+}
+
+/// What any document may lead to: a mesh, or a message of one line that names the file, and no file.
+TEST(CliImplicit, SpoiltDocumentsLeaveNoFilesBehind) {
+  std::mt19937 random(23);
+  int made = 0, refused = 0;
+  for (int round = 0; round < 4; ++round)
+    for (const std::string& document : field_documents()) {
+      const TemporaryDirectory directory;
+      const std::string text = spoilt(document, random), in = directory.write("f.json", text).string();
+      SCOPED_TRACE(text);
+      const Outcome outcome = sublimit({"implicit", in, "--cells", "5", "--tolerance", "1e6", "-o",
+                                        (directory / "o.obj").string(), "--mem-limit", "2G", "--quiet"},
+                                       [] {
+                                         const rlimit most{30, 30};  // seconds: what hangs is killed
+                                         ::setrlimit(RLIMIT_CPU, &most);
+                                       });
+      if (outcome.status == 0 || outcome.status == 1) {
+        ++made;
+        EXPECT_GT(read_mesh(directory / "o.obj").num_faces(), 0);
+        continue;
+      }
+      ++refused;
+      EXPECT_TRUE(outcome.status == 3 || outcome.status == 4) << outcome.status << outcome.err;
+      EXPECT_EQ(count_of(outcome.err, "\n"), 1u) << outcome.err;
+      EXPECT_NE(outcome.err.find("f.json"), std::string::npos) << outcome.err;
+      EXPECT_EQ(directory.num_files(), 1);
+    }
+  EXPECT_GT(made, 5);
+  EXPECT_GT(refused, 20);
+}
+
 TEST(CliImplicit, RefusesBadInput) {
   const TemporaryDirectory directory;
   const std::string out = (directory / "o.obj").string(), csv = (directory / "o.csv").string();
@@ -101,6 +192,14 @@ TEST(CliImplicit, RefusesBadInput) {
   refused(R"({"field": "sphere", "center": [0, 0, 0], "radius": 1, "box": [[-1, -1, -1], [1, 1, 1]]})",
           {"touches the rim of the box"});
   refused(R"({"field": "sphere", "center": [0, 0, 0], "radius": 1, "cells": 99999})", {"99999 x 99999 x 99999"}, 4);
+  refused(R"({"field": "sphere", "center": [0, 0, 0], "radius": 2, "box": [[-1, -1, -1], [1, 1, 1]]})",
+          {"f.json: ", "no change of sign", "between -4 and -1", "make the box larger"});
+  refused(R"({"field": "sphere", "center": [0.1, 0.1, 0.1], "radius": 0.01, "box": [[-1, -1, -1], [1, 1, 1]]})",
+          {"thinner than a cell", "take more cells"});
+  refused(R"({"field": "polynomial", "terms": [[1e300, 100, 0, 0], [-1e300, 0, 100, 0]],)"
+          R"( "box": [[-1e9, -1e9, -1e9], [1e9, 1e9, 1e9]]})",
+          {"f.json: ", "the field is ", " at (", "it should be a number everywhere in the box"});
+  refused(R"({"field": "distance-line", "point": [0, 0, 0], "direction": [0, 0, 1], "radius": 1})", {"give a box"});
   const std::string in = directory.write("f.json", sphere).string();
   const std::string at = directory.write("at.csv", "x,y,z\n1,a,0\n").string();
   expect_failure(sublimit({"implicit", in, "--at", at, "-o", csv}), 3, {"at.csv:2: y"});
