@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,35 +27,41 @@ using Eigen::Vector3d;
 struct Shape {
   std::string name;
   FieldPointer field;
+  std::optional<Eigen::AlignedBox3d> box = std::nullopt;
 };
+
+Eigen::AlignedBox3d box_of(const Shape& shape, int cells) {
+  return shape.box ? *shape.box : padded_extent(*shape.field, cells);
+}
 
 std::vector<Shape> shapes() {
   std::vector<FieldPointer> chain;
   const Vector3d joints[] = {{0, 0, 0}, {1, 0, 0}, {1.6, .8, 0}, {1.6, .8, 1}};
   for (int i = 0; i < 3; ++i) chain.push_back(distance_to_segment(joints[i], joints[i + 1], .35));
-  return {{"sphere", sphere_field({0, 0, 0}, 1)},
-          {"torus", distance_to_circle({0, 0, 0}, {0, 0, 1}, 1, .4)},
-          {"metaballs", metaballs_field(.4, {{{0, 0, 0}, 1, 1}, {{.9, 0, 0}, 1, 1}, {{.4, .8, 0}, 1, 1}})},
-          {"capsule chain", smooth_union_field(chain, .2)},
-          {"part", difference_field({box_field({0, 0, 0}, {1, 1, .5}), distance_to_line({0, 0, 0}, {0, 0, 1}, .5)})}};
+  return {
+      {"sphere", sphere_field({0, 0, 0}, 1)},
+      {"torus", distance_to_circle({0, 0, 0}, {0, 0, 1}, 1, .4)},
+      {"quartic",
+       polynomial_field(
+           {{1, 4, 0, 0}, {-5, 2, 0, 0}, {1, 0, 4, 0}, {-5, 0, 2, 0}, {1, 0, 0, 4}, {-5, 0, 0, 2}, {11.8, 0, 0, 0}}),
+       Eigen::AlignedBox3d(Vector3d(-3, -3, -3), Vector3d(3, 3, 3))},
+      {"metaballs", metaballs_field(.4, {{{0, 0, 0}, 1, 1}, {{.9, 0, 0}, 1, 1}, {{.4, .8, 0}, 1, 1}})},
+      {"capsule chain", smooth_union_field(chain, .2)},
+      {"part", difference_field({box_field({0, 0, 0}, {1, 1, .5}), distance_to_line({0, 0, 0}, {0, 0, 1}, .5)})}};
 }
 
-/// Largest distance of places inside the faces, vertices being on the surface.
-double polygon_error(const Field& field, const ControlMesh& mesh, double cell) {
-  Points corners = mesh.positions;
-  for (Index v = 0; v < mesh.num_vertices(); ++v) {
-    const Projection p = project(field, corners.row(v), 3 * cell);
-    if (p.converged) corners.row(v) = p.point;
-  }
+/// Largest distance of places inside the faces, vertices being on the surface, those on sharp edges on the edges.
+double polygon_error(const Field& field, const ControlMesh& mesh) {
   double largest = 0;
-  constexpr int n = 3;
+  constexpr int n = 4;  // middles of faces, too
   size_t first = 0;
   for (const Index size : mesh.face_sizes) {
-    const auto at = [&](size_t i) { return Vector3d(corners.row(mesh.face_vertices[first + i])); };
-    for (int i = 0; size == 4 && i <= n; ++i)
+    const auto at = [&](size_t i) { return Vector3d(mesh.positions.row(mesh.face_vertices[first + i])); };
+    const size_t last = size == 4 ? 3 : 2;  // triangles are squares with a side of no length
+    for (int i = 0; i <= n; ++i)
       for (int j = 0; j <= n; ++j) {
         const double u = double(i) / n, v = double(j) / n;
-        const Vector3d x = (1 - v) * ((1 - u) * at(0) + u * at(1)) + v * ((1 - u) * at(3) + u * at(2));
+        const Vector3d x = (1 - v) * ((1 - u) * at(0) + u * at(1)) + v * ((1 - u) * at(last) + u * at(2));
         const FieldJet jet = field.jet(x);
         largest = std::max(largest, std::abs(jet.value) / std::max(1e-12, jet.gradient.norm()));
       }
@@ -63,16 +70,23 @@ double polygon_error(const Field& field, const ControlMesh& mesh, double cell) {
   return largest;
 }
 
-ControlMesh polygons(const Field& field, int cells) {
-  return polygonize(sample_field(field, padded_extent(field, cells), cells));
+/// Polygons with vertices moved onto the surface; onto its edges if it has some.
+ControlMesh polygons(const Shape& shape, int cells) {
+  const FieldGrid grid = sample_field(*shape.field, box_of(shape, cells), cells);
+  ControlMesh mesh = polygonize(grid);
+  if (shape.field->has_edges()) return make_cage(std::move(mesh), FieldSides(shape.field, true), grid.cell).mesh;
+  for (Index v = 0; v < mesh.num_vertices(); ++v) {
+    const Projection p = project(*shape.field, mesh.positions.row(v), 3 * grid.cell);
+    if (p.converged) mesh.positions.row(v) = p.point;
+  }
+  return mesh;
 }
 
 /// Faces of the coarsest polygons that are as near; 0 beyond 400 cells.
-Index polygons_as_near(const Field& field, double distance) {
-  for (int cells = 8; cells <= 400; cells += cells / 4) {
-    const ControlMesh mesh = polygons(field, cells);
-    const double side = padded_extent(field, cells).sizes().maxCoeff() / cells;
-    if (polygon_error(field, mesh, side) <= distance) return mesh.num_faces();
+Index polygons_as_near(const Shape& shape, double distance) {
+  for (int cells = 8; cells <= 400; cells += std::max(1, cells / 8)) {
+    const ControlMesh mesh = polygons(shape, cells);
+    if (polygon_error(*shape.field, mesh) <= distance) return mesh.num_faces();
   }
   return 0;
 }
@@ -85,22 +99,21 @@ double median(std::vector<double> times) {
 void print_ratios(int repetitions) {
   std::printf("%-14s %-15s %7s %6s %10s %9s %6s | ns a cell: %9s %9s\n", "surface", "scheme", "cells", "faces",
               "distance", "polygons", "ratio", "OpenVDB", "ours");
-  for (const Shape& shape : shapes())
-    for (const char* name : {"catmull-clark", "loop", "modified-butterfly"}) {
+  for (const char* name : {"catmull-clark", "loop", "modified-butterfly"})
+    for (const Shape& shape : shapes()) {
       const Scheme<double> scheme = find_scheme(name).value();
       LevelSetMesh made;
       std::vector<double> ours, theirs;
       for (int i = 0; i < repetitions; ++i) {
-        LevelSetOptions options;
+        LevelSetOptions options{.box = shape.box};
         if (i > 0) options.cells = made.attempt.cells;
         ours.push_back(seconds([&] { made = level_set_mesh(shape.field, scheme, polygonize, options); }));
-        const FieldGrid grid =
-            sample_field(*shape.field, padded_extent(*shape.field, made.attempt.cells), made.attempt.cells);
+        const FieldGrid grid = sample_field(*shape.field, box_of(shape, made.attempt.cells), made.attempt.cells);
         theirs.push_back(seconds([&] { benchmark::DoNotOptimize(polygonize(grid)); }));
       }
       if (ours.size() > 1) ours.erase(ours.begin());  // the search for the number of cells
       const double cells = std::pow(made.attempt.cells, 3), distance = made.attempt.error.largest;
-      const Index plain = polygons_as_near(*shape.field, distance);
+      const Index plain = polygons_as_near(shape, distance);
       std::printf("%-14s %-15s %7d %6d %10.2g %9d %6.1f |            %9.0f %9.0f\n", shape.name.c_str(), name,
                   made.attempt.cells, int(made.attempt.faces), distance / made.diagonal, int(plain),
                   double(plain) / double(made.attempt.faces), 1e9 * median(theirs) / cells, 1e9 * median(ours) / cells);
@@ -112,12 +125,13 @@ void register_benchmarks() {
   static const std::vector<Shape> all = shapes();
   for (const Shape& shape : all) {
     benchmark::RegisterBenchmark(("BM_Polygons/" + shape.name).c_str(), [&](benchmark::State& state) {
-      const FieldGrid grid = sample_field(*shape.field, padded_extent(*shape.field, 32), 32);
+      const FieldGrid grid = sample_field(*shape.field, box_of(shape, 32), 32);
       for (auto _ : state) benchmark::DoNotOptimize(polygonize(grid));
     })->Unit(benchmark::kMillisecond);
     benchmark::RegisterBenchmark(("BM_ControlMesh/" + shape.name).c_str(), [&](benchmark::State& state) {
       for (auto _ : state)
-        benchmark::DoNotOptimize(level_set_mesh(shape.field, find_scheme("catmull-clark").value(), polygonize));
+        benchmark::DoNotOptimize(
+            level_set_mesh(shape.field, find_scheme("catmull-clark").value(), polygonize, {.box = shape.box}));
     })->Unit(benchmark::kMillisecond);
   }
 }

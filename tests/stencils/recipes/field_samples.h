@@ -33,7 +33,7 @@ inline const std::vector<std::string>& field_documents() {
       R"({"field": "offset", "by": 0.25, "of": )" + ball + "}",
       R"({"field": "transformed", "matrix": [[0,-2,0,0.5],[2,0,0,0.25],[0,0,2,0.125],[0,0,0,1]], "of": )" + ball + "}",
       R"({"field": "intersection", "of": [{"field": "distance-line", "point": [0, 0, 0], "direction": [0, 0, 1],)"
-      R"( "radius": 0.75}, {"field": "distance-plane", "point": [0, 0, 0], "normal": [0, 0, 1], "offset": 0.5}]})"};
+      R"( "radius": 0.75}, {"field": "distance-plane", "point": [0, 0, 0], "normal": [0, 0, 1], "offset": 0.5}], "box": [[-2, -2, -2], [2, 2, 2]]})"};
   return all;
 }
 
