@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Any bytes as recipes: an Error that says where, or curves and surfaces that have points, nets whose text reads back,
 // and fields that have values. Never a crash.
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -45,7 +44,6 @@ void check_field(std::string_view text) {
   for (const Eigen::Vector3d& x : {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(.5, -.25, 2)}) {
     const FieldJet jet = job.field->jet(x);
     require_recipe(jet.order >= 0 && jet.order <= 2);
-    require_recipe(std::isnan(job.field->value(x)) || !std::isnan(jet.value));
   }
   if (const auto box = job.field->extent()) require_recipe(box->isEmpty() || !(box->sizes().minCoeff() < 0));
 }
