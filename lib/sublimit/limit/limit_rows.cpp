@@ -87,7 +87,7 @@ std::pair<Piece, int> piece_corner(const Scheme<double>& scheme, const Topology&
   }
   const Kind of_polygon = scheme.is_dual() ? Kind::corner : Kind::cut;
   const Index size = t.size(t.face(centre.start));
-  const bool whole = !scheme.is_dual() && size == scheme.face_size();
+  const bool whole = !scheme.is_dual() && size == (scheme.face_size() == 3 ? 3 : 4);
   return {{!whole ? of_polygon : size == 3 ? Kind::triangle : Kind::quad, centre.start}, 0};
 }
 
@@ -122,7 +122,7 @@ struct CornerPiece {
 };
 CornerPiece corner_piece(const Level& level, LimitTypes& cache, const Centre& centre) {
   const auto [piece, corner] = piece_corner(cache.scheme(), level.topology(), centre);
-  PieceWalker walker;
+  static thread_local PieceWalker walker;
   const PieceWalk& walk = walker.walk(level, piece, cache.pieces().rings(level.sharpness), cache.scheme().period);
   return {piece.kind, corner, cache.pieces().type(level, piece, walk), walk.vertices};
 }

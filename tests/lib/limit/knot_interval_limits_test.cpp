@@ -3,6 +3,8 @@
 // level around extraordinary vertices.
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+
 #include <random>
 
 #include "sublimit/limit/limit_points.h"
@@ -125,6 +127,27 @@ TEST(KnotIntervalLimits, OfATorusAreTheBSplineOfItsKnots) {
     const Twin twin = torus_twin(random, 4 + run, 6 - run);
     expect_same_surface(levelled, twin, unsigned(run));
     expect_same_surface(halves, twin, unsigned(run));
+  }
+}
+
+/// Limits of vertices are those of the surface there, with normals.
+TEST(KnotIntervalLimits, OfVerticesHaveNormals) {
+  std::mt19937 random(17);
+  const Twin twin = torus_twin(random, 5, 6);
+  LimitTypes types(levelled);
+  const Level control = control_level(levelled, twin.mesh);
+  const Topology& t = control.topology();
+  const LimitPoints limit = limit_points(limit_matrices(control, types), t, twin.mesh.positions);
+  const LimitSurface surface(levelled, control);
+  ASSERT_EQ(limit.normal.rows(), t.num_vertices());
+  for (Index f = 0; f < t.num_faces(); ++f) {
+    const Sample corner{f, 0, 0};
+    const LimitSamples there = surface.evaluate(twin.mesh.positions, std::span(&corner, 1), 1);
+    const Index v = t.vertices(Face{f})[0];
+    EXPECT_EQ(limit.status[size_t(v)], LimitStatus::regular) << v;
+    EXPECT_LE((limit.position.row(v) - there.position.row(0)).norm(), reference) << v;
+    const Eigen::RowVector3d du = there.du.row(0), dv = there.dv.row(0);
+    EXPECT_LE((limit.normal.row(v) - du.cross(dv).normalized()).norm(), other_route) << v;
   }
 }
 
