@@ -39,8 +39,7 @@ std::vector<double> given_lengths(const Topology& t, const ControlMesh& mesh, Kn
       fail("it is 0; strips of interval 0 are not refined: merge their two sides, and for a sharp line there tag its " +
            std::string("edges as creases, as in 't crease 2/1/0 ") + std::to_string(given.tail) + " " +
            std::to_string(given.head) + " 10'");
-    const size_t at_head = index(t.tail(e)) == given.tail ? 0 : 1;
-    double& own = length[of_points ? 2 * size_t(index(e)) + at_head : size_t(index(e))];
+    double& own = length[knot_entry(owner, e, index(t.tail(e)) == given.tail)];
     if (own != 0 && own != given.length)
       fail("given twice, as " + format_number(own) + " and as " + format_number(given.length));
     own = given.length;

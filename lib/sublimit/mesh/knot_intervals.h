@@ -31,10 +31,14 @@ enum class NewKnots {
 /// What intervals belong to: one entry for each edge (degree 3), or two (degree 2), of its tail and of its head.
 enum class KnotOwner { edge, point };
 
+/// The entry of an edge: of degree 2 the one at this end.
+inline size_t knot_entry(KnotOwner owner, Edge edge, bool at_tail) {
+  const auto e = static_cast<size_t>(index(edge));
+  return owner == KnotOwner::edge ? e : 2 * e + (at_tail ? 0 : 1);
+}
 /// The entry of the edge of a half-edge: of degree 2 the one at its tail.
 inline size_t knot_entry(KnotOwner owner, const Topology& t, HalfEdge h) {
-  const auto e = static_cast<size_t>(index(t.edge(h)));
-  return owner == KnotOwner::edge ? e : 2 * e + (t.forward(h) ? 0 : 1);
+  return knot_entry(owner, t.edge(h), t.forward(h));
 }
 /// Of degree 2: the entry at the other end of the same edge.
 inline size_t other_end(size_t entry) { return entry ^ 1; }

@@ -31,7 +31,7 @@ class LevelKnots {
   /// Of an edge of a curve, seen from one of its ends. Where the curve ends its own interval goes on, mirrored.
   /// @param before, after  the curve's edges beyond this end and beyond the other
   EdgeKnots<double> along(Edge e, Vertex from, std::optional<Edge> before, std::optional<Edge> after) const {
-    if (split_.owner == KnotOwner::point) return of_points(2 * size_t(index(e)) + (t_.tail(e) == from ? 0 : 1));
+    if (split_.owner == KnotOwner::point) return of_points(knot_entry(split_.owner, e, t_.tail(e) == from));
     const double d = split_.length[index(e)], s = split_.distance[index(e)];
     const auto own = [&](const std::optional<Edge>& other) { return other ? split_.length[index(*other)] : d; };
     return {d, t_.tail(e) == from ? s : d - s, own(before), own(after)};

@@ -268,11 +268,12 @@ TEST(PointIntervals, HalvesMaySpiral) {
     std::sort(result.begin(), result.end(), [](const auto& a, const auto& b) { return std::abs(a) > std::abs(b); });
     return result;
   };
+  constexpr double four_digits = 1e-4;  // as the table has them
   const auto expect_pair = [](const std::vector<std::complex<double>>& values, double real, double imaginary) {
     EXPECT_NEAR(values[0].real(), 1, few_bits * 8);
     for (const size_t i : {1, 2}) {
-      EXPECT_NEAR(values[i].real(), real, 1e-4);
-      EXPECT_NEAR(std::abs(values[i].imag()), imaginary, 1e-4);
+      EXPECT_NEAR(values[i].real(), real, four_digits);
+      EXPECT_NEAR(std::abs(values[i].imag()), imaginary, four_digits);
     }
   };
   // Three faces at each vertex of a tetrahedron: no ends are opposite.
