@@ -21,7 +21,7 @@
 #include "bench_meshes.h"
 #include "measuring.h"
 #include "sublimit/core/sparse_product.h"
-#include "sublimit/scheme/refine_points.h"
+#include "sublimit/scheme/refined_mesh.h"
 #include "sublimit/schemes.h"
 
 namespace sublimit::bench {
@@ -39,12 +39,14 @@ struct Job {
   PeerCase peer;
   std::vector<Level> ours_given;  // for BM_StencilTable
   std::unique_ptr<PeerRefiner> peer_given;
+  std::unique_ptr<MeshRefiner> refiner_given;  // for BM_PointsAgain
 
   Job(const Case& c, int levels_, bool given)
       : mesh(c), levels(levels_), scheme(find_scheme(c.scheme).value()), peer(c) {
     if (!given) return;
     ours_given = refine(scheme, c.mesh, levels);
     peer_given = std::make_unique<PeerRefiner>(peer.mesh, levels);
+    refiner_given = std::make_unique<MeshRefiner>(scheme, c.mesh, levels);
   }
 };
 
@@ -54,10 +56,22 @@ Made made_of(const SparseMatrix& S) {
 }
 
 Made ours_refined_mesh(const Job& job) {
-  const RefinedPoints refined = refine_points(job.scheme, job.mesh.mesh, job.levels);
-  benchmark::DoNotOptimize(refined.points.data());
-  const double rows = double(refined.points.rows());
-  return {rows, 0, 24 * rows};
+  const ControlMesh refined = refined_mesh(job.scheme, job.mesh.mesh, job.levels);
+  benchmark::DoNotOptimize(refined.positions.data());
+  const double rows = double(refined.num_vertices()), corners = double(refined.face_vertices.size());
+  return {rows, 0, 24 * rows + 4 * corners};
+}
+Made ours_again(const Job& job) {
+  const Points points = job.refiner_given->points(job.mesh.mesh.positions);
+  benchmark::DoNotOptimize(points.data());
+  return {double(points.rows()), 0, 24.0 * double(points.rows())};
+}
+template <class Real>
+Made theirs_again(const Job& job) {
+  const Points& x = job.mesh.mesh.positions;
+  const std::vector<Real> positions(x.data(), x.data() + x.size());
+  const double rows = double(job.peer_given->refine(std::span<const Real>(positions)).vertices);
+  return {rows, 0, 3 * sizeof(Real) * rows};
 }
 Made ours_refine(const Job& job) {
   const std::vector<Level> levels = refine(job.scheme, job.mesh.mesh, job.levels);
@@ -102,6 +116,7 @@ struct Measured {
 };
 constexpr Measured measured[] = {
     {"BM_RefineMesh", false, ours_refined_mesh, theirs_refine<double, false>, theirs_refine<float, false>},
+    {"BM_PointsAgain", true, ours_again, theirs_again<double>, theirs_again<float>},
     {"BM_Refine", false, ours_refine, theirs_refine<double, false>, theirs_refine<float, false>},
     {"BM_RefineWhole", false, ours_refine, theirs_refine<double, true>, theirs_refine<float, true>},
     {"BM_StencilTable", true, ours_stencils, theirs_stencils<double>, theirs_stencils<float>},

@@ -58,7 +58,7 @@ int run(const DemoOptions& options) {
   const MeshOutput surface = limit_mesh(levels[3], limit, at_limit, Normals::per_corner);
 
   write_mesh(path("control.obj"), output(mesh));
-  write_mesh(path("refined.obj"), refined_mesh(levels[2], points[2], mesh, {}, true));
+  write_mesh(path("refined.obj"), level_output(levels[2], points[2], mesh, {}, true));
   write_mesh(path("limit.obj"), surface);
   AtomicFile targets(path("targets.csv"));  // for `sublimit fit`: the limit shall go through the control points
   targets.write("vertex,x,y,z\n");

@@ -67,7 +67,7 @@ void write_text(const std::string& path, const std::string& text) {
 
 /// A level and its points, with the tags and texture coordinates that it has.
 MeshOutput mesh_output(const FitOptions& options, const Loaded& loaded, const Fit& fit, Progress& progress) {
-  MeshOutput out = refined_mesh(fit.level, fit.points, loaded.mesh, loaded.rules, true);
+  MeshOutput out = level_output(fit.level, fit.points, loaded.mesh, loaded.rules, true);
   if (loaded.mesh.face_varying.empty()) return out;
   const std::vector<Level> levels = refined_levels(loaded, fit.level.number, progress);
   const std::vector<FaceVaryingLevel> channel = refined_channel(options.common, loaded, levels, options.output);

@@ -6,7 +6,6 @@
 #include "sublimit/base/error.h"
 #include "sublimit/files/matrix_market.h"
 #include "sublimit/files/refined_mesh.h"
-#include "sublimit/scheme/refine_points.h"
 
 namespace sublimit::cli {
 namespace {
@@ -38,12 +37,14 @@ int run(const RefineOptions& options) {
   Progress progress(options.common.quiet);
   const Loaded loaded = load(options.common, progress);
   std::vector<FaceVaryingLevel> channel;
-  RefinedPoints refined;
+  MeshOutput out;
   if (options.matrix.empty() && !has_channel(loaded, options.output)) {
     naming_mesh(options.common, [&] {
-      refined = refine_points(*loaded.scheme, loaded.mesh, options.levels, loaded.rules,
-                              telling_levels(progress, options.levels));
+      out = mesh_output(refined_mesh(*loaded.scheme, loaded.mesh, options.levels, loaded.rules,
+                                     telling_levels(progress, options.levels)),
+                        !options.no_tags);
     });
+    progress.step("writing " + options.output);
   } else {
     std::vector<Level> levels;
     naming_mesh(options.common, [&] {
@@ -55,11 +56,10 @@ int run(const RefineOptions& options) {
       progress.step("multiplying");
       write_matrix_market(options.matrix, refinement_matrix(levels));
     }
-    refined.points = refined_points(levels, loaded.mesh.positions);
-    refined.level = std::move(levels.back());
+    progress.step("writing " + options.output);
+    out = level_output(levels.back(), refined_points(levels, loaded.mesh.positions), loaded.mesh, loaded.rules,
+                       !options.no_tags);
   }
-  progress.step("writing " + options.output);
-  MeshOutput out = refined_mesh(refined.level, refined.points, loaded.mesh, loaded.rules, !options.no_tags);
   if (!channel.empty()) {
     add_channel(out, channel.back(), loaded.mesh.face_varying[0].name,
                 refined_values(channel, loaded.mesh.face_varying[0].values));

@@ -38,22 +38,21 @@ void check_sharpness(float sharpness, const std::string& name) {
 
 }  // namespace
 
-MeshOutput output(const ControlMesh& mesh) {
-  return {.positions = mesh.positions,
-          .normals = {},
-          .face_sizes = mesh.face_sizes,
-          .face_vertices = mesh.face_vertices,
-          .face_normals = {},
-          .face_varying = mesh.face_varying,
-          .creases = mesh.creases,
-          .corners = mesh.corners,
-          .holes = mesh.holes,
-          .knot_intervals = mesh.knot_intervals,
-          .boundary = mesh.boundary,
-          .creasing = mesh.creasing,
-          .triangles = mesh.triangles,
-          .face_varying_interpolation = mesh.face_varying_interpolation,
-          .comments = {}};
+MeshOutput output(ControlMesh mesh) {
+  MeshOutput out;
+  out.positions.swap(mesh.positions);
+  out.face_sizes = std::move(mesh.face_sizes);
+  out.face_vertices = std::move(mesh.face_vertices);
+  out.face_varying = std::move(mesh.face_varying);
+  out.creases = std::move(mesh.creases);
+  out.corners = std::move(mesh.corners);
+  out.holes = std::move(mesh.holes);
+  out.knot_intervals = std::move(mesh.knot_intervals);
+  out.boundary = mesh.boundary;
+  out.creasing = mesh.creasing;
+  out.triangles = mesh.triangles;
+  out.face_varying_interpolation = mesh.face_varying_interpolation;
+  return out;
 }
 
 void check_output(const MeshOutput& mesh, const std::string& name) {

@@ -37,7 +37,7 @@ struct MeshOutput {
 };
 
 /// A control mesh as output, tags included.
-MeshOutput output(const ControlMesh& mesh);
+MeshOutput output(ControlMesh mesh);
 
 /// Writes .obj or .ply, by the extension of `path` in either case. The file appears whole or not at all.
 /// @throws InvalidOption     another extension

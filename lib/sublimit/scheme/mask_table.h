@@ -253,7 +253,8 @@ class MaskTable {
 /// Calls visit(vertex) for the corners of a half-edge's face, from the `skip`-th after the half-edge's own on, `count`
 /// of them.
 template <class Visit>
-void visit_corners(const Topology& t, HalfEdge h, Index skip, Index count, const Visit& visit) {
+[[gnu::always_inline]] inline void visit_corners(const Topology& t, HalfEdge h, Index skip, Index count,
+                                                 const Visit& visit) {
   const std::span<const Index> corners = t.vertices(t.face(h));
   const Index size = static_cast<Index>(corners.size());
   Index i = t.corner_index(h) + skip;
@@ -266,13 +267,13 @@ void visit_corners(const Topology& t, HalfEdge h, Index skip, Index count, const
 
 /// Calls visit(vertex) for the vertices of a face, in the order of FaceSite's slots.
 template <class Visit>
-void visit_site(const Topology& t, Face f, const Visit& visit) {
+[[gnu::always_inline]] inline void visit_site(const Topology& t, Face f, const Visit& visit) {
   for (const Index v : t.vertices(f)) visit(v);
 }
 
 /// The same around an interior edge, in the order of EdgeSite's slots.
 template <class Visit>
-void visit_site(const Topology& t, Edge e, const Visit& visit) {
+[[gnu::always_inline]] inline void visit_site(const Topology& t, Edge e, const Visit& visit) {
   const HalfEdge left = t.half_edge(e), right = t.twin(left);
   visit(index(t.tail(left)));
   visit(index(t.tail(right)));
@@ -281,7 +282,7 @@ void visit_site(const Topology& t, Edge e, const Visit& visit) {
 
 /// The same around an interior vertex, in the order of Ring's slots.
 template <class Visit>
-void visit_site(const Topology& t, Vertex v, const Visit& visit) {
+[[gnu::always_inline]] inline void visit_site(const Topology& t, Vertex v, const Visit& visit) {
   visit(index(v));
   const HalfEdge start = t.outgoing(v);
   HalfEdge h = start;
@@ -293,7 +294,7 @@ void visit_site(const Topology& t, Vertex v, const Visit& visit) {
 
 /// The same for the corner of a face: FaceSite's slots from that corner on.
 template <class Visit>
-void visit_site(const Topology& t, HalfEdge corner, const Visit& visit) {
+[[gnu::always_inline]] inline void visit_site(const Topology& t, HalfEdge corner, const Visit& visit) {
   visit_corners(t, corner, 0, t.size(t.face(corner)), visit);
 }
 

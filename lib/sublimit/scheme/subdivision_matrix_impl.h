@@ -79,26 +79,56 @@ class RowMaker {
   Index length(const Border& border) { return static_cast<Index>(row(border).size()); }
 
   /// Writes the row of the child of an element, columns ascending, zeros dropped; returns its length.
-  Index write(Face f, Index* columns, T* values) {
-    if (!wide_face_) return write_smooth(f, smooth_weights(f), columns, values);
-    const Weights& weights = wide_weights(f);
-    if (!weights.on_edges.empty()) return write(row(f, weights), columns, values);
-    return write_smooth(f, weights, columns, values);
+  template <class Element>
+  Index write(Element element, Index* columns, T* values) {
+    return by_rule(
+        element, [&](const Weights& weights) { return write_smooth(element, weights, columns, values); },
+        [&](const std::vector<Term>& row) { return write(row, columns, values); });
   }
-  Index write(Edge e, Index* columns, T* values) {
-    if (has_crease_row(e)) return write(row(e), columns, values);
-    return write_smooth(e, smooth_weights(e), columns, values);
+  /// Calls term(column, weight) for what the row is the sum of: smooth rows in the order of the site, where points that
+  /// coincide come one by one. Nothing is sorted, and nothing stored.
+  template <class Element, class Visit>
+  [[gnu::always_inline]] void visit(Element element, const Visit& term) {
+    by_rule(
+        element,
+        [&](const Weights& weights) {
+          const T* weight = weights.data();
+          visit_element(
+              element, weights, [&](Index v) __attribute__((always_inline)) {
+                if (*weight != T(0)) term(v, *weight);
+                ++weight;
+              });
+        },
+        [&](const std::vector<Term>& row) {
+          for (const auto& [column, weight] : row) term(column, weight);
+        });
   }
-  Index write(Vertex v, Index* columns, T* values) {
-    if (!is_plain_[index(v)]) return write(row(v), columns, values);
-    return write_smooth(v, smooth_weights(v), columns, values);
-  }
-  Index write(HalfEdge corner, Index* columns, T* values) {
-    return write_smooth(corner, smooth_weights(corner), columns, values);
-  }
-  Index write(const Border& border, Index* columns, T* values) { return write(row(border), columns, values); }
 
  private:
+  /// Calls smooth(weights) where masks alone make the row, else sharp(row).
+  template <class Smooth, class Sharp>
+  [[gnu::always_inline]] auto by_rule(Face f, const Smooth& smooth, const Sharp& sharp) {
+    if (!wide_face_) return smooth(smooth_weights(f));
+    const Weights& weights = wide_weights(f);
+    return weights.on_edges.empty() ? smooth(weights) : sharp(row(f, weights));
+  }
+  template <class Smooth, class Sharp>
+  [[gnu::always_inline]] auto by_rule(Edge e, const Smooth& smooth, const Sharp& sharp) {
+    return has_crease_row(e) ? sharp(row(e)) : smooth(smooth_weights(e));
+  }
+  template <class Smooth, class Sharp>
+  [[gnu::always_inline]] auto by_rule(Vertex v, const Smooth& smooth, const Sharp& sharp) {
+    return is_plain_[index(v)] ? smooth(smooth_weights(v)) : sharp(row(v));
+  }
+  template <class Smooth, class Sharp>
+  [[gnu::always_inline]] auto by_rule(HalfEdge corner, const Smooth& smooth, const Sharp&) {
+    return smooth(smooth_weights(corner));
+  }
+  template <class Smooth, class Sharp>
+  [[gnu::always_inline]] auto by_rule(const Border& border, const Smooth&, const Sharp& sharp) {
+    return sharp(row(border));
+  }
+
   static std::vector<T> dense(const Stencil<T>& stencil, size_t slots) {
     std::vector<T> weights(slots, T(0));
     for (const auto& [slot, weight] : stencil.terms()) weights[slot] = weight;
@@ -204,7 +234,7 @@ class RowMaker {
   /// Under Chaikin creasing an edge decays with those around it, of which a face-varying channel has not all: beyond
   /// its seams the mesh goes on. What the edges became is known.
   void use_child_sharpness(Vertex v, VertexSharpness& around) const {
-    if (refinement_.split != Split::pqq && refinement_.split != Split::ptq) return;
+    if (!is_primal(refinement_.split)) return;
     const std::vector<Edge> edges = t_.edges(v);
     for (size_t i = 0; i < edges.size(); ++i) {
       if (!is_semi_sharp(around.edges[i]) || t_.tail(edges[i]) == t_.head(edges[i])) continue;
@@ -278,20 +308,23 @@ class RowMaker {
   }
   /// The vertices of an element's site, in the order of its slots. After `wide_weights` of a face.
   template <class Visit>
-  void visit_element(Edge e, const Weights& weights, const Visit& visit) const {
+  [[gnu::always_inline]] void visit_element(Edge e, const Weights& weights, const Visit& visit) const {
     if (!wide_edge_) return visit_site(t_, e, visit);
     visit_wide_edge(t_, t_.half_edge(e), weights.tail, weights.head, visit);
   }
   template <class Visit>
-  void visit_element(Face f, const Weights&, const Visit& visit) const {
+  [[gnu::always_inline]] void visit_element(Face f, const Weights&, const Visit& visit) const {
     wide_face_ ? visit_wide_face(t_, f, shapes_, visit) : visit_site(t_, f, visit);
   }
   template <class Visit>
-  void visit_element(Vertex v, const Weights& weights, const Visit& visit) const {
+  [[gnu::always_inline]] void visit_element(Vertex v, const Weights& weights, const Visit& visit) const {
     weights.size() == 1 ? visit(index(v)) : visit_site(t_, v, visit);
   }
+  template <class Visit>
+  [[gnu::always_inline]] void visit_element(const Border&, const Weights&, const Visit&) const {
+  }  // their rows are all sharp
   template <class Element, class Visit>
-  void visit_element(Element element, const Weights&, const Visit& visit) const {
+  [[gnu::always_inline]] void visit_element(Element element, const Weights&, const Visit& visit) const {
     visit_site(t_, element, visit);
   }
 

@@ -3,6 +3,7 @@
 //   side 0: vertex -> midpoint of edge(h)        side 1: midpoint of edge(h) -> face point
 //   side 2: face point -> midpoint of edge(prev h)   side 3: midpoint of edge(prev h) -> vertex
 // stored from position rotation(h) on, so that the children of a quad are oriented as their parent.
+#include <array>
 #include <utility>
 
 #include "sublimit/splits/primal.h"
@@ -21,6 +22,11 @@ struct Pqq {
   Index second_half(Index h) const { return side(index(t.next(HalfEdge{h})), 3); }
 };
 
+/// The four corners of child face h, by sides.
+void set_tails(std::span<Index> tail, Index h, Index rotation, const std::array<Index, 4>& by_side) {
+  for (Index side = 0; side < 4; ++side) tail[4 * h + ((side + rotation) & 3)] = by_side[side];
+}
+
 }  // namespace
 
 std::pair<HalfEdge, HalfEdge> pqq_halves(const Topology& parent, HalfEdge h) {
@@ -28,14 +34,32 @@ std::pair<HalfEdge, HalfEdge> pqq_halves(const Topology& parent, HalfEdge h) {
   return {HalfEdge{pqq.first_half(index(h))}, HalfEdge{pqq.second_half(index(h))}};
 }
 
-Refinement refine_pqq(const Topology& parent) {
-  const Pqq pqq{parent};
-  const Index corners = parent.num_half_edges();
+Refinement pqq_numbering(const Topology& parent) {
   Refinement r;
   r.split = Split::pqq;
   r.from_vertices = parent.num_vertices();
   r.from_faces = parent.num_faces();
   r.from_edges = parent.num_edges();
+  return r;
+}
+
+void set_pqq_corners(const Topology& parent, const Refinement& numbering, std::span<Index> corners) {
+  parallel_for(parent.num_faces(), [&](std::int64_t i) {
+    const Face f{static_cast<Index>(i)};
+    const Index n = parent.size(f), begin = index(parent.first(f)), face_point = index(numbering.child(f));
+    Index before = index(numbering.child(parent.edge(HalfEdge{begin + n - 1})));
+    for (Index k = 0; k < n; ++k) {
+      const Index h = begin + k, after = index(numbering.child(parent.edge(HalfEdge{h})));
+      set_tails(corners, h, n == 4 ? k : 0, {index(parent.tail(HalfEdge{h})), after, face_point, before});
+      before = after;
+    }
+  });
+}
+
+Refinement refine_pqq(const Topology& parent) {
+  const Pqq pqq{parent};
+  const Index corners = parent.num_half_edges();
+  Refinement r = pqq_numbering(parent);
   const size_t num_vertices = size_t(r.from_vertices) + r.from_faces + r.from_edges;
 
   TopologyBuilder b;
@@ -57,15 +81,12 @@ Refinement refine_pqq(const Topology& parent) {
       const Index h = begin + k, next = begin + (k + 1 == n ? 0 : k + 1), prev = begin + (k == 0 ? n - 1 : k - 1);
       const auto twin = [&](Index g) { return index(parent.twin(HalfEdge{g})); };
       const Index first = twin(h), second = twin(prev), rotation = n == 4 ? k : 0;
-      const Index tails[] = {index(parent.tail(HalfEdge{h})), index(r.child(parent.edge(HalfEdge{h}))), face_point,
-                             index(r.child(parent.edge(HalfEdge{prev})))};
+      set_tails(b.tail, h, rotation,
+                {index(parent.tail(HalfEdge{h})), index(r.child(parent.edge(HalfEdge{h}))), face_point,
+                 index(r.child(parent.edge(HalfEdge{prev})))});
       const Index twins[] = {first < 0 ? -1 : pqq.second_half(first), pqq.side(next, 2), pqq.side(prev, 1),
                              second < 0 ? -1 : pqq.first_half(second)};
-      for (Index side = 0; side < 4; ++side) {
-        const Index at = 4 * h + ((side + rotation) & 3);
-        b.tail[at] = tails[side];
-        b.twin[at] = twins[side];
-      }
+      for (Index side = 0; side < 4; ++side) b.twin[4 * h + ((side + rotation) & 3)] = twins[side];
       r.face_parent[h] = index(f);
     }
     b.outgoing[face_point] = pqq.side(begin, 2);
@@ -75,7 +96,6 @@ Refinement refine_pqq(const Topology& parent) {
   halves.set_nonmanifold(b, r);
 
   r.topology = std::move(b).build();
-  set_edge_parents(r, parent);
   return r;
 }
 

@@ -3,6 +3,7 @@
 // What the primal splits share: vertices and edges survive (an edge in two halves), so twins, fans and non-manifold
 // elements of the children follow from the parents' by arithmetic.
 #include <algorithm>
+#include <span>
 #include <vector>
 
 #include "sublimit/base/parallel_for.h"
@@ -13,6 +14,10 @@ namespace sublimit {
 
 Refinement refine_pqq(const Topology& parent);
 Refinement refine_ptq(const Topology& parent);
+Refinement pqq_numbering(const Topology& parent);
+Refinement ptq_numbering(const Topology& parent);
+void set_pqq_corners(const Topology& parent, const Refinement& numbering, std::span<Index> corners);
+void set_ptq_corners(const Topology& parent, const Refinement& numbering, std::span<Index> corners);
 std::pair<HalfEdge, HalfEdge> pqq_halves(const Topology& parent, HalfEdge h);
 std::pair<HalfEdge, HalfEdge> ptq_halves(const Topology& parent, HalfEdge h);
 
@@ -81,16 +86,5 @@ class PrimalHalves {
   First first_;
   Second second_;
 };
-
-/// `edge_parent` of every child edge, from the halves of the parents' edges; what they leave out lies inside a face.
-inline void set_edge_parents(Refinement& r, const Topology& parent) {
-  r.edge_parent.resize(r.topology.num_edges());
-  parallel_for(r.topology.num_edges(), [&](std::int64_t i) { r.edge_parent[i] = -1; });
-  parallel_for(parent.num_edges(), [&](std::int64_t i) {
-    const auto [at_tail, at_head] = r.halves(parent, parent.half_edge(Edge{static_cast<Index>(i)}));
-    r.edge_parent[index(r.topology.edge(at_tail))] = static_cast<Index>(2 * i);
-    r.edge_parent[index(r.topology.edge(at_head))] = static_cast<Index>(2 * i + 1);
-  });
-}
 
 }  // namespace sublimit

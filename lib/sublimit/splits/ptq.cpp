@@ -16,18 +16,42 @@ namespace {
 constexpr auto first_half = [](Index h) { return 12 * (h / 3) + 4 * (h % 3); };
 constexpr auto second_half = [](Index h) { return 12 * (h / 3) + 3 * ((h + 1) % 3) + h % 3; };
 
+/// Corners of the four children of a face.
+void set_tails(const Topology& parent, const Refinement& r, Index f, std::span<Index> tail) {
+  Index m[3];
+  for (Index k = 0; k < 3; ++k) m[k] = index(r.child(parent.edge(HalfEdge{3 * f + k})));
+  for (Index k = 0; k < 3; ++k) {
+    // Child k: its vertex at position k, m_k at k + 1, m_k-1 at k + 2. The middle triangle has m_k+1 at position k.
+    const Index child = 12 * f + 3 * k, k1 = (k + 1) % 3, k2 = (k + 2) % 3;
+    tail[child + k] = index(parent.tail(HalfEdge{3 * f + k}));
+    tail[child + k1] = m[k];
+    tail[child + k2] = m[k2];
+    tail[12 * f + 9 + k] = m[k1];
+  }
+}
+
 }  // namespace
 
 std::pair<HalfEdge, HalfEdge> ptq_halves(const Topology&, HalfEdge h) {
   return {HalfEdge{first_half(index(h))}, HalfEdge{second_half(index(h))}};
 }
 
-Refinement refine_ptq(const Topology& parent) {
+Refinement ptq_numbering(const Topology& parent) {
   check_triangles(parent);
   Refinement r;
   r.split = Split::ptq;
   r.from_vertices = parent.num_vertices();
   r.from_edges = parent.num_edges();
+  return r;
+}
+
+void set_ptq_corners(const Topology& parent, const Refinement& numbering, std::span<Index> corners) {
+  parallel_for(parent.num_faces(),
+               [&](std::int64_t f) { set_tails(parent, numbering, static_cast<Index>(f), corners); });
+}
+
+Refinement refine_ptq(const Topology& parent) {
+  Refinement r = ptq_numbering(parent);
   const size_t num_vertices = size_t(r.from_vertices) + r.from_edges;
 
   TopologyBuilder b;
@@ -41,15 +65,9 @@ Refinement refine_ptq(const Topology& parent) {
   const PrimalHalves halves(parent, first_half, second_half);
   parallel_for(parent.num_faces(), [&](std::int64_t i) {
     const Index f = static_cast<Index>(i), middle = 12 * f + 9;
-    Index m[3];
-    for (Index k = 0; k < 3; ++k) m[k] = index(r.child(parent.edge(HalfEdge{3 * f + k})));
+    set_tails(parent, r, f, b.tail);
     for (Index k = 0; k < 3; ++k) {
-      // Child k: its vertex at position k, m_k at k + 1, m_k-1 at k + 2. The middle triangle has m_k+1 at position k.
-      const Index child = 12 * f + 3 * k, k1 = (k + 1) % 3, k2 = (k + 2) % 3;
-      b.tail[child + k] = index(parent.tail(HalfEdge{3 * f + k}));
-      b.tail[child + k1] = m[k];
-      b.tail[child + k2] = m[k2];
-      b.tail[middle + k] = m[k1];
+      const Index child = 12 * f + 3 * k, k1 = (k + 1) % 3;
       // The side m_k -> m_k-1 of child k meets the middle's side m_k-1 -> m_k, which starts at position k + 1.
       b.twin[child + k1] = middle + k1;
       b.twin[middle + k1] = child + k1;
@@ -62,7 +80,6 @@ Refinement refine_ptq(const Topology& parent) {
   halves.set_nonmanifold(b, r);
 
   r.topology = std::move(b).build();
-  set_edge_parents(r, parent);
   return r;
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "sublimit/base/error.h"
+#include "sublimit/base/huge_pages.h"
 #include "sublimit/splits/primal.h"
 #include "sublimit/splits/sheets.h"
 
@@ -60,12 +61,35 @@ void check_triangles(const Topology& t) {
                             "scheme for polygons, catmull-clark for one");
 }
 
-Refinement refine(const Topology& parent, Split split, int level) {
+namespace {
+
+void check_size(const Topology& parent, Split split) {
   const std::int64_t count = num_child_half_edges(parent, split);
   if (count > std::numeric_limits<Index>::max())
     throw ResourceError(
         "the next level has " + std::to_string(count) + " face corners, more than 32-bit indices count (" +
         std::to_string(std::numeric_limits<Index>::max()) + "); use fewer levels or refine fewer faces");
+}
+
+}  // namespace
+
+Refinement numbering(const Topology& parent, Split split) {
+  check_size(parent, split);
+  return split == Split::ptq ? ptq_numbering(parent) : pqq_numbering(parent);
+}
+
+std::vector<Index> child_corners(const Topology& parent, const Refinement& numbering) {
+  std::vector<Index> corners;
+  corners.reserve(size_t(num_child_half_edges(parent, numbering.split)));
+  prefer_huge_pages(corners.data(), corners.capacity() * sizeof(Index));
+  corners.resize(corners.capacity());
+  numbering.split == Split::ptq ? set_ptq_corners(parent, numbering, corners)
+                                : set_pqq_corners(parent, numbering, corners);
+  return corners;
+}
+
+Refinement refine(const Topology& parent, Split split, int level) {
+  check_size(parent, split);
   switch (split) {
     case Split::pqq:
       return refine_pqq(parent);

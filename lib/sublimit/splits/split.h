@@ -48,14 +48,12 @@ struct Refinement {
   std::vector<Index>
       face_of_vertex;  ///< dual: child face of each vertex, -1 where there is none (the last one's of several)
   UninitializedVector<Index> face_parent;  ///< a parent face of every child face: its own, or one at its edge or vertex
-  /// Per child edge of a primal split: 2 e for the half of parent edge e at its tail, 2 e + 1 for the half at its head,
-  /// -1 inside a face.
-  UninitializedVector<Index> edge_parent;
 
   Vertex child(Vertex v) const { return Vertex{index(v)}; }
   Vertex child(Face f) const { return Vertex{from_vertices + index(f)}; }
   Vertex child(Edge e) const { return Vertex{from_vertices + from_faces + index(e)}; }
   Vertex child(HalfEdge corner) const { return Vertex{from_vertices + from_faces + from_edges + index(corner)}; }
+  Index num_children() const { return first_border_child() + border_points * static_cast<Index>(borders.size()); }
   Index first_border_child() const { return from_vertices + from_faces + from_edges + from_corners; }
 
   Origin origin(Vertex child) const {
@@ -96,6 +94,15 @@ struct Refinement {
 /// @throws UnsupportedTopology  ptq, sqrt3 on a face that is not a triangle
 /// @throws ResourceError        more half-edges than 32-bit indices; checked before memory is taken
 Refinement refine(const Topology& parent, Split split, int level = 0);
+
+/// Whether a split has `numbering` and `child_corners`: the primal ones, pqq and ptq.
+constexpr bool is_primal(Split split) { return split == Split::pqq || split == Split::ptq; }
+/// How a primal split numbers its children, without their connectivity: `topology` is empty.
+/// @throws as `refine`
+Refinement numbering(const Topology& parent, Split split);
+/// Corners of all faces that a primal split makes, four or three each, as `refine` has them: all that is needed of a
+/// level that nothing refines further.
+std::vector<Index> child_corners(const Topology& parent, const Refinement& numbering);
 
 /// @throws UnsupportedTopology  naming the first face that is not a triangle
 void check_triangles(const Topology& topology);

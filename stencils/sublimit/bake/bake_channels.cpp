@@ -6,7 +6,7 @@
 #include "sublimit/bake/lattice_cells.h"
 #include "sublimit/base/memory.h"
 #include "sublimit/core/sparse_product.h"
-#include "sublimit/files/refined_mesh.h"
+#include "sublimit/scheme/refined_mesh.h"
 #include "sublimit/files/rule_words.h"
 #include "sublimit/limit/limit_points.h"
 #include "sublimit/primvar/face_varying.h"

@@ -1,51 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sublimit/files/refined_mesh.h"
 
+#include <utility>
+
 #include "sublimit/base/error.h"
 
 namespace sublimit {
 
-RemainingTags remaining_tags(const Level& level, const ControlMesh& control, const SubdivisionOptions& options) {
-  const Topology& t = level.topology();
-  RemainingTags left;
-  left.boundary = options.boundary.value_or(control.boundary.value_or(Boundary::edge_and_corner));
-  if (left.boundary == Boundary::none) left.boundary = Boundary::edge_only;
-  const Sharpness implied = initial_sharpness(t, {}, left.boundary, level.sharpness.creasing);
-  for (Index e = 0; e < t.num_edges(); ++e)
-    if (level.sharpness.edge[e] > implied.edge[e]) left.creases.push_back(Edge{e});
-  for (Index v = 0; v < t.num_vertices(); ++v)
-    if (level.sharpness.vertex[v] > implied.vertex[v]) left.corners.push_back(Vertex{v});
-  return left;
+MeshOutput mesh_output(ControlMesh mesh, bool tags) {
+  MeshOutput out = output(std::move(mesh));
+  if (tags) return out;
+  MeshOutput bare;
+  bare.positions.swap(out.positions);
+  bare.face_sizes = std::move(out.face_sizes);
+  bare.face_vertices = std::move(out.face_vertices);
+  return bare;
 }
 
-MeshOutput refined_mesh(const Level& level, const Points& points, const ControlMesh& control,
+MeshOutput level_output(const Level& level, const Points& points, const ControlMesh& control,
                         const SubdivisionOptions& options, bool tags) {
-  const Topology& t = level.topology();
-  MeshOutput out;
-  out.positions = points;
-  for (Index f = 0; f < t.num_faces(); ++f) {
-    const auto corners = t.vertices(Face{f});
-    out.face_sizes.push_back(t.size(Face{f}));
-    out.face_vertices.insert(out.face_vertices.end(), corners.begin(), corners.end());
-  }
-  if (!tags) return out;
-  const RemainingTags left = remaining_tags(level, control, options);
-  out.boundary = left.boundary;
-  if (level.sharpness.creasing == Creasing::chaikin) out.creasing = Creasing::chaikin;
-  if (level.number == 0) out.triangles = control.triangles;
-  for (Index f = 0; f < t.num_faces(); ++f)
-    if (level.holes[f]) out.holes.push_back(f);
-  for (const Edge e : left.creases)
-    out.creases.push_back({index(t.tail(e)), index(t.head(e)), level.sharpness.edge[index(e)]});
-  for (Index i = 0; i < t.num_edges() && !level.intervals.empty(); ++i) {
-    const Index tail = index(t.tail(Edge{i})), head = index(t.head(Edge{i}));
-    const size_t entry = knot_entry(level.intervals.owner, t, t.half_edge(Edge{i}));
-    out.knot_intervals.push_back({tail, head, level.intervals.length[entry]});
-    if (level.intervals.owner == KnotOwner::point)
-      out.knot_intervals.push_back({head, tail, level.intervals.length[other_end(entry)]});
-  }
-  for (const Vertex v : left.corners) out.corners.push_back({index(v), level.sharpness.vertex[index(v)]});
-  return out;
+  return mesh_output(level_mesh(level, points, control, options), tags);
 }
 
 MeshOutput limit_mesh(const Level& level, const LimitMatrices& limit, const LimitPoints& points, Normals normals) {

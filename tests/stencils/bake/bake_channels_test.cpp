@@ -37,7 +37,7 @@ ControlMesh refined(const Scheme<double>& scheme, const ControlMesh& mesh, int l
   const std::vector<Level> all = refine(scheme, mesh, levels, options);
   Points points = mesh.positions;
   for (int k = 1; k <= levels; ++k) points = apply(all[k].S, points);
-  MeshOutput out = refined_mesh(all.back(), points, mesh, options, true);
+  MeshOutput out = level_output(all.back(), points, mesh, options, true);
   if (!mesh.face_varying.empty()) {
     const auto channel = refine_face_varying(scheme, interpolation, mesh.face_varying[0], all);
     add_channel(out, channel.back(), "uv", refined_values(channel, mesh.face_varying[0].values));
@@ -150,7 +150,7 @@ TEST(BakedChannel, OfTheLimitIsAtItsLimit) {
       Points points = mesh.positions;
       for (int k = 1; k <= levels; ++k) points = apply(all[k].S, points);
       MeshOutput out =
-          refined_mesh(all.back(), apply(limit_matrices(all.back(), cache).position, points), mesh, {}, true);
+          level_output(all.back(), apply(limit_matrices(all.back(), cache).position, points), mesh, {}, true);
       const auto channel = refine_face_varying(scheme, FaceVaryingInterpolation::boundaries, mesh.face_varying[0], all);
       add_channel(out, channel.back(), "uv",
                   apply(limit_matrices(channel.back().level, cache).position,

@@ -19,7 +19,7 @@ std::string refined(const Scheme<double>& scheme, const ControlMesh& mesh, int l
   Points points = mesh.positions;
   for (int k = 1; k <= levels; ++k) points = apply(all[k].S, points);
   const auto channel = refine_face_varying(scheme, interpolation, mesh.face_varying[0], all);
-  MeshOutput out = refined_mesh(all.back(), points, mesh, {}, true);
+  MeshOutput out = level_output(all.back(), points, mesh, {}, true);
   add_channel(out, channel.back(), "uv", refined_values(channel, mesh.face_varying[0].values));
   out.face_varying_interpolation = interpolation;
   return format_obj(out);

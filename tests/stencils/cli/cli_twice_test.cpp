@@ -19,7 +19,7 @@ std::string refined(const Scheme<double>& scheme, const ControlMesh& mesh, int l
   const std::vector<Level> all = refine(scheme, mesh, levels);
   Points points = mesh.positions;
   for (int k = 1; k <= levels; ++k) points = apply(all[k].S, points);
-  return format_obj(refined_mesh(all.back(), points, mesh, {}, true));
+  return format_obj(level_output(all.back(), points, mesh, {}, true));
 }
 
 ControlMesh with_rules(ControlMesh mesh, Boundary boundary, Creasing creasing) {
