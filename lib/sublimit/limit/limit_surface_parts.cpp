@@ -123,6 +123,7 @@ unsigned LimitSurface::Parts::sides(const Piece& piece) const {
   const Topology& t = base().topology();
   HalfEdge h = piece.start;
   unsigned bits = base().holes[index(t.face(h))] ? hole : 0;
+  if (types->pieces().regular_smoothness() > 0 && is_regular(piece)) return bits;
   if (piece.kind == Kind::quad || piece.kind == Kind::triangle) {
     for (int k = 0; k < (piece.kind == Kind::quad ? 4 : 3); ++k, h = t.next(h)) {
       if (cuts(h)) bits |= 1u << k;
@@ -161,7 +162,35 @@ std::optional<Centre> LimitSurface::Parts::centre(const Target& target) const {
   }
 }
 
+const LimitSurface::Parts::Regular& LimitSurface::Parts::regular() const {
+  std::call_once(regular_once_, [&] { tbb::this_task_arena::isolate([&] { find_regular(); }); });
+  return regular_;
+}
+
+void LimitSurface::Parts::find_regular() const {
+  const Topology& t = base().topology();
+  const int corners = addresses.triangles() ? 3 : 4;
+  if (t.uniform_face_size() != corners || scheme.is_dual() || !base().intervals.empty() ||
+      types->pieces().rings(base().sharpness) != 1)
+    return;
+  regular_.faces.emplace(base(), corners);
+  std::vector<Index> points(size_t(regular_.faces->num_points()));
+  for (Index f = 0; f < t.num_faces(); ++f) {
+    if (!regular_.faces->points(Face{f}, points.data())) continue;
+    PieceWalker walker;
+    const Piece piece{corners == 3 ? Kind::triangle : Kind::quad, t.first(Face{f})};
+    const PieceWalk& walk = walker.walk(base(), piece, 1, scheme.period);
+    if (walk.vertices == points) regular_.type = types->pieces().type(base(), piece, walk);
+    return;
+  }
+}
+
 const PieceType* LimitSurface::Parts::type_of(const Piece& piece, std::vector<Index>& vertices) const {
+  if (piece.kind == Kind::quad || piece.kind == Kind::triangle)
+    if (const Regular& known = regular(); known.type) {
+      vertices.resize(size_t(known.faces->num_points()));
+      if (known.faces->points(base().topology().face(piece.start), vertices.data())) return known.type;
+    }
   static thread_local PieceWalker walker;
   const PieceWalk& walk = walker.walk(base(), piece, types->pieces().rings(base().sharpness), scheme.period);
   vertices = walk.vertices;

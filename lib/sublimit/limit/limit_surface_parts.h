@@ -7,6 +7,7 @@
 #include "sublimit/limit/corner_limits.h"
 #include "sublimit/limit/limit_surface.h"
 #include "sublimit/limit/patch_tree.h"
+#include "sublimit/neighborhood/regular_faces.h"
 
 namespace sublimit {
 
@@ -115,9 +116,22 @@ struct LimitSurface::Parts {
   bool evaluate_plain_row(const Points& points, const Sample& sample, int order, bool normals, LimitSamples& out,
                           std::int64_t i) const;
   void find_pieces() const;
+  void find_regular() const;
+  /// Faces that need no walk, and the type that all of them have; null where the scheme looks further, or walks find
+  /// the points in another order.
+  struct Regular {
+    std::optional<RegularFaces> faces;
+    const PieceType* type = nullptr;
+  };
+  const Regular& regular() const;
+  bool is_regular(const Piece& piece) const {
+    return (piece.kind == Kind::quad || piece.kind == Kind::triangle) && regular().faces &&
+           regular().faces->is_regular(base().topology().face(piece.start));
+  }
   /// What is told where a piece has no limit.
   NoLimit without_limit(const Piece& piece, const std::string& why) const;
-  mutable std::once_flag pieces_once_;
+  mutable std::once_flag pieces_once_, regular_once_;
+  mutable Regular regular_;
   mutable Pieces pieces_;
 };
 

@@ -526,14 +526,18 @@ const PieceType* PieceTypes::type(const Level& level, const Piece& piece, const 
 
 namespace {
 
+/// So near to a corner, but not there, that more than a few digits of tangents would go.
+bool is_beside_corner(Piece::Kind kind, const Place& place) {
+  constexpr double near = 0x1p-12;
+  const Place c = corner_place(kind, nearest_corner(kind, place));
+  return std::abs(place.u - c.u) <= near && std::abs(place.v - c.v) <= near && corner_at(kind, place) < 0;
+}
+
 /// Along the tangent plane of a polynomial at a place next to a corner. Where both derivatives are parallel at the
 /// corner, as beside a crease that leaves one face, all that the plane is known by is a difference of the size of the
 /// distance: the way to the corner keeps it apart.
 RowMatrix polynomial_tangents(const PieceType& type, const PiecePolynomial& polynomial, Place place) {
-  constexpr double near = 0x1p-12;  // nearer, more than a few digits would go
-  const Place c = corner_place(type.kind(), nearest_corner(type.kind(), place));
-  const bool is_near = std::abs(place.u - c.u) <= near && std::abs(place.v - c.v) <= near;
-  const PieceLink* const child = is_near && corner_at(type.kind(), place) < 0 ? &type.child(place) : nullptr;
+  const PieceLink* const child = is_beside_corner(type.kind(), place) ? &type.child(place) : nullptr;
   const PiecePolynomial* const next = child ? child->type->known_polynomial() : nullptr;
   if (!next) return polynomial.rows(place, 1).middleRows(1, 2);
   const PieceLink& link = *child;
@@ -568,7 +572,7 @@ PieceRows piece_rows(const PieceType& root, Place place, int order, bool search)
       result.order = order;
       result.on_knot = is_on_knot(place, type->kind() == Piece::Kind::triangle, type->kind() == Piece::Kind::corner,
                                   p->coefficients.size() > 1);
-      if (order > 0) result.tangents = polynomial_tangents(*type, *p, place);
+      if (order > 0 && is_beside_corner(type->kind(), place)) result.tangents = polynomial_tangents(*type, *p, place);
       break;
     }
     int corner = corner_at(type->kind(), place);

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "sublimit/base/parallel_for.h"
-#include "sublimit/patterns/regular_faces.h"
+#include "sublimit/neighborhood/regular_faces.h"
 
 namespace sublimit {
 namespace {

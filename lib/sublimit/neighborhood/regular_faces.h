@@ -15,6 +15,11 @@ class RegularFaces {
   /// @param corners  of the faces: 3 or 4
   RegularFaces(const Level& level, int corners);
 
+  bool is_regular(Face face) const {
+    for (const Index v : t_.vertices(face))
+      if (!plain_[v]) return false;
+    return true;
+  }
   /// The points of a face and of those around it, in the order in which `PieceWalker` finds them in one ring.
   /// @param out  `num_points` of them
   /// @return  false for a face that is not regular

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sublimit/patterns/regular_faces.h"
+#include "sublimit/neighborhood/regular_faces.h"
 
 #include "sublimit/base/parallel_for.h"
 
@@ -23,10 +23,9 @@ RegularFaces::RegularFaces(const Level& level, int corners)
 }
 
 bool RegularFaces::points(Face face, Index* out) const {
+  if (!is_regular(face)) return false;
   const HalfEdge own[4] = {t_.corner(face, 0), t_.corner(face, 1), t_.corner(face, 2),
                            corners_ == 4 ? t_.corner(face, 3) : no_half_edge};
-  for (int k = 0; k < corners_; ++k)
-    if (!plain_[index(t_.tail(own[k]))]) return false;
   for (int k = 0; k < corners_; ++k) *out++ = index(t_.tail(own[k]));
   // Around each corner counter-clockwise; what the corners before have seen is left out.
   const auto beside = [&](HalfEdge g) { *out++ = index(t_.tail(t_.prev(g))); };
