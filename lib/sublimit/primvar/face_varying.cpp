@@ -111,19 +111,19 @@ FaceVaryingLevel as_vertices(const Level& mesh) {
 
 /// Whether vertices and edges survive every level.
 bool keeps_edges(const Scheme<double>& scheme, const Level& control) {
-  return is_primal(scheme.steps) && is_primal(scheme.steps_at(control.number, control.topology()));
+  return keeps_elements(scheme.steps) && keeps_elements(scheme.steps_at(control.number, control.topology()));
 }
 
 }  // namespace
 
 Scheme<double> face_varying_scheme(const Scheme<double>& scheme, FaceVaryingInterpolation interpolation) {
   if (interpolation < FaceVaryingInterpolation::boundaries) return scheme;
-  if (!is_primal(scheme.steps))
+  if (!keeps_elements(scheme.steps))
     throw InvalidOption("face-varying interpolation '" + std::string(name(interpolation)) +
                         "' is linear along edges, which the split of " + scheme.name +
                         " does not keep; use none, or a scheme that does: catmull-clark, loop");
   if (interpolation == FaceVaryingInterpolation::boundaries) return scheme;
-  if (!is_primal(scheme.preparation))
+  if (!keeps_elements(scheme.preparation))
     throw InvalidOption(
         "face-varying interpolation 'all' is linear along edges, which " + scheme.name +
         " does not keep where it makes quadrilaterals of the edges; use another interpolation, or quads=corners");

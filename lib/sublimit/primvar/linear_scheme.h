@@ -7,11 +7,11 @@
 namespace sublimit {
 
 /// Whether vertices and edges survive, so that something can be linear along them.
-constexpr bool is_primal(Split split) { return split == Split::pqq || split == Split::ptq || split == Split::keep; }
+constexpr bool keeps_elements(Split split) { return is_primal(split) || split == Split::keep; }
 
 template <class T>
-bool is_primal(const std::vector<Step<T>>& steps) {
-  return std::all_of(steps.begin(), steps.end(), [](const Step<T>& step) { return is_primal(step.split); });
+bool keeps_elements(const std::vector<Step<T>>& steps) {
+  return std::all_of(steps.begin(), steps.end(), [](const Step<T>& step) { return keeps_elements(step.split); });
 }
 
 /// @pre  every step is primal

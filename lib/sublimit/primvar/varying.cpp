@@ -18,7 +18,7 @@ void require_levels(std::span<const Level> levels) {
 
 SparseMatrix varying_matrix(const Scheme<double>& scheme, std::span<const Level> levels) {
   require_levels(levels);
-  if (!is_primal(scheme.steps_at(0, levels[0].topology())))
+  if (!keeps_elements(scheme.steps_at(0, levels[0].topology())))
     throw InvalidOption("varying values are linear along edges, which the split of " + scheme.name +
                         " does not keep; use vertex values, or a scheme that does: catmull-clark, loop");
   const Scheme<double> linear = linear_scheme(scheme);

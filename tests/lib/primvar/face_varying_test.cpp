@@ -24,7 +24,7 @@ std::vector<Scheme<double>> schemes() {
   result.push_back(find_scheme("averaging", {{"degree", "5"}}).value());
   return result;
 }
-bool keeps_edges(const Scheme<double>& scheme) { return is_primal(scheme.steps); }
+bool keeps_edges(const Scheme<double>& scheme) { return keeps_elements(scheme.steps); }
 
 /// Meshes without tags for a scheme, closed and open.
 std::vector<ControlMesh> closed_meshes(const Scheme<double>& scheme) {
