@@ -250,10 +250,31 @@ class MaskTable {
   std::vector<double> key_;
 };
 
+/// Connectivity of faces of one size, known when this is compiled: what `visit_site` asks for, without a division or a
+/// branch.
+template <Index N>
+class UniformFaces {
+ public:
+  explicit UniformFaces(const Topology& t) : t_(t), tails_(t.num_faces() > 0 ? t.vertices(Face{0}).data() : nullptr) {}
+  Index size(Face) const { return N; }
+  Face face(HalfEdge h) const { return Face{index(h) / N}; }
+  Index corner_index(HalfEdge h) const { return index(h) % N; }
+  std::span<const Index> vertices(Face f) const { return {tails_ + N * std::ptrdiff_t(index(f)), size_t(N)}; }
+  Vertex tail(HalfEdge h) const { return Vertex{tails_[index(h)]}; }
+  HalfEdge twin(HalfEdge h) const { return t_.twin(h); }
+  HalfEdge ccw(HalfEdge h) const { return t_.twin(HalfEdge{index(h) % N == 0 ? index(h) + N - 1 : index(h) - 1}); }
+  HalfEdge half_edge(Edge e) const { return t_.half_edge(e); }
+  HalfEdge outgoing(Vertex v) const { return t_.outgoing(v); }
+
+ private:
+  const Topology& t_;
+  const Index* tails_;
+};
+
 /// Calls visit(vertex) for the corners of a half-edge's face, from the `skip`-th after the half-edge's own on, `count`
 /// of them.
-template <class Visit>
-[[gnu::always_inline]] inline void visit_corners(const Topology& t, HalfEdge h, Index skip, Index count,
+template <class Mesh, class Visit>
+[[gnu::always_inline]] inline void visit_corners(const Mesh& t, HalfEdge h, Index skip, Index count,
                                                  const Visit& visit) {
   const std::span<const Index> corners = t.vertices(t.face(h));
   const Index size = static_cast<Index>(corners.size());
@@ -266,14 +287,14 @@ template <class Visit>
 }
 
 /// Calls visit(vertex) for the vertices of a face, in the order of FaceSite's slots.
-template <class Visit>
-[[gnu::always_inline]] inline void visit_site(const Topology& t, Face f, const Visit& visit) {
+template <class Mesh, class Visit>
+[[gnu::always_inline]] inline void visit_site(const Mesh& t, Face f, const Visit& visit) {
   for (const Index v : t.vertices(f)) visit(v);
 }
 
 /// The same around an interior edge, in the order of EdgeSite's slots.
-template <class Visit>
-[[gnu::always_inline]] inline void visit_site(const Topology& t, Edge e, const Visit& visit) {
+template <class Mesh, class Visit>
+[[gnu::always_inline]] inline void visit_site(const Mesh& t, Edge e, const Visit& visit) {
   const HalfEdge left = t.half_edge(e), right = t.twin(left);
   visit(index(t.tail(left)));
   visit(index(t.tail(right)));
@@ -281,8 +302,8 @@ template <class Visit>
 }
 
 /// The same around an interior vertex, in the order of Ring's slots.
-template <class Visit>
-[[gnu::always_inline]] inline void visit_site(const Topology& t, Vertex v, const Visit& visit) {
+template <class Mesh, class Visit>
+[[gnu::always_inline]] inline void visit_site(const Mesh& t, Vertex v, const Visit& visit) {
   visit(index(v));
   const HalfEdge start = t.outgoing(v);
   HalfEdge h = start;
@@ -293,8 +314,8 @@ template <class Visit>
 }
 
 /// The same for the corner of a face: FaceSite's slots from that corner on.
-template <class Visit>
-[[gnu::always_inline]] inline void visit_site(const Topology& t, HalfEdge corner, const Visit& visit) {
+template <class Mesh, class Visit>
+[[gnu::always_inline]] inline void visit_site(const Mesh& t, HalfEdge corner, const Visit& visit) {
   visit_corners(t, corner, 0, t.size(t.face(corner)), visit);
 }
 

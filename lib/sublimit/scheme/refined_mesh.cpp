@@ -2,8 +2,10 @@
 #include "sublimit/scheme/refined_mesh.h"
 
 #include <algorithm>
+#include <map>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "sublimit/base/error.h"
 #include "sublimit/base/memory.h"
@@ -26,43 +28,51 @@ struct StepView {
   const Sharpness& child_sharpness;
   int level;
   const KnotSplit* knots;
+
+  RowMaker<double> maker(const std::vector<std::uint8_t>& plain) const {
+    return {scheme, step, parent, refinement, sharpness, child_sharpness, level, knots, plain};
+  }
 };
+
+/// What a row is the sum of, by columns of the points, into `to`.
+/// @param visit  calls term(column, weight) one after the other
+template <class Visit>
+[[gnu::always_inline]] inline void add_row(const Points& coarse, double* to, const Visit& visit) {
+  const Eigen::Index columns = coarse.cols();
+  const double* const from = coarse.data();
+  if (columns == 3) {
+    double x = 0, y = 0, z = 0;
+    visit([&](Index column, double weight) __attribute__((always_inline)) {
+      const double* const p = from + 3 * std::ptrdiff_t(column);
+      x += weight * p[0], y += weight * p[1], z += weight * p[2];
+    });
+    to[0] = x, to[1] = y, to[2] = z;
+  } else {
+    std::fill_n(to, columns, 0.0);
+    visit([&](Index column, double weight) {
+      const double* const p = from + columns * std::ptrdiff_t(column);
+      for (Eigen::Index c = 0; c < columns; ++c) to[c] += weight * p[c];
+    });
+  }
+}
 
 /// Children of the elements of one kind, which lie one after the other.
 template <class MakeElement>
 void make_points(tbb::enumerable_thread_specific<RowMaker<double>>& makers, const Points& coarse, Index first,
                  Index count, const MakeElement& element, Points& fine) {
-  const Eigen::Index columns = coarse.cols();
   parallel_for_blocks(count, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     RowMaker<double>& maker = makers.local();
-    for (std::int64_t i = begin; i < end; ++i) {
-      double* const to = fine.data() + (first + i) * columns;
-      if (columns == 3) {
-        double x = 0, y = 0, z = 0;
-        maker.visit(
-            element(static_cast<Index>(i)), [&](Index column, double weight) __attribute__((always_inline)) {
-              const double* const p = coarse.data() + 3 * std::ptrdiff_t(column);
-              x += weight * p[0], y += weight * p[1], z += weight * p[2];
-            });
-        to[0] = x, to[1] = y, to[2] = z;
-      } else {
-        std::fill_n(to, columns, 0.0);
-        maker.visit(
-            element(static_cast<Index>(i)), [&](Index column, double weight) __attribute__((always_inline)) {
-              const double* const p = coarse.data() + columns * std::ptrdiff_t(column);
-              for (Eigen::Index c = 0; c < columns; ++c) to[c] += weight * p[c];
-            });
-      }
-    }
+    for (std::int64_t i = begin; i < end; ++i)
+      add_row(
+          coarse, fine.data() + (first + i) * coarse.cols(), [&](const auto& term) __attribute__((always_inline)) {
+            maker.visit(element(static_cast<Index>(i)), term);
+          });
   });
 }
 
 Points step_points(const StepView& s, const Points& coarse) {
   const std::vector<std::uint8_t> plain = assembly::plain_vertices(s.parent, s.sharpness);
-  tbb::enumerable_thread_specific<RowMaker<double>> makers([&] {
-    return RowMaker<double>(s.scheme, s.step, s.parent, s.refinement, s.sharpness, s.child_sharpness, s.level, s.knots,
-                            plain);
-  });
+  tbb::enumerable_thread_specific<RowMaker<double>> makers([&] { return s.maker(plain); });
   const Refinement& r = s.refinement;
   Points fine(r.num_children(), coarse.cols());
   prefer_huge_pages(fine.data(), size_t(fine.size()) * sizeof(double));
@@ -136,60 +146,122 @@ ControlMesh simple_mesh(const Level& before, const Refinement& numbering, const 
 
 }  // namespace
 
-/// What a step needs, for as long as the refiner is there.
+/// Rows of one step by their weights: there are few kinds of them, and a row is its kind and its columns.
 struct MeshRefiner::Stage {
-  Step<double> step;
-  Sharpness sharpness, child_sharpness;
-  std::optional<KnotSplit> knots;
-  std::shared_ptr<const Level> before, after;  // after: none where `numbers` are all
-  size_t position;                             // of the step in its level
-  Refinement numbers;
+  std::vector<double> weights;                // kind after kind
+  std::vector<std::int64_t> first_weight{0};  // of each kind, and the end
+  UninitializedVector<std::uint32_t> kinds;   // of the rows
+  UninitializedVector<Index> columns;         // row after row
+  std::vector<std::int64_t> first_column;     // of each block of rows, and the end
 
-  StepView view(const Scheme<double>& scheme) const {
-    return {scheme,
-            step,
-            position == 0 ? before->topology() : after->steps[position - 1].topology,
-            after ? after->steps[position] : numbers,
-            sharpness,
-            child_sharpness,
-            before->number,
-            knots ? &*knots : nullptr};
-  }
+  explicit Stage(const StepView& step);
+  Points points(const Points& coarse) const;
 };
+
+MeshRefiner::Stage::Stage(const StepView& s) {
+  const std::vector<std::uint8_t> plain = assembly::plain_vertices(s.parent, s.sharpness);
+  tbb::enumerable_thread_specific<RowMaker<double>> makers([&] { return s.maker(plain); });
+  struct Block {
+    std::map<std::vector<double>, std::uint32_t> numbers;
+    std::vector<const std::vector<double>*> kinds;  // by number
+    std::vector<Index> columns;
+  };
+  const std::int64_t count = s.refinement.num_children();
+  std::vector<Block> blocks(size_t(num_blocks(count)));
+  kinds.resize(size_t(count));
+  parallel_for_blocks(count, [&](std::int64_t number, std::int64_t begin, std::int64_t end) {
+    RowMaker<double>& maker = makers.local();
+    Block& block = blocks[size_t(number)];
+    std::vector<double> row;
+    const std::vector<double>* last = nullptr;
+    for (std::int64_t r = begin; r < end; ++r) {
+      row.clear();
+      assembly::with_parent<double>(s.refinement, Vertex{static_cast<Index>(r)}, [&](auto element) {
+        maker.visit(element, [&](Index column, double weight) {
+          row.push_back(weight);
+          block.columns.push_back(column);
+        });
+      });
+      if (last && *last == row) {  // most are like the one before
+        kinds[size_t(r)] = kinds[size_t(r) - 1];
+        continue;
+      }
+      const auto [at, is_new] = block.numbers.try_emplace(row, static_cast<std::uint32_t>(block.kinds.size()));
+      if (is_new) block.kinds.push_back(&at->first);
+      kinds[size_t(r)] = at->second;
+      last = &at->first;
+    }
+  });
+  std::map<std::vector<double>, std::uint32_t> numbers;
+  std::vector<std::vector<std::uint32_t>> number_of(blocks.size());  // of the kinds of a block
+  first_column.assign(1, 0);
+  for (size_t b = 0; b < blocks.size(); ++b) {
+    for (const std::vector<double>* kind : blocks[b].kinds) {
+      const auto [at, is_new] = numbers.try_emplace(*kind, static_cast<std::uint32_t>(numbers.size()));
+      if (is_new) {
+        weights.insert(weights.end(), kind->begin(), kind->end());
+        first_weight.push_back(std::ssize(weights));
+      }
+      number_of[b].push_back(at->second);
+    }
+    first_column.push_back(first_column.back() + std::ssize(blocks[b].columns));
+  }
+  columns.resize(size_t(first_column.back()));
+  parallel_for_blocks(count, [&](std::int64_t number, std::int64_t begin, std::int64_t end) {
+    const auto b = size_t(number);
+    for (std::int64_t r = begin; r < end; ++r) kinds[size_t(r)] = number_of[b][kinds[size_t(r)]];
+    std::ranges::copy(blocks[b].columns, columns.begin() + first_column[b]);
+    blocks[b] = {};
+  });
+}
+
+Points MeshRefiner::Stage::points(const Points& coarse) const {
+  Points fine(Eigen::Index(kinds.size()), coarse.cols());
+  prefer_huge_pages(fine.data(), size_t(fine.size()) * sizeof(double));
+  parallel_for_blocks(fine.rows(), [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
+    const Index* column = columns.data() + first_column[size_t(block)];
+    for (std::int64_t r = begin; r < end; ++r) {
+      const std::uint32_t kind = kinds[size_t(r)];
+      const double* weight = weights.data() + first_weight[kind];
+      const double* const last = weights.data() + first_weight[kind + 1];
+      add_row(
+          coarse, fine.data() + r * fine.cols(), [&](const auto& term) __attribute__((always_inline)) {
+            for (; weight != last; ++weight, ++column) term(*column, *weight);
+          });
+    }
+  });
+  return fine;
+}
 
 namespace {
 
 /// Levels one after the other; the last one's faces and tags come back.
-/// @param on_step   called for each step, with what is there then
-/// @param on_level  called after the steps of a level: (level before, level after or null)
-template <class OnStep, class OnLevel>
+/// @param on_step  called for each step, with what is there then
+template <class OnStep>
 ControlMesh refine_steps(const Scheme<double>& scheme, const ControlMesh& mesh, int levels,
                          const SubdivisionOptions& options, const std::function<void(int)>& progress,
-                         const OnStep& on_step, const OnLevel& on_level) {
-  auto level = std::make_shared<const Level>(control_level(scheme, mesh, options));
-  check_levels(scheme, level->topology(), levels, LevelMemory::points);
+                         const OnStep& on_step) {
+  Level level = control_level(scheme, mesh, options);
+  check_levels(scheme, level.topology(), levels, LevelMemory::points);
   for (int k = 1; k <= levels; ++k) {
     if (progress) progress(k);
-    if (k == levels && is_simple(scheme, *level)) {
+    if (k == levels && is_simple(scheme, level)) {
       const Step<double>& step = scheme.steps[0];
-      const Refinement numbers = numbering(level->topology(), step.split);
+      const Refinement numbers = numbering(level.topology(), step.split);
       if (step.masks.wide_edge || step.masks.wide_face)
-        check_wide_faces(scheme.name, scheme.corners, level->topology(), level->number);
+        check_wide_faces(scheme.name, scheme.corners, level.topology(), level.number);
       const Sharpness none;
-      on_step(StepView{scheme, step, level->topology(), numbers, level->sharpness, none, level->number, nullptr});
-      on_level(level, nullptr);
-      return simple_mesh(*level, numbers, mesh, options);
+      on_step(StepView{scheme, step, level.topology(), numbers, level.sharpness, none, level.number, nullptr});
+      return simple_mesh(level, numbers, mesh, options);
     }
-    auto next = std::make_shared<const Level>(next_topology(
-        scheme, *level,
+    level = next_topology(
+        scheme, level,
         [&](const Step<double>& step, const Topology& topology, const Refinement& refinement,
             const Sharpness& sharpness, const Sharpness& child_sharpness, const KnotSplit* knots) {
-          on_step(StepView{scheme, step, topology, refinement, sharpness, child_sharpness, level->number, knots});
-        }));
-    on_level(level, next);
-    level = std::move(next);
+          on_step(StepView{scheme, step, topology, refinement, sharpness, child_sharpness, level.number, knots});
+        });
   }
-  return level_mesh(*level, {}, mesh, options);
+  return level_mesh(level, {}, mesh, options);
 }
 
 }  // namespace
@@ -197,32 +269,17 @@ ControlMesh refine_steps(const Scheme<double>& scheme, const ControlMesh& mesh, 
 ControlMesh refined_mesh(const Scheme<double>& scheme, const ControlMesh& mesh, int levels,
                          const SubdivisionOptions& options, const std::function<void(int)>& progress) {
   Points points = mesh.positions;
-  ControlMesh refined = refine_steps(
-      scheme, mesh, levels, options, progress, [&](const StepView& step) { points = step_points(step, points); },
-      [](const auto&...) {});
+  ControlMesh refined = refine_steps(scheme, mesh, levels, options, progress,
+                                     [&](const StepView& step) { points = step_points(step, points); });
   refined.positions.swap(points);
   return refined;
 }
 
 MeshRefiner::MeshRefiner(const Scheme<double>& scheme, const ControlMesh& mesh, int levels,
                          const SubdivisionOptions& options, const std::function<void(int)>& progress)
-    : scheme_(std::make_unique<const Scheme<double>>(scheme)), num_control_points_(mesh.num_vertices()) {
-  size_t done = 0;  // stages whose levels are known
-  mesh_ = refine_steps(
-      *scheme_, mesh, levels, options, progress,
-      [&](const StepView& s) {
-        auto stage = std::make_unique<Stage>();
-        stage->step = s.step;
-        stage->sharpness = s.sharpness;
-        stage->child_sharpness = s.child_sharpness;
-        if (s.knots) stage->knots = *s.knots;
-        stage->position = stages_.size() - done;
-        if (s.refinement.topology.num_vertices() == 0) stage->numbers = s.refinement;
-        stages_.push_back(std::move(stage));
-      },
-      [&](const std::shared_ptr<const Level>& before, const std::shared_ptr<const Level>& after) {
-        for (; done < stages_.size(); ++done) stages_[done]->before = before, stages_[done]->after = after;
-      });
+    : num_control_points_(mesh.num_vertices()) {
+  mesh_ = refine_steps(scheme, mesh, levels, options, progress,
+                       [&](const StepView& step) { stages_.push_back(std::make_unique<const Stage>(step)); });
 }
 
 MeshRefiner::~MeshRefiner() = default;
@@ -231,7 +288,7 @@ MeshRefiner& MeshRefiner::operator=(MeshRefiner&&) noexcept = default;
 
 Index MeshRefiner::num_control_points() const { return num_control_points_; }
 Index MeshRefiner::num_points() const {
-  return stages_.empty() ? num_control_points_ : stages_.back()->view(*scheme_).refinement.num_children();
+  return stages_.empty() ? num_control_points_ : static_cast<Index>(stages_.back()->kinds.size());
 }
 
 Points MeshRefiner::points(const Points& control) const {
@@ -239,7 +296,7 @@ Points MeshRefiner::points(const Points& control) const {
     throw InvalidParameter("the mesh has " + std::to_string(num_control_points_) + " vertices, but " +
                            std::to_string(control.rows()) + " points are given");
   Points points = control;
-  for (const auto& stage : stages_) points = step_points(stage->view(*scheme_), points);
+  for (const auto& stage : stages_) points = stage->points(points);
   return points;
 }
 

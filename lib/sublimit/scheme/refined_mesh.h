@@ -41,8 +41,7 @@ class MeshRefiner {
 
  private:
   struct Stage;
-  std::unique_ptr<const Scheme<double>> scheme_;
-  std::vector<std::unique_ptr<Stage>> stages_;
+  std::vector<std::unique_ptr<const Stage>> stages_;
   Index num_control_points_ = 0;
   ControlMesh mesh_;
 };

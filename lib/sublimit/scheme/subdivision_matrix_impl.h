@@ -34,6 +34,8 @@ class RowMaker {
            const Sharpness& sharpness, const Sharpness& child_sharpness, int level, const KnotSplit* split,
            const std::vector<std::uint8_t>& is_plain)
       : t_(parent),
+        quads_(parent),
+        triangles_(parent),
         refinement_(refinement),
         sharpness_(sharpness),
         child_sharpness_(child_sharpness),
@@ -91,7 +93,7 @@ class RowMaker {
   [[gnu::always_inline]] void visit(Element element, const Visit& term) {
     by_rule(
         element,
-        [&](const Weights& weights) {
+        [&](const Weights& weights) __attribute__((always_inline)) {
           const T* weight = weights.data();
           visit_element(
               element, weights, [&](Index v) __attribute__((always_inline)) {
@@ -306,26 +308,35 @@ class RowMaker {
     for (Index i = 0; i < t_.size(f); ++i) shapes_.push_back(shape(t_.corner(f, i)));
     return masks_.wide_face(shapes_);
   }
+  /// The vertices of a site in the order of its slots.
+  template <class Element, class Visit>
+  [[gnu::always_inline]] void visit_narrow(Element element, const Visit& visit) const {
+    if constexpr (std::is_same_v<T, double>) {  // of others, sums take longer than walks
+      if (t_.uniform_face_size() == 4) return visit_site(quads_, element, visit);
+      if (t_.uniform_face_size() == 3) return visit_site(triangles_, element, visit);
+    }
+    visit_site(t_, element, visit);
+  }
   /// The vertices of an element's site, in the order of its slots. After `wide_weights` of a face.
   template <class Visit>
   [[gnu::always_inline]] void visit_element(Edge e, const Weights& weights, const Visit& visit) const {
-    if (!wide_edge_) return visit_site(t_, e, visit);
+    if (!wide_edge_) return visit_narrow(e, visit);
     visit_wide_edge(t_, t_.half_edge(e), weights.tail, weights.head, visit);
   }
   template <class Visit>
   [[gnu::always_inline]] void visit_element(Face f, const Weights&, const Visit& visit) const {
-    wide_face_ ? visit_wide_face(t_, f, shapes_, visit) : visit_site(t_, f, visit);
+    wide_face_ ? visit_wide_face(t_, f, shapes_, visit) : visit_narrow(f, visit);
   }
   template <class Visit>
   [[gnu::always_inline]] void visit_element(Vertex v, const Weights& weights, const Visit& visit) const {
-    weights.size() == 1 ? visit(index(v)) : visit_site(t_, v, visit);
+    weights.size() == 1 ? visit(index(v)) : visit_narrow(v, visit);
   }
   template <class Visit>
   [[gnu::always_inline]] void visit_element(const Border&, const Weights&, const Visit&) const {
   }  // their rows are all sharp
   template <class Element, class Visit>
   [[gnu::always_inline]] void visit_element(Element element, const Weights&, const Visit& visit) const {
-    visit_site(t_, element, visit);
+    visit_narrow(element, visit);
   }
 
   static Index write(const std::vector<Term>& row, Index* columns, T* values) {
@@ -460,6 +471,8 @@ class RowMaker {
   }
 
   const Topology& t_;
+  UniformFaces<4> quads_;  // the same, where it has nothing else
+  UniformFaces<3> triangles_;
   const Refinement& refinement_;
   const Sharpness& sharpness_;
   const Sharpness& child_sharpness_;
