@@ -124,20 +124,20 @@ std::vector<std::uint8_t> poles_of(const PatternEvaluator<Real>& evaluator, std:
 
 template <class Real>
 void write_one(const ApplyOptions& options, const BakedTable<Real>& table, const FrameReader& frames,
-               std::vector<std::uint8_t> poles, std::span<const Real> values) {
+               std::vector<std::uint8_t> poles, std::span<const Real> values, Progress& progress) {
   AppliedPoints applied(table);
   std::vector<std::string> names = frames.columns();
   if (table.info.rational) names.pop_back();
   if (std::ranges::any_of(poles, [](std::uint8_t p) { return p != 0; })) applied.set_poles(std::move(poles));
   if (file_extension(options.output) == ".csv") {
-    applied.write_csv(options.output, names, values);
+    applied.write_csv(options.output, names, values, progress.bytes_written());
     return;
   }
   MeshOutput mesh = applied.mesh(faces_of(table), values);
   if (mesh.normals.rows() > 0 && file_extension(options.output) == ".obj")  // which leaves out those that do not exist
     for (const Index v : mesh.face_vertices) mesh.face_normals.push_back(mesh.normals.row(v).isZero(0) ? -1 : v);
   if (file_extension(options.output) == ".obj") add_channels(mesh, table);  // a .ply has no place for them
-  write_mesh(options.output, mesh);
+  write_mesh(options.output, mesh, progress.bytes_written());
 }
 
 /// Frames x quantities x points x channels, dimensions of one frame and of one quantity left out.
@@ -193,7 +193,7 @@ std::int64_t apply_table(const ApplyOptions& options, const BakedTable<Real>& ta
     array->commit();
   else
     write_one<Real>(options, table, frames, rational ? poles_of<Real>(evaluator, points) : std::vector<std::uint8_t>{},
-                    values);
+                    values, progress);
   return frames.num_frames();
 }
 

@@ -282,6 +282,7 @@ void Progress::step(const std::string& what) {
   const std::lock_guard lock(mutex_);
   clear();
   what_ = what;
+  bytes_ = 0;
   start_ = std::chrono::steady_clock::now();
 }
 
@@ -295,7 +296,8 @@ void Progress::watch() {
   while (!woken_.wait_for(lock, std::chrono::milliseconds(250), [this] { return done_; })) {
     const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start_;
     if (what_.empty() || time.count() < 1) continue;
-    fmt::print(stderr, "\r\033[K{} ... {:.0f} s", what_, time.count());
+    const std::string size = bytes_ > 0 ? ": " + bytes_in_words(double(bytes_)) : "";
+    fmt::print(stderr, "\r\033[K{}{} ... {:.0f} s", what_, size, time.count());
     std::fflush(stderr);
     visible_ = true;
   }

@@ -3,6 +3,7 @@
 // What the subcommands share: options, loading a mesh with its tags, progress.
 #include <CLI/CLI.hpp>
 
+#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <filesystem>
@@ -46,6 +47,10 @@ class Progress {
   void step(const std::string& what);
   /// Other words for a step that goes on.
   void note(const std::string& what);
+  /// What writers are to tell how many bytes of this step are written.
+  std::function<void(std::int64_t)> bytes_written() {
+    return [this](std::int64_t bytes) { bytes_ = bytes; };
+  }
 
  private:
   void watch();
@@ -55,6 +60,7 @@ class Progress {
   std::condition_variable woken_;
   std::string what_;
   std::chrono::steady_clock::time_point start_;
+  std::atomic<std::int64_t> bytes_ = 0;  // written by this step
   bool done_ = false, visible_ = false;
   std::thread watcher_;  // only where the line may be shown
 };

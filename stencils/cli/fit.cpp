@@ -114,7 +114,7 @@ int fit_linear(const FitOptions& options, Progress& progress,
                           loaded.mesh.positions, fit);
   });
   write_outputs(
-      options, [&] { write_mesh(options.output, mesh); }, picture, fit.report, progress);
+      options, [&] { write_mesh(options.output, mesh, progress.bytes_written()); }, picture, fit.report, progress);
   return 0;
 }
 
@@ -154,7 +154,8 @@ int fit_geometric(const FitOptions& options, const FitTargets& targets, const Ge
   progress.step("drawing");
   if (!options.picture.empty()) picture = fit_picture(fit);
   write_outputs(
-      options, [&] { write_mesh(options.output, output(fit.refined)); }, picture, fit.report, progress);
+      options, [&] { write_mesh(options.output, output(fit.refined), progress.bytes_written()); }, picture, fit.report,
+      progress);
   return 0;
 }
 

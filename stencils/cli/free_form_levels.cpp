@@ -76,7 +76,7 @@ void refine_free_form(const Common& common, int levels, const std::string& outpu
       mesh.positions = euclidean(nets.patches, nets.columns);
       mesh.face_sizes = std::move(net.sizes);
       mesh.face_vertices = std::move(net.vertices);
-      write_mesh(output, mesh);
+      write_mesh(output, mesh, progress.bytes_written());
     }
   });
 }
@@ -105,7 +105,7 @@ void limit_free_form(const Common& common, int levels, const std::string& output
     if (normals && file_extension(output) == ".obj")
       for (const Index v : mesh.face_vertices) mesh.face_normals.push_back(at.normal.row(v).isZero(0) ? -1 : v);
     progress.step("writing " + output);
-    write_mesh(output, mesh);
+    write_mesh(output, mesh, progress.bytes_written());
   });
 }
 

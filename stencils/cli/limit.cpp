@@ -62,7 +62,7 @@ int run(const LimitOptions& options) {
                               : obj            ? Normals::per_corner
                                                : Normals::per_vertex);
   if (!channel.empty()) add_channel(out, channel.back(), loaded.mesh.face_varying[0].name, limit_values);
-  write_mesh(options.output, out);
+  write_mesh(options.output, out, progress.bytes_written());
   progress.step("");
   if (!options.common.quiet) {
     const auto without = std::count(at_limit.status.begin(), at_limit.status.end(), LimitStatus::undefined_normal);

@@ -183,7 +183,7 @@ int write_normal_surface(const NormalJob& job) {
   out.face_vertices = std::move(level.triangles);
   out.positions = std::move(level.positions);
   if (job.normals) out.normals = std::move(level.normals);
-  write_mesh(job.output, out);
+  write_mesh(job.output, out, progress.bytes_written());
   progress.step("");
   if (!job.common->quiet)
     fmt::print("{}: {} points of level {}, {} patches\n", job.output, out.positions.rows(), job.levels, patches);

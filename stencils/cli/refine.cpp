@@ -65,7 +65,7 @@ int run(const RefineOptions& options) {
                 refined_values(channel, loaded.mesh.face_varying[0].values));
     if (!options.no_tags) out.face_varying_interpolation = loaded.face_varying;
   }
-  write_mesh(options.output, out);
+  write_mesh(options.output, out, progress.bytes_written());
   return 0;
 }
 

@@ -5,10 +5,13 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -27,7 +30,9 @@ namespace sublimit {
 /// @note  No fsync: the rename is atomic for every process, not against power failure.
 class AtomicFile {
  public:
-  explicit AtomicFile(const std::filesystem::path& target) : target_(target), destination_(target) {
+  /// @param progress  told how many bytes are written, between pieces of some MB at most, if given
+  explicit AtomicFile(const std::filesystem::path& target, std::function<void(std::int64_t)> progress = {})
+      : target_(target), destination_(target), progress_(std::move(progress)) {
     if (!target.has_filename()) throw_file_error(target, "write", EISDIR, "name a file");
     struct ::stat status {};
     const bool exists = ::stat(target.c_str(), &status) == 0;
@@ -74,7 +79,9 @@ class AtomicFile {
   }
 
  private:
-  static constexpr std::size_t buffer_size = std::size_t{1} << 20;
+  // A call to the system is cheap beside so many bytes, and they are still in the cache when it copies them.
+  static constexpr std::size_t buffer_size = std::size_t{1} << 16;
+  static constexpr std::size_t largest_piece = std::size_t{1} << 22;
 
   void open_temporary() {
     static std::atomic<unsigned> counter{0};
@@ -98,10 +105,12 @@ class AtomicFile {
 
   void write_through(std::string_view bytes) {
     while (!bytes.empty()) {
-      const ssize_t count = ::write(file_, bytes.data(), bytes.size());
+      const ssize_t count = ::write(file_, bytes.data(), std::min(bytes.size(), largest_piece));
       if (count < 0 && errno == EINTR) continue;
       if (count <= 0) throw_file_error(target_, "write", count < 0 ? errno : EIO);
       bytes.remove_prefix(std::size_t(count));
+      written_ += count;
+      if (progress_) progress_(written_);
     }
   }
 
@@ -110,6 +119,8 @@ class AtomicFile {
   std::filesystem::path temporary_;    // empty: written in place, or already renamed
   int file_ = -1;
   std::string buffer_;
+  std::int64_t written_ = 0;
+  std::function<void(std::int64_t)> progress_;
 };
 
 }  // namespace sublimit

@@ -46,6 +46,7 @@ ControlMesh parse_obj(std::string_view text, std::string_view name);
 std::string format_obj(const MeshOutput& mesh);
 
 /// `format_obj` into a file, which appears whole or not at all.
-void write_obj(const std::filesystem::path& path, const MeshOutput& mesh);
+void write_obj(const std::filesystem::path& path, const MeshOutput& mesh,
+               const std::function<void(std::int64_t)>& progress = {});
 
 }  // namespace sublimit

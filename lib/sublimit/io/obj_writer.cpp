@@ -3,30 +3,35 @@
 
 #include "sublimit/base/error.h"
 #include "sublimit/base/format_number.h"
+#include "sublimit/base/row_writer.h"
 #include "sublimit/io/obj.h"
+#include "sublimit/io/writer_parts.h"
 
 namespace sublimit {
 namespace {
 
-void emit_rows(const char* keyword, const Points& rows, std::string& out, const Flush& flush) {
-  for (Eigen::Index row = 0; row < rows.rows(); ++row) {
-    out += keyword;
-    for (Eigen::Index i = 0; i < rows.cols(); ++i) {
-      out += ' ';
-      append_number(out, rows(row, i));
+constexpr std::int64_t obj_rows_per_block = 2048;
+
+void emit_rows(const char* keyword, const Points& rows, RowWriter& out) {
+  out.rows(rows.rows(), obj_rows_per_block, [&](std::string& text, std::int64_t begin, std::int64_t end) {
+    for (Eigen::Index row = begin; row < end; ++row) {
+      text += keyword;
+      for (Eigen::Index i = 0; i < rows.cols(); ++i) {
+        text += ' ';
+        append_number(text, rows(row, i));
+      }
+      text += '\n';
     }
-    out += '\n';
-    flush(out);
-  }
+  });
 }
 
-void emit_faces(const MeshOutput& mesh, std::string& out, const Flush& flush) {
-  std::size_t first = 0;
-  for (const Index size : mesh.face_sizes) {
-    const std::size_t last = first + static_cast<std::size_t>(size);
-    const bool per_corner = !mesh.face_normals.empty();
+/// @param first  corner of face `begin`
+void append_faces(const MeshOutput& mesh, std::int64_t begin, std::int64_t end, std::size_t first, std::string& out) {
+  const bool per_corner = !mesh.face_normals.empty();
+  const std::vector<Index>* const values = mesh.face_varying.empty() ? nullptr : &mesh.face_varying[0].indices;
+  for (std::int64_t face = begin; face < end; ++face) {
+    const std::size_t last = first + static_cast<std::size_t>(mesh.face_sizes[static_cast<std::size_t>(face)]);
     bool normals = mesh.normals.rows() > 0;
-    const std::vector<Index>* const values = mesh.face_varying.empty() ? nullptr : &mesh.face_varying[0].indices;
     for (std::size_t i = first; per_corner && i < last; ++i) normals = normals && mesh.face_normals[i] >= 0;
     out += 'f';
     for (std::size_t i = first; i < last; ++i) {
@@ -40,8 +45,15 @@ void emit_faces(const MeshOutput& mesh, std::string& out, const Flush& flush) {
     }
     out += '\n';
     first = last;
-    flush(out);
   }
+}
+
+void emit_faces(const MeshOutput& mesh, RowWriter& out) {
+  const std::vector<std::size_t> first = first_corners(mesh.face_sizes, obj_rows_per_block);
+  out.rows(std::ssize(mesh.face_sizes), obj_rows_per_block,
+           [&](std::string& text, std::int64_t begin, std::int64_t end) {
+             append_faces(mesh, begin, end, first[static_cast<std::size_t>(begin / obj_rows_per_block)], text);
+           });
 }
 
 void append_sharpness(std::string& out, float sharpness) {
@@ -50,7 +62,8 @@ void append_sharpness(std::string& out, float sharpness) {
   out += '\n';
 }
 
-void emit_tags(const MeshOutput& mesh, std::string& out, const Flush& flush) {
+std::string format_rules(const MeshOutput& mesh) {
+  std::string out;
   if (mesh.boundary) {
     out += "t interpolateboundary 1/0/0 ";
     switch (*mesh.boundary) {
@@ -77,51 +90,54 @@ void emit_tags(const MeshOutput& mesh, std::string& out, const Flush& flush) {
     append_number(out, static_cast<int>(*mesh.face_varying_interpolation));
     out += '\n';
   }
-  for (const ControlMesh::Crease& crease : mesh.creases) {
-    out += "t crease 2/1/0 ";
-    append_number(out, crease.tail);
-    out += ' ';
-    append_number(out, crease.head);
-    append_sharpness(out, crease.sharpness);
-    flush(out);
-  }
-  for (const ControlMesh::Corner& corner : mesh.corners) {
-    out += "t corner 1/1/0 ";
-    append_number(out, corner.vertex);
-    append_sharpness(out, corner.sharpness);
-    flush(out);
-  }
-  for (const ControlMesh::KnotInterval& interval : mesh.knot_intervals) {
-    out += "t knotinterval 2/1/0 ";
-    append_number(out, interval.tail);
-    out += ' ';
-    append_number(out, interval.head);
-    out += ' ';
-    append_number(out, interval.length);
-    out += '\n';
-    flush(out);
-  }
-  for (const Index hole : mesh.holes) {
-    out += "t hole 1/0/0 ";
-    append_number(out, hole);
-    out += '\n';
-    flush(out);
-  }
+  return out;
 }
 
-void emit_obj(const MeshOutput& mesh, std::string& out, const Flush& flush) {
-  for (const std::string& comment : mesh.comments) {
-    out += "# ";
-    for (const char c : comment) {
-      if (c != '\r') out += c == '\n' ? std::string_view("\n# ") : std::string_view(&c, 1);
-    }
-    out += '\n';
-  }
-  emit_rows("v", mesh.positions, out, flush);
-  if (!mesh.face_varying.empty()) emit_rows("vt", mesh.face_varying[0].values, out, flush);
-  emit_rows("vn", mesh.normals, out, flush);
-  emit_faces(mesh, out, flush);
-  emit_tags(mesh, out, flush);
+/// One line for each of a list: `append(out, element)`.
+template <class T>
+void emit_lines(const std::vector<T>& list, RowWriter& out, const auto& append) {
+  out.rows(std::ssize(list), obj_rows_per_block, [&](std::string& text, std::int64_t begin, std::int64_t end) {
+    for (std::int64_t i = begin; i < end; ++i) append(text, list[static_cast<std::size_t>(i)]);
+  });
+}
+
+void emit_tags(const MeshOutput& mesh, RowWriter& out) {
+  out.write(format_rules(mesh));
+  emit_lines(mesh.creases, out, [](std::string& text, const ControlMesh::Crease& crease) {
+    text += "t crease 2/1/0 ";
+    append_number(text, crease.tail);
+    text += ' ';
+    append_number(text, crease.head);
+    append_sharpness(text, crease.sharpness);
+  });
+  emit_lines(mesh.corners, out, [](std::string& text, const ControlMesh::Corner& corner) {
+    text += "t corner 1/1/0 ";
+    append_number(text, corner.vertex);
+    append_sharpness(text, corner.sharpness);
+  });
+  emit_lines(mesh.knot_intervals, out, [](std::string& text, const ControlMesh::KnotInterval& interval) {
+    text += "t knotinterval 2/1/0 ";
+    append_number(text, interval.tail);
+    text += ' ';
+    append_number(text, interval.head);
+    text += ' ';
+    append_number(text, interval.length);
+    text += '\n';
+  });
+  emit_lines(mesh.holes, out, [](std::string& text, Index hole) {
+    text += "t hole 1/0/0 ";
+    append_number(text, hole);
+    text += '\n';
+  });
+}
+
+void emit_obj(const MeshOutput& mesh, RowWriter out) {
+  out.write(format_comments(mesh.comments, "# "));
+  emit_rows("v", mesh.positions, out);
+  if (!mesh.face_varying.empty()) emit_rows("vt", mesh.face_varying[0].values, out);
+  emit_rows("vn", mesh.normals, out);
+  emit_faces(mesh, out);
+  emit_tags(mesh, out);
 }
 
 void check_obj(const MeshOutput& mesh, const std::string& name) {
@@ -138,13 +154,16 @@ void check_obj(const MeshOutput& mesh, const std::string& name) {
 std::string format_obj(const MeshOutput& mesh) {
   check_obj(mesh, "OBJ");
   std::string text;
-  emit_obj(mesh, text, [](std::string&) {});
+  emit_obj(mesh, RowWriter(text));
   return text;
 }
 
-void write_obj(const std::filesystem::path& path, const MeshOutput& mesh) {
+void write_obj(const std::filesystem::path& path, const MeshOutput& mesh,
+               const std::function<void(std::int64_t)>& progress) {
   check_obj(mesh, path.string());
-  write_through_buffer(path, [&](std::string& buffer, const Flush& flush) { emit_obj(mesh, buffer, flush); });
+  AtomicFile file(path, progress);
+  emit_obj(mesh, RowWriter(file));
+  file.commit();
 }
 
 }  // namespace sublimit

@@ -27,6 +27,7 @@ ControlMesh parse_ply(std::string_view bytes, std::string_view name);
 /// @throws InvalidMesh       coordinates that are not finite
 std::string format_ply(const MeshOutput& mesh);
 /// `format_ply` into a file, which appears whole or not at all.
-void write_ply(const std::filesystem::path& path, const MeshOutput& mesh);
+void write_ply(const std::filesystem::path& path, const MeshOutput& mesh,
+               const std::function<void(std::int64_t)>& progress = {});
 
 }  // namespace sublimit

@@ -1,36 +1,40 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <bit>
-#include <concepts>
 #include <cstdint>
+#include <cstring>
 
 #include "sublimit/base/error.h"
 #include "sublimit/base/format_number.h"
+#include "sublimit/base/row_writer.h"
 #include "sublimit/io/ply.h"
+#include "sublimit/io/writer_parts.h"
 
 namespace sublimit {
 namespace {
 
-// Appends the bytes of an integer, least first.
-void append_bytes(std::string& out, std::unsigned_integral auto value) {
+constexpr std::int64_t ply_rows_per_block = 4096;
+constexpr bool is_little_endian = std::endian::native == std::endian::little;
+
+/// Puts down the bytes of a number, least first, and moves behind them.
+template <class T>
+void put(char*& at, T value) {
   char bytes[sizeof value];
-  for (std::size_t i = 0; i < sizeof value; ++i) bytes[i] = static_cast<char>(value >> 8 * i & 0xff);
-  out.append(bytes, sizeof value);
+  std::memcpy(bytes, &value, sizeof value);
+  if (!is_little_endian) std::reverse(bytes, bytes + sizeof value);
+  std::memcpy(at, bytes, sizeof value);
+  at += sizeof value;
 }
 
-void append_row(std::string& out, const Points& points, Eigen::Index row) {
-  for (Eigen::Index i = 0; i < 3; ++i) append_bytes(out, std::bit_cast<std::uint64_t>(points(row, i)));
+/// Makes room for bytes at the end of `out`.
+char* extend(std::string& out, std::size_t bytes) {
+  const std::size_t size = out.size();
+  out.resize(size + bytes);
+  return out.data() + size;
 }
 
-void emit_header(const MeshOutput& mesh, bool wide, std::string& out) {
-  out += "ply\nformat binary_little_endian 1.0\n";
-  for (const std::string& comment : mesh.comments) {
-    out += "comment ";
-    for (const char c : comment) {
-      if (c != '\r') out += c == '\n' ? std::string_view("\ncomment ") : std::string_view(&c, 1);
-    }
-    out += '\n';
-  }
+std::string format_header(const MeshOutput& mesh, bool wide) {
+  std::string out = "ply\nformat binary_little_endian 1.0\n" + format_comments(mesh.comments, "comment ");
   out += "element vertex " + format_number(mesh.positions.rows()) + "\n";
   for (const char* const name : {"x", "y", "z"}) out += std::string("property double ") + name + "\n";
   if (mesh.normals.rows() > 0) {
@@ -38,27 +42,50 @@ void emit_header(const MeshOutput& mesh, bool wide, std::string& out) {
   }
   out += "element face " + format_number(mesh.face_sizes.size()) + "\n";
   out += wide ? "property list uint int vertex_indices\n" : "property list uchar int vertex_indices\n";
-  out += "end_header\n";
+  return out + "end_header\n";
 }
 
-void emit_ply(const MeshOutput& mesh, std::string& out, const Flush& flush) {
+void emit_vertices(const MeshOutput& mesh, RowWriter& out) {
+  const bool normals = mesh.normals.rows() > 0;
+  const double* const positions = mesh.positions.data();
+  if (is_little_endian && !normals)  // they lie in memory as they should in the file
+    return out.write({reinterpret_cast<const char*>(positions), std::size_t(mesh.positions.size()) * sizeof(double)});
+  out.rows(mesh.positions.rows(), ply_rows_per_block, [&](std::string& bytes, std::int64_t begin, std::int64_t end) {
+    char* at = extend(bytes, std::size_t(end - begin) * (normals ? 6 : 3) * sizeof(double));
+    for (std::int64_t v = begin; v < end; ++v) {
+      for (int i = 0; i < 3; ++i) put(at, positions[3 * v + i]);
+      for (int i = 0; normals && i < 3; ++i) put(at, mesh.normals.data()[3 * v + i]);
+    }
+  });
+}
+
+template <class Size>
+void emit_faces(const MeshOutput& mesh, RowWriter& out) {
+  const std::vector<std::size_t> first = first_corners(mesh.face_sizes, ply_rows_per_block);
+  const std::size_t num_corners = mesh.face_vertices.size();
+  const auto num_faces = std::ssize(mesh.face_sizes);
+  out.rows(num_faces, ply_rows_per_block, [&](std::string& bytes, std::int64_t begin, std::int64_t end) {
+    const std::size_t corner = first[std::size_t(begin / ply_rows_per_block)];
+    const std::size_t last = end == num_faces ? num_corners : first[std::size_t(end / ply_rows_per_block)];
+    char* at = extend(bytes, std::size_t(end - begin) * sizeof(Size) + (last - corner) * sizeof(Index));
+    const Index* vertex = mesh.face_vertices.data() + corner;
+    for (std::int64_t face = begin; face < end; ++face) {
+      const Index size = mesh.face_sizes[std::size_t(face)];
+      put(at, static_cast<Size>(size));
+      for (Index i = 0; i < size; ++i) put(at, *vertex++);
+    }
+  });
+}
+
+void emit_ply(const MeshOutput& mesh, RowWriter out) {
   // Nearly all readers expect one byte for the size of a face: only faces that need more get more.
   const bool wide = std::ranges::any_of(mesh.face_sizes, [](Index size) { return size > 255; });
-  emit_header(mesh, wide, out);
-  for (Eigen::Index v = 0; v < mesh.positions.rows(); ++v) {
-    append_row(out, mesh.positions, v);
-    if (mesh.normals.rows() > 0) append_row(out, mesh.normals, v);
-    flush(out);
-  }
-  const Index* vertex = mesh.face_vertices.data();
-  for (const Index size : mesh.face_sizes) {
-    if (wide) {
-      append_bytes(out, static_cast<std::uint32_t>(size));
-    } else {
-      append_bytes(out, static_cast<std::uint8_t>(size));
-    }
-    for (Index i = 0; i < size; ++i) append_bytes(out, static_cast<std::uint32_t>(*vertex++));
-    flush(out);
+  out.write(format_header(mesh, wide));
+  emit_vertices(mesh, out);
+  if (wide) {
+    emit_faces<std::uint32_t>(mesh, out);
+  } else {
+    emit_faces<std::uint8_t>(mesh, out);
   }
 }
 
@@ -73,13 +100,16 @@ void check(const MeshOutput& mesh, const std::string& name) {
 std::string format_ply(const MeshOutput& mesh) {
   check(mesh, "PLY");
   std::string bytes;
-  emit_ply(mesh, bytes, [](std::string&) {});
+  emit_ply(mesh, RowWriter(bytes));
   return bytes;
 }
 
-void write_ply(const std::filesystem::path& path, const MeshOutput& mesh) {
+void write_ply(const std::filesystem::path& path, const MeshOutput& mesh,
+               const std::function<void(std::int64_t)>& progress) {
   check(mesh, path.string());
-  write_through_buffer(path, [&](std::string& buffer, const Flush& flush) { emit_ply(mesh, buffer, flush); });
+  AtomicFile file(path, progress);
+  emit_ply(mesh, RowWriter(file));
+  file.commit();
 }
 
 }  // namespace sublimit

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sublimit/io/write_mesh.h"
 
-#include <algorithm>
+#include <atomic>
 #include <cmath>
 
-#include "sublimit/base/atomic_file.h"
 #include "sublimit/base/error.h"
 #include "sublimit/base/format_number.h"
+#include "sublimit/base/parallel_for.h"
 #include "sublimit/io/file_extension.h"
 #include "sublimit/io/obj.h"
 #include "sublimit/io/ply.h"
@@ -18,8 +18,26 @@ void require(bool holds, const std::string& name, const char* what) {
   if (!holds) throw InvalidParameter(name + ": " + what);
 }
 
+/// Whether something holds for all of [0, count): `holds(begin, end)` for a part, by any thread.
+bool holds_for_all(std::int64_t count, const auto& holds) {
+  std::atomic<bool> all = true;
+  parallel_for_blocks(
+      count,
+      [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+        if (!holds(static_cast<std::size_t>(begin), static_cast<std::size_t>(end))) all = false;
+      },
+      std::int64_t{1} << 16);
+  return all;
+}
+
 void check_finite(const Points& points, const std::string& name, const char* what) {
-  if (points.allFinite()) return;
+  const double* const numbers = points.data();
+  const bool all_finite = holds_for_all(points.size(), [&](std::size_t begin, std::size_t end) {
+    bool finite = true;  // to the end of the part: a loop without a way out takes several numbers at once
+    for (std::size_t i = begin; i < end; ++i) finite &= numbers[i] - numbers[i] == 0;
+    return finite;
+  });
+  if (all_finite) return;
   for (Index row = 0; row < points.rows(); ++row) {
     if (points.row(row).allFinite()) continue;
     throw InvalidMesh(name + ": " + what + " " + format_number(row) +
@@ -28,7 +46,14 @@ void check_finite(const Points& points, const std::string& name, const char* wha
 }
 
 bool in_range(const std::vector<Index>& ids, Index first, Eigen::Index count) {
-  return std::all_of(ids.begin(), ids.end(), [&](Index id) { return id >= first && id < count; });
+  return holds_for_all(std::ssize(ids), [&](std::size_t begin, std::size_t end) {
+    bool all = true;
+    for (std::size_t i = begin; i < end; ++i) {
+      const Index id = ids[i];
+      all &= id >= first && id < count;
+    }
+    return all;
+  });
 }
 
 void check_sharpness(float sharpness, const std::string& name) {
@@ -101,26 +126,12 @@ void check_output(const MeshOutput& mesh, const std::string& name) {
   check_finite(mesh.normals, name, "normal");
 }
 
-void write_mesh(const std::filesystem::path& path, const MeshOutput& mesh) {
+void write_mesh(const std::filesystem::path& path, const MeshOutput& mesh,
+                const std::function<void(std::int64_t)>& progress) {
   const std::string extension = file_extension(path);
-  if (extension == ".obj") return write_obj(path, mesh);
-  if (extension == ".ply") return write_ply(path, mesh);
+  if (extension == ".obj") return write_obj(path, mesh, progress);
+  if (extension == ".ply") return write_ply(path, mesh, progress);
   throw InvalidOption(path.string() + ": meshes are written as .obj or .ply, not as '" + extension + "'");
-}
-
-void write_through_buffer(const std::filesystem::path& path,
-                          const std::function<void(std::string& buffer, const Flush& flush)>& emit) {
-  constexpr std::size_t chunk = std::size_t{1} << 20;
-  AtomicFile file(path);
-  std::string buffer;
-  buffer.reserve(chunk + (std::size_t{1} << 16));
-  emit(buffer, [&](std::string& full) {
-    if (full.size() < chunk) return;
-    file.write(full);
-    full.clear();
-  });
-  file.write(buffer);
-  file.commit();
 }
 
 }  // namespace sublimit

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 // A mesh on its way to a file.
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -40,19 +41,16 @@ struct MeshOutput {
 MeshOutput output(ControlMesh mesh);
 
 /// Writes .obj or .ply, by the extension of `path` in either case. The file appears whole or not at all.
+/// @param progress  told how many bytes are written, if given
 /// @throws InvalidOption     another extension
 /// @throws InvalidParameter  arrays that do not fit together, or normals per corner in a .ply
 /// @throws InvalidMesh       coordinates or sharpness that no reader would take back: infinite, not a number, negative
 /// @throws IoError           unwritable;  ResourceError  a full disk
-void write_mesh(const std::filesystem::path& path, const MeshOutput& mesh);
+/// @note  Rows are formatted by all threads: the same bytes for any number of them.
+void write_mesh(const std::filesystem::path& path, const MeshOutput& mesh,
+                const std::function<void(std::int64_t)>& progress = {});
 
 /// The checks of `write_mesh`, for writers. Messages start with `name`.
 void check_output(const MeshOutput& mesh, const std::string& name);
-
-/// Writers append to a buffer and call this now and then; it may empty the buffer.
-using Flush = std::function<void(std::string& buffer)>;
-/// Runs `emit(buffer, flush)` into a file that appears whole or not at all.
-void write_through_buffer(const std::filesystem::path& path,
-                          const std::function<void(std::string& buffer, const Flush& flush)>& emit);
 
 }  // namespace sublimit

@@ -8,16 +8,16 @@
 #include <limits>
 #include <utility>
 
-#include "sublimit/base/atomic_file.h"
 #include "sublimit/base/format_number.h"
 #include "sublimit/base/parallel_for.h"
+#include "sublimit/base/row_writer.h"
 #include "sublimit/limit/limit_status.h"
 #include "sublimit/point_addresses.h"
 
 namespace sublimit {
 namespace {
 
-constexpr std::int64_t rows_per_text = 2048, texts_at_once = 256;
+constexpr std::int64_t rows_per_text = 1024;
 
 }  // namespace
 
@@ -25,7 +25,7 @@ template <class Real>
 AppliedPoints::AppliedPoints(const BakedTable<Real>& table)
     : num_points_(table.table.num_points()),
       quantities_(table.table.quantities()),
-      addresses_(addresses_of(table)),
+      addresses_([table] { return addresses_of(table); }),
       status_names_(table.info.statuses),
       orders_(table.info.orders),
       status_(statuses_of(table)) {
@@ -60,9 +60,10 @@ Points AppliedPoints::normals(std::span<const Real> values) const {
 template <class Real>
 MeshOutput AppliedPoints::mesh(const FaceList& faces, std::span<const Real> values) const {
   MeshOutput out;
-  out.positions =
-      Eigen::Map<const Eigen::Matrix<Real, Eigen::Dynamic, 3, Eigen::RowMajor>>(values.data(), num_points_, 3)
-          .template cast<double>();
+  out.positions.resize(num_points_, 3);
+  parallel_for_blocks(3 * num_points_, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    std::copy(values.data() + begin, values.data() + end, out.positions.data() + begin);
+  });
   out.face_sizes.assign(faces.sizes.begin(), faces.sizes.end());
   out.face_vertices.assign(faces.corners.begin(), faces.corners.end());
   if (quantities_ > 1) out.normals = normals(values);
@@ -70,21 +71,21 @@ MeshOutput AppliedPoints::mesh(const FaceList& faces, std::span<const Real> valu
 }
 
 template <class Real>
-void AppliedPoints::append_row(std::string& out, std::int64_t point, size_t channels, std::span<const Real> values,
-                               const Points& normals) const {
+void AppliedPoints::append_row(std::string& out, std::int64_t point, const SampleAddresses& addresses, size_t channels,
+                               std::span<const Real> values, const Points& normals) const {
   const auto i = static_cast<size_t>(point);
   bool first = true;
   const bool is_pole = !poles_.empty() && poles_[i] != 0;
   const auto begin = [&] {
     if (!std::exchange(first, false)) out += ',';
   };
-  if (!addresses_.faces.empty()) {
-    const bool exists = addresses_.faces[i] >= 0;
+  if (!addresses.faces.empty()) {
+    const bool exists = addresses.faces[i] >= 0;
     begin();
-    if (exists) append_number(out, addresses_.faces[i]);
+    if (exists) append_number(out, addresses.faces[i]);
     for (size_t k = 0; k < 2; ++k) {
       begin();
-      if (exists) append_number(out, addresses_.parameters[2 * i + k]);
+      if (exists) append_number(out, addresses.parameters[2 * i + k]);
     }
   }
   if (has_status_) {
@@ -110,10 +111,11 @@ void AppliedPoints::append_row(std::string& out, std::int64_t point, size_t chan
 
 template <class Real>
 void AppliedPoints::write_csv(const std::filesystem::path& path, const std::vector<std::string>& channels,
-                              std::span<const Real> values) const {
+                              std::span<const Real> values, const std::function<void(std::int64_t)>& progress) const {
+  const SampleAddresses addresses = addresses_();
   std::string header;
   const auto add = [&](const std::string& name) { header += (header.empty() ? "" : ",") + name; };
-  if (!addresses_.faces.empty())
+  if (!addresses.faces.empty())
     for (const char* name : {"face", "u", "v"}) add(name);
   if (has_status_) add("status");
   constexpr const char* quantities[] = {"", "u", "v", "uu", "uv", "vv"};
@@ -124,23 +126,12 @@ void AppliedPoints::write_csv(const std::filesystem::path& path, const std::vect
     found = normals(values);
     for (const char* name : {"nx", "ny", "nz"}) add(name);
   }
-  AtomicFile file(path);
-  file.write(header + "\n");
-  std::vector<std::string> texts(texts_at_once);
-  for (std::int64_t first = 0; first < num_points_; first += rows_per_text * texts_at_once) {
-    parallel_for_blocks(
-        std::min(num_points_ - first, rows_per_text * texts_at_once),
-        [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
-          texts[size_t(block)].clear();
-          for (std::int64_t i = begin; i < end; ++i)
-            append_row(texts[size_t(block)], first + i, channels.size(), values, found);
-        },
-        rows_per_text);
-    for (std::string& text : texts) {
-      file.write(text);
-      text.clear();
-    }
-  }
+  AtomicFile file(path, progress);
+  RowWriter out(file);
+  out.write(header + "\n");
+  out.rows(num_points_, rows_per_text, [&](std::string& text, std::int64_t begin, std::int64_t end) {
+    for (std::int64_t i = begin; i < end; ++i) append_row(text, i, addresses, channels.size(), values, found);
+  });
   file.commit();
 }
 
@@ -151,8 +142,8 @@ template Points AppliedPoints::normals(std::span<const double>) const;
 template MeshOutput AppliedPoints::mesh(const FaceList&, std::span<const float>) const;
 template MeshOutput AppliedPoints::mesh(const FaceList&, std::span<const double>) const;
 template void AppliedPoints::write_csv(const std::filesystem::path&, const std::vector<std::string>&,
-                                       std::span<const float>) const;
+                                       std::span<const float>, const std::function<void(std::int64_t)>&) const;
 template void AppliedPoints::write_csv(const std::filesystem::path&, const std::vector<std::string>&,
-                                       std::span<const double>) const;
+                                       std::span<const double>, const std::function<void(std::int64_t)>&) const;
 
 }  // namespace sublimit

@@ -34,18 +34,19 @@ class AppliedPoints {
   /// Numbers have the shortest form that reads back to the same bits; what does not exist is an empty field.
   /// @param channels  their names: `x,y,z`
   /// @param values    quantities x points x channels
+  /// @param progress  told how many bytes are written, if given
   template <class Real>
   void write_csv(const std::filesystem::path& path, const std::vector<std::string>& channels,
-                 std::span<const Real> values) const;
+                 std::span<const Real> values, const std::function<void(std::int64_t)>& progress = {}) const;
 
  private:
   template <class Real>
-  void append_row(std::string& out, std::int64_t point, size_t channels, std::span<const Real> values,
-                  const Points& normals) const;
+  void append_row(std::string& out, std::int64_t point, const SampleAddresses& addresses, size_t channels,
+                  std::span<const Real> values, const Points& normals) const;
   std::int64_t num_points_ = 0;
   int quantities_ = 1;
   bool has_status_ = false;
-  SampleAddresses addresses_;
+  std::function<SampleAddresses()> addresses_;  // a mesh needs none
   std::vector<std::string> status_names_;
   std::vector<std::int8_t> orders_;   // by status
   std::vector<std::uint8_t> status_;  // none: all are the first

@@ -3,11 +3,13 @@
 
 #include <string>
 
-#include "sublimit/base/atomic_file.h"
 #include "sublimit/base/format_number.h"
+#include "sublimit/base/row_writer.h"
 
 namespace sublimit {
 namespace {
+
+constexpr std::int64_t matrix_rows_per_text = 256;
 
 /// @param for_each_in_row  (row, body): calls body(column, weight) for the entries of a row
 template <class ForEachInRow>
@@ -20,18 +22,19 @@ void write(const std::filesystem::path& path, std::int64_t rows, std::int64_t co
     line += ' ';
   }
   line.back() = '\n';
-  file.write(line);
-  for (std::int64_t r = 0; r < rows; ++r)
-    for_each_in_row(r, [&](std::int64_t column, auto weight) {
-      line.clear();
-      append_number(line, r + 1);
-      line += ' ';
-      append_number(line, column + 1);
-      line += ' ';
-      append_number(line, weight);
-      line += '\n';
-      file.write(line);
-    });
+  RowWriter out(file);
+  out.write(line);
+  out.rows(rows, matrix_rows_per_text, [&](std::string& text, std::int64_t begin, std::int64_t end) {
+    for (std::int64_t r = begin; r < end; ++r)
+      for_each_in_row(r, [&](std::int64_t column, auto weight) {
+        append_number(text, r + 1);
+        text += ' ';
+        append_number(text, column + 1);
+        text += ' ';
+        append_number(text, weight);
+        text += '\n';
+      });
+  });
   file.commit();
 }
 

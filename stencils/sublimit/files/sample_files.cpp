@@ -7,13 +7,13 @@
 
 #include "sublimit/base/error.h"
 #include "sublimit/base/format_number.h"
-#include "sublimit/base/parallel_for.h"
+#include "sublimit/base/row_writer.h"
 
 namespace sublimit {
 namespace {
 
 constexpr size_t samples_per_batch = 65536;
-constexpr std::int64_t rows_per_text = 2048;
+constexpr std::int64_t rows_per_text = 512;
 
 bool is_inside(double u, double v, bool triangle) {
   return u >= 0 && v >= 0 && (triangle ? u + v <= 1 : u <= 1 && v <= 1);
@@ -131,23 +131,16 @@ SampleWriter::SampleWriter(const std::filesystem::path& path, SampleColumns colu
 }
 
 void SampleWriter::write(std::span<const Sample> samples, const LimitSamples& found) {
-  const auto count = static_cast<std::int64_t>(samples.size());
-  texts_.resize(num_blocks(count, rows_per_text));
-  parallel_for_blocks(
-      count,
-      [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
-        std::string& text = texts_[block];
-        text.clear();
-        for (std::int64_t i = begin; i < end; ++i) {
-          if (own_)
-            own_->append(text, static_cast<size_t>(i));
-          else
-            append_place(text, samples[i]);
-          append_row(text, found, i, columns_);
-        }
-      },
-      rows_per_text);
-  for (const std::string& text : texts_) file_.write(text);
+  const auto append = [&](std::string& text, std::int64_t begin, std::int64_t end) {
+    for (std::int64_t i = begin; i < end; ++i) {
+      if (own_)
+        own_->append(text, static_cast<size_t>(i));
+      else
+        append_place(text, samples[i]);
+      append_row(text, found, i, columns_);
+    }
+  };
+  RowWriter(file_).rows(std::ssize(samples), rows_per_text, append);
 }
 
 std::string SampleSummary::text() const {

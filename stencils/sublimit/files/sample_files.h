@@ -79,7 +79,6 @@ class SampleWriter {
   AtomicFile file_;
   SampleColumns columns_;
   const OwnPlaces* own_;
-  std::vector<std::string> texts_;  // of a batch, a block each
 };
 
 struct SampleSummary {

@@ -2,13 +2,17 @@
 #include "sublimit/base/atomic_file.h"
 
 #include <gtest/gtest.h>
+#include <fcntl.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "sublimit/base/read_file.h"
 #include "support/expect_error.h"
@@ -67,6 +71,33 @@ TEST(AtomicFile, KeepsPermissionsAndLinks) {
   EXPECT_TRUE(std::filesystem::is_symlink(directory / "link"));
   EXPECT_EQ(read_file(target), "new");
   EXPECT_EQ(std::filesystem::status(target).permissions(), std::filesystem::perms(0640));
+}
+
+TEST(AtomicFile, TellsHowManyBytesAreWritten) {
+  const TemporaryDirectory directory;
+  std::vector<std::int64_t> told;
+  AtomicFile file(directory / "out", [&](std::int64_t bytes) { told.push_back(bytes); });
+  file.write("a few");
+  file.write(std::string(10000000, 'x'));
+  file.write("more");
+  file.commit();
+  EXPECT_TRUE(std::ranges::is_sorted(told));
+  EXPECT_GE(told.size(), 4u);  // pieces of some MB
+  EXPECT_EQ(told.back(), 10000009);
+}
+
+TEST(AtomicFile, PipeThatNobodyReadsIsAnError) {
+  const TemporaryDirectory directory;
+  const std::filesystem::path pipe = directory / "pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  std::signal(SIGPIPE, SIG_IGN);
+  const int reader = ::open(pipe.c_str(), O_RDONLY | O_NONBLOCK);
+  ASSERT_GE(reader, 0);
+  AtomicFile file(pipe);
+  file.write("taken");
+  ::close(reader);
+  expect_error<IoError>([&] { file.commit(); }, {"pipe: cannot write: Broken pipe"});
+  EXPECT_EQ(directory.num_files(), 1);
 }
 
 TEST(AtomicFile, LongNamesHaveATemporaryToo) {

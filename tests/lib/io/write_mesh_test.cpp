@@ -3,10 +3,10 @@
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <tbb/global_control.h>
 #include <unistd.h>
 
 #include <bit>
-#include <cmath>
 #include <csignal>
 #include <cstdint>
 #include <cstdio>
@@ -14,11 +14,13 @@
 #include <random>
 #include <string>
 
+#include "sublimit/base/format_number.h"
 #include "sublimit/base/read_file.h"
 #include "sublimit/io/obj.h"
 #include "sublimit/io/ply.h"
 #include "sublimit/io/read_mesh.h"
 #include "support/expect_error.h"
+#include "support/random_doubles.h"
 #include "support/temporary_directory.h"
 
 namespace sublimit::testing {
@@ -28,14 +30,7 @@ namespace {
 MeshOutput random_output(std::uint64_t seed, Index vertices, Index faces) {
   std::mt19937_64 random(seed);
   MeshOutput mesh;
-  mesh.positions.resize(vertices, 3);
-  for (Eigen::Index i = 0; i < mesh.positions.size(); ++i) {
-    double& value = mesh.positions.data()[i];
-    do {
-      value = std::bit_cast<double>(random());
-    } while (!std::isfinite(value));
-    if (i % 5 == 0) value = std::bit_cast<double>(random() >> 12);  // subnormal
-  }
+  mesh.positions = Eigen::Map<const Points>(random_doubles(seed, std::size_t(3 * vertices)).data(), vertices, 3);
   mesh.positions(0, 0) = -0.0;
   mesh.positions(0, 1) = std::numeric_limits<double>::max();
   for (Index f = 0; f < faces; ++f) {
@@ -82,6 +77,85 @@ void expect_same_tags(const ControlMesh& a, const MeshOutput& b) {
   EXPECT_EQ(a.boundary, b.boundary);
   EXPECT_EQ(a.creasing, b.creasing);
   EXPECT_EQ(a.triangles, b.triangles);
+}
+
+/// A writer of one thread that knows nothing of blocks.
+std::string plain_obj(const MeshOutput& mesh) {
+  std::string text;
+  const auto rows = [&](const char* keyword, const Points& points) {
+    for (Eigen::Index i = 0; i < points.rows(); ++i) {
+      text += keyword;
+      for (Eigen::Index k = 0; k < points.cols(); ++k) text += " " + format_number(points(i, k));
+      text += '\n';
+    }
+  };
+  rows("v", mesh.positions);
+  if (!mesh.face_varying.empty()) rows("vt", mesh.face_varying[0].values);
+  rows("vn", mesh.normals);
+  std::size_t corner = 0;
+  for (const Index size : mesh.face_sizes) {
+    text += 'f';
+    for (Index i = 0; i < size; ++i, ++corner) {
+      text += " " + std::to_string(mesh.face_vertices[corner] + 1);
+      if (!mesh.face_varying.empty()) text += "/" + std::to_string(mesh.face_varying[0].indices[corner] + 1);
+      if (mesh.normals.rows() > 0)
+        text += std::string(mesh.face_varying.empty() ? "//" : "/") + std::to_string(mesh.face_vertices[corner] + 1);
+    }
+    text += '\n';
+  }
+  for (const ControlMesh::Crease& crease : mesh.creases)
+    text += "t crease 2/1/0 " + std::to_string(crease.tail) + " " + std::to_string(crease.head) + " " +
+            format_number(crease.sharpness) + "\n";
+  return text;
+}
+
+std::string plain_ply(const MeshOutput& mesh) {
+  std::string bytes = "ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(mesh.positions.rows()) +
+                      "\nproperty double x\nproperty double y\nproperty double z\n";
+  if (mesh.normals.rows() > 0) bytes += "property double nx\nproperty double ny\nproperty double nz\n";
+  bytes += "element face " + std::to_string(mesh.face_sizes.size()) +
+           "\nproperty list uchar int vertex_indices\nend_header\n";
+  const auto number = [&](auto value) {
+    for (std::size_t i = 0; i < sizeof value; ++i) bytes += static_cast<char>(value >> 8 * i & 255);
+  };
+  for (Eigen::Index v = 0; v < mesh.positions.rows(); ++v)
+    for (const Points* const points : {&mesh.positions, &mesh.normals})
+      for (Eigen::Index k = 0; k < 3 && points->rows() > 0; ++k) number(std::bit_cast<std::uint64_t>((*points)(v, k)));
+  std::size_t corner = 0;
+  for (const Index size : mesh.face_sizes) {
+    bytes += static_cast<char>(size);
+    for (Index i = 0; i < size; ++i) number(std::uint32_t(mesh.face_vertices[corner++]));
+  }
+  return bytes;
+}
+
+TEST(WriteMesh, BytesAreThoseOfAPlainWriterForAnyNumberOfThreads) {
+  const TemporaryDirectory directory;
+  // Vertices and faces at the ends of blocks of 2048 and 4096 rows, and of several.
+  for (const Index rows : {1, 2047, 2048, 2049, 4095, 4096, 4097, 50001}) {
+    MeshOutput mesh = random_output(std::uint64_t(rows), rows, rows);
+    for (int parts = 0; parts < 3; ++parts) {
+      if (parts == 1) mesh.normals = random_output(std::uint64_t(rows) + 1, rows, 1).positions;
+      if (parts == 2) {
+        mesh.face_varying = {
+            {"uv", random_output(7, 5, 1).positions.leftCols(2), std::vector<Index>(mesh.face_vertices.size(), 3)}};
+        for (Index i = 0; i < rows; ++i) mesh.creases.push_back({i, 0, float(i) / 7});
+      }
+      const std::string obj = plain_obj(mesh), ply = plain_ply(mesh);
+      EXPECT_TRUE(format_obj(mesh) == obj);  // not shown: they are long
+      EXPECT_TRUE(format_ply(mesh) == ply);
+      for (const std::size_t threads : {1u, 2u, 5u}) {
+        SCOPED_TRACE(std::to_string(rows) + " rows, " + std::to_string(threads) + " threads");
+        const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+        std::int64_t written = 0;
+        write_mesh(directory / "a.obj", mesh, [&](std::int64_t bytes) { written = bytes; });
+        EXPECT_TRUE(read_file(directory / "a.obj") == obj);
+        EXPECT_EQ(written, std::ssize(obj));
+        write_mesh(directory / "a.ply", mesh);
+        EXPECT_TRUE(read_file(directory / "a.ply") == ply);
+      }
+    }
+  }
 }
 
 TEST(WriteMesh, ObjReadsBackToTheSameBitsAndTags) {

@@ -3,13 +3,16 @@
 #include "sublimit/bake/applied_points.h"
 
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
 
 #include "sublimit/bake/bake.h"
+#include "sublimit/base/format_number.h"
 #include "sublimit/base/read_file.h"
 #include "sublimit/limit/limit_surface.h"
 #include "sublimit/point_addresses.h"
 #include "sublimit/schemes.h"
 #include "support/meshes.h"
+#include "support/random_doubles.h"
 #include "support/temporary_directory.h"
 #include "support/tolerance.h"
 
@@ -81,6 +84,28 @@ TEST(AppliedPoints, NoNormalsOfParallelDerivatives) {
             "face,u,v,status,x,y,z,xu,yu,zu,xv,yv,zv,nx,ny,nz\n"
             "0,0.5,0.5,undefined-normal,1,0.5,-1,0.333,-0.25,0.333,0.1665,-0.125,0.166500000000001,,,\n"
             "1,0.5,0.5,regular,0,0,0,1,0,0,1,1e-06,0,0,0,1\n");
+}
+
+TEST(AppliedPoints, RowsAreThoseOfAPlainWriterForAnyNumberOfThreads) {
+  // Numbers of all bit patterns: what a table makes of large points is infinite, or not a number.
+  Patterns patterns(find_scheme("catmull-clark").value());
+  const TemporaryDirectory directory;
+  for (const int size : {8, 16, 17}) {  // 1024 points at level 2, which is a block, then others
+    const BakedTable<double> table = bake_level(patterns, torus(size, 8), 2).table;
+    const auto points = static_cast<size_t>(table.table.num_points());
+    const std::vector<double> values = random_doubles(points, 2 * points, true);
+    const SampleAddresses at = addresses_of(table);
+    std::string plain = "face,u,v,a,b\n";
+    for (size_t i = 0; i < points; ++i)
+      plain += format_number(at.faces[i]) + "," + format_number(at.parameters[2 * i]) + "," +
+               format_number(at.parameters[2 * i + 1]) + "," + format_number(values[2 * i]) + "," +
+               format_number(values[2 * i + 1]) + "\n";
+    for (const size_t threads : {1u, 2u, 5u}) {
+      const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+      AppliedPoints(table).write_csv<double>(directory / "points.csv", {"a", "b"}, values);
+      EXPECT_TRUE(read_file(directory / "points.csv") == plain) << points << " points, " << threads << " threads";
+    }
+  }
 }
 
 TEST(AppliedPoints, NoAddressesByRows) {

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Bad input and bad command lines: the exit status, a message that says what, where and what would be right, and no
 // output.
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <poll.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -225,6 +227,23 @@ TEST(CliResources, TooLittleMemory) {
                           starve),
                  4, {"memory"});
   EXPECT_EQ(directory.num_files(), 1);
+}
+
+TEST(CliOutput, PipeThatItsReaderClosesIsAnError) {
+  const TemporaryDirectory directory;
+  write_obj(directory / "mesh.obj", output(torus(64, 64)));
+  for (const char* const name : {"pipe.obj", "pipe.ply"}) {
+    const std::string pipe = (directory / name).string();
+    ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+    const int reader = ::open(pipe.c_str(), O_RDONLY | O_NONBLOCK);
+    ASSERT_GE(reader, 0);
+    Program program({"refine", (directory / "mesh.obj").string(), "-s", "catmull-clark", "-l", "2", "-o", pipe});
+    pollfd something{reader, POLLIN, 0};
+    EXPECT_EQ(::poll(&something, 1, 60'000), 1);
+    ::close(reader);  // the rest of the mesh is more than a pipe holds
+    expect_failure(program.wait(), 3, {name, "cannot write: Broken pipe"});
+  }
+  EXPECT_EQ(directory.num_files(), 3);
 }
 
 TEST(CliOutput, NamesAreCheckedBeforeWorkStarts) {

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// What the writers of meshes share.
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sublimit/core/types.h"
+
+namespace sublimit {
+
+/// Comments as lines that begin with `mark`, those of several lines as so many.
+inline std::string format_comments(const std::vector<std::string>& comments, std::string_view mark) {
+  std::string out;
+  for (const std::string& comment : comments) {
+    out += mark;
+    for (const char c : comment) {
+      if (c != '\r') out += c;
+      if (c == '\n') out += mark;
+    }
+    out += '\n';
+  }
+  return out;
+}
+
+/// The first corner of every `faces_per_block`-th face.
+inline std::vector<std::size_t> first_corners(const std::vector<Index>& face_sizes, std::int64_t faces_per_block) {
+  std::vector<std::size_t> first;
+  std::size_t corner = 0;
+  for (std::size_t f = 0; f < face_sizes.size(); ++f) {
+    if (f % static_cast<std::size_t>(faces_per_block) == 0) first.push_back(corner);
+    corner += static_cast<std::size_t>(face_sizes[f]);
+  }
+  return first;
+}
+
+}  // namespace sublimit
