@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // `sublimit implicit`: fields at places, and control meshes whose limit is their level set.
+#include <dlfcn.h>
 #include <fmt/core.h>
 
 #include <cmath>
@@ -8,6 +9,7 @@
 
 #include "common.h"
 #include "memory_limit.h"
+#include "openvdb/entry.h"
 #include "sublimit/base/atomic_file.h"
 #include "sublimit/base/error.h"
 #include "sublimit/files/field_samples.h"
@@ -16,9 +18,6 @@
 #include "sublimit/io/write_mesh.h"
 #include "sublimit/picture/picture_mesh.h"
 #include "sublimit/recipes/field_recipe.h"
-#ifdef SUBLIMIT_IMPLICIT_MESH
-#include "sublimit/implicit/polygonize/polygonize.h"
-#endif
 
 namespace sublimit::cli {
 namespace {
@@ -34,7 +33,18 @@ struct ImplicitJob {
 
 Polygonizer polygonizer() {
 #ifdef SUBLIMIT_IMPLICIT_MESH
-  return [](const FieldGrid& grid) { return polygonize(grid); };
+  void* const library = ::dlopen(openvdb_library, RTLD_NOW);
+  void* const entry = library ? ::dlsym(library, polygonize_entry) : nullptr;
+  if (!entry)
+    throw IoError(
+        fmt::format("cannot load {}, which makes polygons of fields: {}; it should lie where the program was "
+                    "installed with it",
+                    openvdb_library, ::dlerror()));
+  return [polygonize = reinterpret_cast<PolygonizeEntry*>(entry)](const FieldGrid& grid) {
+    ControlMesh mesh;
+    polygonize(grid, mesh);
+    return mesh;
+  };
 #else
   throw InvalidOption("this program was built without OpenVDB, which makes polygons of fields; --at IN.csv needs none");
 #endif
@@ -147,7 +157,7 @@ int make_mesh(const ImplicitJob& job, const FieldJob& field, Progress& progress)
     drawn = picture(scheme, mesh);
   }
   progress.step("writing " + job.output);
-  write_mesh(job.output, output(mesh.cage));
+  write_mesh(job.output, output(mesh.cage), progress.bytes_written());
   if (!job.report.empty()) write_whole(job.report, report(job, field, mesh));
   if (!job.picture.empty()) write_whole(job.picture, drawn);
   progress.step("");

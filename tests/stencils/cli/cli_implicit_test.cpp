@@ -14,6 +14,13 @@ namespace {
 
 constexpr const char* sphere = R"({"kind": "implicit", "field": "sphere", "center": [0, 0, 0], "radius": 1})";
 
+TEST(CliImplicit, OpenVdbIsNotLoadedByTheOtherCommands) {
+  // The loader's list of what the program needs at its start.
+  const Outcome needed = sublimit({"--version"}, [] { ::setenv("LD_TRACE_LOADED_OBJECTS", "1", 1); });
+  expect_parts(needed.out, {"libtbb", "libstdc++"});
+  EXPECT_EQ(needed.out.find("openvdb"), std::string::npos) << needed.out;
+}
+
 TEST(CliImplicit, FieldsAtPlaces) {
   const TemporaryDirectory directory;
   const std::string in = directory.write("f.json", sphere).string(),
