@@ -58,25 +58,34 @@ std::vector<std::uint8_t> statuses_of(const BakedTable<Real>& table) {
 
 namespace {
 
+/// Puts down the corners of the faces of one lattice.
+/// @param points  by row
+void put_faces(const Lattice& lattice, std::span<const std::int32_t> points, std::int32_t* out) {
+  const auto add = [&](std::int32_t i, std::int32_t j) { *out++ = points[size_t(lattice.row(i, j))]; };
+  for (std::int32_t j = 0; j < lattice.n; ++j)
+    for (std::int32_t i = 0; i < (lattice.triangle ? lattice.n - j : lattice.n); ++i) {
+      add(i, j), add(i + 1, j);
+      if (!lattice.triangle) add(i + 1, j + 1);
+      add(i, j + 1);
+      if (lattice.triangle && i + j + 1 < lattice.n) add(i + 1, j), add(i + 1, j + 1), add(i, j + 1);
+    }
+}
+
 /// Faces of lattices, each of which has a `point(lattice, row)`.
 template <class Point>
 FaceList faces_of(const Lattice& lattice, std::int64_t count, const Point& point) {
   const int sides = lattice.num_sides();
   const std::int64_t per_lattice = std::int64_t{lattice.num_cells()} * sides;
   std::vector<std::int32_t> corners(size_t(count * per_lattice));
-  parallel_for(count, [&](std::int64_t at) {
-    std::int32_t* out = corners.data() + at * per_lattice;
-    const auto add = [&](std::int32_t i, std::int32_t j) {
-      *out++ = static_cast<std::int32_t>(point(at, lattice.row(i, j)));
-    };
-    for (std::int32_t j = 0; j < lattice.n; ++j)
-      for (std::int32_t i = 0; i < (lattice.triangle ? lattice.n - j : lattice.n); ++i) {
-        add(i, j), add(i + 1, j);
-        if (!lattice.triangle) add(i + 1, j + 1);
-        add(i, j + 1);
-        if (lattice.triangle && i + j + 1 < lattice.n) add(i + 1, j), add(i + 1, j + 1), add(i, j + 1);
-      }
-  });
+  const auto make = [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    std::vector<std::int32_t> points(size_t(lattice.size()));  // a point is a corner of up to six faces: found once
+    for (std::int64_t at = begin; at < end; ++at) {
+      for (std::int32_t row = 0; row < lattice.size(); ++row)
+        points[size_t(row)] = static_cast<std::int32_t>(point(at, row));
+      put_faces(lattice, points, corners.data() + at * per_lattice);
+    }
+  };
+  parallel_for_blocks(count, make, 256);
   return {std::vector<std::int32_t>(size_t(count) * size_t(lattice.num_cells()), sides), std::move(corners)};
 }
 
