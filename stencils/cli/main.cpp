@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "common.h"
+#include "heap.h"
 #include "sublimit/base/error.h"
 
 namespace {
@@ -77,6 +78,7 @@ int guarded(const cli::Command& command) {
 int main(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN);  // a full disk is an error with a message, not the end
   std::signal(SIGPIPE, SIG_IGN);
+  cli::prepare_heap();
   handle_interrupts();
 
   CLI::App app("Subdivision surfaces as sparse matrices, and their exact limits.", "sublimit");

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// The heap of a program that takes large arrays and gives them back, again and again.
+#include <cstddef>
+#include <cstdlib>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
+#include <climits>
+
+#include "sublimit/base/huge_pages.h"
+
+namespace sublimit::cli {
+
+/// Keeps what is given back for who comes next, up to arrays of 64 MB, and has huge pages for the first 256 MB:
+/// without, the system clears each page of every array anew, which was a quarter of the time of `refine` and `apply`.
+/// No memory is taken here, addresses only. Where the C library is another one nothing happens.
+inline void prepare_heap() {
+#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+  constexpr std::size_t in_huge_pages = std::size_t{256} << 20;
+  ::mallopt(M_TRIM_THRESHOLD, INT_MAX);
+  ::mallopt(M_MMAP_THRESHOLD, INT_MAX);  // the next array lies in the heap, not beside it
+  if (void* const start = std::malloc(in_huge_pages)) {
+    prefer_huge_pages(start, in_huge_pages);
+    std::free(start);
+  }
+  ::mallopt(M_MMAP_THRESHOLD, 64 << 20);
+#endif
+}
+
+}  // namespace sublimit::cli
