@@ -70,7 +70,10 @@ class RowMaker {
   Index length(Face f) {
     if (!wide_face_) return t_.size(f);  // with intervals at most
     const Weights& weights = wide_weights(f);
-    return weights.on_edges.empty() ? weights.count() : static_cast<Index>(row(f, weights).size());
+    if (weights.on_edges.empty()) return weights.count();
+    add_with_edges(f, weights);
+    sum_columns();
+    return static_cast<Index>(row_.size());
   }
   Index length(HalfEdge corner) { return smooth_weights(corner).count(); }
   /// A point on a half-edge without twin, `part` from its tail on.
@@ -156,6 +159,11 @@ class RowMaker {
     return merge();
   }
   const std::vector<Term>& row(Face f, const Weights& weights) {
+    add_with_edges(f, weights);
+    return merge();
+  }
+  /// Begins a row with a face's own points and those of the points on its edges.
+  void add_with_edges(Face f, const Weights& weights) {
     row_.clear();
     add(f, T(1), weights);
     const Index size = t_.size(f);
@@ -165,7 +173,6 @@ class RowMaker {
       if (weights.on_edges[size + i] != T(0))
         add_edge(t_.edge(t_.next(t_.next(t_.twin(h)))), weights.on_edges[size + i]);
     }
-    return merge();
   }
 
   void add_edge(Edge e, const T& factor) {
@@ -418,6 +425,27 @@ class RowMaker {
     }
   }
 
+  /// Each column of the row once, where it came first, its terms added up in their order: by a table of columns, which
+  /// takes much less than sorting what is equal.
+  void sum_columns() {
+    size_t size = 64;
+    while (size < 2 * row_.size()) size *= 2;
+    place_of_.assign(size, -1);
+    size_t kept = 0;
+    for (size_t i = 0; i < row_.size(); ++i) {
+      size_t at = (static_cast<std::uint32_t>(row_[i].first) * 2654435761u >> 7) & (size - 1);
+      while (place_of_[at] >= 0 && row_[place_of_[at]].first != row_[i].first) at = (at + 1) & (size - 1);
+      if (place_of_[at] >= 0) {
+        row_[place_of_[at]].second += row_[i].second;
+        continue;
+      }
+      place_of_[at] = static_cast<Index>(kept);
+      if (kept != i) row_[kept] = std::move(row_[i]);
+      ++kept;
+    }
+    row_.resize(kept);
+  }
+
   Index other_end(Edge e, Vertex v) const { return index(t_.tail(e) == v ? t_.head(e) : t_.tail(e)); }
 
   /// An edge is a full crease while its sharpness is 1 or more, and under Chaikin creasing also where both its halves
@@ -447,8 +475,9 @@ class RowMaker {
         for (; j > 0 && less(term, row_[j - 1]); --j) row_[j] = std::move(row_[j - 1]);
         row_[j] = std::move(term);
       }
-    } else {
-      std::stable_sort(row_.begin(), row_.end(), less);
+    } else {  // most points come several times
+      sum_columns();
+      std::sort(row_.begin(), row_.end(), less);
     }
     const auto odd = [&](size_t i) {  // coincides with the one before, or is nothing
       return row_[i].second == T(0) || (i > 0 && row_[i].first == row_[i - 1].first);
@@ -485,7 +514,7 @@ class RowMaker {
   typename MaskTable<T>::Knots site_knots_;
   std::vector<T> crease_vertex_, crease_edge_[2][2], curve_;
   bool crease_is_wide_ = false, wide_edge_ = false, wide_face_ = false, wide_borders_ = false;
-  std::vector<Index> sizes_, gathered_;
+  std::vector<Index> sizes_, gathered_, place_of_;
   std::vector<FanShape> shapes_;
   std::vector<Term> row_;
 };
