@@ -231,6 +231,7 @@ LimitMasks limit_masks(const Scheme<double>& scheme, const CanonicalNeighborhood
     if (step.child.signature() == current.signature()) {
       LimitMasks masks = stationary_masks(step.matrix, current);
       masks.steps = k;
+      if (k == 0) return masks;
       const auto pull_back = [&](VectorXd& mask) { mask = path.transpose() * mask; };
       pull_back(masks.position);
       for (Side& side : masks.sides) {

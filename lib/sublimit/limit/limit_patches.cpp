@@ -3,7 +3,10 @@
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
+#include <tuple>
 
 #include "sublimit/base/parallel_for.h"
 
@@ -352,8 +355,8 @@ SUBLIMIT_WIDE void LimitPatches::Loop::second_derivatives(std::span<const Sample
   run<2>(*this, samples, begin, end, normals, out, rest);
 }
 
-void LimitPatches::evaluate(std::span<const Sample> samples, std::int64_t begin, std::int64_t end, int order,
-                            bool normals, LimitSamples& out) const {
+std::int64_t LimitPatches::evaluate(std::span<const Sample> samples, std::int64_t begin, std::int64_t end, int order,
+                                    bool normals, LimitSamples& out) const {
   const Loop loop{parts_,
                   bound_.data(),
                   coefficients_.data(),
@@ -365,7 +368,29 @@ void LimitPatches::evaluate(std::span<const Sample> samples, std::int64_t begin,
   if (order == 0) loop.positions(samples, begin, end, out, rest);
   if (order == 1) loop.first_derivatives(samples, begin, end, normals, out, rest);
   if (order == 2) loop.second_derivatives(samples, begin, end, normals, out, rest);
-  for (const std::int64_t i : rest) parts_.evaluate_row(points_, samples[i], order, normals, out, i);
+  // Alike ones one after another: their rows are the same.
+  struct Left {
+    const PieceType* type;
+    double u, v;
+    std::int64_t i;
+  };
+  std::vector<Left> left;
+  left.reserve(rest.size());
+  for (const std::int64_t i : rest) {
+    const Sample& s = samples[i];
+    if (!parts_.is_inside(s)) {
+      left.push_back({nullptr, 0, 0, i});
+      continue;
+    }
+    const LimitSurface::Parts::Target target = parts_.target(s);
+    left.push_back({pieces_.types[parts_.number(s, target)], target.place.u, target.place.v, i});
+  }
+  std::sort(left.begin(), left.end(), [](const Left& a, const Left& b) {
+    return a.type != b.type ? std::less<>()(a.type, b.type) : std::tie(a.u, a.v, a.i) < std::tie(b.u, b.v, b.i);
+  });
+  LimitSurface::Parts::KnownRows known;
+  for (const Left& one : left) parts_.evaluate_row(points_, samples[one.i], order, normals, out, one.i, &known);
+  return known.made;
 }
 
 }  // namespace sublimit

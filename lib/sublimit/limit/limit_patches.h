@@ -16,8 +16,9 @@ class LimitPatches {
   LimitPatches(const LimitSurface::Parts& parts, const Points& points);
 
   /// Rows [begin, end) of `out`, whose other rows and absent quantities stay as they are.
-  void evaluate(std::span<const Sample> samples, std::int64_t begin, std::int64_t end, int order, bool normals,
-                LimitSamples& out) const;
+  /// @return  places in types whose rows had to be made, since no patch has them: alike ones count once
+  std::int64_t evaluate(std::span<const Sample> samples, std::int64_t begin, std::int64_t end, int order, bool normals,
+                        LimitSamples& out) const;
 
   /// For those who cut a surface otherwise.
   static const LimitSurface::Parts& parts_of(const LimitSurface& surface) { return *surface.parts_; }

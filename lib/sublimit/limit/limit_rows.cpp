@@ -46,12 +46,24 @@ LimitRows rows_of(const LimitMasks& masks, const LimitMasks::Side& side, std::sp
   return result;
 }
 
+/// The one-ring of the last vertex that was asked for: there may be hundreds of sides, which come one after another.
+struct OneRing {
+  Vertex vertex{-1};
+  NeighborhoodAt at;
+  const LimitMasks* masks = nullptr;
+};
+
 /// A vertex whose one-ring is all that its limit depends on, whatever is sharp there: the type is that of all its
 /// sides.
-LimitRows one_ring_rows(const Level& level, LimitTypes& cache, HalfEdge corner) {
+LimitRows one_ring_rows(const Level& level, LimitTypes& cache, HalfEdge corner, OneRing& ring) {
   const Topology& t = level.topology();
-  const NeighborhoodAt at = neighborhood(t, level.sharpness, t.tail(corner));
-  const LimitMasks& masks = cache.masks(at.type);
+  if (ring.vertex != t.tail(corner)) {
+    ring.at = neighborhood(t, level.sharpness, t.tail(corner));
+    ring.masks = &cache.masks(ring.at.type);
+    ring.vertex = t.tail(corner);
+  }
+  const NeighborhoodAt& at = ring.at;
+  const LimitMasks& masks = *ring.masks;
   for (const LimitMasks::Side& side : masks.sides) {
     const std::vector<HalfEdge>& corners = at.corners[side.fan];
     for (Index c = 0; c < side.num_corners; ++c)
@@ -152,10 +164,10 @@ std::optional<LimitRows> polynomial_rows(const Level& level, LimitTypes& cache, 
   return result;
 }
 
-std::optional<LimitRows> known_rows(const Level& level, LimitTypes& cache, const Centre& centre) {
+std::optional<LimitRows> known_rows(const Level& level, LimitTypes& cache, const Centre& centre, OneRing& ring) {
   if (!level.intervals.empty()) return polynomial_rows(level, cache, centre);
   if (centre.kind == Centre::Kind::vertex && cache.scheme().has_one_ring_limits())
-    return one_ring_rows(level, cache, centre.start);
+    return one_ring_rows(level, cache, centre.start, ring);
   return lone_rows(level, cache, centre);
 }
 
@@ -192,16 +204,19 @@ std::vector<LimitRows> found_rows(const Level& level, LimitTypes& cache, std::sp
   std::vector<std::uint8_t> done(centres.size(), 0);
   const bool whole = is_prepared_first(scheme, level);
   if (!whole)
-    parallel_for(count, [&](std::int64_t i) {
-      try {
-        std::optional<LimitRows> known = known_rows(level, cache, centres[i]);
-        if (!known && depth == 0) known = repeating_rows(level, cache, centres[i]);
-        if (!known) return;
-        rows[i] = std::move(*known);
-      } catch (const AnalysisError& error) {
-        why[i] = error.what();
+    parallel_for_blocks(count, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+      OneRing ring;
+      for (std::int64_t i = begin; i < end; ++i) {
+        try {
+          std::optional<LimitRows> known = known_rows(level, cache, centres[i], ring);
+          if (!known && depth == 0) known = repeating_rows(level, cache, centres[i]);
+          if (!known) continue;
+          rows[i] = std::move(*known);
+        } catch (const AnalysisError& error) {
+          why[i] = error.what();
+        }
+        done[i] = 1;
       }
-      done[i] = 1;
     });
   std::vector<size_t> rest;
   for (size_t i = 0; i < centres.size(); ++i)

@@ -31,21 +31,34 @@ FaceLengths LimitSurface::lengths(Index address) const {
 }
 const Level& LimitSurface::level() const { return parts_->level; }
 
-LimitSurface::Parts::Found LimitSurface::Parts::find(const Target& at, int order) const {
+LimitSurface::Parts::Found LimitSurface::Parts::find(const Target& at, int order, KnownRows* known) const {
   try {
     std::vector<Index> vertices;
     const PieceType* type = type_of(at.piece, vertices);
-    return find(at, order, *type, std::move(vertices));
+    return find(at, order, *type, std::move(vertices), known);
   } catch (const AnalysisError& error) {
     throw without_limit(at.piece, error.what());
   }
 }
 
 LimitSurface::Parts::Found LimitSurface::Parts::find(const Target& at, int order, const PieceType& type,
-                                                     std::vector<Index> vertices) const {
+                                                     std::vector<Index> vertices, KnownRows* known) const {
   Found found;
   found.vertices = std::move(vertices);
-  PieceRows& rows = found.rows = piece_rows(type, at.place, order);
+  if (!known) {
+    found.rows = piece_rows(type, at.place, order);
+  } else {
+    if (known->type != &type || known->order != order || !(known->place == at.place)) {
+      known->rows = piece_rows(type, at.place, order);
+      known->on_side.reset();
+      known->type = &type;
+      known->place = at.place;
+      known->order = order;
+      ++known->made;
+    }
+    found.rows = known->rows;
+  }
+  PieceRows& rows = found.rows;
   const unsigned sides = this->sides(at.piece);
   const bool on_cut = sides & sides_at(at.place, at.piece.kind == Kind::triangle);
   if (on_cut) found.status = LimitStatus::crease;
@@ -66,7 +79,8 @@ LimitSurface::Parts::Found LimitSurface::Parts::find(const Target& at, int order
   // Inside, where rounding ends the descent of a place at thirds at a corner, the position is all that was asked for.
   const bool is_deep = !centre && order == 0;
   if (on_cut && !centre && rows.order == 0) {
-    if (order >= 1) rows.tangents = tangents_on_side(type, at.place);
+    if (order >= 1 && known && !known->on_side) known->on_side = tangents_on_side(type, at.place);
+    if (order >= 1) rows.tangents = known ? *known->on_side : tangents_on_side(type, at.place);
     if (order >= 1 && rows.tangents.rows() == 0) found.status = LimitStatus::undefined_normal;
   } else if (rows.at_corner && rows.order == 0 && !is_deep) {
     const LimitRows* limit = centre ? corners.at(*centre) : nullptr;
@@ -97,8 +111,8 @@ RowMatrix LimitSurface::Parts::tangents_on_side(const PieceType& type, const Pla
   return piece_rows(type, inside, 1).tangents;
 }
 
-LimitStencil LimitSurface::Parts::stencil(const Sample& s, int order) const {
-  Found found = find(target(s), order);
+LimitStencil LimitSurface::Parts::stencil(const Sample& s, int order, KnownRows* known) const {
+  Found found = find(target(s), order, known);
   LimitStencil result;
   result.status = found.status;
   // Position, derivatives, tangents, one below the other: over the piece's vertices, slot 0 with what makes the sums
@@ -193,9 +207,9 @@ constexpr std::int64_t samples_per_block = 2048;
 }  // namespace
 
 bool LimitSurface::Parts::evaluate_plain_row(const Points& points, const Sample& sample, int order, bool normals,
-                                             LimitSamples& out, std::int64_t i) const {
+                                             LimitSamples& out, std::int64_t i, KnownRows* known) const {
   if (prepared) return false;
-  const Found found = find(target(sample), order);
+  const Found found = find(target(sample), order, known);
   if (order > 0 && found.rows.order == 0) return false;
   const auto n = found.rows.rows.cols();
   Points differences(n, 3);
@@ -217,7 +231,7 @@ bool LimitSurface::Parts::evaluate_plain_row(const Points& points, const Sample&
 }
 
 void LimitSurface::Parts::evaluate_row(const Points& points, const Sample& sample, int order, bool normals,
-                                       LimitSamples& out, std::int64_t i) const {
+                                       LimitSamples& out, std::int64_t i, KnownRows* known) const {
   for (Points* m : {&out.position, &out.du, &out.dv, &out.duu, &out.duv, &out.dvv, &out.normal})
     if (m->rows() > 0) m->row(i).setZero();
   out.order[i] = 0;
@@ -225,8 +239,8 @@ void LimitSurface::Parts::evaluate_row(const Points& points, const Sample& sampl
     out.status[i] = LimitStatus::outside;
     return;
   }
-  if (evaluate_plain_row(points, sample, order, normals, out, i)) return;
-  const LimitStencil stencil = this->stencil(sample, order);
+  if (evaluate_plain_row(points, sample, order, normals, out, i, known)) return;
+  const LimitStencil stencil = this->stencil(sample, order, known);
   Points local(stencil.vertices.size(), 3);
   for (size_t j = 0; j < stencil.vertices.size(); ++j) local.row(j) = points.row(stencil.vertices[j]);
   const Points rows = stencil.weights * local;

@@ -71,18 +71,29 @@ struct LimitSurface::Parts {
     SparseRows tangents;  ///< by masks, where the piece has none: over vertices
     LimitStatus status = LimitStatus::regular;
   };
+  /// Rows of the last place, by its type: where many faces are alike, those who ask face after face for the same place
+  /// have them made once. Around a vertex of hundreds of faces they cost as much as a small mesh.
+  struct KnownRows {
+    const PieceType* type = nullptr;
+    Place place;
+    int order = 0;
+    PieceRows rows;
+    std::optional<RowMatrix> on_side;  ///< `tangents_on_side`, once they have been asked for
+    std::int64_t made = 0;             ///< how often rows were not known
+  };
   /// @throws NoLimit  naming the face of the mesh
-  Found find(const Target& at, int order) const;
+  Found find(const Target& at, int order, KnownRows* known = nullptr) const;
   /// Tangents on a side where the limit has no derivatives by u and v, though there is a tangent plane; none if there
   /// are none inside either.
   RowMatrix tangents_on_side(const PieceType& type, const Place& place) const;
   /// The same where the type is known.
   /// @param vertices  its points, by slot
-  Found find(const Target& at, int order, const PieceType& type, std::vector<Index> vertices) const;
-  LimitStencil stencil(const Sample& sample, int order) const;
+  Found find(const Target& at, int order, const PieceType& type, std::vector<Index> vertices,
+             KnownRows* known = nullptr) const;
+  LimitStencil stencil(const Sample& sample, int order, KnownRows* known = nullptr) const;
   /// Row i of `out`, by its stencil.
   void evaluate_row(const Points& points, const Sample& sample, int order, bool normals, LimitSamples& out,
-                    std::int64_t i) const;
+                    std::int64_t i, KnownRows* known = nullptr) const;
 
   /// By the tangents, then by what the next terms add to degenerate ones; zero if they do not settle it.
   /// @param local  the points of the stencil
@@ -114,7 +125,7 @@ struct LimitSurface::Parts {
  private:
   /// The same where nothing is special; false: it is, and `out` is as it was.
   bool evaluate_plain_row(const Points& points, const Sample& sample, int order, bool normals, LimitSamples& out,
-                          std::int64_t i) const;
+                          std::int64_t i, KnownRows* known) const;
   void find_pieces() const;
   void find_regular() const;
   /// Faces that need no walk, and the type that all of them have; null where the scheme looks further, or walks find

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <map>
 
 #include "sublimit/mesh/topology_builder.h"
 
@@ -33,7 +34,8 @@ NeighborhoodAt walk(const Topology& t, const Sharpness& sharpness, Vertex v, con
   type.sharpness = sharpness.vertex[index(v)];
   type.creasing = sharpness.creasing;
   result.vertices = {index(v)};
-  std::vector<Edge> edges;  // of the spokes
+  std::vector<Edge> edges;        // of the spokes
+  std::map<Edge, size_t> shared;  // loops, and those where fans meet: their place among the edges
   size_t fan_begin = 0;
   // `end` is the far end as this corner sees it: that of a loop (v,v) is the vertex again.
   const auto spoke = [&](Edge e, Vertex end) {
@@ -44,7 +46,7 @@ NeighborhoodAt walk(const Topology& t, const Sharpness& sharpness, Vertex v, con
     else if (edges.size() > fan_begin && edges[fan_begin] == e)
       at = edges.begin() + std::ptrdiff_t(fan_begin);
     else if (end == v || t.is_nonmanifold(v))
-      at = std::find(edges.begin(), edges.end(), e);
+      at = edges.begin() + std::ptrdiff_t(shared.try_emplace(e, edges.size()).first->second);
     const auto spoke = static_cast<Index>(at - edges.begin());
     if (at == edges.end()) {
       edges.push_back(e);

@@ -11,6 +11,7 @@ struct Place {
   double u = 0, v = 0;
   /// Quadrilaterals: 1 - u and 1 - v. Triangles: u1 = 1 - u - v.
   double u1 = 1, v1 = 1;
+  bool operator==(const Place&) const = default;
 };
 inline Place quad_place(double u, double v) { return {u, v, 1 - u, 1 - v}; }
 /// A place whose u + v is 1 but for rounding, as of (2/3, 1/3), is on the third side.
