@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "sublimit/base/error.h"
 
@@ -26,6 +27,15 @@ Addresses::Place Addresses::place(Index address) const {
   if (first_.empty()) return {Face{address}, -1};
   const Index f = static_cast<Index>(std::upper_bound(first_.begin(), first_.end(), address) - first_.begin()) - 1;
   return {Face{f}, first_[f + 1] - first_[f] == 1 ? -1 : address - first_[f]};
+}
+
+void check_inside(const FaceCount& faces, const Sample& s) {
+  if (s.face < 0 || s.face >= faces.size)
+    throw InvalidParameter("face " + std::to_string(s.face) + " does not exist; there are " +
+                           std::to_string(faces.size) + (faces.triangles ? " triangles" : " squares"));
+  if (!is_inside(faces, s))
+    throw InvalidParameter("(" + std::to_string(s.u) + ", " + std::to_string(s.v) + ") is outside the " +
+                           (faces.triangles ? "triangle u, v >= 0, u + v <= 1" : "square 0 <= u, v <= 1"));
 }
 
 namespace {

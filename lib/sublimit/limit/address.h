@@ -24,6 +24,14 @@ struct FaceCount {
   bool triangles = false;
 };
 
+/// Whether a place is on one of these faces, its sides included.
+inline bool is_inside(const FaceCount& faces, const Sample& s) {
+  return s.face >= 0 && s.face < faces.size && s.u >= 0 && s.v >= 0 &&
+         (faces.triangles ? s.u + s.v <= 1 : s.u <= 1 && s.v <= 1);
+}
+/// @throws InvalidParameter  naming what is wrong with a place that is not
+void check_inside(const FaceCount& faces, const Sample& sample);
+
 /// How long a face is in the surface's natural parameters: derivatives per unit of them are those per unit of the face
 /// divided by it.
 struct FaceLengths {

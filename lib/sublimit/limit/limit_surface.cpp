@@ -173,7 +173,7 @@ std::unique_ptr<BoundSource> LimitSurface::bound(const Points& points) const {
 
 LimitStencil LimitSurface::stencil(const Sample& sample, int order) const {
   check_order(order);
-  parts_->check(sample);
+  check_inside(addresses(), sample);
   return parts_->stencil(sample, order);
 }
 

@@ -11,9 +11,6 @@
 
 namespace sublimit {
 
-namespace {
-
-/// The quarter of a quadrilateral at one corner, in the square of the whole.
 const PieceMap& quarter_map(int corner) {
   static const std::array<PieceMap, 4> maps = [] {
     using Axis = PieceMap::Axis;
@@ -26,6 +23,8 @@ const PieceMap& quarter_map(int corner) {
   }();
   return maps[corner];
 }
+
+namespace {
 
 /// The quarters as they lie.
 const PieceMap& aligned_quarter_map(int corner) {
@@ -95,15 +94,6 @@ LimitSurface::Parts::Target LimitSurface::Parts::target(const Sample& s) const {
   const int corner = nearest_corner(s.u, s.v);
   const PieceMap& map = quarter_map(corner);
   return {{Kind::corner, t.corner(at.face, corner)}, map(whole), &map, whole};
-}
-
-void LimitSurface::Parts::check(const Sample& s) const {
-  if (s.face < 0 || s.face >= addresses.size())
-    throw InvalidParameter("face " + std::to_string(s.face) + " does not exist; there are " +
-                           std::to_string(addresses.size()) + (addresses.triangles() ? " triangles" : " squares"));
-  if (!is_inside(s))
-    throw InvalidParameter("(" + std::to_string(s.u) + ", " + std::to_string(s.v) + ") is outside the " +
-                           (addresses.triangles() ? "triangle u, v >= 0, u + v <= 1" : "square 0 <= u, v <= 1"));
 }
 
 bool LimitSurface::Parts::is_on_cut(HalfEdge h) const {

@@ -18,6 +18,9 @@ inline bool is_sound_normal(double cross2, double tangents2) {
   return cross2 > 1e-12 * tangents2 && tangents2 > 1e-280 && tangents2 < 1e280;
 }
 
+/// From the square of a quadrilateral to the quarter at one corner, (0, 0) there.
+const PieceMap& quarter_map(int corner);
+
 struct LimitSurface::Parts {
   using Kind = Piece::Kind;
   Scheme<double> scheme;  ///< without preparation
@@ -39,11 +42,7 @@ struct LimitSurface::Parts {
     Place outer = {};               ///< in the address, if there is a map
   };
   Target target(const Sample& sample) const;
-  bool is_inside(const Sample& s) const {
-    return s.face >= 0 && s.face < addresses.size() && s.u >= 0 && s.v >= 0 &&
-           (addresses.triangles() ? s.u + s.v <= 1 : s.u <= 1 && s.v <= 1);
-  }
-  void check(const Sample& sample) const;
+  bool is_inside(const Sample& s) const { return sublimit::is_inside(addresses, s); }
   bool cuts(HalfEdge h) const {
     return is_cut(base().topology(), base().sharpness, h) || types->pieces().regular_smoothness() == 0;
   }

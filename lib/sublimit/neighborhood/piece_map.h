@@ -56,6 +56,8 @@ struct PieceMap {
   bool is_triangle = false;
   std::array<std::array<double, 3>, 3> barycentric{};
 
+  /// Another child of the same level is this one as well: its parameters are no part of the parent's square.
+  bool is_repeated() const { return !is_triangle && (axes[0].span == Span::spoke || axes[0].span == Span::fold); }
   bool contains(const Place& parent) const;
   Place operator()(const Place& parent) const;
 

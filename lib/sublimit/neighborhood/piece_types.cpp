@@ -267,6 +267,8 @@ const std::deque<PieceLink>& PieceType::children() const {
       link.map = child.map;
       link.type = types_->type(after.levels.back(), child.piece, walk);
       link.repeats = link.type == this && pure_scale(link.map) != 0;
+      link.begins_new = std::none_of(vertices.begin(), vertices.end(),
+                                     [&](const auto& before) { return before[0] == walk.vertices[0]; });
       all.insert(all.end(), walk.vertices.begin(), walk.vertices.end());
       vertices.push_back(walk.vertices);
     }

@@ -28,6 +28,8 @@ struct PieceLink {
   PieceBlock block;
   /// The child is of its parent's type, and as it lies.
   bool repeats = false;
+  /// No child before it begins at the same point.
+  bool begins_new = false;
   RepeatedBlock repeated{block};
 };
 

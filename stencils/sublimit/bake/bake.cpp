@@ -62,7 +62,7 @@ Baked first_possible(const Patterns& patterns, const Level& control, const BakeR
   if (automatic || request.method == BakeMethod::patterns) {
     PatternBake how;
     // Rows of level 1 take about 600 bytes a face, and lists of control points four times as many.
-    const bool can_go_on = request.rows != TableRows::grid && request.level > 1;
+    const bool can_go_on = request.level > 1 && patterns.scheme().period == 1;
     if (automatic && can_go_on) how.most_bytes = 4 * (1000.0 * control.topology().num_faces() + 1e6);
     if (std::optional<Baked> baked = by_patterns(how)) return *std::move(baked);
   }

@@ -13,7 +13,7 @@ namespace sublimit {
 
 /// How a table is made. All of them make the same points, to rounding; the order of points may differ.
 enum class BakeMethod {
-  automatic,           ///< the first of these that is possible, but the second where most types would be rare
+  automatic,           ///< the first of these that is possible and pays: the second where most types would be rare
   patterns,            ///< a block for each type of neighbourhood
   rows_then_patterns,  ///< level 1 by rows, then a block for each type on it
   rows,                ///< a row for each point
@@ -55,8 +55,8 @@ struct BakeStatistics {
 /// A table with what its making told.
 ///
 /// Points of levels by patterns stand face by face, in the order of the table: those inside a face, then those of its
-/// sides and corners that no other face has already, then isolated vertices. By rows they stand in the order of
-/// refinement. Those of grids and samples are as they were asked for.
+/// sides and corners that no other face has already, then isolated vertices; of dual schemes corner of a face by
+/// corner. By rows they stand in the order of refinement. Those of grids and samples are as they were asked for.
 ///
 /// At vertices of a level the derivatives are those of the face that has the point; at extraordinary vertices, and by
 /// rows, two tangents that span the plane. Statuses tell what there is.
@@ -87,7 +87,8 @@ Baked bake(const PatchSet& patches, const BakeRequest& request);
 
 /// What a bake will make and take, found out at the cost of a look at every face.
 struct BakePlan {
-  /// Counted, but for tables by rows: their weights and bytes are estimated, and so are all `channel_bytes`.
+  /// Counted, weights and bytes of schemes with wide masks at most; but for tables by rows, whose weights and bytes are
+  /// estimated, and so are all `channel_bytes`.
   BakeStatistics statistics;
   double memory = 0;  ///< bytes that the bake takes at once, about, besides the mesh as it is given
 };

@@ -16,7 +16,7 @@ std::optional<Baked> bake_grids(Patterns& patterns, const Level& control, const 
                                 const PatternBake& how) {
   const Scheme<double>& scheme = patterns.scheme();
   const Topology& t = control.topology();
-  if (scheme.is_dual() || (!scheme.preparation.empty() && t.uniform_face_size() != scheme.corners)) return std::nullopt;
+  if (!scheme.preparation.empty() && t.uniform_face_size() != scheme.corners) return std::nullopt;
   const Addresses addresses(t, scheme.face_size() == 3);
   const Lattice lattice{request.grid - 1, addresses.triangles()};
   Baked baked;
@@ -24,20 +24,17 @@ std::optional<Baked> bake_grids(Patterns& patterns, const Level& control, const 
   arrays.quantities = num_quantities(request.derivatives);
   if (double(addresses.size()) * lattice.size() > std::numeric_limits<std::int32_t>::max()) return std::nullopt;
 
-  const auto piece_at = [&](Index address) {
-    const Addresses::Place at = addresses.place(address);
-    if (at.corner >= 0) return Piece{Piece::Kind::cut, t.corner(at.face, at.corner)};
-    return Piece{addresses.triangles() ? Piece::Kind::triangle : Piece::Kind::quad, t.first(at.face)};
-  };
+  const auto piece_at = [&](Index address) { return piece_of(scheme, t, addresses, address); };
   const PieceMatches pieces(patterns, control, addresses.size(), piece_at);
-  PatternBlocks blocks;
+  PatternBlocks blocks(scheme);
   std::vector<Index> block_of(addresses.size());
   std::vector<std::uint8_t> is_hole(addresses.size());
   for (Index a = 0; a < addresses.size(); ++a) {
     block_of[a] = blocks.add({&pieces.pattern(a), {a, static_cast<std::int8_t>(pieces.turn(a)), -1}}, a);
     is_hole[a] = control.holes[index(addresses.place(a).face)];
   }
-  const double bytes = blocks.num_bytes(double(arrays.quantities) * lattice.size());
+  const auto rows_of_block = [&](Index) { return arrays.quantities * lattice.size(); };
+  const double bytes = blocks.num_bytes(rows_of_block);
   if (bytes > how.most_bytes) return std::nullopt;
   check_memory(std::to_string(blocks.keys().size()) + " blocks of " + std::to_string(lattice.size()) + " places",
                4 * bytes, "use fewer places");
@@ -45,10 +42,11 @@ std::optional<Baked> bake_grids(Patterns& patterns, const Level& control, const 
   if (how.only_count) {
     BakeStatistics& s = baked.statistics;
     count(
-        blocks, groups, double(arrays.quantities) * lattice.size(), [&](std::uint8_t) { return lattice.size(); }, s);
+        blocks, groups, rows_of_block, [&](const PatchGroups::Group&) { return lattice.size(); }, s);
     s.faces = addresses.size();
     s.types = num_types(pieces);
-    s.bytes += 8 * (std::int64_t(pieces.count()) + std::ssize(shared_grid_places(t, addresses, request.grid, false)));
+    s.bytes += 8 * (std::int64_t(pieces.count()) +
+                    std::ssize(shared_grid_places(t, addresses, request.grid, scheme.is_dual())));
     return baked;
   }
   const auto limit_block = [&](Index b) {
@@ -57,10 +55,12 @@ std::optional<Baked> bake_grids(Patterns& patterns, const Level& control, const 
     return patterns.limit_block(*pattern, {control, piece_at(a), pieces.turn(a)},
                                 {lattice, place, true, request.derivatives});
   };
-  const bool made = blocks.fill(arrays, lattice.size(), [&](Index b) -> const RowMatrix* {
-    const Patterns::LimitBlock* block = limit_block(b);
-    return block ? &block->weights : nullptr;
-  });
+  const bool made = blocks.fill(
+      arrays, [&](Index) { return lattice.size(); },
+      [&](Index b) -> const RowMatrix* {
+        const Patterns::LimitBlock* block = limit_block(b);
+        return block ? &block->weights : nullptr;
+      });
   if (!made) return std::nullopt;
 
   std::vector<std::int32_t> rows;
@@ -75,9 +75,9 @@ std::optional<Baked> bake_grids(Patterns& patterns, const Level& control, const 
     for (const std::uint8_t s : status) row_status.push_back(group.share ? in_hole(s) : s);
   }
   arrays.rows = std::move(rows);
-  arrays.columns = all_columns(pieces, groups, {});
+  arrays.columns = all_columns(pieces, blocks, groups, {});
   arrays.patch_points = std::move(patch_points);
-  arrays.copies = grid_copies(t, addresses, request.grid, false);
+  arrays.copies = grid_copies(t, addresses, request.grid, scheme.is_dual());
   if (std::any_of(row_status.begin(), row_status.end(), [](std::uint8_t s) { return s != 0; }))
     baked.table.row_status = std::move(row_status);
   baked.table.table = PatternTable<double>(t.num_vertices(), std::move(arrays));

@@ -21,6 +21,12 @@ std::optional<Baked> bake_lattices(Patterns& patterns, const Level& control, con
   const int levels = request.level - (first_by_rows ? 1 : 0);
   if (levels < 0 || (!first_by_rows && control.topology().uniform_face_size() != sides)) return std::nullopt;
   const bool limit = request.rows == TableRows::limit;
+  // Between levels whose neighbourhoods lie alike. Thirds of a side are no binary numbers, and places of derivatives
+  // would be beside the points; face-varying values and tags are found on faces cut in four.
+  const bool turns = scheme.period > 1;
+  if (turns && (first_by_rows || request.level % scheme.period != 0 || request.derivatives > 0 ||
+                request.face_varying || request.tags))
+    return std::nullopt;
 
   Baked baked;
   PatternTable<double>::Arrays arrays;
@@ -32,7 +38,7 @@ std::optional<Baked> bake_lattices(Patterns& patterns, const Level& control, con
   }
   const Level& level = refined ? *refined : control;
   const Topology& t = level.topology();
-  const Lattice lattice{Index{1} << levels, sides == 3};
+  const Lattice lattice = Patterns::lattice_of(scheme, levels);
   const auto kind = sides == 3 ? Piece::Kind::triangle : Piece::Kind::quad;
 
   const auto piece_at = [&](Index f) { return Piece{kind, t.first(Face{f})}; };
@@ -54,12 +60,13 @@ std::optional<Baked> bake_lattices(Patterns& patterns, const Level& control, con
   const bool has_inner = !LatticeRanks::rows(lattice, 0).empty();
   for (size_t own = 0; own < has_points.size(); ++own)
     has_points[own] = has_inner || !LatticeRanks::rows(lattice, static_cast<std::uint8_t>(own)).empty();
-  PatternBlocks blocks;
+  PatternBlocks blocks(scheme);
   std::vector<Index> block_of(t.num_faces(), -1);
   for (Index f = 0; f < t.num_faces(); ++f)
     if (has_points[share[f]])
       block_of[f] = blocks.add({&pieces.pattern(f), request.derivatives > 0 ? places[f] : LatticePlace{}}, f);
-  const double bytes = blocks.num_bytes(double(arrays.quantities) * lattice.size());
+  const auto rows_of_block = [&](Index) { return arrays.quantities * lattice.size(); };
+  const double bytes = blocks.num_bytes(rows_of_block);
   if (bytes > how.most_bytes) return std::nullopt;
   check_memory(std::to_string(blocks.keys().size()) + " blocks of level " + std::to_string(request.level), 4 * bytes,
                "use fewer levels");
@@ -67,8 +74,8 @@ std::optional<Baked> bake_lattices(Patterns& patterns, const Level& control, con
   if (how.only_count) {
     BakeStatistics& s = baked.statistics;
     count(
-        blocks, groups, double(arrays.quantities) * lattice.size(),
-        [&](std::uint8_t own) { return std::ssize(LatticeRanks::rows(lattice, own)); }, s);
+        blocks, groups, rows_of_block,
+        [&](const PatchGroups::Group& group) { return std::ssize(LatticeRanks::rows(lattice, group.share)); }, s);
     s.faces = t.num_faces();
     s.types = num_types(pieces);
     count_isolated(t, arrays.quantities, s);
@@ -80,18 +87,20 @@ std::optional<Baked> bake_lattices(Patterns& patterns, const Level& control, con
   }
   const bool has_status = limit && request.derivatives > 0;
   std::vector<const std::vector<std::uint8_t>*> status(blocks.keys().size(), nullptr);
-  const bool made = blocks.fill(arrays, lattice.size(), [&](Index b) -> const RowMatrix* {
-    const auto& [pattern, place] = blocks.keys()[b];
-    const Index f = blocks.piece(b);
-    const Patterns::Example example{level, piece_at(f), pieces.turn(f)};
-    if (!limit) return &patterns.rows(*pattern, example, levels);
-    if (request.derivatives == 0) return &patterns.limit_rows(*pattern, example, levels);
-    const Patterns::LimitBlock* block =
-        patterns.limit_block(*pattern, example, {lattice, place, false, request.derivatives});
-    if (!block) return nullptr;
-    status[b] = &block->status;
-    return &block->weights;
-  });
+  const bool made = blocks.fill(
+      arrays, [&](Index) { return lattice.size(); },
+      [&](Index b) -> const RowMatrix* {
+        const auto& [pattern, place] = blocks.keys()[b];
+        const Index f = blocks.piece(b);
+        const Patterns::Example example{level, piece_at(f), pieces.turn(f)};
+        if (!limit) return &patterns.rows(*pattern, example, levels);
+        if (request.derivatives == 0) return &patterns.limit_rows(*pattern, example, levels);
+        const Patterns::LimitBlock* block =
+            patterns.limit_block(*pattern, example, {lattice, place, false, request.derivatives});
+        if (!block) return nullptr;
+        status[b] = &block->status;
+        return &block->weights;
+      });
   if (!made) return std::nullopt;
 
   std::vector<std::int32_t> rows;
@@ -125,7 +134,7 @@ std::optional<Baked> bake_lattices(Patterns& patterns, const Level& control, con
     rows.push_back(0);
     if (has_status) row_status.push_back(point_status(LimitStatus::undefined_normal, 0, request.derivatives));
   }
-  arrays.columns = all_columns(pieces, groups, alone);
+  arrays.columns = all_columns(pieces, blocks, groups, alone);
   arrays.rows = std::move(rows);
   baked.table.row_status = std::move(row_status);
   baked.table.table = PatternTable<double>(control.topology().num_vertices(), std::move(arrays));

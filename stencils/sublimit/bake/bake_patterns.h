@@ -23,10 +23,18 @@ struct PatternBake {
 std::optional<Baked> bake_by_patterns(Patterns& patterns, const Level& control, const BakeRequest& request,
                                       const PatternBake& how = {});
 
-// Of the two kinds of requests that have patterns.
+/// What is whole at an address: a face, or its square at one corner. Whole quadrilaterals are pieces of dual schemes
+/// too, as far as the points around them go: each of their corners is one that has limits.
+Piece piece_of(const Scheme<double>& scheme, const Topology& topology, const Addresses& addresses, Index address);
+
+// Of levels where faces become faces, of levels of dual schemes, of grids and of lists.
 std::optional<Baked> bake_lattices(Patterns& patterns, const Level& control, const BakeRequest& request,
                                    const PatternBake& how);
+std::optional<Baked> bake_corners(Patterns& patterns, const Level& control, const BakeRequest& request,
+                                  const PatternBake& how);
 std::optional<Baked> bake_grids(Patterns& patterns, const Level& control, const BakeRequest& request,
                                 const PatternBake& how);
+std::optional<Baked> bake_places(Patterns& patterns, const Level& control, const BakeRequest& request,
+                                 const PatternBake& how);
 
 }  // namespace sublimit

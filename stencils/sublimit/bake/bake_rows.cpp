@@ -13,19 +13,6 @@
 namespace sublimit {
 namespace {
 
-/// The faces of a level, those of holes left out.
-FaceList face_list(const Level& level) {
-  const Topology& t = level.topology();
-  std::vector<std::int32_t> sizes, corners;
-  for (Index f = 0; f < t.num_faces(); ++f) {
-    if (level.holes[f]) continue;
-    const std::span<const Index> vertices = t.vertices(Face{f});
-    sizes.push_back(static_cast<std::int32_t>(vertices.size()));
-    corners.insert(corners.end(), vertices.begin(), vertices.end());
-  }
-  return {std::move(sizes), std::move(corners)};
-}
-
 /// Matrices one below the other.
 StencilTable<double> stacked(const std::vector<SparseMatrix>& parts) {
   std::vector<std::int64_t> offsets{0};
@@ -75,6 +62,18 @@ void add_limits(const Scheme<double>& scheme, const std::vector<Level>& levels, 
 }
 
 }  // namespace
+
+FaceList face_list(const Level& level) {
+  const Topology& t = level.topology();
+  std::vector<std::int32_t> sizes, corners;
+  for (Index f = 0; f < t.num_faces(); ++f) {
+    if (level.holes[f]) continue;
+    const std::span<const Index> vertices = t.vertices(Face{f});
+    sizes.push_back(static_cast<std::int32_t>(vertices.size()));
+    corners.insert(corners.end(), vertices.begin(), vertices.end());
+  }
+  return {std::move(sizes), std::move(corners)};
+}
 
 void add_places(const LinearSource& surface, std::span<const Sample> samples, int derivatives, Baked& baked,
                 PatternTable<double>::Arrays& arrays) {

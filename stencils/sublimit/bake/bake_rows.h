@@ -19,6 +19,9 @@ void set_addresses(std::span<const Sample> samples, Baked& baked);
 /// Points of grids that lie on several addresses, to and from in turn.
 std::vector<std::int32_t> grid_copies(const Topology& t, const Addresses& addresses, int N, bool dual);
 
+/// The faces of a level, those of holes left out.
+FaceList face_list(const Level& level);
+
 /// Statistics of a table that is made.
 void count_table(Baked& baked);
 

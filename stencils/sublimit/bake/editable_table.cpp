@@ -33,7 +33,7 @@ EditableTable<Real>::EditableTable(Patterns& patterns, ControlMesh mesh, int lev
   // Who has a point must be known from the faces there alone.
   const std::optional<Baked> made = bake_by_patterns(patterns, control_level(patterns.scheme(), mesh, options), request,
                                                      {.owners = OwnerRule::first});
-  if (!made)
+  if (!made || !made->table.lattices)
     throw UnsupportedTopology(patterns.scheme().name +
                               ": a table can be edited where all faces are cut into four of their kind");
   const Baked& baked = *made;

@@ -39,10 +39,11 @@ std::vector<LatticePlace> places_of_faces(std::span<const std::int8_t> turn) {
 
 std::optional<std::vector<LatticePlace>> places_of_children(const Scheme<double>& scheme, const Level& control,
                                                             const Level& level, std::span<const std::int8_t> turn) {
-  if (scheme.face_size() == 3 || level.steps.size() != 1) return std::nullopt;
+  if (scheme.face_size() == 3 || level.steps.size() != scheme.steps.size()) return std::nullopt;
   const Topology &t = control.topology(), &fine = level.topology();
   const Addresses addresses(t, false);
-  const LevelStep step{&level.steps[0], 0};
+  std::vector<LevelStep> steps;
+  for (const Refinement& step : level.steps) steps.push_back({&step, 0});
   std::vector<LatticePlace> places(fine.num_faces());
   parallel_for(addresses.size(), [&](std::int64_t a) {
     const auto address = static_cast<Index>(a);
@@ -50,7 +51,7 @@ std::optional<std::vector<LatticePlace>> places_of_children(const Scheme<double>
     const bool is_corner = at.corner >= 0;
     const Piece piece =
         is_corner ? Piece{Piece::Kind::cut, t.corner(at.face, at.corner)} : Piece{Piece::Kind::quad, t.first(at.face)};
-    for (const PieceChild& child : children(piece, t, std::span(&step, 1))) {
+    for (const PieceChild& child : children(piece, t, steps)) {
       const Quarter quarter = quarter_of(child.map, is_corner);
       const Face face = fine.face(child.piece.start);
       const int first = quarter.first + turn[index(face)] - fine.corner_index(child.piece.start);

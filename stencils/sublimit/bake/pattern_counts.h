@@ -16,15 +16,15 @@ inline Index num_types(const PieceMatches& pieces) {
   return static_cast<Index>(std::unique(numbers.begin(), numbers.end()) - numbers.begin());
 }
 
-/// What groups take, without making them.
-/// @param rows    points of a block
-/// @param length  rows of a share
-template <class Length>
-void count(const PatternBlocks& blocks, const PatchGroups& groups, double rows, const Length& length,
+/// What groups take, without making them; of wide masks, at most.
+/// @param rows    of a block, quantities together, by its number
+/// @param length  rows of a group
+template <class Rows, class Length>
+void count(const PatternBlocks& blocks, const PatchGroups& groups, const Rows& rows, const Length& length,
            BakeStatistics& s) {
   std::int64_t chosen = 0, columns = 0;
   for (const PatchGroups::Group& group : groups.groups) {
-    const std::int64_t own = length(group.share);
+    const std::int64_t own = length(group);
     columns += std::ssize(group.pieces) * blocks.keys()[group.block].pattern->num_slots;
     s.points += std::ssize(group.pieces) * own;
     chosen += own;

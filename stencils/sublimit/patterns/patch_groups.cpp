@@ -30,12 +30,13 @@ PatchGroups::PatchGroups(const PieceMatches& pieces, std::span<const Index> bloc
             [](const Group& a, const Group& b) { return std::tie(a.block, a.share) < std::tie(b.block, b.share); });
 }
 
-std::vector<std::int32_t> all_columns(const PieceMatches& pieces, const PatchGroups& groups,
-                                      std::span<const Index> alone) {
+std::vector<std::int32_t> all_columns(const PieceMatches& pieces, const PatternBlocks& blocks,
+                                      const PatchGroups& groups, std::span<const Index> alone) {
   struct Run {
     std::int64_t first;  // where its control points begin
     const Index* pieces;
     std::int64_t count;
+    std::span<const Index> slots;
   };
   constexpr std::int64_t per_run = 1024;
   std::vector<Run> runs;
@@ -43,8 +44,9 @@ std::vector<std::int32_t> all_columns(const PieceMatches& pieces, const PatchGro
   for (const PatchGroups::Group& group : groups.groups)
     for (size_t at = 0; at < group.pieces.size(); at += per_run) {
       const std::int64_t count = std::min<std::int64_t>(per_run, std::int64_t(group.pieces.size() - at));
-      runs.push_back({next, group.pieces.data() + at, count});
-      next += count * std::int64_t(pieces.vertices(group.pieces[at]).size());
+      const std::span<const Index> slots = blocks.slots(group.block);
+      runs.push_back({next, group.pieces.data() + at, count, slots});
+      next += count * std::ssize(slots);
     }
   std::vector<std::int32_t> columns(size_t(next) + alone.size());
   parallel_for_blocks(
@@ -53,7 +55,10 @@ std::vector<std::int32_t> all_columns(const PieceMatches& pieces, const PatchGro
         std::int32_t* out = columns.data() + runs[r].first;
         for (std::int64_t i = 0; i < runs[r].count; ++i) {
           const std::span<const Index> vertices = pieces.vertices(runs[r].pieces[i]);
-          out = std::copy(vertices.begin(), vertices.end(), out);
+          if (runs[r].slots.size() == vertices.size())
+            out = std::copy(vertices.begin(), vertices.end(), out);
+          else
+            for (const Index slot : runs[r].slots) *out++ = vertices[slot];
         }
       },
       1);

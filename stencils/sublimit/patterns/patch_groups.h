@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "sublimit/patterns/pattern_blocks.h"
 #include "sublimit/patterns/piece_matches.h"
 
 namespace sublimit {
@@ -25,7 +26,8 @@ class PatchGroups {
 };
 
 /// Control points of all patches, those of isolated points last.
-std::vector<std::int32_t> all_columns(const PieceMatches& pieces, const PatchGroups& groups,
-                                      std::span<const Index> alone);
+/// @param blocks  that are made
+std::vector<std::int32_t> all_columns(const PieceMatches& pieces, const PatternBlocks& blocks,
+                                      const PatchGroups& groups, std::span<const Index> alone);
 
 }  // namespace sublimit

@@ -3,6 +3,7 @@
 // The blocks of a table that is being made.
 #include <algorithm>
 #include <atomic>
+#include <span>
 #include <unordered_map>
 #include <vector>
 
@@ -16,6 +17,9 @@ namespace sublimit {
 /// Blocks of a table, in the order in which pieces meet them, made in parallel.
 class PatternBlocks {
  public:
+  /// @param scheme  where its masks are wide, patterns see more points than they use: the others get no columns
+  explicit PatternBlocks(const Scheme<double>& scheme) : drops_unused_(!scheme.has_one_ring_limits()) {}
+
   struct Key {
     const Pattern* pattern = nullptr;
     LatticePlace place;  ///< where it matters: its turn and quarter
@@ -38,12 +42,16 @@ class PatternBlocks {
   /// The first piece that has it.
   Index piece(Index block) const { return pieces_[block]; }
 
-  /// @param rows       points of a block
+  /// The slots of its pattern that a block has columns of, once it is made.
+  std::span<const Index> slots(Index block) const { return slots_[block]; }
+
+  /// @param rows       points of a block, by its number
   /// @param make       weights of a block, or null: those of types whose sums have an order are asked for in turn
   /// @return  false if one is null
-  template <class Make>
-  bool fill(PatternTable<double>::Arrays& arrays, std::int32_t rows, const Make& make) const {
+  template <class Rows, class Make>
+  bool fill(PatternTable<double>::Arrays& arrays, const Rows& rows, const Make& make) {
     std::vector<const RowMatrix*> made(keys_.size());
+    slots_.resize(keys_.size());
     std::atomic<bool> failed = false;
     const auto made_or_null = [&](Index i) -> const RowMatrix* {
       try {
@@ -59,23 +67,34 @@ class PatternBlocks {
         static_cast<std::int64_t>(keys_.size()),
         [&](std::int64_t i, std::int64_t, std::int64_t) {
           if (!made[i]) made[i] = made_or_null(static_cast<Index>(i));
+          if (made[i]) slots_[i] = used_slots(*made[i]);
         },
         1);
     if (std::find(made.begin(), made.end(), nullptr) != made.end()) return false;
     size_t size = 0;
-    for (const RowMatrix* W : made) size += size_t(W->size());
+    for (size_t i = 0; i < made.size(); ++i) size += size_t(made[i]->rows()) * slots_[i].size();
     std::vector<double> weights;
     weights.reserve(size);
-    for (const RowMatrix* W : made) {
-      arrays.blocks.push_back({rows, static_cast<std::int32_t>(W->cols()), static_cast<std::int64_t>(weights.size())});
-      weights.insert(weights.end(), W->data(), W->data() + W->size());
+    for (Index i = 0; i < count(); ++i) {
+      const RowMatrix& W = *made[i];
+      arrays.blocks.push_back(
+          {rows(i), static_cast<std::int32_t>(slots_[i].size()), static_cast<std::int64_t>(weights.size())});
+      if (std::ssize(slots_[i]) == W.cols()) {
+        weights.insert(weights.end(), W.data(), W.data() + W.size());
+        continue;
+      }
+      for (Eigen::Index row = 0; row < W.rows(); ++row)
+        for (const Index slot : slots_[i]) weights.push_back(W(row, slot));
     }
     arrays.weights = std::move(weights);
     return true;
   }
-  double num_bytes(double rows) const {
+  /// Bytes of all weights, at most.
+  /// @param rows  of a block, quantities together, by its number
+  template <class Rows>
+  double num_bytes(const Rows& rows) const {
     double bytes = 0;
-    for (const Key& key : keys_) bytes += rows * key.pattern->num_slots * sizeof(double);
+    for (Index i = 0; i < count(); ++i) bytes += double(rows(i)) * keys_[i].pattern->num_slots * sizeof(double);
     return bytes;
   }
 
@@ -85,6 +104,14 @@ class PatternBlocks {
       return key.pattern->number * 128 + size_t(8 * (key.place.quarter + 1) + key.place.turn);
     }
   };
+  std::vector<Index> used_slots(const RowMatrix& W) const {
+    std::vector<Index> used;
+    for (Index slot = 0; slot < W.cols(); ++slot)
+      if (!drops_unused_ || !W.col(slot).isZero(0)) used.push_back(slot);
+    return used;
+  }
+  bool drops_unused_;
+  std::vector<std::vector<Index>> slots_;
   std::unordered_map<Key, Index, Hash> numbers_;
   std::vector<Key> keys_;
   std::vector<Index> pieces_;

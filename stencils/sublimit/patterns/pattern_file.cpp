@@ -18,14 +18,14 @@ namespace sublimit {
 namespace {
 
 constexpr const char* format = "sublimit-dictionary";
-constexpr const char* schema_version = "2";
+constexpr const char* schema_version = "3";
 
 // Arrays of a file; each pattern's parts follow those of the pattern before.
 //   patterns    P x 6: kind, points, decays, numbers of signatures, of matrices of rows, of blocks of limits
 //   signatures  turn, number of words          words     all words
-//   rows        levels, ends                   limits    cells a side, turn, quarter, order of points, derivatives
+//   rows        levels, ends, rows             limits    cells a side, turn, quarter, order of points, derivatives
 //   weights     of rows, then of limits        status    of limits
-constexpr int pattern_columns = 6, limit_columns = 5;
+constexpr int pattern_columns = 6, row_columns = 3, limit_columns = 5;
 /// A matrix is of level 11 at most.
 constexpr std::int64_t last_level = 11, last_n = 1 << last_level;
 
@@ -109,7 +109,7 @@ void save_patterns(const std::filesystem::path& path, const Patterns& patterns) 
       words.insert(words.end(), signature.words.begin(), signature.words.end());
     }
     for (const auto& r : one.rows) {
-      rows.insert(rows.end(), {r.levels, std::int32_t(r.ends)});
+      rows.insert(rows.end(), {r.levels, std::int32_t(r.ends), std::int32_t(r.weights.rows())});
       weights.insert(weights.end(), r.weights.data(), r.weights.data() + r.weights.size());
     }
     for (const auto& l : one.limits) {
@@ -129,7 +129,7 @@ void save_patterns(const std::filesystem::path& path, const Patterns& patterns) 
   add("patterns", heads, pattern_columns);
   add("signatures", signatures, 2);
   add("words", words, 1);
-  add("rows", rows, 2);
+  add("rows", rows, row_columns);
   add("limits", limits, limit_columns);
   add("weights", weights, 1);
   add("status", status, 1);
@@ -187,7 +187,11 @@ void load_patterns(const std::filesystem::path& path, Patterns& patterns) {
       Patterns::Stored::Rows r;
       r.levels = static_cast<int>(rows.number(0, last_level));
       r.ends = Patterns::Ends(rows.number(0, 1));
-      r.weights = matrix(weights, Lattice{1 << r.levels, triangle}.size(), one.num_slots);
+      const std::int64_t count = rows.number(1, many);
+      const bool is_whole = one.kind != Piece::Kind::corner;  // corners have as many as there are children
+      if (r.levels % scheme.period != 0 || (is_whole && count != Patterns::lattice_of(scheme, r.levels).size()))
+        rows.fail("has points that no level has");
+      r.weights = matrix(weights, count, one.num_slots);
       one.rows.push_back(std::move(r));
     }
     for (std::int64_t i = 0; i < num_limits; ++i) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <string>
 #include <utility>
 
@@ -11,9 +12,10 @@
 
 namespace sublimit {
 
-bool Patterns::is_possible(const Scheme<double>& scheme) {
-  return scheme.steps.size() == 1 && scheme.period == 1 &&
-         (scheme.steps[0].split == Split::pqq || scheme.steps[0].split == Split::ptq);
+Lattice Patterns::lattice_of(const Scheme<double>& scheme, int levels) {
+  Lattice lattice{1, scheme.face_size() == 3};
+  for (; levels > 0; levels -= scheme.period) lattice.n *= scheme.dilation();
+  return lattice;
 }
 
 Patterns::Patterns(const Scheme<double>& scheme) : scheme_(scheme), types_(std::make_shared<LimitTypes>(scheme)) {}
@@ -121,35 +123,39 @@ const RowMatrix& Patterns::differences(const PieceType& type, int levels, Ends e
 namespace {
 
 /// Calls visit(row, row of the child) for the points of a lattice that a child has and no child before it.
+/// @param of_child  its lattice
 template <class Visit>
-void visit_share(const Lattice& lattice, const PieceMap& map, std::vector<bool>& made, const Visit& visit) {
-  const Lattice half{lattice.n / 2, lattice.triangle};
+void visit_share(const Lattice& lattice, const Lattice& of_child, const PieceMap& map, std::vector<bool>& made,
+                 const Visit& visit) {
   const double n = lattice.n;
+  // Halves are exact, thirds are not: places in triangles in steps of the lattice, which their linear maps take as
+  // well.
+  const double steps = lattice.triangle ? n : 1;
   lattice.for_each([&](Index i, Index j) {
     const Index row = lattice.row(i, j);
     if (made[row]) return;
-    const Place place = lattice.triangle ? triangle_place(i / n, j / n) : quad_place(i / n, j / n);
+    const Place place = lattice.triangle ? Place{double(i), double(j), n - i - j, 0} : quad_place(i / n, j / n);
     if (!map.contains(place)) return;
     const Place inside = map(place);
-    visit(row, half.row(static_cast<Index>(std::lround(inside.u * half.n)),
-                        static_cast<Index>(std::lround(inside.v * half.n))));
+    visit(row, of_child.row(static_cast<Index>(std::lround(inside.u / steps * of_child.n)),
+                            static_cast<Index>(std::lround(inside.v / steps * of_child.n))));
     made[row] = true;
   });
 }
 
-/// Points of level 1: rows of S, whatever the types of the children are, which need not be made.
+/// Points of the first period: rows of S, whatever the types of the children are, which need not be made.
 RowMatrix first_rows(const PieceType& type, const Lattice& lattice) {
   const PieceType::ChildCorners corners = type.child_corners();
-  const Lattice half{1, lattice.triangle};
+  const Lattice cell{1, lattice.triangle};
   const Index sides = lattice.num_sides();
   RowMatrix R = RowMatrix::Zero(lattice.size(), type.num_slots() - 1);
   std::vector<bool> made(lattice.size(), false);
   for (size_t c = 0; c < corners.maps.size(); ++c) {
     const Index first = static_cast<Index>(c) * sides;
     const auto row_of = [&](Index k) { return corners.rows.row(first + k).tail(R.cols()); };
-    visit_share(lattice, corners.maps[c], made, [&](Index row, Index of_child) {
+    visit_share(lattice, cell, corners.maps[c], made, [&](Index row, Index of_child) {
       Index k = 0;
-      while (half.on_side(k, 0) != of_child) ++k;
+      while (cell.on_side(k, 0) != of_child) ++k;
       // In the order of the sums of blocks, so that either way has the same bits.
       R.row(row) = row_of(k);
       if (k > 0) R.row(row) = (R.row(row) - row_of(0)) + row_of(0);
@@ -160,9 +166,52 @@ RowMatrix first_rows(const PieceType& type, const Lattice& lattice) {
 
 }  // namespace
 
+RowMatrix Patterns::made_corner_rows(const PieceType& type, int levels, Ends ends) {
+  std::vector<RowMatrix> parts;
+  Eigen::Index count = 0;
+  for (const PieceLink& link : type.children()) {
+    if (link.map.is_repeated()) continue;
+    const RowMatrix* child =
+        levels > scheme_.period ? &differences(*link.type, levels - scheme_.period, ends) : nullptr;
+    RowMatrix limit;
+    if (!child && !link.begins_new) continue;
+    if (!child)
+      limit = ends == Ends::limits ? link.type->corner_limit(0) : RowMatrix::Zero(1, link.type->num_slots() - 1);
+    parts.push_back(link.block.derivatives_pulled_back(child ? *child : limit).rowwise() + link.block.origin());
+    count += parts.back().rows();
+  }
+  RowMatrix R(count, type.num_slots() - 1);
+  Eigen::Index row = 0;
+  for (const RowMatrix& part : parts) {
+    R.middleRows(row, part.rows()) = part;
+    row += part.rows();
+  }
+  return R;
+}
+
+std::int64_t Patterns::num_corner_rows(const Pattern& pattern, const Example& example, int levels) {
+  {
+    const std::lock_guard lock(rows_mutex_);
+    for (const Ends ends : {Ends::points, Ends::limits})
+      if (const auto at = rows_.find({pattern.number, levels, ends}); at != rows_.end()) return at->second->rows();
+  }
+  std::map<std::pair<const PieceType*, int>, std::int64_t> known;
+  const std::function<std::int64_t(const PieceType&, int)> count = [&](const PieceType& type, int left) {
+    if (const auto at = known.find({&type, left}); at != known.end()) return at->second;
+    std::int64_t rows = 0;
+    for (const PieceLink& link : type.children()) {
+      if (link.map.is_repeated()) continue;
+      rows += left > scheme_.period ? count(*link.type, left - scheme_.period) : link.begins_new;
+    }
+    return known[{&type, left}] = rows;
+  };
+  return count(type(pattern, example), levels);
+}
+
 /// In differences (piece_block.h).
 RowMatrix Patterns::made_rows(const PieceType& type, int levels, Ends ends) {
-  const Lattice lattice{Index{1} << levels, type.kind() == Piece::Kind::triangle};
+  if (type.kind() == Piece::Kind::corner) return made_corner_rows(type, levels, ends);
+  const Lattice lattice = lattice_of(scheme_, levels);
   const Eigen::Index slots = type.num_slots();
   RowMatrix R = RowMatrix::Zero(lattice.size(), slots - 1);
   if (levels == 0) {  // its own corners come first, counter-clockwise
@@ -174,16 +223,17 @@ RowMatrix Patterns::made_rows(const PieceType& type, int levels, Ends ends) {
     }
     return R;
   }
-  if (levels == 1 && ends == Ends::points) return first_rows(type, lattice);
+  const Lattice of_child = lattice_of(scheme_, levels - scheme_.period);
+  if (levels == scheme_.period && ends == Ends::points) return first_rows(type, lattice);
   std::vector<bool> made(lattice.size(), false);
   for (const PieceLink& link : type.children()) {
-    const RowMatrix& child = differences(*link.type, levels - 1, ends);
-    std::vector<Index> own, of_child;
-    visit_share(lattice, link.map, made, [&](Index row, Index child_row) {
+    const RowMatrix& child = differences(*link.type, levels - scheme_.period, ends);
+    std::vector<Index> own, child_rows;
+    visit_share(lattice, of_child, link.map, made, [&](Index row, Index child_row) {
       own.push_back(row);
-      of_child.push_back(child_row);
+      child_rows.push_back(child_row);
     });
-    const RowMatrix rows = child(of_child, Eigen::all);
+    const RowMatrix rows = child(child_rows, Eigen::all);
     R(own, Eigen::all) = link.block.derivatives_pulled_back(rows).rowwise() + link.block.origin();
   }
   return R;
@@ -230,6 +280,13 @@ const Patterns::LimitBlock* Patterns::limit_block(const Pattern& pattern, const 
     made = std::make_unique<const LimitBlock>(std::move(*block));
   const std::lock_guard lock(rows_mutex_);
   return limits_.try_emplace(key, std::move(made)).first->second.get();
+}
+
+std::optional<Patterns::LimitBlock> Patterns::limits_at(const Pattern& pattern, const Example& example,
+                                                        const LatticePlace& place,
+                                                        std::span<const AddressParameters> parameters,
+                                                        int derivatives) {
+  return limits_of_type(types_, type(pattern, example), place, parameters, derivatives);
 }
 
 size_t Patterns::num_types() const {

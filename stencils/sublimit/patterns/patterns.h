@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 // Patterns: what level k of a face, or its limit, is in terms of the points around it, by type of neighbourhood. A
-// face's points at level k are those of its children at level k - 1, so a pattern is made of its children's and the
-// blocks of S between them, and no mesh is refined:
+// face's points at level k are those of its children at level k - p, p the period of the scheme, so a pattern is made
+// of its children's and the blocks of S between them, and no mesh is refined:
 //
-//   R_k(type)  =  R_{k-1}(child type) * block     on the child's share of the face
+//   R_k(type)  =  R_{k-p}(child type) * block     on the child's share of the face
 #include <atomic>
 #include <deque>
 #include <map>
 #include <mutex>
 #include <optional>
 #include <shared_mutex>
+#include <span>
 
 #include "sublimit/face_lattices.h"
 #include "sublimit/limit/limit_types.h"
@@ -30,8 +31,12 @@ struct Pattern {
 /// A dictionary of the types of one scheme, shared between meshes and threads. It outlives them.
 class Patterns {
  public:
-  /// Whether faces of this scheme are cut into four of their own kind, level by level.
-  static bool is_possible(const Scheme<double>& scheme);
+  /// Whether faces of this scheme are cut into faces of their own kind, period by period. Dual ones make points of
+  /// corners instead.
+  static bool is_possible(const Scheme<double>& scheme) { return !scheme.is_dual(); }
+  /// Points that a face has so many levels later.
+  /// @param levels  a multiple of the scheme's period
+  static Lattice lattice_of(const Scheme<double>& scheme, int levels);
   explicit Patterns(const Scheme<double>& scheme);
 
   /// The type of a piece's neighbourhood; that of a whole face is the same for all rotations of it.
@@ -52,9 +57,13 @@ class Patterns {
     Piece piece;
     int turn = 0;
   };
-  /// Rows of `Lattice{2^levels}` over the points of a pattern: weights sum to one.
+  /// Over the points of a pattern: weights sum to one. Of a face rows of `lattice_of`; of a corner, from level 1 on,
+  /// points that are its own: after one period its point and those of the border edges at it, later those of all
+  /// corners at these, child after child in the order of `children` (piece.h).
   const RowMatrix& rows(const Pattern& pattern, const Example& example, int levels);
-  /// The same if they have been asked for before, else null.
+  /// How many there are of a corner.
+  std::int64_t num_corner_rows(const Pattern& pattern, const Example& example, int levels);
+  /// The same rows if they have been asked for before, else null.
   const RowMatrix* known_rows(const Pattern& pattern, int levels) const;
   /// The same of the points' limits.
   const RowMatrix& limit_rows(const Pattern& pattern, const Example& example, int levels);
@@ -72,6 +81,11 @@ class Patterns {
   };
   /// @return  null where limit masks reach beyond the points of the pattern
   const LimitBlock* limit_block(const Pattern& pattern, const Example& example, const LimitRequest& request);
+
+  /// The same at any places, (u, v) of an address; not kept.
+  /// @param place  where the pattern lies in the address: turn and quarter matter
+  std::optional<LimitBlock> limits_at(const Pattern& pattern, const Example& example, const LatticePlace& place,
+                                      std::span<const AddressParameters> parameters, int derivatives);
 
   const Scheme<double>& scheme() const { return scheme_; }
   const std::shared_ptr<LimitTypes>& types() const { return types_; }
@@ -115,6 +129,7 @@ class Patterns {
   };
   const PieceType& type(const Pattern& pattern, const Example& example);
   RowMatrix made_rows(const PieceType& type, int levels, Ends ends);
+  RowMatrix made_corner_rows(const PieceType& type, int levels, Ends ends);
   const RowMatrix& differences(const PieceType& type, int levels, Ends ends);
   const RowMatrix& whole_rows(const Pattern& pattern, const Example& example, int levels, Ends ends);
   const Pattern& add_pattern(Piece::Kind kind, Index num_slots, bool decays);

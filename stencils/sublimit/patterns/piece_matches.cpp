@@ -25,9 +25,10 @@ struct RegularType {
       return;
     faces.emplace(level, corners);
     std::vector<Index> points(size_t(faces->num_points()));
-    for (Index f = 0; f < count && !pattern; ++f) {
-      if (!faces->points(Face{f}, points.data())) continue;
-      const Patterns::Match match = patterns.match(level, piece_at(f));
+    for (Index i = 0; i < count && !pattern; ++i) {
+      const Piece piece = piece_at(i);
+      if (!faces->points(level.topology().face(piece.start), points.data())) continue;
+      const Patterns::Match match = patterns.match(level, piece);
       if (match.turn != 0 || match.vertices != points) return;
       pattern = match.pattern;
     }
@@ -61,11 +62,12 @@ PieceMatches::PieceMatches(Patterns& patterns, const Level& level, Index count,
         chunks_[chunk].reserve(16 * size_t(end - begin));
         Index points[16];
         for (auto i = static_cast<Index>(begin); i < end; ++i) {
-          if (regular.pattern && regular.faces->points(Face{i}, points)) {
+          const Piece piece = piece_at(i);
+          if (regular.pattern && regular.faces->points(level.topology().face(piece.start), points)) {
             std::vector<Index>& own = chunks_[chunk];
             matches_[i] = {regular.pattern, static_cast<std::int32_t>(chunk), static_cast<std::int32_t>(own.size()), 0};
             own.insert(own.end(), points, points + regular.faces->num_points());
-          } else if (!find(patterns, level, piece_at(i), i, size_t(chunk))) {
+          } else if (!find(patterns, level, piece, i, size_t(chunk))) {
             unknown[chunk].push_back(i);
           }
         }

@@ -11,7 +11,7 @@ namespace sublimit {
 
 class PieceMatches {
  public:
-  /// @param piece_at  of each number below `count`; quadrilaterals and triangles are those of faces of the same number
+  /// @param piece_at  of each number below `count`; quadrilaterals and triangles begin as their faces do
   PieceMatches(Patterns& patterns, const Level& level, Index count, const std::function<Piece(Index)>& piece_at);
 
   Index count() const { return static_cast<Index>(matches_.size()); }

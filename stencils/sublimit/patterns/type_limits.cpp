@@ -2,7 +2,9 @@
 #include "sublimit/patterns/type_limits.h"
 
 #include <algorithm>
+#include <atomic>
 
+#include "sublimit/base/parallel_for.h"
 #include "sublimit/limit/limit_surface_parts.h"
 #include "sublimit/pattern_table.h"
 #include "sublimit/patterns/point_status.h"
@@ -35,44 +37,52 @@ PieceMap lattice_map(const LatticePlace& place, bool triangle) {
   return map;
 }
 
+/// The piece of a type that a place of the address is in.
+LimitSurface::Parts::Target target_at(const LimitSurface::Parts& surface, const PieceType& type,
+                                      const LatticePlace& place, const PieceMap& map, const AddressParameters& p) {
+  const Place outer = type.kind() == Piece::Kind::triangle ? triangle_place(p.u, p.v) : quad_place(p.u, p.v);
+  if (type.kind() == Piece::Kind::quad && surface.scheme.is_dual()) {  // each of its corners is a piece
+    const int corner = nearest_corner(p.u, p.v);
+    HalfEdge h = type.piece().start;  // at corner `turn` of the address
+    for (int k = place.turn; k % 4 != corner; ++k) h = surface.level.topology().next(h);
+    const PieceMap& quarter = quarter_map(corner);
+    return {{Piece::Kind::corner, h}, quarter(outer), &quarter, outer};
+  }
+  return {type.piece(), map(outer), &map, outer};
+}
+
 }  // namespace
 
 std::optional<Patterns::LimitBlock> limits_of_type(const std::shared_ptr<LimitTypes>& types, const PieceType& type,
-                                                   const Patterns::LimitRequest& request) {
-  const auto& [lattice, place, by_address, derivatives] = request;
+                                                   const LatticePlace& place,
+                                                   std::span<const AddressParameters> parameters, int derivatives) {
   Level level = type.level();
   level.holes.assign(level.holes.size(), false);  // of the mesh that the type was met in first
   const LimitSurface::Parts surface(types->pieces().scheme(), std::move(level), types);
-  const PieceMap map = lattice_map(place, lattice.triangle);
+  const PieceMap map = lattice_map(place, type.kind() == Piece::Kind::triangle);
   std::vector<Eigen::Index> slot_of(type.level().topology().num_vertices(), -1);
   for (size_t s = 0; s < type.slots().size(); ++s) slot_of[type.slots()[s]] = Eigen::Index(s);
 
   // Among its own points a walk could see less: of a vertex with several fans only those around the piece are there.
   const std::vector<Index> slots(type.slots().begin(), type.slots().end());
   const Topology& t = type.level().topology();
-  const auto has_several_fans = [&] {
-    const Face face = t.face(type.piece().start);
-    return std::any_of(t.vertices(face).begin(), t.vertices(face).end(),
-                       [&](Index v) { return t.is_nonmanifold(Vertex{v}); });
-  };
+  const std::span<const Index> corners = t.vertices(t.face(type.piece().start));
+  const bool has_several_fans =
+      std::any_of(corners.begin(), corners.end(), [&](Index v) { return t.is_nonmanifold(Vertex{v}); });
 
   const int quantities = num_quantities(derivatives);
-  const Eigen::Index count = lattice.size();
+  const auto count = static_cast<Eigen::Index>(parameters.size());
   Patterns::LimitBlock block;
   block.weights = RowMatrix::Zero(quantities * count, type.num_slots());
   block.status.resize(size_t(count));
-  bool beyond = false;
-  const LatticePlace own = by_address ? LatticePlace{0, 0, place.quarter} : place;
-  request.lattice.for_each([&](Index i, Index j) {
-    const Lattice& all = request.lattice;
-    const AddressParameters p = address_parameters(all, own, i, j);
-    LimitSurface::Parts::Target target{type.piece(), {}, &map, {}};
-    target.outer = all.triangle ? triangle_place(p.u, p.v) : quad_place(p.u, p.v);
-    target.place = map(target.outer);
-    const LimitSurface::Parts::Found found = surface.find(target, request.derivatives, type, slots);
-    if (found.tangents.size() > 0 && has_several_fans()) beyond = true;
-    const Eigen::Index row = all.row(i, j);
-    block.status[size_t(row)] = point_status(found.status, found.rows.order, request.derivatives);
+  std::atomic<bool> beyond = false;
+  const auto fill_row = [&](Eigen::Index row) {
+    const LimitSurface::Parts::Target target = target_at(surface, type, place, map, parameters[size_t(row)]);
+    const bool is_whole = target.piece.kind == type.kind();
+    const LimitSurface::Parts::Found found =
+        is_whole ? surface.find(target, derivatives, type, slots) : surface.find(target, derivatives);
+    if (found.tangents.size() > 0 && has_several_fans) beyond = true;
+    block.status[size_t(row)] = point_status(found.status, found.rows.order, derivatives);
     const auto add = [&](Eigen::Index quantity, Index vertex, double weight) {
       if (weight == 0) return;
       const Eigen::Index slot = slot_of[vertex];
@@ -87,7 +97,7 @@ std::optional<Patterns::LimitBlock> limits_of_type(const std::shared_ptr<LimitTy
     };
     const RowMatrix& rows = found.rows.rows;
     for (Eigen::Index q = 0; q < rows.rows(); ++q) add_differences(q, rows.row(q));
-    if (request.derivatives == 0 || rows.rows() > 1) return;
+    if (derivatives == 0 || rows.rows() > 1) return;
     // Where there are no natural derivatives, two tangents that span the plane.
     const RowMatrix& tangents = found.rows.tangents;
     for (Eigen::Index q = 0; q < std::min<Eigen::Index>(tangents.rows(), 2); ++q)
@@ -95,9 +105,30 @@ std::optional<Patterns::LimitBlock> limits_of_type(const std::shared_ptr<LimitTy
     if (found.tangents.size() >= 2)
       for (Eigen::Index q = 1; q <= 2; ++q)
         for (const auto& [vertex, weight] : found.tangents[size_t(q - 1)]) add(q, vertex, weight);
-  });
+  };
+  // Of types with finite sharpness, whose sums have an order, in turn.
+  constexpr std::int64_t per_block = 256;
+  if (type.decays())
+    for (Eigen::Index row = 0; row < count; ++row) fill_row(row);
+  else
+    parallel_for_blocks(
+        count,
+        [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+          for (std::int64_t row = begin; row < end; ++row) fill_row(row);
+        },
+        per_block);
   if (beyond) return std::nullopt;
   return block;
+}
+
+std::optional<Patterns::LimitBlock> limits_of_type(const std::shared_ptr<LimitTypes>& types, const PieceType& type,
+                                                   const Patterns::LimitRequest& request) {
+  const auto& [lattice, place, by_address, derivatives] = request;
+  const LatticePlace own = by_address ? LatticePlace{0, 0, place.quarter} : place;
+  std::vector<AddressParameters> parameters;
+  request.lattice.for_each(
+      [&](Index i, Index j) { parameters.push_back(address_parameters(request.lattice, own, i, j)); });
+  return limits_of_type(types, type, place, parameters, derivatives);
 }
 
 }  // namespace sublimit

@@ -11,5 +11,10 @@ namespace sublimit {
 /// @return  nothing where limit masks reach beyond the points of the type
 std::optional<Patterns::LimitBlock> limits_of_type(const std::shared_ptr<LimitTypes>& types, const PieceType& type,
                                                    const Patterns::LimitRequest& request);
+/// The same at any places, (u, v) of an address.
+/// @param place  where the type lies in the address: its turn and quarter matter
+std::optional<Patterns::LimitBlock> limits_of_type(const std::shared_ptr<LimitTypes>& types, const PieceType& type,
+                                                   const LatticePlace& place,
+                                                   std::span<const AddressParameters> parameters, int derivatives);
 
 }  // namespace sublimit

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <map>
+#include <random>
 
 #include "sublimit/bake/bake.h"
 #include "sublimit/limit/limit_masks.h"
@@ -131,9 +132,70 @@ TEST_P(BakedLimits, OfPlacesAreTheSurface) {
       request.samples.push_back({f, 0, 0});
     }
     request.derivatives = 2;
-    const Baked baked = bake(patterns, mesh, request);
-    expect_the_limit(baked, surface, request.samples, 2, false);
+    const bool by_patterns = scheme_.preparation.empty() || surface.level().topology().uniform_face_size() == 4;
+    for (const BakeMethod method : {BakeMethod::rows, BakeMethod::patterns}) {
+      if (method == BakeMethod::patterns && !by_patterns) continue;
+      SCOPED_TRACE(name(method));
+      request.method = method;
+      expect_the_limit(bake(patterns, mesh, request), surface, request.samples, 2, false);
+    }
   }
+}
+
+/// In any order, some places several times, some addresses in several parts of the list.
+TEST(BakedPlaces, StandAsTheyWereAskedFor) {
+  for (const char* name : {"catmull-clark", "loop", "doo-sabin"}) {
+    SCOPED_TRACE(name);
+    const Scheme<double> scheme = find_scheme(name).value();
+    const ControlMesh mesh = hard_meshes(scheme, 5)[1];
+    Patterns patterns(scheme);
+    const LimitSurface surface(scheme, mesh, {}, patterns.types());
+    BakeRequest request{.rows = TableRows::samples, .derivatives = 1, .method = BakeMethod::patterns};
+    std::mt19937 random(3);
+    for (int i = 0; i < 300; ++i) {
+      const auto face = static_cast<Index>(random() % std::uint32_t(surface.addresses().size()));
+      for (auto count = 1 + random() % 3; count > 0; --count)
+        request.samples.push_back({face, double(random() % 5) / 8, double(random() % 4) / 8});
+    }
+    const Baked baked = bake(patterns, mesh, request);
+    EXPECT_EQ(baked.statistics.method, BakeMethod::patterns);
+    expect_the_limit(baked, surface, request.samples, 1, false);
+    const SampleAddresses& addresses = baked.table.addresses;
+    for (size_t i = 0; i < request.samples.size(); ++i) {
+      EXPECT_EQ(addresses.faces[i], request.samples[i].face);
+      EXPECT_EQ(addresses.parameters[2 * i], request.samples[i].u);
+    }
+  }
+}
+
+/// Where faces have the same places blocks pay, where each place is another one they do not.
+TEST(BakedPlaces, AreBlocksWhereTheyComeAgain) {
+  const Scheme<double> scheme = find_scheme("catmull-clark").value();
+  Patterns patterns(scheme);
+  const ControlMesh mesh = torus(20, 20);
+  BakeRequest again{.rows = TableRows::samples}, apart = again;
+  std::mt19937 random(3);
+  for (Index f = 0; f < mesh.num_faces(); ++f)
+    for (const double u : {0.21, 0.79})
+      for (const double v : {0.21, 0.79}) {
+        again.samples.push_back({f, u, v});
+        apart.samples.push_back({static_cast<Index>(random() % 400), double(random() % 997) / 997, 0.5});
+      }
+  const BakeStatistics by_patterns = bake(patterns, mesh, again).statistics;
+  EXPECT_EQ(by_patterns.method, BakeMethod::patterns);
+  EXPECT_EQ(by_patterns.blocks, 1);
+  EXPECT_EQ(by_patterns.bytes, bake_plan(patterns, mesh, again).statistics.bytes);
+  EXPECT_EQ(bake(patterns, mesh, apart).statistics.method, BakeMethod::rows);
+  again.method = BakeMethod::rows;
+  EXPECT_LT(7 * by_patterns.bytes, bake(patterns, mesh, again).statistics.bytes);
+}
+
+TEST(BakedPlaces, OutsideTheirAddressesAreErrors) {
+  Patterns patterns(find_scheme("catmull-clark").value());
+  BakeRequest request{.rows = TableRows::samples, .samples = {{6, 0, 0}}};
+  expect_error<InvalidParameter>([&] { bake(patterns, cube(), request); }, {"face 6", "6 squares"});
+  request.samples = {{0, 0.5, 1.5}};
+  expect_error<InvalidParameter>([&] { bake(patterns, cube(), request); }, {"outside the square"});
 }
 
 /// By rows and by patterns the same points, in some order: images of random points agree when they are sorted.

@@ -31,10 +31,18 @@ struct Frame {
   Eigen::Vector2d origin, a, b;
 };
 
+/// Of one period from a level on.
+std::vector<LevelStep> steps_after(const std::vector<Level>& levels, size_t from, size_t period) {
+  std::vector<LevelStep> steps;
+  for (size_t k = from + 1; k <= from + period; ++k)
+    for (const Refinement& step : levels[k].steps) steps.push_back({&step, static_cast<int>(k) - 1});
+  return steps;
+}
+
 /// Calls body(vertex of the last level, place in the address) for the corners of all faces that a piece becomes.
 template <class Body>
-void for_each_corner(const std::vector<Level>& levels, size_t from, const Piece& piece, const Frame& frame,
-                     const Body& body) {
+void for_each_corner(const std::vector<Level>& levels, size_t from, size_t period, const Piece& piece,
+                     const Frame& frame, const Body& body) {
   const bool triangle = piece.kind == Piece::Kind::triangle;
   if (from + 1 == levels.size()) {
     const Topology& t = levels.back().topology();
@@ -48,8 +56,8 @@ void for_each_corner(const std::vector<Level>& levels, size_t from, const Piece&
     }
     return;
   }
-  const LevelStep step{&levels[from + 1].steps[0], static_cast<int>(from)};
-  for (const PieceChild& child : children(piece, levels[from].topology(), std::span(&step, 1))) {
+  const std::vector<LevelStep> steps = steps_after(levels, from, period);
+  for (const PieceChild& child : children(piece, levels[from].topology(), steps)) {
     const auto image = [&](double u, double v) {
       const Place p = child.map(triangle ? triangle_place(u, v) : quad_place(u, v));
       return Eigen::Vector2d(p.u, p.v);
@@ -60,21 +68,22 @@ void for_each_corner(const std::vector<Level>& levels, size_t from, const Piece&
     Eigen::Matrix2d axes;
     axes << frame.a, frame.b;
     const Frame inner{frame.origin - axes * inverse * image(0, 0), axes * inverse.col(0), axes * inverse.col(1)};
-    for_each_corner(levels, from + 1, child.piece, inner, body);
+    for_each_corner(levels, from + period, period, child.piece, inner, body);
   }
 }
 
-/// Vertex of the last level at each place of the addresses where there is one, by (address, 2^k u, 2^k v).
-std::map<std::array<Index, 3>, Index> vertices_by_place(const std::vector<Level>& levels, bool triangles) {
+/// Vertex of the last level at each place of the addresses where there is one, by (address, n u, n v).
+/// @param n  cells a side of a face
+std::map<std::array<Index, 3>, Index> vertices_by_place(const std::vector<Level>& levels, size_t period, bool triangles,
+                                                        double n) {
   std::map<std::array<Index, 3>, Index> vertices;
   const Topology& t = levels[0].topology();
   const Addresses addresses(t, triangles);
-  const double n = std::ldexp(1.0, static_cast<int>(levels.size()) - 1);
   for (Index a = 0; a < addresses.size(); ++a) {
     const Addresses::Place at = addresses.place(a);
     const Piece piece = at.corner >= 0 ? Piece{Piece::Kind::cut, t.corner(at.face, at.corner)}
                                        : Piece{triangles ? Piece::Kind::triangle : Piece::Kind::quad, t.first(at.face)};
-    for_each_corner(levels, 0, piece, {{0, 0}, {n, 0}, {0, n}}, [&](Vertex v, const Eigen::Vector2d& p) {
+    for_each_corner(levels, 0, period, piece, {{0, 0}, {n, 0}, {0, n}}, [&](Vertex v, const Eigen::Vector2d& p) {
       vertices[{a, static_cast<Index>(std::lround(p[0])), static_cast<Index>(std::lround(p[1]))}] = index(v);
     });
   }
@@ -90,6 +99,17 @@ double distance_of_sorted_images(const StencilTable<double>& table, const Sparse
   std::sort(a.begin(), a.end());
   std::sort(b.begin(), b.end());
   return (a - b).cwiseAbs().maxCoeff();
+}
+
+/// Sum of |weights| that differ.
+double difference_of_rows(const SparseMatrix& P, Index vertex, const StencilTable<double>& table, std::int64_t point) {
+  std::map<Index, double> difference;
+  for (SparseMatrix::InnerIterator it(P, vertex); it; ++it) difference[static_cast<Index>(it.col())] += it.value();
+  for (auto k = table.offsets()[point]; k < table.offsets()[point + 1]; ++k)
+    difference[table.columns()[k]] -= table.weights()[k];
+  double sum = 0;
+  for (const auto& [column, weight] : difference) sum += std::abs(weight);
+  return sum;
 }
 
 struct Difference {
@@ -112,8 +132,10 @@ Difference compare_with_refinement(const Baked& baked, const Scheme<double>& sch
   }
   std::vector<std::int64_t> point_of(P.rows(), -1), vertex_of(table.num_rows(), -1);
   const Topology& t = refined[0].topology();
-  const std::map<std::array<Index, 3>, Index> vertices = vertices_by_place(refined, lattices.lattice().triangle);
-  const double n = std::ldexp(1.0, levels);
+  // Cells are those of faces; where these are quarters of an address, it has twice as many a side.
+  const double n = std::pow(scheme.dilation(), levels / scheme.period);
+  const std::map<std::array<Index, 3>, Index> vertices =
+      vertices_by_place(refined, size_t(scheme.period), lattices.lattice().triangle, n);
   for (Index f = 0; f < lattices.num_faces(); ++f)
     lattices.lattice().for_each([&](Index i, Index j) {
       const AddressParameters p = lattices.parameters(f, i, j);
@@ -134,13 +156,7 @@ Difference compare_with_refinement(const Baked& baked, const Scheme<double>& sch
       ++alone;
       continue;
     }
-    std::map<Index, double> difference;
-    for (SparseMatrix::InnerIterator it(P, v); it; ++it) difference[static_cast<Index>(it.col())] += it.value();
-    for (auto k = table.offsets()[point_of[v]]; k < table.offsets()[point_of[v] + 1]; ++k)
-      difference[table.columns()[k]] -= table.weights()[k];
-    double sum = 0;
-    for (const auto& [column, weight] : difference) sum += std::abs(weight);
-    d.largest = std::max(d.largest, sum);
+    d.largest = std::max(d.largest, difference_of_rows(P, v, table, point_of[v]));
   }
   Index isolated = 0;
   for (Index v = 0; v < t.num_vertices(); ++v) isolated += t.is_isolated(Vertex{v});
@@ -176,6 +192,7 @@ TEST_P(BakedLevels, AreRefinementOnHardMeshes) {
   Patterns patterns(scheme_);
   for (const ControlMesh& mesh : hard_meshes(scheme_, 4))
     for (int levels = 1; levels <= 3; ++levels) {
+      if (levels % scheme_.period != 0) continue;
       SCOPED_TRACE("level " + std::to_string(levels));
       expect_refinement(patterns, mesh, levels);
     }
@@ -207,6 +224,52 @@ TEST_P(BakedLevels, AreRefinementOnThinTubes) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Schemes, BakedLevels, ::testing::ValuesIn(pattern_schemes()), test_name);
+
+/// Dual schemes: faces of the table are those of level k, and so say which vertex each point is.
+class BakedCorners : public ::testing::TestWithParam<TestedScheme> {
+ protected:
+  void expect_refinement(Patterns& patterns, const ControlMesh& mesh, int levels) {
+    const Baked baked =
+        bake(patterns, mesh, {.rows = TableRows::level, .level = levels, .method = BakeMethod::patterns});
+    const std::vector<Level> refined = refine(scheme_, mesh, levels);
+    const SparseMatrix P = refinement_matrix(refined);
+    const StencilTable<double> table = baked.table.table.expanded();
+    ASSERT_EQ(table.num_rows(), P.rows());
+    std::vector<std::int32_t> point_of(size_t(P.rows()), -1), vertex_of(size_t(P.rows()), -1);
+    const Topology& t = refined.back().topology();
+    size_t corner = 0;
+    double largest = 0;
+    bool one_to_one = true;
+    for (Index f = 0; f < t.num_faces(); ++f)
+      for (const Index v : t.vertices(Face{f})) {
+        const std::int32_t point = baked.table.faces.corners[corner++];
+        one_to_one &= (point_of[v] < 0 || point_of[v] == point) && (vertex_of[point] < 0 || vertex_of[point] == v);
+        if (point_of[v] < 0) largest = std::max(largest, difference_of_rows(P, v, table, point));
+        point_of[v] = point;
+        vertex_of[point] = v;
+      }
+    EXPECT_EQ(corner, baked.table.faces.corners.size());
+    EXPECT_TRUE(one_to_one);
+    EXPECT_LE(largest, rounding(10.0 * levels));
+  }
+  const Scheme<double> scheme_ = GetParam().scheme();
+};
+
+TEST_P(BakedCorners, AreRefinement) {
+  Patterns patterns(scheme_);
+  std::vector<ControlMesh> meshes = hard_meshes(scheme_, 4);
+  meshes.push_back(disjoint_union(torus(9, 8), torus(9, 3)));
+  for (const ControlMesh& mesh : meshes)
+    for (int levels = scheme_.period; levels <= 4 / effort(scheme_); levels += scheme_.period) {
+      SCOPED_TRACE("level " + std::to_string(levels));
+      expect_refinement(patterns, mesh, levels);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Schemes, BakedCorners, ::testing::ValuesIn(schemes_and_degrees_if([](const auto& scheme) {
+                           return scheme.is_dual();
+                         })),
+                         test_name);
 
 TEST(BakedLevel, AppliesWhatItExpandsTo) {
   const Scheme<double> scheme = find_scheme("catmull-clark").value();
