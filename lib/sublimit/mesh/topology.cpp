@@ -199,6 +199,17 @@ Topology::Topology(const MeshView& mesh) {
   *this = std::move(Matcher(mesh).b).build();
 }
 
+Topology TopologyBuilder::corners_only(Topology&& all) {
+  Topology t;
+  t.num_faces_ = all.num_faces_;
+  t.uniform_ = all.uniform_;
+  t.offsets_ = std::move(all.offsets_);
+  t.face_ = std::move(all.face_);
+  t.tail_ = std::move(all.tail_);
+  t.twin_ = std::move(all.twin_);
+  return t;
+}
+
 Topology TopologyBuilder::build() && {
   Topology t;
   t.uniform_ = uniform_face_size;

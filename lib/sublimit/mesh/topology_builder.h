@@ -31,6 +31,10 @@ class TopologyBuilder {
   /// Consumes the arrays.
   Topology build() &&;
 
+  /// What is left for who needs faces, half-edges, their twins and tails alone: half of the memory. It has no edges and
+  /// no vertices to ask for.
+  static Topology corners_only(Topology&& all);
+
  private:
   static void number_edges(Topology& t, const std::vector<std::vector<Index>>& nonmanifold_edges);
 };

@@ -12,6 +12,7 @@ namespace sublimit {
 /// around, inside the mesh, with nothing sharp at the corners or on their edges.
 class RegularFaces {
  public:
+  /// @param level    whose faces and half-edges are to stay
   /// @param corners  of the faces: 3 or 4
   RegularFaces(const Level& level, int corners);
 

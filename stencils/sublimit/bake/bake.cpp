@@ -110,7 +110,7 @@ void count_table(Baked& baked) {
 Baked bake(Patterns& patterns, const ControlMesh& mesh, const BakeRequest& request, const SubdivisionOptions& options) {
   check(request);
   const Scheme<double>& scheme = patterns.scheme();
-  const Level control = control_level(scheme, mesh, options);
+  Level control = control_level(scheme, mesh, options);
   const double faces = control.topology().num_faces();
   const double bytes =
       request.rows == TableRows::samples ? double(request.samples.size()) * 1000 : faces * points_of_face(request) * 4;
@@ -122,6 +122,7 @@ Baked bake(Patterns& patterns, const ControlMesh& mesh, const BakeRequest& reque
       patterns, control, request,
       [&](PatternBake how) {
         how.turns = &turn;
+        if (!request.face_varying && !request.tags) how.spent = &control;
         return bake_by_patterns(patterns, control, request, how);
       },
       [&] { return bake_by_rows(patterns, control, request); });

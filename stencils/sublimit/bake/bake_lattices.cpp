@@ -8,9 +8,20 @@
 #include "sublimit/bake/face_places.h"
 #include "sublimit/bake/pattern_counts.h"
 #include "sublimit/base/memory.h"
+#include "sublimit/mesh/topology_builder.h"
 #include "sublimit/patterns/point_status.h"
 
 namespace sublimit {
+namespace {
+
+/// Leaves what `PieceMatches::points` asks for: half-edges and faces.
+void keep_corners_only(Level& level) {
+  Topology& topology = level.steps.back().topology;
+  topology = TopologyBuilder::corners_only(std::move(topology));
+  level.sharpness = {};
+}
+
+}  // namespace
 
 std::optional<Baked> bake_lattices(Patterns& patterns, const Level& control, const BakeRequest& request,
                                    const PatternBake& how) {
@@ -35,6 +46,7 @@ std::optional<Baked> bake_lattices(Patterns& patterns, const Level& control, con
   if (first_by_rows) {
     refined = next_level(scheme, control);
     arrays.first = as_table(refined->S);
+    SparseMatrix().swap(refined->S);
   }
   const Level& level = refined ? *refined : control;
   const Topology& t = level.topology();
@@ -45,12 +57,11 @@ std::optional<Baked> bake_lattices(Patterns& patterns, const Level& control, con
   const PieceMatches pieces(patterns, level, t.num_faces(), piece_at);
   std::vector<std::int8_t> turn(t.num_faces());
   for (Index f = 0; f < t.num_faces(); ++f) turn[f] = static_cast<std::int8_t>(pieces.turn(f));
-  std::vector<LatticePlace> places;
-  if (!first_by_rows)
-    places = places_of_faces(turn);
-  else if (auto of_children = places_of_children(scheme, control, level, turn))
-    places = std::move(*of_children);
-  if (request.derivatives > 0 && places.empty() && t.num_faces() > 0) return std::nullopt;
+  std::optional<std::vector<LatticePlace>> of_children;
+  if (first_by_rows) of_children = places_of_children(scheme, control, level, turn);
+  const bool has_places = !first_by_rows || of_children;
+  if (request.derivatives > 0 && !has_places) return std::nullopt;
+  const auto place_of = [&](Index f) { return of_children ? (*of_children)[f] : LatticePlace{f, turn[f], -1}; };
 
   FaceLattices::Arrays lattices = face_owners(t, lattice, turn, how.owners);
   std::vector<std::uint8_t> share(t.num_faces());
@@ -64,13 +75,14 @@ std::optional<Baked> bake_lattices(Patterns& patterns, const Level& control, con
   std::vector<Index> block_of(t.num_faces(), -1);
   for (Index f = 0; f < t.num_faces(); ++f)
     if (has_points[share[f]])
-      block_of[f] = blocks.add({&pieces.pattern(f), request.derivatives > 0 ? places[f] : LatticePlace{}}, f);
+      block_of[f] = blocks.add({&pieces.pattern(f), request.derivatives > 0 ? place_of(f) : LatticePlace{}}, f);
   const auto rows_of_block = [&](Index) { return arrays.quantities * lattice.size(); };
   const double bytes = blocks.num_bytes(rows_of_block);
   if (bytes > how.most_bytes) return std::nullopt;
   check_memory(std::to_string(blocks.keys().size()) + " blocks of level " + std::to_string(request.level), 4 * bytes,
                "use fewer levels");
   const PatchGroups groups(pieces, block_of, share);
+  std::vector<Index>().swap(block_of);
   if (how.only_count) {
     BakeStatistics& s = baked.statistics;
     count(
@@ -105,14 +117,8 @@ std::optional<Baked> bake_lattices(Patterns& patterns, const Level& control, con
 
   std::vector<std::int32_t> rows;
   std::vector<std::uint8_t> row_status;
-  std::vector<std::int64_t> first_points(t.num_faces());
-  std::int64_t next = 0;
   for (const PatchGroups::Group& group : groups.groups) {
     const std::vector<std::int32_t> own = LatticeRanks::rows(lattice, group.share);
-    for (const Index f : group.pieces) {
-      first_points[f] = next;
-      next += std::int64_t(own.size());
-    }
     arrays.groups.push_back({group.block, static_cast<std::int32_t>(own.size()), static_cast<std::int64_t>(rows.size()),
                              std::int64_t(group.pieces.size())});
     rows.insert(rows.end(), own.begin(), own.end());
@@ -134,27 +140,40 @@ std::optional<Baked> bake_lattices(Patterns& patterns, const Level& control, con
     rows.push_back(0);
     if (has_status) row_status.push_back(point_status(LimitStatus::undefined_normal, 0, request.derivatives));
   }
+  baked.statistics.faces = t.num_faces();
+  baked.statistics.types = num_types(pieces);
+  const Index num_control_points = control.topology().num_vertices();
+  // Of a large mesh connectivity and lists of the table are the most there is: as one goes the other comes.
+  Level* const spent = refined ? &*refined : how.spent;
+  if (spent) keep_corners_only(*spent);
   arrays.columns = all_columns(pieces, blocks, groups, alone);
+  if (spent) spent->steps.clear();
+
+  std::vector<std::int64_t> first_points(turn.size());
+  std::int64_t next = 0;
+  for (size_t g = 0; g < groups.groups.size(); ++g)
+    for (const Index f : groups.groups[g].pieces) {
+      first_points[f] = next;
+      next += arrays.groups[g].num_rows;
+    }
+  lattices.first_points = std::move(first_points);
   arrays.rows = std::move(rows);
   baked.table.row_status = std::move(row_status);
-  baked.table.table = PatternTable<double>(control.topology().num_vertices(), std::move(arrays));
-
-  if (!places.empty()) {
-    std::vector<std::int32_t> addresses;
-    std::vector<std::uint8_t> codes;
-    for (const LatticePlace& place : places) {
-      addresses.push_back(place.address);
-      codes.push_back(FaceLattices::code(place));
+  baked.table.table = PatternTable<double>(num_control_points, std::move(arrays));
+  if (has_places) {
+    std::vector<std::int32_t> addresses(turn.size());
+    std::vector<std::uint8_t> codes(turn.size());
+    for (size_t f = 0; f < turn.size(); ++f) {
+      const LatticePlace at = place_of(static_cast<Index>(f));
+      addresses[f] = at.address;
+      codes[f] = FaceLattices::code(at);
     }
     lattices.addresses = std::move(addresses);
     lattices.places = std::move(codes);
   }
-  lattices.first_points = std::move(first_points);
   if (std::find(level.holes.begin(), level.holes.end(), true) != level.holes.end())
     lattices.holes = std::vector<std::uint8_t>(level.holes.begin(), level.holes.end());
   baked.table.lattices.emplace(baked.table.table.num_points(), std::move(lattices));
-  baked.statistics.faces = t.num_faces();
-  baked.statistics.types = num_types(pieces);
   if (how.turns) *how.turns = std::move(turn);
   return baked;
 }

@@ -16,6 +16,7 @@ struct PatternBake {
   bool only_count = false;  ///< the table stays empty; `statistics` tell what would be in it
   OwnerRule owners = OwnerRule::balanced;
   std::vector<std::int8_t>* turns = nullptr;  ///< gets the corner of each face that its lattice begins with
+  Level* spent = nullptr;  ///< the control level, if nobody needs it afterwards: it goes before the table comes
 };
 
 /// A table by patterns, its `info` left empty.

@@ -214,9 +214,11 @@ std::optional<Baked> bake_places(Patterns& patterns, const Level& control, const
   }
   std::vector<std::int64_t> patch_points;
   std::vector<std::int32_t> all_columns;
+  std::vector<Index> vertices;
   for (const Run& run : list) {
     patch_points.push_back(run.first);
-    const std::span<const Index> vertices = pieces.vertices(run.piece);
+    vertices.resize(size_t(pieces.pattern(run.piece).num_slots));
+    pieces.points(run.piece, vertices.data());
     for (const Index slot : blocks.slots(block_of[run.piece])) all_columns.push_back(vertices[slot]);
   }
   arrays.rows = std::move(rows);

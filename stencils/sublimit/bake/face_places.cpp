@@ -31,12 +31,6 @@ Quarter quarter_of(const PieceMap& child, bool is_all) {
 
 }  // namespace
 
-std::vector<LatticePlace> places_of_faces(std::span<const std::int8_t> turn) {
-  std::vector<LatticePlace> places;
-  for (size_t f = 0; f < turn.size(); ++f) places.push_back({static_cast<std::int32_t>(f), turn[f], -1});
-  return places;
-}
-
 std::optional<std::vector<LatticePlace>> places_of_children(const Scheme<double>& scheme, const Level& control,
                                                             const Level& level, std::span<const std::int8_t> turn) {
   if (scheme.face_size() == 3 || level.steps.size() != scheme.steps.size()) return std::nullopt;

@@ -10,12 +10,9 @@
 
 namespace sublimit {
 
-/// Of faces of level 0, each of which is an address.
-/// @param turn  of each face: its corner that is the lattice's first one
-std::vector<LatticePlace> places_of_faces(std::span<const std::int8_t> turn);
-
 /// Of faces of level 1: quarters of quadrilaterals, and of other polygons all of the square at a corner.
-/// @return  nothing where they are something else
+/// @param turn  of each face: its corner that is the lattice's first one
+/// @return      nothing where they are something else
 std::optional<std::vector<LatticePlace>> places_of_children(const Scheme<double>& scheme, const Level& control,
                                                             const Level& level, std::span<const std::int8_t> turn);
 

@@ -17,12 +17,18 @@ class PatchGroups {
   /// @param share  of a piece: what it has of its block's rows
   PatchGroups(const PieceMatches& pieces, std::span<const Index> block, std::span<const std::uint8_t> share);
 
+  PatchGroups(const PatchGroups&) = delete;
+  PatchGroups& operator=(const PatchGroups&) = delete;
+
   struct Group {
     Index block;
     std::uint8_t share;
-    std::vector<Index> pieces;
+    std::span<const Index> pieces;
   };
   std::vector<Group> groups;
+
+ private:
+  std::vector<Index> pieces_;  // group by group
 };
 
 /// Control points of all patches, those of isolated points last.

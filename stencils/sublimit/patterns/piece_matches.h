@@ -2,36 +2,52 @@
 #pragma once
 // The types of all pieces of a level, and the points that each depends on.
 #include <functional>
-#include <span>
+#include <optional>
 #include <vector>
 
 #include "sublimit/patterns/patterns.h"
+#include "sublimit/neighborhood/regular_faces.h"
 
 namespace sublimit {
 
 class PieceMatches {
  public:
+  /// @param level     whose faces and half-edges are to stay (`TopologyBuilder::corners_only`): of regular faces, which
+  ///                  are most of a large mesh, nothing is kept
   /// @param piece_at  of each number below `count`; quadrilaterals and triangles begin as their faces do
   PieceMatches(Patterns& patterns, const Level& level, Index count, const std::function<Piece(Index)>& piece_at);
 
-  Index count() const { return static_cast<Index>(matches_.size()); }
-  const Pattern& pattern(Index i) const { return *matches_[i].pattern; }
+  Index count() const { return static_cast<Index>(places_.size()); }
+  const Pattern& pattern(Index i) const { return places_[i] == is_regular ? *regular_ : *match(i).pattern; }
   /// The corner of the piece that is the pattern's first one.
-  int turn(Index i) const { return matches_[i].turn; }
-  std::span<const Index> vertices(Index i) const {
-    return {chunks_[matches_[i].chunk].data() + matches_[i].first, size_t(matches_[i].pattern->num_slots)};
-  }
+  int turn(Index i) const { return places_[i] == is_regular ? 0 : match(i).turn; }
+  /// The points that a piece depends on.
+  /// @param out  `num_slots` of its pattern
+  /// @return     the end of them
+  Index* points(Index i, Index* out) const;
 
  private:
+  static constexpr std::int64_t per_chunk = 1024;
+  static constexpr std::int16_t is_regular = -1;
   struct Match {
     const Pattern* pattern = nullptr;
-    std::int32_t chunk = 0, first = 0;
+    std::int32_t first = 0;  ///< where its points begin
     std::int8_t turn = 0;
   };
-  bool find(Patterns& patterns, const Level& level, const Piece& piece, Index i, size_t chunk);
-  void set(Index i, size_t chunk, const Patterns::Match& match);
-  std::vector<Match> matches_;
-  std::vector<std::vector<Index>> chunks_;  // a block of pieces each
+  struct Chunk {
+    std::vector<Match> matches;
+    std::vector<Index> points;
+  };
+  void find_regular(Patterns& patterns, const Level& level, Index count, const std::function<Piece(Index)>& piece_at);
+  bool find(Patterns& patterns, const Level& level, const Piece& piece, Index i);
+  void set(Index i, const Patterns::Match& match);
+  const Match& match(Index i) const { return chunks_[size_t(i / per_chunk)].matches[size_t(places_[i])]; }
+
+  /// The type of regular faces, if walks find their points in the order of `RegularFaces`.
+  const Pattern* regular_ = nullptr;
+  std::optional<RegularFaces> regular_faces_;
+  std::vector<std::int16_t> places_;  // of a piece: among the matches of its chunk, or `is_regular`
+  std::vector<Chunk> chunks_;
 };
 
 }  // namespace sublimit

@@ -362,6 +362,33 @@ TEST(BakedLevel, OfARegularMeshIsOneBlock) {
   EXPECT_EQ(baked.table.table.arrays().columns.size(), 12u * 9 * 16);
 }
 
+/// Without channels and tags a bake gives the control level away before the table is complete.
+TEST(BakedLevel, IsTheSameWhetherConnectivityIsKept) {
+  const std::vector<ControlMesh> meshes{torus(12, 9), cube(), prism(5), hard_polygons(1, {.open = true, .sharp = true}),
+                                        hard_polygons(2, {.open = true, .sharp = true})};
+  for (size_t i = 0; i < meshes.size(); ++i)
+    for (const TableRows rows : {TableRows::level, TableRows::limit}) {
+      SCOPED_TRACE("mesh " + std::to_string(i) + ", " + name(rows));
+      const auto made = [&](bool tags) {
+        Patterns patterns(find_scheme("catmull-clark").value());
+        return bake(patterns, meshes[i], {.rows = rows, .level = 2, .tags = tags}).table;
+      };
+      const BakedTable<double> given_away = made(false), kept = made(true);
+      const auto &a = given_away.table.arrays(), &b = kept.table.arrays();
+      EXPECT_EQ(given_away.table.num_control_points(), meshes[i].num_vertices());
+      EXPECT_TRUE(std::ranges::equal(a.columns.span(), b.columns.span()));
+      EXPECT_TRUE(std::ranges::equal(a.rows.span(), b.rows.span()));
+      EXPECT_TRUE(std::ranges::equal(a.weights.span(), b.weights.span()));
+      ASSERT_EQ(given_away.lattices.has_value(), kept.lattices.has_value());
+      if (!kept.lattices) continue;
+      const auto &x = given_away.lattices->arrays(), &y = kept.lattices->arrays();
+      EXPECT_TRUE(std::ranges::equal(x.first_points.span(), y.first_points.span()));
+      EXPECT_TRUE(std::ranges::equal(x.side_faces.span(), y.side_faces.span()));
+      EXPECT_TRUE(std::ranges::equal(x.addresses.span(), y.addresses.span()));
+      EXPECT_TRUE(std::ranges::equal(x.places.span(), y.places.span()));
+    }
+}
+
 /// Threads that meet the same types at once make the tables that each would make alone. Not with finite sharpness,
 /// whose sums keep the order of the mesh that was first.
 TEST(BakedLevel, ThreadsShareADictionary) {
