@@ -19,18 +19,20 @@ struct Case {
 
 /// The car, where it exists; tori of 100k quads and of 100k triangles, regular throughout; 33k triangles split into
 /// 100k quads, which makes half of the vertices extraordinary.
-inline std::vector<Case> cases() {
+/// @param quick  of 1000 faces instead
+inline std::vector<Case> cases(bool quick = false) {
   std::vector<Case> list;
   const std::filesystem::path car = std::filesystem::path(SUBLIMIT_SHARED_MESHES) / "catmark_car.obj";
   if (std::filesystem::exists(car)) {
     list.push_back({"car", "catmull-clark", read_mesh(car)});
   } else {
-    std::fprintf(stderr, "refine_bench: NO %s: the car is not measured\n", car.c_str());
+    std::fprintf(stderr, "NO %s: the car is not measured\n", car.c_str());
   }
   using namespace testing;
-  list.push_back({"torus", "catmull-clark", torus(400, 250)});
-  list.push_back({"split_triangles", "catmull-clark", quads_from_triangles(triangle_torus(182, 92))});
-  list.push_back({"loop_torus", "loop", triangle_torus(250, 200)});
+  list.push_back({"torus", "catmull-clark", quick ? torus(40, 25) : torus(400, 250)});
+  list.push_back({"split_triangles", "catmull-clark",
+                  quads_from_triangles(quick ? triangle_torus(18, 9) : triangle_torus(182, 92))});
+  list.push_back({"loop_torus", "loop", quick ? triangle_torus(25, 20) : triangle_torus(250, 200)});
   return list;
 }
 

@@ -8,17 +8,16 @@
 // Of every solution the largest residual is printed: |C x - d|, without conditions of A^T (A x - b). Eigen's iterations
 // stop at 1e-14. Memory is what the process holds at most meanwhile, above what it held before.
 //
-// `fit_bench --ratios [repetitions]` takes turns and prints medians with their spread; SUBLIMIT_BENCH_CASE=NAME takes
-// one system, SUBLIMIT_BENCH_VERTICES another size than 100000. Otherwise Google Benchmark's own options hold.
+// `fit_bench --ratios [turns]` takes turns (report.h); `--only "fit normals"` takes one system. Otherwise Google
+// Benchmark's own options hold.
 #include <Eigen/IterativeLinearSolvers>
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseLU>
 #include <cstdio>
-#include <cstdlib>
-#include <fstream>
 
 #include "fit_systems.h"
 #include "measuring.h"
+#include "report.h"
 #include "sublimit/core/sparse_product.h"
 #include "sublimit/fit/conditioning.h"
 
@@ -27,22 +26,22 @@ namespace {
 
 using Columns = Eigen::SparseMatrix<double, Eigen::ColMajor, Index>;
 
-struct Contender {
+struct Solver {
   const char* name;
   std::function<Points()> run;
 };
 
-template <class Solver>
+template <class Factors>
 Points factored(const Columns& M, const Points& right) {
-  Solver solver(M);
+  Factors solver(M);
   if (solver.info() != Eigen::Success) return Points::Constant(right.rows(), right.cols(), NAN);
   const Eigen::MatrixXd x = solver.solve(Eigen::MatrixXd(right));
   return x;
 }
 
-template <class Solver>
+template <class Iteration>
 Points iterated(const SparseMatrix& M, const Points& right) {
-  Solver solver(M);
+  Iteration solver(M);
   solver.setTolerance(1e-14);
   solver.setMaxIterations(2000);
   const Eigen::MatrixXd x = solver.solve(Eigen::MatrixXd(right));
@@ -74,14 +73,14 @@ Columns saddle(const FitProblem& p) {
   return K;
 }
 
-template <class Solver>
+template <class Factors>
 Points by_saddle(const FitProblem& p) {
   Points right = Points::Zero(p.C.cols() + p.C.rows(), p.d.cols());
   right.bottomRows(p.C.rows()) = p.d;
-  return factored<Solver>(saddle(p), right).topRows(p.C.cols());
+  return factored<Factors>(saddle(p), right).topRows(p.C.cols());
 }
 
-std::vector<Contender> peers(const std::string& name, const FitProblem& p) {
+std::vector<Solver> peers(const std::string& name, const FitProblem& p) {
   using Eigen::IdentityPreconditioner;
   if (name == "points")
     return {{"LSCG", [&] { return iterated<Eigen::LeastSquaresConjugateGradient<SparseMatrix>>(p.C, p.d); }},
@@ -119,75 +118,65 @@ double residual(const FitProblem& p, const Points& x) {
   return (p.A.transpose() * (p.A * x - p.b)).cwiseAbs().maxCoeff();
 }
 
-/// Bytes that the process held at most since the last call of `forget_peak`.
-double peak() {
-  std::ifstream status("/proc/self/status");
-  for (std::string line; std::getline(status, line);)
-    if (line.starts_with("VmHWM:")) return 1024 * std::atof(line.c_str() + 6);
-  return 0;
-}
-double forget_peak() {
-  std::ofstream("/proc/self/clear_refs") << 5;
-  return peak();
-}
-
-std::vector<FitSystem> systems() {
-  const char *only = std::getenv("SUBLIMIT_BENCH_CASE"), *size = std::getenv("SUBLIMIT_BENCH_VERTICES");
-  std::vector<FitSystem> list = fit_systems(size ? std::atoi(size) : 100000);
-  if (only) std::erase_if(list, [&](const FitSystem& s) { return s.name != only; });
-  return list;
-}
+/// Of 100,000 vertices.
+std::vector<FitSystem> systems(bool quick) { return fit_systems(quick ? 1000 : 100000); }
 
 Points ours(const FitProblem& p, FitMethod method) { return solve(p, {.method = method}).x; }
 
-void print_turns(const std::string& name, const std::vector<Contender>& contenders, const FitProblem& p, int threads,
-                 int repetitions) {
-  for (const Contender& c : contenders) {
-    std::vector<double> times;
-    double memory = 0, error = 0;
-    for (int r = 0; r < repetitions; ++r) {
-      const double before = forget_peak();
-      Points x;
-      times.push_back(seconds([&] { x = c.run(); }));
-      memory = std::max(memory, peak() - before);
-      error = residual(p, x);
-    }
-    std::sort(times.begin(), times.end());
-    std::printf("%-9s %d  %-10s %7.2f s (%.2f..%.2f)  residual %.0e  %5.0f MB\n", name.c_str(), threads, c.name,
-                times[times.size() / 2], times.front(), times.back(), error, memory / 1e6);
-    std::fflush(stdout);
-  }
+/// What a solver needed besides time.
+struct Needed {
+  double memory = 0, residual = 0;
+};
+
+void measure(Report& report, const FitSystem& system, const FitProblem& p, int threads,
+             const std::vector<std::pair<Role, Solver>>& solvers) {
+  std::vector<Needed> needed(solvers.size());
+  std::vector<Contender> contenders;
+  for (size_t i = 0; i < solvers.size(); ++i)
+    contenders.push_back({solvers[i].second.name, solvers[i].first, [&, i] {
+                            const double before = forget_peak_bytes();
+                            Points x;
+                            const double time = seconds([&] { x = solvers[i].second.run(); });
+                            needed[i] = {std::max(needed[i].memory, peak_bytes() - before), residual(p, x)};
+                            return time;
+                          }});
+  report.measure({"fit", system.name, std::to_string(p.x0.rows()) + " unknowns", threads, "s", 1}, contenders);
+  for (size_t i = 0; i < solvers.size(); ++i)
+    std::printf("    %-10s residual %.0e  %5.0f MB\n", contenders[i].name.c_str(), needed[i].residual,
+                needed[i].memory / 1e6);
 }
 
-int print_ratios(int repetitions) {
-  for (const FitSystem& system : systems()) {
+int take_turns(Report& report) {
+  for (const FitSystem& system : systems(report.quick())) {
+    if (!report.wants("fit", system.name)) continue;
     const FitProblem p = system.make();
-    std::printf("%s: %s; %d unknowns in %d channels, %d conditions, %d targets; medians of %d (least..most)\n",
-                system.name.c_str(), system.what.c_str(), int(p.x0.rows()), int(p.x0.cols()), int(p.C.rows()),
-                int(p.A.rows()), repetitions);
-    std::vector<int> counts = thread_counts();
-    if (counts.back() > 2) counts.insert(counts.begin() + 1, 2);
-    for (const int threads : counts) {
+    std::printf("%s: %s; %d unknowns in %d channels, %d conditions, %d targets\n", system.name.c_str(),
+                system.what.c_str(), int(p.x0.rows()), int(p.x0.cols()), int(p.C.rows()), int(p.A.rows()));
+    for (const int threads : report.threads()) {
       const Threads scope(threads);
-      std::vector<Contender> contenders = {{"automatic", [&] { return ours(p, FitMethod::automatic); }},
-                                           {"direct", [&] { return ours(p, FitMethod::direct); }}};
-      if (system.name != "fairness") contenders.push_back({"iterative", [&] { return ours(p, FitMethod::iterative); }});
-      print_turns(system.name, contenders, p, threads, repetitions);
-      if (threads == 1) print_turns(system.name, peers(system.name, p), p, threads, repetitions);  // they use one
+      std::vector<std::pair<Role, Solver>> solvers{
+          {Role::ours, {"automatic", [&] { return ours(p, FitMethod::automatic); }}},
+          {Role::shown, {"direct", [&] { return ours(p, FitMethod::direct); }}}};
+      if (system.name != "fairness")
+        solvers.push_back({Role::shown, {"iterative", [&] { return ours(p, FitMethod::iterative); }}});
+      if (threads == 1)  // they use one
+        for (const Solver& peer : peers(system.name, p)) solvers.push_back({Role::peer, peer});
+      measure(report, system, p, threads, solvers);
       if (system.name != "points") continue;
       Conditioning c;
       const double time = seconds([&] { c = conditioning(p.C); });
-      std::printf("%-9s %d  conditioning %.2f s: rank %d of %d, %.6f .. %.6f\n", system.name.c_str(), threads, time,
-                  c.rank, c.columns, c.smallest, c.largest);
+      std::printf("    conditioning %.2f s: rank %d of %d, %.6f .. %.6f\n", time, c.rank, c.columns, c.smallest,
+                  c.largest);
     }
   }
-  return 0;
+  return report.finish();
 }
 
 int main(int argc, char** argv) {
-  if (const int repetitions = repetitions_of_ratios(argc, argv)) return print_ratios(repetitions);
+  Report report("fit_bench", argc, argv);
+  if (report.turns()) return take_turns(report);
   std::vector<FitProblem> problems;
-  const std::vector<FitSystem> list = systems();
+  const std::vector<FitSystem> list = systems(report.quick());
   problems.reserve(list.size());
   for (const FitSystem& system : list) {
     const FitProblem& p = problems.emplace_back(system.make());

@@ -5,7 +5,7 @@
 //   faces    of the coarsest polygons, with vertices moved onto the surface, that are as near to it as the limit of our
 //            cage; distances are |F| / |grad F| on grids inside faces, over the diagonal of the surface
 //
-// `implicit_bench --ratios [repetitions]` takes turns and prints medians.
+// `implicit_bench --ratios [turns]` takes turns (report.h).
 #include <algorithm>
 #include <cstdio>
 #include <functional>
@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "measuring.h"
+#include "report.h"
 #include "sublimit/implicit/combinations.h"
 #include "sublimit/implicit/level_set_mesh.h"
 #include "sublimit/implicit/polygonize/polygonize.h"
@@ -91,34 +92,31 @@ Index polygons_as_near(const Shape& shape, double distance) {
   return 0;
 }
 
-double median(std::vector<double> times) {
-  std::nth_element(times.begin(), times.begin() + std::ptrdiff_t(times.size() / 2), times.end());
-  return times[times.size() / 2];
-}
-
-void print_ratios(int repetitions) {
-  std::printf("%-14s %-15s %7s %6s %10s %9s %6s | ns a cell: %9s %9s\n", "surface", "scheme", "cells", "faces",
-              "distance", "polygons", "ratio", "OpenVDB", "ours");
+int take_turns(Report& report) {
   for (const char* name : {"catmull-clark", "loop", "modified-butterfly"})
     for (const Shape& shape : shapes()) {
+      if (!report.wants("level set", shape.name, name)) continue;
       const Scheme<double> scheme = find_scheme(name).value();
-      LevelSetMesh made;
-      std::vector<double> ours, theirs;
-      for (int i = 0; i < repetitions; ++i) {
-        LevelSetOptions options{.box = shape.box};
-        if (i > 0) options.cells = made.attempt.cells;
-        ours.push_back(seconds([&] { made = level_set_mesh(shape.field, scheme, polygonize, options); }));
-        const FieldGrid grid = sample_field(*shape.field, box_of(shape, made.attempt.cells), made.attempt.cells);
-        theirs.push_back(seconds([&] { benchmark::DoNotOptimize(polygonize(grid)); }));
-      }
-      if (ours.size() > 1) ours.erase(ours.begin());  // the search for the number of cells
-      const double cells = std::pow(made.attempt.cells, 3), distance = made.attempt.error.largest;
-      const Index plain = polygons_as_near(shape, distance);
-      std::printf("%-14s %-15s %7d %6d %10.2g %9d %6.1f |            %9.0f %9.0f\n", shape.name.c_str(), name,
-                  made.attempt.cells, int(made.attempt.faces), distance / made.diagonal, int(plain),
-                  double(plain) / double(made.attempt.faces), 1e9 * median(theirs) / cells, 1e9 * median(ours) / cells);
-      std::fflush(stdout);
+      LevelSetMesh made = level_set_mesh(shape.field, scheme, polygonize, {.box = shape.box});
+      const int cells = made.attempt.cells;  // their number is searched for once
+      const auto ours = [&] {
+        return seconds(
+            [&] { made = level_set_mesh(shape.field, scheme, polygonize, {.box = shape.box, .cells = cells}); });
+      };
+      const FieldGrid grid = sample_field(*shape.field, box_of(shape, cells), cells);
+      report.measure(
+          {"level set", shape.name, name, report.threads().back(), "ns a cell", 1e9 / std::pow(cells, 3)},
+          {{"ours", Role::ours, ours}, {"OpenVDB's polygons", Role::shown, [&] {
+                                          return seconds([&] { benchmark::DoNotOptimize(polygonize(grid)); });
+                                        }}});
+      const double distance = made.attempt.error.largest;
+      const Index plain = report.quick() ? 0 : polygons_as_near(shape, distance);
+      std::printf("    %d cells, %d faces, distance %.2g; polygons as near %d, %.1f times as many\n", cells,
+                  int(made.attempt.faces), distance / made.diagonal, int(plain),
+                  double(plain) / double(made.attempt.faces));
+      report.count("level set of " + shape.name + ", " + name, "faces", double(made.attempt.faces));
     }
+  return report.finish();
 }
 
 void register_benchmarks() {
@@ -141,10 +139,8 @@ void register_benchmarks() {
 
 int main(int argc, char** argv) {
   using namespace sublimit::bench;
-  if (const int repetitions = repetitions_of_ratios(argc, argv)) {
-    print_ratios(repetitions);
-    return 0;
-  }
+  Report report("implicit_bench", argc, argv);
+  if (report.turns()) return take_turns(report);
   register_benchmarks();
   return run_benchmarks(argc, argv);
 }

@@ -11,9 +11,8 @@
 // caps) and Embree (float), see limit_peers.h. All write to memory that is there. On one thread the processor's time is
 // taken, on several that of the wall. The limit is the time to write the doubles, at the bandwidth of one thread.
 //
-// `limit_bench --ratios [repetitions] [--keep-memory]` takes turns and prints medians with their spread and the ratio
-// of the best other to ours; otherwise Google Benchmark's own options hold. `--points N`: instead of a million; `--mesh
-// NAME`: that one alone.
+// `limit_bench --ratios [turns]` takes turns (report.h), otherwise Google Benchmark's own options hold. `--points N`:
+// instead of a million; `--mesh NAME`: that one alone.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -24,6 +23,7 @@
 
 #include "limit_peers.h"
 #include "measuring.h"
+#include "report.h"
 
 namespace sublimit::bench {
 namespace {
@@ -68,10 +68,11 @@ std::filesystem::path shared_mesh(const std::string& name) {
   return {};
 }
 
-std::vector<Case> limit_cases(const std::string& only) {
+std::vector<Case> limit_cases(const std::string& only, bool quick) {
   std::vector<Case> list;
   const auto wanted = [&](const std::string& name) { return only.empty() || only == name; };
-  if (wanted("torus")) list.push_back({"torus", "catmull-clark", testing::torus(400, 250)});
+  if (wanted("torus"))
+    list.push_back({"torus", "catmull-clark", quick ? testing::torus(40, 25) : testing::torus(400, 250)});
   for (const char* name : {"car", "bishop", "righthanded"}) {
     if (!wanted(name)) continue;
     if (const auto path = shared_mesh(name); !path.empty()) list.push_back({name, "catmull-clark", read_mesh(path)});
@@ -128,8 +129,6 @@ std::vector<Pattern> patterns(const ControlMesh& mesh, int count) {
   return {random, sorted(random), gridded(mesh, count)};
 }
 
-double timed(int threads, const auto& work) { return threads == 1 ? cpu_seconds(work) : seconds(work); }
-
 /// Seconds from connectivity to the points.
 double cold_seconds(LimitEvaluator& evaluator, const Pattern& pattern, int order, int threads) {
   evaluator.forget();
@@ -177,92 +176,63 @@ void print_differences(const std::vector<LimitContender>& who, std::vector<std::
   std::printf("\n");
 }
 
-/// Takes turns; nanoseconds (milliseconds for `file`) by contender, sorted.
-std::vector<std::vector<double>> take_turns(size_t contenders, int repetitions, double scale,
-                                            const std::function<double(size_t)>& turn) {
-  std::vector<std::vector<double>> times(contenders);
-  for (int r = -1; r < repetitions; ++r)  // the first turn warms up
-    for (size_t i = 0; i < contenders; ++i) {
-      const double time = turn(i);
-      if (r >= 0) times[i].push_back(scale * time);
-    }
-  for (auto& t : times) std::sort(t.begin(), t.end());
-  return times;
+/// @param turn  of a contender, by its number
+std::vector<Contender> all_of(const std::vector<LimitContender>& who, const std::function<double(size_t)>& turn) {
+  std::vector<Contender> list;
+  for (size_t i = 0; i < who.size(); ++i)
+    list.push_back({who[i].name,
+                    i == 0           ? Role::ours
+                    : i < first_peer ? Role::shown
+                                     : Role::peer,
+                    [turn, i] { return turn(i); }});
+  return list;
 }
 
-void print_row(const std::string& what, const std::vector<std::vector<double>>& times) {
-  std::printf("%-44s", what.c_str());
-  const auto median = [](const std::vector<double>& t) { return t[t.size() / 2]; };
-  double best = 0;
-  for (size_t i = 0; i < times.size(); ++i) {
-    const std::vector<double>& t = times[i];
-    char text[64];
-    std::snprintf(text, sizeof text, "%7.1f (%.0f..%.0f)", median(t), t.front(), t.back());
-    std::printf("%-24s", text);
-    if (i >= first_peer) best = best == 0 ? median(t) : std::min(best, median(t));
-  }
-  if (first_peer > 0) std::printf("%.2f", best / median(times[0]));
-  std::printf("\n");
-  std::fflush(stdout);
-}
-
-int print_ratios(int repetitions, const Options& options) {
-  const double bandwidth = write_bandwidth();
-  std::printf(
-      "write bandwidth, one thread: %.1f GB/s; medians of %d in ns a point (least..most); limit: ns to write it\n",
-      bandwidth / 1e9, repetitions);
-#ifndef NDEBUG
-  std::printf("assertions are on: these are not the figures of a release build\n");
-#endif
+void measure_mesh(Report& report, const Case& c, int points, int threads) {
+  if (!report.wants("prepared", c.name) && !report.wants("cold", c.name) && !report.wants("first", c.name)) return;
   const std::vector<LimitContender> who = contenders();
-  std::printf("%-44s", "          mesh        places    order thr limit ");
-  for (const LimitContender& c : who) std::printf("%-24s", c.name.c_str());
-  std::printf("best other : ours\n");
-  const std::vector<Case> meshes = limit_cases(options.mesh);
-  for (const int threads : thread_counts()) {
+  std::vector<std::unique_ptr<LimitEvaluator>> evaluators;
+  for (const LimitContender& contender : who) {
+    evaluators.push_back(contender.make(c));
+    evaluators.back()->forget();
+    evaluators.back()->start();
+    evaluators.back()->prepare();
+  }
+  const auto work = [&](const char* state, const Pattern& p, int order) {
+    return Work{state, c.name, p.name + ", D" + std::to_string(order), threads, "ns", 1e9 / double(p.places.size())};
+  };
+  const std::vector<Pattern> all = patterns(c.mesh, points);
+  if (threads == 1) print_differences(who, evaluators, all.front(), c.mesh);
+  for (const Pattern& p : all) {
+    for (auto& e : evaluators) e->set_places(p.places);
+    for (const int order : {0, 1, 2})
+      report.measure(work("prepared", p, order),
+                     all_of(who, [&](size_t i) { return timed(threads, [&] { evaluators[i]->evaluate(order); }); }));
+  }
+  const auto cold = [&](const char* state, const Pattern& p, int order) {
+    report.measure(work(state, p, order),
+                   all_of(who, [&](size_t i) { return cold_seconds(*evaluators[i], p, order, threads); }));
+  };
+  for (const int order : {0, 1, 2}) cold("cold", all.front(), order);
+  cold("first", one_a_face(c.mesh), 1);
+}
+
+int take_turns(Report& report, const Options& options) {
+  const int points = report.quick() ? 2000 : options.points;
+  const std::vector<Case> meshes = limit_cases(options.mesh, report.quick());
+  for (const int threads : report.threads()) {
     const Threads scope(threads);
-    for (const Case& c : meshes) {
-      std::vector<std::unique_ptr<LimitEvaluator>> evaluators;
-      for (const LimitContender& contender : who) {
-        evaluators.push_back(contender.make(c));
-        evaluators.back()->forget();
-        evaluators.back()->start();
-        evaluators.back()->prepare();
-      }
-      const auto row = [&](const char* state, const Pattern& p, int order) {
-        char text[80];
-        std::snprintf(text, sizeof text, "%-10s%-12s%-10s%d     %d   %.1f", state, c.name.c_str(), p.name.c_str(),
-                      order, threads, 1e9 * 12 * (order + 1) * (order + 2) / bandwidth);
-        return std::string(text);
-      };
-      const std::vector<Pattern> all = patterns(c.mesh, options.points);
-      if (threads == 1) print_differences(who, evaluators, all.front(), c.mesh);
-      for (const Pattern& p : all) {
-        const double scale = 1e9 / double(p.places.size());
-        for (auto& e : evaluators) e->set_places(p.places);
-        for (const int order : {0, 1, 2})
-          print_row(row("prepared", p, order), take_turns(who.size(), repetitions, scale, [&](size_t i) {
-                      return timed(threads, [&] { evaluators[i]->evaluate(order); });
-                    }));
-      }
-      const auto cold = [&](const char* state, const Pattern& p, int order) {
-        print_row(row(state, p, order),
-                  take_turns(who.size(), repetitions, 1e9 / double(p.places.size()),
-                             [&](size_t i) { return cold_seconds(*evaluators[i], p, order, threads); }));
-      };
-      for (const int order : {0, 1, 2}) cold("cold", all.front(), order);
-      cold("first", one_a_face(c.mesh), 1);
-    }
+    for (const Case& c : meshes) measure_mesh(report, c, points, threads);
     for (const char* name : {"righthanded", "pawn"}) {
       const std::filesystem::path path = shared_mesh(name);
       if (path.empty() || !(options.mesh.empty() || options.mesh == name)) continue;
       const Pattern p = random_places(read_mesh(path), 10000);
-      print_row(
-          std::string("file      ") + name + ", 10,000 points, in ms",
-          take_turns(who.size(), repetitions, 1e3, [&](size_t i) { return file_seconds(who[i], path, p, threads); }));
+      const std::vector<LimitContender> who = contenders();
+      report.measure({"file", name, "10,000 points", threads},
+                     all_of(who, [&](size_t i) { return file_seconds(who[i], path, p, threads); }));
     }
   }
-  return 0;
+  return report.finish();
 }
 
 void register_benchmarks(const std::vector<Case>& meshes, int points) {
@@ -302,8 +272,9 @@ void register_benchmarks(const std::vector<Case>& meshes, int points) {
 
 int main(int argc, char** argv) {
   const Options given = options(argc, argv);
-  if (const int repetitions = repetitions_of_ratios(argc, argv)) return print_ratios(repetitions, given);
-  const std::vector<Case> meshes = limit_cases(given.mesh);
+  Report report("limit_bench", argc, argv);
+  if (report.turns()) return take_turns(report, given);
+  const std::vector<Case> meshes = limit_cases(given.mesh, report.quick());
   register_benchmarks(meshes, given.points);
   return run_benchmarks(argc, argv);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// What the benchmarks that take turns share: threads, clock, the machine's own speed, the command line.
+// What the benchmarks share: threads, clock, the machine's own speed.
 #include <benchmark/benchmark.h>
 #include <malloc.h>
 #include <sched.h>
@@ -9,10 +9,11 @@
 
 #include <algorithm>
 #include <chrono>
-#include <climits>
 #include <cstdint>
+#include <cstdlib>
 #include <cstring>
 #include <ctime>
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -62,6 +63,9 @@ inline double cpu_seconds(const auto& work) {
   return now() - start;
 }
 
+/// The processor's time on one thread, that of the wall on several.
+inline double timed(int threads, const auto& work) { return threads == 1 ? cpu_seconds(work) : seconds(work); }
+
 /// Bytes per second of writing memory that is there already.
 inline double write_bandwidth() {
   std::vector<char> block(size_t{1} << 28, 1);
@@ -75,6 +79,20 @@ inline double write_bandwidth() {
   return best;
 }
 
+/// Bytes of memory that the process held at most since the last call of `forget_peak_bytes`: its peak resident set.
+inline double peak_bytes() {
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);)
+    if (line.starts_with("VmHWM:")) return 1024 * std::atof(line.c_str() + 6);
+  return 0;
+}
+/// @return  what the process holds now
+inline double forget_peak_bytes() {
+  malloc_trim(0);  // what is freed is given back, so that taking it again counts
+  std::ofstream("/proc/self/clear_refs") << 5;
+  return peak_bytes();
+}
+
 inline void register_write_bandwidth() {
   benchmark::RegisterBenchmark("BM_WriteBandwidth", [](benchmark::State& state) {
     std::vector<char> block(size_t{1} << 28, 1);
@@ -85,24 +103,6 @@ inline void register_write_bandwidth() {
     }
     state.SetBytesProcessed(state.iterations() * std::int64_t(block.size()));
   });
-}
-
-/// The number after `--ratios` (5 if there is none), 0 without it. `--keep-memory`: freed memory stays with the
-/// process.
-inline int repetitions_of_ratios(int argc, char** argv) {
-  int repetitions = 0;
-  for (int i = 1; i < argc; ++i) {
-    const std::string argument = argv[i];
-    if (argument == "--ratios") {
-      repetitions = 5;
-    } else if (argument == "--keep-memory") {
-      mallopt(M_MMAP_MAX, 0);
-      mallopt(M_TRIM_THRESHOLD, INT_MAX);
-    } else if (repetitions) {
-      repetitions = std::stoi(argument);
-    }
-  }
-  return repetitions;
 }
 
 /// Runs what is registered under Google Benchmark's own options. What was registered must live as long.

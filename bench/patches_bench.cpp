@@ -7,7 +7,7 @@
 // at the places of the grid, applied. All write to memory that is there; preparation is left out. On one thread the
 // processor's time is taken. The limit is the time to write the doubles, at the bandwidth of one thread.
 //
-// `patches_bench --ratios [repetitions]` takes turns and prints medians with their spread.
+// `patches_bench --ratios [turns]` takes turns (report.h).
 #include <sisl.h>
 
 #include <algorithm>
@@ -17,6 +17,7 @@
 #include <random>
 
 #include "measuring.h"
+#include "report.h"
 #include "sublimit/bake/bake.h"
 #include "sublimit/pattern_evaluator.h"
 #include "sublimit/patches/bezier_pieces.h"
@@ -150,11 +151,6 @@ class TunedLoop {
   std::vector<Eigen::Array4d> pieces_;
 };
 
-struct Contender {
-  std::string name;
-  Run run;
-};
-
 /// All who take part, with memory for their results.
 struct Race {
   Case of;
@@ -189,33 +185,38 @@ struct Race {
     quantities.assign(order ? 3 : 1, std::vector<double>(places.size() * 3));
   }
 
-  std::vector<Contender> contenders() {
-    std::vector<Contender> all{{"ours", [this] { bound.evaluate(places, order, false, samples); }},
-                               {"OpenCASCADE",
-                                [this] {
-                                  size_t at = 0;
-                                  const size_t width = order ? 9 : 3;
-                                  for (size_t p = 0; p < parameters.size(); ++p) {
-                                    peers.opencascade[p](parameters[p], order > 0,
-                                                         std::span<double>(numbers).subspan(at * width));
-                                    at += parameters[p].size();
-                                  }
-                                }},
-                               {"SISL",
-                                [this] {
-                                  double* out = numbers.data();
-                                  for (size_t p = 0; p < parameters.size(); ++p) {
-                                    int left_u = 0, left_v = 0, status = 0;
-                                    for (const Patch::Parameters& at : parameters[p]) {
-                                      double both[2] = {at.u, at.v}, normal[3], found[9];
-                                      s1421(peers.sisl[p], order, both, &left_u, &left_v, found, normal, &status);
-                                      out = std::copy_n(found, order ? 9 : 3, out);
-                                    }
-                                  }
-                                }},
-                               {"tuned loop", [this] { loop.points(places, order > 0, numbers.data()); }}};
+  struct Racer {
+    std::string name;
+    Role role;
+    Run run;
+  };
+  std::vector<Racer> racers() {
+    std::vector<Racer> all{{"ours", Role::ours, [this] { bound.evaluate(places, order, false, samples); }},
+                           {"OpenCASCADE", Role::peer,
+                            [this] {
+                              size_t at = 0;
+                              const size_t width = order ? 9 : 3;
+                              for (size_t p = 0; p < parameters.size(); ++p) {
+                                peers.opencascade[p](parameters[p], order > 0,
+                                                     std::span<double>(numbers).subspan(at * width));
+                                at += parameters[p].size();
+                              }
+                            }},
+                           {"SISL", Role::peer,
+                            [this] {
+                              double* out = numbers.data();
+                              for (size_t p = 0; p < parameters.size(); ++p) {
+                                int left_u = 0, left_v = 0, status = 0;
+                                for (const Patch::Parameters& at : parameters[p]) {
+                                  double both[2] = {at.u, at.v}, normal[3], found[9];
+                                  s1421(peers.sisl[p], order, both, &left_u, &left_v, found, normal, &status);
+                                  out = std::copy_n(found, order ? 9 : 3, out);
+                                }
+                              }
+                            }},
+                           {"tuned loop", Role::shown, [this] { loop.points(places, order > 0, numbers.data()); }}};
     if (table)
-      all.push_back({"our table", [this] {
+      all.push_back({"our table", Role::ours, [this] {
                        Evaluation<double> e;
                        e.channels = static_cast<int>(of.columns.cols());
                        e.rational = e.channels == 4;
@@ -236,40 +237,28 @@ Places random_places(const PatchSet& set, int count) {
   return places;
 }
 
-int race(int repetitions) {
-  for (const int threads : thread_counts()) {
+int take_turns(Report& report) {
+  for (const int threads : report.threads()) {
     const Threads pinned(threads);
-    const double bandwidth = write_bandwidth();
-    std::printf("%d thread%s; write bandwidth %.1f GB/s; nanoseconds a place, medians of %d (least to most)\n", threads,
-                threads == 1 ? "" : "s", bandwidth / 1e9, repetitions);
     for (const bool grid : {false, true})
       for (const int which : {0, 1})
         for (const int order : {0, 1}) {
           Case c = which == 0 ? nurbs_surface() : bezier_patches();
-          Places places = grid ? c.set->grid(8) : random_places(*c.set, 200000);
-          const double count = double(places.size());
-          Race racers(std::move(c), std::move(places), order, grid);
-          std::vector<Contender> all = racers.contenders();
-          std::vector<std::vector<double>> times(all.size());
-          for (int r = 0; r <= repetitions; ++r)
-            for (size_t i = 0; i < all.size(); ++i) {
-              const double t = threads == 1 ? cpu_seconds(all[i].run) : seconds(all[i].run);
-              if (r > 0) times[i].push_back(t / count * 1e9);
-            }
-          std::printf("%s, %s, order %d: to write %.1f\n", racers.of.name.c_str(), grid ? "8 x 8 a face" : "random",
-                      order, (order ? 72 : 24) / bandwidth * 1e9);
-          for (size_t i = 0; i < all.size(); ++i) {
-            std::ranges::sort(times[i]);
-            std::printf("  %-12s %7.1f (%.1f to %.1f)\n", all[i].name.c_str(), times[i][times[i].size() / 2],
-                        times[i].front(), times[i].back());
-          }
-          if (racers.table)
-            std::printf("  table: %.1f bytes a face\n",
-                        double(racers.table->table.num_bytes()) / double(racers.of.set->faces().size));
-          std::fflush(stdout);
+          Places places = grid ? c.set->grid(8) : random_places(*c.set, report.quick() ? 2000 : 200000);
+          const Work work{"patches", c.name, std::string(grid ? "8 x 8" : "random") + ", D" + std::to_string(order),
+                          threads,   "ns",   1e9 / double(places.size())};
+          if (!report.wants(work.work, work.mesh, work.detail)) continue;
+          Race race(std::move(c), std::move(places), order, grid);
+          std::vector<Contender> contenders;
+          for (const Race::Racer& racer : race.racers())
+            contenders.push_back({racer.name, racer.role, [threads, run = racer.run] { return timed(threads, run); }});
+          report.measure(work, contenders);
+          if (race.table)
+            report.count("table of " + work.mesh + ", " + work.detail, "table bytes",
+                         double(race.table->table.num_bytes()));
         }
   }
-  return 0;
+  return report.finish();
 }
 
 }  // namespace
@@ -277,22 +266,23 @@ int race(int repetitions) {
 
 int main(int argc, char** argv) {
   using namespace sublimit::bench;
-  if (const int repetitions = repetitions_of_ratios(argc, argv)) return race(repetitions);
+  Report report("patches_bench", argc, argv);
+  if (report.turns()) return take_turns(report);
   register_write_bandwidth();
   std::vector<std::shared_ptr<Race>> races;
   for (const int which : {0, 1})
     for (const int order : {0, 1})
       for (const bool grid : {false, true}) {
         Case c = which == 0 ? nurbs_surface() : bezier_patches();
-        auto places = grid ? c.set->grid(8) : random_places(*c.set, 200000);
+        auto places = grid ? c.set->grid(8) : random_places(*c.set, report.quick() ? 2000 : 200000);
         auto one = std::make_shared<Race>(std::move(c), std::move(places), order, grid);
         races.push_back(one);
-        for (const Contender& contender : one->contenders())
+        for (const Race::Racer& racer : one->racers())
           benchmark::RegisterBenchmark(
-              (one->of.name + (grid ? "/grid" : "/random") + "/order " + std::to_string(order) + "/" + contender.name)
+              (one->of.name + (grid ? "/grid" : "/random") + "/order " + std::to_string(order) + "/" + racer.name)
                   .c_str(),
-              [one, contender](benchmark::State& state) {
-                for (auto _ : state) contender.run();
+              [one, racer](benchmark::State& state) {
+                for (auto _ : state) racer.run();
                 state.SetItemsProcessed(state.iterations() * std::int64_t(one->places.size()));
               });
       }

@@ -7,19 +7,16 @@
 // OpenSubdiv uses one thread, always. Of its last level it makes the face vertices only, where we make all of the
 // topology; BM_RefineWhole has it make all, too.
 //
-// `refine_bench --ratios [repetitions] [--keep-memory]` takes turns and prints medians with their spread and the
-// ratios; otherwise Google Benchmark's own options hold. --keep-memory: freed memory stays with the process, so that
-// the kernel's time for handing out pages is measured on neither side.
+// `refine_bench --ratios [turns]` takes turns (report.h); otherwise Google Benchmark's own options hold. With
+// --keep-memory the kernel's time for handing out pages is measured on neither side.
 #include <benchmark/benchmark.h>
 
-#include <algorithm>
-#include <cstdio>
-#include <cstring>
 #include <memory>
 #include <string>
 
 #include "bench_meshes.h"
 #include "measuring.h"
+#include "report.h"
 #include "sublimit/core/sparse_product.h"
 #include "sublimit/scheme/refined_mesh.h"
 #include "sublimit/schemes.h"
@@ -123,38 +120,29 @@ constexpr Measured measured[] = {
     {"BM_Baked", false, ours_baked, theirs_baked, nullptr},
 };
 
-int print_ratios(int repetitions) {
-  std::printf("write bandwidth, one thread: %.1f GB/s; medians of %d in ms, (least..most)\n", write_bandwidth() / 1e9,
-              repetitions);
-  std::printf("%-16s%-17s%3s %3s %27s %27s %10s %6s %7s\n", "", "mesh", "lev", "thr", "ours", "OpenSubdiv double",
-              "float", "ratio", "Mrows/s");
-  const std::vector<Case> meshes = cases();
-  for (const int threads : thread_counts()) {
+int take_turns(Report& report) {
+  const std::vector<Case> meshes = cases(report.quick());
+  for (const int threads : report.threads()) {
     const Threads scope(threads);
     for (const Measured& m : measured)
       for (const Case& c : meshes)
         for (const int levels : {2, 3}) {
+          const std::string detail = "level " + std::to_string(levels);
+          if (!report.wants(m.name, c.name, detail)) continue;
           const Job job(c, levels, m.given);
-          std::vector<double> times[3];
           Made made;
-          for (int r = -1; r < repetitions; ++r)  // the first turn warms up
-            for (int who = 0; who < 3; ++who) {
-              const Run run = who == 0 ? m.ours : who == 1 ? m.theirs : m.theirs_float;
-              if (!run) continue;
-              Made result;
-              const double ms = 1e3 * seconds([&] { result = run(job); });
-              if (who == 0) made = result;
-              if (r >= 0) times[who].push_back(ms);
-            }
-          for (auto& t : times) std::sort(t.begin(), t.end());
-          const auto median = [&](int who) { return times[who].empty() ? 0 : times[who][times[who].size() / 2]; };
-          std::printf("%-16s%-17s%3d %3d %9.1f (%7.1f..%7.1f) %9.1f (%7.1f..%7.1f) %10.1f %5.2fx %7.1f\n", m.name,
-                      c.name.c_str(), levels, threads, median(0), times[0].front(), times[0].back(), median(1),
-                      times[1].front(), times[1].back(), median(2), median(1) / median(0), made.rows / median(0) / 1e3);
-          std::fflush(stdout);
+          const auto turn = [&](Run run) { return [&job, &made, run] { return seconds([&] { made = run(job); }); }; };
+          std::vector<Contender> contenders{{"ours", Role::ours, turn(m.ours)},
+                                            {"OpenSubdiv", Role::peer, turn(m.theirs)}};
+          if (m.theirs_float) contenders.push_back({"OpenSubdiv float", Role::shown, turn(m.theirs_float)});
+          report.measure({m.name, c.name, detail, threads}, contenders);
+          made = m.ours(job);
+          const std::string of = std::string(m.name) + " of " + c.name + ", " + detail;
+          report.count(of, "rows", made.rows);
+          if (made.nonzeros > 0) report.count(of, "matrix entries", made.nonzeros);
         }
   }
-  return 0;
+  return report.finish();
 }
 
 void register_benchmarks(const std::vector<Case>& meshes) {
@@ -182,7 +170,8 @@ void register_benchmarks(const std::vector<Case>& meshes) {
 }
 
 int main(int argc, char** argv) {
-  if (const int repetitions = repetitions_of_ratios(argc, argv)) return print_ratios(repetitions);
+  Report report("refine_bench", argc, argv);
+  if (report.turns()) return take_turns(report);
   const std::vector<Case> meshes = cases();
   register_benchmarks(meshes);
   return run_benchmarks(argc, argv);

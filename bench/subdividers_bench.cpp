@@ -10,13 +10,10 @@
 // is left out for all. That all make the same points is what the tests prove. The limit is the time to write what ours
 // keeps, at the bandwidth of one thread.
 //
-// `subdividers_bench --ratios [repetitions] [--keep-memory]` takes turns and prints medians with their spread and the
-// ratios; otherwise Google Benchmark's own options hold. --keep-memory: freed memory stays with the process, so that
-// the kernel's time for handing out pages is measured on no side.
+// `subdividers_bench --ratios [turns]` takes turns (report.h); otherwise Google Benchmark's own options hold. With
+// --keep-memory the kernel's time for handing out pages is measured on no side.
 #include <benchmark/benchmark.h>
 
-#include <algorithm>
-#include <cstdio>
 #include <functional>
 #include <memory>
 #include <stdexcept>
@@ -24,6 +21,7 @@
 #include <vector>
 
 #include "measuring.h"
+#include "report.h"
 #include "sublimit/core/sparse_product.h"
 #include "sublimit/scheme/refine.h"
 #include "sublimit/schemes.h"
@@ -42,8 +40,9 @@ struct Input {
   int face_size;
   ControlMesh mesh;
 };
-std::vector<Input> inputs() {
+std::vector<Input> inputs(bool quick) {
   using namespace testing;
+  if (quick) return {{"torus", 4, torus(20, 10)}, {"torus", 3, triangle_torus(20, 10)}};
   return {{"torus", 4, torus(200, 100)},
           {"torus", 3, triangle_torus(100, 100)},
           {"irregular", 4, quads_from_triangles(flipped(triangle_torus(83, 40), 6640))},
@@ -76,7 +75,7 @@ Run again(const Scheme<double>& scheme, const ControlMesh& mesh) {
   return [&mesh, made] { return apply_all(made->levels, mesh, made->positions); };
 }
 
-struct Contender {
+struct Refiner {
   std::string name;
   int threads;
   std::function<Run()> prepare;  ///< empty: does not have the scheme
@@ -86,7 +85,7 @@ struct Contender {
     const Threads scope(threads);
     size_t made = 0;
     const auto work = [&] { made = run(); };
-    const double time = threads == 1 ? cpu_seconds(work) : bench::seconds(work);
+    const double time = timed(threads, work);
     if (made != vertices) throw std::logic_error(name + " makes another mesh");
     return time;
   }
@@ -97,10 +96,10 @@ struct Job {
   std::string scheme, mesh;
   double vertices, bytes;  ///< of all levels made: bytes of what ours keeps of them
   size_t last;             ///< vertices of the last level
-  std::vector<Contender> contenders;
+  std::vector<Refiner> refiners;
 };
 
-/// Contenders: ours on one thread and on all, again, and from `first_peer` on the others.
+/// Refiners: ours on one thread and on all, again, and from `first_peer` on the others.
 constexpr size_t first_peer = 3;
 
 std::vector<Job> jobs(const std::vector<Input>& meshes) {
@@ -116,70 +115,48 @@ std::vector<Job> jobs(const std::vector<Input>& meshes) {
       job.bytes =
           predicted_bytes(scheme, refined[0].topology(), levels) - predicted_bytes(scheme, refined[0].topology(), 0);
       const int all_threads = thread_counts().back();
-      job.contenders = {{"ours", 1, [scheme, &mesh] { return ours(scheme, mesh); }},
-                        {"ours", all_threads, [scheme, &mesh] { return ours(scheme, mesh); }},
-                        {"again", 1, [scheme, &mesh] { return again(scheme, mesh); }},
-                        {"OpenMesh", 1, {}},
-                        {"CGAL", 1, {}}};
+      job.refiners = {{"ours", 1, [scheme, &mesh] { return ours(scheme, mesh); }},
+                      {"ours", all_threads, [scheme, &mesh] { return ours(scheme, mesh); }},
+                      {"again", 1, [scheme, &mesh] { return again(scheme, mesh); }},
+                      {"OpenMesh", 1, {}},
+                      {"CGAL", 1, {}}};
       if (const auto peer = testing::openmesh_scheme(scheme.name))
-        job.contenders[first_peer].prepare = [peer, &mesh] { return testing::openmesh_run(mesh, *peer, levels); };
+        job.refiners[first_peer].prepare = [peer, &mesh] { return testing::openmesh_run(mesh, *peer, levels); };
       if (const auto peer = testing::cgal_scheme(scheme.name))
-        job.contenders[first_peer + 1].prepare = [peer, &mesh] { return testing::cgal_run(mesh, *peer, levels); };
+        job.refiners[first_peer + 1].prepare = [peer, &mesh] { return testing::cgal_run(mesh, *peer, levels); };
       list.push_back(job);
     }
   return list;
 }
 
-int print_ratios(int repetitions) {
-  const double bandwidth = write_bandwidth();
-  std::printf("write bandwidth, one thread: %.1f GB/s; medians of %d in ns a vertex made, (least..most)\n",
-              bandwidth / 1e9, repetitions);
-#ifndef NDEBUG
-  std::printf("assertions are on: these are not the figures of a release build\n");
-#endif
-  const std::vector<Input> meshes = inputs();
-  const std::vector<Job> all = jobs(meshes);
-  std::printf("%-22s%-10s%9s%7s  ", "", "mesh", "vertices", "limit");
-  for (const Contender& c : all.front().contenders)
-    std::printf("%-20s",
-                (c.name + ", " + std::to_string(c.threads) + (c.threads == 1 ? " thread" : " threads")).c_str());
-  std::printf("best peer : ours, 1 thread\n");
-  for (const Job& job : all) {
-    std::vector<std::vector<double>> times(job.contenders.size());
-    for (int r = -1; r < repetitions; ++r)  // the first turn warms up
-      for (size_t i = 0; i < times.size(); ++i) {
-        if (!job.contenders[i].prepare) continue;
-        const double time = job.contenders[i].seconds(job.last);
-        if (r >= 0) times[i].push_back(1e9 * time / job.vertices);
-      }
-    std::printf("%-22s%-10s%9.0f%7.1f  ", job.scheme.c_str(), job.mesh.c_str(), job.vertices,
-                1e9 * job.bytes / bandwidth / job.vertices);
-    double best_peer = 0;
-    for (size_t i = 0; i < times.size(); ++i) {
-      std::vector<double>& t = times[i];
-      std::sort(t.begin(), t.end());
-      char text[64] = "";
-      if (!t.empty()) std::snprintf(text, sizeof text, "%5.0f (%.0f..%.0f)", t[t.size() / 2], t.front(), t.back());
-      std::printf("%-20s", text);
-      if (i < first_peer || t.empty()) continue;
-      best_peer = best_peer == 0 ? t[t.size() / 2] : std::min(best_peer, t[t.size() / 2]);
+int take_turns(Report& report) {
+  const std::vector<Input> meshes = inputs(report.quick());
+  for (const Job& job : jobs(meshes)) {
+    std::vector<Contender> contenders;
+    for (size_t i = 0; i < job.refiners.size(); ++i) {
+      const Refiner& refiner = job.refiners[i];
+      if (!refiner.prepare) continue;
+      contenders.push_back({refiner.threads == 1 ? refiner.name : refiner.name + ", all threads",
+                            i == 0           ? Role::ours
+                            : i < first_peer ? Role::shown
+                                             : Role::peer,
+                            [&] { return refiner.seconds(job.last); }});
     }
-    if (best_peer > 0) std::printf("%.2f", best_peer / times[0][times[0].size() / 2]);
-    std::printf("\n");
-    std::fflush(stdout);
+    report.measure({"subdivide", job.mesh, job.scheme, 1, "ns", 1e9 / job.vertices}, contenders);
+    report.count(job.scheme + " of " + job.mesh, "bytes kept", job.bytes);
   }
-  return 0;
+  return report.finish();
 }
 
 void register_benchmarks(const std::vector<Job>& all) {
   register_write_bandwidth();
   for (const Job& job : all)
-    for (const Contender& contender : job.contenders) {
-      if (!contender.prepare) continue;
-      const std::string name = "BM_Subdivide/" + contender.name + "/" + job.scheme + "/" + job.mesh +
-                               "/threads:" + std::to_string(contender.threads);
-      const auto work = [&job, &contender](benchmark::State& state) {
-        for (auto _ : state) state.SetIterationTime(contender.seconds(job.last));
+    for (const Refiner& refiner : job.refiners) {
+      if (!refiner.prepare) continue;
+      const std::string name = "BM_Subdivide/" + refiner.name + "/" + job.scheme + "/" + job.mesh +
+                               "/threads:" + std::to_string(refiner.threads);
+      const auto work = [&job, &refiner](benchmark::State& state) {
+        for (auto _ : state) state.SetIterationTime(refiner.seconds(job.last));
         state.counters["vertices"] = benchmark::Counter(job.vertices, benchmark::Counter::kIsIterationInvariantRate);
       };
       benchmark::RegisterBenchmark(name.c_str(), work)->Unit(benchmark::kMillisecond)->UseManualTime();
@@ -187,8 +164,9 @@ void register_benchmarks(const std::vector<Job>& all) {
 }
 
 int main(int argc, char** argv) {
-  if (const int repetitions = repetitions_of_ratios(argc, argv)) return print_ratios(repetitions);
-  const std::vector<Input> meshes = inputs();
+  Report report("subdividers_bench", argc, argv);
+  if (report.turns()) return take_turns(report);
+  const std::vector<Input> meshes = inputs(report.quick());
   const std::vector<Job> all = jobs(meshes);
   register_benchmarks(all);
   return run_benchmarks(argc, argv);

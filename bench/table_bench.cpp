@@ -10,12 +10,11 @@
 // The limit of `apply` is the time to write the points at the bandwidth of one thread; of OpenSubdiv's bake one thread
 // is all that it uses. What both make is compared point by point before anything is timed.
 //
-// `table_bench --ratios [repetitions] [--keep-memory]` takes turns and prints medians with their spread and ratios;
-// SUBLIMIT_BENCH_CASE=NAME
-// takes one mesh. Otherwise Google Benchmark's own options hold.
+// `table_bench --ratios [turns]` takes turns (report.h); `--only "apply car"` takes one row. Otherwise Google
+// Benchmark's own options hold.
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -25,6 +24,7 @@
 #include "limit_peers.h"
 #include "measuring.h"
 #include "opensubdiv_table.h"
+#include "report.h"
 #include "sublimit/bake/bake.h"
 #include "sublimit/pattern_evaluator.h"
 #include "sublimit/schemes.h"
@@ -67,52 +67,23 @@ double distance(const std::vector<float>& a, const std::vector<float>& b) {
   return largest;
 }
 
-struct Contender {
-  const char* name;
-  std::function<void()> run;
-};
-
-struct Spread {
-  double median, least, most;
-};
-
-/// In turns; the first turn warms up.
-std::vector<Spread> measure(const std::vector<Contender>& contenders, int repetitions) {
-  std::vector<std::vector<double>> times(contenders.size());
-  for (int r = -1; r < repetitions; ++r)
-    for (size_t i = 0; i < contenders.size(); ++i) {
-      const double s = seconds(contenders[i].run);
-      if (r >= 0) times[i].push_back(s);
-    }
-  std::vector<Spread> result;
-  for (auto& t : times) {
-    std::sort(t.begin(), t.end());
-    result.push_back({t[t.size() / 2], t.front(), t.back()});
-  }
-  return result;
+std::function<double()> turn(const std::function<void()>& work) {
+  return [work] { return seconds(work); };
 }
 
-void print_row(const std::string& what, const Case& c, int levels, int threads, double unit,
-               const std::vector<Contender>& contenders, int repetitions, size_t ours) {
-  const std::vector<Spread> spreads = measure(contenders, repetitions);
-  std::printf("%-6s %-16s L%d %d  ", what.c_str(), c.name.c_str(), levels, threads);
-  double best_peer = INFINITY;
-  for (size_t i = 0; i < spreads.size(); ++i) {
-    const Spread& s = spreads[i];
-    std::printf("%s %.2f (%.2f..%.2f)  ", contenders[i].name, s.median * unit, s.least * unit, s.most * unit);
-    if (i >= ours) best_peer = std::min(best_peer, s.median);
-  }
-  std::printf(" best peer : ours");
-  for (size_t i = 0; i < ours; ++i) std::printf(" %.2f", best_peer / spreads[i].median);
-  std::printf("\n");
-  std::fflush(stdout);
+void count(Report& report, const std::string& of, const BakeStatistics& statistics, double bytes) {
+  report.count(of, "types", statistics.types);
+  report.count(of, "groups", statistics.groups);
+  report.count(of, "points", double(statistics.points));
+  report.count(of, "weights", double(statistics.weights));
+  report.count(of, "table bytes", bytes);
 }
 
 constexpr int grid = 8;
 
 /// 8 x 8 places a face with first derivatives. Not for triangles, whose places the others arrange otherwise.
-void print_grids(const Case& c, int repetitions) {
-  if (c.scheme != "catmull-clark") return;
+void measure_grids(Report& report, const Case& c) {
+  if (c.scheme != "catmull-clark" || !report.wants("grid", c.name)) return;
   const PeerCase peer(c);
   Patterns patterns(find_scheme(c.scheme).value());
   const BakeRequest request{.rows = TableRows::grid, .grid = grid, .derivatives = 1};
@@ -145,21 +116,21 @@ void print_grids(const Case& c, int repetitions) {
     evaluators.back()->prepare();
     evaluators.back()->set_places(places);
   }
-  for (const int threads : thread_counts()) {
+  count(report, "grid of " + c.name, ours->statistics, double(ours->table.num_bytes()));
+  for (const int threads : report.threads()) {
     const Threads scope(threads);
-    print_row("grid", c, 0, threads, 1e9 / double(ours->table.num_points()),
-              {{"ns: ours", [&] { ours->evaluator->apply(points, 3, made); }},
-               {"Osd", [&] { theirs->apply_osd(points, by_osd); }},
-               {"Far", [&] { theirs->apply_far(points, by_far); }},
-               {"Bfr", [&] { evaluators[0]->evaluate(1); }},
-               {"Far patches", [&] { evaluators[1]->evaluate(1); }},
-               {"Embree", [&] { evaluators[2]->evaluate(1); }}},
-              repetitions, 1);
+    report.measure({"grid", c.name, "8 x 8, D1", threads, "ns", 1e9 / double(ours->table.num_points())},
+                   {{"ours", Role::ours, turn([&] { ours->evaluator->apply(points, 3, made); })},
+                    {"Osd", Role::peer, turn([&] { theirs->apply_osd(points, by_osd); })},
+                    {"Far", Role::peer, turn([&] { theirs->apply_far(points, by_far); })},
+                    {"Bfr", Role::peer, turn([&] { evaluators[0]->evaluate(1); })},
+                    {"Far patches", Role::peer, turn([&] { evaluators[1]->evaluate(1); })},
+                    {"Embree", Role::peer, turn([&] { evaluators[2]->evaluate(1); })}});
   }
 }
 
-std::vector<Case> all_cases() {
-  std::vector<Case> list = cases();
+std::vector<Case> all_cases(bool quick) {
+  std::vector<Case> list = cases(quick);
   for (const char* name : {"catmark_bishop", "catmark_rook", "catmark_pawn", "catmark_righthanded"}) {
     const auto path = std::filesystem::path(SUBLIMIT_SHARED_MESHES) / (std::string(name) + ".obj");
     if (std::filesystem::exists(path)) list.push_back({std::string(name).substr(8), "catmull-clark", read_mesh(path)});
@@ -167,16 +138,16 @@ std::vector<Case> all_cases() {
   return list;
 }
 
-int print_ratios(int repetitions) {
-  const double bandwidth = write_bandwidth();
-  std::printf("write bandwidth, one thread: %.1f GB/s, %.2f ns a point; medians of %d (least..most)\n", bandwidth / 1e9,
-              12e9 / bandwidth, repetitions);
-  const char* only = std::getenv("SUBLIMIT_BENCH_CASE");  // one mesh
-  std::vector<Case> meshes = all_cases();
-  if (only) std::erase_if(meshes, [&](const Case& c) { return c.name != only; });
-  for (const Case& c : meshes) print_grids(c, repetitions);
+int take_turns(Report& report) {
+  const std::vector<Case> meshes = all_cases(report.quick());
+  for (const Case& c : meshes) measure_grids(report, c);
   for (const Case& c : meshes)
     for (const int levels : {2, 3}) {
+      const std::string detail = "level " + std::to_string(levels);
+      const bool ceiling_too = c.name == "torus" && levels == 3 && !report.quick();
+      if (!report.wants("bake", c.name, detail) && !report.wants("apply", c.name, detail) &&
+          !(ceiling_too && report.wants("ceil", c.name, detail)))
+        continue;
       const PeerCase peer(c);
       const Scheme<double> scheme = find_scheme(c.scheme).value();
       Patterns known(scheme);
@@ -196,35 +167,40 @@ int print_ratios(int repetitions) {
           static_cast<long long>(ours.statistics.points), double(ours.table.num_bytes()) / 1e6,
           double(ours.evaluator->num_bytes()) / 1e6, double(theirs.num_bytes()) / 1e6, distance(made, by_osd),
           distance(by_osd, by_far), distance(by_osd, by_eigen));
-      for (const int threads : thread_counts()) {
+      count(report, "table of " + c.name + ", " + detail, ours.statistics, double(ours.table.num_bytes()));
+      for (const int threads : report.threads()) {
         const Threads scope(threads);
-        print_row("bake", c, levels, threads, 1e3,
-                  {{"ms: empty", [&] { const OurTable t(*std::make_unique<Patterns>(scheme), c.mesh, levels); }},
-                   {"known", [&] { const OurTable t(known, c.mesh, levels); }},
-                   {"OpenSubdiv", [&] { const PeerTable t(peer.mesh, levels); }}},
-                  repetitions, 2);
-        std::vector<Contender> contenders{{"ns: ours", [&] { ours.evaluator->apply(points, 3, made); }},
-                                          {"Osd", [&] { theirs.apply_osd(points, by_osd); }},
-                                          {"Far", [&] { theirs.apply_far(points, by_far); }},
-                                          {"Eigen", [&] { theirs.apply_eigen(points, by_eigen); }}};
-        print_row("apply", c, levels, threads, 1e9 / double(ours.table.num_points()), contenders,
-                  std::max(repetitions, 9), 1);
-        if (c.name != "torus" || levels != 3) continue;
+        report.measure({"bake", c.name, detail, threads},
+                       {{"empty", Role::ours,
+                         turn([&] { const OurTable t(*std::make_unique<Patterns>(scheme), c.mesh, levels); })},
+                        {"known", Role::ours, turn([&] { const OurTable t(known, c.mesh, levels); })},
+                        {"OpenSubdiv", Role::peer, turn([&] { const PeerTable t(peer.mesh, levels); })}});
+        const double ns_a_point = 1e9 / double(ours.table.num_points());
+        const int turns = report.quick() ? 0 : std::max(report.turns(), 9);
+        const Contender apply{"ours", Role::ours, turn([&] { ours.evaluator->apply(points, 3, made); })};
+        report.measure({"apply", c.name, detail, threads, "ns", ns_a_point},
+                       {apply,
+                        {"Osd", Role::peer, turn([&] { theirs.apply_osd(points, by_osd); })},
+                        {"Far", Role::peer, turn([&] { theirs.apply_far(points, by_far); })},
+                        {"Eigen", Role::peer, turn([&] { theirs.apply_eigen(points, by_eigen); })}},
+                       turns);
+        if (!ceiling_too) continue;
         const BicubicTorus ceiling(400, 250);
         std::vector<float> by_loop(made.size());
-        contenders = {contenders[0], {"loop that knows the grid", [&] { ceiling.apply(points, by_loop); }}};
-        print_row("ceil", c, levels, threads, 1e9 / double(ours.table.num_points()), contenders,
-                  std::max(repetitions, 9), 1);
+        report.measure(
+            {"ceil", c.name, detail, threads, "ns", ns_a_point},
+            {apply, {"loop that knows the grid", Role::shown, turn([&] { ceiling.apply(points, by_loop); })}}, turns);
         std::printf("differ by %.0e\n", distance(made, by_loop));
       }
     }
-  return 0;
+  return report.finish();
 }
 
 int main(int argc, char** argv) {
-  if (const int repetitions = repetitions_of_ratios(argc, argv)) return print_ratios(repetitions);
+  Report report("table_bench", argc, argv);
+  if (report.turns()) return take_turns(report);
   register_write_bandwidth();
-  const std::vector<Case> meshes = all_cases();
+  const std::vector<Case> meshes = all_cases(report.quick());
   for (const Case& c : meshes)
     for (const int threads : thread_counts()) {
       const std::string of = "/" + c.name + "/level:3/threads:" + std::to_string(threads);

@@ -1,45 +1,38 @@
 // SPDX-License-Identifier: Apache-2.0
-// What tables take as meshes grow, and what else is counted in milliseconds: Catmull-Clark, float, all threads.
-//   scaling  torus of 10^4 to 10^7 faces, level 2: bake with known types, bytes of the table, peak memory, apply
+// What refinement and tables take as meshes grow, and what else is counted in milliseconds: Catmull-Clark.
+//   refine, bake, apply  a torus of 10^3 to 10^7 faces, level 2: time, and bytes of memory a point made | OpenSubdiv's
+//            refinement in double, stencil table in float, Osd::CpuEvaluator
 //   edit     a face of a 100k-face torus extruded, a crease set, again and again: one edit of an editable table
 //   load     a table of 1 GB in a file (a list of rows), mapped and applied once | applied again
 //   small    500 faces, level 2: one apply
-// `table_scaling [largest exponent = 7]`
-#include <sys/resource.h>
+// Each job of the first row is done by a process of its own, for memory is what that holds at most, its peak resident
+// set, above what it held when it had the mesh: whoever asks for memory, and however, it counts. What would take more
+// than the machine has is left out.
+//
+// `table_scaling [--ratios turns] [--largest exponent = 7]`, and what report.h takes.
+#include <sys/sysinfo.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <optional>
+#include <stdexcept>
 
+#include "bench_meshes.h"
 #include "measuring.h"
+#include "opensubdiv_table.h"
+#include "report.h"
 #include "sublimit/bake/bake.h"
 #include "sublimit/bake/editable_table.h"
 #include "sublimit/pattern_evaluator.h"
+#include "sublimit/scheme/refine_points.h"
 #include "sublimit/schemes.h"
 #include "sublimit/table_file.h"
-#include "support/meshes.h"
 
 namespace sublimit::bench {
 namespace {
-
-double median(std::vector<double> times) {
-  std::sort(times.begin(), times.end());
-  return times[times.size() / 2];
-}
-
-template <class Work>
-double median_seconds(int repetitions, const Work& work) {
-  std::vector<double> times;
-  for (int r = 0; r < repetitions; ++r) times.push_back(seconds(work));
-  return median(times);
-}
-
-double peak_bytes() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return 1024.0 * double(usage.ru_maxrss);
-}
 
 Scheme<double> catmull_clark() { return find_scheme("catmull-clark").value(); }
 
@@ -47,32 +40,151 @@ std::vector<float> positions(const ControlMesh& mesh) {
   return {mesh.positions.data(), mesh.positions.data() + mesh.positions.size()};
 }
 
-void scaling(int exponent) {
+constexpr int levels = 2;
+
+/// Of some turns of a job: what they took, and the memory of the first.
+struct Taken {
+  std::vector<double> times;
+  double bytes = 0, points = 0;
+};
+
+/// Turns of a job in this process, which has done nothing else.
+Taken take(const std::string& work, bool ours, int exponent, int turns) {
   const auto n = static_cast<Index>(std::lround(std::pow(10.0, exponent)));
-  const ControlMesh mesh = testing::torus(n / 100, 100);
-  const double given = peak_bytes();
+  const Case mesh{"torus", "catmull-clark", testing::torus(n / 20, 20)};
+  const PeerCase peer(mesh);
   Patterns patterns(catmull_clark());
-  bake_level(patterns, testing::torus(5, 5), 2);  // its type is known
-  PatternTable<float> table;
-  const double bake = seconds([&] { table = in_float(bake_level(patterns, mesh, 2).table.table); });
-  const double peak = peak_bytes();
-  const PatternEvaluator<float> evaluator(table);
-  const std::vector<float> points = positions(mesh);
-  std::vector<float> made(size_t(table.num_points()) * 3);
-  const double apply = median_seconds(5, [&] { evaluator.apply(points, 3, made); });
-  std::printf(
-      "%9d faces: bake %8.1f ms, %5.0f ns a face; table %7.1f MB, %4.0f bytes a face; peak %6.0f MB (mesh %5.0f MB); "
-      "apply %7.2f ms, %.2f ns a point\n",
-      n, bake * 1e3, bake * 1e9 / n, double(table.num_bytes()) / 1e6, double(table.num_bytes()) / n, peak / 1e6,
-      given / 1e6, apply * 1e3, apply * 1e9 / double(table.num_points()));
-  std::fflush(stdout);
+  bake_level(patterns, testing::torus(5, 5), levels);  // its type is known
+  Taken taken;
+  const auto run = [&](const auto& turn) {
+    for (int i = 0; i < turns; ++i) {
+      const double before = forget_peak_bytes();
+      taken.times.push_back(seconds([&] { taken.points = double(turn()); }));
+      if (i == 0) taken.bytes = peak_bytes() - before;
+    }
+  };
+  if (work == "refine" && ours) {
+    std::optional<RefinedPoints> refined;
+    run([&] {
+      refined.reset();
+      return refined.emplace(refine_points(catmull_clark(), mesh.mesh, levels)).points.rows();
+    });
+  } else if (work == "refine") {
+    const std::span<const double> points{mesh.mesh.positions.data(), size_t(mesh.mesh.positions.size())};
+    std::optional<PeerRefiner> refiner;
+    run([&] {
+      refiner.reset();
+      refiner.emplace(peer.mesh, levels).refine(points);
+      return refiner->num_vertices(levels);
+    });
+  } else if (ours) {
+    PatternTable<float> table;
+    const auto bake = [&] {
+      table = {};
+      table = in_float(bake_level(patterns, mesh.mesh, levels).table.table);
+      return table.num_points();
+    };
+    if (work == "bake") {
+      run(bake);
+    } else {
+      bake();
+      const PatternEvaluator<float> evaluator(table);
+      const std::vector<float> points = positions(mesh.mesh);
+      std::vector<float> made(size_t(table.num_points()) * 3);
+      evaluator.apply(points, 3, made);
+      run([&] {
+        evaluator.apply(points, 3, made);
+        return table.num_points();
+      });
+    }
+  } else {
+    std::optional<PeerTable> table;
+    const auto bake = [&] {
+      table.reset();
+      return table.emplace(peer.mesh, levels).num_points();
+    };
+    if (work == "bake") {
+      run(bake);
+    } else {
+      const std::vector<float> points = positions(mesh.mesh);
+      std::vector<float> made(bake() * 3);
+      table->apply_osd(points, made);
+      run([&] {
+        table->apply_osd(points, made);
+        return table->num_points();
+      });
+    }
+  }
+  return taken;
 }
 
-void edits() {
+/// The same by a process of its own.
+/// @throws std::runtime_error  it fails
+Taken take_elsewhere(const std::string& work, bool ours, int exponent, int turns, int threads) {
+  const std::string command = "'" + std::filesystem::read_symlink("/proc/self/exe").string() + "' --job " + work + " " +
+                              (ours ? "ours" : "peer") + " " + std::to_string(exponent) + " " + std::to_string(turns) +
+                              " " + std::to_string(threads);
+  FILE* const output = ::popen(command.c_str(), "r");
+  if (!output) throw std::runtime_error("cannot run " + command);
+  Taken taken;
+  bool complete = std::fscanf(output, "%lf %lf", &taken.bytes, &taken.points) == 2;
+  for (double time; std::fscanf(output, "%lf", &time) == 1;) taken.times.push_back(time);
+  complete = ::pclose(output) == 0 && complete && !taken.times.empty();
+  if (!complete) throw std::runtime_error("failed: " + command);
+  return taken;
+}
+
+int job(char** argv) {
+  const Threads scope(std::atoi(argv[4]));
+  const Taken taken = take(argv[0], argv[1] == std::string("ours"), std::atoi(argv[2]), std::atoi(argv[3]));
+  std::printf("%.17g %.17g", taken.bytes, taken.points);
+  for (const double time : taken.times) std::printf(" %.17g", time);
+  return 0;
+}
+
+/// Bytes of memory that are free.
+double free_bytes() {
+  struct sysinfo info {};
+  ::sysinfo(&info);
+  return double(info.freeram + info.bufferram) * info.mem_unit;
+}
+
+void scaling(Report& report, int largest) {
+  for (const int threads : report.threads())
+    for (const std::string work : {"refine", "bake", "apply"}) {
+      double bytes[2] = {0, 0};  // of the last size
+      for (int exponent = 3; exponent <= largest; ++exponent) {
+        const std::string mesh = "10^" + std::to_string(exponent) + " faces";
+        if (!report.wants(work, mesh, "level 2")) continue;
+        std::vector<Report::Values> times, memory;
+        for (const bool ours : {true, false}) {
+          double& last = bytes[ours ? 0 : 1];
+          if (10 * last > 0.9 * free_bytes()) {
+            std::printf("%s, %s, %s: left out, it would take %.0f GB\n", work.c_str(), mesh.c_str(),
+                        ours ? "ours" : "OpenSubdiv", last / 1e8);
+            last *= 10;
+            continue;
+          }
+          const Taken taken = take_elsewhere(work, ours, exponent, exponent < 7 ? report.turns() : 1, threads);
+          last = taken.bytes;
+          const Report::Values values{ours ? "ours" : "OpenSubdiv", ours ? Role::ours : Role::peer, {}};
+          times.push_back(values);
+          for (const double time : taken.times) times.back().values.push_back(1e3 * time);
+          memory.push_back(values);
+          memory.back().values = {taken.bytes / taken.points};
+        }
+        if (times.empty()) continue;
+        report.add({work, mesh, "level 2", threads}, times);
+        if (work != "apply") report.add({work + " memory", mesh, "level 2", threads, "B a point", 1}, memory);
+      }
+    }
+}
+
+void edits(Report& report) {
   Patterns patterns(catmull_clark());
   const ControlMesh mesh = testing::torus(400, 250);
   EditableTable<float> table(patterns, mesh, 2);
-  std::vector<double> extrusions, tags;
+  std::vector<double> extrusions, tags;  // in ms
   size_t faces = 0, tagged = 0;
   for (int i = 0; i < 21; ++i) {
     const Index face = 1000 + 4000 * i;
@@ -83,20 +195,22 @@ void edits() {
     extrude.added_vertices = 4;
     for (Index k = 0; k < 4; ++k) extrude.added_faces.push_back({c[k], c[(k + 1) % 4], v + (k + 1) % 4, v + k});
     extrude.added_faces.push_back({v, v + 1, v + 2, v + 3});
-    extrusions.push_back(seconds([&] { faces = table.edit(extrude).faces.size(); }));
+    extrusions.push_back(1e3 * seconds([&] { faces = table.edit(extrude).faces.size(); }));
     const auto* d = mesh.face_vertices.data() + 4 * (face + 2000);
     tag.creases = {{d[0], d[1], 10}};
-    tags.push_back(seconds([&] { tagged = table.edit(tag).faces.size(); }));
+    tags.push_back(1e3 * seconds([&] { tagged = table.edit(tag).faces.size(); }));
   }
-  std::printf(
-      "edit, 100k faces, 21 of each: extrusion %.3f ms, %zu faces; crease %.3f ms, %zu faces (medians; first %.2f, "
-      "%.2f ms: new types)\n",
-      median(extrusions) * 1e3, faces, median(tags) * 1e3, tagged, extrusions[0] * 1e3, tags[0] * 1e3);
+  std::printf("first extrusion %.2f ms, crease %.2f ms: new types\n", extrusions[0], tags[0]);
+  report.add({"edit", "10^5 faces", "extrusion"}, {{"ours", Role::ours, extrusions}});
+  report.add({"edit", "10^5 faces", "crease"}, {{"ours", Role::ours, tags}});
+  report.count("edit of 10^5 faces", "faces of an extrusion", double(faces));
+  report.count("edit of 10^5 faces", "faces of a crease", double(tagged));
 }
 
-void load() {
+void load(Report& report) {
   const auto path = std::filesystem::temp_directory_path() / ("sublimit_bench_" + std::to_string(::getpid()));
-  constexpr std::int64_t rows = 8'000'000, per_row = 15;
+  constexpr std::int64_t per_row = 15;
+  const std::int64_t rows = report.quick() ? 80'000 : 8'000'000;
   constexpr std::int32_t points = 1'000'000;
   {
     std::vector<std::int64_t> offsets(rows + 1);
@@ -121,22 +235,23 @@ void load() {
     evaluator.emplace(std::get<BakedTable<float>>(*loaded).table);
   });
   const double first = seconds([&] { evaluator->apply(control, 3, made); });
-  const double again = median_seconds(5, [&] { evaluator->apply(control, 3, made); });
-  std::printf("load: a file of %.2f GB: checked and ready after %.1f ms, first frame %.1f ms, later ones %.1f ms\n",
-              double(std::filesystem::file_size(path)) / 1e9, load_time * 1e3, first * 1e3, again * 1e3);
+  std::printf("load: a file of %.2f GB: checked and ready after %.1f ms, first frame %.1f ms\n",
+              double(std::filesystem::file_size(path)) / 1e9, load_time * 1e3, first * 1e3);
+  report.add({"load", "8M rows", "file to evaluator"}, {{"ours", Role::ours, {1e3 * load_time}}});
+  report.measure({"load", "8M rows", "apply"},
+                 {{"ours", Role::ours, [&] { return seconds([&] { evaluator->apply(control, 3, made); }); }}});
   std::filesystem::remove(path);
 }
 
-void small() {
+void small(Report& report) {
   Patterns patterns(catmull_clark());
   const ControlMesh mesh = testing::torus(25, 20);
   const PatternTable<float> table = in_float(bake_level(patterns, mesh, 2).table.table);
   const PatternEvaluator<float> evaluator(table);
   const std::vector<float> points = positions(mesh);
   std::vector<float> made(size_t(table.num_points()) * 3);
-  const double time = median_seconds(2001, [&] { evaluator.apply(points, 3, made); });
-  std::printf("small: 500 faces, level 2, %lld points: apply %.1f us\n", static_cast<long long>(table.num_points()),
-              time * 1e6);
+  report.measure({"apply", "500 faces", "level 2", thread_counts().back(), "us", 1e6},
+                 {{"ours", Role::ours, [&] { return seconds([&] { evaluator.apply(points, 3, made); }); }}}, 2001);
 }
 
 }  // namespace
@@ -144,9 +259,14 @@ void small() {
 
 int main(int argc, char** argv) {
   using namespace sublimit::bench;
-  const int largest = argc > 1 ? std::atoi(argv[1]) : 7;
-  for (int exponent = 4; exponent <= largest; ++exponent) scaling(exponent);  // first: peaks do not fall
-  small();
-  edits();
-  load();
+  if (argc == 7 && argv[1] == std::string("--job")) return job(argv + 2);
+  Report report("table_scaling", argc, argv);
+  int largest = report.quick() ? 4 : 7;
+  if (argc == 3 && argv[1] == std::string("--largest")) largest = std::atoi(argv[2]);
+  report.take_turns(5);
+  scaling(report, largest);
+  if (report.wants("apply", "500 faces", "level 2")) small(report);
+  if (report.wants("edit")) edits(report);
+  if (report.wants("load")) load(report);
+  return report.finish();
 }
