@@ -61,8 +61,8 @@ def compare(old, new):
     @return  the exit status: 1 if a count grew or is gone"""
     if old.get("quick") != new.get("quick") and any(name != "counts" for name in new["counts"]):
         print("one of the two is --quick: nothing to compare but what `counts` counts")
-        old, new = ({**all, "rows": [], "counts": {n: c for n, c in all["counts"].items() if n == "counts"}} for all in (old, new))
-    if new["rows"]:
+        old, new = ({"counts": {n: c for n, c in all["counts"].items() if n == "counts"}} for all in (old, new))
+    if new.get("rows") and old.get("rows"):
         for what in ("cpu", "cores", "compiler", "flags"):
             if old["machine"].get(what) != new["machine"].get(what):
                 print(f"note: {what} differ, so that times say little: {old['machine'].get(what)} | {new['machine'].get(what)}")

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the stages make and take that no clock measures, on small meshes: matrix entries, types, bytes of tables,
-// allocations and most bytes at once. One thread, so that the numbers are the same in every run of the same build.
+// allocations and what they ask for. One thread, so that the numbers are the same in every run of the same build.
 // `counts FILE.json`; bench/run_all compares it with bench/counts.json.
 #include <tbb/global_control.h>
 
@@ -48,15 +48,14 @@ std::vector<Case> cases() {
   return list;
 }
 
-/// Allocations of a stage, and the most bytes it holds at once.
+/// Allocations of a stage, and the bytes that they ask for, one after the other.
 template <class Stage>
 void count_memory(Counts& counts, const std::string& name, const Stage& stage) {
-  testing::forget_peak();
-  const std::int64_t before = allocations();
+  const std::int64_t calls = allocations(), bytes = testing::allocated_bytes();
   stage();
-  const std::int64_t number = allocations() - before, most = testing::peak_of_bytes();
-  counts[name + ": allocations"] = number;
-  counts[name + ": most bytes"] = most;
+  const std::int64_t more_calls = allocations() - calls, more_bytes = testing::allocated_bytes() - bytes;
+  counts[name + ": allocations"] = more_calls;
+  counts[name + ": bytes allocated"] = more_bytes;
 }
 
 constexpr int levels = 2;

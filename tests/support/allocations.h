@@ -11,10 +11,7 @@ namespace sublimit::testing {
 bool allocations_are_counted();
 /// Of this thread, so far.
 std::int64_t allocations();
-
-/// Bytes of all threads that were asked for and not given back, at most since the last call of `forget_peak`, above
-/// those of that moment. With the allocator's rounding, which is the same for the same calls.
-std::int64_t peak_of_bytes();
-void forget_peak();
+/// What they asked for, together: no rounding of the allocator's, which depends on what was freed before.
+std::int64_t allocated_bytes();
 
 }  // namespace sublimit::testing
