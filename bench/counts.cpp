@@ -13,7 +13,7 @@
 #include "sublimit/bake/bake.h"
 #include "sublimit/limit/limit_surface.h"
 #include "sublimit/pattern_evaluator.h"
-#include "sublimit/scheme/refine_points.h"
+#include "sublimit/scheme/refined_mesh.h"
 #include "sublimit/schemes.h"
 #include "support/allocations.h"
 #include "support/meshes.h"
@@ -66,8 +66,8 @@ void count_refinement(Counts& counts, const Case& c, const Scheme<double>& schem
     for (const Level& level : refine(scheme, c.control, levels)) entries += level.S.nonZeros();
     counts["refine: matrix entries"] = entries;
   });
-  count_memory(counts, "refined points",
-               [&] { counts["refined points: points"] = refine_points(scheme, c.control, levels).points.rows(); });
+  count_memory(counts, "refined mesh",
+               [&] { counts["refined mesh: points"] = refined_mesh(scheme, c.control, levels).positions.rows(); });
 }
 
 void count_table(Counts& counts, const Case& c, const Scheme<double>& scheme, const std::string& name,

@@ -6,7 +6,7 @@ TABLE = [
     ("Refine: topology, S_k, positions of all levels", "refine_bench", "BM_Refine", ("",), "ours", False),
     ("Refine: positions and faces of the last level", "refine_bench", "BM_RefineMesh", ("",), "ours", False),
     ("The same again, memory is there", "refine_bench", "BM_RefineMesh", ("",), "ours", True),
-    ("Positions again, topology is there", "refine_bench", "BM_RefineAgain", ("",), "ours", False),
+    ("Positions again, topology is there", "refine_bench", "BM_PointsAgain", ("",), "ours", False),
     ("P_k, levels given", "refine_bench", "BM_StencilTable", ("level 3",), "ours", False),
     ("Bake, from nothing", "table_bench", "bake", ("level 3",), "empty", False),
     ("Bake, types known", "table_bench", "bake", ("level 3",), "known", False),

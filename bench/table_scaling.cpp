@@ -27,7 +27,7 @@
 #include "sublimit/bake/bake.h"
 #include "sublimit/bake/editable_table.h"
 #include "sublimit/pattern_evaluator.h"
-#include "sublimit/scheme/refine_points.h"
+#include "sublimit/scheme/refined_mesh.h"
 #include "sublimit/schemes.h"
 #include "sublimit/table_file.h"
 
@@ -64,10 +64,10 @@ Taken take(const std::string& work, bool ours, int exponent, int turns) {
     }
   };
   if (work == "refine" && ours) {
-    std::optional<RefinedPoints> refined;
+    std::optional<ControlMesh> refined;
     run([&] {
       refined.reset();
-      return refined.emplace(refine_points(catmull_clark(), mesh.mesh, levels)).points.rows();
+      return refined.emplace(refined_mesh(catmull_clark(), mesh.mesh, levels)).positions.rows();
     });
   } else if (work == "refine") {
     const std::span<const double> points{mesh.mesh.positions.data(), size_t(mesh.mesh.positions.size())};
