@@ -235,7 +235,7 @@ TEST(CliOutput, PipeThatItsReaderClosesIsAnError) {
   for (const char* const name : {"pipe.obj", "pipe.ply"}) {
     const std::string pipe = (directory / name).string();
     ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
-    const int reader = ::open(pipe.c_str(), O_RDONLY | O_NONBLOCK);
+    const int reader = ::open(pipe.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
     ASSERT_GE(reader, 0);
     Program program({"refine", (directory / "mesh.obj").string(), "-s", "catmull-clark", "-l", "2", "-o", pipe});
     pollfd something{reader, POLLIN, 0};
