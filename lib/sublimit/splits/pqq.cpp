@@ -71,7 +71,8 @@ Refinement refine_pqq(const Topology& parent) {
   r.face_parent.resize(corners);
 
   const PrimalHalves halves(
-      parent, [&](Index h) { return pqq.first_half(h); }, [&](Index h) { return pqq.second_half(h); });
+      parent, [&](Index h) { return pqq.first_half(h); }, [&](Index h) { return pqq.second_half(h); },
+      [&](Index h) { return pqq.side(h, 1); });
 
   parallel_for(parent.num_faces(), [&](std::int64_t i) {
     const Face f{static_cast<Index>(i)};

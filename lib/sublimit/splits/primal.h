@@ -21,12 +21,13 @@ void set_ptq_corners(const Topology& parent, const Refinement& numbering, std::s
 std::pair<HalfEdge, HalfEdge> pqq_halves(const Topology& parent, HalfEdge h);
 std::pair<HalfEdge, HalfEdge> ptq_halves(const Topology& parent, HalfEdge h);
 
-/// Children of parent half-edges in one primal split: `first(h)` runs along the first half of h (from its vertex), and
-/// `second(h)` along the second half (to its head).
-template <class First, class Second>
+/// Children of parent half-edges in one primal split: `first(h)` runs along the first half of h (from its vertex),
+/// `second(h)` along the second half (to its head), and `inner(h)` from the midpoint into the child at h's vertex.
+template <class First, class Second, class Inner>
 class PrimalHalves {
  public:
-  PrimalHalves(const Topology& parent, First first, Second second) : t_(parent), first_(first), second_(second) {}
+  PrimalHalves(const Topology& parent, First first, Second second, Inner inner)
+      : t_(parent), first_(first), second_(second), inner_(inner) {}
 
   /// Twins of the two children of every half-edge, in `twin`.
   void set_twins(Index h, UninitializedVector<Index>& twin) const {
@@ -63,7 +64,8 @@ class PrimalHalves {
   }
 
   /// Half-edge to start from and number of corners of the children of vertices and edges; `corners_at_edge` is the
-  /// number of child corners that one half-edge contributes at its edge's point.
+  /// number of child corners that one half-edge contributes at its edge's point. Inside, fans start at their least
+  /// half-edge, as those of meshes from files do: sums around a vertex have the same bits either way.
   void set_fans(TopologyBuilder& b, const Refinement& r, Index corners_at_edge) const {
     parallel_for(t_.num_vertices(), [&](std::int64_t i) {
       const Vertex v{static_cast<Index>(i)};
@@ -75,8 +77,10 @@ class PrimalHalves {
       const Edge e{static_cast<Index>(i)};
       const HalfEdge h = t_.half_edge(e);
       const Index child = index(r.child(e));
-      const bool interior = exists(t_.twin(h));
-      b.outgoing[child] = second_(index(h));
+      const HalfEdge twin = t_.twin(h);
+      const bool interior = exists(twin);
+      const auto least = [&](HalfEdge side) { return std::min(second_(index(side)), inner_(index(side))); };
+      b.outgoing[child] = interior ? std::min(least(h), least(twin)) : second_(index(h));
       b.degree[child] = corners_at_edge * (interior ? 2 : static_cast<Index>(t_.half_edges(e).size()));
     });
   }
@@ -85,6 +89,7 @@ class PrimalHalves {
   const Topology& t_;
   First first_;
   Second second_;
+  Inner inner_;
 };
 
 }  // namespace sublimit

@@ -15,6 +15,8 @@ namespace {
 // them inline.
 constexpr auto first_half = [](Index h) { return 12 * (h / 3) + 4 * (h % 3); };
 constexpr auto second_half = [](Index h) { return 12 * (h / 3) + 3 * ((h + 1) % 3) + h % 3; };
+// From the midpoint of corner i's edge, in the child at corner i.
+constexpr auto inner_half = [](Index h) { return 12 * (h / 3) + 3 * (h % 3) + (h + 1) % 3; };
 
 /// Corners of the four children of a face.
 void set_tails(const Topology& parent, const Refinement& r, Index f, std::span<Index> tail) {
@@ -62,7 +64,7 @@ Refinement refine_ptq(const Topology& parent) {
   b.degree.resize(num_vertices);
   r.face_parent.resize(4 * size_t(parent.num_faces()));
 
-  const PrimalHalves halves(parent, first_half, second_half);
+  const PrimalHalves halves(parent, first_half, second_half, inner_half);
   parallel_for(parent.num_faces(), [&](std::int64_t i) {
     const Index f = static_cast<Index>(i), middle = 12 * f + 9;
     set_tails(parent, r, f, b.tail);

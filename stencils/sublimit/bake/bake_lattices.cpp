@@ -33,10 +33,11 @@ std::optional<Baked> bake_lattices(Patterns& patterns, const Level& control, con
   if (levels < 0 || (!first_by_rows && control.topology().uniform_face_size() != sides)) return std::nullopt;
   const bool limit = request.rows == TableRows::limit;
   // Between levels whose neighbourhoods lie alike. Thirds of a side are no binary numbers, and places of derivatives
-  // would be beside the points; face-varying values and tags are found on faces cut in four.
+  // would be beside the points; face-varying values and tags are found on faces cut in four; and where sheets meet in
+  // an edge, each has points of its own there.
   const bool turns = scheme.period > 1;
   if (turns && (first_by_rows || request.level % scheme.period != 0 || request.derivatives > 0 ||
-                request.face_varying || request.tags))
+                request.face_varying || request.tags || !control.topology().is_manifold()))
     return std::nullopt;
 
   Baked baked;

@@ -99,6 +99,25 @@ TEST(Splits, VerticesOnEdgesAreRegular) {
   }
 }
 
+// So that sums around vertices have the same bits whether a level is refined or written, read and refined.
+TEST(Splits, PrimalFansStartWhereThoseOfTheSameFacesReadAgainDo) {
+  for (const ControlMesh& mesh : meshes())
+    for (const Split split : {Split::pqq, Split::ptq}) {
+      Topology t{view(mesh)};
+      if (split == Split::ptq && t.uniform_face_size() != 3) continue;
+      for (int k = 0; k < 2; ++k) {
+        Topology child = refine(t, split).topology;
+        std::vector<Index> corners;
+        for (Index f = 0; f < child.num_faces(); ++f)
+          for (const Index v : child.vertices(Face{f})) corners.push_back(v);
+        const Topology again{MeshView{child.num_vertices(), corners, {}, child.uniform_face_size()}};
+        for (Index v = 0; v < child.num_vertices(); ++v)
+          EXPECT_EQ(child.outgoing(Vertex{v}), again.outgoing(Vertex{v})) << name(split) << ", vertex " << v;
+        t = std::move(child);
+      }
+    }
+}
+
 // A quad for each edge (a, b): a, the right face's point, b, the left face's; a border has its midpoint for the face
 // that is missing.
 TEST(Splits, QuadsStandOnEdges) {

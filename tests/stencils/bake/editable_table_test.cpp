@@ -136,8 +136,7 @@ TEST_P(EditableTables, FollowExtrusionsRemovalsAndTags) {
 }
 
 TEST_P(EditableTables, CreasesCanBeTakenAway) {
-  ASSERT_NE(scheme_.sharpening, Sharpening::boundary)
-      << "a pattern scheme without creases: choose those that have them";
+  if (scheme_.sharpening == Sharpening::boundary) GTEST_SKIP() << scheme_.name << " has no creases";
   Patterns patterns(scheme_);
   EditableTable<double> table(patterns, mesh(), level);
   const Made before = made_by(table);

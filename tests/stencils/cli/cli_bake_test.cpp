@@ -64,7 +64,8 @@ TEST(CliBake, SaysWhatWasChosen) {
   const Tables quads(torus(12, 8)), mixed(prism(5));
   expect_parts(expect_done(quads.bake({"-l", "2"})).out, {"by patterns: 1 types, 1 blocks"});
   expect_parts(expect_done(mixed.bake({"-l", "2"})).out, {"by rows then patterns: "});
-  expect_parts(expect_done(mixed.bake({"-l", "2"}, "doo-sabin")).out, {"by rows\n"});
+  expect_parts(expect_done(mixed.bake({"-l", "2"}, "doo-sabin")).out, {"by patterns: "});
+  expect_parts(expect_done(mixed.bake({"-l", "1"}, "mid-edge")).out, {"by rows\n"});
 }
 
 TEST(CliBake, SameBytesForAnyNumberOfThreads) {
