@@ -30,6 +30,9 @@ EditableTable<Real>::EditableTable(Patterns& patterns, ControlMesh mesh, int lev
   mesh.face_varying.clear();
   const BakeRequest request{.level = level};
   check(request);
+  // An edit may join sheets in an edge, where those of schemes that turn have points of their own.
+  if (patterns.scheme().period > 1)
+    throw UnsupportedTopology(patterns.scheme().name + ": a table can be edited where each level keeps edges");
   // Who has a point must be known from the faces there alone.
   const std::optional<Baked> made = bake_by_patterns(patterns, control_level(patterns.scheme(), mesh, options), request,
                                                      {.owners = OwnerRule::first});
