@@ -7,6 +7,7 @@
 #include "sublimit/core/sparse_product.h"
 #include "sublimit/fit/scattered_fit.h"
 #include "sublimit/limit/limit_points.h"
+#include "sublimit/limit/limit_surface.h"
 #include "sublimit/schemes.h"
 #include "support/meshes.h"
 
