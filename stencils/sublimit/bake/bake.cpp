@@ -60,14 +60,15 @@ Baked first_possible(const Patterns& patterns, const Level& control, const BakeR
                      const std::function<Baked()>& by_rows) {
   const bool automatic = request.method == BakeMethod::automatic;
   if (automatic || request.method == BakeMethod::patterns) {
-    PatternBake how;
+    PatternBake how{.must_pay = automatic};
     // Rows of level 1 take about 600 bytes a face, and lists of control points four times as many.
     const bool can_go_on = request.level > 1 && patterns.scheme().period == 1;
     if (automatic && can_go_on) how.most_bytes = 4 * (1000.0 * control.topology().num_faces() + 1e6);
     if (std::optional<Baked> baked = by_patterns(how)) return *std::move(baked);
   }
   if (automatic || request.method == BakeMethod::rows_then_patterns)
-    if (std::optional<Baked> baked = by_patterns({.first_by_rows = true})) return *std::move(baked);
+    if (std::optional<Baked> baked = by_patterns({.first_by_rows = true, .must_pay = automatic}))
+      return *std::move(baked);
   if (automatic || request.method == BakeMethod::rows) return by_rows();
   throw InvalidParameter(patterns.scheme().name + ": such a table cannot be made by " + name(request.method));
 }

@@ -13,6 +13,7 @@ namespace sublimit {
 struct PatternBake {
   bool first_by_rows = false;                                   ///< level 1 is made by rows, and has the patterns
   double most_bytes = std::numeric_limits<double>::infinity();  ///< of blocks
+  bool must_pay = false;                                        ///< rows are to be taken where they are made sooner
   bool only_count = false;  ///< the table stays empty; `statistics` tell what would be in it
   OwnerRule owners = OwnerRule::balanced;
   std::vector<std::int8_t>* turns = nullptr;  ///< gets the corner of each face that its lattice begins with
@@ -20,7 +21,7 @@ struct PatternBake {
 };
 
 /// A table by patterns, its `info` left empty.
-/// @return  nothing where that is not possible, or where blocks would be larger than they may
+/// @return  nothing where that is not possible, where blocks would be larger than they may, or where they do not pay
 std::optional<Baked> bake_by_patterns(Patterns& patterns, const Level& control, const BakeRequest& request,
                                       const PatternBake& how = {});
 
