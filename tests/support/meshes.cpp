@@ -758,9 +758,7 @@ void add_degenerate_faces(Collection& meshes) {
   meshes.add_both("isolated_vertices", isolated);
 }
 
-}  // namespace
-
-std::vector<NamedMesh> tagged_meshes() {
+std::vector<NamedMesh> made_tagged_meshes() {
   Collection meshes;
   add_smooth(meshes);
   add_boundaries(meshes);
@@ -774,6 +772,13 @@ std::vector<NamedMesh> tagged_meshes() {
   add_crease(triangle_dart, {0, 1}, 10);
   meshes.add("dart_of_three_triangles", triangle_dart, triangle_schemes);
   return meshes.take();
+}
+
+}  // namespace
+
+std::vector<NamedMesh> tagged_meshes() {
+  static const std::vector<NamedMesh> all = made_tagged_meshes();  // every process of a test asks more than once
+  return all;
 }
 
 }  // namespace sublimit::testing

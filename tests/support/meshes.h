@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 // Meshes that the tests make themselves, all deterministic. Closed ones are wound so that normals point outwards.
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -55,6 +56,7 @@ struct NamedMesh {
   std::string name;
   std::vector<std::string> schemes;  ///< those it is meant for: "catmull-clark", "loop", "bilinear"
   ControlMesh mesh;
+  friend std::ostream& operator<<(std::ostream& out, const NamedMesh& m) { return out << m.name; }
 };
 /// Small meshes that together reach every rule of OpenSubdiv's Sdc and every kind of non-manifold place.
 std::vector<NamedMesh> tagged_meshes();

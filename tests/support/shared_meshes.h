@@ -15,6 +15,7 @@ struct SharedMesh {
   std::filesystem::path path;
   std::string name;    ///< catmark_cube
   std::string scheme;  ///< by the prefix of the name
+  friend std::ostream& operator<<(std::ostream& out, const SharedMesh& m) { return out << m.name; }
 };
 
 inline std::vector<SharedMesh> shared_meshes() {
