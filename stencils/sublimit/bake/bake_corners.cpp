@@ -67,8 +67,8 @@ std::optional<Baked> bake_corners(Patterns& patterns, const Level& control, cons
   const Topology& t = control.topology();
   const bool limit = request.rows == TableRows::limit;
   const auto piece_at = [](Index h) { return Piece{Piece::Kind::corner, HalfEdge{h}}; };
-  const PieceMatches pieces(patterns, control, t.num_half_edges(), piece_at);
-  if (how.must_pay && !types_pay(pieces)) return std::nullopt;
+  const PieceMatches pieces(patterns, control, t.num_half_edges(), piece_at, how.must_pay);
+  if (!pieces.pays()) return std::nullopt;
   PatternBlocks blocks(scheme);
   std::vector<Index> block_of(size_t(pieces.count()));
   for (Index i = 0; i < pieces.count(); ++i) block_of[i] = blocks.add({&pieces.pattern(i), {}}, i);

@@ -55,8 +55,8 @@ std::optional<Baked> bake_lattices(Patterns& patterns, const Level& control, con
   const auto kind = sides == 3 ? Piece::Kind::triangle : Piece::Kind::quad;
 
   const auto piece_at = [&](Index f) { return Piece{kind, t.first(Face{f})}; };
-  const PieceMatches pieces(patterns, level, t.num_faces(), piece_at);
-  if (how.must_pay && !types_pay(pieces)) return std::nullopt;
+  const PieceMatches pieces(patterns, level, t.num_faces(), piece_at, how.must_pay);
+  if (!pieces.pays()) return std::nullopt;
   std::vector<std::int8_t> turn(t.num_faces());
   for (Index f = 0; f < t.num_faces(); ++f) turn[f] = static_cast<std::int8_t>(pieces.turn(f));
   std::optional<std::vector<LatticePlace>> of_children;

@@ -7,31 +7,7 @@
 
 namespace sublimit {
 
-inline Index num_types(const PieceMatches& pieces) {
-  std::vector<size_t> numbers;
-  for (Index i = 0; i < pieces.count(); ++i)
-    if (const size_t number = pieces.pattern(i).number; numbers.empty() || number != numbers.back())
-      numbers.push_back(number);
-  std::sort(numbers.begin(), numbers.end());
-  return static_cast<Index>(std::unique(numbers.begin(), numbers.end()) - numbers.begin());
-}
-
-/// Whether pieces of the same type are so many, or types so small, that making these takes less time than rows of their
-/// own: a type takes about as the square of its points, a row as their number.
-inline bool types_pay(const PieceMatches& pieces) {
-  constexpr double squares_per_point = 64;
-  std::vector<const Pattern*> types;
-  double points = 0, squares = 0;
-  for (Index i = 0; i < pieces.count(); ++i) {
-    const Pattern& type = pieces.pattern(i);
-    points += type.num_slots;
-    if (types.empty() || &type != types.back()) types.push_back(&type);
-  }
-  std::sort(types.begin(), types.end());
-  types.erase(std::unique(types.begin(), types.end()), types.end());
-  for (const Pattern* type : types) squares += double(type->num_slots) * type->num_slots;
-  return squares <= squares_per_point * points;
-}
+inline Index num_types(const PieceMatches& pieces) { return static_cast<Index>(pieces.patterns().size()); }
 
 /// What groups take, without making them; of wide masks, at most.
 /// @param rows    of a block, quantities together, by its number

@@ -51,6 +51,7 @@ class Walks {
 bool Patterns::find(const Level& level, const Piece& piece, Match& match) const {
   const Walks walk(types_->pieces(), level, piece);
   const PieceWalk* own = &walk(0);
+  match.size = own->signature.size();
   Turned found;
   {
     const std::shared_lock lock(mutex_);
@@ -68,7 +69,7 @@ bool Patterns::find(const Level& level, const Piece& piece, Match& match) const 
   return true;
 }
 
-const Pattern& Patterns::add_pattern(Piece::Kind kind, Index num_slots, bool decays) {
+Pattern& Patterns::add_pattern(Piece::Kind kind, Index num_slots, bool decays) {
   Pattern& pattern = patterns_.emplace_back();
   pattern.number = patterns_.size() - 1;
   pattern.kind = kind;
@@ -93,12 +94,13 @@ Patterns::Match Patterns::match(const Level& level, const Piece& piece) {
   const PieceType* type = types_->pieces().type(level, walk.piece(least), walk(least));
   const std::unique_lock lock(mutex_);
   if (const auto known = turned_.find(signatures[least]); known != turned_.end())  // another thread was faster
-    return {known->second.pattern, least, vertices[least]};
-  const Pattern& pattern = add_pattern(piece.kind, type->num_slots(), type->decays());
+    return {known->second.pattern, least, vertices[least], signatures[0].size()};
+  Pattern& pattern = add_pattern(piece.kind, type->num_slots(), type->decays());
   pattern.type = type;
+  for (const auto& signature : signatures) pattern.size = std::max(pattern.size, signature.size());
   for (int turn = 0; turn < turns; ++turn)
     turned_.try_emplace(signatures[turn], Turned{&pattern, (least - turn + turns) % turns});
-  return {&pattern, least, vertices[least]};
+  return {&pattern, least, vertices[least], signatures[0].size()};
 }
 
 const PieceType& Patterns::type(const Pattern& pattern, const Example& example) {
@@ -334,9 +336,12 @@ void Patterns::add(Stored stored) {
     if (const auto known = turned_.find(signature.words); known != turned_.end()) pattern = known->second.pattern;
   if (pattern && pattern->num_slots != stored.num_slots) return;
   if (!pattern) {
-    pattern = &add_pattern(stored.kind, stored.num_slots, stored.decays);
-    for (Stored::Signature& signature : stored.signatures)
-      turned_.try_emplace(std::move(signature.words), Turned{pattern, signature.turn});
+    Pattern& added = add_pattern(stored.kind, stored.num_slots, stored.decays);
+    for (Stored::Signature& signature : stored.signatures) {
+      added.size = std::max(added.size, signature.words.size());
+      turned_.try_emplace(std::move(signature.words), Turned{&added, signature.turn});
+    }
+    pattern = &added;
   }
   const std::lock_guard rows_lock(rows_mutex_);
   for (Stored::Rows& rows : stored.rows)

@@ -24,6 +24,7 @@ struct Pattern {
   Piece::Kind kind = Piece::Kind::quad;
   Index num_slots = 0;  ///< points that it depends on
   bool decays = false;  ///< some finite sharpness matters (`PieceType::decays`)
+  size_t size = 0;      ///< of its signature: corners of faces around it, and what is said of them
   /// Null for one from a file, until more than the file has is asked for.
   mutable std::atomic<const PieceType*> type{nullptr};
 };
@@ -44,10 +45,13 @@ class Patterns {
     const Pattern* pattern = nullptr;
     int turn = 0;                 ///< the face's corner that is the pattern's first one
     std::vector<Index> vertices;  ///< points that it depends on
+    size_t size = 0;              ///< of the piece's own signature, whether its type is known or not
   };
+  /// Made where it is new.
   Match match(const Level& level, const Piece& piece);
   /// The same if the type is known already.
   /// @param match  keeps its memory from call to call
+  /// @return  whether it is
   /// @throws FormatError  a dictionary from a file that is not of this scheme
   bool find(const Level& level, const Piece& piece, Match& match) const;
 
@@ -132,7 +136,7 @@ class Patterns {
   RowMatrix made_corner_rows(const PieceType& type, int levels, Ends ends);
   const RowMatrix& differences(const PieceType& type, int levels, Ends ends);
   const RowMatrix& whole_rows(const Pattern& pattern, const Example& example, int levels, Ends ends);
-  const Pattern& add_pattern(Piece::Kind kind, Index num_slots, bool decays);
+  Pattern& add_pattern(Piece::Kind kind, Index num_slots, bool decays);
   Scheme<double> scheme_;
   std::shared_ptr<LimitTypes> types_;
   mutable std::shared_mutex mutex_;  // of the patterns and their signatures
