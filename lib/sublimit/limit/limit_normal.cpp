@@ -51,7 +51,7 @@ Vector3d LimitSurface::Parts::normal_of(const LimitStencil& s, const Points& loc
   }
   const Target at = target(sample);
   if (both && s.weights.rows() >= 3) {
-    const LimitStencil second = s.weights.rows() == 6 ? s : stencil(sample, 2);
+    const LimitStencil second = s.weights.rows() == 6 ? s : stencil(find(at, 2));
     if (second.weights.rows() == 6) {
       Points rows = Points::Zero(6, 3);
       for (size_t j = 0; j < second.vertices.size(); ++j)

@@ -388,7 +388,7 @@ std::int64_t LimitPatches::evaluate(std::span<const Sample> samples, std::int64_
   std::sort(left.begin(), left.end(), [](const Left& a, const Left& b) {
     return a.type != b.type ? std::less<>()(a.type, b.type) : std::tie(a.u, a.v, a.i) < std::tie(b.u, b.v, b.i);
   });
-  LimitSurface::Parts::KnownRows known;
+  LimitSurface::Parts::KnownRows known{.pieces = &pieces_};
   for (const Left& one : left) parts_.evaluate_row(points_, samples[one.i], order, normals, out, one.i, &known);
   return known.made;
 }

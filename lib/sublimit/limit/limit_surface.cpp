@@ -31,11 +31,24 @@ FaceLengths LimitSurface::lengths(Index address) const {
 }
 const Level& LimitSurface::level() const { return parts_->level; }
 
-LimitSurface::Parts::Found LimitSurface::Parts::find(const Target& at, int order, KnownRows* known) const {
+LimitSurface::Parts::Found LimitSurface::Parts::find(const Target& at, int order) const {
   try {
     std::vector<Index> vertices;
     const PieceType* type = type_of(at.piece, vertices);
-    return find(at, order, *type, std::move(vertices), known);
+    return find(at, order, *type, std::move(vertices));
+  } catch (const AnalysisError& error) {
+    throw without_limit(at.piece, error.what());
+  }
+}
+
+LimitSurface::Parts::Found LimitSurface::Parts::find(const Sample& sample, int order, KnownRows* known) const {
+  const Target at = target(sample);
+  if (!known || !known->pieces) return find(at, order);
+  const Pieces& all = *known->pieces;
+  const Index n = number(sample, at);
+  std::vector<Index> vertices(all.vertices.begin() + all.first[n], all.vertices.begin() + all.first[n + 1]);
+  try {
+    return find(at, order, *all.types[n], std::move(vertices), known);
   } catch (const AnalysisError& error) {
     throw without_limit(at.piece, error.what());
   }
@@ -111,8 +124,7 @@ RowMatrix LimitSurface::Parts::tangents_on_side(const PieceType& type, const Pla
   return piece_rows(type, inside, 1).tangents;
 }
 
-LimitStencil LimitSurface::Parts::stencil(const Sample& s, int order, KnownRows* known) const {
-  Found found = find(target(s), order, known);
+LimitStencil LimitSurface::Parts::stencil(Found found) const {
   LimitStencil result;
   result.status = found.status;
   // Position, derivatives, tangents, one below the other: over the piece's vertices, slot 0 with what makes the sums
@@ -174,7 +186,7 @@ std::unique_ptr<BoundSource> LimitSurface::bound(const Points& points) const {
 LimitStencil LimitSurface::stencil(const Sample& sample, int order) const {
   check_order(order);
   check_inside(addresses(), sample);
-  return parts_->stencil(sample, order);
+  return parts_->stencil(parts_->find(sample, order));
 }
 
 void LimitSurface::prepare() const { parts_->pieces(); }
@@ -206,10 +218,9 @@ constexpr std::int64_t samples_per_block = 2048;
 
 }  // namespace
 
-bool LimitSurface::Parts::evaluate_plain_row(const Points& points, const Sample& sample, int order, bool normals,
-                                             LimitSamples& out, std::int64_t i, KnownRows* known) const {
+bool LimitSurface::Parts::evaluate_plain_row(const Points& points, const Found& found, int order, bool normals,
+                                             LimitSamples& out, std::int64_t i) const {
   if (prepared) return false;
-  const Found found = find(target(sample), order, known);
   if (order > 0 && found.rows.order == 0) return false;
   const auto n = found.rows.rows.cols();
   Points differences(n, 3);
@@ -239,8 +250,9 @@ void LimitSurface::Parts::evaluate_row(const Points& points, const Sample& sampl
     out.status[i] = LimitStatus::outside;
     return;
   }
-  if (evaluate_plain_row(points, sample, order, normals, out, i, known)) return;
-  const LimitStencil stencil = this->stencil(sample, order, known);
+  Found found = find(sample, order, known);
+  if (evaluate_plain_row(points, found, order, normals, out, i)) return;
+  const LimitStencil stencil = this->stencil(std::move(found));
   Points local(stencil.vertices.size(), 3);
   for (size_t j = 0; j < stencil.vertices.size(); ++j) local.row(j) = points.row(stencil.vertices[j]);
   const Points rows = stencil.weights * local;

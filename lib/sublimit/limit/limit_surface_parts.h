@@ -70,18 +70,22 @@ struct LimitSurface::Parts {
     SparseRows tangents;  ///< by masks, where the piece has none: over vertices
     LimitStatus status = LimitStatus::regular;
   };
+  struct Pieces;
   /// Rows of the last place, by its type: where many faces are alike, those who ask face after face for the same place
   /// have them made once. Around a vertex of hundreds of faces they cost as much as a small mesh.
   struct KnownRows {
+    const Pieces* pieces = nullptr;  ///< of the surface, once they have been found
     const PieceType* type = nullptr;
-    Place place;
+    Place place = {};
     int order = 0;
-    PieceRows rows;
-    std::optional<RowMatrix> on_side;  ///< `tangents_on_side`, once they have been asked for
-    std::int64_t made = 0;             ///< how often rows were not known
+    PieceRows rows = {};
+    std::optional<RowMatrix> on_side = {};  ///< `tangents_on_side`, once they have been asked for
+    std::int64_t made = 0;                  ///< how often rows were not known
   };
   /// @throws NoLimit  naming the face of the mesh
-  Found find(const Target& at, int order, KnownRows* known = nullptr) const;
+  Found find(const Target& at, int order) const;
+  /// @param known  and its pieces: no walk is made then
+  Found find(const Sample& sample, int order, KnownRows* known = nullptr) const;
   /// Tangents on a side where the limit has no derivatives by u and v, though there is a tangent plane; none if there
   /// are none inside either.
   RowMatrix tangents_on_side(const PieceType& type, const Place& place) const;
@@ -89,7 +93,7 @@ struct LimitSurface::Parts {
   /// @param vertices  its points, by slot
   Found find(const Target& at, int order, const PieceType& type, std::vector<Index> vertices,
              KnownRows* known = nullptr) const;
-  LimitStencil stencil(const Sample& sample, int order, KnownRows* known = nullptr) const;
+  LimitStencil stencil(Found found) const;
   /// Row i of `out`, by its stencil.
   void evaluate_row(const Points& points, const Sample& sample, int order, bool normals, LimitSamples& out,
                     std::int64_t i, KnownRows* known = nullptr) const;
@@ -123,8 +127,8 @@ struct LimitSurface::Parts {
 
  private:
   /// The same where nothing is special; false: it is, and `out` is as it was.
-  bool evaluate_plain_row(const Points& points, const Sample& sample, int order, bool normals, LimitSamples& out,
-                          std::int64_t i, KnownRows* known) const;
+  bool evaluate_plain_row(const Points& points, const Found& found, int order, bool normals, LimitSamples& out,
+                          std::int64_t i) const;
   void find_pieces() const;
   void find_regular() const;
   /// Faces that need no walk, and the type that all of them have; null where the scheme looks further, or walks find
