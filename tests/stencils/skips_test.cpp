@@ -30,6 +30,8 @@ const MaySkip may_skip[] = {
     {"the sanitizers keep memory that is given back, and need the address space that a limit takes away; other trees "
      "run these",
      {"stencils/cli/cli_apply_test.cpp", "stencils/cli/cli_errors_test.cpp", "stencils/cli/cli_sample_test.cpp"}},
+    {"the sanitizers have allocators of their own, which are not counted; other trees run these",
+     {"eval/allocation_test.cpp", "lib/limit/limit_allocation_test.cpp"}},
     {"the largest shared meshes are for the full sweep (label full)", {"lib/limit/limit_surface_truth_test.cpp"}},
 };
 

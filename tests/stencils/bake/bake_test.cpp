@@ -288,7 +288,7 @@ INSTANTIATE_TEST_SUITE_P(Schemes, BakedCorners, ::testing::ValuesIn(schemes_and_
 
 /// A fan of triangles around a vertex of a hundred edges, no two of them alike: types would take a hundred times as
 /// long.
-TEST(BakedLevel, IsMadeByRowsWhereTypesOfManyPointsAreSharedByFewFaces) {
+TEST(BakedLevel, BeginsWithRowsWhereTypesOfManyPointsAreSharedByFewFaces) {
   const auto method = [](const ControlMesh& mesh) {
     Patterns patterns(find_scheme("loop").value());
     return bake(patterns, mesh, {.level = 2}).statistics.method;
@@ -296,7 +296,7 @@ TEST(BakedLevel, IsMadeByRowsWhereTypesOfManyPointsAreSharedByFewFaces) {
   ControlMesh alike = fan(100, 3, 2), unlike = alike;
   EXPECT_EQ(method(alike), BakeMethod::patterns);
   for (Index v = 1; v <= 100; ++v) unlike.creases.push_back({0, v, 0.03f * float(v)});
-  EXPECT_EQ(method(unlike), BakeMethod::rows);
+  EXPECT_NE(method(unlike), BakeMethod::patterns);
 }
 
 TEST(BakedLevel, AppliesWhatItExpandsTo) {
