@@ -67,6 +67,6 @@ def svg(results):
     for i, (work, title, unit, scale) in enumerate(PANELS):
         data = curves(results, work, scale, work.endswith("memory"))
         out += panel(LEFT + i % 2 * (WIDTH + GAP - 10), TOP + i // 2 * (HEIGHT + 45), title, unit, data, i == 0)
-    out.append(f'<text x="{LEFT}" y="{height - 12}">faces of a torus; one thread of {m["cpu"]}; medians of {results["turns"]} turns, '
+    out.append(f'<text x="{LEFT}" y="{height - 12}">faces of a torus; one thread of {m["cpu"]}; medians, '
                "one at 10^7</text></svg>")
     return "\n".join(line for line in out if line) + "\n"
