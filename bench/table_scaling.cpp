@@ -11,9 +11,12 @@
 //
 // `table_scaling [--ratios turns] [--largest exponent = 7]`, and what report.h takes.
 #include <sys/sysinfo.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -42,22 +45,24 @@ std::vector<float> positions(const ControlMesh& mesh) {
 
 constexpr int levels = 2;
 
-/// Of some turns of a job: what they took, and the memory of the first.
+/// Of some turns of a job: what they took, the memory of the first, and of all that the job did before and then.
 struct Taken {
   std::vector<double> times;
-  double bytes = 0, points = 0;
+  double bytes = 0, points = 0, all_bytes = 0;
 };
 
 /// Turns of a job in this process, which has done nothing else.
 Taken take(const std::string& work, bool ours, int exponent, int turns) {
   const auto n = static_cast<Index>(std::lround(std::pow(10.0, exponent)));
   const Case mesh{"torus", "catmull-clark", testing::torus(n / 20, 20)};
+  const double at_first = forget_peak_bytes();
   const PeerCase peer(mesh);
   Patterns patterns(catmull_clark());
   bake_level(patterns, testing::torus(5, 5), levels);  // its type is known
   Taken taken;
   const auto run = [&](const auto& turn) {
     for (int i = 0; i < turns; ++i) {
+      taken.all_bytes = std::max(taken.all_bytes, peak_bytes() - at_first);
       const double before = forget_peak_bytes();
       taken.times.push_back(seconds([&] { taken.points = double(turn()); }));
       if (i == 0) taken.bytes = peak_bytes() - before;
@@ -115,29 +120,33 @@ Taken take(const std::string& work, bool ours, int exponent, int turns) {
       });
     }
   }
+  taken.all_bytes = std::max(taken.all_bytes, peak_bytes() - at_first);
   return taken;
 }
 
 /// The same by a process of its own.
+/// @return  nothing if the system ended it, which it does where memory is short
 /// @throws std::runtime_error  it fails
-Taken take_elsewhere(const std::string& work, bool ours, int exponent, int turns, int threads) {
+std::optional<Taken> take_elsewhere(const std::string& work, bool ours, int exponent, int turns, int threads) {
   const std::string command = "'" + std::filesystem::read_symlink("/proc/self/exe").string() + "' --job " + work + " " +
                               (ours ? "ours" : "peer") + " " + std::to_string(exponent) + " " + std::to_string(turns) +
                               " " + std::to_string(threads);
   FILE* const output = ::popen(command.c_str(), "r");
   if (!output) throw std::runtime_error("cannot run " + command);
   Taken taken;
-  bool complete = std::fscanf(output, "%lf %lf", &taken.bytes, &taken.points) == 2;
+  const bool complete = std::fscanf(output, "%lf %lf %lf", &taken.bytes, &taken.points, &taken.all_bytes) == 3;
   for (double time; std::fscanf(output, "%lf", &time) == 1;) taken.times.push_back(time);
-  complete = ::pclose(output) == 0 && complete && !taken.times.empty();
-  if (!complete) throw std::runtime_error("failed: " + command);
+  const int status = ::pclose(output);
+  const bool killed = WIFSIGNALED(status) || (WIFEXITED(status) && WEXITSTATUS(status) == 128 + SIGKILL);
+  if (killed) return std::nullopt;
+  if (status != 0 || !complete || taken.times.empty()) throw std::runtime_error("failed: " + command);
   return taken;
 }
 
 int job(char** argv) {
   const Threads scope(std::atoi(argv[4]));
   const Taken taken = take(argv[0], argv[1] == std::string("ours"), std::atoi(argv[2]), std::atoi(argv[3]));
-  std::printf("%.17g %.17g", taken.bytes, taken.points);
+  std::printf("%.17g %.17g %.17g", taken.bytes, taken.points, taken.all_bytes);
   for (const double time : taken.times) std::printf(" %.17g", time);
   return 0;
 }
@@ -152,7 +161,7 @@ double free_bytes() {
 void scaling(Report& report, int largest) {
   for (const int threads : report.threads())
     for (const std::string work : {"refine", "bake", "apply"}) {
-      double bytes[2] = {0, 0};  // of the last size
+      double bytes[2] = {0, 0};  // of the last size, all that the job took
       for (int exponent = 3; exponent <= largest; ++exponent) {
         const std::string mesh = "10^" + std::to_string(exponent) + " faces";
         if (!report.wants(work, mesh, "level 2")) continue;
@@ -165,8 +174,15 @@ void scaling(Report& report, int largest) {
             last *= 10;
             continue;
           }
-          const Taken taken = take_elsewhere(work, ours, exponent, exponent < 7 ? report.turns() : 1, threads);
-          last = taken.bytes;
+          const auto done = take_elsewhere(work, ours, exponent, exponent < 7 ? report.turns() : 1, threads);
+          if (!done) {
+            std::printf("%s, %s, %s: left out, the system ended it\n", work.c_str(), mesh.c_str(),
+                        ours ? "ours" : "OpenSubdiv");
+            last *= 10;
+            continue;
+          }
+          const Taken& taken = *done;
+          last = taken.all_bytes;
           const Report::Values values{ours ? "ours" : "OpenSubdiv", ours ? Role::ours : Role::peer, {}};
           times.push_back(values);
           for (const double time : taken.times) times.back().values.push_back(1e3 * time);

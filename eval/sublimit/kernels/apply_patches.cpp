@@ -5,6 +5,8 @@
 #include <bit>
 #include <cstring>
 
+#include "sublimit/kernels/first_lanes.h"
+
 // Compiled once for each kind of registers.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "sublimit/kernels/apply_patches.cpp"
@@ -45,17 +47,48 @@ HWY_INLINE void sum(D d, const Patches<Real>& p, const Real* weights, const Real
   }
 }
 
+/// Channels of the rows that are taken, one behind the other. Highway's own copies its table where the machine has no
+/// instruction for it.
+template <int Channels, class D, class V = hn::Vec<D>>
+HWY_INLINE void compress(D d, Values<Channels, V>& x, std::uint32_t taken) {
+#if HWY_TARGET == HWY_AVX2
+  const hn::RebindToSigned<D> integers;
+  const auto& all = first_lanes<hn::TFromD<decltype(integers)>, hn::MaxLanes(D())>;
+  const auto lanes = hn::IndicesFromVec(d, hn::LoadU(integers, all[taken].data()));
+  for (int c = 0; c < Channels; ++c) x.of[c] = hn::TableLookupLanes(x.of[c], lanes);
+#else
+  std::uint8_t bits[8] = {};
+  std::memcpy(bits, &taken, sizeof taken);
+  const auto mask = hn::LoadMaskBits(d, bits);
+  for (int c = 0; c < Channels; ++c) x.of[c] = hn::Compress(x.of[c], mask);
+#endif
+}
+
+/// The first ones, at most 32: by halves that overlap, for a loop becomes a call or an instruction that is slow to
+/// start.
+template <class Real>
+HWY_INLINE void copy_first(const Real* from, Real* to, std::int32_t count) {
+  const auto ends = [&](auto size) {
+    constexpr std::int32_t n = decltype(size)::value;
+    Real first[n], last[n];
+    std::memcpy(first, from, sizeof first);
+    std::memcpy(last, from + count - n, sizeof last);
+    std::memcpy(to, first, sizeof first);
+    std::memcpy(to + count - n, last, sizeof last);
+  };
+  if (count >= 16) return ends(std::integral_constant<std::int32_t, 16>());
+  if (count >= 8) return ends(std::integral_constant<std::int32_t, 8>());
+  if (count >= 4) return ends(std::integral_constant<std::int32_t, 4>());
+  if (count >= 2) return ends(std::integral_constant<std::int32_t, 2>());
+  if (count == 1) *to = *from;
+}
+
 /// Rows that are taken go to `out`, the first point of their patch.
 template <int Channels, class D, class Real = hn::TFromD<D>, class V = hn::Vec<D>>
 HWY_INLINE void store(D d, Values<Channels, V> x, const PackedRows& rows, const Patches<Real>& p, Real* out) {
   const auto lanes = static_cast<std::int32_t>(hn::Lanes(d));
   const std::int32_t count = std::popcount(rows.taken);
-  if (rows.taken & (rows.taken + 1)) {  // else they are the first ones
-    std::uint8_t bits[8] = {};
-    std::memcpy(bits, &rows.taken, sizeof rows.taken);
-    const auto mask = hn::LoadMaskBits(d, bits);
-    for (int c = 0; c < Channels; ++c) x.of[c] = hn::Compress(x.of[c], mask);
-  }
+  if (rows.taken & (rows.taken + 1)) compress<Channels>(d, x, rows.taken);  // else they are the first ones
   out += rows.to * p.out.point;
   if (p.out.channel == 1 && p.out.point == Channels) {
     // What is too much is overwritten by the rows that follow, unless it is another patch's.
@@ -68,7 +101,10 @@ HWY_INLINE void store(D d, Values<Channels, V> x, const PackedRows& rows, const 
       hn::BlendedStore(hn::Load(d, made + c * lanes), hn::FirstN(d, size_t(left)), d, out + c * lanes);
     }
 #else
-    std::copy_n(made, Channels * count, out);
+    if constexpr (Channels * hn::MaxLanes(d) <= 32)
+      copy_first(made, out, Channels * count);
+    else
+      std::copy_n(made, Channels * count, out);
 #endif
     return;
   }

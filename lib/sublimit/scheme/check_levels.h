@@ -11,6 +11,7 @@ namespace sublimit {
 enum class LevelMemory {
   matrices,  ///< all levels, with matrices and positions
   points,    ///< the last two, with positions
+  mesh,      ///< the last one's faces and positions, and the one before
 };
 
 /// What `refine` checks before the first level is made; for those who make levels one by one.

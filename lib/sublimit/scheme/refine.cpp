@@ -36,11 +36,11 @@ struct Counts {
         return {4 * corners, corners, 2 * edges + corners, vertices + faces + edges};
     }
   }
-  double bytes(LevelMemory memory = LevelMemory::matrices) const {
-    const double topology = 20 * corners + 12 * edges + 8 * vertices, sharpness = 4 * (edges + vertices);
-    const double matrix = memory == LevelMemory::matrices ? 8 * 12 * vertices : 0;  // about 8 nonzeros a row
-    return topology + sharpness + matrix + 24 * vertices;
-  }
+  /// With connectivity, sharpness and positions.
+  double bytes() const { return 20 * corners + 12 * edges + 8 * vertices + 4 * (edges + vertices) + 24 * vertices; }
+  double matrix_bytes() const { return 8 * 12 * vertices; }  // about 8 nonzeros a row
+  /// Faces and positions alone.
+  double mesh_bytes() const { return 4 * (corners + faces) + 24 * vertices; }
 };
 
 /// Faces that share a vertex with `faces`, themselves included; ascending.
@@ -94,16 +94,17 @@ void check_levels(const Scheme<double>& scheme, const Topology& t, int levels, L
   if (levels < 0) throw InvalidParameter("levels is " + std::to_string(levels) + "; it must be 0 or more");
   const std::string amount = std::to_string(levels) + " levels of " + std::to_string(t.num_faces()) + " faces";
   Counts counts{double(t.num_half_edges()), double(t.num_faces()), double(t.num_edges()), double(t.num_vertices())};
-  double bytes = counts.bytes(memory), before = bytes;
+  const bool all = memory == LevelMemory::matrices;
+  double bytes = counts.bytes() + (all ? counts.matrix_bytes() : 0), before = bytes;
   int most = 0;  // levels that fit
   const auto advice = [&] { return "use at most " + std::to_string(most) + ", or refine a subset"; };
   // A scheme that makes no more faces may be asked for any number of levels: each takes memory, and is counted.
   constexpr int enough = 64;
   for (int k = 0; k < levels && t.num_faces() > 0; ++k) {
     for (const Step<double>& step : scheme.steps_at(k, t)) counts = counts.next(step.split);
-    const double own = counts.bytes(memory);
-    bytes = own + (memory == LevelMemory::matrices ? bytes : before);
-    before = own;
+    const double own = counts.bytes() + (all ? counts.matrix_bytes() : 0);
+    bytes = before + (memory == LevelMemory::mesh ? counts.mesh_bytes() : own);
+    before = all ? bytes : own;
     if (counts.corners > std::numeric_limits<Index>::max())
       throw ResourceError(amount + " take more than " + bytes_in_words(bytes) + " of memory, and level " +
                           std::to_string(k + 1) + " has more face corners than 32-bit indices count; " + advice());

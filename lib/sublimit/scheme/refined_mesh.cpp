@@ -242,7 +242,7 @@ ControlMesh refine_steps(const Scheme<double>& scheme, const ControlMesh& mesh, 
                          const SubdivisionOptions& options, const std::function<void(int)>& progress,
                          const OnStep& on_step) {
   Level level = control_level(scheme, mesh, options);
-  check_levels(scheme, level.topology(), levels, LevelMemory::points);
+  check_levels(scheme, level.topology(), levels, is_simple(scheme, level) ? LevelMemory::mesh : LevelMemory::points);
   for (int k = 1; k <= levels; ++k) {
     if (progress) progress(k);
     if (k == levels && is_simple(scheme, level)) {

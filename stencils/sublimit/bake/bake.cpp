@@ -66,7 +66,9 @@ Baked first_possible(const Patterns& patterns, const Level& control, const BakeR
     if (automatic && can_go_on) how.most_bytes = 4 * (1000.0 * control.topology().num_faces() + 1e6);
     if (std::optional<Baked> baked = by_patterns(how)) return *std::move(baked);
   }
-  if (automatic || request.method == BakeMethod::rows_then_patterns)
+  // Patterns of level 1 on level 1 would be blocks of one row, which rows are without them.
+  const bool only_first = request.rows == TableRows::level && request.level == 1;
+  if ((automatic && !only_first) || request.method == BakeMethod::rows_then_patterns)
     if (std::optional<Baked> baked = by_patterns({.first_by_rows = true, .must_pay = automatic}))
       return *std::move(baked);
   if (automatic || request.method == BakeMethod::rows) return by_rows();

@@ -39,11 +39,12 @@ TEST(BakePlan, CountsTablesByPatterns) {
   alone.positions.conservativeResize(alone.positions.rows() + 2, 3);
   alone.positions.bottomRows(2).setZero();
   for (const ControlMesh& mesh : {cube(), mixed, alone}) {
-    for (const int level : {1, 3}) expect_counted("catmull-clark", mesh, {.level = level});
+    for (const int level : {2, 3}) expect_counted("catmull-clark", mesh, {.level = level});
     for (const int derivatives : {0, 1, 2})
       expect_counted("catmull-clark", mesh, {.rows = TableRows::limit, .level = 2, .derivatives = derivatives});
     expect_counted("catmull-clark", mesh, {.rows = TableRows::grid, .grid = 4, .derivatives = 1});
   }
+  for (const ControlMesh& mesh : {cube(), alone}) expect_counted("catmull-clark", mesh, {.level = 1});
   expect_counted("loop", icosahedron(), {.level = 3});
   expect_counted("butterfly", triangle_torus(6, 7), {.level = 2});
   expect_counted("sqrt3", icosahedron(), {.level = 4});
