@@ -16,6 +16,7 @@
 #include "support/curve_laws.h"
 #include "support/curve_truth.h"
 #include "support/expect_error.h"
+#include "support/full_sweep.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {
@@ -206,9 +207,11 @@ void expect_truth(const CurveScheme<double>& scheme, const CurveScheme<Precise>&
   const CurveOutline curve = layout.control(size, closed);
   const Index last = limit.num_segments() - 1;
   const std::vector<double> all = parameters();
-  static size_t turn = 0;  // each curve gets other places: every seventh of all, and these
+  static size_t turn = 0;  // each curve gets other places: some of all, and these
+  const size_t stride = full_sweep() ? 7 : 13;
   std::vector<double> some{0, 1, 0x1p-40};
-  for (turn = (turn + 1) % 7; some.size() < 3 + all.size() / 7;) some.push_back(all[turn + 7 * (some.size() - 3)]);
+  for (turn = (turn + 1) % stride; some.size() < 3 + all.size() / stride;)
+    some.push_back(all[turn + stride * (some.size() - 3)]);
   for (const Index segment : std::set<Index>{0, std::min<Index>(1, last), last / 2, last})
     for (const double t : some) {
       if (t > 0 && t < 1e-100) continue;  // deeper than the truth goes
