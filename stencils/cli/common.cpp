@@ -17,11 +17,9 @@
 #include "sublimit/core/sparse_product.h"
 #include "sublimit/files/rule_words.h"
 #include "sublimit/files/sidecar.h"
-#include "sublimit/geometric/geometric_schemes.h"
 #include "sublimit/io/file_extension.h"
 #include "sublimit/io/read_mesh.h"
 #include "sublimit/limit/no_limit.h"
-#include "sublimit/scheme/prepare.h"
 
 namespace sublimit::cli {
 namespace {
@@ -32,11 +30,6 @@ std::vector<std::string> directories;  // of outputs, for the one who cleans up 
 /// The words as CLI11's set of choices.
 CLI::IsMember one_of(std::span<const char* const> words) {
   return CLI::IsMember(std::vector<std::string>(words.begin(), words.end()));
-}
-
-bool knows(const Scheme<double>& scheme, const std::string& option) {
-  return std::any_of(scheme.options.begin(), scheme.options.end(),
-                     [&](const OptionInfo& info) { return info.name == option; });
 }
 
 void list(const std::vector<std::string>& messages, const char* kind, size_t most) {
@@ -102,70 +95,27 @@ void add_mesh(CLI::App& command, Common& common, bool scheme_required) {
   command.add_flag("--strict", common.strict, "Reject meshes that are accepted with a warning, naming each place");
 }
 
-Scheme<double> scheme_or_throw(const std::string& name, const SchemeOptions& options) {
-  if (std::optional<Scheme<double>> scheme = find_scheme(name, options)) return *std::move(scheme);
-  Common common;
-  common.scheme = name;
-  if (is_curve_job(common))
-    throw InvalidOption(name + " refines curves; a scheme of surfaces is needed here (`sublimit schemes` lists all)");
-  for (const auto& entry : geometric_registry<CurvatureMesh>)
-    if (name == entry.name)
-      throw InvalidOption(name + " refines points with normals and curvatures; it is for `sublimit fit`");
-  for (const auto& entry : geometric_registry<NormalMesh>)
-    if (name == entry.name)
-      throw InvalidOption(name +
-                          " makes surfaces through points with normals and has no matrix; it is for `sublimit sample`, "
-                          "`refine`, `limit` and `info`");
-  std::string offers;
-  for (const std::string& other : nearest_scheme_names(name)) offers += (offers.empty() ? "" : ", ") + other;
-  throw InvalidOption("unknown scheme '" + name + "'; the nearest are " + offers + " (`sublimit schemes` lists all)");
-}
-
 Loaded load(const Common& common, Progress& progress) {
   limit_threads(common);
-  Loaded loaded;
-  // A misspelt name is told before a large file is read.
-  SchemeOptions options = given_options(common);
-  if (!common.scheme.empty()) loaded.scheme = scheme_or_throw(common.scheme, options);
+  MeshRequest request{common.scheme,       given_options(common), common.boundary,   common.creasing, common.triangles,
+                      common.face_varying, common.triangulate,    common.no_creases, common.strict};
+  scheme_job(request);  // a misspelt name is told before a large file is read
   progress.step("reading " + common.mesh);
+  ControlMesh mesh;
   try {
-    loaded.mesh = read_mesh(common.mesh);
+    mesh = read_mesh(common.mesh);
   } catch (const Error& error) {
     if (error.code() != ErrorCode::io_error) refuse_polygon(common);
     throw;
   }
-  if (const auto sidecar = find_sidecar(common.mesh)) apply_sidecar(loaded.mesh, *sidecar);
-  if (common.triangulate) loaded.mesh = triangulated(loaded.mesh);
-  if (common.no_creases) loaded.mesh = without_creases(std::move(loaded.mesh));
-  if (const auto triangles = options.find("triangles"); triangles != options.end()) {
-    loaded.mesh.triangles = triangles->second == "smooth" ? Triangles::smooth : Triangles::catmark;
-  } else if (loaded.mesh.triangles == Triangles::smooth && loaded.scheme && knows(*loaded.scheme, "triangles")) {
-    options["triangles"] = "smooth";  // a tag of the file is for schemes that know it
-    loaded.scheme = scheme_or_throw(common.scheme, options);
-  }
-  if (!loaded.mesh.knot_intervals.empty() && loaded.scheme && loaded.scheme->knots == NewKnots::none)
-    loaded.mesh.warnings.push_back(common.mesh + ": knot intervals ignored: " + common.scheme +
-                                   " knows none; catmull-clark-intervals and doo-sabin-intervals do");
-  loaded.options = std::move(options);
-  loaded.rules.boundary = rule_of<Boundary>(common.boundary);
-  loaded.rules.creasing = rule_of<Creasing>(common.creasing);
-  loaded.face_varying = rule_of<FaceVaryingInterpolation>(common.face_varying)
-                            .value_or(loaded.mesh.face_varying_interpolation.value_or(FaceVaryingInterpolation::all));
-  if (common.quiet && !common.strict) return loaded;
-  std::vector<std::string> faults;
-  const Topology topology(view(loaded.mesh));
-  for (const Topology::Fault& fault : topology.faults()) faults.push_back(fault.message);
-  if (common.strict && !faults.empty()) {
-    std::string all;
-    for (const std::string& fault : faults) all += "\n  " + fault;
-    throw InvalidMesh(common.mesh + ": not a clean manifold (--strict):" + all);
-  }
+  if (const auto sidecar = find_sidecar(common.mesh)) apply_sidecar(mesh, *sidecar);
+  Loaded loaded = mesh_job(request, std::move(mesh), common.mesh);
+  if (common.quiet) return loaded;
+  std::vector<std::string> found = faults(loaded.mesh);
   progress.step("");
-  if (!common.quiet) {
-    list(loaded.mesh.warnings, "warning", 5);
-    for (std::string& fault : faults) fault = common.mesh + ": " + fault;
-    list(faults, "warning", 5);
-  }
+  list(loaded.mesh.warnings, "warning", 5);
+  for (std::string& fault : found) fault = common.mesh + ": " + fault;
+  list(found, "warning", 5);
   return loaded;
 }
 
@@ -189,15 +139,11 @@ bool has_channel(const Loaded& loaded, const std::string& output) {
 std::vector<FaceVaryingLevel> refined_channel(const Common& common, const Loaded& loaded,
                                               const std::vector<Level>& levels, const std::string& output) {
   if (!has_channel(loaded, output)) return {};
-  try {
-    return refine_face_varying(*loaded.scheme, loaded.face_varying, loaded.mesh.face_varying[0], levels);
-  } catch (const Error& error) {
-    const bool unable = error.code() == ErrorCode::unsupported_topology || error.code() == ErrorCode::invalid_option;
-    if (!unable || !common.face_varying.empty()) throw;
-    if (!common.quiet)
-      fmt::print(stderr, "sublimit: warning: {}: texture coordinates are left out: {}\n", common.mesh, error.what());
-    return {};
-  }
+  std::string why_not;
+  std::vector<FaceVaryingLevel> channel = refined_channel(loaded, levels, why_not);
+  if (!why_not.empty() && !common.quiet)
+    fmt::print(stderr, "sublimit: warning: {}: texture coordinates are left out: {}\n", common.mesh, why_not);
+  return channel;
 }
 
 void naming_mesh(const Common& common, const std::function<void()>& body) {

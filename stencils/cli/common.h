@@ -14,7 +14,7 @@
 #include <thread>
 #include <vector>
 
-#include "sublimit/primvar/face_varying.h"
+#include "sublimit/jobs/refined_job.h"
 #include "sublimit/scheme/refine.h"
 #include "sublimit/schemes.h"
 
@@ -30,13 +30,7 @@ struct Common {
   bool triangulate = false, no_creases = false;
 };
 
-struct Loaded {
-  ControlMesh mesh;
-  std::optional<Scheme<double>> scheme;
-  SchemeOptions options;  ///< of the scheme, those that tags of the mesh ask for among them
-  SubdivisionOptions rules;
-  FaceVaryingInterpolation face_varying = FaceVaryingInterpolation::all;
-};
+using Loaded = MeshJob;
 
 /// A line on stderr while a step takes longer than a second, if a person is looking.
 class Progress {
@@ -97,9 +91,6 @@ std::vector<FaceVaryingLevel> refined_channel(const Common& common, const Loaded
 
 /// Runs `body`; what it finds wrong with the mesh is told with the names of mesh and scheme.
 void naming_mesh(const Common& common, const std::function<void()>& body);
-
-/// The scheme of a name, or an InvalidOption that offers the nearest ones.
-Scheme<double> scheme_or_throw(const std::string& name, const SchemeOptions& options = {});
 
 /// Fails before any work if an output cannot be written: its extension, its directory, a file in its place that must
 /// not be touched. An empty list takes any extension.

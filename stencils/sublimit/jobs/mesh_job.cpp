@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sublimit/jobs/mesh_job.h"
+
+#include <algorithm>
+#include <span>
+
+#include "sublimit/base/error.h"
+#include "sublimit/base/rule_words.h"
+#include "sublimit/curves/schemes/curve_schemes.h"
+#include "sublimit/files/rule_words.h"
+#include "sublimit/geometric/geometric_schemes.h"
+#include "sublimit/scheme/prepare.h"
+
+namespace sublimit {
+namespace {
+
+bool knows(const Scheme<double>& scheme, const std::string& option) {
+  return std::ranges::any_of(scheme.options, [&](const OptionInfo& info) { return info.name == option; });
+}
+
+bool refines_curves(const std::string& name) {
+  const auto has_name = [&](const auto& scheme) { return name == scheme.name; };
+  return std::ranges::any_of(all_curve_schemes(), has_name) ||
+         std::ranges::any_of(geometric_registry<ControlPolygon>, has_name);
+}
+
+/// The rule of a word; nothing of an empty one.
+template <class Rule>
+std::optional<Rule> rule(const char* what, const std::string& word, std::span<const char* const> words) {
+  const std::optional<Rule> found = rule_of<Rule>(word);
+  if (found || word.empty()) return found;
+  std::string all;
+  for (const char* other : words) all += (all.empty() ? "" : ", ") + std::string(other);
+  throw InvalidOption(std::string(what) + " '" + word + "' is no rule; there are " + all);
+}
+
+}  // namespace
+
+Scheme<double> scheme_or_throw(const std::string& name, const SchemeOptions& options) {
+  if (std::optional<Scheme<double>> scheme = find_scheme(name, options)) return *std::move(scheme);
+  if (refines_curves(name))
+    throw InvalidOption(name + " refines curves; a scheme of surfaces is needed here (`sublimit schemes` lists all)");
+  for (const auto& entry : geometric_registry<CurvatureMesh>)
+    if (name == entry.name)
+      throw InvalidOption(name + " refines points with normals and curvatures; it is for `sublimit fit`");
+  for (const auto& entry : geometric_registry<NormalMesh>)
+    if (name == entry.name)
+      throw InvalidOption(name +
+                          " makes surfaces through points with normals and has no matrix; it is for `sublimit sample`, "
+                          "`refine`, `limit` and `info`");
+  std::string offers;
+  for (const std::string& other : nearest_scheme_names(name)) offers += (offers.empty() ? "" : ", ") + other;
+  throw InvalidOption("unknown scheme '" + name + "'; the nearest are " + offers + " (`sublimit schemes` lists all)");
+}
+
+MeshJob scheme_job(const MeshRequest& request) {
+  MeshJob job;
+  job.rules.boundary = rule<Boundary>("boundary", request.boundary, boundary_words);
+  job.rules.creasing = rule<Creasing>("creasing", request.creasing, creasing_words);
+  const auto triangles = rule<Triangles>("triangles", request.triangles, triangles_words);
+  const auto face_varying = rule<FaceVaryingInterpolation>("face-varying", request.face_varying, face_varying_words);
+  job.face_varying_asked = face_varying.has_value();
+  job.face_varying = face_varying.value_or(FaceVaryingInterpolation::all);
+  job.options = request.options;
+  if (triangles) job.options["triangles"] = request.triangles;
+  if (!request.scheme.empty()) job.scheme = scheme_or_throw(request.scheme, job.options);
+  return job;
+}
+
+MeshJob mesh_job(const MeshRequest& request, ControlMesh mesh, const std::string& name,
+                 std::optional<Scheme<double>> scheme) {
+  MeshJob job = scheme_job(request);
+  const bool own = scheme.has_value();
+  if (own) job.scheme = std::move(scheme);
+  if (request.triangulate) mesh = triangulated(mesh);
+  if (request.no_creases) mesh = without_creases(std::move(mesh));
+  if (const auto asked = job.options.find("triangles"); asked != job.options.end()) {
+    mesh.triangles = rule_of<Triangles>(asked->second);
+  } else if (mesh.triangles == Triangles::smooth && job.scheme && !own && knows(*job.scheme, "triangles")) {
+    job.options["triangles"] = word(Triangles::smooth);  // a tag of the mesh is for schemes that know it
+    job.scheme = scheme_or_throw(request.scheme, job.options);
+  }
+  if (!mesh.knot_intervals.empty() && job.scheme && job.scheme->knots == NewKnots::none)
+    mesh.warnings.push_back(name + ": knot intervals ignored: " + job.scheme->name +
+                            " knows none; catmull-clark-intervals and doo-sabin-intervals do");
+  if (!job.face_varying_asked) job.face_varying = mesh.face_varying_interpolation.value_or(job.face_varying);
+  if (request.strict) {
+    std::string all;
+    for (const std::string& fault : faults(mesh)) all += "\n  " + fault;
+    if (!all.empty()) throw InvalidMesh(name + ": not a clean manifold (--strict):" + all);
+  }
+  job.mesh = std::move(mesh);
+  return job;
+}
+
+std::vector<std::string> faults(const ControlMesh& mesh) {
+  const Topology topology(view(mesh));
+  std::vector<std::string> all;
+  for (const Topology::Fault& fault : topology.faults()) all.push_back(fault.message);
+  return all;
+}
+
+}  // namespace sublimit

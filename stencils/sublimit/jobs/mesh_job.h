@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// A mesh and the scheme that is to refine it, as they are asked for in words: by options of the program, by arguments
+// in Python.
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sublimit/scheme/refine.h"
+#include "sublimit/schemes.h"
+
+namespace sublimit {
+
+/// What is asked for. Rules are the words of files/rule_words.h; empty: the mesh's own.
+struct MeshRequest {
+  std::string scheme;     ///< empty: none is needed
+  SchemeOptions options;  ///< of the scheme
+  std::string boundary, creasing, triangles, face_varying;
+  bool triangulate = false;  ///< every face is cut into triangles first
+  bool no_creases = false;   ///< crease and corner tags are dropped first
+  bool strict = false;       ///< a mesh that is no clean manifold is refused
+};
+
+/// Ready to be refined.
+struct MeshJob {
+  ControlMesh mesh;
+  std::optional<Scheme<double>> scheme;
+  SchemeOptions options;  ///< of the scheme, those that tags of the mesh ask for among them
+  SubdivisionOptions rules;
+  FaceVaryingInterpolation face_varying = FaceVaryingInterpolation::all;
+  bool face_varying_asked = false;  ///< not by the mesh's tag: it must be possible
+};
+
+/// The scheme of a name.
+/// @throws InvalidOption  there is none, or it is one of curves or of points with more than positions; the message
+///                        offers the nearest ones
+Scheme<double> scheme_or_throw(const std::string& name, const SchemeOptions& options = {});
+
+/// Scheme and rules of a request, before a mesh is read: what is misspelt is told at once.
+/// @throws InvalidOption  as `scheme_or_throw`; a rule by a word that there is not
+MeshJob scheme_job(const MeshRequest& request);
+
+/// The same with its mesh.
+/// @param scheme  one of the caller's own instead of a name
+/// @param name    of the mesh, in messages
+/// @throws InvalidMesh  connectivity that no scheme takes; with `strict`, every fault of it
+/// @note  What is accepted with a warning is added to the mesh's.
+MeshJob mesh_job(const MeshRequest& request, ControlMesh mesh, const std::string& name,
+                 std::optional<Scheme<double>> scheme = std::nullopt);
+
+/// What the mesh has that a manifold has not, in words.
+std::vector<std::string> faults(const ControlMesh& mesh);
+
+}  // namespace sublimit
