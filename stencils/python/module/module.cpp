@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "module.h"
+
+PYBIND11_MODULE(_sublimit, m) {
+  using namespace sublimit::python;
+  m.doc() = "The compiled part of sublimit. Use the package.";
+  m.attr("__version__") = SUBLIMIT_VERSION;
+  add_errors(m);
+  add_meshes(m);
+  add_schemes(m);
+  add_levels(m);
+  add_surfaces(m);
+  add_tables(m);
+}

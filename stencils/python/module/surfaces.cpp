@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: Apache-2.0
+// Limit surfaces: points with derivatives, stencils and closest points anywhere.
+#include <pybind11/stl.h>
+
+#include <array>
+#include <memory>
+#include <string>
+
+#include "arrays.h"
+#include "calls.h"
+#include "module.h"
+#include "sublimit/base/error.h"
+#include "sublimit/base/parallel_for.h"
+#include "sublimit/fit/closest_point.h"
+#include "sublimit/jobs/mesh_job.h"
+#include "sublimit/limit/limit_surface.h"
+
+namespace sublimit::python {
+namespace {
+
+/// A surface with its control points.
+class Surface {
+ public:
+  Surface(const ControlMesh& mesh, const MeshRequest& request)
+      : job_(mesh_job(request, mesh, "mesh")),
+        surface_(*job_.scheme, job_.mesh, job_.rules),
+        bound_(surface_, job_.mesh.positions) {}
+
+  const LimitSurface& surface() const { return surface_; }
+  const Points& points() const { return job_.mesh.positions; }
+
+  LimitSamples evaluate(std::span<const Sample> places, int order) const {
+    for (const Sample& place : places) check_inside(surface_.faces(), place);
+    return bound_.evaluate(places, order);
+  }
+
+ private:
+  MeshJob job_;
+  LimitSurface surface_;
+  BoundLimitSurface bound_;
+};
+
+std::vector<Sample> places(const Array<Index>& faces, const Array<double>& u, const Array<double>& v) {
+  std::vector<Sample> all(size_t(faces.size()));
+  for (size_t i = 0; i < all.size(); ++i) all[i] = {faces.data()[i], u.data()[i], v.data()[i]};
+  return all;
+}
+
+py::array_t<std::int8_t> numbers(const std::vector<LimitStatus>& statuses) {
+  std::vector<std::int8_t> all;
+  all.reserve(statuses.size());
+  for (const LimitStatus status : statuses) all.push_back(std::int8_t(status));
+  return array(std::move(all));
+}
+
+py::dict arrays(LimitSamples&& samples) {
+  py::dict all;
+  all["status"] = numbers(samples.status);
+  all["order"] = array(std::move(samples.order));
+  all["points"] = array(std::move(samples.position));
+  for (const auto& [name, part] : {std::pair{"du", &samples.du},
+                                   {"dv", &samples.dv},
+                                   {"duu", &samples.duu},
+                                   {"duv", &samples.duv},
+                                   {"dvv", &samples.dvv},
+                                   {"normals", &samples.normal}})
+    if (part->rows() > 0 || samples.status.size() == 0) all[name] = array(std::move(*part));
+  return all;
+}
+
+py::dict evaluate(const Surface& surface, const Array<Index>& faces, const Array<double>& u, const Array<double>& v,
+                  int order, int threads) {
+  const std::vector<Sample> at = places(faces, u, v);
+  return arrays(without_gil([&] {
+    const Threads held(threads);
+    return surface.evaluate(at, order);
+  }));
+}
+
+/// A matrix for the position and one for each derivative; rows of what does not exist are empty.
+struct Stencils {
+  std::vector<SparseMatrix> matrices;
+  std::vector<LimitStatus> status;
+};
+
+Stencils stencils_at(const LinearSource& surface, const std::vector<Sample>& at, int order) {
+  std::vector<LimitStencil> rows(at.size());
+  parallel_for_blocks(
+      std::ssize(at),
+      [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+        for (std::int64_t i = begin; i < end; ++i) rows[size_t(i)] = surface.stencil(at[size_t(i)], order);
+      },
+      256);
+  double entries = 0;
+  for (const LimitStencil& row : rows) entries += double(row.vertices.size());
+  if (entries > std::numeric_limits<Index>::max())
+    throw ResourceError("stencils of " + std::to_string(at.size()) +
+                        " places have more weights than 32-bit indices count; "
+                        "take fewer places at a time");
+  Stencils all;
+  for (const LimitStencil& row : rows) all.status.push_back(row.status);
+  for (Eigen::Index q = 0; q < (order == 0 ? 1 : order == 1 ? 3 : 6); ++q) {
+    SparseMatrix& matrix = all.matrices.emplace_back(Index(at.size()), surface.num_points());
+    matrix.reserve(Eigen::Index(entries));
+    for (size_t i = 0; i < rows.size(); ++i) {
+      matrix.startVec(Eigen::Index(i));
+      if (q >= rows[i].weights.rows()) continue;
+      for (size_t k = 0; k < rows[i].vertices.size(); ++k)
+        matrix.insertBack(Eigen::Index(i), rows[i].vertices[k]) = rows[i].weights(q, Eigen::Index(k));
+    }
+    matrix.finalize();
+  }
+  return all;
+}
+
+py::tuple stencils(const Surface& surface, const Array<Index>& faces, const Array<double>& u, const Array<double>& v,
+                   int order, int threads) {
+  const std::vector<Sample> at = places(faces, u, v);
+  Stencils found = without_gil([&] {
+    const Threads held(threads);
+    return stencils_at(surface.surface(), at, order);
+  });
+  py::list matrices;
+  for (SparseMatrix& matrix : found.matrices) matrices.append(csr(std::move(matrix)));
+  return py::make_tuple(matrices, numbers(found.status));
+}
+
+py::dict closest(const Surface& surface, const Array<double>& queries, int threads) {
+  const Points from = points(queries);
+  ClosestPoints found = without_gil([&] {
+    const Threads held(threads);
+    return closest_points(surface.surface(), surface.points(), from);
+  });
+  std::vector<Index> faces;
+  std::vector<double> u, v;
+  for (const Sample& place : found.places) {
+    faces.push_back(place.face);
+    u.push_back(place.u);
+    v.push_back(place.v);
+  }
+  const auto column = [](const Eigen::VectorXd& values) {
+    return array(std::vector<double>(values.begin(), values.end()));
+  };
+  py::dict all;
+  all["face"] = array(std::move(faces));
+  all["u"] = array(std::move(u));
+  all["v"] = array(std::move(v));
+  all["points"] = array(std::move(found.points));
+  all["normals"] = array(std::move(found.normals));
+  all["distance"] = column(found.distances);
+  all["gap"] = column(found.gaps);
+  all["status"] = numbers(found.status);
+  return all;
+}
+
+/// Gauss, mean, k1, k2 and the directions of these: 10 columns; not a number where there is no curvature.
+py::array_t<double> curvatures(const Array<double>& du, const Array<double>& dv, const Array<double>& duu,
+                               const Array<double>& duv, const Array<double>& dvv, const Array<double>& normals,
+                               const Array<std::int8_t>& status, const Array<std::int8_t>& order) {
+  LimitSamples samples;
+  samples.du = points(du), samples.dv = points(dv), samples.normal = points(normals);
+  samples.duu = points(duu), samples.duv = points(duv), samples.dvv = points(dvv);
+  samples.order = vector(order);
+  for (const std::int8_t one : span(status)) samples.status.push_back(LimitStatus(one));
+  Points all = Points::Constant(samples.du.rows(), 10, std::numeric_limits<double>::quiet_NaN());
+  for (Index i = 0; i < all.rows(); ++i)
+    if (const std::optional<Curvature> c = curvature(samples, i))
+      all.row(i) << c->gauss, c->mean, c->k1, c->k2, c->direction1.transpose(), c->direction2.transpose();
+  return array(std::move(all));
+}
+
+}  // namespace
+
+void add_surfaces(py::module_& m) {
+  py::class_<Surface, std::shared_ptr<Surface>>(m, "Surface")
+      .def(py::init<const ControlMesh&, const MeshRequest&>(), py::arg("mesh"), py::arg("request"),
+           py::call_guard<py::gil_scoped_release>())
+      .def_property_readonly("num_points", [](const Surface& s) { return s.surface().num_points(); })
+      .def_property_readonly("num_faces", [](const Surface& s) { return s.surface().faces().size; })
+      .def_property_readonly("triangles", [](const Surface& s) { return s.surface().faces().triangles; })
+      .def("evaluate", &evaluate, py::arg("face"), py::arg("u"), py::arg("v"), py::arg("derivatives"),
+           py::arg("threads"))
+      .def("stencils", &stencils, py::arg("face"), py::arg("u"), py::arg("v"), py::arg("derivatives"),
+           py::arg("threads"))
+      .def("closest", &closest, py::arg("points"), py::arg("threads"));
+  m.def("curvatures", &curvatures, py::arg("du"), py::arg("dv"), py::arg("duu"), py::arg("duv"), py::arg("dvv"),
+        py::arg("normals"), py::arg("status"), py::arg("order"));
+}
+
+}  // namespace sublimit::python

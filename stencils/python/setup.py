@@ -1,0 +1,48 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Builds the compiled part with CMake, in the tree of what ships: who has built the program waits a minute, others half an hour."""
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import sysconfig
+
+from setuptools import Extension, setup
+from setuptools.command.build_ext import build_ext
+
+HERE = pathlib.Path(__file__).resolve().parent
+SOURCE = HERE.parent.parent
+TREE = pathlib.Path(os.environ.get("SUBLIMIT_BUILD_DIR", SOURCE / "build" / "release"))
+
+
+class CMakeBuild(build_ext):
+    """The target sublimit_python of the project's own build."""
+
+    def run(self):
+        for extension in self.extensions:
+            self.build_extension(extension)
+
+    def build_extension(self, extension):
+        def run(*command):
+            subprocess.run(command, cwd=SOURCE, check=True)
+
+        cache = TREE / "CMakeCache.txt"
+        known = cache.read_text() if cache.exists() else ""
+        options = ["-DSUBLIMIT_BUILD_PYTHON=ON", f"-DSUBLIMIT_PYTHON={sys.executable}"]
+        if not known:
+            run("cmake", "--preset", "release", "-B", str(TREE), *options)
+        elif not all(re.search(option[2:].replace("=", ":[A-Z]*="), known) for option in options):
+            run("cmake", "-B", str(TREE), *options)
+        run("cmake", "--build", str(TREE), "--target", "sublimit_python")
+        target = pathlib.Path(self.get_ext_fullpath(extension.name))
+        target.parent.mkdir(parents=True, exist_ok=True)
+        shutil.copyfile(TREE / "python" / "sublimit" / ("_sublimit" + sysconfig.get_config_var("EXT_SUFFIX")), target)
+
+
+# Nothing is left beside the sources.
+OUTPUT = TREE / "wheel"
+OUTPUT.mkdir(parents=True, exist_ok=True)
+setup(options={"build": {"build_base": str(OUTPUT)}, "egg_info": {"egg_base": str(OUTPUT)}},
+      version=re.search(r"project\(sublimit VERSION ([0-9.]+)", (SOURCE / "CMakeLists.txt").read_text())[1],
+      ext_modules=[Extension("sublimit._sublimit", [])], cmdclass={"build_ext": CMakeBuild})

@@ -1,0 +1,76 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Subdivision as sparse matrices, and the exact limit surface anywhere.
+
+>>> import sublimit
+>>> cube = sublimit.Mesh(
+...     [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]],
+...     [[0, 3, 2, 1], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]])
+>>> sublimit.refine(cube, "catmull-clark", levels=2)
+<sublimit.Mesh: 98 vertices, 96 faces>
+>>> S = sublimit.subdivision_matrix(cube, "catmull-clark")
+>>> S.shape
+(26, 8)
+>>> sublimit.limit(cube, "catmull-clark").points[0].round(4)
+array([0.25, 0.25, 0.25])
+"""
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from ._sublimit import __version__ as __version__
+    from ._errors import AnalysisError as AnalysisError
+    from ._errors import Error as Error
+    from ._errors import FormatError as FormatError
+    from ._errors import InvalidMesh as InvalidMesh
+    from ._errors import InvalidOption as InvalidOption
+    from ._errors import InvalidParameter as InvalidParameter
+    from ._errors import IoError as IoError
+    from ._errors import ResourceError as ResourceError
+    from ._errors import UnsupportedTopology as UnsupportedTopology
+    from ._levels import Limit as Limit
+    from ._levels import limit as limit
+    from ._levels import refine as refine
+    from ._levels import subdivision_matrix as subdivision_matrix
+    from ._meshes import Mesh as Mesh
+    from ._meshes import read as read
+    from ._schemes import OptionInfo as OptionInfo
+    from ._schemes import Scheme as Scheme
+    from ._schemes import SchemeInfo as SchemeInfo
+    from ._schemes import scheme as scheme
+    from ._schemes import schemes as schemes
+    from ._surfaces import ClosestPoints as ClosestPoints
+    from ._surfaces import Curvature as Curvature
+    from ._surfaces import LimitSurface as LimitSurface
+    from ._surfaces import Samples as Samples
+    from ._tables import Table as Table
+    from ._tables import bake as bake
+    from ._tables import load as load
+
+# Where each name is. Parts are loaded when they are first asked for: NumPy alone takes longer to load than all of this.
+_PARTS = {
+    "_sublimit": ("__version__",),
+    "_errors": ("AnalysisError", "Error", "FormatError", "InvalidMesh", "InvalidOption", "InvalidParameter", "IoError",
+               "ResourceError", "UnsupportedTopology"),
+    "_levels": ("Limit", "limit", "refine", "subdivision_matrix"),
+    "_meshes": ("Mesh", "read"),
+    "_schemes": ("OptionInfo", "Scheme", "SchemeInfo", "scheme", "schemes"),
+    "_surfaces": ("ClosestPoints", "Curvature", "LimitSurface", "Samples"),
+    "_tables": ("Table", "bake", "load"),
+}
+_PLACE = {name: part for part, names in _PARTS.items() for name in names}
+__all__ = sorted(_PLACE)
+
+
+def __getattr__(name: str) -> object:
+    if name not in _PLACE:
+        raise AttributeError(f"module 'sublimit' has no attribute '{name}'")
+    import importlib
+
+    found = getattr(importlib.import_module(f"{__name__}.{_PLACE[name]}"), name)
+    globals()[name] = found
+    return found
+
+
+def __dir__() -> list[str]:
+    return __all__

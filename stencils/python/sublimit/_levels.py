@@ -1,0 +1,150 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Refined meshes, their matrices, and the limits of their vertices."""
+from __future__ import annotations
+
+import warnings
+from collections.abc import Mapping
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+from . import _arrays as arrays
+from . import _sublimit
+from ._meshes import Mesh
+from ._schemes import OptionValue, Scheme, request
+
+if TYPE_CHECKING:
+    from scipy.sparse import csr_array
+
+
+def refine(mesh: Mesh, scheme: Scheme | str, levels: int = 1, *, boundary: str | None = None, creasing: str | None = None,
+           triangles: str | None = None, face_varying: str | None = None, option: Mapping[str, OptionValue] | None = None,
+           triangulate: bool = False, no_creases: bool = False, strict: bool = False, no_tags: bool = False,
+           threads: int = 0, quiet: bool = False) -> Mesh:
+    """A finer mesh, with the tags that are left, so that refining it goes on where this stopped.
+
+    Parameters
+    ----------
+    mesh : the control mesh
+    scheme : a name, as in `schemes`, or what `scheme` makes
+    levels : 0 or more
+    boundary : ``"none"``, ``"edge-only"`` or ``"edge-and-corner"`` (default: the mesh's, else edge-and-corner)
+    creasing : how sharpness decays, ``"uniform"`` or ``"chaikin"``
+    triangles : Catmull-Clark next to triangles, ``"catmark"`` or ``"smooth"``
+    face_varying : where texture coordinates are linear, by OpenSubdiv's names (default: ``"all"``)
+    option : options of the scheme by name
+    triangulate : first cut every face into triangles, a fan from its first corner
+    no_creases : first drop creases and corners
+    strict : refuse meshes that are no clean manifolds
+    no_tags : leave tags out
+    threads : at most so many (default: all)
+    quiet : no warnings
+
+    Raises
+    ------
+    InvalidOption
+        A scheme, an option or a word that there is not.
+    InvalidParameter
+        Negative levels.
+    UnsupportedTopology
+        A face or a crease that the scheme cannot take.
+    ResourceError
+        More memory than there is, predicted before it is taken.
+    """
+    asked = request(scheme, boundary=boundary, creasing=creasing, triangles=triangles, face_varying=face_varying, option=option,
+                    triangulate=triangulate, no_creases=no_creases, strict=strict)
+    fine = Mesh._of(_sublimit.refine(core_of(mesh), asked, levels, not no_tags, threads))
+    if not quiet:
+        for message in fine.warnings:
+            warnings.warn(message, stacklevel=2)
+    return fine
+
+
+def subdivision_matrix(mesh: Mesh, scheme: Scheme | str, levels: int = 1, *, boundary: str | None = None,
+                       creasing: str | None = None, triangles: str | None = None,
+                       option: Mapping[str, OptionValue] | None = None, triangulate: bool = False, no_creases: bool = False,
+                       threads: int = 0) -> csr_array:
+    """The points of a level as a matrix times the control points.
+
+    Row i is the stencil of vertex i of ``refine(mesh, scheme, levels)``. The parameters are those of `refine`.
+
+    Returns
+    -------
+    scipy.sparse.csr_array, (vertices of the level, control points)
+        Its arrays are the library's, not copies.
+    """
+    asked = request(scheme, boundary=boundary, creasing=creasing, triangles=triangles, option=option, triangulate=triangulate,
+                    no_creases=no_creases)
+    return csr(_sublimit.subdivision_matrix(core_of(mesh), asked, levels, threads))
+
+
+class Limit:
+    """Limits of the vertices of a level.
+
+    A vertex has one side, unless sharp edges or several fans of faces cut the surface apart there: then each side has a
+    normal and tangents of its own.
+
+    Attributes
+    ----------
+    points : (vertices, 3)
+    normals : (sides, 3), of length one; zero where there is none
+    tangents : two (sides, 3), characteristic tangents; normals are along their cross product
+    status : (sides,) numbers; ``statuses[number]`` is the word
+    side_vertex : (sides,) the vertex of each
+    corner_side : (corners,) the side of each corner of a face
+    faces : ``(sizes, corners)`` of the level
+    """
+
+    __module__ = "sublimit"
+    statuses: tuple[str, ...] = _sublimit.statuses
+
+    def __init__(self, parts: dict[str, Any]) -> None:
+        self._parts = parts
+        self.points: arrays.Floats = parts["points"]
+        self.normals: arrays.Floats = parts["normals"]
+        self.tangents: tuple[arrays.Floats, arrays.Floats] = parts["tangents"]
+        self.status = parts["status"]
+        self.side_vertex: arrays.Ints = parts["side_vertex"]
+        self.corner_side: arrays.Ints = parts["corner_side"]
+        self.faces: tuple[arrays.Ints, arrays.Ints] = (parts["sizes"], parts["corners"])
+
+    @cached_property
+    def matrix(self) -> csr_array:
+        """(vertices, control points): limit points = matrix @ control points."""
+        return csr(self._parts["matrix"])
+
+    @cached_property
+    def tangent_matrices(self) -> tuple[csr_array, csr_array]:
+        """Two (sides, control points): tangents = matrix @ control points."""
+        first, second = self._parts["tangent_matrices"]
+        return csr(first), csr(second)
+
+    def __repr__(self) -> str:
+        return f"<sublimit.Limit of {len(self.points)} vertices, {len(self.normals)} sides>"
+
+
+def limit(mesh: Mesh, scheme: Scheme | str, level: int = 0, *, boundary: str | None = None, creasing: str | None = None,
+          triangles: str | None = None, option: Mapping[str, OptionValue] | None = None, triangulate: bool = False,
+          no_creases: bool = False, threads: int = 0) -> Limit:
+    """Exact limits, tangents and normals of the vertices of a level. The parameters are those of `refine`.
+
+    Raises
+    ------
+    UnsupportedTopology
+        As `refine`; or the scheme has no limit at a vertex.
+    """
+    asked = request(scheme, boundary=boundary, creasing=creasing, triangles=triangles, option=option, triangulate=triangulate,
+                    no_creases=no_creases)
+    return Limit(_sublimit.limit(core_of(mesh), asked, level, threads))
+
+
+def core_of(mesh: Mesh) -> _sublimit.ControlMesh:
+    if not isinstance(mesh, Mesh):
+        raise TypeError(f"mesh is a {type(mesh).__name__}; a sublimit.Mesh is right")
+    return mesh._core
+
+
+def csr(parts: tuple[Any, ...]) -> csr_array:
+    from scipy.sparse import csr_array
+
+    weights, columns, starts, shape = parts
+    return csr_array((weights, columns, starts), shape=shape, copy=False)

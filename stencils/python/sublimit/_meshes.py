@@ -1,0 +1,228 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Control meshes."""
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _arrays as arrays
+from . import _sublimit
+
+Points = npt.ArrayLike
+"""(vertices, 3), real numbers."""
+
+
+class Mesh:
+    """A control mesh: points, faces of any size, tags. It never changes.
+
+    Parameters
+    ----------
+    points : (vertices, 3), real numbers
+    faces : (faces, 3) or (faces, 4) vertices; or a list of lists; or ``(sizes, corners)``, the number of corners of each
+        face and the vertices of all faces, one after the other. Counter-clockwise, counted from 0
+    creases : {(tail, head): sharpness} or rows (tail, head, sharpness), optional
+        Sharpness in levels; 10 and more never gets smooth
+    corners : {vertex: sharpness} or rows (vertex, sharpness), optional
+    holes : faces that are refined but are no part of the surface, optional
+    boundary : ``"none"``, ``"edge-only"`` or ``"edge-and-corner"``, optional
+        Edges and vertices of the boundary that are sharp (default: edge-and-corner)
+    uv : (values, 1 to 3), optional
+        Texture coordinates: of vertices, of corners, or those that `uv_faces` names
+    uv_faces : the value of every corner, in the form of `faces` or one after the other, optional
+
+    Raises
+    ------
+    ValueError
+        An array of another shape or type; NaN and infinite points.
+    InvalidMesh
+        Faces or tags that name what is not there, faces of two corners.
+
+    Examples
+    --------
+    >>> import sublimit
+    >>> triangle = sublimit.Mesh([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]], corners={0: 10})
+    >>> triangle
+    <sublimit.Mesh: 3 vertices, 1 faces>
+    >>> triangle.faces
+    (array([3], dtype=int32), array([0, 1, 2], dtype=int32))
+    """
+
+    __module__ = "sublimit"
+    __slots__ = ("_core", "__weakref__")
+    _core: _sublimit.ControlMesh
+
+    def __init__(self, points: Points, faces: Any, *, creases: Mapping[tuple[int, int], float] | Iterable[Any] | None = None,
+                 corners: Mapping[int, float] | Iterable[Any] | None = None, holes: npt.ArrayLike | None = None,
+                 boundary: str | None = None, uv: npt.ArrayLike | None = None, uv_faces: Any = None) -> None:
+        positions = arrays.floats(points, "points", (None, 3), "(vertices, 3)")
+        sizes, vertices = arrays.faces(faces)
+        self._core = _sublimit.ControlMesh(
+            positions, sizes, vertices, _creases(creases), _corners(corners),
+            arrays.ints([] if holes is None else holes, "holes", (None,), "(holes,)"), boundary,
+            None if uv is None else _channel(uv, uv_faces, sizes, vertices, len(positions)))
+        if uv is None and uv_faces is not None:
+            raise ValueError("uv_faces says which values corners have, but there is no uv")
+
+    @classmethod
+    def _of(cls, core: _sublimit.ControlMesh) -> Mesh:
+        mesh = cls.__new__(cls)
+        mesh._core = core
+        return mesh
+
+    @property
+    def points(self) -> arrays.Floats:
+        """(vertices, 3): what the mesh has, read-only."""
+        return self._core.points
+
+    @property
+    def faces(self) -> tuple[arrays.Ints, arrays.Ints]:
+        """``(sizes, corners)``: what the mesh has, read-only."""
+        return self._core.sizes, self._core.corners
+
+    @property
+    def face_array(self) -> arrays.Ints:
+        """(faces, corners of each): what the mesh has, read-only, where faces are of one size.
+
+        Raises
+        ------
+        ValueError
+            They are not.
+        """
+        sizes, vertices = self.faces
+        if len(sizes) == 0 or (sizes != sizes[0]).any():
+            raise ValueError(f"faces have {sorted(set(sizes.tolist()))} corners; faces of one size make an array")
+        return vertices.reshape(len(sizes), int(sizes[0]))
+
+    @property
+    def creases(self) -> tuple[arrays.Ints, arrays.Floats32]:
+        """Edges (creases, 2) and their sharpness in levels."""
+        return self._core.creases
+
+    @property
+    def corners(self) -> tuple[arrays.Ints, arrays.Floats32]:
+        """Sharp vertices and their sharpness in levels."""
+        return self._core.sharp_vertices
+
+    @property
+    def holes(self) -> arrays.Ints:
+        """Faces that are no part of the surface."""
+        return self._core.holes
+
+    @property
+    def boundary(self) -> str | None:
+        """The mesh's own rule for boundaries, if it has one."""
+        return self._core.boundary
+
+    @property
+    def uv(self) -> arrays.Floats | None:
+        """Texture coordinates (values, columns), if there are any."""
+        return self._core.channels[0][1] if self._core.channels else None
+
+    @property
+    def uv_faces(self) -> arrays.Ints | None:
+        """The texture coordinate of every corner, if there are any."""
+        return self._core.channels[0][2] if self._core.channels else None
+
+    @property
+    def warnings(self) -> list[str]:
+        """What a reader accepted but wants known."""
+        return self._core.warnings
+
+    def faults(self) -> list[str]:
+        """What the mesh has that a manifold has not, in words."""
+        return self._core.faults()
+
+    def write(self, path: str | os.PathLike[str]) -> None:
+        """Writes .obj, with tags, or .ply, by the extension. The file appears whole or not at all.
+
+        Raises
+        ------
+        InvalidOption
+            Another extension.
+        IoError
+            Unwritable.
+        ResourceError
+            A full disk.
+        """
+        self._core.write(os.fspath(path))
+
+    def __repr__(self) -> str:
+        return f"<sublimit.Mesh: {len(self._core.points)} vertices, {len(self._core.sizes)} faces>"
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        core = self._core
+        uv = None if self.uv is None else (np.array(self.uv), np.array(self.uv_faces))
+        return _made, (core.points, core.sizes, core.corners, core.creases, core.sharp_vertices, core.holes, core.boundary,
+                       uv)
+
+
+def read(path: str | os.PathLike[str]) -> Mesh:
+    """Reads .obj (with tags), .ply or .off; tags in PATH.json beside it override those of the file.
+
+    Raises
+    ------
+    FormatError
+        Not understood; the message starts with file:line.
+    InvalidMesh
+        Faces or tags that name what is not there.
+    IoError
+        Missing, a directory, unreadable.
+    """
+    return Mesh._of(_sublimit.read(os.fspath(path)))
+
+
+def _made(*parts: Any) -> Mesh:
+    return Mesh._of(_sublimit.ControlMesh(*(np.ascontiguousarray(p) if isinstance(p, np.ndarray) else p for p in parts)))
+
+
+def _rows(values: Any, name: str, columns: int, words: str) -> arrays.Floats:
+    """Rows of whole numbers and a sharpness, from a mapping or from rows."""
+    if isinstance(values, Mapping):
+        values = [(*(key if columns == 3 else (key,)), sharpness) for key, sharpness in values.items()]
+    elif values is not None and not isinstance(values, np.ndarray):
+        values = [tuple(row) for row in values]
+    return arrays.floats([] if values is None else values, name, (None, columns), words)
+
+
+def _whole(column: arrays.Floats, name: str) -> arrays.Ints:
+    if (column != np.floor(column)).any() or (np.abs(column) > 2**31 - 1).any():
+        raise ValueError(f"{name} names vertex {column[column != np.floor(column)][:1] or column.max()}; whole numbers are right")
+    return np.ascontiguousarray(column, dtype=np.int32)
+
+
+def _creases(values: Any) -> tuple[arrays.Ints, arrays.Floats32]:
+    rows = _rows(values, "creases", 3, "{(tail, head): sharpness} or rows (tail, head, sharpness)")
+    return _whole(rows[:, :2], "creases"), np.ascontiguousarray(rows[:, 2], dtype=np.float32)
+
+
+def _corners(values: Any) -> tuple[arrays.Ints, arrays.Floats32]:
+    rows = _rows(values, "corners", 2, "{vertex: sharpness} or rows (vertex, sharpness)")
+    return _whole(rows[:, 0], "corners"), np.ascontiguousarray(rows[:, 1], dtype=np.float32)
+
+
+def _channel(uv: Any, uv_faces: Any, sizes: arrays.Ints, vertices: arrays.Ints,
+             num_points: int) -> tuple[arrays.Floats, arrays.Ints]:
+    values = arrays.floats(uv, "uv", (None, None), "(values, 1 to 3)")
+    if not 1 <= values.shape[1] <= 3:
+        raise ValueError(f"uv has shape {values.shape}; (values, 1 to 3) is right")
+    if uv_faces is None:
+        if len(values) == len(vertices):
+            return values, np.arange(len(vertices), dtype=np.int32)
+        if len(values) == num_points:
+            return values, vertices
+        raise ValueError(f"uv has {len(values)} values; {num_points} of vertices or {len(vertices)} of corners are right, "
+                         "or uv_faces to say which corner has which")
+    array = np.asarray(uv_faces) if isinstance(uv_faces, np.ndarray) else None
+    if array is not None and array.ndim == 1 and array.dtype != object:
+        indices = arrays.ints(array, "uv_faces", (None,), "(corners,)")
+    else:
+        indices = arrays.faces(uv_faces, "uv_faces")[1]
+    if len(indices) != len(vertices):
+        raise ValueError(f"uv_faces has {len(indices)} corners; the {len(sizes)} faces have {len(vertices)}")
+    if len(indices) and not 0 <= indices.min() <= indices.max() < len(values):
+        raise ValueError(f"uv_faces names value {indices.max() if indices.min() >= 0 else indices.min()}; uv has {len(values)}")
+    return values, indices

@@ -1,0 +1,229 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The exact limit anywhere: points, derivatives, normals, curvature, stencils, closest points."""
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, NoReturn
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _arrays as arrays
+from . import _sublimit
+from ._levels import core_of, csr
+from ._meshes import Mesh
+from ._schemes import OptionValue, Scheme, request
+
+if TYPE_CHECKING:
+    from scipy.sparse import csr_array
+
+
+@dataclass(frozen=True)
+class Curvature:
+    """Curvature of a surface; NaN where there is none.
+
+    Attributes
+    ----------
+    gauss, mean : (...); mean > 0 where the surface bends towards its normal
+    k1, k2 : (...), principal curvatures, k1 >= k2
+    direction1, direction2 : (..., 3), their directions: of length one, in the tangent plane
+    """
+
+    __module__ = "sublimit"
+    gauss: arrays.Floats
+    mean: arrays.Floats
+    k1: arrays.Floats
+    k2: arrays.Floats
+    direction1: arrays.Floats
+    direction2: arrays.Floats
+
+
+class Samples:
+    """What there is at places of a surface. What does not exist is zero; `order` and `status` say what does.
+
+    Attributes
+    ----------
+    points : (..., 3)
+    du, dv : (..., 3), per unit of u and v; None without derivatives
+    duu, duv, dvv : (..., 3); None with less than two derivatives
+    normals : (..., 3), of length one; zero where there is none; None without derivatives
+    status : (...), numbers; ``statuses[number]`` is the word
+    order : (...), derivatives that there are: 0, 1 or 2
+    """
+
+    __module__ = "sublimit"
+    statuses: tuple[str, ...] = _sublimit.statuses
+
+    def __init__(self, parts: Mapping[str, Any], shape: tuple[int, ...]) -> None:
+        def part(name: str) -> Any:
+            return parts[name].reshape((*shape, 3)) if name in parts else None
+
+        self.points: arrays.Floats = part("points")
+        self.du: arrays.Floats | None = part("du")
+        self.dv: arrays.Floats | None = part("dv")
+        self.duu: arrays.Floats | None = part("duu")
+        self.duv: arrays.Floats | None = part("duv")
+        self.dvv: arrays.Floats | None = part("dvv")
+        self.normals: arrays.Floats | None = part("normals")
+        self.status: npt.NDArray[np.int8] = parts["status"].reshape(shape)
+        self.order: npt.NDArray[np.int8] = parts["order"].reshape(shape)
+
+    def curvature(self) -> Curvature:
+        """Curvature where there are two derivatives and the first ones span a plane.
+
+        Raises
+        ------
+        ValueError
+            The samples were taken with fewer derivatives.
+        """
+        if self.duu is None:
+            raise ValueError("curvature needs second derivatives: evaluate(..., derivatives=2)")
+        shape = self.status.shape
+        du, dv, duu, duv, dvv, normals = (np.ascontiguousarray(part, dtype=np.float64).reshape(-1, 3) for part in (
+            self.du, self.dv, self.duu, self.duv, self.dvv, self.normals))
+        all_of_it = _sublimit.curvatures(du, dv, duu, duv, dvv, normals, np.ascontiguousarray(self.status).reshape(-1),
+                                         np.ascontiguousarray(self.order).reshape(-1))
+        gauss, mean, k1, k2 = (all_of_it[:, i].reshape(shape) for i in range(4))
+        return Curvature(gauss, mean, k1, k2, all_of_it[:, 4:7].reshape((*shape, 3)), all_of_it[:, 7:].reshape((*shape, 3)))
+
+    def __repr__(self) -> str:
+        return f"<sublimit.Samples: shape {self.status.shape}>"
+
+
+@dataclass(frozen=True)
+class ClosestPoints:
+    """Nearest points of a surface.
+
+    Attributes
+    ----------
+    face, u, v : (n,), where they are
+    points : (n, 3)
+    normals : (n, 3), there; zero where there is none
+    distance : (n,), from the points given
+    gap : (n,), by how much the distance may be too large where the search was cut short, else 0
+    status : (n,), numbers; ``Samples.statuses[number]`` is the word
+    """
+
+    __module__ = "sublimit"
+    face: arrays.Ints
+    u: arrays.Floats
+    v: arrays.Floats
+    points: arrays.Floats
+    normals: arrays.Floats
+    distance: arrays.Floats
+    gap: arrays.Floats
+    status: npt.NDArray[np.int8]
+
+
+class LimitSurface:
+    """The limit surface of a mesh. It never changes; threads may share it.
+
+    Places are (face, u, v): a quadrilateral is one face, [0,1] x [0,1] from its first corner; another polygon is one for
+    each corner, numbered as Ptex does; under schemes for triangles each triangle is one, u, v >= 0, u + v <= 1.
+
+    Parameters
+    ----------
+    mesh, scheme and options : as in `refine`
+
+    Examples
+    --------
+    >>> import sublimit
+    >>> square = sublimit.Mesh([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], [[0, 1, 2, 3]])
+    >>> surface = sublimit.LimitSurface(square, "bilinear")
+    >>> surface.evaluate(0, [0, 0.5], 0.25).points
+    array([[0.  , 0.25, 0.  ],
+           [0.5 , 0.25, 0.  ]])
+    """
+
+    __module__ = "sublimit"
+    __slots__ = ("_core", "__weakref__")
+    _core: _sublimit.Surface
+
+    def __init__(self, mesh: Mesh, scheme: Scheme | str, *, boundary: str | None = None, creasing: str | None = None,
+                 triangles: str | None = None, option: Mapping[str, OptionValue] | None = None, triangulate: bool = False,
+                 no_creases: bool = False, strict: bool = False) -> None:
+        asked = request(scheme, boundary=boundary, creasing=creasing, triangles=triangles, option=option,
+                        triangulate=triangulate, no_creases=no_creases, strict=strict)
+        self._core = _sublimit.Surface(core_of(mesh), asked)
+
+    @property
+    def num_faces(self) -> int:
+        """Faces that places may be on."""
+        return self._core.num_faces
+
+    @property
+    def num_points(self) -> int:
+        """Control points."""
+        return self._core.num_points
+
+    def evaluate(self, face: npt.ArrayLike, u: npt.ArrayLike, v: npt.ArrayLike, derivatives: int = 0, *,
+                 threads: int = 0) -> Samples:
+        """Points of the surface, exact to rounding.
+
+        Parameters
+        ----------
+        face, u, v : arrays that broadcast to one shape
+        derivatives : 0, 1 or 2
+
+        Returns
+        -------
+        Samples, of the broadcast shape
+
+        Raises
+        ------
+        InvalidParameter
+            A face that there is not, parameters outside of it or not finite.
+        """
+        faces, at_u, at_v, shape = places(face, u, v)
+        return Samples(self._core.evaluate(faces, at_u, at_v, order(derivatives), threads), shape)
+
+    def stencils(self, face: npt.ArrayLike, u: npt.ArrayLike, v: npt.ArrayLike, derivatives: int = 0, *,
+                 threads: int = 0) -> list[csr_array]:
+        """What `evaluate` multiplies control points with: a row for each place, in the order of the broadcast array.
+
+        Returns
+        -------
+        list of scipy.sparse.csr_array, (places, control points)
+            Position; du, dv; duu, duv, dvv, as many as asked for. Rows of what does not exist are empty.
+        """
+        faces, at_u, at_v, _ = places(face, u, v)
+        return [csr(parts) for parts in self._core.stencils(faces, at_u, at_v, order(derivatives), threads)[0]]
+
+    def closest(self, points: npt.ArrayLike, *, threads: int = 0) -> ClosestPoints:
+        """Nearest points of the surface.
+
+        Parameters
+        ----------
+        points : (n, 3)
+        """
+        return ClosestPoints(**self._core.closest(arrays.floats(points, "points", (None, 3), "(n, 3)"), threads))
+
+    def __reduce__(self) -> NoReturn:
+        raise TypeError("a LimitSurface does not pickle: it is made of its mesh faster than it is read; pickle the Mesh")
+
+    def __repr__(self) -> str:
+        return f"<sublimit.LimitSurface: {self.num_faces} faces, {self.num_points} control points>"
+
+
+def order(derivatives: int) -> int:
+    """As the compiled part takes it."""
+    if derivatives not in (0, 1, 2):
+        raise ValueError(f"derivatives is {derivatives}; 0, 1 or 2 are right")
+    return int(derivatives)
+
+
+def places(face: npt.ArrayLike, u: npt.ArrayLike, v: npt.ArrayLike) -> tuple[arrays.Ints, arrays.Floats, arrays.Floats,
+                                                                            tuple[int, ...]]:
+    """Three flat arrays, and the shape that theirs broadcast to."""
+    names = ("face", "u", "v")
+    given = [np.asarray(part) for part in (face, u, v)]
+    try:
+        wide = np.broadcast_arrays(*given)
+    except ValueError:
+        shapes = ", ".join(f"{name} {part.shape}" for name, part in zip(names, given))
+        raise ValueError(f"face, u and v do not broadcast to one shape: {shapes}") from None
+    flat = [part.reshape(-1) for part in wide]
+    return (arrays.ints(flat[0], "face", (None,), "whole numbers"),
+            arrays.floats(flat[1], "u", (None,), "real numbers", finite=False),
+            arrays.floats(flat[2], "v", (None,), "real numbers", finite=False), wide[0].shape)

@@ -1,0 +1,290 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Tables: what a topology makes of any points, baked once, applied every frame."""
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _sublimit
+from ._levels import core_of, csr
+from ._meshes import Mesh
+from ._schemes import OptionValue, Scheme, request
+from ._surfaces import order, places
+
+if TYPE_CHECKING:
+    from scipy.sparse import csr_array
+    from scipy.sparse.linalg import LinearOperator
+
+
+class Table:
+    """A table; `bake` makes it, `load` reads it. It never changes; threads may share it.
+
+    Examples
+    --------
+    >>> import sublimit
+    >>> cube = sublimit.Mesh(
+    ...     [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]],
+    ...     [[0, 3, 2, 1], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]])
+    >>> table = sublimit.bake(cube, "catmull-clark", levels=3)
+    >>> table
+    <sublimit.Table: 386 points of 8 control points, float32>
+    >>> table.apply(cube.points.astype("float32")).shape
+    (386, 3)
+    """
+
+    __module__ = "sublimit"
+    __slots__ = ("_core", "dtype", "__weakref__")
+    _core: _sublimit.FloatTable | _sublimit.DoubleTable
+    dtype: np.dtype[Any]
+    """Of its weights, and of what it makes."""
+
+    def __init__(self) -> None:
+        raise TypeError("sublimit.bake makes tables, sublimit.load reads them")
+
+    @classmethod
+    def _of(cls, core: _sublimit.FloatTable | _sublimit.DoubleTable) -> Table:
+        table = cls.__new__(cls)
+        table._core = core
+        table.dtype = np.dtype(np.float32 if isinstance(core, _sublimit.FloatTable) else np.float64)
+        return table
+
+    @property
+    def num_points(self) -> int:
+        """Points that it makes."""
+        return self._core.num_points
+
+    @property
+    def num_control_points(self) -> int:
+        """Points that it is applied to."""
+        return self._core.num_control_points
+
+    @property
+    def quantities(self) -> int:
+        """1: positions; 3: du and dv too; 6: duu, duv and dvv as well."""
+        return self._core.quantities
+
+    @property
+    def num_bytes(self) -> int:
+        """Memory of its arrays."""
+        return self._core.num_bytes
+
+    @property
+    def info(self) -> dict[str, Any]:
+        """What it was made of: scheme, options, rows, level, grid, topology_hash, tool."""
+        return self._core.info
+
+    @property
+    def faces(self) -> tuple[npt.NDArray[np.int32], npt.NDArray[np.int32]]:
+        """``(sizes, corners)`` of the faces that its points make; holes are left out."""
+        return self._core.faces()
+
+    @property
+    def addresses(self) -> tuple[npt.NDArray[np.int32], npt.NDArray[np.float64]] | None:
+        """Of a list of places: ``(face, (u, v))`` of each point."""
+        return self._core.addresses()
+
+    @property
+    def status(self) -> npt.NDArray[np.uint8]:
+        """A number for each point; ``statuses[number]`` is the word. Empty: all are regular."""
+        return self._core.statuses
+
+    @property
+    def statuses(self) -> list[str]:
+        """The words of `status`."""
+        return self._core.status_words
+
+    def _shape(self, channels: int) -> tuple[int, ...]:
+        made = channels - 1 if self._core.info["rational"] else channels
+        return (self.num_points, made) if self.quantities == 1 else (self.quantities, self.num_points, made)
+
+    def apply(self, points: npt.ArrayLike, out: npt.NDArray[Any] | None = None, *, threads: int = 0) -> npt.NDArray[Any]:
+        """The table times control points.
+
+        Parameters
+        ----------
+        points : (control points, channels) or (frames, control points, channels)
+            Used where they are if they are of the table's `dtype` and rows follow each other, else copied first.
+        out : array for the result, of the shape below and the table's `dtype`, optional
+
+        Returns
+        -------
+        (points, channels); of tables with derivatives (quantities, points, channels); with frames a first axis for them
+
+        Raises
+        ------
+        ValueError
+            Arrays of another shape or type; an `out` that shares memory with `points`.
+        """
+        given = self._input(points, "points", self.num_control_points, "control points")
+        frames = given.reshape((-1, *given.shape[-2:]))
+        if not 1 <= given.shape[-1] <= 64:
+            raise ValueError(f"points has {given.shape[-1]} channels; 1 to 64 are right")
+        shape = given.shape[:-2] + self._shape(given.shape[-1])
+        if out is None:
+            out = np.empty(shape, self.dtype)
+        self._check_out(out, shape, given, "points")
+        if len(frames):
+            self._core.apply(frames, out.reshape((len(frames), self.quantities * self.num_points, -1)), threads)
+        return out
+
+    def apply_transpose(self, values: npt.ArrayLike, out: npt.NDArray[Any] | None = None, *,
+                        threads: int = 0) -> npt.NDArray[Any]:
+        """The transposed table times values: gradients with regard to control points.
+
+        Parameters
+        ----------
+        values : as `apply` makes them, of one frame; or of positions alone, (points, channels)
+        out : array for the result, optional
+
+        Returns
+        -------
+        (control points, channels)
+        """
+        given = np.asarray(values)
+        if self.quantities > 1 and given.ndim == 3:
+            if given.shape[0] > self.quantities:
+                raise ValueError(f"values has shape {given.shape}; the table has {self.quantities} quantities")
+            flat = self._input(given, "values", self.num_points, "points")
+        else:
+            if given.ndim != 2:
+                raise ValueError(f"values has shape {given.shape}; ({self.num_points} points, channels) is right")
+            flat = self._input(given, "values", self.num_points, "points").reshape((1, *given.shape))
+        shape = (self.num_control_points, flat.shape[-1])
+        if out is None:
+            out = np.empty(shape, self.dtype)
+        self._check_out(out, shape, flat, "values")
+        self._core.apply_transpose(flat, out, threads)
+        return out
+
+    def _input(self, values: npt.ArrayLike, name: str, count: int, what: str) -> npt.NDArray[Any]:
+        array = np.asarray(values)
+        if isinstance(values, np.ma.MaskedArray) and np.any(values.mask):
+            raise ValueError(f"{name} has masked entries; fill them, or leave them out")
+        if array.dtype.kind not in "fiu":
+            raise ValueError(f"{name} has dtype {array.dtype}; real numbers are right")
+        if array.ndim not in (2, 3) or array.shape[-2] != count or array.shape[-1] < 1:
+            raise ValueError(f"{name} has shape {array.shape}; ({count} {what}, channels) is right, or a first axis before it")
+        return np.ascontiguousarray(array, dtype=self.dtype)
+
+    def _check_out(self, out: npt.NDArray[Any], shape: tuple[int, ...], given: npt.NDArray[Any], name: str) -> None:
+        if not isinstance(out, np.ndarray) or out.dtype != self.dtype:
+            raise ValueError(f"out is {getattr(out, 'dtype', type(out).__name__)}; an array of {self.dtype} is right")
+        if out.shape != shape:
+            raise ValueError(f"out has shape {out.shape}; {shape} is right")
+        if not out.flags.c_contiguous or not out.flags.writeable:
+            raise ValueError("out is read-only or its rows do not follow each other; np.empty(shape, dtype) is right")
+        if np.may_share_memory(out, given) and np.shares_memory(out, given):
+            raise ValueError(f"out shares memory with {name}, which is read while out is written")
+
+    def matrix(self) -> csr_array:
+        """(quantities x points, control points): all positions first, then all du, ..."""
+        return csr(self._core.matrix())
+
+    def operator(self) -> LinearOperator:
+        """`matrix` for SciPy's solvers, applied by patterns: it is never made.
+
+        Returns
+        -------
+        scipy.sparse.linalg.LinearOperator, (quantities x points, control points)
+        """
+        from scipy.sparse.linalg import LinearOperator
+
+        def forward(x: npt.NDArray[Any]) -> npt.NDArray[Any]:
+            made = self.apply(x.reshape(self.num_control_points, -1))
+            return made.reshape(self.quantities * self.num_points, -1).reshape((-1, *x.shape[1:]))
+
+        def backward(y: npt.NDArray[Any]) -> npt.NDArray[Any]:
+            shaped = y.reshape(self.num_points, -1) if self.quantities == 1 else y.reshape(self.quantities, self.num_points, -1)
+            return self.apply_transpose(shaped).reshape((-1, *y.shape[1:]))
+
+        return LinearOperator(shape=(self.quantities * self.num_points, self.num_control_points), dtype=self.dtype,
+                              matvec=forward, rmatvec=backward, matmat=forward, rmatmat=backward)
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Writes a file that `load`, the program and ``eval/`` read, in the layout of safetensors. It appears whole or not
+        at all.
+        """
+        self._core.save(os.fspath(path))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        import tempfile
+
+        with tempfile.TemporaryDirectory() as directory:
+            path = os.path.join(directory, "table.safetensors")
+            self.save(path)
+            with open(path, "rb") as file:
+                return _unpickled, (file.read(),)
+
+    def __repr__(self) -> str:
+        return f"<sublimit.Table: {self.num_points} points of {self.num_control_points} control points, {self.dtype}>"
+
+
+def _unpickled(data: bytes) -> Table:
+    import tempfile
+
+    with tempfile.TemporaryDirectory() as directory:
+        path = os.path.join(directory, "table.safetensors")
+        with open(path, "wb") as file:
+            file.write(data)
+        return load(path)  # mapped: the file may go
+
+
+def bake(mesh: Mesh, scheme: Scheme | str, levels: int | None = None, *, limit: bool = False, grid: int | None = None,
+         at: tuple[npt.ArrayLike, npt.ArrayLike, npt.ArrayLike] | None = None, derivatives: int = 0, precision: str = "float",
+         boundary: str | None = None, creasing: str | None = None, triangles: str | None = None,
+         option: Mapping[str, OptionValue] | None = None, triangulate: bool = False, no_creases: bool = False,
+         threads: int = 0) -> Table:
+    """A table of a level, of its limit, of grids or of places on the limit.
+
+    Parameters
+    ----------
+    mesh : its faces and tags count, its points do not
+    levels : points of this level, 1 to 11; with `limit` from 0
+    limit : these moved to the limit
+    grid : N x N places on each face instead, sides included
+    at : places (face, u, v) instead, that broadcast to one shape
+    derivatives : 0, 1 or 2, of the limit
+    precision : of the weights, ``"float"`` or ``"double"``
+
+    Notes
+    -----
+    Points of levels stand in an order of the table's own, which `Table.faces` knows; those of grids stand face by face,
+    u fastest; places as they are given.
+    """
+    if precision not in ("float", "double"):
+        raise ValueError(f"precision is {precision!r}; 'float' or 'double' are right")
+    if sum(choice is not None for choice in (levels, grid, at)) != 1:
+        raise ValueError("a table is of one of levels, grid and at")
+    if limit and levels is None:
+        raise ValueError("limit is of a level; grid and at are of the limit anyway")
+    asked = request(scheme, boundary=boundary, creasing=creasing, triangles=triangles, option=option, triangulate=triangulate,
+                    no_creases=no_creases)
+    table = _sublimit.TableRequest()
+    table.rows = "samples" if at is not None else "grid" if grid is not None else "limit" if limit else "level"
+    table.level = levels or 0
+    table.grid = grid or 0
+    table.derivatives = order(derivatives)
+    table.in_float = precision == "float"
+    where = None if at is None else places(*at)[:3]
+    return Table._of(_sublimit.bake(core_of(mesh), asked, table, where, threads))
+
+
+def load(path: str | os.PathLike[str], *, checksums: bool = False) -> Table:
+    """A table from a file, mapped into memory: pages are read when they are first used.
+
+    Parameters
+    ----------
+    checksums : compare them, which reads all of the file
+
+    Raises
+    ------
+    FormatError
+        No table, or a broken one.
+    IoError
+        Missing, unreadable.
+    """
+    return Table._of(_sublimit.load(os.fspath(path), checksums))

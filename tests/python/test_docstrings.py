@@ -1,0 +1,52 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What docstrings say happens, and everything public has one."""
+from __future__ import annotations
+
+import doctest
+import inspect
+import pathlib
+import re
+
+import pytest
+
+import sublimit
+
+PUBLIC = [name for name in sublimit.__all__ if not name.startswith("__")]
+
+
+@pytest.mark.parametrize("name", ["sublimit", *PUBLIC])
+def test_examples(name: str) -> None:
+    thing = sublimit if name == "sublimit" else getattr(sublimit, name)
+    if name == "sublimit":
+        examples = doctest.DocTestParser().get_doctest(sublimit.__doc__ or "", {}, name, None, 0)
+        tests = [examples]
+    else:
+        tests = doctest.DocTestFinder().find(thing, name, module=False)
+    runner = doctest.DocTestRunner(optionflags=doctest.NORMALIZE_WHITESPACE)
+    said: list[str] = []
+    for test in tests:
+        runner.run(test, out=said.append, clear_globs=False)
+    assert not runner.summarize(verbose=False).failed, "".join(said)
+
+
+@pytest.mark.parametrize("name", PUBLIC)
+def test_everything_public_is_described(name: str) -> None:
+    thing = getattr(sublimit, name)
+    assert inspect.getdoc(thing), name
+    if inspect.isclass(thing):
+        assert thing.__module__ == "sublimit"
+        for member, value in vars(thing).items():
+            if not member.startswith("_") and (inspect.isfunction(value) or isinstance(value, property)):
+                assert inspect.getdoc(value), f"{name}.{member}"
+
+
+def test_the_readme_names_what_there_is() -> None:
+    readme = pathlib.Path(sublimit.__file__).resolve().parent.parent / "README.md"
+    names = set(re.findall(r"`(?:sublimit\.)?([a-z_]+)\(", readme.read_text()))
+    assert names and all(hasattr(sublimit, name) for name in names - {"write"}), names
+
+
+def test_lists_its_names() -> None:
+    assert set(PUBLIC) <= set(dir(sublimit))
+    with pytest.raises(AttributeError, match="no attribute 'refne'"):
+        sublimit.refne

@@ -1,0 +1,160 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Refined meshes, matrices and limits: the bits of the program's files, and the laws that they obey."""
+from __future__ import annotations
+
+import pathlib
+import warnings
+from collections.abc import Callable
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from conftest import shared_mesh
+
+import sublimit
+
+Program = Callable[..., str]
+SURFACES = [name for name, info in sublimit.schemes().items() if info.kind == "surface" and info.linear]
+
+
+def mesh_for(scheme: str, request: pytest.FixtureRequest) -> sublimit.Mesh:
+    triangles = sublimit.schemes()[scheme].faces == "triangles"
+    mesh: sublimit.Mesh = request.getfixturevalue("icosahedron" if triangles else "cube")
+    return mesh
+
+
+@pytest.mark.parametrize("scheme", SURFACES)
+def test_refined_meshes_are_the_programs(scheme: str, program: Program, tmp_path: pathlib.Path,
+                                         request: pytest.FixtureRequest) -> None:
+    mesh = mesh_for(scheme, request)
+    mesh.write(tmp_path / "in.obj")
+    program("refine", tmp_path / "in.obj", "-s", scheme, "-l", 2, "-o", tmp_path / "out.obj")
+    expected, fine = sublimit.read(tmp_path / "out.obj"), sublimit.refine(mesh, scheme, 2)
+    assert np.array_equal(fine.points, expected.points)
+    for part, other in zip(fine.faces, expected.faces):
+        assert np.array_equal(part, other)
+
+
+@pytest.mark.parametrize("options", [
+    dict(), dict(boundary="edge-only"), dict(creasing="chaikin"), dict(triangles="smooth"), dict(no_creases=True),
+    dict(face_varying="boundaries"), dict(no_tags=True), dict(triangulate=True), dict(threads=1)])
+def test_options_are_the_programs(options: dict[str, object], tagged: sublimit.Mesh, program: Program,
+                                  tmp_path: pathlib.Path) -> None:
+    tagged.write(tmp_path / "in.obj")
+    words = [word for name, value in options.items()
+             for word in (["--" + name.replace("_", "-")] + ([] if value is True else [value]))]
+    program("refine", tmp_path / "in.obj", "-s", "catmull-clark", "-l", 2, "-o", tmp_path / "out.obj", *words)
+    fine = sublimit.refine(tagged, "catmull-clark", levels=2, **options)  # type: ignore[arg-type]
+    fine.write(tmp_path / "ours.obj")
+    assert (tmp_path / "ours.obj").read_bytes() == (tmp_path / "out.obj").read_bytes()
+
+
+@pytest.mark.parametrize("scheme", SURFACES)
+def test_matrices_make_the_points(scheme: str, request: pytest.FixtureRequest) -> None:
+    mesh = mesh_for(scheme, request)
+    for levels in (0, 1, 2):
+        S = sublimit.subdivision_matrix(mesh, scheme, levels)
+        fine = sublimit.refine(mesh, scheme, levels)
+        assert S.shape == (len(fine.points), len(mesh.points))
+        np.testing.assert_allclose(S @ mesh.points, fine.points, rtol=0, atol=1e-14)
+        np.testing.assert_allclose(S.sum(axis=1), 1, rtol=0, atol=1e-14)
+
+
+def test_matrices_are_not_copied(cube: sublimit.Mesh) -> None:
+    S = sublimit.subdivision_matrix(cube, "catmull-clark", 2)
+    assert not S.data.flags.owndata and not S.indices.flags.owndata and not S.indptr.flags.owndata
+    assert S.has_sorted_indices
+
+
+@pytest.mark.parametrize("scheme", SURFACES)
+def test_limits_are_the_programs(scheme: str, program: Program, tmp_path: pathlib.Path,
+                                 request: pytest.FixtureRequest) -> None:
+    mesh = mesh_for(scheme, request)
+    mesh.write(tmp_path / "in.obj")
+    for level in (0, 2):
+        program("limit", tmp_path / "in.obj", "-s", scheme, "-l", level, "-o", tmp_path / "out.obj")
+        limit = sublimit.limit(mesh, scheme, level)
+        # The program goes level by level, matrices all at once.
+        np.testing.assert_allclose(limit.points, sublimit.read(tmp_path / "out.obj").points, rtol=0, atol=1e-14)
+        np.testing.assert_allclose(limit.matrix @ mesh.points, limit.points, rtol=0, atol=1e-13)
+        for tangents, matrix in zip(limit.tangents, limit.tangent_matrices):
+            np.testing.assert_allclose(matrix @ mesh.points, tangents, rtol=0, atol=1e-12)
+        assert limit.side_vertex.tolist() == list(range(len(limit.points)))
+        if scheme == "bilinear":
+            continue
+        assert "undefined_normal" not in {limit.statuses[s] for s in limit.status}
+        np.testing.assert_allclose(np.linalg.norm(limit.normals, axis=1), 1, atol=1e-14)
+        centre = mesh.points.mean(axis=0)
+        assert (np.einsum("ij,ij->i", limit.normals, limit.points - centre) > 0).all()  # outwards
+
+
+def test_sides_of_creases(tagged: sublimit.Mesh) -> None:
+    limit = sublimit.limit(tagged, "catmull-clark", 1)
+    assert len(limit.normals) > len(limit.points) and len(limit.side_vertex) == len(limit.normals)
+    sizes, corners = limit.faces
+    assert (limit.side_vertex[limit.corner_side] == corners).all() and sizes.sum() == len(corners)
+
+
+def test_limits_of_known_masks(cube: sublimit.Mesh) -> None:
+    """Catmull-Clark at valence n: (n^2 v + 4 sum e + sum f) / (n (n + 5)) (Halstead, Kass, DeRose 1993)."""
+    rows = sublimit.limit(cube, "catmull-clark").matrix.toarray()
+    for v, row in enumerate(rows):
+        shared = np.abs(cube.points - cube.points[v]).sum(axis=1)  # 1: an edge away, 2: across a face, 3: across the cube
+        expected = np.choose(shared.astype(int), [9 / 24, 4 / 24, 1 / 24, 0])
+        np.testing.assert_allclose(row, expected, rtol=0, atol=1e-15)
+
+
+def test_the_same_bits_for_any_number_of_threads(icosahedron: sublimit.Mesh) -> None:
+    one, all_of_them = (sublimit.refine(icosahedron, "loop", 5, threads=n) for n in (1, 0))
+    assert np.array_equal(one.points, all_of_them.points)
+
+
+def test_refuses_in_clear_words(cube: sublimit.Mesh) -> None:
+    attempts: list[tuple[Callable[[], object], str]] = [
+        (lambda: sublimit.refine(cube, "lop"), "unknown scheme 'lop'; the nearest are loop"),
+        (lambda: sublimit.refine(cube, "chaikin"), "chaikin refines curves"),
+        (lambda: sublimit.refine(cube, "catmull-clark", option={"tension": 1}), "tension"),
+        (lambda: sublimit.refine(cube, "catmull-clark", boundary="round"), "boundary 'round' is no rule"),
+        (lambda: sublimit.scheme("kobbelt", tension=1000), "tension"),
+        (lambda: sublimit.scheme("kobbelt", slope=1), "slope")]
+    for refused, words in attempts:
+        with pytest.raises(sublimit.InvalidOption, match=words):
+            refused()
+    with pytest.raises(sublimit.InvalidParameter, match="levels is -1"):
+        sublimit.refine(cube, "catmull-clark", -1)
+    with pytest.raises(sublimit.UnsupportedTopology, match="triangles"):
+        sublimit.refine(cube, "loop")
+    with pytest.raises(sublimit.ResourceError, match="memory"):
+        sublimit.refine(cube, "catmull-clark", 14)
+    with pytest.raises(sublimit.InvalidMesh, match="strict"):
+        sublimit.refine(sublimit.Mesh(cube.points, [[0, 1, 2], [0, 1, 3]]), "catmull-clark", strict=True)
+    with pytest.raises(TypeError, match="mesh is a list; a sublimit.Mesh is right"):
+        sublimit.refine([], "loop")  # type: ignore[arg-type]
+    with pytest.raises(TypeError, match="scheme is a int"):
+        sublimit.refine(cube, 3)  # type: ignore[arg-type]
+
+
+def test_warns_of_what_is_left_out(cube: sublimit.Mesh) -> None:
+    mesh = sublimit.Mesh(cube.points, cube.faces, uv=np.zeros((24, 2)) + np.arange(24)[:, None])
+    with pytest.warns(UserWarning, match="texture coordinates are left out"):
+        sublimit.refine(mesh, "doo-sabin")
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        sublimit.refine(mesh, "doo-sabin", quiet=True)
+    assert sublimit.refine(mesh, "catmull-clark").uv is not None
+
+
+def test_schemes_with_options(cube: sublimit.Mesh) -> None:
+    half = sublimit.scheme("kobbelt", tension=Fraction(1, 2))
+    assert str(half) == "kobbelt tension=1/2"
+    by_option = sublimit.refine(cube, "kobbelt", option={"tension": 0.5})
+    assert np.array_equal(sublimit.refine(cube, half).points, by_option.points)
+    assert not np.array_equal(sublimit.refine(cube, "kobbelt").points, by_option.points)
+
+
+@pytest.mark.parametrize("name", ["catmark_car", "catmark_bishop", "catmark_nonman_edge100"])
+def test_shared_meshes(name: str, program: Program, tmp_path: pathlib.Path) -> None:
+    path = shared_mesh(name)
+    mesh = sublimit.read(path)
+    program("refine", path, "-s", "catmull-clark", "-l", 1, "-o", tmp_path / "out.obj", "--quiet")
+    assert np.array_equal(sublimit.refine(mesh, "catmull-clark", quiet=True).points, sublimit.read(tmp_path / "out.obj").points)

@@ -1,0 +1,171 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Meshes: what they take in whatever form, what they refuse in which words, and that nothing is copied on the way out."""
+from __future__ import annotations
+
+import gc
+import pathlib
+import pickle
+from typing import Any
+
+import numpy as np
+import pytest
+
+import sublimit
+
+SQUARE = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]
+
+
+def parts(mesh: sublimit.Mesh) -> list[Any]:
+    return [mesh.points, *mesh.faces, *mesh.creases, *mesh.corners, mesh.holes, mesh.uv, mesh.uv_faces]
+
+
+def same(a: sublimit.Mesh, b: sublimit.Mesh) -> bool:
+    alike = all(x is None if y is None else np.array_equal(x, y) for x, y in zip(parts(a), parts(b)))
+    return alike and a.boundary == b.boundary
+
+
+@pytest.mark.parametrize("dtype", [np.int8, np.uint8, np.int16, np.uint16, np.int32, np.uint32, np.int64, np.uint64])
+def test_faces_of_any_integer_type(dtype: Any) -> None:
+    faces = np.array([[0, 1, 2], [0, 2, 3]], dtype=dtype)
+    expected = ([3, 3], [0, 1, 2, 0, 2, 3])
+    for given in (faces, np.asfortranarray(faces), faces[:, ::-1][:, ::-1], faces.tolist(),
+                  (np.array([3, 3], dtype), faces.ravel())):
+        mesh = sublimit.Mesh(SQUARE, given)
+        assert [part.tolist() for part in mesh.faces] == list(expected)
+
+
+def test_faces_of_several_sizes() -> None:
+    for faces in ([[0, 1, 2, 3], [0, 1, 2]], ((0, 1, 2, 3), (0, 1, 2)), (np.array([4, 3]), np.array([0, 1, 2, 3, 0, 1, 2])),
+                  np.array([[0, 1, 2, 3], [0, 1, 2]], dtype=object)):
+        sizes, corners = sublimit.Mesh(SQUARE, faces).faces
+        assert sizes.tolist() == [4, 3] and corners.tolist() == [0, 1, 2, 3, 0, 1, 2]
+    # A tuple of two triangles is no (sizes, corners).
+    assert sublimit.Mesh(SQUARE, ((0, 1, 2), (0, 2, 3))).face_array.tolist() == [[0, 1, 2], [0, 2, 3]]
+    with pytest.raises(ValueError, match=r"\[3, 4\] corners"):
+        sublimit.Mesh(SQUARE, [[0, 1, 2, 3], [0, 1, 2]]).face_array
+
+
+@pytest.mark.parametrize("dtype", [np.float64, np.float32, np.float16, np.int64, ">f8"])
+def test_points_of_any_real_type_and_order(dtype: Any) -> None:
+    points = np.array(SQUARE, dtype=dtype)
+    wide = np.zeros((8, 6), dtype=dtype)
+    wide[::2, ::2] = points
+    for given in (points, np.asfortranarray(points), points[::-1][::-1], wide[::2, ::2]):
+        given.setflags(write=False)
+        mesh = sublimit.Mesh(given, [[0, 1, 2, 3]])
+        assert mesh.points.dtype == np.float64 and mesh.points.tolist() == points.tolist()
+
+
+def test_arrays_are_the_meshs_own(tagged: sublimit.Mesh) -> None:
+    arrays: list[Any] = [tagged.points, *tagged.faces, tagged.holes, tagged.uv, tagged.uv_faces]
+    for array in arrays:
+        assert not array.flags.writeable and not array.flags.owndata
+        with pytest.raises(ValueError):
+            array[...] = 0
+    assert tagged.points.ctypes.data == tagged.points.ctypes.data
+    points = sublimit.Mesh(SQUARE, [[0, 1, 2, 3]]).points
+    gc.collect()
+    assert points.tolist() == SQUARE  # though its mesh is gone
+
+
+def test_tags_in_their_forms() -> None:
+    for creases in ({(0, 1): 2, (1, 2): 10}, [(0, 1, 2), (1, 2, 10)], np.array([[0, 1, 2], [1, 2, 10]])):
+        for corners in ({3: 1.5}, [(3, 1.5)], np.array([[3, 1.5]])):
+            mesh = sublimit.Mesh(SQUARE, [[0, 1, 2, 3]], creases=creases, corners=corners, boundary="edge-only")
+            edges, sharpness = mesh.creases
+            assert edges.tolist() == [[0, 1], [1, 2]] and sharpness.tolist() == [2, 10]
+            assert [part.tolist() for part in mesh.corners] == [[3], [1.5]]
+            assert mesh.boundary == "edge-only"
+
+
+def test_texture_coordinates_in_their_forms() -> None:
+    uv = [[0, 0], [1, 0], [1, 1], [0, 1]]
+    faces = [[0, 1, 2], [0, 2, 3]]
+    of_corners = [uv[v] for face in faces for v in face]
+    for given, value_of in ((dict(uv=uv), [0, 1, 2, 0, 2, 3]), (dict(uv=of_corners), [0, 1, 2, 3, 4, 5]),
+                            (dict(uv=uv, uv_faces=faces), [0, 1, 2, 0, 2, 3]),
+                            (dict(uv=uv, uv_faces=np.array([3, 2, 1, 0, 0, 0])), [3, 2, 1, 0, 0, 0])):
+        mesh = sublimit.Mesh(SQUARE, faces, **given)  # type: ignore[arg-type]
+        assert mesh.uv_faces is not None and mesh.uv_faces.tolist() == value_of
+    assert sublimit.Mesh(SQUARE, faces).uv is None
+
+
+MASKED: Any = np.ma.masked_array(np.zeros((4, 3)), mask=np.eye(4, 3))  # type: ignore[no-untyped-call]
+SEVERAL_COLUMNS = np.zeros((4, 4))
+
+
+@pytest.mark.parametrize("given, words", [
+    (dict(points=np.zeros((4, 2))), r"points has shape \(4, 2\); \(vertices, 3\) is right"),
+    (dict(points=np.zeros(12)), r"points has shape \(12,\); \(vertices, 3\)"),
+    (dict(points=[[0, 0, 0], [1, 0]]), "points is ragged|points is an array of objects"),
+    (dict(points=np.zeros((4, 3), dtype=complex)), "points has dtype complex128; real numbers"),
+    (dict(points=np.zeros((4, 3), dtype=object)), "points is an array of objects"),
+    (dict(points=np.full((4, 3), "a")), "points has dtype <U1"),
+    (dict(points=MASKED), "points has masked entries"),
+    (dict(points=[[0, 0, 0], [1, 0, float("nan")], [0, 1, 0], [1, 1, 1]]), r"points\[1, 2\] is nan; finite"),
+    (dict(points=[[0, 0, 0], [1, 0, float("inf")], [0, 1, 0], [1, 1, 1]]), r"points\[1, 2\] is inf"),
+    (dict(faces=[[0, 1, 4]]), "vertex 4"),
+    (dict(faces=[[0, 1, -1]]), "vertex -1"),
+    (dict(faces=[[0, 1]]), "2 corners"),
+    (dict(faces=[[0, 1, 2.5]]), "faces has dtype float64; whole numbers"),
+    (dict(faces=[[0, 1, 2**40]]), "faces has 1099511627776; 32-bit"),
+    (dict(faces=(np.array([3, 3]), np.array([0, 1, 2]))), "sizes add up to 6 corners, but there are 3"),
+    (dict(creases={(0, 2): 1}), r"crease \(0,2\) is not an edge"),
+    (dict(creases={(0, 1): -1}), "sharpness -1"),
+    (dict(creases={(0.5, 1): 1}), "creases names vertex"),
+    (dict(creases=[(0, 1)]), r"creases has shape \(1, 2\); \{\(tail, head\): sharpness\}"),
+    (dict(corners={9: 1}), "corner 9 is not a vertex"),
+    (dict(holes=[7]), "hole 7 is not a face"),
+    (dict(holes=[0.5]), "holes has dtype float64"),
+    (dict(boundary="round"), "boundary 'round' is no rule"),
+    (dict(uv=np.zeros((3, 2))), "uv has 3 values; 4 of vertices or 4 of corners"),
+    (dict(uv=SEVERAL_COLUMNS), r"uv has shape \(4, 4\)"),
+    (dict(uv=np.zeros((4, 2)), uv_faces=[[0, 1, 2]]), "uv_faces has 3 corners"),
+    (dict(uv=np.zeros((4, 2)), uv_faces=[[0, 1, 2, 4]]), "uv_faces names value 4; uv has 4"),
+    (dict(uv_faces=[[0, 1, 2, 3]]), "there is no uv"),
+])
+def test_refuses_in_clear_words(given: dict[str, Any], words: str) -> None:
+    arguments: dict[str, Any] = {"points": SQUARE, "faces": [[0, 1, 2, 3]], **given}
+    with pytest.raises(ValueError, match=words):
+        sublimit.Mesh(**arguments)
+
+
+def test_errors_have_codes(tmp_path: pathlib.Path) -> None:
+    with pytest.raises(sublimit.Error) as caught:
+        sublimit.Mesh(SQUARE, [[0, 1, 4]])
+    assert caught.type is sublimit.InvalidMesh and caught.value.code == "invalid_mesh"
+    with pytest.raises(OSError) as missing:
+        sublimit.read("no such mesh.obj")
+    assert missing.type is sublimit.IoError
+    with pytest.raises(sublimit.FormatError, match="mesh.xyz"):
+        (tmp_path / "mesh.xyz").write_text("0 0 0")
+        sublimit.read(tmp_path / "mesh.xyz")
+
+
+def test_empty_meshes() -> None:
+    mesh = sublimit.Mesh(np.zeros((0, 3)), np.zeros((0, 4), int))
+    assert sublimit.refine(mesh, "catmull-clark").points.shape == (0, 3)
+    assert sublimit.Mesh([], []).points.shape == (0, 3)
+    assert sublimit.Mesh(SQUARE, []).faces[0].tolist() == []
+
+
+def test_files_and_back(tagged: sublimit.Mesh, tmp_path: pathlib.Path) -> None:
+    tagged.write(tmp_path / "mesh.obj")
+    assert same(sublimit.read(tmp_path / "mesh.obj"), tagged)
+    tagged.write(str(tmp_path / "mesh.ply"))
+    assert np.array_equal(sublimit.read(tmp_path / "mesh.ply").points, tagged.points)
+    with pytest.raises(sublimit.InvalidOption, match="obj"):
+        tagged.write(tmp_path / "mesh.stl")
+    with pytest.raises(sublimit.IoError):
+        tagged.write(tmp_path / "nowhere" / "mesh.obj")
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["mesh.obj", "mesh.ply"]
+
+
+def test_pickles(tagged: sublimit.Mesh) -> None:
+    copy = pickle.loads(pickle.dumps(tagged))
+    assert same(copy, tagged) and copy.points.ctypes.data != tagged.points.ctypes.data
+
+
+def test_says_what_is_no_manifold() -> None:
+    assert sublimit.Mesh(SQUARE, [[0, 1, 2], [0, 1, 3], [0, 1, 2]]).faults()
+    assert not sublimit.Mesh(SQUARE, [[0, 1, 2, 3]]).faults()

@@ -1,0 +1,144 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Limit surfaces: the numbers of the program, known surfaces, stencils, curvature, closest points."""
+from __future__ import annotations
+
+import csv
+import pathlib
+import pickle
+import threading
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+
+import sublimit
+
+Program = Callable[..., str]
+
+
+def test_samples_are_the_programs(tagged: sublimit.Mesh, program: Program, tmp_path: pathlib.Path) -> None:
+    tagged.write(tmp_path / "in.obj")
+    program("sample", tmp_path / "in.obj", "-s", "catmull-clark", "--random", 200, "--seed", 1, "--derivatives", 2, "-o",
+            tmp_path / "out.csv")
+    with open(tmp_path / "out.csv", newline="") as file:
+        rows = list(csv.DictReader(file))
+    column = {name: [row[name] for row in rows] for name in rows[0]}
+    numbers = {name: np.array([float(x or 0) for x in column[name]]) for name in column if name != "status"}
+    samples = sublimit.LimitSurface(tagged, "catmull-clark").evaluate(
+        numbers["face"].astype(int), numbers["u"], numbers["v"], derivatives=2)
+    assert [samples.statuses[s] for s in samples.status] == column["status"]
+    there = np.array([status != "hole" for status in column["status"]])
+    for name, part in (("{}", samples.points), ("{}u", samples.du), ("{}v", samples.dv), ("{}uu", samples.duu),
+                       ("{}uv", samples.duv), ("{}vv", samples.dvv), ("n{}", samples.normals)):
+        assert part is not None
+        for k, axis in enumerate("xyz"):
+            assert np.array_equal(part[there, k], numbers[name.format(axis)][there]), name
+
+
+def test_shapes_broadcast(cube: sublimit.Mesh) -> None:
+    surface = sublimit.LimitSurface(cube, "catmull-clark")
+    u = np.linspace(0, 1, 5)
+    grid = surface.evaluate(np.arange(6)[:, None, None], u, u[:, None], derivatives=1)
+    assert grid.normals is not None and grid.points.shape == grid.normals.shape == (6, 5, 5, 3) and grid.status.shape == (6, 5, 5)
+    one = surface.evaluate(2, u[3], u[1])
+    assert one.points.shape == (3,) and np.array_equal(one.points, grid.points[2, 1, 3]) and one.du is None
+    assert surface.evaluate([], [], []).points.shape == (0, 3)
+    assert surface.evaluate(np.zeros(2, np.uint8), np.float32(0.5), 0).points.shape == (2, 3)
+
+
+@pytest.mark.parametrize("scheme", [name for name, info in sublimit.schemes().items() if info.kind == "surface" and info.linear])
+def test_stencils_make_the_points(scheme: str, request: pytest.FixtureRequest) -> None:
+    triangles = sublimit.schemes()[scheme].faces == "triangles"
+    mesh = request.getfixturevalue("icosahedron" if triangles else "cube")
+    surface = sublimit.LimitSurface(mesh, scheme)
+    random = np.random.default_rng(1)
+    u, v = random.random(40) / 2, random.random(40) / 2
+    face = random.integers(0, surface.num_faces, 40)
+    samples = surface.evaluate(face, u, v, derivatives=2)
+    matrices = surface.stencils(face, u, v, derivatives=2)
+    parts = (samples.points, samples.du, samples.dv, samples.duu, samples.duv, samples.dvv)
+    assert len(matrices) == 6
+    for k, (matrix, part) in enumerate(zip(matrices, parts)):
+        there = samples.order >= (0, 1, 1, 2, 2, 2)[k]
+        assert matrix.shape == (40, surface.num_points) and part is not None
+        size = 1 + abs(matrix).sum(axis=1).max()
+        np.testing.assert_allclose((matrix @ mesh.points)[there], part[there], rtol=0, atol=1e-13 * size)
+        np.testing.assert_allclose(matrix.sum(axis=1)[there], 1 if k == 0 else 0, rtol=0, atol=1e-13 * size)
+
+
+def bicubic_torus(m: int, n: int) -> sublimit.Mesh:
+    i, j = np.divmod(np.arange(m * n), n)
+    a, b = 2 * np.pi * i / m, 2 * np.pi * j / n
+    points = np.column_stack([(3 + np.cos(b)) * np.cos(a), (3 + np.cos(b)) * np.sin(a), np.sin(b)])
+    faces = np.column_stack([i * n + j, (i + 1) % m * n + j, (i + 1) % m * n + (j + 1) % n, i * n + (j + 1) % n])
+    return sublimit.Mesh(points, faces)
+
+
+def test_curvature_of_a_torus() -> None:
+    """The B-spline surface is a torus up to O(h^2) of h = 2 pi / n; its curvatures tend to those of radius 3 and 1."""
+    worst = []
+    for n in (32, 64):
+        surface = sublimit.LimitSurface(bicubic_torus(3 * n, n), "catmull-clark")
+        faces = np.arange(0, surface.num_faces, 7)
+        c = surface.evaluate(faces, 0.3, 0.6, derivatives=2)
+        k = c.curvature()
+        assert (k.k1 >= k.k2).all() and (c.order == 2).all()
+        np.testing.assert_allclose(k.gauss, k.k1 * k.k2, atol=1e-12)
+        np.testing.assert_allclose(k.mean, (k.k1 + k.k2) / 2, atol=1e-12)
+        np.testing.assert_allclose(np.einsum("ij,ij->i", k.direction1, k.direction2), 0, atol=1e-9)
+        r = np.hypot(c.points[:, 0], c.points[:, 1])
+        across = np.cos(np.arctan2(c.points[:, 2], r - 3))
+        worst.append(abs(abs(k.gauss) - abs(across / (3 + across))).max())
+    assert worst[1] < worst[0] / 3 < 0.02
+    with pytest.raises(ValueError, match="derivatives=2"):
+        surface.evaluate(0, 0, 0, derivatives=1).curvature()
+
+
+def test_closest_points(cube: sublimit.Mesh) -> None:
+    surface = sublimit.LimitSurface(cube, "catmull-clark")
+    on = surface.evaluate([0, 3, 5], [0.2, 0.7, 0.5], [0.9, 0.4, 0.5], derivatives=1)
+    assert on.normals is not None
+    found = surface.closest(on.points + 0.1 * on.normals)
+    np.testing.assert_allclose(found.distance, 0.1, atol=1e-9)
+    np.testing.assert_allclose(found.points, on.points, atol=1e-6)
+    np.testing.assert_allclose(surface.evaluate(found.face, found.u, found.v).points, found.points, atol=1e-12)
+    assert (found.gap == 0).all()
+
+
+@pytest.mark.parametrize("place, words", [
+    ((6, 0.5, 0.5), "face 6|6 does not exist"), ((-1, 0.5, 0.5), "-1"), ((0, 1.5, 0.5), "1.5"),
+    ((0, float("nan"), 0.5), "finite|nan"), ((0.5, 0, 0), "face has dtype float64; whole numbers"),
+    (([0, 1], [0, 0, 0], 0), r"do not broadcast to one shape: face \(2,\), u \(3,\), v \(\)"),
+    ((0, "a", 0), "u has dtype <U1"), ((0, 1j, 0), "u has dtype complex128")])
+def test_refuses_in_clear_words(place: Any, words: str, cube: sublimit.Mesh) -> None:
+    surface = sublimit.LimitSurface(cube, "catmull-clark")
+    for call in (surface.evaluate, surface.stencils):
+        with pytest.raises(ValueError, match=words):
+            call(*place)
+    with pytest.raises(ValueError, match="derivatives is 3; 0, 1 or 2"):
+        surface.evaluate(0, 0, 0, derivatives=3)
+    with pytest.raises(ValueError, match=r"points has shape \(3,\); \(n, 3\) is right"):
+        surface.closest([0, 0, 0])
+
+
+def test_surfaces_say_why_they_do_not_pickle(cube: sublimit.Mesh) -> None:
+    with pytest.raises(TypeError, match="pickle the Mesh"):
+        pickle.dumps(sublimit.LimitSurface(cube, "catmull-clark"))
+
+
+def test_threads_share_a_surface(icosahedron: sublimit.Mesh) -> None:
+    surface = sublimit.LimitSurface(icosahedron, "loop")
+    random = np.random.default_rng(2)
+    u, v, face = random.random(1000) / 2, random.random(1000) / 2, random.integers(0, 20, 1000)
+    found: list[Any] = [None] * 8
+
+    def work(k: int) -> None:
+        found[k] = surface.evaluate(face, u, v).points
+
+    threads = [threading.Thread(target=work, args=(k,)) for k in range(8)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert all(np.array_equal(points, found[0]) for points in found)
