@@ -31,8 +31,12 @@ std::optional<ExactAnalysis> exact_analysis(const Scheme<Algebraic>& scheme, con
 
 std::vector<ComplexBall> mode(const ExactAnalysis& analysis, int block, const ExactKernel& kernel, int vector,
                               long bits) {
+  return mode(analysis, block, kernel.enclosure(vector, bits), bits);
+}
+
+std::vector<ComplexBall> mode(const ExactAnalysis& analysis, int block, const std::vector<ComplexBall>& amplitudes,
+                              long bits) {
   const PrecisionScope scope(bits);
-  const std::vector<ComplexBall> amplitudes = kernel.enclosure(vector, bits);
   std::vector<ComplexBall> values(analysis.patch.A.rows());
   const auto& orbits = analysis.spectrum.blocks.orbits.at(std::max(0, block));
   for (size_t i = 0; i < orbits.size(); ++i)
@@ -106,15 +110,12 @@ class RegularPlaces {
 namespace {
 
 std::optional<bool> look_for(const ExactAnalysis& analysis, const ExactEigenvalue& value) {
-  const ExactKernel kernel =
-      exact_chain_ends(analysis.spectrum.blocks.blocks.at(value.block), value.value, value.largest_jordan());
   const RegularPlaces places(analysis);
   std::vector<std::vector<Index>> found;
   for (const LatticePoint place : {LatticePoint{2, 0}, {2, 2}, {4, 0}, {4, 2}, {2, 4}, {4, 4}})
     if (auto points = places.around(place)) found.push_back(std::move(*points));
-  const PrecisionScope scope(128);
-  for (int v = 0; v < static_cast<int>(kernel.vectors.size()); ++v) {
-    const std::vector<ComplexBall> values = mode(analysis, value.block, kernel, v);
+  if (found.empty()) return std::nullopt;
+  const auto shows = [&](const std::vector<ComplexBall>& values) {
     for (const std::vector<Index>& points : found) {
       ComplexBall limit;
       for (size_t p = 0; p < points.size(); ++p)
@@ -122,7 +123,19 @@ std::optional<bool> look_for(const ExactAnalysis& analysis, const ExactEigenvalu
           limit += analysis.regular_position[p].enclosure() * values[points[p]];
       if (!limit.contains_zero()) return true;
     }
+    return false;
+  };
+  const DenseMatrix<Algebraic>& B = analysis.spectrum.blocks.blocks.at(value.block);
+  for (const long bits : {128L, 512L}) {
+    if (value.largest_jordan() > 1) break;
+    const PrecisionScope scope(bits);
+    const auto one = enclosed_eigenvector(B, value.value, bits);
+    if (one && shows(mode(analysis, value.block, *one, bits))) return true;
   }
+  const PrecisionScope scope(128);
+  const ExactKernel kernel = exact_chain_ends(B, value.value, value.largest_jordan());
+  for (int v = 0; v < static_cast<int>(kernel.vectors.size()); ++v)
+    if (shows(mode(analysis, value.block, kernel, v))) return true;
   return std::nullopt;
 }
 

@@ -35,6 +35,8 @@ std::optional<ExactAnalysis> exact_analysis(const Scheme<Algebraic>& scheme, con
 /// The mode of an eigenvector of a closed neighbourhood, by position in the patch: x_i w^(k s) on sector s of orbit i.
 std::vector<ComplexBall> mode(const ExactAnalysis& analysis, int block, const ExactKernel& kernel, int vector,
                               long bits = 128);
+std::vector<ComplexBall> mode(const ExactAnalysis& analysis, int block, const std::vector<ComplexBall>& eigenvector,
+                              long bits = 128);
 
 /// The longest chains of this eigenvalue end in an eigenvector whose limit is not zero everywhere near the centre: it
 /// is not zero at the centre of a regular place next to it, whose limit is that of regular meshes: the rows of all

@@ -124,16 +124,25 @@ PolynomialMatrix product(const PolynomialMatrix& A, const PolynomialMatrix& B, c
   return C;
 }
 
-/// At least the rank has this many certain pivots: elimination in balls, by the largest.
-size_t certain_rank(const PolynomialMatrix& M, const AlgebraicRoot& lambda) {
-  const PrecisionScope scope(128);
-  const ComplexBall x = lambda.enclosure();
+/// Elimination in balls, by the largest pivots, as long as they are certain not to be zero: at least that is the rank.
+struct BallElimination {
+  std::vector<std::vector<ComplexBall>> rows;  ///< triangular up to the rank; rows and columns are exchanged
+  std::vector<size_t> columns;                 ///< what each was
+  size_t rank = 0;
+};
+
+BallElimination eliminated(const PolynomialMatrix& M, const AlgebraicRoot& lambda, long bits = 128) {
+  const PrecisionScope scope(bits);
+  const ComplexBall x = lambda.enclosure(bits);
   const size_t n = M.size();
-  std::vector<std::vector<ComplexBall>> B(n, std::vector<ComplexBall>(n));
-  for (size_t i = 0; i < n; ++i)
+  BallElimination result{std::vector<std::vector<ComplexBall>>(n, std::vector<ComplexBall>(n)), {}, 0};
+  auto& [B, columns, rank] = result;
+  for (size_t i = 0; i < n; ++i) {
+    columns.push_back(i);
     for (size_t j = 0; j < n; ++j)
       if (!M[i][j].is_zero()) B[i][j] = M[i][j].at(x);
-  for (size_t rank = 0; rank < n; ++rank) {
+  }
+  for (; rank < n; ++rank) {
     size_t row = n, column = n;
     double largest = 0;
     for (size_t i = rank; i < n; ++i)
@@ -143,8 +152,9 @@ size_t certain_rank(const PolynomialMatrix& M, const AlgebraicRoot& lambda) {
           row = i;
           column = j;
         }
-    if (row == n) return rank;
+    if (row == n) break;
     std::swap(B[row], B[rank]);
+    std::swap(columns[column], columns[rank]);
     for (std::vector<ComplexBall>& line : B) std::swap(line[column], line[rank]);
     for (size_t i = rank + 1; i < n; ++i) {
       if (B[i][rank] == ComplexBall(0)) continue;
@@ -152,7 +162,7 @@ size_t certain_rank(const PolynomialMatrix& M, const AlgebraicRoot& lambda) {
       for (size_t j = rank + 1; j < n; ++j) B[i][j] -= factor * B[rank][j];
     }
   }
-  return n;
+  return result;
 }
 
 /// Dimension of the null space of a power of B - lambda, which has one: where certain pivots meet the number of rows or
@@ -170,7 +180,7 @@ size_t nullity(const PolynomialMatrix& M, const AlgebraicRoot& lambda, Extension
     columns += column;
   }
   const size_t most = std::min({rows, columns, n - 1});
-  return n - (certain_rank(M, lambda) == most ? most : echelon(M, field).pivots.size());
+  return n - (eliminated(M, lambda).rank == most ? most : echelon(M, field).pivots.size());
 }
 
 }  // namespace
@@ -214,6 +224,24 @@ ExactKernel exact_chain_ends(const DenseMatrix<Algebraic>& B, const AlgebraicRoo
     kernel.vectors.push_back(std::move(end));
   }
   return kernel;
+}
+
+std::optional<std::vector<ComplexBall>> enclosed_eigenvector(const DenseMatrix<Algebraic>& B,
+                                                             const AlgebraicRoot& lambda, long bits) {
+  const BallElimination found = eliminated(shifted(B, lambda), lambda, bits);
+  const size_t n = found.rows.size();
+  // An eigenvalue leaves at most n - 1 pivots; where all of them are certain, what is left of the last row is zero.
+  if (n == 0 || found.rank + 1 != n) return std::nullopt;
+  const PrecisionScope scope(bits);
+  std::vector<ComplexBall> x(n), result(n);
+  x[n - 1] = ComplexBall(1);
+  for (size_t i = n - 1; i-- > 0;) {
+    ComplexBall sum(0);
+    for (size_t j = i + 1; j < n; ++j) sum += found.rows[i][j] * x[j];
+    x[i] = ComplexBall(0) - sum / found.rows[i][i];
+  }
+  for (size_t i = 0; i < n; ++i) result[found.columns[i]] = x[i];
+  return result;
 }
 
 std::vector<int> jordan_sizes(const DenseMatrix<Algebraic>& B, const AlgebraicRoot& lambda, int multiplicity) {

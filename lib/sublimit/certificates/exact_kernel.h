@@ -3,6 +3,7 @@
 // Null spaces of B - lambda for an eigenvalue lambda, exactly: linear algebra over K(lambda) = K[x]/(g), g(lambda) = 0.
 // Where a pivot turns out to be neither zero nor invertible, g falls apart, and the factor that has lambda as its root
 // goes on (dynamic evaluation: Della Dora, Dicrescenzo, Duval 1985).
+#include <optional>
 #include <vector>
 
 #include "sublimit/certificates/algebraic_root.h"
@@ -21,6 +22,12 @@ struct ExactKernel {
 
 /// Eigenvectors of lambda, a basis. Right ones; left ones are those of the transposed matrix.
 ExactKernel exact_eigenvectors(const DenseMatrix<Algebraic>& B, const AlgebraicRoot& lambda);
+
+/// The eigenvector of lambda in balls, where it is certain that there is but one, up to its length: no number is
+/// reduced, which exactly takes minutes where matrices are large. Nothing: there may be several.
+/// @param bits  of working precision
+std::optional<std::vector<ComplexBall>> enclosed_eigenvector(const DenseMatrix<Algebraic>& B,
+                                                             const AlgebraicRoot& lambda, long bits = 128);
 
 /// What chains of this length end in: (B - lambda)^(length - 1) u over a basis of the u with (B - lambda)^length u = 0.
 /// They span the eigenvectors that lead powers of B where such chains do; some may be zero.

@@ -190,5 +190,37 @@ TEST(ExactKernel, EigenvectorsAreExact) {
   }
 }
 
+/// Where there is one, its balls hold a multiple of the exact one, and are small.
+TEST(ExactKernel, OneEigenvectorIsEnclosed) {
+  const PrecisionScope scope(128);
+  for (const char* name : {"catmull-clark", "butterfly", "doo-sabin"}) {
+    const ExactSpectrum spectrum = analyzed(name, 5).spectrum;
+    int found = 0;
+    for (const ExactEigenvalue& value : spectrum.values) {
+      const DenseMatrix<Algebraic>& B = spectrum.blocks.blocks[value.block];
+      const auto enclosed = enclosed_eigenvector(B, value.value);
+      EXPECT_EQ(enclosed.has_value(), value.jordan.size() == 1) << name << ", " << value.value.text();
+      if (!enclosed) continue;
+      ++found;
+      const std::vector<ComplexBall> exact = exact_eigenvectors(B, value.value).enclosure(0);
+      ASSERT_EQ(enclosed->size(), exact.size());
+      size_t largest = 0;
+      for (size_t i = 0; i < exact.size(); ++i)
+        if (abs(exact[i]).lower() > abs(exact[largest]).lower()) largest = i;
+      const ComplexBall scale = (*enclosed)[largest] / exact[largest];
+      for (size_t i = 0; i < exact.size(); ++i) {
+        const ComplexBall off = (*enclosed)[i] - scale * exact[i];
+        EXPECT_TRUE(off.contains_zero()) << name << ", " << value.value.text() << ", entry " << i;
+        EXPECT_LT(abs(off).upper(), 1e-20) << name << ", " << value.value.text() << ", entry " << i;
+      }
+    }
+    EXPECT_GT(found, 3) << name;
+  }
+  // What is no eigenvalue has no eigenvector.
+  DenseMatrix<Algebraic> B(2, 2);
+  B << ratio(1, 2), ratio(0, 1), ratio(0, 1), ratio(1, 4);
+  EXPECT_FALSE(enclosed_eigenvector(B, AlgebraicRoot(ratio(1, 3))));
+}
+
 }  // namespace
 }  // namespace sublimit

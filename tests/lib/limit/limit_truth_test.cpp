@@ -217,7 +217,7 @@ TEST(LimitTruth, EndsInTheLimitsAndNormalsOfVertices) {
         ++normals;
       }
     }
-  EXPECT_GE(normals, 20);
+  EXPECT_GE(normals, full_sweep() ? 20 : 10);  // the loop has compared some
 }
 
 TEST(LimitTruth, IsOneSurfaceAcrossEdges) {
