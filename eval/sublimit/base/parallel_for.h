@@ -16,6 +16,8 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "sublimit/base/interruption.h"
+
 namespace sublimit {
 
 /// Rows or elements per block: some tens of microseconds of work, small enough to balance.
@@ -26,12 +28,15 @@ constexpr std::int64_t num_blocks(std::int64_t count, std::int64_t size = block_
 }
 
 /// Calls body(block, begin, end) for every block of [0, count), in parallel. It returns when all are done, and throws
-/// what one of them threw; the rest may then be left out. Loops inside of others go on by themselves: TBB's own would
-/// return halfway where another block of the outer one has failed.
+/// what one of them threw, or an interruption; the rest may then be left out. Loops inside of others go on by
+/// themselves: TBB's own would return halfway where another block of the outer one has failed.
 template <class Body>
 void parallel_for_blocks(std::int64_t count, const Body& body, std::int64_t size = block_size) {
   const std::int64_t blocks = num_blocks(count, size);
-  const auto run = [&](std::int64_t block) { body(block, block * size, std::min(count, (block + 1) * size)); };
+  const auto run = [&](std::int64_t block) {
+    check_interruption();
+    body(block, block * size, std::min(count, (block + 1) * size));
+  };
   if (blocks <= 1) {  // small meshes never pay for the scheduler
     if (blocks == 1) run(0);
     return;
