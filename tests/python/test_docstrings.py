@@ -11,6 +11,7 @@ import pytest
 
 import sublimit
 
+README = pathlib.Path(sublimit.__file__).resolve().parent.parent / "README.md"  # of the sources, which the links lead to
 PUBLIC = [name for name in sublimit.__all__ if not name.startswith("__")]
 
 
@@ -41,9 +42,15 @@ def test_everything_public_is_described(name: str) -> None:
 
 
 def test_the_readme_names_what_there_is() -> None:
-    readme = pathlib.Path(sublimit.__file__).resolve().parent.parent / "README.md"
-    names = set(re.findall(r"`(?:sublimit\.)?([a-z_]+)\(", readme.read_text()))
+    names = set(re.findall(r"`(?:sublimit\.)?([a-z_]+)\(", README.read_text()))
     assert names and all(hasattr(sublimit, name) for name in names - {"write"}), names
+
+
+def test_the_example_of_the_readme_runs(tagged: sublimit.Mesh, tmp_path: pathlib.Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (example,) = re.findall(r"```python\n(.*?)```", README.read_text(), flags=re.S)
+    tagged.write(tmp_path / "cage.obj")
+    monkeypatch.chdir(tmp_path)
+    exec(compile(example, "README.md", "exec"), {})
 
 
 def test_lists_its_names() -> None:

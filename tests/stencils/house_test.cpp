@@ -28,7 +28,9 @@ const Floor floors[] = {
      {"core", "mesh", "splits", "io", "scheme", "neighborhood", "limit", "geometric", "curves", "patches", "schemes",
       "primvar", "fit", "implicit", "certificates"},
      {"schemes.h", "subdivide.h"}},
-    {"stencils/sublimit", {"recipes", "files", "patterns", "bake", "picture", "fit_jobs", "gallery", "report"}, {}},
+    {"stencils/sublimit",
+     {"recipes", "files", "jobs", "patterns", "bake", "picture", "fit_jobs", "gallery", "report"},
+     {}},
 };
 
 /// Where a file is, seen from the folder: the room, or the name itself where it is beside the rooms.

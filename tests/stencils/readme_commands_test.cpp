@@ -32,6 +32,7 @@ constexpr NotRun not_run[] = {
     {R"(cmake --install build/release --prefix DIR)", "consumer.lib and consumer.eval install and build against it"},
     {R"(cmake --preset bench.*)", "builds"},
     {R"(cmake --build --preset release --target gallery)", "remakes the pictures of the source tree"},
+    {R"(python3 -m pip install \./stencils/python.*)", "python.pip installs it, beside nothing that a user has"},
     {R"(ctest --test-dir .* -L LABEL)", "the tests themselves"},
     {R"(build/\S+/bin/\w+_(bench|accuracy|scaling)( .*)?)", "a benchmark: minutes, on a machine of its own"},
     {R"(build/\S+/bin/fuzz_\w+)", "a place of a program; fuzz.obj, fuzz.table and fuzz.recipe run them"},
@@ -56,6 +57,7 @@ constexpr Example examples[] = {
     {"stencils/README.md", "cpp", 1, "consumer.lib compiles and runs it"},
     {"eval/README.md", "cpp", 2, "consumer.eval compiles and runs them"},
     {"eval/README.md", "c", 1, "consumer.eval compiles and runs it"},
+    {"stencils/python/README.md", "python", 1, "tests/python/test_docstrings.py runs it"},
     {"eval/table_format.md", "python", 1, "TableInPython.MakesTheSamePoints runs it"},
 };
 

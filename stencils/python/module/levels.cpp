@@ -90,7 +90,7 @@ void add_levels(py::module_& m) {
   for (int i = 0; i < num_limit_statuses; ++i) statuses.emplace_back(name(LimitStatus(i)));
   m.attr("statuses") = py::tuple(py::cast(statuses));
   m.def("refine", &refine, py::arg("mesh"), py::arg("request"), py::arg("levels"), py::arg("tags"), py::arg("threads"),
-        py::call_guard<py::gil_scoped_release>());
+        py::call_guard<LongCall>());
   m.def(
       "subdivision_matrix",
       [](const ControlMesh& mesh, const MeshRequest& request, int levels, int threads) {

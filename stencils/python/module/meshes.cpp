@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "arrays.h"
+#include "calls.h"
 #include "module.h"
 #include "sublimit/base/error.h"
 #include "sublimit/files/rule_words.h"
@@ -50,7 +51,7 @@ ControlMesh made(const Array<double>& positions, const Array<Index>& sizes, cons
       throw InvalidOption("boundary '" + *boundary + "' is no rule; there are none, edge-only, edge-and-corner");
   }
   if (uv) mesh.face_varying.push_back({"uv", points(uv->first), vector(uv->second)});
-  const py::gil_scoped_release no_gil;
+  const LongCall scope;
   check(mesh);
   return mesh;
 }
@@ -93,7 +94,7 @@ ControlMesh read(const std::filesystem::path& path) {
 }  // namespace
 
 void add_meshes(py::module_& m) {
-  const py::call_guard<py::gil_scoped_release> no_gil;
+  const py::call_guard<LongCall> long_call;
   py::class_<ControlMesh, std::shared_ptr<ControlMesh>>(m, "ControlMesh")
       .def(py::init(&made), py::arg("points"), py::arg("sizes"), py::arg("corners"), py::arg("creases"),
            py::arg("sharp_vertices"), py::arg("holes"), py::arg("boundary"), py::arg("uv"))
@@ -113,11 +114,11 @@ void add_meshes(py::module_& m) {
                              })
       .def_property_readonly("channels", &channels)
       .def_property_readonly("warnings", [](const ControlMesh& mesh) { return mesh.warnings; })
-      .def("faults", &faults, no_gil)
+      .def("faults", &faults, long_call)
       .def(
           "write", [](const ControlMesh& mesh, const std::filesystem::path& path) { write_mesh(path, output(mesh)); },
-          py::arg("path"), no_gil);
-  m.def("read", &read, py::arg("path"), no_gil);
+          py::arg("path"), long_call);
+  m.def("read", &read, py::arg("path"), long_call);
 }
 
 }  // namespace sublimit::python

@@ -11,4 +11,6 @@ PYBIND11_MODULE(_sublimit, m) {
   add_levels(m);
   add_surfaces(m);
   add_tables(m);
+  add_curves(m);
+  add_reports(m);
 }

@@ -12,5 +12,7 @@ void add_schemes(pybind11::module_& m);
 void add_levels(pybind11::module_& m);
 void add_surfaces(pybind11::module_& m);
 void add_tables(pybind11::module_& m);
+void add_curves(pybind11::module_& m);
+void add_reports(pybind11::module_& m);
 
 }  // namespace sublimit::python

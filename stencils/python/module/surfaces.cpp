@@ -174,7 +174,7 @@ py::array_t<double> curvatures(const Array<double>& du, const Array<double>& dv,
 void add_surfaces(py::module_& m) {
   py::class_<Surface, std::shared_ptr<Surface>>(m, "Surface")
       .def(py::init<const ControlMesh&, const MeshRequest&>(), py::arg("mesh"), py::arg("request"),
-           py::call_guard<py::gil_scoped_release>())
+           py::call_guard<LongCall>())
       .def_property_readonly("num_points", [](const Surface& s) { return s.surface().num_points(); })
       .def_property_readonly("num_faces", [](const Surface& s) { return s.surface().faces().size; })
       .def_property_readonly("triangles", [](const Surface& s) { return s.surface().faces().triangles; })

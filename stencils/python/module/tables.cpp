@@ -40,7 +40,7 @@ void apply(const Table<Real>& table, const Array<Real>& points, Array<Real>& res
   const std::int64_t channels = points.shape(2), frames = points.shape(0);
   const std::span<const Real> in = span(points);
   const std::span<Real> out{result.mutable_data(), size_t(result.size())};
-  const py::gil_scoped_release no_gil;
+  const LongCall scope;
   const Threads held(threads);
   Evaluation<Real> asked;
   asked.channels = static_cast<int>(channels);
@@ -60,7 +60,7 @@ void apply_transpose(const Table<Real>& table, const Array<Real>& values, Array<
   const auto channels = static_cast<int>(values.shape(2));
   const std::span<const Real> in = span(values);
   const std::span<Real> out{result.mutable_data(), size_t(result.size())};
-  const py::gil_scoped_release no_gil;
+  const LongCall scope;
   const Threads held(threads);
   table.evaluator().apply_transpose(in, channels, out);
 }
@@ -126,7 +126,7 @@ void add_table(py::module_& m, const char* name) {
       .def("matrix", &matrix<Real>)
       .def(
           "save", [](const Table<Real>& t, const std::filesystem::path& path) { save_table(path, t.baked()); },
-          py::arg("path"), py::call_guard<py::gil_scoped_release>());
+          py::arg("path"), py::call_guard<LongCall>());
 }
 
 using AnyOfThem = std::variant<std::shared_ptr<Table<float>>, std::shared_ptr<Table<double>>>;
@@ -149,7 +149,7 @@ AnyOfThem bake_table(const ControlMesh& mesh, const MeshRequest& request, const 
     wanted.samples.resize(size_t(face.size()));
     for (size_t i = 0; i < wanted.samples.size(); ++i) wanted.samples[i] = {face.data()[i], u.data()[i], v.data()[i]};
   }
-  const py::gil_scoped_release no_gil;
+  const LongCall scope;
   const Threads held(threads);
   const MeshJob job = mesh_job(request, mesh, "mesh");
   Patterns patterns(*job.scheme);
@@ -159,7 +159,7 @@ AnyOfThem bake_table(const ControlMesh& mesh, const MeshRequest& request, const 
 }
 
 AnyOfThem load(const std::filesystem::path& path, bool checksums) {
-  const py::gil_scoped_release no_gil;
+  const LongCall scope;
   return std::visit(
       [](auto&& table) -> AnyOfThem {
         using Real = std::decay_t<decltype(table.table.arrays().weights[0])>;

@@ -19,6 +19,9 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from ._sublimit import __version__ as __version__
+    from ._curves import CurveSamples as CurveSamples
+    from ._curves import LimitCurve as LimitCurve
+    from ._curves import refine_curve as refine_curve
     from ._errors import AnalysisError as AnalysisError
     from ._errors import Error as Error
     from ._errors import FormatError as FormatError
@@ -34,6 +37,9 @@ if TYPE_CHECKING:
     from ._levels import subdivision_matrix as subdivision_matrix
     from ._meshes import Mesh as Mesh
     from ._meshes import read as read
+    from ._reports import Report as Report
+    from ._reports import analyze as analyze
+    from ._reports import analyze_mesh as analyze_mesh
     from ._schemes import OptionInfo as OptionInfo
     from ._schemes import Scheme as Scheme
     from ._schemes import SchemeInfo as SchemeInfo
@@ -50,10 +56,12 @@ if TYPE_CHECKING:
 # Where each name is. Parts are loaded when they are first asked for: NumPy alone takes longer to load than all of this.
 _PARTS = {
     "_sublimit": ("__version__",),
+    "_curves": ("CurveSamples", "LimitCurve", "refine_curve"),
     "_errors": ("AnalysisError", "Error", "FormatError", "InvalidMesh", "InvalidOption", "InvalidParameter", "IoError",
                "ResourceError", "UnsupportedTopology"),
     "_levels": ("Limit", "limit", "refine", "subdivision_matrix"),
     "_meshes": ("Mesh", "read"),
+    "_reports": ("Report", "analyze", "analyze_mesh"),
     "_schemes": ("OptionInfo", "Scheme", "SchemeInfo", "scheme", "schemes"),
     "_surfaces": ("ClosestPoints", "Curvature", "LimitSurface", "Samples"),
     "_tables": ("Table", "bake", "load"),

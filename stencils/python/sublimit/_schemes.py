@@ -119,13 +119,18 @@ def _text(value: OptionValue) -> str:
     return repr(value) if isinstance(value, float) else str(value)
 
 
+def as_scheme(scheme: Scheme | str) -> Scheme:
+    """A name as a scheme with its default options."""
+    if not isinstance(scheme, (str, Scheme)):
+        raise TypeError(f"scheme is a {type(scheme).__name__}; a name, or what sublimit.scheme makes, is right")
+    return Scheme(scheme) if isinstance(scheme, str) else scheme
+
+
 def request(scheme: Scheme | str, *, boundary: str | None = None, creasing: str | None = None, triangles: str | None = None,
             face_varying: str | None = None, option: Mapping[str, OptionValue] | None = None, triangulate: bool = False,
             no_creases: bool = False, strict: bool = False) -> _sublimit.MeshRequest:
     """What is asked of a mesh, for the compiled part."""
-    if not isinstance(scheme, (str, Scheme)):
-        raise TypeError(f"scheme is a {type(scheme).__name__}; a name, or what sublimit.scheme makes, is right")
-    own = Scheme(scheme) if isinstance(scheme, str) else scheme
+    own = as_scheme(scheme)
     asked = _sublimit.MeshRequest()
     asked.scheme = own.name
     asked.options = {**dict(own.options), **{key: _text(value) for key, value in (option or {}).items()}}

@@ -1,0 +1,132 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Limit curves."""
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any, NoReturn
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _arrays as arrays
+from . import _sublimit
+from ._levels import csr
+from ._schemes import Scheme, as_scheme
+from ._surfaces import order
+
+if TYPE_CHECKING:
+    from scipy.sparse import csr_array
+
+
+class CurveSamples:
+    """What there is at places of a curve. What does not exist is zero; `order` and `status` say what does.
+
+    Attributes
+    ----------
+    points : (..., dimension)
+    first, second : (..., dimension), derivatives per leg of the control polygon; None where they were not asked for
+    normals : (..., dimension), of length one: in the plane to the left, in space towards the centre of curvature
+    status : (...), numbers; ``statuses[number]`` is the word
+    order : (...), derivatives that there are
+    """
+
+    __module__ = "sublimit"
+    statuses: tuple[str, ...] = _sublimit.statuses
+
+    def __init__(self, parts: Mapping[str, Any], shape: tuple[int, ...]) -> None:
+        def part(name: str) -> Any:
+            return parts[name].reshape((*shape, parts[name].shape[1])) if name in parts else None
+
+        self.points: arrays.Floats = part("points")
+        self.first: arrays.Floats | None = part("first")
+        self.second: arrays.Floats | None = part("second")
+        self.normals: arrays.Floats | None = part("normals")
+        self.status: npt.NDArray[np.int8] = parts["status"].reshape(shape)
+        self.order: npt.NDArray[np.int8] = parts["order"].reshape(shape)
+
+    def __repr__(self) -> str:
+        return f"<sublimit.CurveSamples: shape {self.status.shape}>"
+
+
+class LimitCurve:
+    """The limit of a polygon under a linear scheme of curves. It never changes; threads may share it.
+
+    Segment i goes from point i, t = 0, to point i + 1, t = 1; a closed curve has one from the last point to the first.
+
+    Parameters
+    ----------
+    points : (points, dimension)
+    scheme : a name, as in `schemes`, or what `scheme` makes
+    closed : whether the last point is joined to the first
+    tangents : (points, dimension), for Hermite schemes
+
+    Examples
+    --------
+    >>> import sublimit
+    >>> curve = sublimit.LimitCurve([[0, 0], [1, 0], [1, 1], [0, 1]], "lane-riesenfeld", closed=True)
+    >>> curve.evaluate([0, 1], 0.5).points
+    array([[0.5       , 0.04166667],
+           [0.95833333, 0.5       ]])
+    """
+
+    __module__ = "sublimit"
+    __slots__ = ("_core", "__weakref__")
+    _core: _sublimit.Curve
+
+    def __init__(self, points: npt.ArrayLike, scheme: Scheme | str, *, closed: bool = False,
+                 tangents: npt.ArrayLike | None = None) -> None:
+        positions = arrays.floats(points, "points", (None, None), "(points, dimension)")
+        ends = None if tangents is None else arrays.floats(tangents, "tangents", positions.shape, "that of points")
+        own = as_scheme(scheme)
+        self._core = _sublimit.Curve(positions, ends, own.name, dict(own.options), closed)
+
+    @property
+    def num_segments(self) -> int:
+        """Legs of the polygon."""
+        return self._core.num_segments
+
+    def evaluate(self, segment: npt.ArrayLike, t: npt.ArrayLike, derivatives: int = 0, *, threads: int = 0) -> CurveSamples:
+        """Points of the curve, exact to rounding.
+
+        Parameters
+        ----------
+        segment, t : arrays that broadcast to one shape
+        derivatives : 0, 1 or 2
+        """
+        segments, at, shape = _places(segment, t)
+        return CurveSamples(self._core.evaluate(segments, at, order(derivatives), threads), shape)
+
+    def stencils(self, segment: npt.ArrayLike, t: npt.ArrayLike, derivatives: int = 0) -> list[csr_array]:
+        """What `evaluate` multiplies the points with: position, first and second derivative; a row for each place.
+
+        Columns are the points; in Hermite schemes 2i is point i, and 2i + 1 its tangent.
+        """
+        segments, at, _ = _places(segment, t)
+        return [csr(parts) for parts in self._core.stencils(segments, at, order(derivatives))]
+
+    def __reduce__(self) -> NoReturn:
+        raise TypeError("a LimitCurve does not pickle: it is made of its points faster than it is read; pickle these")
+
+    def __repr__(self) -> str:
+        return f"<sublimit.LimitCurve: {self.num_segments} segments>"
+
+
+def refine_curve(points: npt.ArrayLike, scheme: Scheme | str, levels: int = 1, *, closed: bool = False) -> arrays.Floats:
+    """Points of a level of a polygon, in order.
+
+    Parameters
+    ----------
+    points : (points, dimension)
+    """
+    own = as_scheme(scheme)
+    return _sublimit.refine_curve(arrays.floats(points, "points", (None, None), "(points, dimension)"), own.name,
+                                  dict(own.options), closed, levels)
+
+
+def _places(segment: npt.ArrayLike, t: npt.ArrayLike) -> tuple[arrays.Ints, arrays.Floats, tuple[int, ...]]:
+    try:
+        segments, at = np.broadcast_arrays(np.asarray(segment), np.asarray(t))
+    except ValueError:
+        raise ValueError(f"segment and t do not broadcast to one shape: {np.shape(segment)}, {np.shape(t)}") from None
+    return (arrays.ints(segments.reshape(-1), "segment", (None,), "whole numbers"),
+            arrays.floats(at.reshape(-1), "t", (None,), "real numbers", finite=False), segments.shape)
