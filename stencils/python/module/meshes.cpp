@@ -15,7 +15,7 @@
 #include "sublimit/files/sidecar.h"
 #include "sublimit/io/read_mesh.h"
 #include "sublimit/io/write_mesh.h"
-#include "sublimit/jobs/mesh_job.h"
+#include "sublimit/jobs/mesh_info.h"
 #include "sublimit/mesh/sharpness.h"
 
 namespace sublimit::python {
@@ -118,6 +118,12 @@ void add_meshes(py::module_& m) {
       .def(
           "write", [](const ControlMesh& mesh, const std::filesystem::path& path) { write_mesh(path, output(mesh)); },
           py::arg("path"), long_call);
+  m.def(
+      "info",
+      [](const ControlMesh& mesh, const MeshRequest& request, const std::string& name) {
+        return to_json(mesh_info(mesh_job(request, mesh, name)), name).dump();
+      },
+      py::arg("mesh"), py::arg("request"), py::arg("name"), long_call);
   m.def("read", &read, py::arg("path"), long_call);
 }
 

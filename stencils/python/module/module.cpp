@@ -13,4 +13,5 @@ PYBIND11_MODULE(_sublimit, m) {
   add_tables(m);
   add_curves(m);
   add_reports(m);
+  add_fits(m);
 }

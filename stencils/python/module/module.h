@@ -14,5 +14,6 @@ void add_surfaces(pybind11::module_& m);
 void add_tables(pybind11::module_& m);
 void add_curves(pybind11::module_& m);
 void add_reports(pybind11::module_& m);
+void add_fits(pybind11::module_& m);
 
 }  // namespace sublimit::python

@@ -31,6 +31,11 @@ if TYPE_CHECKING:
     from ._errors import IoError as IoError
     from ._errors import ResourceError as ResourceError
     from ._errors import UnsupportedTopology as UnsupportedTopology
+    from ._fits import Fit as Fit
+    from ._fits import FittedPoints as FittedPoints
+    from ._fits import fit as fit
+    from ._fits import fit_cloud as fit_cloud
+    from ._fits import fit_places as fit_places
     from ._levels import Limit as Limit
     from ._levels import limit as limit
     from ._levels import refine as refine
@@ -59,6 +64,7 @@ _PARTS = {
     "_curves": ("CurveSamples", "LimitCurve", "refine_curve"),
     "_errors": ("AnalysisError", "Error", "FormatError", "InvalidMesh", "InvalidOption", "InvalidParameter", "IoError",
                "ResourceError", "UnsupportedTopology"),
+    "_fits": ("Fit", "FittedPoints", "fit", "fit_cloud", "fit_places"),
     "_levels": ("Limit", "limit", "refine", "subdivision_matrix"),
     "_meshes": ("Mesh", "read"),
     "_reports": ("Report", "analyze", "analyze_mesh"),

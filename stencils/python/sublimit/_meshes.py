@@ -2,6 +2,7 @@
 """Control meshes."""
 from __future__ import annotations
 
+import json
 import os
 from collections.abc import Iterable, Mapping
 from typing import Any
@@ -11,6 +12,7 @@ import numpy.typing as npt
 
 from . import _arrays as arrays
 from . import _sublimit
+from ._schemes import Scheme, request
 
 Points = npt.ArrayLike
 """(vertices, 3), real numbers."""
@@ -131,6 +133,65 @@ class Mesh:
     def warnings(self) -> list[str]:
         """What a reader accepted but wants known."""
         return self._core.warnings
+
+    def info(self, scheme: Scheme | str | None = None) -> dict[str, Any]:
+        """Counts, valences, borders, tags, rules and faults, as ``sublimit info --json`` has them.
+
+        Parameters
+        ----------
+        scheme : whether it takes the mesh, and what levels would take, is told too
+        """
+        asked = _sublimit.MeshRequest() if scheme is None else request(scheme)
+        found: dict[str, Any] = json.loads(_sublimit.info(self._core, asked, "mesh"))
+        return found
+
+    @classmethod
+    def from_trimesh(cls, mesh: Any) -> Mesh:
+        """A mesh of trimesh, or of anything with `vertices` and `faces`; also of meshio, with `points` and `cells`.
+
+        Raises
+        ------
+        TypeError
+            Nothing of these.
+        """
+        if hasattr(mesh, "vertices") and hasattr(mesh, "faces"):
+            return cls(np.asarray(mesh.vertices), np.asarray(mesh.faces))
+        if hasattr(mesh, "points") and hasattr(mesh, "cells"):
+            kept = [np.asarray(block.data) for block in mesh.cells if block.type in ("triangle", "quad", "polygon")]
+            sizes = [np.full(len(block), block.shape[1], np.int32) for block in kept] or [np.zeros(0, np.int32)]
+            corners = [block.reshape(-1) for block in kept] or [np.zeros(0, np.int32)]
+            points = np.asarray(mesh.points)
+            if points.ndim == 2 and points.shape[1] == 2:
+                points = np.column_stack([points, np.zeros(len(points))])
+            return cls(points, (np.concatenate(sizes), np.concatenate(corners)))
+        raise TypeError(f"a {type(mesh).__name__} has neither vertices and faces nor points and cells")
+
+    def to_trimesh(self) -> Any:
+        """A ``trimesh.Trimesh`` with the same vertices; faces are cut into triangles from their first corners.
+
+        Raises
+        ------
+        ImportError
+            trimesh is not installed.
+        """
+        import trimesh  # type: ignore[import]
+
+        return trimesh.Trimesh(self.points, self.triangles(), process=False)
+
+    def triangles(self) -> arrays.Ints:
+        """(triangles, 3): faces, each cut from its first corner."""
+        sizes, corners = self.faces
+        first = np.repeat(np.cumsum(sizes) - sizes, sizes - 2)
+        number = np.arange(len(first)) - np.repeat(np.cumsum(sizes - 2) - (sizes - 2), sizes - 2)
+        return np.column_stack([corners[first], corners[first + number + 1], corners[first + number + 2]]).astype(np.int32)
+
+    def _repr_html_(self) -> str:
+        from ._pictures import mesh_picture
+
+        info = self.info()
+        sizes = ", ".join(f"{count} of {size} corners" for size, count in info["face_sizes"].items()) or "none"
+        return (f"<div>{mesh_picture(self)}<p>{info['vertices']} vertices, {info['edges']} edges, {info['faces']} faces ({sizes}); "
+                f"{info['creases']} creases, {info['corners']} corners, {info['holes']} holes</p></div>")
 
     def faults(self) -> list[str]:
         """What the mesh has that a manifold has not, in words."""

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+// Control points whose limit passes through points, or near to them.
+#include <pybind11/stl.h>
+
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "arrays.h"
+#include "calls.h"
+#include "module.h"
+#include "sublimit/fit/cloud_fit.h"
+#include "sublimit/fit/interpolate.h"
+#include "sublimit/fit/scattered_fit.h"
+#include "sublimit/jobs/mesh_job.h"
+#include "sublimit/scheme/refined_mesh.h"
+
+namespace sublimit::python {
+namespace {
+
+using Vectors = std::optional<Array<double>>;
+
+py::array_t<double> column(const Eigen::VectorXd& values) {
+  return array(std::vector<double>(values.begin(), values.end()));
+}
+
+std::vector<double> weights(const Vectors& given) { return given ? vector(*given) : std::vector<double>(); }
+
+/// @param normals  rows of not-a-number where there is none
+py::dict fit_vertices(const ControlMesh& mesh, const MeshRequest& request, const Array<Index>& vertices,
+                      const Array<double>& positions, const Vectors& normals, const Fairness& fairness,
+                      std::pair<int, int> refinements, int threads) {
+  std::vector<VertexTarget> targets;
+  for (py::ssize_t i = 0; i < vertices.size(); ++i) {
+    VertexTarget& target = targets.emplace_back();
+    target.vertex = vertices.at(i);
+    for (int c = 0; c < 3; ++c) target.position[c] = positions.at(i, c);
+    if (!normals || std::isnan(normals->at(i, 0))) continue;
+    target.normal = Eigen::Vector3d(normals->at(i, 0), normals->at(i, 1), normals->at(i, 2));
+  }
+  std::optional<Interpolation> found;
+  auto fitted = std::make_shared<ControlMesh>(without_gil([&] {
+    const Threads held(threads);
+    const MeshJob job = mesh_job(request, mesh, "mesh");
+    found = interpolate(*job.scheme, job.mesh, targets,
+                        {.least_refinements = refinements.first,
+                         .most_refinements = refinements.second,
+                         .fairness = fairness,
+                         .rules = job.rules,
+                         .conditioning = false});
+    return level_mesh(found->level, std::move(found->points), job.mesh, job.rules);
+  }));
+  py::dict all;
+  all["mesh"] = fitted;
+  all["solved"] = found->solved();
+  all["why_not"] = found->solved() ? "" : why_unsolved(found->attempts.back());
+  all["refinements"] = found->attempts.back().refinements;
+  all["position_error"] = column(found->position_error);
+  all["normal_error"] = column(found->normal_error);
+  return all;
+}
+
+py::dict fit_to_places(const ControlMesh& mesh, const MeshRequest& request, const Array<Index>& faces,
+                       const Array<double>& u, const Array<double>& v, const Array<double>& values,
+                       const Vectors& weight, const Fairness& fairness, const Array<Index>& pins, int threads) {
+  PlaceTargets targets;
+  for (py::ssize_t i = 0; i < faces.size(); ++i) targets.places.push_back({faces.at(i), u.at(i), v.at(i)});
+  targets.values = points(values);
+  targets.weights = weights(weight);
+  ScatteredFitOptions options{.fairness = fairness};
+  options.pins.vertices = vector(pins);
+  ScatteredFit found = without_gil([&] {
+    const Threads held(threads);
+    const MeshJob job = mesh_job(request, mesh, "mesh");
+    return fit_places(LimitSurface(*job.scheme, job.mesh, job.rules), targets, job.mesh.positions, options);
+  });
+  py::dict all;
+  all["points"] = array(std::move(found.points));
+  all["residuals"] = column(found.residuals);
+  all["rms"] = found.rms;
+  all["largest"] = found.largest;
+  return all;
+}
+
+py::dict fit_to_cloud(const ControlMesh& mesh, const MeshRequest& request, const Array<double>& cloud,
+                      const Vectors& weight, const Fairness& fairness, const std::vector<double>& schedule,
+                      const Array<Index>& pins, int iterations, double tolerance, int threads) {
+  CloudFitOptions options{
+      .fairness = fairness, .schedule = schedule, .max_iterations = iterations, .tolerance = tolerance};
+  options.pins.vertices = vector(pins);
+  const Cloud near{points(cloud), weights(weight)};
+  CloudFit found = without_gil([&] {
+    const Threads held(threads);
+    const MeshJob job = mesh_job(request, mesh, "mesh");
+    return fit_cloud(LimitSurface(*job.scheme, job.mesh, job.rules), near, job.mesh.positions, options);
+  });
+  std::vector<double> rms;
+  for (const CloudIteration& one : found.iterations) rms.push_back(one.rms);
+  py::dict all;
+  all["points"] = array(std::move(found.points));
+  all["residuals"] = column(found.feet.distances);
+  all["rms"] = rms.back();
+  all["largest"] = found.iterations.back().largest;
+  all["iterations"] = array(std::move(rms));
+  all["converged"] = found.converged;
+  return all;
+}
+
+}  // namespace
+
+void add_fits(py::module_& m) {
+  py::class_<Fairness>(m, "Fairness")
+      .def(py::init([](double thin_plate, double membrane) {
+             return Fairness{thin_plate, membrane};
+           }),
+           py::arg("thin_plate"), py::arg("membrane"));
+  m.def("fit", &fit_vertices, py::arg("mesh"), py::arg("request"), py::arg("vertices"), py::arg("points"),
+        py::arg("normals"), py::arg("fairness"), py::arg("refinements"), py::arg("threads"));
+  m.def("fit_places", &fit_to_places, py::arg("mesh"), py::arg("request"), py::arg("face"), py::arg("u"), py::arg("v"),
+        py::arg("values"), py::arg("weights"), py::arg("fairness"), py::arg("pins"), py::arg("threads"));
+  m.def("fit_cloud", &fit_to_cloud, py::arg("mesh"), py::arg("request"), py::arg("points"), py::arg("weights"),
+        py::arg("fairness"), py::arg("schedule"), py::arg("pins"), py::arg("iterations"), py::arg("tolerance"),
+        py::arg("threads"));
+}
+
+}  // namespace sublimit::python

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// What there is to know of a mesh before it is refined: counts, valences, borders, tags, faults, and whether a scheme
+// takes it.
+#include <nlohmann/json.hpp>
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "sublimit/jobs/mesh_job.h"
+
+namespace sublimit {
+
+struct MeshInfo {
+  /// How many there are of each.
+  using Histogram = std::map<Index, Index>;
+
+  Index vertices = 0, edges = 0, faces = 0;
+  Index euler_characteristic = 0, components = 0, boundary_loops = 0;
+  Histogram face_sizes, interior_valences, boundary_valences;
+  bool triangles = false;  ///< addresses are triangles
+  Index addresses = 0;     ///< faces that places may be on
+  Index creases = 0, corners = 0, holes = 0;
+  std::string boundary, creasing, smooth_triangles, face_varying;  ///< rules in force, in words
+  std::vector<ControlMesh::FaceVarying> channels;                  ///< without what corners have which
+  std::vector<std::string> warnings, faults;
+
+  std::string scheme;                   ///< if one was asked about
+  std::string why_not;                  ///< what keeps it from taking the mesh; empty: it does
+  std::vector<double> predicted_bytes;  ///< of levels 1 to 6
+};
+
+/// @param triangles  addresses are triangles, whatever the scheme
+MeshInfo mesh_info(const MeshJob& job, bool triangles = false);
+
+/// As `sublimit info --json` prints it.
+/// @param name  of the mesh
+nlohmann::ordered_json to_json(const MeshInfo& info, const std::string& name);
+
+}  // namespace sublimit

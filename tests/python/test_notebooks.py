@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What notebooks show, and meshes of other packages."""
+from __future__ import annotations
+
+import json
+import pathlib
+import xml.etree.ElementTree
+from collections.abc import Callable
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+import sublimit
+
+
+def test_info_is_the_programs(tagged: sublimit.Mesh, program: Callable[..., str], tmp_path: pathlib.Path) -> None:
+    tagged.write(tmp_path / "mesh.obj")
+    for scheme in (None, "catmull-clark", "loop"):
+        theirs = json.loads(program("info", tmp_path / "mesh.obj", "--json", *(["-s", scheme] if scheme else [])))
+        ours = tagged.info(scheme)
+        assert theirs.pop("mesh") and ours.pop("mesh") == "mesh" and ours == theirs
+
+
+def test_meshes_are_pictures(tagged: sublimit.Mesh) -> None:
+    shown = xml.etree.ElementTree.fromstring(tagged._repr_html_())
+    picture = next(iter(shown))
+    assert picture.tag.endswith("svg") and len(picture) == 13
+    assert "20 vertices" in "".join(shown.itertext())
+    assert len(sublimit.refine(tagged, "catmull-clark", 5)._repr_html_()) < 500_000
+    assert "0 vertices" in sublimit.Mesh([], [])._repr_html_()
+
+
+def test_triangles(tagged: sublimit.Mesh) -> None:
+    expected = [[c[0], c[i], c[i + 1]] for c in np.split(tagged.faces[1], np.cumsum(tagged.faces[0])[:-1]) for i in range(1, len(c) - 1)]
+    assert tagged.triangles().tolist() == np.array(expected).tolist()
+
+
+def test_meshes_of_others(cube: sublimit.Mesh) -> None:
+    like_trimesh = SimpleNamespace(vertices=cube.points, faces=cube.triangles())
+    assert sublimit.Mesh.from_trimesh(like_trimesh).face_array.shape == (12, 3)
+    cells = [SimpleNamespace(type="vertex", data=np.array([[0]])), SimpleNamespace(type="quad", data=cube.face_array),
+             SimpleNamespace(type="triangle", data=cube.triangles()[:2])]
+    sizes, corners = sublimit.Mesh.from_trimesh(SimpleNamespace(points=cube.points, cells=cells)).faces
+    assert sizes.tolist() == [4] * 6 + [3] * 2 and len(corners) == 30
+    with pytest.raises(TypeError, match="neither vertices and faces nor points and cells"):
+        sublimit.Mesh.from_trimesh(3)
