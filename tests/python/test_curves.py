@@ -27,7 +27,6 @@ def test_lane_riesenfeld_is_the_b_spline(degree: int) -> None:
     x = np.arange(n)[:, None] + t
     inside = (x > 1) & (x < n - 1)
     np.testing.assert_allclose(found.points[inside], spline(x)[inside], rtol=0, atol=1e-13)
-    assert found.first is not None
     np.testing.assert_allclose(found.first[inside & (t > 0) & (t < 1)], spline(x, 1)[inside & (t > 0) & (t < 1)], rtol=0, atol=1e-12)
 
 
@@ -40,7 +39,7 @@ def test_stencils_make_the_points(name: str) -> None:
     unknowns = POLYGON if tangents is None else np.stack([POLYGON, tangents], axis=1).reshape(-1, 3)
     for k, part in enumerate((samples.points, samples.first, samples.second)):
         there = samples.order >= k
-        assert part is not None and matrices[k].shape == (len(t), len(unknowns))
+        assert matrices[k].shape == (len(t), len(unknowns))
         np.testing.assert_allclose((matrices[k] @ unknowns)[there], part[there], rtol=0, atol=1e-11)
 
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Limit surfaces: points with derivatives, stencils and closest points anywhere.
 #include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
 
 #include <array>
 #include <memory>
@@ -9,36 +10,13 @@
 #include "arrays.h"
 #include "calls.h"
 #include "module.h"
+#include "sources.h"
 #include "sublimit/base/error.h"
 #include "sublimit/base/parallel_for.h"
 #include "sublimit/fit/closest_point.h"
-#include "sublimit/jobs/mesh_job.h"
-#include "sublimit/limit/limit_surface.h"
 
 namespace sublimit::python {
 namespace {
-
-/// A surface with its control points.
-class Surface {
- public:
-  Surface(const ControlMesh& mesh, const MeshRequest& request)
-      : job_(mesh_job(request, mesh, "mesh")),
-        surface_(*job_.scheme, job_.mesh, job_.rules),
-        bound_(surface_, job_.mesh.positions) {}
-
-  const LimitSurface& surface() const { return surface_; }
-  const Points& points() const { return job_.mesh.positions; }
-
-  LimitSamples evaluate(std::span<const Sample> places, int order) const {
-    for (const Sample& place : places) check_inside(surface_.faces(), place);
-    return bound_.evaluate(places, order);
-  }
-
- private:
-  MeshJob job_;
-  LimitSurface surface_;
-  BoundLimitSurface bound_;
-};
 
 std::vector<Sample> places(const Array<Index>& faces, const Array<double>& u, const Array<double>& v) {
   std::vector<Sample> all(size_t(faces.size()));
@@ -68,7 +46,7 @@ py::dict arrays(LimitSamples&& samples) {
   return all;
 }
 
-py::dict evaluate(const Surface& surface, const Array<Index>& faces, const Array<double>& u, const Array<double>& v,
+py::dict evaluate(const Source& surface, const Array<Index>& faces, const Array<double>& u, const Array<double>& v,
                   int order, int threads) {
   const std::vector<Sample> at = places(faces, u, v);
   return arrays(without_gil([&] {
@@ -113,7 +91,7 @@ Stencils stencils_at(const LinearSource& surface, const std::vector<Sample>& at,
   return all;
 }
 
-py::tuple stencils(const Surface& surface, const Array<Index>& faces, const Array<double>& u, const Array<double>& v,
+py::tuple stencils(const Source& surface, const Array<Index>& faces, const Array<double>& u, const Array<double>& v,
                    int order, int threads) {
   const std::vector<Sample> at = places(faces, u, v);
   Stencils found = without_gil([&] {
@@ -172,17 +150,27 @@ py::array_t<double> curvatures(const Array<double>& du, const Array<double>& dv,
 }  // namespace
 
 void add_surfaces(py::module_& m) {
-  py::class_<Surface, std::shared_ptr<Surface>>(m, "Surface")
-      .def(py::init<const ControlMesh&, const MeshRequest&>(), py::arg("mesh"), py::arg("request"),
-           py::call_guard<LongCall>())
-      .def_property_readonly("num_points", [](const Surface& s) { return s.surface().num_points(); })
-      .def_property_readonly("num_faces", [](const Surface& s) { return s.surface().faces().size; })
-      .def_property_readonly("triangles", [](const Surface& s) { return s.surface().faces().triangles; })
+  const py::call_guard<LongCall> long_call;
+  py::class_<Source, std::shared_ptr<Source>>(m, "Source")
+      .def_property_readonly("num_points", [](const Source& s) { return s.surface().num_points(); })
+      .def_property_readonly("num_faces", [](const Source& s) { return s.surface().faces().size; })
+      .def_property_readonly("triangles", [](const Source& s) { return s.surface().faces().triangles; })
       .def("evaluate", &evaluate, py::arg("face"), py::arg("u"), py::arg("v"), py::arg("derivatives"),
            py::arg("threads"))
       .def("stencils", &stencils, py::arg("face"), py::arg("u"), py::arg("v"), py::arg("derivatives"),
-           py::arg("threads"))
+           py::arg("threads"));
+  py::class_<Surface, Source, std::shared_ptr<Surface>>(m, "Surface")
+      .def(py::init<const ControlMesh&, const MeshRequest&>(), py::arg("mesh"), py::arg("request"), long_call)
       .def("closest", &closest, py::arg("points"), py::arg("threads"));
+  py::class_<Patches, Source, std::shared_ptr<Patches>>(m, "PatchSet")
+      .def(py::init<const std::filesystem::path&>(), py::arg("path"), long_call)
+      .def_property_readonly("columns",
+                             [](const py::object& self) { return view(self.cast<const Patches&>().points(), self); })
+      .def_property_readonly("first_faces", [](const Patches& p) {
+        std::vector<Index> first;
+        for (size_t i = 0; i <= p.surface().members().size(); ++i) first.push_back(p.surface().first_face(i));
+        return array(std::move(first));
+      });
   m.def("curvatures", &curvatures, py::arg("du"), py::arg("dv"), py::arg("duu"), py::arg("duv"), py::arg("dvv"),
         py::arg("normals"), py::arg("status"), py::arg("order"));
 }

@@ -10,6 +10,7 @@
 #include "arrays.h"
 #include "calls.h"
 #include "module.h"
+#include "sources.h"
 #include "sublimit/bake/bake.h"
 #include "sublimit/base/error.h"
 #include "sublimit/jobs/mesh_job.h"
@@ -137,8 +138,9 @@ struct Asked {
   bool in_float = true;
 };
 
-AnyOfThem bake_table(const ControlMesh& mesh, const MeshRequest& request, const Asked& asked,
-                     const std::optional<std::tuple<Array<Index>, Array<double>, Array<double>>>& at, int threads) {
+using Places = std::optional<std::tuple<Array<Index>, Array<double>, Array<double>>>;
+
+BakeRequest request_of(const Asked& asked, const Places& at) {
   BakeRequest wanted;
   wanted.rows = table_rows(asked.rows).value();
   wanted.level = asked.level;
@@ -149,13 +151,29 @@ AnyOfThem bake_table(const ControlMesh& mesh, const MeshRequest& request, const 
     wanted.samples.resize(size_t(face.size()));
     for (size_t i = 0; i < wanted.samples.size(); ++i) wanted.samples[i] = {face.data()[i], u.data()[i], v.data()[i]};
   }
+  return wanted;
+}
+
+AnyOfThem table_of(Baked&& baked, const Asked& asked) {
+  if (asked.in_float) return std::make_shared<Table<float>>(in_float(baked.table));
+  return std::make_shared<Table<double>>(std::move(baked.table));
+}
+
+AnyOfThem bake_mesh(const ControlMesh& mesh, const MeshRequest& request, const Asked& asked, const Places& at,
+                    int threads) {
+  const BakeRequest wanted = request_of(asked, at);
   const LongCall scope;
   const Threads held(threads);
   const MeshJob job = mesh_job(request, mesh, "mesh");
   Patterns patterns(*job.scheme);
-  Baked baked = bake(patterns, job.mesh, wanted, job.rules);
-  if (asked.in_float) return std::make_shared<Table<float>>(in_float(baked.table));
-  return std::make_shared<Table<double>>(std::move(baked.table));
+  return table_of(bake(patterns, job.mesh, wanted, job.rules), asked);
+}
+
+AnyOfThem bake_patches(const Patches& patches, const Asked& asked, const Places& at, int threads) {
+  const BakeRequest wanted = request_of(asked, at);
+  const LongCall scope;
+  const Threads held(threads);
+  return table_of(bake(patches.surface(), wanted), asked);
 }
 
 AnyOfThem load(const std::filesystem::path& path, bool checksums) {
@@ -180,7 +198,8 @@ void add_tables(py::module_& m) {
       .def_readwrite("grid", &Asked::grid)
       .def_readwrite("derivatives", &Asked::derivatives)
       .def_readwrite("in_float", &Asked::in_float);
-  m.def("bake", &bake_table, py::arg("mesh"), py::arg("request"), py::arg("table"), py::arg("at"), py::arg("threads"));
+  m.def("bake", &bake_mesh, py::arg("mesh"), py::arg("request"), py::arg("table"), py::arg("at"), py::arg("threads"));
+  m.def("bake_patches", &bake_patches, py::arg("patches"), py::arg("table"), py::arg("at"), py::arg("threads"));
   m.def("load", &load, py::arg("path"), py::arg("checksums"));
 }
 

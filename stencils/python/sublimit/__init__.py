@@ -42,6 +42,7 @@ if TYPE_CHECKING:
     from ._levels import subdivision_matrix as subdivision_matrix
     from ._meshes import Mesh as Mesh
     from ._meshes import read as read
+    from ._patches import Patches as Patches
     from ._reports import Report as Report
     from ._reports import analyze as analyze
     from ._reports import analyze_mesh as analyze_mesh
@@ -54,6 +55,7 @@ if TYPE_CHECKING:
     from ._surfaces import Curvature as Curvature
     from ._surfaces import LimitSurface as LimitSurface
     from ._surfaces import Samples as Samples
+    from ._surfaces import Source as Source
     from ._tables import Table as Table
     from ._tables import bake as bake
     from ._tables import load as load
@@ -67,9 +69,10 @@ _PARTS = {
     "_fits": ("Fit", "FittedPoints", "fit", "fit_cloud", "fit_places"),
     "_levels": ("Limit", "limit", "refine", "subdivision_matrix"),
     "_meshes": ("Mesh", "read"),
+    "_patches": ("Patches",),
     "_reports": ("Report", "analyze", "analyze_mesh"),
     "_schemes": ("OptionInfo", "Scheme", "SchemeInfo", "scheme", "schemes"),
-    "_surfaces": ("ClosestPoints", "Curvature", "LimitSurface", "Samples"),
+    "_surfaces": ("ClosestPoints", "Curvature", "LimitSurface", "Samples", "Source"),
     "_tables": ("Table", "bake", "load"),
 }
 _PLACE = {name: part for part, names in _PARTS.items() for name in names}

@@ -24,7 +24,7 @@ class CurveSamples:
     Attributes
     ----------
     points : (..., dimension)
-    first, second : (..., dimension), derivatives per leg of the control polygon; None where they were not asked for
+    first, second : (..., dimension), derivatives per leg of the control polygon; AttributeError if they were not asked for
     normals : (..., dimension), of length one: in the plane to the left, in space towards the centre of curvature
     status : (...), numbers; ``statuses[number]`` is the word
     order : (...), derivatives that there are
@@ -34,15 +34,31 @@ class CurveSamples:
     statuses: tuple[str, ...] = _sublimit.statuses
 
     def __init__(self, parts: Mapping[str, Any], shape: tuple[int, ...]) -> None:
-        def part(name: str) -> Any:
-            return parts[name].reshape((*shape, parts[name].shape[1])) if name in parts else None
-
-        self.points: arrays.Floats = part("points")
-        self.first: arrays.Floats | None = part("first")
-        self.second: arrays.Floats | None = part("second")
-        self.normals: arrays.Floats | None = part("normals")
+        self._parts = {name: part.reshape((*shape, part.shape[1])) for name, part in parts.items() if part.ndim == 2}
+        self.points: arrays.Floats = self._parts["points"]
         self.status: npt.NDArray[np.int8] = parts["status"].reshape(shape)
         self.order: npt.NDArray[np.int8] = parts["order"].reshape(shape)
+
+    def _part(self, name: str, derivatives: int) -> arrays.Floats:
+        if name not in self._parts:
+            raise AttributeError(f"{name} was not asked for: evaluate(..., derivatives={derivatives}) has it")
+        part: arrays.Floats = self._parts[name]
+        return part
+
+    @property
+    def first(self) -> arrays.Floats:
+        """(..., dimension): first derivatives."""
+        return self._part("first", 1)
+
+    @property
+    def second(self) -> arrays.Floats:
+        """(..., dimension): second derivatives."""
+        return self._part("second", 2)
+
+    @property
+    def normals(self) -> arrays.Floats:
+        """(..., dimension): unit normals."""
+        return self._part("normals", 1)
 
     def __repr__(self) -> str:
         return f"<sublimit.CurveSamples: shape {self.status.shape}>"

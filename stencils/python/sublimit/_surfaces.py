@@ -45,9 +45,8 @@ class Samples:
     Attributes
     ----------
     points : (..., 3)
-    du, dv : (..., 3), per unit of u and v; None without derivatives
-    duu, duv, dvv : (..., 3); None with less than two derivatives
-    normals : (..., 3), of length one; zero where there is none; None without derivatives
+    du, dv, duu, duv, dvv : (..., 3), per unit of u and v; AttributeError if they were not asked for
+    normals : (..., 3), of length one; zero where there is none; likewise
     status : (...), numbers; ``statuses[number]`` is the word
     order : (...), derivatives that there are: 0, 1 or 2
     """
@@ -56,18 +55,46 @@ class Samples:
     statuses: tuple[str, ...] = _sublimit.statuses
 
     def __init__(self, parts: Mapping[str, Any], shape: tuple[int, ...]) -> None:
-        def part(name: str) -> Any:
-            return parts[name].reshape((*shape, 3)) if name in parts else None
-
-        self.points: arrays.Floats = part("points")
-        self.du: arrays.Floats | None = part("du")
-        self.dv: arrays.Floats | None = part("dv")
-        self.duu: arrays.Floats | None = part("duu")
-        self.duv: arrays.Floats | None = part("duv")
-        self.dvv: arrays.Floats | None = part("dvv")
-        self.normals: arrays.Floats | None = part("normals")
+        self._parts = {name: part.reshape((*shape, 3)) for name, part in parts.items() if name not in ("status", "order")}
+        self.points: arrays.Floats = self._parts["points"]
         self.status: npt.NDArray[np.int8] = parts["status"].reshape(shape)
         self.order: npt.NDArray[np.int8] = parts["order"].reshape(shape)
+
+    def _part(self, name: str, derivatives: int) -> arrays.Floats:
+        if name not in self._parts:
+            raise AttributeError(f"{name} was not asked for: evaluate(..., derivatives={derivatives}) has it")
+        part: arrays.Floats = self._parts[name]
+        return part
+
+    @property
+    def du(self) -> arrays.Floats:
+        """(..., 3): the derivative along u."""
+        return self._part("du", 1)
+
+    @property
+    def dv(self) -> arrays.Floats:
+        """(..., 3): the derivative along v."""
+        return self._part("dv", 1)
+
+    @property
+    def duu(self) -> arrays.Floats:
+        """(..., 3): the second derivative along u."""
+        return self._part("duu", 2)
+
+    @property
+    def duv(self) -> arrays.Floats:
+        """(..., 3): the mixed derivative."""
+        return self._part("duv", 2)
+
+    @property
+    def dvv(self) -> arrays.Floats:
+        """(..., 3): the second derivative along v."""
+        return self._part("dvv", 2)
+
+    @property
+    def normals(self) -> arrays.Floats:
+        """(..., 3): unit normals."""
+        return self._part("normals", 1)
 
     def curvature(self) -> Curvature:
         """Curvature where there are two derivatives and the first ones span a plane.
@@ -77,7 +104,7 @@ class Samples:
         ValueError
             The samples were taken with fewer derivatives.
         """
-        if self.duu is None:
+        if "duu" not in self._parts:
             raise ValueError("curvature needs second derivatives: evaluate(..., derivatives=2)")
         shape = self.status.shape
         du, dv, duu, duv, dvv, normals = (np.ascontiguousarray(part, dtype=np.float64).reshape(-1, 3) for part in (
@@ -116,36 +143,12 @@ class ClosestPoints:
     status: npt.NDArray[np.int8]
 
 
-class LimitSurface:
-    """The limit surface of a mesh. It never changes; threads may share it.
-
-    Places are (face, u, v): a quadrilateral is one face, [0,1] x [0,1] from its first corner; another polygon is one for
-    each corner, numbered as Ptex does; under schemes for triangles each triangle is one, u, v >= 0, u + v <= 1.
-
-    Parameters
-    ----------
-    mesh, scheme and options : as in `refine`
-
-    Examples
-    --------
-    >>> import sublimit
-    >>> square = sublimit.Mesh([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], [[0, 1, 2, 3]])
-    >>> surface = sublimit.LimitSurface(square, "bilinear")
-    >>> surface.evaluate(0, [0, 0.5], 0.25).points
-    array([[0.  , 0.25, 0.  ],
-           [0.5 , 0.25, 0.  ]])
-    """
+class Source:
+    """A surface that is linear in its control points: of a mesh (`LimitSurface`), of patches (`Patches`)."""
 
     __module__ = "sublimit"
     __slots__ = ("_core", "__weakref__")
-    _core: _sublimit.Surface
-
-    def __init__(self, mesh: Mesh, scheme: Scheme | str, *, boundary: str | None = None, creasing: str | None = None,
-                 triangles: str | None = None, option: Mapping[str, OptionValue] | None = None, triangulate: bool = False,
-                 no_creases: bool = False, strict: bool = False) -> None:
-        asked = request(scheme, boundary=boundary, creasing=creasing, triangles=triangles, option=option,
-                        triangulate=triangulate, no_creases=no_creases, strict=strict)
-        self._core = _sublimit.Surface(core_of(mesh), asked)
+    _core: _sublimit.Source
 
     @property
     def num_faces(self) -> int:
@@ -190,6 +193,41 @@ class LimitSurface:
         faces, at_u, at_v, _ = places(face, u, v)
         return [csr(parts) for parts in self._core.stencils(faces, at_u, at_v, order(derivatives), threads)[0]]
 
+    def __repr__(self) -> str:
+        return f"<sublimit.{type(self).__name__}: {self.num_faces} faces, {self.num_points} control points>"
+
+
+class LimitSurface(Source):
+    """The limit surface of a mesh. It never changes; threads may share it.
+
+    Places are (face, u, v): a quadrilateral is one face, [0,1] x [0,1] from its first corner; another polygon is one for
+    each corner, numbered as Ptex does; under schemes for triangles each triangle is one, u, v >= 0, u + v <= 1.
+
+    Parameters
+    ----------
+    mesh, scheme and options : as in `refine`
+
+    Examples
+    --------
+    >>> import sublimit
+    >>> square = sublimit.Mesh([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], [[0, 1, 2, 3]])
+    >>> surface = sublimit.LimitSurface(square, "bilinear")
+    >>> surface.evaluate(0, [0, 0.5], 0.25).points
+    array([[0.  , 0.25, 0.  ],
+           [0.5 , 0.25, 0.  ]])
+    """
+
+    __module__ = "sublimit"
+    __slots__ = ()
+    _core: _sublimit.Surface
+
+    def __init__(self, mesh: Mesh, scheme: Scheme | str, *, boundary: str | None = None, creasing: str | None = None,
+                 triangles: str | None = None, option: Mapping[str, OptionValue] | None = None, triangulate: bool = False,
+                 no_creases: bool = False, strict: bool = False) -> None:
+        asked = request(scheme, boundary=boundary, creasing=creasing, triangles=triangles, option=option,
+                        triangulate=triangulate, no_creases=no_creases, strict=strict)
+        self._core = _sublimit.Surface(core_of(mesh), asked)
+
     def closest(self, points: npt.ArrayLike, *, threads: int = 0) -> ClosestPoints:
         """Nearest points of the surface.
 
@@ -201,9 +239,6 @@ class LimitSurface:
 
     def __reduce__(self) -> NoReturn:
         raise TypeError("a LimitSurface does not pickle: it is made of its mesh faster than it is read; pickle the Mesh")
-
-    def __repr__(self) -> str:
-        return f"<sublimit.LimitSurface: {self.num_faces} faces, {self.num_points} control points>"
 
 
 def order(derivatives: int) -> int:

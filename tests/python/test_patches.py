@@ -1,0 +1,75 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Classical surfaces: the numbers of the program, a sphere, and tables."""
+from __future__ import annotations
+
+import json
+import pathlib
+from typing import Any
+
+import numpy as np
+import pytest
+
+import sublimit
+
+BICUBIC = """v 0 0 0\nv 1 0 1\nv 2 0 -1\nv 3 0 0\nv 0 1 0\nv 1 1 2\nv 2 1 1\nv 3 1 0\nv 0 2 1\nv 1 2 0\nv 2 2 -1\nv 3 2 0
+v 0 3 0\nv 1 3 1\nv 2 3 0\nv 3 3 -1\ncstype bezier\ndeg 3 3\nsurf 0 1 0 1 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16\nparm u 0 1\nparm v 0 1\nend\n"""
+
+
+@pytest.fixture
+def bicubic(tmp_path: pathlib.Path) -> sublimit.Patches:
+    (tmp_path / "patch.obj").write_text(BICUBIC)
+    return sublimit.Patches.read(tmp_path / "patch.obj")
+
+
+def test_bezier_patches_are_bernstein_sums(bicubic: sublimit.Patches) -> None:
+    u, v = np.random.default_rng(1).random((2, 30))
+    net = bicubic.points.reshape(4, 4, 3)
+
+    def bernstein(t: Any) -> Any:
+        return np.stack([(1 - t) ** 3, 3 * t * (1 - t) ** 2, 3 * t**2 * (1 - t), t**3])
+
+    expected = np.einsum("jk,ik,jic->kc", bernstein(v), bernstein(u), net)
+    samples = bicubic.evaluate(0, u, v, derivatives=2)
+    np.testing.assert_allclose(samples.points, expected, rtol=0, atol=1e-14)
+    N, Nu, Nv = bicubic.stencils(0, u, v, derivatives=1)
+    np.testing.assert_allclose(Nu @ bicubic.points, samples.du, rtol=0, atol=1e-13)
+    table = bicubic.bake(grid=5, derivatives=1, precision="double")
+    t = np.linspace(0, 1, 5)
+    np.testing.assert_allclose(table.apply(bicubic.points)[2], bicubic.evaluate(0, np.tile(t, 5), np.repeat(t, 5), derivatives=1).dv,
+                               rtol=0, atol=1e-13)
+    assert len(bicubic.bake(levels=1).apply(bicubic.points)) > 16
+
+
+def test_a_sphere_by_a_recipe(tmp_path: pathlib.Path) -> None:
+    """It is rational: homogeneous columns, a table that divides, and Gauss curvature 1 / r^2."""
+    w = 0.5**0.5
+    profile = {"degree": 2, "knots": [0, 0, 0, 1, 1, 2, 2, 2],
+               "homogeneous_xzw": [[0, -2, 1], [2 * w, -2 * w, w], [2, 0, 1], [2 * w, 2 * w, w], [0, 2, 1]]}
+    recipe = tmp_path / "sphere.json"
+    recipe.write_text(json.dumps({"kind": "revolution", "profile": profile, "start_degrees": 0, "sweep_degrees": 360}))
+    sphere = sublimit.Patches.read(recipe)
+    assert sphere.points.shape[1] == 4 and sphere.first_faces.tolist() == [0, sphere.num_faces]
+    random = np.random.default_rng(2)
+    face, u, v = random.integers(0, sphere.num_faces, 50), *(0.1 + 0.8 * random.random((2, 50)))
+    samples = sphere.evaluate(face, u, v, derivatives=2)
+    np.testing.assert_allclose(np.linalg.norm(samples.points, axis=1), 2, rtol=0, atol=1e-14)
+    np.testing.assert_allclose(samples.curvature().gauss, 1 / 4, rtol=0, atol=1e-12)
+    table = sphere.bake(at=(face, u, v), derivatives=1, precision="double")
+    made = table.apply(sphere.points)
+    assert made.shape == (3, 50, 3) and table.info["rational"]
+    np.testing.assert_allclose(made[0], samples.points, rtol=0, atol=1e-14)
+    np.testing.assert_allclose(made[1], samples.du, rtol=0, atol=1e-13)
+
+
+def test_refuses_in_clear_words(bicubic: sublimit.Patches, tmp_path: pathlib.Path) -> None:
+    with pytest.raises(TypeError, match="Patches.read"):
+        sublimit.Patches()
+    with pytest.raises(sublimit.IoError):
+        sublimit.Patches.read(tmp_path / "nothing.obj")
+    (tmp_path / "mesh.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    with pytest.raises(sublimit.InvalidMesh, match="no surfaces, but a mesh"):
+        sublimit.Patches.read(tmp_path / "mesh.obj")
+    with pytest.raises(ValueError, match="1"):
+        bicubic.evaluate(1, 0, 0)
+    with pytest.raises(ValueError, match="one of levels, grid and at"):
+        bicubic.bake()
