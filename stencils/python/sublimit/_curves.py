@@ -2,8 +2,7 @@
 """Limit curves."""
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any, NoReturn
+from typing import TYPE_CHECKING, NoReturn
 
 import numpy as np
 import numpy.typing as npt
@@ -12,13 +11,13 @@ from . import _arrays as arrays
 from . import _sublimit
 from ._levels import csr
 from ._schemes import Scheme, as_scheme
-from ._surfaces import order
+from ._surfaces import SampledParts, order
 
 if TYPE_CHECKING:
     from scipy.sparse import csr_array
 
 
-class CurveSamples:
+class CurveSamples(SampledParts):
     """What there is at places of a curve. What does not exist is zero; `order` and `status` say what does.
 
     Attributes
@@ -31,19 +30,6 @@ class CurveSamples:
     """
 
     __module__ = "sublimit"
-    statuses: tuple[str, ...] = _sublimit.statuses
-
-    def __init__(self, parts: Mapping[str, Any], shape: tuple[int, ...]) -> None:
-        self._parts = {name: part.reshape((*shape, part.shape[1])) for name, part in parts.items() if part.ndim == 2}
-        self.points: arrays.Floats = self._parts["points"]
-        self.status: npt.NDArray[np.int8] = parts["status"].reshape(shape)
-        self.order: npt.NDArray[np.int8] = parts["order"].reshape(shape)
-
-    def _part(self, name: str, derivatives: int) -> arrays.Floats:
-        if name not in self._parts:
-            raise AttributeError(f"{name} was not asked for: evaluate(..., derivatives={derivatives}) has it")
-        part: arrays.Floats = self._parts[name]
-        return part
 
     @property
     def first(self) -> arrays.Floats:
@@ -59,9 +45,6 @@ class CurveSamples:
     def normals(self) -> arrays.Floats:
         """(..., dimension): unit normals."""
         return self._part("normals", 1)
-
-    def __repr__(self) -> str:
-        return f"<sublimit.CurveSamples: shape {self.status.shape}>"
 
 
 class LimitCurve:

@@ -39,7 +39,28 @@ class Curvature:
     direction2: arrays.Floats
 
 
-class Samples:
+class SampledParts:
+    """What samples of surfaces and curves have alike: arrays of the shape of the places."""
+
+    statuses: tuple[str, ...] = _sublimit.statuses
+
+    def __init__(self, parts: Mapping[str, Any], shape: tuple[int, ...]) -> None:
+        self._parts = {name: part.reshape((*shape, part.shape[1])) for name, part in parts.items() if part.ndim == 2}
+        self.points: arrays.Floats = self._parts["points"]
+        self.status: npt.NDArray[np.int8] = parts["status"].reshape(shape)
+        self.order: npt.NDArray[np.int8] = parts["order"].reshape(shape)
+
+    def _part(self, name: str, derivatives: int) -> arrays.Floats:
+        if name not in self._parts:
+            raise AttributeError(f"{name} was not asked for: evaluate(..., derivatives={derivatives}) has it")
+        part: arrays.Floats = self._parts[name]
+        return part
+
+    def __repr__(self) -> str:
+        return f"<sublimit.{type(self).__name__}: shape {self.status.shape}>"
+
+
+class Samples(SampledParts):
     """What there is at places of a surface. What does not exist is zero; `order` and `status` say what does.
 
     Attributes
@@ -52,19 +73,6 @@ class Samples:
     """
 
     __module__ = "sublimit"
-    statuses: tuple[str, ...] = _sublimit.statuses
-
-    def __init__(self, parts: Mapping[str, Any], shape: tuple[int, ...]) -> None:
-        self._parts = {name: part.reshape((*shape, 3)) for name, part in parts.items() if name not in ("status", "order")}
-        self.points: arrays.Floats = self._parts["points"]
-        self.status: npt.NDArray[np.int8] = parts["status"].reshape(shape)
-        self.order: npt.NDArray[np.int8] = parts["order"].reshape(shape)
-
-    def _part(self, name: str, derivatives: int) -> arrays.Floats:
-        if name not in self._parts:
-            raise AttributeError(f"{name} was not asked for: evaluate(..., derivatives={derivatives}) has it")
-        part: arrays.Floats = self._parts[name]
-        return part
 
     @property
     def du(self) -> arrays.Floats:
@@ -113,9 +121,6 @@ class Samples:
                                          np.ascontiguousarray(self.order).reshape(-1))
         gauss, mean, k1, k2 = (all_of_it[:, i].reshape(shape) for i in range(4))
         return Curvature(gauss, mean, k1, k2, all_of_it[:, 4:7].reshape((*shape, 3)), all_of_it[:, 7:].reshape((*shape, 3)))
-
-    def __repr__(self) -> str:
-        return f"<sublimit.Samples: shape {self.status.shape}>"
 
 
 @dataclass(frozen=True)
