@@ -29,10 +29,13 @@ class CMakeBuild(build_ext):
 
         cache = TREE / "CMakeCache.txt"
         known = cache.read_text() if cache.exists() else ""
-        options = ["-DSUBLIMIT_BUILD_PYTHON=ON", f"-DSUBLIMIT_PYTHON={sys.executable}"]
+        # Not that of a virtual environment, which may go while the tree stays.
+        python = os.path.realpath(getattr(sys, "_base_executable", sys.executable))
+        options = ["-DSUBLIMIT_BUILD_PYTHON=ON", f"-DSUBLIMIT_PYTHON={python}"]
+        found = re.search("^SUBLIMIT_PYTHON:.*?=(.*)$", known, flags=re.M)
         if not known:
             run("cmake", "--preset", "release", "-B", str(TREE), *options)
-        elif not all(re.search(option[2:].replace("=", ":[A-Z]*="), known) for option in options):
+        elif "SUBLIMIT_BUILD_PYTHON:BOOL=ON" not in known or not found or os.path.realpath(found[1]) != python:
             run("cmake", "-B", str(TREE), *options)
         run("cmake", "--build", str(TREE), "--target", "sublimit_python")
         target = pathlib.Path(self.get_ext_fullpath(extension.name))
