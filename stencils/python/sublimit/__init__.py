@@ -80,6 +80,10 @@ __all__ = sorted(_PLACE)
 
 
 def __getattr__(name: str) -> object:
+    if name == "torch":  # needs PyTorch, which nothing else does
+        import importlib
+
+        return importlib.import_module(f"{__name__}.torch")
     if name not in _PLACE:
         raise AttributeError(f"module 'sublimit' has no attribute '{name}'")
     import importlib

@@ -13,7 +13,13 @@ Floats32 = npt.NDArray[np.float32]
 Ints = npt.NDArray[np.int32]
 
 
+def of_others(values: Any) -> Any:
+    """Arrays of other packages that say where they are (DLPack), looked at there."""
+    return np.from_dlpack(values) if hasattr(values, "__dlpack__") and not isinstance(values, np.ndarray) else values
+
+
 def _array(values: Any, name: str) -> npt.NDArray[Any]:
+    values = of_others(values)
     if isinstance(values, np.ma.MaskedArray):
         if np.any(values.mask):
             raise ValueError(f"{name} has masked entries; fill them, or leave them out")
@@ -74,6 +80,7 @@ def ints(values: Any, name: str, shape: tuple[int | None, ...], what: str) -> In
 
 def faces(values: Any, name: str = "faces") -> tuple[Ints, Ints]:
     """Sizes and corners of faces: of an array (n, 3) or (n, 4), of a list of lists, of (sizes, corners)."""
+    values = of_others(values)
     if isinstance(values, tuple) and len(values) == 2:
         sizes, corners = (np.asarray(part) if _is_flat(part) else None for part in values)
         # Two triangles are a tuple of two as well.

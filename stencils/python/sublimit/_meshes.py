@@ -174,7 +174,7 @@ class Mesh:
         ImportError
             trimesh is not installed.
         """
-        import trimesh  # type: ignore[import]
+        import trimesh
 
         return trimesh.Trimesh(self.points, self.triangles(), process=False)
 

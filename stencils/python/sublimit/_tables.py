@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
+from . import _arrays as arrays
 from . import _sublimit
 from ._levels import core_of, csr
 from ._meshes import Mesh
@@ -161,7 +162,7 @@ class Table:
         return out
 
     def _input(self, values: npt.ArrayLike, name: str, count: int, what: str) -> npt.NDArray[Any]:
-        array = np.asarray(values)
+        array = np.asarray(arrays.of_others(values))
         if isinstance(values, np.ma.MaskedArray) and np.any(values.mask):
             raise ValueError(f"{name} has masked entries; fill them, or leave them out")
         if array.dtype.kind not in "fiu":
