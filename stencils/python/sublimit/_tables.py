@@ -24,6 +24,14 @@ if TYPE_CHECKING:
 class Table:
     """A table; `bake` makes it, `load` reads it. It never changes; threads may share it.
 
+    Attributes
+    ----------
+    num_points : points that it makes
+    num_control_points : points that it is applied to
+    quantities : 1: positions; 3: du and dv too; 6: duu, duv and dvv as well
+    dtype : of its weights, and of what it makes
+    rational : it is applied to homogeneous columns, and divides
+
     Examples
     --------
     >>> import sublimit
@@ -38,10 +46,13 @@ class Table:
     """
 
     __module__ = "sublimit"
-    __slots__ = ("_core", "dtype", "__weakref__")
+    __slots__ = ("_core", "dtype", "num_points", "num_control_points", "quantities", "rational", "__weakref__")
     _core: _sublimit.FloatTable | _sublimit.DoubleTable
     dtype: np.dtype[Any]
-    """Of its weights, and of what it makes."""
+    num_points: int
+    num_control_points: int
+    quantities: int
+    rational: bool
 
     def __init__(self) -> None:
         raise TypeError("sublimit.bake makes tables, sublimit.load reads them")
@@ -50,23 +61,13 @@ class Table:
     def _of(cls, core: _sublimit.FloatTable | _sublimit.DoubleTable) -> Table:
         table = cls.__new__(cls)
         table._core = core
+        # Kept here: every call looks at them, and small tables take no longer to apply than some calls of the compiled part.
         table.dtype = np.dtype(np.float32 if isinstance(core, _sublimit.FloatTable) else np.float64)
+        table.num_points = core.num_points
+        table.num_control_points = core.num_control_points
+        table.quantities = core.quantities
+        table.rational = core.info["rational"]
         return table
-
-    @property
-    def num_points(self) -> int:
-        """Points that it makes."""
-        return self._core.num_points
-
-    @property
-    def num_control_points(self) -> int:
-        """Points that it is applied to."""
-        return self._core.num_control_points
-
-    @property
-    def quantities(self) -> int:
-        """1: positions; 3: du and dv too; 6: duu, duv and dvv as well."""
-        return self._core.quantities
 
     @property
     def num_bytes(self) -> int:
@@ -99,7 +100,7 @@ class Table:
         return self._core.status_words
 
     def _shape(self, channels: int) -> tuple[int, ...]:
-        made = channels - 1 if self._core.info["rational"] else channels
+        made = channels - 1 if self.rational else channels
         return (self.num_points, made) if self.quantities == 1 else (self.quantities, self.num_points, made)
 
     def apply(self, points: npt.ArrayLike, out: npt.NDArray[Any] | None = None, *, threads: int = 0) -> npt.NDArray[Any]:
@@ -178,7 +179,7 @@ class Table:
             raise ValueError(f"out has shape {out.shape}; {shape} is right")
         if not out.flags.c_contiguous or not out.flags.writeable:
             raise ValueError("out is read-only or its rows do not follow each other; np.empty(shape, dtype) is right")
-        if np.may_share_memory(out, given) and np.shares_memory(out, given):
+        if np.may_share_memory(out, given) and np.shares_memory(out, given):  # the first is quick
             raise ValueError(f"out shares memory with {name}, which is read while out is written")
 
     def matrix(self) -> csr_array:

@@ -42,7 +42,7 @@ def apply(table: Table, points: torch.Tensor) -> torch.Tensor:
     """
     if points.device.type != "cpu":
         raise ValueError(f"points is on {points.device}; points.cpu() is right")
-    if table.info["rational"]:
+    if table.rational:
         raise ValueError("a rational table divides: it is no linear function of its homogeneous points")
     result: torch.Tensor = _Apply.apply(points, table)
     return result
