@@ -32,9 +32,9 @@ void print(const MeshInfo& info, const std::string& name) {
   fmt::print("  tags               {} creases, {} corners, {} holes\n", info.creases, info.corners, info.holes);
   fmt::print("  rules              boundary {}, creasing {}, triangles {}\n", info.boundary, info.creasing,
              info.smooth_triangles);
-  for (const ControlMesh::FaceVarying& channel : info.channels)
-    fmt::print("  face-varying       {}: {} values of {} numbers, interpolation {}\n", channel.name,
-               channel.values.rows(), channel.values.cols(), info.face_varying);
+  for (const MeshInfo::Channel& channel : info.channels)
+    fmt::print("  face-varying       {}: {} values of {} numbers, interpolation {}\n", channel.name, channel.values,
+               channel.numbers, info.face_varying);
   if (!info.scheme.empty()) {
     fmt::print("  {:<18} {}\n", info.scheme + ":", info.why_not.empty() ? "takes this mesh" : "no: " + info.why_not);
     for (size_t k = 0; k < info.predicted_bytes.size(); ++k)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Builds the compiled part with CMake, in the tree of what ships: who has built the program waits a minute, others half an hour."""
+"""Builds the compiled part with CMake, in the tree of what ships: who has built the program waits a minute, others ten."""
 import os
 import pathlib
 import re

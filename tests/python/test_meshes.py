@@ -166,6 +166,20 @@ def test_pickles(tagged: sublimit.Mesh) -> None:
     assert same(copy, tagged) and copy.points.ctypes.data != tagged.points.ctypes.data
 
 
+def test_pickles_keep_every_tag_of_a_file(tmp_path: pathlib.Path) -> None:
+    (tmp_path / "mesh.obj").write_text(
+        "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\nt crease 2/1/0 0 1 2.5\n"
+        "t corner 1/1/0 2 1.5\nt knotinterval 2/1/0 0 1 3\nt creasemethod 0/0/1 chaikin\nt smoothtriangles 0/0/1 smooth\n"
+        "t interpolateboundary 1/0/0 2\nt facevaryinginterpolateboundary 1/0/0 2\nt hole 1/0/0 0\n")
+    mesh = sublimit.read(tmp_path / "mesh.obj")
+    mesh.write(tmp_path / "first.obj")
+    pickle.loads(pickle.dumps(mesh)).write(tmp_path / "second.obj")
+    text = (tmp_path / "first.obj").read_text()
+    assert text == (tmp_path / "second.obj").read_text()
+    for tag in ("crease ", "corner", "knotinterval", "creasemethod", "smoothtriangles", "interpolateboundary", "hole"):
+        assert f"t {tag}" in text
+
+
 def test_says_what_is_no_manifold() -> None:
     assert sublimit.Mesh(SQUARE, [[0, 1, 2], [0, 1, 3], [0, 1, 2]]).faults()
     assert not sublimit.Mesh(SQUARE, [[0, 1, 2, 3]]).faults()

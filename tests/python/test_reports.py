@@ -54,6 +54,6 @@ def test_refuses_in_clear_words(cube: sublimit.Mesh, tmp_path: pathlib.Path) -> 
         sublimit.analyze("loop", valences=[2])
     with pytest.raises(sublimit.InvalidOption, match="g7"):
         sublimit.analyze_mesh(cube, "catmull-clark", tolerance={"g7": 1})
-    with pytest.raises(FileNotFoundError):
+    with pytest.raises(sublimit.IoError):
         sublimit.analyze("bilinear", valences=[4]).save_html(tmp_path / "nowhere" / "report.html")
     assert not list(tmp_path.iterdir())

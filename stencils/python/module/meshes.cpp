@@ -84,6 +84,51 @@ py::list channels(const py::object& self) {
   return all;
 }
 
+template <class Rule>
+std::optional<int> number(const std::optional<Rule>& rule) {
+  return rule ? std::optional(int(*rule)) : std::nullopt;
+}
+template <class Rule>
+std::optional<Rule> rule(const py::handle& number) {
+  return number.is_none() ? std::nullopt : std::optional(Rule(number.cast<int>()));
+}
+
+/// All that a mesh has, for pickles.
+py::tuple state(const ControlMesh& mesh) {
+  py::list values, knots;
+  for (const ControlMesh::FaceVarying& channel : mesh.face_varying)
+    values.append(
+        py::make_tuple(channel.name, array(Points(channel.values)), array(std::vector<Index>(channel.indices))));
+  for (const ControlMesh::KnotInterval& knot : mesh.knot_intervals)
+    knots.append(py::make_tuple(knot.tail, knot.head, knot.length));
+  return py::make_tuple(array(Points(mesh.positions)), array(std::vector<Index>(mesh.face_sizes)),
+                        array(std::vector<Index>(mesh.face_vertices)), tags(mesh.creases), tags(mesh.corners),
+                        array(std::vector<Index>(mesh.holes)), values, knots,
+                        py::make_tuple(number(mesh.boundary), number(mesh.creasing), number(mesh.triangles),
+                                       number(mesh.face_varying_interpolation)),
+                        mesh.warnings);
+}
+ControlMesh from_state(const py::tuple& state) {
+  ControlMesh mesh = made(state[0].cast<Array<double>>(), state[1].cast<Array<Index>>(), state[2].cast<Array<Index>>(),
+                          state[3].cast<Tags>(), state[4].cast<Tags>(), state[5].cast<Array<Index>>(), {}, {});
+  for (const py::handle one : state[6].cast<py::list>()) {
+    const auto channel = one.cast<py::tuple>();
+    mesh.face_varying.push_back({channel[0].cast<std::string>(), points(channel[1].cast<Array<double>>()),
+                                 vector(channel[2].cast<Array<Index>>())});
+  }
+  for (const py::handle one : state[7].cast<py::list>()) {
+    const auto knot = one.cast<py::tuple>();
+    mesh.knot_intervals.push_back({knot[0].cast<Index>(), knot[1].cast<Index>(), knot[2].cast<double>()});
+  }
+  const auto rules = state[8].cast<py::tuple>();
+  mesh.boundary = rule<Boundary>(rules[0]);
+  mesh.creasing = rule<Creasing>(rules[1]);
+  mesh.triangles = rule<Triangles>(rules[2]);
+  mesh.face_varying_interpolation = rule<FaceVaryingInterpolation>(rules[3]);
+  mesh.warnings = state[9].cast<std::vector<std::string>>();
+  return mesh;
+}
+
 /// The file with the tags that lie beside it.
 ControlMesh read(const std::filesystem::path& path) {
   ControlMesh mesh = read_mesh(path);
@@ -114,6 +159,7 @@ void add_meshes(py::module_& m) {
                              })
       .def_property_readonly("channels", &channels)
       .def_property_readonly("warnings", [](const ControlMesh& mesh) { return mesh.warnings; })
+      .def(py::pickle(&state, &from_state))
       .def("faults", &faults, long_call)
       .def(
           "write", [](const ControlMesh& mesh, const std::filesystem::path& path) { write_mesh(path, output(mesh)); },

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // Continuity reports, as the text that the program writes; the package makes dictionaries of it.
 #include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "calls.h"
 #include "module.h"
+#include "sublimit/base/atomic_file.h"
 #include "sublimit/jobs/mesh_job.h"
 #include "sublimit/report/analysis/claims_json.h"
 #include "sublimit/report/analysis/scheme_report.h"
@@ -45,6 +48,13 @@ std::string mesh_report(const ControlMesh& mesh, const MeshRequest& request, con
 std::string page(const std::string& report) { return report_page(nlohmann::ordered_json::parse(report)); }
 std::string picture(const std::string& report) { return report_picture(nlohmann::ordered_json::parse(report)); }
 
+/// The file appears whole or not at all.
+void write_text(const std::filesystem::path& path, const std::string& text) {
+  AtomicFile file(path);
+  file.write(text);
+  file.commit();
+}
+
 }  // namespace
 
 void add_reports(pybind11::module_& m) {
@@ -56,6 +66,7 @@ void add_reports(pybind11::module_& m) {
         py::arg("threads"), long_call);
   m.def("report_page", &page, py::arg("report"), long_call);
   m.def("report_picture", &picture, py::arg("report"), long_call);
+  m.def("write_text", &write_text, py::arg("path"), py::arg("text"), long_call);
 }
 
 }  // namespace sublimit::python

@@ -215,10 +215,7 @@ class Mesh:
         return f"<sublimit.Mesh: {len(self._core.points)} vertices, {len(self._core.sizes)} faces>"
 
     def __reduce__(self) -> tuple[Any, ...]:
-        core = self._core
-        uv = None if self.uv is None else (np.array(self.uv), np.array(self.uv_faces))
-        return _made, (core.points, core.sizes, core.corners, core.creases, core.sharp_vertices, core.holes, core.boundary,
-                       uv)
+        return Mesh._of, (self._core,)
 
 
 def read(path: str | os.PathLike[str]) -> Mesh:
@@ -234,10 +231,6 @@ def read(path: str | os.PathLike[str]) -> Mesh:
         Missing, a directory, unreadable.
     """
     return Mesh._of(_sublimit.read(os.fspath(path)))
-
-
-def _made(*parts: Any) -> Mesh:
-    return Mesh._of(_sublimit.ControlMesh(*(np.ascontiguousarray(p) if isinstance(p, np.ndarray) else p for p in parts)))
 
 
 def _rows(values: Any, name: str, columns: int, words: str) -> arrays.Floats:

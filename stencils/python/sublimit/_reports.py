@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import json
 import os
-import pathlib
-import tempfile
 from collections.abc import Iterable, Mapping
 from typing import Any
 
@@ -29,11 +27,11 @@ class Report(dict[str, Any]):
 
     def save_html(self, path: str | os.PathLike[str]) -> None:
         """Writes a page that needs nothing but itself. It appears whole or not at all."""
-        _write(path, _sublimit.report_page(self._text))
+        _sublimit.write_text(os.fspath(path), _sublimit.report_page(self._text))
 
     def save_json(self, path: str | os.PathLike[str]) -> None:
         """Writes the report as the program does; ``sublimit verify`` checks its proofs."""
-        _write(path, self._text)
+        _sublimit.write_text(os.fspath(path), self._text)
 
     def _repr_html_(self) -> str:
         return _sublimit.report_picture(self._text) or f"<p>{self!r}</p>"
@@ -88,18 +86,3 @@ def analyze_mesh(mesh: Mesh, scheme: Scheme | str, *, tolerance: Mapping[str, ob
 
 def _word(value: object) -> str:
     return ("yes" if value else "no") if isinstance(value, bool) else str(value)
-
-
-def _write(path: str | os.PathLike[str], text: str) -> None:
-    target = pathlib.Path(path)
-    handle, part = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name}.")
-    try:
-        with os.fdopen(handle, "w", encoding="utf-8") as file:
-            file.write(text)
-        mask = os.umask(0)
-        os.umask(mask)
-        os.chmod(part, 0o666 & ~mask)
-        os.replace(part, target)
-    except BaseException:
-        os.unlink(part)
-        raise

@@ -83,7 +83,7 @@ MeshInfo mesh_info(const MeshJob& job, bool triangles) {
   info.smooth_triangles = in_force({}, mesh.triangles, Triangles::catmark);
   info.face_varying = word(job.face_varying);
   for (const ControlMesh::FaceVarying& channel : mesh.face_varying)
-    info.channels.push_back({channel.name, channel.values, {}});
+    info.channels.push_back({channel.name, Index(channel.values.rows()), Index(channel.values.cols())});
   info.warnings = mesh.warnings;
   for (const Topology::Fault& fault : t.faults()) info.faults.push_back(fault.message);
   if (!job.scheme) return info;

@@ -23,7 +23,11 @@ struct MeshInfo {
   Index addresses = 0;     ///< faces that places may be on
   Index creases = 0, corners = 0, holes = 0;
   std::string boundary, creasing, smooth_triangles, face_varying;  ///< rules in force, in words
-  std::vector<ControlMesh::FaceVarying> channels;                  ///< without what corners have which
+  struct Channel {
+    std::string name;
+    Index values = 0, numbers = 0;  ///< how many values, of how many numbers each
+  };
+  std::vector<Channel> channels;
   std::vector<std::string> warnings, faults;
 
   std::string scheme;                   ///< if one was asked about

@@ -190,6 +190,9 @@ TEST(ExactKernel, EigenvectorsAreExact) {
   }
 }
 
+/// Of 128 bits, 38 digits, elimination of small matrices leaves more than half.
+constexpr double enclosed_well = 1e-20;
+
 /// Where there is one, its balls hold a multiple of the exact one, and are small.
 TEST(ExactKernel, OneEigenvectorIsEnclosed) {
   const PrecisionScope scope(128);
@@ -211,7 +214,7 @@ TEST(ExactKernel, OneEigenvectorIsEnclosed) {
       for (size_t i = 0; i < exact.size(); ++i) {
         const ComplexBall off = (*enclosed)[i] - scale * exact[i];
         EXPECT_TRUE(off.contains_zero()) << name << ", " << value.value.text() << ", entry " << i;
-        EXPECT_LT(abs(off).upper(), 1e-20) << name << ", " << value.value.text() << ", entry " << i;
+        EXPECT_LT(abs(off).upper(), enclosed_well) << name << ", " << value.value.text() << ", entry " << i;
       }
     }
     EXPECT_GT(found, 3) << name;
