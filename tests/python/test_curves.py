@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 from scipy.interpolate import BSpline
+from tolerance import derivatives, long_sums, products, rounding
 
 import sublimit
 
@@ -26,8 +27,8 @@ def test_lane_riesenfeld_is_the_b_spline(degree: int) -> None:
                                                                                      mode="wrap"), degree)
     x = np.arange(n)[:, None] + t
     inside = (x > 1) & (x < n - 1)
-    np.testing.assert_allclose(found.points[inside], spline(x)[inside], rtol=0, atol=1e-13)
-    np.testing.assert_allclose(found.first[inside & (t > 0) & (t < 1)], spline(x, 1)[inside & (t > 0) & (t < 1)], rtol=0, atol=1e-12)
+    np.testing.assert_allclose(found.points[inside], spline(x)[inside], rtol=0, atol=products)
+    np.testing.assert_allclose(found.first[inside & (t > 0) & (t < 1)], spline(x, 1)[inside & (t > 0) & (t < 1)], rtol=0, atol=derivatives)
 
 
 @pytest.mark.parametrize("name", CURVES)
@@ -40,14 +41,14 @@ def test_stencils_make_the_points(name: str) -> None:
     for k, part in enumerate((samples.points, samples.first, samples.second)):
         there = samples.order >= k
         assert matrices[k].shape == (len(t), len(unknowns))
-        np.testing.assert_allclose((matrices[k] @ unknowns)[there], part[there], rtol=0, atol=1e-11)
+        np.testing.assert_allclose((matrices[k] @ unknowns)[there], part[there], rtol=0, atol=long_sums)
 
 
 def test_refined_polygons_tend_to_the_limit() -> None:
     fine = sublimit.refine_curve(POLYGON, "four-point", 8, closed=True)
     assert len(fine) == 256 * len(POLYGON) and np.array_equal(fine[::256], POLYGON)
     curve = sublimit.LimitCurve(POLYGON, "four-point", closed=True)
-    np.testing.assert_allclose(curve.evaluate(3, np.arange(256) / 256).points, fine[768:1024], rtol=0, atol=1e-14)
+    np.testing.assert_allclose(curve.evaluate(3, np.arange(256) / 256).points, fine[768:1024], rtol=0, atol=rounding)
     tight = sublimit.LimitCurve(POLYGON, sublimit.scheme("four-point", tension=Fraction(3, 4)), closed=True)
     assert not np.allclose(tight.evaluate(3, 0.5).points, curve.evaluate(3, 0.5).points)
 

@@ -10,6 +10,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 from conftest import shared_mesh
+from tolerance import derivatives, products, rounding
 
 import sublimit
 
@@ -56,8 +57,8 @@ def test_matrices_make_the_points(scheme: str, request: pytest.FixtureRequest) -
         S = sublimit.subdivision_matrix(mesh, scheme, levels)
         fine = sublimit.refine(mesh, scheme, levels)
         assert S.shape == (len(fine.points), len(mesh.points))
-        np.testing.assert_allclose(S @ mesh.points, fine.points, rtol=0, atol=1e-14)
-        np.testing.assert_allclose(S.sum(axis=1), 1, rtol=0, atol=1e-14)
+        np.testing.assert_allclose(S @ mesh.points, fine.points, rtol=0, atol=rounding)
+        np.testing.assert_allclose(S.sum(axis=1), 1, rtol=0, atol=rounding)
 
 
 def test_matrices_are_not_copied(cube: sublimit.Mesh) -> None:
@@ -75,15 +76,15 @@ def test_limits_are_the_programs(scheme: str, program: Program, tmp_path: pathli
         program("limit", tmp_path / "in.obj", "-s", scheme, "-l", level, "-o", tmp_path / "out.obj")
         limit = sublimit.limit(mesh, scheme, level)
         # The program goes level by level, matrices all at once.
-        np.testing.assert_allclose(limit.points, sublimit.read(tmp_path / "out.obj").points, rtol=0, atol=1e-14)
-        np.testing.assert_allclose(limit.matrix @ mesh.points, limit.points, rtol=0, atol=1e-13)
+        np.testing.assert_allclose(limit.points, sublimit.read(tmp_path / "out.obj").points, rtol=0, atol=rounding)
+        np.testing.assert_allclose(limit.matrix @ mesh.points, limit.points, rtol=0, atol=products)
         for tangents, matrix in zip(limit.tangents, limit.tangent_matrices):
-            np.testing.assert_allclose(matrix @ mesh.points, tangents, rtol=0, atol=1e-12)
+            np.testing.assert_allclose(matrix @ mesh.points, tangents, rtol=0, atol=derivatives)
         assert limit.side_vertex.tolist() == list(range(len(limit.points)))
         if scheme == "bilinear":
             continue
         assert "undefined_normal" not in {limit.statuses[s] for s in limit.status}
-        np.testing.assert_allclose(np.linalg.norm(limit.normals, axis=1), 1, atol=1e-14)
+        np.testing.assert_allclose(np.linalg.norm(limit.normals, axis=1), 1, atol=rounding)
         centre = mesh.points.mean(axis=0)
         assert (np.einsum("ij,ij->i", limit.normals, limit.points - centre) > 0).all()  # outwards
 
@@ -101,7 +102,7 @@ def test_limits_of_known_masks(cube: sublimit.Mesh) -> None:
     for v, row in enumerate(rows):
         shared = np.abs(cube.points - cube.points[v]).sum(axis=1)  # 1: an edge away, 2: across a face, 3: across the cube
         expected = np.choose(shared.astype(int), [9 / 24, 4 / 24, 1 / 24, 0])
-        np.testing.assert_allclose(row, expected, rtol=0, atol=1e-15)
+        np.testing.assert_allclose(row, expected, rtol=0, atol=rounding)
 
 
 def test_the_same_bits_for_any_number_of_threads(icosahedron: sublimit.Mesh) -> None:

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from tolerance import derivatives, products, rounding
 
 import sublimit
 
@@ -30,13 +31,13 @@ def test_bezier_patches_are_bernstein_sums(bicubic: sublimit.Patches) -> None:
 
     expected = np.einsum("jk,ik,jic->kc", bernstein(v), bernstein(u), net)
     samples = bicubic.evaluate(0, u, v, derivatives=2)
-    np.testing.assert_allclose(samples.points, expected, rtol=0, atol=1e-14)
+    np.testing.assert_allclose(samples.points, expected, rtol=0, atol=rounding)
     N, Nu, Nv = bicubic.stencils(0, u, v, derivatives=1)
-    np.testing.assert_allclose(Nu @ bicubic.points, samples.du, rtol=0, atol=1e-13)
+    np.testing.assert_allclose(Nu @ bicubic.points, samples.du, rtol=0, atol=products)
     table = bicubic.bake(grid=5, derivatives=1, precision="double")
     t = np.linspace(0, 1, 5)
     np.testing.assert_allclose(table.apply(bicubic.points)[2], bicubic.evaluate(0, np.tile(t, 5), np.repeat(t, 5), derivatives=1).dv,
-                               rtol=0, atol=1e-13)
+                               rtol=0, atol=products)
     assert len(bicubic.bake(levels=1).apply(bicubic.points)) > 16
 
 
@@ -52,13 +53,13 @@ def test_a_sphere_by_a_recipe(tmp_path: pathlib.Path) -> None:
     random = np.random.default_rng(2)
     face, u, v = random.integers(0, sphere.num_faces, 50), *(0.1 + 0.8 * random.random((2, 50)))
     samples = sphere.evaluate(face, u, v, derivatives=2)
-    np.testing.assert_allclose(np.linalg.norm(samples.points, axis=1), 2, rtol=0, atol=1e-14)
-    np.testing.assert_allclose(samples.curvature().gauss, 1 / 4, rtol=0, atol=1e-12)
+    np.testing.assert_allclose(np.linalg.norm(samples.points, axis=1), 2, rtol=0, atol=rounding)
+    np.testing.assert_allclose(samples.curvature().gauss, 1 / 4, rtol=0, atol=derivatives)
     table = sphere.bake(at=(face, u, v), derivatives=1, precision="double")
     made = table.apply(sphere.points)
     assert made.shape == (3, 50, 3) and table.info["rational"]
-    np.testing.assert_allclose(made[0], samples.points, rtol=0, atol=1e-14)
-    np.testing.assert_allclose(made[1], samples.du, rtol=0, atol=1e-13)
+    np.testing.assert_allclose(made[0], samples.points, rtol=0, atol=rounding)
+    np.testing.assert_allclose(made[1], samples.du, rtol=0, atol=products)
 
 
 def test_refuses_in_clear_words(bicubic: sublimit.Patches, tmp_path: pathlib.Path) -> None:

@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from tolerance import derivatives, places, products, searched
 
 import sublimit
 
@@ -62,8 +63,8 @@ def test_stencils_make_the_points(scheme: str, request: pytest.FixtureRequest) -
         there = samples.order >= (0, 1, 1, 2, 2, 2)[k]
         assert matrix.shape == (40, surface.num_points)
         size = 1 + abs(matrix).sum(axis=1).max()
-        np.testing.assert_allclose((matrix @ mesh.points)[there], part[there], rtol=0, atol=1e-13 * size)
-        np.testing.assert_allclose(matrix.sum(axis=1)[there], 1 if k == 0 else 0, rtol=0, atol=1e-13 * size)
+        np.testing.assert_allclose((matrix @ mesh.points)[there], part[there], rtol=0, atol=products * size)
+        np.testing.assert_allclose(matrix.sum(axis=1)[there], 1 if k == 0 else 0, rtol=0, atol=products * size)
 
 
 def bicubic_torus(m: int, n: int) -> sublimit.Mesh:
@@ -83,9 +84,9 @@ def test_curvature_of_a_torus() -> None:
         c = surface.evaluate(faces, 0.3, 0.6, derivatives=2)
         k = c.curvature()
         assert (k.k1 >= k.k2).all() and (c.order == 2).all()
-        np.testing.assert_allclose(k.gauss, k.k1 * k.k2, atol=1e-12)
-        np.testing.assert_allclose(k.mean, (k.k1 + k.k2) / 2, atol=1e-12)
-        np.testing.assert_allclose(np.einsum("ij,ij->i", k.direction1, k.direction2), 0, atol=1e-9)
+        np.testing.assert_allclose(k.gauss, k.k1 * k.k2, atol=derivatives)
+        np.testing.assert_allclose(k.mean, (k.k1 + k.k2) / 2, atol=derivatives)
+        np.testing.assert_allclose(np.einsum("ij,ij->i", k.direction1, k.direction2), 0, atol=searched)
         r = np.hypot(c.points[:, 0], c.points[:, 1])
         across = np.cos(np.arctan2(c.points[:, 2], r - 3))
         worst.append(abs(abs(k.gauss) - abs(across / (3 + across))).max())
@@ -100,9 +101,9 @@ def test_closest_points(cube: sublimit.Mesh) -> None:
     surface = sublimit.LimitSurface(cube, "catmull-clark")
     on = surface.evaluate([0, 3, 5], [0.2, 0.7, 0.5], [0.9, 0.4, 0.5], derivatives=1)
     found = surface.closest(on.points + 0.1 * on.normals)
-    np.testing.assert_allclose(found.distance, 0.1, atol=1e-9)
-    np.testing.assert_allclose(found.points, on.points, atol=1e-6)
-    np.testing.assert_allclose(surface.evaluate(found.face, found.u, found.v).points, found.points, atol=1e-12)
+    np.testing.assert_allclose(found.distance, 0.1, atol=searched)
+    np.testing.assert_allclose(found.points, on.points, atol=places)
+    np.testing.assert_allclose(surface.evaluate(found.face, found.u, found.v).points, found.points, atol=derivatives)
     assert (found.gap == 0).all()
 
 

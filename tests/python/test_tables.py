@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from tolerance import long_sums, products, rounding, searched, single
 
 import sublimit
 
@@ -29,13 +30,13 @@ def test_tables_are_their_matrices(asked: Any, cube: sublimit.Mesh) -> None:
     matrix = table.matrix()
     made = table.apply(cube.points)
     assert matrix.shape == (table.quantities * table.num_points, 8)
-    np.testing.assert_allclose(matrix @ cube.points, made.reshape(-1, 3), rtol=0, atol=1e-13)
+    np.testing.assert_allclose(matrix @ cube.points, made.reshape(-1, 3), rtol=0, atol=products)
     values = np.random.default_rng(1).random(made.shape)
-    np.testing.assert_allclose(table.apply_transpose(values), matrix.T @ values.reshape(-1, 3), rtol=0, atol=1e-11)
+    np.testing.assert_allclose(table.apply_transpose(values), matrix.T @ values.reshape(-1, 3), rtol=0, atol=long_sums)
     operator = table.operator()
     x, y = np.random.default_rng(2).random(8), np.random.default_rng(3).random(len(matrix.data[:0]) + matrix.shape[0])
-    np.testing.assert_allclose(operator @ x, matrix @ x, atol=1e-13)
-    np.testing.assert_allclose(operator.T @ y, matrix.T @ y, atol=1e-11)
+    np.testing.assert_allclose(operator @ x, matrix @ x, atol=products)
+    np.testing.assert_allclose(operator.T @ y, matrix.T @ y, atol=long_sums)
 
 
 def test_levels_are_those_of_refine(cube: sublimit.Mesh) -> None:
@@ -48,7 +49,7 @@ def test_levels_are_those_of_refine(cube: sublimit.Mesh) -> None:
         middle = points[vertices.reshape(-1, 4)].mean(axis=1).round(9) + 0.0
         return middle[np.lexsort(middle.T)]
 
-    np.testing.assert_allclose(faces(made, corners), faces(fine.points, fine.faces[1]), atol=1e-9)
+    np.testing.assert_allclose(faces(made, corners), faces(fine.points, fine.faces[1]), atol=searched)
 
 
 def test_grids_and_places_are_samples(cube: sublimit.Mesh) -> None:
@@ -59,11 +60,11 @@ def test_grids_and_places_are_samples(cube: sublimit.Mesh) -> None:
     position, du, dv = grid.apply(cube.points)
     inside = (samples.order >= 1).reshape(-1)
     for part, expected in ((position, samples.points), (du, samples.du), (dv, samples.dv)):
-        np.testing.assert_allclose(part[inside], expected.reshape(-1, 3)[inside], rtol=0, atol=1e-13)
+        np.testing.assert_allclose(part[inside], expected.reshape(-1, 3)[inside], rtol=0, atol=products)
     assert grid.addresses is None
     at = sublimit.bake(cube, "catmull-clark", at=([0, 5], 0.25, [0.5, 1]), precision="double")
     assert at.addresses is not None and at.addresses[0].tolist() == [0, 5]
-    np.testing.assert_allclose(at.apply(cube.points), surface.evaluate([0, 5], 0.25, [0.5, 1]).points, rtol=0, atol=1e-14)
+    np.testing.assert_allclose(at.apply(cube.points), surface.evaluate([0, 5], 0.25, [0.5, 1]).points, rtol=0, atol=rounding)
 
 
 def test_frames_and_channels(table: sublimit.Table) -> None:
@@ -113,7 +114,7 @@ def test_arrays_outlive_their_table(cube: sublimit.Mesh) -> None:
     matrix = sublimit.bake(cube, "catmull-clark", levels=2).matrix()
     assert not matrix.data.flags.owndata
     gc.collect()
-    np.testing.assert_allclose(matrix.sum(axis=1), 1, atol=1e-6)
+    np.testing.assert_allclose(matrix.sum(axis=1), 1, atol=single)
 
 
 def test_statuses(tagged: sublimit.Mesh) -> None:

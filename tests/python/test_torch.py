@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from tolerance import derivatives
 
 import sublimit
 
@@ -27,7 +28,7 @@ def test_gradients(asked: dict[str, Any], frames: int | None, cube: sublimit.Mes
     made.square().sum().backward()
     rows = table.matrix().toarray()
     for frame, gradient in zip(points.detach().reshape(-1, 8, 3), points.grad.reshape(-1, 8, 3)):
-        np.testing.assert_allclose(gradient, 2 * rows.T @ rows @ frame.numpy(), rtol=0, atol=1e-12)
+        np.testing.assert_allclose(gradient, 2 * rows.T @ rows @ frame.numpy(), rtol=0, atol=derivatives)
 
 
 def test_keeps_the_dtype_and_refuses_the_rest(cube: sublimit.Mesh) -> None:
