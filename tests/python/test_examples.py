@@ -22,4 +22,4 @@ def test_runs(example: pathlib.Path, tmp_path: pathlib.Path) -> None:
 
 
 def test_there_are_some() -> None:
-    assert len(EXAMPLES) >= 3
+    assert len(EXAMPLES) >= 4

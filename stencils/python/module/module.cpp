@@ -7,6 +7,8 @@ PYBIND11_MODULE(_sublimit, m) {
   m.attr("__version__") = SUBLIMIT_VERSION;
   add_errors(m);
   add_meshes(m);
+  add_own_sites(m);
+  add_own_schemes(m);
   add_schemes(m);
   add_levels(m);
   add_surfaces(m);

@@ -9,6 +9,8 @@ namespace sublimit::python {
 void add_errors(pybind11::module_& m);
 void add_meshes(pybind11::module_& m);
 void add_schemes(pybind11::module_& m);
+void add_own_sites(pybind11::module_& m);
+void add_own_schemes(pybind11::module_& m);
 void add_levels(pybind11::module_& m);
 void add_surfaces(pybind11::module_& m);
 void add_tables(pybind11::module_& m);

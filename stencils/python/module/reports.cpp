@@ -10,6 +10,7 @@
 
 #include "calls.h"
 #include "module.h"
+#include "own_schemes.h"
 #include "sublimit/base/atomic_file.h"
 #include "sublimit/jobs/mesh_job.h"
 #include "sublimit/report/analysis/claims_json.h"
@@ -21,14 +22,17 @@ namespace sublimit::python {
 namespace {
 
 std::string scheme_report(const std::string& name, const SchemeOptions& options, const std::vector<int>& valences,
-                          const std::vector<std::string>& claims, bool curve, int threads) {
+                          const std::vector<std::string>& claims, bool curve, const OwnScheme* own, int threads) {
   const Threads held(threads);
   report::ReportOptions wanted{.valences = valences};
   std::vector<report::ReportedScheme> surfaces;
   if (curve) {
     wanted.curves.push_back({name, options});
   } else {
-    surfaces.push_back(report::reported_scheme(name, options));
+    if (own)
+      surfaces.push_back({*own->scheme, *own->exact});
+    else
+      surfaces.push_back(report::reported_scheme(name, options));
     for (const std::string& claim : claims) report::set_claim(surfaces[0].scheme.claims, claim);
   }
   return report::report_text(report::schemes_report(surfaces, wanted));
@@ -61,7 +65,7 @@ void add_reports(pybind11::module_& m) {
   namespace py = pybind11;
   const py::call_guard<LongCall> long_call;
   m.def("scheme_report", &scheme_report, py::arg("scheme"), py::arg("options"), py::arg("valences"), py::arg("claims"),
-        py::arg("curve"), py::arg("threads"), long_call);
+        py::arg("curve"), py::arg("own"), py::arg("threads"), long_call);
   m.def("mesh_report", &mesh_report, py::arg("mesh"), py::arg("request"), py::arg("tolerances"), py::arg("name"),
         py::arg("threads"), long_call);
   m.def("report_page", &page, py::arg("report"), long_call);

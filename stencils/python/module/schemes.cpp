@@ -3,6 +3,7 @@
 #include <pybind11/stl.h>
 
 #include "module.h"
+#include "own_schemes.h"
 #include "sublimit/curves/schemes/curve_schemes.h"
 #include "sublimit/geometric/geometric_schemes.h"
 #include "sublimit/jobs/mesh_job.h"
@@ -83,7 +84,9 @@ void add_schemes(py::module_& m) {
       .def_readwrite("face_varying", &MeshRequest::face_varying)
       .def_readwrite("triangulate", &MeshRequest::triangulate)
       .def_readwrite("no_creases", &MeshRequest::no_creases)
-      .def_readwrite("strict", &MeshRequest::strict);
+      .def_readwrite("strict", &MeshRequest::strict)
+      .def(
+          "use", [](MeshRequest& request, const OwnScheme& own) { request.own_scheme = own.scheme; }, py::arg("own"));
 }
 
 }  // namespace sublimit::python

@@ -18,6 +18,14 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from ._sublimit import CreaseEdgeSite as CreaseEdgeSite
+    from ._sublimit import CreaseSite as CreaseSite
+    from ._sublimit import EdgeSite as EdgeSite
+    from ._sublimit import FaceSite as FaceSite
+    from ._sublimit import Ring as Ring
+    from ._sublimit import Stencil as Stencil
+    from ._sublimit import WideEdgeSite as WideEdgeSite
+    from ._sublimit import WideFaceSite as WideFaceSite
     from ._sublimit import __version__ as __version__
     from ._curves import CurveSamples as CurveSamples
     from ._curves import LimitCurve as LimitCurve
@@ -62,7 +70,8 @@ if TYPE_CHECKING:
 
 # Where each name is. Parts are loaded when they are first asked for: NumPy alone takes longer to load than all of this.
 _PARTS = {
-    "_sublimit": ("__version__",),
+    "_sublimit": ("__version__", "CreaseEdgeSite", "CreaseSite", "EdgeSite", "FaceSite", "Ring", "Stencil", "WideEdgeSite",
+                  "WideFaceSite"),
     "_curves": ("CurveSamples", "LimitCurve", "refine_curve"),
     "_errors": ("AnalysisError", "Error", "FormatError", "InvalidMesh", "InvalidOption", "InvalidParameter", "IoError",
                "ResourceError", "UnsupportedTopology"),

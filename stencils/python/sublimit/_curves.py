@@ -10,7 +10,7 @@ import numpy.typing as npt
 from . import _arrays as arrays
 from . import _sublimit
 from ._levels import csr
-from ._schemes import Scheme, as_scheme
+from ._schemes import Scheme, curve_scheme
 from ._surfaces import SampledParts, order
 
 if TYPE_CHECKING:
@@ -76,7 +76,7 @@ class LimitCurve:
                  tangents: npt.ArrayLike | None = None) -> None:
         positions = arrays.floats(points, "points", (None, None), "(points, dimension)")
         ends = None if tangents is None else arrays.floats(tangents, "tangents", positions.shape, "that of points")
-        own = as_scheme(scheme)
+        own = curve_scheme(scheme)
         self._core = _sublimit.Curve(positions, ends, own.name, dict(own.options), closed)
 
     @property
@@ -117,7 +117,7 @@ def refine_curve(points: npt.ArrayLike, scheme: Scheme | str, levels: int = 1, *
     ----------
     points : (points, dimension)
     """
-    own = as_scheme(scheme)
+    own = curve_scheme(scheme)
     return _sublimit.refine_curve(arrays.floats(points, "points", (None, None), "(points, dimension)"), own.name,
                                   dict(own.options), closed, levels)
 

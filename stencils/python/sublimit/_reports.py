@@ -10,7 +10,7 @@ from typing import Any
 from . import _sublimit
 from ._levels import core_of
 from ._meshes import Mesh
-from ._schemes import OptionValue, Scheme, as_scheme, request, schemes
+from ._schemes import NamedScheme, OptionValue, Scheme, as_scheme, claim_word, request, schemes
 
 
 class Report(dict[str, Any]):
@@ -49,7 +49,7 @@ def analyze(scheme: Scheme | str, valences: Iterable[int] = range(3, 13), *, cla
 
     Parameters
     ----------
-    scheme : of meshes or of curves
+    scheme : of meshes or of curves; one of your own as well
     valences : from 3 to 100
     claims : what the scheme is said to do, by name, instead of its own claims, such as ``{"extraordinary": 2}``
 
@@ -60,11 +60,14 @@ def analyze(scheme: Scheme | str, valences: Iterable[int] = range(3, 13), *, cla
     >>> report["summary"][0]["regular"]
     'C^2'
     """
-    own = as_scheme(scheme)
-    info = schemes().get(own.name)
+    wanted = as_scheme(scheme)
+    words = [f"{name}={claim_word(value)}" for name, value in (claims or {}).items()]
+    numbers = sorted({int(n) for n in valences})
+    if not isinstance(wanted, NamedScheme):
+        return Report(_sublimit.scheme_report(str(wanted), {}, numbers, words, False, wanted._masks(), threads))
+    info = schemes().get(wanted.name)
     curve = info is not None and info.kind == "curve" and info.linear
-    words = [f"{name}={_word(value)}" for name, value in (claims or {}).items()]
-    return Report(_sublimit.scheme_report(own.name, dict(own.options), sorted({int(n) for n in valences}), words, curve, threads))
+    return Report(_sublimit.scheme_report(wanted.name, dict(wanted.options), numbers, words, curve, None, threads))
 
 
 def analyze_mesh(mesh: Mesh, scheme: Scheme | str, *, tolerance: Mapping[str, object] | None = None, name: str = "mesh",
@@ -82,7 +85,3 @@ def analyze_mesh(mesh: Mesh, scheme: Scheme | str, *, tolerance: Mapping[str, ob
                     no_creases=no_creases)
     words = [f"{key}={value}" for key, value in (tolerance or {}).items()]
     return Report(_sublimit.mesh_report(core_of(mesh), asked, words, name, threads))
-
-
-def _word(value: object) -> str:
-    return ("yes" if value else "no") if isinstance(value, bool) else str(value)

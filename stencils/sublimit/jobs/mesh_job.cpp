@@ -63,20 +63,23 @@ MeshJob scheme_job(const MeshRequest& request) {
   job.face_varying = face_varying.value_or(FaceVaryingInterpolation::all);
   job.options = request.options;
   if (triangles) job.options["triangles"] = request.triangles;
-  if (!request.scheme.empty()) job.scheme = scheme_or_throw(request.scheme, job.options);
+  if (request.own_scheme) {
+    job.scheme = *request.own_scheme;
+    check_options(job.scheme->name, job.scheme->options, job.options);
+  } else if (!request.scheme.empty()) {
+    job.scheme = scheme_or_throw(request.scheme, job.options);
+  }
   return job;
 }
 
-MeshJob mesh_job(const MeshRequest& request, ControlMesh mesh, const std::string& name,
-                 std::optional<Scheme<double>> scheme) {
+MeshJob mesh_job(const MeshRequest& request, ControlMesh mesh, const std::string& name) {
   MeshJob job = scheme_job(request);
-  const bool own = scheme.has_value();
-  if (own) job.scheme = std::move(scheme);
   if (request.triangulate) mesh = triangulated(mesh);
   if (request.no_creases) mesh = without_creases(std::move(mesh));
   if (const auto asked = job.options.find("triangles"); asked != job.options.end()) {
     mesh.triangles = rule_of<Triangles>(asked->second);
-  } else if (mesh.triangles == Triangles::smooth && job.scheme && !own && knows(*job.scheme, "triangles")) {
+  } else if (mesh.triangles == Triangles::smooth && job.scheme && !request.own_scheme &&
+             knows(*job.scheme, "triangles")) {
     job.options["triangles"] = word(Triangles::smooth);  // a tag of the mesh is for schemes that know it
     job.scheme = scheme_or_throw(request.scheme, job.options);
   }

@@ -2,6 +2,7 @@
 #pragma once
 // A mesh and the scheme that is to refine it, as they are asked for in words: by options of the program, by arguments
 // in Python.
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,9 +17,10 @@ struct MeshRequest {
   std::string scheme;     ///< empty: none is needed
   SchemeOptions options;  ///< of the scheme
   std::string boundary, creasing, triangles, face_varying;
-  bool triangulate = false;  ///< every face is cut into triangles first
-  bool no_creases = false;   ///< crease and corner tags are dropped first
-  bool strict = false;       ///< a mesh that is no clean manifold is refused
+  bool triangulate = false;                               ///< every face is cut into triangles first
+  bool no_creases = false;                                ///< crease and corner tags are dropped first
+  bool strict = false;                                    ///< a mesh that is no clean manifold is refused
+  std::shared_ptr<const Scheme<double>> own_scheme = {};  ///< the caller's, instead of a name
 };
 
 /// Ready to be refined.
@@ -37,16 +39,14 @@ struct MeshJob {
 Scheme<double> scheme_or_throw(const std::string& name, const SchemeOptions& options = {});
 
 /// Scheme and rules of a request, before a mesh is read: what is misspelt is told at once.
-/// @throws InvalidOption  as `scheme_or_throw`; a rule by a word that there is not
+/// @throws InvalidOption  as `scheme_or_throw`; a rule by a word that there is not, an option that the own scheme lacks
 MeshJob scheme_job(const MeshRequest& request);
 
 /// The same with its mesh.
-/// @param scheme  one of the caller's own instead of a name
-/// @param name    of the mesh, in messages
+/// @param name  of the mesh, in messages
 /// @throws InvalidMesh  connectivity that no scheme takes; with `strict`, every fault of it
 /// @note  What is accepted with a warning is added to the mesh's.
-MeshJob mesh_job(const MeshRequest& request, ControlMesh mesh, const std::string& name,
-                 std::optional<Scheme<double>> scheme = std::nullopt);
+MeshJob mesh_job(const MeshRequest& request, ControlMesh mesh, const std::string& name);
 
 /// What the mesh has that a manifold has not, in words.
 std::vector<std::string> faults(const ControlMesh& mesh);

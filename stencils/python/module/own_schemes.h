@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// Schemes whose masks are methods of a Python object.
+#include <pybind11/pybind11.h>
+
+#include <memory>
+
+#include "sublimit/certificates/algebraic.h"
+#include "sublimit/scheme/scheme.h"
+
+namespace sublimit::python {
+
+/// In the two numbers that there are.
+struct OwnScheme {
+  std::shared_ptr<const Scheme<double>> scheme;
+  std::shared_ptr<const Scheme<Algebraic>> exact;
+};
+
+}  // namespace sublimit::python
