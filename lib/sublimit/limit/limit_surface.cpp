@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "sublimit/base/error.h"
+#include "sublimit/base/huge_pages.h"
 #include "sublimit/base/parallel_for.h"
 #include "sublimit/limit/derivative_order.h"
 #include "sublimit/limit/limit_masks.h"
@@ -194,7 +195,11 @@ void LimitSurface::prepare() const { parts_->pieces(); }
 namespace {
 
 void resize(LimitSamples& out, std::int64_t count, int order, bool normals) {
-  const auto sized = [&](Points& m, bool wanted) { m.resize(wanted ? count : 0, 3); };
+  const auto sized = [&](Points& m, bool wanted) {
+    const double* const before = m.data();
+    m.resize(wanted ? count : 0, 3);
+    if (m.data() != before) prefer_huge_pages(m.data(), size_t(m.size()) * sizeof(double));
+  };
   sized(out.position, true);
   sized(out.du, order >= 1);
   sized(out.dv, order >= 1);

@@ -55,8 +55,8 @@ std::pair<T*, py::capsule> kept(T&& value) {
   py::capsule owner(owned.get(), [](void* memory) { delete static_cast<T*>(memory); });
   return {owned.release(), std::move(owner)};
 }
-template <class T>
-py::array_t<T> array(std::vector<T>&& values) {
+template <class T, class Allocator>
+py::array_t<T> array(std::vector<T, Allocator>&& values) {
   auto [all, owner] = kept(std::move(values));
   return py::array_t<T>({py::ssize_t(all->size())}, all->data(), owner);
 }

@@ -4,6 +4,8 @@
 #include <pybind11/stl/filesystem.h>
 
 #include <array>
+#include <atomic>
+#include <cstddef>
 #include <memory>
 #include <string>
 
@@ -13,21 +15,44 @@
 #include "sources.h"
 #include "sublimit/base/error.h"
 #include "sublimit/base/parallel_for.h"
+#include "sublimit/core/uninitialized.h"
 #include "sublimit/fit/closest_point.h"
 
 namespace sublimit::python {
 namespace {
 
-std::vector<Sample> places(const Array<Index>& faces, const Array<double>& u, const Array<double>& v) {
-  std::vector<Sample> all(size_t(faces.size()));
-  for (size_t i = 0; i < all.size(); ++i) all[i] = {faces.data()[i], u.data()[i], v.data()[i]};
-  return all;
-}
+/// Places as the library takes them, in memory that is touched once: there may be millions.
+class Places {
+ public:
+  /// Needs no GIL.
+  /// @throws InvalidParameter  the first one that is on no face
+  Places(const FaceCount& on, const Array<Index>& faces, const Array<double>& u, const Array<double>& v)
+      : size_(size_t(faces.size())), memory_(size_ * sizeof(Sample)) {
+    auto* const samples = reinterpret_cast<Sample*>(memory_.data());
+    const Index* const face = faces.data();
+    const double *const at_u = u.data(), *const at_v = v.data();
+    std::atomic<bool> all_inside = true;
+    parallel_for_blocks(std::int64_t(size_), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+      bool inside = true;
+      for (std::int64_t i = begin; i < end; ++i)
+        inside &= is_inside(on, *std::construct_at(samples + i, face[i], at_u[i], at_v[i]));
+      if (!inside) all_inside = false;
+    });
+    if (all_inside) return;
+    for (const Sample& sample : all()) check_inside(on, sample);
+  }
+  size_t size() const { return size_; }
+  std::span<const Sample> all() const { return {reinterpret_cast<const Sample*>(memory_.data()), size_}; }
+  const Sample& operator[](size_t i) const { return all()[i]; }
+
+ private:
+  size_t size_;
+  UninitializedVector<std::byte> memory_;
+};
 
 py::array_t<std::int8_t> numbers(const std::vector<LimitStatus>& statuses) {
-  std::vector<std::int8_t> all;
-  all.reserve(statuses.size());
-  for (const LimitStatus status : statuses) all.push_back(std::int8_t(status));
+  UninitializedVector<std::int8_t> all(statuses.size());
+  parallel_for(std::ssize(statuses), [&](std::int64_t i) { all[size_t(i)] = std::int8_t(statuses[size_t(i)]); });
   return array(std::move(all));
 }
 
@@ -48,10 +73,10 @@ py::dict arrays(LimitSamples&& samples) {
 
 py::dict evaluate(const Source& surface, const Array<Index>& faces, const Array<double>& u, const Array<double>& v,
                   int order, int threads) {
-  const std::vector<Sample> at = places(faces, u, v);
   return arrays(without_gil([&] {
     const Threads held(threads);
-    return surface.evaluate(at, order);
+    const Places at(surface.surface().faces(), faces, u, v);
+    return surface.evaluate(at.all(), order);
   }));
 }
 
@@ -61,10 +86,10 @@ struct Stencils {
   std::vector<LimitStatus> status;
 };
 
-Stencils stencils_at(const LinearSource& surface, const std::vector<Sample>& at, int order) {
+Stencils stencils_at(const LinearSource& surface, const Places& at, int order) {
   std::vector<LimitStencil> rows(at.size());
   parallel_for_blocks(
-      std::ssize(at),
+      std::ssize(rows),
       [&](std::int64_t, std::int64_t begin, std::int64_t end) {
         for (std::int64_t i = begin; i < end; ++i) rows[size_t(i)] = surface.stencil(at[size_t(i)], order);
       },
@@ -93,10 +118,9 @@ Stencils stencils_at(const LinearSource& surface, const std::vector<Sample>& at,
 
 py::tuple stencils(const Source& surface, const Array<Index>& faces, const Array<double>& u, const Array<double>& v,
                    int order, int threads) {
-  const std::vector<Sample> at = places(faces, u, v);
   Stencils found = without_gil([&] {
     const Threads held(threads);
-    return stencils_at(surface.surface(), at, order);
+    return stencils_at(surface.surface(), Places(surface.surface().faces(), faces, u, v), order);
   });
   py::list matrices;
   for (SparseMatrix& matrix : found.matrices) matrices.append(csr(std::move(matrix)));
