@@ -39,19 +39,28 @@ SparseMatrix matrix_of(std::span<const SparseRows::Row> rows, Index columns) {
   return M;
 }
 
-SparseMatrix stacked(std::vector<SparseMatrix> blocks, Index columns) {
-  if (blocks.size() == 1) return std::move(blocks[0]);
+SparseMatrix StackedRows::matrix(Index columns) && {
+  SparseMatrix M;
+  if (blocks_.size() == 1) {
+    M.swap(blocks_[0]);
+    return M;
+  }
   std::int64_t rows = 0, nonzeros = 0;
-  for (const SparseMatrix& block : blocks) rows += block.rows(), nonzeros += block.nonZeros();
-  SparseMatrix M = sized(rows, columns, nonzeros);
+  for (const SparseMatrix& block : blocks_) rows += block.rows(), nonzeros += block.nonZeros();
+  sized(rows, columns, nonzeros).swap(M);
   Index* start = M.outerIndexPtr();
-  for (SparseMatrix& block : blocks) {
+  for (; !blocks_.empty(); blocks_.pop_front()) {
+    const SparseMatrix& block = blocks_.front();
     const Index first = *start;
-    std::copy_n(block.innerIndexPtr(), block.nonZeros(), M.innerIndexPtr() + first);
-    std::copy_n(block.valuePtr(), block.nonZeros(), M.valuePtr() + first);
+    parallel_for_blocks(
+        block.nonZeros(),
+        [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+          std::copy(block.innerIndexPtr() + begin, block.innerIndexPtr() + end, M.innerIndexPtr() + first + begin);
+          std::copy(block.valuePtr() + begin, block.valuePtr() + end, M.valuePtr() + first + begin);
+        },
+        1 << 18);
     for (Eigen::Index r = 1; r <= block.rows(); ++r) start[r] = first + block.outerIndexPtr()[r];
     start += block.rows();
-    block = SparseMatrix();
   }
   return M;
 }

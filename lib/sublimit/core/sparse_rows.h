@@ -2,6 +2,7 @@
 #pragma once
 // Sparse rows of a few terms each, one after the other in one piece of memory.
 #include <cstdint>
+#include <deque>
 #include <span>
 #include <utility>
 #include <vector>
@@ -49,8 +50,17 @@ class SparseRows {
 /// @throws ResourceError  more nonzeros than 32-bit indices count
 SparseMatrix matrix_of(std::span<const SparseRows::Row> rows, Index columns);
 
-/// One below the other; each block's memory is given back once it is there.
-/// @throws ResourceError  more nonzeros than 32-bit indices count
-SparseMatrix stacked(std::vector<SparseMatrix> blocks, Index columns);
+/// Blocks of rows, one below the other. Eigen's matrices copy where others move: here they stay where they are.
+class StackedRows {
+ public:
+  bool empty() const { return blocks_.empty(); }
+  void add(SparseMatrix&& block) { block.swap(blocks_.emplace_back()); }
+  /// All in one; each block's memory is given back once it is there.
+  /// @throws ResourceError  more nonzeros than 32-bit indices count
+  SparseMatrix matrix(Index columns) &&;
+
+ private:
+  std::deque<SparseMatrix> blocks_;
+};
 
 }  // namespace sublimit

@@ -52,8 +52,8 @@ LimitMatrices limit_matrices(const Level& level, LimitTypes& cache) {
   // Block by block, so that rows of a large mesh are not there twice.
   using Row = LimitRows::Row;
   const Index block = std::max<Index>(1 << 14, num_sides / 16);
-  std::vector<SparseMatrix> position, tangent1, tangent2;
-  std::vector<std::vector<SparseMatrix>> second_order;
+  StackedRows position, tangent1, tangent2;
+  std::vector<StackedRows> second_order;
   for (Index begin = 0, v = 0; begin < num_sides || v < num_vertices; begin += block) {
     const Index end = std::min(begin + block, num_sides);
     const std::vector<LimitRows> rows =
@@ -69,28 +69,28 @@ LimitMatrices limit_matrices(const Level& level, LimitTypes& cache) {
     for (Index u = first; u < v; ++u)
       list.push_back(first_side[u] < 0 ? Row(&isolated.emplace_back(u, 1.0), 1)
                                        : rows[first_side[u] - begin].position());
-    position.push_back(matrix_of(list, num_vertices));
+    position.add(matrix_of(list, num_vertices));
     const auto of_sides = [&](const auto& part) {
       list.clear();
       for (const LimitRows& row : rows) list.push_back(part(row));
       return matrix_of(list, num_vertices);
     };
-    tangent1.push_back(of_sides([](const LimitRows& row) { return row.tangent1(); }));
-    tangent2.push_back(of_sides([](const LimitRows& row) { return row.tangent2(); }));
+    tangent1.add(of_sides([](const LimitRows& row) { return row.tangent1(); }));
+    tangent2.add(of_sides([](const LimitRows& row) { return row.tangent2(); }));
     size_t orders = second_order.size();
     for (const LimitRows& row : rows) orders = std::max(orders, row.num_second_order());
     second_order.resize(orders);
     for (size_t k = 0; k < orders; ++k) {
-      if (second_order[k].empty() && begin > 0) second_order[k].push_back(SparseMatrix(begin, num_vertices));
-      second_order[k].push_back(
+      if (second_order[k].empty() && begin > 0) second_order[k].add(SparseMatrix(begin, num_vertices));
+      second_order[k].add(
           of_sides([&](const LimitRows& row) { return k < row.num_second_order() ? row.second_order(k) : Row(); }));
     }
   }
-  result.position = stacked(std::move(position), num_vertices);
-  result.tangent1 = stacked(std::move(tangent1), num_vertices);
-  result.tangent2 = stacked(std::move(tangent2), num_vertices);
-  for (std::vector<SparseMatrix>& blocks : second_order)
-    result.second_order.push_back(stacked(std::move(blocks), num_vertices));
+  std::move(position).matrix(num_vertices).swap(result.position);
+  std::move(tangent1).matrix(num_vertices).swap(result.tangent1);
+  std::move(tangent2).matrix(num_vertices).swap(result.tangent2);
+  result.second_order.reserve(second_order.size());
+  for (StackedRows& rows : second_order) std::move(rows).matrix(num_vertices).swap(result.second_order.emplace_back());
   return result;
 }
 

@@ -180,9 +180,10 @@ std::vector<Level> refine(const Scheme<double>& scheme, Level control, int level
 }
 
 SparseMatrix refinement_matrix(const std::vector<Level>& levels) {
-  if (levels.size() == 1) return identity(levels[0].topology().num_vertices());
-  if (levels.size() == 2) return levels[1].S;
-  SparseMatrix P = product(levels[2].S, levels[1].S);
+  SparseMatrix P;  // returned wherever: these matrices copy where others move
+  if (levels.size() == 1) identity(levels[0].topology().num_vertices()).swap(P);
+  if (levels.size() == 2) P = levels[1].S;
+  if (levels.size() > 2) product(levels[2].S, levels[1].S).swap(P);
   for (size_t k = 3; k < levels.size(); ++k) product(levels[k].S, P).swap(P);
   return P;
 }

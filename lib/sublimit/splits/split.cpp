@@ -7,6 +7,7 @@
 
 #include "sublimit/base/error.h"
 #include "sublimit/base/huge_pages.h"
+#include "sublimit/base/interruption.h"
 #include "sublimit/splits/primal.h"
 #include "sublimit/splits/sheets.h"
 
@@ -82,7 +83,10 @@ std::vector<Index> child_corners(const Topology& parent, const Refinement& numbe
   std::vector<Index> corners;
   corners.reserve(size_t(num_child_half_edges(parent, numbering.split)));
   prefer_huge_pages(corners.data(), corners.capacity() * sizeof(Index));
-  corners.resize(corners.capacity());
+  for (const size_t all = corners.capacity(); corners.size() < all;) {
+    check_interruption();  // the kernel takes its time to hand out what may be gigabytes
+    corners.resize(std::min(all, corners.size() + (size_t{1} << 22)));
+  }
   numbering.split == Split::ptq ? set_ptq_corners(parent, numbering, corners)
                                 : set_pqq_corners(parent, numbering, corners);
   return corners;

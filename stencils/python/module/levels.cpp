@@ -51,9 +51,9 @@ std::unique_ptr<VertexLimits> limit(const ControlMesh& mesh, const MeshRequest& 
   auto all = std::make_unique<VertexLimits>();
   all->tangent1 = apply(rows.tangent1, at_level);
   all->tangent2 = apply(rows.tangent2, at_level);
-  all->position_rows = product(rows.position, P);
-  all->tangent1_rows = product(rows.tangent1, P);
-  all->tangent2_rows = product(rows.tangent2, P);
+  product(rows.position, P).swap(all->position_rows);
+  product(rows.tangent1, P).swap(all->tangent1_rows);
+  product(rows.tangent2, P).swap(all->tangent2_rows);
   all->points.swap(limits.position);
   all->normals.swap(limits.normal);
   all->side_vertex.swap(rows.side_vertex);
