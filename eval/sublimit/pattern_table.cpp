@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "sublimit/base/error.h"
+#include "sublimit/base/interruption.h"
 #include "sublimit/base/parallel_for.h"
 
 namespace sublimit {
@@ -217,6 +218,7 @@ class RowWriter {
     columns.reserve(columns_.size());
     weights.reserve(columns_.size());
     for (const Row& row : rows_) {
+      check_interruption();
       columns.insert(columns.end(), columns_.begin() + row.begin, columns_.begin() + row.end);
       weights.insert(weights.end(), weights_.begin() + row.begin, weights_.begin() + row.end);
       offsets.push_back(static_cast<std::int64_t>(columns.size()));
@@ -251,16 +253,19 @@ StencilTable<Real> PatternTable<Real>::expanded() const {
       const Block& block = a.blocks[group.block];
       const Real* matrix = a.weights.data() + block.weights + q * std::int64_t{block.rows} * block.columns;
       const std::int32_t* own = a.columns.data() + starts_[g].columns;
-      for (std::int64_t patch = starts_[g].patch; patch < starts_[g + 1].patch; ++patch, own += block.columns)
+      for (std::int64_t patch = starts_[g].patch; patch < starts_[g + 1].patch; ++patch, own += block.columns) {
+        check_interruption();
         for (std::int32_t i = 0; i < group.num_rows; ++i) {
           const Real* weights = matrix + std::int64_t{a.rows[group.rows + i]} * block.columns;
           for (std::int32_t k = 0; k < block.columns; ++k) add(own[k], weights[k]);
           rows.end_row(q * num_points_ + first_point(g, patch) + i);
         }
+      }
     }
     if (!a.rest) continue;
     const std::int64_t count = a.rest->num_rows() / quantities();
     for (std::int64_t i = 0; i < count; ++i) {
+      check_interruption();
       for (std::int64_t at = a.rest->offsets()[q * count + i]; at < a.rest->offsets()[q * count + i + 1]; ++at)
         add(a.rest->columns()[at], a.rest->weights()[at]);
       rows.end_row((q + 1) * num_points_ - count + i);
