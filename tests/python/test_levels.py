@@ -127,8 +127,12 @@ def test_refuses_in_clear_words(cube: sublimit.Mesh) -> None:
         sublimit.refine(cube, "loop")
     with pytest.raises(sublimit.ResourceError, match="memory"):
         sublimit.refine(cube, "catmull-clark", 14)
-    with pytest.raises(sublimit.InvalidMesh, match="strict"):
-        sublimit.refine(sublimit.Mesh(cube.points, [[0, 1, 2], [0, 1, 3]]), "catmull-clark", strict=True)
+    faulty = sublimit.Mesh(cube.points, [[0, 1, 2], [0, 1, 3]])
+    functions: list[Callable[..., object]] = [sublimit.refine, sublimit.subdivision_matrix, sublimit.limit, sublimit.analyze_mesh,
+                                              sublimit.LimitSurface]
+    for function in functions:
+        with pytest.raises(sublimit.InvalidMesh, match="strict"):
+            function(faulty, "catmull-clark", strict=True)
     with pytest.raises(TypeError, match="mesh is a list; a sublimit.Mesh is right"):
         sublimit.refine([], "loop")  # type: ignore[arg-type]
     with pytest.raises(TypeError, match="scheme is a int"):

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import json
 import pathlib
+import sys
 import xml.etree.ElementTree
 from collections.abc import Callable
 from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -45,3 +47,21 @@ def test_meshes_of_others(cube: sublimit.Mesh) -> None:
     assert sizes.tolist() == [4] * 6 + [3] * 2 and len(corners) == 30
     with pytest.raises(TypeError, match="neither vertices and faces nor points and cells"):
         sublimit.Mesh.from_trimesh(3)
+
+
+def test_meshes_for_others(cube: sublimit.Mesh, monkeypatch: pytest.MonkeyPatch) -> None:
+    """trimesh is not in Debian: what stands for it takes what its constructor takes."""
+
+    class Trimesh:
+        def __init__(self, vertices: Any, faces: Any, *, process: bool = True) -> None:
+            self.vertices, self.faces, self.process = vertices, faces, process
+
+    modules: dict[str, Any] = sys.modules
+    monkeypatch.setitem(modules, "trimesh", SimpleNamespace(Trimesh=Trimesh))
+    theirs = cube.to_trimesh()
+    assert np.shares_memory(theirs.vertices, cube.points) and not theirs.process  # which would merge and reorder vertices
+    again = sublimit.Mesh.from_trimesh(theirs)
+    assert np.array_equal(again.points, cube.points) and np.array_equal(again.face_array, cube.triangles())
+    monkeypatch.setitem(modules, "trimesh", None)
+    with pytest.raises(ImportError):
+        cube.to_trimesh()

@@ -61,7 +61,10 @@ def test_grids_and_places_are_samples(cube: sublimit.Mesh) -> None:
     inside = (samples.order >= 1).reshape(-1)
     for part, expected in ((position, samples.points), (du, samples.du), (dv, samples.dv)):
         np.testing.assert_allclose(part[inside], expected.reshape(-1, 3)[inside], rtol=0, atol=products)
-    assert grid.addresses is None
+    assert grid.addresses is not None
+    face, uv = grid.addresses
+    np.testing.assert_allclose(position, surface.evaluate(face, uv[:, 0], uv[:, 1]).points, rtol=0, atol=products)
+    assert sublimit.bake(cube, "catmull-clark", 1).addresses is None
     at = sublimit.bake(cube, "catmull-clark", at=([0, 5], 0.25, [0.5, 1]), precision="double")
     assert at.addresses is not None and at.addresses[0].tolist() == [0, 5]
     np.testing.assert_allclose(at.apply(cube.points), surface.evaluate([0, 5], 0.25, [0.5, 1]).points, rtol=0, atol=rounding)

@@ -89,11 +89,21 @@ py::tuple faces(const Table<Real>& table) {
 /// (face, (u, v)) of each point of a list of places or a grid.
 template <class Real>
 py::object addresses(const Table<Real>& table) {
+  const TableInfo& info = table.baked().info;
   const SampleAddresses& known = table.baked().addresses;
-  if (known.faces.empty()) return py::none();
-  py::array_t<double> parameters({py::ssize_t(known.faces.size()), py::ssize_t(2)});
-  std::copy(known.parameters.begin(), known.parameters.end(), parameters.mutable_data());
-  return py::make_tuple(array(std::vector<Index>(known.faces.begin(), known.faces.end())), parameters);
+  std::vector<Index> faces(known.faces.begin(), known.faces.end());
+  std::vector<double> parameters(known.parameters.begin(), known.parameters.end());
+  if (info.rows == TableRows::grid) {
+    const std::int64_t n = info.grid, of_a_face = info.triangles ? n * (n + 1) / 2 : n * n;
+    for (const Sample& place :
+         grid_places({Index(table.table().num_points() / of_a_face), info.triangles}, info.grid)) {
+      faces.push_back(place.face);
+      parameters.insert(parameters.end(), {place.u, place.v});
+    }
+  }
+  if (faces.empty()) return py::none();
+  const auto count = py::ssize_t(faces.size());
+  return py::make_tuple(array(std::move(faces)), array(std::move(parameters)).reshape({count, py::ssize_t(2)}));
 }
 
 py::dict info(const TableInfo& info) {

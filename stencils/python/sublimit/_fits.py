@@ -65,7 +65,7 @@ class FittedPoints:
 def fit(mesh: Mesh, scheme: Scheme | str, vertices: npt.ArrayLike, points: npt.ArrayLike, normals: npt.ArrayLike | None = None,
         *, thin_plate: float = 0, membrane: float = 0, refinements: tuple[int, int] = (0, 2), boundary: str | None = None,
         creasing: str | None = None, triangles: str | None = None, option: Mapping[str, OptionValue] | None = None,
-        triangulate: bool = False, no_creases: bool = False, threads: int = 0) -> Fit:
+        triangulate: bool = False, no_creases: bool = False, strict: bool = False, threads: int = 0) -> Fit:
     """A mesh whose limit has given vertices at given points, with given normals.
 
     Parameters
@@ -92,7 +92,7 @@ def fit(mesh: Mesh, scheme: Scheme | str, vertices: npt.ArrayLike, points: npt.A
     (True, True)
     """
     asked = request(scheme, boundary=boundary, creasing=creasing, triangles=triangles, option=option, triangulate=triangulate,
-                    no_creases=no_creases)
+                    no_creases=no_creases, strict=strict)
     numbers = arrays.ints(np.asarray(vertices), "vertices", (None,), "(targets,)")
     where = arrays.floats(points, "points", (len(numbers), 3), f"({len(numbers)} targets, 3)")
     along = None if normals is None else arrays.floats(normals, "normals", (len(numbers), 3), f"({len(numbers)} targets, 3)",
@@ -107,7 +107,7 @@ def fit_places(mesh: Mesh, scheme: Scheme | str, face: npt.ArrayLike, u: npt.Arr
                *, weights: npt.ArrayLike | None = None, thin_plate: float = 0, membrane: float = 0,
                pins: npt.ArrayLike | None = None, boundary: str | None = None, creasing: str | None = None,
                triangles: str | None = None, option: Mapping[str, OptionValue] | None = None, triangulate: bool = False,
-               no_creases: bool = False, threads: int = 0) -> FittedPoints:
+               no_creases: bool = False, strict: bool = False, threads: int = 0) -> FittedPoints:
     """Control points whose limit is nearest to points at given places, in the sense of least squares.
 
     Parameters
@@ -120,7 +120,7 @@ def fit_places(mesh: Mesh, scheme: Scheme | str, face: npt.ArrayLike, u: npt.Arr
     pins : control points that stay
     """
     asked = request(scheme, boundary=boundary, creasing=creasing, triangles=triangles, option=option, triangulate=triangulate,
-                    no_creases=no_creases)
+                    no_creases=no_creases, strict=strict)
     faces, at_u, at_v, _ = places(face, u, v)
     count = len(faces)
     return FittedPoints(**_sublimit.fit_places(
@@ -132,7 +132,7 @@ def fit_cloud(mesh: Mesh, scheme: Scheme | str, points: npt.ArrayLike, *, weight
               thin_plate: float = 0, membrane: float = 0, schedule: Sequence[float] = (), pins: npt.ArrayLike | None = None,
               iterations: int = 50, tolerance: float = 1e-6, boundary: str | None = None, creasing: str | None = None,
               triangles: str | None = None, option: Mapping[str, OptionValue] | None = None, triangulate: bool = False,
-              no_creases: bool = False, threads: int = 0) -> FittedPoints:
+              no_creases: bool = False, strict: bool = False, threads: int = 0) -> FittedPoints:
     """Control points whose limit is near to points without order.
 
     Parameters
@@ -147,7 +147,7 @@ def fit_cloud(mesh: Mesh, scheme: Scheme | str, points: npt.ArrayLike, *, weight
     tolerance : of the energy, relative to it: where it falls by less, the fit has converged
     """
     asked = request(scheme, boundary=boundary, creasing=creasing, triangles=triangles, option=option, triangulate=triangulate,
-                    no_creases=no_creases)
+                    no_creases=no_creases, strict=strict)
     cloud = arrays.floats(points, "points", (None, 3), "(n, 3)")
     return FittedPoints(**_sublimit.fit_cloud(
         core_of(mesh), asked, cloud, _weights(weights, len(cloud)), _sublimit.Fairness(thin_plate, membrane), list(schedule),

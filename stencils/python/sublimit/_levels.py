@@ -62,7 +62,7 @@ def refine(mesh: Mesh, scheme: Scheme | str, levels: int = 1, *, boundary: str |
 def subdivision_matrix(mesh: Mesh, scheme: Scheme | str, levels: int = 1, *, boundary: str | None = None,
                        creasing: str | None = None, triangles: str | None = None,
                        option: Mapping[str, OptionValue] | None = None, triangulate: bool = False, no_creases: bool = False,
-                       threads: int = 0) -> csr_array:
+                       strict: bool = False, threads: int = 0) -> csr_array:
     """The points of a level as a matrix times the control points.
 
     Row i is the stencil of vertex i of ``refine(mesh, scheme, levels)``. The parameters are those of `refine`.
@@ -73,7 +73,7 @@ def subdivision_matrix(mesh: Mesh, scheme: Scheme | str, levels: int = 1, *, bou
         Its arrays are the library's, not copies.
     """
     asked = request(scheme, boundary=boundary, creasing=creasing, triangles=triangles, option=option, triangulate=triangulate,
-                    no_creases=no_creases)
+                    no_creases=no_creases, strict=strict)
     return csr(_sublimit.subdivision_matrix(core_of(mesh), asked, levels, threads))
 
 
@@ -124,7 +124,7 @@ class Limit:
 
 def limit(mesh: Mesh, scheme: Scheme | str, level: int = 0, *, boundary: str | None = None, creasing: str | None = None,
           triangles: str | None = None, option: Mapping[str, OptionValue] | None = None, triangulate: bool = False,
-          no_creases: bool = False, threads: int = 0) -> Limit:
+          no_creases: bool = False, strict: bool = False, threads: int = 0) -> Limit:
     """Exact limits, tangents and normals of the vertices of a level. The parameters are those of `refine`.
 
     Raises
@@ -133,7 +133,7 @@ def limit(mesh: Mesh, scheme: Scheme | str, level: int = 0, *, boundary: str | N
         As `refine`; or the scheme has no limit at a vertex.
     """
     asked = request(scheme, boundary=boundary, creasing=creasing, triangles=triangles, option=option, triangulate=triangulate,
-                    no_creases=no_creases)
+                    no_creases=no_creases, strict=strict)
     return Limit(_sublimit.limit(core_of(mesh), asked, level, threads))
 
 

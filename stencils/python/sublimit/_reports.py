@@ -73,7 +73,7 @@ def analyze(scheme: Scheme | str, valences: Iterable[int] = range(3, 13), *, cla
 def analyze_mesh(mesh: Mesh, scheme: Scheme | str, *, tolerance: Mapping[str, object] | None = None, name: str = "mesh",
                  boundary: str | None = None, creasing: str | None = None, triangles: str | None = None,
                  option: Mapping[str, OptionValue] | None = None, triangulate: bool = False, no_creases: bool = False,
-                 threads: int = 0) -> Report:
+                 strict: bool = False, threads: int = 0) -> Report:
     """How smooth the limit of a mesh is, where, and why: measured on exact limits.
 
     Parameters
@@ -82,6 +82,6 @@ def analyze_mesh(mesh: Mesh, scheme: Scheme | str, *, tolerance: Mapping[str, ob
     name : of the mesh, in the report
     """
     asked = request(scheme, boundary=boundary, creasing=creasing, triangles=triangles, option=option, triangulate=triangulate,
-                    no_creases=no_creases)
+                    no_creases=no_creases, strict=strict)
     words = [f"{key}={value}" for key, value in (tolerance or {}).items()]
     return Report(_sublimit.mesh_report(core_of(mesh), asked, words, name, threads))

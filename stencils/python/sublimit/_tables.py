@@ -86,7 +86,7 @@ class Table:
 
     @property
     def addresses(self) -> tuple[npt.NDArray[np.int32], npt.NDArray[np.float64]] | None:
-        """Of a list of places: ``(face, (u, v))`` of each point."""
+        """Of grids and lists of places: ``(face, (u, v))`` of each point."""
         return self._core.addresses()
 
     @property
@@ -239,7 +239,7 @@ def bake(mesh: Mesh, scheme: Scheme | str, levels: int | None = None, *, limit: 
          at: tuple[npt.ArrayLike, npt.ArrayLike, npt.ArrayLike] | None = None, derivatives: int = 0, precision: str = "float",
          boundary: str | None = None, creasing: str | None = None, triangles: str | None = None,
          option: Mapping[str, OptionValue] | None = None, triangulate: bool = False, no_creases: bool = False,
-         threads: int = 0) -> Table:
+         strict: bool = False, threads: int = 0) -> Table:
     """A table of a level, of its limit, of grids or of places on the limit.
 
     Parameters
@@ -264,7 +264,7 @@ def bake(mesh: Mesh, scheme: Scheme | str, levels: int | None = None, *, limit: 
     if limit and levels is None:
         raise ValueError("limit is of a level; grid and at are of the limit anyway")
     asked = request(scheme, boundary=boundary, creasing=creasing, triangles=triangles, option=option, triangulate=triangulate,
-                    no_creases=no_creases)
+                    no_creases=no_creases, strict=strict)
     table = _sublimit.TableRequest()
     table.rows = "samples" if at is not None else "grid" if grid is not None else "limit" if limit else "level"
     table.level = levels or 0
