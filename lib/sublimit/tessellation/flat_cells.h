@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// Faces of a limit surface cut into quarters, and these again, until each part is known to be nearly flat.
+//
+// Any triangles whose corners lie on a part of [0, 1]^2 (or of the unit triangle) leave it by no more than
+// (|x_uu| + 2 |x_uv| + |x_vv|) / 8, with the largest second derivatives on it: those of a polynomial piece are bounded
+// by the second differences of its Bernstein coefficients. Filip, Magedson, Markot 1986, "Surface algorithms using
+// bounds on derivatives". Pieces of which only parts are polynomials, as around extraordinary
+// vertices, where second derivatives are not bounded, are compared with an affine map of their parameters.
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "sublimit/limit/limit_surface.h"
+
+namespace sublimit {
+
+/// A corner of a cell, in steps of an address's sides.
+struct CellCorner {
+  std::int32_t i = 0, j = 0;
+  bool operator==(const CellCorner&) const = default;
+};
+
+struct FlatCell {
+  Index address = 0;
+  std::array<CellCorner, 4> corners;  ///< counter-clockwise; of triangles the last one means nothing
+  double bound = 0;                   ///< how far triangles in it may be from the surface
+};
+
+/// Steps along a side of an address.
+inline constexpr std::int32_t cell_steps = 1 << 24;
+
+struct FlatCellOptions {
+  double chord = 0;             ///< that bounds are to keep below
+  double angle = 0;             ///< that normals in a cell may be apart, in radians; 0: any
+  std::int64_t most = 1 << 24;  ///< cells
+};
+
+/// Cells of all of the surface but its holes, in the order of addresses.
+/// @param points  of the level, #V x 3
+/// @throws InvalidParameter     points that do not fit
+/// @throws UnsupportedTopology  pieces that are no polynomials and tend to none, or whose children are no quarters
+/// @throws ResourceError        more than `most` are needed
+std::vector<FlatCell> flat_cells(const LimitSurface& surface, const Points& points, const FlatCellOptions& options);
+
+}  // namespace sublimit

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sublimit/tessellation/tessellate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <unordered_map>
+#include <utility>
+
+#include "sublimit/base/error.h"
+#include "sublimit/limit/limit_patches.h"
+#include "sublimit/limit/shared_places.h"
+#include "sublimit/tessellation/flat_cells.h"
+
+namespace sublimit {
+namespace {
+
+/// Numbers of points, by the numbers that faces share or, inside of one, by the place there.
+class Vertices {
+ public:
+  Vertices(const LimitSurface::Parts& parts)
+      : shared_(parts.level.topology(), parts.addresses, cell_steps, parts.scheme.is_dual()) {}
+
+  Index add(Index address, const CellCorner& c) {
+    const auto [at, is_new] = numbers_.try_emplace(key(address, c), static_cast<Index>(places_.size()));
+    if (is_new) places_.push_back({address, double(c.i) / cell_steps, double(c.j) / cell_steps});
+    return at->second;
+  }
+  /// Or -1.
+  Index find(Index address, const CellCorner& c) const {
+    const auto at = numbers_.find(key(address, c));
+    return at == numbers_.end() ? -1 : at->second;
+  }
+  const std::vector<Sample>& places() const { return places_; }
+
+ private:
+  struct Key {
+    std::int64_t address, number;  // no address: a shared number
+    bool operator==(const Key&) const = default;
+  };
+  struct Hash {
+    size_t operator()(const Key& k) const {
+      const auto mixed =
+          static_cast<std::uint64_t>(k.number) * 0x9e3779b97f4a7c15u ^ static_cast<std::uint64_t>(k.address);
+      return static_cast<size_t>(mixed ^ mixed >> 32);
+    }
+  };
+  Key key(Index address, const CellCorner& c) const {
+    if (const std::int64_t number = shared_.number(address, c.i, c.j); number != SharedPlaces::nobody)
+      return {-1, number};
+    return {address, std::int64_t{c.i} << 32 | c.j};
+  }
+  SharedPlaces shared_;
+  std::unordered_map<Key, Index, Hash> numbers_;
+  std::vector<Sample> places_;
+};
+
+struct PolygonCorner {
+  Index vertex;
+  CellCorner at;
+};
+
+/// Appends the points between two corners of a side, in order: halves, halves of these, and so on. A point inside of a
+/// half is only there where the middle is.
+void add_between(const Vertices& vertices, Index address, const CellCorner& a, const CellCorner& b,
+                 std::vector<PolygonCorner>& polygon) {
+  if ((a.i + b.i) % 2 != 0 || (a.j + b.j) % 2 != 0) return;
+  const CellCorner middle{(a.i + b.i) / 2, (a.j + b.j) / 2};
+  const Index vertex = vertices.find(address, middle);
+  if (vertex < 0) return;
+  add_between(vertices, address, a, middle, polygon);
+  polygon.push_back({vertex, middle});
+  add_between(vertices, address, middle, b, polygon);
+}
+
+std::int64_t twice_area(const CellCorner& a, const CellCorner& b, const CellCorner& c) {
+  return std::int64_t(b.i - a.i) * (c.j - a.j) - std::int64_t(b.j - a.j) * (c.i - a.i);
+}
+
+/// How round a triangle is: 1 if its sides are equal, 0 if it has no area.
+double roundness(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
+  const double sides = (b - a).squaredNorm() + (c - b).squaredNorm() + (a - c).squaredNorm();
+  return sides > 0 ? 2 * std::sqrt(3.0) * (b - a).cross(c - a).norm() / sides : 0;
+}
+
+/// Cuts off the roundest corner that has an area in parameters, until a triangle is left. A convex polygon, corners in
+/// the middle of sides included, always has one.
+template <class Add>
+void triangulate(std::vector<PolygonCorner>& polygon, const Points& points, const Add& add) {
+  const auto at = [&](size_t k) { return Eigen::Vector3d(points.row(polygon[k].vertex)); };
+  while (polygon.size() > 3) {
+    const size_t n = polygon.size();
+    size_t best = n;
+    double most = -1;
+    for (size_t k = 0; k < n; ++k) {
+      const size_t before = (k + n - 1) % n, after = (k + 1) % n;
+      if (twice_area(polygon[before].at, polygon[k].at, polygon[after].at) <= 0) continue;
+      // What is left must not be a line.
+      std::int64_t rest = 0;
+      for (size_t m = 2; m + 1 < n; ++m)
+        rest += twice_area(polygon[after].at, polygon[(after + m - 1) % n].at, polygon[(after + m) % n].at);
+      if (rest <= 0) continue;
+      const double own = roundness(at(before), at(k), at(after));
+      const double quality = n == 4 ? std::min(own, roundness(at(after), at((after + 1) % n), at(before))) : own;
+      if (quality > most) most = quality, best = k;
+    }
+    const size_t before = (best + n - 1) % n, after = (best + 1) % n;
+    add(polygon[before], polygon[best], polygon[after]);
+    polygon.erase(polygon.begin() + std::ptrdiff_t(best));
+  }
+  add(polygon[0], polygon[1], polygon[2]);
+}
+
+void check(const TessellationOptions& options) {
+  if (!(options.chord > 0) || !std::isfinite(options.chord))
+    throw InvalidParameter("the chord is " + std::to_string(options.chord) + "; a distance above 0 is right");
+  if (!(options.angle >= 0) || !std::isfinite(options.angle))
+    throw InvalidParameter("the angle is " + std::to_string(options.angle) + "; 0 or more is right");
+  if (options.max_triangles < 1)
+    throw InvalidParameter("at most " + std::to_string(options.max_triangles) + " triangles; 1 or more is right");
+}
+
+}  // namespace
+
+Tessellation tessellate(const LimitSurface& surface, const Points& control, const TessellationOptions& options) {
+  check(options);
+  const LimitSurface::Parts& parts = LimitPatches::parts_of(surface);
+  const size_t corners = parts.addresses.triangles() ? 3 : 4;
+  const std::vector<FlatCell> cells =
+      flat_cells(surface, control, {options.chord, options.angle, options.max_triangles / (corners == 4 ? 2 : 1)});
+  Tessellation made;
+  made.cells = std::ssize(cells);
+  Vertices vertices(parts);
+  for (const FlatCell& cell : cells) {
+    made.bound = std::max(made.bound, cell.bound);
+    for (size_t k = 0; k < corners; ++k) vertices.add(cell.address, cell.corners[k]);
+  }
+  made.places = vertices.places();
+  made.points = surface.evaluate(control, made.places).position;
+
+  std::vector<PolygonCorner> polygon;
+  for (const FlatCell& cell : cells) {
+    polygon.clear();
+    for (size_t k = 0; k < corners; ++k) {
+      const CellCorner &a = cell.corners[k], &b = cell.corners[(k + 1) % corners];
+      polygon.push_back({vertices.find(cell.address, a), a});
+      add_between(vertices, cell.address, a, b, polygon);
+    }
+    triangulate(polygon, made.points, [&](const PolygonCorner& a, const PolygonCorner& b, const PolygonCorner& c) {
+      Tessellation::Triangle triangle{cell.address, {a.vertex, b.vertex, c.vertex}, {}};
+      size_t k = 0;
+      for (const PolygonCorner* corner : {&a, &b, &c})
+        triangle.uv[k++] = {double(corner->at.i) / cell_steps, double(corner->at.j) / cell_steps};
+      made.triangles.push_back(triangle);
+    });
+    if (std::ssize(made.triangles) > options.max_triangles)
+      throw ResourceError("more than " + std::to_string(options.max_triangles) +
+                          " triangles are needed; allow a larger distance or more triangles");
+  }
+  return made;
+}
+
+}  // namespace sublimit

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sublimit/tessellation/tessellate.h"
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <map>
+#include <numbers>
+#include <set>
+
+#include "sublimit/base/error.h"
+#include "sublimit/schemes.h"
+#include "support/meshes.h"
+
+namespace sublimit {
+namespace {
+
+using testing::NamedMesh;
+
+double diagonal(const ControlMesh& mesh) {
+  return (mesh.positions.colwise().maxCoeff() - mesh.positions.colwise().minCoeff()).norm();
+}
+
+/// How far triangles are from the limit, at the same parameters, on a grid in each.
+double largest_distance(const Tessellation& t, const LimitSurface& surface, const Points& control) {
+  constexpr int steps = 4;
+  std::vector<Sample> at;
+  std::vector<Eigen::RowVector3d> flat;
+  for (const Tessellation::Triangle& triangle : t.triangles)
+    for (int i = 0; i <= steps; ++i)
+      for (int j = 0; i + j <= steps; ++j) {
+        const std::array<double, 3> w{1 - double(i + j) / steps, double(i) / steps, double(j) / steps};
+        Sample s{triangle.face, 0, 0};
+        Eigen::RowVector3d x = Eigen::RowVector3d::Zero();
+        for (size_t k = 0; k < 3; ++k) {
+          s.u += w[k] * triangle.uv[k][0];
+          s.v += w[k] * triangle.uv[k][1];
+          x += w[k] * t.points.row(triangle.vertices[k]);
+        }
+        s.u = std::clamp(s.u, 0.0, 1.0), s.v = std::clamp(s.v, 0.0, surface.faces().triangles ? 1 - s.u : 1.0);
+        at.push_back(s);
+        flat.push_back(x);
+      }
+  const Points on = surface.evaluate(control, at).position;
+  double largest = 0;
+  for (size_t i = 0; i < flat.size(); ++i) largest = std::max(largest, (on.row(Index(i)) - flat[i]).norm());
+  return largest;
+}
+
+/// How often each directed edge occurs, and V - E + F.
+struct Edges {
+  std::map<std::pair<Index, Index>, int> directed;
+  Index euler = 0;
+  explicit Edges(const Tessellation& t) {
+    std::set<Index> used;
+    std::set<std::pair<Index, Index>> undirected;
+    for (const Tessellation::Triangle& triangle : t.triangles)
+      for (size_t k = 0; k < 3; ++k) {
+        const Index a = triangle.vertices[k], b = triangle.vertices[(k + 1) % 3];
+        ++directed[{a, b}];
+        undirected.insert(std::minmax(a, b));
+        used.insert(a);
+      }
+    euler = static_cast<Index>(used.size()) - static_cast<Index>(undirected.size()) +
+            static_cast<Index>(t.triangles.size());
+  }
+  /// Edges that no triangle has the other way round.
+  int open() const {
+    int count = 0;
+    for (const auto& [edge, times] : directed) count += !directed.contains({edge.second, edge.first});
+    return count;
+  }
+  bool is_manifold() const {
+    return std::ranges::all_of(directed, [](const auto& edge) { return edge.second == 1; });
+  }
+};
+
+std::vector<NamedMesh> closed_meshes() {
+  std::vector<NamedMesh> all;
+  const auto add = [&](const char* name, std::vector<std::string> schemes, ControlMesh mesh) {
+    all.push_back({name, std::move(schemes), testing::jittered(std::move(mesh))});
+  };
+  add("cube", {"catmull-clark", "bilinear", "doo-sabin", "averaging"}, testing::cube());
+  add("prism5", {"catmull-clark", "doo-sabin"}, testing::prism(5));  // pentagons beside quadrilaterals
+  add("torus", {"catmull-clark", "doo-sabin", "averaging"}, testing::torus(7, 5));
+  add("tetrahedron", {"catmull-clark", "loop"}, testing::tetrahedron());
+  add("icosahedron", {"loop", "loop-warren"}, testing::icosahedron());
+  add("triangle_torus", {"loop"}, testing::triangle_torus(6, 5));
+  ControlMesh creased = testing::cube();
+  testing::add_crease(creased, {0, 1, 3}, 10);
+  testing::add_crease(creased, {4, 5, 7, 6, 4}, 1.5);
+  add("creased", {"catmull-clark", "bilinear"}, creased);
+  return all;
+}
+
+TEST(Tessellate, KeepsItsDistanceAndClosesClosedMeshes) {
+  for (const NamedMesh& m : closed_meshes())
+    for (const std::string& name : m.schemes) {
+      const LimitSurface surface(find_scheme(name).value(), m.mesh);
+      for (const double part : {0.1, 0.01, 0.001}) {
+        SCOPED_TRACE(m.name + " " + name + " " + std::to_string(part));
+        const double chord = part * diagonal(m.mesh);
+        const Tessellation t = tessellate(surface, m.mesh.positions, {.chord = chord});
+        EXPECT_LE(t.bound, chord);
+        EXPECT_LE(largest_distance(t, surface, m.mesh.positions), t.bound * (1 + 1e-12) + 1e-14);
+        const Edges edges(t);
+        EXPECT_TRUE(edges.is_manifold());
+        EXPECT_EQ(edges.open(), 0);
+        const Topology topology(view(m.mesh));
+        EXPECT_EQ(edges.euler, topology.num_vertices() - topology.num_edges() + topology.num_faces());
+      }
+    }
+}
+
+TEST(Tessellate, OpensAtBordersAndHolesAlone) {
+  ControlMesh grid = testing::grid(4, 3);
+  const LimitSurface surface(find_scheme("catmull-clark").value(), grid);
+  const Tessellation t = tessellate(surface, grid.positions, {.chord = 1e-3});
+  const Edges edges(t);
+  EXPECT_TRUE(edges.is_manifold());
+  EXPECT_EQ(edges.euler, 1);
+  for (const auto& [edge, times] : edges.directed) {
+    if (edges.directed.contains({edge.second, edge.first})) continue;
+    // Both ends are on the border of their faces: u or v is 0 or 1.
+    for (const Index v : {edge.first, edge.second}) {
+      const Sample& s = t.places[size_t(v)];
+      EXPECT_TRUE(s.u == 0 || s.u == 1 || s.v == 0 || s.v == 1);
+    }
+  }
+  grid.holes = {5};
+  const LimitSurface with_hole(find_scheme("catmull-clark").value(), grid);
+  const Tessellation u = tessellate(with_hole, grid.positions, {.chord = 1e-3});
+  EXPECT_TRUE(std::ranges::none_of(u.triangles, [](const auto& triangle) { return triangle.face == 5; }));
+  EXPECT_EQ(Edges(u).euler, 0);
+}
+
+TEST(Tessellate, SharesPointsOfNonManifoldEdges) {
+  // Three squares at an edge.
+  const ControlMesh book = testing::make_mesh(
+      {{0, 0, 0}, {0, 1, 0}, {1, 0, 0.2}, {1, 1, 0}, {-1, 0, 1}, {-1, 1, 0.5}, {-1, 0, -1}, {-1, 1, -1}},
+      {{0, 2, 3, 1}, {1, 5, 4, 0}, {0, 6, 7, 1}});
+  const LimitSurface surface(find_scheme("catmull-clark").value(), book);
+  const Tessellation t = tessellate(surface, book.positions, {.chord = 1e-3});
+  EXPECT_LE(largest_distance(t, surface, book.positions), t.bound * (1 + 1e-12));
+  std::set<std::array<double, 3>> points;
+  for (Index i = 0; i < t.points.rows(); ++i) points.insert({t.points(i, 0), t.points(i, 1), t.points(i, 2)});
+  EXPECT_EQ(std::ssize(points), t.points.rows());  // no point twice
+}
+
+TEST(Tessellate, TakesTwoTrianglesForAPlaneFace) {
+  const ControlMesh cube = testing::cube();
+  const LimitSurface surface(find_scheme("bilinear").value(), cube);
+  const Tessellation t = tessellate(surface, cube.positions, {.chord = 1e-9});
+  EXPECT_EQ(t.triangles.size(), 12u);
+  EXPECT_EQ(t.places.size(), 8u);
+  EXPECT_LE(t.bound, 1e-15);
+}
+
+TEST(Tessellate, HalvesTheDistanceForTwiceTheTriangles) {
+  // Of a smooth surface the distance goes with the square of a cell's size: 16 times the triangles for 1/16, but for
+  // steps of four and what extraordinary vertices add.
+  const ControlMesh torus = testing::torus(12, 9);
+  const LimitSurface surface(find_scheme("catmull-clark").value(), torus);
+  const auto count = [&](double chord) {
+    return double(tessellate(surface, torus.positions, {.chord = chord}).triangles.size());
+  };
+  EXPECT_NEAR(count(1e-4) / count(1.6e-3), 16, 4);
+}
+
+TEST(Tessellate, KeepsNormalsOfACellTogether) {
+  const ControlMesh torus = testing::torus(6, 5);
+  const LimitSurface surface(find_scheme("catmull-clark").value(), torus);
+  const double angle = 10 * std::numbers::pi / 180;
+  const Tessellation t = tessellate(surface, torus.positions, {.chord = 10, .angle = angle});
+  EXPECT_GT(t.triangles.size(), 60u);
+  std::vector<Sample> at;
+  for (const Tessellation::Triangle& triangle : t.triangles)
+    for (const auto& [u, v] : triangle.uv) at.push_back({triangle.face, u, v});
+  const Points normals = surface.evaluate(torus.positions, at, 1).normal;
+  for (Index i = 0; i < normals.rows(); i += 3)
+    for (Index k = 0; k < 3; ++k)
+      EXPECT_LE(std::acos(std::min(1.0, normals.row(i + k).dot(normals.row(i + (k + 1) % 3)))), angle);
+}
+
+TEST(Tessellate, HasTheSameBitsForAnyNumberOfThreads) {
+  const ControlMesh mesh = testing::quads_from_triangles(testing::triangle_torus(8, 6));
+  const LimitSurface surface(find_scheme("catmull-clark").value(), mesh);
+  const Tessellation a = tessellate(surface, mesh.positions, {.chord = 1e-3});
+  tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+  const Tessellation b = tessellate(surface, mesh.positions, {.chord = 1e-3});
+  EXPECT_EQ(a.points, b.points);
+  ASSERT_EQ(a.triangles.size(), b.triangles.size());
+  for (size_t i = 0; i < a.triangles.size(); ++i) EXPECT_EQ(a.triangles[i].vertices, b.triangles[i].vertices);
+}
+
+TEST(Tessellate, RefusesInClearWords) {
+  const ControlMesh cube = testing::cube();
+  const LimitSurface surface(find_scheme("catmull-clark").value(), cube);
+  for (const double chord : {0.0, -1.0, std::nan(""), HUGE_VAL})
+    EXPECT_THROW(tessellate(surface, cube.positions, {.chord = chord}), InvalidParameter);
+  EXPECT_THROW(tessellate(surface, cube.positions, {.chord = 1, .angle = -1}), InvalidParameter);
+  EXPECT_THROW(tessellate(surface, Points::Zero(3, 3), {.chord = 1}), InvalidParameter);
+  EXPECT_THROW(tessellate(surface, cube.positions, {.chord = 1e-6, .max_triangles = 1000}), ResourceError);
+  const ControlMesh triangles = testing::icosahedron();
+  const LimitSurface butterfly(find_scheme("modified-butterfly").value(), triangles);
+  EXPECT_THROW(tessellate(butterfly, triangles.positions, {.chord = 0.1}), UnsupportedTopology);
+  ControlMesh nothing;
+  nothing.positions = Points::Zero(0, 3);
+  EXPECT_TRUE(tessellate(LimitSurface(find_scheme("catmull-clark").value(), nothing), nothing.positions, {.chord = 1})
+                  .triangles.empty());
+}
+
+}  // namespace
+}  // namespace sublimit
