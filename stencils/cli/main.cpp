@@ -100,6 +100,7 @@ int main(int argc, char** argv) {
                                                              {"refine", cli::add_refine(app)},
                                                              {"limit", cli::add_limit(app)},
                                                              {"sample", cli::add_sample(app)},
+                                                             {"closest", cli::add_closest(app)},
                                                              {"tessellate", cli::add_tessellate(app)},
                                                              {"bake", cli::add_bake(app)},
                                                              {"construct", cli::add_construct(app)},

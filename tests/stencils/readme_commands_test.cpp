@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <cstring>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -178,11 +179,24 @@ void first_vertices_are_the_targets(const Path& folder) {
   EXPECT_LE((surface.topRows(targets.rows()) - targets).cwiseAbs().maxCoeff(), reference * diagonal(targets));
 }
 
+/// The table's points are the vertices of the triangles, in float.
+void points_are_those_of_the_triangles(const Path& folder) {
+  const ControlMesh triangles = read_mesh(folder / "triangles.ply");
+  const std::string npy = read_file(folder / "points.npy");
+  const auto count = size_t(triangles.positions.size());
+  ASSERT_GT(npy.size(), count * sizeof(float));
+  std::vector<float> points(count);
+  std::memcpy(points.data(), npy.data() + npy.size() - count * sizeof(float), count * sizeof(float));
+  const double size = triangles.positions.cwiseAbs().maxCoeff();
+  for (size_t i = 0; i < count; ++i) EXPECT_NEAR(points[i], triangles.positions.data()[i], float_reference * size);
+}
+
 const std::vector<Section>& sections() {
   static const std::vector<Section> all = {
       {"README.md", "In the shell", {}, {}},
       {"stencils/README.md", "The program", run_demo, {}},
       {"stencils/README.md", "Curves", write_polygon, {}},
+      {"stencils/README.md", "Triangles", run_demo, points_are_those_of_the_triangles},
       {"stencils/README.md", "Tables", write_cages, frames_are_refined},
       {"stencils/README.md", "Many tables", write_cages, log_has_what_the_document_shows},
       {"stencils/README.md", "Continuity reports", run_demo,
