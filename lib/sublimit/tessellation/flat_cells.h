@@ -7,28 +7,18 @@
 // by the second differences of its Bernstein coefficients. Filip, Magedson, Markot 1986, "Surface algorithms using
 // bounds on derivatives". Pieces of which only parts are polynomials, as around extraordinary
 // vertices, where second derivatives are not bounded, are compared with an affine map of their parameters.
-#include <array>
 #include <cstdint>
 #include <vector>
 
-#include "sublimit/limit/limit_surface.h"
+#include "sublimit/limit/piece_parts.h"
 
 namespace sublimit {
 
-/// A corner of a cell, in steps of an address's sides.
-struct CellCorner {
-  std::int32_t i = 0, j = 0;
-  bool operator==(const CellCorner&) const = default;
-};
-
 struct FlatCell {
   Index address = 0;
-  std::array<CellCorner, 4> corners;  ///< counter-clockwise; of triangles the last one means nothing
-  double bound = 0;                   ///< how far triangles in it may be from the surface
+  CellCorners corners;
+  double bound = 0;  ///< how far triangles in it may be from the surface
 };
-
-/// Steps along a side of an address.
-inline constexpr std::int32_t cell_steps = 1 << 24;
 
 struct FlatCellOptions {
   double chord = 0;             ///< that bounds are to keep below
