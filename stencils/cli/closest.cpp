@@ -37,7 +37,7 @@ int run(const ClosestOptions& options) {
   fmt::print("{}: {} points", options.output, queries.rows());
   if (queries.rows() > 0)
     fmt::print(", {} to {} from the limit; bounds are at most {} below", format_number(found.distances.minCoeff()),
-               format_number(found.distances.maxCoeff()), format_number(found.gaps.maxCoeff()));
+               format_number(found.distances.maxCoeff()), format_number((found.distances - found.lower).maxCoeff()));
   fmt::print("\n");
   return 0;
 }

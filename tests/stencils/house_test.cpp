@@ -25,7 +25,7 @@ struct Floor {
 };
 const Floor floors[] = {
     {"lib/sublimit",
-     {"core", "mesh", "splits", "io", "scheme", "neighborhood", "limit", "tessellation", "geometric", "curves", "patches", "schemes",
+     {"core", "mesh", "splits", "io", "scheme", "neighborhood", "limit", "tessellation", "search", "geometric", "curves", "patches", "schemes",
       "primvar", "fit", "implicit", "certificates"},
      {"schemes.h", "subdivide.h"}},
     {"stencils/sublimit",

@@ -126,7 +126,7 @@ CloudFit fit_cloud(const LimitSurface& surface, const Cloud& cloud, const Points
   // Pins are set, and everything else is checked, by a fit to nothing.
   fit.points = fit_places(surface, {{}, Points(0, 3)}, guess, {.pins = options.pins}).points;
   const Iteration iteration(surface, cloud, options);
-  fit.feet = closest_points(surface, fit.points, cloud.points);
+  fit.feet = closest_points(surface, fit.points, cloud.points, {.prove = false});
   const double size = (cloud.points.colwise().maxCoeff() - cloud.points.colwise().minCoeff()).norm();
   const auto factor = [&](size_t k) {
     return options.schedule.empty() ? 1 : options.schedule[std::min(k, options.schedule.size() - 1)];
@@ -143,7 +143,7 @@ CloudFit fit_cloud(const LimitSurface& surface, const Cloud& cloud, const Points
     const bool at_end = size_t(k) + 1 >= options.schedule.size();
     for (;;) {
       Points x = iteration.step(fit.feet, fit.points, f, tangential);
-      ClosestPoints feet = closest_points(surface, x, cloud.points, {.guess = fit.feet.places});
+      ClosestPoints feet = closest_points(surface, x, cloud.points, {.guess = fit.feet.places, .prove = false});
       const CloudIteration now = iteration.measure(feet, x, f);
       if (now.energy <= before) {
         fit.points = std::move(x);

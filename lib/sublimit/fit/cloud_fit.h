@@ -14,7 +14,7 @@
 // reconstruction", for fits of subdivision surfaces.
 #include <functional>
 
-#include "sublimit/fit/closest_point.h"
+#include "sublimit/search/closest_point.h"
 #include "sublimit/fit/cloud.h"
 #include "sublimit/fit/scattered_fit.h"
 

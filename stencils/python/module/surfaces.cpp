@@ -16,7 +16,7 @@
 #include "sublimit/base/error.h"
 #include "sublimit/base/parallel_for.h"
 #include "sublimit/core/uninitialized.h"
-#include "sublimit/fit/closest_point.h"
+#include "sublimit/search/closest_point.h"
 
 namespace sublimit::python {
 namespace {
@@ -150,7 +150,7 @@ py::dict closest(const Surface& surface, const Array<double>& queries, int threa
   all["points"] = array(std::move(found.points));
   all["normals"] = array(std::move(found.normals));
   all["distance"] = column(found.distances);
-  all["gap"] = column(found.gaps);
+  all["lower"] = column(found.lower);
   all["status"] = numbers(found.status);
   return all;
 }

@@ -133,7 +133,7 @@ class ClosestPoints:
     points : (n, 3)
     normals : (n, 3), there; zero where there is none
     distance : (n,), from the points given
-    gap : (n,), by how much the distance may be too large where the search was cut short, else 0
+    lower : (n,), the surface is not nearer, as is proved: the distance but for rounding, unless the search was cut short
     status : (n,), numbers; ``Samples.statuses[number]`` is the word
     """
 
@@ -144,7 +144,7 @@ class ClosestPoints:
     points: arrays.Floats
     normals: arrays.Floats
     distance: arrays.Floats
-    gap: arrays.Floats
+    lower: arrays.Floats
     status: npt.NDArray[np.int8]
 
 

@@ -70,7 +70,7 @@ void write_closest_points(const std::filesystem::path& path, const ClosestPoints
       for (Eigen::Index k = 0; k < 3; ++k) number(found.points(i, k));
       const bool has_normal = !found.normals.row(i).isZero(0);
       for (Eigen::Index k = 0; k < 3; ++k) has_normal ? number(found.normals(i, k)) : void(text += ',');
-      number(found.distances[i]), number(found.distances[i] - found.gaps[i]);
+      number(found.distances[i]), number(found.lower[i]);
       text += name(found.status[size_t(i)]);
       text += '\n';
     }

@@ -6,7 +6,7 @@
 //   out   face,u,v,x,y,z,nx,ny,nz,distance,lower,status
 #include <filesystem>
 
-#include "sublimit/fit/closest_point.h"
+#include "sublimit/search/closest_point.h"
 
 namespace sublimit {
 

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "sublimit/fit/closest_point.h"
+#include "sublimit/search/closest_point.h"
 #include "sublimit/neighborhood/regular_smoothness.h"
 #include "support/laws.h"
 #include "support/places.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sublimit/fit/search_domain.h"
+#include "sublimit/search/search_domain.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sublimit/fit/foot_point.h"
+#include "sublimit/search/foot_point.h"
 
 #include <Eigen/Dense>
 

@@ -2,7 +2,7 @@
 #pragma once
 // Feet of perpendiculars: from a place on a limit surface downhill to one that is nearest to a point among its
 // neighbours on the same square or triangle.
-#include "sublimit/fit/search_domain.h"
+#include "sublimit/search/search_domain.h"
 #include "sublimit/limit/limit_surface.h"
 
 namespace sublimit {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sublimit/fit/box_tree.h"
+#include "sublimit/search/box_tree.h"
 
 #include <algorithm>
 #include <numeric>

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sublimit/fit/closest_point.h"
+#include "sublimit/search/closest_point.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 
 #include "sublimit/base/error.h"
 #include "sublimit/base/parallel_for.h"
-#include "sublimit/fit/box_tree.h"
-#include "sublimit/fit/foot_point.h"
+#include "sublimit/search/box_tree.h"
+#include "sublimit/search/distance_bound.h"
+#include "sublimit/search/foot_point.h"
 #include "sublimit/limit/limit_cells.h"
 
 namespace sublimit {
@@ -41,18 +43,14 @@ struct Search {
   int most_cells;
   bool triangles;
 
-  struct Result {
-    Foot foot;
-    double gap = 0;
-  };
-  Result operator()(const Eigen::Vector3d& query, const Sample* guess, FootSearch& foot_search, int& order,
-                    std::vector<Candidate>& heap) const {
+  Foot operator()(const Eigen::Vector3d& query, const Sample* guess, FootSearch& foot_search, int& order,
+                  std::vector<Candidate>& heap) const {
     const SearchDomain whole(triangles);
-    Result best{{{}, std::numeric_limits<double>::infinity()}};
-    if (guess) best.foot = foot_search(query, *guess, whole, order, best.foot.squared_distance);
+    Foot best{{}, std::numeric_limits<double>::infinity()};
+    if (guess) best = foot_search(query, *guess, whole, order, best.squared_distance);
     // What is no nearer than this will not be missed.
     const auto near_enough = [&] {
-      const double distance = std::sqrt(best.foot.squared_distance) - tolerance;
+      const double distance = std::sqrt(best.squared_distance) - tolerance;
       return distance > 0 ? distance * distance : 0;
     };
     double limit = near_enough();
@@ -69,16 +67,13 @@ struct Search {
       };
       const BoxTree::Node& node = tree.nodes()[size_t(nearest.node)];
       if (nearest.is_cell) {
-        if (++searched > most_cells) {
-          best.gap = std::sqrt(best.foot.squared_distance) - std::sqrt(nearest.squared_distance);
-          break;
-        }
+        if (++searched > most_cells) break;
         const LimitCell& cell = cells[size_t(node.item)];
         // Only there, else the search would leave it for its neighbours' feet.
         const Foot foot = foot_search(query, cell.start, SearchDomain(triangles, cell.start, cell.radius), order,
-                                      best.foot.squared_distance);
-        if (foot.squared_distance < best.foot.squared_distance) {
-          best.foot = foot;
+                                      best.squared_distance);
+        if (foot.squared_distance < best.squared_distance) {
+          best = foot;
           limit = near_enough();
         }
       } else if (node.item >= 0) {
@@ -89,9 +84,8 @@ struct Search {
           push({tree.nodes()[size_t(child)].box.squaredExteriorDistance(query), child, false});
       }
     }
-    const Foot foot = foot_search(query, best.foot.place, whole, order, std::numeric_limits<double>::infinity());
-    if (foot.squared_distance < best.foot.squared_distance) best.foot = foot;
-    return best;
+    const Foot foot = foot_search(query, best.place, whole, order, std::numeric_limits<double>::infinity());
+    return foot.squared_distance < best.squared_distance ? foot : best;
   }
 };
 
@@ -125,21 +119,41 @@ ClosestPoints closest_points(const LimitSurface& surface, const Points& control,
   const double size = all.sizes().norm();
   const Search search{cells, tree, 1e-13 * size, options.most_cells, surface.addresses().triangles()};
 
+  // What a proof finds to be nearer becomes the foot.
+  const auto prove = [&](const DistanceBound& bound_of, const Eigen::Vector3d& query, FootSearch& foot_search,
+                         int& order, Foot& foot, PieceParts& cutter) {
+    for (int tries = 0; tries < 8; ++tries) {
+      const ProvedDistance proved = bound_of(query, std::sqrt(foot.squared_distance), options.most_cells, cutter);
+      if (!proved.closer) return proved.lower;
+      const Foot next = foot_search(query, *proved.closer, SearchDomain(search.triangles), order,
+                                    std::numeric_limits<double>::infinity());
+      if (!(next.squared_distance < foot.squared_distance)) break;
+      foot = next;
+    }
+    return 0.0;
+  };
+
   const Eigen::Index count = queries.rows();
   ClosestPoints result;
   result.places.resize(size_t(count));
-  result.gaps.setZero(count);
+  std::optional<DistanceBound> bound_of;
+  if (options.prove) {
+    bound_of.emplace(surface, control);
+    result.lower.resize(count);
+  }
   parallel_for_blocks(
       count,
       [&](std::int64_t, std::int64_t begin, std::int64_t end) {
         FootSearch foot_search(bound, surface.addresses().triangles(), size);
         std::vector<Candidate> heap;
+        PieceParts cutter;
         for (std::int64_t i = begin; i < end; ++i) {
           int order = 2;  // anew for each point, or blocks would matter
-          const Search::Result found = search(
-              queries.row(i), options.guess.empty() ? nullptr : &options.guess[size_t(i)], foot_search, order, heap);
-          result.places[size_t(i)] = found.foot.place;
-          result.gaps[i] = found.gap;
+          const Eigen::Vector3d query = queries.row(i);
+          Foot foot =
+              search(query, options.guess.empty() ? nullptr : &options.guess[size_t(i)], foot_search, order, heap);
+          if (bound_of) result.lower[i] = prove(*bound_of, query, foot_search, order, foot, cutter);
+          result.places[size_t(i)] = foot.place;
         }
       },
       64);
@@ -148,6 +162,7 @@ ClosestPoints closest_points(const LimitSurface& surface, const Points& control,
   result.normals = samples.normal;
   result.status = samples.status;
   result.distances = (result.points - queries).rowwise().norm();
+  if (options.prove) result.lower = result.lower.cwiseMin(result.distances);
   return result;
 }
 

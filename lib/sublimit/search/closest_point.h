@@ -4,11 +4,13 @@
 // Newton's method, until no box is nearer than the best point found, on whatever face. Boxes of polynomial pieces hold
 // them for certain; of schemes without polynomials they are of sampled points, widened by a quarter: an estimate.
 //
+// That no point is nearer is then proved (distance_bound.h). Where the proof finds one, it is taken.
+//
 // Accuracy: distances to 1e-12 of the surface's size; places, where the point is not on the surface, to the square root
-// of that, as the distance hardly changes there. Two feet within one cell, which is almost flat, are told apart only
-// where the search from its middle does: near centres of curvature the distance can be too large by a part of the
-// cell's thickness. Along borders where a scheme has no derivatives (mid-edge) those of the border curve come from
-// differences; near borders of sqrt3, whose derivatives oscillate without end, only the border itself is searched well.
+// of that, as the distance hardly changes there. Near centres of curvature, where two feet are close
+// together, proofs take longest, and may be cut short. Along borders where a scheme has no derivatives (mid-edge) those
+// of the border curve come from differences; near borders of sqrt3, whose derivatives oscillate without end, only the
+// border itself is searched well.
 //
 // Time: a hundred thousand points on a thousand bicubic faces take a second on four cores. Where no piece is a
 // polynomial a point takes tens of milliseconds.
@@ -24,15 +26,16 @@ struct ClosestPoints {
   Points normals;                   ///< there, zero where undefined
   Eigen::VectorXd distances;        ///< from the queries
   std::vector<LimitStatus> status;  ///< of the places
-  /// By how much the distance may be too large where the search was cut short, else 0: from the centre of a sphere all
-  /// of it is equally near.
-  Eigen::VectorXd gaps;
+  /// The surface is not nearer than that: proved (distance_bound.h), and within 1e-12 of the surface's size of the
+  /// distance, unless the search was cut short: from the centre of a sphere all of it is equally near.
+  Eigen::VectorXd lower;
 };
 
 struct ClosestPointOptions {
   /// A place each to begin with, or none: the answer is the same, but for points equally near, sooner.
   std::span<const Sample> guess = {};
-  int most_cells = 2000;  ///< to search for one point
+  int most_cells = 2000;  ///< to search for one point, and to look at for the proof
+  bool prove = true;      ///< else `lower` stays empty
 };
 
 /// Nearest points of the limit, holes left out. Equal input, equal answer, whatever the number of threads.

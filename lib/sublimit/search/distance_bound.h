@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// How near a limit surface is to a point at least: proved, by branch and bound on its pieces.
+//
+// Of a polynomial part the distance is at least that of its box, and at least min (b - q) n over its Bernstein
+// coefficients b for any unit vector n. Where intervals of their differences show that |x - q|^2 is convex on the part,
+// the tangent plane of its graph at the minimum is below it, so that the minimum itself is the bound, but for rounding.
+// Other parts, towards extraordinary vertices, are in the hull of the points that they depend on, and are replaced by
+// their children.
+#include <memory>
+#include <optional>
+
+#include "sublimit/limit/piece_parts.h"
+
+namespace sublimit {
+
+struct ProvedDistance {
+  double lower = 0;              ///< no point of the surface is nearer
+  std::optional<Sample> closer;  ///< a place that is nearer than was said; then `lower` says nothing
+};
+
+class DistanceBound {
+ public:
+  /// @param points  of the surface's level, #V x 3
+  DistanceBound(const LimitSurface& surface, const Points& points);
+  ~DistanceBound();
+
+  /// @param distance  of the nearest point that is known
+  /// @param most      parts to look at; what is left then counts with its box
+  /// @param cutter    of the calling thread
+  /// @note  Any thread may ask. Where no piece is a polynomial, hulls are as `PieceType::reach` has seen them.
+  ProvedDistance operator()(const Eigen::Vector3d& query, double distance, int most, PieceParts& cutter) const;
+
+ private:
+  struct Parts;
+  std::unique_ptr<const Parts> parts_;
+};
+
+}  // namespace sublimit

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sublimit/search/net_distance.h"
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+
+namespace sublimit {
+namespace {
+
+using Box = Eigen::AlignedBox3d;
+
+struct Interval {
+  double low = 0, high = 0;
+};
+Interval operator+(const Interval& a, const Interval& b) { return {a.low + b.low, a.high + b.high}; }
+
+/// Scalar products of vectors in two boxes; of one with itself, if they are the same box.
+Interval dot(const Box& a, const Box& b) {
+  Interval sum;
+  for (int k = 0; k < 3; ++k) {
+    const std::array<double, 4> p{a.min()[k] * b.min()[k], a.min()[k] * b.max()[k], a.max()[k] * b.min()[k],
+                                  a.max()[k] * b.max()[k]};
+    const auto [low, high] = std::minmax_element(p.begin(), p.end());
+    sum = sum + Interval{&a == &b && a.min()[k] < 0 && a.max()[k] > 0 ? 0 : *low, *high};
+  }
+  return sum;
+}
+
+/// B_i^d(t) for i = 0 ... d.
+void bernstein(int d, double t, std::span<double> out) {
+  out[0] = 1;
+  for (int n = 1; n <= d; ++n) {
+    double carry = 0;
+    for (int i = 0; i < n; ++i) {
+      const double value = out[size_t(i)];
+      out[size_t(i)] = carry + (1 - t) * value;
+      carry = t * value;
+    }
+    out[size_t(n)] = carry;
+  }
+}
+
+constexpr int most_degree = 16;
+
+}  // namespace
+
+NetDistance::NetDistance(const PolynomialBasis& basis, const Points& net, const Eigen::Vector3d& query)
+    : basis_(basis), net_(net.rowwise() - query.transpose()) {}
+
+double NetDistance::lower(const Eigen::Vector3d& towards) const {
+  Box box;
+  double along = std::numeric_limits<double>::infinity();
+  for (Eigen::Index i = 0; i < net_.rows(); ++i) {
+    const Eigen::Vector3d b = net_.row(i);
+    box.extend(b);
+    along = std::min(along, b.dot(towards));
+  }
+  return std::max(box.exteriorDistance(Eigen::Vector3d(Eigen::Vector3d::Zero())), along);
+}
+
+NetDistance::Jet NetDistance::at(double u, double v) const {
+  const int d = basis_.degree();
+  Jet jet;
+  for (Eigen::Vector3d* x : {&jet.x, &jet.u, &jet.v, &jet.uu, &jet.uv, &jet.vv}) x->setZero();
+  std::array<double, most_degree + 1> bu{}, bv{};
+  const auto sum = [&](int degree, Eigen::Vector3d& out, const auto& coefficient) {
+    if (degree < 0) return;
+    // B = d!/(i! j! k!) u^i v^j w^k
+    const double w = 1 - u - v;
+    std::array<double, most_degree + 1> factorial{1};
+    for (int n = 1; n <= degree; ++n) factorial[size_t(n)] = factorial[size_t(n - 1)] * n;
+    for (int i = 0; i <= degree; ++i)
+      for (int j = 0; i + j <= degree; ++j) {
+        const int k = degree - i - j;
+        out += factorial[size_t(degree)] / (factorial[size_t(i)] * factorial[size_t(j)] * factorial[size_t(k)]) *
+               std::pow(u, i) * std::pow(v, j) * std::pow(w, k) * coefficient(i, j);
+      }
+  };
+  const auto b = [&](int i, int j) { return Eigen::Vector3d(net_.row(net_row(basis_, i, j))); };
+  if (basis_.total()) {
+    sum(d, jet.x, b);
+    sum(d - 1, jet.u, [&](int i, int j) { return Eigen::Vector3d(d * (b(i + 1, j) - b(i, j))); });
+    sum(d - 1, jet.v, [&](int i, int j) { return Eigen::Vector3d(d * (b(i, j + 1) - b(i, j))); });
+    const double dd = d * (d - 1);
+    sum(d - 2, jet.uu, [&](int i, int j) { return Eigen::Vector3d(dd * (b(i + 2, j) - 2 * b(i + 1, j) + b(i, j))); });
+    sum(d - 2, jet.vv, [&](int i, int j) { return Eigen::Vector3d(dd * (b(i, j + 2) - 2 * b(i, j + 1) + b(i, j))); });
+    sum(d - 2, jet.uv,
+        [&](int i, int j) { return Eigen::Vector3d(dd * (b(i + 1, j + 1) - b(i + 1, j) - b(i, j + 1) + b(i, j))); });
+    return jet;
+  }
+  const auto tensor = [&](int du, int dv, Eigen::Vector3d& out, double factor, const auto& coefficient) {
+    if (du < 0 || dv < 0) return;
+    bernstein(du, u, bu);
+    bernstein(dv, v, bv);
+    for (int i = 0; i <= du; ++i)
+      for (int j = 0; j <= dv; ++j) out += factor * bu[size_t(i)] * bv[size_t(j)] * coefficient(i, j);
+  };
+  tensor(d, d, jet.x, 1, b);
+  tensor(d - 1, d, jet.u, d, [&](int i, int j) { return Eigen::Vector3d(b(i + 1, j) - b(i, j)); });
+  tensor(d, d - 1, jet.v, d, [&](int i, int j) { return Eigen::Vector3d(b(i, j + 1) - b(i, j)); });
+  tensor(d - 2, d, jet.uu, d * (d - 1),
+         [&](int i, int j) { return Eigen::Vector3d(b(i + 2, j) - 2 * b(i + 1, j) + b(i, j)); });
+  tensor(d, d - 2, jet.vv, d * (d - 1),
+         [&](int i, int j) { return Eigen::Vector3d(b(i, j + 2) - 2 * b(i, j + 1) + b(i, j)); });
+  tensor(d - 1, d - 1, jet.uv, d * d,
+         [&](int i, int j) { return Eigen::Vector3d(b(i + 1, j + 1) - b(i + 1, j) - b(i, j + 1) + b(i, j)); });
+  return jet;
+}
+
+std::optional<ConvexMinimum> NetDistance::convex_minimum(double size) const {
+  const int d = basis_.degree();
+  const bool total = basis_.total();
+  Box x, u, v, uu, uv, vv;
+  const auto b = [&](int i, int j) { return Eigen::Vector3d(net_.row(net_row(basis_, i, j))); };
+  for_each_net_row(basis_, [&](int i, int j, Eigen::Index) {
+    x.extend(b(i, j));
+    const int room_u = total ? d - i - j : d - i, room_v = total ? d - i - j : d - j;
+    if (room_u >= 1) u.extend(Eigen::Vector3d(d * (b(i + 1, j) - b(i, j))));
+    if (room_v >= 1) v.extend(Eigen::Vector3d(d * (b(i, j + 1) - b(i, j))));
+    const double dd = d * (d - 1);
+    if (room_u >= 2) uu.extend(Eigen::Vector3d(dd * (b(i + 2, j) - 2 * b(i + 1, j) + b(i, j))));
+    if (room_v >= 2) vv.extend(Eigen::Vector3d(dd * (b(i, j + 2) - 2 * b(i, j + 1) + b(i, j))));
+    if (total ? room_u >= 2 : room_u >= 1 && room_v >= 1)
+      uv.extend(Eigen::Vector3d((total ? dd : d * d) * (b(i + 1, j + 1) - b(i + 1, j) - b(i, j + 1) + b(i, j))));
+  });
+  const auto product = [&](const Box& second) { return second.isEmpty() ? Interval{} : dot(x, second); };
+  const Interval huu = dot(u, u) + product(uu), hvv = dot(v, v) + product(vv), huv = dot(u, v) + product(uv);
+  const double off = std::max(std::abs(huv.low), std::abs(huv.high));
+  if (!(huu.low > 0) || !(hvv.low > 0) || !(huu.low * hvv.low > off * off)) return std::nullopt;
+
+  // Newton's method; each step goes to the smallest value of the quadratic model on the square or triangle.
+  using Place = Eigen::Vector2d;
+  std::array<Place, 4> corners{Place(0, 0), Place(1, 0), total ? Place(0, 1) : Place(1, 1), Place(0, 1)};
+  const size_t count = total ? 3 : 4;
+  const auto inside = [&](const Place& p) {
+    return p.x() >= 0 && p.y() >= 0 && (total ? p.x() + p.y() <= 1 : p.x() <= 1 && p.y() <= 1);
+  };
+  Place p = total ? Place(1. / 3, 1. / 3) : Place(0.5, 0.5);
+  ConvexMinimum best;
+  double most = -std::numeric_limits<double>::infinity();
+  for (int step = 0; step < 12; ++step) {
+    const Jet j = at(p.x(), p.y());
+    const Eigen::Vector2d g(j.x.dot(j.u), j.x.dot(j.v));
+    const double value = j.x.squaredNorm() / 2;
+    double below = 0;  // of the tangent plane, on the square or triangle
+    for (size_t k = 0; k < count; ++k) below = std::min(below, g.dot(corners[k] - p));
+    if (value + below > most) {
+      most = value + below;
+      best = {0, j.x.norm(), {p.x(), p.y()}};
+    }
+    if (below >= -1e-17 * value || step == 11) break;
+    Eigen::Matrix2d H;
+    H << j.u.dot(j.u) + j.x.dot(j.uu), j.u.dot(j.v) + j.x.dot(j.uv), 0, j.v.dot(j.v) + j.x.dot(j.vv);
+    H(1, 0) = H(0, 1);
+    const auto model = [&](const Place& y) { return g.dot(y - p) + (y - p).dot(H * (y - p)) / 2; };
+    Place next = p - Place(H.inverse() * g);
+    if (!next.allFinite() || !inside(next)) {
+      double least = std::numeric_limits<double>::infinity();
+      for (size_t k = 0; k < count; ++k) {
+        const Place a = corners[k], along = corners[(k + 1) % count] - a;
+        const double bend = along.dot(H * along), slope = g.dot(along) + along.dot(H * (a - p));
+        const Place y = a + (bend > 0 ? std::clamp(-slope / bend, 0.0, 1.0) : 0.0) * along;
+        if (model(y) < least) least = model(y), next = y;
+      }
+    }
+    p = next;
+  }
+  // Values are rounded as the points are.
+  best.lower = std::max(0.0, std::sqrt(std::max(0.0, 2 * most)) - 1e-14 * size);
+  return best;
+}
+
+}  // namespace sublimit

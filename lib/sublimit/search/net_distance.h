@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// Bounds on the distance of a point from a polynomial part, by its Bernstein coefficients.
+#include <array>
+
+#include "sublimit/limit/piece_parts.h"
+
+namespace sublimit {
+
+/// Half the square of the distance from q is convex on all of the part: its smallest value, and where.
+struct ConvexMinimum {
+  double lower = 0;            ///< of the distance
+  double at = 0;               ///< the distance of the place
+  std::array<double, 2> uv{};  ///< of the part
+};
+
+class NetDistance {
+ public:
+  NetDistance(const PolynomialBasis& basis, const Points& net, const Eigen::Vector3d& query);
+  /// Of the hull from q.
+  /// @param towards  a unit vector: the bound is close if it points from q to the nearest place
+  double lower(const Eigen::Vector3d& towards) const;
+  /// Nothing where intervals do not show that there is one minimum.
+  /// @param size  of the surface, which rounding is a part of
+  std::optional<ConvexMinimum> convex_minimum(double size) const;
+
+ private:
+  struct Jet {
+    Eigen::Vector3d x, u, v, uu, uv, vv;
+  };
+  Jet at(double u, double v) const;
+
+  const PolynomialBasis& basis_;
+  Points net_;  // less q
+};
+
+}  // namespace sublimit

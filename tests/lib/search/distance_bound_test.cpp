@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sublimit/search/distance_bound.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "sublimit/schemes.h"
+#include "sublimit/search/closest_point.h"
+#include "sublimit/search/net_distance.h"
+#include "support/hard_meshes.h"
+#include "support/meshes.h"
+#include "support/tolerance.h"
+
+namespace sublimit {
+namespace {
+
+using namespace testing;
+
+Points random_points(const ControlMesh& mesh, int count, unsigned seed) {
+  std::mt19937 random(seed);
+  std::normal_distribution<double> normal;
+  const Eigen::RowVector3d middle = mesh.positions.colwise().mean();
+  const double size = (mesh.positions.colwise().maxCoeff() - mesh.positions.colwise().minCoeff()).norm();
+  Points q(count, 3);
+  for (Eigen::Index i = 0; i < count; ++i)
+    for (int k = 0; k < 3; ++k) q(i, k) = middle[k] + 0.5 * size * normal(random);
+  return q;
+}
+
+// The bound is told a distance that is too large, so it cannot lean on the right one: it has to find a nearer place, or
+// to stay below.
+TEST(DistanceBound, IsNeverAboveTheDistance) {
+  for (const char* name : {"bilinear", "catmull-clark", "loop", "doo-sabin", "averaging"}) {
+    const Scheme<double> scheme = *find_scheme<double>(name);
+    for (const ControlMesh& mesh : hard_meshes(scheme, 3)) {
+      const LimitSurface surface(scheme, mesh);
+      const DistanceBound bound(surface, mesh.positions);
+      const Points q = random_points(mesh, 20, 3);
+      const Eigen::VectorXd distances = closest_points(surface, mesh.positions, q, {.prove = false}).distances;
+      PieceParts cutter;
+      for (Eigen::Index i = 0; i < q.rows(); ++i)
+        for (const double factor : {1 + 1e-9, 1.01, 3.0})
+          for (const int most : {1, 10, 100, 2000}) {
+            const double told = factor * distances[i];
+            const ProvedDistance proved = bound(q.row(i), told, most, cutter);
+            if (proved.closer)
+              EXPECT_LT((surface.evaluate(mesh.positions, {&*proved.closer, 1}).position.row(0) - q.row(i)).norm(),
+                        told)
+                  << name;
+            else
+              EXPECT_LE(proved.lower, distances[i] * (1 + 1e-12)) << name << " " << factor << " " << most;
+          }
+    }
+  }
+}
+
+TEST(DistanceBound, FindsWhatIsNearer) {
+  const Scheme<double> scheme = *find_scheme<double>("catmull-clark");
+  const ControlMesh mesh = torus(7, 5);
+  const LimitSurface surface(scheme, mesh);
+  const DistanceBound bound(surface, mesh.positions);
+  PieceParts cutter;
+  const Points q = random_points(mesh, 50, 4);
+  const Eigen::VectorXd distances = closest_points(surface, mesh.positions, q).distances;
+  for (Eigen::Index i = 0; i < q.rows(); ++i)
+    EXPECT_TRUE(bound(q.row(i), 1.5 * distances[i] + 1e-3, 2000, cutter).closer) << i;
+}
+
+// A paraboloid x = (u, v, u^2 + v^2) below a point: the foot is at the corner, the middle, or nothing is convex beyond
+// the centre of curvature (0, 0, 1/2).
+TEST(NetDistance, KnowsWhereADistanceIsConvex) {
+  const PolynomialBasis basis(2, false);
+  Points net(9, 3);
+  const double low = -0.1, high = 0.1;  // the square [low, high]^2
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) {
+      const auto linear = [&](int k) { return low + (high - low) * k / 2; };
+      const auto square = [&](int k) { return k == 0 ? low * low : k == 1 ? low * high : high * high; };
+      net.row(net_row(basis, i, j)) << linear(i), linear(j), square(i) + square(j);
+    }
+  const NetDistance near_one(basis, net, {0, 0, 0.2});
+  const auto found = near_one.convex_minimum(1);
+  ASSERT_TRUE(found);
+  EXPECT_NEAR(found->lower, 0.2, 2e-14);
+  EXPECT_NEAR(found->at, 0.2, 1e-15);
+  EXPECT_NEAR(found->uv[0], 0.5, 1e-8);
+  EXPECT_FALSE(NetDistance(basis, net, {0, 0, 0.6}).convex_minimum(1));  // the foot is a saddle or a maximum there
+  const auto corner = NetDistance(basis, net, {1, 1, 0}).convex_minimum(1);
+  ASSERT_TRUE(corner);
+  EXPECT_NEAR(corner->at, std::sqrt(2 * 0.81 + 0.02 * 0.02), 1e-14);
+  EXPECT_NEAR(corner->lower, corner->at, 2e-14);
+  EXPECT_LE(near_one.lower({0, 0, -1}), 0.2);
+  EXPECT_NEAR(NetDistance(basis, net, {0, 0, -3}).lower({0, 0, 1}), 3 - 0.02, 1e-14);  // the middle coefficient
+}
+
+}  // namespace
+}  // namespace sublimit

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+// `sublimit closest` and `sublimit tessellate`.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "stencils/cli_program.h"
+#include "stencils/csv_fields.h"
+#include "sublimit/files/npy.h"
+#include "sublimit/io/obj.h"
+#include "sublimit/io/read_mesh.h"
+#include "support/meshes.h"
+
+namespace sublimit::testing {
+namespace {
+
+std::string write_cube(const TemporaryDirectory& directory) {
+  write_obj(directory / "cube.obj", output(cube()));
+  return (directory / "cube.obj").string();
+}
+
+TEST(CliClosest, FindsTheFeetOnACube) {
+  const TemporaryDirectory directory;
+  const std::string mesh = write_cube(directory), out = (directory / "o.csv").string(),
+                    points = directory.write("q.csv", "x,y,z\n0.25,0.5,3\n0,0,1\n2,2,2\n").string();
+  const Outcome done = expect_done(sublimit({"closest", mesh, "-s", "bilinear", "--points", points, "-o", out}));
+  expect_parts(done.out, {"3 points", "0 to 2"});
+  // The box [-1,1]^3: above a face, on it, off a corner.
+  EXPECT_TRUE(read_file(out).starts_with("face,u,v,x,y,z,nx,ny,nz,distance,lower,status\n"));
+  const std::vector<CsvRow> rows = csv_rows(out);
+  ASSERT_EQ(rows.size(), 4u);
+  const std::vector<std::vector<double>> expected{{0.25, 0.5, 1, 2}, {0, 0, 1, 0}, {1, 1, 1, std::sqrt(3.0)}};
+  for (size_t i = 0; i < 3; ++i) {
+    for (size_t k = 0; k < 3; ++k) EXPECT_NEAR(csv_number(rows[i + 1][3 + k]), expected[i][k], 1e-12);
+    EXPECT_NEAR(csv_number(rows[i + 1][9]), expected[i][3], 1e-12);
+    EXPECT_NEAR(csv_number(rows[i + 1][10]), expected[i][3], 1e-12);
+  }
+  EXPECT_EQ(csv_number(rows[1][8]), 1);  // the normal of the upper face
+}
+
+TEST(CliClosest, TakesPointsFromEveryKindOfFile) {
+  const TemporaryDirectory directory;
+  const std::string mesh = write_cube(directory);
+  const Points q = cube().positions * 1.5;
+  std::string csv = "x,y,z\n";
+  for (Eigen::Index i = 0; i < q.rows(); ++i)
+    csv += std::to_string(q(i, 0)) + "," + std::to_string(q(i, 1)) + "," + std::to_string(q(i, 2)) + "\n";
+  directory.write("q.csv", csv);
+  ControlMesh large = cube();
+  large.positions = q;
+  write_obj(directory / "q.obj", output(large));
+  NpyWriter npy(directory / "q.npy", DType::F64, {q.rows(), 3});
+  npy.write(std::span<const double>(q.data(), size_t(q.size())));
+  npy.commit();
+  std::string first;
+  for (const char* name : {"q.csv", "q.obj", "q.npy"}) {
+    const std::string out = (directory / "o.csv").string();
+    expect_done(sublimit(
+        {"closest", mesh, "-s", "catmull-clark", "--points", (directory / name).string(), "-o", out, "--quiet"}));
+    if (first.empty()) first = read_file(out);
+    EXPECT_EQ(read_file(out), first) << name;
+  }
+}
+
+TEST(CliClosest, RefusesInClearWords) {
+  const TemporaryDirectory directory;
+  const std::string mesh = write_cube(directory), out = (directory / "o.csv").string();
+  const auto refused = [&](const std::string& name, const std::string& text, int status,
+                           std::initializer_list<std::string_view> parts) {
+    const std::string points = directory.write(name, text).string();
+    expect_failure(sublimit({"closest", mesh, "-s", "catmull-clark", "--points", points, "-o", out}), status, parts);
+    EXPECT_FALSE(std::filesystem::exists(out));
+  };
+  refused("a.csv", "", 3, {"a.csv"});
+  refused("b.csv", "x,y\n1,2\n", 3, {"b.csv", "x,y,z"});
+  refused("c.csv", "x,y,z\n1,nan,2\n", 3, {"c.csv:2"});
+  refused("d.txt", "1 2 3\n", 3, {"d.txt", ".csv", ".npy"});
+  refused("e.npy", "no array", 3, {"e.npy"});
+  const std::string empty = directory.write("none.csv", "x,y,z\n").string();
+  expect_done(sublimit({"closest", mesh, "-s", "catmull-clark", "--points", empty, "-o", out, "--quiet"}));
+  EXPECT_EQ(read_file(out), "face,u,v,x,y,z,nx,ny,nz,distance,lower,status\n");
+  expect_failure(
+      sublimit({"closest", mesh, "-s", "catmull-clark", "--points", (directory / "missing.csv").string(), "-o", out}),
+      3, {"missing.csv"});
+}
+
+TEST(CliTessellate, WritesTrianglesNormalsAndPlaces) {
+  const TemporaryDirectory directory;
+  ControlMesh creased = cube();
+  add_crease(creased, {0, 1, 3, 2, 0}, 10);
+  write_obj(directory / "cube.obj", output(creased));
+  const std::string mesh = (directory / "cube.obj").string(), obj = (directory / "o.obj").string(),
+                    ply = (directory / "o.ply").string(), places = (directory / "places.csv").string(),
+                    samples = (directory / "samples.csv").string();
+  const Outcome done = expect_done(sublimit(
+      {"tessellate", mesh, "-s", "catmull-clark", "--chord", "1%", "--normals", "--places", places, "-o", obj}));
+  expect_parts(done.out, {"triangles", "from the limit"});
+  expect_done(sublimit({"tessellate", mesh, "-s", "catmull-clark", "--chord", "1%", "-o", ply, "--quiet"}));
+  const ControlMesh triangles = read_mesh(obj);
+  EXPECT_EQ(triangles.positions, read_mesh(ply).positions);
+  EXPECT_TRUE(std::ranges::all_of(triangles.face_sizes, [](Index n) { return n == 3; }));
+  expect_parts(read_file(obj), {"\nvn ", "//"});
+  // The places are those of the points.
+  expect_done(sublimit({"sample", mesh, "-s", "catmull-clark", "--at", places, "-o", samples, "--quiet"}));
+  const std::vector<CsvRow> rows = csv_rows(samples);
+  ASSERT_EQ(std::ssize(rows), triangles.positions.rows() + 1);
+  for (Eigen::Index i = 0; i < triangles.positions.rows(); ++i)
+    for (Eigen::Index k = 0; k < 3; ++k)
+      EXPECT_NEAR(csv_number(rows[size_t(i) + 1][size_t(4 + k)]), triangles.positions(i, k), 1e-14);
+}
+
+TEST(CliTessellate, RefusesInClearWords) {
+  const TemporaryDirectory directory;
+  const std::string mesh = write_cube(directory), out = (directory / "o.obj").string();
+  const auto refused = [&](std::vector<std::string> more, int status, std::initializer_list<std::string_view> parts) {
+    std::vector<std::string> all{"tessellate", mesh, "-o", out};
+    all.insert(all.end(), more.begin(), more.end());
+    expect_failure(sublimit(all), status, parts);
+    EXPECT_FALSE(std::filesystem::exists(out));
+  };
+  refused({"-s", "catmull-clark", "--chord", "0"}, 2, {"--chord 0", "above 0"});
+  refused({"-s", "catmull-clark", "--chord", "-1%"}, 2, {"--chord -1%"});
+  refused({"-s", "catmull-clark", "--chord", "thin"}, 2, {"--chord thin"});
+  refused({"-s", "catmull-clark", "--chord", "1", "--angle", "0"}, 2, {"--angle 0"});
+  refused({"-s", "catmull-clark", "--chord", "1", "--max-triangles", "0"}, 2, {"--max-triangles 0"});
+  refused({"-s", "catmull-clark", "--chord", "1e-7", "--max-triangles", "1000"}, 4, {"more than"});
+  refused({"-s", "kobbelt", "--chord", "0.1"}, 3, {"kobbelt", "polynomial"});
+}
+
+}  // namespace
+}  // namespace sublimit::testing
