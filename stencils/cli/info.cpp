@@ -7,6 +7,8 @@
 #include "free_form.h"
 #include "normal_surfaces.h"
 #include "recipes.h"
+#include "sublimit/base/error.h"
+#include "sublimit/base/format_number.h"
 #include "sublimit/jobs/mesh_info.h"
 
 namespace sublimit::cli {
@@ -40,6 +42,21 @@ void print(const MeshInfo& info, const std::string& name) {
     for (size_t k = 0; k < info.predicted_bytes.size(); ++k)
       fmt::print("    to level {}         about {:.1f} MB\n", k + 1, info.predicted_bytes[k] / 1e6);
   }
+  if (info.limit) {
+    const auto vector = [](const auto& x) {
+      return fmt::format("{}, {}, {}", format_number(x[0]), format_number(x[1]), format_number(x[2]));
+    };
+    fmt::print("  limit              area {}, centroid ({})\n", format_number(info.limit->area),
+               vector(info.limit->area_centroid));
+    if (const auto& solid = info.limit->solid) {
+      fmt::print("    solid            volume {}, centroid ({})\n", format_number(solid->volume),
+                 vector(solid->centroid));
+      fmt::print("    inertia          ({}), ({}), ({}) about the centroid, density 1\n", vector(solid->inertia.row(0)),
+                 vector(solid->inertia.row(1)), vector(solid->inertia.row(2)));
+    } else {
+      fmt::print("    solid            none: the surface is not closed\n");
+    }
+  }
   for (const std::string& warning : info.warnings) fmt::print("  warning: {}\n", warning);
   constexpr size_t most = 20;
   for (size_t i = 0; i < std::min(info.faults.size(), most); ++i) fmt::print("  fault: {}\n", info.faults[i]);
@@ -47,7 +64,8 @@ void print(const MeshInfo& info, const std::string& name) {
   if (info.faults.empty()) fmt::print("  no faults: a consistently wound manifold\n");
 }
 
-int run(const Common& common, bool as_json) {
+int run(const Common& common, bool as_json, bool limit) {
+  if (limit && common.scheme.empty()) throw InvalidOption("--limit is of the limit of a scheme; name one with -s");
   if (is_recipe_job(common)) {
     print_recipes(common, read_recipes(common.mesh), as_json);
     return 0;
@@ -73,6 +91,13 @@ int run(const Common& common, bool as_json) {
     info.scheme = common.scheme;
     info.why_not = why_no_normal_surface(common, loaded.mesh);
   }
+  if (limit && normals) throw InvalidOption("--limit is for schemes with matrices, not for " + common.scheme);
+  if (limit)
+    naming_mesh(common, [&] {
+      progress.step("integrating");
+      info.limit = limit_integrals(loaded);
+    });
+  progress.step("");
   if (as_json)
     fmt::print("{}\n", to_json(info, common.mesh).dump(2));
   else
@@ -87,12 +112,16 @@ Command add_info(CLI::App& app) {
   auto common = std::make_shared<Common>();
   auto as_json = std::make_shared<bool>(false);
   add_mesh(*command, *common, false);
+  auto limit = std::make_shared<bool>(false);
   command->add_flag("--json", *as_json, "As JSON");
+  command->add_flag("--limit", *limit,
+                    "Area of the limit, and volume, centroid and inertia of a closed one, exact to rounding");
   command->footer(
       "Examples:\n  sublimit info cage.obj\n  sublimit info cage.obj -s loop --json\n"
+      "  sublimit info cage.obj -s catmull-clark --limit\n"
       "Of an .obj with free-form curves and surfaces: bases, degrees, knots, continuity, weights, collapsed sides, trims.\n"
       "Of recipes (.json): kinds, faces or segments, control points, whether there is an exact net.");
-  return [=] { return run(*common, *as_json); };
+  return [=] { return run(*common, *as_json, *limit); };
 }
 
 }  // namespace sublimit::cli

@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from tolerance import products, rounding
 
 import sublimit
 
@@ -22,6 +23,15 @@ def test_info_is_the_programs(tagged: sublimit.Mesh, program: Callable[..., str]
         theirs = json.loads(program("info", tmp_path / "mesh.obj", "--json", *(["-s", scheme] if scheme else [])))
         ours = tagged.info(scheme)
         assert theirs.pop("mesh") and ours.pop("mesh") == "mesh" and ours == theirs
+
+
+def test_integrals_of_the_limit(cube: sublimit.Mesh) -> None:
+    box = cube.info("bilinear", limit=True)["limit"]
+    assert abs(box["area"] - 6) < rounding * 100 and abs(box["volume"] - 1) < rounding * 100
+    np.testing.assert_allclose(box["centroid"], [0.5] * 3, rtol=0, atol=products)
+    np.testing.assert_allclose(box["inertia"], np.eye(3) / 6, rtol=0, atol=products)
+    with pytest.raises(sublimit.InvalidOption, match="name one"):
+        cube.info(limit=True)
 
 
 def test_meshes_are_pictures(tagged: sublimit.Mesh) -> None:

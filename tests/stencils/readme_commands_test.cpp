@@ -196,6 +196,7 @@ const std::vector<Section>& sections() {
       {"README.md", "In the shell", {}, {}},
       {"stencils/README.md", "The program", run_demo, {}},
       {"stencils/README.md", "Curves", write_polygon, {}},
+      {"stencils/README.md", "Area, volume, inertia", run_demo, {}},
       {"stencils/README.md", "Triangles", run_demo, points_are_those_of_the_triangles},
       {"stencils/README.md", "Tables", write_cages, frames_are_refined},
       {"stencils/README.md", "Many tables", write_cages, log_has_what_the_document_shows},

@@ -166,10 +166,13 @@ void add_meshes(py::module_& m) {
           py::arg("path"), long_call);
   m.def(
       "info",
-      [](const ControlMesh& mesh, const MeshRequest& request, const std::string& name) {
-        return to_json(mesh_info(mesh_job(request, mesh, name)), name).dump();
+      [](const ControlMesh& mesh, const MeshRequest& request, const std::string& name, bool limit) {
+        const MeshJob job = mesh_job(request, mesh, name);
+        MeshInfo found = mesh_info(job);
+        if (limit) found.limit = limit_integrals(job);
+        return to_json(found, name).dump();
       },
-      py::arg("mesh"), py::arg("request"), py::arg("name"), long_call);
+      py::arg("mesh"), py::arg("request"), py::arg("name"), py::arg("limit"), long_call);
   m.def("read", &read, py::arg("path"), long_call);
 }
 

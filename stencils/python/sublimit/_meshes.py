@@ -134,15 +134,16 @@ class Mesh:
         """What a reader accepted but wants known."""
         return self._core.warnings
 
-    def info(self, scheme: Scheme | str | None = None) -> dict[str, Any]:
+    def info(self, scheme: Scheme | str | None = None, *, limit: bool = False) -> dict[str, Any]:
         """Counts, valences, borders, tags, rules and faults, as ``sublimit info --json`` has them.
 
         Parameters
         ----------
         scheme : whether it takes the mesh, and what levels would take, is told too
+        limit : area, volume, centroid and inertia of its limit too, exact to rounding
         """
         asked = _sublimit.MeshRequest() if scheme is None else request(scheme)
-        found: dict[str, Any] = json.loads(_sublimit.info(self._core, asked, "mesh"))
+        found: dict[str, Any] = json.loads(_sublimit.info(self._core, asked, "mesh", limit))
         return found
 
     @classmethod

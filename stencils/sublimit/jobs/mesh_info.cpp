@@ -98,6 +98,11 @@ MeshInfo mesh_info(const MeshJob& job, bool triangles) {
   return info;
 }
 
+LimitIntegrals limit_integrals(const MeshJob& job) {
+  if (!job.scheme) throw InvalidOption("integrals are of the limit of a scheme; name one");
+  return limit_integrals(LimitSurface(*job.scheme, job.mesh, job.rules), job.mesh.positions);
+}
+
 Json to_json(const MeshInfo& info, const std::string& name) {
   Json json{{"mesh", name},
             {"vertices", info.vertices},
@@ -124,6 +129,15 @@ Json to_json(const MeshInfo& info, const std::string& name) {
     json["scheme"] = {{"name", info.scheme},
                       {"takes_mesh", info.why_not.empty() ? "yes" : "no: " + info.why_not},
                       {"predicted_bytes_by_level", info.predicted_bytes}};
+  if (info.limit) {
+    const auto vector = [](const auto& x) { return Json(std::vector<double>(x.begin(), x.end())); };
+    Json& limit = json["limit"] = {{"area", info.limit->area}, {"area_centroid", vector(info.limit->area_centroid)}};
+    const bool solid = info.limit->solid.has_value();
+    limit["volume"] = solid ? Json(info.limit->solid->volume) : Json();
+    limit["centroid"] = solid ? vector(info.limit->solid->centroid) : Json();
+    limit["inertia"] = Json();
+    for (int k = 0; solid && k < 3; ++k) limit["inertia"].push_back(vector(info.limit->solid->inertia.row(k)));
+  }
   return json;
 }
 

@@ -5,10 +5,12 @@
 #include <nlohmann/json.hpp>
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "sublimit/jobs/mesh_job.h"
+#include "sublimit/limit/limit_integrals.h"
 
 namespace sublimit {
 
@@ -33,10 +35,15 @@ struct MeshInfo {
   std::string scheme;                   ///< if one was asked about
   std::string why_not;                  ///< what keeps it from taking the mesh; empty: it does
   std::vector<double> predicted_bytes;  ///< of levels 1 to 6
+  std::optional<LimitIntegrals> limit;  ///< if they were asked for (`limit_integrals`)
 };
 
 /// @param triangles  addresses are triangles, whatever the scheme
 MeshInfo mesh_info(const MeshJob& job, bool triangles = false);
+
+/// Area, volume and moments of the limit.
+/// @throws InvalidOption  no scheme;  UnsupportedTopology  as limits, and `limit_integrals`
+LimitIntegrals limit_integrals(const MeshJob& job);
 
 /// As `sublimit info --json` prints it.
 /// @param name  of the mesh
