@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from tolerance import derivatives, places, products, searched
+from tolerance import derivatives, places, products, rounding, searched
 
 import sublimit
 
@@ -105,6 +105,22 @@ def test_closest_points(cube: sublimit.Mesh) -> None:
     np.testing.assert_allclose(found.points, on.points, atol=places)
     np.testing.assert_allclose(surface.evaluate(found.face, found.u, found.v).points, found.points, atol=derivatives)
     assert (found.lower <= found.distance).all() and (found.distance - found.lower < places).all()
+
+
+def test_tessellations_are_the_programs(tagged: sublimit.Mesh, program: Program, tmp_path: pathlib.Path) -> None:
+    tagged.write(tmp_path / "cage.obj")
+    program("tessellate", tmp_path / "cage.obj", "-s", "catmull-clark", "--chord", "0.01", "-o", tmp_path / "out.obj", "--quiet")
+    expected = sublimit.read(tmp_path / "out.obj")
+    surface = sublimit.LimitSurface(tagged, "catmull-clark")
+    near = surface.tessellate(0.01)
+    assert np.array_equal(near.points, expected.points) and np.array_equal(near.triangles, expected.face_array)
+    assert 0 < near.bound <= 0.01 and len(near.triangle_face) == len(near.triangles)
+    np.testing.assert_allclose(surface.evaluate(near.face, near.u, near.v).points, near.points, rtol=0, atol=rounding)
+    assert len(surface.tessellate(0.01, angle=0.1).triangles) > len(near.triangles)
+    with pytest.raises(sublimit.InvalidParameter, match="chord"):
+        surface.tessellate(0)
+    with pytest.raises(sublimit.ResourceError, match="more than"):
+        surface.tessellate(1e-6, max_triangles=100)
 
 
 @pytest.mark.parametrize("place, words", [

@@ -17,6 +17,7 @@
 #include "sublimit/base/parallel_for.h"
 #include "sublimit/core/uninitialized.h"
 #include "sublimit/search/closest_point.h"
+#include "sublimit/tessellation/tessellate.h"
 
 namespace sublimit::python {
 namespace {
@@ -155,6 +156,34 @@ py::dict closest(const Surface& surface, const Array<double>& queries, int threa
   return all;
 }
 
+py::dict tessellate(const Surface& surface, double chord, double angle, std::int64_t most, int threads) {
+  Tessellation made = without_gil([&] {
+    const Threads held(threads);
+    return sublimit::tessellate(surface.surface(), surface.points(), {chord, angle, most});
+  });
+  std::vector<Index> triangles, face_of, faces;
+  std::vector<double> u, v;
+  for (const Tessellation::Triangle& triangle : made.triangles) {
+    triangles.insert(triangles.end(), triangle.vertices.begin(), triangle.vertices.end());
+    face_of.push_back(triangle.face);
+  }
+  for (const Sample& place : made.places) {
+    faces.push_back(place.face);
+    u.push_back(place.u);
+    v.push_back(place.v);
+  }
+  const auto count = py::ssize_t(made.triangles.size());
+  py::dict all;
+  all["points"] = array(std::move(made.points));
+  all["triangles"] = array(std::move(triangles)).reshape({count, py::ssize_t(3)});
+  all["triangle_face"] = array(std::move(face_of));
+  all["face"] = array(std::move(faces));
+  all["u"] = array(std::move(u));
+  all["v"] = array(std::move(v));
+  all["bound"] = made.bound;
+  return all;
+}
+
 /// Gauss, mean, k1, k2 and the directions of these: 10 columns; not a number where there is no curvature.
 py::array_t<double> curvatures(const Array<double>& du, const Array<double>& dv, const Array<double>& duu,
                                const Array<double>& duv, const Array<double>& dvv, const Array<double>& normals,
@@ -185,7 +214,8 @@ void add_surfaces(py::module_& m) {
            py::arg("threads"));
   py::class_<Surface, Source, std::shared_ptr<Surface>>(m, "Surface")
       .def(py::init<const ControlMesh&, const MeshRequest&>(), py::arg("mesh"), py::arg("request"), long_call)
-      .def("closest", &closest, py::arg("points"), py::arg("threads"));
+      .def("closest", &closest, py::arg("points"), py::arg("threads"))
+      .def("tessellate", &tessellate, py::arg("chord"), py::arg("angle"), py::arg("most"), py::arg("threads"));
   py::class_<Patches, Source, std::shared_ptr<Patches>>(m, "PatchSet")
       .def(py::init<const std::filesystem::path&>(), py::arg("path"), long_call)
       .def_property_readonly("columns",

@@ -64,6 +64,7 @@ if TYPE_CHECKING:
     from ._surfaces import LimitSurface as LimitSurface
     from ._surfaces import Samples as Samples
     from ._surfaces import Source as Source
+    from ._surfaces import Tessellation as Tessellation
     from ._tables import Table as Table
     from ._tables import bake as bake
     from ._tables import load as load
@@ -81,7 +82,7 @@ _PARTS = {
     "_patches": ("Patches",),
     "_reports": ("Report", "analyze", "analyze_mesh"),
     "_schemes": ("OptionInfo", "Scheme", "SchemeInfo", "scheme", "schemes"),
-    "_surfaces": ("ClosestPoints", "Curvature", "LimitSurface", "Samples", "Source"),
+    "_surfaces": ("ClosestPoints", "Curvature", "LimitSurface", "Samples", "Source", "Tessellation"),
     "_tables": ("Table", "bake", "load"),
 }
 _PLACE = {name: part for part, names in _PARTS.items() for name in names}

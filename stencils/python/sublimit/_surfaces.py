@@ -148,6 +148,29 @@ class ClosestPoints:
     status: npt.NDArray[np.int8]
 
 
+@dataclass(frozen=True)
+class Tessellation:
+    """Triangles near a surface, without cracks.
+
+    Attributes
+    ----------
+    points : (n, 3), of the limit
+    triangles : (m, 3), their corners, counter-clockwise
+    triangle_face : (m,), the face of the surface that each is on
+    face, u, v : (n,), places of the points: ``bake(mesh, scheme, at=(face, u, v))`` makes a table that follows a moving mesh
+    bound : no point of a triangle is farther from that of the surface with the same parameters
+    """
+
+    __module__ = "sublimit"
+    points: arrays.Floats
+    triangles: arrays.Ints
+    triangle_face: arrays.Ints
+    face: arrays.Ints
+    u: arrays.Floats
+    v: arrays.Floats
+    bound: float
+
+
 class Source:
     """A surface that is linear in its control points: of a mesh (`LimitSurface`), of patches (`Patches`)."""
 
@@ -241,6 +264,28 @@ class LimitSurface(Source):
         points : (n, 3)
         """
         return ClosestPoints(**self._core.closest(arrays.floats(points, "points", (None, 3), "(n, 3)"), threads))
+
+    def tessellate(self, chord: float, *, angle: float = 0, max_triangles: int = 1 << 24, threads: int = 0) -> Tessellation:
+        """As few triangles as a proved bound on their distance from the surface allows.
+
+        Parameters
+        ----------
+        chord : largest distance, > 0
+        angle : largest angle between two normals in the cell of a triangle, in radians, but not at extraordinary vertices;
+            0: any
+        max_triangles : ResourceError if more are needed
+
+        Examples
+        --------
+        >>> import sublimit
+        >>> cube = sublimit.Mesh(
+        ...     [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]],
+        ...     [[0, 3, 2, 1], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]])
+        >>> near = sublimit.LimitSurface(cube, "catmull-clark").tessellate(0.01)
+        >>> bool(near.bound <= 0.01)
+        True
+        """
+        return Tessellation(**self._core.tessellate(float(chord), float(angle), int(max_triangles), threads))
 
     def __reduce__(self) -> NoReturn:
         raise TypeError("a LimitSurface does not pickle: it is made of its mesh faster than it is read; pickle the Mesh")
