@@ -7,8 +7,6 @@
 #include "free_form.h"
 #include "normal_surfaces.h"
 #include "recipes.h"
-#include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 #include "sublimit/jobs/mesh_info.h"
 
 namespace sublimit::cli {
@@ -18,6 +16,21 @@ std::string to_text(const MeshInfo::Histogram& histogram) {
   std::string text;
   for (const auto& [key, count] : histogram) text += fmt::format("{}{} x {}", text.empty() ? "" : ", ", key, count);
   return text.empty() ? "none" : text;
+}
+
+std::string to_text(const Eigen::Vector3d& x) { return fmt::format("({}, {}, {})", x[0], x[1], x[2]); }
+
+void print(const LimitIntegrals& limit) {
+  fmt::print("  area               {} (+- {:.1e})\n", limit.area, limit.area_error);
+  if (limit.centroid) fmt::print("    centroid         {}\n", to_text(*limit.centroid));
+  if (!limit.solid) {
+    fmt::print("  volume             none: {}\n", limit.why_no_solid);
+    return;
+  }
+  fmt::print("  volume             {}\n", limit.solid->volume);
+  fmt::print("    centroid         {}\n", to_text(limit.solid->centroid));
+  for (int i = 0; i < 3; ++i)
+    fmt::print("    {:<16} {}\n", i == 0 ? "inertia" : "", to_text(limit.solid->inertia.row(i).transpose()));
 }
 
 void print(const MeshInfo& info, const std::string& name) {
@@ -42,21 +55,7 @@ void print(const MeshInfo& info, const std::string& name) {
     for (size_t k = 0; k < info.predicted_bytes.size(); ++k)
       fmt::print("    to level {}         about {:.1f} MB\n", k + 1, info.predicted_bytes[k] / 1e6);
   }
-  if (info.limit) {
-    const auto vector = [](const auto& x) {
-      return fmt::format("{}, {}, {}", format_number(x[0]), format_number(x[1]), format_number(x[2]));
-    };
-    fmt::print("  limit              area {}, centroid ({})\n", format_number(info.limit->area),
-               vector(info.limit->area_centroid));
-    if (const auto& solid = info.limit->solid) {
-      fmt::print("    solid            volume {}, centroid ({})\n", format_number(solid->volume),
-                 vector(solid->centroid));
-      fmt::print("    inertia          ({}), ({}), ({}) about the centroid, density 1\n", vector(solid->inertia.row(0)),
-                 vector(solid->inertia.row(1)), vector(solid->inertia.row(2)));
-    } else {
-      fmt::print("    solid            none: the surface is not closed\n");
-    }
-  }
+  if (info.limit) print(*info.limit);
   for (const std::string& warning : info.warnings) fmt::print("  warning: {}\n", warning);
   constexpr size_t most = 20;
   for (size_t i = 0; i < std::min(info.faults.size(), most); ++i) fmt::print("  fault: {}\n", info.faults[i]);
@@ -64,8 +63,15 @@ void print(const MeshInfo& info, const std::string& name) {
   if (info.faults.empty()) fmt::print("  no faults: a consistently wound manifold\n");
 }
 
+/// Integrals over the limit are those of a mesh with a scheme that has a matrix.
+void check_limit(const Common& common) {
+  if (common.scheme.empty()) throw InvalidOption("--limit: of which scheme? add -s SCHEME");
+  if (is_recipe_job(common) || is_normal_job(common))
+    throw InvalidOption("--limit: integrals are known of subdivision surfaces, not of recipes and " + common.scheme);
+}
+
 int run(const Common& common, bool as_json, bool limit) {
-  if (limit && common.scheme.empty()) throw InvalidOption("--limit is of the limit of a scheme; name one with -s");
+  if (limit) check_limit(common);
   if (is_recipe_job(common)) {
     print_recipes(common, read_recipes(common.mesh), as_json);
     return 0;
@@ -87,17 +93,15 @@ int run(const Common& common, bool as_json, bool limit) {
   const Loaded loaded = load(quiet, progress);  // warnings and faults are what this subcommand prints
   progress.step("");
   MeshInfo info = mesh_info(loaded, normals);
+  if (limit && info.why_not.empty()) {
+    progress.step("integrating over the limit");
+    naming_mesh(common, [&] { info.limit = limit_integrals(loaded); });
+    progress.step("");
+  }
   if (normals) {
     info.scheme = common.scheme;
     info.why_not = why_no_normal_surface(common, loaded.mesh);
   }
-  if (limit && normals) throw InvalidOption("--limit is for schemes with matrices, not for " + common.scheme);
-  if (limit)
-    naming_mesh(common, [&] {
-      progress.step("integrating");
-      info.limit = limit_integrals(loaded);
-    });
-  progress.step("");
   if (as_json)
     fmt::print("{}\n", to_json(info, common.mesh).dump(2));
   else
@@ -111,11 +115,11 @@ Command add_info(CLI::App& app) {
   auto* command = app.add_subcommand("info", "Counts, valences, boundaries, tags and every fault of a mesh");
   auto common = std::make_shared<Common>();
   auto as_json = std::make_shared<bool>(false);
-  add_mesh(*command, *common, false);
   auto limit = std::make_shared<bool>(false);
-  command->add_flag("--json", *as_json, "As JSON");
+  add_mesh(*command, *common, false);
   command->add_flag("--limit", *limit,
-                    "Area of the limit, and volume, centroid and inertia of a closed one, exact to rounding");
+                    "Area of the limit; of closed surfaces volume, centroid and inertia of the solid (with -s)");
+  command->add_flag("--json", *as_json, "As JSON");
   command->footer(
       "Examples:\n  sublimit info cage.obj\n  sublimit info cage.obj -s loop --json\n"
       "  sublimit info cage.obj -s catmull-clark --limit\n"

@@ -27,9 +27,9 @@ def test_info_is_the_programs(tagged: sublimit.Mesh, program: Callable[..., str]
 
 def test_integrals_of_the_limit(cube: sublimit.Mesh) -> None:
     box = cube.info("bilinear", limit=True)["limit"]
-    assert abs(box["area"] - 6) < rounding * 100 and abs(box["volume"] - 1) < rounding * 100
-    np.testing.assert_allclose(box["centroid"], [0.5] * 3, rtol=0, atol=products)
-    np.testing.assert_allclose(box["inertia"], np.eye(3) / 6, rtol=0, atol=products)
+    assert abs(box["area"] - 6) < rounding * 100 and abs(box["solid"]["volume"] - 1) < rounding * 100
+    np.testing.assert_allclose(box["solid"]["centroid"], [0.5] * 3, rtol=0, atol=products)
+    np.testing.assert_allclose(box["solid"]["inertia"], np.eye(3) / 6, rtol=0, atol=products)
     with pytest.raises(sublimit.InvalidOption, match="name one"):
         cube.info(limit=True)
 

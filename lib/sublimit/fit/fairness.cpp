@@ -7,7 +7,7 @@
 
 #include "sublimit/base/error.h"
 #include "sublimit/base/parallel_for.h"
-#include "sublimit/fit/quadrature.h"
+#include "sublimit/limit/quadrature.h"
 
 namespace sublimit {
 namespace {

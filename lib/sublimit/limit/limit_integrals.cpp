@@ -3,248 +3,320 @@
 
 #include <Eigen/Dense>
 
-#include <array>
+#include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
+#include <mutex>
 #include <tuple>
-#include <utility>
-#include <vector>
 
 #include "sublimit/base/error.h"
 #include "sublimit/base/parallel_for.h"
-#include "sublimit/limit/piece_parts.h"
+#include "sublimit/limit/limit_patches.h"
+#include "sublimit/limit/piece_hull.h"
+#include "sublimit/limit/quadrature.h"
 
 namespace sublimit {
 namespace {
 
-/// Nodes and weights on [0, 1], exact up to degree 2n - 1: roots of Legendre polynomials, by Newton's method.
-std::vector<std::pair<double, double>> gauss(int n) {
-  std::vector<std::pair<double, double>> rule;
-  for (int i = 0; i < n; ++i) {
-    double x = std::cos(std::numbers::pi * (i + 0.75) / (n + 0.5)), slope = 1;
-    for (int step = 0; step < 8; ++step) {
-      double before = 1, value = x;
-      for (int k = 2; k <= n; ++k) before = std::exchange(value, ((2 * k - 1) * x * value - (k - 1) * before) / k);
-      slope = n * (x * value - before) / (x * x - 1);
-      x -= value / slope;
-    }
-    rule.push_back({(1 - x) / 2, 1 / ((1 - x * x) * slope * slope)});
-  }
-  return rule;
-}
+/// A piece whose points are so near to each other, relative to those that the descent began with, is left out: the
+/// square, its area, is below the rounding of the whole.
+constexpr double negligible = 0x1p-30;
+/// Children that a piece may have been cut into before it is said that there will be more on every level: along a line.
+constexpr int most_pieces = 1 << 12;
+/// Of the area of a piece that squares may differ by when they are halved, and how often they are.
+constexpr double area_tolerance = 2e-13;
+constexpr int most_halvings = 16;
 
-/// The domain of a part: the square, its half u >= v or v >= u, or the triangle.
-enum class Domain { square, right, left, triangle };
+/// What is summed over pieces.
+struct Sums {
+  double area = 0, area_error = 0;
+  Eigen::Vector3d of_area = Eigen::Vector3d::Zero();  ///< the position over the area
+  double volume = 0;
+  Eigen::Vector3d first = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
 
-/// Values and derivatives at the nodes of a rule, by Bernstein coefficients.
-struct Quadrature {
-  Eigen::VectorXd weights;
-  Eigen::MatrixXd x, u, v;
-};
-
-Quadrature quadrature(const PolynomialBasis& basis, const BernsteinNets& nets, Domain domain) {
-  // Second moments have degree 5 d - 1 in each parameter, and one more where the square is collapsed to a triangle; of
-  // halves all parameters together count.
-  const int d = basis.degree(), degree = domain == Domain::square     ? 5 * d
-                                         : domain == Domain::triangle ? 5 * d + 1
-                                                                      : 10 * d;
-  const auto rule = gauss(degree / 2 + 1);
-  const Eigen::MatrixXd to_basis = nets.from_basis().inverse();
-  const auto count = static_cast<Eigen::Index>(rule.size() * rule.size());
-  Quadrature q{Eigen::VectorXd(count), Eigen::MatrixXd(count, basis.size()), Eigen::MatrixXd(count, basis.size()),
-               Eigen::MatrixXd(count, basis.size())};
-  Eigen::Index row = 0;
-  for (const auto& [s, ws] : rule)
-    for (const auto& [t, wt] : rule) {
-      double u = s, v = t, weight = ws * wt;
-      if (domain != Domain::square) {
-        weight *= s;
-        if (domain == Domain::triangle) u = s * (1 - t), v = s * t;
-        if (domain == Domain::right) v = s * t;
-        if (domain == Domain::left) u = s * t, v = s;
-      }
-      const RowMatrix rows = basis.at(u, v, 1);
-      q.weights[row] = weight;
-      q.x.row(row) = rows.row(0) * to_basis;
-      q.u.row(row) = rows.row(1) * to_basis;
-      q.v.row(row) = rows.row(2) * to_basis;
-      ++row;
-    }
-  return q;
-}
-
-/// Sums of all parts. Second moments: xx, yy, zz, xy, yz, zx.
-struct Moments {
-  double area = 0, volume = 0;
-  Eigen::Vector3d area_first = Eigen::Vector3d::Zero(), first = Eigen::Vector3d::Zero();
-  Eigen::Matrix<double, 6, 1> second = Eigen::Matrix<double, 6, 1>::Zero();
-  Moments& operator+=(const Moments& other) {
+  Sums& operator+=(const Sums& other) {
     area += other.area;
+    area_error += other.area_error;
+    of_area += other.of_area;
     volume += other.volume;
-    area_first += other.area_first;
     first += other.first;
     second += other.second;
     return *this;
   }
 };
 
-class Integrator {
- public:
-  /// @param centre  that moments are about
-  Integrator(const Eigen::RowVector3d& centre, double size) : centre_(centre), size_(size) {}
+/// x, y and z of coefficients or nodes.
+using Columns = Eigen::Matrix<double, Eigen::Dynamic, 3>;
 
-  void add(const PieceType& type, const Points& points) {
-    std::vector<PiecePart> parts;
-    parts_.find(type, points, whole_cell(type.kind() == Piece::Kind::triangle), 1, parts);
-    for (const PiecePart& part : parts) {
-      if (part.polynomial) {
-        add(part);
-        continue;
-      }
-      const double across = (part.points.colwise().maxCoeff() - part.points.colwise().minCoeff()).norm();
-      if (across > 1e-8 * size_) add(*part.type, part.points);
+/// Gauss quadrature of all polynomial pieces of one basis, by Bernstein coefficients on a square or triangle. A piece
+/// that is cut along u = v has two triangles.
+class PieceRule {
+ public:
+  PieceRule(const PolynomialBasis& basis, bool halves)
+      : own_(halves && !basis.total() ? 2 * basis.degree() : basis.degree(), halves || basis.total()), nets_(own_) {
+    const int d = own_.degree();
+    if (halves) {
+      halves_.push_back(nets_.from_basis() * on_triangle(basis, false));
+      halves_.push_back(nets_.from_basis() * on_triangle(basis, true));
+    } else {
+      halves_.push_back(nets_.from_basis());
+    }
+    // Of X X^T (X.N), by u and by v: 5 d - 2, since the leading terms of X and X_u are parallel; of triangles less one.
+    // Areas, which are no polynomials, are halved less often with some nodes more.
+    const int n = std::max(4, 5 * d / 2);
+    const std::vector<QuadraturePoint> rule = own_.total() ? triangle_rule(n) : square_rule(n);
+    const Eigen::MatrixXd to_basis = nets_.from_basis().fullPivLu().inverse();
+    const auto count = Eigen::Index(rule.size());
+    x_.resize(count, own_.size());
+    u_.resize(count, own_.size());
+    v_.resize(count, own_.size());
+    weights_.resize(count);
+    for (Eigen::Index q = 0; q < count; ++q) {
+      const QuadraturePoint& p = rule[size_t(q)];
+      const Eigen::MatrixXd rows = own_.at(p.u, p.v, 1) * to_basis;
+      x_.row(q) = rows.row(0);
+      u_.row(q) = rows.row(1);
+      v_.row(q) = rows.row(2);
+      weights_[q] = p.weight;
     }
   }
-  const Moments& sum() const { return sum_; }
+
+  const std::vector<Eigen::MatrixXd>& halves() const { return halves_; }
+  const Eigen::MatrixXd& quarter(int k) const { return nets_.quarter(k); }
+
+  /// Points and X_u x X_v of the nodes.
+  struct Nodes {
+    Columns x, N;
+  };
+  Nodes nodes(const Columns& net) const {
+    const Columns u = u_ * net, v = v_ * net;
+    Nodes result{x_ * net, Columns(u.rows(), 3)};
+    for (int i = 0; i < 3; ++i) {
+      const int j = (i + 1) % 3, k = (i + 2) % 3;
+      result.N.col(i) = u.col(j).cwiseProduct(v.col(k)) - u.col(k).cwiseProduct(v.col(j));
+    }
+    return result;
+  }
+  const Eigen::VectorXd& weights() const { return weights_; }
 
  private:
-  void add(const PiecePart& part) {
-    const PolynomialBasis& basis = part.polynomial->basis;
-    const bool halves = part.nets.size() > 1;
-    for (size_t k = 0; k < part.nets.size(); ++k) {
-      const Domain domain = basis.total() ? Domain::triangle
-                            : !halves     ? Domain::square
-                            : k == 0      ? Domain::right
-                                          : Domain::left;
-      const Points net = part.nets[k].rowwise() - centre_;
-      const Quadrature& q = rule(basis, domain);
-      const Points x = q.x * net, u = q.u * net, v = q.v * net;
-      Moments m;
-      Area area;
-      for (Eigen::Index i = 0; i < x.rows(); ++i) {
-        const Eigen::Vector3d p = x.row(i),
-                              n = q.weights[i] * Eigen::Vector3d(u.row(i)).cross(Eigen::Vector3d(v.row(i)));
-        area.add(p, n);
-        m.volume += p.dot(n) / 3;
-        m.first += p.cwiseProduct(p).cwiseProduct(n) / 2;
-        for (int a = 0; a < 3; ++a) {
-          const int b = (a + 1) % 3;
-          m.second[a] += p[a] * p[a] * p[a] * n[a] / 3;
-          m.second[3 + a] += p[a] * p[a] * p[b] * n[a] / 2;
-        }
+  /// Coefficients of `own_` on the half below or above u = v by those on the square.
+  Eigen::MatrixXd on_triangle(const PolynomialBasis& basis, bool above) const {
+    const int d = own_.degree();
+    Eigen::MatrixXd ours(own_.size(), own_.size()), theirs(own_.size(), basis.size());
+    int row = 0;
+    for (int i = 0; i <= d; ++i)
+      for (int j = 0; j <= d - i; ++j, ++row) {
+        const double s = double(i) / d, t = double(j) / d;
+        ours.row(row) = own_.at(s, t, 0);
+        theirs.row(row) = above ? basis.at(s, s + t, 0) : basis.at(s + t, t, 0);
       }
-      area = refined(basis, domain, net, area, 0);
-      m.area = area.size;
-      m.area_first = area.first;
-      sum_ += m;
-    }
+    return ours.fullPivLu().solve(theirs);
   }
 
-  struct Area {
-    double size = 0;
-    Eigen::Vector3d first = Eigen::Vector3d::Zero();
-    void add(const Eigen::Vector3d& p, const Eigen::Vector3d& n) {
-      size += n.norm();
-      first += n.norm() * p;
-    }
-  };
-  Area area_of(const PolynomialBasis& basis, Domain domain, const Points& net) {
-    const Quadrature& q = rule(basis, domain);
-    const Points x = q.x * net, u = q.u * net, v = q.v * net;
-    Area area;
-    for (Eigen::Index i = 0; i < x.rows(); ++i)
-      area.add(x.row(i), q.weights[i] * Eigen::Vector3d(u.row(i)).cross(Eigen::Vector3d(v.row(i))));
-    return area;
-  }
-  /// Until the quarters have the same area together.
-  Area refined(const PolynomialBasis& basis, Domain domain, const Points& net, const Area& known, int depth) {
-    if (domain == Domain::right || domain == Domain::left) {  // no quarters of their own
-      return known;
-    }
-    constexpr double accuracy = 1e-12;
-    std::array<Points, 4> nets;
-    std::array<Area, 4> areas;
-    Area together;
-    for (int k = 0; k < 4; ++k) {
-      nets[size_t(k)] = parts_.nets(basis).quarter(k) * net;
-      areas[size_t(k)] = area_of(basis, domain, nets[size_t(k)]);
-      together.size += areas[size_t(k)].size;
-      together.first += areas[size_t(k)].first;
-    }
-    const double off = std::abs(together.size - known.size);
-    if (off <= accuracy * together.size || off <= 1e-17 * size_ * size_ || depth == 16) return together;
-    together = {};
-    for (int k = 0; k < 4; ++k) {
-      const Area area = refined(basis, domain, nets[size_t(k)], areas[size_t(k)], depth + 1);
-      together.size += area.size;
-      together.first += area.first;
-    }
-    return together;
-  }
-
-  const Quadrature& rule(const PolynomialBasis& basis, Domain domain) {
-    const auto key = std::tuple{basis.degree(), basis.total(), domain};
-    if (const auto at = rules_.find(key); at != rules_.end()) return at->second;
-    return rules_.emplace(key, quadrature(basis, parts_.nets(basis), domain)).first->second;
-  }
-
-  Eigen::RowVector3d centre_;
-  double size_;
-  PieceParts parts_;
-  std::map<std::tuple<int, bool, Domain>, Quadrature> rules_;
-  Moments sum_;
+  PolynomialBasis own_;
+  BernsteinNets nets_;
+  std::vector<Eigen::MatrixXd> halves_;
+  Eigen::MatrixXd x_, u_, v_;
+  Eigen::VectorXd weights_;
 };
 
-bool is_closed(const Level& level) {
+/// The rules of all bases of a surface, shared between threads.
+class PieceRules {
+ public:
+  const PieceRule& of(const PiecePolynomial& p) {
+    const bool halves = p.coefficients.size() > 1;
+    const std::lock_guard lock(mutex_);
+    return rules_.try_emplace({p.basis.degree(), p.basis.total(), halves}, p.basis, halves).first->second;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::map<std::tuple<int, bool, bool>, PieceRule> rules_;
+};
+
+class Integrator {
+ public:
+  explicit Integrator(PieceRules& rules) : rules_(rules) {}
+
+  Sums piece(const PieceType& type, const Points& points) {
+    visited_ = 0;
+    const double size = extent(points);
+    sums_ = {};
+    add(type, points, negligible * size, area_tolerance * size * size);
+    return sums_;
+  }
+
+ private:
+  static double extent(const Points& points) { return (points.rowwise() - points.row(0)).cwiseAbs().maxCoeff(); }
+
+  void add(const PieceType& type, const Points& points, double enough, double tolerance) {
+    if (const PiecePolynomial* p = type.polynomial()) {
+      const Points differences = points.bottomRows(points.rows() - 1).rowwise() - points.row(0);
+      const PieceRule& rule = rules_.of(*p);
+      for (size_t half = 0; half < p->coefficients.size(); ++half)
+        add(rule, rule.halves()[half] * (p->coefficients[half] * differences), points.row(0), tolerance);
+      return;
+    }
+    if (type.types().has_no_polynomials())
+      throw InvalidOption(
+          type.types().scheme().name +
+          ": its limit has no polynomial pieces, and integrals are known of those alone; catmull-clark, "
+          "loop, doo-sabin and averaging have them");
+    if (extent(points) <= enough) {
+      sums_.area_error += extent(points) * extent(points);
+      return;
+    }
+    if (++visited_ > most_pieces)
+      throw AnalysisError(
+          type.types().scheme().name +
+          ": along borders or creases of this mesh the limit has no polynomial pieces, and integrals are "
+          "known of those alone; catmull-clark, loop and doo-sabin have them there");
+    // Those that another child is as well have a line of this piece's square only.
+    for (const PieceLink& link : type.children())
+      if (!link.map.is_repeated()) add(*link.type, child_points(link, points), enough, tolerance);
+  }
+
+  /// @param net  less the origin
+  void add(const PieceRule& rule, const Columns& net, const Eigen::RowVector3d& origin, double tolerance) {
+    const PieceRule::Nodes nodes = rule.nodes(net);
+    const Columns x = nodes.x.rowwise() + origin;
+    const Eigen::VectorXd flux = rule.weights().cwiseProduct(x.cwiseProduct(nodes.N).rowwise().sum());
+    sums_.volume += flux.sum() / 3;
+    sums_.first += x.transpose() * flux / 4;
+    sums_.second += x.transpose() * flux.asDiagonal() * x / 5;
+    add_area(rule, net, origin, area(rule, nodes), tolerance, 0);
+  }
+
+  /// The area, and the position over it.
+  static Eigen::Vector4d area(const PieceRule& rule, const PieceRule::Nodes& nodes) {
+    const Eigen::VectorXd dA = rule.weights().cwiseProduct(nodes.N.rowwise().norm());
+    Eigen::Vector4d sum;
+    sum << dA.sum(), nodes.x.transpose() * dA;
+    return sum;
+  }
+
+  void add_area(const PieceRule& rule, const Columns& net, const Eigen::RowVector3d& origin,
+                const Eigen::Vector4d& whole, double tolerance, int depth) {
+    const auto accept = [&](const Eigen::Vector4d& sum, double error) {
+      sums_.area += sum[0];
+      sums_.of_area += sum.tail<3>() + sum[0] * origin.transpose();
+      sums_.area_error += error;
+    };
+    if (whole[0] <= tolerance) return accept(whole, whole[0]);
+    std::array<Columns, 4> nets;
+    std::array<Eigen::Vector4d, 4> parts;
+    Eigen::Vector4d sum = Eigen::Vector4d::Zero();
+    for (int k = 0; k < 4; ++k) {
+      nets[size_t(k)] = rule.quarter(k) * net;
+      parts[size_t(k)] = area(rule, rule.nodes(nets[size_t(k)]));
+      sum += parts[size_t(k)];
+    }
+    const double error = std::abs(sum[0] - whole[0]);
+    if (error <= tolerance || depth == most_halvings) return accept(sum, error);
+    for (int k = 0; k < 4; ++k) add_area(rule, nets[size_t(k)], origin, parts[size_t(k)], tolerance / 4, depth + 1);
+  }
+
+  Sums sums_;
+  int visited_ = 0;
+  PieceRules& rules_;
+};
+
+/// Why faces without holes are not all of the surface of a solid; empty if they are.
+std::string why_open(const Level& level, bool dual) {
   const Topology& t = level.topology();
-  for (Index f = 0; f < t.num_faces(); ++f)
-    if (level.holes[size_t(f)]) return false;
-  for (Index h = 0; h < t.num_half_edges(); ++h)
-    if (!exists(t.twin(HalfEdge{h}))) return false;
-  return t.num_faces() > 0;
+  // Sheets that meet at an edge have the same curve there, unless the scheme keeps them apart: their boundaries cancel
+  // if it is walked as often either way.
+  std::map<std::pair<Index, Index>, int> walked;
+  bool any = false;
+  for (Index h = 0; h < t.num_half_edges(); ++h) {
+    if (level.holes[size_t(index(t.face(HalfEdge{h})))]) continue;
+    any = true;
+    const HalfEdge twin = t.twin(HalfEdge{h});
+    if (exists(twin) && !level.holes[size_t(index(t.face(twin)))]) continue;
+    const Index a = index(t.tail(HalfEdge{h})), b = index(t.head(HalfEdge{h}));
+    if (dual)
+      walked[{a, b}] = 1;
+    else if (a != b)
+      walked[std::minmax(a, b)] += a < b ? 1 : -1;
+  }
+  if (!any) return "there are no faces";
+  for (const auto& [edge, times] : walked)
+    if (times != 0)
+      return "the surface is not closed at edge (" + std::to_string(edge.first) + "," + std::to_string(edge.second) +
+             ")";
+  return {};
+}
+
+/// By a power of two, so that squares and fifth powers of coordinates neither overflow nor vanish.
+double power_of_two(double size) { return size > 0 ? std::exp2(std::ilogb(size)) : 1; }
+
+SolidIntegrals solid_of(const Sums& sums) {
+  SolidIntegrals solid;
+  solid.volume = sums.volume;
+  solid.centroid = sums.first / sums.volume;
+  const Eigen::Matrix3d central = sums.second - sums.volume * solid.centroid * solid.centroid.transpose();
+  solid.inertia = central.trace() * Eigen::Matrix3d::Identity() - central;
+  return solid;
+}
+
+/// @param points  about their middle, of a size near 1
+Sums sums_over(const LimitSurface& surface, const Points& points) {
+  const LimitSurface::Parts& parts = LimitPatches::parts_of(surface);
+  const LimitSurface::Parts::Pieces& pieces = parts.pieces();
+  const Points fine = parts.prepared ? Points(parts.prepared->S * points) : Points();
+  const Points& x = parts.prepared ? fine : points;
+  constexpr std::int64_t pieces_a_block = 32;
+  PieceRules rules;
+  std::vector<Sums> blocks(size_t(num_blocks(parts.num_pieces(), pieces_a_block)));
+  parallel_for_blocks(
+      parts.num_pieces(),
+      [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
+        Integrator integrator(rules);
+        for (std::int64_t i = begin; i < end; ++i) {
+          if (parts.sides(parts.piece(Index(i))) & LimitSurface::Parts::hole) continue;
+          const std::int64_t first = pieces.first[size_t(i)], count = pieces.first[size_t(i) + 1] - first;
+          Points local(count, 3);
+          for (std::int64_t j = 0; j < count; ++j) local.row(j) = x.row(pieces.vertices[size_t(first + j)]);
+          blocks[size_t(block)] += integrator.piece(*pieces.types[size_t(i)], local);
+        }
+      },
+      pieces_a_block);
+  Sums sums;
+  for (const Sums& block : blocks) sums += block;
+  return sums;
 }
 
 }  // namespace
 
 LimitIntegrals limit_integrals(const LimitSurface& surface, const Points& points) {
-  const AddressPieces pieces(surface, points);
-  if (pieces.has_no_polynomials())
-    throw UnsupportedTopology(pieces.scheme() +
-                              ": no piece of its limits is a polynomial, and integrals of others are not known");
+  const LimitSurface::Parts& parts = LimitPatches::parts_of(surface);
+  if (points.cols() != 3 || points.rows() != parts.level.topology().num_vertices())
+    throw InvalidParameter("integrals need a point of three coordinates for each vertex");
+  if (!points.allFinite()) throw InvalidParameter("integrals need points that are finite");
   LimitIntegrals result;
-  if (points.rows() == 0) return result;
-  const Eigen::RowVector3d low = points.colwise().minCoeff(), high = points.colwise().maxCoeff(),
-                           centre = (low + high) / 2;
-  const double size = (high - low).norm();
-  constexpr std::int64_t addresses_a_block = 32;
-  const Index addresses = surface.addresses().size();
-  std::vector<Moments> blocks(size_t(num_blocks(addresses, addresses_a_block)));
-  parallel_for_blocks(
-      addresses,
-      [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
-        Integrator integrator(centre, size);
-        for (std::int64_t a = begin; a < end; ++a)
-          pieces.visit(static_cast<Index>(a), [&](const PieceType& type, const Points& local, const CellCorners&) {
-            integrator.add(type, local);
-          });
-        blocks[size_t(block)] = integrator.sum();
-      },
-      addresses_a_block);
-  Moments all;
-  for (const Moments& block : blocks) all += block;
-  result.area = all.area;
-  if (all.area > 0) result.area_centroid = all.area_first / all.area + centre.transpose();
-  if (!is_closed(surface.level()) || all.volume == 0) return result;
-  LimitIntegrals::Solid solid;
-  solid.volume = all.volume;
-  const Eigen::Vector3d c = all.first / all.volume;
-  solid.centroid = c + centre.transpose();
-  Eigen::Matrix3d second;
-  second << all.second[0], all.second[3], all.second[5], all.second[3], all.second[1], all.second[4], all.second[5],
-      all.second[4], all.second[2];
-  second -= all.volume * c * c.transpose();
-  solid.inertia = second.trace() * Eigen::Matrix3d::Identity() - second;
+  if (points.rows() == 0) {
+    result.why_no_solid = "there are no faces";
+    return result;
+  }
+  const Eigen::RowVector3d middle = points.colwise().minCoeff() / 2 + points.colwise().maxCoeff() / 2;
+  const double scale = power_of_two((points.rowwise() - middle).cwiseAbs().maxCoeff());
+  const Points centred = (points.rowwise() - middle) / scale;
+  const Sums sums = sums_over(surface, centred);
+  result.area = sums.area * scale * scale;
+  result.area_error = sums.area_error * scale * scale;
+  if (sums.area > 0) result.centroid = middle.transpose() + scale * sums.of_area / sums.area;
+  result.why_no_solid = why_open(parts.level, parts.scheme.is_dual());
+  if (!result.why_no_solid.empty()) return result;
+  if (std::abs(sums.volume) <= 1e-13 * sums.area) {
+    result.why_no_solid = "the surface encloses no volume";
+    return result;
+  }
+  SolidIntegrals solid = solid_of(sums);
+  solid.volume *= scale * scale * scale;
+  solid.centroid = middle.transpose() + scale * solid.centroid;
+  solid.inertia *= std::pow(scale, 5);
   result.solid = solid;
   return result;
 }

@@ -55,7 +55,37 @@ std::string in_force(std::optional<Rule> asked, std::optional<Rule> tag, Rule ot
   return word(asked.value_or(tag.value_or(otherwise)));
 }
 
+/// Rows of a 3 x 3 matrix, or the numbers of a vector.
+template <class Matrix>
+Json numbers(const Matrix& m) {
+  if constexpr (Matrix::ColsAtCompileTime == 1) {
+    return {m[0], m[1], m[2]};
+  } else {
+    Json rows = Json::array();
+    for (int i = 0; i < 3; ++i) rows.push_back({m(i, 0), m(i, 1), m(i, 2)});
+    return rows;
+  }
+}
+
+Json to_json(const LimitIntegrals& limit) {
+  Json json{{"area", limit.area},
+            {"area_error", limit.area_error},
+            {"centroid", limit.centroid ? numbers(*limit.centroid) : Json()},
+            {"has_solid", limit.why_no_solid.empty() ? "yes" : "no: " + limit.why_no_solid},
+            {"solid", Json()}};
+  if (limit.solid)
+    json["solid"] = {{"volume", limit.solid->volume},
+                     {"centroid", numbers(limit.solid->centroid)},
+                     {"inertia", numbers(limit.solid->inertia)}};
+  return json;
+}
+
 }  // namespace
+
+LimitIntegrals limit_integrals(const MeshJob& job) {
+  if (!job.scheme) throw InvalidOption("integrals are of the limit of a scheme; name one");
+  return limit_integrals(LimitSurface(*job.scheme, job.mesh, job.rules), job.mesh.positions);
+}
 
 MeshInfo mesh_info(const MeshJob& job, bool triangles) {
   const ControlMesh& mesh = job.mesh;
@@ -98,11 +128,6 @@ MeshInfo mesh_info(const MeshJob& job, bool triangles) {
   return info;
 }
 
-LimitIntegrals limit_integrals(const MeshJob& job) {
-  if (!job.scheme) throw InvalidOption("integrals are of the limit of a scheme; name one");
-  return limit_integrals(LimitSurface(*job.scheme, job.mesh, job.rules), job.mesh.positions);
-}
-
 Json to_json(const MeshInfo& info, const std::string& name) {
   Json json{{"mesh", name},
             {"vertices", info.vertices},
@@ -129,15 +154,7 @@ Json to_json(const MeshInfo& info, const std::string& name) {
     json["scheme"] = {{"name", info.scheme},
                       {"takes_mesh", info.why_not.empty() ? "yes" : "no: " + info.why_not},
                       {"predicted_bytes_by_level", info.predicted_bytes}};
-  if (info.limit) {
-    const auto vector = [](const auto& x) { return Json(std::vector<double>(x.begin(), x.end())); };
-    Json& limit = json["limit"] = {{"area", info.limit->area}, {"area_centroid", vector(info.limit->area_centroid)}};
-    const bool solid = info.limit->solid.has_value();
-    limit["volume"] = solid ? Json(info.limit->solid->volume) : Json();
-    limit["centroid"] = solid ? vector(info.limit->solid->centroid) : Json();
-    limit["inertia"] = Json();
-    for (int k = 0; solid && k < 3; ++k) limit["inertia"].push_back(vector(info.limit->solid->inertia.row(k)));
-  }
+  if (info.limit) json["limit"] = to_json(*info.limit);
   return json;
 }
 

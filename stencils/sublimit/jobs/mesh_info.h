@@ -5,7 +5,6 @@
 #include <nlohmann/json.hpp>
 
 #include <map>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,14 +34,14 @@ struct MeshInfo {
   std::string scheme;                   ///< if one was asked about
   std::string why_not;                  ///< what keeps it from taking the mesh; empty: it does
   std::vector<double> predicted_bytes;  ///< of levels 1 to 6
-  std::optional<LimitIntegrals> limit;  ///< if they were asked for (`limit_integrals`)
+  std::optional<LimitIntegrals> limit;  ///< if they were asked for
 };
 
 /// @param triangles  addresses are triangles, whatever the scheme
 MeshInfo mesh_info(const MeshJob& job, bool triangles = false);
 
-/// Area, volume and moments of the limit.
-/// @throws InvalidOption  no scheme;  UnsupportedTopology  as limits, and `limit_integrals`
+/// Integrals over the limit of a mesh.
+/// @throws InvalidOption  no scheme; else as `LimitSurface` and `limit_integrals`
 LimitIntegrals limit_integrals(const MeshJob& job);
 
 /// As `sublimit info --json` prints it.

@@ -10,7 +10,7 @@
 #include <random>
 
 #include "sublimit/core/dense_decompositions.h"
-#include "sublimit/fit/quadrature.h"
+#include "sublimit/limit/quadrature.h"
 #include "support/expect_error.h"
 #include "support/tested_schemes.h"
 #include "support/tolerance.h"

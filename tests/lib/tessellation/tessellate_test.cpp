@@ -10,6 +10,7 @@
 #include <set>
 
 #include "sublimit/base/error.h"
+#include "sublimit/limit/limit_integrals.h"
 #include "sublimit/schemes.h"
 #include "support/meshes.h"
 
@@ -111,6 +112,22 @@ TEST(Tessellate, KeepsItsDistanceAndClosesClosedMeshes) {
         EXPECT_EQ(edges.euler, topology.num_vertices() - topology.num_edges() + topology.num_faces());
       }
     }
+}
+
+// What lies between triangles and the limit has at most the area times the distance.
+TEST(Tessellate, HasTheVolumeOfTheLimit) {
+  const ControlMesh mesh = testing::jittered(testing::cube());
+  const LimitSurface surface(find_scheme("catmull-clark").value(), mesh);
+  const LimitIntegrals exact = limit_integrals(surface, mesh.positions);
+  for (const double chord : {1e-2, 1e-3}) {
+    const Tessellation t = tessellate(surface, mesh.positions, {.chord = chord});
+    double volume = 0;
+    for (const Tessellation::Triangle& triangle : t.triangles) {
+      const auto p = [&](size_t k) { return Eigen::Vector3d(t.points.row(triangle.vertices[k])); };
+      volume += p(0).dot(p(1).cross(p(2))) / 6;
+    }
+    EXPECT_NEAR(volume, exact.solid->volume, exact.area * chord);
+  }
 }
 
 TEST(Tessellate, OpensAtBordersAndHolesAlone) {

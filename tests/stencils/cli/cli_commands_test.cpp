@@ -91,6 +91,28 @@ TEST(CliInfo, Cube) {
   expect_parts(expect_done(sublimit({"info", mesh, "-s", "loop"})).out, {"face 0 has 4 corners"});
 }
 
+TEST(CliInfo, IntegralsOfTheLimit) {
+  const TemporaryDirectory directory;
+  const std::string closed = write(directory, "cube.obj", cube()), open = write(directory, "grid.obj", grid(2, 2));
+  const Json json =
+      Json::parse(expect_done(sublimit({"info", closed, "-s", "bilinear", "--limit", "--json"})).out)["limit"];
+  EXPECT_NEAR(json["area"], 24, 1e-10 * 24);  // as --help says
+  EXPECT_NEAR(json["solid"]["volume"], 8, rounding(100, 8));
+  EXPECT_NEAR(json["solid"]["inertia"][1][1], 16. / 3, rounding(100, 8));
+  EXPECT_EQ(json["has_solid"], "yes");
+  expect_parts(expect_done(sublimit({"info", closed, "-s", "catmull-clark", "--limit"})).out,
+               {"area  ", "volume  ", "centroid  ", "inertia  "});
+  expect_parts(expect_done(sublimit({"info", open, "-s", "doo-sabin", "--limit"})).out,
+               {"area  ", "volume             none: the surface is not closed at edge"});
+  EXPECT_TRUE(
+      Json::parse(expect_done(sublimit({"info", open, "-s", "doo-sabin", "--limit", "--json"})).out)["limit"]["solid"]
+          .is_null());
+  expect_parts(expect_done(sublimit({"info", closed, "-s", "loop", "--limit"})).out, {"face 0 has 4 corners"});
+  expect_failure(sublimit({"info", closed, "--limit"}), 2, {"--limit", "-s SCHEME"});
+  expect_failure(sublimit({"info", closed, "-s", "butterfly", "--triangulate", "--limit"}), 2,
+                 {"butterfly", "no polynomial pieces"});
+}
+
 TEST(CliInfo, BoundariesTagsAndComponents) {
   const TemporaryDirectory directory;
   ControlMesh mesh = disjoint_union(grid(3, 3), grid(2, 2));

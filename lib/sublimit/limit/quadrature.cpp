@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sublimit/fit/quadrature.h"
+#include "sublimit/limit/quadrature.h"
 
 #include <cmath>
 #include <numbers>
