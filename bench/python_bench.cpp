@@ -140,7 +140,10 @@ void measure_import(Report& report) {
 int run(int argc, char** argv) {
   Report report("python_bench", argc, argv);
   report.take_turns(5);
-  const py::scoped_interpreter alive;
+  PyConfig config;
+  PyConfig_InitPythonConfig(&config);
+  PyConfig_SetBytesString(&config, &config.program_name, SUBLIMIT_PYTHON);  // not another one that is first in the path
+  const py::scoped_interpreter alive(&config);
   Interpreter python;
   using testing::torus;
   const ControlMesh small = torus(25, 20), large = report.quick() ? torus(40, 25) : torus(400, 250);
