@@ -119,6 +119,7 @@ Command add_refine(CLI::App& app);
 Command add_limit(CLI::App& app);
 Command add_sample(CLI::App& app);
 Command add_closest(CLI::App& app);
+Command add_intersect(CLI::App& app);
 Command add_tessellate(CLI::App& app);
 Command add_construct(CLI::App& app);
 Command add_implicit(CLI::App& app);

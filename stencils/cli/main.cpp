@@ -101,6 +101,7 @@ int main(int argc, char** argv) {
                                                              {"limit", cli::add_limit(app)},
                                                              {"sample", cli::add_sample(app)},
                                                              {"closest", cli::add_closest(app)},
+                                                             {"intersect", cli::add_intersect(app)},
                                                              {"tessellate", cli::add_tessellate(app)},
                                                              {"bake", cli::add_bake(app)},
                                                              {"construct", cli::add_construct(app)},

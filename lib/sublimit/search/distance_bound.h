@@ -7,10 +7,9 @@
 // the tangent plane of its graph at the minimum is below it, so that the minimum itself is the bound, but for rounding.
 // Other parts, towards extraordinary vertices, are in the hull of the points that they depend on, and are replaced by
 // their children.
-#include <memory>
 #include <optional>
 
-#include "sublimit/limit/piece_parts.h"
+#include "sublimit/search/surface_parts.h"
 
 namespace sublimit {
 
@@ -23,7 +22,6 @@ class DistanceBound {
  public:
   /// @param points  of the surface's level, #V x 3
   DistanceBound(const LimitSurface& surface, const Points& points);
-  ~DistanceBound();
 
   /// @param distance  of the nearest point that is known
   /// @param most      parts to look at; what is left then counts with its box
@@ -32,8 +30,7 @@ class DistanceBound {
   ProvedDistance operator()(const Eigen::Vector3d& query, double distance, int most, PieceParts& cutter) const;
 
  private:
-  struct Parts;
-  std::unique_ptr<const Parts> parts_;
+  SurfaceParts parts_;
 };
 
 }  // namespace sublimit

@@ -6,7 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <span>
+
+#include "sublimit/search/net_jet.h"
 
 namespace sublimit {
 namespace {
@@ -30,22 +31,6 @@ Interval dot(const Box& a, const Box& b) {
   return sum;
 }
 
-/// B_i^d(t) for i = 0 ... d.
-void bernstein(int d, double t, std::span<double> out) {
-  out[0] = 1;
-  for (int n = 1; n <= d; ++n) {
-    double carry = 0;
-    for (int i = 0; i < n; ++i) {
-      const double value = out[size_t(i)];
-      out[size_t(i)] = carry + (1 - t) * value;
-      carry = t * value;
-    }
-    out[size_t(n)] = carry;
-  }
-}
-
-constexpr int most_degree = 16;
-
 }  // namespace
 
 NetDistance::NetDistance(const PolynomialBasis& basis, const Points& net, const Eigen::Vector3d& query)
@@ -60,55 +45,6 @@ double NetDistance::lower(const Eigen::Vector3d& towards) const {
     along = std::min(along, b.dot(towards));
   }
   return std::max(box.exteriorDistance(Eigen::Vector3d(Eigen::Vector3d::Zero())), along);
-}
-
-NetDistance::Jet NetDistance::at(double u, double v) const {
-  const int d = basis_.degree();
-  Jet jet;
-  for (Eigen::Vector3d* x : {&jet.x, &jet.u, &jet.v, &jet.uu, &jet.uv, &jet.vv}) x->setZero();
-  std::array<double, most_degree + 1> bu{}, bv{};
-  const auto sum = [&](int degree, Eigen::Vector3d& out, const auto& coefficient) {
-    if (degree < 0) return;
-    // B = d!/(i! j! k!) u^i v^j w^k
-    const double w = 1 - u - v;
-    std::array<double, most_degree + 1> factorial{1};
-    for (int n = 1; n <= degree; ++n) factorial[size_t(n)] = factorial[size_t(n - 1)] * n;
-    for (int i = 0; i <= degree; ++i)
-      for (int j = 0; i + j <= degree; ++j) {
-        const int k = degree - i - j;
-        out += factorial[size_t(degree)] / (factorial[size_t(i)] * factorial[size_t(j)] * factorial[size_t(k)]) *
-               std::pow(u, i) * std::pow(v, j) * std::pow(w, k) * coefficient(i, j);
-      }
-  };
-  const auto b = [&](int i, int j) { return Eigen::Vector3d(net_.row(net_row(basis_, i, j))); };
-  if (basis_.total()) {
-    sum(d, jet.x, b);
-    sum(d - 1, jet.u, [&](int i, int j) { return Eigen::Vector3d(d * (b(i + 1, j) - b(i, j))); });
-    sum(d - 1, jet.v, [&](int i, int j) { return Eigen::Vector3d(d * (b(i, j + 1) - b(i, j))); });
-    const double dd = d * (d - 1);
-    sum(d - 2, jet.uu, [&](int i, int j) { return Eigen::Vector3d(dd * (b(i + 2, j) - 2 * b(i + 1, j) + b(i, j))); });
-    sum(d - 2, jet.vv, [&](int i, int j) { return Eigen::Vector3d(dd * (b(i, j + 2) - 2 * b(i, j + 1) + b(i, j))); });
-    sum(d - 2, jet.uv,
-        [&](int i, int j) { return Eigen::Vector3d(dd * (b(i + 1, j + 1) - b(i + 1, j) - b(i, j + 1) + b(i, j))); });
-    return jet;
-  }
-  const auto tensor = [&](int du, int dv, Eigen::Vector3d& out, double factor, const auto& coefficient) {
-    if (du < 0 || dv < 0) return;
-    bernstein(du, u, bu);
-    bernstein(dv, v, bv);
-    for (int i = 0; i <= du; ++i)
-      for (int j = 0; j <= dv; ++j) out += factor * bu[size_t(i)] * bv[size_t(j)] * coefficient(i, j);
-  };
-  tensor(d, d, jet.x, 1, b);
-  tensor(d - 1, d, jet.u, d, [&](int i, int j) { return Eigen::Vector3d(b(i + 1, j) - b(i, j)); });
-  tensor(d, d - 1, jet.v, d, [&](int i, int j) { return Eigen::Vector3d(b(i, j + 1) - b(i, j)); });
-  tensor(d - 2, d, jet.uu, d * (d - 1),
-         [&](int i, int j) { return Eigen::Vector3d(b(i + 2, j) - 2 * b(i + 1, j) + b(i, j)); });
-  tensor(d, d - 2, jet.vv, d * (d - 1),
-         [&](int i, int j) { return Eigen::Vector3d(b(i, j + 2) - 2 * b(i, j + 1) + b(i, j)); });
-  tensor(d - 1, d - 1, jet.uv, d * d,
-         [&](int i, int j) { return Eigen::Vector3d(b(i + 1, j + 1) - b(i + 1, j) - b(i, j + 1) + b(i, j)); });
-  return jet;
 }
 
 std::optional<ConvexMinimum> NetDistance::convex_minimum(double size) const {
@@ -143,7 +79,7 @@ std::optional<ConvexMinimum> NetDistance::convex_minimum(double size) const {
   ConvexMinimum best;
   double most = -std::numeric_limits<double>::infinity();
   for (int step = 0; step < 12; ++step) {
-    const Jet j = at(p.x(), p.y());
+    const NetJet j = net_jet(basis_, net_, p.x(), p.y());
     const Eigen::Vector2d g(j.x.dot(j.u), j.x.dot(j.v));
     const double value = j.x.squaredNorm() / 2;
     double below = 0;  // of the tangent plane, on the square or triangle

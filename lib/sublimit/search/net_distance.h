@@ -25,11 +25,6 @@ class NetDistance {
   std::optional<ConvexMinimum> convex_minimum(double size) const;
 
  private:
-  struct Jet {
-    Eigen::Vector3d x, u, v, uu, uv, vv;
-  };
-  Jet at(double u, double v) const;
-
   const PolynomialBasis& basis_;
   Points net_;  // less q
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `sublimit closest` and `sublimit tessellate`.
+// `sublimit closest`, `sublimit intersect` and `sublimit tessellate`.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -83,6 +83,46 @@ TEST(CliClosest, RefusesInClearWords) {
   expect_failure(
       sublimit({"closest", mesh, "-s", "catmull-clark", "--points", (directory / "missing.csv").string(), "-o", out}),
       3, {"missing.csv"});
+}
+
+TEST(CliIntersect, FindsHitsOnACube) {
+  const TemporaryDirectory directory;
+  const std::string mesh = write_cube(directory), out = (directory / "o.csv").string(),
+                    rays = directory
+                               .write("r.csv",
+                                      "ox,oy,oz,dx,dy,dz,tmin,tmax\n0.25,0.5,-3,0,0,2,,\n5,5,5,1,0,0,,\n"
+                                      "0.25,0.5,-3,0,0,2,1.5,\n0.25,0.5,-3,0,0,2,,0.5\n")
+                               .string();
+  expect_done(sublimit({"intersect", mesh, "-s", "bilinear", "--rays", rays, "--all", "-o", out, "--quiet"}));
+  EXPECT_TRUE(read_file(out).starts_with("ray,t,face,u,v,x,y,z,nx,ny,nz,status\n"));
+  const std::vector<CsvRow> rows = csv_rows(out);
+  ASSERT_EQ(rows.size(), 4u);
+  const std::vector<std::vector<double>> expected{
+      {0, 1, 0.25, 0.5, -1, -1}, {0, 2, 0.25, 0.5, 1, 1}, {2, 2, 0.25, 0.5, 1, 1}};
+  for (size_t i = 0; i < 3; ++i) {
+    const CsvRow& row = rows[i + 1];
+    EXPECT_EQ(csv_number(row[0]), expected[i][0]);
+    EXPECT_NEAR(csv_number(row[1]), expected[i][1], 1e-14);
+    for (size_t k = 0; k < 3; ++k) EXPECT_NEAR(csv_number(row[5 + k]), expected[i][2 + k], 1e-14);
+    EXPECT_NEAR(csv_number(row[10]), expected[i][5], 1e-14);  // the box's normals point outwards
+  }
+  const Outcome nearest = expect_done(sublimit({"intersect", mesh, "-s", "bilinear", "--rays", rays, "-o", out}));
+  expect_parts(nearest.out, {"2 hits of 4 rays"});
+}
+
+TEST(CliIntersect, RefusesInClearWords) {
+  const TemporaryDirectory directory;
+  const std::string mesh = write_cube(directory), out = (directory / "o.csv").string();
+  const auto refused = [&](const std::string& text, std::initializer_list<std::string_view> parts) {
+    const std::string rays = directory.write("r.csv", text).string();
+    expect_failure(sublimit({"intersect", mesh, "-s", "catmull-clark", "--rays", rays, "-o", out}), 3, parts);
+    EXPECT_FALSE(std::filesystem::exists(out));
+  };
+  refused("", {"r.csv"});
+  refused("x,y,z\n", {"r.csv", "ox,oy,oz,dx,dy,dz"});
+  refused("ox,oy,oz,dx,dy,dz\n0,0,0,0,0,0\n", {"r.csv:2", "direction"});
+  refused("ox,oy,oz,dx,dy,dz\n0,0,0,1,nan,0\n", {"r.csv:2"});
+  refused("ox,oy,oz,dx,dy,dz,tmin,tmax\n0,0,0,1,0,0,2,1\n", {"r.csv:2", "tmin 2 is above tmax 1"});
 }
 
 TEST(CliTessellate, WritesTrianglesNormalsAndPlaces) {

@@ -1,0 +1,319 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sublimit/search/intersect.h"
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <utility>
+
+#include "sublimit/base/error.h"
+#include "sublimit/base/parallel_for.h"
+#include "sublimit/search/net_jet.h"
+#include "sublimit/search/surface_parts.h"
+
+namespace sublimit {
+namespace {
+
+/// Hits nearer to each other than that, relative to the surface's size, are one; and how far outside of a part a zero
+/// may be for the neighbour to have it.
+constexpr double same_place = 1e-11, beyond = 1e-9;
+
+struct Hit {
+  double t = 0;
+  Sample place;
+};
+
+struct Extent {
+  double low = 0, high = 0;
+};
+
+/// A ray as an origin and three axes, the last one along it.
+struct Frame {
+  Eigen::Vector3d origin;
+  Eigen::Matrix3d axes;  ///< rows
+  double length = 1;     ///< of the direction
+  explicit Frame(const Ray& ray) : origin(ray.origin), length(ray.direction.norm()) {
+    const Eigen::Vector3d d = ray.direction / length;
+    Eigen::Index least = 0;
+    d.cwiseAbs().minCoeff(&least);
+    axes.row(0) = d.cross(Eigen::Vector3d(Eigen::Vector3d::Unit(least))).normalized();
+    axes.row(1) = d.cross(Eigen::Vector3d(axes.row(0)));
+    axes.row(2) = d;
+  }
+  Points seen(const Points& x) const { return (x.rowwise() - origin.transpose()) * axes.transpose(); }
+};
+
+/// Smallest and largest distance along the ray of a box that it meets; nothing if it does not.
+std::optional<Extent> along(const Eigen::AlignedBox3d& box, const Ray& ray, double slack) {
+  Extent t{ray.tmin, ray.tmax};
+  for (int k = 0; k < 3; ++k) {
+    const double low = box.min()[k] - slack - ray.origin[k], high = box.max()[k] + slack - ray.origin[k],
+                 d = ray.direction[k];
+    if (d == 0) {
+      if (low > 0 || high < 0) return std::nullopt;
+      continue;
+    }
+    const double a = low / d, b = high / d;
+    t.low = std::max(t.low, std::min(a, b));
+    t.high = std::min(t.high, std::max(a, b));
+    if (t.low > t.high) return std::nullopt;
+  }
+  return t;
+}
+
+/// Of a net seen along a ray: whether it can be hit, and where, if that is one place at most.
+class SeenNet {
+ public:
+  SeenNet(const PolynomialBasis& basis, Points net) : basis_(basis), net_(std::move(net)) {}
+
+  /// No line through the ray has all of it on one side.
+  /// @param slack  how far off counts as a hit
+  bool can_be_hit(double slack) const {
+    constexpr std::array<std::array<double, 2>, 4> directions{
+        {{1, 0}, {0, 1}, {0.70710678, 0.70710678}, {0.70710678, -0.70710678}}};
+    for (const auto& [a, b] : directions) {
+      const Eigen::VectorXd side = a * net_.col(0) + b * net_.col(1);
+      if (side.minCoeff() > slack || side.maxCoeff() < -slack) return false;
+    }
+    return true;
+  }
+
+  enum class Zero { none, one, unknown };
+  /// Of the part of a convex domain: the square, or the triangle.
+  /// @param uv  of the zero
+  /// @param s   its distance along the ray
+  Zero zero(Eigen::Vector2d& uv, double& s) const {
+    const int d = basis_.degree();
+    const bool total = basis_.total();
+    std::array<Extent, 4> J;  // derivatives across: au, av, bu, bv
+    J.fill({std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()});
+    const auto extend = [](Extent& i, double x) { i = {std::min(i.low, x), std::max(i.high, x)}; };
+    for_each_net_row(basis_, [&](int i, int j, Eigen::Index row) {
+      const int room_u = total ? d - i - j : d - i, room_v = total ? d - i - j : d - j;
+      for (Eigen::Index k = 0; k < 2; ++k) {
+        if (room_u >= 1) extend(J[size_t(2 * k)], d * (net_(net_row(basis_, i + 1, j), k) - net_(row, k)));
+        if (room_v >= 1) extend(J[size_t(2 * k + 1)], d * (net_(net_row(basis_, i, j + 1), k) - net_(row, k)));
+      }
+    });
+    Eigen::Matrix2d middle, radius;
+    for (int k = 0; k < 4; ++k) {
+      middle(k / 2, k % 2) = (J[size_t(k)].low + J[size_t(k)].high) / 2;
+      radius(k / 2, k % 2) = (J[size_t(k)].high - J[size_t(k)].low) / 2;
+    }
+    if (!(std::abs(middle.determinant()) > 1e-12 * middle.squaredNorm())) return Zero::unknown;
+    const Eigen::Matrix2d inverse = middle.inverse();
+    // At most that much of the distance to a zero is left after a step by the inverse of the middle, and going back to
+    // the nearest place of the domain adds nothing.
+    if (!((inverse.cwiseAbs() * radius).norm() < 0.5)) return Zero::unknown;
+    Eigen::Vector2d p = total ? Eigen::Vector2d(1. / 3, 1. / 3) : Eigen::Vector2d(0.5, 0.5), move;
+    NetJet jet;
+    for (int step = 0; step < 64; ++step) {
+      jet = net_jet(basis_, net_, p.x(), p.y());
+      move = inverse * jet.x.head<2>();
+      const Eigen::Vector2d next = nearest_inside(p - move);
+      const bool done = (next - p).cwiseAbs().maxCoeff() < 1e-16;
+      p = next;
+      if (done) break;
+    }
+    if (!(move.cwiseAbs().maxCoeff() <= beyond)) return Zero::none;
+    uv = p;
+    s = jet.x[2];
+    return Zero::one;
+  }
+
+ private:
+  Eigen::Vector2d nearest_inside(const Eigen::Vector2d& p) const {
+    if (!basis_.total()) return p.cwiseMax(0).cwiseMin(1);
+    if (p.x() >= 0 && p.y() >= 0 && p.x() + p.y() <= 1) return p;
+    if (p.x() + p.y() <= 1 || p.x() - p.y() > 1 || p.y() - p.x() > 1) {
+      const Eigen::Vector2d q = p.cwiseMax(0).cwiseMin(1);
+      if (q.x() + q.y() <= 1) return q;
+    }
+    const double u = std::clamp((p.x() - p.y() + 1) / 2, 0.0, 1.0);
+    return {u, 1 - u};
+  }
+
+  const PolynomialBasis& basis_;
+  Points net_;
+};
+
+/// One ray through the parts.
+class Tracer {
+ public:
+  Tracer(const SurfaceParts& parts, const RayOptions& options) : parts_(parts), options_(options) {}
+
+  /// @param undecided  is counted up
+  std::vector<Hit> operator()(const Ray& ray, std::int64_t& undecided) {
+    ray_ = &ray;
+    frame_.emplace(ray);
+    hits_.clear();
+    heap_.clear();
+    cells_.clear();
+    undecided_ = 0;
+    nearest_ = ray.tmax;
+    const std::vector<BoxTree::Node>& nodes = parts_.tree().nodes();
+    if (!nodes.empty()) push(nodes[0].box, 0, 0);
+    for (int looked = 0; !heap_.empty();) {
+      std::pop_heap(heap_.begin(), heap_.end());
+      const Waiting first = heap_.back();
+      heap_.pop_back();
+      if (!options_.all && first.t > nearest_) break;
+      if (first.node >= 0) {
+        const BoxTree::Node& node = nodes[size_t(first.node)];
+        if (node.item >= 0) {
+          cells_.push_back(parts_.parts()[size_t(node.item)]);
+          heap_.push_back({first.t, -1, std::ssize(cells_) - 1});
+          std::push_heap(heap_.begin(), heap_.end());
+        } else {
+          for (const Index child : {node.first_child, node.first_child + 1})
+            push(nodes[size_t(child)].box, child, child);
+        }
+        continue;
+      }
+      const SurfacePart part = std::move(cells_[size_t(first.number)]);
+      if (++looked > options_.most_parts) {
+        undecided_ += 1 + std::ssize(heap_);
+        break;
+      }
+      look_at(part);
+    }
+    undecided += undecided_;
+    return merged();
+  }
+
+ private:
+  struct Waiting {
+    double t;    ///< at least
+    Index node;  ///< of the tree, or -1
+    std::int64_t number;
+    friend bool operator<(const Waiting& a, const Waiting& b) { return a.t != b.t ? a.t > b.t : a.number > b.number; }
+  };
+
+  void push(const Eigen::AlignedBox3d& box, Index node, std::int64_t number) {
+    const std::optional<Extent> t = along(box, *ray_, same_place * parts_.size());
+    if (!t) return;
+    heap_.push_back({t->low, node, number});
+    std::push_heap(heap_.begin(), heap_.end());
+  }
+
+  void look_at(const SurfacePart& cell) {
+    const PiecePart& part = cell.part;
+    const double slack = same_place * parts_.size();
+    bool known = part.polynomial != nullptr;
+    for (size_t half = 0; half < part.nets.size(); ++half) {
+      const SeenNet net(part.polynomial->basis, frame_->seen(part.nets[half]));
+      if (!net.can_be_hit(slack)) continue;
+      Eigen::Vector2d uv;
+      double s = 0;
+      const SeenNet::Zero zero = net.zero(uv, s);
+      if (zero == SeenNet::Zero::unknown) {
+        known = false;
+        break;
+      }
+      // Of a part that is cut along u = v each polynomial has its side.
+      const bool own = part.nets.size() == 1 || (half == 0 ? uv.x() >= uv.y() - beyond : uv.y() >= uv.x() - beyond);
+      if (zero == SeenNet::Zero::one && own) add(cell, uv, s);
+    }
+    if (known) return;
+    const Eigen::AlignedBox3d box = box_of(part);
+    if (box.diagonal().norm() <= slack) {
+      ++undecided_;
+      const Points middle = frame_->seen(box.center().transpose());
+      if (middle.leftCols(2).norm() <= 2 * slack) add(cell, {0.25, 0.25}, middle(0, 2));
+      return;
+    }
+    for_each_child(cell, cutter_, [&](SurfacePart&& child) {
+      cells_.push_back(std::move(child));
+      push(box_of(cells_.back().part), -1, std::ssize(cells_) - 1);
+    });
+  }
+
+  void add(const SurfacePart& cell, const Eigen::Vector2d& uv, double s) {
+    const bool triangle = cell.part.type->kind() == Piece::Kind::triangle;
+    const auto [u, v] = at_place(cell.part.corners, triangle, uv.x(), uv.y());
+    const double t = s / frame_->length;
+    if (!(t >= ray_->tmin && t <= ray_->tmax)) return;
+    hits_.push_back(
+        {t, {cell.address, std::clamp(u, 0.0, 1.0), std::clamp(v, 0.0, triangle ? 1 - std::clamp(u, 0.0, 1.0) : 1.0)}});
+    nearest_ = std::min(nearest_, t + same_place * parts_.size() / frame_->length);
+  }
+
+  /// By t; what several parts have is one hit, of the least face.
+  std::vector<Hit> merged() {
+    std::sort(hits_.begin(), hits_.end(), [](const Hit& a, const Hit& b) {
+      return std::tuple(a.t, a.place.face, a.place.u, a.place.v) < std::tuple(b.t, b.place.face, b.place.u, b.place.v);
+    });
+    const double apart = 100 * same_place * parts_.size() / frame_->length;
+    std::vector<Hit> result;
+    for (const Hit& hit : hits_) {
+      if (!result.empty() && hit.t - result.back().t <= apart) {
+        if (hit.place.face < result.back().place.face) result.back().place = hit.place;
+        continue;
+      }
+      if (!options_.all && !result.empty()) break;
+      result.push_back(hit);
+    }
+    return result;
+  }
+
+  const SurfaceParts& parts_;
+  const RayOptions& options_;
+  PieceParts cutter_;
+  const Ray* ray_ = nullptr;
+  std::optional<Frame> frame_;
+  std::vector<Hit> hits_;
+  std::vector<Waiting> heap_;
+  std::vector<SurfacePart> cells_;
+  std::int64_t undecided_ = 0;
+  double nearest_ = 0;
+};
+
+void check(const std::vector<Ray>& rays) {
+  for (size_t i = 0; i < rays.size(); ++i) {
+    const Ray& r = rays[i];
+    const std::string which = "ray " + std::to_string(i);
+    if (!r.origin.allFinite() || !r.direction.allFinite() || std::isnan(r.tmin) || std::isnan(r.tmax))
+      throw InvalidParameter(which + " is not finite");
+    if (!(r.direction.norm() > 0)) throw InvalidParameter(which + " has the direction (0, 0, 0)");
+    if (r.tmin > r.tmax)
+      throw InvalidParameter(which + " ends at t = " + std::to_string(r.tmax) + ", before it begins");
+  }
+}
+
+}  // namespace
+
+RayHits intersect(const LimitSurface& surface, const Points& points, const std::vector<Ray>& rays,
+                  const RayOptions& options) {
+  check(rays);
+  const SurfaceParts parts(surface, points);
+  std::vector<std::vector<Hit>> found(rays.size());
+  RayHits result;
+  result.undecided.resize(rays.size());
+  parallel_for_blocks(
+      std::ssize(rays),
+      [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+        Tracer trace(parts, options);
+        for (auto i = size_t(begin); i < size_t(end); ++i) found[i] = trace(rays[i], result.undecided[i]);
+      },
+      64);
+  result.first = {0};
+  for (const std::vector<Hit>& hits : found) {
+    for (const Hit& hit : hits) {
+      result.t.push_back(hit.t);
+      result.places.push_back(hit.place);
+    }
+    result.first.push_back(std::ssize(result.t));
+  }
+  LimitSamples samples = surface.evaluate(points, result.places, 1);
+  result.points.swap(samples.position);
+  result.normals.swap(samples.normal);
+  result.status = std::move(samples.status);
+  return result;
+}
+
+}  // namespace sublimit

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// Where rays meet a limit surface: all places, or the nearest one, none missed.
+//
+// Seen along the ray a polynomial part is a map to the plane across it, and hits are its zeros. A part whose Bernstein
+// coefficients are all on one side of a line through the ray has none. Where intervals of its derivatives show that the
+// map is one to one (its Jacobian, times the inverse of one in the middle, is near the identity), steps by that inverse
+// come to the one zero, or to a side that it is beyond. Other parts are cut in quarters; those towards extraordinary
+// vertices are replaced by their children, until they are points. Zeros on a side are found from every part there and
+// count once.
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "sublimit/limit/limit_surface.h"
+
+namespace sublimit {
+
+struct Ray {
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero(), direction = Eigen::Vector3d::Zero();
+  double tmin = 0, tmax = std::numeric_limits<double>::infinity();  ///< of origin + t direction
+};
+
+struct RayHits {
+  std::vector<std::int64_t> first;  ///< hits of ray i are [first[i], first[i + 1]), by rising t
+  std::vector<double> t;
+  std::vector<Sample> places;
+  Points points, normals;  ///< of the surface there, #hits x 3; normals zero where undefined
+  std::vector<LimitStatus> status;
+  /// Not decided: parts that touch a ray, or are touched by it, so closely that they were cut to points, or were left
+  /// after `RayOptions::most_parts`; they count as hits where their middle is on the ray.
+  std::vector<std::int64_t> undecided;  ///< how many, by ray
+};
+
+struct RayOptions {
+  bool all = false;        ///< all hits, not only the nearest
+  int most_parts = 20000;  ///< to look at for one ray
+};
+
+/// Holes left out. Equal input, equal answer, whatever the number of threads.
+/// @param points  of the surface's level, #V x 3
+/// @throws InvalidParameter  points that do not fit; a ray that is not finite, has no direction, or ends before it
+/// begins:
+///                           says which
+RayHits intersect(const LimitSurface& surface, const Points& points, const std::vector<Ray>& rays,
+                  const RayOptions& options = {});
+
+}  // namespace sublimit

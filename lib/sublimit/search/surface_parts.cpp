@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sublimit/search/surface_parts.h"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include "sublimit/base/parallel_for.h"
+
+namespace sublimit {
+
+Eigen::AlignedBox3d box_of(const PiecePart& part) {
+  Eigen::AlignedBox3d box;
+  for (const Points& net : part.nets)
+    for (Eigen::Index i = 0; i < net.rows(); ++i) box.extend(Eigen::Vector3d(net.row(i)));
+  for (Eigen::Index i = 0; i < part.points.rows(); ++i) box.extend(Eigen::Vector3d(part.points.row(i)));
+  const double reach = part.polynomial ? 0 : part.type->reach();
+  const double largest = std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
+  const Eigen::Vector3d margin = reach * box.sizes() + Eigen::Vector3d::Constant(1e-14 * largest);
+  return {box.min() - margin, box.max() + margin};
+}
+
+SurfaceParts::SurfaceParts(const LimitSurface& surface, const Points& points) {
+  const AddressPieces pieces(surface, points);
+  // Deeper parts are made when they are asked for: few searches come near extraordinary vertices.
+  const int levels = pieces.has_no_polynomials() ? 1 : 2;
+  const Index addresses = surface.addresses().size();
+  constexpr std::int64_t addresses_a_block = 32;
+  std::vector<std::vector<SurfacePart>> blocks(size_t(num_blocks(addresses, addresses_a_block)));
+  parallel_for_blocks(
+      addresses,
+      [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
+        PieceParts cutter;
+        std::vector<PiecePart> found;
+        for (std::int64_t a = begin; a < end; ++a) {
+          found.clear();
+          pieces.visit(static_cast<Index>(a),
+                       [&](const PieceType& type, const Points& local, const CellCorners& corners) {
+                         cutter.find(type, local, corners, levels, found);
+                       });
+          for (PiecePart& part : found) blocks[size_t(block)].push_back({static_cast<Index>(a), std::move(part), true});
+        }
+      },
+      addresses_a_block);
+  for (std::vector<SurfacePart>& block : blocks) std::move(block.begin(), block.end(), std::back_inserter(parts_));
+  std::vector<Eigen::AlignedBox3d> boxes;
+  boxes.reserve(parts_.size());
+  for (const SurfacePart& part : parts_) boxes.push_back(box_of(part.part));
+  tree_ = BoxTree(boxes);
+}
+
+}  // namespace sublimit

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// All of a limit surface as parts with boxes, in a tree: polynomial ones as Bernstein coefficients, others as the
+// points that they depend on. What branch and bound begins with.
+#include <Eigen/Geometry>
+
+#include <vector>
+
+#include "sublimit/limit/piece_parts.h"
+#include "sublimit/search/box_tree.h"
+
+namespace sublimit {
+
+/// A part of an address.
+struct SurfacePart {
+  Index address = 0;
+  PiecePart part;
+  bool placed = true;  ///< its corners are known: not next to the border of a dual scheme
+};
+
+/// A box that holds a part: the hull of its coefficients, or of its points, widened by their reach.
+Eigen::AlignedBox3d box_of(const PiecePart& part);
+
+/// The quarters of a polynomial part, or the children of another.
+/// @param cutter  of the calling thread
+template <class Visit>
+void for_each_child(const SurfacePart& whole, PieceParts& cutter, const Visit& visit) {
+  const PiecePart& part = whole.part;
+  if (!part.polynomial) {
+    const bool triangle = part.type->kind() == Piece::Kind::triangle;
+    for (const PieceLink& link : part.type->children()) {
+      const std::optional<CellCorners> own = child_of(part.corners, link.map, triangle);
+      std::vector<PiecePart> found;
+      cutter.find(*link.type, child_points(link, part.points), own.value_or(part.corners), 0, found);
+      for (PiecePart& child : found) visit(SurfacePart{whole.address, std::move(child), whole.placed && own});
+    }
+    return;
+  }
+  const PolynomialBasis& basis = part.polynomial->basis;
+  for (int k = 0; k < 4; ++k) {
+    PiecePart quarter{quarter_of(part.corners, basis.total(), k), part.depth + 1, part.polynomial, {}, part.type, {}};
+    for (size_t half = 0; half < part.nets.size(); ++half) {
+      // Of a part that is cut along u = v the quarters beside that line are in one half.
+      if (part.nets.size() > 1 && ((k == 1 && half == 1) || (k == 2 && half == 0))) continue;
+      quarter.nets.push_back(cutter.nets(basis).quarter(k) * part.nets[half]);
+    }
+    visit(SurfacePart{whole.address, std::move(quarter), whole.placed});
+  }
+}
+
+class SurfaceParts {
+ public:
+  /// @param points  of the surface's level, #V x 3
+  SurfaceParts(const LimitSurface& surface, const Points& points);
+  const std::vector<SurfacePart>& parts() const { return parts_; }
+  /// Of their boxes; empty where there is no surface.
+  const BoxTree& tree() const { return tree_; }
+  /// The diagonal of all of it.
+  double size() const { return tree_.nodes().empty() ? 0 : tree_.nodes()[0].box.diagonal().norm(); }
+
+ private:
+  std::vector<SurfacePart> parts_;
+  BoxTree tree_;
+};
+
+}  // namespace sublimit

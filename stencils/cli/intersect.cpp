@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <memory>
+#include <numeric>
+
+#include "common.h"
+#include "memory_limit.h"
+#include "sublimit/files/ray_files.h"
+
+namespace sublimit::cli {
+namespace {
+
+struct IntersectOptions {
+  Common common;
+  std::string rays, output;
+  bool all = false;
+};
+
+int run(const IntersectOptions& options) {
+  check_output_path(options.output, {".csv"});
+  Progress progress(options.common.quiet);
+  progress.step("reading " + options.rays);
+  const std::vector<Ray> rays = read_rays(options.rays);
+  const Loaded loaded = load(options.common, progress);
+  check_mesh_memory(options.common.mesh, loaded.mesh);
+  RayHits hits;
+  naming_mesh(options.common, [&] {
+    const LimitSurface surface(*loaded.scheme, loaded.mesh, loaded.rules);
+    progress.step(fmt::format("tracing {} rays", rays.size()));
+    hits = intersect(surface, loaded.mesh.positions, rays, {.all = options.all});
+  });
+  progress.step("writing " + options.output);
+  write_ray_hits(options.output, hits);
+  progress.step("");
+  if (options.common.quiet) return 0;
+  const auto undecided = std::ranges::count_if(hits.undecided, [](std::int64_t n) { return n > 0; });
+  fmt::print("{}: {} hits of {} rays", options.output, hits.t.size(), rays.size());
+  if (undecided > 0)
+    fmt::print("; {} of them touch the surface, or meet an extraordinary vertex, as near as numbers go", undecided);
+  fmt::print("\n");
+  return 0;
+}
+
+}  // namespace
+
+Command add_intersect(CLI::App& app) {
+  auto* command = app.add_subcommand("intersect", "Where rays meet the limit");
+  auto options = std::make_shared<IntersectOptions>();
+  add_mesh(*command, options->common, true);
+  command->add_option("--rays", options->rays, "Rays: a .csv with the header ox,oy,oz,dx,dy,dz[,tmin,tmax]")
+      ->required();
+  command->add_flag("--all", options->all, "All hits of a ray, by rising t (default: the nearest)");
+  command->add_option("-o,--output", options->output, "OUT.csv: ray,t,face,u,v,x,y,z,nx,ny,nz,status, a row a hit")
+      ->required();
+  command->footer(
+      "Examples:\n"
+      "  sublimit intersect cage.obj -s catmull-clark --rays rays.csv -o hits.csv\n"
+      "  sublimit intersect cage.obj -s loop --rays rays.csv --all -o hits.csv\n"
+      "A hit is at o + t d. Rays are counted from 0, and go from t = 0 on without end unless tmin and tmax say otherwise.\n"
+      "No hit is missed, and a ray through a side that faces share hits once. Holes are no part of the limit.");
+  return [=] { return run(*options); };
+}
+
+}  // namespace sublimit::cli

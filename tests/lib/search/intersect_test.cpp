@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sublimit/search/intersect.h"
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <cmath>
+#include <random>
+
+#include "sublimit/base/error.h"
+#include "sublimit/schemes.h"
+#include "sublimit/tessellation/tessellate.h"
+#include "support/meshes.h"
+
+namespace sublimit {
+namespace {
+
+using namespace testing;
+
+double diagonal(const ControlMesh& mesh) {
+  return (mesh.positions.colwise().maxCoeff() - mesh.positions.colwise().minCoeff()).norm();
+}
+
+/// Through the box, from outside.
+std::vector<Ray> random_rays(const ControlMesh& mesh, int count, unsigned seed) {
+  std::mt19937 random(seed);
+  std::normal_distribution<double> normal;
+  const Eigen::Vector3d middle = mesh.positions.colwise().mean();
+  std::vector<Ray> rays(static_cast<size_t>(count));
+  for (Ray& ray : rays) {
+    Eigen::Vector3d d(normal(random), normal(random), normal(random)),
+        off(normal(random), normal(random), normal(random));
+    ray.direction = 2 * d.normalized();
+    ray.origin = middle + 0.2 * diagonal(mesh) * off - 3 * diagonal(mesh) * d.normalized();
+  }
+  return rays;
+}
+
+struct Case {
+  const char* scheme;
+  ControlMesh mesh;
+};
+std::vector<Case> closed_cases() {
+  ControlMesh creased = cube();
+  add_crease(creased, {0, 1, 3}, {10, 1.5f});
+  return {{"bilinear", jittered(cube())},        {"catmull-clark", jittered(creased)},
+          {"catmull-clark", jittered(prism(5))}, {"catmull-clark", torus(7, 5)},
+          {"loop", jittered(icosahedron())},     {"loop", triangle_torus(6, 5)},
+          {"doo-sabin", jittered(prism(5))},     {"averaging", torus(6, 4)}};
+}
+
+TEST(Intersect, HitsAreOnRayAndSurface) {
+  for (const Case& c : closed_cases()) {
+    const LimitSurface surface(find_scheme(c.scheme).value(), c.mesh);
+    const std::vector<Ray> rays = random_rays(c.mesh, 200, 1);
+    const RayHits hits = intersect(surface, c.mesh.positions, rays, {.all = true});
+    const double size = diagonal(c.mesh);
+    int met = 0;
+    for (size_t i = 0; i < rays.size(); ++i) {
+      EXPECT_EQ(hits.undecided[i], 0) << c.scheme;
+      double before = -1;
+      for (auto k = size_t(hits.first[i]); k < size_t(hits.first[i + 1]); ++k, ++met) {
+        const Eigen::Vector3d on_ray = rays[i].origin + hits.t[k] * rays[i].direction;
+        EXPECT_LE((on_ray - hits.points.row(Eigen::Index(k)).transpose()).norm(), 1e-9 * size) << c.scheme;
+        EXPECT_GT(hits.t[k], before);
+        before = hits.t[k];
+      }
+    }
+    EXPECT_GT(met, 100) << c.scheme;
+  }
+}
+
+// A ray goes in as often as it comes out, and turns sign by sign: none is missed, and none counts twice.
+TEST(Intersect, RaysEnterAndLeaveClosedSurfaces) {
+  for (const Case& c : closed_cases()) {
+    const LimitSurface surface(find_scheme(c.scheme).value(), c.mesh);
+    const std::vector<Ray> rays = random_rays(c.mesh, 400, 2);
+    const RayHits hits = intersect(surface, c.mesh.positions, rays, {.all = true});
+    for (size_t i = 0; i < rays.size(); ++i) {
+      const auto begin = Eigen::Index(hits.first[i]), end = Eigen::Index(hits.first[i + 1]);
+      ASSERT_EQ((end - begin) % 2, 0) << c.scheme << " " << i;
+      for (Eigen::Index k = begin; k < end; ++k) {
+        if (hits.normals.row(k).isZero(0)) continue;
+        const double side = hits.normals.row(k) * rays[i].direction;
+        EXPECT_EQ(side < 0, (k - begin) % 2 == 0) << c.scheme << " " << i;
+      }
+    }
+  }
+}
+
+// Triangles within a proved distance are hit where the surface is, but for rays that graze.
+TEST(Intersect, AreNearThoseOfTriangles) {
+  const ControlMesh mesh = jittered(prism(5));
+  const LimitSurface surface(find_scheme("catmull-clark").value(), mesh);
+  const Tessellation t = tessellate(surface, mesh.positions, {.chord = 1e-4 * diagonal(mesh)});
+  const std::vector<Ray> rays = random_rays(mesh, 100, 3);
+  const RayHits hits = intersect(surface, mesh.positions, rays, {.all = true});
+  for (size_t i = 0; i < rays.size(); ++i) {
+    int count = 0;
+    bool grazes = false;
+    for (const Tessellation::Triangle& triangle : t.triangles) {
+      Eigen::Matrix3d M;
+      const auto p = [&](size_t k) { return Eigen::Vector3d(t.points.row(triangle.vertices[k])); };
+      M << p(1) - p(0), p(2) - p(0), -rays[i].direction;
+      const Eigen::Vector3d x = M.inverse() * (rays[i].origin - p(0));
+      count += x[0] >= 0 && x[1] >= 0 && x[0] + x[1] <= 1 && x[2] >= 0;
+      const Eigen::Vector3d n = (p(1) - p(0)).cross(p(2) - p(0)).normalized();
+      if (x[0] >= -0.1 && x[1] >= -0.1 && x[0] + x[1] <= 1.1)
+        grazes |= std::abs(n.dot(rays[i].direction.normalized())) < 0.05;
+    }
+    if (!grazes) EXPECT_EQ(hits.first[i + 1] - hits.first[i], count) << i;
+  }
+}
+
+// Rays through vertices, middles of edges and points of edges meet one side.
+TEST(Intersect, RaysThroughEdgesAndVerticesHitOnce) {
+  for (const Case& c : closed_cases()) {
+    const LimitSurface surface(find_scheme(c.scheme).value(), c.mesh);
+    std::vector<Sample> at;
+    const bool triangles = surface.faces().triangles;
+    for (Index f = 0; f < surface.faces().size; ++f)
+      for (const auto& [u, v] : std::vector<std::pair<double, double>>{{0, 0}, {0.5, 0}, {0.3, 0}, {0, 0.7}, {1, 0}})
+        at.push_back({f, u, v});
+    if (!triangles)
+      for (Index f = 0; f < surface.faces().size; ++f) at.push_back({f, 1, 1});
+    const LimitSamples s = surface.evaluate(c.mesh.positions, at, 1);
+    std::vector<Ray> rays;
+    for (Eigen::Index i = 0; i < s.position.rows(); ++i) {
+      if (s.normal.row(i).isZero(0)) continue;
+      rays.push_back({Eigen::Vector3d(s.position.row(i) + 0.01 * s.normal.row(i)), -s.normal.row(i), 0, 0.02});
+    }
+    const RayHits hits = intersect(surface, c.mesh.positions, rays, {.all = true});
+    for (size_t i = 0; i < rays.size(); ++i) {
+      EXPECT_EQ(hits.first[i + 1] - hits.first[i], 1) << c.scheme << " " << i;
+      if (hits.first[i + 1] > hits.first[i])
+        EXPECT_NEAR(hits.t[size_t(hits.first[i])], 0.01, 1e-10) << c.scheme << " " << i;
+    }
+  }
+}
+
+TEST(Intersect, NearestIsTheFirstOfAll) {
+  const ControlMesh mesh = torus(7, 5);
+  const LimitSurface surface(find_scheme("catmull-clark").value(), mesh);
+  std::vector<Ray> rays = random_rays(mesh, 300, 4);
+  const RayHits all = intersect(surface, mesh.positions, rays, {.all = true}),
+                nearest = intersect(surface, mesh.positions, rays);
+  for (size_t i = 0; i < rays.size(); ++i) {
+    ASSERT_EQ(nearest.first[i + 1] - nearest.first[i], std::min<std::int64_t>(1, all.first[i + 1] - all.first[i]));
+    if (nearest.first[i + 1] > nearest.first[i])
+      EXPECT_EQ(nearest.t[size_t(nearest.first[i])], all.t[size_t(all.first[i])]);
+  }
+  // Between the first hit and the second one, and from inside.
+  for (size_t i = 0; i < rays.size(); ++i)
+    if (all.first[i + 1] - all.first[i] >= 2) {
+      rays[i].tmin = (all.t[size_t(all.first[i])] + all.t[size_t(all.first[i]) + 1]) / 2;
+      const RayHits later = intersect(surface, mesh.positions, {rays[i]});
+      ASSERT_EQ(later.t.size(), 1u);
+      EXPECT_NEAR(later.t[0], all.t[size_t(all.first[i]) + 1], 1e-12);
+      break;
+    }
+}
+
+TEST(Intersect, AxesOfABoxAreExact) {
+  const ControlMesh box = cube();  // [-1,1]^3
+  const LimitSurface surface(find_scheme("bilinear").value(), box);
+  const std::vector<Ray> rays{
+      {{0.25, 0.5, -3}, {0, 0, 2}}, {{0, 0, 0}, {1, 0, 0}}, {{5, 5, 5}, {1, 1, 1}}, {{0.1, 0.2, 5}, {0, 0, -1}, 0, 1}};
+  const RayHits hits = intersect(surface, box.positions, rays, {.all = true});
+  ASSERT_EQ(hits.first, (std::vector<std::int64_t>{0, 2, 3, 3, 3}));
+  EXPECT_NEAR(hits.t[0], 1, 1e-15);
+  EXPECT_NEAR(hits.t[1], 2, 1e-15);
+  EXPECT_NEAR(hits.t[2], 1, 1e-15);
+}
+
+TEST(Intersect, LeavesHolesOutAndTakesOpenSurfaces) {
+  ControlMesh holed = cube();
+  const LimitSurface whole(find_scheme("bilinear").value(), holed);
+  const Ray up{{0.25, 0.5, -3}, {0, 0, 1}};
+  EXPECT_EQ(intersect(whole, holed.positions, {up}, {.all = true}).t.size(), 2u);
+  const Index face = intersect(whole, holed.positions, {up}).places[0].face;
+  holed.holes = {face};
+  const LimitSurface with_hole(find_scheme("bilinear").value(), holed);
+  EXPECT_EQ(intersect(with_hole, holed.positions, {up}, {.all = true}).t.size(), 1u);
+  const ControlMesh open = grid(3, 2);
+  const LimitSurface sheet(find_scheme("catmull-clark").value(), open);
+  EXPECT_EQ(intersect(sheet, open.positions, {{{1.3, 0.8, 9}, {0, 0, -1}}}, {.all = true}).t.size(), 1u);
+}
+
+TEST(Intersect, HasTheSameBitsForAnyNumberOfThreads) {
+  const ControlMesh mesh = jittered(prism(5));
+  const LimitSurface surface(find_scheme("catmull-clark").value(), mesh);
+  const std::vector<Ray> rays = random_rays(mesh, 300, 5);
+  const RayHits a = intersect(surface, mesh.positions, rays, {.all = true});
+  tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+  const RayHits b = intersect(surface, mesh.positions, rays, {.all = true});
+  EXPECT_EQ(a.t, b.t);
+  EXPECT_EQ(a.first, b.first);
+}
+
+TEST(Intersect, RefusesInClearWords) {
+  const ControlMesh mesh = cube();
+  const LimitSurface surface(find_scheme("catmull-clark").value(), mesh);
+  EXPECT_THROW(intersect(surface, mesh.positions, {{{0, 0, 0}, {0, 0, 0}}}), InvalidParameter);
+  EXPECT_THROW(intersect(surface, mesh.positions, {{{0, 0, std::nan("")}, {0, 0, 1}}}), InvalidParameter);
+  EXPECT_THROW(intersect(surface, mesh.positions, {{{0, 0, 0}, {0, 0, HUGE_VAL}}}), InvalidParameter);
+  EXPECT_THROW(intersect(surface, mesh.positions, {{{0, 0, 0}, {0, 0, 1}, 2, 1}}), InvalidParameter);
+  EXPECT_TRUE(intersect(surface, mesh.positions, {}).t.empty());
+  ControlMesh nothing;
+  nothing.positions = Points::Zero(0, 3);
+  EXPECT_TRUE(intersect(LimitSurface(find_scheme("loop").value(), nothing), nothing.positions, {{{0, 0, 0}, {0, 0, 1}}})
+                  .t.empty());
+}
+
+}  // namespace
+}  // namespace sublimit
