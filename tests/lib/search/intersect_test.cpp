@@ -108,7 +108,9 @@ TEST(Intersect, AreNearThoseOfTriangles) {
       if (x[0] >= -0.1 && x[1] >= -0.1 && x[0] + x[1] <= 1.1)
         grazes |= std::abs(n.dot(rays[i].direction.normalized())) < 0.05;
     }
-    if (!grazes) EXPECT_EQ(hits.first[i + 1] - hits.first[i], count) << i;
+    if (!grazes) {
+      EXPECT_EQ(hits.first[i + 1] - hits.first[i], count) << i;
+    }
   }
 }
 
@@ -132,8 +134,9 @@ TEST(Intersect, RaysThroughEdgesAndVerticesHitOnce) {
     const RayHits hits = intersect(surface, c.mesh.positions, rays, {.all = true});
     for (size_t i = 0; i < rays.size(); ++i) {
       EXPECT_EQ(hits.first[i + 1] - hits.first[i], 1) << c.scheme << " " << i;
-      if (hits.first[i + 1] > hits.first[i])
+      if (hits.first[i + 1] > hits.first[i]) {
         EXPECT_NEAR(hits.t[size_t(hits.first[i])], 0.01, 1e-10) << c.scheme << " " << i;
+      }
     }
   }
 }
@@ -146,8 +149,9 @@ TEST(Intersect, NearestIsTheFirstOfAll) {
                 nearest = intersect(surface, mesh.positions, rays);
   for (size_t i = 0; i < rays.size(); ++i) {
     ASSERT_EQ(nearest.first[i + 1] - nearest.first[i], std::min<std::int64_t>(1, all.first[i + 1] - all.first[i]));
-    if (nearest.first[i + 1] > nearest.first[i])
+    if (nearest.first[i + 1] > nearest.first[i]) {
       EXPECT_EQ(nearest.t[size_t(nearest.first[i])], all.t[size_t(all.first[i])]);
+    }
   }
   // Between the first hit and the second one, and from inside.
   for (size_t i = 0; i < rays.size(); ++i)
