@@ -37,7 +37,8 @@ struct RayOptions {
   int most_parts = 20000;  ///< to look at for one ray
 };
 
-/// Holes left out. Equal input, equal answer, whatever the number of threads.
+/// Holes left out. Equal input, equal answer, whatever the number of threads. Where no piece is a polynomial, hulls are
+/// as `PieceType::reach` has seen them, and a hit may be missed that they do not hold.
 /// @param points  of the surface's level, #V x 3
 /// @throws InvalidParameter  points that do not fit; a ray that is not finite, has no direction, or ends before it
 /// begins:
