@@ -61,8 +61,9 @@ Command add_closest(CLI::App& app) {
       "  sublimit closest cage.obj -s catmull-clark --points scan.csv -o closest.csv\n"
       "  sublimit closest cage.obj -s loop --points scan.ply -o closest.csv\n"
       "Faces and places are those of `sublimit sample`, in whose file x,y,z stand for the same point. The limit is not nearer\n"
-      "than `lower`: the distance itself where the search is complete, less where it was cut short, as from the centre\n"
-      "of a sphere, all of which is equally near. Holes are no part of the limit.");
+      "than `lower`, as is proved: the distance but for rounding, less where the proof was cut short, as from the centre\n"
+      "of a sphere, all of which is equally near, and 0 where nothing is proved, as of schemes without polynomials. Holes\n"
+      "are no part of the limit.");
   return [=] { return run(*options); };
 }
 

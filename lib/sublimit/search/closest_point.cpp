@@ -94,6 +94,10 @@ void check(const LimitSurface& surface, const Points& queries, std::span<const S
     throw InvalidParameter("points to project have " + std::to_string(queries.cols()) + " coordinates, not 3");
   for (Eigen::Index i = 0; i < queries.rows(); ++i)
     if (!queries.row(i).allFinite()) throw InvalidParameter("point " + std::to_string(i) + " to project is not finite");
+  constexpr double farthest = 1e150;  // squares of distances are still numbers
+  for (Eigen::Index i = 0; i < queries.rows(); ++i)
+    if (queries.row(i).cwiseAbs().maxCoeff() > farthest)
+      throw InvalidParameter("point " + std::to_string(i) + " to project has a coordinate above 1e150 in size");
   if (!guess.empty() && guess.size() != size_t(queries.rows()))
     throw InvalidParameter(std::to_string(guess.size()) + " places to begin with for " +
                            std::to_string(queries.rows()) + " points; one each, or none");
@@ -122,15 +126,17 @@ ClosestPoints closest_points(const LimitSurface& surface, const Points& control,
   // What a proof finds to be nearer becomes the foot.
   const auto prove = [&](const DistanceBound& bound_of, const Eigen::Vector3d& query, FootSearch& foot_search,
                          int& order, Foot& foot, PieceParts& cutter) {
+    double lower = 0;
     for (int tries = 0; tries < 8; ++tries) {
       const ProvedDistance proved = bound_of(query, std::sqrt(foot.squared_distance), options.most_cells, cutter);
-      if (!proved.closer) return proved.lower;
+      lower = proved.lower;
+      if (!proved.closer) break;
       const Foot next = foot_search(query, *proved.closer, SearchDomain(search.triangles), order,
                                     std::numeric_limits<double>::infinity());
       if (!(next.squared_distance < foot.squared_distance)) break;
       foot = next;
     }
-    return 0.0;
+    return lower;
   };
 
   const Eigen::Index count = queries.rows();

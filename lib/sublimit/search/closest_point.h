@@ -26,8 +26,9 @@ struct ClosestPoints {
   Points normals;                   ///< there, zero where undefined
   Eigen::VectorXd distances;        ///< from the queries
   std::vector<LimitStatus> status;  ///< of the places
-  /// The surface is not nearer than that: proved (distance_bound.h), and within 1e-12 of the surface's size of the
-  /// distance, unless the search was cut short: from the centre of a sphere all of it is equally near.
+  /// The surface is not nearer than that: proved (distance_bound.h). Within 1e-12 of the surface's size of the
+  /// distance, and some roundings of the coordinates, unless the search was cut short: from the centre of a sphere all
+  /// of it is equally near. 0 where nothing is proved: of schemes without polynomials, whose hulls are estimates.
   Eigen::VectorXd lower;
 };
 
@@ -41,7 +42,8 @@ struct ClosestPointOptions {
 /// Nearest points of the limit, holes left out. Equal input, equal answer, whatever the number of threads.
 /// @param control  points of the surface's level, #V x 3
 /// @param queries  #queries x 3
-/// @throws InvalidParameter  shapes that do not fit, queries that are not finite: says which; guesses on no face
+/// @throws InvalidParameter  shapes that do not fit, queries that are not finite or beyond 1e150: says which; guesses
+/// on no face
 /// @throws InvalidMesh       no face that is not a hole
 ClosestPoints closest_points(const LimitSurface& surface, const Points& control, const Points& queries,
                              const ClosestPointOptions& options = {});

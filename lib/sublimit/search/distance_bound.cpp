@@ -28,11 +28,12 @@ DistanceBound::DistanceBound(const LimitSurface& surface, const Points& points) 
 ProvedDistance DistanceBound::operator()(const Eigen::Vector3d& query, double distance, int most,
                                          PieceParts& cutter) const {
   const BoxTree& tree = parts_.tree();
-  if (tree.nodes().empty()) return {distance, std::nullopt};
-  const double size = parts_.size(), enough = distance - 2e-13 * size;
+  if (tree.nodes().empty() || !parts_.are_certain()) return {0, std::nullopt};
+  const double rounding = parts_.rounding(query), enough = distance - 2e-13 * parts_.size() - 4 * rounding;
+  const auto distance_of = [&](const Eigen::AlignedBox3d& box) { return box.exteriorDistance(query) - rounding; };
   ProvedDistance proved{distance, std::nullopt};
   std::vector<SurfacePart> cells;  // that are not in the tree
-  std::vector<Unsettled> heap{{tree.nodes()[0].box.exteriorDistance(query), 0, 0}};
+  std::vector<Unsettled> heap{{distance_of(tree.nodes()[0].box), 0, 0}};
   const auto push = [&](const Unsettled& c) {
     if (c.lower >= enough) {
       proved.lower = std::min(proved.lower, c.lower);
@@ -42,7 +43,7 @@ ProvedDistance DistanceBound::operator()(const Eigen::Vector3d& query, double di
     std::push_heap(heap.begin(), heap.end());
   };
   const auto push_cell = [&](SurfacePart&& item, double least) {
-    const double lower = std::max(least, box_of(item.part).exteriorDistance(query));
+    const double lower = std::max(least, distance_of(box_of(item.part)));
     cells.push_back(std::move(item));
     push({lower, -1, std::ssize(cells) - 1});
   };
@@ -57,7 +58,7 @@ ProvedDistance DistanceBound::operator()(const Eigen::Vector3d& query, double di
         push({nearest.lower, -1, std::ssize(cells) - 1});
       } else {
         for (const Index child : {node.first_child, node.first_child + 1})
-          push({tree.nodes()[size_t(child)].box.exteriorDistance(query), child, child});
+          push({distance_of(tree.nodes()[size_t(child)].box), child, child});
       }
       continue;
     }
@@ -79,15 +80,18 @@ ProvedDistance DistanceBound::operator()(const Eigen::Vector3d& query, double di
     double lower = std::numeric_limits<double>::infinity();
     bool settled = true;
     for (const Points& net : item.part.nets) {
-      const NetDistance part(basis, net, query);
+      const NetDistance part(basis, net, query, rounding);
       const Eigen::Vector3d towards = (net.colwise().mean().transpose() - query).normalized();
       double least = part.lower(towards);
       if (least < enough)
-        if (const std::optional<ConvexMinimum> minimum = part.convex_minimum(size)) {
+        if (const std::optional<ConvexMinimum> minimum = part.convex_minimum()) {
           least = std::max(least, minimum->lower);
           if (least < enough && minimum->at < enough && item.placed && item.part.nets.size() == 1) {
             const auto [u, v] = at_place(corners, basis.total(), minimum->uv[0], minimum->uv[1]);
-            return {0, Sample{item.address, std::clamp(u, 0.0, 1.0), std::clamp(v, 0.0, 1.0)}};
+            double so_far = std::min(proved.lower, std::max(least, nearest.lower));
+            if (!heap.empty()) so_far = std::min(so_far, heap.front().lower);
+            return {std::clamp(so_far, 0.0, distance),
+                    Sample{item.address, std::clamp(u, 0.0, 1.0), std::clamp(v, 0.0, 1.0)}};
           }
         }
       settled &= least >= enough;

@@ -14,8 +14,8 @@
 namespace sublimit {
 
 struct ProvedDistance {
-  double lower = 0;              ///< no point of the surface is nearer
-  std::optional<Sample> closer;  ///< a place that is nearer than was said; then `lower` says nothing
+  double lower = 0;              ///< no point of the surface is nearer; 0: nothing is proved
+  std::optional<Sample> closer;  ///< a place that is nearer than was said; `lower` is what had been proved by then
 };
 
 class DistanceBound {
@@ -26,7 +26,7 @@ class DistanceBound {
   /// @param distance  of the nearest point that is known
   /// @param most      parts to look at; what is left then counts with its box
   /// @param cutter    of the calling thread
-  /// @note  Any thread may ask. Where no piece is a polynomial, hulls are as `PieceType::reach` has seen them.
+  /// @note  Any thread may ask. Where hulls are estimates, as of schemes without polynomials, nothing is proved.
   ProvedDistance operator()(const Eigen::Vector3d& query, double distance, int most, PieceParts& cutter) const;
 
  private:

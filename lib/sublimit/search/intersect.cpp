@@ -87,7 +87,8 @@ class SeenNet {
   /// Of the part of a convex domain: the square, or the triangle.
   /// @param uv  of the zero
   /// @param s   its distance along the ray
-  Zero zero(Eigen::Vector2d& uv, double& s) const {
+  /// @param slack  how far off counts as a hit
+  Zero zero(Eigen::Vector2d& uv, double& s, double slack) const {
     const int d = basis_.degree();
     const bool total = basis_.total();
     std::array<Extent, 4> J;  // derivatives across: au, av, bu, bv
@@ -120,7 +121,9 @@ class SeenNet {
       p = next;
       if (done) break;
     }
-    if (!(move.cwiseAbs().maxCoeff() <= beyond)) return Zero::none;
+    // What the neighbour may miss by as much as rounding moves zeros is taken here too.
+    if (!(move.cwiseAbs().maxCoeff() <= beyond + inverse.cwiseAbs().rowwise().sum().maxCoeff() * slack))
+      return Zero::none;
     uv = p;
     s = jet.x[2];
     return Zero::one;
@@ -151,6 +154,7 @@ class Tracer {
   std::vector<Hit> operator()(const Ray& ray, std::int64_t& undecided) {
     ray_ = &ray;
     frame_.emplace(ray);
+    slack_ = same_place * parts_.size() + 8 * parts_.rounding(ray.origin);
     hits_.clear();
     heap_.clear();
     cells_.clear();
@@ -195,7 +199,7 @@ class Tracer {
   };
 
   void push(const Eigen::AlignedBox3d& box, Index node, std::int64_t number) {
-    const std::optional<Extent> t = along(box, *ray_, same_place * parts_.size());
+    const std::optional<Extent> t = along(box, *ray_, slack_);
     if (!t) return;
     heap_.push_back({t->low, node, number});
     std::push_heap(heap_.begin(), heap_.end());
@@ -203,14 +207,14 @@ class Tracer {
 
   void look_at(const SurfacePart& cell) {
     const PiecePart& part = cell.part;
-    const double slack = same_place * parts_.size();
+    const double slack = slack_;
     bool known = part.polynomial != nullptr;
     for (size_t half = 0; half < part.nets.size(); ++half) {
       const SeenNet net(part.polynomial->basis, frame_->seen(part.nets[half]));
       if (!net.can_be_hit(slack)) continue;
       Eigen::Vector2d uv;
       double s = 0;
-      const SeenNet::Zero zero = net.zero(uv, s);
+      const SeenNet::Zero zero = net.zero(uv, s, slack);
       if (zero == SeenNet::Zero::unknown) {
         known = false;
         break;
@@ -240,7 +244,7 @@ class Tracer {
     if (!(t >= ray_->tmin && t <= ray_->tmax)) return;
     hits_.push_back(
         {t, {cell.address, std::clamp(u, 0.0, 1.0), std::clamp(v, 0.0, triangle ? 1 - std::clamp(u, 0.0, 1.0) : 1.0)}});
-    nearest_ = std::min(nearest_, t + same_place * parts_.size() / frame_->length);
+    nearest_ = std::min(nearest_, t + slack_ / frame_->length);
   }
 
   /// By t; what several parts have is one hit, of the least face.
@@ -248,7 +252,7 @@ class Tracer {
     std::sort(hits_.begin(), hits_.end(), [](const Hit& a, const Hit& b) {
       return std::tuple(a.t, a.place.face, a.place.u, a.place.v) < std::tuple(b.t, b.place.face, b.place.u, b.place.v);
     });
-    const double apart = 100 * same_place * parts_.size() / frame_->length;
+    const double apart = 100 * slack_ / frame_->length;
     std::vector<Hit> result;
     for (const Hit& hit : hits_) {
       if (!result.empty() && hit.t - result.back().t <= apart) {
@@ -271,6 +275,7 @@ class Tracer {
   std::vector<SurfacePart> cells_;
   std::int64_t undecided_ = 0;
   double nearest_ = 0;
+  double slack_ = 0;  // how far off a ray counts as a hit
 };
 
 void check(const std::vector<Ray>& rays) {

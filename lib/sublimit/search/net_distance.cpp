@@ -33,8 +33,8 @@ Interval dot(const Box& a, const Box& b) {
 
 }  // namespace
 
-NetDistance::NetDistance(const PolynomialBasis& basis, const Points& net, const Eigen::Vector3d& query)
-    : basis_(basis), net_(net.rowwise() - query.transpose()) {}
+NetDistance::NetDistance(const PolynomialBasis& basis, const Points& net, const Eigen::Vector3d& query, double rounding)
+    : basis_(basis), net_(net.rowwise() - query.transpose()), rounding_(rounding) {}
 
 double NetDistance::lower(const Eigen::Vector3d& towards) const {
   Box box;
@@ -44,10 +44,10 @@ double NetDistance::lower(const Eigen::Vector3d& towards) const {
     box.extend(b);
     along = std::min(along, b.dot(towards));
   }
-  return std::max(box.exteriorDistance(Eigen::Vector3d(Eigen::Vector3d::Zero())), along);
+  return std::max(box.exteriorDistance(Eigen::Vector3d(Eigen::Vector3d::Zero())), along) - rounding_;
 }
 
-std::optional<ConvexMinimum> NetDistance::convex_minimum(double size) const {
+std::optional<ConvexMinimum> NetDistance::convex_minimum() const {
   const int d = basis_.degree();
   const bool total = basis_.total();
   Box x, u, v, uu, uv, vv;
@@ -105,8 +105,7 @@ std::optional<ConvexMinimum> NetDistance::convex_minimum(double size) const {
     }
     p = next;
   }
-  // Values are rounded as the points are.
-  best.lower = std::max(0.0, std::sqrt(std::max(0.0, 2 * most)) - 1e-14 * size);
+  best.lower = std::max(0.0, std::sqrt(std::max(0.0, 2 * most)) - rounding_);
   return best;
 }
 

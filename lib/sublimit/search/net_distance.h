@@ -16,17 +16,18 @@ struct ConvexMinimum {
 
 class NetDistance {
  public:
-  NetDistance(const PolynomialBasis& basis, const Points& net, const Eigen::Vector3d& query);
+  /// @param rounding  of differences of coefficients and q
+  NetDistance(const PolynomialBasis& basis, const Points& net, const Eigen::Vector3d& query, double rounding);
   /// Of the hull from q.
   /// @param towards  a unit vector: the bound is close if it points from q to the nearest place
   double lower(const Eigen::Vector3d& towards) const;
   /// Nothing where intervals do not show that there is one minimum.
-  /// @param size  of the surface, which rounding is a part of
-  std::optional<ConvexMinimum> convex_minimum(double size) const;
+  std::optional<ConvexMinimum> convex_minimum() const;
 
  private:
   const PolynomialBasis& basis_;
   Points net_;  // less q
+  double rounding_;
 };
 
 }  // namespace sublimit

@@ -47,6 +47,12 @@ SurfaceParts::SurfaceParts(const LimitSurface& surface, const Points& points) {
   boxes.reserve(parts_.size());
   for (const SurfacePart& part : parts_) boxes.push_back(box_of(part.part));
   tree_ = BoxTree(boxes);
+  if (!tree_.nodes().empty()) {
+    const Eigen::AlignedBox3d& all = tree_.nodes()[0].box;
+    largest_ = std::max(all.min().cwiseAbs().maxCoeff(), all.max().cwiseAbs().maxCoeff());
+  }
+  certain_ =
+      std::ranges::all_of(parts_, [](const SurfacePart& p) { return p.part.polynomial || p.part.type->reach() == 0; });
 }
 
 }  // namespace sublimit

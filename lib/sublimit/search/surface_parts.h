@@ -4,6 +4,7 @@
 // points that they depend on. What branch and bound begins with.
 #include <Eigen/Geometry>
 
+#include <algorithm>
 #include <vector>
 
 #include "sublimit/limit/piece_parts.h"
@@ -57,10 +58,19 @@ class SurfaceParts {
   const BoxTree& tree() const { return tree_; }
   /// The diagonal of all of it.
   double size() const { return tree_.nodes().empty() ? 0 : tree_.nodes()[0].box.diagonal().norm(); }
+  /// How far rounding may move differences of the surface and a point: by the coordinates of both, however small these
+  /// differences are, with room for sums of some dozen terms.
+  double rounding(const Eigen::Vector3d& point) const {
+    return 1e-14 * (size() + std::max(largest_, point.cwiseAbs().maxCoeff()));
+  }
+  /// Hulls hold what they say: no weight that a part's own points have is negative, which makes them estimates.
+  bool are_certain() const { return certain_; }
 
  private:
   std::vector<SurfacePart> parts_;
   BoxTree tree_;
+  double largest_ = 0;  // coordinate
+  bool certain_ = true;
 };
 
 }  // namespace sublimit

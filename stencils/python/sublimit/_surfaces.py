@@ -133,7 +133,8 @@ class ClosestPoints:
     points : (n, 3)
     normals : (n, 3), there; zero where there is none
     distance : (n,), from the points given
-    lower : (n,), the surface is not nearer, as is proved: the distance but for rounding, unless the search was cut short
+    lower : (n,), the surface is not nearer, as is proved: the distance but for rounding, less where the proof was cut short; 0 where
+        nothing is proved, as of schemes without polynomials
     status : (n,), numbers; ``Samples.statuses[number]`` is the word
     """
 

@@ -207,6 +207,8 @@ TEST(ClosestPoints, SayWhatIsWrong) {
   EXPECT_EQ(closest_points(surface, mesh.positions, Points(0, 3)).places.size(), 0u);
   q(2, 1) = std::numeric_limits<double>::infinity();
   expect_error<InvalidParameter>([&] { closest_points(surface, mesh.positions, q); }, {"point 2", "finite"});
+  q(2, 1) = -1e151;
+  expect_error<InvalidParameter>([&] { closest_points(surface, mesh.positions, q); }, {"point 2", "1e150"});
   expect_error<InvalidParameter>([&] { closest_points(surface, mesh.positions, Points::Zero(1, 2)); }, {"2", "3"});
   expect_error<InvalidParameter>([&] { closest_points(surface, Points::Zero(7, 3), Points::Zero(1, 3)); }, {"vertex"});
   const std::vector<Sample> guess{{0, 0, 2}};

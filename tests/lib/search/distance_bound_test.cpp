@@ -55,6 +55,34 @@ TEST(DistanceBound, IsNeverAboveTheDistance) {
   }
 }
 
+// Far from the origin coordinates have fewer digits than the surface needs: bounds give way by as much, and no more.
+TEST(DistanceBound, HoldsFarFromTheOrigin) {
+  const ControlMesh mesh = cube();
+  const Scheme<double> scheme = *find_scheme<double>("catmull-clark");
+  for (const double offset : {0.0, 1e2, 1e4, 1e6, 1e8}) {
+    ControlMesh moved = mesh;
+    moved.positions.array() += offset;
+    const Points q = random_points(mesh, 500, 6).array() + offset;
+    const ClosestPoints found = closest_points(LimitSurface(scheme, moved), moved.positions, q);
+    // Back again: differences of near numbers are exact.
+    const Points back = q.array() - offset;
+    const Eigen::VectorXd exact = closest_points(LimitSurface(scheme, mesh), mesh.positions, back).distances;
+    const double digits = 1e-14 * (4 + offset);
+    for (Eigen::Index i = 0; i < q.rows(); ++i) {
+      EXPECT_LE(found.lower[i], exact[i] + 1e-15) << offset << " " << i;
+      EXPECT_GE(found.lower[i], exact[i] - 4e-12 - 100 * digits) << offset << " " << i;
+    }
+  }
+}
+
+// Where hulls are estimated nothing is proved.
+TEST(DistanceBound, ProvesNothingByEstimates) {
+  const ControlMesh mesh = octahedron();
+  const LimitSurface surface(*find_scheme<double>("butterfly"), mesh);
+  const ClosestPoints found = closest_points(surface, mesh.positions, random_points(mesh, 3, 7));
+  EXPECT_EQ(found.lower.maxCoeff(), 0);
+}
+
 TEST(DistanceBound, FindsWhatIsNearer) {
   const Scheme<double> scheme = *find_scheme<double>("catmull-clark");
   const ControlMesh mesh = torus(7, 5);
@@ -79,19 +107,20 @@ TEST(NetDistance, KnowsWhereADistanceIsConvex) {
       const auto square = [&](int k) { return k == 0 ? low * low : k == 1 ? low * high : high * high; };
       net.row(net_row(basis, i, j)) << linear(i), linear(j), square(i) + square(j);
     }
-  const NetDistance near_one(basis, net, {0, 0, 0.2});
-  const auto found = near_one.convex_minimum(1);
+  const NetDistance near_one(basis, net, {0, 0, 0.2}, 1e-14);
+  const auto found = near_one.convex_minimum();
   ASSERT_TRUE(found);
   EXPECT_NEAR(found->lower, 0.2, 2e-14);
   EXPECT_NEAR(found->at, 0.2, 1e-15);
   EXPECT_NEAR(found->uv[0], 0.5, 1e-8);
-  EXPECT_FALSE(NetDistance(basis, net, {0, 0, 0.6}).convex_minimum(1));  // the foot is a saddle or a maximum there
-  const auto corner = NetDistance(basis, net, {1, 1, 0}).convex_minimum(1);
+  EXPECT_FALSE(
+      NetDistance(basis, net, {0, 0, 0.6}, 1e-14).convex_minimum());  // the foot is a saddle or a maximum there
+  const auto corner = NetDistance(basis, net, {1, 1, 0}, 1e-14).convex_minimum();
   ASSERT_TRUE(corner);
   EXPECT_NEAR(corner->at, std::sqrt(2 * 0.81 + 0.02 * 0.02), 1e-14);
   EXPECT_NEAR(corner->lower, corner->at, 2e-14);
   EXPECT_LE(near_one.lower({0, 0, -1}), 0.2);
-  EXPECT_NEAR(NetDistance(basis, net, {0, 0, -3}).lower({0, 0, 1}), 3 - 0.02, 1e-14);  // the middle coefficient
+  EXPECT_NEAR(NetDistance(basis, net, {0, 0, -3}, 0).lower({0, 0, 1}), 3 - 0.02, 1e-14);  // the middle coefficient
 }
 
 }  // namespace

@@ -141,6 +141,30 @@ TEST(Intersect, RaysThroughEdgesAndVerticesHitOnce) {
   }
 }
 
+// Far from the origin as near it: in and out in turn, and through edges once.
+TEST(Intersect, MissesNothingFarFromTheOrigin) {
+  for (const double offset : {1e3, 1e6}) {
+    ControlMesh mesh = jittered(prism(5));
+    std::vector<Ray> rays = random_rays(mesh, 300, 8);
+    mesh.positions.array() += offset;
+    for (Ray& ray : rays) ray.origin.array() += offset;
+    const LimitSurface surface(find_scheme("catmull-clark").value(), mesh);
+    const RayHits hits = intersect(surface, mesh.positions, rays, {.all = true});
+    for (size_t i = 0; i < rays.size(); ++i)
+      EXPECT_EQ((hits.first[i + 1] - hits.first[i]) % 2, 0) << offset << " " << i;
+    std::vector<Sample> at;
+    for (Index f = 0; f < surface.faces().size; ++f)
+      for (const auto& [u, v] : std::vector<std::pair<double, double>>{{0, 0}, {0.5, 0}, {0.3, 0}, {0, 0.7}, {1, 1}})
+        at.push_back({f, u, v});
+    const LimitSamples s = surface.evaluate(mesh.positions, at, 1);
+    std::vector<Ray> down;
+    for (Eigen::Index i = 0; i < s.position.rows(); ++i)
+      down.push_back({Eigen::Vector3d(s.position.row(i) + 0.01 * s.normal.row(i)), -s.normal.row(i), 0, 0.02});
+    const RayHits edges = intersect(surface, mesh.positions, down, {.all = true});
+    for (size_t i = 0; i < down.size(); ++i) EXPECT_EQ(edges.first[i + 1] - edges.first[i], 1) << offset << " " << i;
+  }
+}
+
 TEST(Intersect, NearestIsTheFirstOfAll) {
   const ControlMesh mesh = torus(7, 5);
   const LimitSurface surface(find_scheme("catmull-clark").value(), mesh);
