@@ -41,6 +41,12 @@ inline constexpr double third_derivative = 1e-9;
 /// distances then, and control points, which some of the distances hardly see.
 inline constexpr double found_again = 1e-10, found_control_points = 1e-7;
 
+/// Distances and parameters of rays, relative to the size of the surface: what a search stops at, and how it grows
+/// where rays come at an angle.
+inline constexpr double found_hit = 1e-10;
+/// Distances from a search that stops at 1e-12 of the surface's size.
+inline constexpr double found_distance = 1e-12;
+
 inline double diagonal(const Points& points) {
   if (points.rows() == 0) return 0;
   return (points.colwise().maxCoeff() - points.colwise().minCoeff()).norm();

@@ -49,9 +49,7 @@ std::vector<Eigen::AlignedBox3d> LimitSurface::bounding_boxes(const Points& poin
       parts.num_pieces(),
       [&](std::int64_t, std::int64_t begin, std::int64_t end) {
         for (std::int64_t i = begin; i < end; ++i) {
-          const std::int64_t first = pieces.first[i], count = pieces.first[i + 1] - first;
-          Points local(count, 3);
-          for (std::int64_t j = 0; j < count; ++j) local.row(j) = x.row(pieces.vertices[first + j]);
+          const Points local = pieces.points_of(Index(i), x);
           boxes.extend(of_piece[i], *pieces.types[i], local, depth);
           // The hull is rounded as points of the surface are.
           const Eigen::Vector3d size = of_piece[i].min().cwiseAbs().cwiseMax(of_piece[i].max().cwiseAbs());

@@ -247,9 +247,7 @@ std::vector<LimitCell> limit_cells(const LimitSurface& surface, const Points& po
               known[parts.number(s, target)].push_back({s, target.place});
             }
           for (const auto& [piece, places] : known) {
-            const std::int64_t first = pieces.first[size_t(piece)], size = pieces.first[size_t(piece) + 1] - first;
-            Points local(size, 3);
-            for (std::int64_t j = 0; j < size; ++j) local.row(j) = x.row(pieces.vertices[size_t(first + j)]);
+            const Points local = pieces.points_of(piece, x);
             cutter.cut(*pieces.types[size_t(piece)], local, places, int(known.size()));
           }
         }

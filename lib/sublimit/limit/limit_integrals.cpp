@@ -169,9 +169,8 @@ class Integrator {
       return;
     }
     if (++visited_ > most_pieces)
-      throw AnalysisError(
-          type.types().scheme().name +
-          ": along borders or creases of this mesh the limit has no polynomial pieces, and integrals are "
+      throw UnsupportedTopology(
+          "along borders or creases of this mesh this scheme's limit has no polynomial pieces, and integrals are "
           "known of those alone; catmull-clark, loop and doo-sabin have them there");
     // Those that another child is as well have a line of this piece's square only.
     for (const PieceLink& link : type.children())
@@ -276,9 +275,7 @@ Sums sums_over(const LimitSurface& surface, const Points& points) {
         Integrator integrator(rules);
         for (std::int64_t i = begin; i < end; ++i) {
           if (parts.sides(parts.piece(Index(i))) & LimitSurface::Parts::hole) continue;
-          const std::int64_t first = pieces.first[size_t(i)], count = pieces.first[size_t(i) + 1] - first;
-          Points local(count, 3);
-          for (std::int64_t j = 0; j < count; ++j) local.row(j) = x.row(pieces.vertices[size_t(first + j)]);
+          const Points local = pieces.points_of(Index(i), x);
           blocks[size_t(block)] += integrator.piece(*pieces.types[size_t(i)], local);
         }
       },

@@ -44,7 +44,7 @@ struct LimitIntegrals {
 /// @return  the same bits for any number of threads
 /// @throws InvalidParameter  points that do not fit, or are not finite
 /// @throws InvalidOption     a scheme whose limit has no polynomial pieces (butterfly, sqrt3, kobbelt)
-/// @throws AnalysisError     no polynomial pieces along borders or creases (mid-edge, averaging of degrees above 3)
+/// @throws UnsupportedTopology  no polynomial pieces along borders or creases (mid-edge, averaging of degrees above 3)
 LimitIntegrals limit_integrals(const LimitSurface& surface, const Points& points);
 
 }  // namespace sublimit

@@ -111,6 +111,14 @@ struct LimitSurface::Parts {
     std::vector<Index> vertices;
     std::vector<const PatchTree*> trees;
     std::unordered_map<const PieceType*, std::unique_ptr<const PatchTree>> tree_of;
+
+    /// Rows of `x`, by the slots of a piece's type.
+    Points points_of(Index piece, const Points& x) const {
+      const std::int64_t begin = first[size_t(piece)];
+      Points local(first[size_t(piece) + 1] - begin, x.cols());
+      for (Eigen::Index j = 0; j < local.rows(); ++j) local.row(j) = x.row(vertices[size_t(begin + j)]);
+      return local;
+    }
   };
   const Pieces& pieces() const;
   Index num_pieces() const {

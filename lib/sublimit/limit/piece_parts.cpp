@@ -128,7 +128,6 @@ AddressPieces::AddressPieces(const LimitSurface& surface, const Points& points)
 }
 
 bool AddressPieces::has_no_polynomials() const { return parts_.types->pieces().has_no_polynomials(); }
-const std::string& AddressPieces::scheme() const { return parts_.scheme.name; }
 
 void AddressPieces::visit(Index address, const VisitPiece& visit) const {
   const LimitSurface::Parts::Pieces& pieces = parts_.pieces();
@@ -145,9 +144,7 @@ void AddressPieces::visit(Index address, const VisitPiece& visit) const {
       if (std::ranges::find(done, piece) != done.end()) continue;
       done[count++] = piece;
       const CellCorners whole = whole_cell(triangles);
-      const std::int64_t first = pieces.first[size_t(piece)], size = pieces.first[size_t(piece) + 1] - first;
-      Points local(size, 3);
-      for (std::int64_t j = 0; j < size; ++j) local.row(j) = points_.row(pieces.vertices[size_t(first + j)]);
+      const Points local = pieces.points_of(piece, points_);
       visit(*pieces.types[size_t(piece)], local, target.map ? *child_of(whole, *target.map, triangles) : whole);
     }
 }

@@ -91,7 +91,6 @@ class AddressPieces {
   AddressPieces(const LimitSurface& surface, const Points& points);
   void visit(Index address, const VisitPiece& visit) const;
   bool has_no_polynomials() const;
-  const std::string& scheme() const;
 
  private:
   const LimitSurface::Parts& parts_;

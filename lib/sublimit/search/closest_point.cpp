@@ -9,10 +9,10 @@
 
 #include "sublimit/base/error.h"
 #include "sublimit/base/parallel_for.h"
+#include "sublimit/limit/limit_cells.h"
 #include "sublimit/search/box_tree.h"
 #include "sublimit/search/distance_bound.h"
 #include "sublimit/search/foot_point.h"
-#include "sublimit/limit/limit_cells.h"
 
 namespace sublimit {
 namespace {
@@ -92,22 +92,19 @@ struct Search {
 void check(const LimitSurface& surface, const Points& queries, std::span<const Sample> guess) {
   if (queries.cols() != 3)
     throw InvalidParameter("points to project have " + std::to_string(queries.cols()) + " coordinates, not 3");
-  for (Eigen::Index i = 0; i < queries.rows(); ++i)
-    if (!queries.row(i).allFinite()) throw InvalidParameter("point " + std::to_string(i) + " to project is not finite");
-  constexpr double farthest = 1e150;  // squares of distances are still numbers
-  for (Eigen::Index i = 0; i < queries.rows(); ++i)
-    if (queries.row(i).cwiseAbs().maxCoeff() > farthest)
-      throw InvalidParameter("point " + std::to_string(i) + " to project has a coordinate above 1e150 in size");
+  for (Eigen::Index i = 0; i < queries.rows(); ++i) {
+    const double largest = queries.row(i).cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
+    if (largest <= farthest_coordinate) continue;
+    throw InvalidParameter("point " + std::to_string(i) + " to project " +
+                           (std::isfinite(largest) ? "has a coordinate above 1e150 in size" : "is not finite"));
+  }
   if (!guess.empty() && guess.size() != size_t(queries.rows()))
     throw InvalidParameter(std::to_string(guess.size()) + " places to begin with for " +
                            std::to_string(queries.rows()) + " points; one each, or none");
-  for (const Sample& s : guess) {
-    const bool inside =
-        s.u >= 0 && s.v >= 0 && (surface.addresses().triangles() ? s.u + s.v <= 1 : s.u <= 1 && s.v <= 1);
-    if (s.face < 0 || s.face >= surface.addresses().size() || !inside)
+  for (const Sample& s : guess)
+    if (!is_inside(surface.addresses(), s))
       throw InvalidParameter("a place to begin with is on no face: face " + std::to_string(s.face) + " (" +
                              std::to_string(s.u) + ", " + std::to_string(s.v) + ")");
-  }
 }
 
 }  // namespace

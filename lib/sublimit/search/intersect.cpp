@@ -13,7 +13,8 @@
 
 #include "sublimit/base/error.h"
 #include "sublimit/base/parallel_for.h"
-#include "sublimit/search/net_jet.h"
+#include "sublimit/limit/net_derivatives.h"
+#include "sublimit/search/closest_point.h"
 #include "sublimit/search/surface_parts.h"
 
 namespace sublimit {
@@ -37,7 +38,7 @@ struct Frame {
   Eigen::Vector3d origin;
   Eigen::Matrix3d axes;  ///< rows
   double length = 1;     ///< of the direction
-  explicit Frame(const Ray& ray) : origin(ray.origin), length(ray.direction.norm()) {
+  explicit Frame(const Ray& ray) : origin(ray.origin), length(ray.direction.stableNorm()) {
     const Eigen::Vector3d d = ray.direction / length;
     Eigen::Index least = 0;
     d.cwiseAbs().minCoeff(&least);
@@ -89,32 +90,23 @@ class SeenNet {
   /// @param s   its distance along the ray
   /// @param slack  how far off counts as a hit
   Zero zero(Eigen::Vector2d& uv, double& s, double slack) const {
-    const int d = basis_.degree();
-    const bool total = basis_.total();
-    std::array<Extent, 4> J;  // derivatives across: au, av, bu, bv
-    J.fill({std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()});
-    const auto extend = [](Extent& i, double x) { i = {std::min(i.low, x), std::max(i.high, x)}; };
-    for_each_net_row(basis_, [&](int i, int j, Eigen::Index row) {
-      const int room_u = total ? d - i - j : d - i, room_v = total ? d - i - j : d - j;
-      for (Eigen::Index k = 0; k < 2; ++k) {
-        if (room_u >= 1) extend(J[size_t(2 * k)], d * (net_(net_row(basis_, i + 1, j), k) - net_(row, k)));
-        if (room_v >= 1) extend(J[size_t(2 * k + 1)], d * (net_(net_row(basis_, i, j + 1), k) - net_(row, k)));
-      }
-    });
+    const NetDerivatives x(basis_, net_, 1);
     Eigen::Matrix2d middle, radius;
-    for (int k = 0; k < 4; ++k) {
-      middle(k / 2, k % 2) = (J[size_t(k)].low + J[size_t(k)].high) / 2;
-      radius(k / 2, k % 2) = (J[size_t(k)].high - J[size_t(k)].low) / 2;
+    for (int by = 0; by < 2; ++by) {  // columns: derivatives across the ray, by u and by v
+      const Points& net = x.net(1 - by, by);
+      const Eigen::Vector2d low = net.leftCols<2>().colwise().minCoeff(), high = net.leftCols<2>().colwise().maxCoeff();
+      middle.col(by) = (low + high) / 2;
+      radius.col(by) = (high - low) / 2;
     }
     if (!(std::abs(middle.determinant()) > 1e-12 * middle.squaredNorm())) return Zero::unknown;
     const Eigen::Matrix2d inverse = middle.inverse();
     // At most that much of the distance to a zero is left after a step by the inverse of the middle, and going back to
     // the nearest place of the domain adds nothing.
     if (!((inverse.cwiseAbs() * radius).norm() < 0.5)) return Zero::unknown;
-    Eigen::Vector2d p = total ? Eigen::Vector2d(1. / 3, 1. / 3) : Eigen::Vector2d(0.5, 0.5), move;
-    NetJet jet;
+    Eigen::Vector2d p = basis_.total() ? Eigen::Vector2d(1. / 3, 1. / 3) : Eigen::Vector2d(0.5, 0.5), move;
+    NetDerivatives::Jet jet;
     for (int step = 0; step < 64; ++step) {
-      jet = net_jet(basis_, net_, p.x(), p.y());
+      jet = x.at(p.x(), p.y());
       move = inverse * jet.x.head<2>();
       const Eigen::Vector2d next = nearest_inside(p - move);
       const bool done = (next - p).cwiseAbs().maxCoeff() < 1e-16;
@@ -244,18 +236,20 @@ class Tracer {
     if (!(t >= ray_->tmin && t <= ray_->tmax)) return;
     hits_.push_back(
         {t, {cell.address, std::clamp(u, 0.0, 1.0), std::clamp(v, 0.0, triangle ? 1 - std::clamp(u, 0.0, 1.0) : 1.0)}});
-    nearest_ = std::min(nearest_, t + slack_ / frame_->length);
+    nearest_ = std::min(nearest_, t + apart());  // what counts as the same hit has to be found too
   }
+
+  /// Hits that are nearer to each other along the ray are one.
+  double apart() const { return 100 * slack_ / frame_->length; }
 
   /// By t; what several parts have is one hit, of the least face.
   std::vector<Hit> merged() {
     std::sort(hits_.begin(), hits_.end(), [](const Hit& a, const Hit& b) {
       return std::tuple(a.t, a.place.face, a.place.u, a.place.v) < std::tuple(b.t, b.place.face, b.place.u, b.place.v);
     });
-    const double apart = 100 * slack_ / frame_->length;
     std::vector<Hit> result;
     for (const Hit& hit : hits_) {
-      if (!result.empty() && hit.t - result.back().t <= apart) {
+      if (!result.empty() && hit.t - result.back().t <= apart()) {
         if (hit.place.face < result.back().place.face) result.back().place = hit.place;
         continue;
       }
@@ -278,13 +272,39 @@ class Tracer {
   double slack_ = 0;  // how far off a ray counts as a hit
 };
 
+/// Points of the surface at the places of hits. Where corners of parts are not known (next to borders of dual schemes)
+/// or have too few digits (at extraordinary vertices) these are not the hits: there the places are those nearest to
+/// them.
+void place_on_rays(const LimitSurface& surface, const Points& points, const std::vector<Ray>& rays,
+                   const SurfaceParts& parts, RayHits& hits) {
+  LimitSamples samples = surface.evaluate(points, hits.places, 1);
+  Points on_rays(std::ssize(hits.t), 3);
+  std::vector<Eigen::Index> off;
+  for (size_t i = 0; i < rays.size(); ++i)
+    for (std::int64_t k = hits.first[i]; k < hits.first[i + 1]; ++k) {
+      on_rays.row(k) = rays[i].origin + hits.t[size_t(k)] * rays[i].direction;
+      const double allowed = 10 * (same_place * parts.size() + 8 * parts.rounding(rays[i].origin));
+      if (!((samples.position.row(k) - on_rays.row(k)).norm() <= allowed)) off.push_back(k);
+    }
+  if (!off.empty()) {
+    const ClosestPoints found = closest_points(surface, points, on_rays(off, Eigen::all), {.prove = false});
+    for (size_t m = 0; m < off.size(); ++m) hits.places[size_t(off[m])] = found.places[m];
+    samples = surface.evaluate(points, hits.places, 1);
+  }
+  hits.points.swap(samples.position);
+  hits.normals.swap(samples.normal);
+  hits.status = std::move(samples.status);
+}
+
 void check(const std::vector<Ray>& rays) {
   for (size_t i = 0; i < rays.size(); ++i) {
     const Ray& r = rays[i];
     const std::string which = "ray " + std::to_string(i);
     if (!r.origin.allFinite() || !r.direction.allFinite() || std::isnan(r.tmin) || std::isnan(r.tmax))
       throw InvalidParameter(which + " is not finite");
-    if (!(r.direction.norm() > 0)) throw InvalidParameter(which + " has the direction (0, 0, 0)");
+    if (r.origin.cwiseAbs().maxCoeff() > farthest_coordinate)
+      throw InvalidParameter(which + " begins at a coordinate above 1e150 in size");
+    if (r.direction.isZero(0)) throw InvalidParameter(which + " has the direction (0, 0, 0)");
     if (r.tmin > r.tmax)
       throw InvalidParameter(which + " ends at t = " + std::to_string(r.tmax) + ", before it begins");
   }
@@ -314,10 +334,7 @@ RayHits intersect(const LimitSurface& surface, const Points& points, const std::
     }
     result.first.push_back(std::ssize(result.t));
   }
-  LimitSamples samples = surface.evaluate(points, result.places, 1);
-  result.points.swap(samples.position);
-  result.normals.swap(samples.normal);
-  result.status = std::move(samples.status);
+  place_on_rays(surface, points, rays, parts, result);
   return result;
 }
 

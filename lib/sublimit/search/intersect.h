@@ -27,8 +27,8 @@ struct RayHits {
   std::vector<Sample> places;
   Points points, normals;  ///< of the surface there, #hits x 3; normals zero where undefined
   std::vector<LimitStatus> status;
-  /// Not decided: parts that touch a ray, or are touched by it, so closely that they were cut to points, or were left
-  /// after `RayOptions::most_parts`; they count as hits where their middle is on the ray.
+  /// Not decided: parts that a ray touches, or extraordinary vertices that it meets, which were cut to points and count
+  /// as hits where their middle is on the ray; and parts that were left after `RayOptions::most_parts`, which do not.
   std::vector<std::int64_t> undecided;  ///< how many, by ray
 };
 
@@ -37,8 +37,8 @@ struct RayOptions {
   int most_parts = 20000;  ///< to look at for one ray
 };
 
-/// Holes left out. Equal input, equal answer, whatever the number of threads. Where no piece is a polynomial, hulls are
-/// as `PieceType::reach` has seen them, and a hit may be missed that they do not hold.
+/// Holes left out. Equal input, equal answer, whatever the number of threads. Where hulls are estimates
+/// (`SurfaceParts::are_certain`), as of schemes without polynomials, a hit may be missed that they do not hold.
 /// @param points  of the surface's level, #V x 3
 /// @throws InvalidParameter  points that do not fit; a ray that is not finite, has no direction, or ends before it
 /// begins:

@@ -7,8 +7,6 @@
 #include <cmath>
 #include <limits>
 
-#include "sublimit/search/net_jet.h"
-
 namespace sublimit {
 namespace {
 
@@ -18,6 +16,12 @@ struct Interval {
   double low = 0, high = 0;
 };
 Interval operator+(const Interval& a, const Interval& b) { return {a.low + b.low, a.high + b.high}; }
+
+Box box_of(const Points& net) {
+  Box box;
+  for (Eigen::Index i = 0; i < net.rows(); ++i) box.extend(Eigen::Vector3d(net.row(i)));
+  return box;
+}
 
 /// Scalar products of vectors in two boxes; of one with itself, if they are the same box.
 Interval dot(const Box& a, const Box& b) {
@@ -34,52 +38,36 @@ Interval dot(const Box& a, const Box& b) {
 }  // namespace
 
 NetDistance::NetDistance(const PolynomialBasis& basis, const Points& net, const Eigen::Vector3d& query, double rounding)
-    : basis_(basis), net_(net.rowwise() - query.transpose()), rounding_(rounding) {}
+    : total_(basis.total()), net_(basis, net.rowwise() - query.transpose(), 2), rounding_(rounding) {}
 
 double NetDistance::lower(const Eigen::Vector3d& towards) const {
-  Box box;
-  double along = std::numeric_limits<double>::infinity();
-  for (Eigen::Index i = 0; i < net_.rows(); ++i) {
-    const Eigen::Vector3d b = net_.row(i);
-    box.extend(b);
-    along = std::min(along, b.dot(towards));
-  }
-  return std::max(box.exteriorDistance(Eigen::Vector3d(Eigen::Vector3d::Zero())), along) - rounding_;
+  const Points& b = net_.net(0, 0);
+  return std::max(box_of(b).exteriorDistance(Eigen::Vector3d(Eigen::Vector3d::Zero())), (b * towards).minCoeff()) -
+         rounding_;
 }
 
 std::optional<ConvexMinimum> NetDistance::convex_minimum() const {
-  const int d = basis_.degree();
-  const bool total = basis_.total();
-  Box x, u, v, uu, uv, vv;
-  const auto b = [&](int i, int j) { return Eigen::Vector3d(net_.row(net_row(basis_, i, j))); };
-  for_each_net_row(basis_, [&](int i, int j, Eigen::Index) {
-    x.extend(b(i, j));
-    const int room_u = total ? d - i - j : d - i, room_v = total ? d - i - j : d - j;
-    if (room_u >= 1) u.extend(Eigen::Vector3d(d * (b(i + 1, j) - b(i, j))));
-    if (room_v >= 1) v.extend(Eigen::Vector3d(d * (b(i, j + 1) - b(i, j))));
-    const double dd = d * (d - 1);
-    if (room_u >= 2) uu.extend(Eigen::Vector3d(dd * (b(i + 2, j) - 2 * b(i + 1, j) + b(i, j))));
-    if (room_v >= 2) vv.extend(Eigen::Vector3d(dd * (b(i, j + 2) - 2 * b(i, j + 1) + b(i, j))));
-    if (total ? room_u >= 2 : room_u >= 1 && room_v >= 1)
-      uv.extend(Eigen::Vector3d((total ? dd : d * d) * (b(i + 1, j + 1) - b(i + 1, j) - b(i, j + 1) + b(i, j))));
-  });
-  const auto product = [&](const Box& second) { return second.isEmpty() ? Interval{} : dot(x, second); };
-  const Interval huu = dot(u, u) + product(uu), hvv = dot(v, v) + product(vv), huv = dot(u, v) + product(uv);
+  const Box x = box_of(net_.net(0, 0)), u = box_of(net_.net(1, 0)), v = box_of(net_.net(0, 1));
+  const auto second = [&](int du, int dv) {
+    const Box box = box_of(net_.net(du, dv));
+    return box.isEmpty() ? Interval{} : dot(x, box);
+  };
+  const Interval huu = dot(u, u) + second(2, 0), hvv = dot(v, v) + second(0, 2), huv = dot(u, v) + second(1, 1);
   const double off = std::max(std::abs(huv.low), std::abs(huv.high));
   if (!(huu.low > 0) || !(hvv.low > 0) || !(huu.low * hvv.low > off * off)) return std::nullopt;
 
   // Newton's method; each step goes to the smallest value of the quadratic model on the square or triangle.
   using Place = Eigen::Vector2d;
-  std::array<Place, 4> corners{Place(0, 0), Place(1, 0), total ? Place(0, 1) : Place(1, 1), Place(0, 1)};
-  const size_t count = total ? 3 : 4;
+  std::array<Place, 4> corners{Place(0, 0), Place(1, 0), total_ ? Place(0, 1) : Place(1, 1), Place(0, 1)};
+  const size_t count = total_ ? 3 : 4;
   const auto inside = [&](const Place& p) {
-    return p.x() >= 0 && p.y() >= 0 && (total ? p.x() + p.y() <= 1 : p.x() <= 1 && p.y() <= 1);
+    return p.x() >= 0 && p.y() >= 0 && (total_ ? p.x() + p.y() <= 1 : p.x() <= 1 && p.y() <= 1);
   };
-  Place p = total ? Place(1. / 3, 1. / 3) : Place(0.5, 0.5);
+  Place p = total_ ? Place(1. / 3, 1. / 3) : Place(0.5, 0.5);
   ConvexMinimum best;
   double most = -std::numeric_limits<double>::infinity();
   for (int step = 0; step < 12; ++step) {
-    const NetJet j = net_jet(basis_, net_, p.x(), p.y());
+    const NetDerivatives::Jet j = net_.at(p.x(), p.y());
     const Eigen::Vector2d g(j.x.dot(j.u), j.x.dot(j.v));
     const double value = j.x.squaredNorm() / 2;
     double below = 0;  // of the tangent plane, on the square or triangle

@@ -3,7 +3,7 @@
 // Bounds on the distance of a point from a polynomial part, by its Bernstein coefficients.
 #include <array>
 
-#include "sublimit/limit/piece_parts.h"
+#include "sublimit/limit/net_derivatives.h"
 
 namespace sublimit {
 
@@ -25,8 +25,8 @@ class NetDistance {
   std::optional<ConvexMinimum> convex_minimum() const;
 
  private:
-  const PolynomialBasis& basis_;
-  Points net_;  // less q
+  bool total_;
+  NetDerivatives net_;  // less q
   double rounding_;
 };
 

@@ -12,39 +12,29 @@
 
 #include "sublimit/base/error.h"
 #include "sublimit/base/parallel_for.h"
+#include "sublimit/limit/net_derivatives.h"
 
 namespace sublimit {
 namespace {
 
+double largest(const Points& net) { return net.rows() > 0 ? net.rowwise().norm().maxCoeff() : 0; }
+
 /// Filip's bound on all of a net.
 double chord_bound(const PolynomialBasis& basis, const Points& net) {
-  const int d = basis.degree();
-  const auto at = [&](int i, int j) { return net.row(net_row(basis, i, j)); };
-  const bool total = basis.total();
-  double uu = 0, uv = 0, vv = 0;
-  for_each_net_row(basis, [&](int i, int j, Eigen::Index) {
-    const int room_u = total ? d - i - j : d - i, room_v = total ? d - i - j : d - j;
-    if (room_u >= 2) uu = std::max(uu, (at(i + 2, j) - 2 * at(i + 1, j) + at(i, j)).norm());
-    if (room_v >= 2) vv = std::max(vv, (at(i, j + 2) - 2 * at(i, j + 1) + at(i, j)).norm());
-    if (total ? room_u >= 2 : room_u >= 1 && room_v >= 1)
-      uv = std::max(uv, (at(i + 1, j + 1) - at(i + 1, j) - at(i, j + 1) + at(i, j)).norm());
-  });
-  return (d * (d - 1) * (uu + vv) + 2 * (total ? d * (d - 1) : d * d) * uv) / 8;
+  const NetDerivatives x(basis, net, 2);
+  return (largest(x.net(2, 0)) + 2 * largest(x.net(1, 1)) + largest(x.net(0, 2))) / 8;
 }
 
 /// Whether normals are nowhere farther apart: they are in the cone of the cross products of derivatives' coefficients.
 bool is_within_angle(const PolynomialBasis& basis, const std::vector<Points>& nets, double angle) {
-  const int d = basis.degree();
   std::vector<Eigen::Vector3d> normals;
   for (const Points& net : nets) {
-    std::vector<Eigen::Vector3d> along_u, along_v;
-    for_each_net_row(basis, [&](int i, int j, Eigen::Index row) {
-      const bool total = basis.total();
-      if (total ? i + j < d : i < d) along_u.push_back(net.row(net_row(basis, i + 1, j)) - net.row(row));
-      if (total ? i + j < d : j < d) along_v.push_back(net.row(net_row(basis, i, j + 1)) - net.row(row));
-    });
-    for (const Eigen::Vector3d& a : along_u)
-      for (const Eigen::Vector3d& b : along_v) normals.push_back(a.cross(b).normalized());
+    const NetDerivatives x(basis, net, 1);
+    for (Eigen::Index i = 0; i < x.net(1, 0).rows(); ++i)
+      for (Eigen::Index j = 0; j < x.net(0, 1).rows(); ++j) {
+        const Eigen::Vector3d u = x.net(1, 0).row(i), v = x.net(0, 1).row(j);
+        normals.push_back(u.cross(v).normalized());
+      }
   }
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   for (const Eigen::Vector3d& n : normals) mean += n;
@@ -83,8 +73,9 @@ Eigen::Matrix3d affine_map(const std::vector<PiecePart>& parts, const CellCorner
 
 class Cutter {
  public:
-  Cutter(const FlatCellOptions& options, std::atomic<std::int64_t>& count, std::vector<FlatCell>& out)
-      : options_(options), count_(count), out_(out) {}
+  /// @param count  of triangles that all cells become at least
+  Cutter(const FlatCellOptions& options, bool triangles, std::atomic<std::int64_t>& count, std::vector<FlatCell>& out)
+      : options_(options), triangles_a_cell_(triangles ? 1 : 2), count_(count), out_(out) {}
 
   void cut(Index address, const PieceType& type, const Points& points, const CellCorners& corners) {
     if (type.polynomial()) {
@@ -98,16 +89,18 @@ class Cutter {
     for (const PieceLink& link : type.children()) {
       const auto child = child_of(corners, link.map, type.kind() == Piece::Kind::triangle);
       if (!child)
-        throw UnsupportedTopology(type.types().scheme().name +
-                                  ": faces next to a border of a dual scheme, or with knot intervals, are not cut into "
-                                  "quarters; `limit -l N` has points of the limit there");
+        throw UnsupportedTopology(
+            "faces next to a border of a dual scheme, or with knot intervals, are not cut into "
+            "quarters; `limit -l N` has points of the limit there");
       cut(address, *link.type, child_points(link, points), *child);
     }
   }
 
  private:
   void add(const FlatCell& cell) {
-    if (++count_ > options_.most) throw ResourceError("");  // told by the caller
+    if ((count_ += triangles_a_cell_) > options_.max_triangles)
+      throw ResourceError("more than " + std::to_string(options_.max_triangles) +
+                          " triangles are needed; allow a larger distance or more triangles");
     out_.push_back(cell);
   }
 
@@ -156,17 +149,20 @@ class Cutter {
                          [&](int i, int j, Eigen::Index row) { extend(part, net.row(row), i / d, j / d); });
       }
       if (part.polynomial) continue;
-      const Eigen::RowVector3d low = part.points.colwise().minCoeff(), high = part.points.colwise().maxCoeff(),
-                               margin = part.type->reach() * (high - low);
+      if (part.type->reach() > 0)
+        throw UnsupportedTopology(
+            "this scheme has negative weights where its limit is no polynomial, so what holds the limit there is an "
+            "estimate, and no distance is proved; `limit -l N` has points of it");
       for (const CellCorner& c : triangle ? std::span<const CellCorner>(triangle_corners) : square_corners) {
-        extend(part, low - margin, c.i, c.j);
-        extend(part, high + margin, c.i, c.j);
+        extend(part, part.points.colwise().minCoeff(), c.i, c.j);
+        extend(part, part.points.colwise().maxCoeff(), c.i, c.j);
       }
     }
     return std::min(by_derivatives, box.isEmpty() ? 0 : box.diagonal().norm());
   }
 
   const FlatCellOptions& options_;
+  int triangles_a_cell_;
   std::atomic<std::int64_t>& count_;
   std::vector<FlatCell>& out_;
   PieceParts parts_;
@@ -175,31 +171,26 @@ class Cutter {
 }  // namespace
 
 std::vector<FlatCell> flat_cells(const LimitSurface& surface, const Points& points, const FlatCellOptions& options) {
-  const AddressPieces pieces(surface, points);
+  // Differences alone count: about one of the points they keep their digits far from the origin.
+  const AddressPieces pieces(surface, points.rows() > 0 ? Points(points.rowwise() - points.row(0)) : points);
   if (pieces.has_no_polynomials())
     throw UnsupportedTopology(
-        pieces.scheme() +
-        ": no piece of its limits is a polynomial, and only polynomials have bounds on second derivatives");
+        "no piece of this scheme's limits is a polynomial, and only polynomials have bounds on second derivatives; "
+        "`limit -l N` has points of the limit");
   constexpr std::int64_t addresses_a_block = 32;
   const Index addresses = surface.addresses().size();
   std::vector<std::vector<FlatCell>> blocks(size_t(num_blocks(addresses, addresses_a_block)));
   std::atomic<std::int64_t> count = 0;
-  try {
-    parallel_for_blocks(
-        addresses,
-        [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
-          Cutter cutter(options, count, blocks[size_t(block)]);
-          for (std::int64_t a = begin; a < end; ++a)
-            pieces.visit(static_cast<Index>(a), [&](const PieceType& type, const Points& local, const CellCorners& c) {
-              cutter.cut(static_cast<Index>(a), type, local, c);
-            });
-        },
-        addresses_a_block);
-  } catch (const ResourceError&) {
-    if (count <= options.most) throw;
-    throw ResourceError("more than " + std::to_string(options.most) +
-                        " cells are needed; allow a larger distance or more triangles");
-  }
+  parallel_for_blocks(
+      addresses,
+      [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
+        Cutter cutter(options, surface.addresses().triangles(), count, blocks[size_t(block)]);
+        for (std::int64_t a = begin; a < end; ++a)
+          pieces.visit(static_cast<Index>(a), [&](const PieceType& type, const Points& local, const CellCorners& c) {
+            cutter.cut(static_cast<Index>(a), type, local, c);
+          });
+      },
+      addresses_a_block);
   std::vector<FlatCell> cells;
   for (std::vector<FlatCell>& block : blocks) cells.insert(cells.end(), block.begin(), block.end());
   return cells;

@@ -21,16 +21,18 @@ struct FlatCell {
 };
 
 struct FlatCellOptions {
-  double chord = 0;             ///< that bounds are to keep below
-  double angle = 0;             ///< that normals in a cell may be apart, in radians; 0: any
-  std::int64_t most = 1 << 24;  ///< cells
+  double chord = 0;                      ///< that bounds are to keep below
+  double angle = 0;                      ///< that normals in a cell may be apart, in radians; 0: any
+  std::int64_t max_triangles = 1 << 24;  ///< that cells become
 };
 
 /// Cells of all of the surface but its holes, in the order of addresses.
 /// @param points  of the level, #V x 3
 /// @throws InvalidParameter     points that do not fit
-/// @throws UnsupportedTopology  pieces that are no polynomials and tend to none, or whose children are no quarters
-/// @throws ResourceError        more than `most` are needed
+/// @throws UnsupportedTopology  a scheme without polynomial pieces, or with negative weights around other ones, whose
+/// hulls are
+///                              estimates; pieces whose children are no quarters
+/// @throws ResourceError        more triangles than allowed
 std::vector<FlatCell> flat_cells(const LimitSurface& surface, const Points& points, const FlatCellOptions& options);
 
 }  // namespace sublimit

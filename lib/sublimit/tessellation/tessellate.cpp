@@ -90,16 +90,14 @@ void triangulate(std::vector<PolygonCorner>& polygon, const Points& points, cons
   const auto at = [&](size_t k) { return Eigen::Vector3d(points.row(polygon[k].vertex)); };
   while (polygon.size() > 3) {
     const size_t n = polygon.size();
+    std::int64_t area = 0;
+    for (size_t m = 1; m + 1 < n; ++m) area += twice_area(polygon[0].at, polygon[m].at, polygon[m + 1].at);
     size_t best = n;
     double most = -1;
     for (size_t k = 0; k < n; ++k) {
       const size_t before = (k + n - 1) % n, after = (k + 1) % n;
-      if (twice_area(polygon[before].at, polygon[k].at, polygon[after].at) <= 0) continue;
-      // What is left must not be a line.
-      std::int64_t rest = 0;
-      for (size_t m = 2; m + 1 < n; ++m)
-        rest += twice_area(polygon[after].at, polygon[(after + m - 1) % n].at, polygon[(after + m) % n].at);
-      if (rest <= 0) continue;
+      const std::int64_t cut = twice_area(polygon[before].at, polygon[k].at, polygon[after].at);
+      if (cut <= 0 || cut >= area) continue;  // neither it nor what is left may be a line
       const double own = roundness(at(before), at(k), at(after));
       const double quality = n == 4 ? std::min(own, roundness(at(after), at((after + 1) % n), at(before))) : own;
       if (quality > most) most = quality, best = k;
@@ -127,7 +125,7 @@ Tessellation tessellate(const LimitSurface& surface, const Points& control, cons
   const LimitSurface::Parts& parts = LimitPatches::parts_of(surface);
   const size_t corners = parts.addresses.triangles() ? 3 : 4;
   const std::vector<FlatCell> cells =
-      flat_cells(surface, control, {options.chord, options.angle, options.max_triangles / (corners == 4 ? 2 : 1)});
+      flat_cells(surface, control, {options.chord, options.angle, options.max_triangles});
   Tessellation made;
   made.cells = std::ssize(cells);
   Vertices vertices(parts);

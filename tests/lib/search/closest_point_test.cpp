@@ -107,7 +107,7 @@ void expect_nearest(const Scheme<double>& scheme, const ControlMesh& mesh, int c
     EXPECT_LE(found.lower[i], brute.distance(q.row(i)) + distance_accuracy * size) << scheme.name << " point " << i;
     // From the middle much is nearly as near, and halves of mid-edge pieces are bounded together.
     if (has_polynomials(scheme) && i != 1 && scheme.period == 1) {
-      EXPECT_GE(found.lower[i], found.distances[i] - 1e-12 * size) << scheme.name << " point " << i;
+      EXPECT_GE(found.lower[i], found.distances[i] - distance_accuracy * size) << scheme.name << " point " << i;
     }
   }
 }

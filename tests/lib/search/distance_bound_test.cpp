@@ -49,7 +49,7 @@ TEST(DistanceBound, IsNeverAboveTheDistance) {
                         told)
                   << name;
             else
-              EXPECT_LE(proved.lower, distances[i] * (1 + 1e-12)) << name << " " << factor << " " << most;
+              EXPECT_LE(proved.lower, distances[i] * (1 + found_distance)) << name << " " << factor << " " << most;
           }
     }
   }
@@ -69,7 +69,7 @@ TEST(DistanceBound, HoldsFarFromTheOrigin) {
     const Eigen::VectorXd exact = closest_points(LimitSurface(scheme, mesh), mesh.positions, back).distances;
     const double digits = 1e-14 * (4 + offset);
     for (Eigen::Index i = 0; i < q.rows(); ++i) {
-      EXPECT_LE(found.lower[i], exact[i] + 1e-15) << offset << " " << i;
+      EXPECT_LE(found.lower[i], exact[i] + rounding(4)) << offset << " " << i;
       EXPECT_GE(found.lower[i], exact[i] - 4e-12 - 100 * digits) << offset << " " << i;
     }
   }
@@ -107,20 +107,21 @@ TEST(NetDistance, KnowsWhereADistanceIsConvex) {
       const auto square = [&](int k) { return k == 0 ? low * low : k == 1 ? low * high : high * high; };
       net.row(net_row(basis, i, j)) << linear(i), linear(j), square(i) + square(j);
     }
-  const NetDistance near_one(basis, net, {0, 0, 0.2}, 1e-14);
+  const NetDistance near_one(basis, net, {0, 0, 0.2}, rounding(10));
   const auto found = near_one.convex_minimum();
   ASSERT_TRUE(found);
   EXPECT_NEAR(found->lower, 0.2, 2e-14);
-  EXPECT_NEAR(found->at, 0.2, 1e-15);
-  EXPECT_NEAR(found->uv[0], 0.5, 1e-8);
+  EXPECT_NEAR(found->at, 0.2, rounding(4));
+  EXPECT_NEAR(found->uv[0], 0.5, std::sqrt(eps));
   EXPECT_FALSE(
-      NetDistance(basis, net, {0, 0, 0.6}, 1e-14).convex_minimum());  // the foot is a saddle or a maximum there
-  const auto corner = NetDistance(basis, net, {1, 1, 0}, 1e-14).convex_minimum();
+      NetDistance(basis, net, {0, 0, 0.6}, rounding(10)).convex_minimum());  // the foot is a saddle or a maximum there
+  const auto corner = NetDistance(basis, net, {1, 1, 0}, rounding(10)).convex_minimum();
   ASSERT_TRUE(corner);
-  EXPECT_NEAR(corner->at, std::sqrt(2 * 0.81 + 0.02 * 0.02), 1e-14);
+  EXPECT_NEAR(corner->at, std::sqrt(2 * 0.81 + 0.02 * 0.02), rounding(10));
   EXPECT_NEAR(corner->lower, corner->at, 2e-14);
   EXPECT_LE(near_one.lower({0, 0, -1}), 0.2);
-  EXPECT_NEAR(NetDistance(basis, net, {0, 0, -3}, 0).lower({0, 0, 1}), 3 - 0.02, 1e-14);  // the middle coefficient
+  EXPECT_NEAR(NetDistance(basis, net, {0, 0, -3}, 0).lower({0, 0, 1}), 3 - 0.02,
+              rounding(10));  // the middle coefficient
 }
 
 }  // namespace
