@@ -107,6 +107,39 @@ def test_closest_points(cube: sublimit.Mesh) -> None:
     assert (found.lower <= found.distance).all() and (found.distance - found.lower < places).all()
 
 
+def test_nearest_faces_radii_and_signs(cube: sublimit.Mesh) -> None:
+    surface = sublimit.LimitSurface(cube, "bilinear")  # [0, 1]^3
+    inside, outside = [0.5, 0.4, 0.9], [0.5, 0.5, 3]
+    found = surface.closest([inside, outside], count=3, radius=1.9)
+    assert found.first.tolist() == [0, 3, 3]
+    np.testing.assert_allclose(found.distance, [0.1, 0.4, 0.5], atol=searched)
+    assert len(set(found.face)) == 3
+    np.testing.assert_allclose(surface.closest([inside, outside], signed=True).distance, [-0.1, 2], atol=searched)
+    with pytest.raises(sublimit.UnsupportedTopology, match="closed"):
+        sublimit.LimitSurface(sublimit.Mesh(cube.points, [[0, 1, 2, 3]]), "bilinear").closest([inside], signed=True)
+    with pytest.raises(sublimit.InvalidParameter, match="0 nearest"):
+        surface.closest([inside], count=0)
+
+
+def test_rays(cube: sublimit.Mesh) -> None:
+    surface = sublimit.LimitSurface(cube, "catmull-clark")
+    origins, directions = np.array([[0.5, 0.45, -3], [9, 9, 9], [0.5, 0.45, 0.5]]), [0, 0, 2]
+    hits = surface.intersect(origins, directions, all=True)
+    assert hits.first.tolist() == [0, 2, 2, 3] and not hits.undecided.any()
+    on_rays = origins[[0, 0, 2]] + hits.t[:, None] * directions
+    np.testing.assert_allclose(hits.points, on_rays, atol=searched)
+    np.testing.assert_allclose(surface.evaluate(hits.face, hits.u, hits.v).points, on_rays, atol=searched)
+    assert (np.sign(hits.normals[:, 2]) == [-1, 1, 1]).all()
+    assert surface.intersect(origins, directions).first.tolist() == [0, 1, 1, 2]
+    later = surface.intersect(origins[0], directions, tmin=hits.t[:1] + 0.1)
+    np.testing.assert_allclose(later.t, hits.t[1:2], atol=searched)
+    assert len(surface.intersect(origins, directions, tmax=[0.1, 1, 0.1]).t) == 0
+    with pytest.raises(sublimit.InvalidParameter, match="direction"):
+        surface.intersect(origins, [0, 0, 0])
+    with pytest.raises(ValueError, match="do not fit together"):
+        surface.intersect(origins, np.zeros((2, 3)))
+
+
 def test_tessellations_are_the_programs(tagged: sublimit.Mesh, program: Program, tmp_path: pathlib.Path) -> None:
     tagged.write(tmp_path / "cage.obj")
     program("tessellate", tmp_path / "cage.obj", "-s", "catmull-clark", "--chord", "0.01", "-o", tmp_path / "out.obj", "--quiet")

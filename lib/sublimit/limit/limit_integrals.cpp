@@ -11,6 +11,7 @@
 
 #include "sublimit/base/error.h"
 #include "sublimit/base/parallel_for.h"
+#include "sublimit/limit/closed_surface.h"
 #include "sublimit/limit/limit_patches.h"
 #include "sublimit/limit/piece_hull.h"
 #include "sublimit/limit/quadrature.h"
@@ -222,32 +223,6 @@ class Integrator {
   PieceRules& rules_;
 };
 
-/// Why faces without holes are not all of the surface of a solid; empty if they are.
-std::string why_open(const Level& level, bool dual) {
-  const Topology& t = level.topology();
-  // Sheets that meet at an edge have the same curve there, unless the scheme keeps them apart: their boundaries cancel
-  // if it is walked as often either way.
-  std::map<std::pair<Index, Index>, int> walked;
-  bool any = false;
-  for (Index h = 0; h < t.num_half_edges(); ++h) {
-    if (level.holes[size_t(index(t.face(HalfEdge{h})))]) continue;
-    any = true;
-    const HalfEdge twin = t.twin(HalfEdge{h});
-    if (exists(twin) && !level.holes[size_t(index(t.face(twin)))]) continue;
-    const Index a = index(t.tail(HalfEdge{h})), b = index(t.head(HalfEdge{h}));
-    if (dual)
-      walked[{a, b}] = 1;
-    else if (a != b)
-      walked[std::minmax(a, b)] += a < b ? 1 : -1;
-  }
-  if (!any) return "there are no faces";
-  for (const auto& [edge, times] : walked)
-    if (times != 0)
-      return "the surface is not closed at edge (" + std::to_string(edge.first) + "," + std::to_string(edge.second) +
-             ")";
-  return {};
-}
-
 /// By a power of two, so that squares and fifth powers of coordinates neither overflow nor vanish.
 double power_of_two(double size) { return size > 0 ? std::exp2(std::ilogb(size)) : 1; }
 
@@ -304,7 +279,7 @@ LimitIntegrals limit_integrals(const LimitSurface& surface, const Points& points
   result.area = sums.area * scale * scale;
   result.area_error = sums.area_error * scale * scale;
   if (sums.area > 0) result.centroid = middle.transpose() + scale * sums.of_area / sums.area;
-  result.why_no_solid = why_open(parts.level, parts.scheme.is_dual());
+  result.why_no_solid = why_not_closed(surface);
   if (!result.why_no_solid.empty()) return result;
   if (std::abs(sums.volume) <= 1e-13 * sums.area) {
     result.why_no_solid = "the surface encloses no volume";

@@ -13,6 +13,7 @@
 #include "sublimit/search/box_tree.h"
 #include "sublimit/search/distance_bound.h"
 #include "sublimit/search/foot_point.h"
+#include "sublimit/search/winding.h"
 
 namespace sublimit {
 namespace {
@@ -23,6 +24,8 @@ std::vector<Eigen::AlignedBox3d> boxes_of(const std::vector<LimitCell>& cells) {
   for (const LimitCell& cell : cells) boxes.push_back(cell.box);
   return boxes;
 }
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// A node or cell that is still to be searched.
 struct Candidate {
@@ -36,6 +39,37 @@ struct Candidate {
   }
 };
 
+/// The nearest faces so far, each with its foot, the nearest first.
+class NearestFaces {
+ public:
+  /// @param limit  square of a distance: what is farther does not count
+  NearestFaces(size_t count, double limit) : count_(count), limit_(limit) {}
+  const std::vector<Foot>& feet() const { return feet_; }
+  bool is_full() const { return feet_.size() == count_; }
+  /// Square of the distance that another face has to be below.
+  double limit() const { return is_full() ? feet_.back().squared_distance : limit_; }
+  /// @return  where it came to be; -1 if it is no nearer than what there is
+  std::ptrdiff_t insert(const Foot& foot) {
+    if (!(foot.squared_distance <= limit_)) return -1;
+    const auto same = std::ranges::find(feet_, foot.place.face, [](const Foot& f) { return f.place.face; });
+    if (same != feet_.end()) {
+      if (same->squared_distance <= foot.squared_distance) return -1;
+      feet_.erase(same);
+    }
+    const auto at = std::ranges::upper_bound(feet_, foot.squared_distance, {}, &Foot::squared_distance);
+    if (at == feet_.end() && is_full()) return -1;
+    const std::ptrdiff_t place = at - feet_.begin();
+    feet_.insert(at, foot);
+    if (feet_.size() > count_) feet_.pop_back();
+    return place;
+  }
+
+ private:
+  size_t count_;
+  double limit_;
+  std::vector<Foot> feet_;
+};
+
 struct Search {
   const std::vector<LimitCell>& cells;
   const BoxTree& tree;
@@ -43,14 +77,14 @@ struct Search {
   int most_cells;
   bool triangles;
 
-  Foot operator()(const Eigen::Vector3d& query, const Sample* guess, FootSearch& foot_search, int& order,
-                  std::vector<Candidate>& heap) const {
+  void operator()(const Eigen::Vector3d& query, const Sample* guess, FootSearch& foot_search, int& order,
+                  std::vector<Candidate>& heap, NearestFaces& best) const {
     const SearchDomain whole(triangles);
-    Foot best{{}, std::numeric_limits<double>::infinity()};
-    if (guess) best = foot_search(query, *guess, whole, order, best.squared_distance);
-    // What is no nearer than this will not be missed.
+    if (guess) best.insert(foot_search(query, *guess, whole, order, infinity));
+    // What is no nearer than this will not be missed; all within a radius is to be found.
     const auto near_enough = [&] {
-      const double distance = std::sqrt(best.squared_distance) - tolerance;
+      if (!best.is_full()) return best.limit();
+      const double distance = std::sqrt(best.limit()) - tolerance;
       return distance > 0 ? distance * distance : 0;
     };
     double limit = near_enough();
@@ -70,12 +104,9 @@ struct Search {
         if (++searched > most_cells) break;
         const LimitCell& cell = cells[size_t(node.item)];
         // Only there, else the search would leave it for its neighbours' feet.
-        const Foot foot = foot_search(query, cell.start, SearchDomain(triangles, cell.start, cell.radius), order,
-                                      best.squared_distance);
-        if (foot.squared_distance < best.squared_distance) {
-          best = foot;
-          limit = near_enough();
-        }
+        const Foot foot =
+            foot_search(query, cell.start, SearchDomain(triangles, cell.start, cell.radius), order, best.limit());
+        if (best.insert(foot) >= 0) limit = near_enough();
       } else if (node.item >= 0) {
         push(
             {std::max(nearest.squared_distance, cells[size_t(node.item)].squared_distance(query)), nearest.node, true});
@@ -84,12 +115,50 @@ struct Search {
           push({tree.nodes()[size_t(child)].box.squaredExteriorDistance(query), child, false});
       }
     }
-    const Foot foot = foot_search(query, best.place, whole, order, std::numeric_limits<double>::infinity());
-    return foot.squared_distance < best.squared_distance ? foot : best;
+    const std::vector<Foot> found = best.feet();
+    for (const Foot& foot : found) best.insert(foot_search(query, foot.place, whole, order, infinity));
   }
 };
 
-void check(const LimitSurface& surface, const Points& queries, std::span<const Sample> guess) {
+/// Bounds for the faces found; what a proof finds to be nearer is taken.
+struct Proof {
+  const DistanceBound& bound;
+  double radius;
+  int most_cells;
+  bool triangles;
+
+  std::vector<double> operator()(const Eigen::Vector3d& query, size_t count, FootSearch& foot_search, int& order,
+                                 PieceParts& cutter, NearestFaces& best) const {
+    std::vector<double> lower;
+    std::vector<Index> before;
+    for (int tries = 0; lower.size() < count;) {
+      const bool found = lower.size() < best.feet().size();
+      if (!found && std::isinf(radius)) break;
+      const double distance = found ? std::sqrt(best.feet()[lower.size()].squared_distance) : radius;
+      const ProvedDistance proved = bound(query, distance, most_cells, cutter, before);
+      if (proved.closer && ++tries < 8) {
+        const Foot foot = foot_search(query, *proved.closer, SearchDomain(triangles), order, infinity);
+        const std::ptrdiff_t place = best.insert(foot);
+        if (place >= 0) {  // faces before it keep their proofs
+          lower.resize(std::min(lower.size(), size_t(place)));
+          before.resize(lower.size());
+          continue;
+        }
+      }
+      if (!found) break;
+      before.push_back(best.feet()[lower.size()].place.face);
+      lower.push_back(proved.lower);
+      tries = 0;
+    }
+    return lower;
+  }
+};
+
+void check(const LimitSurface& surface, const Points& queries, const ClosestPointOptions& options) {
+  const std::span<const Sample> guess = options.guess;
+  if (options.count < 1)
+    throw InvalidParameter(std::to_string(options.count) + " nearest faces were asked for; 1 or more are right");
+  if (!(options.radius >= 0)) throw InvalidParameter("a radius is not below 0, and a number");
   if (queries.cols() != 3)
     throw InvalidParameter("points to project have " + std::to_string(queries.cols()) + " coordinates, not 3");
   for (Eigen::Index i = 0; i < queries.rows(); ++i) {
@@ -111,61 +180,63 @@ void check(const LimitSurface& surface, const Points& queries, std::span<const S
 
 ClosestPoints closest_points(const LimitSurface& surface, const Points& control, const Points& queries,
                              const ClosestPointOptions& options) {
-  check(surface, queries, options.guess);
+  check(surface, queries, options);
   const std::vector<LimitCell> cells = limit_cells(surface, control);
   if (cells.empty()) throw InvalidMesh("there is no surface to project on: no faces, or only holes");
   const BoxTree tree(boxes_of(cells));
   const BoundLimitSurface bound(surface, control);
-  const Eigen::AlignedBox3d& all = tree.nodes()[0].box;
-  const double size = all.sizes().norm();
-  const Search search{cells, tree, 1e-13 * size, options.most_cells, surface.addresses().triangles()};
-
-  // What a proof finds to be nearer becomes the foot.
-  const auto prove = [&](const DistanceBound& bound_of, const Eigen::Vector3d& query, FootSearch& foot_search,
-                         int& order, Foot& foot, PieceParts& cutter) {
-    double lower = 0;
-    for (int tries = 0; tries < 8; ++tries) {
-      const ProvedDistance proved = bound_of(query, std::sqrt(foot.squared_distance), options.most_cells, cutter);
-      lower = proved.lower;
-      if (!proved.closer) break;
-      const Foot next = foot_search(query, *proved.closer, SearchDomain(search.triangles), order,
-                                    std::numeric_limits<double>::infinity());
-      if (!(next.squared_distance < foot.squared_distance)) break;
-      foot = next;
-    }
-    return lower;
-  };
+  const double size = tree.nodes()[0].box.sizes().norm();
+  const bool triangles = surface.addresses().triangles();
+  const Search search{cells, tree, 1e-13 * size, options.most_cells, triangles};
+  std::optional<DistanceBound> bound_of;
+  if (options.prove) bound_of.emplace(surface, control);
 
   const Eigen::Index count = queries.rows();
-  ClosestPoints result;
-  result.places.resize(size_t(count));
-  std::optional<DistanceBound> bound_of;
-  if (options.prove) {
-    bound_of.emplace(surface, control);
-    result.lower.resize(count);
-  }
+  const auto most = size_t(std::min<Index>(options.count, surface.addresses().size()));
+  struct Found {
+    std::vector<Sample> places;
+    std::vector<double> lower;
+  };
+  std::vector<Found> found(static_cast<size_t>(count));
   parallel_for_blocks(
       count,
       [&](std::int64_t, std::int64_t begin, std::int64_t end) {
-        FootSearch foot_search(bound, surface.addresses().triangles(), size);
+        FootSearch foot_search(bound, triangles, size);
         std::vector<Candidate> heap;
         PieceParts cutter;
         for (std::int64_t i = begin; i < end; ++i) {
           int order = 2;  // anew for each point, or blocks would matter
           const Eigen::Vector3d query = queries.row(i);
-          Foot foot =
-              search(query, options.guess.empty() ? nullptr : &options.guess[size_t(i)], foot_search, order, heap);
-          if (bound_of) result.lower[i] = prove(*bound_of, query, foot_search, order, foot, cutter);
-          result.places[size_t(i)] = foot.place;
+          NearestFaces best(most, (options.radius + search.tolerance) * (options.radius + search.tolerance));
+          search(query, options.guess.empty() ? nullptr : &options.guess[size_t(i)], foot_search, order, heap, best);
+          if (bound_of)
+            found[size_t(i)].lower = Proof{*bound_of, options.radius, options.most_cells, triangles}(
+                query, most, foot_search, order, cutter, best);
+          for (const Foot& foot : best.feet()) found[size_t(i)].places.push_back(foot.place);
         }
       },
       64);
-  const LimitSamples samples = bound.evaluate(result.places, 1);
-  result.points = samples.position;
-  result.normals = samples.normal;
-  result.status = samples.status;
-  result.distances = (result.points - queries).rowwise().norm();
-  if (options.prove) result.lower = result.lower.cwiseMin(result.distances);
+
+  ClosestPoints result;
+  result.first.push_back(0);
+  for (const Found& one : found) {
+    result.places.insert(result.places.end(), one.places.begin(), one.places.end());
+    result.first.push_back(std::ssize(result.places));
+  }
+  LimitSamples samples = bound.evaluate(result.places, 1);
+  result.points = std::move(samples.position);
+  result.normals = std::move(samples.normal);
+  result.status = std::move(samples.status);
+  result.distances.resize(std::ssize(result.places));
+  if (options.prove) result.lower.resize(std::ssize(result.places));
+  const std::vector<int> winding = options.is_signed ? winding_numbers(surface, control, queries) : std::vector<int>();
+  for (Eigen::Index i = 0; i < count; ++i)
+    for (std::int64_t row = result.first[size_t(i)]; row < result.first[size_t(i) + 1]; ++row) {
+      const double distance = (result.points.row(row) - queries.row(i)).norm();
+      result.distances[row] = options.is_signed && winding[size_t(i)] != 0 ? -distance : distance;
+      if (options.prove)
+        result.lower[row] = std::min(found[size_t(i)].lower[size_t(row - result.first[size_t(i)])], distance);
+    }
   return result;
 }
 

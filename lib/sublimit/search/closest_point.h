@@ -14,21 +14,27 @@
 //
 // Time: a hundred thousand points on a thousand bicubic faces take a second on four cores. Where no piece is a
 // polynomial a point takes tens of milliseconds.
+#include <cstdint>
+#include <limits>
 #include <span>
+#include <vector>
 
 #include "sublimit/limit/limit_surface.h"
 
 namespace sublimit {
 
 struct ClosestPoints {
+  /// Rows of query i are [first[i], first[i + 1]), the nearest first: one each, unless `count` or `radius` was given.
+  std::vector<std::int64_t> first;
   std::vector<Sample> places;
-  Points points;                    ///< of the surface, #queries x 3
+  Points points;                    ///< of the surface, #rows x 3
   Points normals;                   ///< there, zero where undefined
-  Eigen::VectorXd distances;        ///< from the queries
+  Eigen::VectorXd distances;        ///< from the queries; of signed ones those inside are below 0
   std::vector<LimitStatus> status;  ///< of the places
-  /// The surface is not nearer than that: proved (distance_bound.h). Within 1e-12 of the surface's size of the
-  /// distance, and some roundings of the coordinates, unless the search was cut short: from the centre of a sphere all
-  /// of it is equally near. 0 where nothing is proved: of schemes without polynomials, whose hulls are estimates.
+  /// The surface, less the faces of the rows before, is not nearer than that: proved (distance_bound.h). Within 1e-12
+  /// of the surface's size of the distance, and some roundings of the coordinates, unless the search was cut short:
+  /// from the centre of a sphere all of it is equally near. 0 where nothing is proved: of schemes without polynomials,
+  /// whose hulls are estimates. Never below 0.
   Eigen::VectorXd lower;
 };
 
@@ -37,14 +43,20 @@ struct ClosestPointOptions {
   std::span<const Sample> guess = {};
   int most_cells = 2000;  ///< to search for one point, and to look at for the proof
   bool prove = true;      ///< else `lower` stays empty
+  int count = 1;          ///< of faces, each with its nearest point; fewer where there are no more
+  double radius = std::numeric_limits<double>::infinity();  ///< what is farther is left out, but for rounding
+  /// Distances of points inside a closed surface are negative: of those that it winds around (winding.h).
+  bool is_signed = false;
 };
 
 /// Nearest points of the limit, holes left out. Equal input, equal answer, whatever the number of threads.
 /// @param control  points of the surface's level, #V x 3
 /// @param queries  #queries x 3
-/// @throws InvalidParameter  shapes that do not fit, queries that are not finite or beyond 1e150: says which; guesses
-/// on no face
-/// @throws InvalidMesh       no face that is not a hole
+/// @throws InvalidParameter     shapes that do not fit, queries that are not finite or beyond 1e150: says which;
+/// guesses
+///                              on no face; a count below 1, a radius below 0
+/// @throws InvalidMesh          no face that is not a hole
+/// @throws UnsupportedTopology  signed distances from a surface that is not closed: says where
 ClosestPoints closest_points(const LimitSurface& surface, const Points& control, const Points& queries,
                              const ClosestPointOptions& options = {});
 

@@ -25,8 +25,8 @@ struct Unsettled {
 
 DistanceBound::DistanceBound(const LimitSurface& surface, const Points& points) : parts_(surface, points) {}
 
-ProvedDistance DistanceBound::operator()(const Eigen::Vector3d& query, double distance, int most,
-                                         PieceParts& cutter) const {
+ProvedDistance DistanceBound::operator()(const Eigen::Vector3d& query, double distance, int most, PieceParts& cutter,
+                                         std::span<const Index> without) const {
   const BoxTree& tree = parts_.tree();
   if (tree.nodes().empty() || !parts_.are_certain()) return {0, std::nullopt};
   const double rounding = parts_.rounding(query), enough = distance - 2e-13 * parts_.size() - 4 * rounding;
@@ -54,6 +54,7 @@ ProvedDistance DistanceBound::operator()(const Eigen::Vector3d& query, double di
     if (nearest.node >= 0) {
       const BoxTree::Node& node = tree.nodes()[size_t(nearest.node)];
       if (node.item >= 0) {
+        if (std::ranges::find(without, parts_.parts()[size_t(node.item)].address) != without.end()) continue;
         cells.push_back(parts_.parts()[size_t(node.item)]);
         push({nearest.lower, -1, std::ssize(cells) - 1});
       } else {
@@ -69,7 +70,8 @@ ProvedDistance DistanceBound::operator()(const Eigen::Vector3d& query, double di
     const SurfacePart item = std::move(cells[size_t(nearest.number)]);
     const CellCorners& corners = item.part.corners;
     if (!item.part.polynomial) {
-      if (is_smallest(corners)) {
+      // Towards an extraordinary vertex parts are cut further than their corners can tell.
+      if (is_smallest(corners) && box_of(item.part).diagonal().norm() <= 1e-14 * parts_.size() + rounding) {
         proved.lower = std::min(proved.lower, nearest.lower);
         continue;
       }

@@ -8,6 +8,7 @@
 // Other parts, towards extraordinary vertices, are in the hull of the points that they depend on, and are replaced by
 // their children.
 #include <optional>
+#include <span>
 
 #include "sublimit/search/surface_parts.h"
 
@@ -26,8 +27,10 @@ class DistanceBound {
   /// @param distance  of the nearest point that is known
   /// @param most      parts to look at; what is left then counts with its box
   /// @param cutter    of the calling thread
+  /// @param without   faces (of `Sample`) that do not count
   /// @note  Any thread may ask. Where hulls are estimates, as of schemes without polynomials, nothing is proved.
-  ProvedDistance operator()(const Eigen::Vector3d& query, double distance, int most, PieceParts& cutter) const;
+  ProvedDistance operator()(const Eigen::Vector3d& query, double distance, int most, PieceParts& cutter,
+                            std::span<const Index> without = {}) const;
 
  private:
   SurfaceParts parts_;

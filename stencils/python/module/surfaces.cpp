@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Limit surfaces: points with derivatives, stencils and closest points anywhere.
+// Limit surfaces: points with derivatives and stencils anywhere, closest points, rays, triangles.
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
@@ -17,6 +17,7 @@
 #include "sublimit/base/parallel_for.h"
 #include "sublimit/core/uninitialized.h"
 #include "sublimit/search/closest_point.h"
+#include "sublimit/search/intersect.h"
 #include "sublimit/tessellation/tessellate.h"
 
 namespace sublimit::python {
@@ -128,31 +129,61 @@ py::tuple stencils(const Source& surface, const Array<Index>& faces, const Array
   return py::make_tuple(matrices, numbers(found.status));
 }
 
-py::dict closest(const Surface& surface, const Array<double>& queries, int threads) {
-  const Points from = points(queries);
-  ClosestPoints found = without_gil([&] {
-    const Threads held(threads);
-    return closest_points(surface.surface(), surface.points(), from);
-  });
+py::array_t<double> column(const Eigen::VectorXd& values) {
+  return array(std::vector<double>(values.begin(), values.end()));
+}
+
+/// As three arrays.
+void add_places(py::dict& all, const std::vector<Sample>& places) {
   std::vector<Index> faces;
   std::vector<double> u, v;
-  for (const Sample& place : found.places) {
+  for (const Sample& place : places) {
     faces.push_back(place.face);
     u.push_back(place.u);
     v.push_back(place.v);
   }
-  const auto column = [](const Eigen::VectorXd& values) {
-    return array(std::vector<double>(values.begin(), values.end()));
-  };
-  py::dict all;
   all["face"] = array(std::move(faces));
   all["u"] = array(std::move(u));
   all["v"] = array(std::move(v));
+}
+
+py::dict closest(const Surface& surface, const Array<double>& queries, int count, double radius, bool is_signed,
+                 int threads) {
+  const Points from = points(queries);
+  ClosestPoints found = without_gil([&] {
+    const Threads held(threads);
+    return closest_points(surface.surface(), surface.points(), from,
+                          {.count = count, .radius = radius, .is_signed = is_signed});
+  });
+  py::dict all;
+  add_places(all, found.places);
   all["points"] = array(std::move(found.points));
   all["normals"] = array(std::move(found.normals));
   all["distance"] = column(found.distances);
   all["lower"] = column(found.lower);
   all["status"] = numbers(found.status);
+  all["first"] = array(std::move(found.first));
+  return all;
+}
+
+py::dict intersect(const Surface& surface, const Array<double>& origins, const Array<double>& directions,
+                   const Array<double>& tmin, const Array<double>& tmax, bool all_hits, int threads) {
+  const Points from = points(origins), along = points(directions);
+  RayHits hits = without_gil([&] {
+    const Threads held(threads);
+    std::vector<Ray> rays;
+    for (Eigen::Index i = 0; i < from.rows(); ++i)
+      rays.push_back({from.row(i).transpose(), along.row(i).transpose(), tmin.data()[i], tmax.data()[i]});
+    return sublimit::intersect(surface.surface(), surface.points(), rays, {.all = all_hits});
+  });
+  py::dict all;
+  add_places(all, hits.places);
+  all["t"] = array(std::move(hits.t));
+  all["points"] = array(std::move(hits.points));
+  all["normals"] = array(std::move(hits.normals));
+  all["status"] = numbers(hits.status);
+  all["first"] = array(std::move(hits.first));
+  all["undecided"] = array(std::move(hits.undecided));
   return all;
 }
 
@@ -161,25 +192,17 @@ py::dict tessellate(const Surface& surface, double chord, double angle, std::int
     const Threads held(threads);
     return sublimit::tessellate(surface.surface(), surface.points(), {chord, angle, most});
   });
-  std::vector<Index> triangles, face_of, faces;
-  std::vector<double> u, v;
+  std::vector<Index> triangles, face_of;
   for (const Tessellation::Triangle& triangle : made.triangles) {
     triangles.insert(triangles.end(), triangle.vertices.begin(), triangle.vertices.end());
     face_of.push_back(triangle.face);
   }
-  for (const Sample& place : made.places) {
-    faces.push_back(place.face);
-    u.push_back(place.u);
-    v.push_back(place.v);
-  }
   const auto count = py::ssize_t(made.triangles.size());
   py::dict all;
+  add_places(all, made.places);
   all["points"] = array(std::move(made.points));
   all["triangles"] = array(std::move(triangles)).reshape({count, py::ssize_t(3)});
   all["triangle_face"] = array(std::move(face_of));
-  all["face"] = array(std::move(faces));
-  all["u"] = array(std::move(u));
-  all["v"] = array(std::move(v));
   all["bound"] = made.bound;
   return all;
 }
@@ -214,7 +237,10 @@ void add_surfaces(py::module_& m) {
            py::arg("threads"));
   py::class_<Surface, Source, std::shared_ptr<Surface>>(m, "Surface")
       .def(py::init<const ControlMesh&, const MeshRequest&>(), py::arg("mesh"), py::arg("request"), long_call)
-      .def("closest", &closest, py::arg("points"), py::arg("threads"))
+      .def("closest", &closest, py::arg("points"), py::arg("count"), py::arg("radius"), py::arg("is_signed"),
+           py::arg("threads"))
+      .def("intersect", &intersect, py::arg("origins"), py::arg("directions"), py::arg("tmin"), py::arg("tmax"),
+           py::arg("all"), py::arg("threads"))
       .def("tessellate", &tessellate, py::arg("chord"), py::arg("angle"), py::arg("most"), py::arg("threads"));
   py::class_<Patches, Source, std::shared_ptr<Patches>>(m, "PatchSet")
       .def(py::init<const std::filesystem::path&>(), py::arg("path"), long_call)

@@ -62,6 +62,7 @@ if TYPE_CHECKING:
     from ._surfaces import ClosestPoints as ClosestPoints
     from ._surfaces import Curvature as Curvature
     from ._surfaces import LimitSurface as LimitSurface
+    from ._surfaces import RayHits as RayHits
     from ._surfaces import Samples as Samples
     from ._surfaces import Source as Source
     from ._surfaces import Tessellation as Tessellation
@@ -82,7 +83,7 @@ _PARTS = {
     "_patches": ("Patches",),
     "_reports": ("Report", "analyze", "analyze_mesh"),
     "_schemes": ("OptionInfo", "Scheme", "SchemeInfo", "scheme", "schemes"),
-    "_surfaces": ("ClosestPoints", "Curvature", "LimitSurface", "Samples", "Source", "Tessellation"),
+    "_surfaces": ("ClosestPoints", "Curvature", "LimitSurface", "RayHits", "Samples", "Source", "Tessellation"),
     "_tables": ("Table", "bake", "load"),
 }
 _PLACE = {name: part for part, names in _PARTS.items() for name in names}

@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The exact limit anywhere: points, derivatives, normals, curvature, stencils, closest points."""
+"""The exact limit anywhere: points, derivatives, normals, curvature, stencils, closest points, rays."""
 from __future__ import annotations
 
+import math
+import operator
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NoReturn
@@ -125,17 +127,18 @@ class Samples(SampledParts):
 
 @dataclass(frozen=True)
 class ClosestPoints:
-    """Nearest points of a surface.
+    """Nearest points of a surface, a row each: n of n points, unless ``count`` or ``radius`` was given.
 
     Attributes
     ----------
     face, u, v : (n,), where they are
     points : (n, 3)
     normals : (n, 3), there; zero where there is none
-    distance : (n,), from the points given
-    lower : (n,), the surface is not nearer, as is proved: the distance but for rounding, less where the proof was cut short; 0 where
-        nothing is proved, as of schemes without polynomials
+    distance : (n,), from the points given; below 0 inside, if signed
+    lower : (n,), the surface, less the faces of the rows before, is not nearer, as is proved: the distance but for rounding,
+        less where the proof was cut short; 0 where nothing is proved, as of schemes without polynomials
     status : (n,), numbers; ``Samples.statuses[number]`` is the word
+    first : (points + 1,), rows of point i are ``first[i]:first[i + 1]``, the nearest first
     """
 
     __module__ = "sublimit"
@@ -147,6 +150,34 @@ class ClosestPoints:
     distance: arrays.Floats
     lower: arrays.Floats
     status: npt.NDArray[np.int8]
+    first: npt.NDArray[np.int64]
+
+
+@dataclass(frozen=True)
+class RayHits:
+    """Where rays meet a surface, a row each hit.
+
+    Attributes
+    ----------
+    t : (n,), hits are at ``origin + t * direction``
+    face, u, v : (n,), where they are
+    points : (n, 3)
+    normals : (n, 3), there; zero where there is none
+    status : (n,), numbers; ``Samples.statuses[number]`` is the word
+    first : (rays + 1,), hits of ray i are ``first[i]:first[i + 1]``, by rising t
+    undecided : (rays,), parts that a ray touches, or extraordinary vertices that it meets, as near as numbers go
+    """
+
+    __module__ = "sublimit"
+    t: arrays.Floats
+    face: arrays.Ints
+    u: arrays.Floats
+    v: arrays.Floats
+    points: arrays.Floats
+    normals: arrays.Floats
+    status: npt.NDArray[np.int8]
+    first: npt.NDArray[np.int64]
+    undecided: npt.NDArray[np.int64]
 
 
 @dataclass(frozen=True)
@@ -257,14 +288,67 @@ class LimitSurface(Source):
                         triangulate=triangulate, no_creases=no_creases, strict=strict)
         self._core = _sublimit.Surface(core_of(mesh), asked)
 
-    def closest(self, points: npt.ArrayLike, *, threads: int = 0) -> ClosestPoints:
+    def closest(self, points: npt.ArrayLike, *, count: int = 1, radius: float = math.inf, signed: bool = False,
+                threads: int = 0) -> ClosestPoints:
         """Nearest points of the surface.
 
         Parameters
         ----------
         points : (n, 3)
+        count : nearest faces of each point, with the nearest place on each; fewer where there are no more
+        radius : what is farther is left out
+        signed : distances of points inside are below 0
+
+        Raises
+        ------
+        UnsupportedTopology
+            Signed distances from a surface that is not closed.
+
+        Examples
+        --------
+        >>> import sublimit
+        >>> sheet = sublimit.Mesh([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], [[0, 1, 2, 3]])
+        >>> sublimit.LimitSurface(sheet, "bilinear").closest([[0.25, 0.5, 2]]).distance
+        array([2.])
         """
-        return ClosestPoints(**self._core.closest(arrays.floats(points, "points", (None, 3), "(n, 3)"), threads))
+        return ClosestPoints(**self._core.closest(arrays.floats(points, "points", (None, 3), "(n, 3)"), operator.index(count),
+                                                  float(radius), bool(signed), threads))
+
+    def intersect(self, origins: npt.ArrayLike, directions: npt.ArrayLike, *, tmin: npt.ArrayLike = 0,
+                  tmax: npt.ArrayLike = math.inf, all: bool = False, threads: int = 0) -> RayHits:
+        """Where rays meet the surface; none is missed, and a ray through a side that faces share hits once.
+
+        Parameters
+        ----------
+        origins : (n, 3) or (3,)
+        directions : (n, 3) or (3,), of any length
+        tmin, tmax : (n,) or numbers, of ``origin + t * direction``
+        all : all hits, not the nearest alone
+
+        Raises
+        ------
+        InvalidParameter
+            A direction of 0, a ray that is not finite or ends before it begins.
+
+        Examples
+        --------
+        >>> import sublimit
+        >>> sheet = sublimit.Mesh([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], [[0, 1, 2, 3]])
+        >>> sublimit.LimitSurface(sheet, "bilinear").intersect([[0.25, 0.5, 2], [3, 3, 3]], [0, 0, -1]).first
+        array([0, 1, 1])
+        """
+        from_, along = (np.atleast_2d(arrays.floats(x, name, (None,) * max(1, min(2, np.ndim(x))), "(n, 3) or (3,)"))
+                        for x, name in ((origins, "origins"), (directions, "directions")))
+        try:
+            shape = np.broadcast_shapes(from_.shape, along.shape, (1, 3))
+            ends = [np.broadcast_to(arrays.floats(t, name, (None,) * min(1, np.ndim(t)), "(n,) or a number", finite=False), shape[:1])
+                    for t, name in ((tmin, "tmin"), (tmax, "tmax"))]
+        except ValueError as error:
+            raise ValueError(f"rays do not fit together: origins {from_.shape}, directions {along.shape}, tmin {np.shape(tmin)}, "
+                             f"tmax {np.shape(tmax)}; (n, 3) or (3,), and (n,) or numbers, are right") from error
+        from_, along = (np.ascontiguousarray(np.broadcast_to(x, shape)) for x in (from_, along))
+        first, last = (np.ascontiguousarray(t) for t in ends)
+        return RayHits(**self._core.intersect(from_, along, first, last, bool(all), threads))
 
     def tessellate(self, chord: float, *, angle: float = 0, max_triangles: int = 1 << 24, threads: int = 0) -> Tessellation:
         """As few triangles as a proved bound on their distance from the surface allows.
@@ -279,10 +363,8 @@ class LimitSurface(Source):
         Examples
         --------
         >>> import sublimit
-        >>> cube = sublimit.Mesh(
-        ...     [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]],
-        ...     [[0, 3, 2, 1], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]])
-        >>> near = sublimit.LimitSurface(cube, "catmull-clark").tessellate(0.01)
+        >>> roof = sublimit.Mesh([[0, 0, 0], [1, 0, 0], [1, 1, 1], [0, 1, 0]], [[0, 1, 2, 3]])
+        >>> near = sublimit.LimitSurface(roof, "catmull-clark").tessellate(0.01)
         >>> bool(near.bound <= 0.01)
         True
         """

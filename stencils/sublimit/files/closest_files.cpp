@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sublimit/files/closest_files.h"
 
+#include <limits>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -8,69 +10,42 @@
 #include "sublimit/base/error.h"
 #include "sublimit/base/format_number.h"
 #include "sublimit/base/row_writer.h"
-#include "sublimit/files/csv_rows.h"
-#include "sublimit/files/npy.h"
-#include "sublimit/io/file_extension.h"
-#include "sublimit/io/read_mesh.h"
+#include "sublimit/files/csv_fields.h"
+#include "sublimit/files/frames.h"
 
 namespace sublimit {
-namespace {
-
-Points from_csv(const std::filesystem::path& path) {
-  CsvRows rows(path, {"x", "y", "z"});
-  std::vector<double> values;
-  while (rows.next())
-    for (size_t k = 0; k < 3; ++k) values.push_back(rows.finite(k));
-  return Eigen::Map<const Points>(values.data(), Eigen::Index(values.size() / 3), 3);
-}
-
-Points from_npy(const std::filesystem::path& path) {
-  const NpyArray array(path);
-  const std::vector<std::int64_t>& shape = array.shape();
-  if (shape.size() != 2 || shape[1] != 3) {
-    std::string given;
-    for (const std::int64_t n : shape) given += (given.empty() ? "" : " x ") + format_number(n);
-    throw FormatError(path.string() + ": an array of shape " + (given.empty() ? "()" : given) + "; points are n x 3");
-  }
-  if (shape[0] > std::numeric_limits<Index>::max())
-    throw ResourceError(path.string() + ": " + format_number(shape[0]) +
+Points read_query_points(const std::filesystem::path& path) {
+  FrameReader file(path);
+  if (file.has_frames())
+    throw FormatError(path.string() + ": an array of " + format_number(file.num_frames()) +
+                      " frames of points; n x 3 is right");
+  if (file.columns() != std::vector<std::string>{"x", "y", "z"})
+    throw FormatError(path.string() + ": points have three columns x,y,z, not " + format_number(file.num_channels()) +
+                      (file.num_channels() == 3 ? " of other names" : ""));
+  if (file.num_points() > std::numeric_limits<Index>::max())
+    throw ResourceError(path.string() + ": " + format_number(file.num_points()) +
                         " points, more than 2^31 - 1; divide the file");
-  Points points(shape[0], 3);
-  array.read(0, std::span(points.data(), size_t(points.size())));
-  for (Eigen::Index i = 0; i < points.rows(); ++i)
-    if (!points.row(i).allFinite()) throw InvalidMesh(path.string() + ": point " + format_number(i) + " is not finite");
+  Points points(file.num_points(), 3);
+  file.next(std::span(points.data(), size_t(points.size())));
   return points;
 }
 
-}  // namespace
-
-Points read_query_points(const std::filesystem::path& path) {
-  const std::string extension = file_extension(path);
-  if (extension == ".csv") return from_csv(path);
-  if (extension == ".npy") return from_npy(path);
-  if (extension != ".obj" && extension != ".ply" && extension != ".off")
-    throw FormatError(path.string() +
-                      ": points come in a .csv with the header x,y,z, an .npy, or a mesh's .obj, .ply or .off");
-  return read_mesh(path).positions;
-}
-
-void write_closest_points(const std::filesystem::path& path, const ClosestPoints& found) {
+void write_closest_points(const std::filesystem::path& path, const ClosestPoints& found, bool with_query) {
+  const std::vector<std::int64_t> query_of = owners_of_rows(found.first);
   AtomicFile file(path);
-  file.write("face,u,v,x,y,z,nx,ny,nz,distance,lower,status\n");
+  file.write(std::string(with_query ? "point," : "") + "face,u,v,x,y,z,nx,ny,nz,distance,lower,status\n");
   const auto append = [&](std::string& text, std::int64_t begin, std::int64_t end) {
-    const auto number = [&](double x) {
-      append_number(text, x);
-      text += ',';
-    };
     for (std::int64_t i = begin; i < end; ++i) {
-      const Sample& s = found.places[size_t(i)];
-      append_number(text, s.face);
+      if (with_query) {
+        append_number(text, query_of[size_t(i)]);
+        text += ',';
+      }
+      append_place(text, found.places[size_t(i)]);
+      append_point(text, found.points, i);
+      append_normal(text, found.normals, i);
+      append_fields(text, &found.distances[i], 1);
+      append_fields(text, &found.lower[i], 1);
       text += ',';
-      number(s.u), number(s.v);
-      for (Eigen::Index k = 0; k < 3; ++k) number(found.points(i, k));
-      const bool has_normal = !found.normals.row(i).isZero(0);
-      for (Eigen::Index k = 0; k < 3; ++k) has_normal ? number(found.normals(i, k)) : void(text += ',');
-      number(found.distances[i]), number(found.lower[i]);
       text += name(found.status[size_t(i)]);
       text += '\n';
     }

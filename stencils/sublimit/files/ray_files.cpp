@@ -7,6 +7,7 @@
 #include "sublimit/base/error.h"
 #include "sublimit/base/format_number.h"
 #include "sublimit/base/row_writer.h"
+#include "sublimit/files/csv_fields.h"
 #include "sublimit/files/csv_rows.h"
 
 namespace sublimit {
@@ -35,21 +36,18 @@ std::vector<Ray> read_rays(const std::filesystem::path& path) {
 }
 
 void write_ray_hits(const std::filesystem::path& path, const RayHits& hits) {
-  std::vector<std::int64_t> ray_of;
-  for (size_t i = 0; i + 1 < hits.first.size(); ++i) ray_of.resize(size_t(hits.first[i + 1]), std::int64_t(i));
+  const std::vector<std::int64_t> ray_of = owners_of_rows(hits.first);
   AtomicFile file(path);
   file.write("ray,t,face,u,v,x,y,z,nx,ny,nz,status\n");
   const auto append = [&](std::string& text, std::int64_t begin, std::int64_t end) {
-    const auto number = [&](auto x) {
-      append_number(text, x);
-      text += ',';
-    };
     for (std::int64_t i = begin; i < end; ++i) {
-      const Sample& s = hits.places[size_t(i)];
-      number(ray_of[size_t(i)]), number(hits.t[size_t(i)]), number(s.face), number(s.u), number(s.v);
-      for (Eigen::Index k = 0; k < 3; ++k) number(hits.points(i, k));
-      const bool has_normal = !hits.normals.row(i).isZero(0);
-      for (Eigen::Index k = 0; k < 3; ++k) has_normal ? number(hits.normals(i, k)) : void(text += ',');
+      append_number(text, ray_of[size_t(i)]);
+      append_fields(text, &hits.t[size_t(i)], 1);
+      text += ',';
+      append_place(text, hits.places[size_t(i)]);
+      append_point(text, hits.points, i);
+      append_normal(text, hits.normals, i);
+      text += ',';
       text += name(hits.status[size_t(i)]);
       text += '\n';
     }

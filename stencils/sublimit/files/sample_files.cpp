@@ -8,6 +8,7 @@
 #include "sublimit/base/error.h"
 #include "sublimit/base/format_number.h"
 #include "sublimit/base/row_writer.h"
+#include "sublimit/files/csv_fields.h"
 
 namespace sublimit {
 namespace {
@@ -47,21 +48,6 @@ SampleSummary write_batches(const std::filesystem::path& path, const Evaluation&
   return summary;
 }
 
-void append_fields(std::string& out, const double* numbers, int count, bool exist) {
-  for (int i = 0; i < count; ++i) {
-    out += ',';
-    if (exist && std::isfinite(numbers[i])) append_number(out, numbers[i]);
-  }
-}
-
-void append_place(std::string& out, const Sample& s) {
-  append_number(out, s.face);
-  out += ',';
-  append_number(out, s.u);
-  out += ',';
-  append_number(out, s.v);
-}
-
 void append_row(std::string& out, const LimitSamples& found, std::int64_t i, SampleColumns columns) {
   out += ',';
   out += name(found.status[i]);
@@ -72,7 +58,7 @@ void append_row(std::string& out, const LimitSamples& found, std::int64_t i, Sam
     for (const Points* m : {&found.du, &found.dv}) row(*m, order >= 1);
   if (columns.derivatives >= 2)
     for (const Points* m : {&found.duu, &found.duv, &found.dvv}) row(*m, order >= 2);
-  row(found.normal, !found.normal.row(i).isZero(0));
+  append_normal(out, found.normal, i);
   if (columns.curvature) {
     const std::optional<Curvature> c = curvature(found, static_cast<Index>(i));
     const double numbers[] = {c ? c->k1 : 0, c ? c->k2 : 0, c ? c->gauss : 0, c ? c->mean : 0};

@@ -170,6 +170,100 @@ TEST(ClosestPoints, FromTheMiddleOfASymmetricSurfaceEndIt) {
   EXPECT_LE(quick.lower[0], found.distances[0]);
 }
 
+/// Of each face by itself: all others are holes.
+std::vector<double> distances_by_face(const Scheme<double>& scheme, const ControlMesh& mesh,
+                                      const Eigen::RowVector3d& q) {
+  std::vector<double> all;
+  for (Index f = 0; f < Index(mesh.face_sizes.size()); ++f) {
+    ControlMesh one = mesh;
+    for (Index g = 0; g < Index(mesh.face_sizes.size()); ++g)
+      if (g != f) one.holes.push_back(g);
+    all.push_back(closest_points(LimitSurface(scheme, one), one.positions, q).distances[0]);
+  }
+  std::ranges::sort(all);
+  return all;
+}
+
+TEST(ClosestPoints, NearestFacesAreInTurn) {
+  for (const char* name : {"catmull-clark", "loop"}) {
+    const Scheme<double> scheme = *find_scheme<double>(name);
+    const ControlMesh mesh = jittered(takes_triangles(scheme) ? octahedron() : cube());
+    const LimitSurface surface(scheme, mesh);
+    const double size = diagonal(mesh.positions);
+    const Points q = queries(surface.evaluate_grid(mesh.positions, 5), size, 20, 3);
+    const ClosestPoints found = closest_points(surface, mesh.positions, q, {.count = 100});
+    for (Index i = 0; i < 20; ++i) {
+      const std::vector<double> expected = distances_by_face(scheme, mesh, q.row(i));
+      const std::int64_t first = found.first[size_t(i)];
+      ASSERT_EQ(found.first[size_t(i) + 1] - first, std::ssize(expected));
+      for (size_t k = 0; k < expected.size(); ++k) {
+        const auto row = Index(first) + Index(k);
+        EXPECT_NEAR(found.distances[row], expected[k], distance_accuracy * size) << name << " " << i << " " << k;
+        EXPECT_LE(found.lower[row], expected[k] + distance_accuracy * size);
+        if (i != 1) {
+          EXPECT_GE(found.lower[row], expected[k] - distance_accuracy * size) << name << " " << i << " " << k;
+        }
+      }
+      // Three of them, and those within a radius.
+      const ClosestPoints three = closest_points(surface, mesh.positions, q.row(i), {.count = 3});
+      ASSERT_EQ(three.first, (std::vector<std::int64_t>{0, 3}));
+      const double radius = (expected[2] + expected[3]) / 2;
+      const ClosestPoints within = closest_points(surface, mesh.positions, q.row(i), {.count = 100, .radius = radius});
+      EXPECT_EQ(within.first[1], std::ranges::count_if(expected, [&](double d) { return d <= radius; })) << i;
+    }
+  }
+}
+
+TEST(ClosestPoints, OutsideARadiusAreNone) {
+  const Scheme<double> scheme = *find_scheme<double>("bilinear");
+  const ControlMesh mesh = cube();  // [-1, 1]^3
+  const LimitSurface surface(scheme, mesh);
+  Points q(3, 3);
+  q << 0, 0, 3, 0, 0, 1.5, 9, 9, 9;
+  const ClosestPoints found = closest_points(surface, mesh.positions, q, {.radius = 1});
+  EXPECT_EQ(found.first, (std::vector<std::int64_t>{0, 0, 1, 1}));
+  EXPECT_NEAR(found.distances[0], 0.5, rounding(4));
+}
+
+TEST(ClosestPoints, InsideHaveSignedDistances) {
+  const Scheme<double> bilinear = *find_scheme<double>("bilinear");
+  ControlMesh box = cube();
+  Points q(6, 3);
+  // Towards a face, an edge, a corner; from outside the same; next to a corner, where one face's normal would not do.
+  q << 0, 0, 0.5, 0.9, 0.9, 0, 0.8, 0.8, 0.8, 0, 0, 2, 2, 2, 0, 1.1, 1.2, 0.9;
+  const Eigen::VectorXd inside =
+      (Eigen::VectorXd(6) << -0.5, -0.1, -0.2, 1, std::sqrt(2), std::hypot(0.1, 0.2)).finished();
+  for (const bool inwards : {false, true}) {
+    if (inwards) std::ranges::reverse(box.face_vertices);
+    const LimitSurface surface(bilinear, box);
+    const ClosestPoints found = closest_points(surface, box.positions, q, {.is_signed = true});
+    for (Index i = 0; i < 6; ++i) {
+      EXPECT_NEAR(found.distances[i], inside[i], rounding(8)) << i;
+      EXPECT_NEAR(found.lower[i], std::abs(inside[i]), distance_accuracy) << i;
+    }
+  }
+  // Along the normal to either side, at corners and on edges too.
+  for (const char* name : {"catmull-clark", "loop", "doo-sabin"}) {
+    const Scheme<double> scheme = *find_scheme<double>(name);
+    const ControlMesh mesh = takes_triangles(scheme) ? jittered(octahedron()) : jittered(prism(5));
+    const LimitSurface surface(scheme, mesh);
+    const double size = diagonal(mesh.positions), step = 1e-3 * size;
+    const LimitSamples on = surface.evaluate_grid(mesh.positions, 5, 1);
+    const ClosestPoints in = closest_points(surface, mesh.positions, on.position - step * on.normal,
+                                            {.is_signed = true}),
+                        out = closest_points(surface, mesh.positions, on.position + step * on.normal,
+                                             {.is_signed = true});
+    for (Index i = 0; i < on.position.rows(); ++i) {
+      EXPECT_NEAR(in.distances[i], -step, distance_accuracy * size) << name << " " << i;
+      EXPECT_NEAR(out.distances[i], step, distance_accuracy * size) << name << " " << i;
+    }
+  }
+  const ControlMesh open = grid(2, 2);
+  expect_error<UnsupportedTopology>(
+      [&] { closest_points(LimitSurface(bilinear, open), open.positions, q, {.is_signed = true}); },
+      {"closed", "edge ("});
+}
+
 TEST(ClosestPoints, LeaveHolesOut) {
   ControlMesh mesh = torus(6, 5);
   mesh.holes = {0, 1, 2, 3, 4};
@@ -216,6 +310,10 @@ TEST(ClosestPoints, SayWhatIsWrong) {
                                  {"face 0", "no face"});
   expect_error<InvalidParameter>([&] { closest_points(surface, mesh.positions, Points::Zero(2, 3), {.guess = guess}); },
                                  {"1 places", "2 points"});
+  expect_error<InvalidParameter>([&] { closest_points(surface, mesh.positions, Points::Zero(1, 3), {.count = 0}); },
+                                 {"0 nearest"});
+  expect_error<InvalidParameter>([&] { closest_points(surface, mesh.positions, Points::Zero(1, 3), {.radius = -1}); },
+                                 {"radius"});
   mesh.holes = {0, 1, 2, 3, 4, 5};
   const LimitSurface nothing(scheme, mesh);
   expect_error<InvalidMesh>([&] { closest_points(nothing, mesh.positions, Points::Zero(1, 3)); }, {"holes"});

@@ -11,6 +11,7 @@
 #include "sublimit/io/obj.h"
 #include "sublimit/io/read_mesh.h"
 #include "support/meshes.h"
+#include "support/tolerance.h"
 
 namespace sublimit::testing {
 namespace {
@@ -32,11 +33,36 @@ TEST(CliClosest, FindsTheFeetOnACube) {
   ASSERT_EQ(rows.size(), 4u);
   const std::vector<std::vector<double>> expected{{0.25, 0.5, 1, 2}, {0, 0, 1, 0}, {1, 1, 1, std::sqrt(3.0)}};
   for (size_t i = 0; i < 3; ++i) {
-    for (size_t k = 0; k < 3; ++k) EXPECT_NEAR(csv_number(rows[i + 1][3 + k]), expected[i][k], 1e-12);
-    EXPECT_NEAR(csv_number(rows[i + 1][9]), expected[i][3], 1e-12);
-    EXPECT_NEAR(csv_number(rows[i + 1][10]), expected[i][3], 1e-12);
+    for (size_t k = 0; k < 3; ++k) EXPECT_NEAR(csv_number(rows[i + 1][3 + k]), expected[i][k], found_distance);
+    EXPECT_NEAR(csv_number(rows[i + 1][9]), expected[i][3], found_distance);
+    EXPECT_NEAR(csv_number(rows[i + 1][10]), expected[i][3], found_distance);
   }
   EXPECT_EQ(csv_number(rows[1][8]), 1);  // the normal of the upper face
+}
+
+TEST(CliClosest, FindsSeveralFacesWithinARadiusAndSigns) {
+  const TemporaryDirectory directory;
+  const std::string mesh = write_cube(directory), out = (directory / "o.csv").string(),
+                    points = directory.write("q.csv", "x,y,z\n0.5,0.25,0.9\n9,9,9\n0,0,3\n").string();
+  const auto run = [&](std::vector<std::string> more) {
+    std::vector<std::string> all{"closest", mesh, "-s", "bilinear", "--points", points, "-o", out};
+    all.insert(all.end(), more.begin(), more.end());
+    return expect_done(sublimit(all));
+  };
+  const Outcome near = run({"--nearest", "3", "--radius", "2"});
+  expect_parts(near.out, {"3 points", "4 rows", "1 points have no face within 2"});
+  EXPECT_TRUE(read_file(out).starts_with("point,face,u,v,x,y,z,nx,ny,nz,distance,lower,status\n"));
+  const std::vector<CsvRow> rows = csv_rows(out);
+  ASSERT_EQ(rows.size(), 5u);
+  const std::vector<std::pair<double, double>> expected{{0, 0.1}, {0, 0.5}, {0, 0.75}, {2, 2}};
+  for (size_t i = 0; i < expected.size(); ++i) {
+    EXPECT_EQ(csv_number(rows[i + 1][0]), expected[i].first);
+    EXPECT_NEAR(csv_number(rows[i + 1][10]), expected[i].second, found_distance);
+  }
+  run({"--signed"});
+  const std::vector<CsvRow> with_signs = csv_rows(out);
+  EXPECT_NEAR(csv_number(with_signs[1][9]), -0.1, found_distance);
+  EXPECT_NEAR(csv_number(with_signs[3][9]), 2, found_distance);
 }
 
 TEST(CliClosest, TakesPointsFromEveryKindOfFile) {
@@ -77,9 +103,18 @@ TEST(CliClosest, RefusesInClearWords) {
   refused("c.csv", "x,y,z\n1,nan,2\n", 3, {"c.csv:2"});
   refused("d.txt", "1 2 3\n", 3, {"d.txt", ".csv", ".npy"});
   refused("e.npy", "no array", 3, {"e.npy"});
-  const std::string empty = directory.write("none.csv", "x,y,z\n").string();
-  expect_done(sublimit({"closest", mesh, "-s", "catmull-clark", "--points", empty, "-o", out, "--quiet"}));
-  EXPECT_EQ(read_file(out), "face,u,v,x,y,z,nx,ny,nz,distance,lower,status\n");
+  const std::string good = directory.write("q.csv", "x,y,z\n0,0,0\n").string();
+  const auto wrong = [&](const std::string& option, const std::string& value) {
+    expect_failure(sublimit({"closest", mesh, "-s", "catmull-clark", "--points", good, "-o", out, option, value}), 2,
+                   {option + " " + value});
+  };
+  wrong("--nearest", "0"), wrong("--nearest", "few"), wrong("--radius", "-1"), wrong("--radius", "nan");
+  write_obj(directory / "open.obj", output(grid(2, 2)));
+  expect_failure(sublimit({"closest", (directory / "open.obj").string(), "-s", "catmull-clark", "--points", good, "-o",
+                           out, "--signed"}),
+                 3, {"open.obj", "not closed at edge"});
+  refused("none.csv", "x,y,z\n", 3, {"none.csv", "no points"});
+  refused("names.csv", "a,b,c\n1,2,3\n", 3, {"names.csv", "x,y,z"});
   expect_failure(
       sublimit({"closest", mesh, "-s", "catmull-clark", "--points", (directory / "missing.csv").string(), "-o", out}),
       3, {"missing.csv"});
@@ -102,9 +137,9 @@ TEST(CliIntersect, FindsHitsOnACube) {
   for (size_t i = 0; i < 3; ++i) {
     const CsvRow& row = rows[i + 1];
     EXPECT_EQ(csv_number(row[0]), expected[i][0]);
-    EXPECT_NEAR(csv_number(row[1]), expected[i][1], 1e-14);
-    for (size_t k = 0; k < 3; ++k) EXPECT_NEAR(csv_number(row[5 + k]), expected[i][2 + k], 1e-14);
-    EXPECT_NEAR(csv_number(row[10]), expected[i][5], 1e-14);  // the box's normals point outwards
+    EXPECT_NEAR(csv_number(row[1]), expected[i][1], rounding(10));
+    for (size_t k = 0; k < 3; ++k) EXPECT_NEAR(csv_number(row[5 + k]), expected[i][2 + k], rounding(10));
+    EXPECT_NEAR(csv_number(row[10]), expected[i][5], rounding(10));  // the box's normals point outwards
   }
   const Outcome nearest = expect_done(sublimit({"intersect", mesh, "-s", "bilinear", "--rays", rays, "-o", out}));
   expect_parts(nearest.out, {"2 hits of 4 rays"});
@@ -147,7 +182,7 @@ TEST(CliTessellate, WritesTrianglesNormalsAndPlaces) {
   ASSERT_EQ(std::ssize(rows), triangles.positions.rows() + 1);
   for (Eigen::Index i = 0; i < triangles.positions.rows(); ++i)
     for (Eigen::Index k = 0; k < 3; ++k)
-      EXPECT_NEAR(csv_number(rows[size_t(i) + 1][size_t(4 + k)]), triangles.positions(i, k), 1e-14);
+      EXPECT_NEAR(csv_number(rows[size_t(i) + 1][size_t(4 + k)]), triangles.positions(i, k), rounding(10));
 }
 
 TEST(CliTessellate, RefusesInClearWords) {
