@@ -16,6 +16,8 @@ TABLE = [
     ("Sample, prepared, sorted places", "limit_bench", "prepared", ("sorted",), "ours", False),
     ("Sample, from connectivity", "limit_bench", "cold", ("",), "ours", False),
     ("First touch of every face", "limit_bench", "first", ("",), "ours", False),
+    ("Nearest points, proved", "search_bench", "closest", ("",), "ours", False),
+    ("Nearest hits of rays", "search_bench", "rays", ("",), "ours", False),
     ("Called from Python: a call", "python_bench", "call apply", ("",), "ours", False),
     ("Called from Python: a call with one place", "python_bench", "call evaluate", ("",), "ours", False),
     ("Called from Python: apply", "python_bench", "apply", ("",), "ours", False),

@@ -26,6 +26,7 @@ constexpr double same_place = 1e-11, beyond = 1e-9;
 
 struct Hit {
   double t = 0;
+  double reach = 0;  ///< how far off t may be: much where the ray grazes the surface
   Sample place;
 };
 
@@ -84,12 +85,15 @@ class SeenNet {
     return true;
   }
 
-  enum class Zero { none, one, unknown };
+  struct Zero {
+    enum class Kind { none, one, unknown } kind;
+    Eigen::Vector2d uv = Eigen::Vector2d::Zero();
+    double s = 0;      ///< distance along the ray
+    double reach = 0;  ///< how far off that may be
+  };
   /// Of the part of a convex domain: the square, or the triangle.
-  /// @param uv  of the zero
-  /// @param s   its distance along the ray
   /// @param slack  how far off counts as a hit
-  Zero zero(Eigen::Vector2d& uv, double& s, double slack) const {
+  Zero zero(double slack) const {
     const NetDerivatives x(basis_, net_, 1);
     Eigen::Matrix2d middle, radius;
     for (int by = 0; by < 2; ++by) {  // columns: derivatives across the ray, by u and by v
@@ -98,11 +102,11 @@ class SeenNet {
       middle.col(by) = (low + high) / 2;
       radius.col(by) = (high - low) / 2;
     }
-    if (!(std::abs(middle.determinant()) > 1e-12 * middle.squaredNorm())) return Zero::unknown;
+    if (!(std::abs(middle.determinant()) > 1e-12 * middle.squaredNorm())) return {Zero::Kind::unknown};
     const Eigen::Matrix2d inverse = middle.inverse();
     // At most that much of the distance to a zero is left after a step by the inverse of the middle, and going back to
     // the nearest place of the domain adds nothing.
-    if (!((inverse.cwiseAbs() * radius).norm() < 0.5)) return Zero::unknown;
+    if (!((inverse.cwiseAbs() * radius).norm() < 0.5)) return {Zero::Kind::unknown};
     Eigen::Vector2d p = basis_.total() ? Eigen::Vector2d(1. / 3, 1. / 3) : Eigen::Vector2d(0.5, 0.5), move;
     NetDerivatives::Jet jet;
     for (int step = 0; step < 64; ++step) {
@@ -114,11 +118,9 @@ class SeenNet {
       if (done) break;
     }
     // What the neighbour may miss by as much as rounding moves zeros is taken here too.
-    if (!(move.cwiseAbs().maxCoeff() <= beyond + inverse.cwiseAbs().rowwise().sum().maxCoeff() * slack))
-      return Zero::none;
-    uv = p;
-    s = jet.x[2];
-    return Zero::one;
+    const Eigen::Vector2d off = (inverse.cwiseAbs().rowwise().sum() * slack).array() + beyond;
+    if (!(move.cwiseAbs().maxCoeff() <= off.maxCoeff())) return {Zero::Kind::none};
+    return {Zero::Kind::one, p, jet.x[2], std::abs(jet.u[2]) * off[0] + std::abs(jet.v[2]) * off[1]};
   }
 
  private:
@@ -204,23 +206,24 @@ class Tracer {
     for (size_t half = 0; half < part.nets.size(); ++half) {
       const SeenNet net(part.polynomial->basis, frame_->seen(part.nets[half]));
       if (!net.can_be_hit(slack)) continue;
-      Eigen::Vector2d uv;
-      double s = 0;
-      const SeenNet::Zero zero = net.zero(uv, s, slack);
-      if (zero == SeenNet::Zero::unknown) {
+      const SeenNet::Zero zero = net.zero(slack);
+      const Eigen::Vector2d& uv = zero.uv;
+      if (zero.kind == SeenNet::Zero::Kind::unknown) {
         known = false;
         break;
       }
       // Of a part that is cut along u = v each polynomial has its side.
       const bool own = part.nets.size() == 1 || (half == 0 ? uv.x() >= uv.y() - beyond : uv.y() >= uv.x() - beyond);
-      if (zero == SeenNet::Zero::one && own) add(cell, uv, s);
+      if (zero.kind == SeenNet::Zero::Kind::one && own) add(cell, uv, zero.s, zero.reach);
     }
     if (known) return;
     const Eigen::AlignedBox3d box = box_of(part);
     if (box.diagonal().norm() <= slack) {
       ++undecided_;
       const Points middle = frame_->seen(box.center().transpose());
-      if (middle.leftCols(2).norm() <= 2 * slack) add(cell, {0.25, 0.25}, middle(0, 2));
+      // Where a ray touches, the surface is as near as that for the root of it.
+      if (middle.leftCols(2).norm() <= 2 * slack)
+        add(cell, {0.25, 0.25}, middle(0, 2), std::sqrt(slack * parts_.size()));
       return;
     }
     for_each_child(cell, cutter_, [&](SurfacePart&& child) {
@@ -229,32 +232,39 @@ class Tracer {
     });
   }
 
-  void add(const SurfacePart& cell, const Eigen::Vector2d& uv, double s) {
+  void add(const SurfacePart& cell, const Eigen::Vector2d& uv, double s, double reach) {
     const bool triangle = cell.part.type->kind() == Piece::Kind::triangle;
     const auto [u, v] = at_place(cell.part.corners, triangle, uv.x(), uv.y());
     const double t = s / frame_->length;
     if (!(t >= ray_->tmin && t <= ray_->tmax)) return;
+    reach /= frame_->length;
     hits_.push_back(
-        {t, {cell.address, std::clamp(u, 0.0, 1.0), std::clamp(v, 0.0, triangle ? 1 - std::clamp(u, 0.0, 1.0) : 1.0)}});
-    nearest_ = std::min(nearest_, t + apart());  // what counts as the same hit has to be found too
+        {t,
+         reach,
+         {cell.address, std::clamp(u, 0.0, 1.0), std::clamp(v, 0.0, triangle ? 1 - std::clamp(u, 0.0, 1.0) : 1.0)}});
+    nearest_ = std::min(nearest_, t + 2 * reach + apart());  // what counts as the same hit has to be found too
   }
 
   /// Hits that are nearer to each other along the ray are one.
   double apart() const { return 100 * slack_ / frame_->length; }
 
-  /// By t; what several parts have is one hit, of the least face.
+  /// By t; what several parts have is one hit: the one that is known best, of the least face.
   std::vector<Hit> merged() {
     std::sort(hits_.begin(), hits_.end(), [](const Hit& a, const Hit& b) {
       return std::tuple(a.t, a.place.face, a.place.u, a.place.v) < std::tuple(b.t, b.place.face, b.place.u, b.place.v);
     });
     std::vector<Hit> result;
+    double end = 0;
     for (const Hit& hit : hits_) {
-      if (!result.empty() && hit.t - result.back().t <= apart()) {
-        if (hit.place.face < result.back().place.face) result.back().place = hit.place;
+      if (!result.empty() && hit.t - hit.reach <= end) {
+        Hit& best = result.back();
+        if (hit.reach < best.reach / 2 || (hit.reach < 2 * best.reach && hit.place.face < best.place.face)) best = hit;
+        end = std::max(end, hit.t + hit.reach + apart());
         continue;
       }
       if (!options_.all && !result.empty()) break;
       result.push_back(hit);
+      end = hit.t + hit.reach + apart();
     }
     return result;
   }

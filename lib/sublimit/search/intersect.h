@@ -27,8 +27,9 @@ struct RayHits {
   std::vector<Sample> places;
   Points points, normals;  ///< of the surface there, #hits x 3; normals zero where undefined
   std::vector<LimitStatus> status;
-  /// Not decided: parts that a ray touches, or extraordinary vertices that it meets, which were cut to points and count
-  /// as hits where their middle is on the ray; and parts that were left after `RayOptions::most_parts`, which do not.
+  /// Not decided: parts that a ray touches, or extraordinary vertices that it meets, which were cut to points: together
+  /// they count as one hit, whose t is off by up to the root of a rounding; and parts that were left after
+  /// `RayOptions::most_parts`, which do not count. A ray within the surface has one hit, where it comes to it.
   std::vector<std::int64_t> undecided;  ///< how many, by ray
 };
 

@@ -38,18 +38,20 @@ Interval dot(const Box& a, const Box& b) {
 }  // namespace
 
 NetDistance::NetDistance(const PolynomialBasis& basis, const Points& net, const Eigen::Vector3d& query, double rounding)
-    : total_(basis.total()), net_(basis, net.rowwise() - query.transpose(), 2), rounding_(rounding) {}
+    : basis_(basis), net_(net.rowwise() - query.transpose()), rounding_(rounding) {}
 
 double NetDistance::lower(const Eigen::Vector3d& towards) const {
-  const Points& b = net_.net(0, 0);
-  return std::max(box_of(b).exteriorDistance(Eigen::Vector3d(Eigen::Vector3d::Zero())), (b * towards).minCoeff()) -
+  return std::max(box_of(net_).exteriorDistance(Eigen::Vector3d(Eigen::Vector3d::Zero())),
+                  (net_ * towards).minCoeff()) -
          rounding_;
 }
 
 std::optional<ConvexMinimum> NetDistance::convex_minimum() const {
-  const Box x = box_of(net_.net(0, 0)), u = box_of(net_.net(1, 0)), v = box_of(net_.net(0, 1));
+  const bool total = basis_.total();
+  const NetDerivatives derivatives(basis_, net_, 2);
+  const Box x = box_of(net_), u = box_of(derivatives.net(1, 0)), v = box_of(derivatives.net(0, 1));
   const auto second = [&](int du, int dv) {
-    const Box box = box_of(net_.net(du, dv));
+    const Box box = box_of(derivatives.net(du, dv));
     return box.isEmpty() ? Interval{} : dot(x, box);
   };
   const Interval huu = dot(u, u) + second(2, 0), hvv = dot(v, v) + second(0, 2), huv = dot(u, v) + second(1, 1);
@@ -58,16 +60,16 @@ std::optional<ConvexMinimum> NetDistance::convex_minimum() const {
 
   // Newton's method; each step goes to the smallest value of the quadratic model on the square or triangle.
   using Place = Eigen::Vector2d;
-  std::array<Place, 4> corners{Place(0, 0), Place(1, 0), total_ ? Place(0, 1) : Place(1, 1), Place(0, 1)};
-  const size_t count = total_ ? 3 : 4;
+  std::array<Place, 4> corners{Place(0, 0), Place(1, 0), total ? Place(0, 1) : Place(1, 1), Place(0, 1)};
+  const size_t count = total ? 3 : 4;
   const auto inside = [&](const Place& p) {
-    return p.x() >= 0 && p.y() >= 0 && (total_ ? p.x() + p.y() <= 1 : p.x() <= 1 && p.y() <= 1);
+    return p.x() >= 0 && p.y() >= 0 && (total ? p.x() + p.y() <= 1 : p.x() <= 1 && p.y() <= 1);
   };
-  Place p = total_ ? Place(1. / 3, 1. / 3) : Place(0.5, 0.5);
+  Place p = total ? Place(1. / 3, 1. / 3) : Place(0.5, 0.5);
   ConvexMinimum best;
   double most = -std::numeric_limits<double>::infinity();
   for (int step = 0; step < 12; ++step) {
-    const NetDerivatives::Jet j = net_.at(p.x(), p.y());
+    const NetDerivatives::Jet j = derivatives.at(p.x(), p.y());
     const Eigen::Vector2d g(j.x.dot(j.u), j.x.dot(j.v));
     const double value = j.x.squaredNorm() / 2;
     double below = 0;  // of the tangent plane, on the square or triangle

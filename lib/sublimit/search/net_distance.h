@@ -25,8 +25,8 @@ class NetDistance {
   std::optional<ConvexMinimum> convex_minimum() const;
 
  private:
-  bool total_;
-  NetDerivatives net_;  // less q
+  const PolynomialBasis& basis_;
+  Points net_;  // less q
   double rounding_;
 };
 

@@ -22,9 +22,10 @@ Eigen::AlignedBox3d box_of(const PiecePart& part) {
 
 SurfaceParts::SurfaceParts(const LimitSurface& surface, const Points& points) {
   const AddressPieces pieces(surface, points);
-  // Deeper parts are made when they are asked for: few searches come near extraordinary vertices.
-  const int levels = pieces.has_no_polynomials() ? 1 : 2;
   const Index addresses = surface.addresses().size();
+  // Deeper parts are made when they are asked for, for each query anew; all of them would not fit in memory.
+  constexpr Index many = 20'000;
+  const int levels = pieces.has_no_polynomials() ? 1 : addresses < many ? 5 : 2;
   constexpr std::int64_t addresses_a_block = 32;
   std::vector<std::vector<SurfacePart>> blocks(size_t(num_blocks(addresses, addresses_a_block)));
   parallel_for_blocks(

@@ -151,6 +151,15 @@ void point(SiteClass<Site>& sites, const char* name, const Point& of, const char
       name, [of](const Seen<Site>& s) { return s.point(of); }, meaning);
 }
 
+/// Of an edge.
+template <template <class> class Site>
+void ends(SiteClass<Site>& edges, const char* tail) {
+  point(
+      edges, "tail", [](const auto& e) { return e.tail(); }, tail);
+  point(
+      edges, "head", [](const auto& e) { return e.head(); }, "The other end.");
+}
+
 int wrapped(int i, int n) { return (i % n + n) % n; }
 
 /// Child points of faces, which not every split has.
@@ -186,10 +195,7 @@ void add_edges(py::module_& m) {
   auto edges = site_class<EdgeSite>(
       m, "EdgeSite",
       "An edge inside, with its two faces. The left one begins with (tail, head), the right one with (head, tail).");
-  point(
-      edges, "tail", [](const auto& e) { return e.tail(); }, "The end that the left face has first.");
-  point(
-      edges, "head", [](const auto& e) { return e.head(); }, "The other end.");
+  ends(edges, "The end that the left face has first.");
   edges
       .def_property_readonly(
           "left_face",
@@ -274,10 +280,7 @@ void add_rings(py::module_& m) {
 
 void add_wide_sites(py::module_& m) {
   auto edges = site_class<WideEdgeSite>(m, "WideEdgeSite", "An edge with all faces at its two ends.");
-  point(
-      edges, "tail", [](const auto& e) { return e.tail(); }, "The end that the left face has first.");
-  point(
-      edges, "head", [](const auto& e) { return e.head(); }, "The other end.");
+  ends(edges, "The end that the left face has first.");
   edges
       .def_property_readonly(
           "is_border", [](const Seen<WideEdgeSite>& e) { return e.see([](const auto& s) { return s.is_border(); }); },
@@ -329,10 +332,7 @@ void add_creases(py::module_& m) {
       vertices, "after", [](const auto& v) { return v.after(); }, "The vertex after it on the curve.");
   auto edges =
       site_class<CreaseEdgeSite>(m, "CreaseEdgeSite", "An edge of a border, or a sharp one, on the curve of these.");
-  point(
-      edges, "tail", [](const auto& e) { return e.tail(); }, "The end that the left face has first.");
-  point(
-      edges, "head", [](const auto& e) { return e.head(); }, "The other end.");
+  ends(edges, "The end that comes first on the curve.");
   point(
       edges, "before", [](const auto& e) { return e.before(); },
       "The vertex before the tail on the curve; where it ends there in a corner, its mirror image.");

@@ -11,6 +11,7 @@
 #include "sublimit/schemes.h"
 #include "sublimit/tessellation/tessellate.h"
 #include "support/meshes.h"
+#include "support/places.h"
 #include "support/tolerance.h"
 
 namespace sublimit {
@@ -230,6 +231,52 @@ TEST(Intersect, PlacesOfOpenSurfacesAreOnTheRay) {
         const Eigen::Vector3d on_ray = rays[i].origin + hits.t[size_t(k)] * rays[i].direction;
         EXPECT_LE((at.row(k).transpose() - on_ray).norm(), found_hit * diagonal(open)) << scheme << " " << i;
       }
+  }
+}
+
+// A ray that touches has one hit, which says that it is not decided; a little off it has none, or two.
+TEST(Intersect, TangentRaysHitOnceOrTwiceOrNot) {
+  const ControlMesh mesh = cube();  // its limit is convex
+  const LimitSurface surface(find_scheme("catmull-clark").value(), mesh);
+  const std::vector<Sample> at = random_places(surface.addresses(), 60, 3);
+  const LimitSamples on = surface.evaluate(mesh.positions, at, 1);
+  const double size = diagonal(mesh);
+  const auto tangents = [&](double off) {
+    std::vector<Ray> rays;
+    for (Eigen::Index i = 0; i < on.position.rows(); ++i) {
+      const Eigen::RowVector3d along =
+          (std::cos(double(i)) * on.du.row(i) + std::sin(double(i)) * on.dv.row(i)).normalized();
+      rays.push_back({on.position.row(i) - 3 * along + off * size * on.normal.row(i), along});
+    }
+    return rays;
+  };
+  const RayHits touching = intersect(surface, mesh.positions, tangents(0), {.all = true});
+  for (size_t i = 0; i < at.size(); ++i) {
+    ASSERT_EQ(touching.first[i + 1] - touching.first[i], 1) << i;
+    EXPECT_GT(touching.undecided[i], 0) << i;
+    EXPECT_NEAR(touching.t[size_t(touching.first[i])], 3, found_touch * size) << i;
+  }
+  for (const double off : {1e-3, 1e-6, 1e-9}) {
+    const RayHits outside = intersect(surface, mesh.positions, tangents(off), {.all = true}),
+                  inside = intersect(surface, mesh.positions, tangents(-off), {.all = true});
+    for (size_t i = 0; i < at.size(); ++i) {
+      EXPECT_EQ(outside.first[i + 1] - outside.first[i], 0) << off << " " << i;
+      EXPECT_EQ(inside.first[i + 1] - inside.first[i], 2) << off << " " << i;
+      EXPECT_EQ(outside.undecided[i] + inside.undecided[i], 0) << off << " " << i;
+    }
+  }
+}
+
+// In a face or along an edge a ray has no end of hits: the first one is told, and that there is more.
+TEST(Intersect, RaysInTheSurfaceTellWhereTheyEnterIt) {
+  const ControlMesh box = cube();  // [-1, 1]^3
+  const LimitSurface surface(find_scheme("bilinear").value(), box);
+  const std::vector<Ray> rays{{{-3, 1, 1}, {1, 0, 0}}, {{-3, 0.3, 1}, {1, 0, 0}}, {{-3, -3, 1}, {1, 1, 0}}};
+  const RayHits hits = intersect(surface, box.positions, rays);
+  ASSERT_EQ(hits.t.size(), 3u);
+  for (size_t i = 0; i < 3; ++i) {
+    EXPECT_NEAR(hits.t[i], 2, found_touch * diagonal(box));
+    EXPECT_GT(hits.undecided[i], 0);
   }
 }
 
