@@ -180,7 +180,7 @@ std::string mesh_section(const Json& mesh) {
                  {"Faces", shown(at(counts, "faces"))},
                  {"Edges", shown(at(counts, "edges"))},
                  {"Box", box.is_array() ? place(at(box, 0)) + " to " + place(at(box, 1)) : dash}});
-  text += figures(asset_figure(mesh)) + "</section>\n";
+  text += figures(asset_figure(mesh)) + figures(asset_stripes(mesh)) + "</section>\n";
   return text + warnings_section(at(mesh, "warnings")) + worst_places(at(mesh, "worst")) +
          inventory(at(mesh, "inventory")) + seams(at(mesh, "seams")) + curvature(at(mesh, "curvature"));
 }

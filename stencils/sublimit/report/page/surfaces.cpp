@@ -46,14 +46,19 @@ std::vector<double> mirrored(const PictureMesh& mesh, const Vector3d& eye) {
   return values;
 }
 
-std::string reflection_figure(const PictureMesh& mesh, const std::string& name, bool small) {
-  if (mesh.vertex_normals.rows() == 0) return {};
-  PictureOptions options = small_picture("Reflection lines, " + name, small);
-  options.tone_step = small ? 16 : 10;  // the stripes say it
-  const std::vector<double> values = mirrored(mesh, eye_of(options));
+/// How far normals look towards a light far away: its level lines are isophotes.
+std::vector<double> lit(const PictureMesh& mesh, const Vector3d& light) {
+  std::vector<double> values;
+  for (Eigen::Index v = 0; v < mesh.vertex_normals.rows(); ++v)
+    values.push_back(mesh.vertex_normals.row(v).dot(light.normalized()));
+  return values;
+}
+
+/// Stripes in turn between equal steps of a value.
+std::string striped(const PictureMesh& mesh, const std::vector<double>& values, int count,
+                    const PictureOptions& options) {
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
   std::vector<double> thresholds;
-  const int count = small ? 20 : 26;
   for (int i = 1; i < count; ++i) thresholds.push_back(*low + (*high - *low) * i / count);
   std::vector<PictureMesh> parts = bands(mesh, values, thresholds);
   std::vector<PictureMesh> stripes[2];
@@ -61,8 +66,15 @@ std::string reflection_figure(const PictureMesh& mesh, const std::string& name, 
     if (!parts[i].face_sizes.empty()) stripes[i % 2].push_back(std::move(parts[i]));
   Panel panel{{joined(stripes[0]), joined(stripes[1])}, {}, {}};
   panel.layers[0].color = {.80, .82, .83}, panel.layers[1].color = {.16, .25, .36};
+  return svg_picture({panel}, options);
+}
+
+std::string reflection_figure(const PictureMesh& mesh, const std::string& name, bool small) {
+  if (mesh.vertex_normals.rows() == 0) return {};
+  PictureOptions options = small_picture("Reflection lines, " + name, small);
+  options.tone_step = small ? 16 : 10;  // the stripes say it
   return figure(
-      svg_picture({panel}, options),
+      striped(mesh, mirrored(mesh, eye_of(options)), small ? 20 : 26, options),
       "<b>Reflection lines.</b> Stripes of a far world in a mirror: they break where the tangent plane jumps and "
       "kink where curvature does.");
 }
@@ -154,19 +166,50 @@ std::string surface_figures(const Json& surface, const std::string& name, bool s
   return all;
 }
 
+namespace {
+
+/// Of a whole asset.
+PictureOptions asset_picture(const PictureMesh& mesh, const std::string& title) {
+  PictureOptions options = small_picture(title);
+  const Vector3d extent = (mesh.positions.colwise().maxCoeff() - mesh.positions.colwise().minCoeff()).transpose();
+  // Files do not say. Most have y upwards; what is much flatter in z lies on its belly.
+  if (extent.z() >= .5 * extent.y()) options.up = {0, 1, 0};
+  options.elevation = .36;
+  return options;
+}
+
+}  // namespace
+
+std::string asset_stripes(const Json& asset) {
+  const PictureMesh mesh = mesh_of(at(asset, "surface"));
+  if (mesh.face_sizes.empty() || !mesh.positions.allFinite() || mesh.vertex_normals.rows() == 0) return {};
+  const std::string of = " of " + string(at(asset, "file"), "the mesh");
+  const auto options = [&](const std::string& what) {
+    PictureOptions picture = asset_picture(mesh, what + of);
+    picture.panel_width = 440;
+    picture.panel_height = 310;
+    picture.tone_step = 16;  // the stripes say it
+    return picture;
+  };
+  const PictureOptions zebra = options("Zebra stripes"), isophotes = options("Isophotes");
+  return figure(striped(mesh, mirrored(mesh, eye_of(zebra)), 26, zebra),
+                "<b>Zebra stripes</b>, a striped far world in a mirror, by exact normals: they break where the tangent "
+                "plane jumps and kink where curvature does.") +
+         figure(
+             striped(mesh, lit(mesh, {.35, .5, .8}), 22, isophotes),
+             "<b>Isophotes</b>, lines of equal light from far away, by exact normals: they jump and kink at the same "
+             "places, whatever the eye sees from where it is.");
+}
+
 std::string asset_figure(const Json& asset) {
   const Json& surface = at(asset, "surface");
   const PictureMesh mesh = mesh_of(surface);
   if (mesh.face_sizes.empty() || !mesh.positions.allFinite()) return {};
-  PictureOptions options = small_picture("Limit surface of " + string(at(asset, "file"), "the mesh"));
+  PictureOptions options = asset_picture(mesh, "Limit surface of " + string(at(asset, "file"), "the mesh"));
   options.panel_width = 900;
   options.panel_height = 620;
-  const Vector3d extent = (mesh.positions.colwise().maxCoeff() - mesh.positions.colwise().minCoeff()).transpose();
-  // Files do not say. Most have y upwards; what is much flatter in z lies on its belly.
-  if (extent.z() >= .5 * extent.y()) options.up = {0, 1, 0};
   options.sky_directions = 64;
   options.tone_step = 3;
-  options.elevation = .36;
   const Curvature curvature = gauss_of(surface, mesh, 80);  // rounded edges would hide the rest
   Panel panel;
   panel.layers = curvature.gauss.empty() ? std::vector<PictureMesh>{mesh} : colored(mesh, curvature);

@@ -14,4 +14,7 @@ std::string surface_figures(const Json& surface, const std::string& name, bool s
 /// One broad figure of an asset: curvature colours and its worst places, numbered; with legend.
 std::string asset_figure(const Json& mesh);
 
+/// Two more: zebra stripes and isophotes; none without normals.
+std::string asset_stripes(const Json& mesh);
+
 }  // namespace sublimit::page

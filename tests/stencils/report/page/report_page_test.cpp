@@ -188,6 +188,17 @@ TEST(ReportPage, RefusesWhatItDoesNotKnow) {
   expect_error<FormatError>([&] { report_page(Json::array()); }, {"report.json"});
 }
 
+TEST(ReportPage, StripesOfAMeshComeFromItsNormals) {
+  const std::string& page = page_of("mesh");
+  EXPECT_EQ(count(page, "<b>Zebra stripes</b>"), 1u);
+  EXPECT_EQ(count(page, "<b>Isophotes</b>"), 1u);
+  Json without = sample_mesh();
+  for_each_object(without, [](Json& object) { object.erase("normals"); });
+  const std::string plain = report_page(without);
+  EXPECT_EQ(count(plain, "<b>Zebra stripes</b>") + count(plain, "<b>Isophotes</b>"), 0u);
+  EXPECT_EQ(count(plain, "<b>The limit surface</b>"), 1u);
+}
+
 TEST(ReportPage, StaysSmall) { EXPECT_LT(report_page(sample_schemes(5, 8)).size(), 1'200'000u); }
 
 }  // namespace
