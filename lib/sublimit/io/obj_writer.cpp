@@ -33,6 +33,14 @@ void append_faces(const MeshOutput& mesh, std::int64_t begin, std::int64_t end, 
     const std::size_t last = first + static_cast<std::size_t>(mesh.face_sizes[static_cast<std::size_t>(face)]);
     bool normals = mesh.normals.rows() > 0;
     for (std::size_t i = first; per_corner && i < last; ++i) normals = normals && mesh.face_normals[i] >= 0;
+    if (!mesh.face_ids.empty()) {
+      const Index* const id = mesh.face_ids.data() + face;
+      if (face == 0 || *id != id[-1]) {
+        out += "g face_";
+        append_number(out, *id);
+        out += '\n';
+      }
+    }
     out += 'f';
     for (std::size_t i = first; i < last; ++i) {
       out += ' ';

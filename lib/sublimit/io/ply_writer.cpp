@@ -40,21 +40,25 @@ std::string format_header(const MeshOutput& mesh, bool wide) {
   if (mesh.normals.rows() > 0) {
     for (const char* const name : {"nx", "ny", "nz"}) out += std::string("property double ") + name + "\n";
   }
+  if (mesh.texture.rows() > 0) out += "property double s\nproperty double t\n";
   out += "element face " + format_number(mesh.face_sizes.size()) + "\n";
   out += wide ? "property list uint int vertex_indices\n" : "property list uchar int vertex_indices\n";
+  if (!mesh.face_ids.empty()) out += "property int face_id\n";
   return out + "end_header\n";
 }
 
 void emit_vertices(const MeshOutput& mesh, RowWriter& out) {
-  const bool normals = mesh.normals.rows() > 0;
+  const bool normals = mesh.normals.rows() > 0, texture = mesh.texture.rows() > 0;
+  const std::size_t numbers = 3 + (normals ? 3 : 0) + (texture ? 2 : 0);
   const double* const positions = mesh.positions.data();
-  if (is_little_endian && !normals)  // they lie in memory as they should in the file
+  if (is_little_endian && numbers == 3)  // they lie in memory as they should in the file
     return out.write({reinterpret_cast<const char*>(positions), std::size_t(mesh.positions.size()) * sizeof(double)});
   out.rows(mesh.positions.rows(), ply_rows_per_block, [&](std::string& bytes, std::int64_t begin, std::int64_t end) {
-    char* at = extend(bytes, std::size_t(end - begin) * (normals ? 6 : 3) * sizeof(double));
+    char* at = extend(bytes, std::size_t(end - begin) * numbers * sizeof(double));
     for (std::int64_t v = begin; v < end; ++v) {
       for (int i = 0; i < 3; ++i) put(at, positions[3 * v + i]);
       for (int i = 0; normals && i < 3; ++i) put(at, mesh.normals.data()[3 * v + i]);
+      for (int i = 0; texture && i < 2; ++i) put(at, mesh.texture.data()[2 * v + i]);
     }
   });
 }
@@ -67,12 +71,14 @@ void emit_faces(const MeshOutput& mesh, RowWriter& out) {
   out.rows(num_faces, ply_rows_per_block, [&](std::string& bytes, std::int64_t begin, std::int64_t end) {
     const std::size_t corner = first[std::size_t(begin / ply_rows_per_block)];
     const std::size_t last = end == num_faces ? num_corners : first[std::size_t(end / ply_rows_per_block)];
-    char* at = extend(bytes, std::size_t(end - begin) * sizeof(Size) + (last - corner) * sizeof(Index));
+    const std::size_t a_face = sizeof(Size) + (mesh.face_ids.empty() ? 0 : sizeof(Index));
+    char* at = extend(bytes, std::size_t(end - begin) * a_face + (last - corner) * sizeof(Index));
     const Index* vertex = mesh.face_vertices.data() + corner;
     for (std::int64_t face = begin; face < end; ++face) {
       const Index size = mesh.face_sizes[std::size_t(face)];
       put(at, static_cast<Size>(size));
       for (Index i = 0; i < size; ++i) put(at, *vertex++);
+      if (!mesh.face_ids.empty()) put(at, mesh.face_ids[std::size_t(face)]);
     }
   });
 }

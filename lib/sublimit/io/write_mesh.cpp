@@ -108,6 +108,12 @@ void check_output(const MeshOutput& mesh, const std::string& name) {
     check_finite(channel.values, name, "face-varying value");
   }
 
+  require(mesh.texture.rows() == 0 || (mesh.texture.rows() == vertices && mesh.texture.cols() == 2), name,
+          "there should be two texture coordinates for each vertex, or for none");
+  check_finite(mesh.texture, name, "texture coordinate");
+  require(mesh.face_ids.empty() || mesh.face_ids.size() == mesh.face_sizes.size(), name,
+          "there should be an id for each face, or for none");
+
   for (const ControlMesh::Crease& crease : mesh.creases) {
     require(in_range({crease.tail, crease.head}, 0, vertices), name, "a vertex of a crease is out of range");
     check_sharpness(crease.sharpness, name);

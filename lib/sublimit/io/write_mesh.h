@@ -23,6 +23,8 @@ struct MeshOutput {
   std::vector<Index> face_normals;
   /// Values per corner; OBJ writes the first channel as `vt` and has room for one, of 1 to 3 columns; PLY for none.
   std::vector<ControlMesh::FaceVarying> face_varying;
+  Points texture;               ///< #V x 2 texture coordinates per vertex, for PLY (`s`, `t`); no rows: none
+  std::vector<Index> face_ids;  ///< of each face: PLY's `face_id`, OBJ's groups `g face_ID`; empty: none
 
   // Tags, as in ControlMesh; PLY has no place for them.
   std::vector<ControlMesh::Crease> creases;

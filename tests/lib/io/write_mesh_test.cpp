@@ -2,6 +2,7 @@
 #include "sublimit/io/write_mesh.h"
 
 #include <gtest/gtest.h>
+
 #include <sys/resource.h>
 #include <tbb/global_control.h>
 #include <unistd.h>
@@ -10,6 +11,7 @@
 #include <csignal>
 #include <cstdint>
 #include <cstdio>
+#include <cstring>
 #include <limits>
 #include <random>
 #include <string>
@@ -229,6 +231,30 @@ TEST(WriteMesh, PlyReadsBackToTheSameBits) {
   read = parse_ply(format_ply(mesh), "a.ply");
   expect_same_bits(read.positions, mesh.positions);
   EXPECT_EQ(read.face_vertices, mesh.face_vertices);
+}
+
+TEST(WriteMesh, TextureAndFaceIdsAreWhereReadersLook) {
+  MeshOutput mesh;
+  mesh.positions = (Points(3, 3) << 0, 0, 0, 1, 0, 0, 0, 1, 0).finished();
+  mesh.face_sizes = {3, 3, 3};
+  mesh.face_vertices = {0, 1, 2, 2, 1, 0, 0, 1, 2};
+  mesh.texture = (Points(3, 2) << 0, 0.25, 1, 0, 0, 1).finished();
+  mesh.face_ids = {7, 7, 8};
+  const std::string ply = format_ply(mesh);
+  const std::string header =
+      "property double z\nproperty double s\nproperty double t\nelement face 3\n"
+      "property list uchar int vertex_indices\nproperty int face_id\nend_header\n";
+  ASSERT_NE(ply.find(header), std::string::npos);
+  const size_t data = ply.find(header) + header.size();
+  EXPECT_EQ(ply.size() - data, 3 * 5 * sizeof(double) + 3 * (1 + 4 * sizeof(Index)));
+  double t = 0;
+  std::memcpy(&t, ply.data() + data + 4 * sizeof(double), sizeof t);
+  EXPECT_EQ(t, 0.25);
+  EXPECT_EQ(ply[ply.size() - 4], 8);
+  EXPECT_EQ(parse_ply(ply, "a.ply").face_vertices, mesh.face_vertices);
+  EXPECT_EQ(format_obj(mesh), "v 0 0 0\nv 1 0 0\nv 0 1 0\ng face_7\nf 1 2 3\nf 3 2 1\ng face_8\nf 1 2 3\n");
+  mesh.face_ids = {7};
+  expect_error<InvalidParameter>([&] { format_ply(mesh); }, {"an id for each face"});
 }
 
 TEST(WriteMesh, FacesOfAnySizeReadBack) {
