@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <iterator>
 #include <span>
 #include <string>
 #include <utility>
@@ -81,11 +82,13 @@ class Cutter {
     if (type.polynomial()) {
       std::vector<PiecePart> whole;
       parts_.find(type, points, corners, 0, whole);
+      if (options_.whole_polynomials)
+        return add({address, corners, 0, std::move(whole[0].nets), type.polynomial()->basis});
       cut(address, parts_.nets(type.polynomial()->basis), type.polynomial()->basis, whole[0].nets, corners);
       return;
     }
     const double bound = bound_by_parts(type, points);
-    if (bound <= options_.chord || is_smallest(corners)) return add({address, corners, bound});
+    if (bound <= options_.chord || is_smallest(corners)) return add({address, corners, bound, {}, {}});
     for (const PieceLink& link : type.children()) {
       const auto child = child_of(corners, link.map, type.kind() == Piece::Kind::triangle);
       if (!child)
@@ -97,11 +100,11 @@ class Cutter {
   }
 
  private:
-  void add(const FlatCell& cell) {
+  void add(FlatCell cell) {
     if ((count_ += triangles_a_cell_) > options_.max_triangles)
       throw ResourceError("more than " + std::to_string(options_.max_triangles) +
                           " triangles are needed; allow a larger distance or more triangles");
-    out_.push_back(cell);
+    out_.push_back(std::move(cell));
   }
 
   void cut(Index address, const BernsteinNets& nets, const PolynomialBasis& basis,
@@ -109,7 +112,7 @@ class Cutter {
     double bound = 0;
     for (const Points& net : coefficients) bound = std::max(bound, chord_bound(basis, net));
     const bool bent = options_.angle > 0 && !is_within_angle(basis, coefficients, options_.angle);
-    if ((bound <= options_.chord && !bent) || is_smallest(corners)) return add({address, corners, bound});
+    if ((bound <= options_.chord && !bent) || is_smallest(corners)) return add({address, corners, bound, {}, {}});
     for (int k = 0; k < 4; ++k) {
       std::vector<Points> quarter;
       for (const Points& net : coefficients) quarter.push_back(nets.quarter(k) * net);
@@ -192,7 +195,9 @@ std::vector<FlatCell> flat_cells(const LimitSurface& surface, const Points& poin
       },
       addresses_a_block);
   std::vector<FlatCell> cells;
-  for (std::vector<FlatCell>& block : blocks) cells.insert(cells.end(), block.begin(), block.end());
+  for (std::vector<FlatCell>& block : blocks) std::ranges::move(block, std::back_inserter(cells));
+  for (FlatCell& cell : cells)
+    for (Points& net : cell.nets) net.rowwise() += points.row(0);
   return cells;
 }
 

@@ -18,12 +18,16 @@ struct FlatCell {
   Index address = 0;
   CellCorners corners;
   double bound = 0;  ///< how far triangles in it may be from the surface
+  /// Bernstein coefficients of a polynomial that is kept whole, two where it is cut along u = v; else none.
+  std::vector<Points> nets;
+  PolynomialBasis basis;  ///< of these
 };
 
 struct FlatCellOptions {
   double chord = 0;                      ///< that bounds are to keep below
   double angle = 0;                      ///< that normals in a cell may be apart, in radians; 0: any
   std::int64_t max_triangles = 1 << 24;  ///< that cells become
+  bool whole_polynomials = false;        ///< a polynomial is one cell, however bent
 };
 
 /// Cells of all of the surface but its holes, in the order of addresses.

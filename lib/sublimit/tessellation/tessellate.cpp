@@ -4,56 +4,15 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
-#include <unordered_map>
 #include <utility>
 
 #include "sublimit/base/error.h"
 #include "sublimit/limit/limit_patches.h"
-#include "sublimit/limit/shared_places.h"
+#include "sublimit/tessellation/cell_vertices.h"
 #include "sublimit/tessellation/flat_cells.h"
 
 namespace sublimit {
 namespace {
-
-/// Numbers of points, by the numbers that faces share or, inside of one, by the place there.
-class Vertices {
- public:
-  Vertices(const LimitSurface::Parts& parts)
-      : shared_(parts.level.topology(), parts.addresses, cell_steps, parts.scheme.is_dual()) {}
-
-  Index add(Index address, const CellCorner& c) {
-    const auto [at, is_new] = numbers_.try_emplace(key(address, c), static_cast<Index>(places_.size()));
-    if (is_new) places_.push_back({address, double(c.i) / cell_steps, double(c.j) / cell_steps});
-    return at->second;
-  }
-  /// Or -1.
-  Index find(Index address, const CellCorner& c) const {
-    const auto at = numbers_.find(key(address, c));
-    return at == numbers_.end() ? -1 : at->second;
-  }
-  const std::vector<Sample>& places() const { return places_; }
-
- private:
-  struct Key {
-    std::int64_t address, number;  // no address: a shared number
-    bool operator==(const Key&) const = default;
-  };
-  struct Hash {
-    size_t operator()(const Key& k) const {
-      const auto mixed =
-          static_cast<std::uint64_t>(k.number) * 0x9e3779b97f4a7c15u ^ static_cast<std::uint64_t>(k.address);
-      return static_cast<size_t>(mixed ^ mixed >> 32);
-    }
-  };
-  Key key(Index address, const CellCorner& c) const {
-    if (const std::int64_t number = shared_.number(address, c.i, c.j); number != SharedPlaces::nobody)
-      return {-1, number};
-    return {address, std::int64_t{c.i} << 32 | c.j};
-  }
-  SharedPlaces shared_;
-  std::unordered_map<Key, Index, Hash> numbers_;
-  std::vector<Sample> places_;
-};
 
 struct PolygonCorner {
   Index vertex;
@@ -62,7 +21,7 @@ struct PolygonCorner {
 
 /// Appends the points between two corners of a side, in order: halves, halves of these, and so on. A point inside of a
 /// half is only there where the middle is.
-void add_between(const Vertices& vertices, Index address, const CellCorner& a, const CellCorner& b,
+void add_between(const CellVertices& vertices, Index address, const CellCorner& a, const CellCorner& b,
                  std::vector<PolygonCorner>& polygon) {
   if ((a.i + b.i) % 2 != 0 || (a.j + b.j) % 2 != 0) return;
   const CellCorner middle{(a.i + b.i) / 2, (a.j + b.j) / 2};
@@ -128,7 +87,7 @@ Tessellation tessellate(const LimitSurface& surface, const Points& control, cons
       flat_cells(surface, control, {options.chord, options.angle, options.max_triangles});
   Tessellation made;
   made.cells = std::ssize(cells);
-  Vertices vertices(parts);
+  CellVertices vertices(parts);
   for (const FlatCell& cell : cells) {
     made.bound = std::max(made.bound, cell.bound);
     for (size_t k = 0; k < corners; ++k) vertices.add(cell.address, cell.corners[k]);
