@@ -1,18 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sublimit/tessellation/tessellate.h"
-
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <memory>
 #include <numbers>
+#include <optional>
+#include <utility>
 
 #include "common.h"
-#include "sublimit/base/atomic_file.h"
 #include "sublimit/base/error.h"
 #include "sublimit/base/format_number.h"
+#include "sublimit/files/glb.h"
+#include "sublimit/files/place_files.h"
+#include "sublimit/files/split_mesh.h"
+#include "sublimit/files/tessellation_mesh.h"
+#include "sublimit/files/vtu.h"
 #include "sublimit/io/file_extension.h"
-#include "sublimit/io/write_mesh.h"
+#include "sublimit/tessellation/bezier_cells.h"
+#include "sublimit/tessellation/triangle_shapes.h"
 
 namespace sublimit::cli {
 namespace {
@@ -20,7 +25,7 @@ namespace {
 struct TessellateOptions {
   Common common;
   std::string chord, angle, most, output, places;  // numbers as given
-  bool normals = false;
+  bool normals = false, face_ids = false;
 };
 
 /// A positive length, or so many per cent of the diagonal of the control mesh's box.
@@ -51,38 +56,65 @@ std::int64_t most_triangles(const std::string& text) {
   return parsed.value;
 }
 
-/// Normals: of each face's own side at its corners, or one for a vertex.
-void add_normals(MeshOutput& out, const Tessellation& made, const LimitSurface& surface, const Points& control,
-                 bool per_corner) {
-  std::vector<Sample> at = made.places;
-  if (per_corner) {
-    at.clear();
-    for (const Tessellation::Triangle& t : made.triangles)
-      for (const auto& [u, v] : t.uv) at.push_back({t.face, u, v});
-  }
-  out.normals = surface.evaluate(control, at, 1).normal;
-  if (!per_corner) return;
-  for (Index i = 0; i < out.normals.rows(); ++i) out.face_normals.push_back(out.normals.row(i).isZero(0) ? -1 : i);
+/// What only triangles have.
+void check_triangle_options(const TessellateOptions& options) {
+  const auto refuse = [&](const std::string& option) {
+    throw InvalidOption(fmt::format("{} is for triangles; a .vtu has the surface's own polynomials", option));
+  };
+  if (options.normals) refuse("--normals");
+  if (options.face_ids) refuse("--face-ids, which it always has,");
+  if (!options.angle.empty()) refuse("--angle");
+  if (!options.places.empty()) refuse("--places");
 }
 
-void write_places(const std::string& path, const std::vector<Sample>& places) {
-  AtomicFile file(path);
-  std::string text = "face,u,v\n";
-  for (const Sample& s : places) {
-    text += fmt::format("{},{},{}\n", s.face, format_number(s.u), format_number(s.v));
-    if (text.size() > (size_t{1} << 20)) {
-      file.write(text);
-      text.clear();
-    }
+int write_cells(const TessellateOptions& options, const LimitSurface& surface, const Points& control,
+                const TessellationOptions& wanted, Progress& progress) {
+  progress.step("finding polynomials");
+  BezierCells cells;
+  naming_mesh(options.common, [&] { cells = bezier_cells(surface, control, wanted.chord, wanted.max_triangles); });
+  progress.step("writing " + options.output);
+  write_vtu(options.output, cells, surface.addresses(), progress.bytes_written());
+  progress.step("");
+  if (!options.common.quiet)
+    fmt::print("{}: {} exact Bezier cells, {} bilinear ones where the limit is no polynomial, at most {} from it\n",
+               options.output, cells.exact, std::ssize(cells.cells) - cells.exact, format_number(cells.bound));
+  return 0;
+}
+
+/// Texture coordinates, where the scheme has a limit of them.
+void add_texture(const TessellateOptions& options, const Loaded& loaded, const LimitSurface& surface,
+                 const Tessellation& made, MeshOutput& out) {
+  if (loaded.mesh.face_varying.empty()) return;
+  try {
+    add_channel(out, made, *loaded.scheme, loaded.face_varying, loaded.mesh.face_varying[0], surface.level());
+  } catch (const Error& error) {
+    const bool unable = error.code() == ErrorCode::unsupported_topology || error.code() == ErrorCode::invalid_option;
+    if (!unable || loaded.face_varying_asked) throw;
+    if (!options.common.quiet)
+      fmt::print(stderr, "sublimit: warning: {}: texture coordinates are left out: {}\n", options.common.mesh,
+                 error.what());
   }
-  file.write(text);
-  file.commit();
+}
+
+void print_summary(const TessellateOptions& options, const Tessellation& made) {
+  const TriangleShapes shapes = triangle_shapes(made);
+  fmt::print("{}: {} triangles, {} points in {} cells, at most {} from the limit\n", options.output,
+             made.triangles.size(), made.places.size(), made.cells, format_number(made.bound));
+  if (made.triangles.empty()) return;
+  fmt::print("aspect ratios (longest side over shortest height): median {:.3g}, largest {:.3g}", shapes.median_aspect,
+             shapes.largest_aspect);
+  if (shapes.without_area > 0) fmt::print("; {} triangles have no area", shapes.without_area);
+  fmt::print("\n");
 }
 
 int run(const TessellateOptions& options) {
   TessellationOptions wanted{.angle = radians(options.angle), .max_triangles = most_triangles(options.most)};
   length(options.chord, 1);  // a wrong number is told before the mesh is read
-  check_output_path(options.output, {".obj", ".ply"});
+  check_output_path(options.output, {".obj", ".ply", ".glb", ".vtu"});
+  const std::string extension = file_extension(options.output);
+  if (extension == ".vtu") check_triangle_options(options);
+  if (extension == ".glb" && options.face_ids)
+    throw InvalidOption("--face-ids: glTF has no values of triangles; .ply, .obj and .vtu have");
   if (!options.places.empty()) check_output_path(options.places, {".csv"});
   Progress progress(options.common.quiet);
   const Loaded loaded = load(options.common, progress);
@@ -90,27 +122,34 @@ int run(const TessellateOptions& options) {
   if (control.rows() > 0)
     wanted.chord = length(options.chord, (control.colwise().maxCoeff() - control.colwise().minCoeff()).norm());
   if (!(wanted.chord > 0)) throw InvalidMesh(options.common.mesh + ": no extent that --chord could be a part of");
-  if (!options.common.quiet && !loaded.mesh.face_varying.empty())
-    fmt::print(stderr, "sublimit: {}: texture coordinates are left out\n", options.common.mesh);
+  std::optional<LimitSurface> surface;
+  naming_mesh(options.common, [&] { surface.emplace(*loaded.scheme, loaded.mesh, loaded.rules); });
+  if (extension == ".vtu") return write_cells(options, *surface, control, wanted, progress);
   Tessellation made;
   MeshOutput out;
   naming_mesh(options.common, [&] {
-    const LimitSurface surface(*loaded.scheme, loaded.mesh, loaded.rules);
     progress.step("tessellating");
-    made = tessellate(surface, control, wanted);
-    if (options.normals) add_normals(out, made, surface, control, file_extension(options.output) == ".obj");
+    made = tessellate(*surface, control, wanted);
+    out = tessellation_mesh(made, *surface, options.face_ids);
+    add_texture(options, loaded, *surface, made, out);
+    const bool glb = extension == ".glb";  // viewers shade it flat without normals
+    if (options.normals || glb) add_normals(out, made, *surface, control, extension != ".ply", glb);
   });
-  out.positions = made.points;
-  out.face_sizes.assign(made.triangles.size(), 3);
-  for (const Tessellation::Triangle& t : made.triangles)
-    out.face_vertices.insert(out.face_vertices.end(), t.vertices.begin(), t.vertices.end());
   progress.step("writing " + options.output);
-  write_mesh(options.output, out, progress.bytes_written());
-  if (!options.places.empty()) write_places(options.places, made.places);
+  std::vector<Sample> places = made.places;  // in the order of the file's vertices
+  if (extension == ".glb" || (extension == ".ply" && !out.face_varying.empty())) {
+    SplitMesh split = split_mesh(std::move(out));
+    out = std::move(split.mesh);
+    places.clear();
+    for (const Index source : split.sources) places.push_back(made.places[size_t(source)]);
+  }
+  if (extension == ".glb")
+    write_glb(options.output, out, progress.bytes_written());
+  else
+    write_mesh(options.output, out, progress.bytes_written());
+  if (!options.places.empty()) write_places(options.places, places);
   progress.step("");
-  if (!options.common.quiet)
-    fmt::print("{}: {} triangles, {} points in {} cells, at most {} from the limit\n", options.output,
-               made.triangles.size(), made.places.size(), made.cells, format_number(made.bound));
+  if (!options.common.quiet) print_summary(options, made);
   return 0;
 }
 
@@ -129,10 +168,16 @@ Command add_tessellate(CLI::App& app) {
                       "Largest angle between normals in the cell of a triangle, in degrees (default: any)");
   command->add_option("--max-triangles", options->most, "Stop if more are needed (default 16777216)");
   command->add_flag("--normals", options->normals,
-                    "Limit normals too: per corner in .obj (one for each side of a crease), per vertex in .ply");
+                    "Limit normals too: per corner in .obj (one for each side of a crease), per vertex in .ply; a .glb "
+                    "always has them");
+  command->add_flag("--face-ids", options->face_ids,
+                    "The control mesh's face of each triangle: face_id of a .ply, groups face_N of an .obj; a .vtu "
+                    "always has them");
   command->add_option("--places", options->places,
                       "Write the places of the points, face,u,v, for `bake --at`: a table that follows a moving mesh");
-  command->add_option("-o,--output", options->output, "OUT.obj or OUT.ply; faces that are holes are left out")
+  command
+      ->add_option("-o,--output", options->output,
+                   "OUT.obj, OUT.ply or OUT.glb: triangles; OUT.vtu: Bezier cells for ParaView; holes are left out")
       ->required();
   command->footer(
       "Examples:\n"
@@ -140,9 +185,14 @@ Command add_tessellate(CLI::App& app) {
       "  sublimit tessellate cage.obj -s loop --chord 0.005 --angle 10 --normals -o surface.ply\n"
       "  sublimit tessellate cage.obj -s catmull-clark --chord 0.1% --places places.csv -o surface.obj\n"
       "  sublimit bake cage.obj -s catmull-clark --at places.csv -o surface.safetensors    its points, every frame\n"
+      "  sublimit tessellate cage.obj -s catmull-clark --chord 0.1% -o surface.glb     normals, texture coordinates\n"
+      "  sublimit tessellate cage.obj -s catmull-clark --chord 0.01% -o surface.vtu    exact polynomials, curved\n"
       "The distance is that of points with the same parameters, bounded by second derivatives; towards extraordinary\n"
-      "vertices by the size of what is left. Schemes without polynomials (butterfly, kobbelt, sqrt3) have no such bounds:\n"
-      "`refine` or `limit -l N` serve them.");
+      "vertices by how far the limit is from an affine map of its parameters. Schemes without polynomials (butterfly,\n"
+      "kobbelt, sqrt3), and those whose hulls are estimates (mid-edge-habib-warren), have no such bounds: `refine` or\n"
+      "`limit -l N` serve them.\n"
+      "Texture coordinates are carried along: `vt` of an .obj; in .ply (s, t) and .glb points on seams are written once\n"
+      "for each side, so a mesh is open there; .glb does so on creases too. Cells of a .vtu are each on their own.");
   return [=] { return run(*options); };
 }
 

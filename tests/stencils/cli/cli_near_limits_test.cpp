@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `sublimit closest`, `sublimit intersect` and `sublimit tessellate`.
+// `sublimit closest` and `sublimit intersect`.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -158,49 +158,6 @@ TEST(CliIntersect, RefusesInClearWords) {
   refused("ox,oy,oz,dx,dy,dz\n0,0,0,0,0,0\n", {"r.csv:2", "direction"});
   refused("ox,oy,oz,dx,dy,dz\n0,0,0,1,nan,0\n", {"r.csv:2"});
   refused("ox,oy,oz,dx,dy,dz,tmin,tmax\n0,0,0,1,0,0,2,1\n", {"r.csv:2", "tmin 2 is above tmax 1"});
-}
-
-TEST(CliTessellate, WritesTrianglesNormalsAndPlaces) {
-  const TemporaryDirectory directory;
-  ControlMesh creased = cube();
-  add_crease(creased, {0, 1, 3, 2, 0}, 10);
-  write_obj(directory / "cube.obj", output(creased));
-  const std::string mesh = (directory / "cube.obj").string(), obj = (directory / "o.obj").string(),
-                    ply = (directory / "o.ply").string(), places = (directory / "places.csv").string(),
-                    samples = (directory / "samples.csv").string();
-  const Outcome done = expect_done(sublimit(
-      {"tessellate", mesh, "-s", "catmull-clark", "--chord", "1%", "--normals", "--places", places, "-o", obj}));
-  expect_parts(done.out, {"triangles", "from the limit"});
-  expect_done(sublimit({"tessellate", mesh, "-s", "catmull-clark", "--chord", "1%", "-o", ply, "--quiet"}));
-  const ControlMesh triangles = read_mesh(obj);
-  EXPECT_EQ(triangles.positions, read_mesh(ply).positions);
-  EXPECT_TRUE(std::ranges::all_of(triangles.face_sizes, [](Index n) { return n == 3; }));
-  expect_parts(read_file(obj), {"\nvn ", "//"});
-  // The places are those of the points.
-  expect_done(sublimit({"sample", mesh, "-s", "catmull-clark", "--at", places, "-o", samples, "--quiet"}));
-  const std::vector<CsvRow> rows = csv_rows(samples);
-  ASSERT_EQ(std::ssize(rows), triangles.positions.rows() + 1);
-  for (Eigen::Index i = 0; i < triangles.positions.rows(); ++i)
-    for (Eigen::Index k = 0; k < 3; ++k)
-      EXPECT_NEAR(csv_number(rows[size_t(i) + 1][size_t(4 + k)]), triangles.positions(i, k), rounding(10));
-}
-
-TEST(CliTessellate, RefusesInClearWords) {
-  const TemporaryDirectory directory;
-  const std::string mesh = write_cube(directory), out = (directory / "o.obj").string();
-  const auto refused = [&](std::vector<std::string> more, int status, std::initializer_list<std::string_view> parts) {
-    std::vector<std::string> all{"tessellate", mesh, "-o", out};
-    all.insert(all.end(), more.begin(), more.end());
-    expect_failure(sublimit(all), status, parts);
-    EXPECT_FALSE(std::filesystem::exists(out));
-  };
-  refused({"-s", "catmull-clark", "--chord", "0"}, 2, {"--chord 0", "above 0"});
-  refused({"-s", "catmull-clark", "--chord", "-1%"}, 2, {"--chord -1%"});
-  refused({"-s", "catmull-clark", "--chord", "thin"}, 2, {"--chord thin"});
-  refused({"-s", "catmull-clark", "--chord", "1", "--angle", "0"}, 2, {"--angle 0"});
-  refused({"-s", "catmull-clark", "--chord", "1", "--max-triangles", "0"}, 2, {"--max-triangles 0"});
-  refused({"-s", "catmull-clark", "--chord", "1e-7", "--max-triangles", "1000"}, 4, {"more than"});
-  refused({"-s", "kobbelt", "--chord", "0.1"}, 3, {"kobbelt", "polynomial"});
 }
 
 }  // namespace
