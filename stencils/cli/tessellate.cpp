@@ -12,11 +12,13 @@
 #include "sublimit/base/format_number.h"
 #include "sublimit/files/glb.h"
 #include "sublimit/files/place_files.h"
+#include "sublimit/files/rate_files.h"
 #include "sublimit/files/split_mesh.h"
 #include "sublimit/files/tessellation_mesh.h"
 #include "sublimit/files/vtu.h"
 #include "sublimit/io/file_extension.h"
 #include "sublimit/tessellation/bezier_cells.h"
+#include "sublimit/tessellation/rated_tessellation.h"
 #include "sublimit/tessellation/triangle_shapes.h"
 
 namespace sublimit::cli {
@@ -24,7 +26,7 @@ namespace {
 
 struct TessellateOptions {
   Common common;
-  std::string chord, angle, most, output, places;  // numbers as given
+  std::string chord, angle, rates, most, output, places;  // numbers as given
   bool normals = false, face_ids = false;
 };
 
@@ -65,6 +67,7 @@ void check_triangle_options(const TessellateOptions& options) {
   if (options.face_ids) refuse("--face-ids, which it always has,");
   if (!options.angle.empty()) refuse("--angle");
   if (!options.places.empty()) refuse("--places");
+  if (!options.rates.empty()) refuse("--rates");
 }
 
 int write_cells(const TessellateOptions& options, const LimitSurface& surface, const Points& control,
@@ -98,8 +101,11 @@ void add_texture(const TessellateOptions& options, const Loaded& loaded, const L
 
 void print_summary(const TessellateOptions& options, const Tessellation& made) {
   const TriangleShapes shapes = triangle_shapes(made);
-  fmt::print("{}: {} triangles, {} points in {} cells, at most {} from the limit\n", options.output,
-             made.triangles.size(), made.places.size(), made.cells, format_number(made.bound));
+  fmt::print("{}: {} triangles, {} points", options.output, made.triangles.size(), made.places.size());
+  if (options.rates.empty())
+    fmt::print(" in {} cells, at most {} from the limit\n", made.cells, format_number(made.bound));
+  else
+    fmt::print(" by the rates of edges\n");
   if (made.triangles.empty()) return;
   fmt::print("aspect ratios (longest side over shortest height): median {:.3g}, largest {:.3g}", shapes.median_aspect,
              shapes.largest_aspect);
@@ -109,7 +115,10 @@ void print_summary(const TessellateOptions& options, const Tessellation& made) {
 
 int run(const TessellateOptions& options) {
   TessellationOptions wanted{.angle = radians(options.angle), .max_triangles = most_triangles(options.most)};
-  length(options.chord, 1);  // a wrong number is told before the mesh is read
+  if (options.chord.empty() == options.rates.empty())
+    throw InvalidOption("--chord D, a distance, or --rates RATES.csv, segments of edges, is needed: one of them");
+  if (!options.rates.empty() && !options.angle.empty()) throw InvalidOption("--angle goes with --chord");
+  if (!options.chord.empty()) length(options.chord, 1);  // a wrong number is told before the mesh is read
   check_output_path(options.output, {".obj", ".ply", ".glb", ".vtu"});
   const std::string extension = file_extension(options.output);
   if (extension == ".vtu") check_triangle_options(options);
@@ -119,17 +128,22 @@ int run(const TessellateOptions& options) {
   Progress progress(options.common.quiet);
   const Loaded loaded = load(options.common, progress);
   const Points& control = loaded.mesh.positions;
-  if (control.rows() > 0)
+  const bool by_rates = !options.rates.empty();
+  if (control.rows() > 0 && !by_rates)
     wanted.chord = length(options.chord, (control.colwise().maxCoeff() - control.colwise().minCoeff()).norm());
-  if (!(wanted.chord > 0)) throw InvalidMesh(options.common.mesh + ": no extent that --chord could be a part of");
+  if (!by_rates && !(wanted.chord > 0))
+    throw InvalidMesh(options.common.mesh + ": no extent that --chord could be a part of");
   std::optional<LimitSurface> surface;
   naming_mesh(options.common, [&] { surface.emplace(*loaded.scheme, loaded.mesh, loaded.rules); });
   if (extension == ".vtu") return write_cells(options, *surface, control, wanted, progress);
+  std::vector<Index> rates;
+  if (by_rates) rates = read_edge_rates(options.rates, surface->level().topology());
   Tessellation made;
   MeshOutput out;
   naming_mesh(options.common, [&] {
     progress.step("tessellating");
-    made = tessellate(*surface, control, wanted);
+    made = by_rates ? tessellate_by_rates(*surface, control, rates, wanted.max_triangles)
+                    : tessellate(*surface, control, wanted);
     out = tessellation_mesh(made, *surface, options.face_ids);
     add_texture(options, loaded, *surface, made, out);
     const bool glb = extension == ".glb";  // viewers shade it flat without normals
@@ -160,10 +174,11 @@ Command add_tessellate(CLI::App& app) {
       app.add_subcommand("tessellate", "Triangles near the limit: by less than a distance, proved, and without cracks");
   auto options = std::make_shared<TessellateOptions>();
   add_mesh(*command, options->common, true);
-  command
-      ->add_option("--chord", options->chord,
-                   "Largest distance of triangles from the limit: in the mesh's unit, or as 0.1% of its diagonal")
-      ->required();
+  command->add_option("--chord", options->chord,
+                      "Largest distance of triangles from the limit: in the mesh's unit, or as 0.1% of its diagonal");
+  command->add_option(
+      "--rates", options->rates,
+      "RATES.csv instead of --chord: v0,v1,rate, segments of edges of the control mesh, 1 without a row");
   command->add_option("--angle", options->angle,
                       "Largest angle between normals in the cell of a triangle, in degrees (default: any)");
   command->add_option("--max-triangles", options->most, "Stop if more are needed (default 16777216)");
@@ -187,6 +202,9 @@ Command add_tessellate(CLI::App& app) {
       "  sublimit bake cage.obj -s catmull-clark --at places.csv -o surface.safetensors    its points, every frame\n"
       "  sublimit tessellate cage.obj -s catmull-clark --chord 0.1% -o surface.glb     normals, texture coordinates\n"
       "  sublimit tessellate cage.obj -s catmull-clark --chord 0.01% -o surface.vtu    exact polynomials, curved\n"
+      "  sublimit tessellate cage.obj -s catmull-clark --rates rates.csv -o surface.obj\n"
+      "Rates are kept by quadrilaterals and triangles; edges of other polygons have the next even number of segments.\n"
+      "No distance is proved with them, and every scheme is taken.\n"
       "The distance is that of points with the same parameters, bounded by second derivatives; towards extraordinary\n"
       "vertices by how far the limit is from an affine map of its parameters. Schemes without polynomials (butterfly,\n"
       "kobbelt, sqrt3), and those whose hulls are estimates (mid-edge-habib-warren), have no such bounds: `refine` or\n"

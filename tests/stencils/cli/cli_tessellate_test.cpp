@@ -144,6 +144,29 @@ TEST(CliTessellate, HasNoFileForWhatCannotBeWritten) {
   refused("o.vtu", {"--places", (directory / "p.csv").string()}, {"--places"});
 }
 
+TEST(CliTessellate, TakesRatesOfEdges) {
+  const TemporaryDirectory directory;
+  const std::string mesh = write_plain_cube(directory), out = (directory / "o.obj").string(),
+                    rates = directory.write("r.csv", "v0,v1,rate\n0,1,3\n3,1,2\n").string();
+  const Outcome done = expect_done(sublimit({"tessellate", mesh, "-s", "kobbelt", "--rates", rates, "-o", out}));
+  expect_parts(done.out, {"13 points by the rates of edges", "aspect ratios"});
+  EXPECT_EQ(read_mesh(out).positions.rows(), 8 + 2 + 1 + 2);  // one face has 3 x 2 squares, two points inside
+  const auto refused = [&](const std::string& text, std::initializer_list<std::string_view> parts) {
+    const std::string path = directory.write("wrong.csv", text).string(), none = (directory / "none.obj").string();
+    expect_failure(sublimit({"tessellate", mesh, "-s", "loop", "--triangulate", "--rates", path, "-o", none}), 3,
+                   parts);
+    EXPECT_FALSE(std::filesystem::exists(none));
+  };
+  refused("", {"wrong.csv"});
+  refused("a,b\n", {"v0,v1,rate"});
+  refused("v0,v1,rate\n0,7,2\n", {"wrong.csv:2", "0 to 7"});
+  refused("v0,v1,rate\n0,1,0\n", {"wrong.csv:2", "1 to 4194304"});
+  refused("v0,v1,rate\n0,1,2\n1,0,2\n", {"wrong.csv:3", "already"});
+  expect_failure(sublimit({"tessellate", mesh, "-s", "loop", "-o", out}), 2, {"--chord", "--rates"});
+  expect_failure(sublimit({"tessellate", mesh, "-s", "loop", "--chord", "1", "--rates", rates, "-o", out}), 2,
+                 {"one of them"});
+}
+
 // VTK evaluates the cells of the file inside; `sample` the limit at the same places.
 TEST(CliTessellate, CellsAreTheLimitInVtk) {
   const std::string python = "/usr/bin/python3";
