@@ -28,7 +28,7 @@ class Halves {
   BezierCell cell(const FlatCell& whole, int half) const {
     BezierCell cell{whole.address, whole.corners, true, true, triangle_.degree(), {}};
     if (half == 1) cell.corners = {whole.corners[0], whole.corners[2], whole.corners[3], whole.corners[3]};
-    const NetDerivatives x(square_, whole.nets[size_t(half)], 1);
+    const NetDerivatives x(square_, whole.whole->nets[size_t(half)], 1);
     Points values(triangle_.size(), 3);
     for_each_net_row(triangle_, [&](int i, int j, Eigen::Index row) {
       const double s = double(i) / triangle_.degree(), t = double(j) / triangle_.degree();
@@ -56,12 +56,12 @@ BezierCells bezier_cells(const LimitSurface& surface, const Points& control, dou
   std::optional<Halves> halves;
   std::vector<Sample> places;  // corners of cells that are no polynomials
   for (FlatCell& cell : flat) {
-    if (cell.nets.size() == 2) {
-      if (!halves) halves.emplace(cell.basis);
+    if (cell.whole && cell.whole->nets.size() == 2) {
+      if (!halves) halves.emplace(cell.whole->basis);
       for (const int half : {0, 1}) made.cells.push_back(halves->cell(cell, half));
-    } else if (cell.nets.size() == 1) {
-      made.cells.push_back(
-          {cell.address, cell.corners, triangle, true, cell.basis.degree(), std::move(cell.nets.front())});
+    } else if (cell.whole) {
+      made.cells.push_back({cell.address, cell.corners, triangle, true, cell.whole->basis.degree(),
+                            std::move(cell.whole->nets.front())});
     } else {
       made.bound = std::max(made.bound, cell.bound);
       made.cells.push_back({cell.address, cell.corners, triangle, false, 1, Points(Eigen::Index(corners), 3)});

@@ -83,12 +83,14 @@ class Cutter {
       std::vector<PiecePart> whole;
       parts_.find(type, points, corners, 0, whole);
       if (options_.whole_polynomials)
-        return add({address, corners, 0, std::move(whole[0].nets), type.polynomial()->basis});
+        return add(
+            {address, corners, 0,
+             std::make_unique<WholePolynomial>(WholePolynomial{std::move(whole[0].nets), type.polynomial()->basis})});
       cut(address, parts_.nets(type.polynomial()->basis), type.polynomial()->basis, whole[0].nets, corners);
       return;
     }
     const double bound = bound_by_parts(type, points);
-    if (bound <= options_.chord || is_smallest(corners)) return add({address, corners, bound, {}, {}});
+    if (bound <= options_.chord || is_smallest(corners)) return add({address, corners, bound, nullptr});
     for (const PieceLink& link : type.children()) {
       const auto child = child_of(corners, link.map, type.kind() == Piece::Kind::triangle);
       if (!child)
@@ -112,7 +114,7 @@ class Cutter {
     double bound = 0;
     for (const Points& net : coefficients) bound = std::max(bound, chord_bound(basis, net));
     const bool bent = options_.angle > 0 && !is_within_angle(basis, coefficients, options_.angle);
-    if ((bound <= options_.chord && !bent) || is_smallest(corners)) return add({address, corners, bound, {}, {}});
+    if ((bound <= options_.chord && !bent) || is_smallest(corners)) return add({address, corners, bound, nullptr});
     for (int k = 0; k < 4; ++k) {
       std::vector<Points> quarter;
       for (const Points& net : coefficients) quarter.push_back(nets.quarter(k) * net);
@@ -196,8 +198,10 @@ std::vector<FlatCell> flat_cells(const LimitSurface& surface, const Points& poin
       addresses_a_block);
   std::vector<FlatCell> cells;
   for (std::vector<FlatCell>& block : blocks) std::ranges::move(block, std::back_inserter(cells));
-  for (FlatCell& cell : cells)
-    for (Points& net : cell.nets) net.rowwise() += points.row(0);
+  for (const FlatCell& cell : cells) {
+    if (!cell.whole) continue;
+    for (Points& net : cell.whole->nets) net.rowwise() += points.row(0);
+  }
   return cells;
 }
 

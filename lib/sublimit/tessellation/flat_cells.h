@@ -8,19 +8,24 @@
 // bounds on derivatives". Pieces of which only parts are polynomials, as around extraordinary
 // vertices, where second derivatives are not bounded, are compared with an affine map of their parameters.
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "sublimit/limit/piece_parts.h"
 
 namespace sublimit {
 
+/// A polynomial that is kept whole.
+struct WholePolynomial {
+  std::vector<Points> nets;  ///< Bernstein coefficients; two where it is cut along u = v
+  PolynomialBasis basis;
+};
+
 struct FlatCell {
   Index address = 0;
   CellCorners corners;
-  double bound = 0;  ///< how far triangles in it may be from the surface
-  /// Bernstein coefficients of a polynomial that is kept whole, two where it is cut along u = v; else none.
-  std::vector<Points> nets;
-  PolynomialBasis basis;  ///< of these
+  double bound = 0;                                  ///< how far triangles in it may be from the surface
+  std::unique_ptr<WholePolynomial> whole = nullptr;  ///< of cells that are exact; there may be many cells, so apart
 };
 
 struct FlatCellOptions {
