@@ -121,6 +121,7 @@ Command add_sample(CLI::App& app);
 Command add_closest(CLI::App& app);
 Command add_intersect(CLI::App& app);
 Command add_tessellate(CLI::App& app);
+Command add_step(CLI::App& app);
 Command add_construct(CLI::App& app);
 Command add_implicit(CLI::App& app);
 Command add_bake(CLI::App& app);

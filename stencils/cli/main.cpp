@@ -103,6 +103,7 @@ int main(int argc, char** argv) {
                                                              {"closest", cli::add_closest(app)},
                                                              {"intersect", cli::add_intersect(app)},
                                                              {"tessellate", cli::add_tessellate(app)},
+                                                             {"step", cli::add_step(app)},
                                                              {"bake", cli::add_bake(app)},
                                                              {"construct", cli::add_construct(app)},
                                                              {"implicit", cli::add_implicit(app)},

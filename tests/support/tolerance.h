@@ -49,6 +49,9 @@ inline constexpr double found_touch = 1e-5;
 /// Distances from a search that stops at 1e-12 of the surface's size.
 inline constexpr double found_distance = 1e-12;
 
+/// Exact faces of CAD models, relative to the size of the surface: nets of B-splines are sums of a few products.
+inline constexpr double cad_exact = 1e-12;
+
 inline double diagonal(const Points& points) {
   if (points.rows() == 0) return 0;
   return (points.colwise().maxCoeff() - points.colwise().minCoeff()).norm();

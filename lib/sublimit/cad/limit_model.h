@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// A limit surface as a boundary representation: exact B-spline faces, as large as they can be, and caps around
+// extraordinary vertices.
+#include <functional>
+#include <string>
+
+#include "sublimit/cad/boundary_model.h"
+#include "sublimit/cad/measure.h"
+
+namespace sublimit {
+
+struct LimitModelOptions {
+  double tolerance = 0;  ///< of caps: largest distance from the limit, > 0
+  bool pack = true;
+  std::function<void(const std::string& what)> progress;
+};
+
+struct LimitModel {
+  BoundaryModel boundary;
+  std::int64_t quads = 0, caps = 0;  ///< before packing; caps among them
+  double deviation = 0;              ///< of caps from the limit, measured
+  bool met = true;                   ///< the tolerance
+  QuadMeasures measures;
+};
+
+/// All of the surface but its holes. Equal input, equal result, whatever the number of threads.
+/// @param points  of the level, #V x 3
+/// @throws InvalidParameter, UnsupportedTopology  as `limit_quads`
+LimitModel limit_model(const LimitSurface& surface, const Points& points, const LimitModelOptions& options);
+
+}  // namespace sublimit

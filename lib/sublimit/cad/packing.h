@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// Quads packed into rectangles: as many as one B-spline with simple knots holds, never across a sharp edge.
+#include <vector>
+
+#include "sublimit/cad/boundary_model.h"
+#include "sublimit/cad/quad_edges.h"
+
+namespace sublimit {
+
+/// A quad, turned: its corner `turn` is the lower left one.
+struct TurnedQuad {
+  Index quad = -1;
+  int turn = 0;
+  bool operator==(const TurnedQuad&) const = default;
+};
+
+/// Rows from below, each from the left.
+using QuadRectangle = std::vector<std::vector<TurnedQuad>>;
+
+/// Every quad is in one of them.
+/// @param pack  else each is alone
+std::vector<QuadRectangle> quad_rectangles(const std::vector<LimitQuad>& quads, const QuadEdges& edges, bool pack);
+
+/// Faces of rectangles, with shared edges: those that follow each other smoothly along the same two faces are one.
+BoundaryModel boundary_model(const std::vector<LimitQuad>& quads, const QuadEdges& edges,
+                             const std::vector<QuadRectangle>& rectangles);
+
+}  // namespace sublimit

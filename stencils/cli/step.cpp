@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+// `sublimit step`: limits as files of CAD programs.
+#include <dlfcn.h>
+#include <fmt/core.h>
+
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "common.h"
+#include "opencascade/entry.h"
+#include "sublimit/base/atomic_file.h"
+#include "sublimit/base/error.h"
+#include "sublimit/base/format_number.h"
+#include "sublimit/cad/limit_model.h"
+#include "sublimit/io/file_extension.h"
+#include "sublimit/limit/limit_integrals.h"
+
+namespace sublimit::cli {
+namespace {
+
+struct StepJob {
+  Common common;
+  std::string tolerance, join = "g0", output, report;
+  bool no_packing = false;
+};
+
+CadFileEntry* cad_writer() {
+#ifdef SUBLIMIT_CAD
+  void* const library = ::dlopen(opencascade_library, RTLD_NOW);
+  void* const entry = library ? ::dlsym(library, cad_file_entry) : nullptr;
+  if (!entry)
+    throw IoError(
+        fmt::format("cannot load {}, which writes CAD files: {}; it should lie where the program was installed with it",
+                    opencascade_library, ::dlerror()));
+  return reinterpret_cast<CadFileEntry*>(entry);
+#else
+  throw InvalidOption("this program was built without OpenCASCADE, which writes CAD files");
+#endif
+}
+
+/// A positive length, or so many per cent of the diagonal of the control mesh's box.
+double tolerance_of(const std::string& text, double diagonal) {
+  if (text.empty()) return 1e-5 * diagonal;
+  const bool relative = text.ends_with('%');
+  const Parsed<double> parsed = parse_number<double>(relative ? text.substr(0, text.size() - 1) : text);
+  if (!parsed || !(parsed.value > 0) || !std::isfinite(parsed.value))
+    throw InvalidOption(fmt::format(
+        "--tolerance {}: it should be a distance above 0, such as 0.01, or 0.1% of the mesh's diagonal", text));
+  return relative ? parsed.value / 100 * diagonal : parsed.value;
+}
+
+nlohmann::ordered_json report_of(const StepJob& job, const LimitModel& model, const CadFile& file, double tolerance,
+                                 const LimitIntegrals& exact) {
+  const QuadMeasures& m = model.measures;
+  nlohmann::ordered_json json{{"mesh", job.common.mesh},
+                              {"scheme", job.common.scheme},
+                              {"output", job.output},
+                              {"solids", file.solids},
+                              {"shells", file.shells},
+                              {"valid", file.is_valid},
+                              {"faces_before_packing", model.quads},
+                              {"faces", model.boundary.faces.size()},
+                              {"edges", model.boundary.edges.size()},
+                              {"vertices", model.boundary.vertices.rows()},
+                              {"caps", model.caps},
+                              {"sharp_edges", m.sharp_edges},
+                              {"tolerance", tolerance},
+                              {"tolerance_met", model.met},
+                              {"deviation", model.deviation},
+                              {"gap", m.largest_gap},
+                              {"angle_between_exact_faces", m.exact_angle},
+                              {"angle_at_caps", m.cap_angle},
+                              {"area", {{"file", m.area}, {"limit", exact.area}}},
+                              {"volume", nullptr}};
+  if (file.shells == 0 && exact.solid) json["volume"] = {{"file", m.volume}, {"limit", exact.solid->volume}};
+  return json;
+}
+
+void write_whole_file(const std::string& path, const std::string& text, Progress& progress) {
+  AtomicFile file(path, progress.bytes_written());
+  file.write(text);
+  file.commit();
+}
+
+int run(const StepJob& job) {
+  tolerance_of(job.tolerance, 1);  // a wrong number is told before the mesh is read
+  if (job.join != "g0")
+    throw InvalidOption(fmt::format("--join {}: caps join by g0, with angles that the report has", job.join));
+  check_output_path(job.output, {".step", ".stp", ".brep"});
+  if (!job.report.empty()) check_output_path(job.report, {".json"});
+  if (!job.report.empty()) check_not_sidecar("--report", job.report, job.output);
+  CadFileEntry* const cad_file = cad_writer();
+  Progress progress(job.common.quiet);
+  const Loaded loaded = load(job.common, progress);
+  const Points& control = loaded.mesh.positions;
+  double tolerance = 0;
+  if (control.rows() > 0)
+    tolerance = tolerance_of(job.tolerance, (control.colwise().maxCoeff() - control.colwise().minCoeff()).norm());
+  if (!(tolerance > 0)) throw InvalidMesh(job.common.mesh + ": no extent that --tolerance could be a part of");
+  LimitModel model;
+  LimitIntegrals exact;
+  naming_mesh(job.common, [&] {
+    const LimitSurface surface(*loaded.scheme, loaded.mesh, loaded.rules);
+    progress.step("cutting the limit into patches");
+    model = limit_model(surface, control,
+                        {tolerance, !job.no_packing, [&](const std::string& what) { progress.note(what); }});
+    if (model.boundary.faces.empty()) throw InvalidMesh("no faces to write");
+    progress.step("measuring the limit");
+    if (!job.report.empty()) exact = limit_integrals(surface, control);
+  });
+  progress.step("making a shape");
+  CadFile file;
+  cad_file(model.boundary, std::filesystem::path(job.output).stem().string(), file_extension(job.output) != ".brep",
+           file);
+  progress.step("writing " + job.output);
+  write_whole_file(job.output, file.bytes, progress);
+  if (!job.report.empty())
+    write_whole_file(job.report, report_of(job, model, file, tolerance, exact).dump(2) + "\n", progress);
+  progress.step("");
+  if (job.common.quiet) return model.met ? 0 : 1;
+  const QuadMeasures& m = model.measures;
+  fmt::print("{}: {} solids, {} open shells; {} faces of {} patches, {} caps; {}\n", job.output, file.solids,
+             file.shells, model.boundary.faces.size(), model.quads, model.caps,
+             file.is_valid ? "valid" : "not valid by OpenCASCADE's check");
+  fmt::print("  caps off the limit by {:.3g} at most; angles at joints {:.3g} degrees, of exact faces {:.3g}\n",
+             model.deviation, m.cap_angle * 180 / std::numbers::pi, m.exact_angle * 180 / std::numbers::pi);
+  if (!model.met) fmt::print("  tolerance {:.3g}: not met\n", tolerance);
+  return model.met ? 0 : 1;
+}
+
+}  // namespace
+
+Command add_step(CLI::App& app) {
+  auto* command = app.add_subcommand("step", "Limits for CAD: exact B-spline faces, solids where closed (STEP, BREP)");
+  auto job = std::make_shared<StepJob>();
+  add_mesh(*command, job->common, true);
+  command->add_option("--tolerance", job->tolerance,
+                      "Largest distance of caps around extraordinary vertices from the limit: in the mesh's unit, or "
+                      "as 0.1% of its diagonal (default 0.001%)");
+  command->add_option("--join", job->join, "How caps join their neighbours: g0 (default)");
+  command->add_flag("--no-packing", job->no_packing, "A face for each patch");
+  command->add_option("--report", job->report, "OUT.json: faces, deviation, angles, area and volume of file and limit");
+  command->add_option("-o,--output", job->output, "OUT.step, OUT.stp or OUT.brep; faces that are holes are left out")
+      ->required();
+  command->footer(
+      "Examples:\n"
+      "  sublimit step cage.obj -s catmull-clark -o surface.step\n"
+      "  sublimit step cage.obj -s loop --tolerance 0.01% -o surface.brep --report report.json\n"
+      "Regular faces are exact, and packed into the largest B-splines that keep knots and smoothness; a triangle of loop is\n"
+      "three biquartic patches. Around extraordinary vertices there are rings of exact patches, as many as leave a cap within\n"
+      "the tolerance. Creases and borders are edges. Schemes without polynomials (butterfly, kobbelt, sqrt3) are refused.");
+  return [=] { return run(*job); };
+}
+
+}  // namespace sublimit::cli

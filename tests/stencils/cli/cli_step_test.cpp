@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// `sublimit step`.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "stencils/cli_program.h"
+#include "sublimit/io/obj.h"
+#include "support/meshes.h"
+
+namespace sublimit::testing {
+namespace {
+
+std::string write(const TemporaryDirectory& directory, const ControlMesh& mesh) {
+  write_obj(directory / "m.obj", output(mesh));
+  return (directory / "m.obj").string();
+}
+
+TEST(CliStep, WritesClosedMeshesAsValidSolids) {
+  const TemporaryDirectory directory;
+  const std::string out = (directory / "o.step").string(), report = (directory / "r.json").string();
+  for (const auto& [scheme, mesh] : std::vector<std::pair<std::string, ControlMesh>>{
+           {"catmull-clark", cube()}, {"doo-sabin", cube()}, {"loop", icosahedron()}, {"bilinear", cube()}}) {
+    expect_done(sublimit(
+        {"step", write(directory, mesh), "-s", scheme, "--tolerance", "0.01%", "-o", out, "--report", report}));
+    const nlohmann::json json = nlohmann::json::parse(read_file(report));
+    EXPECT_EQ(json["valid"], true) << scheme;
+    EXPECT_EQ(json["solids"], 1) << scheme;
+    EXPECT_EQ(json["shells"], 0) << scheme;
+    EXPECT_NEAR(json["volume"]["file"], double(json["volume"]["limit"]), 1e-3) << scheme;
+    const std::string text = read_file(out);
+    EXPECT_TRUE(text.starts_with("ISO-10303-21;")) << scheme;
+    EXPECT_NE(text.find("MANIFOLD_SOLID_BREP"), std::string::npos) << scheme;
+  }
+}
+
+TEST(CliStep, WritesOpenMeshesAsShellsAndBrepToo) {
+  const TemporaryDirectory directory;
+  const std::string out = (directory / "o.brep").string(), report = (directory / "r.json").string();
+  expect_done(sublimit(
+      {"step", write(directory, grid(5, 4)), "-s", "catmull-clark", "-o", out, "--report", report, "--quiet"}));
+  const nlohmann::json json = nlohmann::json::parse(read_file(report));
+  EXPECT_EQ(json["valid"], true);
+  EXPECT_EQ(json["solids"], 0);
+  EXPECT_EQ(json["shells"], 1);
+  EXPECT_EQ(json["volume"], nullptr);
+  EXPECT_NE(read_file(out).find("CASCADE Topology"), std::string::npos);
+}
+
+TEST(CliStep, SameInputSameBytes) {
+  const TemporaryDirectory directory;
+  const std::string mesh = write(directory, cube()), one = (directory / "a.step").string();
+  expect_done(sublimit({"step", mesh, "-s", "catmull-clark", "-o", one, "--quiet"}));
+  const std::string first = read_file(one);
+  expect_done(sublimit({"step", mesh, "-s", "catmull-clark", "-o", one, "--quiet", "--threads", "1"}));
+  EXPECT_EQ(read_file(one), first);
+}
+
+TEST(CliStep, LeavesNoFileAfterErrors) {
+  const TemporaryDirectory directory;
+  const std::string mesh = write(directory, icosahedron()), out = (directory / "o.step").string();
+  EXPECT_EQ(sublimit({"step", mesh, "-s", "loop", "--tolerance", "-1", "-o", out}).status, 2);
+  EXPECT_EQ(sublimit({"step", mesh, "-s", "butterfly", "-o", out}).status, 3);
+  EXPECT_EQ(sublimit({"step", mesh, "-s", "loop", "--join", "g7", "-o", out}).status, 2);
+  EXPECT_FALSE(std::filesystem::exists(out));
+}
+
+}  // namespace
+}  // namespace sublimit::testing
