@@ -12,9 +12,10 @@
 
 #include "sublimit/base/error.h"
 #include "sublimit/base/parallel_for.h"
+#include "sublimit/cad/cad_cells.h"
+#include "sublimit/cad/cap_fitter.h"
 #include "sublimit/cad/place_numbers.h"
 #include "sublimit/limit/limit_patches.h"
-#include "sublimit/patches/blossom.h"
 
 namespace sublimit {
 namespace {
@@ -25,18 +26,6 @@ constexpr int first_quarterings = 2;
 constexpr int most_decaying = 10;
 /// Cells keep whole steps between their corners, the middles of their sides, and the middles of these.
 constexpr std::int32_t least_steps = 8;
-
-/// Part of the surface: a polynomial, or what is not known to be one.
-struct CadCell {
-  Index address = 0;
-  CellCorners corners;
-  int depth = 0;  ///< quarterings of a quadrilateral face, or of a triangle
-  bool triangle = false;
-  int degree = 0;   ///< 0: no polynomial
-  Points net = {};  ///< on the square, or the triangle
-  const PieceType* type = nullptr;
-  Points points = {};
-};
 
 class CellCutter {
  public:
@@ -78,64 +67,6 @@ class CellCutter {
   std::vector<CadCell>&exact_, &rest_;
   PieceParts parts_;
 };
-
-std::vector<std::array<double, 2>> corners_in_address(const CadCell& cell) {
-  std::vector<std::array<double, 2>> at;
-  for (size_t k = 0; k < (cell.triangle ? 3u : 4u); ++k)
-    at.push_back({double(cell.corners[k].i) / cell_steps, double(cell.corners[k].j) / cell_steps});
-  return at;
-}
-
-/// Corners of the thirds of a unit triangle.
-std::array<std::array<double, 2>, 4> third_of_triangle(const std::vector<std::array<double, 2>>& c, size_t k) {
-  const auto mean = [](const std::array<double, 2>& a, const std::array<double, 2>& b) {
-    return std::array<double, 2>{(a[0] + b[0]) / 2, (a[1] + b[1]) / 2};
-  };
-  return {c[k],
-          mean(c[k], c[(k + 1) % 3]),
-          {(c[0][0] + c[1][0] + c[2][0]) / 3, (c[0][1] + c[1][1] + c[2][1]) / 3},
-          mean(c[(k + 2) % 3], c[k])};
-}
-
-/// Nodes with the ends, symmetric: x(k) = 1 - x(d - k) to the bit.
-std::vector<double> interpolation_nodes(int degree) {
-  std::vector<double> nodes(size_t(degree) + 1);
-  for (int k = 0; 2 * k <= degree; ++k) {
-    nodes[size_t(k)] = 2 * k == degree ? 0.5 : (1 - std::cos(k * M_PI / degree)) / 2;
-    nodes[size_t(degree - k)] = 1 - nodes[size_t(k)];
-  }
-  return nodes;
-}
-
-/// Bernstein coefficients by values at the nodes.
-Eigen::MatrixXd interpolation(int degree) {
-  const std::vector<double> nodes = interpolation_nodes(degree);
-  Eigen::MatrixXd values(degree + 1, degree + 1);
-  for (int k = 0; k <= degree; ++k) {
-    std::vector<double> w(size_t(degree) + 1);
-    w[0] = 1;
-    for (int q = 1; q <= degree; ++q)
-      blossom_step(UnitSpan<double>{}, q, UnitArgument<double>::point(nodes[size_t(k)]), w.data());
-    for (int i = 0; i <= degree; ++i) values(k, i) = w[size_t(i)];
-  }
-  return values.fullPivLu().inverse();
-}
-
-/// Rows of a square's net by values at pairs of nodes, the second fastest.
-Points fitted_net(const Eigen::MatrixXd& coefficients, const Points& values) {
-  const Eigen::Index n = coefficients.rows();
-  const Eigen::RowVector3d origin = values.row(0);
-  Points along(n * n, 3), net(n * n, 3);
-  for (Eigen::Index i = 0; i < n; ++i)
-    along.middleRows(i * n, n) = coefficients * (values.middleRows(i * n, n).rowwise() - origin);
-  for (Eigen::Index j = 0; j < n; ++j) {
-    Points column(n, 3);
-    for (Eigen::Index i = 0; i < n; ++i) column.row(i) = along.row(i * n + j);
-    const Points own = coefficients * column;
-    for (Eigen::Index i = 0; i < n; ++i) net.row(i * n + j) = own.row(i) + origin;
-  }
-  return net;
-}
 
 /// Quads of polynomial cells, shared between threads.
 class ExactQuads {
@@ -190,104 +121,6 @@ class ExactQuads {
 
  private:
   std::map<int, std::array<Eigen::MatrixXd, 3>> thirds_;
-};
-
-/// Fits caps to the limit, and measures them.
-class CapFitter {
- public:
-  CapFitter(const LimitSurface& surface, const Points& points, int degree)
-      : bound_(surface, points),
-        triangles_(surface.addresses().triangles()),
-        degree_(degree),
-        coefficients_(interpolation(degree)) {}
-
-  std::vector<LimitQuad> caps(const std::vector<CadCell>& cells) const {
-    std::vector<LimitQuad> quads;
-    for (const CadCell& cell : cells) {
-      LimitQuad quad{cell.address, cell.corners};
-      quad.is_exact = false;
-      quad.degree = degree_;
-      quad.size = std::ldexp(1.0, -cell.depth) / (cell.triangle ? 2 : 1);
-      const std::vector<std::array<double, 2>> at = corners_in_address(cell);
-      for (size_t k = 0; k < (cell.triangle ? 3u : 1u); ++k) {
-        quad.third = cell.triangle ? int(k) : -1;
-        if (cell.triangle)
-          quad.corners = third_of_triangle(at, k);
-        else
-          std::ranges::copy(at, quad.corners.begin());
-        quads.push_back(quad);
-      }
-    }
-    const std::vector<double> nodes = interpolation_nodes(degree_);
-    std::vector<Sample> places;
-    for (const LimitQuad& quad : quads)
-      for (const double s : nodes)
-        for (const double t : nodes) places.push_back(inside(quad.place(s, t)));
-    const LimitSamples samples = bound_.evaluate(places, 0, false);
-    const Eigen::Index size = Eigen::Index(nodes.size() * nodes.size());
-    for (size_t q = 0; q < quads.size(); ++q)
-      quads[q].net = fitted_net(coefficients_, samples.position.middleRows(Eigen::Index(q) * size, size));
-    return quads;
-  }
-
-  /// Largest distance of points of each quad from points of the limit near them.
-  std::vector<double> deviations(const std::vector<LimitQuad>& quads) const {
-    constexpr int grid = 6, rounds = 3;
-    std::vector<Sample> places;
-    std::vector<Eigen::RowVector3d> own;
-    for (const LimitQuad& quad : quads)
-      for (int i = 0; i < grid; ++i)
-        for (int j = 0; j < grid; ++j) {
-          const double s = (i + 0.5) / grid, t = (j + 0.5) / grid;
-          places.push_back(inside(quad.place(s, t)));
-          own.push_back(value(quad, s, t));
-        }
-    std::vector<double> distance(own.size(), HUGE_VAL);
-    for (int round = 0; round < rounds; ++round) {
-      const LimitSamples x = bound_.evaluate(places, 1, false);
-      for (size_t i = 0; i < own.size(); ++i) {
-        const auto row = Eigen::Index(i);
-        const Eigen::Vector3d off = (own[i] - x.position.row(row)).transpose();
-        distance[i] = std::min(distance[i], off.norm());
-        if (x.order[i] < 1) continue;
-        Eigen::Matrix<double, 3, 2> J;
-        J << x.du.row(row).transpose(), x.dv.row(row).transpose();
-        const Eigen::Vector2d step = J.colPivHouseholderQr().solve(off);
-        if (!step.allFinite()) continue;
-        places[i].u += step[0], places[i].v += step[1];
-        places[i] = inside(places[i]);
-      }
-    }
-    std::vector<double> largest(quads.size(), 0);
-    for (size_t i = 0; i < own.size(); ++i)
-      largest[i / (grid * grid)] = std::max(largest[i / (grid * grid)], distance[i]);
-    return largest;
-  }
-
- private:
-  Sample inside(Sample s) const {
-    s.u = std::clamp(s.u, 0.0, 1.0);
-    s.v = std::clamp(s.v, 0.0, triangles_ ? 1 - s.u : 1.0);
-    return s;
-  }
-  static Eigen::RowVector3d value(const LimitQuad& quad, double s, double t) {
-    const int d = quad.degree;
-    std::vector<double> a(size_t(d) + 1), b(size_t(d) + 1);
-    a[0] = b[0] = 1;
-    for (int q = 1; q <= d; ++q) {
-      blossom_step(UnitSpan<double>{}, q, UnitArgument<double>::point(s), a.data());
-      blossom_step(UnitSpan<double>{}, q, UnitArgument<double>::point(t), b.data());
-    }
-    Eigen::RowVector3d x = Eigen::RowVector3d::Zero();
-    for (int i = 0; i <= d; ++i)
-      for (int j = 0; j <= d; ++j) x += a[size_t(i)] * b[size_t(j)] * quad.net.row(i * (d + 1) + j);
-    return x;
-  }
-
-  BoundLimitSurface bound_;
-  bool triangles_;
-  int degree_;
-  Eigen::MatrixXd coefficients_;
 };
 
 /// Numbers of the groups of cells that share corners: those around one extraordinary vertex.
@@ -370,10 +203,10 @@ LimitQuads limit_quads(const LimitSurface& surface, const Points& points, const 
   std::vector<LimitQuad> caps;
   for (int round = 0; !rest.empty(); ++round) {
     if (options.progress) options.progress(round);
-    const std::vector<LimitQuad> own = fitter.caps(rest);
+    const std::vector<size_t> group = groups_of(rest, LimitPatches::parts_of(surface));
+    const std::vector<LimitQuad> own = fitter.caps(rest, group);
     const std::vector<double> deviation = fitter.deviations(own);
     const size_t a_cell = own.size() / rest.size();
-    const std::vector<size_t> group = groups_of(rest, LimitPatches::parts_of(surface));
     std::vector<double> largest(rest.size(), 0);
     std::vector<char> last(rest.size(), round >= options.most_rings);
     for (size_t c = 0; c < rest.size(); ++c) {

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// Caps: patches that interpolate the limit around an extraordinary vertex, where it is no polynomial.
+//
+// Towards the vertex the limit shrinks by its subdominant eigenvalue lambda when its parameters are halved: as r^alpha,
+// alpha = -log2 lambda. A patch follows that with a slope that is neither 0 nor infinite if it is fitted over other
+// parameters, (u, v) r^(1/alpha - 1), r = u + v - u v on squares and u + v on triangles: r = 1 on the outer sides,
+// whose curves stay as they are, so that patches meet their exact neighbours without gaps.
+#include <Eigen/Core>
+
+#include <span>
+#include <vector>
+
+#include "sublimit/cad/cad_cells.h"
+#include "sublimit/cad/limit_quads.h"
+
+namespace sublimit {
+
+class CapFitter {
+ public:
+  /// @param surface  which must stay
+  /// @param degree   of the patches: that of the polynomials around them at least
+  CapFitter(const LimitSurface& surface, const Points& points, int degree);
+
+  /// Patches of cells that are no polynomials, one of a square, three of a triangle.
+  /// @param group  of each cell: those around the same vertex have the same
+  std::vector<LimitQuad> caps(const std::vector<CadCell>& cells, std::span<const size_t> group) const;
+  /// Largest distance of points of each patch from points of the limit near them.
+  std::vector<double> deviations(const std::vector<LimitQuad>& quads) const;
+
+ private:
+  Sample inside(Sample sample) const;
+  /// Exponents of r for the cells of each group, 0 where there is no vertex to shrink to.
+  std::vector<double> exponents(const std::vector<CadCell>& cells, std::span<const int> centres,
+                                std::span<const size_t> group) const;
+
+  BoundLimitSurface bound_;
+  bool triangles_;
+  int degree_;
+  Eigen::MatrixXd coefficients_;
+};
+
+}  // namespace sublimit

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+// STEP and BREP files, read by OpenCASCADE.
+#include <BRepAdaptor_Surface.hxx>
+#include <BRepCheck_Analyzer.hxx>
+#include <BRepTools.hxx>
+#include <BRep_Builder.hxx>
+#include <BRep_Tool.hxx>
+#include <STEPControl_Reader.hxx>
+#include <TopExp.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
+#include <TopoDS.hxx>
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "sublimit/cad/limit_model.h"
+#include "sublimit/cad/opencascade/write_cad.h"
+#include "sublimit/schemes.h"
+#include "sublimit/search/closest_point.h"
+#include "support/meshes.h"
+#include "support/temporary_directory.h"
+#include "support/tolerance.h"
+
+namespace sublimit {
+namespace {
+
+struct ReadBack {
+  TopoDS_Shape shape;
+  LimitModel model;
+  double size;
+};
+
+ReadBack read_back(const ControlMesh& mesh, const std::string& scheme, bool step) {
+  const LimitSurface surface(find_scheme(scheme).value(), mesh);
+  ReadBack read;
+  read.size = testing::diagonal(mesh.positions);
+  LimitModelOptions options;
+  options.tolerance = 1e-4 * read.size;
+  read.model = limit_model(surface, mesh.positions, options);
+  const CadFile file = cad_file(read.model.boundary, "m", step);
+  EXPECT_TRUE(file.is_valid);
+  if (step) {
+    const testing::TemporaryDirectory directory;
+    STEPControl_Reader reader;
+    EXPECT_EQ(reader.ReadFile(directory.write("m.step", file.bytes).c_str()), IFSelect_RetDone);
+    reader.TransferRoots();
+    read.shape = reader.OneShape();
+  } else {
+    std::istringstream in(file.bytes);
+    BRep_Builder builder;
+    BRepTools::Read(read.shape, in, builder);
+  }
+  return read;
+}
+
+int count(const TopoDS_Shape& shape, TopAbs_ShapeEnum kind) {
+  int found = 0;
+  for (TopExp_Explorer at(shape, kind); at.More(); at.Next()) ++found;
+  return found;
+}
+
+TEST(ReadBack, ClosedMeshesAreValidSolidsWithEveryEdgeTwice) {
+  for (const bool step : {true, false})
+    for (const auto& [scheme, mesh] :
+         std::vector<std::pair<std::string, ControlMesh>>{{"catmull-clark", testing::cube()},
+                                                          {"catmull-clark", testing::torus(8, 6)},
+                                                          {"doo-sabin", testing::cube()},
+                                                          {"loop", testing::icosahedron()},
+                                                          {"bilinear", testing::cube()}}) {
+      const ReadBack read = read_back(mesh, scheme, step);
+      EXPECT_EQ(count(read.shape, TopAbs_SOLID), 1) << scheme;
+      EXPECT_EQ(count(read.shape, TopAbs_FACE), int(read.model.boundary.faces.size())) << scheme;
+      EXPECT_TRUE(BRepCheck_Analyzer(read.shape).IsValid()) << scheme;
+      TopTools_IndexedDataMapOfShapeListOfShape faces;
+      TopExp::MapShapesAndAncestors(read.shape, TopAbs_EDGE, TopAbs_FACE, faces);
+      EXPECT_EQ(faces.Extent(), int(read.model.boundary.edges.size())) << scheme;
+      for (int e = 1; e <= faces.Extent(); ++e) EXPECT_EQ(faces(e).Extent(), 2) << scheme;
+    }
+}
+
+TEST(ReadBack, OpenMeshesAreShells) {
+  const ReadBack read = read_back(testing::grid(5, 4), "catmull-clark", true);
+  EXPECT_EQ(count(read.shape, TopAbs_SOLID), 0);
+  EXPECT_EQ(count(read.shape, TopAbs_SHELL), 1);
+  EXPECT_TRUE(BRepCheck_Analyzer(read.shape).IsValid());
+}
+
+TEST(ReadBack, ExactFacesAreOnTheLimit) {
+  for (const auto& [scheme, mesh] :
+       std::vector<std::pair<std::string, ControlMesh>>{{"catmull-clark", testing::jittered(testing::torus(8, 6))},
+                                                        {"doo-sabin", testing::jittered(testing::torus(8, 6))},
+                                                        {"loop", testing::jittered(testing::triangle_torus(6, 5))}}) {
+    const ReadBack read = read_back(mesh, scheme, true);
+    EXPECT_EQ(read.model.caps, 0) << scheme;
+    std::vector<Eigen::RowVector3d> found;
+    for (TopExp_Explorer at(read.shape, TopAbs_FACE); at.More(); at.Next()) {
+      const BRepAdaptor_Surface face(TopoDS::Face(at.Current()));
+      for (const double s : {0.0, 0.13, 0.5, 0.77, 1.0})
+        for (const double t : {0.0, 0.31, 0.6, 1.0}) {
+          const gp_Pnt p = face.Value((1 - s) * face.FirstUParameter() + s * face.LastUParameter(),
+                                      (1 - t) * face.FirstVParameter() + t * face.LastVParameter());
+          found.push_back({p.X(), p.Y(), p.Z()});
+        }
+    }
+    Points points(Index(found.size()), 3);
+    for (size_t i = 0; i < found.size(); ++i) points.row(Index(i)) = found[i];
+    const LimitSurface surface(find_scheme(scheme).value(), mesh);
+    EXPECT_LT(closest_points(surface, mesh.positions, points).distances.maxCoeff(), testing::cad_exact * read.size)
+        << scheme;
+  }
+}
+
+}  // namespace
+}  // namespace sublimit
