@@ -73,6 +73,8 @@ nlohmann::ordered_json report_of(const StepJob& job, const LimitModel& model, co
                               {"gap", m.largest_gap},
                               {"angle_between_exact_faces", m.exact_angle},
                               {"angle_at_caps", m.cap_angle},
+                              {"angle_between_caps", m.between_caps},
+                              {"largest_angle_at", {m.worst[0], m.worst[1], m.worst[2]}},
                               {"area", {{"file", m.area}, {"limit", exact.area}}},
                               {"volume", nullptr}};
   if (file.shells == 0 && exact.solid) json["volume"] = {{"file", m.volume}, {"limit", exact.solid->volume}};
@@ -87,11 +89,11 @@ void write_whole_file(const std::string& path, const std::string& text, Progress
 
 int run(const StepJob& job) {
   tolerance_of(job.tolerance, 1);  // a wrong number is told before the mesh is read
-  if (job.join != "g0")
-    throw InvalidOption(fmt::format("--join {}: caps join by g0, with angles that the report has", job.join));
+  if (job.join != "g0" && job.join != "g1")
+    throw InvalidOption(fmt::format("--join {}: caps join their neighbours by g0 or g1", job.join));
   check_output_path(job.output, {".step", ".stp", ".brep"});
   if (!job.report.empty()) check_output_path(job.report, {".json"});
-  if (!job.report.empty()) check_not_sidecar("--report", job.report, job.output);
+  if (!job.report.empty()) check_not_sidecar("--report", job.report, job.common.mesh);
   CadFileEntry* const cad_file = cad_writer();
   Progress progress(job.common.quiet);
   const Loaded loaded = load(job.common, progress);
@@ -105,8 +107,12 @@ int run(const StepJob& job) {
   naming_mesh(job.common, [&] {
     const LimitSurface surface(*loaded.scheme, loaded.mesh, loaded.rules);
     progress.step("cutting the limit into patches");
-    model = limit_model(surface, control,
-                        {tolerance, !job.no_packing, [&](const std::string& what) { progress.note(what); }});
+    LimitModelOptions wanted;
+    wanted.tolerance = tolerance;
+    wanted.join_smoothly = job.join == "g1";
+    wanted.pack = !job.no_packing;
+    wanted.progress = [&](const std::string& what) { progress.note(what); };
+    model = limit_model(surface, control, wanted);
     if (model.boundary.faces.empty()) throw InvalidMesh("no faces to write");
     progress.step("measuring the limit");
     if (!job.report.empty()) exact = limit_integrals(surface, control);
@@ -125,8 +131,11 @@ int run(const StepJob& job) {
   fmt::print("{}: {} solids, {} open shells; {} faces of {} patches, {} caps; {}\n", job.output, file.solids,
              file.shells, model.boundary.faces.size(), model.quads, model.caps,
              file.is_valid ? "valid" : "not valid by OpenCASCADE's check");
-  fmt::print("  caps off the limit by {:.3g} at most; angles at joints {:.3g} degrees, of exact faces {:.3g}\n",
-             model.deviation, m.cap_angle * 180 / std::numbers::pi, m.exact_angle * 180 / std::numbers::pi);
+  constexpr double degrees = 180 / std::numbers::pi;
+  fmt::print(
+      "  caps off the limit by {:.3g} at most; angles {:.3g} degrees at their borders, {:.3g} between them, {:.3g} "
+      "between exact faces\n",
+      model.deviation, m.cap_angle * degrees, m.between_caps * degrees, m.exact_angle * degrees);
   if (!model.met) fmt::print("  tolerance {:.3g}: not met\n", tolerance);
   return model.met ? 0 : 1;
 }
@@ -140,7 +149,9 @@ Command add_step(CLI::App& app) {
   command->add_option("--tolerance", job->tolerance,
                       "Largest distance of caps around extraordinary vertices from the limit: in the mesh's unit, or "
                       "as 0.1% of its diagonal (default 0.001%)");
-  command->add_option("--join", job->join, "How caps join their neighbours: g0 (default)");
+  command->add_option(
+      "--join", job->join,
+      "How caps join exact faces: g0 (default), or g1, with common tangent planes (schemes of quadrilaterals)");
   command->add_flag("--no-packing", job->no_packing, "A face for each patch");
   command->add_option("--report", job->report, "OUT.json: faces, deviation, angles, area and volume of file and limit");
   command->add_option("-o,--output", job->output, "OUT.step, OUT.stp or OUT.brep; faces that are holes are left out")

@@ -54,31 +54,33 @@ int centre_of(const CadCell& cell) {
   return without == 1 ? centre : -1;
 }
 
-/// A cell seen from one of its corners.
-struct SeenFromCorner {
-  Eigen::Vector2d origin;
-  Eigen::Matrix2d sides;  ///< by columns
-  bool triangle;
-  SeenFromCorner(const CadCell& cell, int k) : triangle(cell.triangle) {
-    const std::vector<std::array<double, 2>> at = corners_in_address(cell);
-    const size_t n = at.size(), next = (size_t(k) + 1) % n, before = (size_t(k) + n - 1) % n;
-    origin << at[size_t(k)][0], at[size_t(k)][1];
-    sides << at[next][0] - origin[0], at[before][0] - origin[0], at[next][1] - origin[1], at[before][1] - origin[1];
-  }
-  Sample warped(const Sample& s, double exponent) const {
-    const Eigen::Vector2d own = sides.inverse() * (Eigen::Vector2d(s.u, s.v) - origin);
-    const double r = triangle ? own[0] + own[1] : own[0] + own[1] - own[0] * own[1];
-    if (!(r > 0) || std::abs(r - 1) < 1e-12) return s;
-    const Eigen::Vector2d at = origin + sides * (own * std::pow(r, exponent));
-    return {s.face, at[0], at[1]};
-  }
-  Sample along(Index address, int side, double length) const {
-    const Eigen::Vector2d at = origin + length * sides.col(side);
-    return {address, at[0], at[1]};
-  }
-};
-
 }  // namespace
+
+SeenFromCorner::SeenFromCorner(const CadCell& cell, int corner) : triangle(cell.triangle) {
+  const std::vector<std::array<double, 2>> at = corners_in_address(cell);
+  const size_t n = at.size(), k = size_t(corner), next = (k + 1) % n, before = (k + n - 1) % n;
+  origin << at[k][0], at[k][1];
+  sides << at[next][0] - origin[0], at[before][0] - origin[0], at[next][1] - origin[1], at[before][1] - origin[1];
+}
+
+Sample SeenFromCorner::place(Index address, double u, double v) const {
+  const Eigen::Vector2d at = origin + sides * Eigen::Vector2d(u, v);
+  return {address, at[0], at[1]};
+}
+
+Sample SeenFromCorner::warped(const Sample& s, double exponent) const {
+  const Eigen::Vector2d own = sides.inverse() * (Eigen::Vector2d(s.u, s.v) - origin);
+  const double r = triangle ? own[0] + own[1] : own[0] + own[1] - own[0] * own[1];
+  if (!(r > 0) || std::abs(r - 1) < 1e-12) return s;
+  const Eigen::Vector2d at = origin + sides * (own * std::pow(r, exponent));
+  return {s.face, at[0], at[1]};
+}
+
+std::vector<int> centres_of(const std::vector<CadCell>& cells) {
+  std::vector<int> centres;
+  for (const CadCell& cell : cells) centres.push_back(centre_of(cell));
+  return centres;
+}
 
 CapFitter::CapFitter(const LimitSurface& surface, const Points& points, int degree)
     : bound_(surface, points),
@@ -100,7 +102,7 @@ std::vector<double> CapFitter::exponents(const std::vector<CadCell>& cells, std:
     const SeenFromCorner seen(cells[c], std::max(centres[c], 0));
     for (int side = 0; side < 2; ++side)
       for (const double length : {0.0, far, far / 2})
-        places.push_back(inside(seen.along(cells[c].address, side, length)));
+        places.push_back(inside(seen.place(cells[c].address, side == 0 ? length : 0, side == 0 ? 0 : length)));
   }
   const Points x = bound_.evaluate(places, 0, false).position;
   std::vector<double> sum(cells.size(), 0), count(cells.size(), 0);
@@ -120,8 +122,7 @@ std::vector<double> CapFitter::exponents(const std::vector<CadCell>& cells, std:
 }
 
 std::vector<LimitQuad> CapFitter::caps(const std::vector<CadCell>& cells, std::span<const size_t> group) const {
-  std::vector<int> centres;
-  for (const CadCell& cell : cells) centres.push_back(centre_of(cell));
+  const std::vector<int> centres = centres_of(cells);
   const std::vector<double> exponent = exponents(cells, centres, group);
   const std::vector<double> nodes = interpolation_nodes(degree_);
   std::vector<LimitQuad> quads;

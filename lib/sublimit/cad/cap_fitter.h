@@ -16,6 +16,21 @@
 
 namespace sublimit {
 
+/// A cell that is no polynomial, seen from one of its corners.
+struct SeenFromCorner {
+  Eigen::Vector2d origin;
+  Eigen::Matrix2d sides;  ///< by columns
+  bool triangle;
+
+  SeenFromCorner(const CadCell& cell, int corner);
+  Sample place(Index address, double u, double v) const;
+  /// The place by whose parameters a cap is fitted.
+  Sample warped(const Sample& sample, double exponent) const;
+};
+
+/// The corner of each cell that its only child without a polynomial is at; -1 if there is none.
+std::vector<int> centres_of(const std::vector<CadCell>& cells);
+
 class CapFitter {
  public:
   /// @param surface  which must stay
@@ -25,6 +40,8 @@ class CapFitter {
   /// Patches of cells that are no polynomials, one of a square, three of a triangle.
   /// @param group  of each cell: those around the same vertex have the same
   std::vector<LimitQuad> caps(const std::vector<CadCell>& cells, std::span<const size_t> group) const;
+  /// Makes patches of squares join their exact neighbours with common tangent planes.
+  void join(const std::vector<CadCell>& cells, std::span<const size_t> group, std::vector<LimitQuad>& quads) const;
   /// Largest distance of points of each patch from points of the limit near them.
   std::vector<double> deviations(const std::vector<LimitQuad>& quads) const;
 

@@ -14,6 +14,7 @@ LimitModel limit_model(const LimitSurface& surface, const Points& points, const 
   };
   LimitQuadOptions wanted;
   wanted.tolerance = options.tolerance;
+  wanted.join_smoothly = options.join_smoothly;
   wanted.progress = [&](int round) { tell("fitting caps, ring " + std::to_string(round + 1)); };
   LimitQuads made = limit_quads(surface, points, wanted);
   tell("joining patches");

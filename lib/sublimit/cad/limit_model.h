@@ -11,7 +11,8 @@
 namespace sublimit {
 
 struct LimitModelOptions {
-  double tolerance = 0;  ///< of caps: largest distance from the limit, > 0
+  double tolerance = 0;        ///< of caps: largest distance from the limit, > 0
+  bool join_smoothly = false;  ///< as `LimitQuadOptions` has it
   bool pack = true;
   std::function<void(const std::string& what)> progress;
 };

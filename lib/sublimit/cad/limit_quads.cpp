@@ -194,6 +194,8 @@ LimitQuads limit_quads(const LimitSurface& surface, const Points& points, const 
   if (!(options.tolerance > 0) || !std::isfinite(options.tolerance))
     throw InvalidParameter("the tolerance is " + std::to_string(options.tolerance) + "; a distance above 0 is right");
   if (!points.allFinite()) throw InvalidParameter("points have to be finite");
+  if (options.join_smoothly && surface.addresses().triangles())
+    throw UnsupportedTopology("caps of triangles join by g0; g1 is for schemes of quadrilaterals");
   std::vector<CadCell> exact, rest;
   cut_addresses(surface, points, exact, rest);
   int degree = 3;
@@ -204,7 +206,8 @@ LimitQuads limit_quads(const LimitSurface& surface, const Points& points, const 
   for (int round = 0; !rest.empty(); ++round) {
     if (options.progress) options.progress(round);
     const std::vector<size_t> group = groups_of(rest, LimitPatches::parts_of(surface));
-    const std::vector<LimitQuad> own = fitter.caps(rest, group);
+    std::vector<LimitQuad> own = fitter.caps(rest, group);
+    if (options.join_smoothly) fitter.join(rest, group, own);
     const std::vector<double> deviation = fitter.deviations(own);
     const size_t a_cell = own.size() / rest.size();
     std::vector<double> largest(rest.size(), 0);

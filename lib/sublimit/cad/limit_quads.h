@@ -34,8 +34,9 @@ struct LimitQuad {
 };
 
 struct LimitQuadOptions {
-  double tolerance = 0;  ///< of caps, > 0
-  int most_rings = 14;   ///< around an extraordinary vertex
+  double tolerance = 0;        ///< of caps, > 0
+  bool join_smoothly = false;  ///< caps and their exact neighbours, with common tangent planes; of squares
+  int most_rings = 14;         ///< around an extraordinary vertex
   std::function<void(int round)> progress;
 };
 

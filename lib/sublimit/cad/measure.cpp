@@ -137,9 +137,11 @@ QuadMeasures measure(std::vector<LimitQuad>& quads, QuadEdges& edges) {
     result.largest_gap = std::max(result.largest_gap, edge.gap);
     if (edge.uses.size() != 2) ++result.open_edges;
     if (edge.is_sharp) ++result.sharp_edges;
-    bool exact = true;
-    for (const QuadSide& use : edge.uses) exact = exact && quads[size_t(use.quad)].is_exact;
-    double& angle = exact ? result.exact_angle : result.cap_angle;
+    size_t caps = 0;
+    for (const QuadSide& use : edge.uses) caps += quads[size_t(use.quad)].is_exact ? 0 : 1;
+    if (angles[e] > std::max({result.exact_angle, result.cap_angle, result.between_caps}))
+      result.worst = edge.net.row(edge.net.rows() / 2);
+    double& angle = caps == 0 ? result.exact_angle : caps == 1 ? result.cap_angle : result.between_caps;
     angle = std::max(angle, angles[e]);
   }
   add_areas(quads, result);

@@ -80,6 +80,22 @@ TEST(LimitModel, IsNearerWithMoreRings) {
   EXPECT_LE(fine.model.deviation, 1e-6 * fine.size);
 }
 
+TEST(LimitModel, JoinsCapsWithCommonTangentPlanes) {
+  for (const auto& [scheme, mesh] : std::vector<std::pair<std::string, ControlMesh>>{
+           {"catmull-clark", testing::jittered(testing::cube())}, {"doo-sabin", testing::jittered(testing::pole(5))}}) {
+    const LimitSurface surface(find_scheme(scheme).value(), mesh);
+    LimitModelOptions options;
+    options.tolerance = 1e-4 * testing::diagonal(mesh.positions);
+    options.join_smoothly = true;
+    const LimitModel model = limit_model(surface, mesh.positions, options);
+    EXPECT_GT(model.caps, 0) << scheme;
+    EXPECT_TRUE(model.met) << scheme;
+    EXPECT_LT(model.measures.cap_angle, testing::reference_angle) << scheme;
+    EXPECT_LT(model.measures.between_caps, 0.2) << scheme;  // radians: fitted, not joined
+    expect_closed(model.boundary);
+  }
+}
+
 TEST(LimitModel, KeepsCreasesAsEdges) {
   ControlMesh mesh = testing::torus(8, 6);
   std::vector<Index> path;
