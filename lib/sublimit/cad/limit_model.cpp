@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "sublimit/base/error.h"
 #include "sublimit/cad/limit_quads.h"
 #include "sublimit/cad/packing.h"
 
@@ -26,7 +27,11 @@ LimitModel limit_model(const LimitSurface& surface, const Points& points, const 
   model.met = made.met;
   model.measures = measure(made.quads, edges);
   tell("packing patches");
-  model.boundary = boundary_model(made.quads, edges, quad_rectangles(made.quads, edges, options.pack));
+  const std::vector<QuadRectangle> rectangles = quad_rectangles(made.quads, edges, options.pack);
+  if (std::ssize(rectangles) > options.max_faces)
+    throw ResourceError(std::to_string(rectangles.size()) + " faces are needed, more than " +
+                        std::to_string(options.max_faces) + "; allow a larger tolerance, or lower semi-sharp creases");
+  model.boundary = boundary_model(made.quads, edges, rectangles);
   return model;
 }
 

@@ -119,5 +119,14 @@ TEST(LimitModel, RefusesWhatIsNoPolynomial) {
   EXPECT_THROW(limit_model(surface, mesh.positions, options), InvalidParameter);
 }
 
+TEST(LimitModel, StopsBeforeThereAreTooManyFaces) {
+  const ControlMesh mesh = testing::cube();
+  const LimitSurface surface(find_scheme("catmull-clark").value(), mesh);
+  LimitModelOptions options;
+  options.tolerance = 1e-3;
+  options.max_faces = 10;
+  EXPECT_THROW(limit_model(surface, mesh.positions, options), ResourceError);
+}
+
 }  // namespace
 }  // namespace sublimit
