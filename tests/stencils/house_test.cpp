@@ -26,7 +26,7 @@ struct Floor {
 const Floor floors[] = {
     {"lib/sublimit",
      {"core", "mesh", "splits", "io", "scheme", "neighborhood", "limit", "tessellation", "search", "geometric",
-      "curves", "patches", "schemes", "primvar", "fit", "implicit", "certificates"},
+      "curves", "patches", "cad", "schemes", "primvar", "fit", "implicit", "certificates"},
      {"schemes.h", "subdivide.h"}},
     {"stencils/sublimit",
      {"recipes", "files", "jobs", "patterns", "bake", "picture", "fit_jobs", "gallery", "report"},

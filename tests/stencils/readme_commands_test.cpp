@@ -129,6 +129,13 @@ void expect_readable(const Path& file) {
     EXPECT_TRUE(read_file(file).starts_with("%%MatrixMarket matrix coordinate real general\n"));
   } else if (kind == ".npz") {
     EXPECT_TRUE(read_file(file).starts_with("PK"));
+  } else if (kind == ".glb") {
+    EXPECT_TRUE(read_file(file).starts_with("glTF"));
+  } else if (kind == ".vtu") {
+    const std::string text = read_file(file);
+    EXPECT_TRUE(text.starts_with("<?xml") && text.ends_with("</VTKFile>\n"));
+  } else if (kind == ".step") {
+    EXPECT_TRUE(read_file(file).starts_with("ISO-10303-21;"));
   } else if (kind == ".svg" || kind == ".html") {
     const std::string text = read_file(file);
     EXPECT_EQ(read_markup(text).fault, "");
@@ -198,6 +205,7 @@ const std::vector<Section>& sections() {
       {"stencils/README.md", "Curves", write_polygon, {}},
       {"stencils/README.md", "Area, volume, inertia", run_demo, {}},
       {"stencils/README.md", "Triangles", run_demo, points_are_those_of_the_triangles},
+      {"stencils/README.md", "CAD", run_demo, {}},
       {"stencils/README.md", "Tables", write_cages, frames_are_refined},
       {"stencils/README.md", "Many tables", write_cages, log_has_what_the_document_shows},
       {"stencils/README.md", "Continuity reports", run_demo,

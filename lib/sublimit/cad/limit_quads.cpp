@@ -14,8 +14,8 @@
 #include "sublimit/base/parallel_for.h"
 #include "sublimit/cad/cad_cells.h"
 #include "sublimit/cad/cap_fitter.h"
-#include "sublimit/cad/place_numbers.h"
 #include "sublimit/limit/limit_patches.h"
+#include "sublimit/limit/place_numbers.h"
 
 namespace sublimit {
 namespace {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <utility>
 
-#include "sublimit/cad/place_numbers.h"
 #include "sublimit/limit/limit_patches.h"
+#include "sublimit/limit/place_numbers.h"
 #include "sublimit/mesh/sharpness.h"
 #include "sublimit/patches/blossom.h"
 
