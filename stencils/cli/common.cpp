@@ -7,11 +7,13 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <memory>
 #include <span>
 
 #include "curves.h"
 #include "sublimit/base/error.h"
+#include "sublimit/base/format_number.h"
 #include "sublimit/base/memory.h"
 #include "sublimit/base/rule_words.h"
 #include "sublimit/core/sparse_product.h"
@@ -131,6 +133,15 @@ Points refined_points(const std::vector<Level>& levels, const Points& control) {
   Points points = control;
   for (size_t k = 1; k < levels.size(); ++k) points = apply(levels[k].S, points);
   return points;
+}
+
+double distance_option(const std::string& option, const std::string& text, double diagonal) {
+  const bool relative = text.ends_with('%');
+  const Parsed<double> parsed = parse_number<double>(relative ? text.substr(0, text.size() - 1) : text);
+  if (!parsed || !(parsed.value > 0) || !std::isfinite(parsed.value))
+    throw InvalidOption(fmt::format(
+        "{} {}: it should be a distance above 0, such as 0.01, or 0.1% of the mesh's diagonal", option, text));
+  return relative ? parsed.value / 100 * diagonal : parsed.value;
 }
 
 bool has_channel(const Loaded& loaded, const std::string& output) {

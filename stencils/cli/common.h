@@ -81,6 +81,10 @@ std::vector<Level> refined_levels(const Loaded& loaded, int count, Progress& pro
 /// Points of the last level, from those of the first.
 Points refined_points(const std::vector<Level>& levels, const Points& control);
 
+/// An option's distance above 0, or so many per cent of the diagonal of the control mesh's box.
+/// @throws InvalidOption  no such number, naming the option
+double distance_option(const std::string& option, const std::string& text, double diagonal);
+
 /// Whether the mesh has texture coordinates that the output has room for.
 bool has_channel(const Loaded& loaded, const std::string& output);
 

@@ -41,15 +41,9 @@ CadFileEntry* cad_writer() {
 #endif
 }
 
-/// A positive length, or so many per cent of the diagonal of the control mesh's box.
+/// Without one a hundred-thousandth of the diagonal.
 double tolerance_of(const std::string& text, double diagonal) {
-  if (text.empty()) return 1e-5 * diagonal;
-  const bool relative = text.ends_with('%');
-  const Parsed<double> parsed = parse_number<double>(relative ? text.substr(0, text.size() - 1) : text);
-  if (!parsed || !(parsed.value > 0) || !std::isfinite(parsed.value))
-    throw InvalidOption(fmt::format(
-        "--tolerance {}: it should be a distance above 0, such as 0.01, or 0.1% of the mesh's diagonal", text));
-  return relative ? parsed.value / 100 * diagonal : parsed.value;
+  return text.empty() ? 1e-5 * diagonal : distance_option("--tolerance", text, diagonal);
 }
 
 nlohmann::ordered_json report_of(const StepJob& job, const LimitModel& model, const CadFile& file, double tolerance,

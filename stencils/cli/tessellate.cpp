@@ -30,18 +30,6 @@ struct TessellateOptions {
   bool normals = false, face_ids = false;
 };
 
-/// A positive length, or so many per cent of the diagonal of the control mesh's box.
-double length(const std::string& text, double diagonal) {
-  const bool relative = text.ends_with('%');
-  const Parsed<double> parsed = parse_number<double>(relative ? text.substr(0, text.size() - 1) : text);
-  if (!parsed || !(parsed.value > 0) || !std::isfinite(parsed.value))
-    throw InvalidOption(
-        fmt::format("--chord {}: it should be a distance above 0, such as 0.01, or 0.1% of the mesh's "
-                    "diagonal",
-                    text));
-  return relative ? parsed.value / 100 * diagonal : parsed.value;
-}
-
 double radians(const std::string& text) {
   if (text.empty()) return 0;
   const Parsed<double> parsed = parse_number<double>(text);
@@ -118,7 +106,8 @@ int run(const TessellateOptions& options) {
   if (options.chord.empty() == options.rates.empty())
     throw InvalidOption("--chord D, a distance, or --rates RATES.csv, segments of edges, is needed: one of them");
   if (!options.rates.empty() && !options.angle.empty()) throw InvalidOption("--angle goes with --chord");
-  if (!options.chord.empty()) length(options.chord, 1);  // a wrong number is told before the mesh is read
+  if (!options.chord.empty())
+    distance_option("--chord", options.chord, 1);  // a wrong number is told before the mesh is read
   check_output_path(options.output, {".obj", ".ply", ".glb", ".vtu"});
   const std::string extension = file_extension(options.output);
   if (extension == ".vtu") check_triangle_options(options);
@@ -130,7 +119,8 @@ int run(const TessellateOptions& options) {
   const Points& control = loaded.mesh.positions;
   const bool by_rates = !options.rates.empty();
   if (control.rows() > 0 && !by_rates)
-    wanted.chord = length(options.chord, (control.colwise().maxCoeff() - control.colwise().minCoeff()).norm());
+    wanted.chord =
+        distance_option("--chord", options.chord, (control.colwise().maxCoeff() - control.colwise().minCoeff()).norm());
   if (!by_rates && !(wanted.chord > 0))
     throw InvalidMesh(options.common.mesh + ": no extent that --chord could be a part of");
   std::optional<LimitSurface> surface;

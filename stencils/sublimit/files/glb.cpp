@@ -66,6 +66,16 @@ class Description {
   std::uint64_t size_ = 0;
 };
 
+/// What positions are seen from, the node's translation: of a mesh far from the origin its middle, as floats would
+/// leave it few digits.
+Eigen::RowVector3d origin_of(const Points& positions) {
+  constexpr double far = 16;  // sizes of the mesh: four bits less
+  if (positions.rows() == 0) return Eigen::RowVector3d::Zero();
+  const Eigen::RowVector3d low = positions.colwise().minCoeff(), high = positions.colwise().maxCoeff();
+  const Eigen::RowVector3d middle = low / 2 + high / 2;
+  return middle.norm() > far * (high - low).norm() ? middle : Eigen::RowVector3d::Zero();
+}
+
 void check(const MeshOutput& mesh, const std::string& name) {
   check_output(mesh, name);
   if (!mesh.face_normals.empty() || !mesh.face_varying.empty())
@@ -84,17 +94,20 @@ void write_glb(const std::filesystem::path& path, const MeshOutput& mesh,
   check(mesh, path.string());
   const std::string name = path.stem().string();
   Description made(name);
+  const Eigen::RowVector3d origin = origin_of(mesh.positions);
+  const Points positions = mesh.positions.rowwise() - origin;
   Points texture = mesh.texture;
   if (texture.rows() > 0) texture.col(1) = (1 - texture.col(1).array()).matrix().eval();
   if (!mesh.face_sizes.empty()) {
     Json attributes;
-    const int positions = made.add_floats(mesh.positions);
-    Json& bounds = made.json()["accessors"][size_t(positions)];
+    const int number = made.add_floats(positions);
+    Json& bounds = made.json()["accessors"][size_t(number)];
     for (Eigen::Index k = 0; k < 3; ++k) {
-      bounds["min"].push_back(double(float(mesh.positions.col(k).minCoeff())));
-      bounds["max"].push_back(double(float(mesh.positions.col(k).maxCoeff())));
+      bounds["min"].push_back(double(float(positions.col(k).minCoeff())));
+      bounds["max"].push_back(double(float(positions.col(k).maxCoeff())));
     }
-    attributes["POSITION"] = positions;
+    if (!origin.isZero(0)) made.json()["nodes"][0]["translation"] = {origin[0], origin[1], origin[2]};
+    attributes["POSITION"] = number;
     if (mesh.normals.rows() > 0) attributes["NORMAL"] = made.add_floats(mesh.normals);
     if (texture.rows() > 0) attributes["TEXCOORD_0"] = made.add_floats(texture);
     const int indices =
@@ -116,7 +129,7 @@ void write_glb(const std::filesystem::path& path, const MeshOutput& mesh,
   out.write("glTF" + word(2) + word(total) + word(text.size()) + "JSON" + text);
   if (made.size() > 0) {
     out.write(word(made.size()) + std::string("BIN\0", 4));
-    write_floats(mesh.positions, out);
+    write_floats(positions, out);
     write_floats(mesh.normals, out);
     write_floats(texture, out);
     out.rows(std::ssize(mesh.face_vertices), rows_per_block,

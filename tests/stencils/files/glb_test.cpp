@@ -11,6 +11,7 @@
 #include "sublimit/files/split_mesh.h"
 #include "support/meshes.h"
 #include "support/temporary_directory.h"
+#include "support/tolerance.h"
 
 namespace sublimit::testing {
 namespace {
@@ -46,6 +47,20 @@ std::vector<T> values(const tinygltf::Model& model, int number) {
 }
 
 std::vector<float> floats(const Points& rows) { return {rows.data(), rows.data() + rows.size()}; }
+
+TEST(Glb, KeepsItsDigitsFarFromTheOrigin) {
+  const TemporaryDirectory directory;
+  MeshOutput mesh = square();
+  mesh.positions.rowwise() += Eigen::RowVector3d(1e7, -2e7, 1e7);
+  write_glb(directory / "far.glb", mesh);
+  const tinygltf::Model model = read_back(directory / "far.glb");
+  const std::vector<double>& move = model.nodes.at(0).translation;
+  ASSERT_EQ(move.size(), 3u);
+  const int positions = model.meshes.at(0).primitives.at(0).attributes.at("POSITION");
+  const std::vector<float> read = values<float>(model, positions);
+  for (Eigen::Index i = 0; i < mesh.positions.size(); ++i)
+    EXPECT_NEAR(double(read[size_t(i)]) + move[size_t(i % 3)], mesh.positions.data()[i], float_reference);
+}
 
 TEST(Glb, ReadsBackInTinyGltf) {
   const TemporaryDirectory directory;
