@@ -120,7 +120,8 @@ int run(const StepJob& job) {
   if (!job.report.empty())
     write_whole_file(job.report, report_of(job, model, file, tolerance, exact).dump(2) + "\n", progress);
   progress.step("");
-  if (job.common.quiet) return model.met ? 0 : 1;
+  const int status = model.met && file.is_valid ? 0 : 1;
+  if (job.common.quiet) return status;
   const QuadMeasures& m = model.measures;
   fmt::print("{}: {} solids, {} open shells; {} faces of {} patches, {} caps; {}\n", job.output, file.solids,
              file.shells, model.boundary.faces.size(), model.quads, model.caps,
@@ -131,7 +132,7 @@ int run(const StepJob& job) {
       "between exact faces\n",
       model.deviation, m.cap_angle * degrees, m.between_caps * degrees, m.exact_angle * degrees);
   if (!model.met) fmt::print("  tolerance {:.3g}: not met\n", tolerance);
-  return model.met ? 0 : 1;
+  return status;
 }
 
 }  // namespace
@@ -156,7 +157,9 @@ Command add_step(CLI::App& app) {
       "  sublimit step cage.obj -s loop --tolerance 0.01% -o surface.brep --report report.json\n"
       "Regular faces are exact, and packed into the largest B-splines that keep knots and smoothness; a triangle of loop is\n"
       "three biquartic patches. Around extraordinary vertices there are rings of exact patches, as many as leave a cap within\n"
-      "the tolerance. Creases and borders are edges. Schemes without polynomials (butterfly, kobbelt, sqrt3) are refused.");
+      "the tolerance. Creases and borders are edges. Schemes without polynomials (butterfly, kobbelt, sqrt3) are refused.\n"
+      "Exit status 1: the tolerance is not met, or the shape is not valid by OpenCASCADE's check, as of some non-manifold\n"
+      "meshes; the file is written all the same.");
   return [=] { return run(*job); };
 }
 
