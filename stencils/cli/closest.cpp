@@ -8,6 +8,7 @@
 #include "memory_limit.h"
 #include "sublimit/base/error.h"
 #include "sublimit/base/format_number.h"
+#include "sublimit/base/memory.h"
 #include "sublimit/files/closest_files.h"
 
 namespace sublimit::cli {
@@ -48,6 +49,10 @@ int run(const ClosestOptions& options) {
   ClosestPoints found;
   naming_mesh(options.common, [&] {
     const LimitSurface surface(*loaded.scheme, loaded.mesh, loaded.rules);
+    const double rows = double(queries.rows()) * std::min<double>(search.count, surface.faces().size);
+    constexpr double bytes_a_row = 300;  // of what is found, and of what it is collected in
+    check_memory(fmt::format("{:.0f} nearest faces of {} points", rows, queries.rows()), rows * bytes_a_row,
+                 "give a smaller --nearest, or divide the file");
     progress.step(fmt::format("searching for {} points", queries.rows()));
     found = closest_points(surface, loaded.mesh.positions, queries, search);
   });

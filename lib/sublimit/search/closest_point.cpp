@@ -74,7 +74,7 @@ struct Search {
   const std::vector<LimitCell>& cells;
   const BoxTree& tree;
   double tolerance;
-  int most_cells;
+  std::int64_t most_cells;
   bool triangles;
 
   void operator()(const Eigen::Vector3d& query, const Sample* guess, FootSearch& foot_search, int& order,
@@ -89,7 +89,7 @@ struct Search {
     };
     double limit = near_enough();
     heap.assign(1, {tree.nodes()[0].box.squaredExteriorDistance(query), 0, false});
-    for (int searched = 0; !heap.empty();) {
+    for (std::int64_t searched = 0; !heap.empty();) {
       std::pop_heap(heap.begin(), heap.end());
       const Candidate nearest = heap.back();
       heap.pop_back();
@@ -187,12 +187,12 @@ ClosestPoints closest_points(const LimitSurface& surface, const Points& control,
   const BoundLimitSurface bound(surface, control);
   const double size = tree.nodes()[0].box.sizes().norm();
   const bool triangles = surface.addresses().triangles();
-  const Search search{cells, tree, 1e-13 * size, options.most_cells, triangles};
+  const auto most = size_t(std::min<Index>(options.count, surface.addresses().size()));
+  const Search search{cells, tree, 1e-13 * size, std::int64_t(most) * options.most_cells, triangles};
   std::optional<DistanceBound> bound_of;
   if (options.prove) bound_of.emplace(surface, control);
 
   const Eigen::Index count = queries.rows();
-  const auto most = size_t(std::min<Index>(options.count, surface.addresses().size()));
   struct Found {
     std::vector<Sample> places;
     std::vector<double> lower;

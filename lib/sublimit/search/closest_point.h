@@ -41,7 +41,7 @@ struct ClosestPoints {
 struct ClosestPointOptions {
   /// A place each to begin with, or none: the answer is the same, but for points equally near, sooner.
   std::span<const Sample> guess = {};
-  int most_cells = 2000;  ///< to search for one point, and to look at for the proof
+  int most_cells = 2000;  ///< to search for each face of a point, and to look at for its proof
   bool prove = true;      ///< else `lower` stays empty
   int count = 1;          ///< of faces, each with its nearest point; fewer where there are no more
   double radius = std::numeric_limits<double>::infinity();  ///< what is farther is left out, but for rounding

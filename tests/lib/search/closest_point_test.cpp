@@ -214,6 +214,15 @@ TEST(ClosestPoints, NearestFacesAreInTurn) {
   }
 }
 
+TEST(ClosestPoints, AllFacesAreFoundWhereAllAreAskedFor) {
+  const ControlMesh mesh = torus(12, 9);
+  const LimitSurface surface(*find_scheme<double>("catmull-clark"), mesh);
+  const Points q = Eigen::RowVector3d(0.3, -2, 0.4);
+  const ClosestPoints found = closest_points(surface, mesh.positions, q, {.prove = false, .count = 1000});
+  EXPECT_EQ(std::ssize(found.places), surface.faces().size);
+  EXPECT_TRUE(std::is_sorted(found.distances.begin(), found.distances.end()));
+}
+
 TEST(ClosestPoints, OutsideARadiusAreNone) {
   const Scheme<double> scheme = *find_scheme<double>("bilinear");
   const ControlMesh mesh = cube();  // [-1, 1]^3
