@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // `sublimit implicit`: fields at places, and control meshes whose limit is their level set.
-#include <dlfcn.h>
 #include <fmt/core.h>
 
 #include <cmath>
@@ -8,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "common.h"
+#include "loaded_library.h"
 #include "memory_limit.h"
 #include "openvdb/entry.h"
 #include "sublimit/base/atomic_file.h"
@@ -33,13 +33,7 @@ struct ImplicitJob {
 
 Polygonizer polygonizer() {
 #ifdef SUBLIMIT_IMPLICIT_MESH
-  void* const library = ::dlopen(openvdb_library, RTLD_NOW);
-  void* const entry = library ? ::dlsym(library, polygonize_entry) : nullptr;
-  if (!entry)
-    throw IoError(
-        fmt::format("cannot load {}, which makes polygons of fields: {}; it should lie where the program was "
-                    "installed with it",
-                    openvdb_library, ::dlerror()));
+  void* const entry = loaded_function(openvdb_library, polygonize_entry, "polygons of fields");
   return [polygonize = reinterpret_cast<PolygonizeEntry*>(entry)](const FieldGrid& grid) {
     ControlMesh mesh;
     polygonize(grid, mesh);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // `sublimit step`: limits as files of CAD programs.
-#include <dlfcn.h>
 #include <fmt/core.h>
 
 #include <cmath>
@@ -10,6 +9,7 @@
 #include <numbers>
 
 #include "common.h"
+#include "loaded_library.h"
 #include "opencascade/entry.h"
 #include "sublimit/base/atomic_file.h"
 #include "sublimit/base/error.h"
@@ -29,13 +29,7 @@ struct StepJob {
 
 CadFileEntry* cad_writer() {
 #ifdef SUBLIMIT_CAD
-  void* const library = ::dlopen(opencascade_library, RTLD_NOW);
-  void* const entry = library ? ::dlsym(library, cad_file_entry) : nullptr;
-  if (!entry)
-    throw IoError(
-        fmt::format("cannot load {}, which writes CAD files: {}; it should lie where the program was installed with it",
-                    opencascade_library, ::dlerror()));
-  return reinterpret_cast<CadFileEntry*>(entry);
+  return reinterpret_cast<CadFileEntry*>(loaded_function(opencascade_library, cad_file_entry, "CAD files"));
 #else
   throw InvalidOption("this program was built without OpenCASCADE, which writes CAD files");
 #endif

@@ -27,6 +27,12 @@ std::array<std::array<double, 2>, 4> third_of_triangle(const std::vector<std::ar
           mean(c[(k + 2) % 3], c[k])};
 }
 
+Eigen::VectorXd bernstein_values(int degree, double t) {
+  Eigen::VectorXd values = Eigen::VectorXd::Unit(degree + 1, 0);
+  for (int q = 1; q <= degree; ++q) blossom_step(UnitSpan<double>{}, q, UnitArgument<double>::point(t), values.data());
+  return values;
+}
+
 std::vector<double> interpolation_nodes(int degree) {
   std::vector<double> nodes(size_t(degree) + 1);
   for (int k = 0; 2 * k <= degree; ++k) {
@@ -39,13 +45,7 @@ std::vector<double> interpolation_nodes(int degree) {
 Eigen::MatrixXd interpolation(int degree) {
   const std::vector<double> nodes = interpolation_nodes(degree);
   Eigen::MatrixXd values(degree + 1, degree + 1);
-  for (int k = 0; k <= degree; ++k) {
-    std::vector<double> w(size_t(degree) + 1);
-    w[0] = 1;
-    for (int q = 1; q <= degree; ++q)
-      blossom_step(UnitSpan<double>{}, q, UnitArgument<double>::point(nodes[size_t(k)]), w.data());
-    for (int i = 0; i <= degree; ++i) values(k, i) = w[size_t(i)];
-  }
+  for (int k = 0; k <= degree; ++k) values.row(k) = bernstein_values(degree, nodes[size_t(k)]);
   return values.fullPivLu().inverse();
 }
 

@@ -27,6 +27,8 @@ std::vector<std::array<double, 2>> corners_in_address(const CadCell& cell);
 /// Corners of the four-sided third of a triangle at one of its corners, counter-clockwise from there.
 std::array<std::array<double, 2>, 4> third_of_triangle(const std::vector<std::array<double, 2>>& corners, size_t k);
 
+/// Values of the Bernstein polynomials of a degree.
+Eigen::VectorXd bernstein_values(int degree, double t);
 /// Nodes with the ends, symmetric.
 std::vector<double> interpolation_nodes(int degree);
 /// Bernstein coefficients by values at the nodes.

@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sublimit/patches/blossom.h"
-
 namespace sublimit {
 namespace {
 
@@ -29,15 +27,10 @@ Points fitted_net(const Eigen::MatrixXd& coefficients, const Points& values) {
 
 Eigen::RowVector3d point_of(const LimitQuad& quad, double s, double t) {
   const int d = quad.degree;
-  std::vector<double> a(size_t(d) + 1), b(size_t(d) + 1);
-  a[0] = b[0] = 1;
-  for (int q = 1; q <= d; ++q) {
-    blossom_step(UnitSpan<double>{}, q, UnitArgument<double>::point(s), a.data());
-    blossom_step(UnitSpan<double>{}, q, UnitArgument<double>::point(t), b.data());
-  }
+  const Eigen::VectorXd a = bernstein_values(d, s), b = bernstein_values(d, t);
   Eigen::RowVector3d x = Eigen::RowVector3d::Zero();
   for (int i = 0; i <= d; ++i)
-    for (int j = 0; j <= d; ++j) x += a[size_t(i)] * b[size_t(j)] * quad.net.row(i * (d + 1) + j);
+    for (int j = 0; j <= d; ++j) x += a[i] * b[j] * quad.net.row(i * (d + 1) + j);
   return x;
 }
 

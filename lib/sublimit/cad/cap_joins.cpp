@@ -8,7 +8,6 @@
 
 #include "sublimit/cad/cap_fitter.h"
 #include "sublimit/cad/quad_edges.h"
-#include "sublimit/patches/blossom.h"
 
 namespace sublimit {
 namespace {
@@ -17,13 +16,7 @@ namespace {
 Eigen::MatrixXd inner_values(int degree) {
   const std::vector<double> nodes = interpolation_nodes(degree);
   Eigen::MatrixXd values(degree - 1, degree + 1);
-  for (int k = 1; k < degree; ++k) {
-    std::vector<double> w(size_t(degree) + 1);
-    w[0] = 1;
-    for (int q = 1; q <= degree; ++q)
-      blossom_step(UnitSpan<double>{}, q, UnitArgument<double>::point(nodes[size_t(k)]), w.data());
-    for (int i = 0; i <= degree; ++i) values(k - 1, i) = w[size_t(i)];
-  }
+  for (int k = 1; k < degree; ++k) values.row(k - 1) = bernstein_values(degree, nodes[size_t(k)]);
   return values;
 }
 

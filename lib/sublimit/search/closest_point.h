@@ -53,8 +53,7 @@ struct ClosestPointOptions {
 /// @param control  points of the surface's level, #V x 3
 /// @param queries  #queries x 3
 /// @throws InvalidParameter     shapes that do not fit, queries that are not finite or beyond 1e150: says which;
-/// guesses
-///                              on no face; a count below 1, a radius below 0
+///                              guesses on no face; a count below 1, a radius below 0
 /// @throws InvalidMesh          no face that is not a hole
 /// @throws UnsupportedTopology  signed distances from a surface that is not closed: says where
 ClosestPoints closest_points(const LimitSurface& surface, const Points& control, const Points& queries,

@@ -9,7 +9,7 @@
 namespace sublimit {
 
 /// 0 outside, 1 inside, -1 inside a surface whose normals look inwards; others where it intersects itself. Of points on
-/// the surface either side's.
+/// the surface either side's. Where rays may miss hits, as of schemes without polynomials (intersect.h), an estimate.
 /// @param points  of the surface's level, #V x 3
 /// @throws InvalidParameter     points that do not fit, or are not finite
 /// @throws UnsupportedTopology  a surface that is not closed: says where

@@ -2,8 +2,7 @@
 #pragma once
 // Triangles as binary glTF 2.0 (`.glb`): one node with one mesh, POSITION, NORMAL and TEXCOORD_0 in float, indices of
 // 32 bits. Axes are as given: glTF's own up is y. Of a mesh far from the origin coordinates are relative to its middle,
-// which is the node's translation. Its texture coordinates begin at the upper edge: t is 1 - t
-// here.
+// which is the node's translation. Its texture coordinates begin at the upper edge: t is 1 - t here.
 //
 // The JSON is nlohmann-json's, which the program has, and numbers stream to the file: tinygltf, the reader in our
 // tests, holds a file three times in memory while it writes, and renames nothing. Source: The Khronos Group, glTF 2.0

@@ -2,8 +2,8 @@
 #include "sublimit/files/place_files.h"
 
 #include "sublimit/base/atomic_file.h"
-#include "sublimit/base/format_number.h"
 #include "sublimit/base/row_writer.h"
+#include "sublimit/files/csv_fields.h"
 
 namespace sublimit {
 
@@ -14,11 +14,7 @@ void write_places(const std::filesystem::path& path, std::span<const Sample> pla
   out.write("face,u,v\n");
   out.rows(std::ssize(places), rows_per_block, [&](std::string& text, std::int64_t begin, std::int64_t end) {
     for (const Sample& s : places.subspan(size_t(begin), size_t(end - begin))) {
-      append_number(text, s.face);
-      text += ',';
-      append_number(text, s.u);
-      text += ',';
-      append_number(text, s.v);
+      append_place(text, s);
       text += '\n';
     }
   });
