@@ -20,17 +20,23 @@ std::string to_text(const MeshInfo::Histogram& histogram) {
 
 std::string to_text(const Eigen::Vector3d& x) { return fmt::format("({}, {}, {})", x[0], x[1], x[2]); }
 
+/// Nothing where only rounding is left.
+std::string plus_minus(double error) { return error > 0 ? fmt::format(" (+- {:.1e})", error) : ""; }
+
 void print(const LimitIntegrals& limit) {
-  fmt::print("  area               {} (+- {:.1e})\n", limit.area, limit.area_error);
-  if (limit.centroid) fmt::print("    centroid         {}\n", to_text(*limit.centroid));
+  fmt::print("  area               {}{}\n", limit.area, plus_minus(limit.area_error));
+  if (limit.centroid)
+    fmt::print("    centroid         {}{}\n", to_text(*limit.centroid), plus_minus(limit.centroid_error));
   if (!limit.solid) {
     fmt::print("  volume             none: {}\n", limit.why_no_solid);
     return;
   }
-  fmt::print("  volume             {}\n", limit.solid->volume);
-  fmt::print("    centroid         {}\n", to_text(limit.solid->centroid));
+  const SolidIntegrals& solid = *limit.solid;
+  fmt::print("  volume             {}{}\n", solid.volume, plus_minus(solid.volume_error));
+  fmt::print("    centroid         {}{}\n", to_text(solid.centroid), plus_minus(solid.centroid_error));
   for (int i = 0; i < 3; ++i)
-    fmt::print("    {:<16} {}\n", i == 0 ? "inertia" : "", to_text(limit.solid->inertia.row(i).transpose()));
+    fmt::print("    {:<16} {}{}\n", i == 0 ? "inertia" : "", to_text(solid.inertia.row(i).transpose()),
+               i == 0 ? plus_minus(solid.inertia_error) : "");
 }
 
 void print(const MeshInfo& info, const std::string& name) {
@@ -117,8 +123,10 @@ Command add_info(CLI::App& app) {
   auto as_json = std::make_shared<bool>(false);
   auto limit = std::make_shared<bool>(false);
   add_mesh(*command, *common, false);
-  command->add_flag("--limit", *limit,
-                    "Area of the limit; of closed surfaces volume, centroid and inertia of the solid (with -s)");
+  command->add_flag(
+      "--limit", *limit,
+      "Area of the limit; of closed surfaces volume, centroid and inertia of the solid; errors where more "
+      "than rounding is left (with -s)");
   command->add_flag("--json", *as_json, "As JSON");
   command->footer(
       "Examples:\n  sublimit info cage.obj\n  sublimit info cage.obj -s loop --json\n"

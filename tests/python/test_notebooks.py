@@ -30,6 +30,8 @@ def test_integrals_of_the_limit(cube: sublimit.Mesh) -> None:
     assert abs(box["area"] - 6) < rounding * 100 and abs(box["solid"]["volume"] - 1) < rounding * 100
     np.testing.assert_allclose(box["solid"]["centroid"], [0.5] * 3, rtol=0, atol=products)
     np.testing.assert_allclose(box["solid"]["inertia"], np.eye(3) / 6, rtol=0, atol=products)
+    kobbelt = cube.info("kobbelt", limit=True)["limit"]
+    assert 0 < kobbelt["area_error"] < 1e-5 * kobbelt["area"] and 0 < kobbelt["solid"]["volume_error"] < 1e-5
     with pytest.raises(sublimit.InvalidOption, match="name one"):
         cube.info(limit=True)
 

@@ -4,6 +4,7 @@
 #include <Eigen/Dense>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <map>
 #include <mutex>
@@ -15,6 +16,7 @@
 #include "sublimit/limit/limit_patches.h"
 #include "sublimit/limit/piece_hull.h"
 #include "sublimit/limit/quadrature.h"
+#include "sublimit/limit/refined_sums.h"
 
 namespace sublimit {
 namespace {
@@ -22,30 +24,11 @@ namespace {
 /// A piece whose points are so near to each other, relative to those that the descent began with, is left out: the
 /// square, its area, is below the rounding of the whole.
 constexpr double negligible = 0x1p-30;
-/// Children that a piece may have been cut into before it is said that there will be more on every level: along a line.
+/// Children that a piece may be cut into before it is taken for one that has more on every level: along a line.
 constexpr int most_pieces = 1 << 12;
 /// Of the area of a piece that squares may differ by when they are halved, and how often they are.
 constexpr double area_tolerance = 2e-13;
 constexpr int most_halvings = 16;
-
-/// What is summed over pieces.
-struct Sums {
-  double area = 0, area_error = 0;
-  Eigen::Vector3d of_area = Eigen::Vector3d::Zero();  ///< the position over the area
-  double volume = 0;
-  Eigen::Vector3d first = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
-
-  Sums& operator+=(const Sums& other) {
-    area += other.area;
-    area_error += other.area_error;
-    of_area += other.of_area;
-    volume += other.volume;
-    first += other.first;
-    second += other.second;
-    return *this;
-  }
-};
 
 /// x, y and z of coefficients or nodes.
 using Columns = Eigen::Matrix<double, Eigen::Dynamic, 3>;
@@ -141,41 +124,36 @@ class Integrator {
  public:
   explicit Integrator(PieceRules& rules) : rules_(rules) {}
 
-  Sums piece(const PieceType& type, const Points& points) {
+  /// Nothing of a piece that is not made of polynomials but for a point.
+  std::optional<EstimatedSums> piece(const PieceType& type, const Points& points) {
     visited_ = 0;
     const double size = extent(points);
     sums_ = {};
-    add(type, points, negligible * size, area_tolerance * size * size);
+    if (!add(type, points, negligible * size, area_tolerance * size * size)) return std::nullopt;
     return sums_;
   }
 
  private:
   static double extent(const Points& points) { return (points.rowwise() - points.row(0)).cwiseAbs().maxCoeff(); }
 
-  void add(const PieceType& type, const Points& points, double enough, double tolerance) {
+  bool add(const PieceType& type, const Points& points, double enough, double tolerance) {
     if (const PiecePolynomial* p = type.polynomial()) {
       const Points differences = points.bottomRows(points.rows() - 1).rowwise() - points.row(0);
       const PieceRule& rule = rules_.of(*p);
       for (size_t half = 0; half < p->coefficients.size(); ++half)
         add(rule, rule.halves()[half] * (p->coefficients[half] * differences), points.row(0), tolerance);
-      return;
+      return true;
     }
-    if (type.types().has_no_polynomials())
-      throw InvalidOption(
-          type.types().scheme().name +
-          ": its limit has no polynomial pieces, and integrals are known of those alone; catmull-clark, "
-          "loop, doo-sabin and averaging have them");
+    if (type.types().has_no_polynomials()) return false;
     if (extent(points) <= enough) {
-      sums_.area_error += extent(points) * extent(points);
-      return;
+      sums_.error.area += extent(points) * extent(points);
+      return true;
     }
-    if (++visited_ > most_pieces)
-      throw UnsupportedTopology(
-          "along borders or creases of this mesh this scheme's limit has no polynomial pieces, and integrals are "
-          "known of those alone; catmull-clark, loop and doo-sabin have them there");
+    if (++visited_ > most_pieces) return false;
     // Those that another child is as well have a line of this piece's square only.
     for (const PieceLink& link : type.children())
-      if (!link.map.is_repeated()) add(*link.type, child_points(link, points), enough, tolerance);
+      if (!link.map.is_repeated() && !add(*link.type, child_points(link, points), enough, tolerance)) return false;
+    return true;
   }
 
   /// @param net  less the origin
@@ -183,9 +161,9 @@ class Integrator {
     const PieceRule::Nodes nodes = rule.nodes(net);
     const Columns x = nodes.x.rowwise() + origin;
     const Eigen::VectorXd flux = rule.weights().cwiseProduct(x.cwiseProduct(nodes.N).rowwise().sum());
-    sums_.volume += flux.sum() / 3;
-    sums_.first += x.transpose() * flux / 4;
-    sums_.second += x.transpose() * flux.asDiagonal() * x / 5;
+    sums_.value.volume += flux.sum() / 3;
+    sums_.value.first += x.transpose() * flux / 4;
+    sums_.value.second += x.transpose() * flux.asDiagonal() * x / 5;
     add_area(rule, net, origin, area(rule, nodes), tolerance, 0);
   }
 
@@ -200,9 +178,9 @@ class Integrator {
   void add_area(const PieceRule& rule, const Columns& net, const Eigen::RowVector3d& origin,
                 const Eigen::Vector4d& whole, double tolerance, int depth) {
     const auto accept = [&](const Eigen::Vector4d& sum, double error) {
-      sums_.area += sum[0];
-      sums_.of_area += sum.tail<3>() + sum[0] * origin.transpose();
-      sums_.area_error += error;
+      sums_.value.area += sum[0];
+      sums_.value.of_area += sum.tail<3>() + sum[0] * origin.transpose();
+      sums_.error.area += error;
     };
     if (whole[0] <= tolerance) return accept(whole, whole[0]);
     std::array<Columns, 4> nets;
@@ -218,7 +196,7 @@ class Integrator {
     for (int k = 0; k < 4; ++k) add_area(rule, nets[size_t(k)], origin, parts[size_t(k)], tolerance / 4, depth + 1);
   }
 
-  Sums sums_;
+  EstimatedSums sums_;
   int visited_ = 0;
   PieceRules& rules_;
 };
@@ -226,38 +204,57 @@ class Integrator {
 /// By a power of two, so that squares and fifth powers of coordinates neither overflow nor vanish.
 double power_of_two(double size) { return size > 0 ? std::exp2(std::ilogb(size)) : 1; }
 
-SolidIntegrals solid_of(const Sums& sums) {
+SolidIntegrals solid_of(const EstimatedSums& sums) {
+  const SurfaceSums &value = sums.value, &error = sums.error;
   SolidIntegrals solid;
-  solid.volume = sums.volume;
-  solid.centroid = sums.first / sums.volume;
-  const Eigen::Matrix3d central = sums.second - sums.volume * solid.centroid * solid.centroid.transpose();
+  solid.volume = value.volume;
+  solid.centroid = value.first / value.volume;
+  const Eigen::Matrix3d central = value.second - value.volume * solid.centroid * solid.centroid.transpose();
   solid.inertia = central.trace() * Eigen::Matrix3d::Identity() - central;
+  const double first = error.first.norm(), distance = solid.centroid.norm();
+  solid.volume_error = error.volume;
+  solid.centroid_error = (first + distance * error.volume) / std::abs(value.volume);
+  // Of `central`; the trace has at most sqrt(3) times its norm, the identity a norm of sqrt(3).
+  solid.inertia_error = 4 * (error.second.norm() + 2 * distance * first + distance * distance * error.volume);
   return solid;
 }
 
-/// @param points  about their middle, of a size near 1
-Sums sums_over(const LimitSurface& surface, const Points& points) {
-  const LimitSurface::Parts& parts = LimitPatches::parts_of(surface);
+/// Of all pieces; nothing if some are not made of polynomials.
+/// @param x  points of the level that has the pieces
+std::optional<EstimatedSums> polynomial_sums(const LimitSurface::Parts& parts, const Points& x) {
   const LimitSurface::Parts::Pieces& pieces = parts.pieces();
-  const Points fine = parts.prepared ? Points(parts.prepared->S * points) : Points();
-  const Points& x = parts.prepared ? fine : points;
   constexpr std::int64_t pieces_a_block = 32;
   PieceRules rules;
-  std::vector<Sums> blocks(size_t(num_blocks(parts.num_pieces(), pieces_a_block)));
+  std::vector<EstimatedSums> blocks(size_t(num_blocks(parts.num_pieces(), pieces_a_block)));
+  std::atomic<bool> is_complete{true};
   parallel_for_blocks(
       parts.num_pieces(),
       [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
         Integrator integrator(rules);
-        for (std::int64_t i = begin; i < end; ++i) {
+        for (std::int64_t i = begin; i < end && is_complete; ++i) {
           if (parts.sides(parts.piece(Index(i))) & LimitSurface::Parts::hole) continue;
-          const Points local = pieces.points_of(Index(i), x);
-          blocks[size_t(block)] += integrator.piece(*pieces.types[size_t(i)], local);
+          const std::optional<EstimatedSums> sums =
+              integrator.piece(*pieces.types[size_t(i)], pieces.points_of(Index(i), x));
+          if (sums)
+            blocks[size_t(block)] += *sums;
+          else
+            is_complete = false;
         }
       },
       pieces_a_block);
-  Sums sums;
-  for (const Sums& block : blocks) sums += block;
+  if (!is_complete) return std::nullopt;
+  EstimatedSums sums;
+  for (const EstimatedSums& block : blocks) sums += block;
   return sums;
+}
+
+/// @param points  about their middle, of a size near 1
+EstimatedSums sums_over(const LimitSurface& surface, const Points& points) {
+  const LimitSurface::Parts& parts = LimitPatches::parts_of(surface);
+  const Points fine = parts.prepared ? Points(parts.prepared->S * points) : Points();
+  const Points& x = parts.prepared ? fine : points;
+  if (const std::optional<EstimatedSums> sums = polynomial_sums(parts, x)) return *sums;
+  return refined_sums(parts.base(), x, parts.scheme);
 }
 
 }  // namespace
@@ -275,20 +272,28 @@ LimitIntegrals limit_integrals(const LimitSurface& surface, const Points& points
   const Eigen::RowVector3d middle = points.colwise().minCoeff() / 2 + points.colwise().maxCoeff() / 2;
   const double scale = power_of_two((points.rowwise() - middle).cwiseAbs().maxCoeff());
   const Points centred = (points.rowwise() - middle) / scale;
-  const Sums sums = sums_over(surface, centred);
-  result.area = sums.area * scale * scale;
-  result.area_error = sums.area_error * scale * scale;
-  if (sums.area > 0) result.centroid = middle.transpose() + scale * sums.of_area / sums.area;
+  const EstimatedSums sums = sums_over(surface, centred);
+  const SurfaceSums& value = sums.value;
+  result.area = value.area * scale * scale;
+  result.area_error = sums.error.area * scale * scale;
+  if (value.area > 0) {
+    const Eigen::Vector3d centroid = value.of_area / value.area;
+    result.centroid = middle.transpose() + scale * centroid;
+    result.centroid_error = scale * (sums.error.of_area.norm() + centroid.norm() * sums.error.area) / value.area;
+  }
   result.why_no_solid = why_not_closed(surface);
   if (!result.why_no_solid.empty()) return result;
-  if (std::abs(sums.volume) <= 1e-13 * sums.area) {
+  if (std::abs(value.volume) <= std::max(1e-13 * value.area, sums.error.volume)) {
     result.why_no_solid = "the surface encloses no volume";
     return result;
   }
   SolidIntegrals solid = solid_of(sums);
   solid.volume *= scale * scale * scale;
+  solid.volume_error *= scale * scale * scale;
   solid.centroid = middle.transpose() + scale * solid.centroid;
+  solid.centroid_error *= scale;
   solid.inertia *= std::pow(scale, 5);
+  solid.inertia_error *= std::pow(scale, 5);
   result.solid = solid;
   return result;
 }

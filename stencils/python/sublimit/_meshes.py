@@ -140,7 +140,7 @@ class Mesh:
         Parameters
         ----------
         scheme : whether it takes the mesh, and what levels would take, is told too
-        limit : area, volume, centroid and inertia of its limit too, exact to rounding
+        limit : area, volume, centroid and inertia of its limit too, with errors where more than rounding is left
         """
         asked = _sublimit.MeshRequest() if scheme is None else request(scheme)
         found: dict[str, Any] = json.loads(_sublimit.info(self._core, asked, "mesh", limit))

@@ -71,12 +71,16 @@ Json to_json(const LimitIntegrals& limit) {
   Json json{{"area", limit.area},
             {"area_error", limit.area_error},
             {"centroid", limit.centroid ? numbers(*limit.centroid) : Json()},
+            {"centroid_error", limit.centroid_error},
             {"has_solid", limit.why_no_solid.empty() ? "yes" : "no: " + limit.why_no_solid},
             {"solid", Json()}};
   if (limit.solid)
     json["solid"] = {{"volume", limit.solid->volume},
+                     {"volume_error", limit.solid->volume_error},
                      {"centroid", numbers(limit.solid->centroid)},
-                     {"inertia", numbers(limit.solid->inertia)}};
+                     {"centroid_error", limit.solid->centroid_error},
+                     {"inertia", numbers(limit.solid->inertia)},
+                     {"inertia_error", limit.solid->inertia_error}};
   return json;
 }
 

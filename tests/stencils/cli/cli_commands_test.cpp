@@ -100,6 +100,7 @@ TEST(CliInfo, IntegralsOfTheLimit) {
   EXPECT_NEAR(json["solid"]["volume"], 8, rounding(100, 8));
   EXPECT_NEAR(json["solid"]["inertia"][1][1], 16. / 3, rounding(100, 8));
   EXPECT_EQ(json["has_solid"], "yes");
+  EXPECT_EQ(json["solid"]["volume_error"], 0);
   expect_parts(expect_done(sublimit({"info", closed, "-s", "catmull-clark", "--limit"})).out,
                {"area  ", "volume  ", "centroid  ", "inertia  "});
   expect_parts(expect_done(sublimit({"info", open, "-s", "doo-sabin", "--limit"})).out,
@@ -109,8 +110,11 @@ TEST(CliInfo, IntegralsOfTheLimit) {
           .is_null());
   expect_parts(expect_done(sublimit({"info", closed, "-s", "loop", "--limit"})).out, {"face 0 has 4 corners"});
   expect_failure(sublimit({"info", closed, "--limit"}), 2, {"--limit", "-s SCHEME"});
-  expect_failure(sublimit({"info", closed, "-s", "butterfly", "--triangulate", "--limit"}), 2,
-                 {"butterfly", "no polynomial pieces"});
+  const std::vector<std::string> refined{"info", closed, "-s", "butterfly", "--triangulate", "--limit", "--json"};
+  const Json solid = Json::parse(expect_done(sublimit(refined)).out)["limit"]["solid"];
+  EXPECT_GT(solid["volume_error"], 0);
+  EXPECT_LE(solid["volume_error"], 1e-4 * double(solid["volume"]));  // as README.md says
+  EXPECT_GT(solid["inertia_error"], 0);
 }
 
 TEST(CliInfo, BoundariesTagsAndComponents) {
