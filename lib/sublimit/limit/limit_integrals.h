@@ -9,7 +9,9 @@
 // On a polynomial piece the integrand is a polynomial, and Gauss quadrature of its degree is exact up to rounding.
 // Around extraordinary vertices a piece consists of rings that shrink by the subdominant eigenvalue lambda from level
 // to level, so their areas by lambda^2: they are summed one by one until the rest is below the rounding of the sum,
-// after about 30 / log2(1/lambda) rings. Limits that are not made of polynomials are refined (refined_sums.h).
+// after 30 / log2(1/lambda) rings (35 at valence 5). The closed sum by eigenvalues has the same digits (ring_sums_test)
+// but needs n^3 numbers for n points around a piece, and there is none of areas. Limits that are not made of
+// polynomials are refined (refined_sums.h).
 #include <Eigen/Core>
 
 #include <optional>
