@@ -4,9 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cmath>
-#include <numbers>
 
 #include "sublimit/base/error.h"
 #include "sublimit/limit/quadrature.h"
@@ -24,9 +22,6 @@ constexpr double moment_tolerance = 1e-13;
 
 /// What levels of a million faces leave open, at least, where there are no polynomials.
 constexpr double refined_tolerance = 1e-4;
-
-/// Of the total curvature: rules of 8 x 8 nodes are exact for no rational function.
-constexpr double curvature_tolerance = 1e-6;
 
 LimitIntegrals integrals(const Scheme<double>& scheme, const ControlMesh& mesh) {
   return limit_integrals(LimitSurface(scheme, mesh), mesh.positions);
@@ -224,69 +219,6 @@ TEST_P(Integrals, AreWhatRefinedMeshesTendTo) {
 
 INSTANTIATE_TEST_SUITE_P(Polynomials, Integrals, ::testing::ValuesIn(with_polynomials), test_name);
 INSTANTIATE_TEST_SUITE_P(Refined, Integrals, ::testing::ValuesIn(without_polynomials), test_name);
-
-/// Rules on rings that halve towards all corners of a square or triangle, where curvature may be unbounded.
-std::vector<QuadraturePoint> rules_towards_corners(bool triangles) {
-  constexpr int rings = 16, nodes = 8;
-  std::vector<QuadraturePoint> rule;
-  double size = triangles ? 0.5 : 0.25;
-  const auto add_triangle = [&](const std::array<Eigen::Vector2d, 3>& corners) {
-    const Eigen::Vector2d a = corners[1] - corners[0], b = corners[2] - corners[0];
-    for (const QuadraturePoint& p : triangle_rule(nodes)) {
-      const Eigen::Vector2d x = corners[0] + p.u * a + p.v * b;
-      rule.push_back({x[0], x[1], p.weight * std::abs(a[0] * b[1] - a[1] * b[0])});
-    }
-  };
-  const std::array<Eigen::Vector2d, 3> outer{Eigen::Vector2d(0, 0), Eigen::Vector2d(1, 0), Eigen::Vector2d(0, 1)};
-  if (triangles) add_triangle({(outer[0] + outer[1]) / 2, (outer[1] + outer[2]) / 2, (outer[2] + outer[0]) / 2});
-  for (int ring = 0; ring < rings; ++ring, size /= 2) {
-    if (triangles) {
-      for (size_t c = 0; c < 3; ++c) {  // from the corner, the triangle of this size less that of half the size
-        const Eigen::Vector2d a = size * (outer[(c + 1) % 3] - outer[c]), b = size * (outer[(c + 2) % 3] - outer[c]);
-        add_triangle({outer[c] + a / 2, outer[c] + a, outer[c] + (a + b) / 2});
-        add_triangle({outer[c] + b / 2, outer[c] + b, outer[c] + (a + b) / 2});
-        add_triangle({outer[c] + a / 2, outer[c] + b / 2, outer[c] + (a + b) / 2});
-      }
-      continue;
-    }
-    for (const auto& [i, j] : {std::pair{1, 0}, {0, 1}, {1, 1}})
-      for (const QuadraturePoint& p : square_rule(nodes)) {
-        const double u = size * (i + p.u), v = size * (j + p.v), weight = p.weight * size * size;
-        for (const double a : {u, 1 - u})
-          for (const double b : {v, 1 - v}) rule.push_back({a, b, weight});
-      }
-  }
-  return rule;
-}
-
-double total_curvature(const LimitSurface& surface, const Points& points) {
-  std::vector<Sample> samples;
-  std::vector<double> weights;
-  for (Index f = 0; f < surface.addresses().size(); ++f)
-    for (const QuadraturePoint& p : rules_towards_corners(surface.addresses().triangles())) {
-      samples.push_back({f, p.u, p.v});
-      weights.push_back(p.weight);
-    }
-  const LimitSamples at = surface.evaluate(points, samples, 2);
-  double sum = 0;
-  for (Index i = 0; i < Index(samples.size()); ++i) {
-    const Eigen::Vector3d u = at.du.row(i), v = at.dv.row(i);
-    if (const std::optional<Curvature> K = curvature(at, i)) sum += weights[size_t(i)] * K->gauss * u.cross(v).norm();
-  }
-  return sum;
-}
-
-/// Normals are continuous where curvature is not, so vertices and seams add nothing.
-TEST(GaussBonnet, TotalCurvatureOfClosedLimitsIsTwoPiChi) {
-  for (const char* name : {"catmull-clark", "loop", "doo-sabin"}) {
-    SCOPED_TRACE(name);
-    const Scheme<double> scheme = *find_scheme<double>(name);
-    const ControlMesh ring = takes_triangles(scheme) ? triangle_torus(6, 5) : torus(6, 5);
-    for (const auto& [mesh, chi] : {std::pair{closed_mesh(scheme), 2}, std::pair{jittered(ring, 0.1), 0}})
-      EXPECT_NEAR(total_curvature(LimitSurface(scheme, mesh), mesh.positions), 2 * std::numbers::pi * chi,
-                  curvature_tolerance);
-  }
-}
 
 TEST(LimitIntegrals, LeaveHolesOut) {
   ControlMesh mesh = cube();
