@@ -9,31 +9,10 @@
 #include "sublimit/base/error.h"
 #include "sublimit/base/format_number.h"
 #include "sublimit/core/sparse_rows.h"
+#include "sublimit/limit/triangle_blossom.h"
 
 namespace sublimit {
 namespace {
-
-/// Barycentric coordinates of a point, sum 1, or of a direction, sum 0.
-using Barycentric = std::array<double, 3>;
-
-/// Weights of f(x_1 .. x_n) over the control points.
-std::vector<double> triangle_blossom(std::span<const Barycentric> arguments) {
-  std::vector<double> weights{1};
-  for (Index q = 1; q <= std::ssize(arguments); ++q) {
-    const auto [a, b, c] = arguments[size_t(q) - 1];
-    const auto place = [](Index n, Index j, Index k) { return size_t(k * (n + 1) - k * (k - 1) / 2 + j); };
-    std::vector<double> next(size_t(TrianglePatch::lattice_size(q)), 0);
-    for (Index k = 0; k < q; ++k)
-      for (Index j = 0; j + k < q; ++j) {
-        const double weight = weights[place(q - 1, j, k)];
-        next[place(q, j, k)] += a * weight;
-        next[place(q, j + 1, k)] += b * weight;
-        next[place(q, j, k + 1)] += c * weight;
-      }
-    weights = std::move(next);
-  }
-  return weights;
-}
 
 constexpr Barycentric along_u{-1, 1, 0}, along_v{-1, 0, 1};
 
