@@ -42,7 +42,8 @@ SplineFace surface_of(const QuadRectangle& r, const std::vector<LimitQuad>& quad
   const LimitQuad& any = quads[size_t(r[0][0].quad)];
   const int d = any.degree;
   const PackedPoles u(d, static_cast<int>(r[0].size()), any.size), v(d, static_cast<int>(r.size()), any.size);
-  SplineFace face{d, u.knots, v.knots, Points(Eigen::Index(u.rows.size() * v.rows.size()), 3), {}, any.is_exact};
+  SplineFace face{d, d, u.knots, v.knots, Points(Eigen::Index(u.rows.size() * v.rows.size()), 3)};
+  face.is_exact = any.is_exact;
   Eigen::Index row = 0;
   for (const PackedPoles::Row& a : u.rows)
     for (const PackedPoles::Row& b : v.rows) {
@@ -179,7 +180,8 @@ class EdgeChains {
       const QuadEdge& any = edges_.edges[size_t(least)];
       const int d = static_cast<int>(any.net.rows()) - 1;
       const PackedPoles packed(d, static_cast<int>(run.size()), any.length);
-      SplineEdge edge{start, end, d, packed.knots, Points(Eigen::Index(packed.rows.size()), 3), any.is_sharp};
+      SplineEdge edge{start, end, d, packed.knots, Points(Eigen::Index(packed.rows.size()), 3)};
+      edge.is_sharp = any.is_sharp;
       for (size_t a = 0; a < packed.rows.size(); ++a) {
         const Points net = net_of(run[size_t(packed.rows[a].piece)]);
         const Eigen::RowVector3d origin = net.row(0);

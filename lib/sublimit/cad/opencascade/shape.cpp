@@ -3,13 +3,16 @@
 
 #include <BRepCheck_Analyzer.hxx>
 #include <BRep_Builder.hxx>
+#include <Geom2d_BSplineCurve.hxx>
 #include <Geom2d_Line.hxx>
 #include <Geom_BSplineCurve.hxx>
 #include <Geom_BSplineSurface.hxx>
 #include <Precision.hxx>
 #include <TColStd_Array1OfInteger.hxx>
 #include <TColStd_Array1OfReal.hxx>
+#include <TColStd_Array2OfReal.hxx>
 #include <TColgp_Array1OfPnt.hxx>
+#include <TColgp_Array1OfPnt2d.hxx>
 #include <TColgp_Array2OfPnt.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Compound.hxx>
@@ -20,9 +23,13 @@
 #include <TopoDS_Vertex.hxx>
 #include <TopoDS_Wire.hxx>
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 namespace sublimit {
@@ -53,21 +60,48 @@ struct KnotCounts {
 gp_Pnt point(const Points& points, Eigen::Index row) { return {points(row, 0), points(row, 1), points(row, 2)}; }
 
 Handle(Geom_BSplineCurve) curve_of(const SplineEdge& edge) {
-  TColgp_Array1OfPnt poles(1, int(edge.poles.rows()));
-  for (Eigen::Index i = 0; i < edge.poles.rows(); ++i) poles(int(i) + 1) = point(edge.poles, i);
+  const int n = int(edge.poles.rows());
+  TColgp_Array1OfPnt poles(1, n);
+  TColStd_Array1OfReal weights(1, n);
+  for (int i = 0; i < n; ++i) {
+    poles(i + 1) = point(edge.poles, i);
+    weights(i + 1) = edge.weights.size() > 0 ? edge.weights[i] : 1;
+  }
   const KnotCounts knots(edge.knots);
-  return new Geom_BSplineCurve(poles, knots.values(), knots.multiplicities(), edge.degree);
+  return new Geom_BSplineCurve(poles, weights, knots.values(), knots.multiplicities(), edge.degree);
 }
 
 Handle(Geom_BSplineSurface) surface_of(const SplineFace& face) {
   const KnotCounts u(face.u_knots), v(face.v_knots);
-  const int nu = int(face.u_knots.size()) - face.degree - 1, nv = int(face.v_knots.size()) - face.degree - 1;
+  const int nu = int(face.u_knots.size()) - face.u_degree - 1, nv = int(face.v_knots.size()) - face.v_degree - 1;
   TColgp_Array2OfPnt poles(1, nu, 1, nv);
+  TColStd_Array2OfReal weights(1, nu, 1, nv);
   for (int i = 0; i < nu; ++i)
-    for (int j = 0; j < nv; ++j) poles(i + 1, j + 1) = point(face.poles, Eigen::Index(i) * nv + j);
-  return new Geom_BSplineSurface(poles, u.values(), v.values(), u.multiplicities(), v.multiplicities(), face.degree,
-                                 face.degree);
+    for (int j = 0; j < nv; ++j) {
+      const Eigen::Index row = Eigen::Index(i) * nv + j;
+      poles(i + 1, j + 1) = point(face.poles, row);
+      weights(i + 1, j + 1) = face.weights.size() > 0 ? face.weights[row] : 1;
+    }
+  return new Geom_BSplineSurface(poles, weights, u.values(), v.values(), u.multiplicities(), v.multiplicities(),
+                                 face.u_degree, face.v_degree);
 }
+
+/// An edge in the parameters of a face: straight, linear in the edge's own parameter.
+Handle(Geom2d_Curve) segment_of(const EdgeUse& use, const SplineEdge& edge) {
+  const Eigen::Vector2d from = use.reversed ? use.to : use.from, to = use.reversed ? use.from : use.to;
+  const double first = edge.knots.front(), last = edge.knots.back(), length = (to - from).norm();
+  constexpr double rounding = 1e-12;
+  if (first == 0 && std::abs(length - last) <= rounding * last) {
+    const Eigen::Vector2d along = (to - from) / length;
+    return new Geom2d_Line(gp_Pnt2d(from[0], from[1]), gp_Dir2d(along[0], along[1]));
+  }
+  TColgp_Array1OfPnt2d ends(1, 2);
+  ends(1) = gp_Pnt2d(from[0], from[1]), ends(2) = gp_Pnt2d(to[0], to[1]);
+  const KnotCounts knots({first, first, last, last});
+  return new Geom2d_BSplineCurve(ends, knots.values(), knots.multiplicities(), 1);
+}
+
+double tolerance_of(const SplineEdge& edge) { return std::max(Precision::Confusion(), 1.5 * edge.gap); }
 
 class ShapeMaker {
  public:
@@ -89,7 +123,13 @@ class ShapeMaker {
       builder_.MakeVertex(vertices[v], point(model_.vertices, Eigen::Index(v)), tolerance[v]);
     for (const SplineEdge& e : model_.edges) {
       TopoDS_Edge edge;
-      builder_.MakeEdge(edge, curve_of(e), std::max(Precision::Confusion(), 1.5 * e.gap));
+      if (e.is_point) {
+        builder_.MakeEdge(edge);
+        builder_.UpdateEdge(edge, tolerance_of(e));
+        builder_.Degenerated(edge, true);
+      } else {
+        builder_.MakeEdge(edge, curve_of(e), tolerance_of(e));
+      }
       builder_.Range(edge, e.knots.front(), e.knots.back());
       builder_.Add(edge, vertices[size_t(e.start)].Oriented(TopAbs_FORWARD));
       builder_.Add(edge, vertices[size_t(e.end)].Oriented(TopAbs_REVERSED));
@@ -103,20 +143,30 @@ class ShapeMaker {
     TopoDS_Wire wire;
     builder_.MakeWire(wire);
     for (const EdgeUse& use : f.border) {
+      add_segment(f, use, face);
       const TopoDS_Edge& edge = edges_[size_t(use.edge)];
-      const Eigen::Vector2d from = use.reversed ? use.to : use.from, to = use.reversed ? use.from : use.to;
-      const Eigen::Vector2d along = (to - from).normalized();
-      const Handle(Geom2d_Line) line = new Geom2d_Line(gp_Pnt2d(from[0], from[1]), gp_Dir2d(along[0], along[1]));
-      builder_.UpdateEdge(edge, line, face, std::max(Precision::Confusion(), 1.5 * model_.edges[size_t(use.edge)].gap));
-      const double first = model_.edges[size_t(use.edge)].knots.front();
-      builder_.Range(edge, face, first, first + (to - from).norm());
-      builder_.SameParameter(edge, true);
-      builder_.SameRange(edge, true);
       builder_.Add(wire, edge.Oriented(use.reversed ? TopAbs_REVERSED : TopAbs_FORWARD));
     }
     wire.Closed(true);
     builder_.Add(face, wire);
+    if (f.reversed) face.Reverse();
     return face;
+  }
+
+  void add_segment(const SplineFace& f, const EdgeUse& use, const TopoDS_Face& face) {
+    const TopoDS_Edge& edge = edges_[size_t(use.edge)];
+    const SplineEdge& e = model_.edges[size_t(use.edge)];
+    const auto other =
+        std::ranges::find_if(f.border, [&](const EdgeUse& u) { return u.edge == use.edge && &u != &use; });
+    const bool is_seam = other != f.border.end();
+    if (is_seam && use.reversed) return;  // told with the other one, which the edge runs along
+    if (is_seam)
+      builder_.UpdateEdge(edge, segment_of(use, e), segment_of(*other, e), face, tolerance_of(e));
+    else
+      builder_.UpdateEdge(edge, segment_of(use, e), face, tolerance_of(e));
+    builder_.Range(edge, face, e.knots.front(), e.knots.back());
+    builder_.SameParameter(edge, true);
+    builder_.SameRange(edge, true);
   }
 
   /// Faces by the edges that they share.
@@ -130,6 +180,7 @@ class ShapeMaker {
     std::vector<size_t> first(model_.edges.size(), model_.faces.size());
     for (size_t f = 0; f < model_.faces.size(); ++f)
       for (const EdgeUse& use : model_.faces[f].border) {
+        if (model_.edges[size_t(use.edge)].is_point) continue;
         size_t& at = first[size_t(use.edge)];
         if (at == model_.faces.size()) at = f;
         const size_t a = find(at), b = find(f);
@@ -142,50 +193,65 @@ class ShapeMaker {
     return all;
   }
 
+  /// Whether each edge has one face on either side, and fronts go on across it.
+  bool is_closed(const std::vector<size_t>& component) const {
+    std::map<Index, std::pair<int, int>> uses;  // and their sum with signs
+    for (const size_t f : component)
+      for (const EdgeUse& use : model_.faces[f].border) {
+        if (model_.edges[size_t(use.edge)].is_point) continue;
+        auto& [count, sum] = uses[use.edge];
+        ++count, sum += use.reversed != model_.faces[f].reversed ? -1 : 1;
+      }
+    return std::ranges::all_of(uses, [](const auto& use) { return use.second == std::pair(2, 0); });
+  }
+
   ModelShape gather() {
     ModelShape made;
-    std::vector<TopoDS_Shape> parts;
-    std::vector<int> balance(model_.edges.size(), 0), uses(model_.edges.size(), 0);
-    for (const SplineFace& face : model_.faces)
-      for (const EdgeUse& use : face.border)
-        balance[size_t(use.edge)] += use.reversed ? -1 : 1, ++uses[size_t(use.edge)];
     for (const std::vector<size_t>& component : components()) {
       TopoDS_Shell shell;
       builder_.MakeShell(shell);
-      bool closed = true;
-      for (const size_t f : component) {
-        builder_.Add(shell, faces_[f]);
-        for (const EdgeUse& use : model_.faces[f].border)
-          closed = closed && uses[size_t(use.edge)] == 2 && balance[size_t(use.edge)] == 0;
-      }
+      double volume = 0;
+      for (const size_t f : component) builder_.Add(shell, faces_[f]), volume += model_.faces[f].volume;
+      const bool closed = is_closed(component);
       shell.Closed(closed);
-      if (!closed) {
+      made.parts.push_back({shell, common_name(component)});
+      if (!closed || is_flat(component, volume)) {
         ++made.shells;
-        parts.push_back(shell);
         continue;
       }
       TopoDS_Solid solid;
       builder_.MakeSolid(solid);
-      builder_.Add(solid, shell);
-      double volume = 0;
-      for (const size_t f : component) volume += model_.faces[f].volume;
-      if (volume < 0) {
-        builder_.MakeSolid(solid);
-        builder_.Add(solid, shell.Reversed());
-      }
+      builder_.Add(solid, volume < 0 ? shell.Reversed() : TopoDS_Shape(shell));
+      made.parts.back().shape = solid;
       ++made.solids;
-      parts.push_back(solid);
+      made.volume += std::abs(volume);
     }
-    if (parts.size() == 1) {
-      made.shape = parts[0];
-    } else {
-      TopoDS_Compound all;
-      builder_.MakeCompound(all);
-      for (const TopoDS_Shape& part : parts) builder_.Add(all, part);
-      made.shape = all;
-    }
+    made.shape = made.parts.size() == 1 ? made.parts[0].shape : TopoDS_Shape(compound(made.parts));
     made.is_valid = BRepCheck_Analyzer(made.shape).IsValid();
+    made.faces.assign(faces_.begin(), faces_.end());
     return made;
+  }
+
+  /// Two faces on each other bound nothing.
+  bool is_flat(const std::vector<size_t>& component, double volume) const {
+    constexpr double rounding = 1e-12;
+    Eigen::AlignedBox3d box;
+    for (const size_t f : component)
+      for (const auto& pole : model_.faces[f].poles.rowwise()) box.extend(Eigen::Vector3d(pole.transpose()));
+    return !(std::abs(volume) > rounding * std::pow(box.diagonal().norm(), 3));
+  }
+
+  std::string common_name(const std::vector<size_t>& component) const {
+    const std::string& name = model_.faces[component[0]].name;
+    const bool all = std::ranges::all_of(component, [&](size_t f) { return model_.faces[f].name == name; });
+    return all ? name : std::string();
+  }
+
+  TopoDS_Compound compound(const std::vector<ModelShape::Part>& parts) {
+    TopoDS_Compound all;
+    builder_.MakeCompound(all);
+    for (const ModelShape::Part& part : parts) builder_.Add(all, part.shape);
+    return all;
   }
 
   const BoundaryModel& model_;

@@ -7,16 +7,23 @@
 #include <Message.hxx>
 #include <Message_Messenger.hxx>
 #include <Message_PrinterOStream.hxx>
+#include <STEPConstruct.hxx>
 #include <STEPControl_Writer.hxx>
 #include <Standard_Failure.hxx>
 #include <StepData_Protocol.hxx>
 #include <StepData_StepModel.hxx>
 #include <StepData_StepWriter.hxx>
+#include <StepRepr_RepresentationItem.hxx>
 #include <TCollection_HAsciiString.hxx>
+#include <Transfer_FinderProcess.hxx>
+#include <XSControl_TransferWriter.hxx>
 #include <XSControl_WorkSession.hxx>
 
+#include <algorithm>
+#include <cstdint>
 #include <mutex>
 #include <sstream>
+#include <string_view>
 
 #include "sublimit/base/error.h"
 #include "sublimit/cad/opencascade/shape.h"
@@ -24,16 +31,54 @@
 namespace sublimit {
 namespace {
 
-std::string step_text(const TopoDS_Shape& shape, const std::string& name) {
+/// What stands for the backslash of a directive: the writer doubles those that it is given.
+constexpr char directive = '\1';
+
+/// UTF-8 as strings of STEP files have it: what is not ASCII by directives with hexadecimal digits (ISO 10303-21,
+/// 6.4.3). Quotes and backslashes are the writer's business.
+std::string step_string(std::string_view utf8) {
+  std::string text;
+  for (size_t i = 0; i < utf8.size();) {
+    const auto first = static_cast<unsigned char>(utf8[i++]);
+    if (first < 0x80) {
+      text += first < 0x20 || first == 0x7f ? ' ' : static_cast<char>(first);
+      continue;
+    }
+    std::uint32_t code = first & (first >= 0xf0 ? 0x07u : first >= 0xe0 ? 0x0fu : 0x1fu);
+    while (i < utf8.size() && (utf8[i] & 0xc0) == 0x80)
+      code = code << 6 | (static_cast<unsigned char>(utf8[i++]) & 0x3fu);
+    const bool is_wide = code > 0xffff;
+    (text += directive) += is_wide ? "X4" : "X2";
+    text += directive;
+    for (int shift = is_wide ? 28 : 12; shift >= 0; shift -= 4) text += "0123456789ABCDEF"[code >> shift & 0xf];
+    ((text += directive) += "X0") += directive;
+  }
+  return text;
+}
+
+/// Names of faces and of what they bound, as the STEP entities that they became have them.
+void set_names(const BoundaryModel& model, const ModelShape& made, const STEPControl_Writer& writer) {
+  const Handle(Transfer_FinderProcess) found = writer.WS()->TransferWriter()->FinderProcess();
+  const auto set = [&](const TopoDS_Shape& shape, const std::string& name) {
+    if (name.empty()) return;
+    const Handle(StepRepr_RepresentationItem) item = STEPConstruct::FindEntity(found, shape);
+    if (!item.IsNull()) item->SetName(new TCollection_HAsciiString(step_string(name).c_str()));
+  };
+  for (const ModelShape::Part& part : made.parts) set(part.shape, part.name);
+  for (size_t f = 0; f < model.faces.size(); ++f) set(made.faces[f], model.faces[f].name);
+}
+
+std::string step_text(const BoundaryModel& source, const ModelShape& made, const std::string& name) {
   STEPControl_Writer writer;
   Interface_Static::SetIVal("write.surfacecurve.mode", 0);  // readers find curves in parameters again: lines
-  Interface_Static::SetCVal("write.step.product.name", name.c_str());
+  Interface_Static::SetCVal("write.step.product.name", step_string(name).c_str());
   Interface_Static::SetCVal("write.step.schema", "AP214IS");
-  if (writer.Transfer(shape, STEPControl_AsIs) != IFSelect_RetDone)
+  if (writer.Transfer(made.shape, STEPControl_AsIs) != IFSelect_RetDone)
     throw AnalysisError("OpenCASCADE could not make a STEP model of the surface");
+  set_names(source, made, writer);
   const Handle(StepData_StepModel) model = writer.Model();
   APIHeaderSection_MakeHeader header(model);
-  header.SetName(new TCollection_HAsciiString(name.c_str()));
+  header.SetName(new TCollection_HAsciiString(step_string(name).c_str()));
   header.SetTimeStamp(new TCollection_HAsciiString("1970-01-01T00:00:00"));  // equal input, equal bytes
   header.SetAuthorValue(1, new TCollection_HAsciiString(""));
   header.SetOriginatingSystem(new TCollection_HAsciiString("sublimit"));
@@ -43,7 +88,9 @@ std::string step_text(const TopoDS_Shape& shape, const std::string& name) {
   text.SendModel(Handle(StepData_Protocol)::DownCast(writer.WS()->Protocol()));
   std::ostringstream out;
   if (!text.Print(out)) throw AnalysisError("OpenCASCADE could not print the STEP model");
-  return out.str();
+  std::string bytes = out.str();
+  std::ranges::replace(bytes, directive, '\\');
+  return bytes;
 }
 
 }  // namespace
@@ -54,9 +101,9 @@ CadFile cad_file(const BoundaryModel& model, const std::string& name, bool step)
   Message::DefaultMessenger()->RemovePrinters(STANDARD_TYPE(Message_PrinterOStream));
   try {
     const ModelShape made = shape_of(model);
-    CadFile file{{}, made.solids, made.shells, made.is_valid};
+    CadFile file{{}, made.solids, made.shells, made.volume, made.is_valid};
     if (step) {
-      file.bytes = step_text(made.shape, name);
+      file.bytes = step_text(model, made, name);
     } else {
       std::ostringstream out;
       BRepTools::Write(made.shape, out);

@@ -10,6 +10,7 @@ namespace sublimit {
 struct CadFile {
   std::string bytes;
   int solids = 0, shells = 0;  ///< closed and open
+  double volume = 0;           ///< of all solids, by that of their faces
   bool is_valid = false;       ///< as OpenCASCADE's own check has it
 };
 
