@@ -13,7 +13,6 @@
 #include "sublimit/base/memory.h"
 #include "sublimit/base/read_file.h"
 #include "sublimit/io/file_extension.h"
-#include "sublimit/patches/free_form_patches.h"
 #include "sublimit/recipes/recipe_sources.h"
 
 namespace sublimit::cli {
@@ -49,14 +48,7 @@ FreeForm load_free_form(const Common& common) {
   return shapes;
 }
 
-LoadedPatches load_patches(const Common& common) {
-  if (is_recipe_job(common)) {
-    const std::vector<Recipe> recipes = load_recipes(common);
-    RecipePatches found = recipe_patches(recipes, common.mesh);
-    tell_left_out(common, recipes, Sampled::surfaces);
-    return {std::move(found.patches), std::move(found.columns)};
-  }
-  const FreeForm shapes = load_free_form(common);
+FreeFormPatches load_free_form_patches(const Common& common, const FreeForm& shapes) {
   FreeFormPatches found = free_form_patches(shapes, common.mesh);
   if (!shapes.curves.empty() && !common.quiet)
     fmt::print(stderr, "sublimit: warning: {}: {} curves are left out; `sample` takes them with --curves\n",
@@ -65,6 +57,17 @@ LoadedPatches load_patches(const Common& common) {
   if (trimmed > 0 && !common.quiet)
     fmt::print(stderr, "sublimit: warning: {}: {} of {} surfaces have trimming loops; they are taken untrimmed\n",
                common.mesh, trimmed, shapes.surfaces.size());
+  return found;
+}
+
+LoadedPatches load_patches(const Common& common) {
+  if (is_recipe_job(common)) {
+    const std::vector<Recipe> recipes = load_recipes(common);
+    RecipePatches found = recipe_patches(recipes, common.mesh);
+    tell_left_out(common, recipes, Sampled::surfaces);
+    return {std::move(found.patches), std::move(found.columns)};
+  }
+  FreeFormPatches found = load_free_form_patches(common, load_free_form(common));
   return {std::move(found.patches), std::move(found.columns)};
 }
 

@@ -7,6 +7,7 @@
 #include "sublimit/fit_jobs/fit_job.h"
 #include "sublimit/io/free_form.h"
 #include "sublimit/patches/curve_set.h"
+#include "sublimit/patches/free_form_patches.h"
 #include "sublimit/patches/patch_set.h"
 
 namespace sublimit::cli {
@@ -20,6 +21,8 @@ void refuse_mesh_options(const Common& common);
 
 /// The shapes of the file; its warnings are printed.
 FreeForm load_free_form(const Common& common);
+/// Its surfaces; what is left out is told.
+FreeFormPatches load_free_form_patches(const Common& common, const FreeForm& shapes);
 
 /// Surfaces of a free-form .obj or of recipes, as one source. What is left out is told.
 struct LoadedPatches {

@@ -2,38 +2,17 @@
 // `sublimit step`: limits as files of CAD programs.
 #include <fmt/core.h>
 
-#include <cmath>
-#include <filesystem>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "common.h"
-#include "loaded_library.h"
-#include "opencascade/entry.h"
-#include "sublimit/base/atomic_file.h"
+#include "free_form.h"
+#include "step_job.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 #include "sublimit/cad/limit_model.h"
-#include "sublimit/io/file_extension.h"
 #include "sublimit/limit/limit_integrals.h"
 
 namespace sublimit::cli {
 namespace {
-
-struct StepJob {
-  Common common;
-  std::string tolerance, join = "g0", output, report;
-  bool no_packing = false;
-};
-
-CadFileEntry* cad_writer() {
-#ifdef SUBLIMIT_CAD
-  return reinterpret_cast<CadFileEntry*>(loaded_function(opencascade_library, cad_file_entry, "CAD files"));
-#else
-  throw InvalidOption("this program was built without OpenCASCADE, which writes CAD files");
-#endif
-}
 
 /// Without one a hundred-thousandth of the diagonal.
 double tolerance_of(const std::string& text, double diagonal) {
@@ -69,20 +48,12 @@ nlohmann::ordered_json report_of(const StepJob& job, const LimitModel& model, co
   return json;
 }
 
-void write_whole_file(const std::string& path, const std::string& text, Progress& progress) {
-  AtomicFile file(path, progress.bytes_written());
-  file.write(text);
-  file.commit();
-}
-
 int run(const StepJob& job) {
+  if (is_free_form_job(job.common)) return step_patches(job);
   tolerance_of(job.tolerance, 1);  // a wrong number is told before the mesh is read
-  if (job.join != "g0" && job.join != "g1")
+  if (!job.join.empty() && job.join != "g0" && job.join != "g1")
     throw InvalidOption(fmt::format("--join {}: caps join their neighbours by g0 or g1", job.join));
-  check_output_path(job.output, {".step", ".stp", ".brep"});
-  if (!job.report.empty()) check_output_path(job.report, {".json"});
-  if (!job.report.empty()) check_not_sidecar("--report", job.report, job.common.mesh);
-  CadFileEntry* const cad_file = cad_writer();
+  CadFileEntry* const entry = prepare_step(job);
   Progress progress(job.common.quiet);
   const Loaded loaded = load(job.common, progress);
   const Points& control = loaded.mesh.positions;
@@ -105,15 +76,8 @@ int run(const StepJob& job) {
     progress.step("measuring the limit");
     if (!job.report.empty()) exact = limit_integrals(surface, control);
   });
-  progress.step("making a shape");
-  CadFile file;
-  cad_file(model.boundary, std::filesystem::path(job.output).stem().string(), file_extension(job.output) != ".brep",
-           file);
-  progress.step("writing " + job.output);
-  write_whole_file(job.output, file.bytes, progress);
-  if (!job.report.empty())
-    write_whole_file(job.report, report_of(job, model, file, tolerance, exact).dump(2) + "\n", progress);
-  progress.step("");
+  const CadFile file = cad_file_of(job, entry, model.boundary, progress);
+  write_step(job, file, report_of(job, model, file, tolerance, exact), progress);
   const int status = model.met && file.is_valid ? 0 : 1;
   if (job.common.quiet) return status;
   const QuadMeasures& m = model.measures;
@@ -134,10 +98,11 @@ int run(const StepJob& job) {
 Command add_step(CLI::App& app) {
   auto* command = app.add_subcommand("step", "Limits for CAD: exact B-spline faces, solids where closed (STEP, BREP)");
   auto job = std::make_shared<StepJob>();
-  add_mesh(*command, job->common, true);
+  add_mesh(*command, job->common, false);
   command->add_option("--tolerance", job->tolerance,
                       "Largest distance of caps around extraordinary vertices from the limit: in the mesh's unit, or "
-                      "as 0.1% of its diagonal (default 0.001%)");
+                      "as 0.1% of its diagonal (default 0.001%). Of free-form surfaces: of sides that are one edge "
+                      "(default 1e-9 of the diagonal)");
   command->add_option(
       "--join", job->join,
       "How caps join exact faces: g0 (default), or g1, with common tangent planes (schemes of quadrilaterals)");
@@ -149,9 +114,15 @@ Command add_step(CLI::App& app) {
       "Examples:\n"
       "  sublimit step cage.obj -s catmull-clark -o surface.step\n"
       "  sublimit step cage.obj -s loop --tolerance 0.01% -o surface.brep --report report.json\n"
+      "  sublimit step teapot.obj -o teapot.step\n"
       "Regular faces are exact, and packed into the largest B-splines that keep knots and smoothness; a triangle of loop is\n"
       "three biquartic patches. Around extraordinary vertices there are rings of exact patches, as many as leave a cap within\n"
       "the tolerance. Creases and borders are edges. Schemes without polynomials (butterfly, kobbelt, sqrt3) are refused.\n"
+      "Free-form surfaces of an .obj and recipes (.json, see `sublimit construct --help`), without -s: a face for each\n"
+      "patch, its own B-spline, rational ones with weights, three faces for a Bezier triangle. Whole sides that are one\n"
+      "curve in one parameter are one edge, closed sets of patches solids; names of groups, objects and recipes are those\n"
+      "of faces in STEP files. Surfaces that are no B-spline (screw; gregory with twists that differ) are refused, and\n"
+      "trimming loops left out.\n"
       "Exit status 1: the tolerance is not met, or the shape is not valid by OpenCASCADE's check, as of some non-manifold\n"
       "meshes; the file is written all the same.");
   return [=] { return run(*job); };

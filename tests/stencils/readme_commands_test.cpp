@@ -198,6 +198,18 @@ void points_are_those_of_the_triangles(const Path& folder) {
   for (size_t i = 0; i < count; ++i) EXPECT_NEAR(points[i], triangles.positions.data()[i], float_reference * size);
 }
 
+/// The recipe that the document shows.
+void write_spindle(const Path& folder) {
+  run_demo(folder);
+  for (const auto& [document, page] : pages())
+    for (const CodeBlock& block : page.blocks)
+      if (block.section == "CAD" && block.lines.front().starts_with("{")) {
+        std::ofstream file(folder / "spindle.json");
+        for (const std::string& line : block.lines)
+          if (line.starts_with("{")) file << line << "\n";
+      }
+}
+
 const std::vector<Section>& sections() {
   static const std::vector<Section> all = {
       {"README.md", "In the shell", {}, {}},
@@ -205,7 +217,7 @@ const std::vector<Section>& sections() {
       {"stencils/README.md", "Curves", write_polygon, {}},
       {"stencils/README.md", "Area, volume, inertia", run_demo, {}},
       {"stencils/README.md", "Triangles", run_demo, points_are_those_of_the_triangles},
-      {"stencils/README.md", "CAD", run_demo, {}},
+      {"stencils/README.md", "CAD", write_spindle, {}},
       {"stencils/README.md", "Tables", write_cages, frames_are_refined},
       {"stencils/README.md", "Many tables", write_cages, log_has_what_the_document_shows},
       {"stencils/README.md", "Continuity reports", run_demo,
