@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "free_form.h"
+#include "normal_surfaces.h"
 #include "step_job.h"
 #include "sublimit/base/error.h"
 #include "sublimit/cad/limit_model.h"
@@ -49,7 +50,7 @@ nlohmann::ordered_json report_of(const StepJob& job, const LimitModel& model, co
 }
 
 int run(const StepJob& job) {
-  if (is_free_form_job(job.common)) return step_patches(job);
+  if (is_normal_job(job.common) || is_free_form_job(job.common)) return step_patches(job);
   tolerance_of(job.tolerance, 1);  // a wrong number is told before the mesh is read
   if (!job.join.empty() && job.join != "g0" && job.join != "g1")
     throw InvalidOption(fmt::format("--join {}: caps join their neighbours by g0 or g1", job.join));
@@ -121,8 +122,8 @@ Command add_step(CLI::App& app) {
       "Free-form surfaces of an .obj and recipes (.json, see `sublimit construct --help`), without -s: a face for each\n"
       "patch, its own B-spline, rational ones with weights, three faces for a Bezier triangle. Whole sides that are one\n"
       "curve in one parameter are one edge, closed sets of patches solids; names of groups, objects and recipes are those\n"
-      "of faces in STEP files. Surfaces that are no B-spline (screw; gregory with twists that differ) are refused, and\n"
-      "trimming loops left out.\n"
+      "of faces in STEP files. Surfaces that are no B-spline (screw; gregory with twists that differ; nielson) are refused,\n"
+      "trimming loops left out. -s piper takes triangles with normals: three Bezier triangles each.\n"
       "Exit status 1: the tolerance is not met, or the shape is not valid by OpenCASCADE's check, as of some non-manifold\n"
       "meshes; the file is written all the same.");
   return [=] { return run(*job); };

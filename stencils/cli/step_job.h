@@ -24,7 +24,7 @@ CadFile cad_file_of(const StepJob& job, CadFileEntry* entry, const BoundaryModel
 /// Writes the file, and the report if one is wanted.
 void write_step(const StepJob& job, const CadFile& file, const nlohmann::ordered_json& report, Progress& progress);
 
-/// `step` of free-form surfaces and recipes.
+/// `step` of free-form surfaces, recipes, and triangles with normals.
 /// @return  the exit status
 int step_patches(const StepJob& job);
 

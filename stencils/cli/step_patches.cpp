@@ -1,16 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// `sublimit step` of free-form surfaces and recipes.
+// `sublimit step` of patches: free-form surfaces, recipes, triangles with normals.
 #include <fmt/core.h>
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
+#include <iterator>
 #include <numbers>
 
 #include "free_form.h"
+#include "normal_surfaces.h"
 #include "recipes.h"
 #include "step_job.h"
 #include "sublimit/base/error.h"
 #include "sublimit/cad/patch_model.h"
+#include "sublimit/cad/piper_patches.h"
 #include "sublimit/recipes/recipe_sources.h"
 
 namespace sublimit::cli {
@@ -32,23 +36,41 @@ std::vector<NamedPatch> free_form_surfaces(const Common& common) {
   return patches;
 }
 
+std::vector<NamedPatch> normal_triangles(const NormalSurface& surface, const std::string& name) {
+  if (surface.scheme.name != "piper")
+    throw UnsupportedTopology(surface.common.mesh + ": " + surface.scheme.name +
+                              " is no B-spline, and CAD files have no other surface for it; piper is a polynomial "
+                              "surface through the same points and normals");
+  return piper_patches(surface.data, name, surface.common.mesh);
+}
+
 /// Nets where a kind has one: a polynomial by points is a B-spline then.
-std::vector<NamedPatch> recipe_surfaces(const Common& common) {
-  const std::vector<Recipe> recipes = load_recipes(common);
+std::vector<NamedPatch> recipe_surfaces(const Common& common, Progress& progress) {
+  std::vector<Recipe> recipes = load_recipes(common);
   std::vector<NamedPatch> patches;
-  for (const Recipe& recipe : recipes)
+  for (const Recipe& recipe : recipes) {
     if (const RecipeSurface* const surface = recipe.surface()) {
+      NamedPatch patch{surface->patch, surface->columns, surface->coordinates,
+                       recipe.name,    recipe.place,     surface->no_net};
       if (surface->net)
-        patches.push_back({surface->net->surface, surface->net->columns, surface->net->coordinates});
-      else
-        patches.push_back({surface->patch, surface->columns, surface->coordinates});
-      patches.back().name = recipe.name;
-      patches.back().place = recipe.place;
-      patches.back().no_net = surface->no_net;
+        patch.patch = surface->net->surface, patch.columns = surface->net->columns,
+        patch.coordinates = surface->net->coordinates;
+      patches.push_back(std::move(patch));
+    } else if (recipe.normal_triangles()) {
+      std::ranges::move(normal_triangles(load_normal_surface(common, recipe, progress), recipe.name),
+                        std::back_inserter(patches));
     }
+  }
   if (patches.empty()) recipe_patches(recipes, common.mesh);  // tells what there is instead
+  std::erase_if(recipes, [](const Recipe& recipe) { return recipe.normal_triangles() != nullptr; });
   tell_left_out(common, recipes, Sampled::surfaces);
   return patches;
+}
+
+std::vector<NamedPatch> load_surfaces(const Common& common, Progress& progress) {
+  if (is_recipe_job(common)) return recipe_surfaces(common, progress);
+  if (is_normal_job(common)) return normal_triangles(load_normal_surfaces(common, progress)[0], "");
+  return free_form_surfaces(common);
 }
 
 double diagonal_of(const std::vector<NamedPatch>& patches) {
@@ -89,9 +111,12 @@ nlohmann::ordered_json report_of(const StepJob& job, const PatchModel& model, co
 }
 
 void refuse_limit_options(const StepJob& job) {
-  refuse_mesh_options(job.common);
-  if (!job.join.empty()) throw InvalidOption("--join is for caps of meshes; free-form surfaces have none");
-  if (job.no_packing) throw InvalidOption("--no-packing is for meshes; each patch of a free-form surface is a face");
+  if (is_normal_job(job.common))
+    check_normal_job(job.common, false);
+  else
+    refuse_mesh_options(job.common);
+  if (!job.join.empty()) throw InvalidOption("--join is for caps of subdivision limits; patches have none");
+  if (job.no_packing) throw InvalidOption("--no-packing is for subdivision limits; each patch is a face as it is");
 }
 
 }  // namespace
@@ -101,8 +126,7 @@ int step_patches(const StepJob& job) {
   if (!job.tolerance.empty()) distance_option("--tolerance", job.tolerance, 1);
   CadFileEntry* const entry = prepare_step(job);
   Progress progress(job.common.quiet);
-  const std::vector<NamedPatch> patches =
-      is_recipe_job(job.common) ? recipe_surfaces(job.common) : free_form_surfaces(job.common);
+  const std::vector<NamedPatch> patches = load_surfaces(job.common, progress);
   progress.step("joining patches");
   PatchModelOptions options;
   if (const double diagonal = diagonal_of(patches); !job.tolerance.empty() && diagonal > 0)
