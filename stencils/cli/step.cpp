@@ -120,7 +120,7 @@ Command add_step(CLI::App& app) {
       "three biquartic patches. Around extraordinary vertices there are rings of exact patches, as many as leave a cap within\n"
       "the tolerance. Creases and borders are edges. Schemes without polynomials (butterfly, kobbelt, sqrt3) are refused.\n"
       "Free-form surfaces of an .obj and recipes (.json, see `sublimit construct --help`), without -s: a face for each\n"
-      "patch, its own B-spline, rational ones with weights, three faces for a Bezier triangle. Whole sides that are one\n"
+      "patch, its own B-spline, rational ones with weights, three faces for a Bezier triangle. Sides that are one\n"
       "curve in one parameter are one edge, closed sets of patches solids; names of groups, objects and recipes are those\n"
       "of faces in STEP files. Surfaces that are no B-spline (screw; gregory with twists that differ; nielson) are refused,\n"
       "trimming loops left out. -s piper takes triangles with normals: three Bezier triangles each.\n"

@@ -145,9 +145,9 @@ int step_patches(const StepJob& job) {
   const std::int64_t apart = model.partial + model.reparametrised + model.non_manifold + model.unsuitable;
   if (apart > 0)
     fmt::print(
-        "  not joined: {} sides on parts of others (T-junctions), {} in other parameters, {} of three or more "
-        "sides, {} that turn a front over\n",
-        model.partial, model.reparametrised, model.non_manifold, model.unsuitable);
+        "  not joined: {} sides of one shape in different parameters, {} pairs with parts of that kind, {} curves of three "
+        "sides or more, {} pairs that turn a front over\n",
+        model.reparametrised, model.partial, model.non_manifold, model.unsuitable);
   return status;
 }
 

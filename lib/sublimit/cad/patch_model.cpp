@@ -4,49 +4,20 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
-#include <numeric>
+#include <optional>
+#include <tuple>
 #include <utility>
 
 #include "sublimit/base/error.h"
 #include "sublimit/cad/patch_integrals.h"
-#include "sublimit/patches/joins/patch_seams.h"
+#include "sublimit/cad/side_cuts.h"
+#include "sublimit/cad/signed_classes.h"
+#include "sublimit/core/sparse_product.h"
+#include "sublimit/patches/joins/line_samples.h"
+#include "sublimit/patches/spline_rows.h"
 
 namespace sublimit {
 namespace {
-
-/// Numbers in classes; of each also whether it is turned over, seen from the least of its class.
-class SignedClasses {
- public:
-  explicit SignedClasses(size_t count) : parent_(count), turned_(count, false) {
-    std::iota(parent_.begin(), parent_.end(), size_t{0});
-  }
-  /// The least of the class, and whether i is turned over beside it.
-  std::pair<size_t, bool> find(size_t i) const {
-    bool turned = false;
-    for (; parent_[i] != i; i = parent_[i]) turned ^= bool(turned_[i]);
-    return {i, turned};
-  }
-  /// @return  whether that agrees with what was known
-  bool join(size_t i, size_t j, bool turned = false) {
-    const auto [a, turned_a] = find(i);
-    const auto [b, turned_b] = find(j);
-    turned ^= turned_a ^ turned_b;
-    if (a == b) return !turned;
-    parent_[std::max(a, b)] = std::min(a, b);
-    turned_[std::max(a, b)] = turned;
-    return true;
-  }
-
- private:
-  std::vector<size_t> parent_;
-  std::vector<char> turned_;
-};
-
-PatchSide side_of(const PatchLine& line) {
-  const bool at_end = line.end == KnotSide::right;
-  if (line.along_v) return at_end ? PatchSide::u_end : PatchSide::u_begin;
-  return at_end ? PatchSide::v_end : PatchSide::v_begin;
-}
 
 /// Corners (begin, begin), (end, begin), (end, end), (begin, end) of (u, v): from which to which a side runs as its
 /// parameter rises.
@@ -78,61 +49,90 @@ std::vector<double> all_of(const Knots<double>& knots) { return {knots.all().beg
 class PatchModelMaker {
  public:
   PatchModelMaker(std::span<const NamedPatch> sources, const PatchModelOptions& options)
-      : sources_(sources),
-        clamped_(clamped_patches(sources)),
-        fronts_(size()),
-        corners_(4 * size()),
-        sides_(4 * size()) {
+      : sources_(sources), clamped_(clamped_patches(sources)), fronts_(size()) {
     for (const ClampedPatch& patch : clamped_.patches) patches_.push_back({&patch.surface, patch.columns});
     // Lines of inner knots are no edges, however smooth they are.
     seams_ = patch_seams(patches_, clamped_.coordinates, {.same = options.same, .smooth = -1});
     model_.diagonal = seams_.diagonal;
     same_ = options.same * seams_.diagonal;
+    for (size_t p = 0; p < size(); ++p) add_corners(p);
+    const std::vector<std::vector<double>> cuts = side_cuts(patches_, clamped_.coordinates, seams_, same_);
+    for (size_t side = 0; side < cuts.size(); ++side) add_parts(side, cuts[side]);
   }
 
   PatchModel make() && {
     for (const PatchSeam& seam : seams_.seams) take(seam);
-    for (size_t p = 0; p < size(); ++p) join_corners(p);
     add_vertices();
-    for (Side& side : sides_) add_edge(side);
+    for (std::vector<Part>& side : sides_)
+      for (Part& part : side) add_edge(part);
     for (size_t p = 0; p < size(); ++p) add_face(p);
     return std::move(model_);
   }
 
  private:
-  /// A side, and the edge that it is on.
-  struct Side {
-    PatchLine line;
-    Side* first = nullptr;  ///< the other side that it shares an edge with, if that comes first
-    bool reversed = false;  ///< against it
-    bool is_point = false;
+  /// Of a side what lies between its cuts, mostly all of it: an edge.
+  struct Part {
+    SidePart at;
+    size_t start = 0, end = 0;  ///< points
+    Part* first = nullptr;      ///< the part that it shares an edge with, if that comes first
+    bool reversed = false;      ///< against it
+    bool is_shared = false, is_point = false;
     double gap = 0;
     Index edge = -1;
   };
 
   size_t size() const { return clamped_.patches.size(); }
-  Side& side(const PatchLine& line) { return sides_[4 * line.patch + size_t(side_of(line))]; }
-  size_t corner(const PatchLine& line, bool at_end) const {
-    return 4 * line.patch + ends_of(side_of(line))[at_end ? 1 : 0];
+  std::vector<Part>& side(const PatchLine& line) { return sides_[side_number(line)]; }
+
+  size_t add_point(const Eigen::RowVector3d& x) {
+    points_.push_back(x);
+    return vertices_.add();
+  }
+  /// Those of a patch that are the same point are one: the ends of a circle, a pole.
+  void add_corners(size_t p) {
+    const ClampedPatch& patch = clamped_.patches[p];
+    const Index u = patch.surface.u().num_points(), v = patch.surface.v().num_points();
+    for (const Index row : {0, u - 1, u * v - 1, u * (v - 1)}) {
+      const Eigen::RowVectorXd column = patch.columns.row(row);
+      const size_t at = add_point(column.size() == 4 ? column.head(3) / column[3] : column);
+      for (size_t other = 4 * p; other < at; ++other)
+        if ((points_[other] - points_[at]).norm() <= same_) vertices_.join(other, at);
+    }
+  }
+  void add_parts(size_t number, const std::vector<double>& cuts) {
+    const PatchLine line = side_line(patches_, number / 4, PatchSide(number % 4));
+    const auto [first, last] = ends_of(side_of(line));
+    std::vector<Part> parts;
+    size_t from = 4 * line.patch + first;
+    for (size_t k = 0; k + 1 < cuts.size(); ++k) {
+      const bool is_last = k + 2 == cuts.size();
+      const size_t to = is_last ? 4 * line.patch + last : add_point(point_on(line, cuts[k + 1]));
+      parts.push_back({.at = {line, cuts[k], cuts[k + 1]}, .start = from, .end = to});
+      from = to;
+    }
+    sides_.push_back(std::move(parts));
+  }
+  Eigen::RowVector3d point_on(const PatchLine& line, double t) const {
+    const PatchColumns& patch = patches_[line.patch];
+    const Sample at = line_place(patch, line, patch.along(line).place(t));
+    return patch.surface->evaluate(patch.columns, {&at, 1}, 0, clamped_.coordinates).position.row(0);
   }
 
   void take(const PatchSeam& seam) {
     switch (seam.kind) {
       case SeamKind::sides:
-        if (can_share(seam))
-          share(seam);
-        else
-          ++model_.unsuitable;
+        share(side(seam.lines[0])[0], side(seam.lines[1])[0], seam.reversed[1], seam.gap ? seam.gap->value : 0,
+              seam.angle);
+        break;
+      case SeamKind::partial:
+        share_parts(seam);
         break;
       case SeamKind::collapsed:
-        side(seam.lines[0]).is_point = true;
+        side(seam.lines[0])[0].is_point = true;
         ++model_.points;
         break;
       case SeamKind::boundary:
         ++model_.open;
-        break;
-      case SeamKind::partial:
-        ++model_.partial;
         break;
       case SeamKind::reparametrised:
         ++model_.reparametrised;
@@ -145,74 +145,78 @@ class PatchModelMaker {
     }
   }
 
+  /// Parts of two sides that are one curve in one parameter.
+  void share_parts(const PatchSeam& seam) {
+    bool is_one = false;
+    for (Part& a : side(seam.lines[0]))
+      for (Part& b : side(seam.lines[1])) {
+        const PartDistance found = part_distance(patches_, clamped_.coordinates, a.at, b.at);
+        if (found.distance > same_) continue;
+        is_one = true;
+        share(a, b, found.reversed, found.distance, seam.angle);
+      }
+    if (!is_one) ++model_.partial;
+  }
+
   /// A face meets itself as a cylinder does, or not at all: files without curves in parameters say no more. Fronts go
-  /// on across edges.
-  bool can_share(const PatchSeam& seam) {
-    const PatchLine &a = seam.lines[0], &b = seam.lines[1];
-    if (a.patch == b.patch) return a.along_v == b.along_v && !seam.reversed[1];
-    return fronts_.join(a.patch, b.patch, !seam.same_orientation);
+  /// on across edges, and these have two faces.
+  bool can_share(const Part& a, const Part& b, bool reversed) {
+    if (a.is_shared || b.is_shared) return false;
+    const PatchLine &l = a.at.line, &r = b.at.line;
+    if (l.patch == r.patch) return l.along_v == r.along_v && !reversed && sides_[side_number(l)].size() == 1;
+    const bool turned = line_sign(l, true, false) != line_sign(r, false, reversed);
+    return fronts_.join(l.patch, r.patch, turned);
   }
 
-  void share(const PatchSeam& seam) {
-    const PatchLine &a = seam.lines[0], &b = seam.lines[1];
-    const bool reversed = seam.reversed[1];
-    ++(a.patch == b.patch ? model_.seams : model_.shared);
-    side(b).first = &side(a);
-    side(b).reversed = reversed;
-    for (const bool at_end : {false, true}) corners_.join(corner(a, at_end), corner(b, at_end != reversed));
-    if (seam.gap) side(a).gap = seam.gap->value;
-    model_.gap = std::max(model_.gap, side(a).gap);
-    if (seam.angle && seam.angle->value > model_.angle)
-      model_.angle = seam.angle->value, model_.angle_at = seam.angle->point;
-  }
-
-  Eigen::RowVector3d corner_point(size_t corner) const {
-    const ClampedPatch& patch = clamped_.patches[corner / 4];
-    const Index u = patch.surface.u().num_points(), v = patch.surface.v().num_points();
-    const Index rows[] = {0, u - 1, u * v - 1, u * (v - 1)};
-    const Eigen::RowVectorXd column = patch.columns.row(rows[corner % 4]);
-    return column.size() == 4 ? column.head(3) / column[3] : column;
-  }
-  /// Corners of a patch where it is the same point: the ends of a circle, a pole.
-  void join_corners(size_t p) {
-    for (size_t b = 1; b < 4; ++b)
-      for (size_t a = 0; a < b; ++a)
-        if ((corner_point(4 * p + a) - corner_point(4 * p + b)).norm() <= same_) corners_.join(4 * p + a, 4 * p + b);
+  void share(Part& a, Part& b, bool reversed, double gap, const std::optional<SeamMaximum>& angle) {
+    if (!can_share(a, b, reversed)) {
+      ++model_.unsuitable;
+      return;
+    }
+    const bool in_order = side_number(a.at.line) < side_number(b.at.line);
+    Part &first = in_order ? a : b, &second = in_order ? b : a;
+    ++(a.at.line.patch == b.at.line.patch ? model_.seams : model_.shared);
+    first.is_shared = second.is_shared = true;
+    second.first = &first;
+    second.reversed = reversed;
+    vertices_.join(first.start, reversed ? second.end : second.start);
+    vertices_.join(first.end, reversed ? second.start : second.end);
+    first.gap = gap;
+    model_.gap = std::max(model_.gap, gap);
+    if (angle && angle->value > model_.angle) model_.angle = angle->value, model_.angle_at = angle->point;
   }
 
   void add_vertices() {
-    std::vector<Eigen::RowVector3d> points;
-    vertex_.resize(4 * size());
-    for (size_t c = 0; c < vertex_.size(); ++c) {
-      const size_t least = corners_.find(c).first;
-      if (least == c) {
-        vertex_[c] = Index(points.size());
-        points.push_back(corner_point(c));
-      }
-      vertex_[c] = vertex_[least];
+    std::vector<Index> kept;
+    vertex_.resize(points_.size());
+    for (size_t at = 0; at < points_.size(); ++at) {
+      const size_t least = vertices_.find(at).first;
+      if (least == at) vertex_[at] = Index(kept.size()), kept.push_back(Index(at));
+      vertex_[at] = vertex_[least];
     }
-    model_.boundary.vertices.resize(Index(points.size()), 3);
-    for (size_t v = 0; v < points.size(); ++v) model_.boundary.vertices.row(Index(v)) = points[v];
+    model_.boundary.vertices.resize(Index(kept.size()), 3);
+    for (size_t v = 0; v < kept.size(); ++v) model_.boundary.vertices.row(Index(v)) = points_[size_t(kept[v])];
   }
 
-  void add_edge(Side& side) {
-    const size_t number = size_t(&side - sides_.data());
-    side.line = side_line(patches_, number / 4, PatchSide(number % 4));
-    if (side.first) {
-      side.edge = side.first->edge;
+  void add_edge(Part& part) {
+    if (part.first) {
+      part.edge = part.first->edge;
       return;
     }
-    side.edge = Index(model_.boundary.edges.size());
-    const Knots<double>& along = patches_[side.line.patch].along(side.line);
-    SplineEdge edge{.start = vertex_[corner(side.line, false)],
-                    .end = vertex_[corner(side.line, true)],
-                    .degree = along.degree(),
-                    .knots = all_of(along),
+    part.edge = Index(model_.boundary.edges.size());
+    const Knots<double>& along = patches_[part.at.line.patch].along(part.at.line);
+    const bool is_whole = part.at.begin == along.begin() && part.at.end == along.end();
+    const Knots<double> knots = is_whole ? along : part_knots(along, part.at.begin, part.at.end);
+    const Points columns = side_columns(part.at.line);
+    SplineEdge edge{.start = vertex_[part.start],
+                    .end = vertex_[part.end],
+                    .degree = knots.degree(),
+                    .knots = all_of(knots),
                     .poles = {}};
-    std::tie(edge.poles, edge.weights) = poles_of(side_columns(side.line));
-    edge.gap = side.gap;
+    std::tie(edge.poles, edge.weights) = poles_of(is_whole ? columns : apply(part_matrix(along, knots), columns));
+    edge.gap = part.gap;
     edge.is_sharp = true;
-    edge.is_point = side.is_point;
+    edge.is_point = part.is_point;
     model_.boundary.edges.push_back(std::move(edge));
   }
   Points side_columns(const PatchLine& line) const {
@@ -254,14 +258,19 @@ class PatchModelMaker {
   }
   /// Counter-clockwise.
   void add_border(SplineFace& face, size_t p) const {
-    const double u[] = {face.u_knots.front(), face.u_knots.back()}, v[] = {face.v_knots.front(), face.v_knots.back()};
-    const Eigen::Vector2d corners[] = {{u[0], v[0]}, {u[1], v[0]}, {u[1], v[1]}, {u[0], v[1]}};
     for (const PatchSide at : {PatchSide::v_begin, PatchSide::u_end, PatchSide::v_end, PatchSide::u_begin}) {
-      const Side& side = sides_[4 * p + size_t(at)];
       const bool falls = at == PatchSide::v_end || at == PatchSide::u_begin;
-      const auto [begin, end] = ends_of(at);
-      face.border.push_back(
-          {side.edge, falls != side.reversed, corners[falls ? end : begin], corners[falls ? begin : end]});
+      std::vector<EdgeUse> uses;
+      for (const Part& part : sides_[4 * p + size_t(at)]) {
+        const PatchLine& line = part.at.line;
+        const std::vector<double>& across = line.along_v ? face.u_knots : face.v_knots;
+        const double knot = line.end == KnotSide::right ? across.back() : across.front();
+        const auto place = [&](double t) { return line.along_v ? Eigen::Vector2d(knot, t) : Eigen::Vector2d(t, knot); };
+        uses.push_back({part.edge, falls != part.reversed, place(falls ? part.at.end : part.at.begin),
+                        place(falls ? part.at.begin : part.at.end)});
+      }
+      if (falls) std::ranges::reverse(uses);
+      face.border.insert(face.border.end(), uses.begin(), uses.end());
     }
   }
 
@@ -270,9 +279,10 @@ class PatchModelMaker {
   std::vector<PatchColumns> patches_;
   PatchSeams seams_;
   double same_ = 0;
-  SignedClasses fronts_, corners_;  // patches; corners, four of each
-  std::vector<Side> sides_;
-  std::vector<Index> vertex_;  // by corner
+  SignedClasses fronts_, vertices_;         // patches; points that are one
+  std::vector<Eigen::RowVector3d> points_;  // corners, four of each patch, then those at cuts
+  std::vector<std::vector<Part>> sides_;    // four of each patch
+  std::vector<Index> vertex_;               // by point
   PatchModel model_;
 };
 

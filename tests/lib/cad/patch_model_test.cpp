@@ -65,15 +65,11 @@ TEST(PatchModel, ASurfaceOfOneSideStaysOpen) {
 
 TEST(PatchModel, SidesThatCannotBeOneEdgeHaveTheirOwn) {
   const Eigen::RowVector3d o(0, 0, 0), x(1, 0, 0), y(0, 1, 0), xy(1, 1, 0), y2(0, 2, 0), xy2(1, 2, 0), z(0, 1, 1),
-      xz(1, 1, 1), below(0, -1, 0), half(0.5, 0, 0), half_below(0.5, -1, 0);
+      xz(1, 1, 1);
   // Three at one side.
   const PatchModel three = patch_model(patches_of(bilinear({{o, x, y, xy}, {y, xy, y2, xy2}, {y, xy, z, xz}})));
   EXPECT_EQ(three.non_manifold, 1);
   EXPECT_EQ(three.boundary.edges.size(), 12u);
-  // A T-junction.
-  const PatchModel part = patch_model(patches_of(bilinear({{o, x, y, xy}, {below, half_below, o, half}})));
-  EXPECT_EQ(part.partial, 1);
-  EXPECT_EQ(part.boundary.edges.size(), 8u);
   // Sides of one patch that meet in a corner: folded shut, twice.
   const PatchModel folded = patch_model(patches_of(bilinear({{o, x, x, z}})));
   EXPECT_EQ(folded.unsuitable, 2);
@@ -84,11 +80,34 @@ TEST(PatchModel, SidesThatCannotBeOneEdgeHaveTheirOwn) {
   slow.add(bezier_knots<double>(2), bezier_knots<double>(1));
   slow.columns[1] << 0, -1, 0, 0.2, -1, 0, 1, -1, 0, 0, 0, 0, 0.2, 0, 0, 1, 0, 0;
   EXPECT_EQ(patch_model(patches_of(slow)).reparametrised, 1);
+  slow.columns[0].row(1) << 2, 0, 0;
+  const PatchModel part = patch_model(patches_of(slow));
+  EXPECT_EQ(part.partial, 1);
+  EXPECT_EQ(part.shared, 0);
+}
+
+TEST(PatchModel, SidesOnPartsOfOthersAreCut) {
+  const auto at = [](double x, double y) { return Eigen::RowVector3d(x, y, 0.5 * x); };
+  // 0 .. 3 above; 0 .. 1 and 1 .. 2.5 below, the first one upside down.
+  const PatchModel model = patch_model(patches_of(bilinear({{at(0, 0), at(3, 0), at(0, 1), at(3, 1)},
+                                                            {at(1, 0), at(0, 0), at(1, -1), at(0, -1)},
+                                                            {at(1, -1), at(2.5, -1), at(1, 0), at(2.5, 0)}})));
+  EXPECT_EQ(model.shared, 3);  // two with the upper one, one with each other
+  EXPECT_EQ(model.partial, 0);
+  EXPECT_EQ(model.boundary.faces[0].border.size(), 6u);
+  EXPECT_EQ(model.boundary.edges.size(), 4u + 2 + 3 + 2);
+  EXPECT_EQ(model.boundary.vertices.rows(), 6 + 3);
+  // Sides that overlap: 0 .. 2 and 1 .. 3.
+  const PatchModel staggered = patch_model(
+      patches_of(bilinear({{at(0, 0), at(2, 0), at(0, 1), at(2, 1)}, {at(1, -1), at(3, -1), at(1, 0), at(3, 0)}})));
+  EXPECT_EQ(staggered.shared, 1);
+  EXPECT_EQ(staggered.boundary.edges.size(), 9u);
+  EXPECT_LT(staggered.gap, cad_exact);
 }
 
 TEST(PatchModel, NearSidesAreOneWithinTheTolerance) {
   SplineModel cube = testing::bilinear_cube();
-  cube.columns[2].col(0).array() += 1e-5;
+  cube.columns[2].col(1).array() += 1e-5;
   EXPECT_EQ(patch_model(patches_of(cube)).shared, 8);
   const PatchModel joined = patch_model(patches_of(cube), {.same = 1e-4});
   EXPECT_EQ(joined.shared, 12);

@@ -263,6 +263,35 @@ TEST(PatchFiles, TrianglesAreThreeFaces) {
   EXPECT_NEAR(volume_of(read.shape), read.file.volume, 1e-6);
 }
 
+TEST(PatchFiles, TrianglesAndSquaresShareHalvesOfSides) {
+  // A prism over a triangle with quadratic sides.
+  const double corners[3][2] = {{0, 0}, {1, 0}, {0, 1}}, middles[3][2] = {{0.5, -0.2}, {0.6, 0.7}, {-0.1, 0.5}};
+  const auto point = [](const double(&x)[2], double z) { return Eigen::RowVector3d(x[0], x[1], z); };
+  std::vector<NamedPatch> patches;
+  for (const double z : {0.0, 2.0}) {
+    Points columns(6, 3);
+    columns << point(corners[0], z), point(middles[0], z), point(corners[1], z), point(middles[2], z),
+        point(middles[1], z), point(corners[2], z);
+    patches.push_back({std::make_shared<const TrianglePatch>(2), columns});
+  }
+  const auto side = std::make_shared<const SplineSurface>(bezier_knots<double>(2), bezier_knots<double>(1));
+  for (size_t k = 0; k < 3; ++k) {
+    Points columns(6, 3);
+    for (Index j = 0; j < 2; ++j)
+      columns.middleRows(3 * j, 3) << point(corners[k], 2.0 * double(j)), point(middles[k], 2.0 * double(j)),
+          point(corners[(k + 1) % 3], 2.0 * double(j));
+    patches.push_back({side, columns});
+  }
+  for (const bool step : {true, false}) {
+    const ReadFile read = read_back(patches, step);
+    EXPECT_EQ(read.file.solids, 1);
+    EXPECT_EQ(read.model.partial, 0);
+    EXPECT_EQ(read.model.boundary.vertices.rows(), 2 * 7);
+    EXPECT_EQ(read.faces.size(), 9u);
+    EXPECT_NEAR(volume_of(read.shape), read.file.volume, 1e-9);
+  }
+}
+
 TEST(PatchFiles, NamesAreThoseOfPatches) {
   std::vector<NamedPatch> patches = named(testing::nurbs_sphere());
   patches[0].name = "Kugel 'groß' \\ 球 \xF0\x9F\x8C\x8D";

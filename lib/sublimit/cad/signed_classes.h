@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// Classes of numbers that are found to belong together, and which of them are turned over beside others.
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace sublimit {
+
+class SignedClasses {
+ public:
+  explicit SignedClasses(std::size_t count = 0) {
+    while (parent_.size() < count) add();
+  }
+  std::size_t size() const { return parent_.size(); }
+  /// One more, alone.
+  std::size_t add() {
+    parent_.push_back(parent_.size());
+    turned_.push_back(false);
+    return parent_.size() - 1;
+  }
+  /// The least of the class, and whether i is turned over beside it.
+  std::pair<std::size_t, bool> find(std::size_t i) const {
+    bool turned = false;
+    for (; parent_[i] != i; i = parent_[i]) turned ^= bool(turned_[i]);
+    return {i, turned};
+  }
+  /// @return  whether that agrees with what was known
+  bool join(std::size_t i, std::size_t j, bool turned = false) {
+    const auto [a, turned_a] = find(i);
+    const auto [b, turned_b] = find(j);
+    turned ^= turned_a ^ turned_b;
+    if (a == b) return !turned;
+    parent_[std::max(a, b)] = std::min(a, b);
+    turned_[std::max(a, b)] = turned;
+    return true;
+  }
+
+ private:
+  std::vector<std::size_t> parent_;
+  std::vector<char> turned_;
+};
+
+}  // namespace sublimit
