@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <tuple>
@@ -146,6 +148,34 @@ class Tracer {
 
   /// @param undecided  is counted up
   std::vector<Hit> operator()(const Ray& ray, std::int64_t& undecided) {
+    begin(ray);
+    const std::vector<BoxTree::Node>& nodes = parts_.tree().nodes();
+    if (!nodes.empty()) push(nodes[0].box, 0, 0);
+    return look(undecided);
+  }
+
+  /// Of the parts [first, last) alone.
+  std::vector<Hit> operator()(const Ray& ray, std::int64_t first, std::int64_t last, std::int64_t& undecided) {
+    begin(ray);
+    for (std::int64_t i = first; i < last; ++i) {
+      const SurfacePart& part = parts_.parts()[size_t(i)];
+      const Eigen::AlignedBox3d box = box_of(part.part);
+      if (!along(box, ray, slack_)) continue;
+      cells_.push_back(part);
+      push(box, -1, std::ssize(cells_) - 1);
+    }
+    return look(undecided);
+  }
+
+ private:
+  struct Waiting {
+    double t;    ///< at least
+    Index node;  ///< of the tree, or -1
+    std::int64_t number;
+    friend bool operator<(const Waiting& a, const Waiting& b) { return a.t != b.t ? a.t > b.t : a.number > b.number; }
+  };
+
+  void begin(const Ray& ray) {
     ray_ = &ray;
     frame_.emplace(ray);
     slack_ = same_place * parts_.size() + 8 * parts_.rounding(ray.origin);
@@ -154,8 +184,11 @@ class Tracer {
     cells_.clear();
     undecided_ = 0;
     nearest_ = ray.tmax;
+  }
+
+  /// At all that waits, nearest first.
+  std::vector<Hit> look(std::int64_t& undecided) {
     const std::vector<BoxTree::Node>& nodes = parts_.tree().nodes();
-    if (!nodes.empty()) push(nodes[0].box, 0, 0);
     for (int looked = 0; !heap_.empty();) {
       std::pop_heap(heap_.begin(), heap_.end());
       const Waiting first = heap_.back();
@@ -183,14 +216,6 @@ class Tracer {
     undecided += undecided_;
     return merged();
   }
-
- private:
-  struct Waiting {
-    double t;    ///< at least
-    Index node;  ///< of the tree, or -1
-    std::int64_t number;
-    friend bool operator<(const Waiting& a, const Waiting& b) { return a.t != b.t ? a.t > b.t : a.number > b.number; }
-  };
 
   void push(const Eigen::AlignedBox3d& box, Index node, std::int64_t number) {
     const std::optional<Extent> t = along(box, *ray_, slack_);
@@ -306,18 +331,18 @@ void place_on_rays(const LimitSurface& surface, const Points& points, const std:
   hits.status = std::move(samples.status);
 }
 
+void check(const Ray& ray, const std::string& which) {
+  if (!ray.origin.allFinite() || !ray.direction.allFinite() || std::isnan(ray.tmin) || std::isnan(ray.tmax))
+    throw InvalidParameter(which + " is not finite");
+  if (ray.origin.cwiseAbs().maxCoeff() > farthest_coordinate)
+    throw InvalidParameter(which + " begins at a coordinate above 1e150 in size");
+  if (ray.direction.isZero(0)) throw InvalidParameter(which + " has the direction (0, 0, 0)");
+  if (ray.tmin > ray.tmax)
+    throw InvalidParameter(which + " ends at t = " + std::to_string(ray.tmax) + ", before it begins");
+}
+
 void check(const std::vector<Ray>& rays) {
-  for (size_t i = 0; i < rays.size(); ++i) {
-    const Ray& r = rays[i];
-    const std::string which = "ray " + std::to_string(i);
-    if (!r.origin.allFinite() || !r.direction.allFinite() || std::isnan(r.tmin) || std::isnan(r.tmax))
-      throw InvalidParameter(which + " is not finite");
-    if (r.origin.cwiseAbs().maxCoeff() > farthest_coordinate)
-      throw InvalidParameter(which + " begins at a coordinate above 1e150 in size");
-    if (r.direction.isZero(0)) throw InvalidParameter(which + " has the direction (0, 0, 0)");
-    if (r.tmin > r.tmax)
-      throw InvalidParameter(which + " ends at t = " + std::to_string(r.tmax) + ", before it begins");
-  }
+  for (size_t i = 0; i < rays.size(); ++i) check(rays[i], "ray " + std::to_string(i));
 }
 
 }  // namespace
@@ -346,6 +371,34 @@ RayHits intersect(const LimitSurface& surface, const Points& points, const std::
   }
   place_on_rays(surface, points, rays, parts, result);
   return result;
+}
+
+RayTracer::RayTracer(const LimitSurface& surface, const Points& points)
+    : parts_(std::make_unique<const SurfaceParts>(surface, points)), first_(size_t(surface.addresses().size()) + 1) {
+  for (const SurfacePart& part : parts_->parts()) ++first_[size_t(part.address) + 1];
+  std::partial_sum(first_.begin(), first_.end(), first_.begin());
+}
+
+RayTracer::RayTracer(RayTracer&&) noexcept = default;
+RayTracer& RayTracer::operator=(RayTracer&&) noexcept = default;
+RayTracer::~RayTracer() = default;
+
+std::vector<RayHit> RayTracer::trace(const Ray& ray, const RayOptions& options, std::optional<Index> address,
+                                     std::int64_t* undecided) const {
+  check(ray, "the ray");
+  const Index addresses = static_cast<Index>(std::ssize(first_) - 1);
+  if (address && (*address < 0 || *address >= addresses))
+    throw InvalidParameter("address " + std::to_string(*address) + " of " + std::to_string(addresses));
+  Tracer trace(*parts_, options);
+  std::int64_t not_decided = 0;
+  const std::vector<Hit> found = address
+                                     ? trace(ray, first_[size_t(*address)], first_[size_t(*address) + 1], not_decided)
+                                     : trace(ray, not_decided);
+  if (undecided) *undecided = not_decided;
+  std::vector<RayHit> hits;
+  hits.reserve(found.size());
+  for (const Hit& hit : found) hits.push_back({hit.t, hit.place});
+  return hits;
 }
 
 }  // namespace sublimit

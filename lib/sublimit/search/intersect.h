@@ -10,6 +10,8 @@
 // count once.
 #include <cstdint>
 #include <limits>
+#include <memory>
+#include <optional>
 #include <vector>
 
 #include "sublimit/limit/limit_surface.h"
@@ -46,5 +48,36 @@ struct RayOptions {
 ///                           says which
 RayHits intersect(const LimitSurface& surface, const Points& points, const std::vector<Ray>& rays,
                   const RayOptions& options = {});
+
+class SurfaceParts;
+
+struct RayHit {
+  double t = 0;
+  Sample place;
+};
+
+/// A surface made ready for single rays, as a renderer traces them, whose own tree may say which addresses a ray can
+/// meet. Made once for each pose; any number of threads may trace at a time.
+class RayTracer {
+ public:
+  /// @param points  of the surface's level, #V x 3
+  /// @throws InvalidParameter  points that do not fit
+  RayTracer(const LimitSurface& surface, const Points& points);
+  RayTracer(RayTracer&&) noexcept;
+  RayTracer& operator=(RayTracer&&) noexcept;
+  ~RayTracer();
+
+  /// The hits that `intersect` finds, by rising t. The place is that of the part which is hit: at extraordinary
+  /// vertices it has fewer digits than t, and next to the borders of dual schemes it may be off.
+  /// @param address    only the part of the surface there; of an edge each of its addresses has the hit
+  /// @param undecided  as `RayHits::undecided` counts, if not null
+  /// @throws InvalidParameter  as `intersect`; an address that the surface does not have
+  std::vector<RayHit> trace(const Ray& ray, const RayOptions& options = {}, std::optional<Index> address = {},
+                            std::int64_t* undecided = nullptr) const;
+
+ private:
+  std::unique_ptr<const SurfaceParts> parts_;
+  std::vector<std::int64_t> first_;  // parts of address a are [first_[a], first_[a + 1])
+};
 
 }  // namespace sublimit

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -186,6 +187,41 @@ TEST(Intersect, NearestIsTheFirstOfAll) {
       EXPECT_NEAR(later.t[0], all.t[size_t(all.first[i]) + 1], found_distance);
       break;
     }
+}
+
+// One ray after another as all together; and those of the addresses, each alone, together.
+TEST(RayTracer, FindsWhatIntersectFinds) {
+  for (const Case& c : closed_cases()) {
+    const LimitSurface surface(find_scheme(c.scheme).value(), c.mesh);
+    const RayTracer tracer(surface, c.mesh.positions);
+    const std::vector<Ray> rays = random_rays(c.mesh, 100, 6);
+    const RayHits all = intersect(surface, c.mesh.positions, rays, {.all = true});
+    for (size_t i = 0; i < rays.size(); ++i) {
+      std::int64_t undecided = -1;
+      const std::vector<RayHit> hits = tracer.trace(rays[i], {.all = true}, {}, &undecided);
+      EXPECT_EQ(undecided, all.undecided[i]);
+      ASSERT_EQ(std::ssize(hits), all.first[i + 1] - all.first[i]) << c.scheme << " " << i;
+      for (size_t k = 0; k < hits.size(); ++k) {
+        EXPECT_EQ(hits[k].t, all.t[size_t(all.first[i]) + k]);
+        const std::vector<RayHit> own = tracer.trace(rays[i], {.all = true}, hits[k].place.face);
+        EXPECT_TRUE(std::ranges::any_of(own, [&](const RayHit& h) { return h.t == hits[k].t; }))
+            << c.scheme << " " << i;
+      }
+      size_t of_addresses = 0;
+      for (Index a = 0; a < surface.addresses().size(); ++a)
+        of_addresses += tracer.trace(rays[i], {.all = true}, a).size();
+      EXPECT_GE(of_addresses, hits.size()) << c.scheme << " " << i;
+    }
+  }
+}
+
+TEST(RayTracer, RefusesInClearWords) {
+  const ControlMesh mesh = cube();
+  const LimitSurface surface(find_scheme("catmull-clark").value(), mesh);
+  const RayTracer tracer(surface, mesh.positions);
+  EXPECT_THROW(tracer.trace({{0, 0, 0}, {0, 0, 0}}), InvalidParameter);
+  EXPECT_THROW(tracer.trace({{0, 0, 0}, {0, 0, 1}}, {}, -1), InvalidParameter);
+  EXPECT_THROW(tracer.trace({{0, 0, 0}, {0, 0, 1}}, {}, 6), InvalidParameter);
 }
 
 TEST(Intersect, AxesOfABoxAreExact) {
