@@ -19,10 +19,12 @@ namespace {
 template <class Values>
 class PlyReader {
  public:
-  PlyReader(std::string_view bytes, const PlyHeader& header, std::string_view name)
-      : header_(header), name_(name), values_(bytes, header, name) {}
+  /// @param further  names of properties of vertices
+  PlyReader(std::string_view bytes, const PlyHeader& header, std::string_view name,
+            std::span<const std::string> further)
+      : header_(header), name_(name), further_(further), values_(bytes, header, name) {}
 
-  ControlMesh read() {
+  PlyMesh read() {
     num_vertices_ = checked_index(require("vertex", "x, y and z").count, name_, "vertices");
     checked_index(require("face", "vertex_indices").count, name_, "faces");
     for (const PlyElement& element : header_.elements) {
@@ -35,7 +37,7 @@ class PlyReader {
       }
     }
     if (!values_.at_end()) mesh_.warnings.push_back(values_.place() + "data behind the last element ignored");
-    return std::move(mesh_);
+    return {std::move(mesh_), std::move(vertex_values_)};
   }
 
  private:
@@ -91,6 +93,13 @@ class PlyReader {
       }
       column[found] = i;
     }
+    for (const std::string& name : further_) {
+      const std::size_t found = find(element, name);
+      if (found == element.properties.size() || element.properties[found].length) continue;
+      column[found] = static_cast<Index>(3 + vertex_values_.size());
+      vertex_values_.push_back(
+          {name, std::vector<double>(std::size_t(num_vertices_)), is_integer(element.properties[found].type)});
+    }
     mesh_.positions.resize(num_vertices_, 3);  // the file is long enough for three columns of so many rows
     for (Index v = 0; v < num_vertices_; ++v) {
       values_.begin_row();
@@ -100,6 +109,10 @@ class PlyReader {
           continue;
         }
         const double value = values_.real(element.properties[i].type);
+        if (column[i] >= 3) {
+          vertex_values_[std::size_t(column[i] - 3)].values[std::size_t(v)] = value;
+          continue;
+        }
         mesh_.positions(v, column[i]) = value;
         if (std::isfinite(value)) continue;
         throw InvalidMesh(values_.place() + "coordinate " + element.properties[i].name + " of vertex " +
@@ -150,8 +163,10 @@ class PlyReader {
 
   const PlyHeader& header_;
   std::string name_;
+  std::span<const std::string> further_;
   Values values_;
   ControlMesh mesh_;
+  std::vector<VertexValues> vertex_values_;
   Index num_vertices_ = 0;
 };
 
@@ -159,10 +174,16 @@ class PlyReader {
 
 ControlMesh read_ply(const std::filesystem::path& path) { return parse_ply(read_file(path), path.string()); }
 
-ControlMesh parse_ply(std::string_view bytes, std::string_view name) {
+ControlMesh parse_ply(std::string_view bytes, std::string_view name) { return parse_ply(bytes, name, {}).mesh; }
+
+PlyMesh read_ply(const std::filesystem::path& path, std::span<const std::string> names) {
+  return parse_ply(read_file(path), path.string(), names);
+}
+
+PlyMesh parse_ply(std::string_view bytes, std::string_view name, std::span<const std::string> names) {
   const PlyHeader header = parse_ply_header(bytes, name);
-  return header.encoding == PlyHeader::Encoding::text ? PlyReader<PlyTextValues>(bytes, header, name).read()
-                                                      : PlyReader<PlyBinaryValues>(bytes, header, name).read();
+  return header.encoding == PlyHeader::Encoding::text ? PlyReader<PlyTextValues>(bytes, header, name, names).read()
+                                                      : PlyReader<PlyBinaryValues>(bytes, header, name, names).read();
 }
 
 }  // namespace sublimit

@@ -3,10 +3,13 @@
 // Polygon File Format (Stanford): text or binary of either byte order, numbers of any type.
 //
 // Read: `x`, `y`, `z` of the element `vertex` and the list `vertex_index` or `vertex_indices` of the element `face`;
-// all else is skipped. Written: binary little-endian, doubles, one normal per vertex. Tags have no place in it.
+// all else is skipped, but for properties of vertices that are asked for. Written: binary little-endian, doubles, one
+// normal per vertex. Tags have no place in it.
 #include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "sublimit/io/write_mesh.h"
 #include "sublimit/mesh/control_mesh.h"
@@ -21,6 +24,14 @@ namespace sublimit {
 ControlMesh read_ply(const std::filesystem::path& path);
 /// As `read_ply`, from the bytes of a file; messages start with `name`.
 ControlMesh parse_ply(std::string_view bytes, std::string_view name);
+
+struct PlyMesh {
+  ControlMesh mesh;
+  std::vector<VertexValues> vertex_values;
+};
+/// The mesh, and of its vertices the properties of these names, but for those that the file does not have.
+PlyMesh read_ply(const std::filesystem::path& path, std::span<const std::string> names);
+PlyMesh parse_ply(std::string_view bytes, std::string_view name, std::span<const std::string> names);
 
 /// The bytes of a mesh.
 /// @throws InvalidParameter  normals per corner, arrays that do not fit together

@@ -41,6 +41,8 @@ std::string format_header(const MeshOutput& mesh, bool wide) {
     for (const char* const name : {"nx", "ny", "nz"}) out += std::string("property double ") + name + "\n";
   }
   if (mesh.texture.rows() > 0) out += "property double s\nproperty double t\n";
+  for (const VertexValues& further : mesh.vertex_values)
+    out += (further.whole ? "property int " : "property double ") + further.name + "\n";
   out += "element face " + format_number(mesh.face_sizes.size()) + "\n";
   out += wide ? "property list uint int vertex_indices\n" : "property list uchar int vertex_indices\n";
   if (!mesh.face_ids.empty()) out += "property int face_id\n";
@@ -49,16 +51,25 @@ std::string format_header(const MeshOutput& mesh, bool wide) {
 
 void emit_vertices(const MeshOutput& mesh, RowWriter& out) {
   const bool normals = mesh.normals.rows() > 0, texture = mesh.texture.rows() > 0;
-  const std::size_t numbers = 3 + (normals ? 3 : 0) + (texture ? 2 : 0);
+  std::size_t bytes_of_vertex = sizeof(double) * (3 + (normals ? 3 : 0) + (texture ? 2 : 0));
+  for (const VertexValues& further : mesh.vertex_values)
+    bytes_of_vertex += further.whole ? sizeof(Index) : sizeof(double);
   const double* const positions = mesh.positions.data();
-  if (is_little_endian && numbers == 3)  // they lie in memory as they should in the file
+  if (is_little_endian && bytes_of_vertex == 3 * sizeof(double))  // they lie in memory as they should in the file
     return out.write({reinterpret_cast<const char*>(positions), std::size_t(mesh.positions.size()) * sizeof(double)});
   out.rows(mesh.positions.rows(), ply_rows_per_block, [&](std::string& bytes, std::int64_t begin, std::int64_t end) {
-    char* at = extend(bytes, std::size_t(end - begin) * numbers * sizeof(double));
+    char* at = extend(bytes, std::size_t(end - begin) * bytes_of_vertex);
     for (std::int64_t v = begin; v < end; ++v) {
       for (int i = 0; i < 3; ++i) put(at, positions[3 * v + i]);
       for (int i = 0; normals && i < 3; ++i) put(at, mesh.normals.data()[3 * v + i]);
       for (int i = 0; texture && i < 2; ++i) put(at, mesh.texture.data()[2 * v + i]);
+      for (const VertexValues& further : mesh.vertex_values) {
+        const double value = further.values[std::size_t(v)];
+        if (further.whole)
+          put(at, static_cast<Index>(value));
+        else
+          put(at, value);
+      }
     }
   });
 }

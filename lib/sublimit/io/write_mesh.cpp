@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sublimit/io/write_mesh.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <limits>
 
 #include "sublimit/base/error.h"
 #include "sublimit/base/format_number.h"
@@ -55,6 +57,8 @@ bool in_range(const std::vector<Index>& ids, Index first, Eigen::Index count) {
     return all;
   });
 }
+
+bool is_index(double x) { return x == std::floor(x) && std::abs(x) <= std::numeric_limits<Index>::max(); }
 
 void check_sharpness(float sharpness, const std::string& name) {
   if (sharpness >= 0) return;
@@ -113,6 +117,12 @@ void check_output(const MeshOutput& mesh, const std::string& name) {
   check_finite(mesh.texture, name, "texture coordinate");
   require(mesh.face_ids.empty() || mesh.face_ids.size() == mesh.face_sizes.size(), name,
           "there should be an id for each face, or for none");
+
+  for (const VertexValues& further : mesh.vertex_values) {
+    require(std::ssize(further.values) == vertices, name, "there should be a further value for each vertex");
+    require(!further.whole || std::ranges::all_of(further.values, is_index), name,
+            "a further value of a vertex is no whole number of 32 bits");
+  }
 
   for (const ControlMesh::Crease& crease : mesh.creases) {
     require(in_range({crease.tail, crease.head}, 0, vertices), name, "a vertex of a crease is out of range");

@@ -13,6 +13,13 @@
 
 namespace sublimit {
 
+/// A number for each vertex, by its name.
+struct VertexValues {
+  std::string name;
+  std::vector<double> values = {};  ///< #V
+  bool whole = false;               ///< written as integers of 32 bits
+};
+
 struct MeshOutput {
   Points positions;                  ///< #V x 3
   Points normals;                    ///< #N x 3; no rows: none
@@ -25,6 +32,7 @@ struct MeshOutput {
   std::vector<ControlMesh::FaceVarying> face_varying;
   Points texture;               ///< #V x 2 texture coordinates per vertex, for PLY (`s`, `t`); no rows: none
   std::vector<Index> face_ids;  ///< of each face: PLY's `face_id`, OBJ's groups `g face_ID`; empty: none
+  std::vector<VertexValues> vertex_values;  ///< further properties of a PLY's vertices; OBJ has no place for them
 
   // Tags, as in ControlMesh; PLY has no place for them.
   std::vector<ControlMesh::Crease> creases;

@@ -47,6 +47,29 @@ class Bytes {
   bool reversed_;
 };
 
+// Further numbers of vertices, which other readers skip.
+TEST(Ply, KeepsFurtherValuesOfVertices) {
+  MeshOutput mesh = output(parse_ply(square, "square.ply"));
+  mesh.vertex_values = {{"tag", {3, -1, 0, 2147483647}, true}, {"heat", {0.1, -0.0, 1e300, 0.5}}};
+  const std::string bytes = format_ply(mesh);
+  EXPECT_NE(bytes.find("property int tag\nproperty double heat\n"), std::string::npos);
+  const std::vector<std::string> names{"heat", "none", "tag", "vertex_indices"};
+  const PlyMesh read = parse_ply(bytes, "values.ply", names);
+  EXPECT_EQ(read.mesh.positions, mesh.positions);
+  EXPECT_EQ(read.mesh.face_vertices, mesh.face_vertices);
+  ASSERT_EQ(read.vertex_values.size(), 2u);
+  for (size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(read.vertex_values[i].name, mesh.vertex_values[1 - i].name);
+    EXPECT_EQ(read.vertex_values[i].values, mesh.vertex_values[1 - i].values);
+    EXPECT_EQ(read.vertex_values[i].whole, mesh.vertex_values[1 - i].whole);
+  }
+  EXPECT_EQ(parse_ply(bytes, "values.ply").positions, mesh.positions);
+  mesh.vertex_values[0].values[0] = 0.5;
+  expect_error<InvalidParameter>([&] { format_ply(mesh); }, {"whole number"});
+  mesh.vertex_values[0].values.pop_back();
+  expect_error<InvalidParameter>([&] { format_ply(mesh); }, {"for each vertex"});
+}
+
 TEST(Ply, ReadsText) {
   const ControlMesh mesh = parse_ply(header("ascii",
                                             "obj_info any\nelement camera 1\nproperty list uchar float view\n"
