@@ -63,7 +63,7 @@ struct BakedTable {
   TableInfo info;
   /// Of tables by patterns: how points lie on faces.
   std::optional<FaceLattices> lattices;
-  /// Of tables by rows: the faces between points, if there are any.
+  /// Of tables by rows, and of lists of places that have them: the faces between points.
   FaceList faces;
   /// Of lists of places: these.
   SampleAddresses addresses;

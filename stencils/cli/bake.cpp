@@ -93,6 +93,9 @@ Command add_bake(CLI::App& app) {
   command->add_option("--at", job.at,
                       "Places on the limit from a CSV with the header face,u,v, as those of `sample`; of free-form "
                       "surfaces patch,u,v[,side] too");
+  command->add_option(
+      "--tessellation", job.tessellation,
+      "IN.ply that `tessellate` wrote: the places of its vertices, with its triangles, which `apply` writes");
   command
       ->add_option("--derivatives", job.derivatives,
                    "Of the limit, along u and v: 1 first ones, from which `apply` makes normals, 2 second ones too "
@@ -129,15 +132,17 @@ Command add_bake(CLI::App& app) {
       "  sublimit bake cage.obj -s loop -l 2 --limit --derivatives 1 -o limit.safetensors\n"
       "  sublimit bake cage.obj -s catmull-clark --grid 9 --precision double -o grid.safetensors\n"
       "  sublimit bake cage.obj -s catmull-clark -l 2 --face-varying all --tags -o mesh.safetensors\n"
+      "  sublimit bake cage.obj -s catmull-clark --tessellation surface.ply -o surface.safetensors\n"
       "  sublimit bake cage.obj -s catmull-clark -l 5 --plan\n"
       "  sublimit bake teapot.obj --grid 9 --derivatives 1 -o teapot.safetensors      free-form surfaces: no scheme\n"
       "  sublimit apply level3.safetensors frames.npy -o level3.npy\n"
       "  sublimit bake --manifest jobs.jsonl --shard 3/8 --log log.jsonl\n"
       "  sublimit bake cage.obj -s catmull-clark -l 3 --dictionary types.safetensors -o level3.safetensors\n"
-      "A job of a manifest is an object with the keys mesh, scheme, output, one of levels (with limit: true), grid and at,\n"
-      "and, if wanted, derivatives, precision, options: {name: value}, boundary, creasing, triangles, triangulate,\n"
-      "no-creases, face-varying, tags, strict, as above; paths are relative to the manifest. A job is skipped if a sound table of the same\n"
-      "job is there; one that fails does not stop the others. The exit status is the highest of any job.\n"
+      "A job of a manifest is an object with the keys mesh, scheme, output, one of levels (with limit: true), grid,\n"
+      "at and tessellation, and, if wanted, derivatives, precision, options: {name: value}, boundary, creasing,\n"
+      "triangles, triangulate, no-creases, face-varying, tags, strict, as above; paths are relative to the manifest.\n"
+      "A job is skipped if a sound table of the same job is there; one that fails does not stop the others. The exit\n"
+      "status is the highest of any job.\n"
       "The same bytes for any number of threads. The table knows its cage by the connectivity that was refined (with\n"
       "--triangulate that of the triangles); positions are no part of it. --face-varying and --tags refine the mesh\n"
       "itself, once, and make the table about as large as the mesh; faces of holes are left out of it.");

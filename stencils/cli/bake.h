@@ -15,10 +15,11 @@ namespace sublimit::cli {
 
 struct BakeJob {
   Common common;
-  // One of these three says which points.
+  // One of these four says which points.
   std::optional<int> levels;
-  std::optional<int> grid;  ///< places a side
-  std::string at;           ///< a CSV of places; empty: not given
+  std::optional<int> grid;   ///< places a side
+  std::string at;            ///< a CSV of places; empty: not given
+  std::string tessellation;  ///< a .ply with places; empty: not given
 
   bool limit = false;              ///< of `levels`
   int derivatives = 0;             ///< 0, 1 or 2

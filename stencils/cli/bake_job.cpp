@@ -3,6 +3,8 @@
 #include <fmt/core.h>
 
 #include <functional>
+#include <optional>
+#include <utility>
 
 #include "bake.h"
 #include "free_form.h"
@@ -10,6 +12,7 @@
 #include "sublimit/base/error.h"
 #include "sublimit/base/memory.h"
 #include "sublimit/files/patch_places.h"
+#include "sublimit/files/place_files.h"
 #include "sublimit/files/rule_words.h"
 #include "sublimit/files/sample_files.h"
 #include "sublimit/patches/free_form_patches.h"
@@ -48,6 +51,13 @@ BakeRequest request_of(const BakeJob& job) {
   return request;
 }
 
+void set_places(PlacedFaces placed, FaceCount faces, const std::string& name, BakeRequest& request) {
+  check_places(placed, faces, name);
+  request.samples = std::move(placed.places);
+  request.face_sizes = std::move(placed.face_sizes);
+  request.face_vertices = std::move(placed.face_vertices);
+}
+
 /// Whether a file is a sound table of the same job. What is wrong with it does not matter: it will be replaced.
 bool is_there(const BakeJob& job, const TableInfo& info, const BakeRequest& request) {
   try {
@@ -62,12 +72,14 @@ bool is_there(const BakeJob& job, const TableInfo& info, const BakeRequest& requ
 }  // namespace
 
 void check(const BakeJob& job) {
-  const int points = job.levels.has_value() + job.grid.has_value() + !job.at.empty();
+  const int points = job.levels.has_value() + job.grid.has_value() + !job.at.empty() + !job.tessellation.empty();
   if (points != 1)
-    throw InvalidOption(fmt::format("{} -l LEVELS, --grid N and --at IN.csv; one of them says which points to bake",
-                                    points == 0 ? "none of" : "more than one of"));
+    throw InvalidOption(
+        fmt::format("{} -l LEVELS, --grid N, --at IN.csv and --tessellation IN.ply; one of them says "
+                    "which points to bake",
+                    points == 0 ? "none of" : "more than one of"));
   if (job.limit && !job.levels)
-    throw InvalidOption("--limit is for -l LEVELS; points of --grid and --at are on the limit anyway");
+    throw InvalidOption("--limit is for -l LEVELS; points of all others are on the limit anyway");
   if (job.levels && !job.limit && job.derivatives > 0)
     throw InvalidOption("--derivatives are those of the limit: -l LEVELS needs --limit for them");
   for (const auto& [name, given] :
@@ -127,6 +139,7 @@ BakeOutcome bake_free_form(const BakeJob& job, Progress& progress, bool keep) {
   refuse_mesh_options(job.common);
   if (job.tags) throw InvalidOption("--tags are those of meshes, which need -s SCHEME");
   if (job.limit) throw InvalidOption("--limit is for meshes: points of a net have no places; take --grid N");
+  if (!job.tessellation.empty()) throw InvalidOption("--tessellation is for meshes, which need -s SCHEME");
   if (job.is_plan) throw InvalidOption("--plan is for meshes, which need -s SCHEME");
   std::unique_ptr<SampleReader> reader;
   std::unique_ptr<OwnPlaceReader> own_reader;
@@ -168,16 +181,21 @@ BakeOutcome bake_table(const BakeJob& job, Dictionaries& dictionaries, Progress&
   if (is_free_form_job(job.common)) return bake_free_form(job, progress, keep);
   std::unique_ptr<SampleReader> reader;  // a wrong header is told before a large mesh is read
   if (!job.at.empty()) reader = std::make_unique<SampleReader>(job.at);
+  std::optional<PlacedFaces> placed;
+  if (!job.tessellation.empty()) placed = read_placed_faces(job.tessellation);
   const Loaded loaded = load(job.common, progress);
   BakeOutcome outcome;
   outcome.control_points = loaded.mesh.num_vertices();
   naming_mesh(job.common, [&] {
     BakeRequest request = request_of(job);
-    if (reader) {
+    if (reader || placed) {
       const Topology topology(view(loaded.mesh));
       const Addresses addresses(topology, loaded.scheme->face_size() == 3);
-      request.samples =
-          places_of([&](std::vector<Sample>& batch, size_t most) { reader->read(batch, most, addresses); });
+      if (reader)
+        request.samples =
+            places_of([&](std::vector<Sample>& batch, size_t most) { reader->read(batch, most, addresses); });
+      else
+        set_places(*std::move(placed), addresses, job.tessellation, request);
     }
     if (keep && is_there(job, table_info(*loaded.scheme, loaded.mesh, request, loaded.rules), request)) {
       outcome.was_there = true;

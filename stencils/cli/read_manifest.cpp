@@ -71,6 +71,8 @@ class Line {
       job.output = path(key, value);
     } else if (key == "at") {
       job.at = path(key, value);
+    } else if (key == "tessellation") {
+      job.tessellation = path(key, value);
     } else if (key == "scheme") {
       job.common.scheme = word(key, value);
     } else if (key == "levels") {
@@ -107,11 +109,11 @@ class Line {
         job.common.options.push_back(name + "=" + (text.is_string() ? text.get<std::string>() : text.dump()));
       }
     } else {
-      fail(
-          fmt::format("\"{}\" is no key of a job; they are mesh, scheme, output, levels, limit, grid, at, derivatives, "
-                      "precision, options, boundary, creasing, triangles, triangulate, no-creases, face-varying, tags, "
-                      "strict",
-                      key));
+      fail(fmt::format(
+          "\"{}\" is no key of a job; they are mesh, scheme, output, levels, limit, grid, at, "
+          "tessellation, derivatives, precision, options, boundary, creasing, triangles, triangulate, no-creases, face-varying, tags, "
+          "strict",
+          key));
     }
   }
 

@@ -147,6 +147,7 @@ int run(const TessellateOptions& options) {
     places.clear();
     for (const Index source : split.sources) places.push_back(made.places[size_t(source)]);
   }
+  if (extension == ".ply") add_places(out, places);
   if (extension == ".glb")
     write_glb(options.output, out, progress.bytes_written());
   else
@@ -178,8 +179,10 @@ Command add_tessellate(CLI::App& app) {
   command->add_flag("--face-ids", options->face_ids,
                     "The control mesh's face of each triangle: face_id of a .ply, groups face_N of an .obj; a .vtu "
                     "always has them");
-  command->add_option("--places", options->places,
-                      "Write the places of the points, face,u,v, for `bake --at`: a table that follows a moving mesh");
+  command->add_option(
+      "--places", options->places,
+      "Write the places of the points too, face,u,v, as `bake --at` and `sample --at` read them; a .ply has "
+      "them in itself, for `bake --tessellation`");
   command
       ->add_option("-o,--output", options->output,
                    "OUT.obj, OUT.ply or OUT.glb: triangles; OUT.vtu: Bezier cells for ParaView; holes are left out")
@@ -188,8 +191,8 @@ Command add_tessellate(CLI::App& app) {
       "Examples:\n"
       "  sublimit tessellate cage.obj -s catmull-clark --chord 0.1% -o surface.obj\n"
       "  sublimit tessellate cage.obj -s loop --chord 0.005 --angle 10 --normals -o surface.ply\n"
-      "  sublimit tessellate cage.obj -s catmull-clark --chord 0.1% --places places.csv -o surface.obj\n"
-      "  sublimit bake cage.obj -s catmull-clark --at places.csv -o surface.safetensors    its points, every frame\n"
+      "  sublimit tessellate cage.obj -s catmull-clark --chord 0.1% -o surface.ply\n"
+      "  sublimit bake cage.obj -s catmull-clark --tessellation surface.ply -o surface.safetensors    for every frame\n"
       "  sublimit tessellate cage.obj -s catmull-clark --chord 0.1% -o surface.glb     normals, texture coordinates\n"
       "  sublimit tessellate cage.obj -s catmull-clark --chord 0.01% -o surface.vtu    exact polynomials, curved\n"
       "  sublimit tessellate cage.obj -s catmull-clark --rates rates.csv -o surface.obj\n"

@@ -2,7 +2,7 @@
 #pragma once
 // Triangles near a limit surface: by no more than a distance that is proved, not estimated, without cracks, and as few
 // as its cells (flat_cells.h) allow. Points are places of the limit: a list of them makes a table that follows a moving
-// control mesh (`bake --at`).
+// control mesh (`bake --tessellation`).
 //
 // Where cells of different sizes meet, in a face or across an edge, the larger one takes the smaller ones' points into
 // its sides: there are no T-junctions. Points that faces share are one point, known by connectivity, not by rounding.

@@ -53,6 +53,21 @@ void check_limit(double bytes, double limit) {
                         bytes_in_words(limit) + "; use fewer points or a smaller mesh");
 }
 
+void check_faces(const BakeRequest& r) {
+  if (r.face_sizes.empty() && r.face_vertices.empty()) return;
+  if (r.rows != TableRows::samples) throw InvalidParameter("faces are given between samples alone");
+  std::int64_t corners = 0;
+  for (const Index size : r.face_sizes) {
+    if (size < 3) throw InvalidParameter("a face between samples has " + std::to_string(size) + " corners");
+    corners += size;
+  }
+  if (corners != std::ssize(r.face_vertices))
+    throw InvalidParameter("sizes of the faces between samples do not add up to their corners");
+  for (const Index v : r.face_vertices)
+    if (v < 0 || v >= std::ssize(r.samples))
+      throw InvalidParameter("a face has sample " + std::to_string(v) + " of " + std::to_string(r.samples.size()));
+}
+
 /// What is made in the first way of the request that is possible.
 /// @param by_patterns  (how): nothing where that is not possible
 Baked first_possible(const Patterns& patterns, const Level& control, const BakeRequest& request,
@@ -89,6 +104,7 @@ void check(const BakeRequest& r) {
   check_range("derivatives", r.derivatives, 0, 2);
   if (r.rows == TableRows::level && r.derivatives > 0)
     throw InvalidParameter("a level has no derivatives; its limit has them");
+  check_faces(r);
   if ((r.face_varying || r.tags) && r.rows != TableRows::level && r.rows != TableRows::limit)
     throw InvalidParameter(std::string("face-varying channels and tags are those of a level or its limit, not of ") +
                            name(r.rows));

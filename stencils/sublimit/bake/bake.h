@@ -27,7 +27,9 @@ struct BakeRequest {
   int level = 0;                     ///< k, of `level` (1 to 11) and `limit` (0 to 11)
   int grid = 0;                      ///< N, of `grid`, 2 to 2048
   std::vector<Sample> samples = {};  ///< of `samples`
-  int derivatives = 0;               ///< of the limit: 0, 1 or 2
+  /// Of `samples`: faces between them, which the table keeps for who writes a mesh; counter-clockwise.
+  std::vector<Index> face_sizes = {}, face_vertices = {};
+  int derivatives = 0;  ///< of the limit: 0, 1 or 2
   BakeMethod method = BakeMethod::automatic;
   // Of `level` and `limit`, for who writes a mesh of the points. Both refine the mesh itself, which takes the time and
   // memory that tables save, and are as large as a mesh.

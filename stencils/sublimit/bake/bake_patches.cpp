@@ -156,7 +156,7 @@ Baked bake(const PatchSet& patches, const BakeRequest& request) {
     baked.table.table = grid_table(patches, request, baked);
   } else if (request.rows == TableRows::samples) {
     add_places(patches, request.samples, request.derivatives, baked, arrays);
-    set_addresses(request.samples, baked);
+    set_samples(request, baked);
     baked.table.table = PatternTable<double>(patches.num_points(), std::move(arrays));
   } else {
     arrays.rest = as_table(level_matrix(patches, request.level));

@@ -227,7 +227,7 @@ std::optional<Baked> bake_places(Patterns& patterns, const Level& control, const
   if (std::any_of(row_status.begin(), row_status.end(), [](std::uint8_t status) { return status != 0; }))
     baked.table.row_status = std::move(row_status);
   baked.table.table = PatternTable<double>(t.num_vertices(), std::move(arrays));
-  set_addresses(samples, baked);
+  set_samples(request, baked);
   return baked;
 }
 

@@ -129,14 +129,15 @@ void add_places(const LinearSource& surface, std::span<const Sample> samples, in
     baked.table.rest_status = std::move(status);
 }
 
-void set_addresses(std::span<const Sample> samples, Baked& baked) {
+void set_samples(const BakeRequest& request, Baked& baked) {
   std::vector<std::int32_t> faces;
   std::vector<double> parameters;
-  for (const Sample& s : samples) {
+  for (const Sample& s : request.samples) {
     faces.push_back(s.face);
     parameters.insert(parameters.end(), {s.u, s.v});
   }
   baked.table.addresses = {std::move(faces), std::move(parameters)};
+  baked.table.faces = {request.face_sizes, request.face_vertices};
 }
 
 std::vector<std::int32_t> grid_copies(const Topology& t, const Addresses& addresses, int N, bool dual) {
@@ -175,7 +176,7 @@ Baked bake_by_rows(Patterns& patterns, const Level& control, const BakeRequest& 
       arrays.copies = grid_copies(control.topology(), surface.addresses(), request.grid, scheme.is_dual());
     } else {
       add_places(surface, request.samples, request.derivatives, baked, arrays);
-      set_addresses(request.samples, baked);
+      set_samples(request, baked);
     }
   }
   baked.table.table = PatternTable<double>(num_control_points, std::move(arrays));

@@ -13,8 +13,8 @@ Baked bake_by_rows(Patterns& patterns, const Level& control, const BakeRequest& 
 /// @throws ResourceError  more than memory, predicted before it is taken
 void add_places(const LinearSource& surface, std::span<const Sample> samples, int derivatives, Baked& baked,
                 PatternTable<double>::Arrays& arrays);
-/// That these are the points of a table.
-void set_addresses(std::span<const Sample> samples, Baked& baked);
+/// That the samples of a request are the points of a table, with the faces between them.
+void set_samples(const BakeRequest& request, Baked& baked);
 
 /// Points of grids that lie on several addresses, to and from in turn.
 std::vector<std::int32_t> grid_copies(const Topology& t, const Addresses& addresses, int N, bool dual);

@@ -4,6 +4,7 @@
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
+#include <algorithm>
 #include <numeric>
 
 #include "sublimit/bake/bake_channels.h"
@@ -116,7 +117,8 @@ bool is_table_of(const BakedTable<Real>& table, const TableInfo& info, const Bak
     const Sample& s = request.samples[i];
     if (at.faces[i] != s.face || at.parameters[2 * i] != s.u || at.parameters[2 * i + 1] != s.v) return false;
   }
-  return true;
+  return std::ranges::equal(table.faces.sizes, request.face_sizes) &&
+         std::ranges::equal(table.faces.corners, request.face_vertices);
 }
 
 template bool is_table_of(const BakedTable<float>&, const TableInfo&, const BakeRequest&);

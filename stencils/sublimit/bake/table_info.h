@@ -27,7 +27,8 @@ inline constexpr const char* free_form_scheme = "free-form";
 /// Of the cage, as `topology_hash` of its arrays.
 std::uint64_t topology_hash(const ControlMesh& mesh);
 
-/// Whether a table is that of a request: it says the same of itself, and has as many derivatives and the same places.
+/// Whether a table is that of a request: it says the same of itself, and has as many derivatives and the same places,
+/// with the same faces between them.
 template <class Real>
 bool is_table_of(const BakedTable<Real>& table, const TableInfo& info, const BakeRequest& request);
 

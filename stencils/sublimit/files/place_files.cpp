@@ -1,11 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sublimit/files/place_files.h"
 
+#include <array>
+#include <utility>
+
 #include "sublimit/base/atomic_file.h"
+#include "sublimit/base/error.h"
 #include "sublimit/base/row_writer.h"
 #include "sublimit/files/csv_fields.h"
+#include "sublimit/files/sample_files.h"
+#include "sublimit/io/file_extension.h"
+#include "sublimit/io/ply.h"
 
 namespace sublimit {
+namespace {
+
+// Not u and v, which readers take for texture coordinates.
+const std::array<std::string, 3> properties{"place_face", "place_u", "place_v"};
+
+}  // namespace
 
 void write_places(const std::filesystem::path& path, std::span<const Sample> places) {
   constexpr std::int64_t rows_per_block = 4096;
@@ -19,6 +32,42 @@ void write_places(const std::filesystem::path& path, std::span<const Sample> pla
     }
   });
   file.commit();
+}
+
+void add_places(MeshOutput& mesh, std::span<const Sample> places) {
+  VertexValues face{properties[0], {}, true}, u{properties[1]}, v{properties[2]};
+  for (const Sample& s : places) {
+    face.values.push_back(s.face);
+    u.values.push_back(s.u);
+    v.values.push_back(s.v);
+  }
+  for (VertexValues* values : {&face, &u, &v}) mesh.vertex_values.push_back(std::move(*values));
+}
+
+PlacedFaces read_placed_faces(const std::filesystem::path& path) {
+  if (file_extension(path) != ".ply")
+    throw InvalidOption(path.string() +
+                        ": triangles with places are read from a .ply; `sublimit tessellate -o FILE.ply` writes it");
+  PlyMesh read = read_ply(path, properties);
+  const std::vector<VertexValues>& found = read.vertex_values;
+  if (found.size() != properties.size())
+    throw FormatError(
+        path.string() +
+        ": its vertices have no place_face, place_u and place_v; `sublimit tessellate -o FILE.ply` writes "
+        "them");
+  if (!found[0].whole) throw FormatError(path.string() + ": place_face should have an integer type");
+  PlacedFaces faces{{}, std::move(read.mesh.face_sizes), std::move(read.mesh.face_vertices)};
+  faces.places.reserve(found[0].values.size());
+  for (size_t i = 0; i < found[0].values.size(); ++i)
+    faces.places.push_back({static_cast<Index>(found[0].values[i]), found[1].values[i], found[2].values[i]});
+  return faces;
+}
+
+void check_places(const PlacedFaces& read, FaceCount faces, const std::string& name) {
+  for (size_t i = 0; i < read.places.size(); ++i) {
+    const Sample& s = read.places[i];
+    if (!is_inside(faces, s)) check_place(faces, s.face, s.u, s.v, name + ": vertex " + std::to_string(i) + ": ");
+  }
 }
 
 }  // namespace sublimit

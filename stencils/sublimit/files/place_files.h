@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Places on a surface as a CSV that `bake --at` and `sample --at` read.
+// Places on a surface: as a CSV that `bake --at` and `sample --at` read, or with the triangles between them in a .ply
+// that `bake --tessellation` reads, as the properties place_face, place_u and place_v of its vertices.
 #include <filesystem>
 #include <span>
+#include <string>
+#include <vector>
 
+#include "sublimit/io/write_mesh.h"
 #include "sublimit/limit/address.h"
 
 namespace sublimit {
@@ -11,5 +15,19 @@ namespace sublimit {
 /// Writes the header `face,u,v` and a row for each place, in order; numbers read back to the same bits.
 /// @throws IoError;  ResourceError  a full disk
 void write_places(const std::filesystem::path& path, std::span<const Sample> places);
+
+/// Gives each vertex its place.
+void add_places(MeshOutput& mesh, std::span<const Sample> places);
+
+/// Faces between places, as sizes and corners.
+struct PlacedFaces {
+  std::vector<Sample> places;
+  std::vector<Index> face_sizes, face_vertices;
+};
+/// @throws InvalidOption  another extension than .ply
+/// @throws FormatError    vertices without places, a face that is no whole number; and what `read_ply` throws
+PlacedFaces read_placed_faces(const std::filesystem::path& path);
+/// @throws FormatError  a place that is not on these faces, with file and vertex
+void check_places(const PlacedFaces& read, FaceCount faces, const std::string& name);
 
 }  // namespace sublimit

@@ -468,6 +468,16 @@ TEST(BakedLevel, BadRequestsAreErrors) {
   Patterns patterns(find_scheme("catmull-clark").value());
   expect_error<InvalidParameter>([&] { bake_level(patterns, cube(), 0); }, {"level 0", "1 to 11"});
   expect_error<InvalidParameter>([&] { bake_level(patterns, cube(), 12); }, {"level 12", "1 to 11"});
+  const auto refuse_faces = [&](std::vector<Index> sizes, std::vector<Index> corners, TableRows rows,
+                                std::initializer_list<std::string_view> parts) {
+    BakeRequest request{.rows = rows, .level = 1, .samples = {{0, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+    request.face_sizes = std::move(sizes), request.face_vertices = std::move(corners);
+    expect_error<InvalidParameter>([&] { bake(patterns, cube(), request); }, parts);
+  };
+  refuse_faces({3}, {0, 1, 2}, TableRows::level, {"faces", "samples"});
+  refuse_faces({2}, {0, 1}, TableRows::samples, {"2 corners"});
+  refuse_faces({3}, {0, 1}, TableRows::samples, {"add up"});
+  refuse_faces({3}, {0, 1, 3}, TableRows::samples, {"sample 3 of 3"});
   Patterns of_triangles(find_scheme("loop").value());
   expect_error<UnsupportedTopology>([&] { bake_level(of_triangles, cube(), 1); },
                                     {"face 0 has 4 corners", "triangulate"});

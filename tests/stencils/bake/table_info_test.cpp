@@ -66,6 +66,19 @@ TEST(TableInfo, TellsJobsApart) {
   EXPECT_FALSE(sharper.is_that_of(others[7]));
 }
 
+TEST(TableInfo, TellsFacesBetweenPlacesApart) {
+  Patterns patterns(find_scheme("catmull-clark").value());
+  BakeRequest request{.rows = TableRows::samples, .samples = {{0, 0, 0}, {0, 1, 0}, {0, 0.5, 0.5}}};
+  request.face_sizes = {3}, request.face_vertices = {0, 1, 2};
+  const BakedTable<double> table = bake(patterns, cube(), request).table;
+  const auto is_same = [&] { return is_table_of(table, table_info(patterns.scheme(), cube(), request), request); };
+  EXPECT_TRUE(is_same());
+  request.face_vertices = {1, 2, 0};
+  EXPECT_FALSE(is_same());
+  request.face_sizes.clear(), request.face_vertices.clear();
+  EXPECT_FALSE(is_same());
+}
+
 TEST(TableInfo, LeavesOutWhatDoesNotMatter) {
   const Job plain;
   Job moved, explicit_rules, same_number;

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+// `sublimit bake --tessellation`: a table that moves the points of a tessellation, and has its triangles.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "stencils/cli_tables.h"
+#include "sublimit/files/place_files.h"
+#include "sublimit/io/ply.h"
+#include "sublimit/limit/limit_surface.h"
+#include "sublimit/schemes.h"
+#include "support/tolerance.h"
+
+namespace sublimit::testing {
+namespace {
+
+/// Of a mesh, with the table that the tessellation makes.
+struct Tessellated : Tables {
+  Tessellated(const ControlMesh& control, const std::string& scheme, const std::vector<std::string>& more = {},
+              const std::vector<std::string>& of_table = {})
+      : Tables(control) {
+    std::vector<std::string> all{"tessellate", mesh, "-s", scheme, "--chord", "1%", "-o", triangles, "--quiet"};
+    all.insert(all.end(), more.begin(), more.end());
+    expect_done(sublimit(all));
+    std::vector<std::string> arguments{"--tessellation", triangles, "--precision", "double"};
+    arguments.insert(arguments.end(), of_table.begin(), of_table.end());
+    expect_done(bake(arguments, scheme));
+  }
+  const std::string triangles = path("triangles.ply"), out = path("out.ply");
+};
+
+/// The same mesh in another pose.
+ControlMesh moved(ControlMesh mesh) {
+  for (Index v = 0; v < mesh.num_vertices(); ++v)
+    mesh.positions.row(v) += 0.1 * Eigen::RowVector3d(std::sin(3 * v), std::cos(5 * v), std::sin(7 * v));
+  return mesh;
+}
+
+TEST(CliTessellationTables, MovePointsAndKeepTriangles) {
+  ControlMesh holed = jittered(grid(4, 3));
+  holed.holes = {5};
+  const std::vector<std::pair<std::string, ControlMesh>> jobs{{"catmull-clark", creased_cube()},
+                                                              {"catmull-clark", jittered(prism(5))},
+                                                              {"catmull-clark", holed},
+                                                              {"loop", jittered(icosahedron())},
+                                                              {"doo-sabin", jittered(prism(5))}};
+  for (const auto& [scheme, mesh] : jobs) {
+    SCOPED_TRACE(scheme);
+    const Tessellated on(mesh, scheme);
+    expect_done(on.apply(on.mesh, on.out));
+    const ControlMesh first = read_mesh(on.triangles), again = read_mesh(on.out);
+    ASSERT_GT(first.num_faces(), 10);
+    EXPECT_EQ(again.face_sizes, first.face_sizes);
+    EXPECT_EQ(again.face_vertices, first.face_vertices);
+    ASSERT_EQ(again.num_vertices(), first.num_vertices());
+    EXPECT_LE((again.positions - first.positions).cwiseAbs().maxCoeff(), other_route);
+
+    const ControlMesh pose = moved(mesh);
+    write_obj(on.path("pose.obj"), output(pose));
+    expect_done(on.apply(on.path("pose.obj"), on.out));
+    const ControlMesh there = read_mesh(on.out);
+    EXPECT_EQ(there.face_vertices, first.face_vertices);
+    const LimitSurface surface(find_scheme(scheme).value(), pose);
+    const Points limit = surface.evaluate(pose.positions, read_placed_faces(on.triangles).places).position;
+    EXPECT_LE((there.positions - limit).cwiseAbs().maxCoeff(), other_route);
+    EXPECT_GT((there.positions - first.positions).cwiseAbs().maxCoeff(), 0.01);
+  }
+}
+
+TEST(CliTessellationTables, HaveNormals) {
+  const ControlMesh mesh = jittered(prism(5));
+  const Tessellated on(mesh, "catmull-clark", {}, {"--derivatives", "1"});
+  expect_done(on.apply(on.mesh, on.out));
+  const std::vector<std::string> names{"nx", "ny", "nz"};
+  const PlyMesh applied = read_ply(on.out, names);
+  ASSERT_EQ(applied.vertex_values.size(), 3u);
+  const LimitSurface surface(find_scheme("catmull-clark").value(), mesh);
+  const Points normals = surface.evaluate(mesh.positions, read_placed_faces(on.triangles).places, 1).normal;
+  for (size_t k = 0; k < 3; ++k)
+    for (Index i = 0; i < normals.rows(); ++i)
+      EXPECT_NEAR(applied.vertex_values[k].values[size_t(i)], normals(i, Index(k)), reference_angle);
+}
+
+TEST(CliTessellationTables, ComeOfManifestsToo) {
+  const Tessellated on(creased_cube(), "catmull-clark");
+  const std::string table = read_file(on.table), log = on.path("log.jsonl"), jobs = on.path("jobs.jsonl");
+  on.directory.write("jobs.jsonl", R"({"mesh": "mesh.obj", "scheme": "catmull-clark", "output": "made.safetensors",)"
+                                   R"( "precision": "double", "tessellation": "triangles.ply"})");
+  expect_parts(expect_done(sublimit({"bake", "--manifest", jobs})).out, {"1 done"});
+  EXPECT_EQ(read_file(on.path("made.safetensors")), table);
+  expect_parts(expect_done(sublimit({"bake", "--manifest", jobs})).out, {"1 skipped"});
+  // The same places with other triangles are another table.
+  ControlMesh one = read_mesh(on.triangles);
+  MeshOutput turned = output(one);
+  std::rotate(turned.face_vertices.begin(), turned.face_vertices.begin() + 1, turned.face_vertices.begin() + 3);
+  add_places(turned, read_placed_faces(on.triangles).places);
+  write_ply(on.triangles, turned);
+  expect_parts(expect_done(sublimit({"bake", "--manifest", jobs})).out, {"1 done"});
+}
+
+TEST(CliTessellationTables, AreRefusedInClearWords) {
+  const Tessellated on(creased_cube(), "catmull-clark");
+  const auto refused = [&](const std::vector<std::string>& arguments, int status,
+                           std::initializer_list<std::string_view> parts) {
+    std::filesystem::remove(on.table);
+    expect_failure(on.bake(arguments), status, parts);
+    EXPECT_FALSE(std::filesystem::exists(on.table));
+  };
+  refused({"--tessellation", on.mesh}, 2, {"mesh.obj", ".ply", "tessellate"});
+  refused({"--tessellation", on.path("none.ply")}, 3, {"none.ply"});
+  refused({"--tessellation", on.triangles, "-l", "2"}, 2, {"more than one", "--tessellation"});
+  refused({"--tessellation", on.triangles, "--tags"}, 2, {"--tags"});
+  MeshOutput plain = output(read_mesh(on.triangles));
+  write_ply(on.path("plain.ply"), plain);
+  refused({"--tessellation", on.path("plain.ply")}, 3, {"plain.ply", "place_face", "sublimit tessellate"});
+  std::vector<Sample> places = read_placed_faces(on.triangles).places;
+  const auto refused_places = [&](std::initializer_list<std::string_view> parts) {
+    MeshOutput mesh = plain;
+    add_places(mesh, places);
+    write_ply(on.path("off.ply"), mesh);
+    refused({"--tessellation", on.path("off.ply")}, 3, parts);
+  };
+  places[7].face = 6;
+  refused_places({"off.ply", "vertex 7", "face 6 does not exist", "0 to 5"});
+  places[7] = {5, 0.5, 1.5};
+  refused_places({"off.ply", "vertex 7", "(0.5, 1.5)"});
+  places[7] = {5, std::nan(""), 0};
+  refused_places({"off.ply", "vertex 7", "outside"});
+}
+
+}  // namespace
+}  // namespace sublimit::testing
