@@ -136,16 +136,15 @@ int run(const TessellateOptions& options) {
                     : tessellate(*surface, control, wanted);
     out = tessellation_mesh(made, *surface, options.face_ids);
     add_texture(options, loaded, *surface, made, out);
-    const bool glb = extension == ".glb";  // viewers shade it flat without normals
-    if (options.normals || glb) add_normals(out, made, *surface, control, extension != ".ply", glb);
+    // Viewers shade a .glb flat without normals.
+    if (options.normals || extension == ".glb") add_normals(out, made, *surface, control, extension != ".obj");
   });
   progress.step("writing " + options.output);
   std::vector<Sample> places = made.places;  // in the order of the file's vertices
-  if (extension == ".glb" || (extension == ".ply" && !out.face_varying.empty())) {
+  if (extension != ".obj" && !(out.face_varying.empty() && out.face_normals.empty())) {
     SplitMesh split = split_mesh(std::move(out));
     out = std::move(split.mesh);
-    places.clear();
-    for (const Index source : split.sources) places.push_back(made.places[size_t(source)]);
+    places = places_of(split, made);
   }
   if (extension == ".ply") add_places(out, places);
   if (extension == ".glb")
@@ -174,8 +173,7 @@ Command add_tessellate(CLI::App& app) {
                       "Largest angle between normals in the cell of a triangle, in degrees (default: any)");
   command->add_option("--max-triangles", options->most, "Stop if more are needed (default 16777216)");
   command->add_flag("--normals", options->normals,
-                    "Limit normals too: per corner in .obj (one for each side of a crease), per vertex in .ply; a .glb "
-                    "always has them");
+                    "Limit normals too, one for each side of a crease; a .glb always has them");
   command->add_flag("--face-ids", options->face_ids,
                     "The control mesh's face of each triangle: face_id of a .ply, groups face_N of an .obj; a .vtu "
                     "always has them");
@@ -203,7 +201,7 @@ Command add_tessellate(CLI::App& app) {
       "kobbelt, sqrt3), and those whose hulls are estimates (mid-edge-habib-warren), have no such bounds: `refine` or\n"
       "`limit -l N` serve them.\n"
       "Texture coordinates are carried along: `vt` of an .obj; in .ply (s, t) and .glb points on seams are written once\n"
-      "for each side, so a mesh is open there; .glb does so on creases too. Cells of a .vtu are each on their own.");
+      "for each side, with normals those on creases too, so a mesh is open there. Cells of a .vtu are each on their own.");
   return [=] { return run(*options); };
 }
 

@@ -11,6 +11,8 @@ namespace sublimit {
 struct SplitMesh {
   MeshOutput mesh;             ///< normals and `texture` per vertex
   std::vector<Index> sources;  ///< for each vertex the one that it was; in their order
+  /// For each vertex the first corner of its source that has its normal, or -1 where its source has one normal.
+  std::vector<Index> sides;
 };
 
 /// @param mesh  the first face-varying channel becomes `texture`: two columns of it, the second one 0 if there is none

@@ -18,6 +18,13 @@ Eigen::RowVector3d flat_normal(const Tessellation& made, const Tessellation::Tri
   return cross.norm() > 0 ? Eigen::RowVector3d(cross.normalized()) : Eigen::RowVector3d(0, 0, 1);
 }
 
+/// In the face of its triangle.
+Sample place_of_corner(const Tessellation& made, Index corner) {
+  const Tessellation::Triangle& t = made.triangles[size_t(corner / 3)];
+  const auto& [u, v] = t.uv[size_t(corner % 3)];
+  return {t.face, u, v};
+}
+
 }  // namespace
 
 MeshOutput tessellation_mesh(const Tessellation& made, const LimitSurface& surface, bool face_ids) {
@@ -32,20 +39,25 @@ MeshOutput tessellation_mesh(const Tessellation& made, const LimitSurface& surfa
 }
 
 void add_normals(MeshOutput& out, const Tessellation& made, const LimitSurface& surface, const Points& control,
-                 bool per_corner, bool complete) {
-  std::vector<Sample> at = made.places;
-  if (per_corner) {
-    at.clear();
-    for (const Tessellation::Triangle& t : made.triangles)
-      for (const auto& [u, v] : t.uv) at.push_back({t.face, u, v});
-  }
+                 bool complete) {
+  std::vector<Sample> at;
+  at.reserve(3 * made.triangles.size());
+  for (Index c = 0; c < std::ssize(made.triangles) * 3; ++c) at.push_back(place_of_corner(made, c));
   out.normals = surface.evaluate(control, at, 1).normal;
-  if (!per_corner) return;
   for (Index i = 0; i < out.normals.rows(); ++i) {
     const bool none = out.normals.row(i).isZero(0);
     if (none && complete) out.normals.row(i) = flat_normal(made, made.triangles[size_t(i) / 3]);
     out.face_normals.push_back(none && !complete ? -1 : i);
   }
+}
+
+std::vector<Sample> places_of(const SplitMesh& split, const Tessellation& made) {
+  std::vector<Sample> places;
+  places.reserve(split.sources.size());
+  for (size_t k = 0; k < split.sources.size(); ++k)
+    places.push_back(split.sides[k] < 0 ? made.places[size_t(split.sources[k])]
+                                        : place_of_corner(made, split.sides[k]));
+  return places;
 }
 
 void add_channel(MeshOutput& out, const Tessellation& made, const Scheme<double>& scheme,

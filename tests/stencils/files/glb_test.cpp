@@ -113,6 +113,7 @@ TEST(SplitMesh, CutsWhereValuesOrNormalsDiffer) {
   EXPECT_EQ(whole.sources, (std::vector<Index>{0, 1, 2, 3}));
   EXPECT_EQ(whole.mesh.face_vertices, mesh.face_vertices);
   EXPECT_EQ(whole.mesh.normals, mesh.normals);
+  EXPECT_EQ(whole.sides, (std::vector<Index>{-1, -1, -1, -1}));
   // Vertex 2 has two values, vertex 0 has two normals.
   mesh.face_varying = {{"uv", (Points(2, 2) << 0, 0.5, 1, 0.25).finished(), {0, 0, 0, 0, 1, 0}}};
   mesh.normals = (Points(3, 3) << 0, 0, 1, 0, 1, 0, 0, 0, 1).finished();
@@ -123,6 +124,7 @@ TEST(SplitMesh, CutsWhereValuesOrNormalsDiffer) {
   EXPECT_EQ(split.mesh.positions.row(4), mesh.positions.row(2));
   EXPECT_EQ(split.mesh.texture.row(4), mesh.face_varying[0].values.row(1));
   EXPECT_EQ(split.mesh.normals.row(1), mesh.normals.row(1));
+  EXPECT_EQ(split.sides, (std::vector<Index>{0, 3, -1, -1, -1, -1}));
 }
 
 }  // namespace
