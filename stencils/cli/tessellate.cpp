@@ -90,7 +90,7 @@ void add_texture(const TessellateOptions& options, const Loaded& loaded, const L
 void print_summary(const TessellateOptions& options, const Tessellation& made) {
   const TriangleShapes shapes = triangle_shapes(made);
   fmt::print("{}: {} triangles, {} points", options.output, made.triangles.size(), made.places.size());
-  if (options.rates.empty())
+  if (!options.chord.empty())
     fmt::print(" in {} cells, at most {} from the limit\n", made.cells, format_number(made.bound));
   else
     fmt::print(" by the rates of edges\n");
@@ -103,9 +103,9 @@ void print_summary(const TessellateOptions& options, const Tessellation& made) {
 
 int run(const TessellateOptions& options) {
   TessellationOptions wanted{.angle = radians(options.angle), .max_triangles = most_triangles(options.most)};
-  if (options.chord.empty() == options.rates.empty())
-    throw InvalidOption("--chord D, a distance, or --rates RATES.csv, segments of edges, is needed: one of them");
-  if (!options.rates.empty() && !options.angle.empty()) throw InvalidOption("--angle goes with --chord");
+  if (options.chord.empty() && options.rates.empty())
+    throw InvalidOption("--chord D, a distance, or --rates RATES.csv, segments of edges, is needed");
+  if (options.chord.empty() && !options.angle.empty()) throw InvalidOption("--angle goes with --chord");
   if (!options.chord.empty())
     distance_option("--chord", options.chord, 1);  // a wrong number is told before the mesh is read
   check_output_path(options.output, {".obj", ".ply", ".glb", ".vtu"});
@@ -117,7 +117,7 @@ int run(const TessellateOptions& options) {
   Progress progress(options.common.quiet);
   const Loaded loaded = load(options.common, progress);
   const Points& control = loaded.mesh.positions;
-  const bool by_rates = !options.rates.empty();
+  const bool by_rates = options.chord.empty();
   if (control.rows() > 0 && !by_rates)
     wanted.chord =
         distance_option("--chord", options.chord, (control.colwise().maxCoeff() - control.colwise().minCoeff()).norm());
@@ -126,13 +126,12 @@ int run(const TessellateOptions& options) {
   std::optional<LimitSurface> surface;
   naming_mesh(options.common, [&] { surface.emplace(*loaded.scheme, loaded.mesh, loaded.rules); });
   if (extension == ".vtu") return write_cells(options, *surface, control, wanted, progress);
-  std::vector<Index> rates;
-  if (by_rates) rates = read_edge_rates(options.rates, surface->level().topology());
+  if (!options.rates.empty()) wanted.rates = read_edge_rates(options.rates, surface->level().topology());
   Tessellation made;
   MeshOutput out;
   naming_mesh(options.common, [&] {
     progress.step("tessellating");
-    made = by_rates ? tessellate_by_rates(*surface, control, rates, wanted.max_triangles)
+    made = by_rates ? tessellate_by_rates(*surface, control, wanted.rates, wanted.max_triangles)
                     : tessellate(*surface, control, wanted);
     out = tessellation_mesh(made, *surface, options.face_ids);
     add_texture(options, loaded, *surface, made, out);
@@ -168,7 +167,7 @@ Command add_tessellate(CLI::App& app) {
                       "Largest distance of triangles from the limit: in the mesh's unit, or as 0.1% of its diagonal");
   command->add_option(
       "--rates", options->rates,
-      "RATES.csv instead of --chord: v0,v1,rate, segments of edges of the control mesh, 1 without a row");
+      "RATES.csv: v0,v1,rate, segments of edges of the control mesh, 1 without a row; with --chord the least they have");
   command->add_option("--angle", options->angle,
                       "Largest angle between normals in the cell of a triangle, in degrees (default: any)");
   command->add_option("--max-triangles", options->most, "Stop if more are needed (default 16777216)");
@@ -194,8 +193,9 @@ Command add_tessellate(CLI::App& app) {
       "  sublimit tessellate cage.obj -s catmull-clark --chord 0.1% -o surface.glb     normals, texture coordinates\n"
       "  sublimit tessellate cage.obj -s catmull-clark --chord 0.01% -o surface.vtu    exact polynomials, curved\n"
       "  sublimit tessellate cage.obj -s catmull-clark --rates rates.csv -o surface.obj\n"
+      "  sublimit tessellate cage.obj -s catmull-clark --chord 1% --rates rates.csv -o surface.obj\n"
       "Rates are kept by quadrilaterals and triangles; edges of other polygons have the next even number of segments.\n"
-      "No distance is proved with them, and every scheme is taken.\n"
+      "No distance is proved with them alone, and every scheme is taken. With --chord edges have at least so many.\n"
       "The distance is that of points with the same parameters, bounded by second derivatives; towards extraordinary\n"
       "vertices by how far the limit is from an affine map of its parameters. Schemes without polynomials (butterfly,\n"
       "kobbelt, sqrt3), and those whose hulls are estimates (mid-edge-habib-warren), have no such bounds: `refine` or\n"

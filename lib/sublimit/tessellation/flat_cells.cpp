@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <bit>
 #include <cmath>
 #include <iterator>
 #include <span>
@@ -13,7 +14,10 @@
 
 #include "sublimit/base/error.h"
 #include "sublimit/base/parallel_for.h"
+#include "sublimit/limit/limit_patches.h"
+#include "sublimit/limit/limit_surface_parts.h"
 #include "sublimit/limit/net_derivatives.h"
+#include "sublimit/tessellation/edge_rates.h"
 
 namespace sublimit {
 namespace {
@@ -72,11 +76,59 @@ Eigen::Matrix3d affine_map(const std::vector<PiecePart>& parts, const CellCorner
   return A;
 }
 
+/// How long sides of cells may be along the sides of an address.
+class LongestSides {
+ public:
+  /// @param rates  for each edge, or none
+  LongestSides(const LimitSurface::Parts& parts, std::span<const Index> rates) : parts_(parts), rates_(rates) {}
+  void go_to(Index address) {
+    if (rates_.empty()) return;
+    const std::array<SideEdge, 4> edges = side_edges(parts_.level.topology(), parts_.addresses, address);
+    for (size_t k = 0; k < edges.size(); ++k) {
+      const auto [of, edge] = edges[k];
+      const Index rate = of == SideEdge::Of::none ? 1 : rates_[size_t(index(edge))];
+      const Index segments = of == SideEdge::Of::whole ? rate : (rate + 1) / 2;
+      longest_[k] = static_cast<std::int32_t>(cell_steps / std::int64_t(std::bit_ceil(unsigned(segments))));
+    }
+  }
+  /// A side of the cell is along one of the address, and too long there.
+  bool are_exceeded(const CellCorners& corners) const {
+    if (rates_.empty()) return false;
+    const bool triangle = parts_.addresses.triangles();
+    const size_t n = triangle ? 3 : 4;
+    for (size_t k = 0; k < n; ++k) {
+      const CellCorner &a = corners[k], &b = corners[(k + 1) % n];
+      const std::int32_t length = std::max(std::abs(a.i - b.i), std::abs(a.j - b.j));
+      for (size_t s = 0; s < n; ++s)
+        if (length > longest_[s] && is_on_side(a, s, triangle) && is_on_side(b, s, triangle)) return true;
+    }
+    return false;
+  }
+
+ private:
+  static bool is_on_side(const CellCorner& c, size_t side, bool triangle) {
+    if (side == 0) return c.j == 0;
+    if (side == 1) return (triangle ? c.i + c.j : c.i) == cell_steps;
+    return side == 2 && !triangle ? c.j == cell_steps : c.i == 0;
+  }
+
+  const LimitSurface::Parts& parts_;
+  std::span<const Index> rates_;
+  std::array<std::int32_t, 4> longest_{};
+};
+
 class Cutter {
  public:
   /// @param count  of triangles that all cells become at least
-  Cutter(const FlatCellOptions& options, bool triangles, std::atomic<std::int64_t>& count, std::vector<FlatCell>& out)
-      : options_(options), triangles_a_cell_(triangles ? 1 : 2), count_(count), out_(out) {}
+  Cutter(const FlatCellOptions& options, const LimitSurface::Parts& parts, std::atomic<std::int64_t>& count,
+         std::vector<FlatCell>& out)
+      : options_(options),
+        triangles_a_cell_(parts.addresses.triangles() ? 1 : 2),
+        count_(count),
+        out_(out),
+        longest_(parts, options.rates) {}
+
+  void go_to(Index address) { longest_.go_to(address); }
 
   void cut(Index address, const PieceType& type, const Points& points, const CellCorners& corners) {
     if (type.polynomial()) {
@@ -90,7 +142,8 @@ class Cutter {
       return;
     }
     const double bound = bound_by_parts(type, points);
-    if (bound <= options_.chord || is_smallest(corners)) return add({address, corners, bound, nullptr});
+    if ((bound <= options_.chord && !longest_.are_exceeded(corners)) || is_smallest(corners))
+      return add({address, corners, bound, nullptr});
     for (const PieceLink& link : type.children()) {
       const auto child = child_of(corners, link.map, type.kind() == Piece::Kind::triangle);
       if (!child)
@@ -114,7 +167,8 @@ class Cutter {
     double bound = 0;
     for (const Points& net : coefficients) bound = std::max(bound, chord_bound(basis, net));
     const bool bent = options_.angle > 0 && !is_within_angle(basis, coefficients, options_.angle);
-    if ((bound <= options_.chord && !bent) || is_smallest(corners)) return add({address, corners, bound, nullptr});
+    if ((bound <= options_.chord && !bent && !longest_.are_exceeded(corners)) || is_smallest(corners))
+      return add({address, corners, bound, nullptr});
     for (int k = 0; k < 4; ++k) {
       std::vector<Points> quarter;
       for (const Points& net : coefficients) quarter.push_back(nets.quarter(k) * net);
@@ -170,12 +224,15 @@ class Cutter {
   int triangles_a_cell_;
   std::atomic<std::int64_t>& count_;
   std::vector<FlatCell>& out_;
+  LongestSides longest_;
   PieceParts parts_;
 };
 
 }  // namespace
 
 std::vector<FlatCell> flat_cells(const LimitSurface& surface, const Points& points, const FlatCellOptions& options) {
+  const LimitSurface::Parts& parts = LimitPatches::parts_of(surface);
+  if (!options.rates.empty()) check_edge_rates(parts.level.topology(), options.rates);
   // Differences alone count: about one of the points they keep their digits far from the origin.
   const AddressPieces pieces(surface, points.rows() > 0 ? Points(points.rowwise() - points.row(0)) : points);
   if (pieces.has_no_polynomials())
@@ -189,11 +246,13 @@ std::vector<FlatCell> flat_cells(const LimitSurface& surface, const Points& poin
   parallel_for_blocks(
       addresses,
       [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
-        Cutter cutter(options, surface.addresses().triangles(), count, blocks[size_t(block)]);
-        for (std::int64_t a = begin; a < end; ++a)
+        Cutter cutter(options, parts, count, blocks[size_t(block)]);
+        for (std::int64_t a = begin; a < end; ++a) {
+          cutter.go_to(static_cast<Index>(a));
           pieces.visit(static_cast<Index>(a), [&](const PieceType& type, const Points& local, const CellCorners& c) {
             cutter.cut(static_cast<Index>(a), type, local, c);
           });
+        }
       },
       addresses_a_block);
   std::vector<FlatCell> cells;

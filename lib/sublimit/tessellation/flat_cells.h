@@ -9,6 +9,7 @@
 // vertices, where second derivatives are not bounded, are compared with an affine map of their parameters.
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "sublimit/limit/piece_parts.h"
@@ -33,11 +34,13 @@ struct FlatCellOptions {
   double angle = 0;                      ///< that normals in a cell may be apart, in radians; 0: any
   std::int64_t max_triangles = 1 << 24;  ///< that cells become
   bool whole_polynomials = false;        ///< a polynomial is one cell, however bent
+  /// For each edge of the level how many segments cells are to have along it at least; none: any.
+  std::span<const Index> rates = {};
 };
 
 /// Cells of all of the surface but its holes, in the order of addresses.
 /// @param points  of the level, #V x 3
-/// @throws InvalidParameter     points that do not fit
+/// @throws InvalidParameter     points, rates that do not fit
 /// @throws UnsupportedTopology  a scheme without polynomial pieces, or with negative weights around other ones, whose
 /// hulls are
 ///                              estimates; pieces whose children are no quarters

@@ -9,11 +9,10 @@
 #include "sublimit/limit/limit_patches.h"
 #include "sublimit/tessellation/cell_polygon.h"
 #include "sublimit/tessellation/cell_vertices.h"
+#include "sublimit/tessellation/edge_rates.h"
 
 namespace sublimit {
 namespace {
-
-constexpr Index most_segments = 1 << 22;
 
 /// Where k of n parts end, in steps: seen from the other end it is the same place.
 std::int32_t part(std::int64_t k, std::int64_t n) {
@@ -23,10 +22,10 @@ std::int32_t part(std::int64_t k, std::int64_t n) {
 /// A side of a square or triangle, or half an edge as a side of a square of a polygon.
 struct Side {
   Index segments = 1;
-  enum class Of { whole, first_half, second_half } of = Of::whole;
+  SideEdge::Of of = SideEdge::Of::whole;
   std::int32_t at(Index k) const {
-    if (of == Of::first_half) return 2 * part(k, 2 * std::int64_t{segments});
-    if (of == Of::second_half) return cell_steps - 2 * part(segments - k, 2 * std::int64_t{segments});
+    if (of == SideEdge::Of::first_half) return 2 * part(k, 2 * std::int64_t{segments});
+    if (of == SideEdge::Of::second_half) return cell_steps - 2 * part(segments - k, 2 * std::int64_t{segments});
     return part(k, segments);
   }
 };
@@ -54,20 +53,15 @@ class RatedFaces {
       : t_(parts.level.topology()), addresses_(parts.addresses), rates_(rates), triangle_(addresses_.triangles()) {}
 
   Sides sides(Index address) const {
-    const Addresses::Place place = addresses_.place(address);
+    const std::array<SideEdge, 4> edges = side_edges(t_, addresses_, address);
     Sides sides;
-    if (place.corner < 0) {
-      for (Index k = 0; k < (triangle_ ? 3 : 4); ++k)
-        sides[size_t(k)].segments = rate(t_.edge(t_.corner(place.face, k)));
-      return sides;
+    for (size_t k = 0; k < (triangle_ ? 3 : 4); ++k) {
+      const auto [of, edge] = edges[k];
+      sides[k] = {of == SideEdge::Of::none    ? between_squares(addresses_.place(address).face)
+                  : of == SideEdge::Of::whole ? rate(edge)
+                                              : rate(edge) / 2,
+                  of};
     }
-    const HalfEdge h = t_.corner(place.face, place.corner);
-    Index inside = 1;  // between squares: what the largest of the polygon's edges has
-    for (Index k = 0; k < t_.size(place.face); ++k)
-      inside = std::max(inside, rate(t_.edge(t_.corner(place.face, k))) / 2);
-    sides[0] = {rate(t_.edge(h)) / 2, Side::Of::first_half};
-    sides[1] = sides[2] = {inside};
-    sides[3] = {rate(t_.edge(t_.prev(h))) / 2, Side::Of::second_half};
     return sides;
   }
   /// Segments of the grid inside, along u and v.
@@ -77,6 +71,12 @@ class RatedFaces {
       return {n, n};
     }
     return {std::max(sides[0].segments, sides[2].segments), std::max(sides[1].segments, sides[3].segments)};
+  }
+  /// Between the squares of a polygon: what the largest of its edges has.
+  Index between_squares(Face face) const {
+    Index most = 1;
+    for (Index k = 0; k < t_.size(face); ++k) most = std::max(most, rate(t_.edge(t_.corner(face, k))) / 2);
+    return most;
   }
   bool has_inside(const std::array<Index, 2>& n) const { return triangle_ ? n[0] >= 3 : n[0] >= 2 && n[1] >= 2; }
 
@@ -178,12 +178,7 @@ class FaceGrid {
 Tessellation tessellate_by_rates(const LimitSurface& surface, const Points& control, std::span<const Index> rates,
                                  std::int64_t max_triangles) {
   const LimitSurface::Parts& parts = LimitPatches::parts_of(surface);
-  if (std::ssize(rates) != parts.level.topology().num_edges())
-    throw InvalidParameter(std::to_string(rates.size()) + " rates; one for each of " +
-                           std::to_string(parts.level.topology().num_edges()) + " edges is right");
-  for (const Index rate : rates)
-    if (rate < 1 || rate > most_segments)
-      throw InvalidParameter("a rate is " + std::to_string(rate) + "; 1 to 4194304 segments is right");
+  check_edge_rates(parts.level.topology(), rates);
   const AddressPieces pieces(surface, control);
   const RatedFaces faces(parts, rates);
   const bool triangle = parts.addresses.triangles();

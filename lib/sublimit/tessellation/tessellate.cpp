@@ -43,8 +43,9 @@ Tessellation tessellate(const LimitSurface& surface, const Points& control, cons
   check(options);
   const LimitSurface::Parts& parts = LimitPatches::parts_of(surface);
   const size_t corners = parts.addresses.triangles() ? 3 : 4;
-  const std::vector<FlatCell> cells =
-      flat_cells(surface, control, {options.chord, options.angle, options.max_triangles});
+  const std::vector<FlatCell> cells = flat_cells(
+      surface, control,
+      {.chord = options.chord, .angle = options.angle, .max_triangles = options.max_triangles, .rates = options.rates});
   Tessellation made;
   made.cells = std::ssize(cells);
   CellVertices vertices(parts);

@@ -20,6 +20,8 @@ struct TessellationOptions {
   /// Largest angle between two normals of a cell, in radians; 0: any. Not around extraordinary vertices.
   double angle = 0;
   std::int64_t max_triangles = std::int64_t{1} << 24;
+  /// For each edge of the surface's level, >= 1: into how many segments it is cut at least; none: as the chord asks.
+  std::vector<Index> rates = {};
 };
 
 struct Tessellation {
@@ -37,7 +39,8 @@ struct Tessellation {
 
 /// Triangles of all of the surface but its holes. Equal input, equal result, whatever the number of threads.
 /// @param control  points of the surface's level, #V x 3
-/// @throws InvalidParameter     points that do not fit; a chord that is not positive, an angle below 0
+/// @throws InvalidParameter     points that do not fit; a chord that is not positive, an angle below 0;
+///                              rates as of `tessellate_by_rates`
 /// @throws UnsupportedTopology  as `flat_cells`
 /// @throws ResourceError        more triangles than allowed: before most of them are made
 Tessellation tessellate(const LimitSurface& surface, const Points& control, const TessellationOptions& options);

@@ -7,11 +7,13 @@
 #include <algorithm>
 #include <map>
 #include <numbers>
+#include <random>
 #include <set>
 
 #include "sublimit/base/error.h"
 #include "sublimit/limit/limit_integrals.h"
 #include "sublimit/schemes.h"
+#include "sublimit/tessellation/edge_rates.h"
 #include "support/meshes.h"
 #include "support/tolerance.h"
 
@@ -111,6 +113,51 @@ TEST(Tessellate, KeepsItsDistanceAndClosesClosedMeshes) {
         EXPECT_EQ(edges.euler, topology.num_vertices() - topology.num_edges() + topology.num_faces());
       }
     }
+}
+
+// Rates beside a chord: edges have more segments where they need them, and all that holds of chords holds.
+TEST(Tessellate, CutsEdgesAsOftenAsTheirRatesAtLeast) {
+  std::mt19937 random(5);
+  for (const NamedMesh& m : closed_meshes())
+    for (const std::string& name : m.schemes) {
+      SCOPED_TRACE(m.name + " " + name);
+      const LimitSurface surface(find_scheme(name).value(), m.mesh);
+      const Topology& topology = surface.level().topology();
+      TessellationOptions options{.chord = 0.05 * diagonal(m.mesh)};
+      for (Index e = 0; e < topology.num_edges(); ++e) options.rates.push_back(1 + Index(random() % 9));
+      const Tessellation t = tessellate(surface, m.mesh.positions, options);
+      EXPECT_LE(t.bound, options.chord);
+      EXPECT_LE(largest_distance(t, surface, m.mesh.positions), t.bound + other_route * diagonal(m.mesh));
+      const Edges edges(t);
+      EXPECT_TRUE(edges.is_manifold());
+      EXPECT_EQ(edges.open(), 0);
+      // Places on each side of each address, as parameters along it.
+      std::map<std::pair<Index, size_t>, std::set<double>> on_side;
+      const bool triangle = surface.faces().triangles;
+      for (const Tessellation::Triangle& made : t.triangles)
+        for (const auto& [u, v] : made.uv) {
+          if (v == 0) on_side[{made.face, 0}].insert(u);
+          if (triangle ? u + v == 1 : u == 1) on_side[{made.face, 1}].insert(v);
+          if (v == 1 && !triangle) on_side[{made.face, 2}].insert(u);
+          if (u == 0) on_side[{made.face, triangle ? 2 : 3}].insert(v);
+        }
+      for (Index a = 0; a < surface.faces().size; ++a) {
+        const std::array<SideEdge, 4> sides = side_edges(topology, surface.addresses(), a);
+        for (size_t s = 0; s < (triangle ? 3 : 4); ++s) {
+          if (sides[s].of == SideEdge::Of::none) continue;
+          const Index segments = Index(on_side.at({a, s}).size()) - 1,
+                      rate = options.rates[size_t(index(sides[s].edge))];
+          EXPECT_GE(sides[s].of == SideEdge::Of::whole ? segments : 2 * segments, rate);
+        }
+      }
+    }
+  const ControlMesh cube = testing::cube();
+  const LimitSurface flat(find_scheme("bilinear").value(), cube);
+  EXPECT_EQ(tessellate(flat, cube.positions, {.chord = 1, .rates = std::vector<Index>(12, 1)}).triangles.size(), 12u);
+  EXPECT_EQ(tessellate(flat, cube.positions, {.chord = 1, .rates = std::vector<Index>(12, 3)}).triangles.size(),
+            6u * 32);
+  EXPECT_THROW(tessellate(flat, cube.positions, {.chord = 1, .rates = {1, 2}}), InvalidParameter);
+  EXPECT_THROW(tessellate(flat, cube.positions, {.chord = 1, .rates = std::vector<Index>(12, 0)}), InvalidParameter);
 }
 
 // What lies between triangles and the limit has at most the area times the distance.

@@ -163,8 +163,13 @@ TEST(CliTessellate, TakesRatesOfEdges) {
   refused("v0,v1,rate\n0,1,0\n", {"wrong.csv:2", "1 to 4194304"});
   refused("v0,v1,rate\n0,1,2\n1,0,2\n", {"wrong.csv:3", "already"});
   expect_failure(sublimit({"tessellate", mesh, "-s", "loop", "-o", out}), 2, {"--chord", "--rates"});
-  expect_failure(sublimit({"tessellate", mesh, "-s", "loop", "--chord", "1", "--rates", rates, "-o", out}), 2,
-                 {"one of them"});
+  // With a chord they are the least: 4 and 2 segments, and 4 triangles along the first edge in each face.
+  const Outcome both =
+      expect_done(sublimit({"tessellate", mesh, "-s", "bilinear", "--chord", "1", "--rates", rates, "-o", out}));
+  expect_parts(both.out, {"at most 0 from the limit"});
+  EXPECT_GE(read_mesh(out).num_vertices(), 8 + 3 + 1);
+  expect_failure(sublimit({"tessellate", mesh, "-s", "loop", "--angle", "5", "--rates", rates, "-o", out}), 2,
+                 {"--angle", "--chord"});
 }
 
 // VTK evaluates the cells of the file inside; `sample` the limit at the same places.
