@@ -149,6 +149,15 @@ def test_tessellations_are_the_programs(tagged: sublimit.Mesh, program: Program,
     assert np.array_equal(near.points, expected.points) and np.array_equal(near.triangles, expected.face_array)
     assert 0 < near.bound <= 0.01 and len(near.triangle_face) == len(near.triangles)
     np.testing.assert_allclose(surface.evaluate(near.face, near.u, near.v).points, near.points, rtol=0, atol=rounding)
+    at_corners = surface.evaluate(near.triangle_face[:, None], near.corners[..., 0], near.corners[..., 1], derivatives=1)
+    np.testing.assert_allclose(at_corners.points, near.points[near.triangles], rtol=0, atol=rounding)
+    assert np.array_equal(at_corners.normals, near.normals)
+    table = sublimit.bake(tagged, "catmull-clark", tessellation=near, precision="double")
+    np.testing.assert_allclose(table.apply(tagged.points), near.points, rtol=0, atol=rounding)
+    sizes, corners = table.faces
+    assert (sizes == 3).all() and np.array_equal(corners, near.triangles.ravel())
+    with pytest.raises(ValueError, match="one of levels, grid, at and tessellation"):
+        sublimit.bake(tagged, "catmull-clark", 2, tessellation=near)
     assert len(surface.tessellate(0.01, angle=0.1).triangles) > len(near.triangles)
     with pytest.raises(sublimit.InvalidParameter, match="chord"):
         surface.tessellate(0)

@@ -163,7 +163,7 @@ def test_refuses_results(table: sublimit.Table) -> None:
 
 def test_refuses_requests(cube: sublimit.Mesh) -> None:
     attempts: list[tuple[dict[str, Any], str]] = [
-        (dict(), "one of levels, grid and at"), (dict(levels=1, grid=3), "one of levels"), (dict(grid=4, limit=True), "limit is of a level"),
+        (dict(), "one of levels, grid, at and tessellation"), (dict(levels=1, grid=3), "one of levels"), (dict(grid=4, limit=True), "limit is of a level"),
         (dict(levels=12), "level 12 of a table; 1 to 11"), (dict(levels=0), "level 0"), (dict(grid=1), "grid 1"),
         (dict(levels=2, derivatives=1), "a level has no derivatives"), (dict(grid=3, derivatives=3), "derivatives is 3"),
         (dict(levels=2, precision="half"), "precision is 'half'"), (dict(at=(9, 0, 0)), "9")]

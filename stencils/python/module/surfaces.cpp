@@ -188,21 +188,33 @@ py::dict intersect(const Surface& surface, const Array<double>& origins, const A
 }
 
 py::dict tessellate(const Surface& surface, double chord, double angle, std::int64_t most, int threads) {
+  std::vector<Index> triangles, face_of;
+  std::vector<double> corners;
+  Points normals;
   Tessellation made = without_gil([&] {
     const Threads held(threads);
-    return sublimit::tessellate(surface.surface(), surface.points(), {chord, angle, most});
+    Tessellation found = sublimit::tessellate(surface.surface(), surface.points(),
+                                              {.chord = chord, .angle = angle, .max_triangles = most});
+    std::vector<Sample> sides;  // corners in the faces of their triangles
+    for (const Tessellation::Triangle& triangle : found.triangles) {
+      triangles.insert(triangles.end(), triangle.vertices.begin(), triangle.vertices.end());
+      face_of.push_back(triangle.face);
+      for (const auto& [u, v] : triangle.uv) {
+        corners.insert(corners.end(), {u, v});
+        sides.push_back({triangle.face, u, v});
+      }
+    }
+    normals = surface.surface().evaluate(surface.points(), sides, 1).normal;
+    return found;
   });
-  std::vector<Index> triangles, face_of;
-  for (const Tessellation::Triangle& triangle : made.triangles) {
-    triangles.insert(triangles.end(), triangle.vertices.begin(), triangle.vertices.end());
-    face_of.push_back(triangle.face);
-  }
-  const auto count = py::ssize_t(made.triangles.size());
+  const auto count = py::ssize_t(made.triangles.size()), three = py::ssize_t(3);
   py::dict all;
   add_places(all, made.places);
   all["points"] = array(std::move(made.points));
-  all["triangles"] = array(std::move(triangles)).reshape({count, py::ssize_t(3)});
+  all["triangles"] = array(std::move(triangles)).reshape({count, three});
   all["triangle_face"] = array(std::move(face_of));
+  all["corners"] = array(std::move(corners)).reshape({count, three, py::ssize_t(2)});
+  all["normals"] = array(std::move(normals)).reshape({count, three, three});
   all["bound"] = made.bound;
   return all;
 }

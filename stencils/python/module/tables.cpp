@@ -169,9 +169,14 @@ AnyOfThem table_of(Baked&& baked, const Asked& asked) {
   return std::make_shared<Table<double>>(std::move(baked.table));
 }
 
+/// @param triangles  between places, three corners each
 AnyOfThem bake_mesh(const ControlMesh& mesh, const MeshRequest& request, const Asked& asked, const Places& at,
-                    int threads) {
-  const BakeRequest wanted = request_of(asked, at);
+                    const std::optional<Array<Index>>& triangles, int threads) {
+  BakeRequest wanted = request_of(asked, at);
+  if (triangles) {
+    wanted.face_vertices = vector(*triangles);
+    wanted.face_sizes.assign(wanted.face_vertices.size() / 3, 3);
+  }
   const LongCall scope;
   const Threads held(threads);
   const MeshJob job = mesh_job(request, mesh, "mesh");
@@ -208,7 +213,8 @@ void add_tables(py::module_& m) {
       .def_readwrite("grid", &Asked::grid)
       .def_readwrite("derivatives", &Asked::derivatives)
       .def_readwrite("in_float", &Asked::in_float);
-  m.def("bake", &bake_mesh, py::arg("mesh"), py::arg("request"), py::arg("table"), py::arg("at"), py::arg("threads"));
+  m.def("bake", &bake_mesh, py::arg("mesh"), py::arg("request"), py::arg("table"), py::arg("at"), py::arg("triangles"),
+        py::arg("threads"));
   m.def("bake_patches", &bake_patches, py::arg("patches"), py::arg("table"), py::arg("at"), py::arg("threads"));
   m.def("load", &load, py::arg("path"), py::arg("checksums"));
 }

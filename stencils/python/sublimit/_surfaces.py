@@ -189,7 +189,9 @@ class Tessellation:
     points : (n, 3), of the limit
     triangles : (m, 3), their corners, counter-clockwise
     triangle_face : (m,), the face of the surface that each is on
-    face, u, v : (n,), places of the points: ``bake(mesh, scheme, at=(face, u, v))`` makes a table that follows a moving mesh
+    corners : (m, 3, 2), (u, v) of its corners there
+    normals : (m, 3, 3), of the surface at the corners, of this face's side at creases; zero where there is none
+    face, u, v : (n,), places of the points: ``bake(mesh, scheme, tessellation=it)`` makes a table that follows a moving mesh
     bound : no point of a triangle is farther from that of the surface with the same parameters
     """
 
@@ -197,6 +199,8 @@ class Tessellation:
     points: arrays.Floats
     triangles: arrays.Ints
     triangle_face: arrays.Ints
+    corners: arrays.Floats
+    normals: arrays.Floats
     face: arrays.Ints
     u: arrays.Floats
     v: arrays.Floats

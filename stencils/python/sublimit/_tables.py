@@ -14,7 +14,7 @@ from . import _sublimit
 from ._levels import core_of, csr
 from ._meshes import Mesh
 from ._schemes import OptionValue, Scheme, request
-from ._surfaces import order, places
+from ._surfaces import Tessellation, order, places
 
 if TYPE_CHECKING:
     from scipy.sparse import csr_array
@@ -236,7 +236,8 @@ def _unpickled(data: bytes) -> Table:
 
 
 def bake(mesh: Mesh, scheme: Scheme | str, levels: int | None = None, *, limit: bool = False, grid: int | None = None,
-         at: tuple[npt.ArrayLike, npt.ArrayLike, npt.ArrayLike] | None = None, derivatives: int = 0, precision: str = "float",
+         at: tuple[npt.ArrayLike, npt.ArrayLike, npt.ArrayLike] | None = None, tessellation: Tessellation | None = None,
+         derivatives: int = 0, precision: str = "float",
          boundary: str | None = None, creasing: str | None = None, triangles: str | None = None,
          option: Mapping[str, OptionValue] | None = None, triangulate: bool = False, no_creases: bool = False,
          strict: bool = False, threads: int = 0) -> Table:
@@ -249,6 +250,7 @@ def bake(mesh: Mesh, scheme: Scheme | str, levels: int | None = None, *, limit: 
     limit : these moved to the limit
     grid : N x N places on each face instead, sides included
     at : places (face, u, v) instead, that broadcast to one shape
+    tessellation : the points of `LimitSurface.tessellate` instead; `Table.faces` are its triangles
     derivatives : 0, 1 or 2, of the limit
     precision : of the weights, ``"float"`` or ``"double"``
 
@@ -259,10 +261,14 @@ def bake(mesh: Mesh, scheme: Scheme | str, levels: int | None = None, *, limit: 
     """
     if precision not in ("float", "double"):
         raise ValueError(f"precision is {precision!r}; 'float' or 'double' are right")
-    if sum(choice is not None for choice in (levels, grid, at)) != 1:
-        raise ValueError("a table is of one of levels, grid and at")
+    if sum(choice is not None for choice in (levels, grid, at, tessellation)) != 1:
+        raise ValueError("a table is of one of levels, grid, at and tessellation")
     if limit and levels is None:
-        raise ValueError("limit is of a level; grid and at are of the limit anyway")
+        raise ValueError("limit is of a level; all others are of the limit anyway")
+    triangles_between = None
+    if tessellation is not None:
+        at = tessellation.face, tessellation.u, tessellation.v
+        triangles_between = tessellation.triangles
     asked = request(scheme, boundary=boundary, creasing=creasing, triangles=triangles, option=option, triangulate=triangulate,
                     no_creases=no_creases, strict=strict)
     table = _sublimit.TableRequest()
@@ -272,7 +278,7 @@ def bake(mesh: Mesh, scheme: Scheme | str, levels: int | None = None, *, limit: 
     table.derivatives = order(derivatives)
     table.in_float = precision == "float"
     where = None if at is None else places(*at)[:3]
-    return Table._of(_sublimit.bake(core_of(mesh), asked, table, where, threads))
+    return Table._of(_sublimit.bake(core_of(mesh), asked, table, where, triangles_between, threads))
 
 
 def load(path: str | os.PathLike[str], *, checksums: bool = False) -> Table:
