@@ -18,6 +18,8 @@ TABLE = [
     ("First touch of every face", "limit_bench", "first", ("",), "ours", False),
     ("Nearest points, proved", "search_bench", "closest", ("",), "ours", False),
     ("Nearest hits of rays", "search_bench", "rays", ("",), "ours", False),
+    ("Triangles as near to the limit", "tessellation_bench", "triangles", ("",), "ours", False),
+    ("Making these triangles", "tessellation_bench", "tessellate", ("",), "ours", False),
     ("Called from Python: a call", "python_bench", "call apply", ("",), "ours", False),
     ("Called from Python: a call with one place", "python_bench", "call evaluate", ("",), "ours", False),
     ("Called from Python: apply", "python_bench", "apply", ("",), "ours", False),
