@@ -2,6 +2,7 @@
 #include "sublimit/search/intersect.h"
 
 #include <Eigen/Dense>
+#include <tbb/enumerable_thread_specific.h>
 
 #include <algorithm>
 #include <array>
@@ -144,7 +145,8 @@ class SeenNet {
 /// One ray through the parts.
 class Tracer {
  public:
-  Tracer(const SurfaceParts& parts, const RayOptions& options) : parts_(parts), options_(options) {}
+  explicit Tracer(const SurfaceParts& parts, const RayOptions& options = {}) : parts_(parts), options_(options) {}
+  void set(const RayOptions& options) { options_ = options; }
 
   /// @param undecided  is counted up
   std::vector<Hit> operator()(const Ray& ray, std::int64_t& undecided) {
@@ -295,7 +297,7 @@ class Tracer {
   }
 
   const SurfaceParts& parts_;
-  const RayOptions& options_;
+  RayOptions options_;
   PieceParts cutter_;
   const Ray* ray_ = nullptr;
   std::optional<Frame> frame_;
@@ -373,10 +375,19 @@ RayHits intersect(const LimitSurface& surface, const Points& points, const std::
   return result;
 }
 
+struct RayTracer::Prepared {
+  SurfaceParts parts;
+  std::vector<std::int64_t> first;  // parts of address a are [first[a], first[a + 1])
+  // What cuts parts is made once a thread.
+  tbb::enumerable_thread_specific<Tracer> tracers{[this] { return Tracer(parts); }};
+};
+
 RayTracer::RayTracer(const LimitSurface& surface, const Points& points)
-    : parts_(std::make_unique<const SurfaceParts>(surface, points)), first_(size_t(surface.addresses().size()) + 1) {
-  for (const SurfacePart& part : parts_->parts()) ++first_[size_t(part.address) + 1];
-  std::partial_sum(first_.begin(), first_.end(), first_.begin());
+    : prepared_(new Prepared{.parts = SurfaceParts(surface, points),
+                             .first = std::vector<std::int64_t>(size_t(surface.addresses().size()) + 1)}) {
+  std::vector<std::int64_t>& first = prepared_->first;
+  for (const SurfacePart& part : prepared_->parts.parts()) ++first[size_t(part.address) + 1];
+  std::partial_sum(first.begin(), first.end(), first.begin());
 }
 
 RayTracer::RayTracer(RayTracer&&) noexcept = default;
@@ -386,14 +397,15 @@ RayTracer::~RayTracer() = default;
 std::vector<RayHit> RayTracer::trace(const Ray& ray, const RayOptions& options, std::optional<Index> address,
                                      std::int64_t* undecided) const {
   check(ray, "the ray");
-  const Index addresses = static_cast<Index>(std::ssize(first_) - 1);
+  const std::vector<std::int64_t>& first = prepared_->first;
+  const Index addresses = static_cast<Index>(std::ssize(first) - 1);
   if (address && (*address < 0 || *address >= addresses))
     throw InvalidParameter("address " + std::to_string(*address) + " of " + std::to_string(addresses));
-  Tracer trace(*parts_, options);
+  Tracer& trace = prepared_->tracers.local();
+  trace.set(options);
   std::int64_t not_decided = 0;
-  const std::vector<Hit> found = address
-                                     ? trace(ray, first_[size_t(*address)], first_[size_t(*address) + 1], not_decided)
-                                     : trace(ray, not_decided);
+  const std::vector<Hit> found =
+      address ? trace(ray, first[size_t(*address)], first[size_t(*address) + 1], not_decided) : trace(ray, not_decided);
   if (undecided) *undecided = not_decided;
   std::vector<RayHit> hits;
   hits.reserve(found.size());

@@ -49,15 +49,13 @@ struct RayOptions {
 RayHits intersect(const LimitSurface& surface, const Points& points, const std::vector<Ray>& rays,
                   const RayOptions& options = {});
 
-class SurfaceParts;
-
 struct RayHit {
   double t = 0;
   Sample place;
 };
 
 /// A surface made ready for single rays, as a renderer traces them, whose own tree may say which addresses a ray can
-/// meet. Made once for each pose; any number of threads may trace at a time.
+/// meet. Made once for each pose; any number of threads may trace at a time, and each keeps memory of its own here.
 class RayTracer {
  public:
   /// @param points  of the surface's level, #V x 3
@@ -76,8 +74,8 @@ class RayTracer {
                             std::int64_t* undecided = nullptr) const;
 
  private:
-  std::unique_ptr<const SurfaceParts> parts_;
-  std::vector<std::int64_t> first_;  // parts of address a are [first_[a], first_[a + 1])
+  struct Prepared;
+  std::unique_ptr<Prepared> prepared_;
 };
 
 }  // namespace sublimit
