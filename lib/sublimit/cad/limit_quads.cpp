@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -14,6 +13,8 @@
 #include "sublimit/base/parallel_for.h"
 #include "sublimit/cad/cad_cells.h"
 #include "sublimit/cad/cap_fitter.h"
+#include "sublimit/cad/signed_classes.h"
+#include "sublimit/cad/triangle_thirds.h"
 #include "sublimit/limit/limit_patches.h"
 #include "sublimit/limit/place_numbers.h"
 
@@ -97,24 +98,15 @@ class ExactQuads {
     const auto [at, is_new] = thirds_.try_emplace(degree);
     if (!is_new) return at->second;
     const PolynomialBasis basis(degree, true);
-    const Eigen::MatrixXd from_net = bernstein_from(basis).fullPivLu().inverse(), fit = interpolation(degree);
-    const std::vector<double> nodes = interpolation_nodes(degree);
-    const Eigen::Index n = degree + 1;
+    const std::array<Eigen::MatrixXd, 3> thirds = triangle_thirds(degree);
+    const int n = degree + 1;
     for (size_t k = 0; k < 3; ++k) {
-      LimitQuad third;
-      third.corners = third_of_triangle({{0, 0}, {1, 0}, {0, 1}}, k);
-      Eigen::MatrixXd values(n * n, from_net.rows());
-      for (Eigen::Index i = 0; i < n; ++i)
-        for (Eigen::Index j = 0; j < n; ++j) {
-          const Sample s = third.place(nodes[size_t(i)], nodes[size_t(j)]);
-          values.row(i * n + j) = basis.at(s.u, s.v, 0) * from_net;
-        }
-      Eigen::MatrixXd tensor(n * n, n * n);
-      for (Eigen::Index i = 0; i < n; ++i)
-        for (Eigen::Index j = 0; j < n; ++j)
-          for (Eigen::Index a = 0; a < n; ++a)
-            for (Eigen::Index b = 0; b < n; ++b) tensor(i * n + j, a * n + b) = fit(i, a) * fit(j, b);
-      at->second[k] = tensor * values;
+      at->second[k].resize(n * n, basis.size());
+      for (int i = 0; i < n; ++i)
+        for (int j = 0; j < n; ++j)  // here v is the faster one
+          for_each_net_row(basis, [&](int a, int b, Eigen::Index column) {
+            at->second[k](i * n + j, column) = thirds[k](i + n * j, net_row(basis, b, a));
+          });
     }
     return at->second;
   }
@@ -125,23 +117,18 @@ class ExactQuads {
 
 /// Numbers of the groups of cells that share corners: those around one extraordinary vertex.
 std::vector<size_t> groups_of(const std::vector<CadCell>& cells, const LimitSurface::Parts& parts) {
-  std::vector<size_t> group(cells.size());
-  std::iota(group.begin(), group.end(), size_t{0});
-  const auto find = [&](size_t a) {
-    while (group[a] != a) a = group[a] = group[group[a]];
-    return a;
-  };
+  SignedClasses classes(cells.size());
   PlaceNumbers places(parts);
   std::vector<size_t> first;
   for (size_t c = 0; c < cells.size(); ++c)
     for (size_t k = 0; k < (cells[c].triangle ? 3u : 4u); ++k) {
       const auto place = size_t(places.add(cells[c].address, cells[c].corners[k]));
       if (place == first.size()) first.push_back(c);
-      const size_t a = find(first[place]), b = find(c);
-      group[std::max(a, b)] = std::min(a, b);
+      classes.join(first[place], c);
     }
-  for (size_t c = 0; c < cells.size(); ++c) group[c] = find(c);
-  return group;
+  std::vector<size_t> groups;
+  for (size_t c = 0; c < cells.size(); ++c) groups.push_back(classes.find(c).first);
+  return groups;
 }
 
 bool can_be_cut(const CadCell& cell) {

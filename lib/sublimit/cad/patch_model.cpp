@@ -160,7 +160,7 @@ class PatchModelMaker {
 
   /// A face meets itself as a cylinder does, or not at all: files without curves in parameters say no more. Fronts go
   /// on across edges, and these have two faces.
-  bool can_share(const Part& a, const Part& b, bool reversed) {
+  bool join_fronts(const Part& a, const Part& b, bool reversed) {
     if (a.is_shared || b.is_shared) return false;
     const PatchLine &l = a.at.line, &r = b.at.line;
     if (l.patch == r.patch) return l.along_v == r.along_v && !reversed && sides_[side_number(l)].size() == 1;
@@ -169,7 +169,7 @@ class PatchModelMaker {
   }
 
   void share(Part& a, Part& b, bool reversed, double gap, const std::optional<SeamMaximum>& angle) {
-    if (!can_share(a, b, reversed)) {
+    if (!join_fronts(a, b, reversed)) {
       ++model_.unsuitable;
       return;
     }

@@ -21,9 +21,14 @@ class SignedClasses {
     return parent_.size() - 1;
   }
   /// The least of the class, and whether i is turned over beside it.
-  std::pair<std::size_t, bool> find(std::size_t i) const {
+  std::pair<std::size_t, bool> find(std::size_t i) {
     bool turned = false;
-    for (; parent_[i] != i; i = parent_[i]) turned ^= bool(turned_[i]);
+    while (parent_[i] != i) {
+      turned_[i] ^= turned_[parent_[i]];  // beside the one after next, which is next from now on
+      parent_[i] = parent_[parent_[i]];
+      turned ^= bool(turned_[i]);
+      i = parent_[i];
+    }
     return {i, turned};
   }
   /// @return  whether that agrees with what was known

@@ -5,18 +5,10 @@
 #include <vector>
 
 #include "sublimit/cad/cad_cells.h"
+#include "sublimit/core/binomial.h"
 #include "sublimit/limit/triangle_blossom.h"
 
 namespace sublimit {
-namespace {
-
-double binomial(int n, int k) {
-  double result = 1;
-  for (int i = 1; i <= k; ++i) result = result * (n - k + i) / i;
-  return result;
-}
-
-}  // namespace
 
 std::array<Eigen::MatrixXd, 3> triangle_thirds(int degree) {
   const int n = degree;
@@ -34,7 +26,7 @@ std::array<Eigen::MatrixXd, 3> triangle_thirds(int degree) {
           const int counts[] = {n - j - (i - k), i - k, k, j - k};
           for (size_t c = 0; c < 4; ++c) arguments.insert(arguments.end(), size_t(counts[c]), corners[c]);
           const std::vector<double> row = triangle_blossom(arguments);
-          const double share = binomial(n - j, i - k) * binomial(j, k) / binomial(n, i);
+          const double share = double(binomial(n - j, i - k) * binomial(j, k)) / double(binomial(n, i));
           for (size_t c = 0; c < row.size(); ++c) net(i + (n + 1) * j, Eigen::Index(c)) += share * row[c];
         }
     thirds[third] = std::move(net);

@@ -5,6 +5,7 @@
 #include <array>
 #include <vector>
 
+#include "sublimit/core/binomial.h"
 #include "sublimit/core/number.h"
 
 namespace sublimit {
@@ -69,12 +70,6 @@ class Bernstein {
 };
 
 namespace bernstein_detail {
-
-inline long binomial(int n, int k) {
-  long b = 1;
-  for (int i = 1; i <= k; ++i) b = b * (n - k + i) / i;
-  return b;
-}
 
 /// B_ij = weight * u^i v^j * (rest).
 template <class T>

@@ -53,8 +53,9 @@ struct LimitIntegrals {
 /// of a surface that intersects itself counts every point by its winding number.
 /// @param points  of the level, #V x 3
 /// @return  the same bits for any number of threads
-/// @throws InvalidParameter  points that do not fit, or are not finite
-/// @throws ResourceError     two levels of such a mesh take more memory than there is
+/// @throws InvalidParameter     points that do not fit, or are not finite
+/// @throws UnsupportedTopology  as `refined_sums`: holes
+/// @throws ResourceError        two levels of such a mesh take more memory than there is
 LimitIntegrals limit_integrals(const LimitSurface& surface, const Points& points);
 
 }  // namespace sublimit

@@ -6,14 +6,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sublimit/core/binomial.h"
+
 namespace sublimit {
 namespace {
-
-double binomial(int n, int k) {
-  double value = 1;
-  for (int i = 1; i <= k; ++i) value = value * (n - k + i) / i;
-  return std::round(value);
-}
 
 /// Bernstein polynomials at a place, in the order of the basis.
 Eigen::RowVectorXd bernstein(int d, bool total, double u, double v) {
@@ -21,10 +17,10 @@ Eigen::RowVectorXd bernstein(int d, bool total, double u, double v) {
   int column = 0;
   for (int k = 0; k <= d; ++k)
     for (int l = 0; l <= (total ? d - k : d); ++l, ++column)
-      row[column] =
-          total ? binomial(d, k) * binomial(d - k, l) * std::pow(u, k) * std::pow(v, l) * std::pow(1 - u - v, d - k - l)
-                : binomial(d, k) * std::pow(u, k) * std::pow(1 - u, d - k) * binomial(d, l) * std::pow(v, l) *
-                      std::pow(1 - v, d - l);
+      row[column] = total ? double(binomial(d, k) * binomial(d - k, l)) * std::pow(u, k) * std::pow(v, l) *
+                                std::pow(1 - u - v, d - k - l)
+                          : double(binomial(d, k) * binomial(d, l)) * std::pow(u, k) * std::pow(1 - u, d - k) *
+                                std::pow(v, l) * std::pow(1 - v, d - l);
   return row;
 }
 

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "sublimit/base/error.h"
 #include "sublimit/base/parallel_for.h"
 #include "sublimit/limit/sequence_limit.h"
 #include "sublimit/scheme/check_levels.h"
@@ -66,10 +67,21 @@ EstimatedSums extrapolated(const std::vector<SurfaceSums::Numbers>& levels, int 
   return {SurfaceSums::of(value), SurfaceSums::of(error)};
 }
 
+/// Faces that lie on several of those before leave no region to a hole: it is another one on each level.
+void check_holes(const Level& control, const Scheme<double>& scheme) {
+  if (std::ranges::find(control.holes, true) == control.holes.end()) return;
+  for (const Step<double>& step : scheme.steps)
+    if (!is_primal(step.split))
+      throw UnsupportedTopology(scheme.name +
+                                ": holes are no whole faces of its levels, so what they leave of a limit that is not "
+                                "made of polynomials has no area; leave these faces out of the mesh");
+}
+
 }  // namespace
 
 EstimatedSums refined_sums(const Level& control, const Points& points, const Scheme<double>& scheme,
                            const RefinedSumsOptions& options) {
+  check_holes(control, scheme);
   constexpr int least_levels = 2;
   std::vector<SurfaceSums::Numbers> found;
   Level made;

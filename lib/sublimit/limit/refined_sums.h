@@ -17,7 +17,8 @@ struct RefinedSumsOptions {
 /// Sums over the limit but its holes.
 /// @param points  of the level, near 0 and of a size near 1
 /// @return  the same bits for any number of threads
-/// @throws ResourceError  the second level takes more memory than there is
+/// @throws UnsupportedTopology  holes, if faces of a level lie on several of the one before (sqrt3, dual schemes)
+/// @throws ResourceError        the second level takes more memory than there is
 EstimatedSums refined_sums(const Level& level, const Points& points, const Scheme<double>& scheme,
                            const RefinedSumsOptions& options = {});
 

@@ -2,10 +2,14 @@
 #include "sublimit/files/place_files.h"
 
 #include <array>
+#include <cmath>
+#include <limits>
+#include <string>
 #include <utility>
 
 #include "sublimit/base/atomic_file.h"
 #include "sublimit/base/error.h"
+#include "sublimit/base/format_number.h"
 #include "sublimit/base/row_writer.h"
 #include "sublimit/files/csv_fields.h"
 #include "sublimit/files/sample_files.h"
@@ -58,8 +62,13 @@ PlacedFaces read_placed_faces(const std::filesystem::path& path) {
   if (!found[0].whole) throw FormatError(path.string() + ": place_face should have an integer type");
   PlacedFaces faces{{}, std::move(read.mesh.face_sizes), std::move(read.mesh.face_vertices)};
   faces.places.reserve(found[0].values.size());
-  for (size_t i = 0; i < found[0].values.size(); ++i)
+  for (size_t i = 0; i < found[0].values.size(); ++i) {
+    constexpr double most = std::numeric_limits<Index>::max();
+    if (!(std::abs(found[0].values[i]) <= most))
+      throw FormatError(path.string() + ": vertex " + std::to_string(i) + ": place_face " +
+                        format_number(found[0].values[i]) + " is no number of a face");
     faces.places.push_back({static_cast<Index>(found[0].values[i]), found[1].values[i], found[2].values[i]});
+  }
   return faces;
 }
 

@@ -18,9 +18,6 @@
 namespace sublimit::testing {
 namespace {
 
-/// Of the surface's size, as closest_point.h says.
-constexpr double distance_accuracy = 1e-12;
-
 using Vector = Eigen::Matrix<Precise, 3, 1>;
 
 class TrueSurface {
@@ -181,8 +178,8 @@ void expect_truth(const char* scheme, const ControlMesh& mesh, std::vector<Eigen
     const Eigen::Vector3d query = q.row(i);
     const Precise nearest = truth.nearest(query), there = truth.distance(found.places[size_t(i)], query);
     const double rounding_of_query = rounding(1, query.norm());
-    EXPECT_LE(std::abs(double(Precise(found.distances[i] - nearest))), distance_accuracy * size + rounding_of_query);
-    EXPECT_LE(std::abs(double(Precise(there - nearest))), distance_accuracy * size + rounding_of_query);
+    EXPECT_LE(std::abs(double(Precise(found.distances[i] - nearest))), found_distance * size + rounding_of_query);
+    EXPECT_LE(std::abs(double(Precise(there - nearest))), found_distance * size + rounding_of_query);
     EXPECT_LE(double(Precise(found.lower[i] - nearest)), 0);
   }
 }

@@ -37,8 +37,8 @@ TEST(CliStepPatches, ClosedNurbsAreSolids) {
   EXPECT_EQ(made.report["faces"], 2);
   EXPECT_EQ(made.report["seam_edges"], 3);
   EXPECT_EQ(made.report["point_sides"], 2);
-  const double pi = std::numbers::pi;
-  EXPECT_NEAR(made.report["volume"], 4 * pi / 3 + 6 * pi * pi, 1e-9);
+  const double pi = std::numbers::pi, volume = 4 * pi / 3 + 6 * pi * pi;
+  EXPECT_NEAR(made.report["volume"], volume, rounding(1000, volume));  // some hundred nodes on some ten faces
   EXPECT_NE(made.text.find("RATIONAL_B_SPLINE_SURFACE"), std::string::npos);
 }
 

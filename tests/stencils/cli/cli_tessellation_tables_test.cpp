@@ -155,6 +155,13 @@ TEST(CliTessellationTables, AreRefusedInClearWords) {
   refused_places({"off.ply", "vertex 7", "(0.5, 1.5)"});
   places[7] = {5, std::nan(""), 0};
   refused_places({"off.ply", "vertex 7", "outside"});
+  const std::string far = on.directory.write(
+      "far.ply",
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+      "property uint place_face\nproperty float place_u\nproperty float place_v\n"
+      "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+      "0 0 0 0 0 0\n1 0 0 4294967295 0 0\n0 1 0 0 0 0\n3 0 1 2\n");
+  refused({"--tessellation", far}, 3, {"far.ply", "vertex 1", "4294967295"});
 }
 
 }  // namespace

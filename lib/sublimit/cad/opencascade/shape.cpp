@@ -28,9 +28,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <utility>
 #include <vector>
+
+#include "sublimit/cad/signed_classes.h"
 
 namespace sublimit {
 namespace {
@@ -171,23 +172,17 @@ class ShapeMaker {
 
   /// Faces by the edges that they share.
   std::vector<std::vector<size_t>> components() const {
-    std::vector<size_t> group(model_.faces.size());
-    std::iota(group.begin(), group.end(), size_t{0});
-    const auto find = [&](size_t a) {
-      while (group[a] != a) a = group[a] = group[group[a]];
-      return a;
-    };
+    SignedClasses groups(model_.faces.size());
     std::vector<size_t> first(model_.edges.size(), model_.faces.size());
     for (size_t f = 0; f < model_.faces.size(); ++f)
       for (const EdgeUse& use : model_.faces[f].border) {
         if (model_.edges[size_t(use.edge)].is_point) continue;
         size_t& at = first[size_t(use.edge)];
         if (at == model_.faces.size()) at = f;
-        const size_t a = find(at), b = find(f);
-        group[std::max(a, b)] = std::min(a, b);
+        groups.join(at, f);
       }
     std::map<size_t, std::vector<size_t>> found;
-    for (size_t f = 0; f < group.size(); ++f) found[find(f)].push_back(f);
+    for (size_t f = 0; f < groups.size(); ++f) found[groups.find(f).first].push_back(f);
     std::vector<std::vector<size_t>> all;
     for (auto& [least, faces] : found) all.push_back(std::move(faces));
     return all;

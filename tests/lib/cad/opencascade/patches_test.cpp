@@ -33,6 +33,13 @@ namespace sublimit {
 namespace {
 
 using testing::cad_exact;
+using testing::rounding;
+
+/// What OpenCASCADE's adaptive integral is asked for, of a volume, and what it keeps: 6e-9 on rational spheres and
+/// tori, whose exact volumes are known. Its plain rule is 1% off there.
+constexpr double asked_volume = 1e-9, read_volume = 1e-8;
+/// Terms of an integral of ours: some hundred nodes on some ten faces.
+constexpr double nodes = 1000;
 
 std::vector<NamedPatch> named(const testing::SplineModel& model) {
   std::vector<NamedPatch> patches;
@@ -74,7 +81,7 @@ ReadFile read_back(const std::vector<NamedPatch>& patches, bool step = true) {
 
 double volume_of(const TopoDS_Shape& shape) {
   GProp_GProps properties;
-  BRepGProp::VolumeProperties(shape, properties, 1e-9);  // adaptive: its plain rule is 1% off on a sphere
+  BRepGProp::VolumeProperties(shape, properties, asked_volume);
   return properties.Mass();
 }
 
@@ -125,9 +132,9 @@ TEST(PatchFiles, RationalSphereIsOneFaceAndOneSolid) {
   EXPECT_EQ(read.model.points, 2);
   EXPECT_EQ(read.model.boundary.vertices.rows(), 2);
   const double volume = 4 * std::numbers::pi / 3;
-  EXPECT_NEAR(read.file.volume, volume, 1e-11 * volume);
-  EXPECT_NEAR(read.model.area, 4 * std::numbers::pi, 1e-11 * volume);
-  EXPECT_NEAR(volume_of(read.shape), volume, 1e-6 * volume);
+  EXPECT_NEAR(read.file.volume, volume, rounding(nodes, volume));
+  EXPECT_NEAR(read.model.area, 3 * volume, rounding(nodes, 3 * volume));
+  EXPECT_NEAR(volume_of(read.shape), volume, read_volume * volume);
   EXPECT_TRUE(read.faces[0]->IsURational());
 }
 
@@ -148,10 +155,11 @@ TEST(PatchFiles, ToriHaveTwoSeamsAndOneVertex) {
     EXPECT_EQ(read.file.solids, 1);
     EXPECT_EQ(read.model.seams, 2);
     EXPECT_EQ(read.model.boundary.vertices.rows(), 1);
-    EXPECT_NEAR(volume_of(read.shape), read.file.volume, 1e-6 * read.file.volume);
+    EXPECT_NEAR(volume_of(read.shape), read.file.volume, read_volume * read.file.volume);
   }
   const CadFile torus = cad_file(patch_model(named(testing::nurbs_torus())).boundary, "m", false);
-  EXPECT_NEAR(torus.volume, 6 * std::numbers::pi * std::numbers::pi, 1e-9);
+  const double volume = 6 * std::numbers::pi * std::numbers::pi;
+  EXPECT_NEAR(torus.volume, volume, rounding(nodes, volume));
 }
 
 /// The same patch over other parameters, from 1 on.
@@ -181,7 +189,7 @@ TEST(PatchFiles, FrontsOfASolidAreOutsideHoweverPatchesAreGiven) {
     EXPECT_EQ(read.model.boundary.vertices.rows(), 8);
     EXPECT_NEAR(read.file.volume, 8, cad_exact * 8);
     EXPECT_NEAR(read.model.angle, std::numbers::pi / 2, cad_exact);
-    EXPECT_NEAR(volume_of(read.shape), 8, 1e-9);
+    EXPECT_NEAR(volume_of(read.shape), 8, read_volume * 8);
   }
 }
 
@@ -260,7 +268,7 @@ TEST(PatchFiles, TrianglesAreThreeFaces) {
   EXPECT_EQ(read.faces.size(), 12u);
   EXPECT_EQ(read.model.shared, 24);
   EXPECT_EQ(read.model.boundary.vertices.rows(), 4 + 6 + 4);
-  EXPECT_NEAR(volume_of(read.shape), read.file.volume, 1e-6);
+  EXPECT_NEAR(volume_of(read.shape), read.file.volume, read_volume * read.file.volume);
 }
 
 TEST(PatchFiles, TrianglesAndSquaresShareHalvesOfSides) {
@@ -288,7 +296,7 @@ TEST(PatchFiles, TrianglesAndSquaresShareHalvesOfSides) {
     EXPECT_EQ(read.model.partial, 0);
     EXPECT_EQ(read.model.boundary.vertices.rows(), 2 * 7);
     EXPECT_EQ(read.faces.size(), 9u);
-    EXPECT_NEAR(volume_of(read.shape), read.file.volume, 1e-9);
+    EXPECT_NEAR(volume_of(read.shape), read.file.volume, read_volume * read.file.volume);
   }
 }
 

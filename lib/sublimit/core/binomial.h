@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <cstdint>
+
+namespace sublimit {
+
+/// Of n <= 60 things k: products before the division are still exact.
+constexpr std::int64_t binomial(int n, int k) {
+  std::int64_t value = 1;
+  for (int i = 1; i <= k; ++i) value = value * (n - k + i) / i;
+  return value;
+}
+
+}  // namespace sublimit
