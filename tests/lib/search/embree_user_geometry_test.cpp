@@ -27,9 +27,9 @@ namespace {
 
 /// A ray on its way through Embree. The callbacks get the address of `embree`, the first member, as their context.
 struct Query {
-  RTCIntersectContext embree;
-  Ray ray;
-  RayHit nearest{.t = std::numeric_limits<double>::infinity()};
+  RTCIntersectContext embree = {};
+  Ray ray = {};
+  RayHit nearest{std::numeric_limits<double>::infinity(), {}};
 };
 
 /// What a renderer makes of a surface in one pose. A new pose has new boxes, a new RayTracer, and `rtcCommitGeometry`.
@@ -58,7 +58,8 @@ class LimitGeometry {
   RayHit nearest(const Ray& ray) const {
     Query query{.ray = ray};
     rtcInitIntersectContext(&query.embree);
-    RTCRayHit in{.ray = in_float(ray)};
+    RTCRayHit in{};
+    in.ray = in_float(ray);
     in.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     rtcIntersect1(scene_, &query.embree, &in);
     return query.nearest;
