@@ -95,20 +95,20 @@ class ExactQuads {
 
   /// Nets of the thirds by the net of a triangle.
   const std::array<Eigen::MatrixXd, 3>& thirds_of(int degree) {
-    const auto [at, is_new] = thirds_.try_emplace(degree);
-    if (!is_new) return at->second;
+    if (const auto at = thirds_.find(degree); at != thirds_.end()) return at->second;
+    std::array<Eigen::MatrixXd, 3>& nets = thirds_[degree];
     const PolynomialBasis basis(degree, true);
     const std::array<Eigen::MatrixXd, 3> thirds = triangle_thirds(degree);
     const int n = degree + 1;
     for (size_t k = 0; k < 3; ++k) {
-      at->second[k].resize(n * n, basis.size());
+      nets[k].resize(n * n, basis.size());
       for (int i = 0; i < n; ++i)
         for (int j = 0; j < n; ++j)  // here v is the faster one
           for_each_net_row(basis, [&](int a, int b, Eigen::Index column) {
-            at->second[k](i * n + j, column) = thirds[k](i + n * j, net_row(basis, b, a));
+            nets[k](i * n + j, column) = thirds[k](i + n * j, net_row(basis, b, a));
           });
     }
-    return at->second;
+    return nets;
   }
 
  private:
