@@ -19,7 +19,7 @@ struct NetShape {
 
 /// Degree times the differences along u or along v.
 Points differences(const NetShape& from, const Points& net, const NetShape& to, bool by_u) {
-  Points result(to.size(), 3);
+  Points result(to.size(), net.cols());
   const int degree = by_u ? from.along_u : from.along_v;
   for (int i = 0; result.rows() > 0 && i <= to.along_u; ++i)
     for (int j = 0; j < to.width(i); ++j)
@@ -50,9 +50,10 @@ NetDerivatives::NetDerivatives(const PolynomialBasis& basis, Points net, int ord
   derive(0, 2, false);
 }
 
-Eigen::Vector3d NetDerivatives::value(int du, int dv, double u, double v) const {
+Eigen::Vector4d NetDerivatives::value(int du, int dv, double u, double v) const {
   Points b = net(du, dv);
-  if (b.rows() == 0) return Eigen::Vector3d::Zero();
+  Eigen::Vector4d result = Eigen::Vector4d::Zero();
+  if (b.rows() == 0) return result;
   const NetShape shape = shape_of(degree_, total_, du, dv);
   if (total_) {
     for (int left = shape.along_u; left > 0; --left)
@@ -60,7 +61,8 @@ Eigen::Vector3d NetDerivatives::value(int du, int dv, double u, double v) const 
         for (int j = 0; i + j < left; ++j)
           b.row(shape.row(i, j)) =
               (1 - u - v) * b.row(shape.row(i, j)) + u * b.row(shape.row(i + 1, j)) + v * b.row(shape.row(i, j + 1));
-    return b.row(0);
+    result.head(b.cols()) = b.row(0);
+    return result;
   }
   for (int left = shape.along_v; left > 0; --left)
     for (int i = 0; i <= shape.along_u; ++i)
@@ -69,7 +71,8 @@ Eigen::Vector3d NetDerivatives::value(int du, int dv, double u, double v) const 
   for (int left = shape.along_u; left > 0; --left)
     for (int i = 0; i < left; ++i)
       b.row(shape.row(i, 0)) = (1 - u) * b.row(shape.row(i, 0)) + u * b.row(shape.row(i + 1, 0));
-  return b.row(0);
+  result.head(b.cols()) = b.row(0);
+  return result;
 }
 
 NetDerivatives::Jet NetDerivatives::at(double u, double v) const {

@@ -10,6 +10,7 @@ namespace sublimit {
 
 class NetDerivatives {
  public:
+  /// @param net    x 3, or x 4
   /// @param order  of the derivatives wanted, 1 or 2
   NetDerivatives(const PolynomialBasis& basis, Points net, int order);
 
@@ -17,13 +18,13 @@ class NetDerivatives {
   const Points& net(int du, int dv) const { return nets_[number(du, dv)]; }
 
   struct Jet {
-    Eigen::Vector3d x, u, v, uu, uv, vv;  ///< second ones are zero if they were not wanted
+    Eigen::Vector4d x, u, v, uu, uv, vv;  ///< second ones are zero if they were not wanted; so is a column that is not
   };
   Jet at(double u, double v) const;
 
  private:
   static size_t number(int du, int dv) { return size_t((du + dv) * (du + dv + 1) / 2 + dv); }  // x, u, v, uu, uv, vv
-  Eigen::Vector3d value(int du, int dv, double u, double v) const;
+  Eigen::Vector4d value(int du, int dv, double u, double v) const;
 
   int degree_;
   bool total_;

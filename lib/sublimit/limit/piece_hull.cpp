@@ -5,6 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
+
+#include "sublimit/limit/triangle_blossom.h"
 
 #include "sublimit/core/binomial.h"
 
@@ -41,9 +44,52 @@ Eigen::MatrixXd nodes_of(const PolynomialBasis& basis) {
   return values;
 }
 
+/// Of one direction, by de Casteljau's steps: the control points of [0, 1/2], or of [1/2, 1].
+Eigen::MatrixXd half_matrix(int d, bool upper) {
+  Eigen::MatrixXd half = Eigen::MatrixXd::Zero(d + 1, d + 1);
+  for (int i = 0; i <= d; ++i)
+    for (int l = 0; l <= i; ++l)
+      half(upper ? d - i : i, upper ? d - l : l) = std::ldexp(binomial(i, l), -i);
+  return half;
+}
+
+Eigen::MatrixXd square_quarter(int d, int k) {
+  const Eigen::MatrixXd in_u = half_matrix(d, (k & 1) != 0), in_v = half_matrix(d, (k >> 1) != 0);
+  const Eigen::Index side = d + 1;
+  Eigen::MatrixXd quarter(side * side, side * side);
+  for (Eigen::Index i = 0; i < side; ++i)
+    for (Eigen::Index l = 0; l < side; ++l) quarter.block(i * side, l * side, side, side) = in_u(i, l) * in_v;
+  return quarter;
+}
+
+/// Control points are values of the blossom at the quarter's corners.
+Eigen::MatrixXd triangle_quarter(int d, int k) {
+  std::array<Barycentric, 3> corners;
+  for (size_t c = 0; c < 3; ++c) {
+    const double own_u = c == 1 ? 1 : 0, own_v = c == 2 ? 1 : 0;
+    const bool turned = k == 3;
+    const double u = turned ? (1 - own_u) / 2 : (own_u + (k & 1)) / 2;
+    const double v = turned ? (1 - own_v) / 2 : (own_v + (k >> 1)) / 2;
+    corners[c] = {1 - u - v, v, u};  // rows of nets go by u, then by v, which is the blossom's faster one
+  }
+  const Eigen::Index size = (d + 1) * (d + 2) / 2;
+  Eigen::MatrixXd quarter(size, size);
+  std::vector<Barycentric> arguments;
+  Eigen::Index row = 0;
+  for (int i = 0; i <= d; ++i)
+    for (int j = 0; j <= d - i; ++j, ++row) {
+      arguments.assign(size_t(d - i - j), corners[0]);
+      arguments.insert(arguments.end(), size_t(i), corners[1]);
+      arguments.insert(arguments.end(), size_t(j), corners[2]);
+      const std::vector<double> weights = triangle_blossom(arguments);
+      quarter.row(row) = Eigen::Map<const Eigen::RowVectorXd>(weights.data(), size);
+    }
+  return quarter;
+}
+
 }  // namespace
 
-Eigen::Vector2d BernsteinNets::in_quarter(int k, bool triangle, double u, double v) {
+Eigen::Vector2d BernsteinQuarters::in_quarter(int k, bool triangle, double u, double v) {
   if (triangle && k == 3) return {1 - 2 * u, 1 - 2 * v};  // the middle one lies upside down
   return {2 * u - (k & 1), 2 * v - (k >> 1)};
 }
@@ -54,19 +100,8 @@ Eigen::MatrixXd bernstein_from(const PolynomialBasis& basis) {
   return nodes_of(basis).fullPivLu().solve(ours);
 }
 
-BernsteinNets::BernsteinNets(const PolynomialBasis& basis) : from_basis_(bernstein_from(basis)) {
-  const int n = basis.size();
-  const bool triangle = basis.total();
-  const Eigen::FullPivLU<Eigen::MatrixXd> interpolation(nodes_of(basis));
-  for (int k = 0; k < 4; ++k) {
-    Eigen::MatrixXd values(n, n);
-    for_each_node(basis, [&](int row, double u, double v) {
-      const bool turned = triangle && k == 3;
-      values.row(row) = turned ? bernstein(basis.degree(), true, (1 - u) / 2, (1 - v) / 2)
-                               : bernstein(basis.degree(), triangle, (u + (k & 1)) / 2, (v + (k >> 1)) / 2);
-    });
-    quarters_[size_t(k)] = interpolation.solve(values);
-  }
+BernsteinQuarters::BernsteinQuarters(int degree, bool total) {
+  for (int k = 0; k < 4; ++k) quarters_[size_t(k)] = total ? triangle_quarter(degree, k) : square_quarter(degree, k);
 }
 
 Points child_points(const PieceLink& link, const Points& points) {

@@ -12,20 +12,27 @@ namespace sublimit {
 /// Bernstein coefficients on the square or the triangle, by i, then j, by those of the basis.
 Eigen::MatrixXd bernstein_from(const PolynomialBasis& basis);
 
-/// The same, and those on the quarters of the square or triangle.
-class BernsteinNets {
+/// Bernstein coefficients on the quarters of the square or triangle, by those on the whole; whatever the basis was.
+class BernsteinQuarters {
  public:
-  explicit BernsteinNets(const PolynomialBasis& basis);
-  /// Coefficients by those of the basis.
-  const Eigen::MatrixXd& from_basis() const { return from_basis_; }
-  /// Coefficients on a quarter by those on the whole.
+  BernsteinQuarters(int degree, bool total);
   const Eigen::MatrixXd& quarter(int k) const { return quarters_[size_t(k)]; }
   /// The place in a quarter of a place in the whole; outside of [0, 1] it is in another one.
   static Eigen::Vector2d in_quarter(int k, bool triangle, double u, double v);
 
  private:
-  Eigen::MatrixXd from_basis_;
   std::array<Eigen::MatrixXd, 4> quarters_;
+};
+
+/// The same, and coefficients by those of the basis.
+class BernsteinNets : public BernsteinQuarters {
+ public:
+  explicit BernsteinNets(const PolynomialBasis& basis)
+      : BernsteinQuarters(basis.degree(), basis.total()), from_basis_(bernstein_from(basis)) {}
+  const Eigen::MatrixXd& from_basis() const { return from_basis_; }
+
+ private:
+  Eigen::MatrixXd from_basis_;
 };
 
 /// Points of a child of a piece.

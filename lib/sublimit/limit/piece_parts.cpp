@@ -93,11 +93,12 @@ std::optional<CellCorners> child_of(const CellCorners& corners, const PieceMap& 
 
 void PieceParts::find(const PieceType& type, const Points& points, const CellCorners& corners, int levels,
                       std::vector<PiecePart>& out, int depth) {
-  PiecePart part{corners, depth, type.polynomial(), {}, &type, {}};
-  if (part.polynomial) {
+  PiecePart part{corners, depth, std::nullopt, {}, &type, {}};
+  if (const PiecePolynomial* const polynomial = type.polynomial()) {
+    part.basis = polynomial->basis;
     const Points differences = points.bottomRows(points.rows() - 1).rowwise() - points.row(0);
-    const BernsteinNets& known = nets(part.polynomial->basis);
-    for (const RowMatrix& C : part.polynomial->coefficients)
+    const BernsteinNets& known = nets(polynomial->basis);
+    for (const RowMatrix& C : polynomial->coefficients)
       part.nets.push_back((known.from_basis() * (C * differences)).rowwise() + points.row(0));
     out.push_back(std::move(part));
     return;
@@ -117,6 +118,19 @@ void PieceParts::find(const PieceType& type, const Points& points, const CellCor
   }
   for (const auto& [link, own] : children)  // the only child is all of its parent
     find(*link->type, child_points(*link, points), own, levels, out, children.size() == 1 ? depth : depth + 1);
+}
+
+PiecePart PieceParts::quarter(const PiecePart& part, int k) {
+  const int degree = part.basis->degree();
+  const bool total = part.basis->total();
+  const BernsteinQuarters& quarters = quarters_.try_emplace({degree, total}, degree, total).first->second;
+  PiecePart quarter{quarter_of(part.corners, total, k), part.depth + 1, part.basis, {}, part.type, {}};
+  for (size_t half = 0; half < part.nets.size(); ++half) {
+    // Of a part that is cut along u = v the quarters beside that line are in one half.
+    if (part.nets.size() > 1 && ((k == 1 && half == 1) || (k == 2 && half == 0))) continue;
+    quarter.nets.push_back(quarters.quarter(k) * part.nets[half]);
+  }
+  return quarter;
 }
 
 AddressPieces::AddressPieces(const LimitSurface& surface, const Points& points)

@@ -45,12 +45,22 @@ std::optional<CellCorners> child_of(const CellCorners& corners, const PieceMap& 
 /// A polynomial part of a piece, or one that is looked into no further.
 struct PiecePart {
   CellCorners corners;
-  int depth = 0;                                ///< quarterings below the piece
-  const PiecePolynomial* polynomial = nullptr;  ///< null: none
-  std::vector<Points> nets;  ///< Bernstein coefficients; two of a part that is cut along u = v, on all of it
-  const PieceType* type = nullptr;
-  Points points;  ///< that it depends on, of a part that is no polynomial
+  int depth = 0;                         ///< quarterings below the piece
+  std::optional<PolynomialBasis> basis;  ///< whose degree it has; none: it is no polynomial
+  /// Bernstein coefficients, x 3; of a rational part (w x, w) with all w > 0, x 4. Two of a part that is cut along u =
+  /// v, on all of it.
+  std::vector<Points> nets;
+  const PieceType* type = nullptr;  ///< of a part that is no polynomial
+  Points points;                    ///< that it depends on
+  /// Whether it is a triangle.
+  bool is_triangle() const { return basis ? basis->total() : type->kind() == Piece::Kind::triangle; }
 };
+
+/// A point of a net as parts have them: of a rational one divided by its weight.
+inline Eigen::Vector3d net_point(const Points& net, Eigen::Index row) {
+  const Eigen::Vector3d x = net.row(row).head<3>();
+  return net.cols() == 4 ? Eigen::Vector3d(x / net(row, 3)) : x;
+}
 
 /// Finds parts of pieces. Not to be shared between threads.
 class PieceParts {
@@ -61,9 +71,12 @@ class PieceParts {
   const BernsteinNets& nets(const PolynomialBasis& basis) {
     return nets_.try_emplace({basis.degree(), basis.total()}, basis).first->second;
   }
+  /// A quarter of a polynomial or rational part, as `quarter_of` has it.
+  PiecePart quarter(const PiecePart& part, int k);
 
  private:
   std::map<std::pair<int, bool>, BernsteinNets> nets_;
+  std::map<std::pair<int, bool>, BernsteinQuarters> quarters_;
 };
 
 /// Row of a Bernstein coefficient in its net.

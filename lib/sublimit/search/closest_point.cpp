@@ -154,7 +154,7 @@ struct Proof {
   }
 };
 
-void check(const LimitSurface& surface, const Points& queries, const ClosestPointOptions& options) {
+void check(const SearchedSurface& surface, const Points& queries, const ClosestPointOptions& options) {
   const std::span<const Sample> guess = options.guess;
   if (options.count < 1)
     throw InvalidParameter(std::to_string(options.count) + " nearest faces were asked for; 1 or more are right");
@@ -171,7 +171,7 @@ void check(const LimitSurface& surface, const Points& queries, const ClosestPoin
     throw InvalidParameter(std::to_string(guess.size()) + " places to begin with for " +
                            std::to_string(queries.rows()) + " points; one each, or none");
   for (const Sample& s : guess)
-    if (!is_inside(surface.addresses(), s))
+    if (!is_inside(surface.faces(), s))
       throw InvalidParameter("a place to begin with is on no face: face " + std::to_string(s.face) + " (" +
                              std::to_string(s.u) + ", " + std::to_string(s.v) + ")");
 }
@@ -180,17 +180,22 @@ void check(const LimitSurface& surface, const Points& queries, const ClosestPoin
 
 ClosestPoints closest_points(const LimitSurface& surface, const Points& control, const Points& queries,
                              const ClosestPointOptions& options) {
+  return closest_points(SearchedLimit(surface, control), queries, options);
+}
+
+ClosestPoints closest_points(const SearchedSurface& surface, const Points& queries,
+                             const ClosestPointOptions& options) {
   check(surface, queries, options);
-  const std::vector<LimitCell> cells = limit_cells(surface, control);
+  const std::vector<LimitCell> cells = surface.cells();
   if (cells.empty()) throw InvalidMesh("there is no surface to project on: no faces, or only holes");
   const BoxTree tree(boxes_of(cells));
-  const BoundLimitSurface bound(surface, control);
+  const BoundSource& bound = surface.samples();
   const double size = tree.nodes()[0].box.sizes().norm();
-  const bool triangles = surface.addresses().triangles();
-  const auto most = size_t(std::min<Index>(options.count, surface.addresses().size()));
+  const bool triangles = surface.faces().triangles;
+  const auto most = size_t(std::min<Index>(options.count, surface.faces().size));
   const Search search{cells, tree, 1e-13 * size, std::int64_t(most) * options.most_cells, triangles};
   std::optional<DistanceBound> bound_of;
-  if (options.prove) bound_of.emplace(surface, control);
+  if (options.prove) bound_of.emplace(surface);
 
   const Eigen::Index count = queries.rows();
   struct Found {
@@ -223,13 +228,14 @@ ClosestPoints closest_points(const LimitSurface& surface, const Points& control,
     result.places.insert(result.places.end(), one.places.begin(), one.places.end());
     result.first.push_back(std::ssize(result.places));
   }
-  LimitSamples samples = bound.evaluate(result.places, 1);
+  LimitSamples samples;
+  bound.evaluate(result.places, 1, true, samples);
   result.points = std::move(samples.position);
   result.normals = std::move(samples.normal);
   result.status = std::move(samples.status);
   result.distances.resize(std::ssize(result.places));
   if (options.prove) result.lower.resize(std::ssize(result.places));
-  const std::vector<int> winding = options.is_signed ? winding_numbers(surface, control, queries) : std::vector<int>();
+  const std::vector<int> winding = options.is_signed ? winding_numbers(surface, queries) : std::vector<int>();
   for (Eigen::Index i = 0; i < count; ++i)
     for (std::int64_t row = result.first[size_t(i)]; row < result.first[size_t(i) + 1]; ++row) {
       const double distance = (result.points.row(row) - queries.row(i)).norm();

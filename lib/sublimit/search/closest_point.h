@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Closest points on the exact limit surface. Its cells (limit_cells.h) are searched from the nearest box on, each by
+// Closest points on exact limit surfaces, patches, or whatever a search can take (searched_surface.h). Cells (limit_cells.h) are searched from the nearest box on, each by
 // Newton's method, until no box is nearer than the best point found, on whatever face. Boxes of polynomial pieces hold
 // them for certain; of schemes without polynomials they are of sampled points, widened by a quarter: an estimate.
 //
@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "sublimit/limit/limit_surface.h"
+#include "sublimit/search/searched_surface.h"
 
 namespace sublimit {
 
@@ -49,13 +50,15 @@ struct ClosestPointOptions {
   bool is_signed = false;
 };
 
-/// Nearest points of the limit, holes left out. Equal input, equal answer, whatever the number of threads.
-/// @param control  points of the surface's level, #V x 3
+/// Nearest points of a surface, holes left out. Equal input, equal answer, whatever the number of threads.
 /// @param queries  #queries x 3
 /// @throws InvalidParameter     shapes that do not fit, queries that are not finite or beyond 1e150: says which;
 ///                              guesses on no face; a count below 1, a radius below 0
 /// @throws InvalidMesh          no face that is not a hole
 /// @throws UnsupportedTopology  signed distances from a surface that is not closed: says where
+ClosestPoints closest_points(const SearchedSurface& surface, const Points& queries,
+                             const ClosestPointOptions& options = {});
+/// @param control  points of the surface's level, #V x 3
 ClosestPoints closest_points(const LimitSurface& surface, const Points& control, const Points& queries,
                              const ClosestPointOptions& options = {});
 

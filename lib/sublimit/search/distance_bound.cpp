@@ -23,8 +23,6 @@ struct Unsettled {
 
 }  // namespace
 
-DistanceBound::DistanceBound(const LimitSurface& surface, const Points& points) : parts_(surface, points) {}
-
 ProvedDistance DistanceBound::operator()(const Eigen::Vector3d& query, double distance, int most, PieceParts& cutter,
                                          std::span<const Index> without) const {
   const BoxTree& tree = parts_.tree();
@@ -69,7 +67,7 @@ ProvedDistance DistanceBound::operator()(const Eigen::Vector3d& query, double di
     }
     const SurfacePart item = std::move(cells[size_t(nearest.number)]);
     const CellCorners& corners = item.part.corners;
-    if (!item.part.polynomial) {
+    if (!item.part.basis) {
       // Towards an extraordinary vertex parts are cut further than their corners can tell.
       if (is_smallest(corners) && box_of(item.part).diagonal().norm() <= 1e-14 * parts_.size() + rounding) {
         proved.lower = std::min(proved.lower, nearest.lower);
@@ -78,15 +76,17 @@ ProvedDistance DistanceBound::operator()(const Eigen::Vector3d& query, double di
       for_each_child(item, cutter, [&](SurfacePart&& child) { push_cell(std::move(child), nearest.lower); });
       continue;
     }
-    const PolynomialBasis& basis = item.part.polynomial->basis;
+    const PolynomialBasis& basis = *item.part.basis;
     double lower = std::numeric_limits<double>::infinity();
     bool settled = true;
     for (const Points& net : item.part.nets) {
       const NetDistance part(basis, net, query, rounding);
-      const Eigen::Vector3d towards = (net.colwise().mean().transpose() - query).normalized();
+      const Eigen::RowVectorXd sum = net.colwise().sum();
+      const double weight = net.cols() == 4 ? sum[3] : double(net.rows());
+      const Eigen::Vector3d towards = (sum.head<3>().transpose() / weight - query).normalized();
       double least = part.lower(towards);
       if (least < enough)
-        if (const std::optional<ConvexMinimum> minimum = part.convex_minimum()) {
+        if (const std::optional<ConvexMinimum> minimum = part.convex_minimum(enough)) {
           least = std::max(least, minimum->lower);
           if (least < enough && minimum->at < enough && item.placed && item.part.nets.size() == 1) {
             const auto [u, v] = at_place(corners, basis.total(), minimum->uv[0], minimum->uv[1]);

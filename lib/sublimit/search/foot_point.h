@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Feet of perpendiculars: from a place on a limit surface downhill to one that is nearest to a point among its
+// Feet of perpendiculars: from a place on a surface downhill to one that is nearest to a point among its
 // neighbours on the same square or triangle.
 #include "sublimit/search/search_domain.h"
-#include "sublimit/limit/limit_surface.h"
+#include "sublimit/limit/linear_source.h"
 
 namespace sublimit {
 
@@ -18,9 +18,9 @@ struct Foot {
 class FootSearch {
  public:
   /// @param surface    which must stay
-  /// @param triangles  whether addresses are triangles
+  /// @param triangles  whether faces are triangles
   /// @param size       of the surface: steps of 1e-14 of it are none
-  FootSearch(const BoundLimitSurface& surface, bool triangles, double size)
+  FootSearch(const BoundSource& surface, bool triangles, double size)
       : surface_(surface), triangles_(triangles), tiny_(1e-14 * size) {}
 
   /// @param domain   where to look, `start` in it
@@ -37,7 +37,7 @@ class FootSearch {
   void probe(const Eigen::Vector3d& point, State& state, int& order);
   static Eigen::Vector2d direction(const State& state, const SearchDomain& domain, bool along_side);
 
-  const BoundLimitSurface& surface_;
+  const BoundSource& surface_;
   bool triangles_;
   double tiny_;
   LimitSamples samples_;

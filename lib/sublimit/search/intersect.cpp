@@ -50,7 +50,13 @@ struct Frame {
     axes.row(1) = d.cross(Eigen::Vector3d(axes.row(0)));
     axes.row(2) = d;
   }
-  Points seen(const Points& x) const { return (x.rowwise() - origin.transpose()) * axes.transpose(); }
+  /// Of a net as parts have them.
+  Points seen(const Points& net) const {
+    if (net.cols() == 3) return (net.rowwise() - origin.transpose()) * axes.transpose();
+    Points seen(net.rows(), 4);
+    seen << (net.leftCols<3>() - net.col(3) * origin.transpose()) * axes.transpose(), net.col(3);
+    return seen;
+  }
 };
 
 /// Smallest and largest distance along the ray of a box that it meets; nothing if it does not.
@@ -82,7 +88,8 @@ class SeenNet {
     constexpr std::array<std::array<double, 2>, 4> directions{
         {{1, 0}, {0, 1}, {0.70710678, 0.70710678}, {0.70710678, -0.70710678}}};
     for (const auto& [a, b] : directions) {
-      const Eigen::VectorXd side = a * net_.col(0) + b * net_.col(1);
+      Eigen::VectorXd side = a * net_.col(0) + b * net_.col(1);
+      if (is_rational()) side.array() /= net_.col(3).array();
       if (side.minCoeff() > slack || side.maxCoeff() < -slack) return false;
     }
     return true;
@@ -114,19 +121,23 @@ class SeenNet {
     NetDerivatives::Jet jet;
     for (int step = 0; step < 64; ++step) {
       jet = x.at(p.x(), p.y());
-      move = inverse * jet.x.head<2>();
+      move = inverse * jet.x.head<2>();  // no denominator is 0: zeros are those of the numerators
       const Eigen::Vector2d next = nearest_inside(p - move);
       const bool done = (next - p).cwiseAbs().maxCoeff() < 1e-16;
       p = next;
       if (done) break;
     }
     // What the neighbour may miss by as much as rounding moves zeros is taken here too.
-    const Eigen::Vector2d off = (inverse.cwiseAbs().rowwise().sum() * slack).array() + beyond;
+    const double largest = is_rational() ? net_.col(3).maxCoeff() : 1;
+    const Eigen::Vector2d off = (inverse.cwiseAbs().rowwise().sum() * (slack * largest)).array() + beyond;
     if (!(move.cwiseAbs().maxCoeff() <= off.maxCoeff())) return {Zero::Kind::none};
-    return {Zero::Kind::one, p, jet.x[2], std::abs(jet.u[2]) * off[0] + std::abs(jet.v[2]) * off[1]};
+    const double w = is_rational() ? jet.x[3] : 1, s = jet.x[2] / w;
+    const double su = (jet.u[2] - s * jet.u[3]) / w, sv = (jet.v[2] - s * jet.v[3]) / w;
+    return {Zero::Kind::one, p, s, std::abs(su) * off[0] + std::abs(sv) * off[1]};
   }
 
  private:
+  bool is_rational() const { return net_.cols() == 4; }
   Eigen::Vector2d nearest_inside(const Eigen::Vector2d& p) const {
     if (!basis_.total()) return p.cwiseMax(0).cwiseMin(1);
     if (p.x() >= 0 && p.y() >= 0 && p.x() + p.y() <= 1) return p;
@@ -229,9 +240,9 @@ class Tracer {
   void look_at(const SurfacePart& cell) {
     const PiecePart& part = cell.part;
     const double slack = slack_;
-    bool known = part.polynomial != nullptr;
+    bool known = part.basis.has_value();
     for (size_t half = 0; half < part.nets.size(); ++half) {
-      const SeenNet net(part.polynomial->basis, frame_->seen(part.nets[half]));
+      const SeenNet net(*part.basis, frame_->seen(part.nets[half]));
       if (!net.can_be_hit(slack)) continue;
       const SeenNet::Zero zero = net.zero(slack);
       const Eigen::Vector2d& uv = zero.uv;
@@ -260,7 +271,7 @@ class Tracer {
   }
 
   void add(const SurfacePart& cell, const Eigen::Vector2d& uv, double s, double reach) {
-    const bool triangle = cell.part.type->kind() == Piece::Kind::triangle;
+    const bool triangle = cell.part.is_triangle();
     const auto [u, v] = at_place(cell.part.corners, triangle, uv.x(), uv.y());
     const double t = s / frame_->length;
     if (!(t >= ray_->tmin && t <= ray_->tmax)) return;
@@ -312,9 +323,10 @@ class Tracer {
 /// Points of the surface at the places of hits. Where corners of parts are not known (next to borders of dual schemes)
 /// or have too few digits (at extraordinary vertices) these are not the hits: there the places are those nearest to
 /// them.
-void place_on_rays(const LimitSurface& surface, const Points& points, const std::vector<Ray>& rays,
-                   const SurfaceParts& parts, RayHits& hits) {
-  LimitSamples samples = surface.evaluate(points, hits.places, 1);
+void place_on_rays(const SearchedSurface& surface, const std::vector<Ray>& rays, const SurfaceParts& parts,
+                   RayHits& hits) {
+  LimitSamples samples;
+  surface.samples().evaluate(hits.places, 1, true, samples);
   Points on_rays(std::ssize(hits.t), 3);
   std::vector<Eigen::Index> off;
   for (size_t i = 0; i < rays.size(); ++i)
@@ -324,9 +336,9 @@ void place_on_rays(const LimitSurface& surface, const Points& points, const std:
       if (!((samples.position.row(k) - on_rays.row(k)).norm() <= allowed)) off.push_back(k);
     }
   if (!off.empty()) {
-    const ClosestPoints found = closest_points(surface, points, on_rays(off, Eigen::all), {.prove = false});
+    const ClosestPoints found = closest_points(surface, on_rays(off, Eigen::all), {.prove = false});
     for (size_t m = 0; m < off.size(); ++m) hits.places[size_t(off[m])] = found.places[m];
-    samples = surface.evaluate(points, hits.places, 1);
+    surface.samples().evaluate(hits.places, 1, true, samples);
   }
   hits.points.swap(samples.position);
   hits.normals.swap(samples.normal);
@@ -351,8 +363,14 @@ void check(const std::vector<Ray>& rays) {
 
 RayHits intersect(const LimitSurface& surface, const Points& points, const std::vector<Ray>& rays,
                   const RayOptions& options) {
+  return intersect(SearchedLimit(surface, points), rays, options);
+}
+
+RayHits intersect(const SearchedSurface& surface, const std::vector<Ray>& rays, const RayOptions& options) {
   check(rays);
-  const SurfaceParts parts(surface, points);
+  if (const std::string which = surface.without_parts(); !which.empty())
+    throw UnsupportedTopology("rays need polynomial or rational surfaces: " + which);
+  const SurfaceParts parts(surface);
   std::vector<std::vector<Hit>> found(rays.size());
   RayHits result;
   result.undecided.resize(rays.size());
@@ -371,7 +389,7 @@ RayHits intersect(const LimitSurface& surface, const Points& points, const std::
     }
     result.first.push_back(std::ssize(result.t));
   }
-  place_on_rays(surface, points, rays, parts, result);
+  place_on_rays(surface, rays, parts, result);
   return result;
 }
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Where rays meet a limit surface: all places, or the nearest one, none missed.
+// Where rays meet a surface: all places, or the nearest one, none missed.
 //
-// Seen along the ray a polynomial part is a map to the plane across it, and hits are its zeros. A part whose Bernstein
+// Seen along the ray a polynomial part is a map to the plane across it, and hits are its zeros, of a rational part those
+// of its numerators. A part whose Bernstein
 // coefficients are all on one side of a line through the ray has none. Where intervals of its derivatives show that the
 // map is one to one (its Jacobian, times the inverse of one in the middle, is near the identity), steps by that inverse
 // come to the one zero, or to a side that it is beyond. Other parts are cut in quarters; those towards extraordinary
@@ -14,7 +15,7 @@
 #include <optional>
 #include <vector>
 
-#include "sublimit/limit/limit_surface.h"
+#include "sublimit/search/searched_surface.h"
 
 namespace sublimit {
 
@@ -42,10 +43,11 @@ struct RayOptions {
 
 /// Holes left out. Equal input, equal answer, whatever the number of threads. Where hulls are estimates
 /// (`SurfaceParts::are_certain`), as of schemes without polynomials, a hit may be missed that they do not hold.
+/// @throws InvalidParameter     a ray that is not finite, has no direction, or ends before it begins: says which
+/// @throws UnsupportedTopology  a face that has no parts (`SearchedSurface::without_parts`)
+RayHits intersect(const SearchedSurface& surface, const std::vector<Ray>& rays, const RayOptions& options = {});
 /// @param points  of the surface's level, #V x 3
-/// @throws InvalidParameter  points that do not fit; a ray that is not finite, has no direction, or ends before it
-/// begins:
-///                           says which
+/// @throws InvalidParameter  points that do not fit
 RayHits intersect(const LimitSurface& surface, const Points& points, const std::vector<Ray>& rays,
                   const RayOptions& options = {});
 

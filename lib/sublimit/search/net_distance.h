@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Bounds on the distance of a point from a polynomial part, by its Bernstein coefficients.
+// Bounds on the distance of a point from a polynomial or rational part, by its Bernstein coefficients.
+//
+// Half of |x - q|^2 is (|X - w q|^2 / w^2) / 2 of a rational part x = X / w. Where h = (|X - w q|^2 - d^2 w^2) / 2, a
+// polynomial, is not below 0, no point is nearer than d; so both are the same quadratic form of coefficients, d = 0 and
+// w = 1 of polynomials.
 #include <array>
 
 #include "sublimit/limit/net_derivatives.h"
 
 namespace sublimit {
 
-/// Half the square of the distance from q is convex on all of the part: its smallest value, and where.
+/// h is convex on all of the part: what its smallest value proves, and where it is.
 struct ConvexMinimum {
   double lower = 0;            ///< of the distance
   double at = 0;               ///< the distance of the place
@@ -16,17 +20,21 @@ struct ConvexMinimum {
 
 class NetDistance {
  public:
-  /// @param rounding  of differences of coefficients and q
+  /// @param net       as `PiecePart` has them
+  /// @param rounding  of differences of points and q
   NetDistance(const PolynomialBasis& basis, const Points& net, const Eigen::Vector3d& query, double rounding);
   /// Of the hull from q.
   /// @param towards  a unit vector: the bound is close if it points from q to the nearest place
   double lower(const Eigen::Vector3d& towards) const;
   /// Nothing where intervals do not show that there is one minimum.
-  std::optional<ConvexMinimum> convex_minimum() const;
+  /// @param distance  of a rational part: the d above, which is to be proved
+  std::optional<ConvexMinimum> convex_minimum(double distance) const;
 
  private:
+  bool is_rational() const { return net_.cols() == 4; }
+
   const PolynomialBasis& basis_;
-  Points net_;  // less q
+  Points net_;  // X - w q, and w of rational ones
   double rounding_;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// All of a limit surface as parts with boxes, in a tree: polynomial ones as Bernstein coefficients, others as the
+// All of a surface as parts with boxes, in a tree: polynomial and rational ones as Bernstein coefficients, others as the
 // points that they depend on. What branch and bound begins with.
 #include <Eigen/Geometry>
 
@@ -9,6 +9,7 @@
 
 #include "sublimit/limit/piece_parts.h"
 #include "sublimit/search/box_tree.h"
+#include "sublimit/search/searched_surface.h"
 
 namespace sublimit {
 
@@ -25,37 +26,26 @@ struct SurfacePart {
 /// A box that holds a part: the hull of its coefficients, or of its points, widened by their reach.
 Eigen::AlignedBox3d box_of(const PiecePart& part);
 
-/// The quarters of a polynomial part, or the children of another.
+/// The quarters of a polynomial or rational part, or the children of another.
 /// @param cutter  of the calling thread
 template <class Visit>
 void for_each_child(const SurfacePart& whole, PieceParts& cutter, const Visit& visit) {
   const PiecePart& part = whole.part;
-  if (!part.polynomial) {
-    const bool triangle = part.type->kind() == Piece::Kind::triangle;
+  if (!part.basis) {
     for (const PieceLink& link : part.type->children()) {
-      const std::optional<CellCorners> own = child_of(part.corners, link.map, triangle);
+      const std::optional<CellCorners> own = child_of(part.corners, link.map, part.is_triangle());
       std::vector<PiecePart> found;
       cutter.find(*link.type, child_points(link, part.points), own.value_or(part.corners), 0, found);
       for (PiecePart& child : found) visit(SurfacePart{whole.address, std::move(child), whole.placed && own});
     }
     return;
   }
-  const PolynomialBasis& basis = part.polynomial->basis;
-  for (int k = 0; k < 4; ++k) {
-    PiecePart quarter{quarter_of(part.corners, basis.total(), k), part.depth + 1, part.polynomial, {}, part.type, {}};
-    for (size_t half = 0; half < part.nets.size(); ++half) {
-      // Of a part that is cut along u = v the quarters beside that line are in one half.
-      if (part.nets.size() > 1 && ((k == 1 && half == 1) || (k == 2 && half == 0))) continue;
-      quarter.nets.push_back(cutter.nets(basis).quarter(k) * part.nets[half]);
-    }
-    visit(SurfacePart{whole.address, std::move(quarter), whole.placed});
-  }
+  for (int k = 0; k < 4; ++k) visit(SurfacePart{whole.address, cutter.quarter(part, k), whole.placed});
 }
 
 class SurfaceParts {
  public:
-  /// @param points  of the surface's level, #V x 3
-  SurfaceParts(const LimitSurface& surface, const Points& points);
+  explicit SurfaceParts(const SearchedSurface& surface);
   const std::vector<SurfacePart>& parts() const { return parts_; }
   /// Of their boxes; empty where there is no surface.
   const BoxTree& tree() const { return tree_; }
@@ -66,7 +56,8 @@ class SurfaceParts {
   double rounding(const Eigen::Vector3d& point) const {
     return 1e-14 * (size() + std::max(largest_, point.cwiseAbs().maxCoeff()));
   }
-  /// Hulls hold what they say: no weight that a part's own points have is negative, which makes them estimates.
+  /// There are parts of all faces, and hulls hold what they say: no weight that a part's own points have is negative,
+  /// which makes them estimates.
   bool are_certain() const { return certain_; }
 
  private:

@@ -5,7 +5,6 @@
 #include <optional>
 
 #include "sublimit/base/error.h"
-#include "sublimit/limit/closed_surface.h"
 #include "sublimit/search/intersect.h"
 
 namespace sublimit {
@@ -33,8 +32,8 @@ std::optional<int> windings(const RayHits& hits, size_t ray, const Eigen::Vector
 
 }  // namespace
 
-std::vector<int> winding_numbers(const LimitSurface& surface, const Points& points, const Points& queries) {
-  if (const std::string why = why_not_closed(surface); !why.empty())
+std::vector<int> winding_numbers(const SearchedSurface& surface, const Points& queries) {
+  if (const std::string why = surface.why_not_closed(); !why.empty())
     throw UnsupportedTopology("what is inside is known of closed surfaces alone: " + why);
   std::vector<int> numbers(size_t(queries.rows()));
   std::vector<Eigen::Index> left(numbers.size());
@@ -44,7 +43,7 @@ std::vector<int> winding_numbers(const LimitSurface& surface, const Points& poin
     const Eigen::Vector3d along = direction(number);
     std::vector<Ray> rays;
     for (const Eigen::Index i : left) rays.push_back({queries.row(i).transpose(), along});
-    const RayHits hits = intersect(surface, points, rays, {.all = true});
+    const RayHits hits = intersect(surface, rays, {.all = true});
     std::vector<Eigen::Index> undecided;
     for (size_t k = 0; k < left.size(); ++k)
       if (const std::optional<int> turns = windings(hits, k, along))

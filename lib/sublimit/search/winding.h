@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// What is inside a closed limit surface: how often it winds around a point, counted where a ray from there leaves it
+// What is inside a closed surface: how often it winds around a point, counted where a ray from there leaves it
 // and comes back (intersect.h misses no hit).
 #include <vector>
 
-#include "sublimit/limit/limit_surface.h"
+#include "sublimit/search/searched_surface.h"
 
 namespace sublimit {
 
 /// 0 outside, 1 inside, -1 inside a surface whose normals look inwards; others where it intersects itself. Of points on
 /// the surface either side's. Where rays may miss hits, as of schemes without polynomials (intersect.h), an estimate.
-/// @param points  of the surface's level, #V x 3
 /// @throws InvalidParameter     points that do not fit, or are not finite
 /// @throws UnsupportedTopology  a surface that is not closed: says where
-std::vector<int> winding_numbers(const LimitSurface& surface, const Points& points, const Points& queries);
+std::vector<int> winding_numbers(const SearchedSurface& surface, const Points& queries);
 
 }  // namespace sublimit

@@ -50,10 +50,10 @@ bool is_within_angle(const PolynomialBasis& basis, const std::vector<Points>& ne
 
 /// The surface at a corner of a part, or a point near it.
 Eigen::RowVector3d corner_of(const PiecePart& part, size_t corner, bool triangle) {
-  if (!part.polynomial) return part.points.colwise().mean();
+  if (!part.basis) return part.points.colwise().mean();
   const CellCorner c = triangle ? triangle_corners[corner] : square_corners[corner];
-  const int d = part.polynomial->basis.degree();
-  return part.nets[0].row(net_row(part.polynomial->basis, c.i * d, c.j * d));
+  const int d = part.basis->degree();
+  return part.nets[0].row(net_row(*part.basis, c.i * d, c.j * d));
 }
 
 /// Rows constant, u, v: a map that is near a piece of these parts.
@@ -187,12 +187,12 @@ class Cutter {
     parts_.find(type, points, whole, levels, parts);
     double by_derivatives = HUGE_VAL;
     if (type.types().regular_smoothness() >= 1 &&
-        std::ranges::all_of(parts, [](const PiecePart& part) { return part.polynomial; })) {
+        std::ranges::all_of(parts, [](const PiecePart& part) { return part.basis.has_value(); })) {
       by_derivatives = 0;
       for (const PiecePart& part : parts)
         for (const Points& net : part.nets)
           by_derivatives =
-              std::max(by_derivatives, std::ldexp(chord_bound(part.polynomial->basis, net), 2 * part.depth));
+              std::max(by_derivatives, std::ldexp(chord_bound(*part.basis, net), 2 * part.depth));
       if (by_derivatives <= options_.chord) return by_derivatives;
     }
     const Eigen::Matrix3d A = affine_map(parts, whole, triangle);
@@ -203,11 +203,11 @@ class Cutter {
     };
     for (const PiecePart& part : parts) {
       for (const Points& net : part.nets) {
-        const double d = part.polynomial->basis.degree();
-        for_each_net_row(part.polynomial->basis,
+        const double d = part.basis->degree();
+        for_each_net_row(*part.basis,
                          [&](int i, int j, Eigen::Index row) { extend(part, net.row(row), i / d, j / d); });
       }
-      if (part.polynomial) continue;
+      if (part.basis) continue;
       if (part.type->reach() > 0)
         throw UnsupportedTopology(
             "this scheme has negative weights where its limit is no polynomial, so what holds the limit there is an "

@@ -35,7 +35,7 @@ TEST(DistanceBound, IsNeverAboveTheDistance) {
     const Scheme<double> scheme = *find_scheme<double>(name);
     for (const ControlMesh& mesh : hard_meshes(scheme, 3)) {
       const LimitSurface surface(scheme, mesh);
-      const DistanceBound bound(surface, mesh.positions);
+      const DistanceBound bound(SearchedLimit(surface, mesh.positions));
       const Points q = random_points(mesh, 20, 3);
       const Eigen::VectorXd distances = closest_points(surface, mesh.positions, q, {.prove = false}).distances;
       PieceParts cutter;
@@ -87,7 +87,7 @@ TEST(DistanceBound, FindsWhatIsNearer) {
   const Scheme<double> scheme = *find_scheme<double>("catmull-clark");
   const ControlMesh mesh = torus(7, 5);
   const LimitSurface surface(scheme, mesh);
-  const DistanceBound bound(surface, mesh.positions);
+  const DistanceBound bound(SearchedLimit(surface, mesh.positions));
   PieceParts cutter;
   const Points q = random_points(mesh, 50, 4);
   const Eigen::VectorXd distances = closest_points(surface, mesh.positions, q).distances;
@@ -108,14 +108,14 @@ TEST(NetDistance, KnowsWhereADistanceIsConvex) {
       net.row(net_row(basis, i, j)) << linear(i), linear(j), square(i) + square(j);
     }
   const NetDistance near_one(basis, net, {0, 0, 0.2}, rounding(10));
-  const auto found = near_one.convex_minimum();
+  const auto found = near_one.convex_minimum(0);
   ASSERT_TRUE(found);
   EXPECT_NEAR(found->lower, 0.2, 2e-14);
   EXPECT_NEAR(found->at, 0.2, rounding(4));
   EXPECT_NEAR(found->uv[0], 0.5, std::sqrt(eps));
   EXPECT_FALSE(
-      NetDistance(basis, net, {0, 0, 0.6}, rounding(10)).convex_minimum());  // the foot is a saddle or a maximum there
-  const auto corner = NetDistance(basis, net, {1, 1, 0}, rounding(10)).convex_minimum();
+      NetDistance(basis, net, {0, 0, 0.6}, rounding(10)).convex_minimum(0));  // the foot is a saddle or a maximum there
+  const auto corner = NetDistance(basis, net, {1, 1, 0}, rounding(10)).convex_minimum(0);
   ASSERT_TRUE(corner);
   EXPECT_NEAR(corner->at, std::sqrt(2 * 0.81 + 0.02 * 0.02), rounding(10));
   EXPECT_NEAR(corner->lower, corner->at, 2e-14);

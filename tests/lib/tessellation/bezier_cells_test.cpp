@@ -34,7 +34,7 @@ std::vector<Job> jobs() {
 
 /// De Casteljau's value at a place of the cell.
 Eigen::RowVector3d value(const BezierCell& cell, double u, double v) {
-  return NetDerivatives(PolynomialBasis(cell.degree, cell.triangle), cell.net, 1).at(u, v).x;
+  return NetDerivatives(PolynomialBasis(cell.degree, cell.triangle), cell.net, 1).at(u, v).x.head<3>();
 }
 
 TEST(BezierCells, AreTheLimitInside) {
