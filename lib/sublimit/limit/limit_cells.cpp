@@ -8,13 +8,12 @@
 #include "sublimit/base/error.h"
 #include "sublimit/base/parallel_for.h"
 #include "sublimit/limit/limit_patches.h"
+#include "sublimit/limit/hull_cell.h"
 #include "sublimit/limit/piece_hull.h"
 
 namespace sublimit {
 namespace {
 
-/// Thickness of a hull that is not cut further, relative to its width, unless it folds.
-constexpr double thin = 0.03;
 /// At most so many cells of an address, but for the pieces of polygons' corners and of rotating schemes.
 constexpr int most_parts = 64;
 /// The same where pieces towards extraordinary vertices and borders are cut: their hulls are wide.
@@ -27,8 +26,6 @@ struct Known {
   Sample sample;
   Place place;
 };
-
-using Hull = std::vector<Eigen::Vector3d>;
 
 class Cutter {
  public:
@@ -61,10 +58,10 @@ class Cutter {
       const Points differences = points.bottomRows(points.rows() - 1).rowwise() - points.row(0);
       const Points seen = (limits_of(type) * differences).rowwise() + points.row(0);
       for (Eigen::Index i = 0; i < seen.rows(); ++i) hull.push_back(seen.row(i));
-      out_.push_back(cell_of(hull, start, 0.25, 0.02));
+      out_.push_back(hull_cell(hull, start.place, start.radius, 0.25, 0.02));
     } else {
       for (Eigen::Index i = 0; i < points.rows(); ++i) hull.push_back(points.row(i));
-      out_.push_back(cell_of(hull, start, type.reach(), 0));
+      out_.push_back(hull_cell(hull, start.place, start.radius, type.reach(), 0));
     }
   }
 
@@ -74,9 +71,9 @@ class Cutter {
     Hull hull;
     for (const Points& net : coefficients)
       for (Eigen::Index i = 0; i < net.rows(); ++i) hull.push_back(net.row(i));
-    const LimitCell cell = cell_of(hull, middle(known, triangle, parts), 0, 0);
-    const Eigen::Vector3d size = cell.own_box.sizes();
-    if (4 * parts > most_parts || (size[2] <= thin * std::max(size[0], size[1]) && !turns(coefficients, triangle))) {
+    const Middle start = middle(known, triangle, parts);
+    const LimitCell cell = hull_cell(hull, start.place, start.radius);
+    if (4 * parts > most_parts || (cell.is_thin() && !turns(coefficients, triangle))) {
       out_.push_back(cell);
       return;
     }
@@ -91,30 +88,6 @@ class Cutter {
       const std::vector<Known> inside = those_inside(all, triangle);
       cut(nets, triangle, quarter, inside, 4 * parts);
     }
-  }
-
-  /// Whether normals of the nets differ much: there are folds.
-  static bool turns(const std::vector<Points>& coefficients, bool triangle) {
-    constexpr double least_cosine = 0.8;
-    std::vector<Eigen::Vector3d> normals;
-    for (const Points& net : coefficients) {
-      const Eigen::Index n = net.rows();
-      const int d =
-          static_cast<int>(std::lround(triangle ? (std::sqrt(8.0 * double(n) + 1) - 3) / 2 : std::sqrt(double(n)) - 1));
-      Eigen::Index row = 0;
-      for (int i = 0; i <= d; ++i) {
-        const int across = triangle ? d - i + 1 : d + 1;
-        for (int j = 0; j < across; ++j, ++row) {
-          if (i == d || j + 1 == across) continue;
-          const Eigen::Vector3d x = net.row(row), u = net.row(row + across), v = net.row(row + 1);
-          normals.push_back((u - x).cross(v - x));
-        }
-      }
-    }
-    Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-    for (const Eigen::Vector3d& n : normals) mean += n;
-    return std::any_of(normals.begin(), normals.end(),
-                       [&](const Eigen::Vector3d& n) { return n.dot(mean) < least_cosine * n.norm() * mean.norm(); });
   }
 
   /// Or, of a cell without one, the place that is closest to it.
@@ -134,7 +107,7 @@ class Cutter {
 
   /// A start in the middle, and how far the cell goes from there, by the places known in it.
   struct Middle {
-    Sample start;
+    Sample place;
     double radius = 0;
   };
   static Middle middle(const std::vector<Known>& known, bool triangle, int parts) {
@@ -149,43 +122,6 @@ class Cutter {
     for (const Known& k : known)
       radius = std::max({radius, std::abs(k.sample.u - start.u), std::abs(k.sample.v - start.v)});
     return {start, radius + 1.0 / places_a_side};
-  }
-
-  /// A box of the hull in some coordinates, widened.
-  static Eigen::AlignedBox3d box_of(const Hull& hull, const Eigen::Matrix3d& frame, double margin, double of_width) {
-    Eigen::AlignedBox3d box;
-    double largest = 0;
-    for (const Eigen::Vector3d& p : hull) {
-      box.extend(frame * p);
-      largest = std::max(largest, p.cwiseAbs().maxCoeff());
-    }
-    // The hull is rounded as points of the surface are, and turned.
-    const Eigen::Vector3d wider =
-        margin * box.sizes() + Eigen::Vector3d::Constant(of_width * box.sizes().maxCoeff() + 1e-14 * largest);
-    return {box.min() - wider, box.max() + wider};
-  }
-
-  /// The last direction is across the longest extent of the points and the longest one across that.
-  static Eigen::Matrix3d frame_of(const Hull& hull) {
-    const Eigen::Vector3d& from = hull.front();
-    Eigen::Vector3d x = Eigen::Vector3d::Zero(), z = Eigen::Vector3d::Zero();
-    for (const Eigen::Vector3d& p : hull)
-      if ((p - from).squaredNorm() > x.squaredNorm()) x = p - from;
-    for (const Eigen::Vector3d& p : hull)
-      if (const Eigen::Vector3d c = x.cross(p - from); c.squaredNorm() > z.squaredNorm()) z = c;
-    if (!(z.norm() > 0) || !std::isfinite(z.norm())) return Eigen::Matrix3d::Identity();
-    Eigen::Matrix3d frame;
-    frame.row(0) = x.normalized();
-    frame.row(2) = z.normalized();
-    frame.row(1) = frame.row(2).cross(frame.row(0));
-    return frame.allFinite() ? frame : Eigen::Matrix3d::Identity();
-  }
-
-  /// @param margin, of_width  widen the box by parts of its own sizes, and of the largest one
-  static LimitCell cell_of(const Hull& hull, const Middle& middle, double margin, double of_width) {
-    const Eigen::Matrix3d frame = frame_of(hull);
-    return {middle.start, middle.radius, box_of(hull, Eigen::Matrix3d::Identity(), margin, of_width), frame,
-            box_of(hull, frame, margin, of_width)};
   }
 
   /// Rows of a net of places all over the piece, in differences.
@@ -215,10 +151,6 @@ class Cutter {
 };
 
 }  // namespace
-
-double LimitCell::squared_distance(const Eigen::Vector3d& point) const {
-  return std::max(box.squaredExteriorDistance(point), own_box.squaredExteriorDistance(Eigen::Vector3d(frame * point)));
-}
 
 std::vector<LimitCell> limit_cells(const LimitSurface& surface, const Points& points) {
   const LimitSurface::Parts& parts = LimitPatches::parts_of(surface);

@@ -4,22 +4,10 @@
 // searches in space need.
 #include <vector>
 
+#include "sublimit/limit/hull_cell.h"
 #include "sublimit/limit/limit_surface.h"
 
 namespace sublimit {
-
-struct LimitCell {
-  Sample start;  ///< a place in it or, of slivers, close to it
-  /// All of it is about as near to its start in u and v.
-  double radius = 0;
-  Eigen::AlignedBox3d box;  ///< along the axes
-  /// The same along directions of its own: rows of a rotation, the last one near the normal; in these coordinates.
-  Eigen::Matrix3d frame;
-  Eigen::AlignedBox3d own_box;
-
-  /// Square of the distance of a point from both boxes, at most that from the cell.
-  double squared_distance(const Eigen::Vector3d& point) const;
-};
 
 /// Cells of all of the surface but its holes, in the order of addresses.
 /// Polynomial pieces are cut until they are thin, and boxes hold their Bernstein coefficients; near extraordinary

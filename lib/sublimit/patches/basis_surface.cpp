@@ -75,6 +75,10 @@ Patch::Lengths BasisSurface::lengths(Index face) const {
   return {u_.length(face % u_.num_faces()), v_.length(face / u_.num_faces())};
 }
 
+std::optional<Patch::BezierRows> BasisSurface::bezier(Index) const {
+  return BezierRows{u_.degree(), v_.degree(), outer_product(v_.to_bezier(), u_.to_bezier())};
+}
+
 Patch::Refined BasisSurface::refined() const {
   return {std::make_shared<const SplineSurface>(u_.knots_of_pieces(), v_.knots_of_pieces()),
           kronecker(v_.matrix_of_pieces(), u_.matrix_of_pieces())};

@@ -22,6 +22,7 @@ class BasisSurface : public Patch {
   Sample place(const Parameters& parameters) const override;
   Parameters parameters(const Sample& place) const override;
   Lengths lengths(Index face) const override;
+  std::optional<BezierRows> bezier(Index face) const override;
   /// The net of all its Bezier pieces, which share their ends where they do not jump: not yet halved.
   Refined refined() const override;
 

@@ -7,10 +7,26 @@
 #include "sublimit/base/error.h"
 #include "sublimit/base/format_number.h"
 #include "sublimit/core/sparse_product.h"
+#include "sublimit/patches/blossom.h"
 #include "sublimit/patches/spline_rows.h"
 #include "sublimit/patches/spline_surface.h"
 
 namespace sublimit {
+namespace {
+
+/// Bernstein coefficients on [a, b] by those on [0, 1]: blossoms of a and b.
+WeightRows part_rows(int degree, double a, double b) {
+  constexpr UnitSpan<double> span;
+  const UnitArgument<double> first = UnitArgument<double>::point(a), last = UnitArgument<double>::point(b);
+  WeightRows rows = WeightRows::Zero(degree + 1, degree + 1);
+  for (int i = 0; i <= degree; ++i) {
+    rows(i, 0) = 1;
+    for (int q = 1; q <= degree; ++q) blossom_step(span, q, q <= degree - i ? first : last, rows.row(i).data());
+  }
+  return rows;
+}
+
+}  // namespace
 
 CutPatch::CutPatch(std::shared_ptr<const Patch> patch, Eigen::Array2d first, Eigen::Array2d last)
     : patch_(std::move(patch)), first_(first), last_(last) {
@@ -88,6 +104,16 @@ Patch::Lengths CutPatch::lengths(Index face) const {
   const Part& part = parts_[size_t(face)];
   const Lengths whole = patch_->lengths(part.face);
   return {whole.u * (part.u1 - part.u0), whole.v * (part.v1 - part.v0)};
+}
+
+std::optional<Patch::BezierRows> CutPatch::bezier(Index face) const {
+  const Part& part = parts_[size_t(face)];
+  std::optional<BezierRows> whole = patch_->bezier(part.face);
+  if (!whole) return std::nullopt;
+  whole->rows =
+      outer_product(part_rows(whole->degree_v, part.v0, part.v1), part_rows(whole->degree_u, part.u0, part.u1)) *
+      whole->rows;
+  return whole;
 }
 
 Patch::Refined CutPatch::refined() const {

@@ -22,6 +22,7 @@ class CutPatch : public Patch {
   Sample place(const Parameters& parameters) const override;
   Parameters parameters(const Sample& place) const override;
   Lengths lengths(Index face) const override;
+  std::optional<BezierRows> bezier(Index face) const override;
   /// Of parts of B-splines, and of what is refined to one: its net has the part's ends for ends.
   Refined refined() const override;
 

@@ -75,6 +75,14 @@ LimitSamples empty_samples(Eigen::Index count, int order) {
   return out;
 }
 
+WeightRows outer_product(const WeightRows& v, const WeightRows& u) {
+  WeightRows rows(v.rows() * u.rows(), v.cols() * u.cols());
+  for (Eigen::Index j = 0; j < v.rows(); ++j)
+    for (Eigen::Index k = 0; k < v.cols(); ++k)
+      rows.block(j * u.rows(), k * u.cols(), u.rows(), u.cols()) = v(j, k) * u;
+  return rows;
+}
+
 void set_empty(Eigen::Index count, int order, LimitSamples& out) {
   Points* const targets[] = {&out.position, &out.du, &out.dv, &out.duu, &out.duv, &out.dvv};
   for (int k = 0; k < 6; ++k) targets[k]->setZero(k == 0 || order >= (k < 3 ? 1 : 2) ? count : 0, 3);

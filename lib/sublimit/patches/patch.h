@@ -8,6 +8,7 @@
 //
 // Columns are points, or, of rational patches, homogeneous (w x, w): rows do not know which.
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -58,6 +59,15 @@ class Patch {
   using Lengths = FaceLengths;
   /// In these parameters.
   virtual Lengths lengths(Index face) const = 0;
+
+  /// A face as one polynomial: its Bernstein coefficients as rows over the slots, u fastest; of triangles in the order
+  /// of TrianglePatch, both degrees being that of the whole.
+  struct BezierRows {
+    int degree_u = 0, degree_v = 0;
+    WeightRows rows;
+  };
+  /// Nothing of faces that are no polynomials.
+  virtual std::optional<BezierRows> bezier(Index) const { return std::nullopt; }
 
   /// The same patch with a finer net, and S, #its points x #points: the natural next level. Null of patches that have
   /// no finer net of their kind.
@@ -114,6 +124,9 @@ class Patch {
 /// @param u, v  (order + 1) x m and x n weights
 void product_rows(std::span<const double> u, Eigen::Index m, std::span<const double> v, Eigen::Index n, int order,
                   WeightRows& weights);
+
+/// Blocks of v times the entries of u: columns and rows of u fastest.
+WeightRows outer_product(const WeightRows& v, const WeightRows& u);
 
 /// Arrays for so many samples, all of them `outside`; memory that is there is kept.
 void set_empty(Eigen::Index count, int order, LimitSamples& out);

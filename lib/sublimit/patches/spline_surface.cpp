@@ -101,6 +101,15 @@ std::string SplineSurface::ends(Index face) const {
   return bytes;
 }
 
+std::optional<Patch::BezierRows> SplineSurface::bezier(Index face) const {
+  const auto rows_of = [](const BandRows<double>& rows) {
+    return WeightRows(Eigen::Map<const WeightRows>(rows.weights.data(), rows.size(), rows.width));
+  };
+  return BezierRows{
+      u_.degree(), v_.degree(),
+      outer_product(rows_of(bezier_rows(v_, face / u_.num_faces())), rows_of(bezier_rows(u_, face % u_.num_faces())))};
+}
+
 Patch::Refined SplineSurface::refined() const {
   auto fine = std::make_shared<const SplineSurface>(halved(*this));
   SparseMatrix S = refinement_matrix(*this, *fine);

@@ -31,6 +31,7 @@ class SplineSurface : public Patch {
   Sample place(const Parameters& parameters) const override;
   Parameters parameters(const Sample& place) const override;
   Lengths lengths(Index face) const override;
+  std::optional<BezierRows> bezier(Index face) const override;
   Refined refined() const override;
   /// Places are the Greville abscissae, those outside the domain moved to its ends.
   Net net() const override;

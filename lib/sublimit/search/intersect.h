@@ -2,13 +2,12 @@
 #pragma once
 // Where rays meet a surface: all places, or the nearest one, none missed.
 //
-// Seen along the ray a polynomial part is a map to the plane across it, and hits are its zeros, of a rational part those
-// of its numerators. A part whose Bernstein
-// coefficients are all on one side of a line through the ray has none. Where intervals of its derivatives show that the
-// map is one to one (its Jacobian, times the inverse of one in the middle, is near the identity), steps by that inverse
-// come to the one zero, or to a side that it is beyond. Other parts are cut in quarters; those towards extraordinary
-// vertices are replaced by their children, until they are points. Zeros on a side are found from every part there and
-// count once.
+// Seen along the ray a polynomial part is a map to the plane across it, and hits are its zeros, of a rational part
+// those of its numerators. A part whose Bernstein coefficients are all on one side of a line through the ray has none.
+// Where intervals of its derivatives show that the map is one to one (its Jacobian, times the inverse of one in the
+// middle, is near the identity), steps by that inverse come to the one zero, or to a side that it is beyond. Other
+// parts are cut in quarters; those towards extraordinary vertices are replaced by their children, until they are
+// points. Zeros on a side are found from every part there and count once.
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -60,7 +59,11 @@ struct RayHit {
 /// meet. Made once for each pose; any number of threads may trace at a time, and each keeps memory of its own here.
 class RayTracer {
  public:
-  /// @param points  of the surface's level, #V x 3
+  /// @param surface  which may go; what a `SearchedLimit` is of has to stay
+  /// @throws UnsupportedTopology  as `intersect`
+  explicit RayTracer(const SearchedSurface& surface);
+  /// @param surface  which must stay
+  /// @param points   of its level, #V x 3
   /// @throws InvalidParameter  points that do not fit
   RayTracer(const LimitSurface& surface, const Points& points);
   RayTracer(RayTracer&&) noexcept;

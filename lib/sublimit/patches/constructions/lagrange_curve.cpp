@@ -28,10 +28,8 @@ CurveStencil LagrangeCurve::stencil(const CurveSample& sample, int order) const 
   return result;
 }
 
-namespace {
-
-/// The polynomials of a basis in Bezier form: Bezier points x nodes. The j-th derivative at an end, D^j by barycentric
-/// rows, gives the j-th difference there; from both ends, half of them each, the points are sums of few terms.
+// The j-th derivative at an end, D^j by barycentric rows, gives the j-th difference there; from both ends, half of them
+// each, the points are sums of few terms.
 std::optional<Points> lagrange_to_bezier(const LagrangeBasis& basis) {
   const Index n = basis.size() - 1;
   if (n > max_degree) return std::nullopt;
@@ -72,6 +70,8 @@ std::optional<Points> lagrange_to_bezier(const LagrangeBasis& basis) {
   }
   return points;
 }
+
+namespace {
 
 Knots<double> knots_of(const LagrangeBasis& basis) {
   return bezier_curve(Points::Zero(basis.size(), 1), basis.begin(), basis.end()).knots;

@@ -7,6 +7,7 @@
 
 #include "sublimit/base/error.h"
 #include "sublimit/base/format_number.h"
+#include "sublimit/patches/constructions/lagrange_curve.h"
 #include "sublimit/patches/constructions/tensor_rows.h"
 
 namespace sublimit {
@@ -43,6 +44,12 @@ Sample LagrangeSurface::place(const Parameters& parameters) const {
 
 Patch::Parameters LagrangeSurface::parameters(const Sample& place) const {
   return {.u = u_.begin() + place.u * u_.length(), .v = v_.begin() + place.v * v_.length()};
+}
+
+std::optional<Patch::BezierRows> LagrangeSurface::bezier(Index) const {
+  const std::optional<Points> u = lagrange_to_bezier(u_), v = lagrange_to_bezier(v_);
+  if (!u || !v) return std::nullopt;
+  return BezierRows{static_cast<int>(u_.size()) - 1, static_cast<int>(v_.size()) - 1, outer_product(*v, *u)};
 }
 
 }  // namespace sublimit

@@ -22,6 +22,8 @@ class LagrangeSurface : public Patch {
   Sample place(const Parameters& parameters) const override;
   Parameters parameters(const Sample& place) const override;
   Lengths lengths(Index) const override { return {u_.length(), v_.length()}; }
+  /// If `lagrange_to_bezier` has both directions.
+  std::optional<BezierRows> bezier(Index face) const override;
 
  private:
   LagrangeBasis u_, v_;

@@ -107,6 +107,11 @@ Patch::Lengths TrianglePatch::lengths(Index face) const {
   return {length, length};
 }
 
+std::optional<Patch::BezierRows> TrianglePatch::bezier(Index) const {
+  const Index size = lattice_size(degree_);
+  return BezierRows{degree_, degree_, WeightRows::Identity(size, size)};
+}
+
 Patch::Refined TrianglePatch::refined() const {
   auto fine = std::make_shared<const TrianglePatch>(degree_, level_ + 1);
   // Each quarter's control points from its parent's: blossoms at its corners, the same for every face.

@@ -32,6 +32,7 @@ class TrianglePatch : public Patch {
   Parameters parameters(const Sample& place) const override;
   /// Negative for quarters that are upside down.
   Lengths lengths(Index face) const override;
+  std::optional<BezierRows> bezier(Index face) const override;
   Refined refined() const override;
 
   /// How many points a lattice of so many steps a side has.

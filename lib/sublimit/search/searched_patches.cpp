@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sublimit/search/searched_patches.h"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "sublimit/base/error.h"
+#include "sublimit/base/parallel_for.h"
+#include "sublimit/core/binomial.h"
+#include "sublimit/limit/hull_cell.h"
+#include "sublimit/patches/joins/patch_seams.h"
+
+namespace sublimit {
+namespace {
+
+/// Bernstein coefficients of a higher degree.
+WeightRows raising_rows(int from, int to) {
+  WeightRows rows = WeightRows::Zero(to + 1, from + 1);
+  for (int k = 0; k <= to; ++k)
+    for (int i = std::max(0, k - (to - from)); i <= std::min(from, k); ++i)
+      rows(k, i) = double(binomial(from, i)) * double(binomial(to - from, k - i)) / double(binomial(to, k));
+  return rows;
+}
+
+/// As parts have it: of one degree, v fastest.
+PiecePart whole_part(const Patch::BezierRows& bezier, bool triangle, const Points& columns) {
+  const int degree = std::max({bezier.degree_u, bezier.degree_v, 1});
+  PiecePart part{whole_cell(triangle), 0, PolynomialBasis(degree, triangle), {}, nullptr, {}};
+  Points net = bezier.rows * columns;
+  if (!triangle && (bezier.degree_u < degree || bezier.degree_v < degree))
+    net = outer_product(raising_rows(bezier.degree_v, degree), raising_rows(bezier.degree_u, degree)) * net;
+  Points& ordered = part.nets.emplace_back(net.rows(), net.cols());
+  for_each_net_row(*part.basis, [&](int i, int j, Eigen::Index row) {
+    const int before = triangle ? j * (degree + 1) - j * (j - 1) / 2 : j * (degree + 1);  // rows of u below j
+    ordered.row(row) = net.row(before + i);
+  });
+  return part;
+}
+
+/// Cuts a rational part until all weights are positive. Weights that are 0 but for rounding would be points far away.
+/// @return  false if they are not
+bool add_positive(const PiecePart& part, PieceParts& cutter, std::vector<PiecePart>& out) {
+  constexpr int most_quarterings = 5;
+  constexpr double smallest = 1e-12;  // of the largest
+  const Points& net = part.nets[0];
+  if (net.col(3).minCoeff() > smallest * net.col(3).maxCoeff()) {
+    out.push_back(part);
+    return true;
+  }
+  if (part.depth == most_quarterings) return false;
+  for (int k = 0; k < 4; ++k)
+    if (!add_positive(cutter.quarter(part, k), cutter, out)) return false;
+  return true;
+}
+
+bool add_parts(PiecePart&& whole, PieceParts& cutter, std::vector<PiecePart>& out) {
+  Points& net = whole.nets[0];
+  if (net.cols() == 4) {
+    if (net.col(3).sum() < 0) net = -net;
+    if (net(0, 3) != 0 && (net.col(3).array() == net(0, 3)).all()) net = Points(net.leftCols(3) / net(0, 3));
+  }
+  if (net.cols() == 4) return add_positive(whole, cutter, out);
+  out.push_back(std::move(whole));
+  return true;
+}
+
+constexpr int sampled_cells = 4;  // a side of a face that has no net
+constexpr int sampled_steps = 4;  // a side of such a cell
+
+}  // namespace
+
+SearchedPatches::SearchedPatches(const PatchSet& patches, const Points& columns)
+    : patches_(patches), columns_(columns), samples_(patches.bound(columns)), parts_(size_t(patches.faces().size)) {
+  check_columns(columns, patches.num_points(), patches.coordinates());
+  if (!columns.allFinite()) throw InvalidParameter("control points to search are not finite");
+  std::vector<std::string> without(parts_.size());
+  parallel_for_blocks(
+      faces().size,
+      [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+        PieceParts cutter;
+        for (std::int64_t face = begin; face < end; ++face) {
+          const size_t patch = patches_.patch_of(static_cast<Index>(face));
+          const Index own = static_cast<Index>(face) - patches_.first_face(patch);
+          std::vector<PiecePart>& parts = parts_[size_t(face)];
+          const std::optional<Patch::BezierRows> bezier = patches_.members()[patch].patch->bezier(own);
+          const auto refuse = [&](const char* why) {
+            parts.clear();
+            without[size_t(face)] = "face " + std::to_string(face) + ", of patch " + std::to_string(patch) + ", " + why;
+          };
+          if (!bezier)
+            refuse("is no polynomial, and no quotient of polynomials that is known");
+          else if (!add_parts(whole_part(*bezier, faces().triangles,
+                                         columns_(patches_.slots(static_cast<Index>(face)), Eigen::all)),
+                              cutter, parts))
+            refuse("has a denominator that is 0 or below somewhere, or very near to that");
+        }
+      },
+      32);
+  const auto first = std::ranges::find_if(without, [](const std::string& why) { return !why.empty(); });
+  if (first != without.end()) without_parts_ = std::move(*first);
+}
+
+void SearchedPatches::find_parts(Index face, PieceParts&, std::vector<PiecePart>& out) const {
+  const std::vector<PiecePart>& parts = parts_[size_t(face)];
+  out.insert(out.end(), parts.begin(), parts.end());
+}
+
+void SearchedPatches::cut(Index face, const PiecePart& part, int cells, PieceParts& cutter,
+                          std::vector<LimitCell>& out) const {
+  constexpr int most_cells = 64;
+  const bool triangle = part.is_triangle();
+  const Points& net = part.nets[0];
+  Points points(net.rows(), 3);
+  Hull hull;
+  for (Eigen::Index i = 0; i < net.rows(); ++i) {
+    hull.push_back(net_point(net, i));
+    points.row(i) = hull.back();
+  }
+  const double middle = triangle ? 1. / 3 : 0.5;
+  const auto [u, v] = at_place(part.corners, triangle, middle, middle);
+  const auto [u0, v0] = at_place(part.corners, triangle, 0, 0);
+  const double radius = (triangle ? 2 : 1) * std::max(std::abs(u - u0), std::abs(v - v0));
+  const LimitCell cell = hull_cell(hull, {face, u, v}, radius);
+  if (4 * cells > most_cells || (cell.is_thin() && !turns({&points, 1}, triangle))) {
+    out.push_back(cell);
+    return;
+  }
+  for (int k = 0; k < 4; ++k) cut(face, cutter.quarter(part, k), 4 * cells, cutter, out);
+}
+
+void SearchedPatches::add_sampled(Index face, std::vector<LimitCell>& out) const {
+  constexpr int steps = sampled_cells * sampled_steps;
+  std::vector<Sample> places;
+  for (int j = 0; j <= steps; ++j)
+    for (int i = 0; i <= steps; ++i) places.push_back({face, double(i) / steps, double(j) / steps});
+  LimitSamples samples;
+  samples_->evaluate(places, 0, false, samples);
+  for (int b = 0; b < sampled_cells; ++b)
+    for (int a = 0; a < sampled_cells; ++a) {
+      Hull hull;
+      for (int j = 0; j <= sampled_steps; ++j)
+        for (int i = 0; i <= sampled_steps; ++i) {
+          const int at = (b * sampled_steps + j) * (steps + 1) + a * sampled_steps + i;
+          if (samples.status[size_t(at)] == LimitStatus::pole) continue;
+          hull.push_back(samples.position.row(at));
+        }
+      // Twice as wide as what was seen.
+      constexpr double radius = 0.5 / sampled_cells;
+      if (!hull.empty())
+        out.push_back(hull_cell(hull, {face, (a + 0.5) / sampled_cells, (b + 0.5) / sampled_cells}, radius, 0.5, 0.02));
+    }
+}
+
+std::vector<LimitCell> SearchedPatches::cells() const {
+  constexpr std::int64_t faces_a_block = 32;
+  std::vector<std::vector<LimitCell>> blocks(size_t(num_blocks(faces().size, faces_a_block)));
+  parallel_for_blocks(
+      faces().size,
+      [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
+        PieceParts cutter;
+        for (std::int64_t face = begin; face < end; ++face) {
+          const std::vector<PiecePart>& parts = parts_[size_t(face)];
+          for (const PiecePart& part : parts)
+            cut(static_cast<Index>(face), part, 1 << (2 * std::min(part.depth, 3)), cutter, blocks[size_t(block)]);
+          if (parts.empty()) add_sampled(static_cast<Index>(face), blocks[size_t(block)]);
+        }
+      },
+      faces_a_block);
+  std::vector<LimitCell> cells;
+  for (std::vector<LimitCell>& block : blocks) cells.insert(cells.end(), block.begin(), block.end());
+  return cells;
+}
+
+std::string SearchedPatches::why_not_closed() const {
+  if (faces().triangles) return "sides of triangular patches are not compared";
+  for (size_t p = 0; p < patches_.members().size(); ++p)
+    if (!dynamic_cast<const SplineSurface*>(patches_.members()[p].patch.get()))
+      return "patch " + std::to_string(p) + " is no B-spline, whose sides would be compared";
+  constexpr double same = 1e-9;  // of the diagonal of all control points
+  const PatchSeams found = patch_seams(patch_columns(patches_, columns_), patches_.coordinates(), {.same = same});
+  for (const PatchSeam& seam : found.seams) {
+    const std::string where = "patch " + std::to_string(seam.lines[0].patch) + " has a side that is ";
+    switch (seam.kind) {
+      case SeamKind::boundary:
+        return where + "no other one's";
+      case SeamKind::partial:
+        return where + "a part of one of patch " + std::to_string(seam.lines[1].patch);
+      case SeamKind::non_manifold:
+        return where + "that of two others or more";
+      default:
+        if (!seam.same_orientation)
+          return "normals of patches " + std::to_string(seam.lines[0].patch) + " and " +
+                 std::to_string(seam.lines[1].patch) +
+                 " look to different sides where they meet; turn one of them over";
+    }
+  }
+  return {};
+}
+
+}  // namespace sublimit
