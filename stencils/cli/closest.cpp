@@ -4,12 +4,13 @@
 #include <algorithm>
 #include <memory>
 
-#include "common.h"
+#include "free_form.h"
 #include "memory_limit.h"
 #include "sublimit/base/error.h"
 #include "sublimit/base/format_number.h"
 #include "sublimit/base/memory.h"
 #include "sublimit/files/closest_files.h"
+#include "sublimit/search/searched_surface.h"
 
 namespace sublimit::cli {
 namespace {
@@ -38,23 +39,26 @@ ClosestPointOptions search_options(const ClosestOptions& options) {
   return search;
 }
 
+ClosestPoints search_of(const SearchedSurface& surface, const Points& queries, const ClosestPointOptions& search,
+                        Progress& progress) {
+  const double rows = double(queries.rows()) * std::min<double>(search.count, surface.faces().size);
+  constexpr double bytes_a_row = 300;  // of what is found, and of what it is collected in
+  check_memory(fmt::format("{:.0f} nearest faces of {} points", rows, queries.rows()), rows * bytes_a_row,
+               "give a smaller --nearest, or divide the file");
+  progress.step(fmt::format("searching for {} points", queries.rows()));
+  return closest_points(surface, queries, search);
+}
+
 int run(const ClosestOptions& options) {
+  const bool free_form = is_free_form_job(options.common);
   check_output_path(options.output, {".csv"});
   const ClosestPointOptions search = search_options(options);
   Progress progress(options.common.quiet);
   progress.step("reading " + options.points);
   const Points queries = read_query_points(options.points);
-  const Loaded loaded = load(options.common, progress);
-  check_mesh_memory(options.common.mesh, loaded.mesh);
   ClosestPoints found;
-  naming_mesh(options.common, [&] {
-    const LimitSurface surface(*loaded.scheme, loaded.mesh, loaded.rules);
-    const double rows = double(queries.rows()) * std::min<double>(search.count, surface.faces().size);
-    constexpr double bytes_a_row = 300;  // of what is found, and of what it is collected in
-    check_memory(fmt::format("{:.0f} nearest faces of {} points", rows, queries.rows()), rows * bytes_a_row,
-                 "give a smaller --nearest, or divide the file");
-    progress.step(fmt::format("searching for {} points", queries.rows()));
-    found = closest_points(surface, loaded.mesh.positions, queries, search);
+  with_searched_surface(options.common, free_form, progress, [&](const SearchedSurface& surface) {
+    found = search_of(surface, queries, search, progress);
   });
   progress.step("writing " + options.output);
   write_closest_points(options.output, found, !options.nearest.empty() || !options.radius.empty());
@@ -78,9 +82,9 @@ int run(const ClosestOptions& options) {
 }  // namespace
 
 Command add_closest(CLI::App& app) {
-  auto* command = app.add_subcommand("closest", "The nearest points of the limit");
+  auto* command = app.add_subcommand("closest", "The nearest points of the limit, or of patches");
   auto options = std::make_shared<ClosestOptions>();
-  add_mesh(*command, options->common, true);
+  add_mesh(*command, options->common, false);
   command
       ->add_option("--points", options->points,
                    "Points: a .csv with the header x,y,z, an .npy of n x 3, or the vertices of an .obj, .ply or .off")
@@ -99,11 +103,14 @@ Command add_closest(CLI::App& app) {
       "  sublimit closest cage.obj -s loop --points scan.ply -o closest.csv\n"
       "  sublimit closest cage.obj -s catmull-clark --points scan.csv --signed -o signed.csv\n"
       "  sublimit closest cage.obj -s catmull-clark --points scan.csv --nearest 3 --radius 0.1 -o near.csv\n"
+      "  sublimit closest teapot.obj --points scan.csv -o closest.csv\n"
       "Faces and places are those of `sublimit sample`, in whose file x,y,z stand for the same point. The limit is not\n"
       "nearer than `lower`, as is proved: the distance but for rounding, less where the proof was cut short, as from the\n"
       "centre of a sphere, all of which is equally near, and 0 where nothing is proved, as of schemes without polynomials.\n"
       "Of the second row of a point on, `lower` is of all faces but those in the rows before. Holes are no part of the\n"
-      "limit. Inside is what the surface winds around, however its normals look; `lower` has no sign.");
+      "limit. Inside is what the surface winds around, however its normals look; `lower` has no sign.\n"
+      "Without -s the free-form surfaces of an .obj, or recipes (.json), are searched, rational ones too. Nothing is proved\n"
+      "where one of them is no B-spline and no polynomial (screw, gregory with twists that differ), or has a pole.");
   return [=] { return run(*options); };
 }
 

@@ -5,9 +5,9 @@
 #include <memory>
 #include <numeric>
 
-#include "common.h"
-#include "memory_limit.h"
+#include "free_form.h"
 #include "sublimit/files/ray_files.h"
+#include "sublimit/search/searched_surface.h"
 
 namespace sublimit::cli {
 namespace {
@@ -19,17 +19,15 @@ struct IntersectOptions {
 };
 
 int run(const IntersectOptions& options) {
+  const bool free_form = is_free_form_job(options.common);
   check_output_path(options.output, {".csv"});
   Progress progress(options.common.quiet);
   progress.step("reading " + options.rays);
   const std::vector<Ray> rays = read_rays(options.rays);
-  const Loaded loaded = load(options.common, progress);
-  check_mesh_memory(options.common.mesh, loaded.mesh);
   RayHits hits;
-  naming_mesh(options.common, [&] {
-    const LimitSurface surface(*loaded.scheme, loaded.mesh, loaded.rules);
+  with_searched_surface(options.common, free_form, progress, [&](const SearchedSurface& surface) {
     progress.step(fmt::format("tracing {} rays", rays.size()));
-    hits = intersect(surface, loaded.mesh.positions, rays, {.all = options.all});
+    hits = intersect(surface, rays, {.all = options.all});
   });
   progress.step("writing " + options.output);
   write_ray_hits(options.output, hits);
@@ -46,9 +44,9 @@ int run(const IntersectOptions& options) {
 }  // namespace
 
 Command add_intersect(CLI::App& app) {
-  auto* command = app.add_subcommand("intersect", "Where rays meet the limit");
+  auto* command = app.add_subcommand("intersect", "Where rays meet the limit, or patches");
   auto options = std::make_shared<IntersectOptions>();
-  add_mesh(*command, options->common, true);
+  add_mesh(*command, options->common, false);
   command->add_option("--rays", options->rays, "Rays: a .csv with the header ox,oy,oz,dx,dy,dz[,tmin,tmax]")
       ->required();
   command->add_flag("--all", options->all, "All hits of a ray, by rising t (default: the nearest)");
@@ -58,8 +56,11 @@ Command add_intersect(CLI::App& app) {
       "Examples:\n"
       "  sublimit intersect cage.obj -s catmull-clark --rays rays.csv -o hits.csv\n"
       "  sublimit intersect cage.obj -s loop --rays rays.csv --all -o hits.csv\n"
+      "  sublimit intersect teapot.obj --rays rays.csv -o hits.csv\n"
       "A hit is at o + t d. Rays are counted from 0, and go from t = 0 on without end unless tmin and tmax say otherwise.\n"
-      "No hit is missed, and a ray through a side that faces share hits once. Holes are no part of the limit.");
+      "No hit is missed, and a ray through a side that faces share hits once. Holes are no part of the limit.\n"
+      "Without -s the rays meet the free-form surfaces of an .obj, or recipes (.json), rational ones too; those that are no\n"
+      "B-spline and no polynomial (screw, gregory with twists that differ), or have a pole, are refused.");
   return [=] { return run(*options); };
 }
 

@@ -25,8 +25,8 @@ struct Floor {
 };
 const Floor floors[] = {
     {"lib/sublimit",
-     {"core", "mesh", "splits", "io", "scheme", "neighborhood", "limit", "tessellation", "search", "geometric",
-      "curves", "patches", "cad", "schemes", "primvar", "fit", "implicit", "certificates"},
+     {"core", "mesh", "splits", "io", "scheme", "neighborhood", "limit", "tessellation", "geometric", "curves",
+      "patches", "search", "cad", "schemes", "primvar", "fit", "implicit", "certificates"},
      {"schemes.h", "subdivide.h"}},
     {"stencils/sublimit",
      {"recipes", "files", "jobs", "patterns", "bake", "picture", "fit_jobs", "gallery", "report"},

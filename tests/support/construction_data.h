@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "sublimit/patches/constructions/revolution.h"
 #include "sublimit/patches/constructions/spline_net.h"
 #include "support/classical_splines.h"
 #include "support/precise.h"
@@ -31,6 +32,19 @@ inline CurveNet unit_curve(std::mt19937& random, int degree) {
   Knots<double> knots = unit_knots(random, degree);
   Points points = random_points(random, knots.num_points(), 3);
   return {std::move(knots), std::move(points)};
+}
+
+/// A circle of a radius about (x, 0), in quarters, from angle -90 degrees on.
+inline CurveNet circle_arcs(double x, double radius, int quarters) {
+  std::vector<double> knots{0};
+  for (int i = 0; i <= quarters; ++i) knots.insert(knots.end(), 2, i);
+  knots.push_back(quarters);
+  Points columns(2 * quarters + 1, 3);
+  for (int i = 0; i <= 2 * quarters; ++i) {
+    const double w = i % 2 == 0 ? 1 : cos_degrees(45), angle = -90 + 45 * i;
+    columns.row(i) << w * x + radius * cos_degrees(angle), radius * sin_degrees(angle), w;
+  }
+  return {Knots<double>::open(2, 2 * quarters + 1, knots), columns, Coordinates::homogeneous};
 }
 
 /// A point or derivative of the columns in 256 bits, by the recursion of Cox and de Boor.

@@ -148,8 +148,12 @@ void FootSearch::descend(const Eigen::Vector3d& point, const SearchDomain& domai
       if (down || last || -t * slope <= 1e-15 * s.f) break;
     }
     if (!down) {
-      if (next.f < s.f) s = next;
-      return;
+      // Where rounding hides which place is nearer, the step that is left there tells.
+      const bool flat = next.order == s.order && next.f <= s.f + std::sqrt(s.f) * tiny_;
+      if (!flat || -next.g.dot(direction(next, domain, along_side)) > -slope / 4) {
+        if (next.f < s.f) s = next;
+        return;
+      }
     }
     if (next.order == 1 && s.order > 0) {
       // BFGS: what the change of gradients tells of the second derivatives.

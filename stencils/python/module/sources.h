@@ -11,6 +11,7 @@
 #include "sublimit/patches/free_form_patches.h"
 #include "sublimit/recipes/recipe.h"
 #include "sublimit/recipes/recipe_sources.h"
+#include "sublimit/search/searched_patches.h"
 
 namespace sublimit::python {
 
@@ -20,6 +21,7 @@ class Source {
   virtual ~Source() = default;
   virtual const LinearSource& surface() const = 0;
   virtual const Points& points() const = 0;
+  virtual std::unique_ptr<SearchedSurface> searched() const = 0;
 
   /// @param places  on its faces
   LimitSamples evaluate(std::span<const Sample> places, int order) const {
@@ -42,6 +44,9 @@ class Surface : public Source {
 
   const LimitSurface& surface() const override { return surface_; }
   const Points& points() const override { return job_.mesh.positions; }
+  std::unique_ptr<SearchedSurface> searched() const override {
+    return std::make_unique<SearchedLimit>(surface_, points());
+  }
 
  private:
   const BoundSource& bound() const override { return bound_; }
@@ -71,6 +76,9 @@ class Patches : public Source {
 
   const PatchSet& surface() const override { return data_.patches; }
   const Points& points() const override { return data_.columns; }
+  std::unique_ptr<SearchedSurface> searched() const override {
+    return std::make_unique<SearchedPatches>(data_.patches, data_.columns);
+  }
 
  private:
   const BoundSource& bound() const override { return *bound_; }

@@ -147,13 +147,12 @@ void add_places(py::dict& all, const std::vector<Sample>& places) {
   all["v"] = array(std::move(v));
 }
 
-py::dict closest(const Surface& surface, const Array<double>& queries, int count, double radius, bool is_signed,
+py::dict closest(const Source& surface, const Array<double>& queries, int count, double radius, bool is_signed,
                  int threads) {
   const Points from = points(queries);
   ClosestPoints found = without_gil([&] {
     const Threads held(threads);
-    return closest_points(surface.surface(), surface.points(), from,
-                          {.count = count, .radius = radius, .is_signed = is_signed});
+    return closest_points(*surface.searched(), from, {.count = count, .radius = radius, .is_signed = is_signed});
   });
   py::dict all;
   add_places(all, found.places);
@@ -166,7 +165,7 @@ py::dict closest(const Surface& surface, const Array<double>& queries, int count
   return all;
 }
 
-py::dict intersect(const Surface& surface, const Array<double>& origins, const Array<double>& directions,
+py::dict intersect(const Source& surface, const Array<double>& origins, const Array<double>& directions,
                    const Array<double>& tmin, const Array<double>& tmax, bool all_hits, int threads) {
   const Points from = points(origins), along = points(directions);
   RayHits hits = without_gil([&] {
@@ -174,7 +173,7 @@ py::dict intersect(const Surface& surface, const Array<double>& origins, const A
     std::vector<Ray> rays;
     for (Eigen::Index i = 0; i < from.rows(); ++i)
       rays.push_back({from.row(i).transpose(), along.row(i).transpose(), tmin.data()[i], tmax.data()[i]});
-    return sublimit::intersect(surface.surface(), surface.points(), rays, {.all = all_hits});
+    return sublimit::intersect(*surface.searched(), rays, {.all = all_hits});
   });
   py::dict all;
   add_places(all, hits.places);
@@ -246,13 +245,13 @@ void add_surfaces(py::module_& m) {
       .def("evaluate", &evaluate, py::arg("face"), py::arg("u"), py::arg("v"), py::arg("derivatives"),
            py::arg("threads"))
       .def("stencils", &stencils, py::arg("face"), py::arg("u"), py::arg("v"), py::arg("derivatives"),
-           py::arg("threads"));
-  py::class_<Surface, Source, std::shared_ptr<Surface>>(m, "Surface")
-      .def(py::init<const ControlMesh&, const MeshRequest&>(), py::arg("mesh"), py::arg("request"), long_call)
+           py::arg("threads"))
       .def("closest", &closest, py::arg("points"), py::arg("count"), py::arg("radius"), py::arg("is_signed"),
            py::arg("threads"))
       .def("intersect", &intersect, py::arg("origins"), py::arg("directions"), py::arg("tmin"), py::arg("tmax"),
-           py::arg("all"), py::arg("threads"))
+           py::arg("all"), py::arg("threads"));
+  py::class_<Surface, Source, std::shared_ptr<Surface>>(m, "Surface")
+      .def(py::init<const ControlMesh&, const MeshRequest&>(), py::arg("mesh"), py::arg("request"), long_call)
       .def("tessellate", &tessellate, py::arg("chord"), py::arg("angle"), py::arg("most"), py::arg("threads"));
   py::class_<Patches, Source, std::shared_ptr<Patches>>(m, "PatchSet")
       .def(py::init<const std::filesystem::path&>(), py::arg("path"), long_call)

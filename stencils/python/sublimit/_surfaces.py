@@ -257,41 +257,6 @@ class Source:
         faces, at_u, at_v, _ = places(face, u, v)
         return [csr(parts) for parts in self._core.stencils(faces, at_u, at_v, order(derivatives), threads)[0]]
 
-    def __repr__(self) -> str:
-        return f"<sublimit.{type(self).__name__}: {self.num_faces} faces, {self.num_points} control points>"
-
-
-class LimitSurface(Source):
-    """The limit surface of a mesh. It never changes; threads may share it.
-
-    Places are (face, u, v): a quadrilateral is one face, [0,1] x [0,1] from its first corner; another polygon is one for
-    each corner, numbered as Ptex does; under schemes for triangles each triangle is one, u, v >= 0, u + v <= 1.
-
-    Parameters
-    ----------
-    mesh, scheme and options : as in `refine`
-
-    Examples
-    --------
-    >>> import sublimit
-    >>> square = sublimit.Mesh([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], [[0, 1, 2, 3]])
-    >>> surface = sublimit.LimitSurface(square, "bilinear")
-    >>> surface.evaluate(0, [0, 0.5], 0.25).points
-    array([[0.  , 0.25, 0.  ],
-           [0.5 , 0.25, 0.  ]])
-    """
-
-    __module__ = "sublimit"
-    __slots__ = ()
-    _core: _sublimit.Surface
-
-    def __init__(self, mesh: Mesh, scheme: Scheme | str, *, boundary: str | None = None, creasing: str | None = None,
-                 triangles: str | None = None, option: Mapping[str, OptionValue] | None = None, triangulate: bool = False,
-                 no_creases: bool = False, strict: bool = False) -> None:
-        asked = request(scheme, boundary=boundary, creasing=creasing, triangles=triangles, option=option,
-                        triangulate=triangulate, no_creases=no_creases, strict=strict)
-        self._core = _sublimit.Surface(core_of(mesh), asked)
-
     def closest(self, points: npt.ArrayLike, *, count: int = 1, radius: float = math.inf, signed: bool = False,
                 threads: int = 0) -> ClosestPoints:
         """Nearest points of the surface.
@@ -333,6 +298,8 @@ class LimitSurface(Source):
         ------
         InvalidParameter
             A direction of 0, a ray that is not finite or ends before it begins.
+        UnsupportedTopology
+            Patches that are neither polynomials nor quotients of them (screw surfaces), or have poles.
 
         Examples
         --------
@@ -353,6 +320,41 @@ class LimitSurface(Source):
         from_, along = (np.ascontiguousarray(np.broadcast_to(x, shape)) for x in (from_, along))
         first, last = (np.ascontiguousarray(t) for t in ends)
         return RayHits(**self._core.intersect(from_, along, first, last, bool(all), threads))
+
+    def __repr__(self) -> str:
+        return f"<sublimit.{type(self).__name__}: {self.num_faces} faces, {self.num_points} control points>"
+
+
+class LimitSurface(Source):
+    """The limit surface of a mesh. It never changes; threads may share it.
+
+    Places are (face, u, v): a quadrilateral is one face, [0,1] x [0,1] from its first corner; another polygon is one for
+    each corner, numbered as Ptex does; under schemes for triangles each triangle is one, u, v >= 0, u + v <= 1.
+
+    Parameters
+    ----------
+    mesh, scheme and options : as in `refine`
+
+    Examples
+    --------
+    >>> import sublimit
+    >>> square = sublimit.Mesh([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], [[0, 1, 2, 3]])
+    >>> surface = sublimit.LimitSurface(square, "bilinear")
+    >>> surface.evaluate(0, [0, 0.5], 0.25).points
+    array([[0.  , 0.25, 0.  ],
+           [0.5 , 0.25, 0.  ]])
+    """
+
+    __module__ = "sublimit"
+    __slots__ = ()
+    _core: _sublimit.Surface
+
+    def __init__(self, mesh: Mesh, scheme: Scheme | str, *, boundary: str | None = None, creasing: str | None = None,
+                 triangles: str | None = None, option: Mapping[str, OptionValue] | None = None, triangulate: bool = False,
+                 no_creases: bool = False, strict: bool = False) -> None:
+        asked = request(scheme, boundary=boundary, creasing=creasing, triangles=triangles, option=option,
+                        triangulate=triangulate, no_creases=no_creases, strict=strict)
+        self._core = _sublimit.Surface(core_of(mesh), asked)
 
     def tessellate(self, chord: float, *, angle: float = 0, max_triangles: int = 1 << 24, threads: int = 0) -> Tessellation:
         """As few triangles as a proved bound on their distance from the surface allows.

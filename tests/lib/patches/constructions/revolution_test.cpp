@@ -19,19 +19,6 @@ CurveNet line(double x0, double z0, double x1, double z1) {
   return {bezier_knots<double>(1), points};
 }
 
-/// A circle of a radius about (x, 0), in quarters, from angle -90 degrees on.
-CurveNet arcs(double x, double radius, int quarters) {
-  std::vector<double> knots{0};
-  for (int i = 0; i <= quarters; ++i) knots.insert(knots.end(), 2, i);
-  knots.push_back(quarters);
-  Points columns(2 * quarters + 1, 3);
-  for (int i = 0; i <= 2 * quarters; ++i) {
-    const double w = i % 2 == 0 ? 1 : cos_degrees(45), angle = -90 + 45 * i;
-    columns.row(i) << w * x + radius * cos_degrees(angle), radius * sin_degrees(angle), w;
-  }
-  return {Knots<double>::open(2, 2 * quarters + 1, knots), columns, Coordinates::homogeneous};
-}
-
 TEST(Degrees, AreExactWhereTheyCanBe) {
   for (int k = -8; k <= 8; ++k) {
     const double quarter[] = {1, 0, -1, 0};
@@ -100,9 +87,9 @@ TEST(Revolution, OfALineIsACylinderOfMeanCurvatureMinusOneHalf) {
 
 TEST(Revolution, OfCirclesAreSphereAndTorus) {
   const double r = 2;
-  const SplineNet sphere = revolution(arcs(0, r, 2));
+  const SplineNet sphere = revolution(circle_arcs(0, r, 2));
   EXPECT_EQ(sphere.columns.rows(), 9 * 5);
-  const SplineNet torus = revolution(arcs(3, 1, 4));
+  const SplineNet torus = revolution(circle_arcs(3, 1, 4));
   for (double u = 0.05; u < 4; u += 0.37)
     for (double v = 0.05; v < 2; v += 0.31) {
       const OwnValues at = own_values(sphere, u, v);
