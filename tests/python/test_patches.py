@@ -60,6 +60,12 @@ def test_a_sphere_by_a_recipe(tmp_path: pathlib.Path) -> None:
     assert made.shape == (3, 50, 3) and table.info["rational"]
     np.testing.assert_allclose(made[0], samples.points, rtol=0, atol=rounding)
     np.testing.assert_allclose(made[1], samples.du, rtol=0, atol=products)
+    near = sphere.closest(4 * random.random((50, 3)), signed=True)
+    np.testing.assert_allclose(np.abs(near.distance), near.lower, rtol=0, atol=derivatives)
+    np.testing.assert_allclose(np.linalg.norm(near.points, axis=1), 2, rtol=0, atol=rounding)
+    assert sphere.closest([[0.5, 0, 1]], signed=True).distance[0] < 0
+    hits = sphere.intersect([[0, 0.5, -9]], [0, 0, 2], all=True)
+    np.testing.assert_allclose(hits.t, [(9 - 3.75**0.5) / 2, (9 + 3.75**0.5) / 2], rtol=0, atol=derivatives)
 
 
 def test_refuses_in_clear_words(bicubic: sublimit.Patches, tmp_path: pathlib.Path) -> None:
