@@ -57,9 +57,8 @@ int run(const ClosestOptions& options) {
   progress.step("reading " + options.points);
   const Points queries = read_query_points(options.points);
   ClosestPoints found;
-  with_searched_surface(options.common, free_form, progress, [&](const SearchedSurface& surface) {
-    found = search_of(surface, queries, search, progress);
-  });
+  with_searched_surface(options.common, free_form, progress,
+                        [&](const SearchedSurface& surface) { found = search_of(surface, queries, search, progress); });
   progress.step("writing " + options.output);
   write_closest_points(options.output, found, !options.nearest.empty() || !options.radius.empty());
   progress.step("");

@@ -48,8 +48,7 @@ Eigen::MatrixXd nodes_of(const PolynomialBasis& basis) {
 Eigen::MatrixXd half_matrix(int d, bool upper) {
   Eigen::MatrixXd half = Eigen::MatrixXd::Zero(d + 1, d + 1);
   for (int i = 0; i <= d; ++i)
-    for (int l = 0; l <= i; ++l)
-      half(upper ? d - i : i, upper ? d - l : l) = std::ldexp(binomial(i, l), -i);
+    for (int l = 0; l <= i; ++l) half(upper ? d - i : i, upper ? d - l : l) = std::ldexp(binomial(i, l), -i);
   return half;
 }
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Closest points on exact limit surfaces, patches, or whatever a search can take (searched_surface.h). Cells (limit_cells.h) are searched from the nearest box on, each by
-// Newton's method, until no box is nearer than the best point found, on whatever face. Boxes of polynomial pieces hold
-// them for certain; of schemes without polynomials they are of sampled points, widened by a quarter: an estimate.
+// Closest points on exact limit surfaces, patches, or whatever a search can take (searched_surface.h). Cells
+// (limit_cells.h) are searched from the nearest box on, each by Newton's method, until no box is nearer than the best
+// point found, on whatever face. Boxes of polynomial pieces hold them for certain; of schemes without polynomials they
+// are of sampled points, widened by a quarter: an estimate.
 //
 // That no point is nearer is then proved (distance_bound.h). Where the proof finds one, it is taken.
 //

@@ -2,11 +2,11 @@
 #pragma once
 // How near a surface is to a point at least: proved, by branch and bound on its parts.
 //
-// Of a polynomial or rational part the distance is at least that of its box, and at least min (b - q) n over its Bernstein
-// coefficients b for any unit vector n. Where intervals of their differences show that |x - q|^2 is convex on the part,
-// the tangent plane of its graph at the minimum is below it, so that the minimum itself is the bound, but for rounding.
-// Other parts, towards extraordinary vertices, are in the hull of the points that they depend on, and are replaced by
-// their children.
+// Of a polynomial or rational part the distance is at least that of its box, and at least min (b - q) n over its
+// Bernstein coefficients b for any unit vector n. Where intervals of their differences show that |x - q|^2 is convex on
+// the part, the tangent plane of its graph at the minimum is below it, so that the minimum itself is the bound, but for
+// rounding. Other parts, towards extraordinary vertices, are in the hull of the points that they depend on, and are
+// replaced by their children.
 #include <optional>
 #include <span>
 
@@ -27,7 +27,8 @@ class DistanceBound {
   /// @param most      parts to look at; what is left then counts with its box
   /// @param cutter    of the calling thread
   /// @param without   faces (of `Sample`) that do not count
-  /// @note  Any thread may ask. Where hulls are estimates, as of schemes without polynomials, or faces have no parts, nothing is proved.
+  /// @note  Any thread may ask. Where hulls are estimates, as of schemes without polynomials, or faces have no parts,
+  /// nothing is proved.
   ProvedDistance operator()(const Eigen::Vector3d& query, double distance, int most, PieceParts& cutter,
                             std::span<const Index> without = {}) const;
 

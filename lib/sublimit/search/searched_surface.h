@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// What a search in space asks of a surface with its points, whatever it is: limits of schemes (`SearchedLimit`), patches
+// What a search in space asks of a surface with its points, whatever it is: limits of schemes (`SearchedLimit`),
+// patches
 // (`SearchedPatches`).
 #include <memory>
 #include <string>

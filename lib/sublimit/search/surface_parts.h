@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// All of a surface as parts with boxes, in a tree: polynomial and rational ones as Bernstein coefficients, others as the
-// points that they depend on. What branch and bound begins with.
+// All of a surface as parts with boxes, in a tree: polynomial and rational ones as Bernstein coefficients, others as
+// the points that they depend on. What branch and bound begins with.
 #include <Eigen/Geometry>
 
 #include <algorithm>

@@ -191,8 +191,7 @@ class Cutter {
       by_derivatives = 0;
       for (const PiecePart& part : parts)
         for (const Points& net : part.nets)
-          by_derivatives =
-              std::max(by_derivatives, std::ldexp(chord_bound(*part.basis, net), 2 * part.depth));
+          by_derivatives = std::max(by_derivatives, std::ldexp(chord_bound(*part.basis, net), 2 * part.depth));
       if (by_derivatives <= options_.chord) return by_derivatives;
     }
     const Eigen::Matrix3d A = affine_map(parts, whole, triangle);
