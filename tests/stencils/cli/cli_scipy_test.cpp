@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <random>
 
+#include "stencils/cli/python_with_scipy.h"
 #include "stencils/cli_program.h"
 #include "sublimit/base/format_number.h"
 #include "support/free_form_shapes.h"
@@ -29,10 +30,7 @@ Knots<double> random_open_knots(std::mt19937& random, int degree) {
 }
 
 TEST(CliSciPy, SamplesOfRandomSurfacesAreTheSame) {
-  std::string python;
-  for (const std::string name : {"/usr/bin/python3", "python3"})
-    if (python.empty() && std::system((name + " -c 'import numpy, scipy.interpolate' 2>/dev/null").c_str()) == 0)
-      python = name;
+  const std::string python = python_with_scipy();
   SUBLIMIT_NEEDS_PROGRAM(!python.empty(), "python3-numpy python3-scipy");
   std::mt19937 random(12);
   std::vector<RationalShape> shapes;
