@@ -12,8 +12,7 @@ namespace sublimit {
 
 std::vector<std::array<double, 2>> corners_in_address(const CadCell& cell) {
   std::vector<std::array<double, 2>> at;
-  for (size_t k = 0; k < (cell.triangle ? 3u : 4u); ++k)
-    at.push_back({double(cell.corners[k].i) / cell_steps, double(cell.corners[k].j) / cell_steps});
+  for (size_t k = 0; k < (cell.triangle ? 3u : 4u); ++k) at.push_back(cell.corners[k].uv());
   return at;
 }
 

@@ -19,9 +19,13 @@ namespace sublimit {
 struct CellCorner {
   std::int32_t i = 0, j = 0;
   bool operator==(const CellCorner&) const = default;
+  /// The address's parameters, exact.
+  std::array<double, 2> uv() const;
+  Sample in(Index address) const { return {address, uv()[0], uv()[1]}; }
 };
 /// Steps along a side of an address.
 inline constexpr std::int32_t cell_steps = 1 << 24;
+inline std::array<double, 2> CellCorner::uv() const { return {double(i) / cell_steps, double(j) / cell_steps}; }
 
 /// Corners of a cell, counter-clockwise from its own (0, 0); of triangles the last one means nothing.
 using CellCorners = std::array<CellCorner, 4>;

@@ -65,9 +65,7 @@ BezierCells bezier_cells(const LimitSurface& surface, const Points& control, dou
     } else {
       made.bound = std::max(made.bound, cell.bound);
       made.cells.push_back({cell.address, cell.corners, triangle, false, 1, Points(Eigen::Index(corners), 3)});
-      for (size_t k = 0; k < corners; ++k)
-        places.push_back(
-            {cell.address, double(cell.corners[k].i) / cell_steps, double(cell.corners[k].j) / cell_steps});
+      for (size_t k = 0; k < corners; ++k) places.push_back(cell.corners[k].in(cell.address));
     }
   }
   const Points points = surface.evaluate(control, places).position;

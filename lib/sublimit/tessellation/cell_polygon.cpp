@@ -25,8 +25,7 @@ void add_triangle(Index address, const PolygonCorner& a, const PolygonCorner& b,
                   Tessellation& made) {
   Tessellation::Triangle triangle{address, {a.vertex, b.vertex, c.vertex}, {}};
   size_t k = 0;
-  for (const PolygonCorner* corner : {&a, &b, &c})
-    triangle.uv[k++] = {double(corner->at.i) / cell_steps, double(corner->at.j) / cell_steps};
+  for (const PolygonCorner* corner : {&a, &b, &c}) triangle.uv[k++] = corner->at.uv();
   made.triangles.push_back(triangle);
 }
 

@@ -14,7 +14,7 @@ class CellVertices {
 
   Index add(Index address, const CellCorner& c) {
     const Index number = numbers_.add(address, c);
-    if (number == std::ssize(places_)) places_.push_back({address, double(c.i) / cell_steps, double(c.j) / cell_steps});
+    if (number == std::ssize(places_)) places_.push_back(c.in(address));
     return number;
   }
   /// Or -1.

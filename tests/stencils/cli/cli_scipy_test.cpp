@@ -9,7 +9,6 @@
 #include "stencils/cli_program.h"
 #include "sublimit/base/format_number.h"
 #include "support/free_form_shapes.h"
-#include "support/skip.h"
 
 namespace sublimit::testing {
 namespace {
@@ -31,7 +30,7 @@ Knots<double> random_open_knots(std::mt19937& random, int degree) {
 
 TEST(CliSciPy, SamplesOfRandomSurfacesAreTheSame) {
   const std::string python = python_with_scipy();
-  SUBLIMIT_NEEDS_PROGRAM(!python.empty(), "python3-numpy python3-scipy");
+  SUBLIMIT_NEEDS_SCIPY;
   std::mt19937 random(12);
   std::vector<RationalShape> shapes;
   std::string places = "patch,u,v\n";

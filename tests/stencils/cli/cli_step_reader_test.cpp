@@ -9,7 +9,6 @@
 #include "sublimit/io/obj.h"
 #include "support/free_form_shapes.h"
 #include "support/meshes.h"
-#include "support/skip.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {
@@ -41,7 +40,7 @@ Read read_again(const TemporaryDirectory& directory, const std::string& shape, c
 }
 
 TEST(CliStepReader, ExactFacesAreTheLimit) {
-  SUBLIMIT_NEEDS_PROGRAM(!python_with_scipy().empty(), "python3-numpy python3-scipy");
+  SUBLIMIT_NEEDS_SCIPY;
   ControlMesh creased = torus(6, 4);
   add_crease(creased, {0, 4, 8, 12, 16, 20, 0}, {10, 10, 10, 10, 10, 10});
   const std::vector<std::pair<std::string, ControlMesh>> cases{{"catmull-clark", torus(7, 5)},
@@ -59,7 +58,7 @@ TEST(CliStepReader, ExactFacesAreTheLimit) {
 }
 
 TEST(CliStepReader, CapsAreWithinTheTolerance) {
-  SUBLIMIT_NEEDS_PROGRAM(!python_with_scipy().empty(), "python3-numpy python3-scipy");
+  SUBLIMIT_NEEDS_SCIPY;
   const TemporaryDirectory directory;
   write_obj(directory / "m.obj", output(cube()));
   const Read read = read_again(directory, (directory / "m.obj").string(), {"-s", "catmull-clark"});
@@ -69,7 +68,7 @@ TEST(CliStepReader, CapsAreWithinTheTolerance) {
 }
 
 TEST(CliStepReader, PatchesAreThemselves) {
-  SUBLIMIT_NEEDS_PROGRAM(!python_with_scipy().empty(), "python3-numpy python3-scipy");
+  SUBLIMIT_NEEDS_SCIPY;
   const TemporaryDirectory directory;
   FreeForm shapes = free_form_of({unit_sphere(), torus()});
   write_free_form(directory / "s.obj", shapes);

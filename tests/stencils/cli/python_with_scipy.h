@@ -3,6 +3,8 @@
 #include <cstdlib>
 #include <string>
 
+#include "support/skip.h"
+
 namespace sublimit::testing {
 
 /// A Python that has NumPy and SciPy; empty if there is none.
@@ -13,3 +15,7 @@ inline std::string python_with_scipy() {
 }
 
 }  // namespace sublimit::testing
+
+/// Goes on with a test only if there is one.
+#define SUBLIMIT_NEEDS_SCIPY \
+  SUBLIMIT_NEEDS_PROGRAM(!::sublimit::testing::python_with_scipy().empty(), "python3-numpy python3-scipy")
