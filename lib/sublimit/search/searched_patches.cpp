@@ -38,40 +38,41 @@ PiecePart whole_part(const Patch::BezierRows& bezier, bool triangle, const Point
   return part;
 }
 
-/// Cuts a rational part until all weights are positive. Weights that are 0 but for rounding would be points far away.
-/// @return  false if they are not
-bool add_positive(const PiecePart& part, PieceParts& cutter, std::vector<PiecePart>& out) {
+/// Cuts a rational part until all weights have one sign. Weights that are 0 but for rounding would be points far away.
+/// @param near_poles  gets the cells where they have not
+void add_positive(PiecePart&& part, PieceParts& cutter, std::vector<PiecePart>& out,
+                  std::vector<CellCorners>& near_poles) {
   constexpr int most_quarterings = 5;
   constexpr double smallest = 1e-12;  // of the largest
-  const Points& net = part.nets[0];
-  if (net.col(3).minCoeff() > smallest * net.col(3).maxCoeff()) {
-    out.push_back(part);
-    return true;
-  }
-  if (part.depth == most_quarterings) return false;
-  for (int k = 0; k < 4; ++k)
-    if (!add_positive(cutter.quarter(part, k), cutter, out)) return false;
-  return true;
+  Points& net = part.nets[0];
+  if (net.col(3).sum() < 0) net = -net;
+  if (net.col(3).minCoeff() > smallest * net.col(3).maxCoeff())
+    out.push_back(std::move(part));
+  else if (part.depth == most_quarterings)
+    near_poles.push_back(part.corners);
+  else
+    for (int k = 0; k < 4; ++k) add_positive(cutter.quarter(part, k), cutter, out, near_poles);
 }
 
-bool add_parts(PiecePart&& whole, PieceParts& cutter, std::vector<PiecePart>& out) {
+void add_parts(PiecePart&& whole, PieceParts& cutter, std::vector<PiecePart>& out,
+               std::vector<CellCorners>& near_poles) {
   Points& net = whole.nets[0];
-  if (net.cols() == 4) {
-    if (net.col(3).sum() < 0) net = -net;
-    if (net(0, 3) != 0 && (net.col(3).array() == net(0, 3)).all()) net = Points(net.leftCols(3) / net(0, 3));
-  }
-  if (net.cols() == 4) return add_positive(whole, cutter, out);
-  out.push_back(std::move(whole));
-  return true;
+  if (net.cols() == 4 && net(0, 3) != 0 && (net.col(3).array() == net(0, 3)).all())
+    net = Points(net.leftCols(3) / net(0, 3));
+  if (net.cols() == 4)
+    add_positive(std::move(whole), cutter, out, near_poles);
+  else
+    out.push_back(std::move(whole));
 }
-
-constexpr int sampled_cells = 4;  // a side of a face that has no net
-constexpr int sampled_steps = 4;  // a side of such a cell
 
 }  // namespace
 
 SearchedPatches::SearchedPatches(const PatchSet& patches, const Points& columns)
-    : patches_(patches), columns_(columns), samples_(patches.bound(columns)), parts_(size_t(patches.faces().size)) {
+    : patches_(patches),
+      columns_(columns),
+      samples_(patches.bound(columns)),
+      parts_(size_t(patches.faces().size)),
+      sampled_(parts_.size()) {
   check_columns(columns, patches.num_points(), patches.coordinates());
   if (!columns.allFinite()) throw InvalidParameter("control points to search are not finite");
   std::vector<std::string> without(parts_.size());
@@ -82,18 +83,20 @@ SearchedPatches::SearchedPatches(const PatchSet& patches, const Points& columns)
         for (std::int64_t face = begin; face < end; ++face) {
           const size_t patch = patches_.patch_of(static_cast<Index>(face));
           const Index own = static_cast<Index>(face) - patches_.first_face(patch);
-          std::vector<PiecePart>& parts = parts_[size_t(face)];
+          std::vector<CellCorners>& sampled = sampled_[size_t(face)];
           const std::optional<Patch::BezierRows> bezier = patches_.members()[patch].patch->bezier(own);
           const auto refuse = [&](const char* why) {
-            parts.clear();
             without[size_t(face)] = "face " + std::to_string(face) + ", of patch " + std::to_string(patch) + ", " + why;
           };
-          if (!bezier)
+          if (!bezier) {
+            sampled.push_back(whole_cell(faces().triangles));
             refuse("is no polynomial, and no quotient of polynomials that is known");
-          else if (!add_parts(whole_part(*bezier, faces().triangles,
-                                         columns_(patches_.slots(static_cast<Index>(face)), Eigen::all)),
-                              cutter, parts))
-            refuse("has a denominator that is 0 or below somewhere, or very near to that");
+            continue;
+          }
+          add_parts(
+              whole_part(*bezier, faces().triangles, columns_(patches_.slots(static_cast<Index>(face)), Eigen::all)),
+              cutter, parts_[size_t(face)], sampled);
+          if (!sampled.empty()) refuse("has a denominator that is 0 or below somewhere, or very near to that");
         }
       },
       32);
@@ -129,26 +132,36 @@ void SearchedPatches::cut(Index face, const PiecePart& part, int cells, PiecePar
   for (int k = 0; k < 4; ++k) cut(face, cutter.quarter(part, k), 4 * cells, cutter, out);
 }
 
-void SearchedPatches::add_sampled(Index face, std::vector<LimitCell>& out) const {
-  constexpr int steps = sampled_cells * sampled_steps;
+void SearchedPatches::add_sampled(Index face, const CellCorners& corners, int cells,
+                                  std::vector<LimitCell>& out) const {
+  constexpr int steps_a_cell = 4;
+  const bool triangle = faces().triangles;
+  const int steps = steps_a_cell * cells;
   std::vector<Sample> places;
+  const auto place = [&](double i, double j) {
+    const auto [u, v] = at_place(corners, triangle, i / steps, j / steps);
+    return Sample{face, u, v};
+  };
   for (int j = 0; j <= steps; ++j)
-    for (int i = 0; i <= steps; ++i) places.push_back({face, double(i) / steps, double(j) / steps});
+    for (int i = 0; i <= steps; ++i) places.push_back(place(i, j));
   LimitSamples samples;
   samples_->evaluate(places, 0, false, samples);
-  for (int b = 0; b < sampled_cells; ++b)
-    for (int a = 0; a < sampled_cells; ++a) {
+  for (int b = 0; b < cells; ++b)
+    for (int a = 0; a < cells; ++a) {
       Hull hull;
-      for (int j = 0; j <= sampled_steps; ++j)
-        for (int i = 0; i <= sampled_steps; ++i) {
-          const int at = (b * sampled_steps + j) * (steps + 1) + a * sampled_steps + i;
-          if (samples.status[size_t(at)] == LimitStatus::pole) continue;
-          hull.push_back(samples.position.row(at));
+      for (int j = 0; j <= steps_a_cell; ++j)
+        for (int i = 0; i <= steps_a_cell; ++i) {
+          const auto at = Eigen::Index(b * steps_a_cell + j) * (steps + 1) + a * steps_a_cell + i;
+          const LimitStatus status = samples.status[size_t(at)];
+          if (status != LimitStatus::pole && status != LimitStatus::outside) hull.push_back(samples.position.row(at));
         }
+      if (hull.empty()) continue;
+      const Sample middle = place((a + 0.5) * steps_a_cell, (b + 0.5) * steps_a_cell);
       // Twice as wide as what was seen.
-      constexpr double radius = 0.5 / sampled_cells;
-      if (!hull.empty())
-        out.push_back(hull_cell(hull, {face, (a + 0.5) / sampled_cells, (b + 0.5) / sampled_cells}, radius, 0.5, 0.02));
+      out.push_back(hull_cell(hull, middle,
+                              std::max(std::abs(middle.u - place(a * steps_a_cell, 0).u),
+                                       std::abs(middle.v - place(0, b * steps_a_cell).v)),
+                              0.5, 0.02));
     }
 }
 
@@ -163,7 +176,8 @@ std::vector<LimitCell> SearchedPatches::cells() const {
           const std::vector<PiecePart>& parts = parts_[size_t(face)];
           for (const PiecePart& part : parts)
             cut(static_cast<Index>(face), part, 1 << (2 * std::min(part.depth, 3)), cutter, blocks[size_t(block)]);
-          if (parts.empty()) add_sampled(static_cast<Index>(face), blocks[size_t(block)]);
+          for (const CellCorners& corners : sampled_[size_t(face)])
+            add_sampled(static_cast<Index>(face), corners, parts.empty() ? 4 : 1, blocks[size_t(block)]);
         }
       },
       faces_a_block);

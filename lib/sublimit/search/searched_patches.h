@@ -7,7 +7,7 @@
 namespace sublimit {
 
 /// Nets are raised to one degree in both directions, and cut in quarters until their weights are positive. Faces that
-/// are no polynomials (screw, gregory with twists that differ), or whose denominator vanishes, have no parts: nearest
+/// are no polynomials (screw, gregory with twists that differ) have no parts, nor has what is near to a pole: nearest
 /// points are found there from a grid of places, nothing is proved of any face, and rays are refused.
 class SearchedPatches : public SearchedSurface {
  public:
@@ -25,12 +25,13 @@ class SearchedPatches : public SearchedSurface {
 
  private:
   void cut(Index face, const PiecePart& part, int cells, PieceParts& cutter, std::vector<LimitCell>& out) const;
-  void add_sampled(Index face, std::vector<LimitCell>& out) const;
+  void add_sampled(Index face, const CellCorners& corners, int cells, std::vector<LimitCell>& out) const;
 
   const PatchSet& patches_;
   Points columns_;
   std::unique_ptr<BoundSource> samples_;
-  std::vector<std::vector<PiecePart>> parts_;  ///< by faces
+  std::vector<std::vector<PiecePart>> parts_;      ///< by faces
+  std::vector<std::vector<CellCorners>> sampled_;  ///< of faces, what is no part
   std::string without_parts_;
 };
 
