@@ -8,14 +8,12 @@
 #include <filesystem>
 #include <utility>
 
-#include "memory_limit.h"
 #include "recipes.h"
 #include "sublimit/base/error.h"
 #include "sublimit/base/memory.h"
 #include "sublimit/base/read_file.h"
 #include "sublimit/io/file_extension.h"
 #include "sublimit/recipes/recipe_sources.h"
-#include "sublimit/search/searched_patches.h"
 
 namespace sublimit::cli {
 
@@ -71,24 +69,6 @@ LoadedPatches load_patches(const Common& common) {
   }
   FreeFormPatches found = load_free_form_patches(common, load_free_form(common));
   return {std::move(found.patches), std::move(found.columns)};
-}
-
-void with_searched_surface(const Common& common, bool free_form, Progress& progress,
-                           const std::function<void(const SearchedSurface&)>& search) {
-  if (free_form) {
-    refuse_mesh_options(common);
-    limit_threads(common);
-    progress.step("reading " + common.mesh);
-    const LoadedPatches loaded = load_patches(common);
-    naming_mesh(common, [&] { search(SearchedPatches(loaded.patches, loaded.columns)); });
-    return;
-  }
-  const Loaded loaded = load(common, progress);
-  check_mesh_memory(common.mesh, loaded.mesh);
-  naming_mesh(common, [&] {
-    const LimitSurface surface(*loaded.scheme, loaded.mesh, loaded.rules);
-    search(SearchedLimit(surface, loaded.mesh.positions));
-  });
 }
 
 LoadedCurves load_patch_curves(const Common& common) {

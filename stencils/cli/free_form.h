@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 // Files of free-form curves and surfaces on the command line: they take no scheme.
-#include <functional>
 #include <nlohmann/json_fwd.hpp>
 
 #include "common.h"
@@ -10,7 +9,6 @@
 #include "sublimit/patches/curve_set.h"
 #include "sublimit/patches/free_form_patches.h"
 #include "sublimit/patches/patch_set.h"
-#include "sublimit/search/searched_surface.h"
 
 namespace sublimit::cli {
 
@@ -32,9 +30,6 @@ struct LoadedPatches {
   Points columns;  ///< x 3, or x 4, homogeneous
 };
 LoadedPatches load_patches(const Common& common);
-/// What `closest` and `intersect` search: the limit of the mesh, or the patches of the file. Errors name the file.
-void with_searched_surface(const Common& common, bool free_form, Progress& progress,
-                           const std::function<void(const SearchedSurface&)>& search);
 /// The same of curves.
 struct LoadedCurves {
   CurveSet curves;

@@ -6,8 +6,8 @@
 #include <numeric>
 
 #include "free_form.h"
+#include "searched.h"
 #include "sublimit/files/ray_files.h"
-#include "sublimit/search/searched_surface.h"
 
 namespace sublimit::cli {
 namespace {
