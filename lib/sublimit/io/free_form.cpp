@@ -5,7 +5,6 @@
 #include <array>
 #include <limits>
 #include <optional>
-#include <unordered_map>
 
 #include "sublimit/base/error.h"
 #include "sublimit/base/format_number.h"
@@ -15,6 +14,7 @@
 #include "sublimit/io/free_form_counts.h"
 #include "sublimit/io/obj_indices.h"
 #include "sublimit/io/obj_keywords.h"
+#include "sublimit/io/obj_names.h"
 #include "sublimit/io/text_scanner.h"
 
 namespace sublimit {
@@ -122,7 +122,7 @@ class FreeFormReader {
       current = static_cast<Index>(shapes_.matrices.size());
       shapes_.matrices.push_back(std::move(matrix));
     } else if (keyword == "g" || keyword == "o") {
-      (keyword == "g" ? group_ : object_) = read_name();
+      (keyword == "g" ? group_ : object_) = names_.read(scanner_, shapes_.names);
     } else {
       return false;
     }
@@ -165,17 +165,6 @@ class FreeFormReader {
       throw FormatError(scanner_.place() + "'" + std::string(keyword) + "' has " + in_quotes(token) +
                         " where its direction should be, 'u' or 'v'");
     return token == "v";
-  }
-
-  // The rest of the line as one of the names; -1 if there is none.
-  Index read_name() {
-    std::string name;
-    for (std::string_view token; !(token = scanner_.token()).empty();)
-      name += (name.empty() ? "" : " ") + std::string(token);
-    if (name.empty()) return -1;
-    const auto [found, is_new] = names_.emplace(std::move(name), static_cast<Index>(shapes_.names.size()));
-    if (is_new) shapes_.names.push_back(found->first);
-    return found->second;
   }
 
   // Elements.
@@ -435,7 +424,7 @@ class FreeFormReader {
   Index degree_[2] = {0, 0}, step_[2] = {0, 0}, matrix_[2] = {-1, -1};
   std::int64_t degree_line_ = 0;
   Index group_ = -1, object_ = -1;
-  std::unordered_map<std::string, Index> names_;
+  ObjNames names_;
 
   std::string_view element_;  // the keyword of the one that has no end yet; empty: none
   FreeFormSurface surface_;   // that element; a curve has its u

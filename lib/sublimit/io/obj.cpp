@@ -9,6 +9,7 @@
 #include "sublimit/base/read_file.h"
 #include "sublimit/io/obj_indices.h"
 #include "sublimit/io/obj_keywords.h"
+#include "sublimit/io/obj_names.h"
 #include "sublimit/io/obj_tags.h"
 #include "sublimit/io/text_scanner.h"
 
@@ -31,6 +32,8 @@ class ObjReader {
         read_face();
       } else if (keyword == "t") {
         tags_.read(scanner_, mesh_);
+      } else if (keyword == "g" || keyword == "o") {
+        (keyword == "g" ? group_ : object_) = names_.read(scanner_, mesh_.face_names.names);
       } else if (keyword == "vn" || keyword == "vp" || is_attribute_keyword(keyword)) {
         continue;
       } else if (!keyword.empty() && !elements_.count(scanner_, keyword) && !is_free_form_keyword(keyword)) {
@@ -71,6 +74,12 @@ class ObjReader {
                         format_number(size) + " corners; it should have at least 3");
     }
     checked_index(std::int64_t(mesh_.face_vertices.size()), scanner_.name(), "corners of faces");
+    const Index name = group_ >= 0 ? group_ : object_;
+    std::vector<Index>& names = mesh_.face_names.of_face;
+    if (name >= 0 || !names.empty()) {
+      names.resize(mesh_.face_sizes.size(), -1);  // those before the first that has one
+      names.push_back(name);
+    }
     mesh_.face_sizes.push_back(static_cast<Index>(size));
   }
 
@@ -167,6 +176,8 @@ class ObjReader {
   std::int64_t num_vertices_ = 0;
   ObjIndices indices_{"vertices"};
   Texture texture_;
+  ObjNames names_;
+  Index group_ = -1, object_ = -1;
   ObjElements elements_;
   UnknownKeywords unknown_;
 };

@@ -18,8 +18,9 @@
 // clang-format on
 //
 // Texture coordinates, `vt u [v [w]]`, become the face-varying channel "uv" where every corner of every face has one;
-// where only some have, none is kept, and a warning says so. Indices into a file without `vt` are skipped. Normals,
-// groups, materials, points and lines are skipped; unknown keywords, unknown tags and hierarchical edits are skipped
+// where only some have, none is kept, and a warning says so. Indices into a file without `vt` are skipped. Groups, `g`,
+// and objects, `o`, name faces: the words of a `g` are one name, and without a word it ends the group. Normals,
+// materials, points and lines are skipped; unknown keywords, unknown tags and hierarchical edits are skipped
 // with a warning. So are free-form curves and surfaces, which free_form.h reads: the warning says how many there are.
 #include <filesystem>
 #include <string>

@@ -68,6 +68,13 @@ struct ControlMesh {
   std::vector<FaceVarying> face_varying;
   std::optional<FaceVaryingInterpolation> face_varying_interpolation;  ///< absent: all
 
+  /// What files call faces: their group or, where they are in none, their object.
+  struct FaceNames {
+    std::vector<std::string> names;  ///< each once
+    std::vector<Index> of_face;      ///< one of `names`, -1 none; empty: no face has one
+  };
+  FaceNames face_names;
+
   std::vector<std::string> warnings;  ///< what the reader accepted but wants known, each with file:line
 
   Index num_vertices() const { return static_cast<Index>(positions.rows()); }

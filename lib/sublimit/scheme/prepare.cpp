@@ -11,10 +11,15 @@ namespace sublimit {
 ControlMesh triangulated(const ControlMesh& mesh) {
   const Topology t(view(mesh));
   const std::vector<bool> holes = initial_holes(t, mesh, Boundary::edge_only);
+  const std::vector<Index>& names = mesh.face_names.of_face;
+  if (!names.empty() && names.size() != mesh.face_sizes.size())
+    throw InvalidMesh(std::to_string(names.size()) + " faces have names; all of the " +
+                      std::to_string(mesh.face_sizes.size()) + " should, or none");
   ControlMesh result = mesh;
   result.face_sizes.clear();
   result.face_vertices.clear();
   result.holes.clear();
+  result.face_names.of_face.clear();
   result.knot_intervals.clear();  // of strips of quadrilaterals
   for (ControlMesh::FaceVarying& channel : result.face_varying) {
     if (channel.indices.size() != mesh.face_vertices.size())
@@ -27,6 +32,7 @@ ControlMesh triangulated(const ControlMesh& mesh) {
     const std::span<const Index> corners = t.vertices(Face{f});
     for (size_t i = 1; i + 1 < corners.size(); ++i) {
       if (holes[f]) result.holes.push_back(result.num_faces());
+      if (!names.empty()) result.face_names.of_face.push_back(names[size_t(f)]);
       result.face_sizes.push_back(3);
       result.face_vertices.insert(result.face_vertices.end(), {corners[0], corners[i], corners[i + 1]});
       for (size_t c = 0; c < mesh.face_varying.size(); ++c) {

@@ -6,8 +6,10 @@
 namespace sublimit {
 
 /// Every face cut into triangles, a fan from its first corner: corners (0, i, i + 1) for i = 1 ... n - 2, in the face's
-/// place. Vertices, values, creases, corners and options stay; the triangles of a hole are holes.
-/// @throws InvalidMesh  connectivity that no scheme takes, a hole that names no face, a channel of another size
+/// place. Vertices, values, creases, corners and options stay; the triangles of a hole are holes, those
+/// of a face have its name.
+/// @throws InvalidMesh  connectivity that no scheme takes, a hole that names no face, a channel or names of another
+/// size
 /// @note  Where a diagonal runs along an edge of other faces, that edge becomes non-manifold.
 ControlMesh triangulated(const ControlMesh& mesh);
 

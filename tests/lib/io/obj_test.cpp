@@ -82,6 +82,32 @@ TEST(Obj, StatementsThatAreNoMeshAreSkippedInSilence) {
   EXPECT_TRUE(mesh.warnings.empty());
 }
 
+std::vector<std::string> names_of_faces(const std::string& faces) {
+  const ControlMesh mesh = parse_obj(square + faces, "a.obj");
+  std::vector<std::string> names;
+  for (const Index name : mesh.face_names.of_face)
+    names.push_back(name < 0 ? std::string() : mesh.face_names.names[size_t(name)]);
+  return names;
+}
+
+TEST(Obj, GroupsNameFacesAndObjectsThoseWithoutGroup) {
+  using Names = std::vector<std::string>;
+  const std::string f = "f 1 2 3\n";
+  EXPECT_EQ(names_of_faces(f + f), Names());
+  EXPECT_EQ(names_of_faces("g a\n" + f + "g\n" + f), Names({"", "a", ""}));  // the square has none
+  EXPECT_EQ(names_of_faces("o thing\n" + f + "g a\n" + f + "o other\n" + f + "g\n" + f),
+            Names({"", "thing", "a", "a", "other"}));
+  EXPECT_EQ(names_of_faces("g left  side # words\n" + f + "g \\\nleft side\n" + f),
+            Names({"", "left side", "left side"}));
+  EXPECT_EQ(names_of_faces("g a\ng b\ng\n" + f), Names());
+}
+
+TEST(Obj, NamesOfFacesAreThereOnce) {
+  const ControlMesh mesh = parse_obj("g a\n" + square + "o b\nf 1 2 3\ng\nf 1 2 3\ng a\nf 1 2 3\n", "a.obj");
+  EXPECT_EQ(mesh.face_names.names, (std::vector<std::string>{"a", "b"}));
+  EXPECT_EQ(mesh.face_names.of_face, (Ids{0, 0, 1, 0}));
+}
+
 TEST(Obj, UnknownKeywordsAreWarnedAboutOnceEach) {
   const ControlMesh mesh = parse_obj("bzp 1 2\n" + square + "bzp 0 2\nfoo\n", "a.obj");
   ASSERT_EQ(mesh.warnings.size(), 2u);
