@@ -11,7 +11,8 @@ namespace {
 
 class Packer {
  public:
-  Packer(const std::vector<LimitQuad>& quads, const QuadEdges& edges) : edges_(edges), taken_(quads.size(), false) {}
+  Packer(const std::vector<LimitQuad>& quads, const QuadEdges& edges, const std::vector<Index>& names)
+      : edges_(edges), names_(names), taken_(quads.size(), false) {}
 
   QuadRectangle grow(Index seed, bool pack) {
     QuadRectangle r{{{seed, 0}}};
@@ -33,6 +34,7 @@ class Packer {
     const QuadEdge& edge = edges_.edges[size_t(on_side[0])];
     if (!edge.is_smooth) return std::nullopt;
     const QuadSide& other = edge.uses[edge.uses[0].quad == q.quad ? 1 : 0];
+    if (!names_.empty() && names_[size_t(q.quad)] != names_[size_t(other.quad)]) return std::nullopt;
     return TurnedQuad{other.quad, (other.side - (side + 2) % 4 + 8) % 4};
   }
   /// Vertex at a corner.
@@ -81,14 +83,16 @@ class Packer {
   }
 
   const QuadEdges& edges_;
+  const std::vector<Index>& names_;
   std::vector<char> taken_;
   std::set<Index> vertices_;
 };
 
 }  // namespace
 
-std::vector<QuadRectangle> quad_rectangles(const std::vector<LimitQuad>& quads, const QuadEdges& edges, bool pack) {
-  Packer packer(quads, edges);
+std::vector<QuadRectangle> quad_rectangles(const std::vector<LimitQuad>& quads, const QuadEdges& edges, bool pack,
+                                           const std::vector<Index>& names) {
+  Packer packer(quads, edges, names);
   std::vector<QuadRectangle> rectangles;
   for (Index q = 0; q < static_cast<Index>(quads.size()); ++q)
     if (!packer.is_taken(q)) rectangles.push_back(packer.grow(q, pack));

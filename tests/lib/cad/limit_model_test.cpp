@@ -113,6 +113,86 @@ TEST(LimitModel, KeepsCreasesAsEdges) {
   EXPECT_GE(sharp, 2);
 }
 
+LimitModel named_model(const ControlMesh& mesh, const std::string& scheme, const ControlMesh::FaceNames& names,
+                       bool pack = true) {
+  const LimitSurface surface(find_scheme(scheme).value(), mesh);
+  LimitModelOptions options;
+  options.tolerance = 1e-4 * testing::diagonal(mesh.positions);
+  options.pack = pack;
+  options.face_names = names;
+  return limit_model(surface, mesh.positions, options);
+}
+
+Eigen::RowVector3d middle_of_face(const ControlMesh& mesh, Index face) {
+  Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
+  const Index size = mesh.face_sizes[size_t(face)];  // faces of equal sizes
+  for (Index i = 0; i < size; ++i) sum += mesh.positions.row(mesh.face_vertices[size_t(face * size + i)]);
+  return sum / size;
+}
+
+/// The axis whose coordinate is the largest.
+std::string axis_of(const Eigen::RowVector3d& x) {
+  Eigen::Index axis = 0;
+  x.cwiseAbs().maxCoeff(&axis);
+  return std::string(x[axis] < 0 ? "-" : "+") + "xyz"[axis];
+}
+
+// The sides of a cube are 6 parts of its limit, each around its axis.
+TEST(LimitModel, FacesHaveTheNameOfTheirControlFace) {
+  const ControlMesh mesh = testing::cube();
+  ControlMesh::FaceNames names;
+  for (Index f = 0; f < 6; ++f) {
+    names.names.push_back(axis_of(middle_of_face(mesh, f)));
+    names.of_face.push_back(f);
+  }
+  for (const char* scheme : {"catmull-clark", "doo-sabin", "bilinear"})
+    for (const bool pack : {true, false}) {
+      const LimitModel model = named_model(mesh, scheme, names, pack);
+      expect_closed(model.boundary);
+      for (const SplineFace& face : model.boundary.faces) EXPECT_EQ(face.name, axis_of(face.poles.colwise().mean()));
+    }
+}
+
+// Of both halves of a torus, which mirror each other; the plane of the mirror has edges of the mesh.
+TEST(LimitModel, PacksFacesOfOneNameAlone) {
+  const ControlMesh mesh = testing::torus(8, 6);
+  const Index faces = mesh.num_faces();
+  const size_t without = named_model(mesh, "catmull-clark", {}).boundary.faces.size();
+  ControlMesh::FaceNames halves{{"left", "right"}, {}}, one{{"all"}, std::vector<Index>(size_t(faces), 0)}, each, some;
+  for (Index f = 0; f < faces; ++f) {
+    halves.of_face.push_back(middle_of_face(mesh, f)[1] < 0 ? 0 : 1);
+    some.of_face.push_back(halves.of_face.back() - 1);
+    each.names.push_back("face " + std::to_string(f));
+    each.of_face.push_back(f);
+  }
+  some.names = {"right"};
+  for (const bool all : {true, false}) {
+    const LimitModel model = named_model(mesh, "catmull-clark", all ? halves : some);
+    EXPECT_LE(model.boundary.faces.size(), 2 * without);
+    EXPECT_LT(model.measures.largest_gap, cad_exact * testing::diagonal(mesh.positions));
+    for (const SplineFace& face : model.boundary.faces) {
+      EXPECT_EQ(face.name, face.poles.col(1).mean() > 0 ? "right" : all ? "left" : "");
+      for (const EdgeUse& use : face.border)
+        for (const Index v : {model.boundary.edges[size_t(use.edge)].start, model.boundary.edges[size_t(use.edge)].end})
+          EXPECT_GE(model.boundary.vertices(v, 1) * (face.poles.col(1).mean() > 0 ? 1 : -1), -cad_exact);
+    }
+  }
+  const LimitModel whole = named_model(mesh, "catmull-clark", one);
+  EXPECT_EQ(whole.boundary.faces.size(), without);
+  for (const SplineFace& face : whole.boundary.faces) EXPECT_EQ(face.name, "all");
+  EXPECT_EQ(Index(named_model(mesh, "catmull-clark", each).boundary.faces.size()), faces);
+}
+
+TEST(LimitModel, RefusesNamesOfOtherMeshes) {
+  const ControlMesh mesh = testing::torus(8, 6);
+  std::vector<Index> all(size_t(mesh.num_faces()), 0);
+  EXPECT_THROW(named_model(mesh, "catmull-clark", {{"a"}, {0}}), InvalidParameter);
+  for (const Index other : {-2, 1}) {
+    all[0] = other;
+    EXPECT_THROW(named_model(mesh, "catmull-clark", {{"a"}, all}), InvalidParameter);
+  }
+}
+
 TEST(LimitModel, RefusesWhatIsNoPolynomial) {
   const ControlMesh mesh = testing::icosahedron();
   const LimitSurface surface(find_scheme("butterfly").value(), mesh);

@@ -6,12 +6,20 @@
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
 #include <STEPControl_Reader.hxx>
+#include <StepData_StepModel.hxx>
+#include <StepShape_AdvancedFace.hxx>
+#include <TCollection_HAsciiString.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
 #include <TopoDS.hxx>
+#include <TransferBRep.hxx>
+#include <Transfer_TransientProcess.hxx>
+#include <XSControl_TransferReader.hxx>
+#include <XSControl_WorkSession.hxx>
 #include <gtest/gtest.h>
 
+#include <map>
 #include <sstream>
 
 #include "sublimit/cad/limit_model.h"
@@ -84,6 +92,40 @@ TEST(ReadBack, OpenMeshesAreShells) {
   EXPECT_EQ(count(read.shape, TopAbs_SOLID), 0);
   EXPECT_EQ(count(read.shape, TopAbs_SHELL), 1);
   EXPECT_TRUE(BRepCheck_Analyzer(read.shape).IsValid());
+}
+
+// Both halves of a torus, left and right of a plane with edges of the mesh.
+TEST(ReadBack, FacesHaveTheirNames) {
+  const ControlMesh mesh = testing::torus(8, 6);
+  LimitModelOptions options;
+  options.tolerance = 1e-4 * testing::diagonal(mesh.positions);
+  options.face_names.names = {"left 'side'", "right"};
+  for (size_t f = 0; f < mesh.face_sizes.size(); ++f) {
+    double sum = 0;
+    for (size_t i = 0; i < 4; ++i) sum += mesh.positions(mesh.face_vertices[4 * f + i], 1);
+    options.face_names.of_face.push_back(sum < 0 ? 0 : 1);
+  }
+  const LimitSurface surface(find_scheme("catmull-clark").value(), mesh);
+  const CadFile file = cad_file(limit_model(surface, mesh.positions, options).boundary, "m", true);
+  EXPECT_TRUE(file.is_valid);
+  EXPECT_EQ(file.solids, 1);
+  const testing::TemporaryDirectory directory;
+  STEPControl_Reader reader;
+  ASSERT_EQ(reader.ReadFile(directory.write("m.step", file.bytes).c_str()), IFSelect_RetDone);
+  reader.TransferRoots();
+  const Handle(Transfer_TransientProcess) made = reader.WS()->TransferReader()->TransientProcess();
+  std::map<std::string, int> found;
+  for (int e = 1; e <= reader.StepModel()->NbEntities(); ++e) {
+    const Handle(StepShape_AdvancedFace) named = Handle(StepShape_AdvancedFace)::DownCast(reader.StepModel()->Value(e));
+    if (named.IsNull()) continue;
+    const std::string name = named->Name()->ToCString();
+    const BRepAdaptor_Surface face(TopoDS::Face(TransferBRep::ShapeResult(made, named)));
+    const gp_Pnt middle = face.Value((face.FirstUParameter() + face.LastUParameter()) / 2,
+                                     (face.FirstVParameter() + face.LastVParameter()) / 2);
+    EXPECT_EQ(name, middle.Y() < 0 ? "left 'side'" : "right");
+    ++found[name];
+  }
+  EXPECT_EQ(found.size(), 2u);
 }
 
 TEST(ReadBack, ExactFacesAreOnTheLimit) {
