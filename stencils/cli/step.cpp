@@ -71,6 +71,7 @@ int run(const StepJob& job) {
     wanted.tolerance = tolerance;
     wanted.join_smoothly = job.join == "g1";
     wanted.pack = !job.no_packing;
+    wanted.face_names = loaded.mesh.face_names;
     wanted.progress = [&](const std::string& what) { progress.note(what); };
     model = limit_model(surface, control, wanted);
     if (model.boundary.faces.empty()) throw InvalidMesh("no faces to write");
@@ -118,7 +119,8 @@ Command add_step(CLI::App& app) {
       "  sublimit step teapot.obj -o teapot.step\n"
       "Regular faces are exact, and packed into the largest B-splines that keep knots and smoothness; a triangle of loop is\n"
       "three biquartic patches. Around extraordinary vertices there are rings of exact patches, as many as leave a cap within\n"
-      "the tolerance. Creases and borders are edges. Schemes without polynomials (butterfly, kobbelt, sqrt3) are refused.\n"
+      "the tolerance. Creases and borders are edges. Names of groups (else objects) of an .obj are those of their faces in STEP\n"
+      "files; faces of different names stay apart. Schemes without polynomials (butterfly, kobbelt, sqrt3) are refused.\n"
       "Free-form surfaces of an .obj and recipes (.json, see `sublimit construct --help`), without -s: a face for each\n"
       "patch, its own B-spline, rational ones with weights, three faces for a Bezier triangle. Sides that are one\n"
       "curve in one parameter are one edge, closed sets of patches solids; names of groups, objects and recipes are those\n"

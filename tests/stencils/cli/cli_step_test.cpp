@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "stencils/cli_program.h"
 #include "sublimit/io/obj.h"
@@ -49,6 +50,34 @@ TEST(CliStep, WritesOpenMeshesAsShellsAndBrepToo) {
   EXPECT_EQ(json["shells"], 1);
   EXPECT_EQ(json["volume"], nullptr);
   EXPECT_NE(read_file(out).find("CASCADE Topology"), std::string::npos);
+}
+
+// Half of a grid is a group, and its triangles have its name too; all of it is an object.
+TEST(CliStep, NamesOfGroupsAndObjectsAreThoseOfFaces) {
+  const TemporaryDirectory directory;
+  std::istringstream lines(format_obj(output(grid(4, 2))));
+  std::string text = "o sheet\n";
+  int faces = 0;
+  for (std::string line; std::getline(lines, line); text += line + "\n")
+    if (line.starts_with("f ") && ++faces == 5) text += "g upper half\n";
+  const std::string mesh = directory.write("m.obj", text), out = (directory / "o.step").string(),
+                    report = (directory / "r.json").string();
+  for (const std::vector<std::string>& scheme :
+       std::vector<std::vector<std::string>>{{"catmull-clark"}, {"bilinear"}, {"loop", "--triangulate"}}) {
+    std::vector<std::string> arguments{"step", mesh, "-o", out, "--report", report, "--no-packing", "-s"};
+    arguments.insert(arguments.end(), scheme.begin(), scheme.end());
+    expect_done(sublimit(arguments));
+    const std::string file = read_file(out);
+    std::ptrdiff_t upper = 0, lower = 0;
+    for (size_t at = 0; (at = file.find("ADVANCED_FACE('", at)) != std::string::npos; ++at) {
+      const std::string_view face = std::string_view(file).substr(at + 15, 12);
+      upper += face.starts_with("upper half'");
+      lower += face.starts_with("sheet'");
+    }
+    const nlohmann::json json = nlohmann::json::parse(read_file(report));
+    EXPECT_EQ(upper + lower, json["faces"]) << scheme[0];
+    EXPECT_EQ(upper, lower) << scheme[0];
+  }
 }
 
 TEST(CliStep, SameInputSameBytes) {
