@@ -10,6 +10,9 @@
 
 namespace sublimit::testing {
 
+/// Rounding of values of polynomial pieces, relative to the points: 256 bits are 77 digits, refinements take some.
+inline constexpr double exact_digits = 1e-60;
+
 struct TruePoint {
   using Vector = Eigen::Matrix<Precise, Eigen::Dynamic, 1>;
   Vector position;  ///< one entry per column of the points
@@ -21,7 +24,7 @@ struct TruePoint {
   bool has_first = false;
   /// Not where they jump inside the square: between pieces of the C^1 schemes.
   bool has_second = false;
-  bool is_exact = false;   ///< a polynomial piece: right to about sixty digits
+  bool is_exact = false;   ///< a polynomial piece: right to `exact_digits`
   double error = 0;        ///< else: the last change of the position, more than what is left
   double first_error = 0;  ///< and of the first derivatives
   int levels = 0;          ///< refinements that were taken
