@@ -21,6 +21,19 @@ void keep_corners_only(Level& level) {
   level.sharpness = {};
 }
 
+/// Which faces of the level that has the patterns are a part's own: those of the control level, or their children.
+/// @param of_children  places of these, if there are any
+std::vector<char> owned_faces(const std::vector<char>& owned, const Level& control,
+                              const std::optional<std::vector<LatticePlace>>& of_children) {
+  if (!of_children) return owned;
+  const Addresses addresses(control.topology(), false);
+  std::vector<char> all;
+  all.reserve(of_children->size());
+  for (const LatticePlace& place : *of_children)
+    all.push_back(owned[size_t(index(addresses.place(place.address).face))]);
+  return all;
+}
+
 }  // namespace
 
 std::optional<Baked> bake_lattices(Patterns& patterns, const Level& control, const BakeRequest& request,
@@ -62,7 +75,7 @@ std::optional<Baked> bake_lattices(Patterns& patterns, const Level& control, con
   std::optional<std::vector<LatticePlace>> of_children;
   if (first_by_rows) of_children = places_of_children(scheme, control, level, turn);
   const bool has_places = !first_by_rows || of_children;
-  if (request.derivatives > 0 && !has_places) return std::nullopt;
+  if ((request.derivatives > 0 || how.owned) && !has_places) return std::nullopt;
   const auto place_of = [&](Index f) { return of_children ? (*of_children)[f] : LatticePlace{f, turn[f], -1}; };
 
   FaceLattices::Arrays lattices = face_owners(t, lattice, turn, how.owners);
@@ -75,8 +88,9 @@ std::optional<Baked> bake_lattices(Patterns& patterns, const Level& control, con
     has_points[own] = has_inner || !LatticeRanks::rows(lattice, static_cast<std::uint8_t>(own)).empty();
   PatternBlocks blocks(scheme);
   std::vector<Index> block_of(t.num_faces(), -1);
+  const std::vector<char> is_owned = how.owned ? owned_faces(*how.owned, control, of_children) : std::vector<char>();
   for (Index f = 0; f < t.num_faces(); ++f)
-    if (has_points[share[f]])
+    if (has_points[share[f]] && (is_owned.empty() || is_owned[size_t(f)]))
       block_of[f] = blocks.add({&pieces.pattern(f), request.derivatives > 0 ? place_of(f) : LatticePlace{}}, f);
   const auto rows_of_block = [&](Index) { return arrays.quantities * lattice.size(); };
   const double bytes = blocks.num_bytes(rows_of_block);
@@ -157,6 +171,7 @@ std::optional<Baked> bake_lattices(Patterns& patterns, const Level& control, con
     for (const Index f : groups.groups[g].pieces) {
       first_points[f] = next;
       next += arrays.groups[g].num_rows;
+      if (how.patches) how.patches->push_back({f, turn[size_t(f)], share[size_t(f)]});
     }
   lattices.first_points = std::move(first_points);
   arrays.rows = std::move(rows);
@@ -175,7 +190,7 @@ std::optional<Baked> bake_lattices(Patterns& patterns, const Level& control, con
   }
   if (std::find(level.holes.begin(), level.holes.end(), true) != level.holes.end())
     lattices.holes = std::vector<std::uint8_t>(level.holes.begin(), level.holes.end());
-  baked.table.lattices.emplace(baked.table.table.num_points(), std::move(lattices));
+  if (!how.owned) baked.table.lattices.emplace(baked.table.table.num_points(), std::move(lattices));
   if (how.turns) *how.turns = std::move(turn);
   return baked;
 }

@@ -10,6 +10,13 @@
 
 namespace sublimit {
 
+/// The face of a patch, by its number in the level that has the patterns, and what it has of its lattice.
+struct PatchPlace {
+  Index face = 0;
+  std::int8_t turn = 0;  ///< the face's corner that is the lattice's first one
+  LatticeRanks::Share share = 0;
+};
+
 struct PatternBake {
   bool first_by_rows = false;                                   ///< level 1 is made by rows, and has the patterns
   double most_bytes = std::numeric_limits<double>::infinity();  ///< of blocks
@@ -17,6 +24,10 @@ struct PatternBake {
   bool only_count = false;  ///< the table stays empty; `statistics` tell what would be in it
   OwnerRule owners = OwnerRule::balanced;
   std::vector<std::int8_t>* turns = nullptr;  ///< gets the corner of each face that its lattice begins with
+  /// Of a part of a mesh: which faces of the control level are its own. Others have no points, and the table no
+  /// lattices: nobody here knows where points of the others stand.
+  const std::vector<char>* owned = nullptr;
+  std::vector<PatchPlace>* patches = nullptr;  ///< gets, of such a table, where the points of each patch lie
   Level* spent = nullptr;  ///< the control level, if nobody needs it afterwards: it goes before the table comes
 };
 

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sublimit/shards/shard.h"
+
+#include <numeric>
+#include <utility>
+
+#include "sublimit/base/error.h"
+
+namespace sublimit {
+namespace {
+
+/// Vertices of no face stay where they are.
+BakedTable<double> lone_vertices(Index count) {
+  PatternTable<double>::Arrays arrays;
+  if (count > 0) {
+    arrays.blocks = {{1, 1, 0}};
+    arrays.weights = std::vector<double>{1};
+    arrays.groups = {{0, 1, 0, count}};
+    arrays.rows = std::vector<std::int32_t>{0};
+    std::vector<std::int32_t> columns(static_cast<size_t>(count));
+    std::iota(columns.begin(), columns.end(), 0);
+    arrays.columns = std::move(columns);
+  }
+  BakedTable<double> baked;
+  baked.table = PatternTable<double>(count, std::move(arrays));
+  return baked;
+}
+
+}  // namespace
+
+int shard_rings(Patterns& patterns, const Level& control) {
+  // Tags of the outermost faces depend on what is beside them. Where level 1 has the patterns its faces reach no
+  // farther than half as far, but rows of level 1 take a ring.
+  return patterns.types()->pieces().rings(control.sharpness) + 2;
+}
+
+Shard bake_shard(Patterns& patterns, const MeshPart& part, const BakeRequest& request,
+                 const SubdivisionOptions& options) {
+  check(request);
+  if (request.rows != TableRows::level && request.rows != TableRows::limit)
+    throw InvalidParameter("shards are of levels and their limits");
+  if (part.mesh.num_faces() == 0) return {lone_vertices(part.mesh.num_vertices()), {}, part.vertices, {}};
+  const Level control = control_level(patterns.scheme(), part.mesh, options);
+  Shard shard;
+  shard.inputs = part.vertices;
+  std::optional<Baked> baked;
+  const bool can_begin_by_rows = request.level > (request.rows == TableRows::level ? 1 : 0);
+  for (const bool first_by_rows : {false, true}) {
+    if (baked || (first_by_rows && !can_begin_by_rows)) continue;
+    shard.patches.clear();
+    baked = bake_by_patterns(patterns, control, request,
+                             {.first_by_rows = first_by_rows,
+                              .owners = OwnerRule::first,
+                              .owned = &part.is_owned,
+                              .patches = &shard.patches});
+  }
+  if (!baked) throw InvalidParameter(patterns.scheme().name + ": such a table cannot be made by patterns alone");
+  shard.table = std::move(baked->table);
+  shard.statistics = baked->statistics;
+  return shard;
+}
+
+}  // namespace sublimit

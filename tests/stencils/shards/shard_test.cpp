@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tables in parts make each point of the whole once, with the same bits.
+#include "sublimit/shards/shard.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "sublimit/schemes.h"
+#include "support/meshes.h"
+
+namespace sublimit::testing {
+namespace {
+
+struct Case {
+  const char* scheme;
+  ControlMesh mesh;
+};
+std::vector<Case> cases() {
+  ControlMesh creased = torus(8, 6);
+  add_crease(creased, {0, 6, 12, 18}, {10, 2.5f, 1.5f});
+  ControlMesh open = jittered(grid(7, 6));
+  open.holes = {5};
+  return {{"catmull-clark", torus(9, 7)}, {"catmull-clark", creased},        {"catmull-clark", open},
+          {"loop", triangle_torus(7, 6)}, {"loop", jittered(icosahedron())}, {"butterfly", triangle_torus(7, 6)}};
+}
+
+/// Points of a table of all, by face and row of its lattice.
+struct Whole {
+  Baked baked;
+  std::vector<double> points;
+};
+Whole whole_of(const Scheme<double>& scheme, const ControlMesh& mesh, const BakeRequest& request) {
+  Patterns patterns(scheme);
+  std::optional<Baked> baked =
+      bake_by_patterns(patterns, control_level(scheme, mesh, {}), request, {.owners = OwnerRule::first});
+  Whole whole{std::move(baked.value()), {}};
+  const Points x = mesh.positions;
+  std::vector<double> in;
+  for (Eigen::Index i = 0; i < x.rows(); ++i) in.insert(in.end(), {x(i, 0), x(i, 1), x(i, 2)});
+  whole.points.resize(size_t(3 * whole.baked.table.table.num_points()));
+  whole.baked.table.table.apply(in, 3, whole.points);
+  return whole;
+}
+
+void expect_parts(const Case& c, const BakeRequest& request, int num_parts) {
+  const Scheme<double> scheme = find_scheme(c.scheme).value();
+  const Whole whole = whole_of(scheme, c.mesh, request);
+  const FaceLattices& lattices = *whole.baked.table.lattices;
+  const Topology t(view(c.mesh));
+  std::mt19937 random(3);
+  std::vector<int> owner(size_t(c.mesh.num_faces()));
+  for (int& o : owner) o = int(random() % unsigned(num_parts));
+  std::vector<int> times(size_t(whole.baked.table.table.num_points()), 0);
+  for (int part = 0; part < num_parts; ++part) {
+    Patterns patterns(scheme);
+    const MeshPart own = mesh_part(c.mesh, t, owner, part, shard_rings(patterns, control_level(scheme, c.mesh, {})));
+    const Shard shard = bake_shard(patterns, own, request);
+    ASSERT_EQ(std::ssize(shard.inputs), shard.table.table.num_control_points());
+    std::vector<double> in, made(size_t(3 * shard.table.table.num_points()));
+    for (const std::int64_t v : shard.inputs)
+      for (int k = 0; k < 3; ++k) in.push_back(c.mesh.positions(v, k));
+    shard.table.table.apply(in, 3, made);
+    size_t at = 0;
+    for (const PatchPlace& patch : shard.patches)
+      for (const std::int32_t row : LatticeRanks::rows(lattices.lattice(), patch.share)) {
+        // The same point in the whole: there faces may lie turned in another way.
+        ASSERT_LT(size_t(patch.face), own.faces.size());
+        const std::int64_t point = lattices.point(static_cast<std::int32_t>(own.faces[size_t(patch.face)]), row);
+        ++times[size_t(point)];
+        for (size_t k = 0; k < 3; ++k)
+          EXPECT_EQ(made[3 * at + k], whole.points[3 * size_t(point) + k]) << c.scheme << " part " << part;
+        ++at;
+      }
+    EXPECT_EQ(std::int64_t(at), shard.table.table.num_points());
+  }
+  for (const int count : times) EXPECT_EQ(count, 1);
+}
+
+TEST(Shards, MakeEachPointOnceWithTheBitsOfTheWhole) {
+  for (const Case& c : cases())
+    for (const int parts : {1, 2, 3, 7}) {
+      expect_parts(c, {.rows = TableRows::level, .level = 2}, parts);
+      expect_parts(c, {.rows = TableRows::limit, .level = 1}, parts);
+    }
+}
+
+TEST(Shards, MayHaveNoFaces) {
+  const Scheme<double> scheme = find_scheme("catmull-clark").value();
+  ControlMesh mesh = cube();
+  mesh.positions.conservativeResize(10, 3);
+  mesh.positions.bottomRows(2).setConstant(5);
+  const std::vector<int> owner(6, 1);
+  for (const int part : {0, 2}) {
+    Patterns patterns(scheme);
+    const MeshPart own = mesh_part(mesh, Topology(view(mesh)), owner, part, 3);
+    const Shard shard = bake_shard(patterns, own, {.rows = TableRows::level, .level = 2});
+    EXPECT_EQ(shard.table.table.num_points(), part == 0 ? 2 : 0);  // vertices of no face are the first part's
+    EXPECT_EQ(std::ssize(shard.inputs), part == 0 ? 2 : 0);
+  }
+}
+
+}  // namespace
+}  // namespace sublimit::testing
