@@ -29,7 +29,8 @@ const Floor floors[] = {
       "patches", "search", "cad", "schemes", "primvar", "fit", "implicit", "certificates"},
      {"schemes.h", "subdivide.h"}},
     {"stencils/sublimit",
-     {"recipes", "files", "jobs", "patterns", "bake", "shards", "distributed", "picture", "fit_jobs", "gallery", "report"},
+     {"recipes", "files", "jobs", "patterns", "bake", "shards", "distributed", "picture", "fit_jobs", "gallery",
+      "report"},
      {}},
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sublimit/shards/shard.h"
 
+#include <algorithm>
 #include <numeric>
 #include <utility>
 
@@ -24,6 +25,30 @@ BakedTable<double> lone_vertices(Index count) {
   BakedTable<double> baked;
   baked.table = PatternTable<double>(count, std::move(arrays));
   return baked;
+}
+
+/// The same table with points in the order of faces, those of no face first: however faces are divided, in runs, points
+/// of all shards one after the other stand in the same order.
+PatternTable<double> in_order_of_faces(const PatternTable<double>& table, const std::vector<PatchPlace>& patches) {
+  PatternTable<double>::Arrays arrays = table.arrays();
+  struct Patch {
+    Index face = -1;
+    std::int64_t number = 0;
+    std::int32_t points = 0;
+  };
+  std::vector<Patch> order;
+  for (const auto& group : arrays.groups)
+    for (std::int64_t i = 0; i < group.num_patches; ++i) order.push_back({-1, std::ssize(order), group.num_rows});
+  for (size_t p = 0; p < patches.size(); ++p) order[p].face = patches[p].face;
+  std::ranges::stable_sort(order, {}, &Patch::face);
+  std::vector<std::int64_t> first(order.size());
+  std::int64_t next = 0;
+  for (const Patch& patch : order) {
+    first[size_t(patch.number)] = next;
+    next += patch.points;
+  }
+  arrays.patch_points = std::move(first);
+  return PatternTable<double>(table.num_control_points(), std::move(arrays));
 }
 
 }  // namespace
@@ -56,6 +81,7 @@ Shard bake_shard(Patterns& patterns, const MeshPart& part, const BakeRequest& re
   }
   if (!baked) throw InvalidParameter(patterns.scheme().name + ": such a table cannot be made by patterns alone");
   shard.table = std::move(baked->table);
+  shard.table.table = in_order_of_faces(shard.table.table, shard.patches);
   shard.statistics = baked->statistics;
   return shard;
 }

@@ -2,7 +2,8 @@
 #pragma once
 // A table in parts: each makes the points of some faces, from the control points around them. Every point of a level or
 // its limit is of one part: of the first face, in the order of the mesh, that has it, and of the part that owns that
-// face. Weights are those of a table of the whole, bit by bit, however faces are divided.
+// face; points stand in the order of these faces, those of no face first. Weights are those of a table of the
+// whole, bit by bit, however faces are divided.
 #include <cstdint>
 #include <vector>
 
