@@ -60,7 +60,7 @@ void apply_shards(const Options& options, const Ranks& ranks) {
   std::ifstream in(directory / "shards.json");
   if (!in)
     throw IoError((directory / "shards.json").string() +
-                  ": cannot read; a bake that was stopped goes on if it is run again");
+                  ": cannot read; it is written when all shards are there, so bake them first");
   const nlohmann::json manifest = nlohmann::json::parse(in, nullptr, false);
   if (manifest.is_discarded() || manifest.value("format", "") != "sublimit-shards")
     throw FormatError((directory / "shards.json").string() + ": no manifest of shards");

@@ -5,6 +5,8 @@
 #include <set>
 #include <utility>
 
+#include "sublimit/base/error.h"
+
 namespace sublimit {
 namespace {
 
@@ -33,6 +35,8 @@ std::set<std::pair<Index, Index>> edges_of(const ControlMesh& mesh) {
 }  // namespace
 
 MeshPart mesh_part(const ControlMesh& whole, const Topology& t, std::span<const int> owner, int part, int rings) {
+  if (!whole.knot_intervals.empty())
+    throw InvalidMesh("knot intervals are those of strips of faces, which a part may not see to their ends");
   std::vector<char> has_face(owner.size(), false), has_vertex(size_t(t.num_vertices()), false);
   for (size_t f = 0; f < owner.size(); ++f) has_face[f] = owner[f] == part;
   const auto take_vertices = [&] {

@@ -23,7 +23,8 @@ struct MeshPart {
 /// @param owner     of each of its faces
 /// @param part      which owner's
 /// @param rings     faces around owned ones: those that share a vertex with them, and so on
-/// Vertices of no face are those of part 0.
+/// Vertices of no face are those of part 0. Face-varying values stay behind.
+/// @throws InvalidMesh  knot intervals
 MeshPart mesh_part(const ControlMesh& whole, const Topology& topology, std::span<const int> owner, int part, int rings);
 
 }  // namespace sublimit

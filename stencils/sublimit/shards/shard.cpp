@@ -64,6 +64,10 @@ Shard bake_shard(Patterns& patterns, const MeshPart& part, const BakeRequest& re
   check(request);
   if (request.rows != TableRows::level && request.rows != TableRows::limit)
     throw InvalidParameter("shards are of levels and their limits");
+  // Points of dual schemes are those of corners, and rows of schemes that turn reach farther: neither is divided yet.
+  if (patterns.scheme().is_dual() || patterns.scheme().period > 1)
+    throw InvalidParameter(patterns.scheme().name +
+                           ": no shards of dual schemes, nor of those that turn; `sublimit bake`");
   if (part.mesh.num_faces() == 0) return {lone_vertices(part.mesh.num_vertices()), {}, part.vertices, {}};
   const Level control = control_level(patterns.scheme(), part.mesh, options);
   Shard shard;

@@ -28,7 +28,7 @@ int shard_rings(Patterns& patterns, const Level& control);
 /// Of levels and their limits, by patterns.
 /// @param part     with `shard_rings` around it at least
 /// @param options  of the whole
-/// @throws InvalidParameter     another request, or one that patterns cannot make
+/// @throws InvalidParameter     another request, or one that patterns cannot make; dual schemes, and those that turn
 /// @throws InvalidMesh, UnsupportedTopology, ResourceError  as `bake`
 Shard bake_shard(Patterns& patterns, const MeshPart& part, const BakeRequest& request,
                  const SubdivisionOptions& options = {});

@@ -5,7 +5,8 @@
 //
 //   shard.inputs     I64 #inputs        control points of the whole, ascending
 //   shard.patches    I32 #patches x 3   face of the part's level that has the patterns, its turn, its share
-//   metadata         shard "3 of 8", shard.first_point, shard.points (of all), shard.control_points (of the whole)
+//   metadata         shard.number (from 0), shard.count, shard.first_point, shard.points (of all),
+//                    shard.control_points (of the whole)
 //
 // A directory has "shard-0003-of-0008.safetensors", .. and, written when all are there, "shards.json".
 #include <filesystem>

@@ -14,6 +14,9 @@
 namespace sublimit::testing {
 namespace {
 
+/// `--tolerance` of caps where none is given, relative to the diagonal of the mesh.
+constexpr double default_tolerance = 1e-5;
+
 /// What the reader says of a file, and how far its points are from the surface at most.
 struct Read {
   std::string said;
@@ -62,7 +65,7 @@ TEST(CliStepReader, CapsAreWithinTheTolerance) {
   const TemporaryDirectory directory;
   write_obj(directory / "m.obj", output(cube()));
   const Read read = read_again(directory, (directory / "m.obj").string(), {"-s", "catmull-clark"});
-  EXPECT_LE(read.farthest, 1e-5 * diagonal(cube().positions));
+  EXPECT_LE(read.farthest, default_tolerance * diagonal(cube().positions));
   EXPECT_GT(read.farthest, cad_exact);  // there are caps
   expect_parts(read.said, {"other 0\n", "closed 1\n"});
 }

@@ -43,10 +43,11 @@ TEST(Ranks, AnyNumberOfThemMakesTheSameBits) {
   }
 }
 
-TEST(Ranks, AnErrorEndsThemAllWithOneLine) {
+TEST(Ranks, AnErrorOfOneEndsThemAll) {
   const TemporaryDirectory directory;
   const std::string err = (directory / "err").string(), out = (directory / "o.npy").string();
   EXPECT_EQ(ranks_run(3, "apply " + (directory / "none").string() + " m.obj -o " + out, err), 3);
+  EXPECT_NE(read_file(err).find("shards.json: cannot read"), std::string::npos) << read_file(err);
   EXPECT_FALSE(std::filesystem::exists(out));
 }
 

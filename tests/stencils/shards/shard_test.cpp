@@ -6,7 +6,9 @@
 
 #include <random>
 
+#include "sublimit/base/error.h"
 #include "sublimit/schemes.h"
+#include "support/expect_error.h"
 #include "support/meshes.h"
 
 namespace sublimit::testing {
@@ -89,6 +91,19 @@ TEST(Shards, MakeEachPointOnceWithTheBitsOfTheWhole) {
       expect_parts(c, {.rows = TableRows::level, .level = 2}, parts);
       expect_parts(c, {.rows = TableRows::limit, .level = 1}, parts);
     }
+}
+
+TEST(Shards, RefuseWhatTheyWouldDivideWrongly) {
+  const std::vector<int> owner(30, 0);
+  ControlMesh mesh = torus(6, 5);
+  for (const char* name : {"doo-sabin", "mid-edge"}) {
+    Patterns patterns(find_scheme(name).value());
+    const MeshPart all = mesh_part(mesh, Topology(view(mesh)), owner, 0, 1);
+    expect_error<InvalidParameter>([&] { bake_shard(patterns, all, {.rows = TableRows::level, .level = 2}); },
+                                   {name, "dual"});
+  }
+  mesh.knot_intervals = {{0, 1, 2}};
+  expect_error<InvalidMesh>([&] { mesh_part(mesh, Topology(view(mesh)), owner, 0, 1); }, {"knot intervals"});
 }
 
 TEST(Shards, MayHaveNoFaces) {
