@@ -18,10 +18,28 @@ namespace {
 
 class ObjReader {
  public:
-  ObjReader(std::string_view text, std::string_view name)
-      : scanner_(text, name, TextScanner::Continuation::backslash) {}
+  explicit ObjReader(std::string_view text, std::string_view name, const ObjCounts& before = {})
+      : scanner_(text, name, TextScanner::Continuation::backslash, before.lines + 1),
+        num_vertices_(before.vertices),
+        faces_before_(before.faces) {
+    texture_.count = before.texture_coordinates;
+  }
 
   ControlMesh read() {
+    read_lines();
+    finish();
+    return std::move(mesh_);
+  }
+
+  ControlMesh read_part() {
+    read_lines();
+    mesh_.positions = Eigen::Map<const Points>(coordinates_.data(), Eigen::Index(coordinates_.size() / 3), 3);
+    if (!texture_.values.empty() || (!texture_.corners.empty() && texture_.line_without < 0)) add_channel();
+    return std::move(mesh_);
+  }
+
+ private:
+  void read_lines() {
     while (scanner_.next_line()) {
       const std::string_view keyword = scanner_.token();
       if (keyword == "v") {
@@ -40,11 +58,8 @@ class ObjReader {
         unknown_.warn(scanner_, keyword, mesh_.warnings);
       }
     }
-    finish();
-    return std::move(mesh_);
   }
 
- private:
   void read_vertex() {
     for (const char* const what : {"coordinate x", "coordinate y", "coordinate z"}) {
       coordinates_.push_back(scanner_.finite(scanner_.token(), what));
@@ -70,7 +85,7 @@ class ObjReader {
     std::int64_t size = 0;
     for (std::string_view token; !(token = scanner_.token()).empty(); ++size) read_corner(token);
     if (size < 3) {
-      throw InvalidMesh(scanner_.place(line) + "face " + format_number(mesh_.num_faces()) + " has " +
+      throw InvalidMesh(scanner_.place(line) + "face " + format_number(faces_before_ + mesh_.num_faces()) + " has " +
                         format_number(size) + " corners; it should have at least 3");
     }
     checked_index(std::int64_t(mesh_.face_vertices.size()), scanner_.name(), "corners of faces");
@@ -150,7 +165,11 @@ class ObjReader {
           "corners without texture coordinate, which others have; texture coordinates are dropped");
       return;
     }
-    const Index rows = checked_index(texture_.count, scanner_.name(), "texture coordinates");
+    add_channel();
+  }
+
+  void add_channel() {
+    const Index rows = checked_index(std::int64_t(texture_.values.size() / 3), scanner_.name(), "texture coordinates");
     mesh_.face_varying.push_back({.name = "uv",
                                   .values = Eigen::Map<const Points>(texture_.values.data(), rows, 3)
                                                 .leftCols(static_cast<Eigen::Index>(texture_.columns)),
@@ -173,7 +192,7 @@ class ObjReader {
   ControlMesh mesh_;
   ObjTags tags_;
   std::vector<double> coordinates_;
-  std::int64_t num_vertices_ = 0;
+  std::int64_t num_vertices_, faces_before_;
   ObjIndices indices_{"vertices"};
   Texture texture_;
   ObjNames names_;
@@ -185,6 +204,23 @@ class ObjReader {
 }  // namespace
 
 ControlMesh read_obj(const std::filesystem::path& path) { return parse_obj(read_file(path), path.string()); }
+
+ObjCounts count_obj(std::string_view part) {
+  TextScanner scanner(part, "", TextScanner::Continuation::backslash);
+  ObjCounts counts;
+  while (scanner.next_line()) {
+    const std::string_view keyword = scanner.token();
+    counts.vertices += keyword == "v";
+    counts.texture_coordinates += keyword == "vt";
+    counts.faces += keyword == "f";
+  }
+  counts.lines = scanner.line() - 1;
+  return counts;
+}
+
+ControlMesh parse_obj_part(std::string_view part, std::string_view name, const ObjCounts& before) {
+  return ObjReader(part, name, before).read_part();
+}
 
 ControlMesh parse_obj(std::string_view text, std::string_view name) {
   require_text(text, name, "OBJ");

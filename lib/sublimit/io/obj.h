@@ -41,6 +41,19 @@ ControlMesh read_obj(const std::filesystem::path& path);
 /// As `read_obj`, from text; messages start with `name`. Memory is in proportion to the text, whatever it says.
 ControlMesh parse_obj(std::string_view text, std::string_view name);
 
+/// How much of a file there is, or stands before a part of it.
+struct ObjCounts {
+  std::int64_t lines = 0, vertices = 0, texture_coordinates = 0, faces = 0;
+};
+/// Of a part of a file: whole lines.
+ObjCounts count_obj(std::string_view part);
+
+/// A part of a file for who puts parts together: its own vertices and values, faces and tags with numbers of the whole.
+/// What takes the whole is not checked: numbers out of range, edges of tags, that there are any vertices or faces.
+/// @param before  of the file
+/// @throws as `parse_obj`
+ControlMesh parse_obj_part(std::string_view part, std::string_view name, const ObjCounts& before);
+
 /// The text of a mesh and its tags. Numbers have the shortest form that reads back to the same bits; infinite sharpness
 /// is written as 10.
 /// @throws InvalidParameter  arrays that do not fit together;  InvalidMesh  positions or sharpness that are not finite

@@ -30,12 +30,14 @@ Kind kind(char c) { return kinds[static_cast<unsigned char>(c)]; }
 
 }  // namespace
 
-TextScanner::TextScanner(std::string_view text, std::string_view name, Continuation continuation)
+TextScanner::TextScanner(std::string_view text, std::string_view name, Continuation continuation,
+                         std::int64_t first_line)
     : begin_(text.data()),
       here_(text.data()),
       end_(text.data() + text.size()),
       name_(name),
-      continued_(continuation == Continuation::backslash) {
+      continued_(continuation == Continuation::backslash),
+      line_(first_line) {
   if (text.starts_with("\xEF\xBB\xBF")) here_ += 3;  // the byte order mark of UTF-8
 }
 

@@ -17,7 +17,8 @@ class TextScanner {
     backslash,  ///< a backslash at its end joins a line to the next one
   };
 
-  TextScanner(std::string_view text, std::string_view name, Continuation continuation);
+  /// @param first_line  number of the first line, of text from the middle of a file
+  TextScanner(std::string_view text, std::string_view name, Continuation continuation, std::int64_t first_line = 1);
 
   /// Moves behind the end of this line (at first: to the first line); false at the end of the text.
   bool next_line();
@@ -56,7 +57,7 @@ class TextScanner {
   std::string name_;
   bool continued_;
   bool started_ = false;
-  std::int64_t line_ = 1;
+  std::int64_t line_;
 };
 
 /// A token as messages show it: in quotes, shortened, with unprintable bytes as hexadecimal numbers.

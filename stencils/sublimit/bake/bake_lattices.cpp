@@ -2,6 +2,7 @@
 // Vertices of level k, or their limits: points are shared between faces.
 #include <algorithm>
 #include <array>
+#include <numeric>
 
 #include "sublimit/bake/bake_patterns.h"
 #include "sublimit/bake/bake_rows.h"
@@ -21,17 +22,20 @@ void keep_corners_only(Level& level) {
   level.sharpness = {};
 }
 
-/// Which faces of the level that has the patterns are a part's own: those of the control level, or their children.
-/// @param of_children  places of these, if there are any
-std::vector<char> owned_faces(const std::vector<char>& owned, const Level& control,
-                              const std::optional<std::vector<LatticePlace>>& of_children) {
-  if (!of_children) return owned;
-  const Addresses addresses(control.topology(), false);
-  std::vector<char> all;
-  all.reserve(of_children->size());
-  for (const LatticePlace& place : *of_children)
-    all.push_back(owned[size_t(index(addresses.place(place.address).face))]);
-  return all;
+/// The control level's face of each face of the level that has the patterns.
+/// @param of_children  places of these, if they are children
+std::vector<Index> control_faces(const Level& control, const std::optional<std::vector<LatticePlace>>& of_children) {
+  const Topology& t = control.topology();
+  std::vector<Index> faces;
+  if (!of_children) {
+    faces.resize(size_t(t.num_faces()));
+    std::iota(faces.begin(), faces.end(), 0);
+    return faces;
+  }
+  const Addresses addresses(t, false);
+  faces.reserve(of_children->size());
+  for (const LatticePlace& place : *of_children) faces.push_back(index(addresses.place(place.address).face));
+  return faces;
 }
 
 }  // namespace
@@ -88,9 +92,9 @@ std::optional<Baked> bake_lattices(Patterns& patterns, const Level& control, con
     has_points[own] = has_inner || !LatticeRanks::rows(lattice, static_cast<std::uint8_t>(own)).empty();
   PatternBlocks blocks(scheme);
   std::vector<Index> block_of(t.num_faces(), -1);
-  const std::vector<char> is_owned = how.owned ? owned_faces(*how.owned, control, of_children) : std::vector<char>();
+  const std::vector<Index> control_face = how.owned ? control_faces(control, of_children) : std::vector<Index>();
   for (Index f = 0; f < t.num_faces(); ++f)
-    if (has_points[share[f]] && (is_owned.empty() || is_owned[size_t(f)]))
+    if (has_points[share[f]] && (!how.owned || (*how.owned)[size_t(control_face[f])]))
       block_of[f] = blocks.add({&pieces.pattern(f), request.derivatives > 0 ? place_of(f) : LatticePlace{}}, f);
   const auto rows_of_block = [&](Index) { return arrays.quantities * lattice.size(); };
   const double bytes = blocks.num_bytes(rows_of_block);
@@ -171,7 +175,7 @@ std::optional<Baked> bake_lattices(Patterns& patterns, const Level& control, con
     for (const Index f : groups.groups[g].pieces) {
       first_points[f] = next;
       next += arrays.groups[g].num_rows;
-      if (how.patches) how.patches->push_back({f, turn[size_t(f)], share[size_t(f)]});
+      if (how.patches) how.patches->push_back({f, turn[size_t(f)], share[size_t(f)], control_face[f]});
     }
   lattices.first_points = std::move(first_points);
   arrays.rows = std::move(rows);

@@ -15,6 +15,7 @@ struct PatchPlace {
   Index face = 0;
   std::int8_t turn = 0;  ///< the face's corner that is the lattice's first one
   LatticeRanks::Share share = 0;
+  Index control_face = 0;  ///< the control level's face that it is of
 };
 
 struct PatternBake {

@@ -29,12 +29,14 @@ class Sidecar {
     if (!root_.is_object()) fail("holds " + show(root_) + "; a sidecar is an object such as {\"holeIndices\": [3]}");
   }
 
-  void apply(ControlMesh& mesh) {
+  void apply(ControlMesh& mesh, const std::optional<MeshCounts>& elsewhere) {
+    counts_ = elsewhere.value_or(MeshCounts{mesh.num_vertices(), mesh.num_faces()});
+    knows_edges_ = !elsewhere;
     // All of it is read and checked before any of it is applied.
     std::vector<ControlMesh::Crease> creases = read_creases(mesh);
-    std::vector<ControlMesh::Corner> corners = read_corners(mesh);
+    std::vector<ControlMesh::Corner> corners = read_corners();
     std::vector<ControlMesh::KnotInterval> intervals = read_intervals(mesh);
-    std::vector<Index> holes = read_ids("holeIndices", mesh.num_faces(), "face");
+    std::vector<Index> holes = read_ids("holeIndices", counts_.faces, "face");
     const auto boundary = choice<Boundary>(
         "interpolateBoundary",
         {{"none", Boundary::none}, {"edgeOnly", Boundary::edge_only}, {"edgeAndCorner", Boundary::edge_and_corner}});
@@ -152,7 +154,7 @@ class Sidecar {
   }
 
   std::vector<ControlMesh::Crease> read_creases(const ControlMesh& mesh) {
-    const std::vector<Index> ids = read_ids("creaseIndices", mesh.num_vertices(), "vertex");
+    const std::vector<Index> ids = read_ids("creaseIndices", counts_.vertices, "vertex");
     if (!find("creaseIndices")) {
       for (const char* const key : {"creaseLengths", "creaseSharpnesses"}) {
         if (find(key)) fail(std::string(key) + " comes without creaseIndices");
@@ -195,6 +197,7 @@ class Sidecar {
         positions.push_back(position);
       }
     }
+    if (!knows_edges_) return creases;
     const std::vector<bool> found = along_edges(mesh, creases);
     for (std::size_t i = 0; i < creases.size(); ++i) {
       if (found[i]) continue;
@@ -204,8 +207,8 @@ class Sidecar {
     return creases;
   }
 
-  std::vector<ControlMesh::Corner> read_corners(const ControlMesh& mesh) {
-    const std::vector<Index> ids = read_ids("cornerIndices", mesh.num_vertices(), "vertex");
+  std::vector<ControlMesh::Corner> read_corners() {
+    const std::vector<Index> ids = read_ids("cornerIndices", counts_.vertices, "vertex");
     if (!find("cornerIndices")) {
       if (find("cornerSharpnesses")) fail("cornerSharpnesses comes without cornerIndices");
       return {};
@@ -222,7 +225,7 @@ class Sidecar {
 
   /// `knotIntervals` as numbers, `knotIntervalEdges` as two vertices for each.
   std::vector<ControlMesh::KnotInterval> read_intervals(const ControlMesh& mesh) {
-    const std::vector<Index> ids = read_ids("knotIntervalEdges", mesh.num_vertices(), "vertex");
+    const std::vector<Index> ids = read_ids("knotIntervalEdges", counts_.vertices, "vertex");
     if (!find("knotIntervals")) {
       if (find("knotIntervalEdges")) fail("knotIntervalEdges comes without knotIntervals");
       return {};
@@ -241,6 +244,7 @@ class Sidecar {
         fail(entry("knotIntervals", i) + " is " + format_number(length) + "; an interval should be a positive number");
       intervals.push_back({.tail = ids[2 * i], .head = ids[2 * i + 1], .length = length});
     }
+    if (!knows_edges_) return intervals;
     const std::vector<bool> found = along_edges(mesh, edges_of(intervals));
     for (std::size_t i = 0; i < intervals.size(); ++i)
       if (!found[i])
@@ -277,6 +281,8 @@ class Sidecar {
   std::string name_;
   json root_;
   std::unordered_set<std::string> known_;
+  MeshCounts counts_;
+  bool knows_edges_ = true;
 };
 
 }  // namespace
@@ -306,8 +312,9 @@ void apply_sidecar(ControlMesh& mesh, const std::filesystem::path& path) {
   apply_sidecar_text(mesh, read_file(path), path.string());
 }
 
-void apply_sidecar_text(ControlMesh& mesh, std::string_view text, std::string_view name) {
-  Sidecar(text, name).apply(mesh);
+void apply_sidecar_text(ControlMesh& mesh, std::string_view text, std::string_view name,
+                        const std::optional<MeshCounts>& elsewhere) {
+  Sidecar(text, name).apply(mesh, elsewhere);
 }
 
 }  // namespace sublimit

@@ -34,7 +34,14 @@ std::optional<std::filesystem::path> find_sidecar(const std::filesystem::path& m
 /// @throws IoError      missing, unreadable
 void apply_sidecar(ControlMesh& mesh, const std::filesystem::path& path);
 
+/// How much there is of a mesh that is somewhere else.
+struct MeshCounts {
+  Index vertices = 0, faces = 0;
+};
+
 /// As `apply_sidecar`, from text; messages start with `name`.
-void apply_sidecar_text(ControlMesh& mesh, std::string_view text, std::string_view name);
+/// @param elsewhere  `mesh` is to get tags alone, of a mesh of so many; whether creases are edges of it is not checked
+void apply_sidecar_text(ControlMesh& mesh, std::string_view text, std::string_view name,
+                        const std::optional<MeshCounts>& elsewhere = {});
 
 }  // namespace sublimit

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <utility>
 
+#include "sublimit/bake/table_info.h"
 #include "sublimit/base/error.h"
 
 namespace sublimit {
@@ -32,15 +33,16 @@ BakedTable<double> lone_vertices(Index count) {
 PatternTable<double> in_order_of_faces(const PatternTable<double>& table, const std::vector<PatchPlace>& patches) {
   PatternTable<double>::Arrays arrays = table.arrays();
   struct Patch {
-    Index face = -1;
+    Index control_face = -1, face = -1;
     std::int64_t number = 0;
     std::int32_t points = 0;
   };
   std::vector<Patch> order;
   for (const auto& group : arrays.groups)
-    for (std::int64_t i = 0; i < group.num_patches; ++i) order.push_back({-1, std::ssize(order), group.num_rows});
-  for (size_t p = 0; p < patches.size(); ++p) order[p].face = patches[p].face;
-  std::ranges::stable_sort(order, {}, &Patch::face);
+    for (std::int64_t i = 0; i < group.num_patches; ++i) order.push_back({-1, -1, std::ssize(order), group.num_rows});
+  for (size_t p = 0; p < patches.size(); ++p)
+    order[p].control_face = patches[p].control_face, order[p].face = patches[p].face;
+  std::ranges::stable_sort(order, {}, [](const Patch& p) { return std::pair(p.control_face, p.face); });
   std::vector<std::int64_t> first(order.size());
   std::int64_t next = 0;
   for (const Patch& patch : order) {
@@ -53,39 +55,58 @@ PatternTable<double> in_order_of_faces(const PatternTable<double>& table, const 
 
 }  // namespace
 
-int shard_rings(Patterns& patterns, const Level& control) {
+int shard_rings(Patterns& patterns, Creasing creasing) {
+  Sharpness sharpness;
+  sharpness.creasing = creasing;
   // Tags of the outermost faces depend on what is beside them. Where level 1 has the patterns its faces reach no
   // farther than half as far, but rows of level 1 take a ring.
-  return patterns.types()->pieces().rings(control.sharpness) + 2;
+  return patterns.types()->pieces().rings(sharpness) + 2;
 }
 
-Shard bake_shard(Patterns& patterns, const MeshPart& part, const BakeRequest& request,
-                 const SubdivisionOptions& options) {
+BakeMethod shard_method(Patterns& patterns, const BakeRequest& request, bool all_whole) {
   check(request);
   if (request.rows != TableRows::level && request.rows != TableRows::limit)
     throw InvalidParameter("shards are of levels and their limits");
+  if (request.face_varying || request.tags || request.derivatives > 0)
+    throw InvalidParameter("shards have positions alone: no derivatives, face-varying values or tags");
   // Points of dual schemes are those of corners, and rows of schemes that turn reach farther: neither is divided yet.
   if (patterns.scheme().is_dual() || patterns.scheme().period > 1)
     throw InvalidParameter(patterns.scheme().name +
-                           ": no shards of dual schemes, nor of those that turn; `sublimit bake`");
-  if (part.mesh.num_faces() == 0) return {lone_vertices(part.mesh.num_vertices()), {}, part.vertices, {}};
+                           ": no shards of dual schemes, nor of those that turn; `sublimit bake` makes one table");
+  if (all_whole) return BakeMethod::patterns;
+  if (request.level == 0)
+    throw InvalidParameter(patterns.scheme().name +
+                           ": faces of other sizes are cut by the first level; ask for the limit of level 1 or more");
+  return BakeMethod::rows_then_patterns;
+}
+
+std::int64_t num_points(const Scheme<double>& scheme, const BakeRequest& request, BakeMethod method,
+                        const FaceShare& face) {
+  const bool by_rows = method == BakeMethod::rows_then_patterns;
+  const Lattice lattice = Patterns::lattice_of(scheme, request.level - by_rows);
+  std::int64_t inner = std::ssize(LatticeRanks::rows(lattice, 0)), side = lattice.n - 1;
+  if (by_rows) {  // a child at each corner, their common sides, and the point in the middle
+    inner = face.corners * (inner + side) + 1;
+    side = 2 * side + 1;
+  }
+  return inner + face.own_sides * side + face.own_corners;
+}
+
+Shard bake_shard(Patterns& patterns, const MeshPart& part, const BakeRequest& request, BakeMethod method,
+                 const SubdivisionOptions& options) {
+  if (part.mesh.num_faces() == 0) return {lone_vertices(part.mesh.num_vertices()), {}, part.vertices, {}, {}};
   const Level control = control_level(patterns.scheme(), part.mesh, options);
   Shard shard;
   shard.inputs = part.vertices;
-  std::optional<Baked> baked;
-  const bool can_begin_by_rows = request.level > (request.rows == TableRows::level ? 1 : 0);
-  for (const bool first_by_rows : {false, true}) {
-    if (baked || (first_by_rows && !can_begin_by_rows)) continue;
-    shard.patches.clear();
-    baked = bake_by_patterns(patterns, control, request,
-                             {.first_by_rows = first_by_rows,
-                              .owners = OwnerRule::first,
-                              .owned = &part.is_owned,
-                              .patches = &shard.patches});
-  }
+  std::optional<Baked> baked = bake_by_patterns(patterns, control, request,
+                                                {.first_by_rows = method == BakeMethod::rows_then_patterns,
+                                                 .owners = OwnerRule::first,
+                                                 .owned = &part.is_owned,
+                                                 .patches = &shard.patches});
   if (!baked) throw InvalidParameter(patterns.scheme().name + ": such a table cannot be made by patterns alone");
   shard.table = std::move(baked->table);
   shard.table.table = in_order_of_faces(shard.table.table, shard.patches);
+  shard.table.info = table_info(patterns.scheme(), part.mesh, request, options);
   shard.statistics = baked->statistics;
   return shard;
 }

@@ -13,24 +13,46 @@
 
 namespace sublimit {
 
+/// Points of a shard that follow each other in the whole too.
+struct PointRun {
+  std::int64_t first = 0;  ///< of the whole
+  std::int64_t count = 0;
+};
+
 struct Shard {
   BakedTable<double> table;  ///< over the part's points
   BakeStatistics statistics;
   std::vector<std::int64_t> inputs;  ///< control points of the whole, for each of the table's
   std::vector<PatchPlace> patches;   ///< where points lie, patch after patch: faces of the level that has the patterns
+  std::vector<PointRun> runs;        ///< where its points stand, in their order; left to who knows the whole
 };
 
 /// How many rings a part needs so that all types of owned faces, and the owners of their points, are those of the
 /// whole.
-/// @param control  of the whole, or of a part
-int shard_rings(Patterns& patterns, const Level& control);
+int shard_rings(Patterns& patterns, Creasing creasing);
+
+/// How parts of a mesh are to be baked, all alike.
+/// @param all_whole  whether every face of the whole mesh has as many corners as the scheme splits without a first step
+/// @throws InvalidParameter  a request that is not of levels or their limits, or that patterns cannot make; dual
+///                           schemes, and those that turn
+BakeMethod shard_method(Patterns& patterns, const BakeRequest& request, bool all_whole);
+
+/// What a face has of the points on its sides.
+struct FaceShare {
+  std::int64_t corners = 0;      ///< of the face
+  std::int64_t own_sides = 0;    ///< that no face before it has
+  std::int64_t own_corners = 0;  ///< likewise
+};
+/// How many points a face has of what is asked for: known before any table is made.
+std::int64_t num_points(const Scheme<double>& scheme, const BakeRequest& request, BakeMethod method,
+                        const FaceShare& face);
 
 /// Of levels and their limits, by patterns.
 /// @param part     with `shard_rings` around it at least
+/// @param method   `shard_method` of the whole
 /// @param options  of the whole
-/// @throws InvalidParameter     another request, or one that patterns cannot make; dual schemes, and those that turn
-/// @throws InvalidMesh, UnsupportedTopology, ResourceError  as `bake`
-Shard bake_shard(Patterns& patterns, const MeshPart& part, const BakeRequest& request,
+/// @throws InvalidMesh, UnsupportedTopology, ResourceError  as `bake`; InvalidParameter
+Shard bake_shard(Patterns& patterns, const MeshPart& part, const BakeRequest& request, BakeMethod method,
                  const SubdivisionOptions& options = {});
 
 }  // namespace sublimit

@@ -2,25 +2,12 @@
 // `sublimit-mpi` under any numbers of ranks: the same bits.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-
-#include "sublimit/base/read_file.h"
+#include "stencils/distributed/run_ranks.h"
 #include "sublimit/io/obj.h"
 #include "support/meshes.h"
-#include "support/temporary_directory.h"
 
 namespace sublimit::testing {
 namespace {
-
-/// The job by so many ranks, in so many seconds at most: one that hangs fails.
-int ranks_run(int ranks, const std::string& arguments, const std::string& err = "/dev/null") {
-  const std::string command =
-      "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_btl_base_warn_component_unused=0 timeout 60 "
-      "mpirun --oversubscribe -n " +
-      std::to_string(ranks) + " " SUBLIMIT_MPI_PROGRAM " " + arguments + " > /dev/null 2> " + err;
-  const int status = std::system(command.c_str());
-  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-}
 
 TEST(Ranks, AnyNumberOfThemMakesTheSameBits) {
   ControlMesh creased = torus(7, 5);
@@ -32,9 +19,9 @@ TEST(Ranks, AnyNumberOfThemMakesTheSameBits) {
     std::string one;
     for (const int ranks : {1, 2, 3, 4}) {
       const std::string shards = (directory / ("d" + std::to_string(ranks))).string();
-      ASSERT_EQ(ranks_run(ranks, "bake " + obj + " -s " + scheme + " -l 2 -o " + shards), 0);
+      ASSERT_EQ(run_ranks(ranks, "bake " + obj + " -s " + scheme + " -l 2 -o " + shards).status, 0);
       for (const int appliers : {1, 3}) {
-        ASSERT_EQ(ranks_run(appliers, "apply " + shards + " " + obj + " -o " + npy), 0);
+        ASSERT_EQ(run_ranks(appliers, "apply " + shards + " " + obj + " -o " + npy).status, 0);
         if (one.empty()) one = read_file(npy);
         EXPECT_EQ(read_file(npy), one) << scheme << " baked by " << ranks << ", applied by " << appliers;
         std::filesystem::remove(npy);
@@ -45,9 +32,11 @@ TEST(Ranks, AnyNumberOfThemMakesTheSameBits) {
 
 TEST(Ranks, AnErrorOfOneEndsThemAll) {
   const TemporaryDirectory directory;
-  const std::string err = (directory / "err").string(), out = (directory / "o.npy").string();
-  EXPECT_EQ(ranks_run(3, "apply " + (directory / "none").string() + " m.obj -o " + out, err), 3);
-  EXPECT_NE(read_file(err).find("shards.json: cannot read"), std::string::npos) << read_file(err);
+  const std::string out = (directory / "o.npy").string();
+  const RanksRun run = run_ranks(3, "apply " + (directory / "none").string() + " m.obj -o " + out);
+  EXPECT_EQ(run.status, 3);
+  EXPECT_EQ(run.error(), "sublimit-mpi: error: " + (directory / "none").string() +
+                             "/shards.json: missing; it is written when all shards are there, so bake them first\n");
   EXPECT_FALSE(std::filesystem::exists(out));
 }
 

@@ -56,8 +56,8 @@ void expect_parts(const Case& c, const BakeRequest& request, int num_parts) {
   std::vector<int> times(size_t(whole.baked.table.table.num_points()), 0);
   for (int part = 0; part < num_parts; ++part) {
     Patterns patterns(scheme);
-    const MeshPart own = mesh_part(c.mesh, t, owner, part, shard_rings(patterns, control_level(scheme, c.mesh, {})));
-    const Shard shard = bake_shard(patterns, own, request);
+    const MeshPart own = mesh_part(c.mesh, t, owner, part, shard_rings(patterns, Creasing::uniform));
+    const Shard shard = bake_shard(patterns, own, request, shard_method(patterns, request, true));
     ASSERT_EQ(std::ssize(shard.inputs), shard.table.table.num_control_points());
     std::vector<double> in, made(size_t(3 * shard.table.table.num_points()));
     for (const std::int64_t v : shard.inputs)
@@ -98,8 +98,7 @@ TEST(Shards, RefuseWhatTheyWouldDivideWrongly) {
   ControlMesh mesh = torus(6, 5);
   for (const char* name : {"doo-sabin", "mid-edge"}) {
     Patterns patterns(find_scheme(name).value());
-    const MeshPart all = mesh_part(mesh, Topology(view(mesh)), owner, 0, 1);
-    expect_error<InvalidParameter>([&] { bake_shard(patterns, all, {.rows = TableRows::level, .level = 2}); },
+    expect_error<InvalidParameter>([&] { shard_method(patterns, {.rows = TableRows::level, .level = 2}, true); },
                                    {name, "dual"});
   }
   mesh.knot_intervals = {{0, 1, 2}};
@@ -115,7 +114,7 @@ TEST(Shards, MayHaveNoFaces) {
   for (const int part : {0, 2}) {
     Patterns patterns(scheme);
     const MeshPart own = mesh_part(mesh, Topology(view(mesh)), owner, part, 3);
-    const Shard shard = bake_shard(patterns, own, {.rows = TableRows::level, .level = 2});
+    const Shard shard = bake_shard(patterns, own, {.rows = TableRows::level, .level = 2}, BakeMethod::patterns);
     EXPECT_EQ(shard.table.table.num_points(), part == 0 ? 2 : 0);  // vertices of no face are the first part's
     EXPECT_EQ(std::ssize(shard.inputs), part == 0 ? 2 : 0);
   }

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// Subcommands of `sublimit-mpi`: their options, and what all ranks then do.
+#include <CLI/CLI.hpp>
+#include <functional>
+
+#include "sublimit/distributed/shard_jobs.h"
+
+namespace sublimit::cli_mpi {
+
+using Command = std::function<void(const Ranks&)>;
+/// @param chosen  becomes the command if it is the one that is given
+void add_bake(CLI::App& app, Command& chosen);
+void add_apply(CLI::App& app, Command& chosen);
+void add_verify(CLI::App& app, Command& chosen);
+
+/// What every subcommand has, and those with a mesh and a scheme.
+struct Common {
+  std::string mesh;
+  MeshRequest request;
+  std::vector<std::string> options;  ///< name=value
+  int threads = 1;                   ///< of each rank
+  bool quiet = false;
+};
+void add_run(CLI::App& command, Common& common);
+void add_mesh(CLI::App& command, Common& common);
+
+/// What all commands begin with: threads, and who is told what is being done: stderr, of the first rank, if a person is
+/// looking.
+Told begin(const Ranks& ranks, const Common& common);
+/// Reads the mesh; warnings go to stderr.
+SpreadJob load(const Ranks& ranks, const Common& common, const Told& told);
+
+}  // namespace sublimit::cli_mpi

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/core.h>
+#include <tbb/global_control.h>
+#include <unistd.h>
+
+#include "commands.h"
+#include "sublimit/base/error.h"
+#include "sublimit/base/rule_words.h"
+#include "sublimit/files/rule_words.h"
+
+namespace sublimit::cli_mpi {
+
+void add_run(CLI::App& command, Common& common) {
+  command.add_option("--threads", common.threads, "Of each rank (default 1: a rank a core)")
+      ->check(CLI::Range(1, 4096));
+  command.add_flag("-q,--quiet", common.quiet, "No progress, no summary");
+}
+
+void add_mesh(CLI::App& command, Common& common) {
+  MeshRequest& request = common.request;
+  command
+      .add_option("MESH", common.mesh,
+                  "Control mesh: .obj (with tags), binary .ply, or .safetensors with positions, face_vertices[, "
+                  "face_sizes, creases, crease_sharpness, corners, corner_sharpness, holes]; MESH.json beside it "
+                  "overrides tags")
+      ->required();
+  command.add_option("-s,--scheme", request.scheme, "Scheme (see `sublimit schemes`)")->required();
+  command.add_option("--boundary", request.boundary, "Boundary rule (default: the file's tag, else edge-and-corner)");
+  command.add_option("--creasing", request.creasing, "How sharpness decays (default: the file's tag, else uniform)");
+  command.add_option("--triangles", request.triangles,
+                     "Catmull-Clark next to triangles (default: the file's tag, else catmark)");
+  command.add_option("--option", common.options, "An option of the scheme, name=value; may be repeated")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  command.add_flag("--no-creases", request.no_creases, "First drop the crease and corner tags");
+  add_run(command, common);
+}
+
+Told begin(const Ranks& ranks, const Common& common) {
+  static std::unique_ptr<tbb::global_control> threads;
+  threads = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, common.threads);
+  if (!ranks.is_first() || common.quiet || !::isatty(STDERR_FILENO)) return [](const std::string&) {};
+  return [](const std::string& what) { fmt::print(stderr, "sublimit-mpi: {} ...\n", what); };
+}
+
+SpreadJob load(const Ranks& ranks, const Common& common, const Told& told) {
+  MeshRequest request = common.request;
+  ranks.together([&] {
+    for (const std::string& text : common.options) {
+      const size_t equals = text.find('=');
+      if (equals == std::string::npos || equals == 0)
+        throw InvalidOption("--option " + text + ": write it as name=value");
+      request.options[text.substr(0, equals)] = text.substr(equals + 1);
+    }
+    if (!request.triangles.empty()) request.options["triangles"] = request.triangles;
+    scheme_job(request);  // a misspelt name is told before a large file is read
+  });
+  told("reading " + common.mesh);
+  SpreadMesh mesh = read_spread_mesh(ranks, common.mesh);
+  SpreadJob job = spread_job(ranks, request, std::move(mesh), common.mesh);
+  if (!common.quiet && ranks.is_first())
+    for (const std::string& warning : job.mesh.about.warnings)
+      fmt::print(stderr, "sublimit-mpi: warning: {}\n", warning);
+  return job;
+}
+
+}  // namespace sublimit::cli_mpi

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// One file that all ranks write, by MPI-IO: it appears whole or not at all.
+#include <mpi.h>
+
+#include <filesystem>
+#include <span>
+#include <string_view>
+
+#include "sublimit/distributed/ranks.h"
+
+namespace sublimit {
+
+class SharedFile {
+ public:
+  /// All ranks call. Room for all of it is taken at once, so that a full disk is told before any work.
+  /// @throws IoError, ResourceError  on all ranks
+  SharedFile(const Ranks& ranks, const std::filesystem::path& target, std::int64_t bytes);
+  ~SharedFile();
+  SharedFile(const SharedFile&) = delete;
+  SharedFile& operator=(const SharedFile&) = delete;
+
+  /// By one rank, anywhere.
+  /// @throws IoError, ResourceError  on this rank
+  void write(std::int64_t offset, std::span<const std::byte> bytes);
+  void write(std::int64_t offset, std::string_view text) { write(offset, std::as_bytes(std::span(text))); }
+  void write(std::int64_t offset, std::span<const double> numbers) { write(offset, std::as_bytes(numbers)); }
+  /// All ranks call, when all have written: the file takes its name.
+  void commit();
+
+ private:
+  const Ranks& ranks_;
+  std::filesystem::path target_, temporary_;
+  MPI_File file_ = MPI_FILE_NULL;
+};
+
+}  // namespace sublimit

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// `sublimit-mpi` under mpirun, oversubscribed, as root too; and `sublimit`, beside which its results are laid.
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+
+#include "sublimit/base/read_file.h"
+#include "support/temporary_directory.h"
+
+namespace sublimit::testing {
+
+/// How a run of so many ranks ended, and what it said.
+struct RanksRun {
+  int status = 0;       ///< 124: it took too long
+  std::string out, err;  ///< of all ranks; without what mpirun adds
+
+  /// Lines of `err` that are the program's.
+  std::string error() const {
+    std::string lines;
+    for (std::size_t at = err.find("sublimit-mpi: "); at != std::string::npos; at = err.find("sublimit-mpi: ", at + 1))
+      if (at == 0 || err[at - 1] == '\n') lines += err.substr(at, err.find('\n', at) - at + 1);
+    return lines;
+  }
+};
+
+/// @param before  what the shell does first, such as `ulimit -f 1;`
+inline RanksRun run_ranks(int ranks, const std::string& arguments, const std::string& before = "", int seconds = 100) {
+  const TemporaryDirectory directory;
+  const std::string out = (directory / "out").string(), err = (directory / "err").string();
+  const std::string command =
+      before +
+      "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_btl_base_warn_component_unused=0 "
+      "OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_mpi_yield_when_idle=1 timeout -k 5 " +
+      std::to_string(seconds) + " mpirun -n " + std::to_string(ranks) + " " SUBLIMIT_MPI_PROGRAM " " + arguments + " > " +
+      out + " 2> " + err;
+  const int status = std::system(command.c_str());
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_file(out), read_file(err)};
+}
+
+/// @return  the exit status
+inline int run_alone(const std::string& arguments) {
+  const int status = std::system((SUBLIMIT_PROGRAM " " + arguments + " > /dev/null 2>&1").c_str());
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+}  // namespace sublimit::testing
