@@ -104,7 +104,9 @@ void tell_faces(const Ranks& ranks, const SpreadMesh& mesh, const std::vector<Si
   for (size_t i = 0; i < sides.size(); ++i) {
     const Side& side = sides[i];
     const bool again = i > 0 && sides[i - 1].low == side.low && sides[i - 1].high == side.high;
-    if (!again) firsts[size_t(mesh.faces.rank_of(side.face))].push_back(side.face);
+    // A loop, and an edge that a face has a second time, are edges by themselves (`Topology`).
+    const bool alone = !again || side.low == side.high || sides[i - 1].face == side.face;
+    if (alone) firsts[size_t(mesh.faces.rank_of(side.face))].push_back(side.face);
     if (!again || sides[i - 1].face == side.face) continue;
     // Of three and more faces each knows the one before: enough to be kept together.
     pairs[size_t(mesh.faces.rank_of(side.face))].push_back({side.face, sides[i - 1].face});

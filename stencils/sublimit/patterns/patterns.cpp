@@ -98,8 +98,13 @@ Patterns::Match Patterns::match(const Level& level, const Piece& piece) {
   Pattern& pattern = add_pattern(piece.kind, type->num_slots(), type->decays());
   pattern.type = type;
   for (const auto& signature : signatures) pattern.size = std::max(pattern.size, signature.size());
-  for (int turn = 0; turn < turns; ++turn)
-    turned_.try_emplace(signatures[turn], Turned{&pattern, (least - turn + turns) % turns});
+  for (int turn = 0; turn < turns; ++turn) {
+    // To the next least one: where a type is symmetric there are several, and which is taken must not depend on the
+    // piece that was met first.
+    int next = 0;
+    while (signatures[(turn + next) % turns] != signatures[least]) ++next;
+    turned_.try_emplace(signatures[turn], Turned{&pattern, next});
+  }
   return {&pattern, least, vertices[least], signatures[0].size()};
 }
 
