@@ -10,9 +10,13 @@ namespace sublimit::cli_mpi {
 
 using Command = std::function<void(const Ranks&)>;
 /// @param chosen  becomes the command if it is the one that is given
+void add_info(CLI::App& app, Command& chosen);
 void add_bake(CLI::App& app, Command& chosen);
 void add_apply(CLI::App& app, Command& chosen);
 void add_verify(CLI::App& app, Command& chosen);
+void add_fit(CLI::App& app, Command& chosen);
+void add_refine(CLI::App& app, Command& chosen);
+void add_sample(CLI::App& app, Command& chosen);
 
 /// What every subcommand has, and those with a mesh and a scheme.
 struct Common {
@@ -20,6 +24,7 @@ struct Common {
   MeshRequest request;
   std::vector<std::string> options;  ///< name=value
   int threads = 1;                   ///< of each rank
+  std::string memory_limit;          ///< of all ranks of a machine
   bool quiet = false;
 };
 void add_run(CLI::App& command, Common& common);
@@ -28,6 +33,9 @@ void add_mesh(CLI::App& command, Common& common);
 /// What all commands begin with: threads, and who is told what is being done: stderr, of the first rank, if a person is
 /// looking.
 Told begin(const Ranks& ranks, const Common& common);
+/// What is asked for, with all options: a misspelt name is told before a large file is read.
+/// @throws InvalidOption  on all ranks
+MeshRequest checked_request(const Ranks& ranks, const Common& common);
 /// Reads the mesh; warnings go to stderr.
 SpreadJob load(const Ranks& ranks, const Common& common, const Told& told);
 

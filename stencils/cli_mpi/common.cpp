@@ -3,6 +3,7 @@
 #include <tbb/global_control.h>
 #include <unistd.h>
 
+#include "../cli/memory_limit.h"
 #include "commands.h"
 #include "sublimit/base/error.h"
 #include "sublimit/base/rule_words.h"
@@ -13,6 +14,7 @@ namespace sublimit::cli_mpi {
 void add_run(CLI::App& command, Common& common) {
   command.add_option("--threads", common.threads, "Of each rank (default 1: a rank a core)")
       ->check(CLI::Range(1, 4096));
+  cli::add_memory_limit(command, common.memory_limit);
   command.add_flag("-q,--quiet", common.quiet, "No progress, no summary");
 }
 
@@ -37,13 +39,14 @@ void add_mesh(CLI::App& command, Common& common) {
 }
 
 Told begin(const Ranks& ranks, const Common& common) {
+  ranks.together([&] { cli::limit_memory(common.memory_limit); });
   static std::unique_ptr<tbb::global_control> threads;
   threads = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, common.threads);
   if (!ranks.is_first() || common.quiet || !::isatty(STDERR_FILENO)) return [](const std::string&) {};
   return [](const std::string& what) { fmt::print(stderr, "sublimit-mpi: {} ...\n", what); };
 }
 
-SpreadJob load(const Ranks& ranks, const Common& common, const Told& told) {
+MeshRequest checked_request(const Ranks& ranks, const Common& common) {
   MeshRequest request = common.request;
   ranks.together([&] {
     for (const std::string& text : common.options) {
@@ -53,8 +56,13 @@ SpreadJob load(const Ranks& ranks, const Common& common, const Told& told) {
       request.options[text.substr(0, equals)] = text.substr(equals + 1);
     }
     if (!request.triangles.empty()) request.options["triangles"] = request.triangles;
-    scheme_job(request);  // a misspelt name is told before a large file is read
+    scheme_job(request);
   });
+  return request;
+}
+
+SpreadJob load(const Ranks& ranks, const Common& common, const Told& told) {
+  const MeshRequest request = checked_request(ranks, common);
   told("reading " + common.mesh);
   SpreadMesh mesh = read_spread_mesh(ranks, common.mesh);
   SpreadJob job = spread_job(ranks, request, std::move(mesh), common.mesh);

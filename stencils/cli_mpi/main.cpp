@@ -14,7 +14,9 @@ int main(int argc, char** argv) {
       "  mpirun -n 3 sublimit-mpi apply shards pose.ply -o points.npy\n"
       "Results are the same for any number of processes, bit by bit, but for fits. Exit statuses are those of sublimit.");
   cli_mpi::Command chosen;
-  for (const auto add : {cli_mpi::add_bake, cli_mpi::add_apply, cli_mpi::add_verify}) add(app, chosen);
+  for (const auto add : {cli_mpi::add_info, cli_mpi::add_bake, cli_mpi::add_apply, cli_mpi::add_verify,
+                         cli_mpi::add_fit, cli_mpi::add_refine, cli_mpi::add_sample})
+    add(app, chosen);
   int misuse = 0;
   const int status = ranks.run([&] {
     std::string said;

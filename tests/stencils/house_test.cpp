@@ -29,7 +29,7 @@ const Floor floors[] = {
       "patches", "search", "cad", "schemes", "primvar", "fit", "implicit", "certificates"},
      {"schemes.h", "subdivide.h"}},
     {"stencils/sublimit",
-     {"recipes", "files", "jobs", "patterns", "bake", "shards", "distributed", "picture", "fit_jobs", "gallery",
+     {"recipes", "files", "jobs", "patterns", "bake", "shards", "picture", "fit_jobs", "distributed", "gallery",
       "report"},
      {}},
 };

@@ -35,7 +35,7 @@ constexpr NotRun not_run[] = {
     {R"(python3 -m pip install \./stencils/python.*)", "python.pip installs it, beside nothing that a user has"},
     {R"(ctest --test-dir .* -L LABEL)", "the tests themselves"},
     {R"(build/\S+/bin/\w+_(bench|accuracy|scaling)( .*)?)", "a benchmark: minutes, on a machine of its own"},
-    {R"(mpirun -n 2 sublimit-mpi (bake|apply) .*)", "distributed_tests run them, by other numbers too"},
+    {R"((mpirun -n \d+|srun) sublimit-mpi .*)", "distributed_tests run them, by other numbers too"},
     {R"(build/\S+/bin/fuzz_\w+)", "a place of a program; fuzz.obj, fuzz.table and fuzz.recipe run them"},
 };
 

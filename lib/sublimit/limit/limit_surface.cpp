@@ -238,8 +238,11 @@ bool LimitSurface::Parts::evaluate_plain_row(const Points& points, const Found& 
     out.normal.row(i) = cross.normalized();
   }
   Points* const targets[] = {&out.position, &out.du, &out.dv, &out.duu, &out.duv, &out.dvv};
-  for (Eigen::Index k = 0; k < found.rows.rows.rows(); ++k)
-    targets[k]->row(i) = found.rows.rows.row(k).lazyProduct(differences);
+  for (Eigen::Index k = 0; k < found.rows.rows.rows(); ++k) {
+    // Not straight into a row of `out`, where Eigen sums by how it is aligned, and zeros of odd rows have other signs.
+    const Eigen::RowVector3d x = found.rows.rows.row(k).lazyProduct(differences);
+    targets[k]->row(i) = x;
+  }
   out.position.row(i) += origin;
   out.status[i] = found.status;
   out.order[i] = static_cast<std::int8_t>(found.rows.order);

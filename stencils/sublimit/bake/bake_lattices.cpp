@@ -92,7 +92,7 @@ std::optional<Baked> bake_lattices(Patterns& patterns, const Level& control, con
     has_points[own] = has_inner || !LatticeRanks::rows(lattice, static_cast<std::uint8_t>(own)).empty();
   PatternBlocks blocks(scheme);
   std::vector<Index> block_of(t.num_faces(), -1);
-  const std::vector<Index> control_face = how.owned ? control_faces(control, of_children) : std::vector<Index>();
+  std::vector<Index> control_face = how.owned ? control_faces(control, of_children) : std::vector<Index>();
   for (Index f = 0; f < t.num_faces(); ++f)
     if (has_points[share[f]] && (!how.owned || (*how.owned)[size_t(control_face[f])]))
       block_of[f] = blocks.add({&pieces.pattern(f), request.derivatives > 0 ? place_of(f) : LatticePlace{}}, f);
@@ -177,11 +177,11 @@ std::optional<Baked> bake_lattices(Patterns& patterns, const Level& control, con
       next += arrays.groups[g].num_rows;
       if (how.patches) how.patches->push_back({f, turn[size_t(f)], share[size_t(f)], control_face[f]});
     }
-  lattices.first_points = std::move(first_points);
+  if (!how.owned) lattices.first_points = std::move(first_points);
   arrays.rows = std::move(rows);
   baked.table.row_status = std::move(row_status);
   baked.table.table = PatternTable<double>(num_control_points, std::move(arrays));
-  if (has_places) {
+  if (has_places && !how.owned) {
     std::vector<std::int32_t> addresses(turn.size());
     std::vector<std::uint8_t> codes(turn.size());
     for (size_t f = 0; f < turn.size(); ++f) {
@@ -194,7 +194,10 @@ std::optional<Baked> bake_lattices(Patterns& patterns, const Level& control, con
   }
   if (std::find(level.holes.begin(), level.holes.end(), true) != level.holes.end())
     lattices.holes = std::vector<std::uint8_t>(level.holes.begin(), level.holes.end());
-  if (!how.owned) baked.table.lattices.emplace(baked.table.table.num_points(), std::move(lattices));
+  if (!how.owned)
+    baked.table.lattices.emplace(baked.table.table.num_points(), std::move(lattices));
+  else if (how.lattices)
+    *how.lattices = {std::move(lattices), std::move(control_face)};
   if (how.turns) *how.turns = std::move(turn);
   return baked;
 }

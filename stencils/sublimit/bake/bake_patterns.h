@@ -18,6 +18,12 @@ struct PatchPlace {
   Index control_face = 0;  ///< the control level's face that it is of
 };
 
+/// How points lie on the faces of a part of a mesh, its own ones and those around.
+struct PartLattices {
+  FaceLattices::Arrays arrays;       ///< without points and addresses
+  std::vector<Index> control_faces;  ///< the control level's face that each is of
+};
+
 struct PatternBake {
   bool first_by_rows = false;                                   ///< level 1 is made by rows, and has the patterns
   double most_bytes = std::numeric_limits<double>::infinity();  ///< of blocks
@@ -29,6 +35,7 @@ struct PatternBake {
   /// lattices: nobody here knows where points of the others stand.
   const std::vector<char>* owned = nullptr;
   std::vector<PatchPlace>* patches = nullptr;  ///< gets, of such a table, where the points of each patch lie
+  PartLattices* lattices = nullptr;            ///< gets those of such a table
   Level* spent = nullptr;  ///< the control level, if nobody needs it afterwards: it goes before the table comes
 };
 

@@ -74,6 +74,33 @@ Index position(const std::vector<Int>& sorted, Int number) {
   return static_cast<Index>(std::ranges::lower_bound(sorted, number) - sorted.begin());
 }
 
+/// Values of the corners of all faces of the part, each once, in the order of the whole.
+void fetch_channel(const Ranks& ranks, const SpreadMesh& spread, MeshPart& part) {
+  const SpreadMesh::FaceVarying& channel = *spread.face_varying;
+  std::vector<Int> begins{0};
+  for (const std::int32_t size : spread.face_sizes) begins.push_back(begins.back() + size);
+  const Int first_face = spread.faces.begin(ranks.rank()), first = channel.runs.begin(ranks.rank());
+  const Lists corners = fetch_lists(ranks, spread.faces, part.faces, [&](Int f) {
+    const auto begin = size_t(begins[size_t(f - first_face)]);
+    return std::span(channel.indices).subspan(begin, size_t(begins[size_t(f - first_face) + 1]) - begin);
+  });
+  std::vector<Int> numbers = corners.items;
+  sort_unique(numbers);
+  using Row = std::array<double, 3>;
+  const auto columns = channel.values.cols();
+  const std::vector<Row> rows = fetch<Row>(ranks, channel.runs, numbers, [&](Int i) {
+    Row row{};
+    for (Eigen::Index c = 0; c < columns; ++c) row[size_t(c)] = channel.values(i - first, c);
+    return row;
+  });
+  ControlMesh::FaceVarying own{channel.name, Points(Eigen::Index(rows.size()), columns), {}};
+  for (size_t i = 0; i < rows.size(); ++i)
+    for (Eigen::Index c = 0; c < columns; ++c) own.values(Eigen::Index(i), c) = rows[i][size_t(c)];
+  for (const Int i : corners.items) own.indices.push_back(position(numbers, i));
+  part.mesh.face_varying = {std::move(own)};
+  part.mesh.face_varying_interpolation = spread.about.face_varying_interpolation;
+}
+
 float sharpness(Int bits) { return std::bit_cast<float>(static_cast<std::int32_t>(bits)); }
 
 void fetch_tags(const Ranks& ranks, const SpreadMesh& spread, const Incidence& incidence, MeshPart& part) {
@@ -156,6 +183,7 @@ MeshPart gather_part(const Ranks& ranks, const SpreadMesh& spread, const Inciden
   part.is_owned.assign(part.faces.size(), false);
   for (const Int f : owned) part.is_owned[size_t(position(part.faces, f))] = true;
   fetch_tags(ranks, spread, incidence, part);
+  if (spread.face_varying) fetch_channel(ranks, spread, part);
   return part;
 }
 

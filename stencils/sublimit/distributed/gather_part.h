@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// A part of a mesh that no process has whole, with its rings: as `mesh_part` makes it of a whole one.
+// A part of a mesh that no process has whole, with its rings: as `mesh_part` makes it of a whole one,
+// and with texture coordinates.
 #include "sublimit/distributed/incidence.h"
 #include "sublimit/shards/mesh_part.h"
 

@@ -57,15 +57,8 @@ void Halo::add(std::span<const double> inputs, int channels, std::span<double> o
   for (size_t i = 0; i < own_of_.size(); ++i)
     for (int c = 0; own_of_[i] >= 0 && c < channels; ++c)
       own[size_t(own_of_[i] * channels + c)] += inputs[i * size_t(channels) + size_t(c)];
-  // Sums of vectors of channels are no operation of MPI: channel by channel.
-  std::vector<double> leaf(static_cast<size_t>(num_inputs_)), root(static_cast<size_t>(num_own_));
-  for (int c = 0; c < channels; ++c) {
-    for (size_t i = 0; i < leaf.size(); ++i) leaf[i] = inputs[i * size_t(channels) + size_t(c)];
-    for (size_t i = 0; i < root.size(); ++i) root[i] = own[i * size_t(channels) + size_t(c)];
-    check_petsc(PetscSFReduceBegin(remote_, MPI_DOUBLE, leaf.data(), root.data(), MPI_SUM));
-    check_petsc(PetscSFReduceEnd(remote_, MPI_DOUBLE, leaf.data(), root.data(), MPI_SUM));
-    for (size_t i = 0; i < root.size(); ++i) own[i * size_t(channels) + size_t(c)] = root[i];
-  }
+  check_petsc(PetscSFReduceBegin(remote_, point_type(channels), inputs.data(), own.data(), MPI_SUM));
+  check_petsc(PetscSFReduceEnd(remote_, point_type(channels), inputs.data(), own.data(), MPI_SUM));
 }
 
 }  // namespace sublimit

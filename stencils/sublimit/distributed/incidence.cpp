@@ -33,9 +33,28 @@ void for_each_face(const Ranks& ranks, const SpreadMesh& mesh, const Body& body)
   }
 }
 
-/// Pairs (number of the own run, item), sorted, as lists.
-Lists lists_of(std::vector<Pair>& pairs, Int first, Int count) {
-  std::ranges::sort(pairs);
+/// All that came, sorted, by a number that is of the own run first: dealt out by it in linear time, then sorted few by
+/// few.
+/// @param number  of an item
+template <class Item, class Number>
+std::vector<Item> sorted(std::vector<std::vector<Item>> from, Int first, Int count, const Number& number) {
+  std::vector<size_t> next(static_cast<size_t>(count) + 1, 0);
+  for (const auto& items : from)
+    for (const Item& item : items) ++next[size_t(number(item) - first) + 1];
+  for (size_t i = 1; i < next.size(); ++i) next[i] += next[i - 1];
+  std::vector<Item> all(next.back());
+  for (auto& items : from) {
+    for (const Item& item : items) all[next[size_t(number(item) - first)]++] = item;
+    std::vector<Item>().swap(items);
+  }
+  for (size_t begin = 0, i = 0; i + 1 < next.size(); begin = next[i++])
+    std::sort(all.begin() + std::ptrdiff_t(begin), all.begin() + std::ptrdiff_t(next[i]));
+  return all;
+}
+
+/// Pairs (number of the own run, item) as lists, each pair once.
+Lists lists_of(std::vector<std::vector<Pair>> from, Int first, Int count) {
+  std::vector<Pair> pairs = sorted(std::move(from), first, count, [](const Pair& pair) { return pair[0]; });
   pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
   Lists lists;
   lists.begins.assign(size_t(count) + 1, 0);
@@ -53,17 +72,8 @@ void find_faces(const Ranks& ranks, const SpreadMesh& mesh, Incidence& result) {
   for_each_face(ranks, mesh, [&](Int face, std::span<const Int> corners) {
     for (const Int v : corners) to[size_t(mesh.vertices.rank_of(v))].push_back({v, face});
   });
-  to = exchange(ranks, std::move(to));
-  std::vector<Pair> pairs;
-  for (auto& from : to) {
-    if (pairs.empty())
-      pairs = std::move(from);
-    else
-      pairs.insert(pairs.end(), from.begin(), from.end());
-    std::vector<Pair>().swap(from);
-  }
   const Int first = mesh.vertices.begin(ranks.rank()), count = mesh.vertices.size(ranks.rank());
-  result.faces = lists_of(pairs, first, count);
+  result.faces = lists_of(exchange(ranks, std::move(to)), first, count);
   for (Int v = 0; v < count; ++v)
     if (result.faces[v].empty()) result.lone.push_back(first + v);
 }
@@ -83,17 +93,8 @@ std::vector<Side> sides_at_low_ends(const Ranks& ranks, const SpreadMesh& mesh) 
       to[size_t(mesh.vertices.rank_of(low))].push_back({low, high, face});
     }
   });
-  to = exchange(ranks, std::move(to));
-  std::vector<Side> sides;
-  for (auto& from : to) {
-    if (sides.empty())
-      sides = std::move(from);
-    else
-      sides.insert(sides.end(), from.begin(), from.end());
-    std::vector<Side>().swap(from);
-  }
-  std::ranges::sort(sides);
-  return sides;
+  return sorted(exchange(ranks, std::move(to)), mesh.vertices.begin(ranks.rank()), mesh.vertices.size(ranks.rank()),
+                [](const Side& side) { return side.low; });
 }
 
 /// Faces get to know what they have first, and their neighbours.
@@ -115,9 +116,7 @@ void tell_faces(const Ranks& ranks, const SpreadMesh& mesh, const std::vector<Si
   result.own_sides.assign(size_t(count), 0);
   for (const auto& from : exchange(ranks, std::move(firsts)))
     for (const Int f : from) ++result.own_sides[size_t(f - first)];
-  std::vector<Pair> all;
-  for (const auto& from : exchange(ranks, std::move(pairs))) all.insert(all.end(), from.begin(), from.end());
-  result.neighbours = lists_of(all, first, count);
+  result.neighbours = lists_of(exchange(ranks, std::move(pairs)), first, count);
   firsts = batches<Int>(ranks);
   for (Int v = 0; v < result.faces.size(); ++v)
     if (!result.faces[v].empty())

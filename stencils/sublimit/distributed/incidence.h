@@ -12,7 +12,7 @@ struct Incidence {
   /// Of each face of the own run: how many of its edges and vertices are in no face of a lower number.
   std::vector<std::int32_t> own_sides, own_corners;
   Lists creases;  ///< at the lower end of their edges: head, sharpness as bits, head, ... in the order of the file
-  Lists corners;  ///< at their vertex: sharpness as bits, the last one
+  Lists corners;  ///< at their vertex: sharpness as bits, in the order of the file
   std::vector<char> is_hole;
   std::vector<std::int64_t> lone;                                    ///< vertices of the own run that are in no face
   bool has_creases = false, has_corners = false, has_holes = false;  ///< of the whole

@@ -45,7 +45,8 @@ std::vector<int> partition(const Ranks& ranks, const SpreadMesh& mesh, const Inc
   SCOTCH_randomReset();
   Graph of_faces;
   // It reads only, and wants both not to be null.
-  std::vector<SCOTCH_Num> begins = incidence.neighbours.begins, items = incidence.neighbours.items, part(size_t(faces) + 1);
+  std::vector<SCOTCH_Num> begins = incidence.neighbours.begins, items = incidence.neighbours.items,
+                          part(size_t(faces) + 1);
   items.push_back(0);
   ranks.together([&] {
     check_scotch(SCOTCH_dgraphBuild(&of_faces.graph, 0, faces, faces, begins.data(), nullptr, nullptr, nullptr, edges,
@@ -69,7 +70,8 @@ std::vector<std::vector<std::int64_t>> owned_faces(const Ranks& ranks, const Spr
   using Owned = std::array<std::int64_t, 2>;  // part, face
   std::vector<std::vector<Owned>> to(size_t(ranks.size()));
   for (size_t f = 0; f < part.size(); ++f)
-    to[size_t(rank_of_part(ranks, part[f], parts))].push_back({part[f], mesh.faces.begin(ranks.rank()) + std::int64_t(f)});
+    to[size_t(rank_of_part(ranks, part[f], parts))].push_back(
+        {part[f], mesh.faces.begin(ranks.rank()) + std::int64_t(f)});
   std::vector<int> own;
   for (int p = 0; p < parts; ++p)
     if (rank_of_part(ranks, p, parts) == ranks.rank()) own.push_back(p);

@@ -5,8 +5,8 @@
 
 namespace sublimit {
 
-/// The part of each face of the own run: by PT-Scotch, from the graph of faces that share edges. The same for the same
-/// number of ranks.
+/// The part of each face of the own run: by PT-Scotch, from the graph of faces that share edges. It may be another one
+/// each time.
 /// @note  Not through PETSc's MatPartitioning: Debian 12 compiles its PETSc of 64-bit indices against the PT-Scotch of
 ///        32-bit numbers, which then reads indices as twice as many, and crashes. This is the one of 64 bits.
 /// Source: Chevalier, Pellegrini 2008, "PT-Scotch: a tool for efficient parallel graph ordering".

@@ -4,6 +4,7 @@
 #include <petscmat.h>
 #include <petscsf.h>
 
+#include <span>
 #include <string>
 #include <utility>
 
@@ -36,5 +37,21 @@ struct PetscObjectOf {
   }
   operator Object() const { return value; }
 };
+
+/// y from x by what they have on this rank, for a matrix that is a shell.
+template <class Apply>
+PetscErrorCode multiply(Vec x, Vec y, const Apply& apply) {
+  const PetscScalar* from = nullptr;
+  PetscScalar* to = nullptr;
+  PetscInt num_from = 0, num_to = 0;
+  PetscCall(VecGetLocalSize(x, &num_from));
+  PetscCall(VecGetLocalSize(y, &num_to));
+  PetscCall(VecGetArrayRead(x, &from));
+  PetscCall(VecGetArrayWrite(y, &to));
+  apply(std::span(from, size_t(num_from)), std::span(to, size_t(num_to)));
+  PetscCall(VecRestoreArrayRead(x, &from));
+  PetscCall(VecRestoreArrayWrite(y, &to));
+  return 0;
+}
 
 }  // namespace sublimit

@@ -34,6 +34,10 @@ Ranks::Ranks(int& argc, char**& argv) {
   PetscPushErrorHandler(PetscReturnErrorHandler, nullptr);
   MPI_Comm_rank(all_ranks, &rank_);
   MPI_Comm_size(all_ranks, &size_);
+  MPI_Comm machine = MPI_COMM_NULL;
+  MPI_Comm_split_type(all_ranks, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &machine);
+  MPI_Comm_size(machine, &on_this_machine_);
+  MPI_Comm_free(&machine);
 }
 
 Ranks::~Ranks() {

@@ -24,6 +24,7 @@ class Ranks {
   int rank() const { return rank_; }
   int size() const { return size_; }
   bool is_first() const { return rank_ == 0; }
+  int on_this_machine() const { return on_this_machine_; }  ///< ranks that share its memory
 
   // Of all ranks together; all must call.
   std::int64_t sum(std::int64_t own) const;
@@ -50,7 +51,7 @@ class Ranks {
   int run(const std::function<void()>& job) const;
 
  private:
-  int rank_ = 0, size_ = 1;
+  int rank_ = 0, size_ = 1, on_this_machine_ = 1;
 };
 
 /// What all ranks must say alike, such as options.

@@ -7,7 +7,9 @@
 #include <nlohmann/json.hpp>
 
 #include "sublimit/base/error.h"
-#include "sublimit/distributed/shared_file.h"
+#include "sublimit/distributed/division_file.h"
+#include "sublimit/distributed/points_file.h"
+#include "sublimit/distributed/shard_faces.h"
 #include "sublimit/distributed/spread_frames.h"
 #include "sublimit/files/npy.h"
 #include "sublimit/files/rule_words.h"
@@ -24,19 +26,25 @@ std::vector<int> own_shards(const Ranks& ranks, int count) {
   return own;
 }
 
-/// All that decides what is in a set of shards.
-std::string bake_name(const Ranks& ranks, const SpreadJob& job, const BakeRequest& request,
-                      const SpreadShards& shards) {
-  std::string words = fmt::format("{} {} {} {}", job.scheme.name, int(request.rows), request.level, shards.parts);
+/// All that decides what is in a set of shards, but for which part has which face.
+std::uint64_t bake_hash(const Ranks& ranks, const SpreadJob& job, const BakeRequest& request, const Division& division,
+                        int parts) {
+  std::string words =
+      fmt::format("{} {} {} {} {}", job.scheme.name, int(request.rows), request.level, parts, int(division.runs));
   for (const auto& [name, value] : job.options) words += " " + name + "=" + value;
   words += fmt::format(" {} {}",
                        int(job.rules.boundary.value_or(job.mesh.about.boundary.value_or(Boundary::edge_and_corner))),
                        int(job.creasing));
   std::uint64_t hash = mesh_hash(ranks, job.mesh);
   for (const char c : words) hash = mixed(hash, std::uint64_t(c));
+  return hash;
+}
+
+/// The same with it.
+std::string bake_name(const Ranks& ranks, const SpreadJob& job, const std::vector<int>& part, std::uint64_t hash) {
   std::uint64_t division = 0;
-  for (size_t f = 0; f < shards.part.size(); ++f)
-    division += mixed(std::uint64_t(job.mesh.faces.begin(ranks.rank())) + f, std::uint64_t(shards.part[f]));
+  for (size_t f = 0; f < part.size(); ++f)
+    division += mixed(std::uint64_t(job.mesh.faces.begin(ranks.rank())) + f, std::uint64_t(part[f]));
   return in_hexadecimal(mixed(hash, std::uint64_t(ranks.sum(std::int64_t(division)))));
 }
 
@@ -67,38 +75,17 @@ void prepare(const std::filesystem::path& directory, const ShardPlace& all, bool
   for (const auto& other : others) std::filesystem::remove(other);
 }
 
-std::vector<PointRun> runs_of(const std::vector<std::array<std::int64_t, 2>>& points, std::int64_t lone) {
-  std::vector<PointRun> runs;
-  if (lone > 0) runs.push_back({0, lone});
-  for (const auto& [first, count] : points)
-    if (!runs.empty() && runs.back().first + runs.back().count == first)
-      runs.back().count += count;
-    else if (count > 0)
-      runs.push_back({first, count});
-  return runs;
-}
-
-void write_runs(SharedFile& file, std::int64_t begin, std::int64_t point_size, const std::vector<PointRun>& runs,
-                std::span<const double> numbers) {
-  size_t at = 0;
-  for (const PointRun& run : runs) {
-    const size_t count = size_t(run.count * point_size) / sizeof(double);
-    file.write(begin + run.first * point_size, numbers.subspan(at, count));
-    at += count;
-  }
-}
-
 }  // namespace
 
 SpreadShards divide(const Ranks& ranks, const SpreadJob& job, Patterns& patterns, const BakeRequest& request,
-                    const Division& division, int rings) {
+                    const Division& division, int rings, std::optional<std::vector<int>> part) {
   SpreadShards shards;
   ranks.together([&] {
     shards.method = shard_method(patterns, request, job.all_whole);
     shards.rings = std::max(rings, shard_rings(patterns, job.creasing));
   });
   shards.parts = division.parts > 0 ? division.parts : ranks.size();
-  shards.part = divided(ranks, job, division);
+  shards.part = part ? *std::move(part) : divided(ranks, job, division);
   shards.owned = owned_faces(ranks, job.mesh, shards.part, shards.parts);
   const std::vector<int> own = own_shards(ranks, shards.parts);
   shards.first_part = own.empty() ? 0 : own.front();
@@ -115,26 +102,32 @@ SpreadShards divide(const Ranks& ranks, const SpreadJob& job, Patterns& patterns
 }
 
 Shard made_shard(const Ranks& ranks, const SpreadJob& job, Patterns& patterns, const BakeRequest& request,
-                 const SpreadShards& shards, int number, bool needed) {
+                 const SpreadShards& shards, int number, bool needed, FaceList* faces) {
   static const std::vector<std::int64_t> none;
   const bool is_there = needed && size_t(number) < shards.owned.size();
   const std::vector<std::int64_t>& owned = is_there ? shards.owned[size_t(number)] : none;
   const bool lone = is_there && shards.first_part + number == 0;
   const MeshPart part = gather_part(ranks, job.mesh, job.incidence, owned, shards.rings, lone);
-  const auto points = fetch<std::array<std::int64_t, 2>>(ranks, job.mesh.faces, owned, [&](std::int64_t f) {
-    return shards.points[size_t(f - job.mesh.faces.begin(ranks.rank()))];
-  });
+  const auto points_of = [&](const std::vector<std::int64_t>& numbers) {
+    return fetch<std::array<std::int64_t, 2>>(ranks, job.mesh.faces, numbers, [&](std::int64_t f) {
+      return shards.points[size_t(f - job.mesh.faces.begin(ranks.rank()))];
+    });
+  };
+  const auto points = points_of(owned), around = faces ? points_of(part.faces) : points;
   const std::int64_t num_lone = ranks.sum(std::ssize(job.incidence.lone));
+  if (faces) *faces = {};
   Shard shard;
   ranks.together([&] {
     if (!is_there) return;
-    shard = bake_shard(patterns, part, request, shards.method, job.rules);
+    PartLattices lattices;
+    shard = bake_shard(patterns, part, request, shards.method, job.rules, faces ? &lattices : nullptr);
     shard.runs = runs_of(points, lone ? num_lone : 0);
     std::int64_t count = 0;
     for (const PointRun& run : shard.runs) count += run.count;
     if (count != shard.table.table.num_points())
       throw AnalysisError(fmt::format("{}: part {} has {} points and should have {}", job.name,
                                       shards.first_part + number, shard.table.table.num_points(), count));
+    if (faces) *faces = faces_between(std::move(lattices), part, around);
   });
   return shard;
 }
@@ -143,11 +136,18 @@ ShardsMade bake_shards(const Ranks& ranks, const SpreadJob& job, const BakeReque
                        const std::filesystem::path& directory, bool overwrite, int rings, const Told& told) {
   Patterns patterns(job.scheme);
   told("dividing");
-  const SpreadShards shards = divide(ranks, job, patterns, request, division, rings);
-  ShardPlace all{bake_name(ranks, job, request, shards), 0, shards.parts, shards.num_points, job.mesh.vertices.size()};
+  const int parts = division.parts > 0 ? division.parts : ranks.size();
+  const std::uint64_t hash = bake_hash(ranks, job, request, division, parts);
+  const bool is_found = !division.runs && parts > 1;  // else everybody knows it
+  std::optional<std::vector<int>> known;
+  if (is_found) known = load_division(ranks, directory, in_hexadecimal(hash), job.mesh.faces, parts);
+  const bool is_new = is_found && !known;
+  const SpreadShards shards = divide(ranks, job, patterns, request, division, rings, std::move(known));
+  ShardPlace all{bake_name(ranks, job, shards.part, hash), 0, parts, shards.num_points, job.mesh.vertices.size()};
   ranks.together([&] {
     if (ranks.is_first()) prepare(directory, all, overwrite);
   });
+  if (is_new) save_division(ranks, directory, in_hexadecimal(hash), job.mesh.faces, shards.part);
   ShardsMade result;
   result.rings = shards.rings;
   const std::int64_t rounds = ranks.largest(std::ssize(shards.owned));
@@ -182,10 +182,7 @@ std::int64_t apply_shards(const Ranks& ranks, const std::filesystem::path& direc
   ShardManifest manifest;
   ranks.together([&] {
     manifest = load_manifest(directory);
-    const std::string extension = file_extension(output);
-    if (extension != ".npy" && extension != ".ply")
-      throw InvalidOption(output.string() + ": unknown kind of output '" + extension +
-                          "'; .npy and .ply can be written");
+    check_points_output(output);
   });
   told("reading " + points.string());
   SpreadFrames frames(ranks, points);
@@ -214,12 +211,7 @@ std::int64_t apply_shards(const Ranks& ranks, const std::filesystem::path& direc
                      point_size = frames.num_channels() * std::int64_t{sizeof(double)};
   std::vector<std::int64_t> shape{num_points, frames.num_channels()};
   if (frames.has_frames()) shape.insert(shape.begin(), frames.num_frames());
-  const std::string header =
-      is_ply ? fmt::format(
-                   "ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty double x\nproperty double "
-                   "y\nproperty double z\nend_header\n",
-                   num_points)
-             : npy_header(DType::F64, shape);
+  const std::string header = is_ply ? ply_header(num_points) : npy_header(DType::F64, shape);
   SharedFile file(ranks, output, std::ssize(header) + num_points * point_size * frames.num_frames());
   ranks.together([&] {
     if (ranks.is_first()) file.write(0, header);
@@ -232,7 +224,7 @@ std::int64_t apply_shards(const Ranks& ranks, const std::filesystem::path& direc
       std::exception_ptr error;  // the exchange goes on for the others
       table.apply(own, frames.num_channels(), [&](const LoadedShard& shard, std::span<const double> made) {
         try {
-          if (!error) write_runs(file, begin, point_size, shard.runs, made);
+          if (!error) write_runs(file, begin, point_size, shard.runs, std::as_bytes(made));
         } catch (...) {
           error = std::current_exception();
         }

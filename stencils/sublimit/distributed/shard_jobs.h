@@ -23,12 +23,15 @@ struct SpreadShards {
   int first_part = 0;                               ///< of this rank
 };
 /// @param rings  more than are needed, or 0
+/// @param part   of each face of the own run, if that is known already
 /// @throws as `shard_method`, on all ranks
 SpreadShards divide(const Ranks& ranks, const SpreadJob& job, Patterns& patterns, const BakeRequest& request,
-                    const Division& division, int rings = 0);
+                    const Division& division, int rings = 0, std::optional<std::vector<int>> part = {});
 /// All ranks call, each for its part of that number, or for none that it needs.
+/// @param faces  gets the faces between its points (shard_faces.h), if given: then `shards` have a ring more than
+///               `shard_rings`
 Shard made_shard(const Ranks& ranks, const SpreadJob& job, Patterns& patterns, const BakeRequest& request,
-                 const SpreadShards& shards, int number, bool needed);
+                 const SpreadShards& shards, int number, bool needed, FaceList* faces = nullptr);
 
 struct ShardsMade {
   ShardManifest manifest;

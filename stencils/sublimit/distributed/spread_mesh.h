@@ -46,8 +46,8 @@ struct SpreadMesh {
   std::optional<FaceVarying> face_varying;
 };
 
-/// Every rank reads its own bytes of a file: a binary .ply, an .obj or a .safetensors, and nobody the whole. Tags of a
-/// sidecar (sidecar.h) are read by the first rank.
+/// Every rank reads its own bytes of a file: a binary .ply, an .obj or a .safetensors, and nobody the whole. The tags
+/// of a sidecar (sidecar.h) are read by all.
 /// @throws FormatError, InvalidMesh, IoError, ResourceError  on all ranks: as `read_mesh`
 SpreadMesh read_spread_mesh(const Ranks& ranks, const std::filesystem::path& path);
 

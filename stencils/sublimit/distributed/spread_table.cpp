@@ -47,22 +47,6 @@ const SpreadTable& of(Mat matrix) {
   return *static_cast<const SpreadTable*>(table);
 }
 
-/// One way or the other.
-template <class Apply>
-PetscErrorCode multiply(Vec x, Vec y, const Apply& apply) {
-  const PetscScalar* from = nullptr;
-  PetscScalar* to = nullptr;
-  PetscInt num_from = 0, num_to = 0;
-  PetscCall(VecGetLocalSize(x, &num_from));
-  PetscCall(VecGetLocalSize(y, &num_to));
-  PetscCall(VecGetArrayRead(x, &from));
-  PetscCall(VecGetArrayWrite(y, &to));
-  apply(std::span(from, size_t(num_from)), std::span(to, size_t(num_to)));
-  PetscCall(VecRestoreArrayRead(x, &from));
-  PetscCall(VecRestoreArrayWrite(y, &to));
-  return 0;
-}
-
 PetscErrorCode mult(Mat matrix, Vec x, Vec y) {
   return multiply(x, y, [&](auto from, auto to) { of(matrix).apply(from, 1, to); });
 }
@@ -114,7 +98,8 @@ void SpreadTable::apply_shard(size_t s, bool inner, std::span<const double> all,
 }
 
 void SpreadTable::apply(std::span<const double> own, int channels, std::span<double> points) const {
-  std::vector<double> inputs(size_t(halo_.num_inputs() * channels));
+  inputs_.resize(size_t(halo_.num_inputs() * channels));
+  const std::span<double> inputs = inputs_;
   halo_.begin(own, channels, inputs);
   const auto pass = [&](bool inner) {
     std::int64_t next = 0;
@@ -131,7 +116,9 @@ void SpreadTable::apply(std::span<const double> own, int channels, std::span<dou
 
 void SpreadTable::apply(std::span<const double> own, int channels,
                         const std::function<void(const LoadedShard&, std::span<const double>)>& made) const {
-  std::vector<double> inputs(size_t(halo_.num_inputs() * channels)), points;
+  inputs_.resize(size_t(halo_.num_inputs() * channels));
+  const std::span<double> inputs = inputs_;
+  std::vector<double> points;
   halo_.begin(own, channels, inputs);
   for (size_t s = 0; s < shards_.size(); ++s) {
     points.resize(size_t(shards_[s].table.table.num_points() * channels));
@@ -144,14 +131,14 @@ void SpreadTable::apply(std::span<const double> own, int channels,
 }
 
 void SpreadTable::apply_transpose(std::span<const double> values, int channels, std::span<double> own) const {
-  std::vector<double> inputs(size_t(halo_.num_inputs() * channels));
+  inputs_.resize(size_t(halo_.num_inputs() * channels));
+  const std::span<double> inputs = inputs_;
   std::int64_t next = 0;
   for (size_t s = 0; s < shards_.size(); ++s) {
     const std::int64_t count = shards_[s].table.table.num_points() * channels;
     evaluators_[s]->apply_transpose(
         values.subspan(size_t(next), size_t(count)), channels,
-        std::span(inputs).subspan(size_t(first_input_[s] * channels),
-                                  size_t((first_input_[s + 1] - first_input_[s]) * channels)));
+        inputs.subspan(size_t(first_input_[s] * channels), size_t((first_input_[s + 1] - first_input_[s]) * channels)));
     next += count;
   }
   halo_.add(inputs, channels, own);

@@ -9,6 +9,7 @@
 
 namespace sublimit {
 
+/// Calls are of all ranks together, one after the other: they share memory for inputs.
 class SpreadTable {
  public:
   /// @param shards  of this rank, any number
@@ -41,6 +42,7 @@ class SpreadTable {
   std::vector<std::vector<std::int64_t>>
       num_inner_;  // of each shard: of each group, how many patches need no others' points
   std::vector<std::unique_ptr<PatternEvaluator<double>>> evaluators_;
+  mutable std::vector<double> inputs_;
 };
 
 /// As PETSc's: MatMult is `apply` of one channel, MatMultTranspose its transpose; for any KSP.

@@ -48,25 +48,6 @@ SampleSummary write_batches(const std::filesystem::path& path, const Evaluation&
   return summary;
 }
 
-void append_row(std::string& out, const LimitSamples& found, std::int64_t i, SampleColumns columns) {
-  out += ',';
-  out += name(found.status[i]);
-  const auto row = [&](const Points& m, bool exists) { append_fields(out, m.data() + 3 * i, 3, exists); };
-  const int order = found.order[i];
-  row(found.position, has_position(found.status[i]));
-  if (columns.derivatives >= 1)
-    for (const Points* m : {&found.du, &found.dv}) row(*m, order >= 1);
-  if (columns.derivatives >= 2)
-    for (const Points* m : {&found.duu, &found.duv, &found.dvv}) row(*m, order >= 2);
-  append_normal(out, found.normal, i);
-  if (columns.curvature) {
-    const std::optional<Curvature> c = curvature(found, static_cast<Index>(i));
-    const double numbers[] = {c ? c->k1 : 0, c ? c->k2 : 0, c ? c->gauss : 0, c ? c->mean : 0};
-    append_fields(out, numbers, 4, c.has_value());
-  }
-  out += '\n';
-}
-
 }  // namespace
 
 Sample clamped(const Sample& s, bool triangle) {
@@ -106,14 +87,37 @@ void SampleReader::read(std::vector<Sample>& batch, size_t most, FaceCount faces
   }
 }
 
-SampleWriter::SampleWriter(const std::filesystem::path& path, SampleColumns columns, const OwnPlaces* own)
-    : file_(path), columns_(columns), own_(own) {
-  std::string header = (own ? own->header() : "face,u,v") + ",status,x,y,z";
+std::string sample_header(SampleColumns columns, const std::string& places) {
+  std::string header = places + ",status,x,y,z";
   if (columns.derivatives >= 1) header += ",xu,yu,zu,xv,yv,zv";
   if (columns.derivatives >= 2) header += ",xuu,yuu,zuu,xuv,yuv,zuv,xvv,yvv,zvv";
   header += ",nx,ny,nz";
   if (columns.curvature) header += ",k1,k2,gauss,mean";
-  file_.write(header + "\n");
+  return header + "\n";
+}
+
+void append_found(std::string& out, const LimitSamples& found, std::int64_t i, SampleColumns columns) {
+  out += ',';
+  out += name(found.status[i]);
+  const auto row = [&](const Points& m, bool exists) { append_fields(out, m.data() + 3 * i, 3, exists); };
+  const int order = found.order[i];
+  row(found.position, has_position(found.status[i]));
+  if (columns.derivatives >= 1)
+    for (const Points* m : {&found.du, &found.dv}) row(*m, order >= 1);
+  if (columns.derivatives >= 2)
+    for (const Points* m : {&found.duu, &found.duv, &found.dvv}) row(*m, order >= 2);
+  append_normal(out, found.normal, i);
+  if (columns.curvature) {
+    const std::optional<Curvature> c = curvature(found, static_cast<Index>(i));
+    const double numbers[] = {c ? c->k1 : 0, c ? c->k2 : 0, c ? c->gauss : 0, c ? c->mean : 0};
+    append_fields(out, numbers, 4, c.has_value());
+  }
+  out += '\n';
+}
+
+SampleWriter::SampleWriter(const std::filesystem::path& path, SampleColumns columns, const OwnPlaces* own)
+    : file_(path), columns_(columns), own_(own) {
+  file_.write(own ? sample_header(columns, own->header()) : sample_header(columns));
 }
 
 void SampleWriter::write(std::span<const Sample> samples, const LimitSamples& found) {
@@ -123,7 +127,7 @@ void SampleWriter::write(std::span<const Sample> samples, const LimitSamples& fo
         own_->append(text, static_cast<size_t>(i));
       else
         append_place(text, samples[i]);
-      append_row(text, found, i, columns_);
+      append_found(text, found, i, columns_);
     }
   };
   RowWriter(file_).rows(std::ssize(samples), rows_per_text, append);

@@ -66,6 +66,13 @@ struct SampleColumns {
   int order() const { return curvature ? 2 : std::max(derivatives, 1); }
 };
 
+/// The first line of a file of samples.
+/// @param places  names of the columns that say where
+std::string sample_header(SampleColumns columns, const std::string& places = "face,u,v");
+/// What was found at a place, as it stands behind that place: with the comma before and the end of the line.
+/// @param found  of order `columns.order()`, with normals
+void append_found(std::string& out, const LimitSamples& found, std::int64_t row, SampleColumns columns);
+
 /// Samples and what was found there, into a file that appears whole or not at all.
 class SampleWriter {
  public:

@@ -93,7 +93,7 @@ std::int64_t num_points(const Scheme<double>& scheme, const BakeRequest& request
 }
 
 Shard bake_shard(Patterns& patterns, const MeshPart& part, const BakeRequest& request, BakeMethod method,
-                 const SubdivisionOptions& options) {
+                 const SubdivisionOptions& options, PartLattices* lattices) {
   if (part.mesh.num_faces() == 0) return {lone_vertices(part.mesh.num_vertices()), {}, part.vertices, {}, {}};
   const Level control = control_level(patterns.scheme(), part.mesh, options);
   Shard shard;
@@ -102,7 +102,8 @@ Shard bake_shard(Patterns& patterns, const MeshPart& part, const BakeRequest& re
                                                 {.first_by_rows = method == BakeMethod::rows_then_patterns,
                                                  .owners = OwnerRule::first,
                                                  .owned = &part.is_owned,
-                                                 .patches = &shard.patches});
+                                                 .patches = &shard.patches,
+                                                 .lattices = lattices});
   if (!baked) throw InvalidParameter(patterns.scheme().name + ": such a table cannot be made by patterns alone");
   shard.table = std::move(baked->table);
   shard.table.table = in_order_of_faces(shard.table.table, shard.patches);

@@ -51,8 +51,10 @@ std::int64_t num_points(const Scheme<double>& scheme, const BakeRequest& request
 /// @param part     with `shard_rings` around it at least
 /// @param method   `shard_method` of the whole
 /// @param options  of the whole
+/// @param lattices  gets how points lie on faces, if given: right on owned faces and, with one ring more than
+///                  `shard_rings`, on those beside them
 /// @throws InvalidMesh, UnsupportedTopology, ResourceError  as `bake`; InvalidParameter
 Shard bake_shard(Patterns& patterns, const MeshPart& part, const BakeRequest& request, BakeMethod method,
-                 const SubdivisionOptions& options = {});
+                 const SubdivisionOptions& options = {}, PartLattices* lattices = nullptr);
 
 }  // namespace sublimit

@@ -14,7 +14,7 @@ namespace sublimit::testing {
 
 /// How a run of so many ranks ended, and what it said.
 struct RanksRun {
-  int status = 0;       ///< 124: it took too long
+  int status = 0;        ///< 124: it took too long
   std::string out, err;  ///< of all ranks; without what mpirun adds
 
   /// Lines of `err` that are the program's.
@@ -26,16 +26,17 @@ struct RanksRun {
   }
 };
 
-/// @param before  what the shell does first, such as `ulimit -f 1;`
-inline RanksRun run_ranks(int ranks, const std::string& arguments, const std::string& before = "", int seconds = 100) {
+/// @param before  what stands before `mpirun` in the shell
+inline RanksRun run_ranks(int ranks, const std::string& arguments, const std::string& before = "", int seconds = 100,
+                          const std::string& program = SUBLIMIT_MPI_PROGRAM) {
   const TemporaryDirectory directory;
   const std::string out = (directory / "out").string(), err = (directory / "err").string();
   const std::string command =
       before +
-      "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_btl_base_warn_component_unused=0 "
+      "env OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_btl_base_warn_component_unused=0 "
       "OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_mpi_yield_when_idle=1 timeout -k 5 " +
-      std::to_string(seconds) + " mpirun -n " + std::to_string(ranks) + " " SUBLIMIT_MPI_PROGRAM " " + arguments + " > " +
-      out + " 2> " + err;
+      std::to_string(seconds) + " mpirun -n " + std::to_string(ranks) + " " + program + " " + arguments + " > " + out +
+      " 2> " + err;
   const int status = std::system(command.c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_file(out), read_file(err)};
 }
