@@ -121,9 +121,44 @@ class PlyFaces {
   PlyBinaryValues values_;
 };
 
+/// Equal runs, if all rows are as long as the first: every rank looks whether its own are, and the first one's begin
+/// where they should, so all of them do if all ranks say so.
+bool read_equal_rows(const Ranks& ranks, const PlyPlaces& places, std::string_view bytes, const PlyHeader& header,
+                     const std::string& name, SpreadMesh& mesh) {
+  const Runs runs = Runs::equal(places.face->count, ranks.size());
+  bool is_equal = true;
+  try {
+    std::vector<std::int64_t> corners;
+    PlyFaces first(places, bytes, header, places.first_face, name);
+    first.next(corners, 0);
+    const auto size = static_cast<std::int32_t>(corners.size());
+    const std::int64_t row = first.offset - places.first_face, own = runs.size(ranks.rank());
+    if (row > (std::ssize(bytes) - places.first_face) / places.face->count)
+      throw FormatError("more bytes than there are");
+    PlyFaces faces(places, bytes, header, places.first_face + runs.begin(ranks.rank()) * row, name);
+    mesh.face_vertices.reserve(static_cast<size_t>(size * own));
+    for (std::int64_t f = 0; f < own && is_equal; ++f) {
+      const std::int64_t begin = faces.offset;
+      faces.next(corners, f);
+      mesh.face_vertices.insert(mesh.face_vertices.end(), corners.begin(), corners.end());
+      is_equal = std::ssize(corners) == size && faces.offset - begin == row;
+    }
+    mesh.face_sizes.assign(static_cast<size_t>(own), size);
+  } catch (const Error&) {
+    is_equal = false;  // or it is wrong somewhere: who reads row by row tells where
+  }
+  if (ranks.all(is_equal)) return true;
+  mesh.face_sizes.clear(), mesh.face_vertices.clear();
+  return false;
+}
+
 /// Those that begin in a rank's own bytes. Rows are of any length, so each rank hands on where the next one begins.
 void read_own_faces(const Ranks& ranks, const PlyPlaces& places, std::string_view bytes, const PlyHeader& header,
                     const std::string& name, SpreadMesh& mesh) {
+  if (read_equal_rows(ranks, places, bytes, header, name, mesh)) {
+    mesh.faces = Runs(ranks, std::ssize(mesh.face_sizes));
+    return;
+  }
   const Runs parts = Runs::equal(std::ssize(bytes) - places.first_face, ranks.size());
   const std::int64_t until = places.first_face + parts.begin(ranks.rank()) + parts.size(ranks.rank());
   // Pages come from the disk on all ranks at once, not in the order of the ranks.

@@ -14,9 +14,9 @@ namespace sublimit {
 
 /// What is asked for. Rules are the words of files/rule_words.h; empty: the mesh's own.
 struct MeshRequest {
-  std::string scheme;     ///< empty: none is needed
-  SchemeOptions options;  ///< of the scheme
-  std::string boundary, creasing, triangles, face_varying;
+  std::string scheme = {};     ///< empty: none is needed
+  SchemeOptions options = {};  ///< of the scheme
+  std::string boundary = {}, creasing = {}, triangles = {}, face_varying = {};
   bool triangulate = false;                               ///< every face is cut into triangles first
   bool no_creases = false;                                ///< crease and corner tags are dropped first
   bool strict = false;                                    ///< a mesh that is no clean manifold is refused

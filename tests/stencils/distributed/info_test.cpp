@@ -39,10 +39,11 @@ void expect_counts(const std::string& path, const std::string& scheme, std::init
     EXPECT_EQ(json.at("nonmanifold_edges"), edges) << path << " by " << n;
     EXPECT_EQ(json.at("nonmanifold_vertices"), vertices) << path << " by " << n;
     EXPECT_EQ(json.at("isolated_vertices"), isolated) << path << " by " << n;
-    if (!scheme.empty())
+    if (!scheme.empty()) {
       EXPECT_EQ(json.at("scheme").at("takes_mesh").get<std::string>().substr(0, 3),
                 expected.at("scheme").at("takes_mesh").get<std::string>().substr(0, 3))
           << path << " by " << n;
+    }
     EXPECT_EQ(json.at("parts").at("count"), n);
     EXPECT_LE(json.at("parts").at("faces").at("least"), json.at("faces").get<std::int64_t>() / n);
     EXPECT_GE(json.at("parts").at("faces").at("most"), json.at("faces").get<std::int64_t>() / n);
