@@ -34,6 +34,8 @@ void add_mesh(CLI::App& command, Common& common) {
   command.add_option("--option", common.options, "An option of the scheme, name=value; may be repeated")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  command.add_flag("--triangulate", request.triangulate,
+                   "First cut every face into triangles, a fan from its first corner; tags are kept");
   command.add_flag("--no-creases", request.no_creases, "First drop the crease and corner tags");
   add_run(command, common);
 }

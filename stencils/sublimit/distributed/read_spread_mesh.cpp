@@ -111,6 +111,33 @@ SpreadMesh spread(const Ranks& ranks, const ControlMesh& whole) {
   return mesh;
 }
 
+void triangulate(const Ranks& ranks, SpreadMesh& mesh) {
+  std::vector<std::int64_t> first{0}, corners, values;
+  const std::int64_t* corner = mesh.face_vertices.data();
+  const std::int64_t* value = mesh.face_varying ? mesh.face_varying->indices.data() : nullptr;
+  for (const std::int32_t size : mesh.face_sizes) {
+    for (std::int32_t k = 1; k + 1 < size; ++k) {
+      corners.insert(corners.end(), {corner[0], corner[k], corner[k + 1]});
+      if (value) values.insert(values.end(), {value[0], value[k], value[k + 1]});
+    }
+    first.push_back(first.back() + size - 2);
+    corner += size;
+    if (value) value += size;
+  }
+  std::vector<std::vector<std::int64_t>> holes(size_t(ranks.size()));
+  for (const std::int64_t f : mesh.holes)
+    holes[size_t(mesh.faces.rank_of(f))].push_back(f - mesh.faces.begin(mesh.faces.rank_of(f)));
+  mesh.face_sizes.assign(corners.size() / 3, 3);
+  mesh.face_vertices = std::move(corners);
+  if (value) mesh.face_varying->indices = std::move(values);
+  mesh.faces = Runs(ranks, std::ssize(mesh.face_sizes));
+  mesh.holes.clear();
+  for (const auto& from : exchange(ranks, std::move(holes)))
+    for (const std::int64_t f : from)
+      for (std::int64_t t = first[size_t(f)]; t < first[size_t(f) + 1]; ++t)
+        mesh.holes.push_back(mesh.faces.begin(ranks.rank()) + t);
+}
+
 void check(const Ranks& ranks, const SpreadMesh& mesh, const std::string& name) {
   ranks.together([&] {
     const std::int64_t vertices = mesh.vertices.size(), faces = mesh.faces.size();

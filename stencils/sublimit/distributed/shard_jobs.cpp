@@ -186,7 +186,12 @@ std::int64_t apply_shards(const Ranks& ranks, const std::filesystem::path& direc
   });
   told("reading " + points.string());
   SpreadFrames frames(ranks, points);
-  const std::string faces = frames.mesh() ? in_hexadecimal(faces_hash(ranks, *frames.mesh())) : manifest.faces;
+  std::string faces = frames.mesh() ? in_hexadecimal(faces_hash(ranks, *frames.mesh())) : manifest.faces;
+  if (faces != manifest.faces) {  // what was baked may have been cut into triangles first
+    SpreadMesh cut = *frames.mesh();
+    triangulate(ranks, cut);
+    faces = in_hexadecimal(faces_hash(ranks, cut));
+  }
   const bool is_ply = file_extension(output) == ".ply";
   ranks.together([&] {
     if (frames.runs().size() != manifest.all.num_control_points)

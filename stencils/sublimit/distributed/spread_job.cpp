@@ -13,10 +13,10 @@ namespace sublimit {
 SpreadJob spread_job(const Ranks& ranks, const MeshRequest& request, SpreadMesh mesh, const std::string& name) {
   SpreadJob job;
   ranks.together([&] {
-    if (request.triangulate || request.strict)
-      throw InvalidOption(std::string(request.strict ? "--strict" : "--triangulate") +
-                          " takes the whole mesh; prepare it with `sublimit`");
-    MeshJob of_rules = mesh_job(request, mesh.about, name);
+    if (request.strict) throw InvalidOption("faults are looked for in whole meshes; `sublimit info --strict` does");
+    MeshRequest of_about = request;  // which has no faces to be cut
+    of_about.triangulate = false;
+    MeshJob of_rules = mesh_job(of_about, mesh.about, name);
     mesh.about = std::move(of_rules.mesh);
     if (!of_rules.scheme) throw InvalidOption("no scheme; give one");
     job.scheme = *std::move(of_rules.scheme);
@@ -24,6 +24,7 @@ SpreadJob spread_job(const Ranks& ranks, const MeshRequest& request, SpreadMesh 
     job.creasing = job.rules.creasing.value_or(mesh.about.creasing.value_or(Creasing::uniform));
     if (request.no_creases) mesh.creases.clear(), mesh.corners.clear();
   });
+  if (request.triangulate) triangulate(ranks, mesh);
   const std::int32_t whole = job.scheme.face_size() == 3 ? 3 : 4;
   job.all_whole = ranks.all(std::ranges::all_of(mesh.face_sizes, [&](std::int32_t size) { return size == whole; }));
   ranks.together([&] {

@@ -18,8 +18,7 @@ struct SpreadJob {
   bool all_whole = false;                 ///< every face has as many corners as the scheme splits without a first step
 };
 
-/// @throws InvalidOption, InvalidMesh, UnsupportedTopology  on all ranks: as `mesh_job`; `triangulate` and `strict`,
-///                                                          which take the whole mesh
+/// @throws InvalidOption, InvalidMesh, UnsupportedTopology  on all ranks: as `mesh_job`; `strict`
 SpreadJob spread_job(const Ranks& ranks, const MeshRequest& request, SpreadMesh mesh, const std::string& name);
 
 /// How a mesh is divided.

@@ -54,6 +54,9 @@ SpreadMesh read_spread_mesh(const Ranks& ranks, const std::filesystem::path& pat
 /// A mesh that one process has, spread; of the others what it says is not looked at.
 SpreadMesh spread(const Ranks& ranks, const ControlMesh& mesh);
 
+/// Every face cut into a fan from its first corner, as `triangulated` (prepare.h) cuts them.
+void triangulate(const Ranks& ranks, SpreadMesh& mesh);
+
 /// That all numbers are of vertices and faces that there are, and tags of edges that faces have.
 /// @throws InvalidMesh  on all ranks
 void check(const Ranks& ranks, const SpreadMesh& mesh, const std::string& name);

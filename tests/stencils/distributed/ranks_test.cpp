@@ -67,6 +67,7 @@ std::vector<RanksCase> ranks_cases() {
           {"non-manifold", "-s catmull-clark -l 2", mobius_strip(5)},
           {"valence 1000", "-s catmull-clark -l 1", fan(1000)},
           {"triangles", "-s loop -l 2", shuffled(triangle_torus(6, 5), 8)},
+          {"cut into triangles", "-s loop -l 1 --triangulate", shuffled(tagged, 9)},
           {"wide masks", "-s butterfly -l 2", triangle_torus(5, 4)}};
 }
 
