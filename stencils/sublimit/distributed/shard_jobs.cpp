@@ -120,7 +120,12 @@ Shard made_shard(const Ranks& ranks, const SpreadJob& job, Patterns& patterns, c
   ranks.together([&] {
     if (!is_there) return;
     PartLattices lattices;
-    shard = bake_shard(patterns, part, request, shards.method, job.rules, faces ? &lattices : nullptr);
+    try {
+      shard = bake_shard(patterns, part, request, shards.method, job.rules, faces ? &lattices : nullptr);
+    } catch (const Error& error) {  // which knows the part alone
+      throw Error(error.code(), fmt::format("{}: part {} of {}, by its own numbers of vertices and faces: {}", job.name,
+                                            shards.first_part + number, shards.parts, error.what()));
+    }
     shard.runs = runs_of(points, lone ? num_lone : 0);
     std::int64_t count = 0;
     for (const PointRun& run : shard.runs) count += run.count;

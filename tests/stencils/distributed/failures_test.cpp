@@ -91,6 +91,12 @@ TEST(RankFailures, MeshesThatAreNoneAreRefused) {
   refused("b.ply", header + polygon, {"b.ply"});
   refused("c.safetensors", "", {"c.safetensors"});
   refused("d.stl", "solid", {".safetensors"});
+  // A rule of a scheme, met while baking.
+  const std::string semi = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 1\nf 1 2 3\nf 3 2 4\nt crease 2/1/0 1 2 1.5\n";
+  const std::string shards = (directory / "shards").string();
+  expect_one_line(run_ranks(2, "bake " + directory.write("e.obj", semi).string() + " -s butterfly -l 1 -o " + shards),
+                  3, {"e.obj: part ", "its own numbers", "butterfly has rules for infinite sharpness"});
+  EXPECT_FALSE(fs::exists(shards + "/shards.json"));
 }
 
 TEST(RankFailures, AMeshLargerThanAllMemoriesIsToldBefore) {
