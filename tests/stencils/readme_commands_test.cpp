@@ -37,7 +37,7 @@ constexpr NotRun not_run[] = {
     {R"(build/\S+/bin/\w+_(bench|accuracy|scaling)( .*)?)", "a benchmark: minutes, on a machine of its own"},
     {R"((mpirun -n \d+|srun) sublimit-mpi .*)", "distributed_tests run them, by other numbers too"},
     {R"(mpirun -n N build/\S+/bin/scale_bench .*)", "a benchmark: minutes, on a machine of its own"},
-    {R"(#!/bin/bash[^]*)", "the head of a script for Slurm"},
+    {R"(#!/bin/bash\s+#SBATCH --nodes[^]*)", "the head of a script for srun"},
     {R"(build/\S+/bin/fuzz_\w+)", "a place of a program; fuzz.obj, fuzz.table and fuzz.recipe run them"},
 };
 
