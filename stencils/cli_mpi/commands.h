@@ -2,6 +2,7 @@
 #pragma once
 // Subcommands of `sublimit-mpi`: their options, and what all ranks then do.
 #include <CLI/CLI.hpp>
+#include <chrono>
 #include <functional>
 
 #include "sublimit/distributed/shard_jobs.h"
@@ -29,6 +30,20 @@ struct Common {
 };
 void add_run(CLI::App& command, Common& common);
 void add_mesh(CLI::App& command, Common& common);
+
+/// Levels or their limits, and how the mesh is divided for them.
+struct Levels {
+  BakeRequest request;
+  Division division;
+  bool limit = false;
+  std::string partition = "scotch";
+  /// With all that the options say.
+  Levels resolved() const;
+};
+/// Adds --levels, --limit and --partition.
+void add_levels(CLI::App& command, Levels& levels);
+
+double seconds_since(std::chrono::steady_clock::time_point start);
 
 /// What all commands begin with: threads, and who is told what is being done: stderr, of the first rank, if a person is
 /// looking.

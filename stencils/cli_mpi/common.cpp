@@ -40,6 +40,24 @@ void add_mesh(CLI::App& command, Common& common) {
   add_run(command, common);
 }
 
+Levels Levels::resolved() const {
+  Levels levels = *this;
+  levels.request.rows = limit ? TableRows::limit : TableRows::level;
+  levels.division.runs = partition == "runs";
+  return levels;
+}
+
+void add_levels(CLI::App& command, Levels& levels) {
+  command.add_option("-l,--levels", levels.request.level, "Level: 1 to 11, with --limit from 0")->required();
+  command.add_flag("--limit", levels.limit, "The limit of the level's vertices, instead of the level");
+  command.add_option("--partition", levels.partition, "scotch: few neighbours elsewhere; runs: faces as they stand")
+      ->check(CLI::IsMember({"scotch", "runs"}));
+}
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
 Told begin(const Ranks& ranks, const Common& common) {
   ranks.together([&] { cli::limit_memory(common.memory_limit); });
   static std::unique_ptr<tbb::global_control> threads;

@@ -3,7 +3,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "commands.h"
@@ -44,14 +43,13 @@ void fit(const Ranks& ranks, const FitOptions& options) {
   told("writing " + options.output);
   write_control_points(ranks, job.mesh, found.points, options.output);
   if (!ranks.is_first() || options.common.quiet) return;
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   fmt::print("{}: {} control points, {} faces; the limit {} {} points\n", options.output, job.mesh.vertices.size(),
              job.mesh.faces.size(), targets.at_vertices() && found.converged ? "meets" : "is near", found.num_targets);
   fmt::print("  position error {:.2g} of the box at most, {:.2g} rms\n", found.largest / found.box,
              found.rms / found.box);
   fmt::print("  solved by {}, {} iterations{}; {:.3f} s\n", found.method, std::ranges::max(found.iterations),
              found.converged ? "" : fmt::format(", not converged: {}, gradient {:.2g}", found.reason, found.gradient),
-             seconds);
+             seconds_since(start));
 }
 
 }  // namespace

@@ -2,8 +2,6 @@
 // refine: a level or its limit into one file.
 #include <fmt/core.h>
 
-#include <chrono>
-
 #include "commands.h"
 #include "sublimit/distributed/refine_job.h"
 
@@ -12,25 +10,19 @@ namespace {
 
 struct RefineOptions {
   Common common;
-  BakeRequest request;
-  Division division;
-  bool limit = false;
-  std::string output, partition = "scotch";
+  Levels levels;
+  std::string output;
 };
 
 void refine(const Ranks& ranks, const RefineOptions& options) {
   const auto start = std::chrono::steady_clock::now();
   const Told told = begin(ranks, options.common);
   const SpreadJob job = load(ranks, options.common, told);
-  BakeRequest request = options.request;
-  request.rows = options.limit ? TableRows::limit : TableRows::level;
-  Division division = options.division;
-  division.runs = options.partition == "runs";
-  const RefinedFile made = write_refined(ranks, job, request, division, options.output, told);
+  const Levels levels = options.levels.resolved();
+  const RefinedFile made = write_refined(ranks, job, levels.request, levels.division, options.output, told);
   if (!ranks.is_first() || options.common.quiet) return;
-  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
   fmt::print("{}: {} points{}, in {} parts; {:.3f} s\n", options.output, made.points,
-             made.faces > 0 ? fmt::format(", {} faces", made.faces) : "", made.parts, seconds.count());
+             made.faces > 0 ? fmt::format(", {} faces", made.faces) : "", made.parts, seconds_since(start));
 }
 
 }  // namespace
@@ -39,14 +31,11 @@ void add_refine(CLI::App& app, Command& chosen) {
   auto* command = app.add_subcommand("refine", "Points of a level or its limit, and faces between them, in one file");
   auto options = std::make_shared<RefineOptions>();
   add_mesh(*command, options->common);
-  command->add_option("-l,--levels", options->request.level, "Level: 1 to 11, with --limit from 0")->required();
-  command->add_flag("--limit", options->limit, "The limit of the level's vertices, instead of the level");
+  add_levels(*command, options->levels);
   command
-      ->add_option("--parts", options->division.parts,
+      ->add_option("--parts", options->levels.division.parts,
                    "How many are made, one after the other by each rank (default: what memory has room for)")
       ->check(CLI::Range(1, 1 << 20));
-  command->add_option("--partition", options->partition, "scotch: few neighbours elsewhere; runs: faces as they stand")
-      ->check(CLI::IsMember({"scotch", "runs"}));
   command->add_option("-o,--output", options->output, "OUT.ply, binary, with faces; OUT.npy: points alone, any number")
       ->required();
   command->footer(

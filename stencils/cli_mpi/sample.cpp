@@ -2,8 +2,6 @@
 // sample: the limit anywhere.
 #include <fmt/core.h>
 
-#include <chrono>
-
 #include "commands.h"
 #include "sublimit/base/error.h"
 #include "sublimit/distributed/sample_job.h"
@@ -45,11 +43,10 @@ void sample(const Ranks& ranks, const SampleOptions& options) {
   const SpreadJob job = load(ranks, options.common, told);
   const SamplesMade made = write_samples(ranks, job, request, reader.get(), told);
   if (!ranks.is_first() || options.common.quiet) return;
-  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
   fmt::print("{}: {} samples{}{}; {:.3f} s\n", request.output.string(), made.summary.num_samples,
              made.summary.num_samples > 0 ? " (" + made.summary.text() + ")" : "",
              made.num_clamped > 0 ? fmt::format(", {} moved to the rim of their face", made.num_clamped) : "",
-             seconds.count());
+             seconds_since(start));
 }
 
 }  // namespace

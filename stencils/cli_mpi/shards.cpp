@@ -2,8 +2,6 @@
 // bake, apply, verify: tables in shards.
 #include <fmt/core.h>
 
-#include <chrono>
-
 #include "commands.h"
 #include "sublimit/base/error.h"
 
@@ -12,27 +10,19 @@ namespace {
 
 struct BakeOptions {
   Common common;
-  BakeRequest request;
-  Division division;
-  bool limit = false, overwrite = false;
+  Levels levels;
+  bool overwrite = false;
   int rings = 0;
-  std::string output, partition = "scotch";
+  std::string output;
 };
-
-double seconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 void bake(const Ranks& ranks, const BakeOptions& options) {
   const auto start = std::chrono::steady_clock::now();
   const Told told = begin(ranks, options.common);
   const SpreadJob job = load(ranks, options.common, told);
-  BakeRequest request = options.request;
-  request.rows = options.limit ? TableRows::limit : TableRows::level;
-  Division division = options.division;
-  division.runs = options.partition == "runs";
+  const Levels levels = options.levels.resolved();
   const ShardsMade made =
-      bake_shards(ranks, job, request, division, options.output, options.overwrite, options.rings, told);
+      bake_shards(ranks, job, levels.request, levels.division, options.output, options.overwrite, options.rings, told);
   if (!ranks.is_first() || options.common.quiet) return;
   if (options.rings > 0 && made.rings > options.rings)
     fmt::print(stderr, "sublimit-mpi: warning: --rings {} widened to {}, which types of {} need\n", options.rings,
@@ -48,12 +38,9 @@ void add_bake(CLI::App& app, Command& chosen) {
   auto* command = app.add_subcommand("bake", "A table in shards, each of some faces");
   auto options = std::make_shared<BakeOptions>();
   add_mesh(*command, options->common);
-  command->add_option("-l,--levels", options->request.level, "Level: 1 to 11, with --limit from 0")->required();
-  command->add_flag("--limit", options->limit, "The limit of the level's vertices, instead of the level");
-  command->add_option("--shards", options->division.parts, "How many (default: one a rank)")
+  add_levels(*command, options->levels);
+  command->add_option("--shards", options->levels.division.parts, "How many (default: one a rank)")
       ->check(CLI::Range(1, 1 << 20));
-  command->add_option("--partition", options->partition, "scotch: few neighbours elsewhere; runs: faces as they stand")
-      ->check(CLI::IsMember({"scotch", "runs"}));
   command->add_option("--rings", options->rings, "Faces around each part, if more than its types need")
       ->check(CLI::Range(0, 64));
   command->add_option("-o,--output", options->output, "DIR: shards, and shards.json when all are there")->required();

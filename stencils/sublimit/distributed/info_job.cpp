@@ -8,6 +8,7 @@
 
 #include "sublimit/base/error.h"
 #include "sublimit/files/rule_words.h"
+#include "sublimit/jobs/mesh_info.h"
 
 namespace sublimit {
 namespace {
@@ -186,12 +187,6 @@ SpreadInfo::Histogram sizes_of(const SpreadMesh& mesh) {
   return sizes;
 }
 
-nlohmann::ordered_json json_of(const SpreadInfo::Histogram& histogram) {
-  nlohmann::ordered_json json = nlohmann::ordered_json::object();
-  for (const auto& [key, count] : histogram) json[std::to_string(key)] = count;
-  return json;
-}
-
 nlohmann::ordered_json json_of(const SpreadInfo::Extent& extent) {
   return {{"least", extent.least}, {"most", extent.most}};
 }
@@ -274,28 +269,11 @@ SpreadInfo spread_info(const Ranks& ranks, const MeshRequest& request, SpreadMes
 }
 
 nlohmann::ordered_json to_json(const SpreadInfo& info, const std::string& name) {
-  using Json = nlohmann::ordered_json;
-  Json json{{"mesh", name},
-            {"vertices", info.vertices},
-            {"edges", info.edges},
-            {"faces", info.faces},
-            {"euler_characteristic", info.euler_characteristic},
-            {"components", info.components},
-            {"boundary_loops", info.boundary_loops},
-            {"face_sizes", json_of(info.face_sizes)},
-            {"addresses", info.why_not.empty() ? Json(info.addresses) : Json()},
-            {"interior_valences", json_of(info.interior_valences)},
-            {"boundary_valences", json_of(info.boundary_valences)},
-            {"isolated_vertices", info.isolated_vertices},
-            {"nonmanifold_vertices", info.nonmanifold_vertices},
-            {"nonmanifold_edges", info.nonmanifold_edges},
-            {"creases", info.creases},
-            {"corners", info.corners},
-            {"holes", info.holes},
-            {"boundary", info.boundary},
-            {"creasing", info.creasing},
-            {"triangles", info.smooth_triangles},
-            {"warnings", info.warnings}};
+  nlohmann::ordered_json json = json_of_counts(info, name);
+  json["isolated_vertices"] = info.isolated_vertices;
+  json["nonmanifold_vertices"] = info.nonmanifold_vertices;
+  json["nonmanifold_edges"] = info.nonmanifold_edges;
+  json["warnings"] = info.warnings;
   if (!info.scheme.empty())
     json["scheme"] = {{"name", info.scheme}, {"takes_mesh", info.why_not.empty() ? "yes" : "no: " + info.why_not}};
   json["parts"] = {{"count", info.parts},

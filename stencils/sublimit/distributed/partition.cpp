@@ -51,6 +51,8 @@ std::vector<int> partition(const Ranks& ranks, const SpreadMesh& mesh, const Inc
   ranks.together([&] {
     check_scotch(SCOTCH_dgraphBuild(&of_faces.graph, 0, faces, faces, begins.data(), nullptr, nullptr, nullptr, edges,
                                     edges, items.data(), nullptr, nullptr));
+  });
+  ranks.together([&] {  // not before all have their graph: they divide it together
     check_scotch(SCOTCH_dgraphPart(&of_faces.graph, parts, &of_faces.strategy, part.data()));
   });
   return {part.begin(), part.end() - 1};

@@ -48,8 +48,6 @@ std::string bake_name(const Ranks& ranks, const SpreadJob& job, const std::vecto
   return in_hexadecimal(mixed(hash, std::uint64_t(ranks.sum(std::int64_t(division)))));
 }
 
-bool is_shard_name(const std::string& name) { return name.starts_with("shard-") && name.ends_with(".safetensors"); }
-
 /// Leaves what is of this bake, and nothing that it would be taken for.
 void prepare(const std::filesystem::path& directory, const ShardPlace& all, bool overwrite) {
   std::filesystem::create_directories(directory);
@@ -59,13 +57,10 @@ void prepare(const std::filesystem::path& directory, const ShardPlace& all, bool
     if (name.starts_with(".shard") && name.ends_with(".tmp"))
       std::filesystem::remove(entry.path());  // of a killed bake
     if (name == shard_manifest_name && load_manifest(directory).all.bake != all.bake) others.push_back(entry.path());
-    if (!is_shard_name(name)) continue;
+    // What is no shard is somebody else's, and a damaged one is replaced when it is made again.
     const std::optional<ShardPlace> place = find_shard(entry.path());
-    if (place && place->bake == all.bake && name == shard_name(place->number, all.count)) continue;
-    if (place)
+    if (place && (place->bake != all.bake || name != shard_name(place->number, all.count)))
       others.push_back(entry.path());
-    else
-      std::filesystem::remove(entry.path());  // damaged: made again
   }
   if (!others.empty() && !overwrite)
     throw InvalidOption(
@@ -293,7 +288,7 @@ std::vector<std::string> verify_shards(const Ranks& ranks, const std::filesystem
   if (ranks.is_first())
     for (const auto& entry : std::filesystem::directory_iterator(directory)) {
       const std::string name = entry.path().filename().string();
-      const std::optional<ShardPlace> place = is_shard_name(name) ? find_shard(entry.path()) : std::nullopt;
+      const std::optional<ShardPlace> place = find_shard(entry.path());
       if (place && (place->count != manifest.all.count || name != shard_name(place->number, manifest.all.count)))
         fault(entry.path().string() + ": a shard of another set; it does no harm, and is of no use");
     }

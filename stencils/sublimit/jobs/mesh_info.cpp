@@ -12,12 +12,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json counts(const MeshInfo::Histogram& histogram) {
-  Json result = Json::object();
-  for (const auto& [key, count] : histogram) result[std::to_string(key)] = count;
-  return result;
-}
-
 /// Groups of vertices that edges join (isolated ones left out).
 Index num_components(const Topology& t) {
   std::vector<Index> root(t.num_vertices());
@@ -133,27 +127,11 @@ MeshInfo mesh_info(const MeshJob& job, bool triangles) {
 }
 
 Json to_json(const MeshInfo& info, const std::string& name) {
-  Json json{{"mesh", name},
-            {"vertices", info.vertices},
-            {"edges", info.edges},
-            {"faces", info.faces},
-            {"euler_characteristic", info.euler_characteristic},
-            {"components", info.components},
-            {"boundary_loops", info.boundary_loops},
-            {"face_sizes", counts(info.face_sizes)},
-            {"addresses", info.why_not.empty() ? Json(info.addresses) : Json()},
-            {"interior_valences", counts(info.interior_valences)},
-            {"boundary_valences", counts(info.boundary_valences)},
-            {"creases", info.creases},
-            {"corners", info.corners},
-            {"holes", info.holes},
-            {"boundary", info.boundary},
-            {"creasing", info.creasing},
-            {"triangles", info.smooth_triangles},
-            {"face_varying_channels", info.channels.size()},
-            {"face_varying", info.face_varying},
-            {"warnings", info.warnings},
-            {"faults", info.faults}};
+  Json json = json_of_counts(info, name);
+  json["face_varying_channels"] = info.channels.size();
+  json["face_varying"] = info.face_varying;
+  json["warnings"] = info.warnings;
+  json["faults"] = info.faults;
   if (!info.scheme.empty())
     json["scheme"] = {{"name", info.scheme},
                       {"takes_mesh", info.why_not.empty() ? "yes" : "no: " + info.why_not},

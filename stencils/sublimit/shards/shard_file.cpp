@@ -124,8 +124,10 @@ LoadedShard load_shard(const std::filesystem::path& directory, const ShardManife
 }
 
 std::optional<ShardPlace> find_shard(const std::filesystem::path& path) {
+  const std::string name = path.filename().string();
   std::error_code error;
-  if (!std::filesystem::exists(path, error)) return std::nullopt;
+  if (!name.starts_with("shard-") || !name.ends_with(".safetensors") || !std::filesystem::is_regular_file(path, error))
+    return std::nullopt;
   try {
     const MappedFile mapped = map_file(path);
     return place_of(read_safetensors(mapped.bytes, path.string()), path.string());

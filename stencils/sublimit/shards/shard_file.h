@@ -49,7 +49,7 @@ LoadedShard load_shard(const std::filesystem::path& path);
 /// The same, and that it is the one that a manifest says.
 /// @throws FormatError  a shard of another bake
 LoadedShard load_shard(const std::filesystem::path& directory, const ShardManifest& manifest, int number);
-/// The place alone, if there is a whole shard; its data is not read.
+/// The place alone, if there is a whole shard, of a shard's name; its data is not read.
 std::optional<ShardPlace> find_shard(const std::filesystem::path& path);
 
 /// @throws IoError  none there: a bake that is not done;  FormatError

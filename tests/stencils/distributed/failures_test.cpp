@@ -140,7 +140,11 @@ TEST(RankFailures, AnotherMeshThanTheOneBakedIsRefused) {
   expect_one_line(run_ranks(2, "bake " + other + bake), 2, {"--overwrite"});
   expect_one_line(run_ranks(2, "bake " + baked.obj + " -s catmull-clark -l 3 -o " + baked.shards), 2, {"--overwrite"});
   EXPECT_EQ(read_file(fs::path(baked.shards) / shard_name(0, 2)), before);
+  const std::string others = (fs::path(baked.shards) / "shard-notes.safetensors").string();  // no shard: not ours
+  std::ofstream(others) << "notes";
   EXPECT_EQ(run_ranks(3, "bake " + other + bake + " --overwrite").status, 0);
+  EXPECT_EQ(read_file(others), "notes");
+  fs::remove(others);
   EXPECT_EQ(files(baked.shards), (std::vector<std::string>{"division.safetensors", shard_name(0, 3), shard_name(1, 3),
                                                            shard_name(2, 3), "shards.json"}));
 }
