@@ -8,6 +8,7 @@
 
 #include "sublimit/base/error.h"
 #include "sublimit/base/parallel_for.h"
+#include "sublimit/evaluation_layouts.h"
 #include "sublimit/kernels/apply_patches.h"
 #include "sublimit/kernels/apply_rows.h"
 #include "sublimit/kernels/project_points.h"
@@ -19,55 +20,6 @@ namespace {
 constexpr std::int64_t patches_per_block = 256, rows_per_block = 2048;
 // Of rational ones, whose columns are to be in a near cache until they are divided.
 constexpr std::int64_t rational_points_at_once = 256;
-
-constexpr int most_channels = 64;
-
-[[noreturn]] void fail(const std::string& what) { throw InvalidParameter("evaluation: " + what); }
-
-/// a + b * c of numbers that are not negative, or the largest number.
-std::int64_t sum_of_product(std::int64_t a, std::int64_t b, std::int64_t c) {
-  std::int64_t product = 0, sum = 0;
-  if (__builtin_mul_overflow(b, c, &product) || __builtin_add_overflow(a, product, &sum))
-    return std::numeric_limits<std::int64_t>::max();
-  return sum;
-}
-
-/// A layout of so many points without zeros in it.
-struct Layout {
-  kernels::Strides strides;
-  std::int64_t frame = 0;
-  std::int64_t length = 0;  ///< numbers from the first to the last one
-};
-
-Layout resolved(const char* name, const PointLayout& layout, std::int64_t points, int channels, int frames) {
-  const auto overlap = [&] {
-    fail(std::string(name) + " overlap with strides of " + std::to_string(layout.point) + " from point to point, " +
-         std::to_string(layout.channel) + " from channel to channel, " + std::to_string(layout.frame) +
-         " from frame to frame; there are " + std::to_string(points) + " points, " + std::to_string(channels) +
-         " channels and " + std::to_string(frames) + " frames");
-  };
-  if (layout.point < 0 || layout.channel < 1 || layout.frame < 0) overlap();
-  Layout result;
-  result.strides = {layout.point == 0 ? sum_of_product(0, channels, layout.channel) : layout.point, layout.channel};
-  const auto [point, channel] = result.strides;
-  if (points == 0) return result;
-  const std::int64_t of_point = sum_of_product(1, channels - 1, channel),
-                     of_channel = sum_of_product(1, points - 1, point);
-  if (point < of_point && channel < of_channel) overlap();
-  const std::int64_t of_frame = sum_of_product(of_channel, channels - 1, channel);
-  const std::int64_t dense = point < of_point ? sum_of_product(0, channels, channel) : sum_of_product(0, points, point);
-  result.frame = layout.frame == 0 ? dense : layout.frame;
-  if (frames > 1 && result.frame < of_frame) overlap();
-  result.length = sum_of_product(of_frame, frames - 1, result.frame);
-  return result;
-}
-
-template <class Real>
-void check_length(const char* name, std::span<const Real> numbers, const Layout& layout) {
-  if (std::int64_t(numbers.size()) < layout.length)
-    fail(std::string(name) + " hold " + std::to_string(numbers.size()) + " numbers; " + std::to_string(layout.length) +
-         " are needed");
-}
 
 /// t, b, n as `kernels::apply_frames` makes them, of one point.
 template <class Real>
@@ -111,17 +63,6 @@ kernels::Rows<Real> rows_of(const StencilTable<Real>& table, std::int64_t begin,
   return rows;
 }
 
-/// Matrices that an evaluation needs: a rational derivative those of lower order too.
-template <class Real>
-int num_needed(const Evaluation<Real>& e) {
-  const auto wanted = [&](int first, int last) {
-    return std::any_of(e.quantities.begin() + first, e.quantities.begin() + last,
-                       [](std::span<Real> all) { return !all.empty(); });
-  };
-  if (wanted(3, 6)) return 6;
-  return wanted(1, 3) || !e.tangents.empty() || !e.bitangents.empty() || !e.normals.empty() ? 3 : 1;
-}
-
 /// Planes of homogeneous columns, before they are divided.
 template <class Real>
 struct Columns {
@@ -152,9 +93,9 @@ kernels::Projection<Real> projection(const Evaluation<Real>& e, const Layout& re
 
 template <class Real>
 Real noise_of_weights(const Evaluation<Real>& e, std::int64_t num_points) {
-  const Layout given = resolved("points", e.point_layout, num_points, e.channels, e.frames);
+  const Layout given = resolved_layout("points", e.point_layout, num_points, e.channels, e.frames);
   if (e.frames == 0) return 0;
-  check_length("points", e.points, given);
+  check_evaluation_length("points", std::int64_t(e.points.size()), given.length);
   Real largest = 0;
   for (int frame = 0; frame < e.frames; ++frame)
     for (std::int64_t i = 0; i < num_points; ++i)
@@ -164,11 +105,7 @@ Real noise_of_weights(const Evaluation<Real>& e, std::int64_t num_points) {
 }
 
 template <class Real>
-struct PatternEvaluator<Real>::Layouts {
-  Layout given;   // points of the caller
-  Layout inputs;  // points that patches are applied to
-  Layout results;
-};
+struct PatternEvaluator<Real>::Layouts : EvaluationLayouts {};
 
 template <class Real>
 PatternEvaluator<Real>::PatternEvaluator(const PatternTable<Real>& table, Options options)
@@ -180,37 +117,7 @@ PatternEvaluator<Real>::PatternEvaluator(const PatternTable<Real>& table, Option
 
 template <class Real>
 auto PatternEvaluator<Real>::check(const Evaluation<Real>& e) const -> Layouts {
-  const int least_channels = e.rational ? 2 : 1;
-  if (e.channels < least_channels || e.channels > most_channels)
-    fail(std::to_string(e.channels) + (e.rational ? " channels of rational points; " : " channels; ") +
-         std::to_string(least_channels) + " to " + std::to_string(most_channels) + " are right");
-  if (!(e.least_weight >= 0)) fail("a least weight of " + std::to_string(e.least_weight));
-  if (e.frames < 0) fail(std::to_string(e.frames) + " frames");
-  Layouts layouts;
-  layouts.given = resolved("points", e.point_layout, table_.num_control_points(), e.channels, e.frames);
-  layouts.results = resolved("results", e.result_layout, table_.num_points(), e.result_channels(), e.frames);
-  const auto& first = table_.arrays().first;
-  layouts.inputs = first ? resolved("points", {}, first->num_rows(), e.channels, e.frames) : layouts.given;
-  if (e.frames == 0) return layouts;
-  check_length("points", e.points, layouts.given);
-  const auto check_result = [&](const char* name, std::span<const Real> numbers) {
-    if (!numbers.empty()) check_length(name, numbers, layouts.results);
-  };
-  static constexpr std::array names{"positions",         "derivatives along u", "derivatives along v",
-                                    "derivatives by uu", "derivatives by uv",   "derivatives by vv"};
-  for (size_t q = 0; q < names.size(); ++q) {
-    check_result(names[q], e.quantities[q]);
-    if (!e.quantities[q].empty() && int(q) >= table_.quantities())
-      fail(std::string(names[q]) + " of a table with " + std::to_string(table_.quantities()) + " quantities");
-  }
-  check_result("tangents", e.tangents);
-  check_result("bitangents", e.bitangents);
-  check_result("normals", e.normals);
-  if (e.tangents.empty() && e.bitangents.empty() && e.normals.empty()) return layouts;
-  if (table_.quantities() < 3) fail("tangent frames of a table without derivatives");
-  if (e.result_channels() != 3)
-    fail("tangent frames of " + std::to_string(e.result_channels()) + " channels; they need 3");
-  return layouts;
+  return {checked_layouts(table_, e)};
 }
 
 template <class Real>
@@ -285,7 +192,7 @@ void PatternEvaluator<Real>::apply_rational_run(const Evaluation<Real>& e, const
   const auto& group = a.groups[g];
   const auto packed = packed_.group(g);
   if (group.num_rows == 0) return;
-  const int needed = num_needed(e);
+  const int needed = num_needed(shape_of(e).wanted);
   const std::int64_t at_once = std::clamp<std::int64_t>(rational_points_at_once / group.num_rows, 1, count);
   const Columns<Real> columns(*buffers_, needed, e.channels, at_once * group.num_rows);
   for (const std::int64_t end = first + count; first < end; first += at_once) {
@@ -369,7 +276,7 @@ void PatternEvaluator<Real>::apply_rational_rest(const Evaluation<Real>& e, cons
                                                  int frame, std::int64_t begin, std::int64_t end) const {
   const StencilTable<Real>& rest = *table_.arrays().rest;
   const std::int64_t count = rest.num_rows() / table_.quantities(), before = table_.num_points() - count;
-  const int needed = num_needed(e);
+  const int needed = num_needed(shape_of(e).wanted);
   const Columns<Real> columns(*buffers_, needed, e.channels, rational_points_at_once);
   for (; begin < end; begin += rational_points_at_once) {
     const std::int64_t last = std::min(end, begin + rational_points_at_once);
@@ -436,7 +343,7 @@ void PatternEvaluator<Real>::apply_rest(const Evaluation<Real>& e, const Layouts
 template <class Real>
 void PatternEvaluator<Real>::apply_first(const Evaluation<Real>& e, std::span<Real> inputs) const {
   const Layouts layouts = check(e);
-  if (table_.arrays().first) check_length<Real>("inputs", inputs, layouts.inputs);
+  if (table_.arrays().first) check_evaluation_length("inputs", std::int64_t(inputs.size()), layouts.inputs.length);
   apply_first(e, layouts, inputs);
 }
 
@@ -444,17 +351,17 @@ template <class Real>
 void PatternEvaluator<Real>::apply_patches(const Evaluation<Real>& e, std::span<const Real> inputs, std::int64_t begin,
                                            std::int64_t end) const {
   const Layouts layouts = check(e);
-  if (table_.arrays().first) check_length("inputs", inputs, layouts.inputs);
+  if (table_.arrays().first) check_evaluation_length("inputs", std::int64_t(inputs.size()), layouts.inputs.length);
   if (begin < 0 || begin > end || end > num_patches())
-    fail("patches from " + std::to_string(begin) + " up to " + std::to_string(end) + "; there are " +
-         std::to_string(num_patches()));
+    fail_evaluation("patches from " + std::to_string(begin) + " up to " + std::to_string(end) + "; there are " +
+                    std::to_string(num_patches()));
   apply_patches(e, layouts, inputs, begin, end);
 }
 
 template <class Real>
 void PatternEvaluator<Real>::apply_rest(const Evaluation<Real>& e, std::span<const Real> inputs) const {
   const Layouts layouts = check(e);
-  if (table_.arrays().first) check_length("inputs", inputs, layouts.inputs);
+  if (table_.arrays().first) check_evaluation_length("inputs", std::int64_t(inputs.size()), layouts.inputs.length);
   apply_rest(e, layouts, inputs);
 }
 
@@ -469,17 +376,7 @@ void PatternEvaluator<Real>::apply(const Evaluation<Real>& e) const {
 
 template <class Real>
 void PatternEvaluator<Real>::apply(std::span<const Real> points, int channels, std::span<Real> result) const {
-  table_.check(points, channels, result);
-  Evaluation<Real> e;
-  e.point_layout = e.result_layout = PointLayout::interleaved(channels);
-  const size_t quantity = result.size() / size_t(table_.quantities());
-  for (int first = 0; first < channels; first += most_channels) {
-    e.channels = std::min(most_channels, channels - first);
-    e.points = points.subspan(std::min(size_t(first), points.size()));
-    for (int q = 0; q < table_.quantities(); ++q)
-      e.quantities[q] = result.subspan(q * quantity, quantity).subspan(std::min(size_t(first), quantity));
-    apply(e);
-  }
+  for_each_evaluation<Real>(table_, points, channels, result, [&](const Evaluation<Real>& e) { apply(e); });
 }
 
 template <class Real>

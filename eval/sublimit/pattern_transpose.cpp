@@ -3,11 +3,10 @@
 
 #include <algorithm>
 #include <mutex>
-#include <string>
 #include <vector>
 
-#include "sublimit/base/error.h"
 #include "sublimit/base/parallel_for.h"
+#include "sublimit/evaluation_layouts.h"
 #include "sublimit/kernels/transpose_patches.h"
 
 namespace sublimit {
@@ -85,17 +84,8 @@ template <class Real>
 void PatternTranspose<Real>::apply(std::span<const Real> values, int channels, std::span<Real> result, bool contract,
                                    BufferPool<Real>& buffers) const {
   const auto& a = table_.arrays();
-  const auto fail = [](const std::string& what) { throw InvalidParameter("transposed pattern table: " + what); };
-  if (channels < 1) fail(std::to_string(channels) + " channels; at least one is right");
-  const size_t quantity = size_t(table_.num_points()) * size_t(channels),
-               quantities = quantity == 0 ? 1 : values.size() / quantity;
-  if (values.size() != quantity * quantities || quantities < 1 || quantities > size_t(a.quantities))
-    fail("values hold " + std::to_string(values.size()) + " numbers; " + std::to_string(table_.num_points()) + " x " +
-         std::to_string(channels) + " channels are needed for each of up to " + std::to_string(a.quantities) +
-         " quantities");
-  if (result.size() != size_t(table_.num_control_points()) * size_t(channels))
-    fail("result holds " + std::to_string(result.size()) + " numbers; " + std::to_string(table_.num_control_points()) +
-         " x " + std::to_string(channels) + " channels are needed");
+  const auto quantities = size_t(checked_quantities<Real>(table_, values, channels, result));
+  const size_t quantity = size_t(table_.num_points()) * size_t(channels);
   if (quantity == 0) return std::fill(result.begin(), result.end(), Real(0));
   const Lists& lists = this->lists();
 

@@ -1,0 +1,434 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sublimit/gpu/gpu_evaluator.h"
+
+#include <algorithm>
+#include <bit>
+#include <limits>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "sublimit/base/error.h"
+#include "sublimit/base/parallel_for.h"
+#include "sublimit/evaluation_layouts.h"
+#include "sublimit/gpu/driver.h"
+#include "sublimit/gpu/packed_table.h"
+
+namespace sublimit {
+namespace {
+
+using gpu::Arguments;
+using gpu::Kernel;
+using gpu::Launch;
+using gpu::Part;
+using gpu::uint;
+using gpu::Variant;
+
+constexpr int channels_at_once = 4;
+/// Results of frames that are on the device at once, for `apply`.
+constexpr std::int64_t bytes_at_once = std::int64_t{1} << 30;
+
+/// Where the wanted results of an evaluation are, in the order of `Wanted`.
+std::array<std::uint64_t, 9> results_of(const GpuEvaluation& e) {
+  std::array<std::uint64_t, 9> results{};
+  std::ranges::copy(e.quantities, results.begin());
+  results[6] = e.tangents, results[7] = e.bitangents, results[8] = e.normals;
+  return results;
+}
+
+EvaluationShape shape_of(const GpuEvaluation& e) {
+  EvaluationShape shape{e.channels, e.frames, e.point_layout, e.result_layout, e.rational, double(e.least_weight), 0};
+  const auto results = results_of(e);
+  for (size_t i = 0; i < results.size(); ++i)
+    if (results[i] != 0) shape.wanted |= static_cast<Wanted>(1u << i);
+  return shape;
+}
+
+uint stride(std::int64_t numbers) {
+  if (numbers > std::numeric_limits<uint>::max())
+    throw ResourceError("strides of " + std::to_string(numbers) + " numbers; a GPU takes up to 4294967295");
+  return static_cast<uint>(numbers);
+}
+
+/// Channels that a launch makes.
+struct Channels {
+  int first = 0, count = 0;
+};
+std::vector<Channels> divided(int channels, int at_once) {
+  std::vector<Channels> parts;
+  for (int first = 0; first < channels; first += at_once) parts.push_back({first, std::min(at_once, channels - first)});
+  return parts;
+}
+
+std::int64_t workgroups(std::int64_t threads) { return (threads + gpu::threads - 1) / gpu::threads; }
+
+bool is_dense(const Layout& layout, std::int64_t points, int channels) {
+  return layout.strides.channel == 1 && layout.strides.point == channels && layout.frame == points * channels;
+}
+
+}  // namespace
+
+struct GpuEvaluator::Uploaded {
+  const PatternTable<float>& table;
+  std::shared_ptr<gpu::Driver> driver;
+  std::array<std::array<Part, 2>, 3> patches;
+  Part first, rest, copies;
+  std::unique_ptr<gpu::Memory> memory;
+
+  struct Transpose {
+    Part fold, patches, inputs, first;
+    std::int64_t num_parts = 0;
+    std::unique_ptr<gpu::Memory> memory;
+  };
+  std::once_flag transpose_flag;
+  std::optional<Transpose> made_transpose;
+
+  // Arrays of `apply`, kept.
+  std::mutex free_mutex;
+  std::vector<std::unique_ptr<gpu::Memory>> free;
+
+  Uploaded(const PatternTable<float>& t, std::shared_ptr<gpu::Driver> d) : table(t), driver(std::move(d)) {
+    gpu::PackedTable packed(t);
+    patches = packed.patches;
+    first = packed.first, rest = packed.rest, copies = packed.copies;
+    memory = upload(packed.image);
+  }
+
+  std::unique_ptr<gpu::Memory> upload(gpu::Image& image) const {
+    auto uploaded = driver->allocate(image.num_bytes());
+    uploaded->write(0, image.at(uploaded->address()));
+    return uploaded;
+  }
+
+  const Transpose& transpose() {
+    std::call_once(transpose_flag, [&] {
+      gpu::PackedTranspose packed(table);
+      made_transpose =
+          Transpose{packed.fold, packed.patches, packed.inputs, packed.first, packed.num_parts, upload(packed.image)};
+    });
+    return *made_transpose;
+  }
+
+  /// An array that goes back to the others in the end.
+  class Lease {
+   public:
+    Lease(Uploaded& owner, std::int64_t bytes) : owner_(owner) {
+      {
+        const std::lock_guard lock(owner.free_mutex);
+        const auto fits = std::ranges::find_if(owner.free, [&](const auto& m) { return m->num_bytes() >= bytes; });
+        if (fits != owner.free.end()) {
+          memory_ = std::move(*fits);
+          owner.free.erase(fits);
+        } else if (!owner.free.empty()) {
+          owner.free.pop_back();  // too small: a larger one takes its place
+        }
+      }
+      if (!memory_) memory_ = owner.driver->allocate(bytes);
+    }
+    ~Lease() {
+      const std::lock_guard lock(owner_.free_mutex);
+      owner_.free.push_back(std::move(memory_));
+    }
+    Lease(const Lease&) = delete;
+    gpu::Memory& operator*() const { return *memory_; }
+    gpu::Memory* operator->() const { return memory_.get(); }
+
+   private:
+    Uploaded& owner_;
+    std::unique_ptr<gpu::Memory> memory_;
+  };
+
+  std::uint64_t address(const Part& part) const { return memory->address() + std::uint64_t(part.table); }
+
+  EvaluationLayouts check(const GpuEvaluation& e) const {
+    const EvaluationLayouts layouts = checked_layouts(table, shape_of(e));
+    const auto check_address = [&](std::uint64_t address, unsigned multiple, const char* what) {
+      if (address % multiple != 0)
+        fail_evaluation(std::string(what) + " on the device at an address that is no multiple of " +
+                        std::to_string(multiple));
+    };
+    check_address(e.points, 4, "points");
+    for (const std::uint64_t result : results_of(e)) check_address(result, e.halves ? 2 : 4, "results");
+    check_address(e.scratch, 4, "scratch");
+    if (e.points == 0 && layouts.given.length > 0 && e.frames > 0) fail_evaluation("no points on the device");
+    if (e.halves && !driver->info().halves)
+      fail_evaluation(driver->info().name + " cannot write half floats (16-bit storage); take floats");
+    return layouts;
+  }
+
+  std::int64_t scratch_bytes(const GpuEvaluation& e) const {
+    return first.count * e.channels * e.frames * std::int64_t(sizeof(float));
+  }
+
+  std::vector<Launch> launches(const GpuEvaluation& e) const {
+    const EvaluationLayouts layouts = check(e);
+    std::vector<Launch> list;
+    const Wanted wanted = shape_of(e).wanted;
+    if (e.frames == 0 || wanted == 0) return list;
+    if (first.count > 0 && e.scratch == 0) fail_evaluation("a table with a first step needs scratch on the device");
+    Arguments common{};
+    common.in_point = stride(layouts.given.strides.point), common.in_channel = stride(layouts.given.strides.channel);
+    common.in_frame = stride(layouts.given.frame);
+    stride(layouts.given.frame + (table.num_control_points() - 1) * layouts.given.strides.point);
+    common.points = e.points;
+    if (first.count > 0) {
+      Arguments a = common;
+      a.table = address(first);
+      a.results[0] = e.scratch;
+      a.count = uint(first.count);
+      a.out_point = stride(layouts.inputs.strides.point), a.out_channel = 1, a.out_frame = stride(layouts.inputs.frame);
+      for (const Channels c : divided(e.channels, channels_at_once)) {
+        a.channels = uint(c.first);
+        list.push_back({{Kernel::apply_rows, false, 1, c.count, 1, 1}, a, workgroups(first.count), e.frames, false});
+      }
+      common.points = e.scratch;
+      common.in_point = a.out_point, common.in_channel = 1, common.in_frame = a.out_frame;
+    }
+    common.out_point = stride(layouts.results.strides.point);
+    common.out_channel = stride(layouts.results.strides.channel);
+    common.out_frame = stride(layouts.results.frame);
+    common.least_weight = e.least_weight;
+    std::ranges::copy(results_of(e), common.results);
+
+    bool waits = first.count > 0;
+    const auto add = [&](Launch launch) {
+      launch.waits = std::exchange(waits, false);
+      list.push_back(launch);
+    };
+    const int quantities = num_needed(wanted);
+    const size_t size = quantities == 1 ? 0 : quantities == 3 ? 1 : 2;
+    for (const Channels c : divided(e.channels - e.rational, channels_at_once - e.rational)) {
+      Arguments a = common;
+      a.channels = uint(c.first) | (e.rational ? uint(e.channels - 1) << 8 | 65536u : 0u);
+      const int count = c.count + e.rational;
+      for (const bool many : {true, false}) {
+        const Part& part = patches[size][many];
+        if (part.count == 0) continue;
+        a.table = address(part);
+        a.count = uint(part.count);
+        const gpu::Shape shape = gpu::shape_of(quantities, many);
+        add({{Kernel::apply_patches, e.halves, quantities, count, shape.rows, shape.patches}, a, part.count, e.frames});
+      }
+      if (rest.count > 0) {
+        a.table = address(rest);
+        a.count = uint(rest.count);
+        add({{Kernel::apply_rows, e.halves, quantities, count, 1, 1}, a, workgroups(rest.count), e.frames});
+      }
+    }
+    if (copies.count > 0 && e.quantities[0] != 0) {
+      Arguments a = common;
+      a.table = address(copies);
+      a.count = uint(copies.count);
+      a.channels = uint(e.channels - e.rational);
+      waits = true;
+      add({{Kernel::copy_points, e.halves, 1, 1, 1, 1}, a, workgroups(copies.count), e.frames});
+    }
+    return list;
+  }
+
+  /// Values of positions, parts and inputs of a transpose, one after the other.
+  struct Scratch {
+    std::int64_t moved = 0, parts = 0, inputs = 0, end = 0;
+  };
+  Scratch scratch_of(const GpuTranspose& t) {
+    const Transpose& packed = transpose();
+    const std::int64_t bytes = t.channels * std::int64_t(sizeof(float));
+    Scratch s;
+    s.parts = s.moved + (packed.fold.count > 0 ? table.num_points() * bytes : 0);
+    s.inputs = s.parts + packed.num_parts * bytes;
+    s.end = s.inputs + (packed.first.table >= 0 ? packed.inputs.count * bytes : 0);
+    return s;
+  }
+
+  void check(const GpuTranspose& t) const {
+    if (t.channels < 1) fail_evaluation(std::to_string(t.channels) + " channels; at least one is right");
+    if (t.quantities < 1 || t.quantities > table.quantities())
+      fail_evaluation("values of " + std::to_string(t.quantities) + " quantities of a table with " +
+                      std::to_string(table.quantities()));
+    for (const std::uint64_t address : {t.values, t.result, t.scratch})
+      if (address % 4 != 0) fail_evaluation("numbers on the device at an address that is no multiple of 4");
+  }
+
+  std::vector<Launch> launches(const GpuTranspose& t) {
+    check(t);
+    const Transpose& packed = transpose();
+    const Scratch scratch = scratch_of(t);
+    if (scratch.end > 0 && t.scratch == 0) fail_evaluation("a transpose needs scratch on the device");
+    std::vector<Launch> list;
+    Arguments a{};
+    a.in_point = uint(t.channels);
+    a.quantities = uint(t.quantities);
+    a.out_frame = uint(table.num_points());
+    a.results[0] = t.values, a.results[1] = t.values;
+    a.results[2] = t.scratch + std::uint64_t(scratch.parts);
+    const auto address = [&](const Part& part) { return packed.memory->address() + std::uint64_t(part.table); };
+    bool waits = false;
+    if (packed.fold.count > 0) {
+      a.table = address(packed.fold);
+      a.count = uint(packed.fold.count);
+      a.results[0] = t.scratch + std::uint64_t(scratch.moved);
+      list.push_back({{Kernel::fold_copies, false, 1, 1, 1, 1}, a, workgroups(packed.fold.count), 1, false});
+      waits = true;
+    }
+    const auto add = [&](Kernel kernel, const Part& part, std::int64_t groups) {
+      a.table = address(part);
+      a.count = uint(part.count);
+      for (const Channels c : divided(t.channels, channels_at_once)) {
+        a.channels = uint(c.first);
+        list.push_back({{kernel, false, 1, c.count, 1, 1}, a, groups, 1, std::exchange(waits, false)});
+      }
+      waits = true;
+    };
+    if (packed.patches.count > 0) add(Kernel::transpose_patches, packed.patches, packed.patches.count);
+    const bool has_first = packed.first.table >= 0;
+    a.results[3] = has_first ? t.scratch + std::uint64_t(scratch.inputs) : t.result;
+    if (packed.inputs.count > 0) add(Kernel::gather_parts, packed.inputs, workgroups(packed.inputs.count));
+    if (has_first && packed.first.count > 0) {
+      a.results[0] = a.results[1] = a.results[3];
+      a.results[3] = t.result;
+      a.quantities = 1;
+      a.out_frame = uint(packed.inputs.count);
+      add(Kernel::gather_parts, packed.first, workgroups(packed.first.count));
+    }
+    return list;
+  }
+
+  void check_api(GpuApi api) const {
+    if (driver->info().api != api)
+      throw InvalidParameter(std::string("commands of ") + name(api) + " for a device of " + name(driver->info().api));
+  }
+  template <class Asked>
+  void prepare(const Asked& asked) {
+    for (const Launch& launch : launches(asked)) driver->prepare(launch.variant);
+  }
+  template <class Asked>
+  void record(void* commands, const Asked& asked) {
+    driver->record(commands, launches(asked));
+  }
+  template <class Asked>
+  void run(const Asked& asked) {
+    prepare(asked);
+    const auto recording = driver->begin();
+    record(recording->handle(), asked);
+    recording->submit_and_wait();
+  }
+};
+
+GpuEvaluator::GpuEvaluator(const PatternTable<float>& table, const GpuDevice& device)
+    : uploaded_(std::make_unique<Uploaded>(table, device.driver())) {}
+GpuEvaluator::~GpuEvaluator() = default;
+GpuEvaluator::GpuEvaluator(GpuEvaluator&&) noexcept = default;
+
+const PatternTable<float>& GpuEvaluator::table() const { return uploaded_->table; }
+std::int64_t GpuEvaluator::num_bytes() const { return uploaded_->memory->num_bytes(); }
+
+void GpuEvaluator::prepare(const GpuEvaluation& e) const { uploaded_->prepare(e); }
+std::int64_t GpuEvaluator::num_scratch_bytes(const GpuEvaluation& e) const { return uploaded_->scratch_bytes(e); }
+void GpuEvaluator::record(VkCommandBuffer_T* commands, const GpuEvaluation& e) const {
+  uploaded_->check_api(GpuApi::vulkan);
+  uploaded_->record(commands, e);
+}
+void GpuEvaluator::record(CUstream_st* stream, const GpuEvaluation& e) const {
+  uploaded_->check_api(GpuApi::cuda);
+  uploaded_->record(stream, e);
+}
+void GpuEvaluator::record(const GpuCommands& commands, const GpuEvaluation& e) const {
+  uploaded_->record(commands.handle(), e);
+}
+void GpuEvaluator::prepare(const GpuTranspose& t) const { uploaded_->prepare(t); }
+std::int64_t GpuEvaluator::num_scratch_bytes(const GpuTranspose& t) const {
+  uploaded_->check(t);
+  return uploaded_->scratch_of(t).end;
+}
+void GpuEvaluator::record(VkCommandBuffer_T* commands, const GpuTranspose& t) const {
+  uploaded_->check_api(GpuApi::vulkan);
+  uploaded_->record(commands, t);
+}
+void GpuEvaluator::record(CUstream_st* stream, const GpuTranspose& t) const {
+  uploaded_->check_api(GpuApi::cuda);
+  uploaded_->record(stream, t);
+}
+void GpuEvaluator::record(const GpuCommands& commands, const GpuTranspose& t) const {
+  uploaded_->record(commands.handle(), t);
+}
+
+void GpuEvaluator::apply(const Evaluation<float>& e) const {
+  const EvaluationLayouts layouts = checked_layouts(table(), e);
+  const Wanted wanted = sublimit::shape_of(e).wanted;
+  if (e.frames == 0 || wanted == 0 || table().num_points() == 0) return;
+  std::vector<std::span<float>> spans(e.quantities.begin(), e.quantities.end());
+  spans.insert(spans.end(), {e.tangents, e.bitangents, e.normals});
+
+  // Results are dense on the device, whatever lies between them here.
+  const std::int64_t of_frame = table().num_points() * e.result_channels(), num_wanted = std::popcount(wanted);
+  const auto at_once = static_cast<int>(
+      std::clamp<std::int64_t>(bytes_at_once / (of_frame * num_wanted * std::int64_t(sizeof(float))), 1, e.frames));
+  GpuEvaluation on_device;
+  on_device.channels = e.channels;
+  on_device.point_layout = e.point_layout;
+  on_device.rational = e.rational, on_device.least_weight = e.least_weight;
+  std::int64_t given = layouts.given.length - (e.frames - at_once) * layouts.given.frame;
+  on_device.frames = at_once;
+  const Uploaded::Lease points(*uploaded_, given * std::int64_t(sizeof(float))),
+      results(*uploaded_, of_frame * num_wanted * at_once * std::int64_t(sizeof(float))),
+      scratch(*uploaded_, num_scratch_bytes(on_device));
+  on_device.points = points->address(), on_device.scratch = scratch->address();
+  std::vector<float> sparse;
+  for (int frame = 0; frame < e.frames; frame += at_once) {
+    const int frames = on_device.frames = std::min(at_once, e.frames - frame);
+    given = layouts.given.length - (e.frames - frames) * layouts.given.frame;
+    points->write(0, std::as_bytes(e.points.subspan(size_t(frame * layouts.given.frame), size_t(given))));
+    std::array<std::int64_t, 9> begin{};
+    std::int64_t end = 0;
+    for (size_t i = 0; i < 9; ++i) {
+      std::uint64_t& address = i < 6    ? on_device.quantities[i]
+                               : i == 6 ? on_device.tangents
+                               : i == 7 ? on_device.bitangents
+                                        : on_device.normals;
+      address = 0;
+      if (!(wanted >> i & 1)) continue;
+      begin[i] = end;
+      address = results->address() + std::uint64_t(end);
+      end += of_frame * frames * std::int64_t(sizeof(float));
+    }
+    uploaded_->run(on_device);
+    for (size_t i = 0; i < 9; ++i) {
+      if (!(wanted >> i & 1)) continue;
+      const std::span<float> out = spans[i].subspan(size_t(frame * layouts.results.frame));
+      if (is_dense(layouts.results, table().num_points(), e.result_channels())) {
+        results->read(begin[i], std::as_writable_bytes(out.first(size_t(of_frame * frames))));
+        continue;
+      }
+      sparse.resize(size_t(of_frame));
+      for (int f = 0; f < frames; ++f) {
+        results->read(begin[i] + f * of_frame * std::int64_t(sizeof(float)), std::as_writable_bytes(std::span(sparse)));
+        parallel_for(table().num_points(), [&](std::int64_t point) {
+          for (int c = 0; c < e.result_channels(); ++c)
+            out[size_t(f * layouts.results.frame + point * layouts.results.strides.point +
+                       c * layouts.results.strides.channel)] = sparse[size_t(point * e.result_channels() + c)];
+        });
+      }
+    }
+  }
+}
+
+void GpuEvaluator::apply(std::span<const float> points, int channels, std::span<float> result) const {
+  for_each_evaluation<float>(table(), points, channels, result, [&](const Evaluation<float>& e) { apply(e); });
+}
+
+void GpuEvaluator::apply_transpose(std::span<const float> values, int channels, std::span<float> result) const {
+  GpuTranspose t;
+  t.channels = channels;
+  t.quantities = checked_quantities<float>(table(), values, channels, result);
+  if (table().num_points() == 0) return std::fill(result.begin(), result.end(), 0.0f);
+  const Uploaded::Lease in(*uploaded_, std::int64_t(values.size_bytes())),
+      out(*uploaded_, std::int64_t(result.size_bytes())), scratch(*uploaded_, num_scratch_bytes(t));
+  t.values = in->address(), t.result = out->address(), t.scratch = scratch->address();
+  in->write(0, std::as_bytes(values));
+  uploaded_->run(t);
+  out->read(0, std::as_writable_bytes(result));
+}
+
+}  // namespace sublimit

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// What kernels read, as the host writes it.
+#include <cstdint>
+
+namespace sublimit::gpu {
+
+using uint = std::uint32_t;
+#define ADDRESS std::uint64_t
+#include "sublimit/gpu/kernels/arguments.inc"
+#undef ADDRESS
+static_assert(sizeof(Arguments) == 128);
+
+/// The same for frames that come so many later.
+inline void advance_frames(Arguments& arguments, int frames, bool half) {
+  arguments.points += std::uint64_t(frames) * arguments.in_frame * 4;
+  for (std::uint64_t& result : arguments.results)
+    if (result != 0) result += std::uint64_t(frames) * arguments.out_frame * (half ? 2 : 4);
+}
+
+}  // namespace sublimit::gpu

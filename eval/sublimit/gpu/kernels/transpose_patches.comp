@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the columns of patches get: transposed blocks times the values of points. A thread sums what one column of one
+// patch gets, row after row.
+#include "language.inc"
+
+KERNEL(transpose_patches) {
+  if (WORKGROUP >= arguments.count) return;
+  const TransposeTable table = TransposeTables(arguments.table).at[0];
+  const Tile tile = Tiles(table.tiles).at[WORKGROUP];
+  const Group group = Groups(table.groups).at[tile.group];
+  const uint first_channel = arguments.channels;
+  for (uint i = LANE; i < tile.num_patches; i += uint(THREADS)) {
+    const uint item = tile.first_patch + i, own = item / group.num_columns, column = item - own * group.num_columns;
+    const uint point = IS_NULL(table.patch_points) ? group.first_point + own * group.num_rows
+                                                   : Numbers(table.patch_points).at[group.first_patch + own];
+    float sums[CHANNELS];
+    UNROLL for (int c = 0; c < CHANNELS; ++c) sums[c] = 0.0f;
+    ADDRESS values = arguments.results[1];
+    for (uint q = 0u; q < arguments.quantities; ++q, values = advanced(values, arguments.out_frame, 4u * arguments.in_point)) {
+      const ADDRESS from = advanced(q == 0u ? arguments.results[0] : values, point, 4u * arguments.in_point);
+      const uint weights = 4u * (group.weights + q * group.quantity + column * group.stride);
+      for (uint r = 0u; r < group.num_rows; ++r) {
+        const float w = Floats(table.weights).at[weights + r];
+        UNROLL for (int c = 0; c < CHANNELS; ++c)
+          sums[c] = fma(w, Floats(from).at[r * arguments.in_point + first_channel + uint(c)], sums[c]);
+      }
+    }
+    const ADDRESS to = advanced(arguments.results[2], group.columns + item, 4u * arguments.in_point);
+    UNROLL for (int c = 0; c < CHANNELS; ++c) Floats(to).at[first_channel + uint(c)] = sums[c];
+  }
+}

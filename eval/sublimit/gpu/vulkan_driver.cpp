@@ -1,0 +1,553 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sublimit/gpu/vulkan_driver.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <utility>
+
+#include "sublimit/base/error.h"
+#include "sublimit/gpu/compiled_kernels.h"
+#include "sublimit/gpu/vulkan_functions.h"
+
+namespace sublimit::gpu {
+namespace {
+
+constexpr VkBufferUsageFlags usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
+                                     VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
+/// Copied at once between host and device, in two halves.
+constexpr std::int64_t staging_bytes = std::int64_t{32} << 20;
+
+/// An instance of our own, and its functions.
+struct Instance {
+  VulkanFunctions vk;
+  VkInstance handle = VK_NULL_HANDLE;
+  ~Instance() {
+    if (handle) vk.vkDestroyInstance(handle, nullptr);
+  }
+};
+
+/// @return  null: there is none, `missing` says why
+std::unique_ptr<Instance> make_instance(std::string& missing) {
+  const PFN_vkGetInstanceProcAddr get = vulkan_loader(&missing);
+  if (!get) return nullptr;
+  const auto create = reinterpret_cast<PFN_vkCreateInstance>(get(nullptr, "vkCreateInstance"));
+  VkApplicationInfo application{};
+  application.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO;
+  application.pApplicationName = "sublimit";
+  application.apiVersion = VK_API_VERSION_1_2;
+  VkInstanceCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO;
+  info.pApplicationInfo = &application;
+  auto instance = std::make_unique<Instance>();
+  VkInstance handle = VK_NULL_HANDLE;
+  if (const VkResult result = create ? create(&info, nullptr, &handle) : VK_ERROR_INITIALIZATION_FAILED;
+      result != VK_SUCCESS) {
+    missing = result == VK_ERROR_INCOMPATIBLE_DRIVER ? "Vulkan finds no driver (Debian: mesa-vulkan-drivers)"
+                                                     : "Vulkan cannot be started, error " + std::to_string(result);
+    return nullptr;
+  }
+  instance->vk.load_instance(get, handle);
+  instance->handle = handle;
+  return instance;
+}
+
+/// A device that can apply tables.
+struct Usable {
+  VkPhysicalDevice device = VK_NULL_HANDLE;
+  std::uint32_t queue_family = 0;
+  GpuInfo info;
+};
+
+GpuKind kind_of(VkPhysicalDeviceType type) {
+  switch (type) {
+    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
+      return GpuKind::discrete;
+    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
+      return GpuKind::integrated;
+    case VK_PHYSICAL_DEVICE_TYPE_CPU:
+      return GpuKind::cpu;
+    default:
+      return GpuKind::virtual_machine;
+  }
+}
+
+GpuInfo info_of(const VulkanFunctions& vk, VkPhysicalDevice device, VkPhysicalDeviceLimits* limits = nullptr) {
+  VkPhysicalDeviceDriverProperties driver{};
+  driver.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES;
+  VkPhysicalDeviceProperties2 properties{};
+  properties.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
+  properties.pNext = &driver;
+  vk.vkGetPhysicalDeviceProperties2(device, &properties);
+  VkPhysicalDeviceMemoryProperties memory{};
+  vk.vkGetPhysicalDeviceMemoryProperties(device, &memory);
+  GpuInfo info{properties.properties.deviceName,
+               GpuApi::vulkan,
+               kind_of(properties.properties.deviceType),
+               std::string(driver.driverName) + " " + driver.driverInfo,
+               0,
+               false};
+  for (std::uint32_t i = 0; i < memory.memoryHeapCount; ++i)
+    if (memory.memoryHeaps[i].flags & VK_MEMORY_HEAP_DEVICE_LOCAL_BIT)
+      info.memory = std::max(info.memory, std::int64_t(memory.memoryHeaps[i].size));
+  if (limits) *limits = properties.properties.limits;
+  return info;
+}
+
+std::vector<Usable> usable_devices(const Instance& instance) {
+  const VulkanFunctions& vk = instance.vk;
+  std::uint32_t count = 0;
+  check(vk.vkEnumeratePhysicalDevices(instance.handle, &count, nullptr), "listing its devices");
+  std::vector<VkPhysicalDevice> devices(count);
+  check(vk.vkEnumeratePhysicalDevices(instance.handle, &count, devices.data()), "listing its devices");
+  std::vector<Usable> usable;
+  for (const VkPhysicalDevice device : devices) {
+    VkPhysicalDeviceProperties2 properties{};
+    properties.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
+    vk.vkGetPhysicalDeviceProperties2(device, &properties);
+    if (properties.properties.apiVersion < VK_API_VERSION_1_2) continue;
+    VkPhysicalDevice16BitStorageFeatures halves{};
+    halves.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_16BIT_STORAGE_FEATURES;
+    VkPhysicalDeviceBufferDeviceAddressFeatures addresses{};
+    addresses.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_BUFFER_DEVICE_ADDRESS_FEATURES;
+    addresses.pNext = &halves;
+    VkPhysicalDeviceFeatures2 features{};
+    features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
+    features.pNext = &addresses;
+    vk.vkGetPhysicalDeviceFeatures2(device, &features);
+    if (!addresses.bufferDeviceAddress) continue;
+    std::uint32_t families = 0;
+    vk.vkGetPhysicalDeviceQueueFamilyProperties(device, &families, nullptr);
+    std::vector<VkQueueFamilyProperties> queues(families);
+    vk.vkGetPhysicalDeviceQueueFamilyProperties(device, &families, queues.data());
+    const auto queue = std::ranges::find_if(
+        queues, [](const VkQueueFamilyProperties& q) { return (q.queueFlags & VK_QUEUE_COMPUTE_BIT) != 0; });
+    if (queue == queues.end()) continue;
+    Usable found{device, std::uint32_t(queue - queues.begin()), info_of(vk, device)};
+    found.info.halves = halves.storageBuffer16BitAccess;
+    usable.push_back(std::move(found));
+  }
+  return usable;
+}
+
+class VulkanDriver;
+
+/// A buffer with its memory, mapped where the host can reach it.
+class Buffer {
+ public:
+  enum class Where { device, host };
+  Buffer(VulkanDriver& driver, std::int64_t bytes, Where where);
+  ~Buffer();
+  Buffer(const Buffer&) = delete;
+  VkBuffer handle() const { return buffer_; }
+  std::byte* mapped() const { return mapped_; }
+  std::uint64_t address() const;
+
+ private:
+  VulkanDriver& driver_;
+  VkBuffer buffer_ = VK_NULL_HANDLE;
+  VkDeviceMemory memory_ = VK_NULL_HANDLE;
+  std::byte* mapped_ = nullptr;
+};
+
+class VulkanDriver : public Driver, public std::enable_shared_from_this<VulkanDriver> {
+ public:
+  VulkanDriver(std::unique_ptr<Instance> instance, const Usable& usable) : instance_(std::move(instance)) {
+    vk = instance_->vk;
+    info_ = usable.info;
+    physical_ = usable.device;
+    family_ = usable.queue_family;
+    const float priority = 1;
+    VkDeviceQueueCreateInfo queue{};
+    queue.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO;
+    queue.queueFamilyIndex = family_;
+    queue.queueCount = 1;
+    queue.pQueuePriorities = &priority;
+    VkPhysicalDevice16BitStorageFeatures halves{};
+    halves.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_16BIT_STORAGE_FEATURES;
+    halves.storageBuffer16BitAccess = info_.halves;
+    VkPhysicalDeviceBufferDeviceAddressFeatures addresses{};
+    addresses.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_BUFFER_DEVICE_ADDRESS_FEATURES;
+    addresses.pNext = &halves;
+    addresses.bufferDeviceAddress = VK_TRUE;
+    VkDeviceCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
+    info.pNext = &addresses;
+    info.queueCreateInfoCount = 1;
+    info.pQueueCreateInfos = &queue;
+    check(vk.vkCreateDevice(physical_, &info, nullptr, &device), "opening it");
+    is_own_ = true;
+    vk.load_device(device);
+    vk.vkGetDeviceQueue(device, family_, 0, &queue_);
+    prepare_device();
+  }
+
+  explicit VulkanDriver(const EngineDevice& engine) {
+    std::string missing;
+    auto get = reinterpret_cast<PFN_vkGetInstanceProcAddr>(engine.get_instance_proc_addr);
+    if (!get) get = vulkan_loader(&missing);
+    if (!get) throw IoError(missing);
+    if (!engine.instance || !engine.physical_device || !engine.device || !engine.queue)
+      throw InvalidParameter("an engine's device needs an instance, a physical device, a device and a queue");
+    vk.load_instance(get, engine.instance);
+    physical_ = engine.physical_device;
+    device = engine.device;
+    vk.load_device(device);
+    queue_ = engine.queue;
+    family_ = engine.queue_family;
+    info_ = info_of(vk, physical_);
+    info_.halves = engine.halves;
+    prepare_device();
+  }
+
+  ~VulkanDriver() override {
+    for (const auto& [variant, pipeline] : pipelines_) vk.vkDestroyPipeline(device, pipeline, nullptr);
+    staging_.reset();
+    if (layout_) vk.vkDestroyPipelineLayout(device, layout_, nullptr);
+    if (is_own_) vk.vkDestroyDevice(device, nullptr);
+  }
+
+  std::unique_ptr<Memory> allocate(std::int64_t bytes) override;
+  std::unique_ptr<Recording> begin() override;
+
+  void prepare(const Variant& variant) override {
+    const std::lock_guard lock(pipelines_mutex_);
+    if (pipelines_.contains(variant)) return;
+    const std::span<const std::uint32_t> code = spirv_of(variant.kernel, variant.half);
+    VkShaderModuleCreateInfo module_info{};
+    module_info.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
+    module_info.codeSize = code.size_bytes();
+    module_info.pCode = code.data();
+    VkShaderModule module = VK_NULL_HANDLE;
+    check(vk.vkCreateShaderModule(device, &module_info, nullptr, &module), "loading a kernel");
+    const std::array<std::int32_t, 4> constants{variant.quantities, variant.channels, variant.rows, variant.patches};
+    std::array<VkSpecializationMapEntry, 4> entries{};
+    for (std::uint32_t i = 0; i < entries.size(); ++i) entries[i] = {i, 4 * i, 4};
+    const VkSpecializationInfo specialization{entries.size(), entries.data(), sizeof constants, constants.data()};
+    VkComputePipelineCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
+    info.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
+    info.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
+    info.stage.module = module;
+    info.stage.pName = "main";
+    info.stage.pSpecializationInfo = &specialization;
+    info.layout = layout_;
+    VkPipeline pipeline = VK_NULL_HANDLE;
+    const VkResult result = vk.vkCreateComputePipelines(device, VK_NULL_HANDLE, 1, &info, nullptr, &pipeline);
+    vk.vkDestroyShaderModule(device, module, nullptr);
+    check(result, "compiling a kernel");
+    pipelines_.emplace(variant, pipeline);
+  }
+
+  void record(void* commands, std::span<const Launch> launches) override {
+    const auto buffer = static_cast<VkCommandBuffer>(commands);
+    VkPipeline bound = VK_NULL_HANDLE;
+    for (const Launch& launch : launches) {
+      if (launch.waits) {
+        VkMemoryBarrier barrier{};
+        barrier.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER;
+        barrier.srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT;
+        barrier.dstAccessMask = VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT;
+        vk.vkCmdPipelineBarrier(buffer, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, 0,
+                                1, &barrier, 0, nullptr, 0, nullptr);
+      }
+      const VkPipeline pipeline = this->pipeline(launch.variant);
+      if (pipeline != bound) vk.vkCmdBindPipeline(buffer, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline);
+      bound = pipeline;
+      // Rows of workgroups, as many as the device takes; kernels leave out those behind the last.
+      const std::int64_t width = std::min<std::int64_t>(launch.workgroups, most_workgroups_[0]),
+                         height = (launch.workgroups + width - 1) / width;
+      if (height > most_workgroups_[1])
+        throw ResourceError(std::to_string(launch.workgroups) + " workgroups; the GPU takes " +
+                            std::to_string(std::int64_t{most_workgroups_[0]} * most_workgroups_[1]));
+      Arguments arguments = launch.arguments;
+      for (int frame = 0; frame < launch.frames; frame += int(most_workgroups_[2])) {
+        vk.vkCmdPushConstants(buffer, layout_, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof arguments, &arguments);
+        const int frames = std::min(launch.frames - frame, int(most_workgroups_[2]));
+        vk.vkCmdDispatch(buffer, std::uint32_t(width), std::uint32_t(height), std::uint32_t(frames));
+        advance_frames(arguments, frames, launch.variant.half);
+      }
+    }
+  }
+
+  /// What kernels wrote, to all that comes later.
+  void make_visible(VkCommandBuffer commands) {
+    VkMemoryBarrier barrier{};
+    barrier.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER;
+    barrier.srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT;
+    barrier.dstAccessMask = VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_READ_BIT |
+                            VK_ACCESS_TRANSFER_WRITE_BIT | VK_ACCESS_HOST_READ_BIT;
+    vk.vkCmdPipelineBarrier(
+        commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
+        VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT | VK_PIPELINE_STAGE_HOST_BIT, 0, 1,
+        &barrier, 0, nullptr, 0, nullptr);
+  }
+
+  /// Submits and waits.
+  void run(VkCommandBuffer commands) {
+    VkFenceCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO;
+    VkFence fence = VK_NULL_HANDLE;
+    check(vk.vkCreateFence(device, &info, nullptr, &fence), "making a fence");
+    VkSubmitInfo submit{};
+    submit.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO;
+    submit.commandBufferCount = 1;
+    submit.pCommandBuffers = &commands;
+    VkResult result = VK_SUCCESS;
+    {
+      const std::lock_guard lock(queue_mutex_);
+      result = vk.vkQueueSubmit(queue_, 1, &submit, fence);
+    }
+    if (result == VK_SUCCESS) result = vk.vkWaitForFences(device, 1, &fence, VK_TRUE, UINT64_MAX);
+    vk.vkDestroyFence(device, fence, nullptr);
+    check(result, "running a kernel");
+  }
+
+  /// Between the host and a buffer that it cannot reach, some at a time.
+  void copy(VkBuffer buffer, std::int64_t at, std::byte* bytes, std::int64_t count, bool to_device);
+
+  /// A command buffer that begins, freed at the end.
+  class Commands {
+   public:
+    explicit Commands(VulkanDriver& driver) : driver_(driver) {
+      VkCommandPoolCreateInfo pool{};
+      pool.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;
+      pool.flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT;
+      pool.queueFamilyIndex = driver_.family_;
+      check(driver_.vk.vkCreateCommandPool(driver_.device, &pool, nullptr, &pool_), "making a command pool");
+      VkCommandBufferAllocateInfo info{};
+      info.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO;
+      info.commandPool = pool_;
+      info.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
+      info.commandBufferCount = 1;
+      VkCommandBufferBeginInfo begin{};
+      begin.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO;
+      begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
+      VkResult result = driver_.vk.vkAllocateCommandBuffers(driver_.device, &info, &commands_);
+      if (result == VK_SUCCESS) result = driver_.vk.vkBeginCommandBuffer(commands_, &begin);
+      if (result != VK_SUCCESS) driver_.vk.vkDestroyCommandPool(driver_.device, pool_, nullptr);
+      check(result, "making a command buffer");
+    }
+    ~Commands() { driver_.vk.vkDestroyCommandPool(driver_.device, pool_, nullptr); }
+    Commands(const Commands&) = delete;
+    VkCommandBuffer handle() const { return commands_; }
+    void run() {
+      check(driver_.vk.vkEndCommandBuffer(commands_), "recording commands");
+      driver_.run(commands_);
+    }
+
+   private:
+    VulkanDriver& driver_;
+    VkCommandPool pool_ = VK_NULL_HANDLE;  // its own: pools are of one thread
+    VkCommandBuffer commands_ = VK_NULL_HANDLE;
+  };
+
+  VulkanFunctions vk;
+  VkDevice device = VK_NULL_HANDLE;
+
+  /// Kinds of memory that a buffer may have, with these properties.
+  std::optional<std::uint32_t> memory_type(std::uint32_t allowed, VkMemoryPropertyFlags properties) const {
+    for (std::uint32_t i = 0; i < memory_.memoryTypeCount; ++i)
+      if (allowed >> i & 1 && (memory_.memoryTypes[i].propertyFlags & properties) == properties) return i;
+    return std::nullopt;
+  }
+  bool is_host_memory(std::uint32_t type) const {
+    constexpr VkMemoryPropertyFlags reached =
+        VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+    return (memory_.memoryTypes[type].propertyFlags & reached) == reached;
+  }
+  std::int64_t largest_allocation() const { return largest_allocation_; }
+
+ private:
+  void prepare_device() {
+    vk.vkGetPhysicalDeviceMemoryProperties(physical_, &memory_);
+    VkPhysicalDeviceMaintenance3Properties maintenance{};
+    maintenance.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES;
+    VkPhysicalDeviceProperties2 properties{};
+    properties.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
+    properties.pNext = &maintenance;
+    vk.vkGetPhysicalDeviceProperties2(physical_, &properties);
+    largest_allocation_ = std::int64_t(std::min<VkDeviceSize>(maintenance.maxMemoryAllocationSize, INT64_MAX));
+    std::copy_n(properties.properties.limits.maxComputeWorkGroupCount, 3, most_workgroups_);
+    most_workgroups_[2] = std::min<std::uint32_t>(most_workgroups_[2], 65535);
+    const VkPushConstantRange range{VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(Arguments)};
+    VkPipelineLayoutCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
+    info.pushConstantRangeCount = 1;
+    info.pPushConstantRanges = &range;
+    check(vk.vkCreatePipelineLayout(device, &info, nullptr, &layout_), "making a pipeline layout");
+  }
+
+  VkPipeline pipeline(const Variant& variant) {
+    const std::lock_guard lock(pipelines_mutex_);
+    const auto found = pipelines_.find(variant);
+    if (found == pipelines_.end())
+      throw InvalidParameter("an evaluation that the GPU was not prepared for; call `prepare` with it first");
+    return found->second;
+  }
+
+  std::unique_ptr<Instance> instance_;
+  VkPhysicalDevice physical_ = VK_NULL_HANDLE;
+  VkPhysicalDeviceMemoryProperties memory_{};
+  std::int64_t largest_allocation_ = 0;
+  std::uint32_t most_workgroups_[3] = {65535, 65535, 65535};
+  VkQueue queue_ = VK_NULL_HANDLE;
+  std::uint32_t family_ = 0;
+  bool is_own_ = false;
+  VkPipelineLayout layout_ = VK_NULL_HANDLE;
+  std::mutex queue_mutex_, pipelines_mutex_, staging_mutex_;
+  std::map<Variant, VkPipeline> pipelines_;
+  std::unique_ptr<Buffer> staging_;
+};
+
+Buffer::Buffer(VulkanDriver& driver, std::int64_t bytes, Where where) : driver_(driver) {
+  const VulkanFunctions& vk = driver.vk;
+  VkBufferCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
+  info.size = VkDeviceSize(std::max<std::int64_t>(bytes, 16));
+  info.usage = usage;
+  if (std::int64_t(info.size) > driver.largest_allocation())
+    check(VK_ERROR_OUT_OF_DEVICE_MEMORY, "one array is too large for it");
+  check(vk.vkCreateBuffer(driver.device, &info, nullptr, &buffer_), "making a buffer");
+  const auto fail_with = [&](VkResult result, const char* what) {
+    if (result == VK_SUCCESS) return;
+    vk.vkDestroyBuffer(driver_.device, buffer_, nullptr);
+    if (memory_) vk.vkFreeMemory(driver_.device, memory_, nullptr);
+    check(result, what);
+  };
+  VkMemoryRequirements needs{};
+  vk.vkGetBufferMemoryRequirements(driver.device, buffer_, &needs);
+  constexpr VkMemoryPropertyFlags local = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT,
+                                  reached = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT,
+                                  cached = VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
+  std::optional<std::uint32_t> type;
+  // What the host reads is in its caches; memory of the device that it reaches, but not through them, is read slowly.
+  for (const VkMemoryPropertyFlags wanted : where == Where::device
+                                                ? std::array{local | reached | cached, local, VkMemoryPropertyFlags{0}}
+                                                : std::array{reached | cached, reached, reached})
+    if (!type) type = driver.memory_type(needs.memoryTypeBits, wanted);
+  if (!type) fail_with(VK_ERROR_OUT_OF_DEVICE_MEMORY, "there is no memory of the right kind");
+  VkMemoryAllocateFlagsInfo flags{};
+  flags.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO;
+  flags.flags = VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT;
+  VkMemoryAllocateInfo allocate{};
+  allocate.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO;
+  allocate.pNext = &flags;
+  allocate.allocationSize = needs.size;
+  allocate.memoryTypeIndex = *type;
+  fail_with(vk.vkAllocateMemory(driver.device, &allocate, nullptr, &memory_), "taking memory");
+  fail_with(vk.vkBindBufferMemory(driver.device, buffer_, memory_, 0), "binding memory");
+  if (!driver.is_host_memory(*type)) return;
+  void* mapped = nullptr;
+  fail_with(vk.vkMapMemory(driver.device, memory_, 0, VK_WHOLE_SIZE, 0, &mapped), "mapping memory");
+  mapped_ = static_cast<std::byte*>(mapped);
+}
+
+Buffer::~Buffer() {
+  driver_.vk.vkDestroyBuffer(driver_.device, buffer_, nullptr);
+  driver_.vk.vkFreeMemory(driver_.device, memory_, nullptr);
+}
+
+std::uint64_t Buffer::address() const {
+  VkBufferDeviceAddressInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_BUFFER_DEVICE_ADDRESS_INFO;
+  info.buffer = buffer_;
+  return driver_.vk.vkGetBufferDeviceAddress(driver_.device, &info);
+}
+
+class VulkanMemory : public Memory {
+ public:
+  VulkanMemory(std::shared_ptr<VulkanDriver> driver, std::int64_t bytes)
+      : driver_(std::move(driver)), buffer_(*driver_, bytes, Buffer::Where::device) {
+    address_ = buffer_.address();
+    num_bytes_ = bytes;
+  }
+  void write(std::int64_t at, std::span<const std::byte> bytes) override {
+    if (buffer_.mapped())
+      std::copy(bytes.begin(), bytes.end(), buffer_.mapped() + at);
+    else
+      driver_->copy(buffer_.handle(), at, const_cast<std::byte*>(bytes.data()), std::ssize(bytes), true);
+  }
+  void read(std::int64_t at, std::span<std::byte> bytes) const override {
+    if (buffer_.mapped())
+      std::copy_n(buffer_.mapped() + at, bytes.size(), bytes.begin());
+    else
+      driver_->copy(buffer_.handle(), at, bytes.data(), std::ssize(bytes), false);
+  }
+
+ private:
+  std::shared_ptr<VulkanDriver> driver_;
+  Buffer buffer_;
+};
+
+class VulkanRecording : public Recording {
+ public:
+  explicit VulkanRecording(std::shared_ptr<VulkanDriver> driver) : driver_(std::move(driver)), commands_(*driver_) {}
+  void* handle() const override { return commands_.handle(); }
+  void submit_and_wait() override {
+    driver_->make_visible(commands_.handle());
+    commands_.run();
+  }
+
+ private:
+  std::shared_ptr<VulkanDriver> driver_;
+  VulkanDriver::Commands commands_;
+};
+
+std::unique_ptr<Memory> VulkanDriver::allocate(std::int64_t bytes) {
+  return std::make_unique<VulkanMemory>(shared_from_this(), bytes);
+}
+std::unique_ptr<Recording> VulkanDriver::begin() { return std::make_unique<VulkanRecording>(shared_from_this()); }
+
+void VulkanDriver::copy(VkBuffer buffer, std::int64_t at, std::byte* bytes, std::int64_t count, bool to_device) {
+  const std::lock_guard lock(staging_mutex_);
+  if (!staging_) staging_ = std::make_unique<Buffer>(*this, staging_bytes, Buffer::Where::host);
+  for (std::int64_t done = 0; done < count; done += staging_bytes) {
+    const std::int64_t size = std::min(staging_bytes, count - done);
+    if (to_device) std::copy_n(bytes + done, size, staging_->mapped());
+    Commands commands(*this);
+    const VkBufferCopy region{to_device ? 0 : VkDeviceSize(at + done), to_device ? VkDeviceSize(at + done) : 0,
+                              VkDeviceSize(size)};
+    vk.vkCmdCopyBuffer(commands.handle(), to_device ? staging_->handle() : buffer,
+                       to_device ? buffer : staging_->handle(), 1, &region);
+    VkMemoryBarrier barrier{};
+    barrier.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER;
+    barrier.srcAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT;
+    barrier.dstAccessMask = to_device ? VK_ACCESS_SHADER_READ_BIT : VK_ACCESS_HOST_READ_BIT;
+    vk.vkCmdPipelineBarrier(commands.handle(), VK_PIPELINE_STAGE_TRANSFER_BIT,
+                            to_device ? VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT : VK_PIPELINE_STAGE_HOST_BIT, 0, 1,
+                            &barrier, 0, nullptr, 0, nullptr);
+    commands.run();
+    if (!to_device) std::copy_n(staging_->mapped(), size, bytes + done);
+  }
+}
+
+}  // namespace
+
+Found vulkan_devices() {
+  Found found;
+  const std::unique_ptr<Instance> instance = make_instance(found.missing);
+  if (!instance) return found;
+  for (Usable& usable : usable_devices(*instance)) found.devices.push_back(std::move(usable.info));
+  if (found.devices.empty())
+    found.missing = "Vulkan shows no device of version 1.2 with buffer device addresses (Debian: mesa-vulkan-drivers)";
+  return found;
+}
+
+std::shared_ptr<Driver> open_vulkan_device(size_t number) {
+  std::string missing;
+  std::unique_ptr<Instance> instance = make_instance(missing);
+  if (!instance) throw InvalidOption(missing);
+  const std::vector<Usable> usable = usable_devices(*instance);
+  if (number >= usable.size()) throw InvalidOption("the GPU is gone; list the devices again");
+  return std::make_shared<VulkanDriver>(std::move(instance), usable[number]);
+}
+
+std::shared_ptr<Driver> borrow_vulkan_device(const EngineDevice& engine) {
+  return std::make_shared<VulkanDriver>(engine);
+}
+
+}  // namespace sublimit::gpu

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// Functions of Vulkan, found at run time: a program runs where there is none, and an engine may bring a loader of its
+// own. Not by volk, whose names are global: an engine that is linked with another version of it would mix the two.
+#define VK_NO_PROTOTYPES
+#include <vulkan/vulkan.h>
+
+#include <string>
+
+namespace sublimit::gpu {
+
+#define SUBLIMIT_VULKAN_INSTANCE_FUNCTIONS(f)                                                                  \
+  f(vkDestroyInstance) f(vkEnumeratePhysicalDevices) f(vkEnumerateDeviceExtensionProperties)                   \
+      f(vkGetPhysicalDeviceProperties2) f(vkGetPhysicalDeviceFeatures2) f(vkGetPhysicalDeviceMemoryProperties) \
+          f(vkGetPhysicalDeviceQueueFamilyProperties) f(vkCreateDevice) f(vkGetDeviceProcAddr)
+#define SUBLIMIT_VULKAN_DEVICE_FUNCTIONS(f)                                                                          \
+  f(vkDestroyDevice) f(vkGetDeviceQueue) f(vkDeviceWaitIdle) f(vkCreateBuffer) f(vkDestroyBuffer)                    \
+      f(vkGetBufferMemoryRequirements) f(vkGetBufferDeviceAddress) f(vkAllocateMemory) f(vkFreeMemory)               \
+          f(vkBindBufferMemory) f(vkMapMemory) f(vkUnmapMemory) f(vkCreateShaderModule) f(vkDestroyShaderModule)     \
+              f(vkCreatePipelineLayout) f(vkDestroyPipelineLayout) f(vkCreateComputePipelines) f(vkDestroyPipeline)  \
+                  f(vkCreateCommandPool) f(vkDestroyCommandPool) f(vkAllocateCommandBuffers) f(vkFreeCommandBuffers) \
+                      f(vkBeginCommandBuffer) f(vkEndCommandBuffer) f(vkCreateFence) f(vkDestroyFence)               \
+                          f(vkWaitForFences) f(vkQueueSubmit) f(vkCmdBindPipeline) f(vkCmdPushConstants)             \
+                              f(vkCmdDispatch) f(vkCmdPipelineBarrier) f(vkCmdCopyBuffer)
+
+/// Of one instance and one of its devices.
+struct VulkanFunctions {
+#define SUBLIMIT_MEMBER(name) PFN_##name name = nullptr;
+  SUBLIMIT_VULKAN_INSTANCE_FUNCTIONS(SUBLIMIT_MEMBER)
+  SUBLIMIT_VULKAN_DEVICE_FUNCTIONS(SUBLIMIT_MEMBER)
+#undef SUBLIMIT_MEMBER
+  /// @throws IoError  one is missing
+  void load_instance(PFN_vkGetInstanceProcAddr get, VkInstance instance);
+  void load_device(VkDevice device);
+};
+
+/// The entry of the loader on this machine; null: there is none.
+/// @param missing  says why
+PFN_vkGetInstanceProcAddr vulkan_loader(std::string* missing);
+
+/// @throws ResourceError  no memory left, in the host or on the device
+/// @throws IoError        any other failure
+void check(VkResult result, const char* what);
+
+}  // namespace sublimit::gpu

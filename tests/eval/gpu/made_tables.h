@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// Tables of random weights with every part that a table can have, and sums of the magnitudes of their terms.
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "sublimit/pattern_table.h"
+
+namespace sublimit::testing {
+
+struct MadeTable {
+  int quantities = 1;
+  bool first = false, rest = false, copies = false, placed = false;
+  int largest_rows = 80, largest_columns = 40, largest_count = 40;  ///< of blocks, of patches in a group
+  int groups = 8;
+};
+
+/// @param parts  that it has
+inline PatternTable<float> made_table(const MadeTable& parts, unsigned seed) {
+  std::mt19937 random(seed);
+  const auto up_to = [&](int last) { return std::uniform_int_distribution<int>(0, last)(random); };
+  const auto weight = [&] { return std::uniform_real_distribution<float>(-1, 1)(random); };
+  constexpr std::int32_t controls = 50;
+  const std::int32_t inputs = parts.first ? 70 : controls;
+  const auto rows = [&](std::int64_t count, std::int32_t columns) {
+    std::vector<std::int64_t> offsets{0};
+    std::vector<std::int32_t> numbers;
+    std::vector<float> weights;
+    for (std::int64_t i = 0; i < count; ++i) {
+      for (int k = up_to(9); k > 0; --k) numbers.push_back(up_to(columns - 1)), weights.push_back(weight());
+      offsets.push_back(std::ssize(numbers));
+    }
+    return StencilTable<float>(columns, offsets, numbers, weights);
+  };
+  PatternTable<float>::Arrays a;
+  a.quantities = parts.quantities;
+  std::vector<float> weights;
+  std::vector<std::int32_t> chosen, columns;
+  for (int b = 0; b < 4; ++b) {
+    const std::int32_t block_rows = 1 + up_to(parts.largest_rows - 1), block_columns = up_to(parts.largest_columns);
+    a.blocks.push_back({block_rows, block_columns, std::ssize(weights)});
+    for (int i = 0; i < parts.quantities * block_rows * block_columns; ++i) weights.push_back(weight());
+  }
+  std::vector<std::int64_t> sizes;
+  for (int g = 0; g < parts.groups; ++g) {
+    const std::int32_t block = up_to(3), count = g % 2 == 0 ? up_to(2) : up_to(parts.largest_count);
+    const auto first_row = std::ssize(chosen);
+    for (std::int32_t row = 0; row < a.blocks[size_t(block)].rows; ++row)
+      if (g < 2 || up_to(2) > 0) chosen.push_back(row);
+    a.groups.push_back({block, std::int32_t(std::ssize(chosen) - first_row), first_row, count});
+    for (int i = 0; i < count * a.blocks[size_t(block)].columns; ++i) columns.push_back(up_to(inputs - 1));
+    for (int i = 0; i < count; ++i) sizes.push_back(std::ssize(chosen) - first_row);
+  }
+  a.weights = std::move(weights);
+  a.rows = std::move(chosen), a.columns = std::move(columns);
+  if (parts.placed) {  // last patches first
+    std::vector<std::int64_t> places(sizes.size());
+    std::int64_t at = 0;
+    for (size_t i = sizes.size(); i-- > 0; at += sizes[i]) places[i] = at;
+    a.patch_points = places;
+  }
+  std::int64_t points = 0;
+  for (const std::int64_t size : sizes) points += size;
+  if (parts.first) a.first = rows(inputs, controls);
+  if (parts.rest) {
+    a.rest = rows(std::int64_t{77} * parts.quantities, inputs);
+    points += 77;
+  }
+  if (parts.copies && points > 10) a.copies = {3, 5, 4, 5, 0, std::int32_t(points - 1), 7, 3};
+  return {controls, std::move(a)};
+}
+
+/// Of each number that the table makes: the sum of the magnitudes of its terms.
+inline std::vector<double> sums_of_terms(const PatternTable<float>& table, std::span<const float> points,
+                                         int channels) {
+  const auto absolute = [](const auto& numbers) {
+    std::vector<double> all;
+    for (const auto x : numbers) all.push_back(std::abs(double(x)));
+    return all;
+  };
+  const auto step = [&](const StencilTable<float>& s) {
+    return StencilTable<double>(s.num_control_points(), s.offsets(), s.columns(), absolute(s.weights()));
+  };
+  const auto& f = table.arrays();
+  PatternTable<double>::Arrays a;
+  a.quantities = f.quantities;
+  for (const auto& b : f.blocks) a.blocks.push_back({b.rows, b.columns, b.weights});
+  for (const auto& g : f.groups) a.groups.push_back({g.block, g.num_rows, g.rows, g.num_patches});
+  a.weights = absolute(f.weights);
+  a.rows = f.rows, a.columns = f.columns, a.patch_points = f.patch_points, a.copies = f.copies;
+  if (f.first) a.first = step(*f.first);
+  if (f.rest) a.rest = step(*f.rest);
+  const PatternTable<double> sums(table.num_control_points(), std::move(a));
+  std::vector<double> result(size_t(table.quantities()) * size_t(table.num_points()) * size_t(channels));
+  sums.apply(absolute(points), channels, result);
+  return result;
+}
+
+inline std::vector<float> random_numbers(size_t count, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<float> number(-1, 1);
+  std::vector<float> all(count);
+  for (float& x : all) x = number(random);
+  return all;
+}
+
+}  // namespace sublimit::testing
