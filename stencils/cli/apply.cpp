@@ -17,9 +17,9 @@
 #include "sublimit/files/npy.h"
 #include "sublimit/io/file_extension.h"
 #include "sublimit/patches/free_form_patches.h"
-#include "sublimit/pattern_evaluator.h"
 #include "sublimit/scheme/prepare.h"
 #include "sublimit/table_file.h"
+#include "table_applier.h"
 
 namespace sublimit::cli {
 namespace {
@@ -27,7 +27,8 @@ namespace {
 struct ApplyOptions {
   Common common;
   std::string table, points, output;
-  bool any_cage = false;
+  bool any_cage = false, gpu = false;
+  std::optional<int> device;
 };
 
 std::string cage_of(const TableInfo& info, std::int64_t points) {
@@ -93,22 +94,35 @@ Evaluation<Real> rational_evaluation(std::span<const Real> columns, std::int64_t
   return e;
 }
 
+/// What applies the table where the options say.
+template <class Real>
+std::unique_ptr<TableApplier<Real>> applier_of(const ApplyOptions& options, const PatternTable<Real>& table) {
+  if (!options.gpu) return cpu_applier(table);
+  if constexpr (std::is_same_v<Real, float>)
+    return gpu_applier(table, options.device.value_or(0));
+  else
+    throw InvalidOption(
+        fmt::format("{} is in double, and GPUs apply tables in float; bake one with --precision float, "
+                    "or leave out --gpu to apply this one on the CPU",
+                    options.table));
+}
+
 /// Points, quotients of columns if the table is rational.
 template <class Real>
-void apply_frame(const PatternEvaluator<Real>& evaluator, bool rational, std::span<const Real> points, int channels,
+void apply_frame(const TableApplier<Real>& applier, bool rational, std::span<const Real> points, int channels,
                  std::span<Real> values) {
-  if (!rational) return evaluator.apply(points, channels, values);
-  Evaluation<Real> e = rational_evaluation(points, evaluator.table().num_control_points());
-  const size_t quantity = values.size() / size_t(evaluator.table().quantities());
-  for (size_t q = 0; q < size_t(evaluator.table().quantities()); ++q)
+  if (!rational) return applier.apply(points, channels, values);
+  Evaluation<Real> e = rational_evaluation(points, applier.table().num_control_points());
+  const size_t quantity = values.size() / size_t(applier.table().quantities());
+  for (size_t q = 0; q < size_t(applier.table().quantities()); ++q)
     e.quantities[q] = values.subspan(q * quantity, quantity);
-  evaluator.apply(e);
+  applier.apply(e);
 }
 
 /// Where the weight is zero within rounding.
 template <class Real>
-std::vector<std::uint8_t> poles_of(const PatternEvaluator<Real>& evaluator, std::span<const Real> columns) {
-  const PatternTable<Real>& table = evaluator.table();
+std::vector<std::uint8_t> poles_of(const TableApplier<Real>& applier, std::span<const Real> columns) {
+  const PatternTable<Real>& table = applier.table();
   const Real noise = rational_evaluation(columns, table.num_control_points()).least_weight;
   std::vector<Real> weights(size_t(table.num_points()));
   Evaluation<Real> e;
@@ -116,7 +130,7 @@ std::vector<std::uint8_t> poles_of(const PatternEvaluator<Real>& evaluator, std:
   e.points = columns.subspan(3);
   e.point_layout = PointLayout::interleaved(4);
   e.quantities[0] = weights;
-  evaluator.apply(e);
+  applier.apply(e);
   std::vector<std::uint8_t> poles(weights.size());
   for (size_t i = 0; i < poles.size(); ++i) poles[i] = !(std::abs(weights[i]) > noise);
   return poles;
@@ -150,8 +164,13 @@ std::vector<std::int64_t> shape_of(const FrameReader& frames, int channels, int 
   return shape;
 }
 
+struct Applied {
+  std::int64_t frames = 0;
+  std::string device;  ///< empty: the CPU
+};
+
 template <class Real>
-std::int64_t apply_table(const ApplyOptions& options, const BakedTable<Real>& table, Progress& progress) {
+Applied apply_table(const ApplyOptions& options, const BakedTable<Real>& table, Progress& progress) {
   FrameReader frames = frames_of(options, table.info);
   const PatternTable<Real>& t = table.table;
   const bool rational = table.info.rational;
@@ -169,7 +188,7 @@ std::int64_t apply_table(const ApplyOptions& options, const BakedTable<Real>& ta
   check_disk(fmt::format("{} frames", frames.num_frames()), options.output,
              numbers * double(frames.num_frames()) * (to_array ? sizeof(Real) : 8), "use fewer frames");
   progress.step("preparing " + options.table);
-  const PatternEvaluator<Real> evaluator(t);
+  const std::unique_ptr<TableApplier<Real>> applier = applier_of(options, t);
   std::unique_ptr<NpyWriter> array;
   if (to_array)
     array = std::make_unique<NpyWriter>(options.output, dtype_of<Real>(),
@@ -185,37 +204,40 @@ std::int64_t apply_table(const ApplyOptions& options, const BakedTable<Real>& ta
       throw InvalidMesh(fmt::format("{}: frame {}, point {}: {} is too large for a table in float; bake one in double",
                                     options.points, frame, (bad - points.begin()) / frames.num_channels(),
                                     format_number(read[size_t(bad - points.begin())])));
-    apply_frame<Real>(evaluator, rational, points, frames.num_channels(), values);
+    apply_frame<Real>(*applier, rational, points, frames.num_channels(), values);
     if (array) array->write<Real>(values);
   }
   progress.step("writing " + options.output);
   if (array)
     array->commit();
   else
-    write_one<Real>(options, table, frames, rational ? poles_of<Real>(evaluator, points) : std::vector<std::uint8_t>{},
+    write_one<Real>(options, table, frames, rational ? poles_of<Real>(*applier, points) : std::vector<std::uint8_t>{},
                     values, progress);
-  return frames.num_frames();
+  return {frames.num_frames(), applier->device()};
 }
 
 int run(const ApplyOptions& options) {
   check_output_path(options.output, {".obj", ".ply", ".npy", ".csv"});
+  if (options.device && !options.gpu)
+    throw InvalidOption(
+        fmt::format("--device {} is for --gpu; give both, or neither to apply the table on the CPU", *options.device));
   limit_threads(options.common);
   Progress progress(options.common.quiet);
   progress.step("reading " + options.table);
   const auto start = std::chrono::steady_clock::now();
   const AnyTable table = load_table(options.table);
-  const std::int64_t frames =
-      std::visit([&](const auto& found) { return apply_table(options, found, progress); }, table);
+  const Applied applied = std::visit([&](const auto& found) { return apply_table(options, found, progress); }, table);
   progress.step("");
   if (options.common.quiet) return 0;
   const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
   const auto [points, quantities] = std::visit(
       [](const auto& found) { return std::pair(found.table.num_points(), found.table.quantities()); }, table);
-  fmt::print("{}: {} points{}{}; {:.3f} s\n", options.output, points,
+  fmt::print("{}: {} points{}{}; {:.3f} s{}\n", options.output, points,
              quantities == 1   ? ""
              : quantities == 3 ? " with first derivatives"
                                : " with first and second derivatives",
-             frames == 1 ? "" : fmt::format(", {} frames", frames), time.count());
+             applied.frames == 1 ? "" : fmt::format(", {} frames", applied.frames), time.count(),
+             applied.device.empty() ? "" : " on " + applied.device);
   return 0;
 }
 
@@ -238,19 +260,24 @@ Command add_apply(CLI::App& app) {
           "coordinates and tags; OUT.csv; OUT.npy")
       ->required();
   command->add_flag("--any-cage", options->any_cage, "Take a mesh with other faces than those of the table's cage");
+  command->add_flag("--gpu", options->gpu, "On a GPU, by Vulkan or CUDA; of tables in float");
+  command->add_option("--device", options->device, "With --gpu: its number (default 0), see `sublimit devices`");
   add_run(*command, options->common);
   command->footer(
       "Examples:\n"
       "  sublimit apply level3.safetensors cage.obj -o level3.obj\n"
       "  sublimit apply limit.safetensors pose.csv -o surface.csv\n"
       "  sublimit apply level3.safetensors animation.npy -o refined.npy\n"
+      "  sublimit apply level3.safetensors animation.npy --gpu -o refined.npy\n"
       "  sublimit apply teapot.safetensors teapot.obj -o points.csv               free-form surfaces\n"
       "Frames of an .npy are read, applied and written one by one, so that any number of them takes the memory of one.\n"
       "OUT.npy is in the table's precision: [frames x] [quantities x] points x channels; quantities, if there are\n"
       "derivatives, are position, u, v[, uu, uv, vv]. Columns of OUT.csv: face,u,v and status where the table knows\n"
       "them, then x,y,z[,xu,...][,nx,ny,nz] as `sample` has them, or the channels' own names. Where creases meet, and in\n"
       "tables by rows, two tangents of the surface stand for first derivatives that do not exist. Tables of rational\n"
-      "surfaces divide by the weight; where it is zero the status is `pole` and nothing else is there.");
+      "surfaces divide by the weight; where it is zero the status is `pole` and nothing else is there.\n"
+      "--gpu makes the same points to the rounding of floats. Where there is no GPU, or the table is in double, it is an\n"
+      "error: the CPU never takes over.");
   return [=] { return run(*options); };
 }
 

@@ -130,6 +130,7 @@ Command add_construct(CLI::App& app);
 Command add_implicit(CLI::App& app);
 Command add_bake(CLI::App& app);
 Command add_apply(CLI::App& app);
+Command add_devices(CLI::App& app);
 Command add_verify(CLI::App& app);
 Command add_export(CLI::App& app);
 Command add_analyze(CLI::App& app);

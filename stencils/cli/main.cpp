@@ -108,6 +108,7 @@ int main(int argc, char** argv) {
                                                              {"construct", cli::add_construct(app)},
                                                              {"implicit", cli::add_implicit(app)},
                                                              {"apply", cli::add_apply(app)},
+                                                             {"devices", cli::add_devices(app)},
                                                              {"verify", cli::add_verify(app)},
                                                              {"export", cli::add_export(app)},
                                                              {"analyze", cli::add_analyze(app)},

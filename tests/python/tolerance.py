@@ -18,3 +18,5 @@ places = 1e-6
 """Where the nearest point is: the distance hardly changes there."""
 single = 1e-6
 """Weights in float."""
+single_sums = 1e-5
+"""Sums over all points of a table in float."""

@@ -59,6 +59,9 @@ class Recording {
  public:
   virtual ~Recording() = default;
   virtual void* handle() const = 0;
+  /// For something that need not wait for what was recorded before.
+  virtual void* independent() = 0;
+  virtual void copy(const Memory& from, Memory& to, std::int64_t bytes) = 0;
   virtual void submit_and_wait() = 0;
 };
 
@@ -73,7 +76,7 @@ class Driver {
   virtual void prepare(const Variant& variant) = 0;
   /// @param commands  VkCommandBuffer or CUstream
   /// @throws InvalidParameter  a variant that was not prepared
-  virtual void record(void* commands, std::span<const Launch> launches) = 0;
+  virtual void record(void* commands, const Launch& launch) = 0;
 
  protected:
   GpuInfo info_;

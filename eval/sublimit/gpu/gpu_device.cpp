@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "sublimit/base/error.h"
+#include "sublimit/gpu/cuda_driver.h"
 #include "sublimit/gpu/driver.h"
 #include "sublimit/gpu/vulkan_driver.h"
 
@@ -25,6 +26,7 @@ std::vector<Numbered> numbered_devices(std::string* why_none) {
     for (size_t i = 0; i < found.devices.size(); ++i) all.push_back({found.devices[i], i});
     if (!found.missing.empty()) missing += (missing.empty() ? "" : "; ") + found.missing;
   };
+  add(gpu::cuda_devices());
   add(gpu::vulkan_devices());
   std::ranges::stable_sort(all, {}, [](const Numbered& device) { return device.info.kind; });
   if (why_none && all.empty()) *why_none = missing;
@@ -51,10 +53,11 @@ GpuDevice::GpuDevice(int number) {
   const std::vector<Numbered> all = numbered_devices(&missing);
   if (all.empty()) throw InvalidOption("no GPU that tables can be applied on: " + missing);
   if (number < 0 || number >= std::ssize(all))
-    throw InvalidOption("there is no GPU " + std::to_string(number) + "; numbers up to " +
-                        std::to_string(all.size() - 1) + " are right");
+    throw InvalidOption("there is no GPU " + std::to_string(number) + "; " +
+                        (all.size() == 1 ? "0 is right" : "0 to " + std::to_string(all.size() - 1) + " are right"));
   const Numbered& device = all[size_t(number)];
-  driver_ = gpu::open_vulkan_device(device.number);
+  driver_ =
+      device.info.api == GpuApi::cuda ? gpu::open_cuda_device(device.number) : gpu::open_vulkan_device(device.number);
 }
 
 GpuDevice::GpuDevice(const EngineDevice& engine) : driver_(gpu::borrow_vulkan_device(engine)) {}
@@ -93,6 +96,12 @@ GpuCommands::GpuCommands(const GpuDevice& device) : recording_(device.driver()->
 GpuCommands::~GpuCommands() = default;
 GpuCommands::GpuCommands(GpuCommands&&) noexcept = default;
 void* GpuCommands::handle() const { return recording_->handle(); }
+void GpuCommands::copy(const GpuBuffer& from, GpuBuffer& to, std::int64_t bytes) const {
+  if (bytes < 0 || bytes > std::min(from.num_bytes(), to.num_bytes()))
+    throw InvalidParameter(std::to_string(bytes) + " bytes of a buffer of " + std::to_string(from.num_bytes()) +
+                           " into one of " + std::to_string(to.num_bytes()));
+  if (bytes > 0) recording_->copy(from.memory(), to.memory(), bytes);
+}
 void GpuCommands::submit_and_wait() { recording_->submit_and_wait(); }
 
 }  // namespace sublimit

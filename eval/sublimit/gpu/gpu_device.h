@@ -86,6 +86,7 @@ class GpuBuffer {
 
   std::uint64_t address() const;
   std::int64_t num_bytes() const;
+  gpu::Memory& memory() const { return *memory_; }
   /// Copies and waits.
   /// @throws InvalidParameter  beyond the end
   void write(std::span<const std::byte> bytes, std::int64_t at = 0);
@@ -102,7 +103,12 @@ class GpuCommands {
   ~GpuCommands();
   GpuCommands(GpuCommands&&) noexcept;
 
-  void* handle() const;  ///< VkCommandBuffer or CUstream
+  void* handle()
+      const;  ///< VkCommandBuffer or CUstream: what is recorded there waits for what was recorded there before
+  gpu::Recording& recording() const { return *recording_; }
+  /// Copies on the device, after what was recorded before and before what comes after.
+  /// @throws InvalidParameter  more bytes than there are
+  void copy(const GpuBuffer& from, GpuBuffer& to, std::int64_t bytes) const;
   void submit_and_wait();
 
  private:

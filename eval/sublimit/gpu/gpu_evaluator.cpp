@@ -46,26 +46,33 @@ EvaluationShape shape_of(const GpuEvaluation& e) {
   return shape;
 }
 
+/// Kernels multiply strides by 4 in 32 bits.
 uint stride(std::int64_t numbers) {
-  if (numbers > std::numeric_limits<uint>::max())
-    throw ResourceError("strides of " + std::to_string(numbers) + " numbers; a GPU takes up to 4294967295");
+  constexpr std::int64_t most = (std::int64_t{1} << 30) - 1;
+  if (numbers > most)
+    throw ResourceError("strides of " + std::to_string(numbers) + " numbers; a GPU takes up to " +
+                        std::to_string(most));
   return static_cast<uint>(numbers);
 }
 
-/// Channels that a launch makes.
-struct Channels {
-  int first = 0, count = 0;
-};
-std::vector<Channels> divided(int channels, int at_once) {
-  std::vector<Channels> parts;
-  for (int first = 0; first < channels; first += at_once) parts.push_back({first, std::min(at_once, channels - first)});
-  return parts;
+/// Of points that are read: one frame is counted in 31 bits.
+void check_frame(const Layout& layout, std::int64_t points, int channels) {
+  const std::int64_t last = (points - 1) * layout.strides.point + (channels - 1) * layout.strides.channel;
+  if (last > std::numeric_limits<std::int32_t>::max())
+    throw ResourceError("a frame of points of " + std::to_string(last) + " numbers; a GPU takes up to 2147483647");
+}
+
+/// Calls body(first, count) for all channels, some at a time.
+template <class Body>
+void for_each_part(int channels, int at_once, const Body& body) {
+  for (int first = 0; first < channels; first += at_once) body(first, std::min(at_once, channels - first));
 }
 
 std::int64_t workgroups(std::int64_t threads) { return (threads + gpu::threads - 1) / gpu::threads; }
 
-bool is_dense(const Layout& layout, std::int64_t points, int channels) {
-  return layout.strides.channel == 1 && layout.strides.point == channels && layout.frame == points * channels;
+/// Numbers of a frame lie together.
+bool is_dense(const Layout& layout, int channels) {
+  return layout.strides.channel == 1 && layout.strides.point == channels;
 }
 
 }  // namespace
@@ -117,12 +124,18 @@ struct GpuEvaluator::Uploaded {
     Lease(Uploaded& owner, std::int64_t bytes) : owner_(owner) {
       {
         const std::lock_guard lock(owner.free_mutex);
-        const auto fits = std::ranges::find_if(owner.free, [&](const auto& m) { return m->num_bytes() >= bytes; });
-        if (fits != owner.free.end()) {
-          memory_ = std::move(*fits);
-          owner.free.erase(fits);
-        } else if (!owner.free.empty()) {
-          owner.free.pop_back();  // too small: a larger one takes its place
+        // The smallest that is large enough; else a larger one takes the place of the largest.
+        auto best = owner.free.end();
+        for (auto it = owner.free.begin(); it != owner.free.end(); ++it) {
+          const bool fits = (*it)->num_bytes() >= bytes;
+          if (best == owner.free.end() || (fits && (*best)->num_bytes() < bytes) ||
+              (fits ? (*it)->num_bytes() < (*best)->num_bytes()
+                    : (*best)->num_bytes() < bytes && (*it)->num_bytes() > (*best)->num_bytes()))
+            best = it;
+        }
+        if (best != owner.free.end()) {
+          if ((*best)->num_bytes() >= bytes) memory_ = std::move(*best);
+          owner.free.erase(best);
         }
       }
       if (!memory_) memory_ = owner.driver->allocate(bytes);
@@ -162,16 +175,18 @@ struct GpuEvaluator::Uploaded {
     return first.count * e.channels * e.frames * std::int64_t(sizeof(float));
   }
 
-  std::vector<Launch> launches(const GpuEvaluation& e) const {
+  /// Calls launch(Launch) in order; takes no memory.
+  template <class Body>
+  void for_each_launch(const GpuEvaluation& e, const Body& launch) {
     const EvaluationLayouts layouts = check(e);
-    std::vector<Launch> list;
     const Wanted wanted = shape_of(e).wanted;
-    if (e.frames == 0 || wanted == 0) return list;
+    if (e.frames == 0 || wanted == 0) return;
     if (first.count > 0 && e.scratch == 0) fail_evaluation("a table with a first step needs scratch on the device");
     Arguments common{};
     common.in_point = stride(layouts.given.strides.point), common.in_channel = stride(layouts.given.strides.channel);
     common.in_frame = stride(layouts.given.frame);
-    stride(layouts.given.frame + (table.num_control_points() - 1) * layouts.given.strides.point);
+    check_frame(layouts.given, table.num_control_points(), e.channels);
+    check_frame(layouts.inputs, first.count > 0 ? first.count : 1, e.channels);
     common.points = e.points;
     if (first.count > 0) {
       Arguments a = common;
@@ -179,10 +194,10 @@ struct GpuEvaluator::Uploaded {
       a.results[0] = e.scratch;
       a.count = uint(first.count);
       a.out_point = stride(layouts.inputs.strides.point), a.out_channel = 1, a.out_frame = stride(layouts.inputs.frame);
-      for (const Channels c : divided(e.channels, channels_at_once)) {
-        a.channels = uint(c.first);
-        list.push_back({{Kernel::apply_rows, false, 1, c.count, 1, 1}, a, workgroups(first.count), e.frames, false});
-      }
+      for_each_part(e.channels, channels_at_once, [&](int begin, int count) {
+        a.channels = uint(begin);
+        launch({{Kernel::apply_rows, false, 1, count, 1, 1}, a, workgroups(first.count), e.frames, false});
+      });
       common.points = e.scratch;
       common.in_point = a.out_point, common.in_channel = 1, common.in_frame = a.out_frame;
     }
@@ -193,16 +208,16 @@ struct GpuEvaluator::Uploaded {
     std::ranges::copy(results_of(e), common.results);
 
     bool waits = first.count > 0;
-    const auto add = [&](Launch launch) {
-      launch.waits = std::exchange(waits, false);
-      list.push_back(launch);
+    const auto add = [&](Launch one) {
+      one.waits = std::exchange(waits, false);
+      launch(one);
     };
     const int quantities = num_needed(wanted);
     const size_t size = quantities == 1 ? 0 : quantities == 3 ? 1 : 2;
-    for (const Channels c : divided(e.channels - e.rational, channels_at_once - e.rational)) {
+    for_each_part(e.channels - e.rational, channels_at_once - e.rational, [&](int begin, int made) {
       Arguments a = common;
-      a.channels = uint(c.first) | (e.rational ? uint(e.channels - 1) << 8 | 65536u : 0u);
-      const int count = c.count + e.rational;
+      a.channels = uint(begin) | (e.rational ? uint(e.channels - 1) << 8 | 65536u : 0u);
+      const int count = made + e.rational;
       for (const bool many : {true, false}) {
         const Part& part = patches[size][many];
         if (part.count == 0) continue;
@@ -216,7 +231,7 @@ struct GpuEvaluator::Uploaded {
         a.count = uint(rest.count);
         add({{Kernel::apply_rows, e.halves, quantities, count, 1, 1}, a, workgroups(rest.count), e.frames});
       }
-    }
+    });
     if (copies.count > 0 && e.quantities[0] != 0) {
       Arguments a = common;
       a.table = address(copies);
@@ -225,7 +240,6 @@ struct GpuEvaluator::Uploaded {
       waits = true;
       add({{Kernel::copy_points, e.halves, 1, 1, 1, 1}, a, workgroups(copies.count), e.frames});
     }
-    return list;
   }
 
   /// Values of positions, parts and inputs of a transpose, one after the other.
@@ -251,14 +265,14 @@ struct GpuEvaluator::Uploaded {
       if (address % 4 != 0) fail_evaluation("numbers on the device at an address that is no multiple of 4");
   }
 
-  std::vector<Launch> launches(const GpuTranspose& t) {
+  template <class Body>
+  void for_each_launch(const GpuTranspose& t, const Body& launch) {
     check(t);
     const Transpose& packed = transpose();
     const Scratch scratch = scratch_of(t);
     if (scratch.end > 0 && t.scratch == 0) fail_evaluation("a transpose needs scratch on the device");
-    std::vector<Launch> list;
     Arguments a{};
-    a.in_point = uint(t.channels);
+    a.in_point = stride(t.channels);
     a.quantities = uint(t.quantities);
     a.out_frame = uint(table.num_points());
     a.results[0] = t.values, a.results[1] = t.values;
@@ -269,16 +283,16 @@ struct GpuEvaluator::Uploaded {
       a.table = address(packed.fold);
       a.count = uint(packed.fold.count);
       a.results[0] = t.scratch + std::uint64_t(scratch.moved);
-      list.push_back({{Kernel::fold_copies, false, 1, 1, 1, 1}, a, workgroups(packed.fold.count), 1, false});
+      launch({{Kernel::fold_copies, false, 1, 1, 1, 1}, a, workgroups(packed.fold.count), 1, false});
       waits = true;
     }
     const auto add = [&](Kernel kernel, const Part& part, std::int64_t groups) {
       a.table = address(part);
       a.count = uint(part.count);
-      for (const Channels c : divided(t.channels, channels_at_once)) {
-        a.channels = uint(c.first);
-        list.push_back({{kernel, false, 1, c.count, 1, 1}, a, groups, 1, std::exchange(waits, false)});
-      }
+      for_each_part(t.channels, channels_at_once, [&](int begin, int count) {
+        a.channels = uint(begin);
+        launch({{kernel, false, 1, count, 1, 1}, a, groups, 1, std::exchange(waits, false)});
+      });
       waits = true;
     };
     if (packed.patches.count > 0) add(Kernel::transpose_patches, packed.patches, packed.patches.count);
@@ -292,7 +306,6 @@ struct GpuEvaluator::Uploaded {
       a.out_frame = uint(packed.inputs.count);
       add(Kernel::gather_parts, packed.first, workgroups(packed.first.count));
     }
-    return list;
   }
 
   void check_api(GpuApi api) const {
@@ -301,11 +314,11 @@ struct GpuEvaluator::Uploaded {
   }
   template <class Asked>
   void prepare(const Asked& asked) {
-    for (const Launch& launch : launches(asked)) driver->prepare(launch.variant);
+    for_each_launch(asked, [&](const Launch& launch) { driver->prepare(launch.variant); });
   }
   template <class Asked>
   void record(void* commands, const Asked& asked) {
-    driver->record(commands, launches(asked));
+    for_each_launch(asked, [&](const Launch& launch) { driver->record(commands, launch); });
   }
   template <class Asked>
   void run(const Asked& asked) {
@@ -335,7 +348,7 @@ void GpuEvaluator::record(CUstream_st* stream, const GpuEvaluation& e) const {
   uploaded_->record(stream, e);
 }
 void GpuEvaluator::record(const GpuCommands& commands, const GpuEvaluation& e) const {
-  uploaded_->record(commands.handle(), e);
+  uploaded_->record(commands.recording().independent(), e);
 }
 void GpuEvaluator::prepare(const GpuTranspose& t) const { uploaded_->prepare(t); }
 std::int64_t GpuEvaluator::num_scratch_bytes(const GpuTranspose& t) const {
@@ -351,7 +364,7 @@ void GpuEvaluator::record(CUstream_st* stream, const GpuTranspose& t) const {
   uploaded_->record(stream, t);
 }
 void GpuEvaluator::record(const GpuCommands& commands, const GpuTranspose& t) const {
-  uploaded_->record(commands.handle(), t);
+  uploaded_->record(commands.recording().independent(), t);
 }
 
 void GpuEvaluator::apply(const Evaluation<float>& e) const {
@@ -397,17 +410,21 @@ void GpuEvaluator::apply(const Evaluation<float>& e) const {
     for (size_t i = 0; i < 9; ++i) {
       if (!(wanted >> i & 1)) continue;
       const std::span<float> out = spans[i].subspan(size_t(frame * layouts.results.frame));
-      if (is_dense(layouts.results, table().num_points(), e.result_channels())) {
+      const bool dense = is_dense(layouts.results, e.result_channels());
+      if (dense && (frames == 1 || layouts.results.frame == of_frame)) {
         results->read(begin[i], std::as_writable_bytes(out.first(size_t(of_frame * frames))));
         continue;
       }
-      sparse.resize(size_t(of_frame));
       for (int f = 0; f < frames; ++f) {
-        results->read(begin[i] + f * of_frame * std::int64_t(sizeof(float)), std::as_writable_bytes(std::span(sparse)));
+        const std::span<float> of_one = out.subspan(size_t(f * layouts.results.frame));
+        if (!dense) sparse.resize(size_t(of_frame));
+        const std::span<float> read = dense ? of_one.first(size_t(of_frame)) : std::span(sparse);
+        results->read(begin[i] + f * of_frame * std::int64_t(sizeof(float)), std::as_writable_bytes(read));
+        if (dense) continue;
         parallel_for(table().num_points(), [&](std::int64_t point) {
           for (int c = 0; c < e.result_channels(); ++c)
-            out[size_t(f * layouts.results.frame + point * layouts.results.strides.point +
-                       c * layouts.results.strides.channel)] = sparse[size_t(point * e.result_channels() + c)];
+            of_one[size_t(point * layouts.results.strides.point + c * layouts.results.strides.channel)] =
+                sparse[size_t(point * e.result_channels() + c)];
         });
       }
     }

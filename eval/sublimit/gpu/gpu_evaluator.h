@@ -47,7 +47,7 @@ class GpuEvaluator {
   /// @throws ResourceError     no memory left on the device, or a table of more than 2^32 - 1 points, weights or
   /// columns
   /// @throws IoError           the device is lost
-  /// @throws InvalidParameter  a table that copies a point and writes it later
+  /// @throws InvalidParameter  a table that copies a point and writes it later, or makes a point nowhere
   GpuEvaluator(const PatternTable<float>& table, const GpuDevice& device);
   ~GpuEvaluator();
   GpuEvaluator(GpuEvaluator&&) noexcept;
@@ -69,6 +69,7 @@ class GpuEvaluator {
 
   /// Checks, compiles kernels.
   /// @throws InvalidParameter  as `apply`; an address that is not a multiple of four; no scratch
+  /// @throws ResourceError     strides of 2^30 numbers or more, frames of points of more than 2^31
   void prepare(const GpuEvaluation& evaluation) const;
   std::int64_t num_scratch_bytes(const GpuEvaluation& evaluation) const;
   /// @param commands  that are being recorded, outside of render passes; binds a pipeline and writes push constants

@@ -6,6 +6,7 @@
 namespace sublimit::gpu {
 
 using uint = std::uint32_t;
+inline constexpr int threads = 64;  ///< of a workgroup
 #define ADDRESS std::uint64_t
 #include "sublimit/gpu/kernels/arguments.inc"
 #undef ADDRESS

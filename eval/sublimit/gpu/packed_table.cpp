@@ -2,8 +2,8 @@
 #include "sublimit/gpu/packed_table.h"
 
 #include <algorithm>
-#include <bit>
 #include <limits>
+#include <map>
 #include <string>
 #include <unordered_map>
 
@@ -13,14 +13,17 @@ namespace sublimit::gpu {
 namespace {
 
 constexpr std::int64_t rows_of_slice = 32;
-/// Patches by fours of rows, if they fill so many workgroups.
-constexpr std::int64_t points_of_many = 256;
+/// Points of patches that pay for threads of four rows: of a group, and of all of these groups, which take a launch
+/// more.
+constexpr std::int64_t points_of_group = 256, points_of_launch = 1 << 17;
 /// Columns of patches that a workgroup of a transpose takes.
-constexpr std::int64_t items_of_tile = 256;
+constexpr std::int64_t items_at_once = 256;
+/// Made together.
+constexpr int quantities_of[] = {1, 3, 6};
 
 std::uint32_t number(std::int64_t value, const char* what) {
-  if (value < 0 || value > std::numeric_limits<std::uint32_t>::max())
-    throw ResourceError("tables on a GPU count up to 4294967295 " + std::string(what) + ", not " +
+  if (value < 0 || value > std::numeric_limits<std::int32_t>::max())
+    throw ResourceError("tables on a GPU count up to 2147483647 " + std::string(what) + ", not " +
                         std::to_string(value) + "; cut the table into several, or apply it on the CPU");
   return static_cast<std::uint32_t>(value);
 }
@@ -29,94 +32,90 @@ std::int64_t rounded_up(std::int64_t value, std::int64_t multiple) {
   return (value + multiple - 1) / multiple * multiple;
 }
 
-/// Rows of a group, packed: column after column, by fours, all quantities.
-void append_weights(const PatternTable<float>::Arrays& a, const PatternTable<float>::Group& group,
-                    std::vector<float>& out) {
+/// Columns that a kernel multiplies at a time.
+constexpr std::int64_t columns_at_a_time(int rows_of_thread) { return rows_of_thread == 1 ? 8 : 4; }
+
+using Arrays = PatternTable<float>::Arrays;
+
+/// A row of the block of a group, for one quantity.
+const float* row_of(const Arrays& a, const PatternTable<float>::Group& group, std::int64_t row, int quantity) {
   const auto& block = a.blocks[size_t(group.block)];
-  const std::int64_t stride = rounded_up(group.num_rows, 4);
-  auto at = out.size();
-  out.resize(at + size_t(stride * block.columns * a.quantities));
-  for (int q = 0; q < a.quantities; ++q) {
-    const float* const matrix = a.weights.data() + block.weights + q * std::int64_t{block.rows} * block.columns;
-    for (std::int32_t k = 0; k < block.columns; ++k, at += size_t(stride))
-      for (std::int32_t r = 0; r < group.num_rows; ++r)
-        out[at + size_t(r)] = matrix[std::int64_t{a.rows[group.rows + r]} * block.columns + k];
-  }
+  return a.weights.data() + block.weights +
+         (std::int64_t{quantity} * block.rows + a.rows[group.rows + row]) * block.columns;
 }
 
-/// Rows that groups have in common are packed once.
+/// Rows of one group that a tile has, and their weights.
+struct Rows {
+  std::int64_t first = 0, count = 0, weights = 0, stride = 0;  ///< as `Tile` has them
+};
+
+/// Weights of groups as `apply_patches` reads them. Groups with the same rows of a block share them.
 class PackedWeights {
  public:
-  explicit PackedWeights(const PatternTable<float>::Arrays& a) : a_(a) {}
-  /// Where those of a group begin.
-  std::int64_t place(const PatternTable<float>::Group& group) {
-    const auto rows = a_.rows.span().subspan(size_t(group.rows), size_t(group.num_rows));
-    std::uint64_t key = 0xcbf29ce484222325u ^ std::uint64_t(group.block);
-    for (const std::int32_t row : rows) key = (key ^ std::uint64_t(row)) * 0x100000001b3u;
-    const auto [begin, end] = places_.equal_range(key);
-    for (auto it = begin; it != end; ++it) {
-      const auto& other = a_.groups[it->second.group];
-      if (other.block == group.block &&
-          std::ranges::equal(rows, a_.rows.span().subspan(size_t(other.rows), size_t(other.num_rows))))
-        return it->second.weights;
-    }
-    const auto at = std::int64_t(weights.size());
-    append_weights(a_, group, weights);
-    places_.insert({key, {size_t(&group - a_.groups.data()), at}});
-    return at;
+  explicit PackedWeights(const Arrays& a) : a_(a) {}
+  /// @param rows_of_thread  1, or 4 that lie as far apart as there are threads for them
+  const std::vector<Rows>& rows(const PatternTable<float>::Group& group, int rows_of_thread) {
+    std::vector<std::int32_t> key{group.block, rows_of_thread};
+    const auto chosen = a_.rows.span().subspan(size_t(group.rows), size_t(group.num_rows));
+    key.insert(key.end(), chosen.begin(), chosen.end());
+    const auto [found, is_new] = packed_.try_emplace(std::move(key));
+    if (is_new) found->second = pack(group, rows_of_thread);
+    return found->second;
   }
   std::vector<float> weights;
 
  private:
-  struct Place {
-    size_t group;
-    std::int64_t weights;
-  };
-  const PatternTable<float>::Arrays& a_;
-  std::unordered_multimap<std::uint64_t, Place> places_;
-};
-
-/// Tiles of a group for threads of this shape.
-void append_tiles(std::uint32_t g, const Group& group, std::int64_t num_patches, Shape shape, std::vector<Tile>& out) {
-  const std::int64_t most_rows = threads * shape.rows;
-  for (std::int64_t row = 0; row < group.num_rows; row += most_rows) {
-    const std::int64_t rows = std::min(most_rows, group.num_rows - row), units = (rows + shape.rows - 1) / shape.rows,
-                       at_once = threads / units * shape.patches;
-    for (std::int64_t patch = 0; patch < num_patches; patch += at_once)
-      out.push_back({g, uint(patch), uint(std::min(at_once, num_patches - patch)), uint(row), uint(rows)});
+  std::vector<Rows> pack(const PatternTable<float>::Group& group, int rows_of_thread) {
+    const std::int64_t columns = a_.blocks[size_t(group.block)].columns,
+                       padded = rounded_up(columns, columns_at_a_time(rows_of_thread));
+    std::vector<Rows> all;
+    for (std::int64_t first = 0; first < group.num_rows; first += threads * rows_of_thread) {
+      const std::int64_t count = std::min<std::int64_t>(threads * rows_of_thread, group.num_rows - first),
+                         units = (count + rows_of_thread - 1) / rows_of_thread,
+                         stride = rounded_up(units * rows_of_thread, 4);
+      all.push_back({first, count, number(std::ssize(weights), "weights") / 4, stride / 4});
+      weights.resize(weights.size() + size_t(stride * padded * a_.quantities));
+      float* const out = weights.data() + 4 * all.back().weights;
+      for (int q = 0; q < a_.quantities; ++q)
+        for (std::int64_t row = 0; row < count; ++row) {
+          const float* const from = row_of(a_, group, first + row, q);
+          const std::int64_t at = row % units * rows_of_thread + row / units;
+          for (std::int64_t k = 0; k < columns; ++k) out[(q * padded + k) * stride + at] = from[k];
+        }
+    }
+    return all;
   }
-}
 
-bool are_many(const Group& group, std::int64_t num_patches) {
-  return group.num_rows * num_patches >= points_of_many && 2 * rounded_up(group.num_rows, 4) <= 3 * group.num_rows;
-}
-
-/// Groups and their weights.
-struct PackedGroups {
-  std::vector<Group> groups;
-  std::vector<float> weights;
+  const Arrays& a_;
+  std::map<std::vector<std::int32_t>, std::vector<Rows>> packed_;
 };
-PackedGroups pack_groups(const PatternTable<float>& table) {
+
+/// Which groups are for threads of four rows.
+std::vector<bool> groups_of_many(const Arrays& a) {
+  std::vector<bool> many;
+  std::int64_t points = 0;
+  for (const auto& group : a.groups) {
+    const std::int64_t made = group.num_rows * group.num_patches;
+    many.push_back(made >= points_of_group && 2 * rounded_up(group.num_rows, 4) <= 3 * group.num_rows);
+    if (many.back()) points += made;
+  }
+  if (points < points_of_launch) many.assign(many.size(), false);
+  return many;
+}
+
+/// That patches with places make all points: what is copied back to the host is all of it made.
+void check_places(const PatternTable<float>& table) {
   const auto& a = table.arrays();
-  PackedWeights packed(a);
-  std::vector<Group> groups;
-  for (size_t g = 0; g < a.groups.size(); ++g) {
-    const auto& group = a.groups[g];
-    const auto& block = a.blocks[size_t(group.block)];
-    const auto& start = table.starts()[g];
-    const std::int64_t stride = rounded_up(group.num_rows, 4);
-    groups.push_back({.weights = number(packed.place(group), "weights") / 4,
-                      .stride = uint(stride / 4),
-                      .quantity = number(stride / 4 * block.columns, "weights"),
-                      .num_columns = uint(block.columns),
-                      .columns = number(start.columns, "columns of patches"),
-                      .num_rows = uint(group.num_rows),
-                      .first_point = number(start.point, "points"),
-                      .first_patch = number(start.patch, "patches")});
-  }
-  number(std::int64_t(packed.weights.size()), "weights");
-  number(std::int64_t(a.columns.size()), "columns of patches");
-  return {std::move(groups), std::move(packed.weights)};
+  if (a.patch_points.empty()) return;
+  std::vector<bool> made(size_t(table.starts().back().point));
+  for (size_t g = 0; g < a.groups.size(); ++g)
+    for (std::int64_t patch = table.starts()[g].patch; patch < table.starts()[g + 1].patch; ++patch) {
+      const std::int64_t begin = a.patch_points[patch], end = begin + a.groups[g].num_rows;
+      for (std::int64_t point = begin; point < std::min(end, std::ssize(made)); ++point) made[size_t(point)] = true;
+    }
+  if (const auto missing = std::find(made.begin(), made.end(), false); missing != made.end())
+    throw InvalidParameter("a table that makes no point " + std::to_string(missing - made.begin()) +
+                           " cannot be applied on a GPU; make every point once");
 }
 
 /// Where the points of each patch begin; -1: they follow those of the patch before.
@@ -129,30 +128,49 @@ std::int64_t pack_patch_points(const PatternTable<float>::Arrays& a, Image& imag
 void pack_patches(const PatternTable<float>& table, PackedTable& out) {
   const auto& a = table.arrays();
   if (table.num_patches() == 0) return;
-  const auto [groups, packed] = pack_groups(table);
+  PackedWeights packed(a);
+  std::array<std::array<std::vector<Tile>, 2>, 3> tiles;
+  const std::vector<bool> groups_with_many = groups_of_many(a);
+  for (size_t g = 0; g < a.groups.size(); ++g) {
+    const auto& group = a.groups[g];
+    const auto& start = table.starts()[g];
+    const std::int64_t columns = a.blocks[size_t(group.block)].columns;
+    const bool many = groups_with_many[g];
+    if (group.num_patches == 0 || group.num_rows == 0) continue;
+    for (const Rows& rows : packed.rows(group, shape_of(1, many).rows))
+      for (size_t size = 0; size < 3 && quantities_of[size] <= a.quantities; ++size) {
+        const Shape shape = shape_of(quantities_of[size], many);
+        const std::int64_t units = (rows.count + shape.rows - 1) / shape.rows,
+                           at_once = threads / units * shape.patches;
+        for (std::int64_t patch = 0; patch < group.num_patches; patch += at_once)
+          tiles[size][many].push_back({.weights = uint(rows.weights),
+                                       .stride = uint(rows.stride),
+                                       .num_columns = uint(columns),
+                                       .columns = number(start.columns + patch * columns, "columns of patches"),
+                                       .num_patches = uint(std::min(at_once, group.num_patches - patch)),
+                                       .first_patch = number(start.patch + patch, "patches"),
+                                       .first_point = uint(start.point + patch * group.num_rows),
+                                       .rows_of_patch = uint(group.num_rows),
+                                       .first_row = uint(rows.first),
+                                       .num_rows = uint(rows.count)});
+      }
+  }
+  number(std::ssize(packed.weights), "weights");
+  number(std::int64_t(a.columns.size()), "columns of patches");
   Image& image = out.image;
-  const std::int64_t group_array = image.add<Group>(groups), weights = image.add<float>(packed),
-                     columns = image.add<std::int32_t>(a.columns.span()), patch_points = pack_patch_points(a, image);
-  for (size_t size = 0; size < 3; ++size) {
-    const int quantities = size == 0 ? 1 : size == 1 ? 3 : 6;
-    if (quantities > a.quantities) break;
+  const std::int64_t weights = image.add<float>(packed.weights), columns = image.add<std::int32_t>(a.columns.span()),
+                     patch_points = pack_patch_points(a, image);
+  for (size_t size = 0; size < 3; ++size)
     for (const bool many : {false, true}) {
-      std::vector<Tile> tiles;
-      for (size_t g = 0; g < groups.size(); ++g)
-        if (are_many(groups[g], a.groups[g].num_patches) == many)
-          append_tiles(uint(g), groups[g], a.groups[g].num_patches, shape_of(quantities, many), tiles);
-      if (tiles.empty()) continue;
-      const std::int64_t tile_array = image.add<Tile>(tiles);
+      if (tiles[size][many].empty()) continue;
       const PatchTable empty = {};
       Part& part = out.patches[size][many];
-      part = {image.add(std::span(&empty, 1)), std::int64_t(tiles.size())};
-      image.set_address(part.table, offsetof(PatchTable, tiles), tile_array);
-      image.set_address(part.table, offsetof(PatchTable, groups), group_array);
+      part = {image.add(std::span(&empty, 1)), std::ssize(tiles[size][many])};
+      image.set_address(part.table, offsetof(PatchTable, tiles), image.add<Tile>(tiles[size][many]));
       image.set_address(part.table, offsetof(PatchTable, weights), weights);
       image.set_address(part.table, offsetof(PatchTable, columns), columns);
       if (patch_points >= 0) image.set_address(part.table, offsetof(PatchTable, patch_points), patch_points);
     }
-  }
 }
 
 /// Rows of quantity after quantity, slices of 32 side by side.
@@ -293,6 +311,41 @@ Part pack_fold(const PatternTable<float>& table, Image& image) {
   return part;
 }
 
+/// Columns of patches, for the sums that they get.
+Part pack_transposed(const PatternTable<float>& table, Image& image) {
+  const auto& a = table.arrays();
+  std::vector<Group> groups;
+  std::vector<Items> items;
+  std::vector<float> weights;
+  for (size_t g = 0; g < a.groups.size(); ++g) {
+    const auto& group = a.groups[g];
+    const auto& start = table.starts()[g];
+    const std::int64_t columns = a.blocks[size_t(group.block)].columns;
+    groups.push_back({.weights = number(std::ssize(weights), "weights"),
+                      .stride = uint(group.num_rows),
+                      .num_columns = uint(columns),
+                      .columns = number(start.columns, "columns of patches"),
+                      .num_rows = uint(group.num_rows),
+                      .first_point = uint(start.point),
+                      .first_patch = number(start.patch, "patches")});
+    for (int q = 0; q < a.quantities; ++q)
+      for (std::int64_t k = 0; k < columns; ++k)
+        for (std::int64_t row = 0; row < group.num_rows; ++row) weights.push_back(row_of(a, group, row, q)[k]);
+    for (std::int64_t first = 0; first < group.num_patches * columns; first += items_at_once)
+      items.push_back({uint(g), number(first, "columns of patches"),
+                       uint(std::min(items_at_once, group.num_patches * columns - first))});
+  }
+  number(std::ssize(weights), "weights");
+  const TransposeTable empty = {};
+  const Part part{image.add(std::span(&empty, 1)), std::ssize(items)};
+  image.set_address(part.table, offsetof(TransposeTable, items), image.add<Items>(items));
+  image.set_address(part.table, offsetof(TransposeTable, groups), image.add<Group>(groups));
+  image.set_address(part.table, offsetof(TransposeTable, weights), image.add<float>(weights));
+  if (const std::int64_t places = pack_patch_points(a, image); places >= 0)
+    image.set_address(part.table, offsetof(TransposeTable, patch_points), places);
+  return part;
+}
+
 }  // namespace
 
 std::int64_t Image::add_bytes(std::span<const std::byte> bytes) {
@@ -313,6 +366,7 @@ std::span<const std::byte> Image::at(std::uint64_t address) {
 PackedTable::PackedTable(const PatternTable<float>& table) {
   const auto& a = table.arrays();
   number(table.num_points(), "points");
+  check_places(table);
   pack_patches(table, *this);
   if (a.first) first = pack_rows(*a.first, 1, 0, image);
   if (a.rest) rest = pack_rows(*a.rest, a.quantities, table.num_points() - a.rest->num_rows() / a.quantities, image);
@@ -326,22 +380,7 @@ PackedTranspose::PackedTranspose(const PatternTable<float>& table) {
   number(table.num_points() * a.quantities, "values");
   num_parts = std::int64_t(a.columns.size());
   fold = pack_fold(table, image);
-  if (num_parts > 0) {
-    const auto [groups, packed] = pack_groups(table);
-    std::vector<Tile> tiles;
-    for (size_t g = 0; g < groups.size(); ++g) {
-      const std::int64_t items = a.groups[g].num_patches * groups[g].num_columns;
-      for (std::int64_t item = 0; item < items; item += items_of_tile)
-        tiles.push_back({uint(g), uint(item), uint(std::min(items_of_tile, items - item)), 0, 0});
-    }
-    const TransposeTable empty = {};
-    patches = {image.add(std::span(&empty, 1)), std::int64_t(tiles.size())};
-    image.set_address(patches.table, offsetof(TransposeTable, tiles), image.add<Tile>(tiles));
-    image.set_address(patches.table, offsetof(TransposeTable, groups), image.add<Group>(groups));
-    image.set_address(patches.table, offsetof(TransposeTable, weights), image.add<float>(packed));
-    if (const std::int64_t places = pack_patch_points(a, image); places >= 0)
-      image.set_address(patches.table, offsetof(TransposeTable, patch_points), places);
-  }
+  if (num_parts > 0) patches = pack_transposed(table, image);
   const std::int64_t before_rest = table.num_points() - num_rest;
   inputs = pack_gather(
       num_inputs, a.columns.span(), a.rest ? &*a.rest : nullptr,

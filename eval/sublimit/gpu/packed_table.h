@@ -13,17 +13,15 @@
 
 namespace sublimit::gpu {
 
-inline constexpr int threads = 64;  // of a workgroup
-
 /// What a thread of `apply_patches` makes.
 struct Shape {
   int rows = 1, patches = 1;
 };
 /// Of many patches that have rows by fours, and of others.
-/// @param quantities  made together: 1, 3 or 6; the more there are, the fewer points fit in registers
+/// @param quantities  made together: 1, 3 or 6
 constexpr Shape shape_of(int quantities, bool many) {
   if (!many) return {1, 1};
-  return quantities == 1 ? Shape{4, 2} : quantities == 3 ? Shape{4, 1} : Shape{2, 1};
+  return {4, quantities == 1 ? 2 : 1};
 }
 
 /// Arrays one after the other, each at a multiple of 64 bytes, and places that are to hold an address of one of them.

@@ -123,8 +123,13 @@ std::vector<Usable> usable_devices(const Instance& instance) {
     vk.vkGetPhysicalDeviceQueueFamilyProperties(device, &families, nullptr);
     std::vector<VkQueueFamilyProperties> queues(families);
     vk.vkGetPhysicalDeviceQueueFamilyProperties(device, &families, queues.data());
-    const auto queue = std::ranges::find_if(
-        queues, [](const VkQueueFamilyProperties& q) { return (q.queueFlags & VK_QUEUE_COMPUTE_BIT) != 0; });
+    // A queue that draws nothing, where there is one: graphics do not wait for it, nor it for them.
+    auto queue = queues.end();
+    for (auto q = queues.begin(); q != queues.end(); ++q)
+      if (q->queueFlags & VK_QUEUE_COMPUTE_BIT && (queue == queues.end() || !(q->queueFlags & VK_QUEUE_GRAPHICS_BIT))) {
+        queue = q;
+        if (!(q->queueFlags & VK_QUEUE_GRAPHICS_BIT)) break;
+      }
     if (queue == queues.end()) continue;
     Usable found{device, std::uint32_t(queue - queues.begin()), info_of(vk, device)};
     found.info.halves = halves.storageBuffer16BitAccess;
@@ -179,10 +184,16 @@ class VulkanDriver : public Driver, public std::enable_shared_from_this<VulkanDr
     info.queueCreateInfoCount = 1;
     info.pQueueCreateInfos = &queue;
     check(vk.vkCreateDevice(physical_, &info, nullptr, &device), "opening it");
+    // What is thrown from here on finds no destructor.
+    try {
+      vk.load_device(device);
+      vk.vkGetDeviceQueue(device, family_, 0, &queue_);
+      prepare_device();
+    } catch (...) {
+      if (vk.vkDestroyDevice) vk.vkDestroyDevice(device, nullptr);
+      throw;
+    }
     is_own_ = true;
-    vk.load_device(device);
-    vk.vkGetDeviceQueue(device, family_, 0, &queue_);
-    prepare_device();
   }
 
   explicit VulkanDriver(const EngineDevice& engine) {
@@ -242,46 +253,41 @@ class VulkanDriver : public Driver, public std::enable_shared_from_this<VulkanDr
     pipelines_.emplace(variant, pipeline);
   }
 
-  void record(void* commands, std::span<const Launch> launches) override {
+  void record(void* commands, const Launch& launch) override {
     const auto buffer = static_cast<VkCommandBuffer>(commands);
-    VkPipeline bound = VK_NULL_HANDLE;
-    for (const Launch& launch : launches) {
-      if (launch.waits) {
-        VkMemoryBarrier barrier{};
-        barrier.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER;
-        barrier.srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT;
-        barrier.dstAccessMask = VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT;
-        vk.vkCmdPipelineBarrier(buffer, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, 0,
-                                1, &barrier, 0, nullptr, 0, nullptr);
-      }
-      const VkPipeline pipeline = this->pipeline(launch.variant);
-      if (pipeline != bound) vk.vkCmdBindPipeline(buffer, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline);
-      bound = pipeline;
-      // Rows of workgroups, as many as the device takes; kernels leave out those behind the last.
-      const std::int64_t width = std::min<std::int64_t>(launch.workgroups, most_workgroups_[0]),
-                         height = (launch.workgroups + width - 1) / width;
-      if (height > most_workgroups_[1])
-        throw ResourceError(std::to_string(launch.workgroups) + " workgroups; the GPU takes " +
-                            std::to_string(std::int64_t{most_workgroups_[0]} * most_workgroups_[1]));
-      Arguments arguments = launch.arguments;
-      for (int frame = 0; frame < launch.frames; frame += int(most_workgroups_[2])) {
-        vk.vkCmdPushConstants(buffer, layout_, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof arguments, &arguments);
-        const int frames = std::min(launch.frames - frame, int(most_workgroups_[2]));
-        vk.vkCmdDispatch(buffer, std::uint32_t(width), std::uint32_t(height), std::uint32_t(frames));
-        advance_frames(arguments, frames, launch.variant.half);
-      }
+    if (launch.waits) {
+      VkMemoryBarrier barrier{};
+      barrier.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER;
+      barrier.srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT;
+      barrier.dstAccessMask = VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT;
+      vk.vkCmdPipelineBarrier(buffer, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, 0, 1,
+                              &barrier, 0, nullptr, 0, nullptr);
+    }
+    vk.vkCmdBindPipeline(buffer, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline(launch.variant));
+    // Rows of workgroups, as many as the device takes; kernels leave out those behind the last.
+    const std::int64_t width = std::min<std::int64_t>(launch.workgroups, most_workgroups_[0]),
+                       height = (launch.workgroups + width - 1) / width;
+    if (height > most_workgroups_[1])
+      throw ResourceError(std::to_string(launch.workgroups) + " workgroups; the GPU takes " +
+                          std::to_string(std::int64_t{most_workgroups_[0]} * most_workgroups_[1]));
+    Arguments arguments = launch.arguments;
+    for (int frame = 0; frame < launch.frames; frame += int(most_workgroups_[2])) {
+      vk.vkCmdPushConstants(buffer, layout_, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof arguments, &arguments);
+      const int frames = std::min(launch.frames - frame, int(most_workgroups_[2]));
+      vk.vkCmdDispatch(buffer, std::uint32_t(width), std::uint32_t(height), std::uint32_t(frames));
+      advance_frames(arguments, frames, launch.variant.half);
     }
   }
 
-  /// What kernels wrote, to all that comes later.
+  /// What kernels and copies wrote, to all that comes later.
   void make_visible(VkCommandBuffer commands) {
     VkMemoryBarrier barrier{};
     barrier.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER;
-    barrier.srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT;
+    barrier.srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT;
     barrier.dstAccessMask = VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_READ_BIT |
                             VK_ACCESS_TRANSFER_WRITE_BIT | VK_ACCESS_HOST_READ_BIT;
     vk.vkCmdPipelineBarrier(
-        commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
+        commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
         VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT | VK_PIPELINE_STAGE_HOST_BIT, 0, 1,
         &barrier, 0, nullptr, 0, nullptr);
   }
@@ -301,7 +307,13 @@ class VulkanDriver : public Driver, public std::enable_shared_from_this<VulkanDr
       const std::lock_guard lock(queue_mutex_);
       result = vk.vkQueueSubmit(queue_, 1, &submit, fence);
     }
-    if (result == VK_SUCCESS) result = vk.vkWaitForFences(device, 1, &fence, VK_TRUE, UINT64_MAX);
+    if (result == VK_SUCCESS) {
+      // Nothing of it may be freed while it runs, so a wait that fails for want of memory is tried again.
+      do {
+        result = vk.vkWaitForFences(device, 1, &fence, VK_TRUE, UINT64_MAX);
+      } while (result == VK_ERROR_OUT_OF_HOST_MEMORY || result == VK_ERROR_OUT_OF_DEVICE_MEMORY ||
+               result == VK_TIMEOUT);
+    }
     vk.vkDestroyFence(device, fence, nullptr);
     check(result, "running a kernel");
   }
@@ -465,6 +477,7 @@ class VulkanMemory : public Memory {
     address_ = buffer_.address();
     num_bytes_ = bytes;
   }
+  VkBuffer buffer() const { return buffer_.handle(); }
   void write(std::int64_t at, std::span<const std::byte> bytes) override {
     if (buffer_.mapped())
       std::copy(bytes.begin(), bytes.end(), buffer_.mapped() + at);
@@ -487,6 +500,14 @@ class VulkanRecording : public Recording {
  public:
   explicit VulkanRecording(std::shared_ptr<VulkanDriver> driver) : driver_(std::move(driver)), commands_(*driver_) {}
   void* handle() const override { return commands_.handle(); }
+  void* independent() override { return commands_.handle(); }
+  void copy(const Memory& from, Memory& to, std::int64_t bytes) override {
+    const VkBufferCopy region{0, 0, VkDeviceSize(bytes)};
+    driver_->make_visible(commands_.handle());
+    driver_->vk.vkCmdCopyBuffer(commands_.handle(), static_cast<const VulkanMemory&>(from).buffer(),
+                                static_cast<const VulkanMemory&>(to).buffer(), 1, &region);
+    driver_->make_visible(commands_.handle());
+  }
   void submit_and_wait() override {
     driver_->make_visible(commands_.handle());
     commands_.run();

@@ -45,7 +45,8 @@ void check(VkResult result, const char* what) {
       throw IoError(std::string("the GPU was lost: ") + what +
                     "; its driver was reset or it stopped answering; open the device again, or apply on the CPU");
     default:
-      throw IoError(std::string("the GPU failed: ") + what + ": Vulkan's error " + std::to_string(result));
+      throw IoError(std::string("the GPU failed: ") + what + ": Vulkan's error " + std::to_string(result) +
+                    "; apply on the CPU, or try a newer driver");
   }
 }
 

@@ -36,7 +36,7 @@ class Threads {
 
 /// Around every call that may take long.
 struct LongCall {
-  pybind11::gil_scoped_release no_gil;
+  pybind11::gil_scoped_release no_gil{};
   InterruptionScope signals{check_signals};
 };
 

@@ -12,6 +12,7 @@ PYBIND11_MODULE(_sublimit, m) {
   add_schemes(m);
   add_levels(m);
   add_surfaces(m);
+  add_gpus(m);
   add_tables(m);
   add_curves(m);
   add_reports(m);

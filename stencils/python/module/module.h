@@ -13,6 +13,7 @@ void add_own_sites(pybind11::module_& m);
 void add_own_schemes(pybind11::module_& m);
 void add_levels(pybind11::module_& m);
 void add_surfaces(pybind11::module_& m);
+void add_gpus(pybind11::module_& m);
 void add_tables(pybind11::module_& m);
 void add_curves(pybind11::module_& m);
 void add_reports(pybind11::module_& m);

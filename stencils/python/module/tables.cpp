@@ -9,6 +9,7 @@
 
 #include "arrays.h"
 #include "calls.h"
+#include "gpus.h"
 #include "module.h"
 #include "sources.h"
 #include "sublimit/bake/bake.h"
@@ -23,21 +24,31 @@ namespace {
 template <class Real>
 class Table {
  public:
-  explicit Table(BakedTable<Real> table) : table_(std::move(table)), evaluator_(table_.table) {}
+  explicit Table(BakedTable<Real> table) : table_(std::move(table)), evaluator_(table_.table), gpus_(table_.table) {}
   Table(const Table&) = delete;
 
   const BakedTable<Real>& baked() const { return table_; }
   const PatternTable<Real>& table() const { return table_.table; }
-  const PatternEvaluator<Real>& evaluator() const { return evaluator_; }
+
+  /// @param gpu  its number; without one the CPU
+  void apply(const Evaluation<Real>& evaluation, std::optional<int> gpu) const {
+    gpu ? gpus_.apply(evaluation, *gpu) : evaluator_.apply(evaluation);
+  }
+  void apply_transpose(std::span<const Real> values, int channels, std::span<Real> result,
+                       std::optional<int> gpu) const {
+    gpu ? gpus_.apply_transpose(values, channels, result, *gpu) : evaluator_.apply_transpose(values, channels, result);
+  }
 
  private:
   BakedTable<Real> table_;
   PatternEvaluator<Real> evaluator_;
+  TableOnGpus<Real> gpus_;
 };
 
 /// Points of some frames, (frames, points, channels) numbers, to (frames, quantities, points, channels).
 template <class Real>
-void apply(const Table<Real>& table, const Array<Real>& points, Array<Real>& result, int threads) {
+void apply(const Table<Real>& table, const Array<Real>& points, Array<Real>& result, int threads,
+           std::optional<int> gpu) {
   const std::int64_t channels = points.shape(2), frames = points.shape(0);
   const std::span<const Real> in = span(points);
   const std::span<Real> out{result.mutable_data(), size_t(result.size())};
@@ -53,17 +64,18 @@ void apply(const Table<Real>& table, const Array<Real>& points, Array<Real>& res
   for (std::int64_t k = 0; k < q && frames > 0; ++k)
     asked.quantities[size_t(k)] = out.subspan(size_t(k * made), size_t((frames - 1) * q * made + made));
   if (asked.rational) asked.least_weight = noise_of_weights(asked, table.table().num_control_points());
-  table.evaluator().apply(asked);
+  table.apply(asked, gpu);
 }
 
 template <class Real>
-void apply_transpose(const Table<Real>& table, const Array<Real>& values, Array<Real>& result, int threads) {
+void apply_transpose(const Table<Real>& table, const Array<Real>& values, Array<Real>& result, int threads,
+                     std::optional<int> gpu) {
   const auto channels = static_cast<int>(values.shape(2));
   const std::span<const Real> in = span(values);
   const std::span<Real> out{result.mutable_data(), size_t(result.size())};
   const LongCall scope;
   const Threads held(threads);
-  table.evaluator().apply_transpose(in, channels, out);
+  table.apply_transpose(in, channels, out, gpu);
 }
 
 /// (weights, columns, starts of rows, (rows, columns)); offsets of 64 bits.
@@ -132,8 +144,9 @@ void add_table(py::module_& m, const char* name) {
       .def_property_readonly("status_words", [](const Table<Real>& t) { return t.baked().info.statuses; })
       .def("faces", &faces<Real>)
       .def("addresses", &addresses<Real>)
-      .def("apply", &apply<Real>, py::arg("points"), py::arg("result"), py::arg("threads"))
-      .def("apply_transpose", &apply_transpose<Real>, py::arg("values"), py::arg("result"), py::arg("threads"))
+      .def("apply", &apply<Real>, py::arg("points"), py::arg("result"), py::arg("threads"), py::arg("gpu"))
+      .def("apply_transpose", &apply_transpose<Real>, py::arg("values"), py::arg("result"), py::arg("threads"),
+           py::arg("gpu"))
       .def("matrix", &matrix<Real>)
       .def(
           "save", [](const Table<Real>& t, const std::filesystem::path& path) { save_table(path, t.baked()); },

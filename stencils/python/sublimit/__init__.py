@@ -44,6 +44,8 @@ if TYPE_CHECKING:
     from ._fits import fit as fit
     from ._fits import fit_cloud as fit_cloud
     from ._fits import fit_places as fit_places
+    from ._gpus import GpuInfo as GpuInfo
+    from ._gpus import gpu_devices as gpu_devices
     from ._levels import Limit as Limit
     from ._levels import limit as limit
     from ._levels import refine as refine
@@ -78,6 +80,7 @@ _PARTS = {
     "_errors": ("AnalysisError", "Error", "FormatError", "InvalidMesh", "InvalidOption", "InvalidParameter", "IoError",
                "ResourceError", "UnsupportedTopology"),
     "_fits": ("Fit", "FittedPoints", "fit", "fit_cloud", "fit_places"),
+    "_gpus": ("GpuInfo", "gpu_devices"),
     "_levels": ("Limit", "limit", "refine", "subdivision_matrix"),
     "_meshes": ("Mesh", "read"),
     "_patches": ("Patches",),

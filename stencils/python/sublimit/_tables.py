@@ -11,6 +11,7 @@ import numpy.typing as npt
 
 from . import _arrays as arrays
 from . import _sublimit
+from ._gpus import number_of
 from ._levels import core_of, csr
 from ._meshes import Mesh
 from ._schemes import OptionValue, Scheme, request
@@ -42,6 +43,8 @@ class Table:
     >>> table
     <sublimit.Table: 386 points of 8 control points, float32>
     >>> table.apply(cube.points.astype("float32")).shape
+    (386, 3)
+    >>> table.apply(cube.points, device="gpu" if sublimit.gpu_devices() else "cpu").shape
     (386, 3)
     """
 
@@ -103,7 +106,8 @@ class Table:
         made = channels - 1 if self.rational else channels
         return (self.num_points, made) if self.quantities == 1 else (self.quantities, self.num_points, made)
 
-    def apply(self, points: npt.ArrayLike, out: npt.NDArray[Any] | None = None, *, threads: int = 0) -> npt.NDArray[Any]:
+    def apply(self, points: npt.ArrayLike, out: npt.NDArray[Any] | None = None, *, threads: int = 0,
+              device: str = "cpu") -> npt.NDArray[Any]:
         """The table times control points.
 
         Parameters
@@ -111,6 +115,10 @@ class Table:
         points : (control points, channels) or (frames, control points, channels)
             Used where they are if they are of the table's `dtype` and rows follow each other, else copied first.
         out : array for the result, of the shape below and the table's `dtype`, optional
+        device : ``"cpu"``, ``"gpu"`` (the first one) or ``"gpu:1"``, see `gpu_devices`
+            GPUs apply tables in float, and make the same points to rounding. The table is copied to a GPU when it is
+            first applied there, and stays as long as it lives. Several frames at once take less time than each by
+            itself.
 
         Returns
         -------
@@ -120,7 +128,12 @@ class Table:
         ------
         ValueError
             Arrays of another shape or type; an `out` that shares memory with `points`.
+        InvalidOption
+            A GPU and no such one here, with what is missing; a GPU and a table in double. The CPU never takes over.
+        ResourceError, IoError
+            No memory left on the GPU; it was lost.
         """
+        gpu = number_of(device)
         given = self._input(points, "points", self.num_control_points, "control points")
         frames = given.reshape((-1, *given.shape[-2:]))
         if not 1 <= given.shape[-1] <= 64:
@@ -130,22 +143,24 @@ class Table:
             out = np.empty(shape, self.dtype)
         self._check_out(out, shape, given, "points")
         if len(frames):
-            self._core.apply(frames, out.reshape((len(frames), self.quantities * self.num_points, -1)), threads)
+            self._core.apply(frames, out.reshape((len(frames), self.quantities * self.num_points, -1)), threads, gpu)
         return out
 
     def apply_transpose(self, values: npt.ArrayLike, out: npt.NDArray[Any] | None = None, *,
-                        threads: int = 0) -> npt.NDArray[Any]:
+                        threads: int = 0, device: str = "cpu") -> npt.NDArray[Any]:
         """The transposed table times values: gradients with regard to control points.
 
         Parameters
         ----------
         values : as `apply` makes them, of one frame; or of positions alone, (points, channels)
         out : array for the result, optional
+        device : as for `apply`
 
         Returns
         -------
         (control points, channels)
         """
+        gpu = number_of(device)
         given = np.asarray(values)
         if self.quantities > 1 and given.ndim == 3:
             if given.shape[0] > self.quantities:
@@ -159,7 +174,7 @@ class Table:
         if out is None:
             out = np.empty(shape, self.dtype)
         self._check_out(out, shape, flat, "values")
-        self._core.apply_transpose(flat, out, threads)
+        self._core.apply_transpose(flat, out, threads, gpu)
         return out
 
     def _input(self, values: npt.ArrayLike, name: str, count: int, what: str) -> npt.NDArray[Any]:

@@ -49,7 +49,7 @@ TEST(GpuEvaluator, MakesWhatTheScalarKernelMakes) {
     const GpuEvaluator evaluator(table, test_device());
     evaluator.apply(points, channels, made);
     SCOPED_TRACE(seed);
-    expect_near(made, right, sums_of_terms(table, points, channels), 2);
+    expect_near(made, right, sums_of_terms(table, points, channels), 2 + parts_of(seed).largest_columns / 16.0);
     std::vector<float> again(right.size(), nan);
     evaluator.apply(points, channels, again);
     EXPECT_EQ(made, again);  // to the bit
@@ -320,7 +320,7 @@ TEST(GpuEvaluator, RefusesWhatItCannotMake) {
   e.normals = 0, e.channels = 65;
   EXPECT_EQ(message([&] { evaluator.prepare(e); }), "evaluation: 65 channels; 1 to 64 are right");
   e.channels = 3, e.point_layout.point = std::int64_t{1} << 40;
-  EXPECT_EQ(message([&] { evaluator.prepare(e); }), "strides of 1099511627776 numbers; a GPU takes up to 4294967295");
+  EXPECT_EQ(message([&] { evaluator.prepare(e); }), "strides of 1099511627776 numbers; a GPU takes up to 1073741823");
   std::vector<float> points(7), result(size_t(3 * table.num_points()));
   EXPECT_THROW(evaluator.apply(points, 3, result), InvalidParameter);
   e = {};

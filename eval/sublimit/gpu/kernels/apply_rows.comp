@@ -3,9 +3,10 @@
 #include "language.inc"
 #include "vectors.inc"
 
-SHARED_VECTORS(stage, THREADS);
+SHARED_OF_FILE(stage, THREADS + 2);
 
 KERNEL(apply_rows) {
+  SHARED_OF_KERNEL(stage, THREADS + 2);
   if (WORKGROUP * uint(THREADS) >= arguments.count) return;
   const RowTable table = RowTables(arguments.table).at[0];
   const ADDRESS points = advanced(arguments.points, FRAME, arguments.in_frame * 4u);
@@ -39,3 +40,8 @@ KERNEL(apply_rows) {
 #define address_of(i) (run + (i))
 #include "finish.inc"
 }
+
+#undef SUM
+#undef has_point
+#undef place
+#undef address_of

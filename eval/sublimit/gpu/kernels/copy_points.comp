@@ -18,6 +18,6 @@ KERNEL(copy_points) {
 #ifdef HALF
     Halves(to).at[c * arguments.out_channel] = Halves(from).at[c * arguments.out_channel];
 #else
-    Floats(to).at[c * arguments.out_channel] = Floats(from).at[c * arguments.out_channel];
+    WrittenFloats(to).at[c * arguments.out_channel] = WrittenFloats(from).at[c * arguments.out_channel];
 #endif
 }

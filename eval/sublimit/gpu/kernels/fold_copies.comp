@@ -12,6 +12,6 @@ KERNEL(fold_copies) {
     float sum = 0.0f;
     for (uint k = begin; k < end; ++k)
       sum += Floats(advanced(arguments.results[1], Numbers(table.points).at[k], 4u * arguments.in_point)).at[c];
-    Floats(to).at[c] = sum;
+    WrittenFloats(to).at[c] = sum;
   }
 }

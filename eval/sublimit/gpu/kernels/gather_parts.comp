@@ -28,5 +28,5 @@ KERNEL(gather_parts) {
     }
   }
   const ADDRESS to = advanced(arguments.results[3], i, 4u * arguments.in_point);
-  UNROLL for (int c = 0; c < CHANNELS; ++c) Floats(to).at[first_channel + uint(c)] = sums[c];
+  UNROLL for (int c = 0; c < CHANNELS; ++c) WrittenFloats(to).at[first_channel + uint(c)] = sums[c];
 }

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// What applies a table to the points of a frame: the CPU, or a GPU where the program has its part for these.
+#include <memory>
+#include <span>
+#include <string>
+
+#include "sublimit/evaluation.h"
+#include "sublimit/pattern_table.h"
+
+namespace sublimit::cli {
+
+inline constexpr const char* built_without_gpus =
+    "this program was built without its part for GPUs, which -DSUBLIMIT_BUILD_GPU=ON adds (Debian: glslc libvulkan-dev)";
+
+/// Functions as those of `PatternEvaluator`.
+template <class Real>
+class TableApplier {
+ public:
+  virtual ~TableApplier() = default;
+  virtual const PatternTable<Real>& table() const = 0;
+  virtual void apply(std::span<const Real> points, int channels, std::span<Real> result) const = 0;
+  virtual void apply(const Evaluation<Real>& evaluation) const = 0;
+  /// "NVIDIA H100, CUDA"; empty: the CPU.
+  virtual std::string device() const = 0;
+};
+
+/// @param table  which must stay, here and below
+template <class Real>
+std::unique_ptr<TableApplier<Real>> cpu_applier(const PatternTable<Real>& table);
+
+/// @param device  as `sublimit devices` counts
+/// @throws InvalidOption  there is no such device, with what is missing and how to do without
+/// @throws ResourceError, IoError  no memory left on the device; it is lost
+std::unique_ptr<TableApplier<float>> gpu_applier(const PatternTable<float>& table, int device);
+
+}  // namespace sublimit::cli

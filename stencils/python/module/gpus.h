@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// Tables on GPUs, where the module has its part for these.
+#include <map>
+#include <memory>
+#include <mutex>
+#include <span>
+
+#include "sublimit/base/error.h"
+#include "sublimit/evaluation.h"
+#include "sublimit/pattern_table.h"
+
+namespace sublimit {
+class GpuDevice;
+class GpuEvaluator;
+}  // namespace sublimit
+
+namespace sublimit::python {
+
+/// A table on the GPUs that it was applied on, by their numbers: uploaded when it is first applied there, and kept.
+/// Used by any number of threads, without Python's lock.
+template <class Real>
+class TableOnGpus {
+ public:
+  /// @param table  which must stay
+  explicit TableOnGpus(const PatternTable<Real>& table) : table_(table) {}
+  /// @throws InvalidOption  there is no such GPU, with what is missing and how to do without
+  /// @throws ResourceError, IoError, InvalidParameter  as `GpuEvaluator`
+  void apply(const Evaluation<Real>& evaluation, int gpu) const;
+  void apply_transpose(std::span<const Real> values, int channels, std::span<Real> result, int gpu) const;
+
+ private:
+  struct Uploaded {
+    std::shared_ptr<const GpuDevice> device;
+    std::shared_ptr<const GpuEvaluator> evaluator;
+  };
+  const GpuEvaluator& on(int gpu) const;
+
+  const PatternTable<Real>& table_;
+  mutable std::mutex mutex_;
+  mutable std::map<int, Uploaded> uploaded_;
+};
+
+/// GPUs apply tables in float alone.
+template <>
+class TableOnGpus<double> {
+ public:
+  explicit TableOnGpus(const PatternTable<double>&) {}
+  void apply(const Evaluation<double>&, int) const { refuse(); }
+  void apply_transpose(std::span<const double>, int, std::span<double>, int) const { refuse(); }
+
+ private:
+  [[noreturn]] static void refuse() {
+    throw InvalidOption(
+        "GPUs apply tables in float, and this one is in double; bake one with precision='float', or apply this one "
+        "with device='cpu'");
+  }
+};
+
+}  // namespace sublimit::python
