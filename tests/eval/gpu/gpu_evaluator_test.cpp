@@ -11,6 +11,7 @@
 #include <thread>
 #include <vector>
 
+#include "eval/gpu/comparisons.h"
 #include "eval/gpu/made_tables.h"
 #include "eval/gpu/test_device.h"
 #include "sublimit/base/error.h"
@@ -31,25 +32,17 @@ MadeTable parts_of(unsigned seed) {
   return parts;
 }
 
-/// |x - right| within `ulps` of a float as large as the sum of the magnitudes of its terms.
-void expect_near(std::span<const float> x, std::span<const float> right, std::span<const double> terms, double ulps) {
-  ASSERT_EQ(x.size(), right.size());
-  for (size_t i = 0; i < x.size(); ++i)
-    ASSERT_TRUE(std::abs(double(x[i]) - double(right[i])) <= ulps * eps * terms[i])
-        << "number " << i << ": " << x[i] << ", not " << right[i];
-}
-
 TEST(GpuEvaluator, MakesWhatTheScalarKernelMakes) {
   for (unsigned seed = 0; seed < 48; ++seed) {
     const PatternTable<float> table = made_table(parts_of(seed), seed);
     const int channels = 1 + int(seed % 7);
     const std::vector<float> points = random_numbers(size_t(table.num_control_points() * channels), seed);
     std::vector<float> right(size_t(table.quantities() * table.num_points() * channels)), made(right.size(), nan);
-    table.apply(points, channels, right);
+    apply_as_device(test_device(), table, points, channels, right);
     const GpuEvaluator evaluator(table, test_device());
     evaluator.apply(points, channels, made);
     SCOPED_TRACE(seed);
-    expect_near(made, right, sums_of_terms(table, points, channels), 2 + parts_of(seed).largest_columns / 16.0);
+    expect_near_terms(made, right, sums_of_terms(table, points, channels));
     std::vector<float> again(right.size(), nan);
     evaluator.apply(points, channels, again);
     EXPECT_EQ(made, again);  // to the bit
@@ -376,10 +369,10 @@ TEST(GpuEvaluator, TakesBlocksOfAnySize) {
       const PatternTable<float> table = made_table(parts, ++seed);
       const std::vector<float> points = random_numbers(size_t(table.num_control_points() * 3), seed);
       std::vector<float> right(size_t(table.quantities() * table.num_points() * 3)), made(right.size(), nan);
-      table.apply(points, 3, right);
+      apply_as_device(test_device(), table, points, 3, right);
       GpuEvaluator(table, test_device()).apply(points, 3, made);
       SCOPED_TRACE(std::to_string(rows) + " x " + std::to_string(columns));
-      expect_near(made, right, sums_of_terms(table, points, 3), 2 + columns / 16.0);
+      expect_near_terms(made, right, sums_of_terms(table, points, 3));
     }
 }
 

@@ -53,7 +53,7 @@ void expect_the_scalar_kernel(const Baked& baked, Compared& compared) {
   const std::vector<float> points = random_numbers(size_t(table.num_control_points()) * 3, 7);
   const std::vector<double> terms = sums_of_terms(table, points, 3);
   std::vector<float> right(terms.size()), made(terms.size());
-  table.apply(points, 3, right);
+  apply_as_device(test_device(), table, points, 3, right);
   evaluator.apply(points, 3, made);
   expect_near_terms(made, right, terms);
   note_parts(baked, compared);
@@ -217,7 +217,7 @@ TEST(GpuTables, OfRationalSurfaces) {
       const PatternTable<float> table = in_float(baked.table.table);
       std::vector<float> points(shape.columns.data(), shape.columns.data() + shape.columns.size());
       std::vector<float> columns(size_t(table.quantities() * table.num_points() * 4));
-      table.apply(points, 4, columns);
+      apply_as_device(test_device(), table, points, 4, columns);
       const std::vector<double> errors =
           roundings_of_quotients(columns, sums_of_terms(table, points, 4), table.quantities(), 4);
       const GpuEvaluator evaluator(table, test_device());

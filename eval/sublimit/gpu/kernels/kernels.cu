@@ -3,7 +3,11 @@
 // wanted are compiled for the device in little time.
 #include "language.inc"
 
+#if defined(STAND_IN_FOR_CUDA) && defined(HALF)
+#define NAME_OF(kernel, Q, C, R, P) half_##kernel##_q##Q##c##C##r##R##p##P  // all in one library
+#else
 #define NAME_OF(kernel, Q, C, R, P) kernel##_q##Q##c##C##r##R##p##P
+#endif
 // Three quantities are to leave registers for 16 workgroups: with fewer, the memory is waited for.
 #define WORKGROUPS (PATCHES_OF == 3 ? 16 : 1)
 #define VARIANT(kernel, q, c, r, p)                                                                   \
