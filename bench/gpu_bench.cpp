@@ -168,6 +168,11 @@ void measure(Report& report, const Case& c, const Asked& asked, const GpuDevice&
   Resident written(nothing, device, points, asked);
   const double difference =
       asked.halves ? 0 : std::max(ours.largest_difference(right[0]), peer.largest_difference(right[0]));
+  if (!(difference < 1e-4)) {
+    std::fprintf(stderr, "%s, %s on %s: points differ by %g from the CPU's\n", mesh.c_str(), detail.c_str(),
+                 short_name(device.info()).c_str(), difference);
+    std::exit(1);
+  }
   const double time = ours.seconds(), bytes = asked.bytes_of_point() * double(table.num_points());
   std::printf(
       "%s, %s on %s: %lld points, %.1f MB; %.2f of the time to copy as many bytes as are written; differ by %.0e\n",
