@@ -18,6 +18,9 @@ constexpr std::int64_t rows_of_slice = 32;
 constexpr std::int64_t points_of_group = 256, points_of_launch = 1 << 17;
 /// Columns of patches that a workgroup of a transpose takes.
 constexpr std::int64_t items_at_once = 256;
+/// Patches of one point each are not for all threads of a workgroup: there is shared memory for so many of their
+/// columns only that it would wait for memory again and again.
+constexpr std::int64_t few_at_once = 32;
 /// Made together.
 constexpr int quantities_of[] = {1, 3, 6};
 

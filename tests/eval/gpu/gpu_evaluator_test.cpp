@@ -15,6 +15,7 @@
 #include "eval/gpu/made_tables.h"
 #include "eval/gpu/test_device.h"
 #include "sublimit/base/error.h"
+#include "sublimit/gpu/packed_table.h"
 #include "sublimit/pattern_evaluator.h"
 
 namespace sublimit::testing {
@@ -29,7 +30,18 @@ MadeTable parts_of(unsigned seed) {
   parts.quantities = seed % 3 == 0 ? 1 : seed % 3 == 1 ? 3 : 6;
   parts.first = (seed & 1) != 0, parts.rest = (seed & 2) != 0, parts.copies = (seed & 4) != 0;
   parts.placed = (seed & 8) != 0;
+  parts.many = seed % 7 == 6;
   return parts;
+}
+
+TEST(GpuEvaluator, IsTestedWithEveryKindOfTiles) {
+  for (const unsigned seed : {6u, 13u, 20u})  // of 1, 3 and 6 quantities
+    for (size_t size = 0; size <= seed % 3; ++size)
+      for (const bool many : {false, true})
+        EXPECT_GT(gpu::PackedTable(made_table(parts_of(seed), seed)).patches[size][many].count, 0) << seed;
+  const gpu::PackedTable small(made_table(parts_of(0), 0));
+  EXPECT_GT(small.patches[0][false].count, 0);
+  EXPECT_EQ(small.patches[0][true].count, 0);  // one launch
 }
 
 TEST(GpuEvaluator, MakesWhatTheScalarKernelMakes) {
@@ -88,7 +100,7 @@ Vector unit(const Vector& a) {
 }
 
 TEST(GpuEvaluator, MakesUnitTangentFrames) {
-  for (unsigned seed : {1u, 4u, 7u, 10u, 13u, 2u, 5u, 14u}) {
+  for (unsigned seed : {1u, 4u, 7u, 10u, 13u, 20u, 2u, 5u, 14u}) {
     const PatternTable<float> table = made_table(parts_of(seed), seed);
     ASSERT_GE(table.quantities(), 3);
     const std::vector<float> points = random_numbers(size_t(table.num_control_points() * 3), seed);

@@ -14,6 +14,7 @@ struct MadeTable {
   bool first = false, rest = false, copies = false, placed = false;
   int largest_rows = 80, largest_columns = 40, largest_count = 40;  ///< of blocks, of patches in a group
   int groups = 8;
+  bool many = false;  ///< so many patches of so many rows that a GPU makes most of them by fours of rows
 };
 
 /// @param parts  that it has
@@ -38,13 +39,14 @@ inline PatternTable<float> made_table(const MadeTable& parts, unsigned seed) {
   std::vector<float> weights;
   std::vector<std::int32_t> chosen, columns;
   for (int b = 0; b < 4; ++b) {
-    const std::int32_t block_rows = 1 + up_to(parts.largest_rows - 1), block_columns = up_to(parts.largest_columns);
+    const std::int32_t block_rows = parts.many ? 61 + up_to(19) : 1 + up_to(parts.largest_rows - 1),
+                       block_columns = up_to(parts.largest_columns);
     a.blocks.push_back({block_rows, block_columns, std::ssize(weights)});
     for (int i = 0; i < parts.quantities * block_rows * block_columns; ++i) weights.push_back(weight());
   }
   std::vector<std::int64_t> sizes;
-  for (int g = 0; g < parts.groups; ++g) {
-    const std::int32_t block = up_to(3), count = g % 2 == 0 ? up_to(2) : up_to(parts.largest_count);
+  for (int g = 0; g < (parts.many ? 4 : parts.groups); ++g) {
+    const std::int32_t block = up_to(3), count = g % 2 == 0 ? up_to(2) : parts.many ? 1500 : up_to(parts.largest_count);
     const auto first_row = std::ssize(chosen);
     for (std::int32_t row = 0; row < a.blocks[size_t(block)].rows; ++row)
       if (g < 2 || up_to(2) > 0) chosen.push_back(row);
