@@ -6,8 +6,8 @@
 //   host     points from the host, results back to it | the CPU's evaluator, all threads
 //   many     1000 tables of 500 faces each, in one submission
 //   copy     what the device's memory moves: copies between two large buffers
-// In picoseconds a point, but for `copy`. What is made is compared with the CPU's before anything is timed. The limit
-// of `device` is the time to write the points: `copy` counts bytes read and bytes written.
+// In picoseconds a point, but for `copy`. What is made, half floats left out, is compared with the CPU's before it is
+// timed. The limit of `device` is the time to write the points: `copy` counts bytes read and bytes written.
 //
 // `gpu_bench --ratios [turns]` takes turns (report.h), or one; `--only "device torus"` takes some rows, `--device N`
 // one of the devices that `sublimit devices` lists.
@@ -156,9 +156,10 @@ void measure(Report& report, const Case& c, const Asked& asked, const GpuDevice&
   const PatternEvaluator<float> cpu(table);
   Evaluation<float> e;
   e.points = points;
-  std::vector<std::vector<float>> right(4, std::vector<float>(size_t(table.num_points()) * 3));
-  for (size_t q = 0; q < (asked.first ? 3 : 1); ++q) e.quantities[q] = right[q];
-  if (asked.normals) e.normals = right[3];
+  const size_t of_quantity = size_t(table.num_points()) * 3, quantities = asked.first ? 3 : 1;
+  std::vector<float> right(of_quantity * (quantities + asked.normals));
+  for (size_t q = 0; q < quantities; ++q) e.quantities[q] = std::span(right).subspan(q * of_quantity, of_quantity);
+  if (asked.normals) e.normals = std::span(right).last(of_quantity);
   cpu.apply(e);
 
   Resident ours(table, device, points, asked);
@@ -166,8 +167,7 @@ void measure(Report& report, const Case& c, const Asked& asked, const GpuDevice&
   Resident peer(rows, device, points, asked);
   const PatternTable<float> nothing = of_nothing(table);
   Resident written(nothing, device, points, asked);
-  const double difference =
-      asked.halves ? 0 : std::max(ours.largest_difference(right[0]), peer.largest_difference(right[0]));
+  const double difference = asked.halves ? 0 : std::max(ours.largest_difference(right), peer.largest_difference(right));
   if (!(difference < 1e-4)) {
     std::fprintf(stderr, "%s, %s on %s: points differ by %g from the CPU's\n", mesh.c_str(), detail.c_str(),
                  short_name(device.info()).c_str(), difference);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <map>
 #include <mutex>
+#include <new>
 #include <utility>
 
 #include "sublimit/base/error.h"
@@ -97,16 +98,12 @@ const CudaFunctions* cuda_functions(std::string& missing) {
 
 void check(const CudaFunctions& cuda, Result result, const char* what) {
   if (result == success) return;
-  if (result == out_of_memory)
-    throw ResourceError(std::string("the GPU has no memory left: ") + what +
-                        "; use a smaller table or fewer frames at once, or apply on the CPU");
+  if (result == out_of_memory) fail_without_memory(what);
   const char* name = nullptr;
   cuda.cuGetErrorName(result, &name);
-  const std::string error = name ? name : std::to_string(result);
-  if (std::ranges::find(lost, result) != std::end(lost))
-    throw IoError(std::string("the GPU was lost: ") + what + ": " + error +
-                  "; start the program again, or apply on the CPU");
-  throw IoError(std::string("the GPU failed: ") + what + ": " + error + "; apply on the CPU, or try a newer driver");
+  const std::string error = std::string(what) + ": " + (name ? name : std::to_string(result));
+  if (std::ranges::find(lost, result) != std::end(lost)) fail_lost(error);
+  fail_otherwise(error);
 }
 
 struct Usable {
@@ -151,8 +148,7 @@ class CudaDriver : public Driver, public std::enable_shared_from_this<CudaDriver
     cuda.cuDeviceGetAttribute(&most_frames_, max_grid_z, device_);
   }
   ~CudaDriver() override {
-    {
-      const Current current(*this);
+    if (const Current current(*this, std::nothrow); current.is_there()) {
       for (const Stream stream : streams_) cuda.cuStreamDestroy_v2(stream);
       for (const auto& [ptx, module] : modules_) cuda.cuModuleUnload(module);
     }
@@ -162,35 +158,47 @@ class CudaDriver : public Driver, public std::enable_shared_from_this<CudaDriver
   /// The context of this thread for a while.
   class Current {
    public:
-    explicit Current(const CudaDriver& driver) : cuda_(driver.cuda) {
-      check(cuda_, cuda_.cuCtxPushCurrent_v2(driver.context_), "opening it");
-    }
+    explicit Current(const CudaDriver& driver) : Current(driver, std::nothrow) { check(cuda_, result_, "opening it"); }
+    /// For destructors: a device that is lost has nothing to be freed.
+    Current(const CudaDriver& driver, std::nothrow_t)
+        : cuda_(driver.cuda), result_(cuda_.cuCtxPushCurrent_v2(driver.context_)) {}
     ~Current() {
       Context before = nullptr;
-      cuda_.cuCtxPopCurrent_v2(&before);
+      if (is_there()) cuda_.cuCtxPopCurrent_v2(&before);
     }
     Current(const Current&) = delete;
+    bool is_there() const { return result_ == success; }
 
    private:
     const CudaFunctions& cuda_;
+    Result result_;
   };
 
   std::unique_ptr<Memory> allocate(std::int64_t bytes) override;
   std::unique_ptr<Recording> begin() override;
 
   void prepare(const Variant& variant) override {
-    const std::lock_guard lock(mutex_);
-    if (functions_.contains(variant)) return;
-    const Current current(*this);
     const char* const ptx = ptx_of(variant);
-    auto module = modules_.find(ptx);
-    if (module == modules_.end()) {
-      Module loaded = nullptr;
-      check(cuda, cuda.cuModuleLoadData(&loaded, ptx), "compiling a kernel");
-      module = modules_.emplace(ptx, loaded).first;
+    Module module = nullptr;
+    {
+      const std::lock_guard lock(mutex_);
+      if (functions_.contains(variant)) return;
+      if (const auto found = modules_.find(ptx); found != modules_.end()) module = found->second;
+    }
+    const Current current(*this);
+    if (!module) {
+      // Without the lock, which those who record take: compiling takes long.
+      check(cuda, cuda.cuModuleLoadData(&module, ptx), "compiling a kernel");
+      const std::lock_guard lock(mutex_);
+      const auto [kept, is_new] = modules_.emplace(ptx, module);
+      if (!is_new) {  // another thread's
+        cuda.cuModuleUnload(module);
+        module = kept->second;
+      }
     }
     Function function = nullptr;
-    check(cuda, cuda.cuModuleGetFunction(&function, module->second, name_in_ptx(variant).c_str()), "finding a kernel");
+    check(cuda, cuda.cuModuleGetFunction(&function, module, name_in_ptx(variant).c_str()), "finding a kernel");
+    const std::lock_guard lock(mutex_);
     functions_.emplace(variant, function);
   }
 
@@ -225,6 +233,8 @@ class CudaDriver : public Driver, public std::enable_shared_from_this<CudaDriver
     const Current current(*this);
     Stream stream = nullptr;
     check(cuda, cuda.cuStreamCreate(&stream, 0), "making a stream");
+    const std::lock_guard lock(mutex_);
+    streams_.reserve(++num_streams_);  // so that it can be given back
     return stream;
   }
   void give_back(Stream stream) {
@@ -238,8 +248,7 @@ class CudaDriver : public Driver, public std::enable_shared_from_this<CudaDriver
   Function function(const Variant& variant) {
     const std::lock_guard lock(mutex_);
     const auto found = functions_.find(variant);
-    if (found == functions_.end())
-      throw InvalidParameter("an evaluation that the GPU was not prepared for; call `prepare` with it first");
+    if (found == functions_.end()) fail_unprepared();
     return found->second;
   }
 
@@ -248,6 +257,7 @@ class CudaDriver : public Driver, public std::enable_shared_from_this<CudaDriver
   int most_frames_ = 65535;
   std::mutex mutex_;
   std::vector<Stream> streams_;
+  size_t num_streams_ = 0;
   std::map<const char*, Module> modules_;
   std::map<Variant, Function> functions_;
 };
@@ -263,14 +273,16 @@ class CudaMemory : public Memory {
     num_bytes_ = bytes;
   }
   ~CudaMemory() override {
-    const CudaDriver::Current current(*driver_);
-    driver_->cuda.cuMemFree_v2(address_);
+    const CudaDriver::Current current(*driver_, std::nothrow);
+    if (current.is_there()) driver_->cuda.cuMemFree_v2(address_);
   }
   void write(std::int64_t at, std::span<const std::byte> bytes) override {
     if (bytes.empty()) return;
     const CudaDriver::Current current(*driver_);
     check(driver_->cuda, driver_->cuda.cuMemcpyHtoD_v2(address_ + Pointer(at), bytes.data(), bytes.size()),
           "copying to it");
+    // Memory that is not pinned may be on its way still, which streams that do not wait for this one would overtake.
+    check(driver_->cuda, driver_->cuda.cuStreamSynchronize(nullptr), "copying to it");
   }
   void read(std::int64_t at, std::span<std::byte> bytes) const override {
     if (bytes.empty()) return;
@@ -286,17 +298,18 @@ class CudaMemory : public Memory {
 /// Streams, each of which waits for copies before it.
 class CudaRecording : public Recording {
  public:
-  explicit CudaRecording(std::shared_ptr<CudaDriver> driver) : driver_(std::move(driver)) { independent(); }
+  explicit CudaRecording(std::shared_ptr<CudaDriver> driver) : driver_(std::move(driver)) {
+    streams_.reserve(most_streams);
+    streams_.push_back(driver_->take_stream());
+  }
   ~CudaRecording() override {
     for (const Stream stream : streams_) driver_->give_back(stream);
   }
   void* handle() const override { return streams_.front(); }
   void* independent() override {
-    if (streams_.size() < most_streams)
-      streams_.push_back(driver_->take_stream());
-    else
-      ++next_;
-    return streams_.size() < most_streams ? streams_.back() : streams_[next_ % most_streams];
+    const size_t number = next_++ % most_streams;
+    if (number == streams_.size()) streams_.push_back(driver_->take_stream());
+    return streams_[number];
   }
   void copy(const Memory& from, Memory& to, std::int64_t bytes) override {
     const CudaDriver::Current current(*driver_);

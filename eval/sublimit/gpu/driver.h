@@ -41,6 +41,12 @@ struct Launch {
   bool waits = false;  ///< for launches before it
 };
 
+// Failures of a device, whatever it is reached through.
+[[noreturn]] void fail_without_memory(const std::string& what);  ///< ResourceError
+[[noreturn]] void fail_lost(const std::string& what);            ///< IoError
+[[noreturn]] void fail_otherwise(const std::string& what);       ///< IoError
+[[noreturn]] void fail_unprepared();                             ///< InvalidParameter
+
 class Memory {
  public:
   virtual ~Memory() = default;

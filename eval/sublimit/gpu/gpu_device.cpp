@@ -22,12 +22,18 @@ struct Numbered {
 std::vector<Numbered> numbered_devices(std::string* why_none) {
   std::vector<Numbered> all;
   std::string missing;
-  const auto add = [&](const gpu::Found& found) {
+  const auto add = [&](gpu::Found (*devices)()) {
+    gpu::Found found;
+    try {
+      found = devices();
+    } catch (const Error& error) {  // the other library may have devices
+      found.missing = error.what();
+    }
     for (size_t i = 0; i < found.devices.size(); ++i) all.push_back({found.devices[i], i});
     if (!found.missing.empty()) missing += (missing.empty() ? "" : "; ") + found.missing;
   };
-  add(gpu::cuda_devices());
-  add(gpu::vulkan_devices());
+  add(gpu::cuda_devices);
+  add(gpu::vulkan_devices);
   std::ranges::stable_sort(all, {}, [](const Numbered& device) { return device.info.kind; });
   if (why_none && all.empty()) *why_none = missing;
   return all;

@@ -44,17 +44,17 @@ struct GpuInfo {
 /// @param why_none  if given: what is missing, where there is none
 std::vector<GpuInfo> gpu_devices(std::string* why_none = nullptr);
 
-/// The Vulkan device of an engine, which stays the engine's: nothing is created but pipelines, buffers of tables, and
-/// one command pool.
+/// The Vulkan device of an engine, which stays the engine's. Created are pipelines and buffers of tables; where the
+/// host copies or waits, also a buffer of 32 MB for that, and a command pool and a fence for the while.
 struct EngineDevice {
   VkInstance_T* instance = nullptr;
   VkPhysicalDevice_T* physical_device = nullptr;
   VkDevice_T* device = nullptr;  ///< Vulkan 1.2 or later, with the feature bufferDeviceAddress on
-  /// Takes compute. Used by this thread's calls that upload tables and by `apply` of spans, and must not be used by
-  /// others meanwhile; recording does not touch it.
+  /// Takes compute. Used by calls that upload tables and by `apply` of spans, and must not be used by others meanwhile;
+  /// recording does not touch it. One `GpuDevice` for each queue.
   VkQueue_T* queue = nullptr;
-  std::uint32_t queue_family = 0;
-  bool halves = false;  ///< the feature storageBuffer16BitAccess is on
+  std::uint32_t queue_family = 0;  ///< of the queue, and of the commands that are recorded
+  bool halves = false;             ///< the feature storageBuffer16BitAccess is on
   /// vkGetInstanceProcAddr of the engine; null: the loader's, which is looked for.
   void (*(*get_instance_proc_addr)(VkInstance_T*, const char*))() = nullptr;
 };
@@ -66,6 +66,8 @@ class GpuDevice {
   /// @throws InvalidOption  there is no such device; says what is missing
   /// @throws ResourceError, IoError  as all calls that reach a device: no memory left there, the device is lost
   explicit GpuDevice(int number = 0);
+  /// @throws InvalidParameter  a handle is missing
+  /// @throws IoError           the device is not of Vulkan 1.2
   explicit GpuDevice(const EngineDevice& engine);
 
   const GpuInfo& info() const;
@@ -96,7 +98,8 @@ class GpuBuffer {
   std::unique_ptr<gpu::Memory> memory_;
 };
 
-/// Commands for a device of `gpu_devices`: recorded by evaluators, submitted once. Of one thread.
+/// Commands for a device of `gpu_devices`: recorded by evaluators, submitted once; by CUDA they begin when they are
+/// recorded. Of one thread.
 class GpuCommands {
  public:
   explicit GpuCommands(const GpuDevice& device);

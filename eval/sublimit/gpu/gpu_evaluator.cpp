@@ -27,7 +27,7 @@ using gpu::uint;
 using gpu::Variant;
 
 constexpr int channels_at_once = 4;
-/// Results of frames that are on the device at once, for `apply`.
+/// Points, or results, of frames that are on the device at once, for `apply`.
 constexpr std::int64_t bytes_at_once = std::int64_t{1} << 30;
 
 /// Where the wanted results of an evaluation are, in the order of `Wanted`.
@@ -95,6 +95,7 @@ struct GpuEvaluator::Uploaded {
   // Arrays of `apply`, kept.
   std::mutex free_mutex;
   std::vector<std::unique_ptr<gpu::Memory>> free;
+  size_t num_made = 0;
 
   Uploaded(const PatternTable<float>& t, std::shared_ptr<gpu::Driver> d) : table(t), driver(std::move(d)) {
     gpu::PackedTable packed(t);
@@ -138,7 +139,10 @@ struct GpuEvaluator::Uploaded {
           owner.free.erase(best);
         }
       }
-      if (!memory_) memory_ = owner.driver->allocate(bytes);
+      if (memory_) return;
+      memory_ = owner.driver->allocate(bytes);
+      const std::lock_guard lock(owner.free_mutex);
+      owner.free.reserve(++owner.num_made);  // so that it can be given back
     }
     ~Lease() {
       const std::lock_guard lock(owner_.free_mutex);
@@ -184,7 +188,9 @@ struct GpuEvaluator::Uploaded {
     if (first.count > 0 && e.scratch == 0) fail_evaluation("a table with a first step needs scratch on the device");
     Arguments common{};
     common.in_point = stride(layouts.given.strides.point), common.in_channel = stride(layouts.given.strides.channel);
-    common.in_frame = stride(layouts.given.frame);
+    // Of one frame nothing is added.
+    const auto frame = [&](const Layout& layout) { return e.frames == 1 ? 0 : stride(layout.frame); };
+    common.in_frame = frame(layouts.given);
     check_frame(layouts.given, table.num_control_points(), e.channels);
     check_frame(layouts.inputs, first.count > 0 ? first.count : 1, e.channels);
     common.points = e.points;
@@ -193,7 +199,7 @@ struct GpuEvaluator::Uploaded {
       a.table = address(first);
       a.results[0] = e.scratch;
       a.count = uint(first.count);
-      a.out_point = stride(layouts.inputs.strides.point), a.out_channel = 1, a.out_frame = stride(layouts.inputs.frame);
+      a.out_point = stride(layouts.inputs.strides.point), a.out_channel = 1, a.out_frame = frame(layouts.inputs);
       for_each_part(e.channels, channels_at_once, [&](int begin, int count) {
         a.channels = uint(begin);
         launch({{Kernel::apply_rows, false, 1, count, 1, 1}, a, workgroups(first.count), e.frames, false});
@@ -203,7 +209,7 @@ struct GpuEvaluator::Uploaded {
     }
     common.out_point = stride(layouts.results.strides.point);
     common.out_channel = stride(layouts.results.strides.channel);
-    common.out_frame = stride(layouts.results.frame);
+    common.out_frame = frame(layouts.results);
     common.least_weight = e.least_weight;
     std::ranges::copy(results_of(e), common.results);
 
@@ -256,13 +262,18 @@ struct GpuEvaluator::Uploaded {
     return s;
   }
 
-  void check(const GpuTranspose& t) const {
+  void check_shape(const GpuTranspose& t) const {
     if (t.channels < 1) fail_evaluation(std::to_string(t.channels) + " channels; at least one is right");
     if (t.quantities < 1 || t.quantities > table.quantities())
       fail_evaluation("values of " + std::to_string(t.quantities) + " quantities of a table with " +
                       std::to_string(table.quantities()));
+  }
+  void check(const GpuTranspose& t) const {
+    check_shape(t);
     for (const std::uint64_t address : {t.values, t.result, t.scratch})
       if (address % 4 != 0) fail_evaluation("numbers on the device at an address that is no multiple of 4");
+    if ((t.values == 0 && table.num_points() > 0) || (t.result == 0 && table.num_control_points() > 0))
+      fail_evaluation("no values or no result of a transpose on the device");
   }
 
   template <class Body>
@@ -352,7 +363,7 @@ void GpuEvaluator::record(const GpuCommands& commands, const GpuEvaluation& e) c
 }
 void GpuEvaluator::prepare(const GpuTranspose& t) const { uploaded_->prepare(t); }
 std::int64_t GpuEvaluator::num_scratch_bytes(const GpuTranspose& t) const {
-  uploaded_->check(t);
+  uploaded_->check_shape(t);
   return uploaded_->scratch_of(t).end;
 }
 void GpuEvaluator::record(VkCommandBuffer_T* commands, const GpuTranspose& t) const {
@@ -376,8 +387,10 @@ void GpuEvaluator::apply(const Evaluation<float>& e) const {
 
   // Results are dense on the device, whatever lies between them here.
   const std::int64_t of_frame = table().num_points() * e.result_channels(), num_wanted = std::popcount(wanted);
+  const std::int64_t most_numbers =
+      std::max({of_frame * num_wanted, layouts.given.frame, uploaded_->first.count * e.channels, std::int64_t{1}});
   const auto at_once = static_cast<int>(
-      std::clamp<std::int64_t>(bytes_at_once / (of_frame * num_wanted * std::int64_t(sizeof(float))), 1, e.frames));
+      std::clamp<std::int64_t>(bytes_at_once / (most_numbers * std::int64_t(sizeof(float))), 1, e.frames));
   GpuEvaluation on_device;
   on_device.channels = e.channels;
   on_device.point_layout = e.point_layout;

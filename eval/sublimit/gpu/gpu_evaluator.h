@@ -38,13 +38,14 @@ struct GpuTranspose {
   std::uint64_t scratch = 0;
 };
 
-/// Prepared once, applied many times, by any number of threads at once. What is made has the same bits whenever it is
-/// made on one device, and is what `PatternEvaluator<float>` makes to rounding.
+/// Prepared once, applied many times, by any number of threads at once; it must stay until all that was recorded has
+/// run. What is made has the same bits whenever it is made on one device, and is what `PatternEvaluator<float>` makes
+/// to rounding.
 class GpuEvaluator {
  public:
   /// Packs and uploads the table.
   /// @param table  which must stay
-  /// @throws ResourceError     no memory left on the device, or a table of more than 2^32 - 1 points, weights or
+  /// @throws ResourceError     no memory left on the device, or a table of more than 2^31 - 1 points, weights or
   /// columns
   /// @throws IoError           the device is lost
   /// @throws InvalidParameter  a table that copies a point and writes it later, or makes a point nowhere
@@ -53,7 +54,7 @@ class GpuEvaluator {
   GpuEvaluator(GpuEvaluator&&) noexcept;
 
   const PatternTable<float>& table() const;
-  std::int64_t num_bytes() const;  ///< of the device's memory
+  std::int64_t num_bytes() const;  ///< of the device's memory that the table takes, but for its transpose
 
   /// Of the host's numbers: as `PatternEvaluator<float>::apply`. Memory on the device is kept from call to call.
   /// @throws InvalidParameter  as there
@@ -72,7 +73,11 @@ class GpuEvaluator {
   /// @throws ResourceError     strides of 2^30 numbers or more, frames of points of more than 2^31
   void prepare(const GpuEvaluation& evaluation) const;
   std::int64_t num_scratch_bytes(const GpuEvaluation& evaluation) const;
-  /// @param commands  that are being recorded, outside of render passes; binds a pipeline and writes push constants
+  /// @param commands  that are being recorded, for the queue's family, outside of render passes; binds a pipeline and
+  /// writes
+  ///                  push constants
+  /// @throws InvalidParameter  what was not prepared, as `prepare`
+  /// @throws ResourceError     more workgroups than the device takes at once: commands are to be recorded anew
   void record(VkCommandBuffer_T* commands, const GpuEvaluation& evaluation) const;
   /// @param stream  of the primary context of the device; may be null, the default stream
   void record(CUstream_st* stream, const GpuEvaluation& evaluation) const;

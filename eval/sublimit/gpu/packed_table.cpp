@@ -18,8 +18,8 @@ constexpr std::int64_t rows_of_slice = 32;
 constexpr std::int64_t points_of_group = 256, points_of_launch = 1 << 17;
 /// Columns of patches that a workgroup of a transpose takes.
 constexpr std::int64_t items_at_once = 256;
-/// Patches of one point each are not for all threads of a workgroup: there is shared memory for so many of their
-/// columns only that it would wait for memory again and again.
+/// Patches of one tile, where few are made at a time: of more, shared memory would hold fewer columns at once, and each
+/// time the workgroup waits for the next ones.
 constexpr std::int64_t few_at_once = 32;
 /// Made together.
 constexpr int quantities_of[] = {1, 3, 6};
@@ -143,8 +143,8 @@ void pack_patches(const PatternTable<float>& table, PackedTable& out) {
     for (const Rows& rows : packed.rows(group, shape_of(1, many).rows))
       for (size_t size = 0; size < 3 && quantities_of[size] <= a.quantities; ++size) {
         const Shape shape = shape_of(quantities_of[size], many);
-        const std::int64_t units = (rows.count + shape.rows - 1) / shape.rows,
-                           at_once = threads / units * shape.patches;
+        const std::int64_t units = (rows.count + shape.rows - 1) / shape.rows, most = threads / units * shape.patches,
+                           at_once = many ? most : std::min(most, few_at_once);
         for (std::int64_t patch = 0; patch < group.num_patches; patch += at_once)
           tiles[size][many].push_back({.weights = uint(rows.weights),
                                        .stride = uint(rows.stride),
@@ -209,7 +209,7 @@ Part pack_rows(const StencilTable<float>& table, int quantities, std::int64_t fi
                            .lengths = 0,
                            .entries = 0,
                            .first_point = number(first_point, "points"),
-                           .quantity = number(padded, "rows")};
+                           .quantity = number(padded * quantities, "rows") / uint(quantities)};
   const Part part{image.add(std::span(&header, 1)), count};
   image.set_address(part.table, offsetof(RowTable, slices), image.add<std::uint32_t>(slices));
   image.set_address(part.table, offsetof(RowTable, lengths), image.add<std::uint32_t>(lengths));

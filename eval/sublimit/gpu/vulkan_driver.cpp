@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cstring>
 #include <map>
 #include <mutex>
 #include <optional>
+#include <thread>
 #include <utility>
 
 #include "sublimit/base/error.h"
@@ -18,8 +20,11 @@ namespace {
 
 constexpr VkBufferUsageFlags usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
                                      VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
-/// Copied at once between host and device, in two halves.
+/// Copied at once between host and device.
 constexpr std::int64_t staging_bytes = std::int64_t{32} << 20;
+
+/// Times that a wait is tried which fails for want of memory, a millisecond apart.
+constexpr int most_waits = 10000;
 
 /// An instance of our own, and its functions.
 struct Instance {
@@ -75,7 +80,7 @@ GpuKind kind_of(VkPhysicalDeviceType type) {
   }
 }
 
-GpuInfo info_of(const VulkanFunctions& vk, VkPhysicalDevice device, VkPhysicalDeviceLimits* limits = nullptr) {
+GpuInfo info_of(const VulkanFunctions& vk, VkPhysicalDevice device) {
   VkPhysicalDeviceDriverProperties driver{};
   driver.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES;
   VkPhysicalDeviceProperties2 properties{};
@@ -93,7 +98,6 @@ GpuInfo info_of(const VulkanFunctions& vk, VkPhysicalDevice device, VkPhysicalDe
   for (std::uint32_t i = 0; i < memory.memoryHeapCount; ++i)
     if (memory.memoryHeaps[i].flags & VK_MEMORY_HEAP_DEVICE_LOCAL_BIT)
       info.memory = std::max(info.memory, std::int64_t(memory.memoryHeaps[i].size));
-  if (limits) *limits = properties.properties.limits;
   return info;
 }
 
@@ -225,8 +229,11 @@ class VulkanDriver : public Driver, public std::enable_shared_from_this<VulkanDr
   std::unique_ptr<Recording> begin() override;
 
   void prepare(const Variant& variant) override {
-    const std::lock_guard lock(pipelines_mutex_);
-    if (pipelines_.contains(variant)) return;
+    {
+      const std::lock_guard lock(pipelines_mutex_);
+      if (pipelines_.contains(variant)) return;
+    }
+    // Without the lock, which those who record take: compiling takes long.
     const std::span<const std::uint32_t> code = spirv_of(variant.kernel, variant.half);
     VkShaderModuleCreateInfo module_info{};
     module_info.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
@@ -250,7 +257,9 @@ class VulkanDriver : public Driver, public std::enable_shared_from_this<VulkanDr
     const VkResult result = vk.vkCreateComputePipelines(device, VK_NULL_HANDLE, 1, &info, nullptr, &pipeline);
     vk.vkDestroyShaderModule(device, module, nullptr);
     check(result, "compiling a kernel");
-    pipelines_.emplace(variant, pipeline);
+    const std::lock_guard lock(pipelines_mutex_);
+    if (!pipelines_.emplace(variant, pipeline).second)
+      vk.vkDestroyPipeline(device, pipeline, nullptr);  // another thread's
   }
 
   void record(void* commands, const Launch& launch) override {
@@ -366,10 +375,8 @@ class VulkanDriver : public Driver, public std::enable_shared_from_this<VulkanDr
       if (allowed >> i & 1 && (memory_.memoryTypes[i].propertyFlags & properties) == properties) return i;
     return std::nullopt;
   }
-  bool is_host_memory(std::uint32_t type) const {
-    constexpr VkMemoryPropertyFlags reached =
-        VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
-    return (memory_.memoryTypes[type].propertyFlags & reached) == reached;
+  bool has(std::uint32_t type, VkMemoryPropertyFlags properties) const {
+    return (memory_.memoryTypes[type].propertyFlags & properties) == properties;
   }
   std::int64_t largest_allocation() const { return largest_allocation_; }
 
@@ -396,8 +403,7 @@ class VulkanDriver : public Driver, public std::enable_shared_from_this<VulkanDr
   VkPipeline pipeline(const Variant& variant) {
     const std::lock_guard lock(pipelines_mutex_);
     const auto found = pipelines_.find(variant);
-    if (found == pipelines_.end())
-      throw InvalidParameter("an evaluation that the GPU was not prepared for; call `prepare` with it first");
+    if (found == pipelines_.end()) fail_unprepared();
     return found->second;
   }
 
@@ -452,7 +458,8 @@ Buffer::Buffer(VulkanDriver& driver, std::int64_t bytes, Where where) : driver_(
   allocate.memoryTypeIndex = *type;
   fail_with(vk.vkAllocateMemory(driver.device, &allocate, nullptr, &memory_), "taking memory");
   fail_with(vk.vkBindBufferMemory(driver.device, buffer_, memory_, 0), "binding memory");
-  if (!driver.is_host_memory(*type)) return;
+  // The host would read memory of the device slowly that is not in its caches.
+  if (!driver.has(*type, where == Where::device ? reached | cached : reached)) return;
   void* mapped = nullptr;
   fail_with(vk.vkMapMemory(driver.device, memory_, 0, VK_WHOLE_SIZE, 0, &mapped), "mapping memory");
   mapped_ = static_cast<std::byte*>(mapped);

@@ -4,6 +4,7 @@
 #include <dlfcn.h>
 
 #include "sublimit/base/error.h"
+#include "sublimit/gpu/driver.h"
 
 namespace sublimit::gpu {
 
@@ -39,14 +40,11 @@ void check(VkResult result, const char* what) {
     case VK_ERROR_OUT_OF_HOST_MEMORY:
     case VK_ERROR_OUT_OF_DEVICE_MEMORY:
     case VK_ERROR_TOO_MANY_OBJECTS:
-      throw ResourceError(std::string("the GPU has no memory left: ") + what +
-                          "; use a smaller table or fewer frames at once, or apply on the CPU");
+      fail_without_memory(what);
     case VK_ERROR_DEVICE_LOST:
-      throw IoError(std::string("the GPU was lost: ") + what +
-                    "; its driver was reset or it stopped answering; open the device again, or apply on the CPU");
+      fail_lost(what);
     default:
-      throw IoError(std::string("the GPU failed: ") + what + ": Vulkan's error " + std::to_string(result) +
-                    "; apply on the CPU, or try a newer driver");
+      fail_otherwise(what + std::string(": Vulkan's error ") + std::to_string(result));
   }
 }
 

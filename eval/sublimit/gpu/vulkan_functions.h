@@ -9,19 +9,22 @@
 
 namespace sublimit::gpu {
 
-#define SUBLIMIT_VULKAN_INSTANCE_FUNCTIONS(f)                                                                  \
-  f(vkDestroyInstance) f(vkEnumeratePhysicalDevices) f(vkEnumerateDeviceExtensionProperties)                   \
-      f(vkGetPhysicalDeviceProperties2) f(vkGetPhysicalDeviceFeatures2) f(vkGetPhysicalDeviceMemoryProperties) \
-          f(vkGetPhysicalDeviceQueueFamilyProperties) f(vkCreateDevice) f(vkGetDeviceProcAddr)
-#define SUBLIMIT_VULKAN_DEVICE_FUNCTIONS(f)                                                                          \
-  f(vkDestroyDevice) f(vkGetDeviceQueue) f(vkDeviceWaitIdle) f(vkCreateBuffer) f(vkDestroyBuffer)                    \
-      f(vkGetBufferMemoryRequirements) f(vkGetBufferDeviceAddress) f(vkAllocateMemory) f(vkFreeMemory)               \
-          f(vkBindBufferMemory) f(vkMapMemory) f(vkUnmapMemory) f(vkCreateShaderModule) f(vkDestroyShaderModule)     \
-              f(vkCreatePipelineLayout) f(vkDestroyPipelineLayout) f(vkCreateComputePipelines) f(vkDestroyPipeline)  \
-                  f(vkCreateCommandPool) f(vkDestroyCommandPool) f(vkAllocateCommandBuffers) f(vkFreeCommandBuffers) \
-                      f(vkBeginCommandBuffer) f(vkEndCommandBuffer) f(vkCreateFence) f(vkDestroyFence)               \
-                          f(vkWaitForFences) f(vkQueueSubmit) f(vkCmdBindPipeline) f(vkCmdPushConstants)             \
-                              f(vkCmdDispatch) f(vkCmdPipelineBarrier) f(vkCmdCopyBuffer)
+// clang-format off
+#define SUBLIMIT_VULKAN_INSTANCE_FUNCTIONS(f)                                                                     \
+  f(vkDestroyInstance) f(vkEnumeratePhysicalDevices) f(vkGetPhysicalDeviceProperties2)                            \
+  f(vkGetPhysicalDeviceFeatures2) f(vkGetPhysicalDeviceMemoryProperties)                                          \
+  f(vkGetPhysicalDeviceQueueFamilyProperties) f(vkCreateDevice) f(vkGetDeviceProcAddr)
+#define SUBLIMIT_VULKAN_DEVICE_FUNCTIONS(f)                                                                       \
+  f(vkDestroyDevice) f(vkGetDeviceQueue)                                                                          \
+  f(vkCreateBuffer) f(vkDestroyBuffer) f(vkGetBufferMemoryRequirements) f(vkGetBufferDeviceAddress)               \
+  f(vkAllocateMemory) f(vkFreeMemory) f(vkBindBufferMemory) f(vkMapMemory)                                        \
+  f(vkCreateShaderModule) f(vkDestroyShaderModule) f(vkCreatePipelineLayout) f(vkDestroyPipelineLayout)           \
+  f(vkCreateComputePipelines) f(vkDestroyPipeline)                                                                \
+  f(vkCreateCommandPool) f(vkDestroyCommandPool) f(vkAllocateCommandBuffers)                                      \
+  f(vkBeginCommandBuffer) f(vkEndCommandBuffer) f(vkCreateFence) f(vkDestroyFence) f(vkWaitForFences)             \
+  f(vkQueueSubmit) f(vkCmdBindPipeline) f(vkCmdPushConstants) f(vkCmdDispatch) f(vkCmdPipelineBarrier)            \
+  f(vkCmdCopyBuffer)
+// clang-format on
 
 /// Of one instance and one of its devices.
 struct VulkanFunctions {

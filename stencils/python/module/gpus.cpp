@@ -17,19 +17,33 @@ namespace py = pybind11;
 namespace {
 
 /// The device of this number, the same one for all tables that are on it.
+/// Devices that tables are on.
+struct Opened {
+  std::mutex mutex;
+  std::map<int, std::weak_ptr<const GpuDevice>> devices;
+};
+Opened& opened() {
+  static Opened all;
+  return all;
+}
+
 std::shared_ptr<const GpuDevice> shared_device(int number) {
-  static std::mutex mutex;
-  static std::map<int, std::weak_ptr<const GpuDevice>> opened;
-  const std::lock_guard lock(mutex);
-  std::shared_ptr<const GpuDevice> device = opened[number].lock();
+  const std::lock_guard lock(opened().mutex);
+  std::shared_ptr<const GpuDevice> device = opened().devices[number].lock();
   if (device) return device;
   try {
     device = std::make_shared<const GpuDevice>(number);
   } catch (const InvalidOption& error) {
     throw InvalidOption(error.what() + std::string("; device='cpu' applies tables on the CPU"));
   }
-  opened[number] = device;
+  opened().devices[number] = device;
   return device;
+}
+
+/// So that the next call opens it again.
+void forget_device(int number, const std::shared_ptr<const GpuDevice>& device) {
+  const std::lock_guard lock(opened().mutex);
+  if (opened().devices[number].lock() == device) opened().devices.erase(number);
 }
 
 py::list devices() {
@@ -42,24 +56,36 @@ py::list devices() {
 }  // namespace
 
 template <class Real>
-const GpuEvaluator& TableOnGpus<Real>::on(int gpu) const {
-  const std::lock_guard lock(mutex_);
-  const auto found = uploaded_.find(gpu);
-  if (found != uploaded_.end()) return *found->second.evaluator;
-  Uploaded made;
-  made.device = shared_device(gpu);
-  made.evaluator = std::make_shared<const GpuEvaluator>(table_, *made.device);
-  return *uploaded_.emplace(gpu, std::move(made)).first->second.evaluator;
+template <class Call>
+void TableOnGpus<Real>::on(int gpu, const Call& call) const {
+  Uploaded uploaded;
+  {
+    const std::lock_guard lock(mutex_);
+    Uploaded& kept = uploaded_[gpu];
+    if (!kept.evaluator) {
+      kept.device = shared_device(gpu);
+      kept.evaluator = std::make_shared<const GpuEvaluator>(table_, *kept.device);
+    }
+    uploaded = kept;
+  }
+  try {
+    call(*uploaded.evaluator);
+  } catch (const IoError&) {  // lost: nothing works there again
+    forget_device(gpu, uploaded.device);
+    const std::lock_guard lock(mutex_);
+    if (uploaded_[gpu].evaluator == uploaded.evaluator) uploaded_.erase(gpu);
+    throw;
+  }
 }
 
 template <class Real>
 void TableOnGpus<Real>::apply(const Evaluation<Real>& evaluation, int gpu) const {
-  on(gpu).apply(evaluation);
+  on(gpu, [&](const GpuEvaluator& evaluator) { evaluator.apply(evaluation); });
 }
 template <class Real>
 void TableOnGpus<Real>::apply_transpose(std::span<const Real> values, int channels, std::span<Real> result,
                                         int gpu) const {
-  on(gpu).apply_transpose(values, channels, result);
+  on(gpu, [&](const GpuEvaluator& evaluator) { evaluator.apply_transpose(values, channels, result); });
 }
 #else
 namespace {

@@ -34,7 +34,9 @@ class TableOnGpus {
     std::shared_ptr<const GpuDevice> device;
     std::shared_ptr<const GpuEvaluator> evaluator;
   };
-  const GpuEvaluator& on(int gpu) const;
+  /// Calls call(evaluator); a device that is lost meanwhile is forgotten, so that the next call opens it again.
+  template <class Call>
+  void on(int gpu, const Call& call) const;
 
   const PatternTable<Real>& table_;
   mutable std::mutex mutex_;

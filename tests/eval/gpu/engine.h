@@ -166,7 +166,6 @@ class Engine {
     succeed(vk.vkQueueSubmit(queue, 1, &submit, fence), "submit");
     succeed(vk.vkWaitForFences(device, 1, &fence, VK_TRUE, UINT64_MAX), "wait");
     vk.vkDestroyFence(device, fence, nullptr);
-    vk.vkFreeCommandBuffers(device, pool_, 1, &commands);
   }
 
  private:

@@ -125,7 +125,7 @@ class FaultyVulkan {
         if constexpr (std::is_same_v<Result, VkResult>)
           if (fails) {
             // Work goes on behind a wait that fails, but not on a device that is lost. Here it is done in any case.
-            real_.vkDeviceWaitIdle(device_);
+            reinterpret_cast<PFN_vkDeviceWaitIdle>(real_.vkGetDeviceProcAddr(device_, "vkDeviceWaitIdle"))(device_);
             if (std::strcmp(calls.name, "vkWaitForFences") == 0) is_pending_ = calls.failure != VK_ERROR_DEVICE_LOST;
             return calls.failure;
           }

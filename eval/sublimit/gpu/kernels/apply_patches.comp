@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // Points of patches: chosen rows of a block times the control points that a patch names.
 //
-// A workgroup makes a tile, some rows of some patches of one group. A thread has `ROWS` rows, which are a vector of the
-// weights, of `PATCHES` patches, so that what it reads is used several times. Its rows lie `units` apart: neighbours write
-// neighbouring points. Weights come through the first cache, where tiles of the same group find them; control points are
-// gathered into shared memory, some columns at a time.
+// A workgroup makes a tile, some rows of some patches of one group. A thread has `ROWS` rows, which are a vector of
+// the weights, of `PATCHES` patches, so that what it reads is used several times. Its rows lie `units` apart:
+// neighbours write neighbouring points. Weights come through the first cache, where tiles of the same group find them;
+// control points are gathered into shared memory, some columns at a time.
 #include "language.inc"
 #include "vectors.inc"
 
 // Columns that are multiplied at a time, so that their weights are on their way together.
 #define COLUMNS (ROWS == 1 ? 8 : 4)
-// Vectors in shared memory: as many control points of as many patches as a workgroup may have, or the numbers that are made.
+// Vectors in shared memory: as many control points of as many patches as a workgroup may have, or what is made.
 #define STAGE (THREADS * PATCHES * COLUMNS)
 SHARED_OF_FILE(stage, STAGE + 2);
 
@@ -39,7 +39,8 @@ KERNEL(apply_patches) {
       const uint own = i / count, column = first + i - own * count;
       vec4 x = VEC4(0.0f, 0.0f, 0.0f, 0.0f);
       if (column < tile.num_columns) {
-        const uint point = Numbers(table.columns).at[tile.columns + own * tile.num_columns + column] * arguments.in_point;
+        const uint number = Numbers(table.columns).at[tile.columns + own * tile.num_columns + column];
+        const uint point = number * arguments.in_point;
         UNROLL for (int c = 0; c < CHANNELS; ++c) {
           const uint channel = is_rational && c == CHANNELS - 1 ? weight_channel : first_channel + uint(c);
           x[c] = Floats(points).at[point + channel * arguments.in_channel];

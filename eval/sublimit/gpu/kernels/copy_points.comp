@@ -12,12 +12,16 @@ KERNEL(copy_points) {
 #else
   const uint size = 4u;
 #endif
-  const ADDRESS out_ = advanced(arguments.results[0], FRAME, arguments.out_frame * size);
-  const ADDRESS to = advanced(out_, pair.x, arguments.out_point * size), from = advanced(out_, pair.y, arguments.out_point * size);
-  for (uint c = 0u; c < arguments.channels; ++c)
+  const ADDRESS begin = advanced(arguments.results[0], FRAME, arguments.out_frame * size);
+  const ADDRESS to = advanced(begin, pair.x, arguments.out_point * size);
+  const ADDRESS from = advanced(begin, pair.y, arguments.out_point * size);
+  for (uint c = 0u; c < arguments.channels; ++c) {
+    const ADDRESS to_channel = advanced(to, c, arguments.out_channel * size);
+    const ADDRESS from_channel = advanced(from, c, arguments.out_channel * size);
 #ifdef HALF
-    Halves(to).at[c * arguments.out_channel] = Halves(from).at[c * arguments.out_channel];
+    Halves(to_channel).at[0] = Halves(from_channel).at[0];
 #else
-    WrittenFloats(to).at[c * arguments.out_channel] = WrittenFloats(from).at[c * arguments.out_channel];
+    WrittenFloats(to_channel).at[0] = WrittenFloats(from_channel).at[0];
 #endif
+  }
 }

@@ -21,8 +21,8 @@ KERNEL(gather_parts) {
     for (uint k = Numbers(table.entry_offsets).at[i]; k < end; ++k) {
       const uvec2 entry = Entries(table.entries).at[k];
       if (entry.x >= arguments.quantities * arguments.out_frame) break;  // numbers ascend
-      const ADDRESS from = advanced(entry.x < arguments.out_frame ? arguments.results[0] : arguments.results[1], entry.x,
-                                    4u * arguments.in_point);
+      const ADDRESS values = entry.x < arguments.out_frame ? arguments.results[0] : arguments.results[1];
+      const ADDRESS from = advanced(values, entry.x, 4u * arguments.in_point);
       UNROLL for (int c = 0; c < CHANNELS; ++c)
         sums[c] = fma(AS_FLOAT(entry.y), Floats(from).at[first_channel + uint(c)], sums[c]);
     }

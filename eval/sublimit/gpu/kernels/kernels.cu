@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Kernels for CUDA: the variants of one of them, or of one of them that makes so many quantities, so that those that are
-// wanted are compiled for the device in little time.
+// Kernels for CUDA: the variants of one of them, or of one of them that makes so many quantities, so that those that
+// are wanted are compiled for the device in little time.
 #include "language.inc"
 
 #if defined(STAND_IN_FOR_CUDA) && defined(HALF)

@@ -16,7 +16,7 @@ KERNEL(transpose_patches) {
     float sums[CHANNELS];
     UNROLL for (int c = 0; c < CHANNELS; ++c) sums[c] = 0.0f;
     ADDRESS values = arguments.results[1];
-    for (uint q = 0u; q < arguments.quantities; ++q, values = advanced(values, arguments.out_frame, 4u * arguments.in_point)) {
+    for (uint q = 0u; q < arguments.quantities; ++q) {
       const ADDRESS from = advanced(q == 0u ? arguments.results[0] : values, point, 4u * arguments.in_point);
       const uint weights = group.weights + (q * group.num_columns + column) * group.stride;
       for (uint r = 0u; r < group.num_rows; ++r) {
@@ -24,6 +24,7 @@ KERNEL(transpose_patches) {
         UNROLL for (int c = 0; c < CHANNELS; ++c)
           sums[c] = fma(w, Floats(from).at[r * arguments.in_point + first_channel + uint(c)], sums[c]);
       }
+      values = advanced(values, arguments.out_frame, 4u * arguments.in_point);
     }
     const ADDRESS to = advanced(arguments.results[2], group.columns + item, 4u * arguments.in_point);
     UNROLL for (int c = 0; c < CHANNELS; ++c) WrittenFloats(to).at[first_channel + uint(c)] = sums[c];

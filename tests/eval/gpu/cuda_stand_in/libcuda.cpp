@@ -167,6 +167,7 @@ int cuDevicePrimaryCtxRelease_v2(int) {
   return success;
 }
 int cuCtxPushCurrent_v2(void* context) {
+  CALL;
   if (context != &retained) return no_context;
   ++pushed;
   return success;
