@@ -106,8 +106,8 @@ class GpuCommands {
   ~GpuCommands();
   GpuCommands(GpuCommands&&) noexcept;
 
-  void* handle()
-      const;  ///< VkCommandBuffer or CUstream: what is recorded there waits for what was recorded there before
+  /// VkCommandBuffer or CUstream. What is recorded into a CUstream waits for what was recorded there before.
+  void* handle() const;
   gpu::Recording& recording() const { return *recording_; }
   /// Copies on the device, after what was recorded before and before what comes after.
   /// @throws InvalidParameter  more bytes than there are
