@@ -14,7 +14,9 @@
 #include "sublimit/base/parallel_for.h"
 #include "sublimit/evaluation_layouts.h"
 #include "sublimit/gpu/driver.h"
+#include "sublimit/gpu/memory_pool.h"
 #include "sublimit/gpu/packed_table.h"
+#include "sublimit/gpu/packed_transpose.h"
 
 namespace sublimit {
 namespace {
@@ -92,12 +94,10 @@ struct GpuEvaluator::Uploaded {
   std::once_flag transpose_flag;
   std::optional<Transpose> made_transpose;
 
-  // Arrays of `apply`, kept.
-  std::mutex free_mutex;
-  std::vector<std::unique_ptr<gpu::Memory>> free;
-  size_t num_made = 0;
+  gpu::MemoryPool pool;  // of `apply`
 
-  Uploaded(const PatternTable<float>& t, std::shared_ptr<gpu::Driver> d) : table(t), driver(std::move(d)) {
+  Uploaded(const PatternTable<float>& t, std::shared_ptr<gpu::Driver> d)
+      : table(t), driver(std::move(d)), pool(*driver) {
     gpu::PackedTable packed(t);
     patches = packed.patches;
     first = packed.first, rest = packed.rest, copies = packed.copies;
@@ -118,44 +118,6 @@ struct GpuEvaluator::Uploaded {
     });
     return *made_transpose;
   }
-
-  /// An array that goes back to the others in the end.
-  class Lease {
-   public:
-    Lease(Uploaded& owner, std::int64_t bytes) : owner_(owner) {
-      {
-        const std::lock_guard lock(owner.free_mutex);
-        // The smallest that is large enough; else a larger one takes the place of the largest.
-        auto best = owner.free.end();
-        for (auto it = owner.free.begin(); it != owner.free.end(); ++it) {
-          const bool fits = (*it)->num_bytes() >= bytes;
-          if (best == owner.free.end() || (fits && (*best)->num_bytes() < bytes) ||
-              (fits ? (*it)->num_bytes() < (*best)->num_bytes()
-                    : (*best)->num_bytes() < bytes && (*it)->num_bytes() > (*best)->num_bytes()))
-            best = it;
-        }
-        if (best != owner.free.end()) {
-          if ((*best)->num_bytes() >= bytes) memory_ = std::move(*best);
-          owner.free.erase(best);
-        }
-      }
-      if (memory_) return;
-      memory_ = owner.driver->allocate(bytes);
-      const std::lock_guard lock(owner.free_mutex);
-      owner.free.reserve(++owner.num_made);  // so that it can be given back
-    }
-    ~Lease() {
-      const std::lock_guard lock(owner_.free_mutex);
-      owner_.free.push_back(std::move(memory_));
-    }
-    Lease(const Lease&) = delete;
-    gpu::Memory& operator*() const { return *memory_; }
-    gpu::Memory* operator->() const { return memory_.get(); }
-
-   private:
-    Uploaded& owner_;
-    std::unique_ptr<gpu::Memory> memory_;
-  };
 
   std::uint64_t address(const Part& part) const { return memory->address() + std::uint64_t(part.table); }
 
@@ -397,9 +359,9 @@ void GpuEvaluator::apply(const Evaluation<float>& e) const {
   on_device.rational = e.rational, on_device.least_weight = e.least_weight;
   std::int64_t given = layouts.given.length - (e.frames - at_once) * layouts.given.frame;
   on_device.frames = at_once;
-  const Uploaded::Lease points(*uploaded_, given * std::int64_t(sizeof(float))),
-      results(*uploaded_, of_frame * num_wanted * at_once * std::int64_t(sizeof(float))),
-      scratch(*uploaded_, num_scratch_bytes(on_device));
+  const gpu::MemoryPool::Lease points(uploaded_->pool, given * std::int64_t(sizeof(float))),
+      results(uploaded_->pool, of_frame * num_wanted * at_once * std::int64_t(sizeof(float))),
+      scratch(uploaded_->pool, num_scratch_bytes(on_device));
   on_device.points = points->address(), on_device.scratch = scratch->address();
   std::vector<float> sparse;
   for (int frame = 0; frame < e.frames; frame += at_once) {
@@ -453,8 +415,8 @@ void GpuEvaluator::apply_transpose(std::span<const float> values, int channels, 
   t.channels = channels;
   t.quantities = checked_quantities<float>(table(), values, channels, result);
   if (table().num_points() == 0) return std::fill(result.begin(), result.end(), 0.0f);
-  const Uploaded::Lease in(*uploaded_, std::int64_t(values.size_bytes())),
-      out(*uploaded_, std::int64_t(result.size_bytes())), scratch(*uploaded_, num_scratch_bytes(t));
+  const gpu::MemoryPool::Lease in(uploaded_->pool, std::int64_t(values.size_bytes())),
+      out(uploaded_->pool, std::int64_t(result.size_bytes())), scratch(uploaded_->pool, num_scratch_bytes(t));
   t.values = in->address(), t.result = out->address(), t.scratch = scratch->address();
   in->write(0, std::as_bytes(values));
   uploaded_->run(t);
