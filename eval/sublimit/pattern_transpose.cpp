@@ -8,24 +8,12 @@
 #include "sublimit/base/parallel_for.h"
 #include "sublimit/evaluation_layouts.h"
 #include "sublimit/kernels/transpose_patches.h"
+#include "sublimit/occurrences.h"
 
 namespace sublimit {
 namespace {
 
 constexpr std::int64_t patches_per_block = 256;
-
-/// Where each number occurs in a list: those of number i are places[offsets[i]] .. places[offsets[i + 1] - 1],
-/// ascending.
-struct Occurrences {
-  std::vector<std::int64_t> offsets, places;
-  Occurrences(std::int64_t count, std::span<const std::int32_t> numbers)
-      : offsets(size_t(count) + 1), places(numbers.size()) {
-    for (const std::int32_t n : numbers) ++offsets[size_t(n) + 1];
-    for (size_t i = 1; i < offsets.size(); ++i) offsets[i] += offsets[i - 1];
-    std::vector<std::int64_t> next(offsets.begin(), offsets.end() - 1);
-    for (size_t at = 0; at < numbers.size(); ++at) places[next[numbers[at]]++] = std::int64_t(at);
-  }
-};
 
 /// Columns of a table by rows.
 template <class Real>
@@ -34,7 +22,7 @@ struct Columns {
   std::vector<Real> weights;
   Columns() = default;
   explicit Columns(const StencilTable<Real>& table) {
-    Occurrences entries(table.num_control_points(), table.columns());
+    Occurrences<std::int64_t> entries(table.num_control_points(), table.columns());
     std::vector<std::int64_t> row_of(table.columns().size());
     for (std::int64_t r = 0; r < table.num_rows(); ++r)
       std::fill(row_of.begin() + table.offsets()[r], row_of.begin() + table.offsets()[r + 1], r);
@@ -51,7 +39,7 @@ struct Columns {
 
 template <class Real>
 struct PatternTranspose<Real>::Lists {
-  Occurrences uses;  // of inputs by columns of patches
+  Occurrences<std::int64_t> uses;  // of inputs by columns of patches
   Columns<Real> first, rest;
   explicit Lists(const PatternTable<Real>& t)
       : uses(t.arrays().first ? t.arrays().first->num_rows() : t.num_control_points(), t.arrays().columns) {

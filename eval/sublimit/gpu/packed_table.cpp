@@ -5,6 +5,7 @@
 #include <map>
 #include <string>
 #include <unordered_map>
+#include <utility>
 
 #include "sublimit/base/error.h"
 
@@ -35,10 +36,7 @@ class PackedWeights {
   explicit PackedWeights(const Arrays& a) : a_(a) {}
   /// @param rows_of_thread  1, or 4 that lie as far apart as there are threads for them
   const std::vector<Rows>& rows(const PatternTable<float>::Group& group, int rows_of_thread) {
-    std::vector<std::int32_t> key{group.block, rows_of_thread};
-    const auto chosen = a_.rows.span().subspan(size_t(group.rows), size_t(group.num_rows));
-    key.insert(key.end(), chosen.begin(), chosen.end());
-    const auto [found, is_new] = packed_.try_emplace(std::move(key));
+    const auto [found, is_new] = packed_.try_emplace({rows_of_thread, rows_key(a_, group)});
     if (is_new) found->second = pack(group, rows_of_thread);
     return found->second;
   }
@@ -48,13 +46,14 @@ class PackedWeights {
   std::vector<Rows> pack(const PatternTable<float>::Group& group, int rows_of_thread) {
     const std::int64_t columns = a_.blocks[size_t(group.block)].columns,
                        padded = rounded_up(columns, columns_at_a_time(rows_of_thread));
+    check_weights(std::ssize(weights), group.num_rows * padded, a_.quantities);
     std::vector<Rows> all;
     for (std::int64_t first = 0; first < group.num_rows; first += threads * rows_of_thread) {
       const std::int64_t count = std::min<std::int64_t>(threads * rows_of_thread, group.num_rows - first),
                          units = (count + rows_of_thread - 1) / rows_of_thread,
                          stride = rounded_up(units * rows_of_thread, 4);
-      all.push_back({first, count, number(std::ssize(weights), "weights") / 4, stride / 4});
-      weights.resize(weights.size() + size_t(stride * padded * a_.quantities));
+      all.push_back({first, count, std::ssize(weights) / 4, stride / 4});
+      weights.resize(number(std::ssize(weights) + stride * padded * a_.quantities, "weights"));
       float* const out = weights.data() + 4 * all.back().weights;
       for (int q = 0; q < a_.quantities; ++q)
         for (std::int64_t row = 0; row < count; ++row) {
@@ -67,7 +66,7 @@ class PackedWeights {
   }
 
   const Arrays& a_;
-  std::map<std::vector<std::int32_t>, std::vector<Rows>> packed_;
+  std::map<std::pair<int, std::vector<std::int32_t>>, std::vector<Rows>> packed_;
 };
 
 /// Which groups are for threads of four rows.
@@ -76,7 +75,7 @@ std::vector<bool> groups_of_many(const Arrays& a) {
   std::int64_t points = 0;
   for (const auto& group : a.groups) {
     const std::int64_t made = group.num_rows * group.num_patches;
-    many.push_back(made >= points_of_group && 2 * rounded_up(group.num_rows, 4) <= 3 * group.num_rows);
+    many.push_back(made >= points_of_group && 2 * rounded_up(group.num_rows, 4) <= std::int64_t{3} * group.num_rows);
     if (many.back()) points += made;
   }
   if (points < points_of_launch) many.assign(many.size(), false);
@@ -128,7 +127,6 @@ void pack_patches(const PatternTable<float>& table, PackedTable& out) {
                                        .num_rows = uint(rows.count)});
       }
   }
-  number(std::ssize(packed.weights), "weights");
   number(std::int64_t(a.columns.size()), "columns of patches");
   Image& image = out.image;
   const std::int64_t weights = image.add<float>(packed.weights), columns = image.add<std::int32_t>(a.columns.span()),

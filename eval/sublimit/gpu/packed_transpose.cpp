@@ -3,26 +3,15 @@
 
 #include <algorithm>
 #include <map>
-#include <utility>
 #include <vector>
+
+#include "sublimit/occurrences.h"
 
 namespace sublimit::gpu {
 namespace {
 
 /// Columns of patches that a workgroup of a transpose takes.
 constexpr std::int64_t items_at_once = 256;
-/// Where each number occurs in a list, ascending: those of number i are places[offsets[i]] .. places[offsets[i + 1] -
-/// 1].
-struct Occurrences {
-  std::vector<std::uint32_t> offsets, places;
-  Occurrences(std::int64_t count, std::span<const std::int32_t> numbers)
-      : offsets(size_t(count) + 1), places(numbers.size()) {
-    for (const std::int32_t n : numbers) ++offsets[size_t(n) + 1];
-    for (size_t i = 1; i < offsets.size(); ++i) offsets[i] += offsets[i - 1];
-    std::vector<std::uint32_t> next(offsets.begin(), offsets.end() - 1);
-    for (size_t at = 0; at < numbers.size(); ++at) places[next[size_t(numbers[at])]++] = uint(at);
-  }
-};
 
 /// What each of `count` inputs gets: parts that name it, and entries of rows.
 /// @param value_of  the number of a row's value
@@ -32,13 +21,13 @@ Part pack_gather(std::int64_t count, std::span<const std::int32_t> parts, const 
   const GatherTable empty = {};
   const Part part{image.add(std::span(&empty, 1)), count};
   if (!parts.empty()) {
-    const Occurrences uses(count, parts);
+    const Occurrences<std::uint32_t> uses(count, parts);
     image.set_address(part.table, offsetof(GatherTable, part_offsets), image.add<std::uint32_t>(uses.offsets));
     image.set_address(part.table, offsetof(GatherTable, parts), image.add<std::uint32_t>(uses.places));
   }
   if (rows && !rows->columns().empty()) {
     number(std::int64_t(rows->columns().size()), "entries of rows");
-    const Occurrences uses(count, rows->columns().span());
+    const Occurrences<std::uint32_t> uses(count, rows->columns().span());
     std::vector<std::uint32_t> value(rows->columns().size());
     for (std::int64_t row = 0; row < rows->num_rows(); ++row)
       std::fill(value.begin() + rows->offsets()[row], value.begin() + rows->offsets()[row + 1],
@@ -93,11 +82,8 @@ Part pack_transposed(const PatternTable<float>& table, Image& image) {
     const auto& group = a.groups[g];
     const auto& start = table.starts()[g];
     const std::int64_t columns = a.blocks[size_t(group.block)].columns;
-    // Groups with the same rows of a block share their weights.
-    std::vector<std::int32_t> key{group.block};
-    const auto chosen = a.rows.span().subspan(size_t(group.rows), size_t(group.num_rows));
-    key.insert(key.end(), chosen.begin(), chosen.end());
-    const auto [packed, is_new] = places.try_emplace(std::move(key), number(std::ssize(weights), "weights"));
+    if (group.num_patches == 0) continue;
+    const auto [packed, is_new] = places.try_emplace(rows_key(a, group), uint(weights.size()));
     groups.push_back({.weights = packed->second,
                       .stride = uint(group.num_rows),
                       .num_columns = uint(columns),
@@ -105,14 +91,14 @@ Part pack_transposed(const PatternTable<float>& table, Image& image) {
                       .num_rows = uint(group.num_rows),
                       .first_point = uint(start.point),
                       .first_patch = number(start.patch, "patches")});
+    if (is_new) check_weights(std::ssize(weights), group.num_rows * columns, a.quantities);
     for (int q = 0; is_new && q < a.quantities; ++q)
       for (std::int64_t k = 0; k < columns; ++k)
         for (std::int64_t row = 0; row < group.num_rows; ++row) weights.push_back(row_of(a, group, row, q)[k]);
     for (std::int64_t first = 0; first < group.num_patches * columns; first += items_at_once)
-      items.push_back({uint(g), number(first, "columns of patches"),
+      items.push_back({uint(groups.size() - 1), number(first, "columns of patches"),
                        uint(std::min(items_at_once, group.num_patches * columns - first))});
   }
-  number(std::ssize(weights), "weights");
   const TransposeTable empty = {};
   const Part part{image.add(std::span(&empty, 1)), std::ssize(items)};
   image.set_address(part.table, offsetof(TransposeTable, items), image.add<Items>(items));

@@ -37,6 +37,13 @@ const float* row_of(const Arrays& a, const PatternTable<float>::Group& group, st
          (std::int64_t{quantity} * block.rows + a.rows[group.rows + row]) * block.columns;
 }
 
+std::vector<std::int32_t> rows_key(const Arrays& a, const PatternTable<float>::Group& group) {
+  const auto rows = a.rows.span().subspan(size_t(group.rows), size_t(group.num_rows));
+  std::vector<std::int32_t> key{group.block};
+  key.insert(key.end(), rows.begin(), rows.end());
+  return key;
+}
+
 std::int64_t pack_patch_points(const Arrays& a, Image& image) {
   if (a.patch_points.empty()) return -1;
   const std::vector<std::uint32_t> places(a.patch_points.begin(), a.patch_points.end());

@@ -50,12 +50,21 @@ struct Part {
 /// @throws ResourceError  more than 31 bits
 std::uint32_t number(std::int64_t value, const char* what);
 
+/// That there may be more weights of so many quantities, before they are packed.
+/// @throws ResourceError  more than 31 bits count
+inline void check_weights(std::int64_t packed, std::int64_t of_quantity, int quantities) {
+  number(packed + std::int64_t{number(of_quantity, "weights")} * quantities, "weights");
+}
+
 constexpr std::int64_t rounded_up(std::int64_t value, std::int64_t multiple) {
   return (value + multiple - 1) / multiple * multiple;
 }
 
 /// A row of the block of a group, for one quantity.
 const float* row_of(const Arrays& a, const PatternTable<float>::Group& group, std::int64_t row, int quantity);
+
+/// The same for groups that make the same rows of a block: their weights are packed once.
+std::vector<std::int32_t> rows_key(const Arrays& a, const PatternTable<float>::Group& group);
 
 /// Adds where the points of each patch begin; -1: they follow those of the patch before.
 std::int64_t pack_patch_points(const Arrays& a, Image& image);

@@ -201,11 +201,13 @@ class VulkanDriver : public Driver, public std::enable_shared_from_this<VulkanDr
       result = vk.vkQueueSubmit(queue_, 1, &submit, fence);
     }
     if (result == VK_SUCCESS) {
-      // Nothing of it may be freed while it runs, so a wait that fails for want of memory is tried again.
-      do {
+      // Nothing of it may be freed while it runs, so a wait that fails for want of memory is tried again, for a while.
+      for (int tries = 0; tries < most_waits; ++tries) {
         result = vk.vkWaitForFences(device, 1, &fence, VK_TRUE, UINT64_MAX);
-      } while (result == VK_ERROR_OUT_OF_HOST_MEMORY || result == VK_ERROR_OUT_OF_DEVICE_MEMORY ||
-               result == VK_TIMEOUT);
+        if (result != VK_ERROR_OUT_OF_HOST_MEMORY && result != VK_ERROR_OUT_OF_DEVICE_MEMORY) break;
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      }
+      if (result != VK_SUCCESS) result = VK_ERROR_DEVICE_LOST;  // nobody knows when it ends
     }
     vk.vkDestroyFence(device, fence, nullptr);
     check(result, "running a kernel");
@@ -256,7 +258,7 @@ class VulkanDriver : public Driver, public std::enable_shared_from_this<VulkanDr
   /// Kinds of memory that a buffer may have, with these properties.
   std::optional<std::uint32_t> memory_type(std::uint32_t allowed, VkMemoryPropertyFlags properties) const {
     for (std::uint32_t i = 0; i < memory_.memoryTypeCount; ++i)
-      if (allowed >> i & 1 && (memory_.memoryTypes[i].propertyFlags & properties) == properties) return i;
+      if (allowed >> i & 1 && has(i, properties)) return i;
     return std::nullopt;
   }
   bool has(std::uint32_t type, VkMemoryPropertyFlags properties) const {
@@ -425,13 +427,7 @@ void VulkanDriver::copy(VkBuffer buffer, std::int64_t at, std::byte* bytes, std:
                               VkDeviceSize(size)};
     vk.vkCmdCopyBuffer(commands.handle(), to_device ? staging_->handle() : buffer,
                        to_device ? buffer : staging_->handle(), 1, &region);
-    VkMemoryBarrier barrier{};
-    barrier.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER;
-    barrier.srcAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT;
-    barrier.dstAccessMask = to_device ? VK_ACCESS_SHADER_READ_BIT : VK_ACCESS_HOST_READ_BIT;
-    vk.vkCmdPipelineBarrier(commands.handle(), VK_PIPELINE_STAGE_TRANSFER_BIT,
-                            to_device ? VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT : VK_PIPELINE_STAGE_HOST_BIT, 0, 1,
-                            &barrier, 0, nullptr, 0, nullptr);
+    make_visible(commands.handle());
     commands.run();
     if (!to_device) std::copy_n(staging_->mapped(), size, bytes + done);
   }

@@ -166,9 +166,7 @@ TEST_F(EngineDevices, RecordTablesIntoTheirCommands) {
     std::vector<float> transposed(controls * 3);
     on_host.apply_transpose(values, 3, transposed);
     const std::vector<float> own = gradient->numbers<float>();
-    double size = 0;
-    for (const float x : transposed) size = std::max(size, std::abs(double(x)));
-    for (size_t i = 0; i < own.size(); ++i) ASSERT_NEAR(own[i], transposed[i], 1e-5 * size);
+    expect_near_terms(own, transposed, sums_of_transposed_terms(table, values, 3), roundings_of_another_order);
   }
   EXPECT_EQ(halves, engine_->halves ? 24 : 0);
   EXPECT_GT(frames, 1000u);

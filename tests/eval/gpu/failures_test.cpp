@@ -544,6 +544,16 @@ TEST(HostileTables, AreNotCut) {
   expect_error<ResourceError>([&] { GpuEvaluator(table, device); },
                               {"count up to 2147483647 points", "cut the table into several", "on the CPU"});
 
+  // One row of weights a million times: refused before they are packed.
+  PatternTable<float>::Arrays repeated;
+  repeated.blocks = {{1, 4000, 0}};
+  repeated.weights = std::vector<float>(4000, 1);
+  repeated.columns = std::vector<std::int32_t>(4000);
+  repeated.rows = std::vector<std::int32_t>(1'000'000);
+  repeated.groups = {{0, 1'000'000, 0, 1}};
+  const PatternTable<float> large_weights(1, std::move(repeated));
+  expect_error<ResourceError>([&] { GpuEvaluator(large_weights, device); }, {"count up to 2147483647 weights"});
+
   const PatternTable<float> small = made_table({}, 1);
   const GpuEvaluator evaluator(small, device);
   constexpr std::int64_t large = std::int64_t{1} << 32;

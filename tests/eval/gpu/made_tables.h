@@ -5,6 +5,7 @@
 #include <random>
 #include <vector>
 
+#include "sublimit/pattern_evaluator.h"
 #include "sublimit/pattern_table.h"
 
 namespace sublimit::testing {
@@ -73,29 +74,44 @@ inline PatternTable<float> made_table(const MadeTable& parts, unsigned seed) {
   return {controls, std::move(a)};
 }
 
-/// Of each number that the table makes: the sum of the magnitudes of its terms.
-inline std::vector<double> sums_of_terms(const PatternTable<float>& table, std::span<const float> points,
-                                         int channels) {
-  const auto absolute = [](const auto& numbers) {
-    std::vector<double> all;
-    for (const auto x : numbers) all.push_back(std::abs(double(x)));
-    return all;
-  };
+template <class Numbers>
+std::vector<double> magnitudes(const Numbers& numbers) {
+  std::vector<double> all;
+  for (const auto x : numbers) all.push_back(std::abs(double(x)));
+  return all;
+}
+
+/// The table with the magnitudes of its weights.
+inline PatternTable<double> table_of_magnitudes(const PatternTable<float>& table) {
   const auto step = [&](const StencilTable<float>& s) {
-    return StencilTable<double>(s.num_control_points(), s.offsets(), s.columns(), absolute(s.weights()));
+    return StencilTable<double>(s.num_control_points(), s.offsets(), s.columns(), magnitudes(s.weights()));
   };
   const auto& f = table.arrays();
   PatternTable<double>::Arrays a;
   a.quantities = f.quantities;
   for (const auto& b : f.blocks) a.blocks.push_back({b.rows, b.columns, b.weights});
   for (const auto& g : f.groups) a.groups.push_back({g.block, g.num_rows, g.rows, g.num_patches});
-  a.weights = absolute(f.weights);
+  a.weights = magnitudes(f.weights);
   a.rows = f.rows, a.columns = f.columns, a.patch_points = f.patch_points, a.copies = f.copies;
   if (f.first) a.first = step(*f.first);
   if (f.rest) a.rest = step(*f.rest);
-  const PatternTable<double> sums(table.num_control_points(), std::move(a));
+  return {table.num_control_points(), std::move(a)};
+}
+
+/// Of each number that the table makes: the sum of the magnitudes of its terms.
+inline std::vector<double> sums_of_terms(const PatternTable<float>& table, std::span<const float> points,
+                                         int channels) {
   std::vector<double> result(size_t(table.quantities()) * size_t(table.num_points()) * size_t(channels));
-  sums.apply(absolute(points), channels, result);
+  table_of_magnitudes(table).apply(magnitudes(points), channels, result);
+  return result;
+}
+
+/// The same of the transpose.
+inline std::vector<double> sums_of_transposed_terms(const PatternTable<float>& table, std::span<const float> values,
+                                                    int channels) {
+  const PatternTable<double> sums = table_of_magnitudes(table);
+  std::vector<double> result(size_t(table.num_control_points()) * size_t(channels));
+  PatternEvaluator<double>(sums).apply_transpose(magnitudes(values), channels, result);
   return result;
 }
 
