@@ -56,7 +56,8 @@ struct RayHits {
 
 struct RayOptions {
   bool all = false;  ///< all hits, not only the nearest
-  /// To look at within one part of the surface that a ray may meet, and sixteen times as many of all of them. A ray
+  /// To look at within one part of the surface that a ray may meet, and 64 times as many of all of them; those that
+  /// depend on many points count as several, by the time that they take. A ray
   /// that needs more is given up there: it has a hit that says so, and those found elsewhere.
   int most_parts = 8000;
 };

@@ -34,6 +34,15 @@ std::optional<Extent> along(const Eigen::AlignedBox3d& box, const Ray& ray, doub
   return t;
 }
 
+/// As many parts as are allowed in one part of the surface, times this, are in all that a ray meets.
+constexpr std::int64_t wholes_a_ray = 64;
+
+/// Of a part, in polynomial ones: children and limits are made of all points that it depends on.
+std::int64_t work_of(const PiecePart& part) {
+  constexpr std::int64_t points_a_net = 16;
+  return 1 + part.points.rows() / points_a_net;
+}
+
 }  // namespace
 
 std::vector<Tracer::Hit> Tracer::operator()(const Ray& ray) {
@@ -64,7 +73,7 @@ void Tracer::begin(const Ray& ray) {
 
 std::vector<Tracer::Hit> Tracer::look() {
   const std::vector<BoxTree::Node>& nodes = parts_.tree().nodes();
-  for (int looked = 0; !heap_.empty();) {
+  for (std::int64_t looked = 0; !heap_.empty();) {
     std::pop_heap(heap_.begin(), heap_.end());
     const Waiting first = heap_.back();
     heap_.pop_back();
@@ -80,11 +89,15 @@ std::vector<Tracer::Hit> Tracer::look() {
     Cell cell = std::move(cells_[size_t(first.number)]);
     Whole& whole = wholes_[cell.whole];
     if (whole.is_given_up) continue;
-    constexpr int wholes_a_ray = 16;
-    if (++whole.looked > options_.most_parts || ++looked > std::int64_t(wholes_a_ray) * options_.most_parts)
+    if (whole.looked >= options_.most_parts || looked >= wholes_a_ray * options_.most_parts) {
       give_up(cell, first.t);
-    else
-      look_at(std::move(cell));
+      continue;
+    }
+    const size_t number = cell.whole;  // the cell goes, and so may the place of its whole
+    work_ = work_of(cell.part.part);
+    look_at(std::move(cell));
+    wholes_[number].looked += work_;
+    looked += work_;
   }
   return merged();
 }
@@ -127,6 +140,23 @@ void Tracer::look_at(Cell&& cell) {
     add_smallest(cell);
     return;
   }
+  cut(cell);
+}
+
+void Tracer::cut(const Cell& cell) {
+  const PiecePart& part = cell.part.part;
+  if (part.basis && !part.is_triangle() && part.nets.size() == 1) {
+    // Only along what is much the longer way across the ray, as where it runs along a straight line of the surface; or
+    // along the ray, once all else is as near as counts.
+    const SeenNet net(*part.basis, frame_->seen(part.nets[0]));
+    const SeenNet::Lengths length = net.strip(slack_) ? net.lengths_in_space() : net.lengths_across();
+    constexpr double much = 8;
+    if (length.u > much * length.v || length.v > much * length.u) {
+      for (SurfacePart& half : halves_of(cell.part, length.u > length.v)) push_cell(std::move(half), cell.whole, 0);
+      return;
+    }
+  }
+  const double diagonal = cell.box.diagonal().norm();
   const bool has_digits = diagonal >= 1e-6 * parts_.size() + 1000 * parts_.rounding(ray_->origin);
   const int side = part.basis ? 0 : has_digits ? seen_side(cell) : cell.side;
   for_each_child(cell.part, cutter_, [&](SurfacePart&& child) { push_cell(std::move(child), cell.whole, side); });
@@ -167,6 +197,7 @@ bool Tracer::decides_limits(const Cell& cell) {
   if (!seen.can_be_hit(slack_)) return true;
   const Points differences = part.points.bottomRows(part.points.rows() - 1).rowwise() - part.points.row(0);
   const SeenZero zero = seen.zero(slack_, [&](const Eigen::Vector2d& p) -> Eigen::Vector3d {
+    work_ += 8 * work_of(part);  // some fifty levels down
     const Place place = part.is_triangle() ? triangle_place(p.x(), p.y()) : quad_place(p.x(), p.y());
     const Points x = piece_rows(*part.type, place, 0).rows.topRows(1) * differences + part.points.topRows(1);
     return frame_->seen(x).row(0).transpose();

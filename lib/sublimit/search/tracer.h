@@ -48,9 +48,9 @@ class Tracer {
     size_t whole = 0;  ///< the part of the surface that it comes from
     int side = 0;      ///< that is seen of it, where its points still tell
   };
-  /// A part of the surface: how many of its own parts have been looked at.
+  /// A part of the surface: how many of its own parts have been looked at, those of many points several times.
   struct Whole {
-    int looked = 0;
+    std::int64_t looked = 0;
     bool is_given_up = false;
   };
 
@@ -61,6 +61,7 @@ class Tracer {
   void push_whole(const SurfacePart& part);
   void push_cell(SurfacePart&& part, size_t whole, int side);
   void look_at(Cell&& cell);
+  void cut(const Cell& cell);
   /// Whether all of it is decided.
   bool decides_nets(const Cell& cell);
   bool decides_limits(const Cell& cell);
@@ -90,6 +91,7 @@ class Tracer {
   std::vector<Waiting> heap_;
   std::vector<Cell> cells_;
   std::vector<Whole> wholes_;
+  std::int64_t work_ = 0;  // at the part at hand
   double nearest_ = 0;
   double within_to_ = 0;  // t up to which the ray has been within the surface
   double slack_ = 0;      // how far off a ray counts as a hit
