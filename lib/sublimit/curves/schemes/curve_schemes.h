@@ -2,7 +2,11 @@
 #pragma once
 // The registry of curve schemes: one line a scheme.
 #include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
+#include "sublimit/core/unknown_scheme.h"
 #include "sublimit/curves/schemes/chaikin.h"
 #include "sublimit/curves/schemes/four_point.h"
 #include "sublimit/curves/schemes/hermite_merrien.h"
@@ -36,7 +40,7 @@ std::vector<CurveScheme<T>> all_curve_schemes() {
   return schemes;
 }
 
-/// A curve scheme by name; nothing if there is none.
+/// A curve scheme by name; nothing if there is none. `curve_scheme` below throws instead.
 /// @throws InvalidOption  an unknown option, or a value outside its range
 template <class T = double>
 std::optional<CurveScheme<T>> find_curve_scheme(const std::string& name, const SchemeOptions& options = {}) {
@@ -46,6 +50,16 @@ std::optional<CurveScheme<T>> find_curve_scheme(const std::string& name, const S
     return entry.make(options);
   }
   return std::nullopt;
+}
+
+/// A curve scheme by name: `curve_scheme("chaikin")`, `curve_scheme("four-point", {{"tension", "3/4"}})`.
+/// @throws InvalidOption  no linear scheme of curves has this name: says which are nearest, or what makes it; an
+/// unknown
+///                        option, or a value outside its range
+template <class T = double>
+CurveScheme<T> curve_scheme(const std::string& name, const SchemeOptions& options = {}) {
+  if (std::optional<CurveScheme<T>> found = find_curve_scheme<T>(name, options)) return *std::move(found);
+  throw_unknown_scheme(name, SchemeKind::curve);
 }
 
 // Made once, in the library, as the registry of surfaces is.

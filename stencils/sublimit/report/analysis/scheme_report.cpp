@@ -64,9 +64,7 @@ void for_all(size_t count, const Job& job) {
 }  // namespace
 
 ReportedScheme reported_scheme(const std::string& name, const SchemeOptions& options) {
-  std::optional<Scheme<double>> scheme = find_scheme<double>(name, options);
-  if (!scheme) throw InvalidOption("unknown scheme '" + name + "'");
-  return {std::move(*scheme), *find_scheme<Algebraic>(name, options), options};
+  return {scheme<double>(name, options), scheme<Algebraic>(name, options), options};
 }
 
 Json schemes_report(const std::vector<ReportedScheme>& schemes, const ReportOptions& options) {
