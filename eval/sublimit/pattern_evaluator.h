@@ -20,6 +20,7 @@ class PatternEvaluator {
   };
   /// @param table  which must stay
   explicit PatternEvaluator(const PatternTable<Real>& table, Options options = {});
+  explicit PatternEvaluator(const PatternTable<Real>&&, Options = {}) = delete;
 
   const PatternTable<Real>& table() const { return table_; }
 

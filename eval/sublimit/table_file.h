@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <span>
 #include <variant>
+#include <vector>
 
 #include "sublimit/baked_table.h"
 
@@ -33,5 +34,7 @@ AnyTable load_table(const std::filesystem::path& path, const LoadOptions& option
 /// @param owner  keeps them, if given
 AnyTable load_table(std::span<const std::byte> bytes, const std::string& name,
                     std::shared_ptr<const void> owner = nullptr, const LoadOptions& options = {});
+/// The same of bytes that the table keeps.
+AnyTable load_table(std::vector<std::byte>&& bytes, const std::string& name, const LoadOptions& options = {});
 
 }  // namespace sublimit

@@ -21,6 +21,7 @@ struct ProvedDistance {
 
 class DistanceBound {
  public:
+  /// @param surface  which may go; what a `SearchedLimit` is of has to stay
   explicit DistanceBound(const SearchedSurface& surface) : parts_(surface) {}
 
   /// @param distance  of the nearest point that is known

@@ -66,6 +66,7 @@ class RayTracer {
   /// @param points   of its level, #V x 3
   /// @throws InvalidParameter  points that do not fit
   RayTracer(const LimitSurface& surface, const Points& points);
+  RayTracer(const LimitSurface&&, const Points&) = delete;
   RayTracer(RayTracer&&) noexcept;
   RayTracer& operator=(RayTracer&&) noexcept;
   ~RayTracer();

@@ -19,6 +19,7 @@ struct RecipeNets {
 };
 /// @param recipes  have to stay
 RecipeNets recipe_nets(const std::vector<Recipe>& recipes);
+RecipeNets recipe_nets(const std::vector<Recipe>&&) = delete;
 
 /// @throws UnsupportedTopology  a recipe without an exact net, or with one that OBJ cannot hold: which and why
 FreeForm net_file(const std::vector<Recipe>& recipes);

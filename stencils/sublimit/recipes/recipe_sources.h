@@ -16,6 +16,7 @@ struct RecipePatches {
 /// @param name     of the file, for messages
 /// @throws UnsupportedTopology  no surfaces; triangles beside squares
 RecipePatches recipe_patches(const std::vector<Recipe>& recipes, const std::string& name);
+RecipePatches recipe_patches(const std::vector<Recipe>&&, const std::string&) = delete;
 
 struct RecipeCurves {
   CurveSet curves;
@@ -23,7 +24,9 @@ struct RecipeCurves {
   Coordinates coordinates = Coordinates::plain;
   std::vector<const Recipe*> recipe;  ///< of each curve
 };
+/// @param recipes  have to stay
 /// @throws UnsupportedTopology  no curves
 RecipeCurves recipe_curves(const std::vector<Recipe>& recipes, const std::string& name);
+RecipeCurves recipe_curves(const std::vector<Recipe>&&, const std::string&) = delete;
 
 }  // namespace sublimit
