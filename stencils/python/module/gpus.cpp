@@ -6,6 +6,7 @@
 
 #include "calls.h"
 #include "module.h"
+#include "optional_parts.h"
 #ifdef SUBLIMIT_GPU
 #include "sublimit/gpu/gpu_evaluator.h"
 #endif
@@ -91,9 +92,8 @@ void TableOnGpus<Real>::apply_transpose(std::span<const Real> values, int channe
 namespace {
 
 [[noreturn]] void refuse() {
-  throw InvalidOption(
-      "this module was built without its part for GPUs, which -DSUBLIMIT_BUILD_GPU=ON adds (Debian: glslc "
-      "libvulkan-dev); device='cpu' applies tables on the CPU");
+  throw InvalidOption("this module was built without its part for GPUs: " + how_to_build(gpu_part) +
+                      "; device='cpu' applies tables on the CPU");
 }
 
 py::list devices() { return py::list(); }
