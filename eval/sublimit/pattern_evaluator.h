@@ -24,7 +24,8 @@ class PatternEvaluator {
 
   const PatternTable<Real>& table() const { return table_; }
 
-  /// As `PatternTable::apply`, to rounding; the same bits if `reproducible`.
+  /// As `PatternTable::apply`, to rounding; the same bits if `reproducible`. Nothing is divided: of a rational table
+  /// (`TableInfo::rational`) homogeneous columns come from homogeneous columns, and nothing else makes sense.
   /// @throws InvalidParameter  spans of the wrong length, channels < 1
   void apply(std::span<const Real> points, int channels, std::span<Real> result) const;
 

@@ -92,6 +92,6 @@ Safetensors read_safetensors(std::span<const std::byte> bytes, const std::string
 Safetensors read_safetensors(const std::vector<std::byte>&& bytes, const std::string& name) = delete;
 
 /// Whether data is what was written; nothing if there is no checksum of it.
-std::optional<bool> matches_checksum(const Safetensors& file, const Tensor& tensor);
+[[nodiscard]] std::optional<bool> matches_checksum(const Safetensors& file, const Tensor& tensor);
 
 }  // namespace sublimit

@@ -51,7 +51,7 @@ inline constexpr SchemeEntry<T> registry[] = {
 
 /// Every scheme with its default options.
 template <class T = double>
-std::vector<Scheme<T>> all_schemes() {
+[[nodiscard]] std::vector<Scheme<T>> all_schemes() {
   std::vector<Scheme<T>> schemes;
   for (const SchemeEntry<T>& entry : registry<T>) schemes.push_back(entry.make({}));
   return schemes;
@@ -60,7 +60,7 @@ std::vector<Scheme<T>> all_schemes() {
 /// A scheme by name; nothing if there is none (`nearest_scheme_names` offers some). `scheme` below throws instead.
 /// @throws InvalidOption  an unknown option, or a value outside its range
 template <class T = double>
-std::optional<Scheme<T>> find_scheme(const std::string& name, const SchemeOptions& options = {}) {
+[[nodiscard]] std::optional<Scheme<T>> find_scheme(const std::string& name, const SchemeOptions& options = {}) {
   for (const SchemeEntry<T>& entry : registry<T>) {
     if (name != entry.name) continue;
     check_options(name, entry.make({}).options, options);
@@ -75,7 +75,7 @@ std::optional<Scheme<T>> find_scheme(const std::string& name, const SchemeOption
 /// @throws InvalidOption  no scheme of surfaces has this name: says which are nearest, or what makes it; an unknown
 ///                        option, or a value outside its range
 template <class T = double>
-Scheme<T> scheme(const std::string& name, const SchemeOptions& options = {}) {
+[[nodiscard]] Scheme<T> scheme(const std::string& name, const SchemeOptions& options = {}) {
   if (std::optional<Scheme<T>> found = find_scheme<T>(name, options)) return *std::move(found);
   throw_unknown_scheme(name, SchemeKind::surface);
 }

@@ -5,9 +5,9 @@
 #include <nlohmann/json.hpp>
 
 #include "common.h"
+#include "optional_parts.h"
 #include "sublimit/base/memory.h"
 #include "sublimit/gpu/gpu_device.h"
-#include "table_applier.h"
 
 namespace sublimit::cli {
 namespace {
@@ -23,7 +23,7 @@ std::vector<Described> described_devices(std::string& why_none) {
 #ifdef SUBLIMIT_GPU
   for (const GpuInfo& info : gpu_devices(&why_none)) all.push_back({info, name(info.api), name(info.kind)});
 #else
-  why_none = built_without_gpus;
+  why_none = "this program was built without its part for GPUs: " + how_to_build(gpu_part);
 #endif
   return all;
 }

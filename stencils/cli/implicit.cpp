@@ -32,16 +32,13 @@ struct ImplicitJob {
 };
 
 Polygonizer polygonizer() {
-#ifdef SUBLIMIT_IMPLICIT_MESH
-  void* const entry = loaded_function(openvdb_library, polygonize_entry, "polygons of fields");
+  void* const entry =
+      loaded_function(implicit_mesh_part, openvdb_library, polygonize_entry, "control meshes of fields");
   return [polygonize = reinterpret_cast<PolygonizeEntry*>(entry)](const FieldGrid& grid) {
     ControlMesh mesh;
     polygonize(grid, mesh);
     return mesh;
   };
-#else
-  throw InvalidOption("this program was built without OpenVDB, which makes polygons of fields; --at IN.csv needs none");
-#endif
 }
 
 /// What is wrong with a field is wrong with its file.

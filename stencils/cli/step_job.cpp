@@ -12,11 +12,7 @@ namespace sublimit::cli {
 namespace {
 
 CadFileEntry* cad_writer() {
-#ifdef SUBLIMIT_CAD
-  return reinterpret_cast<CadFileEntry*>(loaded_function(opencascade_library, cad_file_entry, "CAD files"));
-#else
-  throw InvalidOption("this program was built without OpenCASCADE, which writes CAD files");
-#endif
+  return reinterpret_cast<CadFileEntry*>(loaded_function(cad_part, opencascade_library, cad_file_entry, "CAD files"));
 }
 
 void write_whole_file(const std::string& path, const std::string& text, Progress& progress) {

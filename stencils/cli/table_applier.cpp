@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "table_applier.h"
 
+#include "optional_parts.h"
 #include "sublimit/base/error.h"
 #include "sublimit/pattern_evaluator.h"
 #ifdef SUBLIMIT_GPU
@@ -51,7 +52,8 @@ std::unique_ptr<TableApplier<float>> gpu_applier(const PatternTable<float>& tabl
 }
 #else
 std::unique_ptr<TableApplier<float>> gpu_applier(const PatternTable<float>&, int) {
-  throw InvalidOption(std::string(built_without_gpus) + "; leave out --gpu to apply tables on the CPU");
+  throw InvalidOption("this program was built without its part for GPUs: " + how_to_build(gpu_part) +
+                      "; leave out --gpu to apply tables on the CPU");
 }
 #endif
 

@@ -10,9 +10,6 @@
 
 namespace sublimit::cli {
 
-inline constexpr const char* built_without_gpus =
-    "this program was built without its part for GPUs, which -DSUBLIMIT_BUILD_GPU=ON adds (Debian: glslc libvulkan-dev)";
-
 /// Functions as those of `PatternEvaluator`.
 template <class Real>
 class TableApplier {

@@ -33,10 +33,12 @@ class Program {
  public:
   /// @param prepare  runs in the child before the program does: limits and the like, nothing that takes memory
   /// @param error    where stderr goes instead of `Outcome::err`
-  explicit Program(const std::vector<std::string>& arguments, const std::function<void()>& prepare = {}, int error = -1)
+  /// @param program  a copy of it, say
+  explicit Program(const std::vector<std::string>& arguments, const std::function<void()>& prepare = {}, int error = -1,
+                   const char* program = SUBLIMIT_PROGRAM)
       : out_(std::tmpfile()), err_(std::tmpfile()) {
     if (!out_ || !err_) throw std::runtime_error("no temporary files");
-    std::vector<char*> words{const_cast<char*>(SUBLIMIT_PROGRAM)};
+    std::vector<char*> words{const_cast<char*>(program)};
     for (const std::string& argument : arguments) words.push_back(const_cast<char*>(argument.c_str()));
     words.push_back(nullptr);
     id_ = ::fork();
@@ -46,7 +48,7 @@ class Program {
     ::dup2(::fileno(out_), STDOUT_FILENO);
     ::dup2(error >= 0 ? error : ::fileno(err_), STDERR_FILENO);
     if (prepare) prepare();
-    ::execv(SUBLIMIT_PROGRAM, words.data());
+    ::execv(program, words.data());
     ::_exit(127);
   }
   Program(const Program&) = delete;

@@ -54,7 +54,8 @@ std::vector<GeometricScheme<Data>> all_geometric_schemes() {
 /// A scheme by name; nothing if there is none. `geometric_scheme` below throws instead.
 /// @throws InvalidOption  an unknown option, or a value outside its range
 template <class Data = ControlPolygon>
-std::optional<GeometricScheme<Data>> find_geometric_scheme(const std::string& name, const SchemeOptions& options = {}) {
+[[nodiscard]] std::optional<GeometricScheme<Data>> find_geometric_scheme(const std::string& name,
+                                                                         const SchemeOptions& options = {}) {
   for (const GeometricSchemeEntry<Data>& entry : geometric_registry<Data>) {
     if (name != entry.name) continue;
     check_options(name, entry.make({}).options, options);
@@ -67,7 +68,7 @@ std::optional<GeometricScheme<Data>> find_geometric_scheme(const std::string& na
 /// @throws InvalidOption  no scheme for this kind of data has this name: says which are nearest, or what makes it; an
 ///                        unknown option, or a value outside its range
 template <class Data = ControlPolygon>
-GeometricScheme<Data> geometric_scheme(const std::string& name, const SchemeOptions& options = {}) {
+[[nodiscard]] GeometricScheme<Data> geometric_scheme(const std::string& name, const SchemeOptions& options = {}) {
   if (std::optional<GeometricScheme<Data>> found = find_geometric_scheme<Data>(name, options)) return *std::move(found);
   throw_unknown_scheme(name, geometric_kind<Data>);
 }

@@ -93,6 +93,6 @@ class BoundLimitSurface : public BoundSource {
 };
 
 /// Curvature where first and second derivatives exist and the first ones span a plane; nothing elsewhere.
-std::optional<Curvature> curvature(const LimitSamples& samples, Index row);
+[[nodiscard]] std::optional<Curvature> curvature(const LimitSamples& samples, Index row);
 
 }  // namespace sublimit

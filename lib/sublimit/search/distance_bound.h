@@ -14,7 +14,7 @@
 
 namespace sublimit {
 
-struct ProvedDistance {
+struct [[nodiscard]] ProvedDistance {
   double lower = 0;              ///< no point of the surface is nearer; 0: nothing is proved
   std::optional<Sample> closer;  ///< a place that is nearer than was said; `lower` is what had been proved by then
 };

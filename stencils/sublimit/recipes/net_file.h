@@ -8,7 +8,7 @@
 namespace sublimit {
 
 /// The recipes that have such a net, and those that have none.
-struct RecipeNets {
+struct [[nodiscard]] RecipeNets {
   FreeForm shapes;
   std::vector<const Recipe*> surface, curve;  ///< of each element
   struct LeftOut {

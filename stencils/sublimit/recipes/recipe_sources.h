@@ -7,7 +7,7 @@
 
 namespace sublimit {
 
-struct RecipePatches {
+struct [[nodiscard]] RecipePatches {
   PatchSet patches;
   Points columns;                     ///< x 3, or x 4, homogeneous, if one of them is rational
   std::vector<const Recipe*> recipe;  ///< of each patch
@@ -18,7 +18,7 @@ struct RecipePatches {
 RecipePatches recipe_patches(const std::vector<Recipe>& recipes, const std::string& name);
 RecipePatches recipe_patches(const std::vector<Recipe>&&, const std::string&) = delete;
 
-struct RecipeCurves {
+struct [[nodiscard]] RecipeCurves {
   CurveSet curves;
   Points columns;  ///< of the largest dimension, 0 where a curve has less
   Coordinates coordinates = Coordinates::plain;

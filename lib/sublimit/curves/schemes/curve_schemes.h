@@ -34,7 +34,7 @@ inline constexpr CurveSchemeEntry<T> curve_registry[] = {
 
 /// Every curve scheme with its default options.
 template <class T = double>
-std::vector<CurveScheme<T>> all_curve_schemes() {
+[[nodiscard]] std::vector<CurveScheme<T>> all_curve_schemes() {
   std::vector<CurveScheme<T>> schemes;
   for (const CurveSchemeEntry<T>& entry : curve_registry<T>) schemes.push_back(entry.make({}));
   return schemes;
@@ -43,7 +43,8 @@ std::vector<CurveScheme<T>> all_curve_schemes() {
 /// A curve scheme by name; nothing if there is none. `curve_scheme` below throws instead.
 /// @throws InvalidOption  an unknown option, or a value outside its range
 template <class T = double>
-std::optional<CurveScheme<T>> find_curve_scheme(const std::string& name, const SchemeOptions& options = {}) {
+[[nodiscard]] std::optional<CurveScheme<T>> find_curve_scheme(const std::string& name,
+                                                              const SchemeOptions& options = {}) {
   for (const CurveSchemeEntry<T>& entry : curve_registry<T>) {
     if (name != entry.name) continue;
     check_options(name, entry.make({}).options, options);
@@ -57,7 +58,7 @@ std::optional<CurveScheme<T>> find_curve_scheme(const std::string& name, const S
 /// unknown
 ///                        option, or a value outside its range
 template <class T = double>
-CurveScheme<T> curve_scheme(const std::string& name, const SchemeOptions& options = {}) {
+[[nodiscard]] CurveScheme<T> curve_scheme(const std::string& name, const SchemeOptions& options = {}) {
   if (std::optional<CurveScheme<T>> found = find_curve_scheme<T>(name, options)) return *std::move(found);
   throw_unknown_scheme(name, SchemeKind::curve);
 }
