@@ -73,8 +73,8 @@ def quarter(tmp_path: pathlib.Path) -> sublimit.Patches:
     """A quarter of a cylinder of radius 1."""
     w = 0.5**0.5
     (tmp_path / "quarter.json").write_text(json.dumps({
-        "kind": "nurbs_surface", "degree": [2, 1], "knots_u": [0, 0, 0, 1, 1, 1], "knots_v": [0, 0, 1, 1],
-        "homogeneous": [[[1, 0, 0, 1], [w, w, 0, w], [0, 1, 0, 1]], [[1, 0, 1, 1], [w, w, w, w], [0, 1, 1, 1]]]}))
+        "kind": "nurbs_surface", "degree": [2, 1], "shape": [3, 2], "knots_u": [0, 0, 0, 1, 1, 1], "knots_v": [0, 0, 1, 1],
+        "homogeneous": [[1, 0, 0, 1], [w, w, 0, w], [0, 1, 0, 1], [1, 0, 1, 1], [w, w, w, w], [0, 1, 1, 1]]}))
     return sublimit.Patches.read(tmp_path / "quarter.json")
 
 
