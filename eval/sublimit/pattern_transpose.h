@@ -15,6 +15,7 @@ class PatternTranspose {
  public:
   /// @param table  which must stay
   explicit PatternTranspose(const PatternTable<Real>& table);
+  explicit PatternTranspose(const PatternTable<Real>&&) = delete;
   ~PatternTranspose();
   PatternTranspose(PatternTranspose&&) noexcept;
 

@@ -36,7 +36,7 @@ struct CurveNeighborhood {
 };
 
 /// Functionals of the points of a level: the limit and its derivatives at each of the requested positions.
-struct CurveLimits {
+struct [[nodiscard]] CurveLimits {
   CurveMatrix<double> position, first,
       second;              ///< derivatives per leg of the control polygon; empty rows if there is none
   std::vector<int> order;  ///< per row: the highest derivative that exists there, 0 to 2

@@ -13,8 +13,10 @@ namespace sublimit {
 /// Computed when asked for, kept, by threads together.
 class CornerLimits {
  public:
-  /// @param masks  of the scheme, shared with other levels
+  /// @param masks  of the scheme, shared with other levels; must stay
+  /// @param level  which must stay
   CornerLimits(LimitTypes& masks, const Level& level) : level_(level), masks_(masks) {}
+  CornerLimits(LimitTypes&, const Level&&) = delete;
   /// Null where there is no limit. A vertex is seen from the face of `centre.start`.
   const LimitRows* at(const Centre& centre) const;
 

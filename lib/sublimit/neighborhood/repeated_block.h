@@ -18,7 +18,9 @@ namespace sublimit {
 
 class RepeatedBlock {
  public:
+  /// @param block  which must stay
   explicit RepeatedBlock(const PieceBlock& block) : block_(block) {}
+  explicit RepeatedBlock(const PieceBlock&&) = delete;
 
   /// The position, the first of `rows`, `times` steps back, and the rows below it, derivatives.
   RowMatrix pulled_back(const RowMatrix& rows, int times) const;

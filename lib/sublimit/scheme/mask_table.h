@@ -29,7 +29,12 @@ class MaskTable {
     Index count() const { return static_cast<Index>(has_zeros ? kept.size() : this->size()); }
   };
 
+  /// @param masks  which must stay
   MaskTable(const Masks<T>& masks, int level) : masks_(&masks), level_(level) {}
+  MaskTable(const Masks<T>&&, int) = delete;
+  MaskTable(MaskTable&&) = default;
+  MaskTable(const MaskTable&) = delete;  // it points to weights of its own
+  MaskTable& operator=(const MaskTable&) = delete;
 
   const Weights& face(Index size) {
     Weights& weights = at(faces_, size);
@@ -255,6 +260,8 @@ class MaskTable {
 template <Index N>
 class UniformFaces {
  public:
+  /// @param t  which must stay
+  explicit UniformFaces(const Topology&& t) = delete;
   explicit UniformFaces(const Topology& t) : t_(t), tails_(t.num_faces() > 0 ? t.vertices(Face{0}).data() : nullptr) {}
   Index size(Face) const { return N; }
   Face face(HalfEdge h) const { return Face{index(h) / N}; }

@@ -23,7 +23,7 @@ struct Ray {
   double tmin = 0, tmax = std::numeric_limits<double>::infinity();  ///< of origin + t direction
 };
 
-struct RayHits {
+struct [[nodiscard]] RayHits {
   std::vector<std::int64_t> first;  ///< hits of ray i are [first[i], first[i + 1]), by rising t
   std::vector<double> t;
   std::vector<Sample> places;
@@ -66,6 +66,7 @@ class RayTracer {
   /// @param points   of its level, #V x 3
   /// @throws InvalidParameter  points that do not fit
   RayTracer(const LimitSurface& surface, const Points& points);
+  RayTracer(const LimitSurface&&, const Points&) = delete;
   RayTracer(RayTracer&&) noexcept;
   RayTracer& operator=(RayTracer&&) noexcept;
   ~RayTracer();

@@ -22,8 +22,10 @@ struct RayFrame {
 
 class SeenNet {
  public:
-  /// @param net  seen along a ray
+  /// @param basis  which must stay
+  /// @param net    seen along a ray
   SeenNet(const PolynomialBasis& basis, Points net) : basis_(basis), net_(std::move(net)) {}
+  SeenNet(const PolynomialBasis&&, Points) = delete;
 
   /// No line through the ray has all of it on one side.
   /// @param slack  how far off counts as a hit

@@ -45,6 +45,7 @@ void for_each_child(const SurfacePart& whole, PieceParts& cutter, const Visit& v
 
 class SurfaceParts {
  public:
+  /// @param surface  which may go; what a `SearchedLimit` is of has to stay
   explicit SurfaceParts(const SearchedSurface& surface);
   const std::vector<SurfacePart>& parts() const { return parts_; }
   /// Of their boxes; empty where there is no surface.
