@@ -25,6 +25,9 @@ struct [[nodiscard]] SurfaceRegularity {
 SurfaceRegularity surface_regularity(const RegularMask<Rational>& mask, const JointSpectralRadiusOptions& options);
 SurfaceRegularity surface_regularity(const RegularMask<Rational>& mask);
 
+/// Whether the child of every old vertex of a regular mesh is the vertex itself.
+bool keeps_vertices(const RegularMask<Rational>& mask);
+
 /// The curve masks whose product a mask is; nothing if it is none.
 std::optional<std::array<Symbol, 2>> tensor_factors(const RegularMask<Rational>& mask);
 
