@@ -14,6 +14,7 @@ _Csr = tuple[_Floats, _Ints, _Ints, tuple[int, int]]
 __version__: str
 error_codes: tuple[str, ...]
 statuses: tuple[str, ...]
+hit_kinds: tuple[str, ...]
 
 class ControlMesh:
     def __init__(self, points: _Floats, sizes: _Ints, corners: _Ints, creases: tuple[_Ints, _Floats32],
@@ -192,7 +193,7 @@ class Source:
                  threads: int) -> tuple[list[_Csr], npt.NDArray[np.int8]]: ...
     def closest(self, points: _Floats, count: int, radius: float, is_signed: bool, threads: int) -> dict[str, Any]: ...
     def intersect(self, origins: _Floats, directions: _Floats, tmin: _Floats, tmax: _Floats, all: bool,
-                  threads: int) -> dict[str, Any]: ...
+                  most_parts: int, threads: int) -> dict[str, Any]: ...
 
 class Surface(Source):
     def __init__(self, mesh: ControlMesh, request: MeshRequest) -> None: ...
