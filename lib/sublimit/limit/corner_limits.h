@@ -2,10 +2,10 @@
 #pragma once
 // Limits of the places where pieces meet that are no polynomials: vertices of a level, and middles of its faces. Their
 // tangents are those of the characteristic map, or of one side of a crease.
-#include <map>
-#include <mutex>
 #include <optional>
+#include <utility>
 
+#include "sublimit/base/found_once.h"
 #include "sublimit/limit/limit_rows.h"
 
 namespace sublimit {
@@ -23,8 +23,7 @@ class CornerLimits {
  private:
   const Level& level_;
   LimitTypes& masks_;
-  mutable std::mutex mutex_;
-  mutable std::map<std::pair<int, Index>, std::optional<LimitRows>> known_;
+  FoundByKey<std::pair<int, Index>, std::optional<LimitRows>> known_;
 };
 
 }  // namespace sublimit
