@@ -20,7 +20,7 @@ using Kinds = std::vector<FileKind>;
 
 /// An argument or option that names a file to read.
 struct Role {
-  const char* subcommand;  ///< nullptr: any that has it
+  const char* owner;  ///< the subcommand, or the program; nullptr: any that has it
   const char* name;
   const char* takes;  ///< "a table of `sublimit bake`"
   Kinds kinds;
@@ -30,7 +30,12 @@ struct Role {
 const std::vector<Role>& roles() {
   using enum FileKind;
   static const std::vector<Role> all{
-      {"verify", "TABLE", "a table of `sublimit bake` or a report of `sublimit analyze --json`", {safetensors, json}},
+      // Whatever it is, verify answers by its verdict.
+      {"verify",
+       "TABLE",
+       "a table of `sublimit bake` or a report of `sublimit analyze --json`",
+       {FileKind::empty, obj, ply, off, csv, json, npy, safetensors, zip, matrix_market, xml, FileKind::step, brep,
+        gltf}},
       {nullptr, "TABLE", "a table of `sublimit bake`, .safetensors", {safetensors}},
       {nullptr,
        "POINTS",
@@ -38,6 +43,7 @@ const std::vector<Role>& roles() {
        {obj, ply, off, csv, npy, json}},
       {nullptr, "RECIPE", "recipes, .json", {json}},
       {nullptr, "FIELD", "a field, .json", {json}},
+      {"sublimit-mpi", "MESH", "a control mesh, .obj, .ply or .safetensors", {obj, ply, safetensors}},
       // The readers say more of a polygon or a recipe in the place of a mesh.
       {nullptr, "MESH", "a control mesh, .obj, .ply or .off", {obj, ply, off, csv, json}},
       {nullptr, "--at", "places, .csv", {csv}},
@@ -85,6 +91,23 @@ bool is_one_of(std::string_view word, const std::array<std::string_view, N>& wor
   return std::ranges::find(words, word) != words.end();
 }
 
+/// Fields without blanks inside and commas between: a sentence is no CSV.
+bool is_csv(std::string_view line) {
+  if (line.find(',') == std::string_view::npos) return false;
+  bool blank = false, inside = false;  // there was a blank after the field began
+  for (const char c : line) {
+    if (c == ',') {
+      blank = inside = false;
+    } else if (is_blank(c)) {
+      blank = inside;
+    } else {
+      if (blank) return false;
+      inside = true;
+    }
+  }
+  return true;
+}
+
 FileKind kind_of_text(std::string_view text) {
   using enum FileKind;
   constexpr std::array<std::string_view, 26> obj_words{
@@ -103,7 +126,7 @@ FileKind kind_of_text(std::string_view text) {
   if (word == "ply") return ply;
   if (is_one_of(word, off_words)) return off;
   if (is_one_of(word, obj_words)) return obj;
-  if (line.find(',') != std::string_view::npos) return csv;
+  if (is_csv(line)) return csv;
   return unknown;
 }
 
@@ -189,7 +212,8 @@ void check_input_files(const CLI::App& command) {
   for (const CLI::Option* option : command.get_options()) {
     if (option->count() != 1) continue;
     const auto role = std::ranges::find_if(roles(), [&](const Role& r) {
-      return (!r.subcommand || command.get_name() == r.subcommand) && option->check_name(r.name);
+      const bool owned = !r.owner || command.get_name() == r.owner || command.get_parent()->get_name() == r.owner;
+      return owned && option->check_name(r.name);
     });
     if (role != roles().end()) all.push_back({&*role, option->results().front(), file_kind(option->results().front())});
   }

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include "../cli/command_line.h"
+#include "../cli/input_files.h"
 #include "../cli/standard_streams.h"
 #include "commands.h"
 
@@ -34,6 +35,7 @@ int main(int argc, char** argv) {
     }
     misuse = line.status;
     if (!line.runs) return;
+    ranks.together([&] { cli::check_input_files(*app.get_subcommands().front()); });
     chosen(ranks);
   });
   return cli::finish_standard_streams("sublimit-mpi", status != 0 ? status : misuse);

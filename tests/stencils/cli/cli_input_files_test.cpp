@@ -94,7 +94,6 @@ TEST(CliInputFiles, EachIsKnownInTheWrongPlace) {
       {{"implicit", "?", "-o", obj}, "FIELD", {"field.json"}},
       {{"apply", "?", samples.path("points.npy"), "-o", obj}, "TABLE", {"table.safetensors"}},
       {{"apply", table, "?", "-o", obj}, "POINTS", {"mesh.obj", "mesh.ply", "places.csv", "points.npy", "field.json"}},
-      {{"verify", "?"}, "TABLE", {"table.safetensors", "field.json"}},
       {{"export", "?", "-o", samples.path("out.npz")}, "TABLE", {"table.safetensors"}},
       {with_scheme({"analyze", "?"}), "MESH", shapes},
       {with_scheme({"fit", mesh, "--targets", "?", "-o", obj}), "--targets", {"places.csv"}},
@@ -123,6 +122,23 @@ TEST(CliInputFiles, SwappedArgumentsAreSeen) {
       sublimit({"closest", samples.path("points.npy"), "--points", mesh, "-s", "loop", "-o", samples.path("out.csv")}),
       3, {"they are swapped", "MESH is ", "--points is "});
   samples.expect_nothing_new();
+}
+
+TEST(CliInputFiles, VerifyAnswersByItsVerdict) {
+  const Samples samples;
+  for (const auto& [name, kind] : samples.words) {
+    if (name == "table.safetensors" || name == "folder") continue;
+    const Outcome outcome = sublimit({"verify", samples.path(name)});
+    if (name == "field.json") {
+      expect_failure(outcome, 3, {name});  // no report, and written as one
+      continue;
+    }
+    EXPECT_EQ(outcome.status, 1) << name;
+    EXPECT_EQ(outcome.err, "");
+    expect_parts(outcome.out, {name});
+    if (name != "nothing.obj") expect_parts(outcome.out, {"it" + kind + ", neither a table nor a report"});
+  }
+  expect_failure(sublimit({"verify", samples.path("folder")}), 3, {"folder: it is a directory"});
 }
 
 // What is read from a pipe is gone: it is not looked at before.
