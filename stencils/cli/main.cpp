@@ -9,8 +9,11 @@
 #include <new>
 #include <thread>
 
+#include "command_line.h"
 #include "common.h"
 #include "heap.h"
+#include "input_files.h"
+#include "standard_streams.h"
 #include "sublimit/base/error.h"
 
 namespace {
@@ -77,7 +80,7 @@ int guarded(const cli::Command& command) {
 
 int main(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN);  // a full disk is an error with a message, not the end
-  std::signal(SIGPIPE, SIG_IGN);
+  cli::prepare_standard_streams();
   cli::prepare_heap();
   handle_interrupts();
 
@@ -114,18 +117,16 @@ int main(int argc, char** argv) {
                                                              {"analyze", cli::add_analyze(app)},
                                                              {"fit", cli::add_fit(app)},
                                                              {"demo", cli::add_demo(app)}};
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
-  }
+  const cli::ParsedCommandLine line = cli::parse_command_line(app, argc, argv);
+  fmt::print("{}", line.out);
+  fmt::print(stderr, "{}", line.err);
+  int status = line.status;
   for (const auto& [name, command] : commands)
-    if (app.got_subcommand(name)) {
-      const int status = guarded(command);
-      std::fflush(stdout);
-      if (interrupted) _exit(130);
-      _exit(status == 0 && std::ferror(stdout) ? 3
-                                               : status);  // the thread that waits for interrupts has nothing to finish
-    }
-  return 2;
+    if (line.runs && app.got_subcommand(name))
+      status = guarded([&app, name = name, run = command] {
+        cli::check_input_files(*app.get_subcommand(name));
+        return run();
+      });
+  status = cli::finish_standard_streams("sublimit", status);
+  _exit(interrupted ? 130 : status);  // the thread that waits for interrupts has nothing to finish
 }
