@@ -26,9 +26,6 @@
 namespace sublimit::cli {
 namespace {
 
-std::mutex directories_mutex;
-std::vector<std::string> directories;  // of outputs, for the one who cleans up after an interrupt
-
 /// The words as CLI11's set of choices.
 CLI::IsMember one_of(std::span<const char* const> words) {
   return CLI::IsMember(std::vector<std::string>(words.begin(), words.end()));
@@ -188,9 +185,6 @@ void check_output_path(const std::string& path, const std::vector<std::string>& 
     throw IoError("cannot write " + path + ": its directory is not writable");
   if (std::filesystem::exists(path, ignored) && ::access(path.c_str(), W_OK) != 0)
     throw IoError("cannot write " + path + ": the file that is there is not writable");
-  const std::lock_guard lock(directories_mutex);
-  const std::string name = directory.empty() ? "." : directory.string();
-  if (std::find(directories.begin(), directories.end(), name) == directories.end()) directories.push_back(name);
 }
 
 void check_not_sidecar(const std::string& option, const std::string& path, const std::string& mesh) {
@@ -213,11 +207,6 @@ void make_output_directory(const std::string& path) {
   std::error_code failed;
   std::filesystem::create_directories(path, failed);
   if (failed) throw IoError("cannot make the directory " + path + ": " + failed.message());
-}
-
-std::vector<std::string> output_directories() {
-  const std::lock_guard lock(directories_mutex);
-  return directories;
 }
 
 Progress::Progress(bool quiet) {
