@@ -5,16 +5,15 @@
 #include <unistd.h>
 
 #include <atomic>
-#include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <exception>
 #include <new>
-#include <string_view>
 #include <system_error>
 #include <thread>
 
+#include "standard_streams.h"
 #include "sublimit/base/error.h"
 #include "sublimit/base/temporaries.h"
 #include "sublimit/certificates/out_of_memory.h"
@@ -25,6 +24,7 @@ namespace {
 constexpr int fault_of_ours = 70;
 constexpr int lacking_resources = exit_status(ErrorCode::resource_error);
 constexpr const char* out_of_memory = "out of memory; use fewer levels or samples";
+constexpr const char* no_thread = "cannot start a thread; use fewer of them, by --threads: ";
 
 std::atomic<bool> interrupted = false;
 
@@ -38,12 +38,6 @@ struct Failure {
   const char *what = "", *more = "";
 };
 
-/// An output or a thread that the system refuses.
-Failure refused(const char* what, int number) noexcept {
-  const bool lacking = number == ENOSPC || number == EFBIG || number == EDQUOT || number == ENOMEM || number == EAGAIN;
-  return {lacking ? lacking_resources : exit_status(ErrorCode::io_error), what, std::strerror(number)};
-}
-
 Failure failure(const std::exception& error) noexcept {
   if (const auto* ours = dynamic_cast<const Error*>(&error)) {
     const int status = exit_status(ours->code());
@@ -51,14 +45,12 @@ Failure failure(const std::exception& error) noexcept {
   }
   if (dynamic_cast<const std::bad_alloc*>(&error)) return {lacking_resources, out_of_memory};
   if (const auto* system = dynamic_cast<const std::system_error*>(&error)) {
-    const int number = system->code().value();
-    if (std::ferror(stdout)) return refused("cannot write standard output: ", number);
-    if (std::ferror(stderr)) return refused("cannot write standard error: ", number);
-    if (number == ENOMEM) return {lacking_resources, out_of_memory};
-    if (number == EAGAIN) return refused("cannot start a thread: ", number);
+    if (system->code() == std::errc::not_enough_memory) return {lacking_resources, out_of_memory};
+    if (system->code() == std::errc::resource_unavailable_try_again)
+      return {lacking_resources, no_thread, error.what()};
   }
   if (std::strstr(error.what(), "pthread_create"))  // of oneTBB
-    return {lacking_resources, "cannot start a thread; use fewer of them, by --threads: ", error.what()};
+    return {lacking_resources, no_thread, error.what()};
   return {fault_of_ours, "a fault of ours: ", error.what()};
 }
 
@@ -126,14 +118,7 @@ int guarded(const std::function<int()>& body) noexcept {
 }
 
 void end(int status) noexcept {
-  const bool failed_before = std::ferror(stdout) != 0;
-  errno = 0;
-  const bool failed = std::fflush(stdout) != 0 || failed_before;
-  if (status == 0 && failed) {
-    const Failure why = refused("cannot write standard output: ", errno == 0 ? EIO : errno);
-    tell(why.what, why.more);
-    status = why.status;
-  }
+  status = finish_standard_streams("sublimit", status);
   ::_exit(interrupted ? 130 : status);  // the thread that waits for interrupts has nothing to finish
 }
 

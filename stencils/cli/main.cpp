@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // The program `sublimit`: parses the command line, runs one subcommand, turns errors into exit statuses.
+#include <fmt/core.h>
+
 #include <csignal>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "command_line.h"
 #include "common.h"
 #include "ending.h"
 #include "heap.h"
+#include "input_files.h"
+#include "standard_streams.h"
 
 namespace {
 
@@ -47,21 +52,22 @@ int run(int argc, char** argv) {
                                                              {"analyze", cli::add_analyze(app)},
                                                              {"fit", cli::add_fit(app)},
                                                              {"demo", cli::add_demo(app)}};
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
-  }
+  const cli::ParsedCommandLine line = cli::parse_command_line(app, argc, argv);
+  fmt::print("{}", line.out);
+  fmt::print(stderr, "{}", line.err);
   for (const auto& [name, command] : commands)
-    if (app.got_subcommand(name)) return command();
-  return 2;
+    if (line.runs && app.got_subcommand(name)) {
+      cli::check_input_files(*app.get_subcommand(name));
+      return command();
+    }
+  return line.status;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN);  // a full disk is an error with a message, not the end
-  std::signal(SIGPIPE, SIG_IGN);
+  cli::prepare_standard_streams();
   cli::prepare_heap();
   cli::handle_lack_of_memory();
   cli::end(cli::guarded([&] {

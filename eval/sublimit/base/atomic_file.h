@@ -17,6 +17,7 @@
 #include <utility>
 
 #include "sublimit/base/file_error.h"
+#include "sublimit/base/followed_links.h"
 #include "sublimit/base/temporaries.h"
 
 namespace sublimit {
@@ -24,7 +25,8 @@ namespace sublimit {
 /// A file being written. Until `commit()` the target is as it was; without it the temporary is removed.
 ///
 /// Errors name the target and say what the system said: ResourceError for a full disk, IoError for all else. An
-/// existing target keeps its permissions, a link stays a link to the same file. Devices and pipes are written in place.
+/// existing target keeps its permissions. A link stays a link: the file at its end is written, which need not be there
+/// yet. Devices and pipes are written in place.
 /// @note  Under a limit on file sizes the kernel sends SIGXFSZ, which kills: a program that wants the error instead
 ///        ignores that signal. A killed program leaves its temporary, ".NAME.PID-N.tmp", behind; one that ends itself
 ///        in the middle calls `Temporary::remove_all`.
@@ -45,13 +47,17 @@ class AtomicFile {
       return;
     }
     std::error_code unresolved;
-    if (exists) destination_ = std::filesystem::canonical(target, unresolved);
+    destination_ = exists ? std::filesystem::canonical(target, unresolved) : followed_links(target);
     if (unresolved) throw_file_error(target, "write", unresolved.value());
     const int error = temporary_.make_beside(destination_, [this](const char* name) {
       file_ = ::open(name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
       return file_ >= 0;
     });
-    if (error != 0) throw_file_error(target, "write", error, error == ENOENT ? "its directory must exist" : "");
+    if (error != 0) {
+      std::string remedy = destination_ == target_ ? "" : "it is a link to " + destination_.string();
+      if (error == ENOENT) remedy += (remedy.empty() ? "" : "; ") + std::string("its directory must exist");
+      throw_file_error(target_, "write", error, remedy);
+    }
     if (exists) (void)!::fchmod(file_, status.st_mode & 07777);
   }
 

@@ -7,6 +7,7 @@
 #include <unordered_map>
 
 #include "sublimit/bake/bake_patterns.h"
+#include "sublimit/base/format_number.h"
 #include "sublimit/base/error.h"
 
 namespace sublimit {
@@ -179,11 +180,11 @@ typename EditableTable<Real>::Change EditableTable<Real>::edit(const MeshEdit& e
     if (!found)
       fail("no face has an edge between vertices " + std::to_string(c.tail) + " and " + std::to_string(c.head) +
            "; a crease runs along edges");
-    if (!(c.sharpness >= 0)) fail("a sharpness of " + std::to_string(c.sharpness) + "; 0 or more is right");
+    if (!(c.sharpness >= 0)) fail("a sharpness of " + format_number(c.sharpness) + "; 0 or more is right");
   }
   for (const ControlMesh::Corner& c : edit.corners) {
     check_vertex(c.vertex);
-    if (!(c.sharpness >= 0)) fail("a sharpness of " + std::to_string(c.sharpness) + "; 0 or more is right");
+    if (!(c.sharpness >= 0)) fail("a sharpness of " + format_number(c.sharpness) + "; 0 or more is right");
   }
 
   std::set<Index> removed(edit.removed_faces.begin(), edit.removed_faces.end());

@@ -13,7 +13,8 @@ namespace sublimit {
 
 class SharedFile {
  public:
-  /// All ranks call. Room for all of it is taken at once, so that a full disk is told before any work.
+  /// All ranks call. Room for all of it is taken at once, so that a full disk is told before any work. Of a link the
+  /// file at its end is written; devices and pipes are refused.
   /// @throws IoError, ResourceError  on all ranks
   SharedFile(const Ranks& ranks, const std::filesystem::path& target, std::int64_t bytes);
   ~SharedFile();
@@ -30,7 +31,8 @@ class SharedFile {
 
  private:
   const Ranks& ranks_;
-  std::filesystem::path target_, temporary_;
+  std::filesystem::path target_;                   // as the caller named it
+  std::filesystem::path destination_, temporary_;  // with links followed
   MPI_File file_ = MPI_FILE_NULL;
 };
 

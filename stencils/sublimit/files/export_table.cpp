@@ -14,6 +14,7 @@
 #include "sublimit/base/atomic_file.h"
 #include "sublimit/base/error.h"
 #include "sublimit/base/file_error.h"
+#include "sublimit/base/followed_links.h"
 #include "sublimit/files/matrix_market.h"
 #include "sublimit/files/npy.h"
 #include "sublimit/files/npz.h"
@@ -27,7 +28,7 @@ namespace {
 class AtomicDirectory {
  public:
   explicit AtomicDirectory(const std::filesystem::path& target)
-      : target_(target.has_filename() ? target : target.parent_path()) {
+      : target_(followed_links(target.has_filename() ? target : target.parent_path())) {
     if (!target_.has_filename()) throw_file_error(target, "write", EISDIR, "name a directory that is not there yet");
     std::error_code error;
     const bool exists = std::filesystem::exists(target_, error);

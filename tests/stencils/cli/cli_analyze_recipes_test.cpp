@@ -94,7 +94,8 @@ TEST(CliAnalyzeRecipes, JoinsOfSurfaces) {
   const RecipeJson seam = kink.seam();
   EXPECT_EQ(seam["exact"], RecipeJson::parse(R"({"c":0,"g":0,"same":false,"obstacle":"angle"})"));
   EXPECT_EQ(seam["measured"]["g"], 0);
-  EXPECT_NEAR(seam["g1_degrees"]["value"].get<double>(), 7.125016348901798, 1e-12);
+  constexpr double in_degrees = 1e-12;  // an angle near 7, from a quotient
+  EXPECT_NEAR(seam["g1_degrees"]["value"].get<double>(), 7.125016348901798, in_degrees);
   expect_parts(expect_done(kink.analyzed()).out,
                {"seams: G^0 at its only seam: largest angle 7.125 degrees between patch 0 and patch 1",
                 "recipe 0 (surface_join): C^0, G^0 (angle) exactly, measured C^0, G^0 (angle)"});
