@@ -81,7 +81,7 @@ std::optional<LimitRows> lone_rows(const Level& level, LimitTypes& cache, const 
   const LocalType type = local_type(level.topology(), level.sharpness, centre, level.number, cache.scheme().period);
   const LoneLimit* limit = cache.lone(type);
   if (!limit) return std::nullopt;
-  const Walk places = walk(level.topology(), level.sharpness, centre, limit->depth);
+  const Walk places = walk(level.topology(), level.sharpness, centre, limit->depth, &limit->signature);
   if (places.decays || places.signature != limit->signature) return std::nullopt;
   return rows_of(limit->masks, limit->masks.sides[0], limit->slots, places.vertices);
 }
@@ -219,14 +219,29 @@ void find_large_types(const Level& level, LimitTypes& cache, std::span<const Cen
 }
 
 /// rows * S, with the columns of the result renamed.
-SparseRows pulled_back(const SparseRows& rows, const SparseMatrix& S, const std::vector<Index>& name) {
+/// @param sum  zeros, by column; again so afterwards
+SparseRows pulled_back(const SparseRows& rows, const SparseMatrix& S, const std::vector<Index>& name,
+                       std::vector<double>& sum) {
   SparseRows result;
+  std::vector<Index> columns;
+  sum.resize(static_cast<size_t>(S.cols()), 0);
+  std::vector<std::pair<Index, double>> row;
   for (size_t i = 0; i < rows.size(); ++i) {
-    std::map<Index, double> sum;
+    columns.clear();
+    row.clear();
     for (const auto& [r, weight] : rows[i])
-      for (SparseMatrix::InnerIterator it(S, r); it; ++it) sum[name[it.col()]] += weight * it.value();
-    for (const auto& [column, weight] : sum)
-      if (weight != 0) result.add(column, weight);
+      for (SparseMatrix::InnerIterator it(S, r); it; ++it) {
+        double& to = sum[static_cast<size_t>(it.col())];
+        if (to == 0) columns.push_back(static_cast<Index>(it.col()));
+        to += weight * it.value();
+      }
+    for (const Index column : columns) {
+      double& weight = sum[static_cast<size_t>(column)];
+      if (weight != 0) row.emplace_back(name[static_cast<size_t>(column)], weight);
+      weight = 0;  // what came to nothing halfway is listed twice
+    }
+    std::sort(row.begin(), row.end());
+    for (const auto& [column, weight] : row) result.add(column, weight);
     result.end_row();
   }
   return result;
@@ -313,11 +328,15 @@ std::vector<LimitRows> found_rows(const Level& level, LimitTypes& cache, std::sp
   std::sort(used.begin(), used.end());
   used.erase(std::unique(used.begin(), used.end()), used.end());
   const SparseMatrix S = few ? subdivision_rows(scheme, parent, child_level, used) : child_level.S;
-  parallel_for(static_cast<std::int64_t>(followed.size()), [&](std::int64_t i) {
-    fine[i].rows = pulled_back(fine[i].rows, S, around.vertices);
-    rows[followed[i]] = std::move(fine[i]);
-    why[followed[i]] = std::move(why_not[i]);
-  });
+  parallel_for_blocks(static_cast<std::int64_t>(followed.size()),
+                      [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+                        std::vector<double> sum;
+                        for (std::int64_t i = begin; i < end; ++i) {
+                          fine[i].rows = pulled_back(fine[i].rows, S, around.vertices, sum);
+                          rows[followed[i]] = std::move(fine[i]);
+                          why[followed[i]] = std::move(why_not[i]);
+                        }
+                      });
   return rows;
 }
 
