@@ -10,6 +10,7 @@
 
 #include "sublimit/base/error.h"
 #include "sublimit/base/parallel_for.h"
+#include "sublimit/core/finite_points.h"
 #include "sublimit/search/closest_point.h"
 #include "sublimit/search/surface_parts.h"
 #include "sublimit/search/tracer.h"
