@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "sublimit/base/error.h"
+#include "sublimit/curves/check_curve_scheme.h"
 #include "sublimit/curves/curve_layout.h"
 #include "sublimit/mesh/control_polygon.h"
 
@@ -75,7 +76,9 @@ CurveMatrix<T> curve_matrix(const CurveScheme<T>& scheme, const std::vector<Curv
   std::vector<Stencil<T>> inner;  // by child and unknown
   for (int which : {0, 1})
     for (int component = 0; component < unknowns; ++component)
-      inner.push_back(masks.child(which, component)(CurveSite<T>(number, unknowns)));
+      inner.push_back(check_mask(scheme, which, component,
+                                 masks.child(which, component)(CurveSite<T>(number, unknowns)), -curve_reach,
+                                 curve_reach));
   std::int64_t rows = 0, columns = 0;
   for (const CurveOutline& curve : parents) {
     rows += 2 * std::int64_t{curve.size} * unknowns;
@@ -107,8 +110,10 @@ CurveMatrix<T> curve_matrix(const CurveScheme<T>& scheme, const std::vector<Curv
           for (const auto& [slot, weight] : terms)
             row.push_back({start + ((parent * unknowns + slot) % size + size) % size, weight});
         } else {
-          const Stencil<T> stencil =
-              masks.child(which, component)(CurveSite<T>(number, scheme.ends, layout.is_dual(), parent, curve.size));
+          const Stencil<T> stencil = check_mask(
+              scheme, which, component,
+              masks.child(which, component)(CurveSite<T>(number, scheme.ends, layout.is_dual(), parent, curve.size)),
+              -parent, curve.size - 1 - parent);
           for (const auto& [slot, weight] : stencil.terms()) row.push_back({start + parent + slot, weight});
         }
       }

@@ -384,6 +384,7 @@ LimitStatus status_of(const LimitRows& rows, const Scheme<double>& scheme) {
 }  // namespace
 
 std::vector<LimitRows> limit_rows(const Level& level, LimitTypes& cache, std::span<const Centre> centres) {
+  cache.check(level);
   std::vector<std::string> why(centres.size());
   // Pieces are known of levels where a period begins.
   const int period = cache.scheme().period, depth = 12 + (period - level.number % period) % period;

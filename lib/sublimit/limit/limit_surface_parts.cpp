@@ -6,6 +6,7 @@
 
 #include "sublimit/base/error.h"
 #include "sublimit/base/parallel_for.h"
+#include "sublimit/scheme/made_by.h"
 
 namespace sublimit {
 
@@ -48,7 +49,9 @@ std::optional<Level> prepared_level(const Scheme<double>& scheme, const Level& l
   Scheme<double> first = scheme;
   first.steps = scheme.preparation;
   first.preparation.clear();
-  return next_level(first, level);
+  Level prepared = next_level(first, level);
+  prepared.made_by = level.made_by;  // a part of its way to the next level
+  return prepared;
 }
 
 Scheme<double> without_preparation(Scheme<double> scheme) {
@@ -56,14 +59,24 @@ Scheme<double> without_preparation(Scheme<double> scheme) {
   return scheme;
 }
 
+/// The dictionary that is shared, or one of its own where there is none or it is full.
+/// @throws InvalidParameter  it is of another scheme
+std::shared_ptr<LimitTypes> dictionary(const Scheme<double>& scheme, const Level& level,
+                                       std::shared_ptr<LimitTypes> shared) {
+  if (shared) check_same_scheme(scheme, shared->scheme(), level, "the dictionary of types (LimitTypes)");
+  if (!shared || shared->pieces().is_full()) shared = std::make_shared<LimitTypes>(scheme);
+  shared->trust(level);
+  return shared;
+}
+
 }  // namespace
 
 LimitSurface::Parts::Parts(const Scheme<double>& s, Level l, std::shared_ptr<LimitTypes> shared)
-    : scheme(without_preparation(s)),
+    : scheme(without_preparation(check_scheme(s))),
       level(std::move(l)),
       prepared(prepared_level(s, level)),
       addresses(level.topology(), scheme.face_size() == 3),
-      types(shared && !shared->pieces().is_full() ? std::move(shared) : std::make_shared<LimitTypes>(scheme)),
+      types(dictionary(scheme, level, std::move(shared))),
       corners(*types, base()) {
   if (level.number % scheme.period != 0)
     throw InvalidParameter(scheme.name + ": limits are taken from levels whose number is a multiple of " +

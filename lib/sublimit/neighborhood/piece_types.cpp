@@ -17,6 +17,7 @@
 #include "sublimit/neighborhood/regular_smoothness.h"
 #include "sublimit/neighborhood/canonical_part.h"
 #include "sublimit/neighborhood/closed_set.h"
+#include "sublimit/scheme/check_scheme.h"
 #include "sublimit/scheme/refine_impl.h"
 #include "sublimit/scheme/subdivision_rows.h"
 
@@ -445,7 +446,8 @@ PieceType::CornerRows PieceType::found_corner(int corner) const {
   return result;
 }
 
-PieceTypes::PieceTypes(const Scheme<double>& scheme, size_t max_types) : scheme_(scheme), max_types_(max_types) {
+PieceTypes::PieceTypes(const Scheme<double>& scheme, size_t max_types)
+    : scheme_(check_scheme(scheme)), max_types_(max_types) {
   scheme_.preparation.clear();  // surfaces begin behind it
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 // Levels: a control mesh, refined step by step, with the matrix of every level.
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -28,7 +29,9 @@ struct LevelOf {
   Sharpness sharpness;
   KnotIntervals intervals;  ///< empty where all are equal
   std::vector<bool> holes;  ///< per face
-  SparseMatrixOf<T> S;      ///< from the level before (empty for level 0): x_k = S * x_{k-1}
+  /// The scheme that made it, which a dictionary of limits must be of; null where a level was put together otherwise.
+  std::shared_ptr<const Scheme<T>> made_by;
+  SparseMatrixOf<T> S;  ///< from the level before (empty for level 0): x_k = S * x_{k-1}
 
   const Topology& topology() const { return steps.back().topology; }
   /// New knots of the step to the next level; none where all intervals are equal.
@@ -47,6 +50,7 @@ struct LevelOf {
     sharpness = std::move(other.sharpness);
     intervals = std::move(other.intervals);
     holes = std::move(other.holes);
+    made_by = std::move(other.made_by);
     S.swap(other.S);
     return *this;
   }

@@ -11,6 +11,7 @@
 
 #include "sublimit/base/error.h"
 #include "sublimit/base/parallel_for.h"
+#include "sublimit/core/finite_points.h"
 #include "sublimit/search/closest_point.h"
 #include "sublimit/search/surface_parts.h"
 #include "sublimit/base/format_number.h"

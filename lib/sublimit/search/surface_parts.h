@@ -18,9 +18,6 @@
 
 namespace sublimit {
 
-/// Of points and rays: squares of distances are still numbers.
-inline constexpr double farthest_coordinate = 1e150;
-
 /// A part of an address.
 struct SurfacePart {
   Index address = 0;

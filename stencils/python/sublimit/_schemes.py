@@ -105,7 +105,8 @@ class Scheme:
 
     Notes
     -----
-    The masks, and what their sites have:
+    The masks, and what their sites have (corners and edges of a face count from 0, and -1 is the last one; others are
+    errors):
 
     ``vertex(v)``, Ring
         center, valence, neighbor(i), face(i), diagonal(i) of quadrilaterals, neighbor_mean, face_centroid_mean,
