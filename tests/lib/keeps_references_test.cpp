@@ -49,7 +49,8 @@ static_assert(keeps_named_only<FitTerms, FitProblem>);
 static_assert(keeps_named_only<AddressPieces, LimitSurface, P>);
 static_assert(keeps_named_only<CapFitter, LimitSurface, P, int>);
 static_assert(keeps_named_only<FootSearch, BezierPieces, bool, double>);
-static_assert(keeps_named_only<MaskTable<double>, Masks<double>, int>);
+static_assert(keeps_named_only<MaskTable<double>, std::string, const Masks<double>&, int>);
+static_assert(keeps_second_named_only<MaskTable<double>, const std::string&, Masks<double>, int>);
 static_assert(keeps_named_only<CurveEnd<double>, CurveSite<double>, bool>);
 static_assert(keeps_second_named_only<CurveSite<double>, int, CurveEnds<double>, bool, Index, Index>);
 
