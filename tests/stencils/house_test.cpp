@@ -98,6 +98,8 @@ TEST(House, NoRoomOfLibReadsClaims) {
 
 /// Where references to arguments are kept though a temporary would do: what is made and used in one place, by us.
 const std::set<std::string> made_in_one_place{
+    "eval/sublimit/base/parallel_for.h",              // blocks of a loop, for that loop
+    "eval/sublimit/base/thread_sanitizer.h",          // for a block
     "lib/sublimit/scheme/sites.h",                    // sites live for the call of a mask
     "lib/sublimit/scheme/subdivision_matrix_impl.h",  // makers of rows for the assembly of one matrix
     "stencils/sublimit/patterns/patterns.h",          // examples for one call
