@@ -20,7 +20,7 @@ TEST_P(EveryRay, HitsTheSharedMeshes) {
   EXPECT_GT(rays_, 500);
 }
 
-INSTANTIATE_TEST_SUITE_P(Sweep, EveryRay, ::testing::ValuesIn(names_of_schemes()), test_name);
+INSTANTIATE_TEST_SUITE_P(Sweep, EveryRay, ::testing::ValuesIn(names_of_schemes()), ray_test_name);
 
 }  // namespace
 }  // namespace sublimit::testing

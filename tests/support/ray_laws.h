@@ -141,7 +141,7 @@ inline std::vector<std::string> names_of_schemes() {
 }
 
 /// Of a parameter that is a name.
-inline std::string test_name(const ::testing::TestParamInfo<std::string>& tested) {
+inline std::string ray_test_name(const ::testing::TestParamInfo<std::string>& tested) {
   std::string name = tested.param;
   std::replace(name.begin(), name.end(), '-', '_');
   return name;

@@ -11,8 +11,10 @@
 
 #include "sublimit/base/error.h"
 #include "sublimit/base/parallel_for.h"
+#include "sublimit/core/finite_points.h"
 #include "sublimit/search/closest_point.h"
 #include "sublimit/search/surface_parts.h"
+#include "sublimit/base/format_number.h"
 #include "sublimit/search/tracer.h"
 
 namespace sublimit {
@@ -61,7 +63,7 @@ void check(const Ray& ray, const std::string& which) {
     throw InvalidParameter(which + " begins at a coordinate above 1e150 in size");
   if (ray.direction.isZero(0)) throw InvalidParameter(which + " has the direction (0, 0, 0)");
   if (ray.tmin > ray.tmax)
-    throw InvalidParameter(which + " ends at t = " + std::to_string(ray.tmax) + ", before it begins");
+    throw InvalidParameter(which + " ends at t = " + format_number(ray.tmax) + ", before it begins");
 }
 
 void check(const std::vector<Ray>& rays) {

@@ -39,7 +39,7 @@ enum class HitKind : std::uint8_t {
 /// `crossing`, `touching`, `given-up`.
 const char* name(HitKind kind);
 
-struct RayHits {
+struct [[nodiscard]] RayHits {
   std::vector<std::int64_t> first;  ///< hits of ray i are [first[i], first[i + 1]), by rising t
   std::vector<double> t;
   std::vector<HitKind> kinds;
@@ -92,6 +92,7 @@ class RayTracer {
   /// @param points   of its level, #V x 3
   /// @throws InvalidParameter  points that do not fit
   RayTracer(const LimitSurface& surface, const Points& points);
+  RayTracer(const LimitSurface&&, const Points&) = delete;
   RayTracer(RayTracer&&) noexcept;
   RayTracer& operator=(RayTracer&&) noexcept;
   ~RayTracer();

@@ -59,8 +59,10 @@ std::optional<SeenStrip> strip_of(const Points& points, std::span<const Eigen::I
 
 class SeenNet {
  public:
-  /// @param net  seen along a ray
+  /// @param basis  which must stay
+  /// @param net    seen along a ray
   SeenNet(const PolynomialBasis& basis, Points net) : basis_(basis), net_(std::move(net)) {}
+  SeenNet(const PolynomialBasis&&, Points) = delete;
 
   /// No line through the ray has all of it on one side.
   /// @param slack  how far off counts as a hit

@@ -18,9 +18,6 @@
 
 namespace sublimit {
 
-/// Of points and rays: squares of distances are still numbers.
-inline constexpr double farthest_coordinate = 1e150;
-
 /// A part of an address.
 struct SurfacePart {
   Index address = 0;
@@ -72,6 +69,7 @@ enum class PartBoxes { for_distances, for_rays };
 
 class SurfaceParts {
  public:
+  /// @param surface  which may go; what a `SearchedLimit` is of has to stay
   explicit SurfaceParts(const SearchedSurface& surface, PartBoxes boxes = PartBoxes::for_distances);
   const std::vector<SurfacePart>& parts() const { return parts_; }
   /// Of their boxes; empty where there is no surface.

@@ -26,7 +26,9 @@ class Tracer {
     Sample place;
   };
 
+  /// @param parts  which must stay
   explicit Tracer(const SurfaceParts& parts, const RayOptions& options = {}) : parts_(parts), options_(options) {}
+  explicit Tracer(const SurfaceParts&&, const RayOptions& = {}) = delete;
   void set(const RayOptions& options) { options_ = options; }
 
   /// By rising t.

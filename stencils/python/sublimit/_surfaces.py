@@ -13,7 +13,7 @@ import numpy.typing as npt
 
 from . import _arrays as arrays
 from . import _sublimit
-from ._levels import core_of, csr
+from ._levels import core_of, csr, warn_of
 from ._meshes import Mesh
 from ._schemes import OptionValue, Scheme, request
 
@@ -370,6 +370,7 @@ class LimitSurface(Source):
         asked = request(scheme, boundary=boundary, creasing=creasing, triangles=triangles, option=option,
                         triangulate=triangulate, no_creases=no_creases, strict=strict)
         self._core = _sublimit.Surface(core_of(mesh), asked)
+        warn_of(mesh, asked)
 
     def tessellate(self, chord: float, *, angle: float = 0, max_triangles: int = 1 << 24, threads: int = 0) -> Tessellation:
         """As few triangles as a proved bound on their distance from the surface allows.
@@ -400,6 +401,18 @@ def order(derivatives: int) -> int:
     if derivatives not in (0, 1, 2):
         raise ValueError(f"derivatives is {derivatives}; 0, 1 or 2 are right")
     return int(derivatives)
+
+
+def places_of(at: Any) -> tuple[arrays.Ints, arrays.Floats, arrays.Floats]:
+    """Flat arrays of (face, u, v), or of (face, (u, v)), as tables have them."""
+    if not isinstance(at, (tuple, list)) or len(at) not in (2, 3):
+        raise ValueError("at is not (face, u, v) or (face, (u, v)), as Table.addresses has it")
+    if len(at) == 2:
+        both = np.asarray(at[1])
+        if both.ndim < 1 or both.shape[-1] != 2:
+            raise ValueError(f"at has (u, v) of shape {both.shape}; (..., 2) is right")
+        return places(at[0], both[..., 0], both[..., 1])[:3]
+    return places(*at)[:3]
 
 
 def places(face: npt.ArrayLike, u: npt.ArrayLike, v: npt.ArrayLike) -> tuple[arrays.Ints, arrays.Floats, arrays.Floats,

@@ -31,7 +31,7 @@ TEST_P(RayLaws, HoldOnTaggedMeshes) {
   EXPECT_GT(rays_, 500);
 }
 
-INSTANTIATE_TEST_SUITE_P(Schemes, RayLaws, ::testing::ValuesIn(names_of_schemes()), test_name);
+INSTANTIATE_TEST_SUITE_P(Schemes, RayLaws, ::testing::ValuesIn(names_of_schemes()), ray_test_name);
 
 }  // namespace
 }  // namespace sublimit::testing

@@ -310,7 +310,7 @@ TEST(SearchedPatches, ControlPointsAreFiniteAndAsMany) {
   const Searched s = ring();
   Points columns = s.columns;
   columns(3, 1) = NAN;
-  expect_error<InvalidParameter>([&] { SearchedPatches(s.set, columns); }, {"not finite"});
+  expect_error<InvalidMesh>([&] { SearchedPatches(s.set, columns); }, {"not finite"});
   expect_error<InvalidParameter>([&] { SearchedPatches(s.set, Points(s.columns.topRows(3))); }, {});
 }
 
