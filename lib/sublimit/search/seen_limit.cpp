@@ -125,10 +125,4 @@ SeenZero SeenLimit::zero(double slack, const std::function<Eigen::Vector3d(const
   return {SeenZero::Kind::unknown};
 }
 
-std::optional<SeenStrip> SeenLimit::strip(double slack) const {
-  const std::array<Eigen::Index, 4> corners = grid_.corners();
-  const double bent = std::max(bend(limits_.col(0)), bend(limits_.col(1)));
-  return strip_of(limits_, std::span(corners).first(grid_.triangle ? 3 : 4), bent, slack);
-}
-
 }  // namespace sublimit

@@ -204,8 +204,10 @@ bool Tracer::decides_limits(const Cell& cell) {
   });
   if (zero.kind == SeenZero::Kind::one) add(cell, zero.uv, zero.s, zero.reach, zero.side);
   if (zero.kind != SeenZero::Kind::unknown) return true;
-  const std::optional<SeenStrip> strip = seen.strip(slack_);
-  return strip && adds_strip(cell, *strip, 0, 0);
+  const Points corners = seen_corners(cell);
+  Points all(corners.rows() + cell.limits.rows(), 3);
+  all << corners, frame_->seen(cell.limits);
+  return adds_strip_or_corner(cell, all, seen.bend_across());
 }
 
 bool Tracer::decides_points(const Cell& cell) {
@@ -216,9 +218,7 @@ bool Tracer::decides_points(const Cell& cell) {
   const Points corners = seen_corners(cell);
   Points all(corners.rows() + seen.rows(), 3);
   all << corners, seen;
-  constexpr std::array<Eigen::Index, 4> rows{0, 1, 2, 3};
-  const std::optional<SeenStrip> strip = strip_of(all, std::span(rows).first(size_t(corners.rows())), reach, slack_);
-  return strip && adds_strip(cell, *strip, 0, 0);
+  return adds_strip_or_corner(cell, all, reach);
 }
 
 void Tracer::add_smallest(const Cell& cell) {
@@ -265,7 +265,25 @@ bool Tracer::adds_strip(const Cell& cell, const SeenStrip& strip, double reach, 
   return true;
 }
 
-void Tracer::add(const Cell& cell, const Eigen::Vector2d& uv, double s, double reach, int side) {
+bool Tracer::adds_strip_or_corner(const Cell& cell, const Points& points, double within) {
+  const bool triangle = cell.part.part.is_triangle();
+  const Eigen::Index count = triangle ? 3 : 4;
+  constexpr std::array<Eigen::Index, 4> rows{0, 1, 2, 3};
+  const std::optional<SeenStrip> strip = strip_of(points, std::span(rows).first(size_t(count)), within, slack_);
+  if (!strip) return false;
+  if (!(points.leftCols(2).rowwise().norm().maxCoeff() + within <= 2 * slack_)) return adds_strip(cell, *strip, 0, 0);
+  Eigen::Index nearest = 0;
+  points.topRows(count).leftCols(2).rowwise().norm().minCoeff(&nearest);
+  const CellCorner corner = triangle ? triangle_corners[size_t(nearest)] : square_corners[size_t(nearest)];
+  // What comes next of a needle is as near to the ray but for a few slacks.
+  const double length = strip->high - strip->low;
+  add(cell, Eigen::Vector2d(corner.i, corner.j), points(nearest, 2), 2 * slack_, cell.side, strip->low - length,
+      strip->high + length);
+  return true;
+}
+
+void Tracer::add(const Cell& cell, const Eigen::Vector2d& uv, double s, double reach, int side, double low,
+                 double high) {
   const bool triangle = cell.part.part.is_triangle();
   double u = 0, v = 0;
   if (cell.part.turned) {
@@ -277,16 +295,19 @@ void Tracer::add(const Cell& cell, const Eigen::Vector2d& uv, double s, double r
     u = at[0], v = at[1];
   }
   double t = s / frame_->length;
-  reach /= frame_->length;
+  reach /= frame_->length, low /= frame_->length, high /= frame_->length;
   if (side == 0) t = std::clamp(t, std::min(ray_->tmin, t + reach), std::max(ray_->tmax, t - reach));
   if (!(t >= ray_->tmin && t <= ray_->tmax)) return;
   u = std::clamp(u, 0.0, 1.0);
   hits_.push_back({t,
                    reach,
+                   low,
+                   high,
                    side == 0 ? HitKind::touching : HitKind::crossing,
                    side,
                    {cell.part.address, u, std::clamp(v, 0.0, triangle ? 1 - u : 1.0)}});
-  nearest_ = std::min(nearest_, t + 2 * reach + apart());  // what counts as the same hit has to be found too
+  nearest_ =
+      std::min(nearest_, std::max(high, t + 2 * reach) + apart());  // what counts as the same hit has to be found too
 }
 
 void Tracer::give_up(const Cell& cell, double t) {
@@ -295,28 +316,29 @@ void Tracer::give_up(const Cell& cell, double t) {
   const bool triangle = cell.part.part.is_triangle();
   const double middle = triangle ? 1. / 3 : 0.5;
   const auto [u, v] = at_place(cell.part.part.corners, triangle, middle, middle);
-  given_up_ = Hit{t, 0, HitKind::given_up, 0, {cell.part.address, u, v}};
+  given_up_ = Hit{t, 0, t, t, HitKind::given_up, 0, {cell.part.address, u, v}};
 }
 
 std::vector<Tracer::Hit> Tracer::merged() {
   std::sort(hits_.begin(), hits_.end(), [](const Hit& a, const Hit& b) {
-    return std::tuple(a.t, a.place.face, a.place.u, a.place.v) < std::tuple(b.t, b.place.face, b.place.u, b.place.v);
+    return std::tuple(a.low, a.t, a.place.face, a.place.u, a.place.v) <
+           std::tuple(b.low, b.t, b.place.face, b.place.u, b.place.v);
   });
   std::vector<Hit> result;
   double end = 0;
   for (const Hit& hit : hits_) {
-    if (!result.empty() && hit.t - hit.reach <= end) {
+    if (!result.empty() && hit.low <= end) {
       Hit& best = result.back();
       const int side = best.side == hit.side ? best.side : 0;
       if (hit.reach < best.reach / 2 || (hit.reach < 2 * best.reach && hit.place.face < best.place.face)) best = hit;
       best.side = side;
       best.kind = side == 0 ? HitKind::touching : HitKind::crossing;
-      end = std::max(end, hit.t + hit.reach + apart());
+      end = std::max(end, hit.high + apart());
       continue;
     }
     if (!options_.all && !result.empty()) break;
     result.push_back(hit);
-    end = hit.t + hit.reach + apart();
+    end = hit.high + apart();
   }
   if (given_up_) {
     const auto later = std::ranges::find_if(result, [&](const Hit& hit) { return hit.t >= given_up_->t; });

@@ -20,7 +20,8 @@ class Tracer {
  public:
   struct Hit {
     double t = 0;
-    double reach = 0;  ///< how far off t may be: much where the ray grazes the surface
+    double reach = 0;          ///< how far off t may be: much where the ray grazes the surface
+    double low = 0, high = 0;  ///< what counts as the same hit
     HitKind kind = HitKind::crossing;
     int side = 0;  ///< of the surface that the ray sees: 1, -1, or 0 where it turns over
     Sample place;
@@ -76,7 +77,16 @@ class Tracer {
   int seen_side(const Cell& cell) const;
   /// Whether a strip is one hit: short, or going on where the ray was within the surface before.
   bool adds_strip(const Cell& cell, const SeenStrip& strip, double reach, int side);
-  void add(const Cell& cell, const Eigen::Vector2d& uv, double s, double reach, int side);
+  /// The same of a part with limits at its corners. Where all of it is on the ray, as next to an extraordinary vertex
+  /// or in a needle, the corner that is nearest to the ray is the hit.
+  /// @param points  that hold the part, the corners first
+  /// @param within  how far from them it may be
+  bool adds_strip_or_corner(const Cell& cell, const Points& points, double within);
+  void add(const Cell& cell, const Eigen::Vector2d& uv, double s, double reach, int side) {
+    add(cell, uv, s, reach, side, s - reach, s + reach);
+  }
+  /// @param low, high  distances along the ray of what counts as the same hit
+  void add(const Cell& cell, const Eigen::Vector2d& uv, double s, double reach, int side, double low, double high);
   void give_up(const Cell& cell, double t);
   /// Hits that are nearer to each other along the ray are one.
   double apart() const { return 100 * slack_ / frame_->length; }
