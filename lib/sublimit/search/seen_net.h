@@ -10,8 +10,10 @@
 
 namespace sublimit {
 
-/// How far outside of a part a zero may be for the neighbour to have it.
-inline constexpr double beyond_part = 1e-9;
+/// How far outside of a part a zero may be for the neighbour to have it, beside what counts as on the ray.
+inline constexpr double beyond_part = 1e-12;
+/// The same of the line u = v of a part that is cut along it, where both halves may have it.
+inline constexpr double beyond_half = 1e-9;
 
 /// A ray as an origin and three axes, the last one along it.
 struct RayFrame {
