@@ -47,6 +47,10 @@ Eigen::Vector2d nearest_inside(const Eigen::Vector2d& p, bool triangle);
 /// none: their hull holds the ray.
 std::optional<Eigen::Vector2d> facing(const Eigen::Matrix<double, Eigen::Dynamic, 2>& points);
 
+/// Whether a step that is left at a place of the domain is as good as none.
+/// @param off  by u, by v
+bool is_none(const Eigen::Vector2d& step, const Eigen::Vector2d& off, bool triangle);
+
 /// No line through the ray has all of these points on one side, of those across the middle of their angle and a few
 /// more.
 /// @param points  seen along the ray: x, y, s and, of rational ones, a positive weight
