@@ -112,11 +112,25 @@ inline int looked_at_rays(const LimitSurface& surface, const Points& points, siz
   return int(laid.rays.size());
 }
 
+/// Whether a face visits a vertex twice: the limit folds there, again at every level, and rays may be given up.
+inline bool folds(const ControlMesh& mesh) {
+  size_t first = 0;
+  for (const Index size : mesh.face_sizes) {
+    std::vector<Index> corners(mesh.face_vertices.begin() + std::ptrdiff_t(first),
+                               mesh.face_vertices.begin() + std::ptrdiff_t(first + size_t(size)));
+    std::sort(corners.begin(), corners.end());
+    if (std::adjacent_find(corners.begin(), corners.end()) != corners.end()) return true;
+    first += size_t(size);
+  }
+  return false;
+}
+
 class RayLaws : public ::testing::TestWithParam<std::string> {
  protected:
   /// As many meshes as the scheme takes; those without a limit somewhere are left out.
   void look_at_mesh(ControlMesh mesh, const std::string& name) {
     SCOPED_TRACE(scheme_.name + " on " + name);
+    if (folds(mesh)) return;
     // Without polynomials a ray through a vertex takes a hundred times as long.
     const bool is_slow = types_->pieces().has_no_polynomials();
     if (!full_sweep() && rays_ >= (is_slow ? 200 : 4000)) return;

@@ -125,9 +125,12 @@ std::optional<SeenStrip> strip_of(const Points& points, std::span<const Eigen::I
     const CellCorner c = triangle ? triangle_corners[k] : square_corners[k];
     return Eigen::Vector2d(c.i, c.j);
   };
+  const Eigen::VectorXd s = distances_of(points);
+  constexpr double least_length =
+      1000;  // in slacks: what is no longer is just small, and not known to go along the ray
+  if (!(std::max(length, s.maxCoeff() - s.minCoeff()) >= least_length * slack)) return std::nullopt;
   const double width = place[high] - place[low];
   const double w = width > 0 ? std::clamp(-place[low] / width, 0.0, 1.0) : 0.5;
-  const Eigen::VectorXd s = distances_of(points);
   return SeenStrip{s.minCoeff() - within, s.maxCoeff() + within, (1 - w) * uv(low) + w * uv(high)};
 }
 

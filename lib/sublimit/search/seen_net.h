@@ -56,8 +56,8 @@ bool is_none(const Eigen::Vector2d& step, const Eigen::Vector2d& off, bool trian
 /// @param points  seen along the ray: x, y, s and, of rational ones, a positive weight
 bool can_be_hit(const Points& points, double slack);
 
-/// The stretch that points span which all lie in a strip along the ray, as wide as counts as a hit, if they reach over
-/// the ray; else nothing.
+/// The stretch that points span which all lie in a strip along the ray, as wide as counts as a hit and much longer, if
+/// they reach over the ray; else nothing.
 /// @param corners  rows of points that are on the surface
 /// @param within   how far from the points the surface may be
 std::optional<SeenStrip> strip_of(const Points& points, std::span<const Eigen::Index> corners, double within,

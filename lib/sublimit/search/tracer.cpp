@@ -257,9 +257,8 @@ int Tracer::seen_side(const Cell& cell) const {
 }
 
 bool Tracer::adds_strip(const Cell& cell, const SeenStrip& strip, double reach, int side) {
-  // Where a ray touches, the surface is as near as counts for the root of that.
-  const double short_enough = std::sqrt(slack_ * parts_.size()), length = frame_->length;
-  if (strip.high - strip.low > short_enough && !(strip.low / length <= within_to_ + apart())) return false;
+  const double length = frame_->length;
+  if (!is_short(strip) && !(strip.low / length <= within_to_ + apart())) return false;
   if (side == 0) within_to_ = std::max(within_to_, strip.high / length);
   add(cell, strip.uv, (strip.low + strip.high) / 2, reach + (strip.high - strip.low) / 2, side);
   return true;
@@ -269,16 +268,24 @@ bool Tracer::adds_strip_or_corner(const Cell& cell, const Points& points, double
   const bool triangle = cell.part.part.is_triangle();
   const Eigen::Index count = triangle ? 3 : 4;
   constexpr std::array<Eigen::Index, 4> rows{0, 1, 2, 3};
-  const std::optional<SeenStrip> strip = strip_of(points, std::span(rows).first(size_t(count)), within, slack_);
-  if (!strip) return false;
-  if (!(points.leftCols(2).rowwise().norm().maxCoeff() + within <= 2 * slack_)) return adds_strip(cell, *strip, 0, 0);
+  const Eigen::VectorXd off = points.leftCols(2).rowwise().norm();
   Eigen::Index nearest = 0;
-  points.topRows(count).leftCols(2).rowwise().norm().minCoeff(&nearest);
+  const bool has_corner = off.head(count).minCoeff(&nearest) <= 2 * slack_;
+  // What else is met that near to a corner on the ray is the same hit.
+  constexpr double near = 32;
+  const bool is_on_ray = off.maxCoeff() + within <= (has_corner ? near : 2) * slack_;
+  std::optional<SeenStrip> strip;
+  if (is_on_ray)
+    strip = {points.col(2).minCoeff(), points.col(2).maxCoeff()};
+  else
+    strip = strip_of(points, std::span(rows).first(size_t(count)), within, slack_);
+  if (!strip) return false;
+  if (!(has_corner && is_short(*strip))) return adds_strip(cell, *strip, 0, 0);
   const CellCorner corner = triangle ? triangle_corners[size_t(nearest)] : square_corners[size_t(nearest)];
   // What comes next of a needle is as near to the ray but for a few slacks.
   const double length = strip->high - strip->low;
-  add(cell, Eigen::Vector2d(corner.i, corner.j), points(nearest, 2), 2 * slack_, cell.side, strip->low - length,
-      strip->high + length);
+  add(cell, Eigen::Vector2d(corner.i, corner.j), points(nearest, 2), 2 * slack_, is_on_ray ? cell.side : 0,
+      strip->low - length, strip->high + length);
   return true;
 }
 

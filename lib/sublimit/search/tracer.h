@@ -2,6 +2,7 @@
 #pragma once
 // One ray after the other through the parts of a surface.
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -75,10 +76,11 @@ class Tracer {
   /// Limits of the corners, counter-clockwise, seen along the ray.
   Points seen_corners(const Cell& cell) const;
   int seen_side(const Cell& cell) const;
+  /// Where a ray touches, the surface is as near as counts for the root of that.
+  bool is_short(const SeenStrip& strip) const { return strip.high - strip.low <= std::sqrt(slack_ * parts_.size()); }
   /// Whether a strip is one hit: short, or going on where the ray was within the surface before.
   bool adds_strip(const Cell& cell, const SeenStrip& strip, double reach, int side);
-  /// The same of a part with limits at its corners. Where all of it is on the ray, as next to an extraordinary vertex
-  /// or in a needle, the corner that is nearest to the ray is the hit.
+  /// The same of a part with limits at its corners: one of these on the ray is the hit, as at the end of a needle.
   /// @param points  that hold the part, the corners first
   /// @param within  how far from them it may be
   bool adds_strip_or_corner(const Cell& cell, const Points& points, double within);
