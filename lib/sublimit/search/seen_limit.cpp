@@ -101,7 +101,9 @@ SeenZero SeenLimit::zero(double slack, const std::function<Eigen::Vector3d(const
   if (!((middle.inverse().cwiseAbs() * radius).norm() < 0.5)) return {SeenZero::Kind::unknown};
 
   const Eigen::Vector2d off = off_by_slack.array() + beyond_part;
-  // Broyden's steps; on a side by the matrix of the whole, which is sure to lead there.
+  // Broyden's steps inside; on a side, and where they take long, by the matrix of the whole, which is sure to lead to a
+  // zero.
+  constexpr int most_by_secants = 12;
   Eigen::Matrix2d B = inverse;
   Eigen::Vector2d p = nearest_inside(middle_of(triangle) - inverse * at(middle_of(triangle)).head<2>(), triangle);
   Eigen::Vector3d x = at(p);
@@ -109,13 +111,13 @@ SeenZero SeenLimit::zero(double slack, const std::function<Eigen::Vector3d(const
     const Eigen::Vector2d sure = nearest_inside(p - inverse * x.head<2>(), triangle);
     const Eigen::Vector2d move = inverse * x.head<2>();
     const bool is_hit = move.cwiseAbs().maxCoeff() <= 1e-15 || x.head<2>().norm() <= 1e-3 * slack;
-    if (is_hit || (sure - p).cwiseAbs().maxCoeff() < 1e-15) {
+    // Along a side, as near as makes no difference to what counts as on the ray.
+    if (is_hit || (sure - p).cwiseAbs().maxCoeff() <= 1e-3 * off.minCoeff()) {
       if (!is_none(move, off, triangle)) return {SeenZero::Kind::none};
       return {SeenZero::Kind::one, p, x.z() - along.dot(move), steepest.dot(off), inverse.determinant() > 0 ? 1 : -1};
     }
     Eigen::Vector2d next = p - B * x.head<2>();
-    if (nearest_inside(next, triangle) != next) next = sure;
-    if (next == p) next = sure;
+    if (step >= most_by_secants || nearest_inside(next, triangle) != next || next == p) next = sure;
     const Eigen::Vector3d there = at(next);
     const Eigen::Vector2d s = next - p, y = there.head<2>() - x.head<2>(), By = B * y;
     if (const double denominator = s.dot(By); std::abs(denominator) > 0.1 * s.squaredNorm())

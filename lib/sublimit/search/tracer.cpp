@@ -135,8 +135,9 @@ void Tracer::look_at(Cell&& cell) {
                        : is_limit_alone(part) ? decides_limits(cell)
                                               : decides_points(cell);
   if (decided) return;
-  const double diagonal = cell.box.diagonal().norm();
-  if (diagonal <= slack_ / 32) {  // well below what counts as on the ray
+  // Many polynomial parts may be as near as counts to where one is not one to one; others come to their corners first.
+  const double smallest = part.basis ? slack_ : slack_ / 32;
+  if (cell.box.diagonal().norm() <= smallest) {
     add_smallest(cell);
     return;
   }
