@@ -71,7 +71,7 @@ Command add_intersect(CLI::App& app) {
       ->required();
   command->add_flag("--all", options->all, "All hits of a ray, by rising t (default: the nearest)");
   command->add_option("--most-parts", options->most_parts,
-                      fmt::format("Give a ray up that meets N parts within one part of the surface, or 16 N in all "
+                      fmt::format("Give a ray up that meets N parts within one part of the surface, or 64 N in all "
                                   "(default {})",
                                   RayOptions{}.most_parts));
   command->add_option("-o,--output", options->output, "OUT.csv: ray,t,face,u,v,x,y,z,nx,ny,nz,status, a row a hit")

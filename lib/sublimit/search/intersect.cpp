@@ -70,6 +70,12 @@ void check(const std::vector<Ray>& rays) {
   for (size_t i = 0; i < rays.size(); ++i) check(rays[i], "ray " + std::to_string(i));
 }
 
+void check(const RayOptions& options) {
+  if (options.most_parts < 1)
+    throw InvalidParameter("a ray is given up after " + std::to_string(options.most_parts) +
+                           " parts; 1 or more is right");
+}
+
 void check_has_parts(const SearchedSurface& surface) {
   if (const std::string which = surface.without_parts(); !which.empty())
     throw UnsupportedTopology("rays need polynomial or rational surfaces: " + which);
@@ -100,6 +106,7 @@ RayHits intersect(const LimitSurface& surface, const Points& points, const std::
 
 RayHits intersect(const SearchedSurface& surface, const std::vector<Ray>& rays, const RayOptions& options) {
   check(rays);
+  check(options);
   check_has_parts(surface);
   const SurfaceParts parts(surface, PartBoxes::for_rays);
   std::vector<std::vector<Tracer::Hit>> found(rays.size());
@@ -153,6 +160,7 @@ RayTracer::~RayTracer() = default;
 std::vector<RayHit> RayTracer::trace(const Ray& ray, const RayOptions& options, std::optional<Index> address,
                                      std::int64_t* undecided) const {
   check(ray, "the ray");
+  check(options);
   const std::vector<std::int64_t>& first = prepared_->first;
   const Index addresses = static_cast<Index>(std::ssize(first) - 1);
   if (address && (*address < 0 || *address >= addresses))

@@ -56,15 +56,18 @@ struct [[nodiscard]] RayHits {
 
 struct RayOptions {
   bool all = false;  ///< all hits, not only the nearest
-  /// To look at within one part of the surface that a ray may meet, and sixteen times as many of all of them. A ray
-  /// that needs more is given up there: it has a hit that says so, and those found elsewhere.
+  /// To look at within one part of the surface that a ray may meet, and 64 times as many of all of them, 1 or more.
+  /// Those that depend on many points count as several, by the time that they take. A ray that needs more is given up
+  /// there: it has a hit that says so, and those found elsewhere.
   int most_parts = 8000;
 };
 
 /// Holes left out. Equal input, equal answer, whatever the number of threads. Where a ray is not given up, no hit is
 /// missed, but where hulls are estimates (`SurfaceParts::are_certain`), as of schemes without polynomials: there every
 /// hit is one, and one may be missed that the estimates do not hold.
-/// @throws InvalidParameter     a ray that is not finite, has no direction, or ends before it begins: says which
+/// @throws InvalidParameter     a ray that is not finite, has no direction, or ends before it begins: says which; no
+/// parts
+///                              to look at
 /// @throws UnsupportedTopology  a face that has no parts (`SearchedSurface::without_parts`)
 RayHits intersect(const SearchedSurface& surface, const std::vector<Ray>& rays, const RayOptions& options = {});
 /// @param points  of the surface's level, #V x 3

@@ -47,13 +47,15 @@ double SeenLimit::bend(const Eigen::VectorXd& values) const { return bend_of(gri
 
 bool SeenLimit::can_be_hit(double slack) const {
   constexpr double r = 0.70710678;
-  for (const Eigen::Vector2d& d :
-       {Eigen::Vector2d(1, 0), Eigen::Vector2d(0, 1), Eigen::Vector2d(r, r), Eigen::Vector2d(r, -r)}) {
-    const Eigen::VectorXd side = limits_.leftCols<2>() * d;
+  const Eigen::Matrix<double, Eigen::Dynamic, 2> seen = limits_.leftCols<2>();
+  const auto is_aside = [&](const Eigen::Vector2d& d) {
+    const Eigen::VectorXd side = seen * d;
     const double off = slack + bend(side);
-    if (side.minCoeff() > off || side.maxCoeff() < -off) return false;
-  }
-  return true;
+    return side.minCoeff() > off || side.maxCoeff() < -off;
+  };
+  const std::optional<Eigen::Vector2d> middle = facing(seen);
+  return !(middle && is_aside(*middle)) && !is_aside({1, 0}) && !is_aside({0, 1}) && !is_aside({r, r}) &&
+         !is_aside({r, -r});
 }
 
 SeenZero SeenLimit::zero(double slack, const std::function<Eigen::Vector3d(const Eigen::Vector2d&)>& at) const {
@@ -121,12 +123,6 @@ SeenZero SeenLimit::zero(double slack, const std::function<Eigen::Vector3d(const
     p = next, x = there;
   }
   return {SeenZero::Kind::unknown};
-}
-
-std::optional<SeenStrip> SeenLimit::strip(double slack) const {
-  const std::array<Eigen::Index, 4> corners = grid_.corners();
-  const double bent = std::max(bend(limits_.col(0)), bend(limits_.col(1)));
-  return strip_of(limits_, std::span(corners).first(grid_.triangle ? 3 : 4), bent, slack);
 }
 
 }  // namespace sublimit

@@ -2,6 +2,7 @@
 #pragma once
 // A piece without a polynomial as a ray sees it, by limits on a grid: how far it goes, and how its slopes vary, between
 // them is estimated by second differences.
+#include <algorithm>
 #include <functional>
 
 #include "sublimit/search/piece_limits.h"
@@ -18,7 +19,8 @@ class SeenLimit {
   bool can_be_hit(double slack) const;
   /// @param at  exact limits at places of the piece, seen along the ray
   SeenZero zero(double slack, const std::function<Eigen::Vector3d(const Eigen::Vector2d&)>& at) const;
-  std::optional<SeenStrip> strip(double slack) const;
+  /// How far across the ray the surface may be from the limits of the grid.
+  double bend_across() const { return std::max(bend(limits_.col(0)), bend(limits_.col(1))); }
 
  private:
   /// The largest second difference, along the sides and across.

@@ -65,8 +65,31 @@ std::array<Eigen::Index, 4> net_corners(const PolynomialBasis& basis) {
 
 }  // namespace
 
+std::optional<Eigen::Vector2d> facing(const Eigen::Matrix<double, Eigen::Dynamic, 2>& points) {
+  const auto cross = [](const Eigen::RowVector2d& a, const Eigen::RowVector2d& b) {
+    return a.x() * b.y() - a.y() * b.x();
+  };
+  Eigen::RowVector2d right = points.row(0), left = right;  // ends of the angle, as points
+  for (Eigen::Index i = 1; i < points.rows(); ++i) {
+    const Eigen::RowVector2d p = points.row(i);
+    const bool beyond_left = cross(left, p) > 0, beyond_right = cross(right, p) < 0;
+    if (beyond_left && beyond_right) return std::nullopt;
+    if (beyond_left) left = p;
+    if (beyond_right) right = p;
+    if (cross(right, left) < 0 || left.dot(p) <= -left.norm() * p.norm() || right.dot(p) <= -right.norm() * p.norm())
+      return std::nullopt;
+  }
+  const double l = left.norm(), r = right.norm();
+  if (!(l > 0 && r > 0)) return std::nullopt;
+  const Eigen::Vector2d middle = (left / l + right / r).transpose();
+  const double length = middle.norm();
+  if (!(length > 0)) return std::nullopt;
+  return middle / length;
+}
+
 bool can_be_hit(const Points& points, double slack) {
   const Eigen::Matrix<double, Eigen::Dynamic, 2> seen = across(points);
+  if (const std::optional<Eigen::Vector2d> d = facing(seen); d && (seen * *d).minCoeff() > slack) return false;
   return std::ranges::all_of(line_directions, [&](const std::array<double, 2>& d) {
     const Eigen::VectorXd side = d[0] * seen.col(0) + d[1] * seen.col(1);
     return side.minCoeff() <= slack && side.maxCoeff() >= -slack;
@@ -187,15 +210,15 @@ void divide_by_distance(std::vector<Coefficient>& net, int degree) {
 
 /// How far all of them are on one side of the ray, by the best of a few directions; negative if they are not.
 double least_aside(const std::vector<Coefficient>& net) {
-  Eigen::Vector2d mean = Eigen::Vector2d::Zero();
-  for (const Coefficient& c : net) mean += c.x.head<2>();
+  Eigen::Matrix<double, Eigen::Dynamic, 2> points(net.size(), 2);
+  for (size_t i = 0; i < net.size(); ++i) points.row(Eigen::Index(i)) = net[i].x.head<2>();
   double best = -INFINITY;
   const auto look = [&](const Eigen::Vector2d& direction) {
     double least = INFINITY;
     for (const Coefficient& c : net) least = std::min(least, c.x.head<2>().dot(direction));
     best = std::max(best, least);
   };
-  if (mean.norm() > 0) look(mean.normalized());
+  if (const std::optional<Eigen::Vector2d> middle = facing(points)) look(*middle);
   for (const auto& [a, b] : line_directions) look({a, b}), look({-a, -b});
   return best;
 }
@@ -253,6 +276,22 @@ std::optional<SeenNet::Side> SeenNet::side_on_ray(double slack) const {
     return Side{{low, high, side_middle(triangle, side)}, 2 * slack + near * steepest, is_point ? seen_side(rest) : 0};
   }
   return std::nullopt;
+}
+
+SeenNet::Lengths SeenNet::lengths(Eigen::Index coordinates) const {
+  Points x = net_.leftCols(coordinates);
+  if (is_rational()) x.array().colwise() /= net_.col(3).array();
+  const int d = basis_.degree();
+  Lengths longest;
+  for (int line = 0; line <= d; ++line) {
+    double u = 0, v = 0;
+    for (int k = 0; k < d; ++k) {
+      u += (x.row(net_row(basis_, k + 1, line)) - x.row(net_row(basis_, k, line))).norm();
+      v += (x.row(net_row(basis_, line, k + 1)) - x.row(net_row(basis_, line, k))).norm();
+    }
+    longest.u = std::max(longest.u, u), longest.v = std::max(longest.v, v);
+  }
+  return longest;
 }
 
 std::optional<SeenStrip> SeenNet::strip(double slack) const {

@@ -41,7 +41,12 @@ struct SeenStrip {
 /// A point of the part's domain, the square or the triangle.
 Eigen::Vector2d nearest_inside(const Eigen::Vector2d& p, bool triangle);
 
-/// No line through the ray has all of these points on one side, of a few directions of lines.
+/// The middle of the angle, below 180 degrees, that points of the plane across the ray are in; nothing if they are in
+/// none: their hull holds the ray.
+std::optional<Eigen::Vector2d> facing(const Eigen::Matrix<double, Eigen::Dynamic, 2>& points);
+
+/// No line through the ray has all of these points on one side, of those across the middle of their angle and a few
+/// more.
 /// @param points  seen along the ray: x, y, s and, of rational ones, a positive weight
 bool can_be_hit(const Points& points, double slack);
 
@@ -76,8 +81,16 @@ class SeenNet {
   /// times a net that is on one side of the ray.
   std::optional<Side> side_on_ray(double slack) const;
   std::optional<SeenStrip> strip(double slack) const;
+  /// How far lines along u and along v go across the ray, at most, and in space.
+  struct Lengths {
+    double u = 0, v = 0;
+  };
+  Lengths lengths_across() const { return lengths(2); }
+  Lengths lengths_in_space() const { return lengths(3); }
 
  private:
+  /// Of a square.
+  Lengths lengths(Eigen::Index coordinates) const;
   bool is_rational() const { return net_.cols() == 4; }
 
   const PolynomialBasis& basis_;

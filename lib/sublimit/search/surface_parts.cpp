@@ -57,6 +57,34 @@ std::array<Eigen::Vector2d, 3> child_triangle(const std::array<Eigen::Vector2d, 
   return child;
 }
 
+std::array<SurfacePart, 2> halves_of(const SurfacePart& whole, bool by_u) {
+  const PiecePart& part = whole.part;
+  const int d = part.basis->degree();
+  const auto row = [&](int along, int other) {
+    return by_u ? net_row(*part.basis, along, other) : net_row(*part.basis, other, along);
+  };
+  // De Casteljau's triangle of each line: its sides are the halves.
+  Points lower = part.nets[0], upper = part.nets[0];
+  for (int other = 0; other <= d; ++other)
+    for (int step = 1; step <= d; ++step) {
+      for (int along = 0; along <= d - step; ++along)
+        upper.row(row(along, other)) = (upper.row(row(along, other)) + upper.row(row(along + 1, other))) / 2;
+      lower.row(row(step, other)) = upper.row(row(0, other));
+    }
+  const auto half = [&](bool is_upper, Points net) {
+    CellCorners corners;
+    for (size_t k = 0; k < 4; ++k) {
+      const CellCorner c = square_corners[k];
+      const int i = by_u ? c.i + int(is_upper) : 2 * c.i, j = by_u ? 2 * c.j : c.j + int(is_upper);
+      corners[k] = at_halves(part.corners, false, i, j);
+    }
+    PiecePart own{corners, part.depth + 1, part.basis, {}, part.type, {}};
+    own.nets.push_back(std::move(net));
+    return SurfacePart{whole.address, std::move(own), whole.placed, {}};
+  };
+  return {half(false, std::move(lower)), half(true, std::move(upper))};
+}
+
 SurfaceParts::SurfaceParts(const SearchedSurface& surface, PartBoxes use) {
   const Index faces = surface.faces().size;
   constexpr std::int64_t faces_a_block = 32;

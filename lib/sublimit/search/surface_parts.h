@@ -60,6 +60,10 @@ void for_each_child(const SurfacePart& whole, PieceParts& cutter, const Visit& v
   for (int k = 0; k < 4; ++k) visit(SurfacePart{whole.address, cutter.quarter(part, k), whole.placed, {}});
 }
 
+/// Halves of the square of a polynomial or rational part with one net.
+/// @param by_u  whether u is halved, else v
+std::array<SurfacePart, 2> halves_of(const SurfacePart& whole, bool by_u);
+
 /// `box_of`, or `ray_box_of`.
 enum class PartBoxes { for_distances, for_rays };
 

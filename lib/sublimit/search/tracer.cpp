@@ -34,6 +34,15 @@ std::optional<Extent> along(const Eigen::AlignedBox3d& box, const Ray& ray, doub
   return t;
 }
 
+/// As many parts as are allowed in one part of the surface, times this, are in all that a ray meets.
+constexpr std::int64_t wholes_a_ray = 64;
+
+/// Of a part, in polynomial ones: children and limits are made of all points that it depends on.
+std::int64_t work_of(const PiecePart& part) {
+  constexpr std::int64_t points_a_net = 16;
+  return 1 + part.points.rows() / points_a_net;
+}
+
 }  // namespace
 
 std::vector<Tracer::Hit> Tracer::operator()(const Ray& ray) {
@@ -64,7 +73,7 @@ void Tracer::begin(const Ray& ray) {
 
 std::vector<Tracer::Hit> Tracer::look() {
   const std::vector<BoxTree::Node>& nodes = parts_.tree().nodes();
-  for (int looked = 0; !heap_.empty();) {
+  for (std::int64_t looked = 0; !heap_.empty();) {
     std::pop_heap(heap_.begin(), heap_.end());
     const Waiting first = heap_.back();
     heap_.pop_back();
@@ -80,11 +89,15 @@ std::vector<Tracer::Hit> Tracer::look() {
     Cell cell = std::move(cells_[size_t(first.number)]);
     Whole& whole = wholes_[cell.whole];
     if (whole.is_given_up) continue;
-    constexpr int wholes_a_ray = 16;
-    if (++whole.looked > options_.most_parts || ++looked > std::int64_t(wholes_a_ray) * options_.most_parts)
+    if (whole.looked >= options_.most_parts || looked >= wholes_a_ray * options_.most_parts) {
       give_up(cell, first.t);
-    else
-      look_at(std::move(cell));
+      continue;
+    }
+    const size_t number = cell.whole;  // the cell goes, and so may the place of its whole
+    work_ = work_of(cell.part.part);
+    look_at(std::move(cell));
+    wholes_[number].looked += work_;
+    looked += work_;
   }
   return merged();
 }
@@ -127,6 +140,23 @@ void Tracer::look_at(Cell&& cell) {
     add_smallest(cell);
     return;
   }
+  cut(cell);
+}
+
+void Tracer::cut(const Cell& cell) {
+  const PiecePart& part = cell.part.part;
+  if (part.basis && !part.is_triangle() && part.nets.size() == 1) {
+    // Only along what is much the longer way across the ray, as where it runs along a straight line of the surface; or
+    // along the ray, once all else is as near as counts.
+    const SeenNet net(*part.basis, frame_->seen(part.nets[0]));
+    const SeenNet::Lengths length = net.strip(slack_) ? net.lengths_in_space() : net.lengths_across();
+    constexpr double much = 8;
+    if (length.u > much * length.v || length.v > much * length.u) {
+      for (SurfacePart& half : halves_of(cell.part, length.u > length.v)) push_cell(std::move(half), cell.whole, 0);
+      return;
+    }
+  }
+  const double diagonal = cell.box.diagonal().norm();
   const bool has_digits = diagonal >= 1e-6 * parts_.size() + 1000 * parts_.rounding(ray_->origin);
   const int side = part.basis ? 0 : has_digits ? seen_side(cell) : cell.side;
   for_each_child(cell.part, cutter_, [&](SurfacePart&& child) { push_cell(std::move(child), cell.whole, side); });
@@ -167,14 +197,17 @@ bool Tracer::decides_limits(const Cell& cell) {
   if (!seen.can_be_hit(slack_)) return true;
   const Points differences = part.points.bottomRows(part.points.rows() - 1).rowwise() - part.points.row(0);
   const SeenZero zero = seen.zero(slack_, [&](const Eigen::Vector2d& p) -> Eigen::Vector3d {
+    work_ += 8 * work_of(part);  // some fifty levels down
     const Place place = part.is_triangle() ? triangle_place(p.x(), p.y()) : quad_place(p.x(), p.y());
     const Points x = piece_rows(*part.type, place, 0).rows.topRows(1) * differences + part.points.topRows(1);
     return frame_->seen(x).row(0).transpose();
   });
   if (zero.kind == SeenZero::Kind::one) add(cell, zero.uv, zero.s, zero.reach, zero.side);
   if (zero.kind != SeenZero::Kind::unknown) return true;
-  const std::optional<SeenStrip> strip = seen.strip(slack_);
-  return strip && adds_strip(cell, *strip, 0, 0);
+  const Points corners = seen_corners(cell);
+  Points all(corners.rows() + cell.limits.rows(), 3);
+  all << corners, frame_->seen(cell.limits);
+  return adds_strip_or_corner(cell, all, seen.bend_across());
 }
 
 bool Tracer::decides_points(const Cell& cell) {
@@ -185,9 +218,7 @@ bool Tracer::decides_points(const Cell& cell) {
   const Points corners = seen_corners(cell);
   Points all(corners.rows() + seen.rows(), 3);
   all << corners, seen;
-  constexpr std::array<Eigen::Index, 4> rows{0, 1, 2, 3};
-  const std::optional<SeenStrip> strip = strip_of(all, std::span(rows).first(size_t(corners.rows())), reach, slack_);
-  return strip && adds_strip(cell, *strip, 0, 0);
+  return adds_strip_or_corner(cell, all, reach);
 }
 
 void Tracer::add_smallest(const Cell& cell) {
@@ -234,7 +265,25 @@ bool Tracer::adds_strip(const Cell& cell, const SeenStrip& strip, double reach, 
   return true;
 }
 
-void Tracer::add(const Cell& cell, const Eigen::Vector2d& uv, double s, double reach, int side) {
+bool Tracer::adds_strip_or_corner(const Cell& cell, const Points& points, double within) {
+  const bool triangle = cell.part.part.is_triangle();
+  const Eigen::Index count = triangle ? 3 : 4;
+  constexpr std::array<Eigen::Index, 4> rows{0, 1, 2, 3};
+  const std::optional<SeenStrip> strip = strip_of(points, std::span(rows).first(size_t(count)), within, slack_);
+  if (!strip) return false;
+  if (!(points.leftCols(2).rowwise().norm().maxCoeff() + within <= 2 * slack_)) return adds_strip(cell, *strip, 0, 0);
+  Eigen::Index nearest = 0;
+  points.topRows(count).leftCols(2).rowwise().norm().minCoeff(&nearest);
+  const CellCorner corner = triangle ? triangle_corners[size_t(nearest)] : square_corners[size_t(nearest)];
+  // What comes next of a needle is as near to the ray but for a few slacks.
+  const double length = strip->high - strip->low;
+  add(cell, Eigen::Vector2d(corner.i, corner.j), points(nearest, 2), 2 * slack_, cell.side, strip->low - length,
+      strip->high + length);
+  return true;
+}
+
+void Tracer::add(const Cell& cell, const Eigen::Vector2d& uv, double s, double reach, int side, double low,
+                 double high) {
   const bool triangle = cell.part.part.is_triangle();
   double u = 0, v = 0;
   if (cell.part.turned) {
@@ -246,16 +295,19 @@ void Tracer::add(const Cell& cell, const Eigen::Vector2d& uv, double s, double r
     u = at[0], v = at[1];
   }
   double t = s / frame_->length;
-  reach /= frame_->length;
+  reach /= frame_->length, low /= frame_->length, high /= frame_->length;
   if (side == 0) t = std::clamp(t, std::min(ray_->tmin, t + reach), std::max(ray_->tmax, t - reach));
   if (!(t >= ray_->tmin && t <= ray_->tmax)) return;
   u = std::clamp(u, 0.0, 1.0);
   hits_.push_back({t,
                    reach,
+                   low,
+                   high,
                    side == 0 ? HitKind::touching : HitKind::crossing,
                    side,
                    {cell.part.address, u, std::clamp(v, 0.0, triangle ? 1 - u : 1.0)}});
-  nearest_ = std::min(nearest_, t + 2 * reach + apart());  // what counts as the same hit has to be found too
+  nearest_ =
+      std::min(nearest_, std::max(high, t + 2 * reach) + apart());  // what counts as the same hit has to be found too
 }
 
 void Tracer::give_up(const Cell& cell, double t) {
@@ -264,28 +316,29 @@ void Tracer::give_up(const Cell& cell, double t) {
   const bool triangle = cell.part.part.is_triangle();
   const double middle = triangle ? 1. / 3 : 0.5;
   const auto [u, v] = at_place(cell.part.part.corners, triangle, middle, middle);
-  given_up_ = Hit{t, 0, HitKind::given_up, 0, {cell.part.address, u, v}};
+  given_up_ = Hit{t, 0, t, t, HitKind::given_up, 0, {cell.part.address, u, v}};
 }
 
 std::vector<Tracer::Hit> Tracer::merged() {
   std::sort(hits_.begin(), hits_.end(), [](const Hit& a, const Hit& b) {
-    return std::tuple(a.t, a.place.face, a.place.u, a.place.v) < std::tuple(b.t, b.place.face, b.place.u, b.place.v);
+    return std::tuple(a.low, a.t, a.place.face, a.place.u, a.place.v) <
+           std::tuple(b.low, b.t, b.place.face, b.place.u, b.place.v);
   });
   std::vector<Hit> result;
   double end = 0;
   for (const Hit& hit : hits_) {
-    if (!result.empty() && hit.t - hit.reach <= end) {
+    if (!result.empty() && hit.low <= end) {
       Hit& best = result.back();
       const int side = best.side == hit.side ? best.side : 0;
       if (hit.reach < best.reach / 2 || (hit.reach < 2 * best.reach && hit.place.face < best.place.face)) best = hit;
       best.side = side;
       best.kind = side == 0 ? HitKind::touching : HitKind::crossing;
-      end = std::max(end, hit.t + hit.reach + apart());
+      end = std::max(end, hit.high + apart());
       continue;
     }
     if (!options_.all && !result.empty()) break;
     result.push_back(hit);
-    end = hit.t + hit.reach + apart();
+    end = hit.high + apart();
   }
   if (given_up_) {
     const auto later = std::ranges::find_if(result, [&](const Hit& hit) { return hit.t >= given_up_->t; });

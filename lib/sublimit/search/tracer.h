@@ -20,7 +20,8 @@ class Tracer {
  public:
   struct Hit {
     double t = 0;
-    double reach = 0;  ///< how far off t may be: much where the ray grazes the surface
+    double reach = 0;          ///< how far off t may be: much where the ray grazes the surface
+    double low = 0, high = 0;  ///< what counts as the same hit
     HitKind kind = HitKind::crossing;
     int side = 0;  ///< of the surface that the ray sees: 1, -1, or 0 where it turns over
     Sample place;
@@ -50,9 +51,9 @@ class Tracer {
     size_t whole = 0;  ///< the part of the surface that it comes from
     int side = 0;      ///< that is seen of it, where its points still tell
   };
-  /// A part of the surface: how many of its own parts have been looked at.
+  /// A part of the surface: how many of its own parts have been looked at, those of many points several times.
   struct Whole {
-    int looked = 0;
+    std::int64_t looked = 0;
     bool is_given_up = false;
   };
 
@@ -63,6 +64,7 @@ class Tracer {
   void push_whole(const SurfacePart& part);
   void push_cell(SurfacePart&& part, size_t whole, int side);
   void look_at(Cell&& cell);
+  void cut(const Cell& cell);
   /// Whether all of it is decided.
   bool decides_nets(const Cell& cell);
   bool decides_limits(const Cell& cell);
@@ -75,7 +77,16 @@ class Tracer {
   int seen_side(const Cell& cell) const;
   /// Whether a strip is one hit: short, or going on where the ray was within the surface before.
   bool adds_strip(const Cell& cell, const SeenStrip& strip, double reach, int side);
-  void add(const Cell& cell, const Eigen::Vector2d& uv, double s, double reach, int side);
+  /// The same of a part with limits at its corners. Where all of it is on the ray, as next to an extraordinary vertex
+  /// or in a needle, the corner that is nearest to the ray is the hit.
+  /// @param points  that hold the part, the corners first
+  /// @param within  how far from them it may be
+  bool adds_strip_or_corner(const Cell& cell, const Points& points, double within);
+  void add(const Cell& cell, const Eigen::Vector2d& uv, double s, double reach, int side) {
+    add(cell, uv, s, reach, side, s - reach, s + reach);
+  }
+  /// @param low, high  distances along the ray of what counts as the same hit
+  void add(const Cell& cell, const Eigen::Vector2d& uv, double s, double reach, int side, double low, double high);
   void give_up(const Cell& cell, double t);
   /// Hits that are nearer to each other along the ray are one.
   double apart() const { return 100 * slack_ / frame_->length; }
@@ -92,6 +103,7 @@ class Tracer {
   std::vector<Waiting> heap_;
   std::vector<Cell> cells_;
   std::vector<Whole> wholes_;
+  std::int64_t work_ = 0;  // at the part at hand
   double nearest_ = 0;
   double within_to_ = 0;  // t up to which the ray has been within the surface
   double slack_ = 0;      // how far off a ray counts as a hit

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sublimit/search/winding.h"
 
+#include <algorithm>
 #include <numbers>
 #include <optional>
+#include <string>
 
 #include "sublimit/base/error.h"
 #include "sublimit/core/finite_points.h"
@@ -40,6 +42,7 @@ std::vector<int> winding_numbers(const SearchedSurface& surface, const Points& q
   std::vector<int> numbers(size_t(queries.rows()));
   std::vector<Eigen::Index> left(numbers.size());
   for (size_t i = 0; i < left.size(); ++i) left[i] = Eigen::Index(i);
+  std::optional<Eigen::Index> given_up;  // of the last rays
   constexpr int most_directions = 12;
   for (int number = 0; number < most_directions && !left.empty(); ++number) {
     const Eigen::Vector3d along = direction(number);
@@ -47,13 +50,21 @@ std::vector<int> winding_numbers(const SearchedSurface& surface, const Points& q
     for (const Eigen::Index i : left) rays.push_back({queries.row(i).transpose(), along});
     const RayHits hits = intersect(surface, rays, {.all = true});
     std::vector<Eigen::Index> undecided;
-    for (size_t k = 0; k < left.size(); ++k)
-      if (const std::optional<int> turns = windings(hits, k, along))
+    given_up.reset();
+    for (size_t k = 0; k < left.size(); ++k) {
+      if (const std::optional<int> turns = windings(hits, k, along)) {
         numbers[size_t(left[k])] = *turns;
-      else
-        undecided.push_back(left[k]);
+        continue;
+      }
+      undecided.push_back(left[k]);
+      const auto begin = hits.kinds.begin() + hits.first[k], end = hits.kinds.begin() + hits.first[k + 1];
+      if (std::find(begin, end, HitKind::given_up) != end) given_up = left[k];
+    }
     left = std::move(undecided);
   }
+  if (given_up)
+    throw AnalysisError("whether point " + std::to_string(*given_up) +
+                        " is inside is not known: a ray from it was given up, as others were before");
   return numbers;  // points on the surface itself may be left: either side will do
 }
 

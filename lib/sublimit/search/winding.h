@@ -12,6 +12,7 @@ namespace sublimit {
 /// the surface either side's. Where rays may miss hits, as of schemes without polynomials (intersect.h), an estimate.
 /// @throws InvalidParameter     points that do not fit, or are not finite
 /// @throws UnsupportedTopology  a surface that is not closed: says where
+/// @throws AnalysisError        a point from which rays of all directions were given up
 std::vector<int> winding_numbers(const SearchedSurface& surface, const Points& queries);
 
 }  // namespace sublimit

@@ -307,7 +307,7 @@ class Source:
         directions : (n, 3) or (3,), of any length
         tmin, tmax : (n,) or numbers, of ``origin + t * direction``
         all : all hits, not the nearest alone
-        most_parts : to look at within one part of the surface, and 16 times as many in all, before a ray is given up
+        most_parts : to look at within one part of the surface, and 64 times as many in all, before a ray is given up
 
         Raises
         ------

@@ -441,6 +441,7 @@ TEST(Intersect, RefusesInClearWords) {
   EXPECT_THROW(intersect(surface, mesh.positions, {{{0, 0, 0}, {0, 0, HUGE_VAL}}}), InvalidParameter);
   EXPECT_THROW(intersect(surface, mesh.positions, {{{0, 0, 0}, {0, 0, 1}, 2, 1}}), InvalidParameter);
   EXPECT_THROW(intersect(surface, mesh.positions, {{{0, 0, 1e155}, {0, 0, 1}}}), InvalidParameter);
+  EXPECT_THROW(intersect(surface, mesh.positions, {}, {.most_parts = 0}), InvalidParameter);
   EXPECT_TRUE(intersect(surface, mesh.positions, {}).t.empty());
   ControlMesh nothing;
   nothing.positions = Points::Zero(0, 3);

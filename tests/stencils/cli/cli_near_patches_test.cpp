@@ -49,6 +49,53 @@ TEST(CliIntersect, FindsHitsOnNurbs) {
   for (size_t i = 0; i < expected.size(); ++i) EXPECT_NEAR(csv_number(rows[i + 1][1]), expected[i], 10 * found_hit);
 }
 
+// Along the axis, 1e-5 beside it, from the centre, and elsewhere: t by the sphere's equation. The torus is not met.
+TEST(CliIntersect, FindsPolesOfASphere) {
+  const TemporaryDirectory directory;
+  const std::string shapes = write_shapes(directory), out = (directory / "o.csv").string(),
+                    rays = directory
+                               .write("r.csv",
+                                      "ox,oy,oz,dx,dy,dz\n0,0,-5,0,0,1\n0.00001,0,-5,0,0,1\n0,0,0,0,0,1\n"
+                                      "0.3,0,-5,0,0,1\n")
+                               .string();
+  expect_done(sublimit({"intersect", shapes, "--rays", rays, "--all", "-o", out}));
+  const std::vector<CsvRow> rows = csv_rows(out);
+  const double off = std::sqrt(0.91);
+  const std::vector<std::pair<double, double>> expected{{0, 4}, {0, 6},       {1, 4},      {1, 6},
+                                                        {2, 1}, {3, 5 - off}, {3, 5 + off}};
+  ASSERT_EQ(rows.size(), expected.size() + 1);
+  for (size_t i = 0; i < expected.size(); ++i) {
+    EXPECT_EQ(csv_number(rows[i + 1][0]), expected[i].first);
+    EXPECT_NEAR(csv_number(rows[i + 1][1]), expected[i].second, found_hit);
+    EXPECT_NE(rows[i + 1][11], "touching");
+  }
+}
+
+// A pyramid over [-1, 1]^2 as a cone: at x the distance from the apex (0, 0, 2) is 2 max(|x|, |y|) down.
+TEST(CliIntersect, FindsTheApexOfACone) {
+  const TemporaryDirectory directory;
+  const std::string cone = directory
+                               .write("cone.json",
+                                      R"({"kind": "cone", "apex": [0, 0, 2], "curve": {"degree": 1,
+                                          "knots": [0, 0, 1, 2, 3, 4, 4],
+                                          "points": [[-1, -1], [1, -1], [1, 1], [-1, 1], [-1, -1]]}})")
+                               .string(),
+                    out = (directory / "o.csv").string(),
+                    rays = directory
+                               .write("r.csv",
+                                      "ox,oy,oz,dx,dy,dz\n0,0,5,0,0,-1\n0.001,0,5,0,0,-1\n0.2,0.1,5,0,0,-1\n"
+                                      "1e-12,0,5,0,0,-1\n1e-7,1e-8,5,0,0,-1\n")
+                               .string();
+  expect_done(sublimit({"intersect", cone, "--rays", rays, "--all", "-o", out}));
+  const std::vector<CsvRow> rows = csv_rows(out);
+  const std::vector<double> expected{3, 3.002, 3.4, 3, 3 + 2e-7};
+  ASSERT_EQ(rows.size(), expected.size() + 1);
+  for (size_t i = 0; i < expected.size(); ++i) {
+    EXPECT_EQ(csv_number(rows[i + 1][0]), double(i));
+    EXPECT_NEAR(csv_number(rows[i + 1][1]), expected[i], found_hit);
+  }
+}
+
 TEST(CliClosest, RefusesOfPatchesWhatIsOfMeshes) {
   const TemporaryDirectory directory;
   const std::string shapes = write_shapes(directory), out = (directory / "o.csv").string(),
