@@ -11,6 +11,7 @@
 #include "sublimit/base/error.h"
 #include "sublimit/core/dense_decompositions.h"
 #include "sublimit/core/number.h"
+#include "sublimit/limit/no_limit.h"
 
 namespace sublimit {
 namespace {
@@ -332,11 +333,11 @@ Eigen::VectorXd limit_weights(const Eigen::MatrixXd& A) {
   Eigen::VectorXd l = qr.solve(right);
   l += qr.solve(right - equations * l);  // one step of refinement: the last digits
   if (qr.rank() < size || (equations * l - right).norm() > 1e-10)
-    throw AnalysisError("a local matrix has no limit: eigenvalue 1 is not simple");
+    throw AnalysisError(std::string(local_divergence) + ": eigenvalue 1 is not simple");
   const Eigen::VectorXcd values = size > 1 ? eigenvalues(A) : Eigen::VectorXcd::Ones(1);
   int at_one = 0;
   for (const Complex value : values) at_one += std::abs(value) >= 1 - 1e-9;
-  if (at_one != 1) throw AnalysisError("a local matrix has no limit: eigenvalue 1 is not dominant");
+  if (at_one != 1) throw AnalysisError(std::string(local_divergence) + ": eigenvalue 1 is not dominant");
   return l;
 }
 

@@ -11,7 +11,7 @@
 namespace sublimit {
 
 /// Rows over the points of one level. A vertex has one side, unless sharp edges or several fans cut its faces apart.
-struct LimitMatrices {
+struct [[nodiscard]] LimitMatrices {
   SparseMatrix position;            ///< L, #V x #V: x_inf = L * x
   SparseMatrix tangent1, tangent2;  ///< #sides x #V
   /// The next modes, for sides whose tangents degenerate: side s has rows second_order_begin[s] to
@@ -28,7 +28,7 @@ LimitMatrices limit_matrices(const Level& level, LimitTypes& cache);
 /// Of the last of levels 0 to any; what has no limit is named by where it is on level 0.
 LimitMatrices limit_matrices(const std::vector<Level>& levels, LimitTypes& cache);
 
-struct LimitPoints {
+struct [[nodiscard]] LimitPoints {
   Points position;                  ///< #V x 3
   Points normal;                    ///< #sides x 3, unit length, zero where undefined
   std::vector<LimitStatus> status;  ///< of each side, for these points

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 #include <numeric>
+#include <set>
 #include <string>
 
 #include "sublimit/base/error.h"
@@ -171,6 +172,52 @@ std::optional<LimitRows> known_rows(const Level& level, LimitTypes& cache, const
   return lone_rows(level, cache, centre);
 }
 
+/// Whether a centre is one whose masks take long: those of many faces do. There are few of them in any mesh.
+bool is_among_many(const Topology& t, const Centre& centre) {
+  constexpr Index many = 32;
+  if (centre.kind == Centre::Kind::face) return t.size(t.face(centre.start)) > many;
+  return centre.kind == Centre::Kind::vertex && t.num_faces(t.tail(centre.start)) > many;
+}
+
+/// Finds what the limits of such centres need beforehand, one type a thread: those of a block are found one after the
+/// other, and two that are alike wait for each other. What has no limit is met again, and named, where it is needed.
+void find_large_types(const Level& level, LimitTypes& cache, std::span<const Centre> centres) {
+  const Topology& t = level.topology();
+  if (!level.intervals.empty()) return;
+  const auto for_each_of = [](const auto& types, const auto& find) {
+    if (types.size() < 2) return;
+    parallel_for_blocks(
+        std::ssize(types),
+        [&](std::int64_t i, std::int64_t, std::int64_t) {
+          try {
+            find(types[size_t(i)]);
+          } catch (const AnalysisError&) {
+          }
+        },
+        1);
+  };
+  if (!cache.scheme().has_one_ring_limits()) {
+    std::set<LocalType> distinct;
+    for (const Centre& centre : centres)
+      if (is_among_many(t, centre) && !(centre.kind == Centre::Kind::vertex && cache.scheme().is_dual()))
+        distinct.insert(local_type(t, level.sharpness, centre, level.number, cache.scheme().period));
+    for_each_of(std::vector<LocalType>(distinct.begin(), distinct.end()),
+                [&](const LocalType& type) { cache.lone(type); });
+    return;
+  }
+  std::set<Vertex> vertices;
+  for (const Centre& centre : centres)
+    if (centre.kind == Centre::Kind::vertex && is_among_many(t, centre)) vertices.insert(t.tail(centre.start));
+  std::map<std::vector<std::uint32_t>, CanonicalNeighborhood> distinct;
+  for (const Vertex v : vertices) {
+    NeighborhoodAt at = neighborhood(t, level.sharpness, v);
+    distinct.try_emplace(at.type.signature(), std::move(at.type));
+  }
+  std::vector<const CanonicalNeighborhood*> types;
+  for (const auto& [signature, type] : distinct) types.push_back(&type);
+  for_each_of(types, [&](const CanonicalNeighborhood* type) { cache.masks(*type); });
+}
+
 /// rows * S, with the columns of the result renamed.
 /// @param sum  zeros, by column; again so afterwards
 SparseRows pulled_back(const SparseRows& rows, const SparseMatrix& S, const std::vector<Index>& name,
@@ -218,6 +265,7 @@ std::vector<LimitRows> found_rows(const Level& level, LimitTypes& cache, std::sp
   std::vector<LimitRows> rows(centres.size());
   std::vector<std::uint8_t> done(centres.size(), 0);
   const bool whole = is_prepared_first(scheme, level);
+  if (!whole) find_large_types(level, cache, centres);
   if (!whole)
     parallel_for_blocks(count, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
       OneRing ring;
@@ -336,6 +384,7 @@ LimitStatus status_of(const LimitRows& rows, const Scheme<double>& scheme) {
 }  // namespace
 
 std::vector<LimitRows> limit_rows(const Level& level, LimitTypes& cache, std::span<const Centre> centres) {
+  cache.check(level);
   std::vector<std::string> why(centres.size());
   // Pieces are known of levels where a period begins.
   const int period = cache.scheme().period, depth = 12 + (period - level.number % period) % period;
