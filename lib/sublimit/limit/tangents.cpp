@@ -82,7 +82,7 @@ VectorXd made_real(const VectorXcd& v) {
 VectorXd position_mask(const SparseMatrix& A, const Slots& centre, const std::optional<SectorRows>& ring) {
   const Index size = static_cast<Index>(A.rows());
   const Slots slots = closed_set(A, centre);
-  if (!ring || slots == centre) return embedded(limit_weights(submatrix(A, slots, slots)), slots, size);
+  if (!ring || slots.size() == 1) return embedded(limit_weights(submatrix(A, slots, slots)), slots, size);
   // Orbits that the centre depends on: all their slots are in its closed set.
   const std::vector<bool> is_used = [&] {
     std::vector<bool> used(static_cast<size_t>(size), false);
