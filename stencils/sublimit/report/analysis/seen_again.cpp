@@ -218,7 +218,7 @@ Json rows_again(const Json& neighborhood, const ExactScheme& exact) {
 
 std::vector<std::string> conclusions_differ(const Json& scheme) {
   std::vector<std::string> wrong;
-  const Finding found = interpolation(scheme.at("neighborhoods"));
+  const Finding found = interpolation_inside(scheme.at("neighborhoods"));
   const Json type = found.holds ? Json(*found.holds) : Json(nullptr);
   if (scheme.at("interpolates") != type)
     wrong.push_back(fmt::format("it is said to be {}, and its masks are {}: {}",

@@ -154,6 +154,12 @@ TEST(OwnSchemeReport, TypesNeedNoClaim) {
   const Json report = report_of({scheme, staying<Algebraic>()}, {3});
   EXPECT_EQ(report["schemes"][0]["interpolates"], true);
   EXPECT_EQ(report["summary"][0]["type"], "interpolating");
+  // Its borders have Catmull-Clark's rules: that all vertices stay would be false.
+  expect_parts(report["summary"][0]["notes"].get<std::string>(), {"a vertex moves: border"});
+  scheme.claims.interpolates = true;
+  const Json claimed = report_of({scheme, staying<Algebraic>()}, {3});
+  EXPECT_EQ(claim(claimed, "interpolates")["verdict"], "disproved");
+  expect_parts(claim(claimed, "interpolates")["because"].get<std::string>(), {"border"});
 }
 
 TEST(OwnSchemeReport, Sqrt3WithoutRelaxationHasSpikes) {
