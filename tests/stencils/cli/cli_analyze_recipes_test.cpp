@@ -254,7 +254,13 @@ TEST(CliAnalyzeRecipes, AreAnalyzedAsTheFileThatConstructWrites) {
     for (const char* list : {"patches", "curves"})
       for (RecipeJson& element : (*report)[list])
         element.erase("line"), element.erase("recipe"), element.erase("converted");
-    for (RecipeJson& warning : (*report)["warnings"]) warning.erase("where");
+    RecipeJson others = RecipeJson::array();
+    for (RecipeJson& warning : (*report)["warnings"]) {
+      warning.erase("where");
+      if (warning["says"].get<std::string>().find("not decided exactly") == std::string::npos)
+        others.push_back(warning);
+    }
+    (*report)["warnings"] = std::move(others);
   }
   EXPECT_EQ(recipes, shapes);
 }

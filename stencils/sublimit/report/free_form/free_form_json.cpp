@@ -119,7 +119,7 @@ FreeFormJson vertex_json(const SeamVertex& vertex) {
   j["tangent_plane"] = !filled ? "unknown" : vertex.planes_agree ? "yes" : "no";
   j["twist_residual"] = number_json(vertex.twist_residual);
   j["enclosure"] = number_json(vertex.enclosure);
-  j["can_be_enclosed"] = filled ? FreeFormJson(vertex.can_be_enclosed) : FreeFormJson(nullptr);
+  j["can_be_enclosed"] = vertex.can_be_enclosed ? FreeFormJson(*vertex.can_be_enclosed) : FreeFormJson(nullptr);
   j["at"] = point_json(vertex.point);
   return j;
 }
