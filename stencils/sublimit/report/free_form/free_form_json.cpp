@@ -84,7 +84,7 @@ FreeFormJson seam_json(const ReportedSeam& reported, const FreeFormReport& repor
                         {line.along_v ? "u" : "v", free_form_detail::line_parameter(report.patches, line)}};
   });
   j["part"] = seam.part ? FreeFormJson(*seam.part) : FreeFormJson(nullptr);
-  j["same_orientation"] = seam.same_orientation;
+  j["same_orientation"] = seam.is_compared() ? FreeFormJson(seam.same_orientation) : FreeFormJson(nullptr);
   j["columns_c"] = seam.columns_c ? FreeFormJson(*seam.columns_c) : FreeFormJson(nullptr);
   j["measured"] = orders_json(seam.measured);
   j["exact"] = orders_json(reported.exact);
