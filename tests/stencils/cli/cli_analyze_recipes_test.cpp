@@ -152,6 +152,23 @@ TEST(CliAnalyzeRecipes, JoinsOfOpenArcsHaveTwoFreeEnds) {
   EXPECT_EQ(closed.report()["joints"]["free_ends"], 0);
 }
 
+TEST(CliAnalyzeRecipes, ClosedNetsAreDecidedAsTheyAre) {
+  // A ring of three points along u, straight along v: C^1 where degree 2 closes.
+  const RecipeJson ring =
+      AnalyzedRecipe(R"({"kind": "bspline_surface", "degree": [2, 1], "closed": [true, false], "shape": [3, 2],)"
+                     R"("knots_u": [0, "1/3", "2/3", 1], "knots_v": [0, 0, 1, 1],)"
+                     R"("points": [[0, 0, 0], [3, 0, 0], [0, 3, 0], [0, 0, 1], [3, 0, 1], [0, 3, 1]]})")
+          .report();
+  EXPECT_EQ(ring["patches"][0]["converted"], false);
+  int closing = 0;
+  for (const RecipeJson& seam : ring["seams"]["list"]) {
+    if (seam["kind"] != "sides") continue;
+    ++closing;
+    EXPECT_EQ(seam["exact"]["c"], 1) << seam;
+  }
+  EXPECT_EQ(closing, 1);
+}
+
 /// Two Hermite curves with thirds in their control points, the tangents in the middle being (1, 0) and `right`.
 std::string hermite_curves(const std::string& right) {
   return R"({"recipes": [{"kind": "hermite_curve", "points": [[0, 0], [1, 1]], "tangents": [[0, 2], [1, 0]]},)"
