@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <array>
+
 #include "common.h"
+#include "input_files.h"
 #include "sublimit/base/error.h"
 #include "sublimit/base/memory.h"
 #include "sublimit/base/read_file.h"
@@ -93,6 +97,9 @@ int verify_report(const VerifyOptions& options) {
 
 int verify(const VerifyOptions& options) {
   limit_threads(options.common);
+  constexpr std::array alike{FileKind::unknown, FileKind::empty, FileKind::safetensors, FileKind::json};
+  if (const FileKind kind = file_kind(options.table); std::ranges::find(alike, kind) == alike.end())
+    return print_findings(options.table, {fmt::format("it is {}, neither a table nor a report", name_of(kind))});
   if (file_extension(options.table) == ".json") return verify_report(options);
   Progress progress(options.common.quiet);
   progress.step("verifying " + options.table);

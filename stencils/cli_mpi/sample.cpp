@@ -2,6 +2,9 @@
 // sample: the limit anywhere.
 #include <fmt/core.h>
 
+#include <cstdint>
+#include <limits>
+
 #include "commands.h"
 #include "sublimit/base/error.h"
 #include "sublimit/distributed/sample_job.h"
@@ -60,7 +63,7 @@ void add_sample(CLI::App& app, Command& chosen) {
   command->add_option("--grid", request.grid, "N x N places a face, ends included, u fastest; triangles N (N + 1) / 2")
       ->check(CLI::Range(2, 1 << 15));
   command->add_option("--random", request.num_random, "N places, uniform over faces and parameters")
-      ->check(CLI::NonNegativeNumber);
+      ->check(CLI::Range(std::int64_t{0}, std::numeric_limits<std::int64_t>::max()));
   command->add_option("--seed", options->seed, "Of --random: the same places for a seed everywhere (default 0)");
   command
       ->add_option("--derivatives", request.columns.derivatives,
@@ -77,7 +80,12 @@ void add_sample(CLI::App& app, Command& chosen) {
       "  mpirun -n 2 sublimit-mpi sample city.ply -s catmull-clark --at places.csv --derivatives 1 -o points.csv\n"
       "  mpirun -n 8 sublimit-mpi sample city.ply -s loop --random 1000000 --seed 7 -o points.csv\n"
       "Faces, places, columns and bytes are those of `sublimit sample`, in the order asked.");
-  command->callback([&chosen, options] { chosen = [options](const Ranks& ranks) { sample(ranks, *options); }; });
+  command->callback([&chosen, options] {
+    chosen = [options](const Ranks& ranks) {
+      sample(ranks, *options);
+      return 0;
+    };
+  });
 }
 
 }  // namespace sublimit::cli_mpi

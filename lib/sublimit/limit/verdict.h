@@ -18,7 +18,7 @@ struct Hypothesis {
   std::string value = {};  ///< the numbers that decided, as text
 };
 
-struct Verdict {
+struct [[nodiscard]] Verdict {
   enum class Answer {
     proved,
     disproved,

@@ -93,17 +93,17 @@ TEST(CliAnalyzeRecipes, JoinsOfSurfaces) {
   const AnalyzedRecipe kink(square_join(R"("1/8")"));
   const RecipeJson seam = kink.seam();
   EXPECT_EQ(seam["exact"],
-            RecipeJson::parse(R"({"c":0,"g":0,"same":false,"obstacle":"angle","says":"C^0, G^0 (angle)"
-})"));
+            RecipeJson::parse(R"json({"c":0,"g":0,"same":false,"obstacle":"angle","says":"C^0, G^0 (angle)"})json"));
   EXPECT_EQ(seam["measured"]["g"], 0);
-EXPECT_NEAR(seam["g1_degrees"]["value"].get<double>(), 7.125016348901798, 1e-12);
-expect_parts(expect_done(kink.analyzed()).out,
-             {"seams: G^0 at its only seam: largest angle 7.125 degrees between patch 0 and patch 1",
-              "recipe 0 (surface_join): C^0, G^0 (angle) exactly, measured C^0, G^0 (angle)"});
-expect_done(kink.analyzed({"--tolerance", "g1=7.2deg"}));
-const Outcome beyond = kink.analyzed({"--tolerance", "g1=7deg"});
-EXPECT_EQ(beyond.status, 1);
-expect_parts(beyond.out, {"beyond the tolerance: g1 7.13", "seam 0"});
+  constexpr double in_degrees = 1e-12;  // an angle near 7, from a quotient
+  EXPECT_NEAR(seam["g1_degrees"]["value"].get<double>(), 7.125016348901798, in_degrees);
+  expect_parts(expect_done(kink.analyzed()).out,
+               {"seams: G^0 at its only seam: largest angle 7.125 degrees between patch 0 and patch 1",
+                "recipe 0 (surface_join): C^0, G^0 (angle) exactly, measured C^0, G^0 (angle)"});
+  expect_done(kink.analyzed({"--tolerance", "g1=7.2deg"}));
+  const Outcome beyond = kink.analyzed({"--tolerance", "g1=7deg"});
+  EXPECT_EQ(beyond.status, 1);
+  expect_parts(beyond.out, {"beyond the tolerance: g1 7.13", "seam 0"});
 }
 
 TEST(CliAnalyzeRecipes, JoinsThatDoNotMeetAreAGap) {

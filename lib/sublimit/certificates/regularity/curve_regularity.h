@@ -32,7 +32,7 @@ struct BasisSamples {
   std::vector<double> x, value, derivative;  ///< x in parameters of the control points, 0 at the point itself
 };
 
-struct CurveRegularity {
+struct [[nodiscard]] CurveRegularity {
   Symbol mask;
   int sum_rules = 0;             ///< (1+z)^sum_rules divides the symbol
   bool independent = false;      ///< integer shifts of the basis function are linearly independent (shown)

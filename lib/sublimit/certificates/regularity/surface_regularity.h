@@ -8,7 +8,7 @@
 
 namespace sublimit {
 
-struct SurfaceRegularity {
+struct [[nodiscard]] SurfaceRegularity {
   RegularMask<Rational> mask;
   bool tensor = false;  ///< the product of two curve masks
   int sum_rules = 0;    ///< polynomials of total degree below this are generated

@@ -12,6 +12,7 @@
 #include "sublimit/base/error.h"
 #include "sublimit/base/parallel_for.h"
 #include "sublimit/certificates/all_valences.h"
+#include "sublimit/jobs/mesh_job.h"
 #include "sublimit/report/analysis/claims_json.h"
 #include "sublimit/report/analysis/knot_json.h"
 #include "sublimit/report/analysis/neighborhood.h"
@@ -64,9 +65,7 @@ void for_all(size_t count, const Job& job) {
 }  // namespace
 
 ReportedScheme reported_scheme(const std::string& name, const SchemeOptions& options) {
-  std::optional<Scheme<double>> scheme = find_scheme<double>(name, options);
-  if (!scheme) throw InvalidOption("unknown scheme '" + name + "'");
-  return {std::move(*scheme), *find_scheme<Algebraic>(name, options), options};
+  return {scheme_or_throw(name, options), scheme<Algebraic>(name, options), options};
 }
 
 Json schemes_report(const std::vector<ReportedScheme>& schemes, const ReportOptions& options) {

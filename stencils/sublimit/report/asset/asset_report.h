@@ -121,7 +121,7 @@ struct AssetWarning {
   std::optional<Eigen::Vector3d> place = {};
 };
 
-struct AssetReport {
+struct [[nodiscard]] AssetReport {
   std::string scheme;
   Index vertices = 0, faces = 0, edges = 0;
   Eigen::Vector3d box_min = Eigen::Vector3d::Zero(), box_max = Eigen::Vector3d::Zero();  ///< of the control points

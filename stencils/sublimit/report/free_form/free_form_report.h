@@ -102,7 +102,7 @@ struct FreeFormPicture {
   std::vector<CurvePicture> curves{};
 };
 
-struct FreeFormReport {
+struct [[nodiscard]] FreeFormReport {
   FreeForm shapes;  ///< what the report is about
   SplinePatches patches;
   std::vector<CurveBezier> curves;
