@@ -200,7 +200,7 @@ TEST(CliAnalyzeRecipes, DataInWholeNumbersAreDecidedWithoutRounding) {
   EXPECT_EQ(exact(matrix(textbook, R"(, "form": "textbook")"))["says"], "C^2, G^2 (curvature)");
   // The other form by mistake is found by the sums of its functions.
   expect_failure(AnalyzedRecipe(matrix(textbook, "")).analyzed(), 3,
-                 {"matrix is M of (t^n .. t 1) M P", "row for each control point", "\"form\": \"textbook\""});
+                 {"matrix: is M of (t^n .. t 1) M P", "row for each control point", "\"form\": \"textbook\""});
   // What is solved for or irrational is measured alone.
   for (const char* kind : {"interpolate_cubic", "revolution"}) {
     const RecipeJson found = AnalyzedRecipe(sample_recipe(kind)).report();

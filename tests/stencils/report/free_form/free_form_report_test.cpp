@@ -123,7 +123,7 @@ TEST(FreeFormReport, SidesAlongABoundaryHaveNoGap) {
   std::string text;
   for (int i = 0; i < 40; ++i) text += patch({V(i, 0, 0), V(i + 1, 0, 0), V(i, 1, 0), V(i + 1, 1, 0)});
   const FreeFormReport r = report_of(text);
-  EXPECT_EQ(r.seam_verdict->says, "G^2 at least at all 39 seams");
+  EXPECT_EQ(r.seam_verdict->says, "C^infinity, G^infinity at all 39 seams");
   EXPECT_EQ(count_of(r, SeamKind::boundary), 82);
   EXPECT_EQ(r.boundary_loops, 1u);
 }
