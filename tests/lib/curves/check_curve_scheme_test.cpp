@@ -74,10 +74,14 @@ TEST(CheckedCurveSchemes, HaveAffineMasks) {
 
 TEST(CheckedCurveSchemes, HaveEndsThatUseTheCurvesPoints) {
   CurveScheme<double> scheme = own();
+  scheme.masks.leg = [](const CurveSite<double>& p) {  // looks beyond the ends
+    return (9 * (p.point(0) + p.point(1)) - p.point(-1) - p.point(2)) / 16;
+  };
+  EXPECT_NO_THROW(refine(scheme, polygon(false), 1));
   scheme.ends.beyond = [](const CurveEnd<double>& end, int) { return end.point(-1); };
   expect_error<InvalidParameter>([&] { refine(scheme, polygon(false), 1); }, {"point -1", "0 to 4 exist"});
   scheme.ends.beyond = [](const CurveEnd<double>& end, int) { return end.point(0) + end.point(1); };
-  expect_error<InvalidParameter>([&] { refine(scheme, polygon(false), 1); }, {"own.point", "add up to"});
+  expect_error<InvalidParameter>([&] { refine(scheme, polygon(false), 1); }, {"own.leg", "add up to"});
 }
 
 }  // namespace
