@@ -44,7 +44,7 @@ std::pair<Points, Eigen::VectorXd> poles_of(const Points& columns) {
   for (Eigen::Index i = 0; i < poles.rows(); ++i) poles.row(i) /= weights[i];
   // A common factor means nothing, but kernels of CAD take none that are next to 0; powers of two change no digit.
   if (const double largest = weights.maxCoeff(); largest < 0x1p-20 || largest > 0x1p20)
-    weights *= std::exp2(-std::ilogb(largest));
+    for (double& weight : weights) weight = std::ldexp(weight, -std::ilogb(largest));
   return {std::move(poles), weights};
 }
 
