@@ -30,8 +30,24 @@ def compare_times(old, new):
     print(f"{len(changes['slower'])} slower, {len(changes['faster'])} faster, beyond the spread of both")
 
 
+# What a count may grow by before it is a change for the worse: a share and a constant, by the end of its name. How often
+# and how much code allocates hangs on the compiler, on libraries and on who was in the cache before; all else (entries,
+# types, points, weights) is arithmetic of mesh and scheme, and exact.
+BOUNDS = {": allocations": (0.1, 16), ": bytes allocated": (0.1, 4096), " bytes": (0.02, 256)}
+
+
+def most(what, was):
+    """The largest count that is as good as `was`. Nothing stays nothing: what allocates not at all is promised to.
+
+    >>> [most("level: types", 7), most("second apply: allocations", 0), most("grid: allocations", 100), most("table bytes", 1000)]
+    [7, 0, 126, 1276]
+    """
+    share, constant = next((bound for end, bound in BOUNDS.items() if what.endswith(end)), (0, 0))
+    return was if was == 0 else round(was * (1 + share)) + constant
+
+
 def compare_counts(old, new):
-    """@return  whether one grew or is gone, of the programs that were run"""
+    """@return  whether one grew beyond its bound or is gone, of the programs that were run"""
     worse = changed = 0
     for program, cases in new["counts"].items():
         before = old["counts"].get(program)
@@ -44,12 +60,14 @@ def compare_counts(old, new):
                 if a == b:
                     continue
                 changed += 1
+                bad = b is None or a is not None and b > most(what, a)
                 if b is None:
-                    text, bad = f"was {a:g}, is not counted any more", True
+                    text = f"was {a:g}, is not counted any more"
                 elif a is None:
-                    text, bad = f"is new: {b:.12g}", False
+                    text = f"is new: {b:.12g}"
                 else:
-                    text, bad = f"{'grew' if b > a else 'fell'} from {a:.12g} to {b:.12g}", b > a
+                    text = f"{'grew' if b > a else 'fell'} from {a:.12g} to {b:.12g}"
+                    text += f", beyond {most(what, a):.12g}" if bad else ""
                 worse += bad
                 print(f"{program}: {case}: {what} {text}")
     print(f"{changed} counts changed, {worse} of them for the worse")
@@ -58,7 +76,7 @@ def compare_counts(old, new):
 
 def compare(old, new):
     """Prints what changed.
-    @return  the exit status: 1 if a count grew or is gone"""
+    @return  the exit status: 1 if a count grew beyond its bound or is gone"""
     if old.get("quick") != new.get("quick") and any(name != "counts" for name in new["counts"]):
         print("one of the two is --quick: nothing to compare but what `counts` counts")
         old, new = ({"counts": {n: c for n, c in all["counts"].items() if n == "counts"}} for all in (old, new))

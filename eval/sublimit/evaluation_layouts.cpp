@@ -4,6 +4,7 @@
 #include <limits>
 #include <string>
 
+#include "sublimit/base/format_number.h"
 #include "sublimit/base/error.h"
 
 namespace sublimit {
@@ -56,7 +57,7 @@ EvaluationLayouts checked_layouts(const PatternTable<Real>& table, const Evaluat
   if (e.channels < least_channels || e.channels > most_channels)
     fail_evaluation(std::to_string(e.channels) + (e.rational ? " channels of rational points; " : " channels; ") +
                     std::to_string(least_channels) + " to " + std::to_string(most_channels) + " are right");
-  if (!(e.least_weight >= 0)) fail_evaluation("a least weight of " + std::to_string(e.least_weight));
+  if (!(e.least_weight >= 0)) fail_evaluation("a least weight of " + format_number(e.least_weight));
   if (e.frames < 0) fail_evaluation(std::to_string(e.frames) + " frames");
   EvaluationLayouts layouts;
   layouts.given = resolved_layout("points", e.points, table.num_control_points(), e.channels, e.frames);

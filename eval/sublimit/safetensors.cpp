@@ -215,7 +215,8 @@ void write_safetensors(const std::filesystem::path& path, Safetensors file) {
   std::int64_t at = 0;
   for (const Tensor& tensor : file.tensors) {
     const std::int64_t end = at + std::int64_t(tensor.bytes.size());
-    header += "," + json_text(tensor.name) + ":{\"dtype\":\"" + name(tensor.dtype) + "\",\"shape\":[" +
+    header += ',';
+    header += json_text(tensor.name) + ":{\"dtype\":\"" + name(tensor.dtype) + "\",\"shape\":[" +
               shape_text(tensor.shape) + "],\"data_offsets\":[" + std::to_string(at) + "," + std::to_string(end) + "]}";
     at = end;
   }

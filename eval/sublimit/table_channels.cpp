@@ -6,6 +6,7 @@
 #include <span>
 
 #include "sublimit/base/rule_words.h"
+#include "sublimit/base/format_number.h"
 #include "sublimit/base/error.h"
 
 namespace sublimit {
@@ -36,7 +37,7 @@ void check_sharpness(const char* name, const SharedArray<float>& sharpness, size
          " tags");
   for (const float s : sharpness)
     if (!std::isfinite(s) || s < 0)
-      fail(std::string(name) + " has " + std::to_string(s) + "; it should be 0 or more, where 10 is infinitely sharp");
+      fail(std::string(name) + " has " + format_number(s) + "; it should be 0 or more, where 10 is infinitely sharp");
 }
 
 }  // namespace

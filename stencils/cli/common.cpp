@@ -13,6 +13,7 @@
 
 #include "curves.h"
 #include "sublimit/base/error.h"
+#include "sublimit/base/followed_links.h"
 #include "sublimit/base/format_number.h"
 #include "sublimit/base/memory.h"
 #include "sublimit/base/rule_words.h"
@@ -25,9 +26,6 @@
 
 namespace sublimit::cli {
 namespace {
-
-std::mutex directories_mutex;
-std::vector<std::string> directories;  // of outputs, for the one who cleans up after an interrupt
 
 /// The words as CLI11's set of choices.
 CLI::IsMember one_of(std::span<const char* const> words) {
@@ -181,16 +179,19 @@ void check_output_path(const std::string& path, const std::vector<std::string>& 
   for (const std::string& known : extensions) names += (names.empty() ? "" : " or ") + known;
   if (!extensions.empty() && std::find(extensions.begin(), extensions.end(), extension) == extensions.end())
     throw InvalidOption("cannot write " + path + ": its name must end in " + names);
-  const std::filesystem::path directory = std::filesystem::path(path).parent_path();
-  if (!directory.empty() && !std::filesystem::is_directory(directory, ignored))
-    throw IoError("cannot write " + path + ": " + directory.string() + " is not a directory");
-  if (::access(directory.empty() ? "." : directory.c_str(), W_OK) != 0)
-    throw IoError("cannot write " + path + ": its directory is not writable");
-  if (std::filesystem::exists(path, ignored) && ::access(path.c_str(), W_OK) != 0)
+  const bool exists = std::filesystem::exists(path, ignored);
+  if (exists && ::access(path.c_str(), W_OK) != 0)
     throw IoError("cannot write " + path + ": the file that is there is not writable");
-  const std::lock_guard lock(directories_mutex);
-  const std::string name = directory.empty() ? "." : directory.string();
-  if (std::find(directories.begin(), directories.end(), name) == directories.end()) directories.push_back(name);
+  if (exists && !std::filesystem::is_regular_file(path, ignored)) return;  // written in place
+  const std::filesystem::path end = exists ? std::filesystem::canonical(path, ignored) : followed_links(path);
+  const std::filesystem::path directory = directory_of(end);
+  const std::string link =
+      std::filesystem::is_symlink(path, ignored) ? "it is a link to " + end.string() + ", and " : "";
+  if (!std::filesystem::is_directory(directory, ignored))
+    throw IoError("cannot write " + path + ": " + link + directory.string() + " is not a directory");
+  if (::access(directory.c_str(), W_OK) != 0)
+    throw IoError("cannot write " + path + ": " + (link.empty() ? "its directory" : link + directory.string()) +
+                  " is not writable");
 }
 
 void check_not_sidecar(const std::string& option, const std::string& path, const std::string& mesh) {
@@ -202,8 +203,8 @@ void check_not_sidecar(const std::string& option, const std::string& path, const
 void check_disk(const std::string& what, const std::string& path, double bytes, const std::string& advice) {
   std::error_code failed;
   if (std::filesystem::exists(path, failed) && !std::filesystem::is_regular_file(path, failed)) return;
-  const std::filesystem::path directory = std::filesystem::path(path).parent_path();
-  const auto room = static_cast<double>(std::filesystem::space(directory.empty() ? "." : directory, failed).available);
+  const std::filesystem::path directory = directory_of(followed_links(path));
+  const auto room = static_cast<double>(std::filesystem::space(directory, failed).available);
   if (!failed && bytes > room)
     throw ResourceError(what + " take about " + bytes_in_words(bytes) + " of disk; " + path + " has room for " +
                         bytes_in_words(room) + "; " + advice);
@@ -211,13 +212,8 @@ void check_disk(const std::string& what, const std::string& path, double bytes, 
 
 void make_output_directory(const std::string& path) {
   std::error_code failed;
-  std::filesystem::create_directories(path, failed);
+  std::filesystem::create_directories(followed_links(path), failed);
   if (failed) throw IoError("cannot make the directory " + path + ": " + failed.message());
-}
-
-std::vector<std::string> output_directories() {
-  const std::lock_guard lock(directories_mutex);
-  return directories;
 }
 
 Progress::Progress(bool quiet) {

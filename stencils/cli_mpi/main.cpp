@@ -1,9 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // `sublimit-mpi`: one mesh by many processes.
+#include <fmt/core.h>
+
+#include "../cli/command_line.h"
+#include "../cli/input_files.h"
+#include "../cli/standard_streams.h"
 #include "commands.h"
 
 int main(int argc, char** argv) {
   using namespace sublimit;
+  cli::prepare_standard_streams();
   const Ranks ranks(argc, argv);
   CLI::App app("One mesh by many processes: mpirun -n N sublimit-mpi ...", "sublimit-mpi");
   app.require_subcommand(1);
@@ -22,14 +28,15 @@ int main(int argc, char** argv) {
     std::string said;
     for (int i = 1; i < argc; ++i) said += (i > 1 ? " " : "") + std::string(argv[i]);
     check_alike(ranks, said, "options");  // first of all: who refuses its own would not be there for the others
-    try {
-      app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-      const int given = ranks.is_first() ? app.exit(error) : int(error.get_exit_code());
-      misuse = given == 0 ? 0 : 2;
-      return;
+    const cli::ParsedCommandLine line = cli::parse_command_line(app, argc, argv);
+    if (ranks.is_first()) {
+      fmt::print("{}", line.out);
+      fmt::print(stderr, "{}", line.err);
     }
+    misuse = line.status;
+    if (!line.runs) return;
+    ranks.together([&] { cli::check_input_files(*app.get_subcommands().front()); });
     verdict = chosen(ranks);
   });
-  return status != 0 ? status : misuse != 0 ? misuse : verdict;
+  return cli::finish_standard_streams("sublimit-mpi", status != 0 ? status : misuse != 0 ? misuse : verdict);
 }

@@ -2,6 +2,9 @@
 // sample: the limit anywhere.
 #include <fmt/core.h>
 
+#include <cstdint>
+#include <limits>
+
 #include "commands.h"
 #include "sublimit/base/error.h"
 #include "sublimit/distributed/sample_job.h"
@@ -60,7 +63,7 @@ void add_sample(CLI::App& app, Command& chosen) {
   command->add_option("--grid", request.grid, "N x N places a face, ends included, u fastest; triangles N (N + 1) / 2")
       ->check(CLI::Range(2, 1 << 15));
   command->add_option("--random", request.num_random, "N places, uniform over faces and parameters")
-      ->check(CLI::NonNegativeNumber);
+      ->check(CLI::Range(std::int64_t{0}, std::numeric_limits<std::int64_t>::max()));
   command->add_option("--seed", options->seed, "Of --random: the same places for a seed everywhere (default 0)");
   command
       ->add_option("--derivatives", request.columns.derivatives,

@@ -7,6 +7,7 @@
 #include "sublimit/schemes.h"
 #include "support/averaging_blocks.h"
 #include "support/laws.h"
+#include "support/lost_normals.h"
 #include "support/published_values.h"
 #include "support/tolerance.h"
 
@@ -46,29 +47,13 @@ TEST(PublishedValues, AreOfRegisteredSchemesAlone) {
   }
 }
 
-/// Whether a scheme has no normal there, by what is next to the place, and why. LimitsAgreeBetweenLevels compares the
-/// normals of all other places.
-bool has_no_normal(const std::string& scheme, const NormalPlace& place) {
-  const bool inside = !place.one_sided, border = place.one_sided && !place.corner;
-  // Every edge at a vertex shrinks by 1/2 for itself, and they are three or more.
-  if (scheme == "bilinear") return place.faces > 1;
-  // Two modes of 1/4 beside the one along the border: with one or two faces the control points take both in the same
-  // direction (LimitMasks::Plane::tied), with more they need not. Even levels keep border vertices, with one face.
-  if (scheme.starts_with("mid-edge")) return border && place.from_faces >= 3;
-  // Inside, block 2 shrinks no faster than block 1 (its valence-3 case a Jordan block), which the modification mends;
-  // on borders, modes of the inside shrink no faster than the one along them.
-  if (scheme == "butterfly" && inside) return place.faces == 3 || place.faces >= 8;
-  if (scheme == "butterfly" || scheme == "modified-butterfly") return border && (place.faces == 4 || place.faces == 5);
-  if (scheme == "kobbelt") return border && place.faces >= 3;
-  return false;
-}
-
+// LimitsAgreeBetweenLevels compares the normals of all places that have one.
 TEST(NormalPlaces, HaveNormalsButWhereTangentPlanesAreLost) {
   for (const Scheme<double>& scheme : all_schemes()) {
     int defined = 0;
     for (const NormalPlace& place : normal_places(scheme)) {
       defined += place.defined;
-      EXPECT_EQ(place.defined, !has_no_normal(scheme.name, place))
+      EXPECT_EQ(place.defined, !has_no_normal(scheme, place))
           << scheme.name << ", mesh " << place.mesh << ", level " << place.level << ", vertex " << place.vertex << ": "
           << place.faces << " faces" << (place.one_sided ? ", one side" : "") << (place.corner ? ", a corner" : "");
     }

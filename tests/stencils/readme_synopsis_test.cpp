@@ -7,6 +7,7 @@
 
 #include "stencils/cli_program.h"
 #include "stencils/readme_commands.h"
+#include "stencils/subcommands.h"
 
 namespace sublimit::testing {
 namespace {
@@ -26,11 +27,8 @@ std::set<std::string> options_in(const std::string& text) {
 /// Verbs of the program by its own help, and what options each has.
 const std::map<std::string, std::set<std::string>>& verbs() {
   static const std::map<std::string, std::set<std::string>> all = [] {
-    const std::string help = expect_done(sublimit({"--help"})).out;
     std::map<std::string, std::set<std::string>> found;
-    static const std::regex verb(R"(\n  ([a-z]+)  )");
-    for (const std::string& name : matches(help.substr(help.find("Subcommands:")), verb))
-      found[name] = options_in(expect_done(sublimit({name, "--help"})).out);
+    for (const std::string& name : subcommands()) found[name] = options_in(expect_done(sublimit({name, "--help"})).out);
     return found;
   }();
   return all;

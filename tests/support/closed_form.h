@@ -15,6 +15,8 @@ namespace sublimit::testing {
 inline constexpr double closed_form = 1e-12;
 /// What eight printed decimals can tell, some of them cut off instead of rounded, and ratios with three.
 inline constexpr double eight_cut_decimals = 1e-8, three_decimals = 5.1e-4;
+/// Half of the last of so many printed decimals, and rounding.
+inline constexpr double four_decimals = 5.1e-5, five_decimals = 5.1e-6, six_decimals = 5.1e-7;
 
 /// The limit of a lone vertex of valence n, or of a lone n-gon if the scheme is dual.
 LoneLimit lone_centre(const std::string& name, int n, const SchemeOptions& options = {});

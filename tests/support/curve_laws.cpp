@@ -7,6 +7,7 @@
 #include "sublimit/core/dense_decompositions.h"
 #include "sublimit/curves/curve_limits.h"
 #include "sublimit/curves/schemes/curve_schemes.h"
+#include "support/stationary.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {
@@ -280,7 +281,7 @@ std::string spectrum_fits_the_claim(const Scheme& scheme) {
   Eigen::VectorXd moduli = eigenvalues(analysis.neighborhood(CurveAnchor::inside).A).cwiseAbs();
   std::sort(moduli.begin(), moduli.end(), std::greater<>());
   const int r = scheme.claims.regular;
-  for (int i = 0; i <= r && scheme.name != "trigonometric-cubic"; ++i)
+  for (int i = 0; i <= r && is_stationary(scheme); ++i)
     if (std::abs(moduli[i] - std::pow(0.5, i)) > 1e-9)
       return "eigenvalue " + std::to_string(i) + " is " + std::to_string(moduli[i]);
   if (moduli[r + 1] > std::pow(0.5, r) * (r > 0 ? 0.9999 : 1))

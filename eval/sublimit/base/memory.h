@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cstdint>
 #include <limits>
 #include <string>
 
@@ -33,8 +34,8 @@ inline std::string bytes_in_words(double bytes) {
     bytes /= 1000;
     ++unit;
   }
-  const std::string number = std::to_string(bytes);
-  return number.substr(0, number.find('.') + 2) + " " + units[unit];
+  const auto tenths = static_cast<std::int64_t>(10 * bytes);
+  return std::to_string(tenths / 10) + "." + std::to_string(tenths % 10) + " " + units[unit];
 }
 
 /// `this machine has 16.0 GB`, or `the limit is 1.0 GB`.

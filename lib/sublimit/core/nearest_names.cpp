@@ -25,11 +25,12 @@ size_t edit_distance(const std::string& a, const std::string& b) {
 
 }  // namespace
 
+std::size_t name_distance(const std::string& name, const std::string& other) {
+  return !name.empty() && other.starts_with(name) ? 0 : edit_distance(name, other);
+}
+
 std::vector<std::string> nearest_names(const std::string& name, std::vector<std::string> names, int count) {
-  // A prefix ("catmull") counts as nearer than any misspelling.
-  const auto distance = [&](const std::string& other) {
-    return !name.empty() && other.starts_with(name) ? 0 : edit_distance(name, other);
-  };
+  const auto distance = [&](const std::string& other) { return name_distance(name, other); };
   std::stable_sort(names.begin(), names.end(), [&](const auto& a, const auto& b) { return distance(a) < distance(b); });
   names.resize(std::min(names.size(), static_cast<size_t>(count)));
   return names;

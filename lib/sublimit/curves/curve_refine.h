@@ -176,15 +176,15 @@ CurveLevelOf<T> next_level(const CurveScheme<T>& scheme, const CurveLevelOf<T>& 
 /// Levels 0 to `levels`.
 /// @param progress  called before each level with its number, if given
 /// @throws InvalidParameter  negative `levels`; and what control_level and next_level throw
-std::vector<CurveLevel> refine(const CurveScheme<double>& scheme, const ControlPolygon& polygon, int levels,
-                               const std::function<void(int)>& progress = {});
+[[nodiscard]] std::vector<CurveLevel> refine(const CurveScheme<double>& scheme, const ControlPolygon& polygon,
+                                             int levels, const std::function<void(int)>& progress = {});
 
 /// Level k from the control points: S_{k-1} ... S_0 and the choice of level 0.
-SparseMatrix refinement_matrix(const std::vector<CurveLevel>& levels);
+[[nodiscard]] SparseMatrix refinement_matrix(const std::vector<CurveLevel>& levels);
 
 /// What the columns of a scheme's matrices stand for: the points, in a Hermite scheme each followed by its derivative.
 /// @throws InvalidMesh  a Hermite scheme and a polygon without tangents
-Points unknowns(const CurveScheme<double>& scheme, const ControlPolygon& polygon);
+[[nodiscard]] Points unknowns(const CurveScheme<double>& scheme, const ControlPolygon& polygon);
 
 /// The curves of a level, without points.
 ControlPolygon curve_outlines(const CurveLevel& level);

@@ -25,7 +25,9 @@ class CurveSite;
 template <class T>
 class CurveEnd {
  public:
+  /// @param site  which must stay
   CurveEnd(const CurveSite<T>& site, bool left) : site_(&site), left_(left) {}
+  CurveEnd(const CurveSite<T>&&, bool) = delete;
   /// The end point (0), its neighbour (1), and so on into the polygon.
   Stencil<T> point(int i) const { return site_->from_end(i, left_); }
   static T ratio(int p, int q) { return Number<T>::ratio(p, q); }
@@ -54,8 +56,10 @@ class CurveSite {
   /// A site away from ends.
   explicit CurveSite(int level, int unknowns = 1) : level_(level), unknowns_(unknowns) {}
   /// Point `at` of an open polygon.
+  /// @param ends  which must stay
   CurveSite(int level, const CurveEnds<T>& ends, bool dual, Index at, Index size)
       : level_(level), ends_(&ends), at_(at), size_(size), margin_(dual ? 1 : 0) {}
+  CurveSite(int, const CurveEnds<T>&&, bool, Index, Index) = delete;
 
   /// The point i steps further along the curve.
   Stencil<T> point(int i) const { return ends_ ? absolute(at_ + i) : Stencil<T>(unknowns_ * i); }

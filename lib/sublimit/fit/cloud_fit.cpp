@@ -7,6 +7,7 @@
 #include <cmath>
 #include <string>
 
+#include "sublimit/base/format_number.h"
 #include "sublimit/base/error.h"
 
 namespace sublimit {
@@ -24,20 +25,20 @@ void check(const Cloud& cloud, const CloudFitOptions& o) {
   double sum = cloud.weights.empty() ? 1 : 0;
   for (size_t i = 0; i < cloud.weights.size(); ++i) {
     if (!(cloud.weights[i] >= 0 && std::isfinite(cloud.weights[i])))
-      throw InvalidParameter("point " + std::to_string(i) + " has the weight " + std::to_string(cloud.weights[i]) +
+      throw InvalidParameter("point " + std::to_string(i) + " has the weight " + format_number(cloud.weights[i]) +
                              "; it must be a number >= 0");
     sum += cloud.weights[i];
   }
   if (!(sum > 0)) throw InvalidParameter("no point of the cloud has a weight > 0");
   if (!(o.tangential > 0 && o.tangential <= 1))
-    throw InvalidParameter("what is along the surface counts " + std::to_string(o.tangential) +
+    throw InvalidParameter("what is along the surface counts " + format_number(o.tangential) +
                            "; it must be > 0 and <= 1");
   if (o.max_iterations < 0 || !(o.tolerance >= 0))
     throw InvalidParameter("at most " + std::to_string(o.max_iterations) + " iterations to the tolerance " +
-                           std::to_string(o.tolerance) + "; both must be >= 0");
+                           format_number(o.tolerance) + "; both must be >= 0");
   for (const double factor : o.schedule)
     if (!(factor >= 0 && std::isfinite(factor)))
-      throw InvalidParameter("the schedule has the factor " + std::to_string(factor) + "; they must be numbers >= 0");
+      throw InvalidParameter("the schedule has the factor " + format_number(factor) + "; they must be numbers >= 0");
 }
 
 /// The rows of every coordinate of every vertex: columns by vertex, then coordinate.

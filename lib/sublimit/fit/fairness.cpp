@@ -7,6 +7,7 @@
 
 #include "sublimit/base/error.h"
 #include "sublimit/base/parallel_for.h"
+#include "sublimit/base/format_number.h"
 #include "sublimit/limit/quadrature.h"
 
 namespace sublimit {
@@ -173,7 +174,8 @@ SparseMatrix sum(const std::vector<LocalEnergy>& parts, Index n) {
   double entries = 0;
   for (const auto& row : rows) entries += double(row.size());
   if (entries > double(std::numeric_limits<Index>::max()))
-    throw ResourceError("an energy of " + std::to_string(entries) + " entries, more than 32-bit indices count");
+    throw ResourceError("an energy of " + std::to_string(std::int64_t(entries)) +
+                        " entries, more than 32-bit indices count");
   H.reserve(Eigen::Index(entries));
   for (Index v = 0; v < n; ++v) {
     H.startVec(v);
@@ -186,7 +188,7 @@ SparseMatrix sum(const std::vector<LocalEnergy>& parts, Index n) {
 void check(const Fairness& f) {
   const auto weight = [](double w, const char* name) {
     if (!(w >= 0) || !std::isfinite(w))
-      throw InvalidParameter("the weight of " + std::string(name) + " energy is " + std::to_string(w) +
+      throw InvalidParameter("the weight of " + std::string(name) + " energy is " + format_number(w) +
                              "; it must be a number >= 0");
   };
   weight(f.thin_plate, "thin plate");

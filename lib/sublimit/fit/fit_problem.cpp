@@ -6,6 +6,7 @@
 
 #include "sublimit/base/error.h"
 #include "sublimit/core/sparse_product.h"
+#include "sublimit/base/format_number.h"
 #include "sublimit/fit/fit_terms.h"
 
 namespace sublimit {
@@ -47,7 +48,7 @@ void check(const FitProblem& problem) {
               std::to_string(problem.A.rows()) + " rows");
   for (Eigen::Index i = 0; i < problem.weights.size(); ++i)
     require(problem.weights[i] >= 0 && std::isfinite(problem.weights[i]), "weight " + std::to_string(i) + " is " +
-                                                                              std::to_string(problem.weights[i]) +
+                                                                              format_number(problem.weights[i]) +
                                                                               "; weights are finite and not negative");
   if (problem.H.rows() == 0 && problem.H.cols() == 0) return;
   require(problem.H.rows() == problem.x0.rows() && problem.H.cols() == problem.x0.rows(),

@@ -9,6 +9,7 @@
 #include "sublimit/fit/for_coordinates.h"
 #include "sublimit/fit/unit_frame.h"
 #include "sublimit/fit/vertex_conditions.h"
+#include "sublimit/limit/limit_surface.h"
 #include "sublimit/neighborhood/vertex_sides.h"
 #include "sublimit/scheme/check_levels.h"
 

@@ -6,6 +6,7 @@
 
 #include "sublimit/base/error.h"
 #include "sublimit/base/parallel_for.h"
+#include "sublimit/base/format_number.h"
 #include "sublimit/fit/scattered_fit.h"
 
 namespace sublimit {
@@ -21,7 +22,7 @@ void check(const FaceCount& faces, const Sample& s, size_t i) {
   if (!std::isfinite(s.u) || !std::isfinite(s.v)) error("its parameters u, v are not finite numbers");
   const bool inside = s.u >= 0 && s.v >= 0 && (faces.triangles ? s.u + s.v <= 1 : s.u <= 1 && s.v <= 1);
   if (!inside)
-    error("(" + std::to_string(s.u) + ", " + std::to_string(s.v) + ") is outside of face " + std::to_string(s.face) +
+    error("(" + format_number(s.u) + ", " + format_number(s.v) + ") is outside of face " + std::to_string(s.face) +
           ", the " + (faces.triangles ? "triangle u, v >= 0, u + v <= 1" : "square 0 <= u, v <= 1"));
 }
 
@@ -49,7 +50,7 @@ SparseMatrix place_rows(const LinearSource& surface, const std::vector<Sample>& 
     entries += double(stencils[i].vertices.size());
   }
   if (entries > double(std::numeric_limits<Index>::max()))
-    throw ResourceError("rows of " + std::to_string(count) + " targets with " + std::to_string(entries) +
+    throw ResourceError("rows of " + std::to_string(count) + " targets with " + std::to_string(std::int64_t(entries)) +
                         " weights; 32-bit indices count fewer");
   SparseMatrix A(Index(count), surface.num_points());
   A.reserve(Eigen::Index(entries));

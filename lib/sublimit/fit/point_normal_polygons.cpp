@@ -14,6 +14,7 @@
 #include "sublimit/core/sparse_product.h"
 #include "sublimit/fit/plane_polygon.h"
 #include "sublimit/fit/vertex_limits.h"
+#include "sublimit/base/format_number.h"
 #include "sublimit/limit/limit_rows.h"
 
 namespace sublimit {
@@ -38,7 +39,7 @@ void check(const Scheme<double>& scheme, const ControlMesh& mesh, const std::vec
   if (!scheme.is_dual())
     throw InvalidParameter(scheme.name + ": its vertices do not become faces; interpolate points and normals instead");
   if (!(options.size > 0 && options.size < 1))
-    throw InvalidParameter("size " + std::to_string(options.size) + " of polygons is not between 0 and 1");
+    throw InvalidParameter("size " + format_number(options.size) + " of polygons is not between 0 and 1");
   if (mesh.positions.cols() != 3)
     throw InvalidMesh("points need 3 coordinates, not " + std::to_string(mesh.positions.cols()));
   for (Index v = 0; v < mesh.num_vertices(); ++v)

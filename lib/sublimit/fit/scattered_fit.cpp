@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "sublimit/base/format_number.h"
 #include "sublimit/base/error.h"
 
 namespace sublimit {
@@ -32,7 +33,7 @@ void check(const PlaceTargets& targets, const Points& guess, Index num_points) {
     if (!targets.values.row(Eigen::Index(i)).allFinite())
       throw InvalidParameter("target " + std::to_string(i) + ": its values are not all finite numbers");
     if (!targets.weights.empty() && !(targets.weights[i] >= 0 && std::isfinite(targets.weights[i])))
-      throw InvalidParameter("target " + std::to_string(i) + ": its weight is " + std::to_string(targets.weights[i]) +
+      throw InvalidParameter("target " + std::to_string(i) + ": its weight is " + format_number(targets.weights[i]) +
                              "; it must be a number >= 0");
   }
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "sublimit/base/format_number.h"
 #include "sublimit/base/error.h"
 
 namespace sublimit {
@@ -34,7 +35,7 @@ void check_inside(const FaceCount& faces, const Sample& s) {
     throw InvalidParameter("face " + std::to_string(s.face) + " does not exist; there are " +
                            std::to_string(faces.size) + (faces.triangles ? " triangles" : " squares"));
   if (!is_inside(faces, s))
-    throw InvalidParameter("(" + std::to_string(s.u) + ", " + std::to_string(s.v) + ") is outside the " +
+    throw InvalidParameter("(" + format_number(s.u) + ", " + format_number(s.v) + ") is outside the " +
                            (faces.triangles ? "triangle u, v >= 0, u + v <= 1" : "square 0 <= u, v <= 1"));
 }
 
@@ -54,9 +55,9 @@ Sample from_bfr(Index corners, const BfrParameter& p) {
   const double column = std::floor(p.u), row = std::floor(p.v);
   const double u = 2 * (p.u - column), v = 2 * (p.v - row);
   if (!(column >= 0 && column < w && row >= 0 && row * w + column < corners && u <= 1 && v <= 1))
-    throw InvalidParameter("(" + std::to_string(p.u) + ", " + std::to_string(p.v) +
-                           ") is in no square of a polygon of " + std::to_string(corners) +
-                           " corners; squares are half a unit wide, " + std::to_string(w) + " in a row");
+    throw InvalidParameter("(" + format_number(p.u) + ", " + format_number(p.v) + ") is in no square of a polygon of " +
+                           std::to_string(corners) + " corners; squares are half a unit wide, " + std::to_string(w) +
+                           " in a row");
   return {static_cast<Index>(row * w + column), u, v};
 }
 

@@ -7,13 +7,12 @@
 #include <atomic>
 #include <cmath>
 #include <cstdint>
-#include <map>
-#include <mutex>
 #include <tuple>
 #include <utility>
 #include <vector>
 
 #include "sublimit/base/error.h"
+#include "sublimit/base/found_once.h"
 #include "sublimit/base/parallel_for.h"
 #include "sublimit/core/finite_points.h"
 #include "sublimit/limit/closed_surface.h"
@@ -118,13 +117,11 @@ class PieceRules {
  public:
   const PieceRule& of(const PiecePolynomial& p) {
     const bool halves = p.coefficients.size() > 1;
-    const std::lock_guard lock(mutex_);
-    return rules_.try_emplace({p.basis.degree(), p.basis.total(), halves}, p.basis, halves).first->second;
+    return rules_.get({p.basis.degree(), p.basis.total(), halves}, [&] { return PieceRule(p.basis, halves); });
   }
 
  private:
-  std::mutex mutex_;
-  std::map<std::tuple<int, bool, bool>, PieceRule> rules_;
+  FoundByKey<std::tuple<int, bool, bool>, PieceRule> rules_;
 };
 
 class Integrator {

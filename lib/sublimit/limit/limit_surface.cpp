@@ -193,7 +193,7 @@ LimitStencil LimitSurface::Parts::stencil(Found found) const {
 
 Index LimitSurface::num_points() const { return level().topology().num_vertices(); }
 
-std::unique_ptr<BoundSource> LimitSurface::bound(const Points& points) const {
+std::unique_ptr<BoundSource> LimitSurface::bound(const Points& points) const& {
   return std::make_unique<BoundLimitSurface>(*this, points);
 }
 

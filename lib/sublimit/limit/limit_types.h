@@ -2,12 +2,11 @@
 #pragma once
 // The dictionary of a scheme: what its limits need to know of neighbourhoods, each found once, by signature, when it is
 // first asked for. Shared between meshes, surfaces and threads; grows by types, not by vertices.
-#include <tbb/concurrent_unordered_map.h>
-
-#include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 
+#include "sublimit/base/found_once.h"
 #include "sublimit/core/signature_hash.h"
 #include "sublimit/limit/limit_masks.h"
 #include "sublimit/neighborhood/piece_types.h"
@@ -35,7 +34,7 @@ class LimitTypes {
   void check(const Level& level);
   /// Levels of whoever made this one have been checked already.
   void trust(const Level& level);
-  /// Of vertices, faces and borders.
+  /// Types of vertices, faces and borders that are known.
   size_t num_types() const { return types_.size() + lone_.size(); }
 
  private:
@@ -43,9 +42,8 @@ class LimitTypes {
   PieceTypes pieces_;
   std::mutex made_by_mutex_;
   std::weak_ptr<const Scheme<double>> made_by_;  // of the level that was checked last
-  std::mutex mutex_;                             // of lone_
-  std::map<LocalType, std::optional<LoneLimit>> lone_;
-  tbb::concurrent_unordered_map<std::vector<std::uint32_t>, std::shared_ptr<const LimitMasks>, SignatureHash> types_;
+  FoundByKey<LocalType, std::optional<LoneLimit>> lone_;
+  FoundByKey<std::vector<std::uint32_t>, LimitMasks, SignatureHash> types_;
 };
 
 }  // namespace sublimit

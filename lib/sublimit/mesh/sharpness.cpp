@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <string>
 
+#include "sublimit/base/format_number.h"
 #include "sublimit/base/error.h"
 
 namespace sublimit {
@@ -41,7 +42,7 @@ std::vector<float> sharpness_around(const Topology& topology, const Sharpness& s
 
 float checked(float sharpness, const std::string& where) {
   if (!(sharpness >= 0))
-    throw InvalidMesh(where + " has sharpness " + std::to_string(sharpness) + "; it must be >= 0 (>= 10 is infinite)");
+    throw InvalidMesh(where + " has sharpness " + format_number(sharpness) + "; it must be >= 0 (>= 10 is infinite)");
   return std::min(sharpness, infinite_sharpness);
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "sublimit/base/format_number.h"
 #include "sublimit/base/error.h"
 
 namespace sublimit {
@@ -18,7 +19,7 @@ WeightedSource::WeightedSource(const PatchSet& patches, Eigen::VectorXd weights)
                            " control points; one each is right");
   for (Eigen::Index i = 0; i < weights_.size(); ++i)
     if (!std::isfinite(weights_[i]) || weights_[i] == 0)
-      throw InvalidParameter("the weight of point " + std::to_string(i) + " is " + std::to_string(weights_[i]) +
+      throw InvalidParameter("the weight of point " + std::to_string(i) + " is " + format_number(weights_[i]) +
                              "; it must be finite, and not 0: that would be a direction, not a point");
 }
 

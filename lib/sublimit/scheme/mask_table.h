@@ -31,9 +31,15 @@ class MaskTable {
     Index count() const { return static_cast<Index>(has_zeros ? kept.size() : this->size()); }
   };
 
-  /// @param scheme  name of the scheme that the masks are of
+  /// @param scheme  name of the scheme that the masks are of; must stay, as the masks must
   MaskTable(const std::string& scheme, const Masks<T>& masks, int level)
       : scheme_(&scheme), masks_(&masks), level_(level) {}
+  MaskTable(const std::string&&, const Masks<T>&, int) = delete;
+  MaskTable(const std::string&, const Masks<T>&&, int) = delete;
+  MaskTable(const std::string&&, const Masks<T>&&, int) = delete;
+  MaskTable(MaskTable&&) = default;
+  MaskTable(const MaskTable&) = delete;  // it points to weights of its own
+  MaskTable& operator=(const MaskTable&) = delete;
 
   const Weights& face(Index size) {
     Weights& weights = at(faces_, size);
@@ -265,6 +271,8 @@ class MaskTable {
 template <Index N>
 class UniformFaces {
  public:
+  /// @param t  which must stay
+  explicit UniformFaces(const Topology&& t) = delete;
   explicit UniformFaces(const Topology& t) : t_(t), tails_(t.num_faces() > 0 ? t.vertices(Face{0}).data() : nullptr) {}
   Index size(Face) const { return N; }
   Face face(HalfEdge h) const { return Face{index(h) / N}; }

@@ -74,14 +74,15 @@ LevelOf<T> next_level(const Scheme<T>& scheme, const LevelOf<T>& parent);
 /// @throws UnsupportedTopology  a face that the scheme cannot take
 /// @throws ResourceError     more elements than 32-bit indices, or more memory than the machine has; predicted before
 ///                           memory is taken
-std::vector<Level> refine(const Scheme<double>& scheme, const ControlMesh& mesh, int levels,
-                          const SubdivisionOptions& options = {}, const std::function<void(int)>& progress = {});
+[[nodiscard]] std::vector<Level> refine(const Scheme<double>& scheme, const ControlMesh& mesh, int levels,
+                                        const SubdivisionOptions& options = {},
+                                        const std::function<void(int)>& progress = {});
 /// The same from a control level that is there.
-std::vector<Level> refine(const Scheme<double>& scheme, Level control, int levels,
-                          const std::function<void(int)>& progress = {});
+[[nodiscard]] std::vector<Level> refine(const Scheme<double>& scheme, Level control, int levels,
+                                        const std::function<void(int)>& progress = {});
 
 /// P_k = S_{k-1} ... S_0: level k from the control points. The identity for k = 0.
-SparseMatrix refinement_matrix(const std::vector<Level>& levels);
+[[nodiscard]] SparseMatrix refinement_matrix(const std::vector<Level>& levels);
 
 /// Vertices of a level; exact but for dual steps across borders.
 double predicted_vertices(const Scheme<double>& scheme, const Topology& control, int level);
@@ -114,6 +115,6 @@ int rings_for_refinement(const Scheme<double>& scheme);
 
 /// The children of the chosen faces (all of them are chosen again), without touching the rest of the mesh. Rows of
 /// `level.S` are the rows that refining the whole mesh would give, over the vertices of `part`.
-Subset refine(const Scheme<double>& scheme, const Subset& part);
+[[nodiscard]] Subset refine(const Scheme<double>& scheme, const Subset& part);
 
 }  // namespace sublimit

@@ -14,6 +14,7 @@
 #include "sublimit/search/box_tree.h"
 #include "sublimit/search/distance_bound.h"
 #include "sublimit/search/foot_point.h"
+#include "sublimit/base/format_number.h"
 #include "sublimit/search/winding.h"
 
 namespace sublimit {
@@ -169,7 +170,7 @@ void check(const SearchedSurface& surface, const Points& queries, const ClosestP
   for (const Sample& s : guess)
     if (!is_inside(surface.faces(), s))
       throw InvalidParameter("a place to begin with is on no face: face " + std::to_string(s.face) + " (" +
-                             std::to_string(s.u) + ", " + std::to_string(s.v) + ")");
+                             format_number(s.u) + ", " + format_number(s.v) + ")");
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "sublimit/base/error.h"
+#include "sublimit/base/format_number.h"
 #include "sublimit/limit/net_derivatives.h"
 
 namespace sublimit {
@@ -47,7 +48,7 @@ class Halves {
 
 BezierCells bezier_cells(const LimitSurface& surface, const Points& control, double chord, std::int64_t max_cells) {
   if (!(chord > 0) || !std::isfinite(chord))
-    throw InvalidParameter("the chord is " + std::to_string(chord) + "; a distance above 0 is right");
+    throw InvalidParameter("the chord is " + format_number(chord) + "; a distance above 0 is right");
   const bool triangle = surface.faces().triangles;
   const size_t corners = triangle ? 3 : 4;
   FlatCellOptions options{.chord = chord, .max_triangles = max_cells, .whole_polynomials = true};

@@ -10,6 +10,7 @@
 #include "sublimit/limit/limit_patches.h"
 #include "sublimit/tessellation/cell_polygon.h"
 #include "sublimit/tessellation/cell_vertices.h"
+#include "sublimit/base/format_number.h"
 #include "sublimit/tessellation/flat_cells.h"
 
 namespace sublimit {
@@ -30,9 +31,9 @@ void add_between(const CellVertices& vertices, Index address, const CellCorner& 
 
 void check(const TessellationOptions& options) {
   if (!(options.chord > 0) || !std::isfinite(options.chord))
-    throw InvalidParameter("the chord is " + std::to_string(options.chord) + "; a distance above 0 is right");
+    throw InvalidParameter("the chord is " + format_number(options.chord) + "; a distance above 0 is right");
   if (!(options.angle >= 0) || !std::isfinite(options.angle))
-    throw InvalidParameter("the angle is " + std::to_string(options.angle) + "; 0 or more is right");
+    throw InvalidParameter("the angle is " + format_number(options.angle) + "; 0 or more is right");
   if (options.max_triangles < 1)
     throw InvalidParameter("at most " + std::to_string(options.max_triangles) + " triangles; 1 or more is right");
 }

@@ -4,6 +4,7 @@
 #include "own_schemes.h"
 
 #include <pybind11/stl.h>
+#include <tbb/task_arena.h>
 
 #include <map>
 #include <mutex>
@@ -26,7 +27,8 @@ namespace {
 template <class T>
 class KnownStencils {
  public:
-  /// make() calls Python, one at a time: others wait here, without the GIL that it needs.
+  /// make() calls Python, one at a time: others wait here, without the GIL that it needs. What Python does is its own,
+  /// so the thread takes up no work of ours meanwhile, which might wait here too.
   template <class Make>
   Stencil<T> find(std::pair<std::string, std::vector<int>> type, const Make& make) {
     std::unique_lock lock(calling_, std::try_to_lock);
@@ -37,7 +39,7 @@ class KnownStencils {
     }
     const auto known = stencils_.find(type);
     if (known != stencils_.end()) return known->second;
-    Stencil<T> made = make();
+    Stencil<T> made = tbb::this_task_arena::isolate(make);
     return stencils_.emplace(std::move(type), std::move(made)).first->second;
   }
 

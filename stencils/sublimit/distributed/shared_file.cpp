@@ -13,6 +13,7 @@
 
 #include "sublimit/base/error.h"
 #include "sublimit/base/file_error.h"
+#include "sublimit/base/followed_links.h"
 
 namespace sublimit {
 namespace {
@@ -55,13 +56,15 @@ void make_room(const std::filesystem::path& target, const std::filesystem::path&
 }  // namespace
 
 SharedFile::SharedFile(const Ranks& ranks, const std::filesystem::path& target, std::int64_t bytes)
-    : ranks_(ranks),
-      target_(target),
-      temporary_(target.parent_path() / ("." + target.filename().string() + ".shared.tmp")) {
+    : ranks_(ranks), target_(target), destination_(target) {
   std::signal(SIGTERM, remove_temporary);
   ranks.together([&] {
     if (!target_.has_filename() || std::filesystem::is_directory(target_))
       throw_file_error(target_, "write", EISDIR, "name a file");
+    if (std::filesystem::exists(target_) && !std::filesystem::is_regular_file(target_))
+      throw_file_error(target_, "write", ESPIPE, "ranks write at places of their own; name a file");
+    destination_ = followed_links(target_);
+    temporary_ = destination_.parent_path() / ("." + destination_.filename().string() + ".shared.tmp");
     remember(temporary_);
     if (ranks_.is_first()) make_room(target_, temporary_, bytes);
   });
@@ -98,7 +101,7 @@ void SharedFile::commit() {
     if (error != MPI_SUCCESS) throw_io_error(target_, error);
   });
   ranks_.together([&] {
-    if (ranks_.is_first() && std::rename(temporary_.c_str(), target_.c_str()) != 0)
+    if (ranks_.is_first() && std::rename(temporary_.c_str(), destination_.c_str()) != 0)
       throw_file_error(target_, "write", errno);
     temporary_.clear();
   });

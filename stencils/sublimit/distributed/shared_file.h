@@ -13,9 +13,12 @@ namespace sublimit {
 
 class SharedFile {
  public:
-  /// All ranks call. Room for all of it is taken at once, so that a full disk is told before any work.
+  /// All ranks call. Room for all of it is taken at once, so that a full disk is told before any work. Of a link the
+  /// file at its end is written; devices and pipes are refused.
+  /// @param ranks  which must stay
   /// @throws IoError, ResourceError  on all ranks
   SharedFile(const Ranks& ranks, const std::filesystem::path& target, std::int64_t bytes);
+  SharedFile(const Ranks&&, const std::filesystem::path&, std::int64_t) = delete;
   ~SharedFile();
   SharedFile(const SharedFile&) = delete;
   SharedFile& operator=(const SharedFile&) = delete;
@@ -30,7 +33,8 @@ class SharedFile {
 
  private:
   const Ranks& ranks_;
-  std::filesystem::path target_, temporary_;
+  std::filesystem::path target_;                   // as the caller named it
+  std::filesystem::path destination_, temporary_;  // with links followed
   MPI_File file_ = MPI_FILE_NULL;
 };
 

@@ -108,7 +108,8 @@ std::vector<std::string> recipe_kinds() {
 }
 
 std::vector<Recipe> parse_recipes(std::string_view text, const std::string& name) {
-  const JsonValue root = parse_json(text, name);
+  const auto whole = std::make_shared<const JsonValue>(parse_json(text, name));
+  const JsonValue& root = *whole;
   if (root.type != JsonValue::Type::object)
     throw FormatError(name + ": holds " + show(root) +
                       "; a recipe is an object {\"kind\": ..}, several are {\"recipes\": [..]}");
@@ -120,9 +121,13 @@ std::vector<Recipe> parse_recipes(std::string_view text, const std::string& name
     RecipeObject object(root, name);
     object.has("recipes");
     object.finish();
-    for (std::size_t i = 0; i < list->items.size(); ++i) recipes.push_back(read_one(list->items[i], i, name));
+    for (std::size_t i = 0; i < list->items.size(); ++i) {
+      recipes.push_back(read_one(list->items[i], i, name));
+      recipes.back().object = {whole, &list->items[i]};
+    }
   } else {
     recipes.push_back(read_one(root, 0, name));
+    recipes.back().object = whole;
   }
   return recipes;
 }

@@ -73,6 +73,29 @@ TEST(AtomicFile, KeepsPermissionsAndLinks) {
   EXPECT_EQ(std::filesystem::status(target).permissions(), std::filesystem::perms(0640));
 }
 
+TEST(AtomicFile, WritesWhatALinkNamesThoughNothingIsThere) {
+  const TemporaryDirectory directory;
+  std::filesystem::create_directory(directory / "other");
+  std::filesystem::create_symlink("second", directory / "first");
+  std::filesystem::create_symlink("other/out", directory / "second");
+  {
+    AtomicFile file(directory / "first");
+    file.write("lost");
+  }
+  EXPECT_FALSE(std::filesystem::exists(directory / "other/out"));
+  AtomicFile file(directory / "first");
+  file.write("new");
+  file.commit();
+  EXPECT_TRUE(std::filesystem::is_symlink(directory / "first"));
+  EXPECT_TRUE(std::filesystem::is_symlink(directory / "second"));
+  EXPECT_EQ(read_file(directory / "other/out"), "new");
+  std::filesystem::create_symlink("round", directory / "circle");
+  std::filesystem::create_symlink("circle", directory / "round");
+  expect_error<IoError>([&] { AtomicFile out(directory / "circle"); }, {"circle: cannot write: Too many levels"});
+  std::filesystem::create_symlink("none/out", directory / "lost");
+  expect_error<IoError>([&] { AtomicFile out(directory / "lost"); }, {"lost: cannot write", "link to", "none/out"});
+}
+
 TEST(AtomicFile, TellsHowManyBytesAreWritten) {
   const TemporaryDirectory directory;
   std::vector<std::int64_t> told;

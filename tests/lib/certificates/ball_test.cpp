@@ -24,8 +24,9 @@ TEST(Ball, TakesThePrecisionOfItsScope) {
   const PrecisionScope scope(512);
   const Ball fine = Ball(1) / Ball(3);
   EXPECT_TRUE(coarse.contains(fine));
-  EXPECT_GT(coarse.radius(), 1e-40);
-  EXPECT_LT(fine.radius(), 1e-150);
+  constexpr double of_128_bits = 1e-40, of_512_bits = 1e-150;  // 2^-130 and 2^-510, roughly
+  EXPECT_GT(coarse.radius(), of_128_bits);
+  EXPECT_LT(fine.radius(), of_512_bits);
   EXPECT_LT(coarse.lower(), coarse.upper());
   EXPECT_TRUE(certainly_less(Ball(coarse.lower()), fine));
   EXPECT_TRUE(certainly_less(fine, Ball(coarse.upper())));

@@ -17,6 +17,7 @@
 #include "support/curve_truth.h"
 #include "support/expect_error.h"
 #include "support/full_sweep.h"
+#include "support/stationary.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {
@@ -201,7 +202,7 @@ CurveScheme<T> dual_four_point(bool kept) {
 void expect_truth(const CurveScheme<double>& scheme, const CurveScheme<Precise>& precise, bool closed, Index size) {
   const Points points = random_points(size, 1);
   const LimitCurve limit(scheme, polygon_through(points, closed));
-  const bool stationary = scheme.name != "trigonometric-cubic";
+  const bool stationary = is_stationary(scheme);
   CurveBruteForce truth(precise, points.col(0), closed, stationary);
   const CurveLayout layout(scheme);
   const CurveOutline curve = layout.control(size, closed);

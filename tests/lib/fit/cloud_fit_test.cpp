@@ -105,7 +105,8 @@ TEST(CloudFit, FairnessAndItsScheduleAndPinsHold) {
   EXPECT_EQ(fit.iterations.back().fairness, 1);
   EXPECT_GE(fit.iterations.size(), 4u);
   // The mean square of the noise is that of its part across the surface.
-  EXPECT_NEAR(fit.iterations.back().rms, 0.02, 0.005);
+  constexpr double by_chance = 0.005;  // a few standard deviations of the mean of so many squares
+  EXPECT_NEAR(fit.iterations.back().rms, 0.02, by_chance);
   // Energy is what it says.
   const SparseMatrix H = fairness_energy(k.surface, options.fairness);
   const double mean = (fit.feet.distances.squaredNorm() - std::pow(fit.feet.distances[3], 2)) / 599;
@@ -158,7 +159,8 @@ TEST(Cloud, HasThePointsOfAMesh) {
     EXPECT_NEAR(p.abs().maxCoeff(), 1, rounding(10));
     on_whole += std::abs(std::abs(p[0]) - 1) < rounding(10);
   }
-  EXPECT_NEAR(on_whole, 400, 2) << "two whole faces, four halves";
+  constexpr double by_chance = 2;  // samples are spread evenly over the area, so few of 400 change sides
+  EXPECT_NEAR(on_whole, 400, by_chance) << "two whole faces, four halves";
   EXPECT_EQ(cloud_of_faces(mesh, 800, 3).points, faces.points);
 }
 

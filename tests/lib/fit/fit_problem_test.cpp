@@ -170,7 +170,8 @@ TEST(FitProblem, ConditionsOfTenThousandAreMetToRounding) {
     p.d = p.C * d;
     const FitSolution solution = solve(p);
     EXPECT_TRUE(solution.converged) << rows;
-    EXPECT_LE(solution.hard_residual, 1e-13) << rows;
+    constexpr double residual_of_rounding = 1e-13;
+    EXPECT_LE(solution.hard_residual, residual_of_rounding) << rows;
   }
 }
 

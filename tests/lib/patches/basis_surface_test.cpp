@@ -239,11 +239,12 @@ TEST(FreeFormPatches, HaveEveryBasisAndThePartThatIsMeant) {
       read("cstype taylor\ndeg 3 3\nsurf 0 1 0 1" + list +
            "cstype rat bezier\ndeg 1 1\nv 0 0 0 2\nsurf 0 1 0 1 1 2 -1 3\nparm u 0 1\nparm v 0 "
            "1\nend\n");
+  constexpr double quotient_rule = 1e-12;  // derivatives of quotients with coefficients that are no points
   for (const Sample& at : {Sample{0, 0, 0}, Sample{0, 0.3, 0.8}, Sample{0, 1, 1}})
     EXPECT_LE((beside.patches.evaluate(beside.columns, std::vector{at}, 1).du -
                taylor.patches.evaluate(taylor.columns, std::vector{at}, 1).du)
                   .norm(),
-              1e-12);
+              quotient_rule);
   const FreeFormPatches matrix = read(
       "cstype bmatrix\ndeg 3 3\nstep 1 1\nbmat u 1 -3 3 -1 0 3 -6 3 0 0 3 -3 0 0 0 1\nbmat v 1 -3 3 -1 0 3 -6 3 0 0 3 -3 "
       "0 0 0 1\nsurf 0 1 0 1" +
@@ -286,10 +287,11 @@ TEST(FreeFormCurves, AreThePartThatIsMeant) {
           const CurveSamples x = part.curves.evaluate(part.columns, {&of_part, 1}, 1),
                              y = whole.curves.evaluate(whole.columns, {&of_whole, 1}, 1);
           EXPECT_LE((x.position - y.position).norm(), rounding(16, 6)) << t;
+          constexpr double of_length = 1e-12;  // derivatives divided by lengths of segments
           EXPECT_LE((x.first / part.curves.curve(0).length(of_part.segment) -
                      y.first / whole.curves.curve(0).length(of_whole.segment))
                         .norm(),
-                    1e-12 * (1 + y.first.norm()))
+                    of_length * (1 + y.first.norm()))
               << t;
         }
     }

@@ -142,7 +142,8 @@ TEST(SplineCurve, AGrowingWeightDrawsTheCurveToItsPoint) {
   weights[2] = 1e14;
   const CurveSample sample = curve.place(1.5);
   const CurveSamples at = curve.evaluate(homogeneous(points, weights), {&sample, 1}, 0, Coordinates::homogeneous);
-  EXPECT_LE((at.position.row(0) - points.row(2)).norm(), 1e-13);  // 1/weight, and its share at this place
+  constexpr double share_of_others = 1e-13;  // 1/weight, and its share at this place
+  EXPECT_LE((at.position.row(0) - points.row(2)).norm(), share_of_others);
 }
 
 TEST(SplineCurve, OfEqualWeightsIsThePlainOne) {

@@ -57,8 +57,10 @@ TEST(WeightedSource, FitsFindThePointsThatWereMoved) {
   targets.values = shapes.source.evaluate(moved, targets.places).position;
   const ScatteredFit fit = fit_places(shapes.source, targets, shapes.points, {.conditioning = true});
   ASSERT_EQ(fit.conditioning->rank, shapes.source.num_points());
-  EXPECT_LE(fit.largest, 1e-13);
-  EXPECT_LE((fit.points - moved).cwiseAbs().maxCoeff(), 1e-14 * fit.conditioning->condition());
+  constexpr double residual = 1e-13;   // of a square system, solved once
+  constexpr double magnified = 1e-14;  // by the condition
+  EXPECT_LE(fit.largest, residual);
+  EXPECT_LE((fit.points - moved).cwiseAbs().maxCoeff(), magnified * fit.conditioning->condition());
 }
 
 /// Fairness is of the surface and its own parameters: finer nets change nothing, of plain patches and of rational ones.
@@ -76,11 +78,13 @@ TEST(WeightedSource, EnergiesAreThoseOfFinerNets) {
   for (const Fairness& fairness : both) {
     const double coarse = energy(pot.patches, pot.columns, fairness);
     EXPECT_GT(coarse, 1);
-    EXPECT_NEAR(energy(fine, S * pot.columns, fairness), coarse, 1e-12 * coarse);
+    constexpr double sums_of_squares = 1e-12;  // of thousands of products
+    constexpr double inexact_rule = 1e-6;      // rational functions: quadrature is not exact
+    EXPECT_NEAR(energy(fine, S * pot.columns, fairness), coarse, sums_of_squares * coarse);
     const double round = energy(shapes.source, shapes.points, fairness);
     EXPECT_GT(round, 1);
     EXPECT_NEAR(energy(rational, columns.leftCols(3).array().colwise() / columns.col(3).array(), fairness), round,
-                1e-6 * round)
+                inexact_rule * round)
         << "rational functions: quadrature is not exact";
   }
 }

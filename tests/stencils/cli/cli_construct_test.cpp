@@ -98,7 +98,9 @@ TEST(CliSampleRecipes, SurfacesByFaces) {
   expect_parts(outcome.out, {"64 samples", "4 faces of 1 surfaces"});
   const std::string text = read_file(out);
   EXPECT_TRUE(text.starts_with("face,u,v,status,x,y,z,xu,yu,zu,xv,yv,zv,nx,ny,nz\n0,0,0,")) << text.substr(0, 200);
-  for (const auto& row : sampled_rows(text)) EXPECT_NEAR(std::hypot(std::stod(row[4]), std::stod(row[5])), 1, 1e-15);
+  constexpr double last_bits = 1e-15;  // a unit circle in rational form
+  for (const auto& row : sampled_rows(text))
+    EXPECT_NEAR(std::hypot(std::stod(row[4]), std::stod(row[5])), 1, last_bits);
 }
 
 TEST(CliSampleRecipes, EverySampleOfASurfaceOrCurve) {
@@ -133,7 +135,9 @@ TEST(CliSampleRecipes, TellsWhatIsLeftOutAndHowToGetIt) {
   expect_parts(curves.out, {"5 samples of 1 segments of 1 curves"});
   const std::string text = read_file(out);
   EXPECT_TRUE(text.starts_with("segment,t,status,x,y,nx,ny\n0,0,")) << text;
-  for (const auto& row : sampled_rows(text)) EXPECT_NEAR(std::hypot(std::stod(row[3]), std::stod(row[4])), 1, 1e-15);
+  constexpr double last_bits = 1e-15;  // a unit circle in rational form
+  for (const auto& row : sampled_rows(text))
+    EXPECT_NEAR(std::hypot(std::stod(row[3]), std::stod(row[4])), 1, last_bits);
 }
 
 TEST(CliSampleRecipes, CurvesAlongGivenPlaces) {

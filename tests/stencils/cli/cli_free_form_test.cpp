@@ -92,7 +92,9 @@ TEST(CliFreeForm, TablesHaveTheRowsOfSamples) {
             EXPECT_NEAR(csv_number(made[i][k]), csv_number(expected[i][k]), reference) << i << " " << k;
           }
           if (numbers == 3 || collapsed || expected[i][3] == "undefined-normal") continue;
-          EXPECT_LE((vector_at(made[i], 4 + numbers) - vector_at(expected[i], 4 + numbers)).norm(), 1e-11) << i;
+          constexpr double printed_normal = 1e-11;  // crossed derivatives, from a table and from the surface
+          EXPECT_LE((vector_at(made[i], 4 + numbers) - vector_at(expected[i], 4 + numbers)).norm(), printed_normal)
+              << i;
         }
       }
 }
@@ -106,8 +108,10 @@ TEST(CliFreeForm, TablesTakePlacesOfPatches) {
   expect_done(sublimit({"apply", on.table, on.obj, "-o", applied}));
   const std::vector<CsvRow> expected = csv_rows(sampled), made = csv_rows(applied);
   ASSERT_EQ(made.size(), 4u);
-  EXPECT_EQ(made[0][0], "face");  // the place on the face that the parameters name
-  for (size_t i = 1; i < made.size(); ++i) EXPECT_LE((vector_at(made[i], 4) - vector_at(expected[i], 4)).norm(), 1e-14);
+  EXPECT_EQ(made[0][0], "face");     // the place on the face that the parameters name
+  constexpr double printed = 1e-14;  // the same weights, applied in another order
+  for (size_t i = 1; i < made.size(); ++i)
+    EXPECT_LE((vector_at(made[i], 4) - vector_at(expected[i], 4)).norm(), printed);
   expect_failure(sublimit({"bake", on.obj, "--at", own, "--derivatives", "1", "-o", on.table}), 2, {"face,u,v"});
 }
 
@@ -138,9 +142,11 @@ TEST(CliFreeForm, TablesDivideEveryFrame) {
         const float* const x = numbers.data() + ((f * 3 + q) * points + p) * 3;
         return Eigen::Vector3d(x[0], x[1], x[2]);
       };
-      EXPECT_NEAR(vector(0).norm(), double(f + 1), 2e-6);
-      EXPECT_NEAR(vector(0).dot(vector(1)), 0, 2e-5);
-      EXPECT_NEAR(vector(0).dot(vector(2)), 0, 2e-5);
+      constexpr double in_float = 2e-6;     // a few last bits
+      constexpr double of_tangents = 2e-5;  // these are up to ten times as long
+      EXPECT_NEAR(vector(0).norm(), double(f + 1), in_float);
+      EXPECT_NEAR(vector(0).dot(vector(1)), 0, of_tangents);
+      EXPECT_NEAR(vector(0).dot(vector(2)), 0, of_tangents);
     }
   // A mesh of the grids, with normals.
   expect_done(sublimit({"apply", on.table, on.obj, "-o", on.path("out.ply")}));
@@ -211,7 +217,8 @@ TEST(CliFreeForm, OwnParametersGiveDerivativesPerUnitOfThem) {
   EXPECT_EQ(rows[1][3], "+-");
   EXPECT_EQ(rows[1][4], "crease");
   // The circle is C^1 though the columns are not; second derivatives jump.
-  EXPECT_LE((vector_at(rows[1], 8) - vector_at(rows[2], 8)).norm(), 1e-13);
+  constexpr double two_sides = 1e-13;  // tangents of both sides by the quotient rule
+  EXPECT_LE((vector_at(rows[1], 8) - vector_at(rows[2], 8)).norm(), two_sides);
   EXPECT_GT((vector_at(rows[1], 14) - vector_at(rows[2], 14)).norm(), 1);
   const std::string plain = on.directory.write("plain.csv", "patch,u,v\n0,9,0\n").string();
   expect_failure(sublimit({"sample", on.obj, "--at", plain, "-o", on.path("x.csv")}), 3,

@@ -2,6 +2,7 @@
 // What the program does while it works: progress for a person who looks, nothing for a file, and an end on Ctrl-C. It
 // is kept busy by a mesh that comes through a pipe.
 #include <gtest/gtest.h>
+#include <poll.h>
 #include <sys/stat.h>
 
 #include <chrono>
@@ -51,53 +52,54 @@ struct Terminal {
     if (theirs >= 0) ::close(theirs);
     ::close(ours);
   }
-  /// What came so far. Ends the terminal.
+  /// Waits until this came.
+  void wait_for(const std::string& part) {
+    pollfd something{ours, POLLIN, 0};
+    while (all_.find(part) == std::string::npos && ::poll(&something, 1, 60'000) == 1) read_some();
+  }
+  /// All that came. Ends the terminal.
   std::string text() {
     ::close(std::exchange(theirs, -1));
-    std::string all;
-    char block[4096];
-    for (ssize_t count; (count = ::read(ours, block, sizeof block)) > 0;) all.append(block, size_t(count));
-    return all;
+    while (read_some()) continue;
+    return all_;
   }
+
+ private:
+  bool read_some() {
+    char block[4096];
+    const ssize_t count = ::read(ours, block, sizeof block);
+    if (count > 0) all_.append(block, size_t(count));
+    return count > 0;
+  }
+  std::string all_;
 };
 
-TEST(CliProgress, ShowsOnATerminalAfterASecond) {
-  const TemporaryDirectory directory;
-  SlowMesh mesh(directory);
-  Terminal terminal;
-  Program program(
-      {"refine", mesh.path.string(), "-s", "catmull-clark", "-l", "1", "-o", (directory / "out.obj").string()}, {},
-      terminal.theirs);
+// The program that shows its progress begins last, so that the others had as long for theirs.
+TEST(CliProgress, ShowsOnATerminalAfterASecondAndNowhereElse) {
+  const TemporaryDirectory directory, of_file, of_quiet;
+  SlowMesh mesh(directory), mesh_of_file(of_file), mesh_of_quiet(of_quiet);
+  const auto arguments = [](const TemporaryDirectory& place, const SlowMesh& from) {
+    return std::vector<std::string>{"limit", from.path.string(),          "-s", "catmull-clark",
+                                    "-o",    (place / "out.ply").string()};
+  };
+  std::vector<std::string> quietly = arguments(of_quiet, mesh_of_quiet);
+  quietly.push_back("--quiet");
+  Terminal terminal, terminal_of_quiet;
+  Program to_file(arguments(of_file, mesh_of_file));
+  mesh_of_file.open();
+  Program quiet(quietly, {}, terminal_of_quiet.theirs);
+  mesh_of_quiet.open();
+  Program shown(arguments(directory, mesh), {}, terminal.theirs);
   mesh.open();
-  std::this_thread::sleep_for(1600ms);
-  mesh.send(cube());
-  EXPECT_EQ(program.wait().status, 0);
+  terminal.wait_for("slow.obj ... 1 s");
+  for (SlowMesh* each : {&mesh, &mesh_of_file, &mesh_of_quiet}) each->send(cube());
+  EXPECT_EQ(shown.wait().status, 0);
   const std::string text = terminal.text();
   expect_parts(text, {"reading ", "slow.obj ... 1 s"});
   EXPECT_TRUE(text.ends_with("\r\033[K")) << "the line stays";
-}
-
-TEST(CliProgress, IsForTerminalsOnlyAndNotIfQuiet) {
-  const TemporaryDirectory directory;
-  SlowMesh mesh(directory);
-  const std::vector<std::string> arguments{
-      "limit", mesh.path.string(), "-s", "catmull-clark", "-o", (directory / "out.ply").string()};
-  std::vector<std::string> quiet = arguments;
-  quiet.push_back("--quiet");
-  {
-    Program program(arguments);
-    mesh.open();
-    std::this_thread::sleep_for(1600ms);
-    mesh.send(cube());
-    expect_done(program.wait());
-  }
-  Terminal terminal;
-  Program program(quiet, {}, terminal.theirs);
-  mesh.open();
-  std::this_thread::sleep_for(1600ms);
-  mesh.send(cube());
-  EXPECT_EQ(program.wait().out, "");
-  EXPECT_EQ(terminal.text(), "");
+  expect_done(to_file.wait());
+  EXPECT_EQ(quiet.wait().out, "");
+  EXPECT_EQ(terminal_of_quiet.text(), "");
 }
 
 TEST(CliInterrupt, EndsAReader) {

@@ -15,6 +15,7 @@
 #include "sublimit/schemes.h"
 #include "support/meshes.h"
 #include "support/temporary_directory.h"
+#include "support/tolerance.h"
 
 namespace sublimit::testing {
 namespace {
@@ -210,7 +211,7 @@ TEST(Program, WritesMatricesThatMakeItsMeshes) {
   EXPECT_TRUE(file.good());
   const ControlMesh refined = read_mesh(path("out.obj"));
   ASSERT_EQ(refined.num_vertices(), rows);
-  EXPECT_LE((refined.positions - x).cwiseAbs().maxCoeff(), 1e-14 * 32);  // sums in another order
+  EXPECT_LE((refined.positions - x).cwiseAbs().maxCoeff(), rounding(32, 9));  // sums in another order
 }
 
 TEST(Program, MovesVerticesToTheLimitWithNormals) {
@@ -222,7 +223,7 @@ TEST(Program, MovesVerticesToTheLimitWithNormals) {
   // Halstead 1993 at n = 3: (9 v + 4 sum e + sum f) / 24; a cube's corner (1,1,1): (9 + 4 + (-1)(...)) -> (9 + 4 - 1
   // ...)/24. Per coordinate: v = 1; e: 1, 1, -1; f: 1, -1, -1: (9 + 4 - 1) / 24 = 1/2.
   const ControlMesh limit = read_mesh(path("limit.obj"));
-  EXPECT_LE((limit.positions.cwiseAbs().array() - 0.5).abs().maxCoeff(), 1e-15 * 16);
+  EXPECT_LE((limit.positions.cwiseAbs().array() - 0.5).abs().maxCoeff(), rounding(18));
   EXPECT_NE(contents(path("limit.obj")).find("vn "), std::string::npos);
   EXPECT_EQ(
       run({"limit", path("cube.obj"), "-s", "catmull-clark", "-l", "2", "--normals", "-o", path("limit.ply")}).status,

@@ -97,7 +97,8 @@ TEST(CliGallery, ShowsEverySchemeOnEveryCageAndPolygon) {
     EXPECT_EQ(surface["mean_distance"].get<double>() < 1e-12, bilinear) << surface;
     EXPECT_EQ(std::abs(surface["volume_ratio"].get<double>() - 1) < 1e-12, bilinear) << surface;
     if (surface["cage"] == "cube" || surface["cage"] == "tetrahedron") {
-      EXPECT_LT(surface["symmetry_defect"].get<double>(), 1e-12) << surface;
+      constexpr double mirrored_sums = 1e-12;  // sums in another order
+      EXPECT_LT(surface["symmetry_defect"].get<double>(), mirrored_sums) << surface;
     }
     EXPECT_GT(surface["bending_energy"][2]["energy"].get<double>(), .98) << surface;  // a sphere has least
   }

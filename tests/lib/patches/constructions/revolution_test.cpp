@@ -28,8 +28,9 @@ TEST(Degrees, AreExactWhereTheyCanBe) {
   EXPECT_EQ(cos_degrees(60), 0.5);
   EXPECT_EQ(sin_degrees(-30), -0.5);
   for (double a = -400; a < 400; a += 7.3) {
-    EXPECT_NEAR(cos_degrees(a), std::cos(a * std::numbers::pi / 180), 1e-14);
-    EXPECT_NEAR(sin_degrees(a), std::sin(a * std::numbers::pi / 180), 1e-14);
+    constexpr double in_radians = 1e-14;  // the argument is rounded when it is turned into radians
+    EXPECT_NEAR(cos_degrees(a), std::cos(a * std::numbers::pi / 180), in_radians);
+    EXPECT_NEAR(sin_degrees(a), std::sin(a * std::numbers::pi / 180), in_radians);
   }
 }
 
@@ -44,8 +45,9 @@ TEST(Revolution, KeepsRadiusAndHeight) {
     for (double u = 0; u <= end; u += end / 16)
       for (const double v : {0.0, 0.3, 1.0}) {
         const OwnValues at = own_values(net, u, v);
-        EXPECT_NEAR(std::hypot(at.x(0, 0), at.x(0, 1)), 1 + 2 * v, 1e-14);
-        EXPECT_NEAR(at.x(0, 2), -1 + 3 * v, 1e-14);
+        constexpr double quotient = 1e-14;  // of sums of three products
+        EXPECT_NEAR(std::hypot(at.x(0, 0), at.x(0, 1)), 1 + 2 * v, quotient);
+        EXPECT_NEAR(at.x(0, 2), -1 + 3 * v, quotient);
         EXPECT_NEAR(curvatures(at).first, 0, derivative_sums);  // a cone
       }
     // u = m / 2 are equal angles.
@@ -93,14 +95,16 @@ TEST(Revolution, OfCirclesAreSphereAndTorus) {
   for (double u = 0.05; u < 4; u += 0.37)
     for (double v = 0.05; v < 2; v += 0.31) {
       const OwnValues at = own_values(sphere, u, v);
-      EXPECT_NEAR(at.x.row(0).norm(), r, 1e-14);
+      constexpr double quotient = 1e-14;    // of sums of nine products
+      constexpr double of_quartic = 1e-12;  // terms of size 256
+      EXPECT_NEAR(at.x.row(0).norm(), r, quotient);
       const auto [gauss, mean] = curvatures(at);
       EXPECT_NEAR(gauss, 1 / (r * r), derivative_sums);
       EXPECT_NEAR(mean, -1 / r, derivative_sums);
       const OwnValues on_torus = own_values(torus, u, 2 * v);
       const Eigen::RowVector3d x = on_torus.x.row(0);
       const double quartic = std::pow(x.squaredNorm() + 9 - 1, 2) - 36 * (x[0] * x[0] + x[1] * x[1]);
-      EXPECT_NEAR(quartic, 0, 1e-12);
+      EXPECT_NEAR(quartic, 0, of_quartic);
       const double across = std::hypot(x[0], x[1]) - 3;
       EXPECT_NEAR(curvatures(on_torus).first, across / (3 + across), derivative_sums);  // cos / (R + cos)
     }

@@ -222,7 +222,8 @@ TEST(PatchSeams, SidesThatTouchPartsOfOthersAreSaidToBePartial) {
   shifted.append(rectangle(0.5, 2.5, -1, 0, 0));
   for (const PatchSeam& seam : seams_of(shifted).seams) {
     if (seam.kind != SeamKind::partial) continue;
-    EXPECT_NEAR((*seam.part)[0], 0.25, 1e-5);
+    constexpr double searched = 1e-5;  // how far ends of a shared part are halved
+    EXPECT_NEAR((*seam.part)[0], 0.25, searched);
     EXPECT_EQ((*seam.part)[1], 1);
   }
 }

@@ -82,7 +82,9 @@ TEST(SurfaceJoin, SurfacesAndTheirReparametrisationsHaveTheOrdersOfTheirMaps) {
                       right = bezier_patch(rational ? projected(c.right, F(3) / 7) : c.right);
           const SurfaceJoin join = surface_join(left, right);
           ASSERT_TRUE(join.exact);
-          EXPECT_EQ(join.exact->g, c.g) << c.what << (rational ? ", rational " : " ") << degree_u << degree_v;
+          // Orders above 2 follow from C^k.
+          EXPECT_EQ(join.exact->g, c.g == 2 ? std::max(2, join.exact->c) : c.g)
+              << c.what << (rational ? ", rational " : " ") << degree_u << degree_v;
           EXPECT_EQ(join.exact->obstacle, c.obstacle) << c.what << name(join.exact->obstacle);
           if (c.c == 99) {
             EXPECT_TRUE(join.exact->is_same) << c.what;
@@ -201,14 +203,17 @@ TEST(SurfaceJoin, NumbersAreThoseOfGraphs) {
   const Poly bump = v * Poly::linear(1, 0, -1) * v;  // v^2 (1 - v), 4/27 at 2/3
   const SurfaceJoin inside = surface_join(plane, graph(u * bump, false));
   EXPECT_NEAR(inside.deviation.angle->value, std::atan(4.0 / 27), rounding(16));
-  EXPECT_NEAR(inside.deviation.angle->s, 2.0 / 3, 1e-7);  // a maximum is flat: half of the digits
-  EXPECT_NEAR(inside.deviation.angle->point[1], 2.0 / 3, 1e-7);
+  constexpr double at_maximum = 1e-7;  // it is flat: half of the digits
+  EXPECT_NEAR(inside.deviation.angle->s, 2.0 / 3, at_maximum);
+  EXPECT_NEAR(inside.deviation.angle->point[1], 2.0 / 3, at_maximum);
   EXPECT_LE(inside.deviation.gap.value, rounding(1));
   // z = u^2 f has the curvature 2 f across the edge.
   const SurfaceJoin curved = surface_join(plane, graph(u * u * bump, false));
   EXPECT_NEAR(curved.deviation.curvature_jump->value, 8.0 / 27, rounding(64));
-  EXPECT_NEAR(curved.deviation.curvature_jump->s, 2.0 / 3, 1e-6);
-  EXPECT_NEAR(curved.deviation.greatest_curvature, 8.0 / 27, 1e-3);
+  constexpr double at_maximum_of_jump = 1e-6;  // and of second derivatives
+  constexpr double at_samples = 1e-3;          // the greatest curvature is that of samples
+  EXPECT_NEAR(curved.deviation.curvature_jump->s, 2.0 / 3, at_maximum_of_jump);
+  EXPECT_NEAR(curved.deviation.greatest_curvature, 8.0 / 27, at_samples);
   EXPECT_EQ(curved.exact->g, 1);
   // A gap.
   const SurfaceJoin open = surface_join(plane, graph(bump, false));
