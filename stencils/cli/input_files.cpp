@@ -55,6 +55,7 @@ const std::vector<Role>& roles() {
       {nullptr, "--cloud", "points, .csv, .obj, .ply or .off", {csv, obj, ply, off}},
       {nullptr, "--tessellation", "triangles of `sublimit tessellate`, .ply", {ply}},
       {nullptr, "--manifest", "jobs, .jsonl", {json}},
+      {nullptr, "--dictionary", "a dictionary that `bake` keeps, or a directory of them", {safetensors, directory}},
   };
   return all;
 }
