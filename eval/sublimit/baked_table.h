@@ -47,7 +47,7 @@ std::uint64_t topology_hash(std::int32_t num_vertices, std::span<const std::int3
                             std::span<const std::int32_t> corners);
 
 /// Faces as sizes and corners, counter-clockwise.
-struct FaceList {
+struct [[nodiscard]] FaceList {
   SharedArray<std::int32_t> sizes, corners;
 };
 
@@ -80,7 +80,7 @@ struct BakedTable {
 template <class Real>
 std::vector<std::uint8_t> statuses_of(const BakedTable<Real>& table);
 
-BakedTable<float> in_float(const BakedTable<double>& table);
+[[nodiscard]] BakedTable<float> in_float(const BakedTable<double>& table);
 
 /// The faces that a table's points make, those of holes left out: what a mesh is written with.
 /// @throws ResourceError  more points than 32-bit numbers

@@ -10,6 +10,17 @@
 #include <stddef.h>
 #include <stdint.h>
 
+/* A status that nobody looks at is a mistake that the compiler warns of. */
+#ifndef SUBLIMIT_NODISCARD
+#if (defined(__cplusplus) && __cplusplus >= 201703L) || (defined(__STDC_VERSION__) && __STDC_VERSION__ >= 202311L)
+#define SUBLIMIT_NODISCARD [[nodiscard]]
+#elif defined(__GNUC__)
+#define SUBLIMIT_NODISCARD __attribute__((warn_unused_result))
+#else
+#define SUBLIMIT_NODISCARD
+#endif
+#endif
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -62,10 +73,12 @@ typedef struct sublimit_rows_d {
 
 /* quantities: 1 positions; 3 derivatives along u and v too; 6 those along uu, uv and vv as well. All rows of positions
  * come first, then all derivatives along u, ... */
-sublimit_status sublimit_table_from_rows_f(int32_t num_control_points, int32_t quantities, const sublimit_rows_f* rows,
-                                           uint32_t flags, sublimit_table** table);
-sublimit_status sublimit_table_from_rows_d(int32_t num_control_points, int32_t quantities, const sublimit_rows_d* rows,
-                                           uint32_t flags, sublimit_table** table);
+SUBLIMIT_NODISCARD sublimit_status sublimit_table_from_rows_f(int32_t num_control_points, int32_t quantities,
+                                                              const sublimit_rows_f* rows, uint32_t flags,
+                                                              sublimit_table** table);
+SUBLIMIT_NODISCARD sublimit_status sublimit_table_from_rows_d(int32_t num_control_points, int32_t quantities,
+                                                              const sublimit_rows_d* rows, uint32_t flags,
+                                                              sublimit_table** table);
 
 /* A matrix for each quantity, one after the other, each row by row. */
 typedef struct sublimit_block {
@@ -120,17 +133,18 @@ typedef struct sublimit_patterns_d {
   const sublimit_rows_d* rest;
 } sublimit_patterns_d;
 
-sublimit_status sublimit_table_from_patterns_f(const sublimit_patterns_f* patterns, uint32_t flags,
-                                               sublimit_table** table);
-sublimit_status sublimit_table_from_patterns_d(const sublimit_patterns_d* patterns, uint32_t flags,
-                                               sublimit_table** table);
+SUBLIMIT_NODISCARD sublimit_status sublimit_table_from_patterns_f(const sublimit_patterns_f* patterns, uint32_t flags,
+                                                                  sublimit_table** table);
+SUBLIMIT_NODISCARD sublimit_status sublimit_table_from_patterns_d(const sublimit_patterns_d* patterns, uint32_t flags,
+                                                                  sublimit_table** table);
 
 /* ---- Tables from files ---- */
 
 /* Maps the file, which must not change as long as the table is there. */
-sublimit_status sublimit_table_load(const char* path, uint32_t flags, sublimit_table** table);
+SUBLIMIT_NODISCARD sublimit_status sublimit_table_load(const char* path, uint32_t flags, sublimit_table** table);
 /* The same of bytes in memory, which must stay as long as the table. */
-sublimit_status sublimit_table_load_memory(const void* bytes, size_t num_bytes, uint32_t flags, sublimit_table** table);
+SUBLIMIT_NODISCARD sublimit_status sublimit_table_load_memory(const void* bytes, size_t num_bytes, uint32_t flags,
+                                                              sublimit_table** table);
 
 /* ---- What a table is; zeros of a null table. ---- */
 
@@ -150,18 +164,20 @@ uint64_t sublimit_topology_hash(int32_t num_vertices, const int32_t* sizes, int6
 /* Faces between the points, counter-clockwise: first with null arrays, to learn how many there are, then with arrays
  * for so many. Both calls make all faces: keep them. num_faces, num_corners  in: room in `sizes` and `corners`, if
  * these are not null; out: how many there are */
-sublimit_status sublimit_table_faces(const sublimit_table* table, int64_t* num_faces, int64_t* num_corners,
-                                     int32_t* sizes, int32_t* corners);
+SUBLIMIT_NODISCARD sublimit_status sublimit_table_faces(const sublimit_table* table, int64_t* num_faces,
+                                                        int64_t* num_corners, int32_t* sizes, int32_t* corners);
 
 /* ---- Every frame ---- */
 
 /* New points = table * control points; of rational tables homogeneous columns from columns, nothing is divided.
  * points  num_control_points x channels, interleaved
  * result  quantities x num_points x channels, interleaved: all positions first; must not overlap the points */
-sublimit_status sublimit_apply_f(const sublimit_table* table, const float* points, size_t num_point_numbers,
-                                 int32_t channels, float* result, size_t num_result_numbers);
-sublimit_status sublimit_apply_d(const sublimit_table* table, const double* points, size_t num_point_numbers,
-                                 int32_t channels, double* result, size_t num_result_numbers);
+SUBLIMIT_NODISCARD sublimit_status sublimit_apply_f(const sublimit_table* table, const float* points,
+                                                    size_t num_point_numbers, int32_t channels, float* result,
+                                                    size_t num_result_numbers);
+SUBLIMIT_NODISCARD sublimit_status sublimit_apply_d(const sublimit_table* table, const double* points,
+                                                    size_t num_point_numbers, int32_t channels, double* result,
+                                                    size_t num_result_numbers);
 
 /* Channel c of point i of frame f is number  f * frame + i * point + c * channel.  Zeros: as close as can be. */
 typedef struct sublimit_layout {
@@ -199,16 +215,20 @@ typedef struct sublimit_evaluation_d {
   double least_weight;
 } sublimit_evaluation_d;
 
-sublimit_status sublimit_evaluate_f(const sublimit_table* table, const sublimit_evaluation_f* evaluation);
-sublimit_status sublimit_evaluate_d(const sublimit_table* table, const sublimit_evaluation_d* evaluation);
+SUBLIMIT_NODISCARD sublimit_status sublimit_evaluate_f(const sublimit_table* table,
+                                                       const sublimit_evaluation_f* evaluation);
+SUBLIMIT_NODISCARD sublimit_status sublimit_evaluate_d(const sublimit_table* table,
+                                                       const sublimit_evaluation_d* evaluation);
 
 /* Gradients: result = table^T * values.
  * values  the first, or more, of the quantities x num_points x channels
  * result  num_control_points x channels, overwritten */
-sublimit_status sublimit_apply_transpose_f(const sublimit_table* table, const float* values, size_t num_value_numbers,
-                                           int32_t channels, float* result, size_t num_result_numbers);
-sublimit_status sublimit_apply_transpose_d(const sublimit_table* table, const double* values, size_t num_value_numbers,
-                                           int32_t channels, double* result, size_t num_result_numbers);
+SUBLIMIT_NODISCARD sublimit_status sublimit_apply_transpose_f(const sublimit_table* table, const float* values,
+                                                              size_t num_value_numbers, int32_t channels, float* result,
+                                                              size_t num_result_numbers);
+SUBLIMIT_NODISCARD sublimit_status sublimit_apply_transpose_d(const sublimit_table* table, const double* values,
+                                                              size_t num_value_numbers, int32_t channels,
+                                                              double* result, size_t num_result_numbers);
 
 #ifdef __cplusplus
 }

@@ -37,7 +37,8 @@ struct Evaluation {
 
   /// Points are homogeneous columns (w x, w y, .., w), as tables of rational surfaces want them
   /// (`TableInfo::rational`): results have one channel less, divided by the weight, and derivatives follow the quotient
-  /// rule.
+  /// rule. The last channel is the weight, whatever their number: three channels are points of the plane, never x, y,
+  /// z.
   bool rational = false;
   /// Poles: where the magnitude of the weight is not larger, all results are zero. `noise_of_weights` is right.
   Real least_weight = 0;

@@ -20,10 +20,12 @@ class PatternEvaluator {
   };
   /// @param table  which must stay
   explicit PatternEvaluator(const PatternTable<Real>& table, Options options = {});
+  explicit PatternEvaluator(const PatternTable<Real>&&, Options = {}) = delete;
 
   const PatternTable<Real>& table() const { return table_; }
 
-  /// As `PatternTable::apply`, to rounding; the same bits if `reproducible`.
+  /// As `PatternTable::apply`, to rounding; the same bits if `reproducible`. Nothing is divided: of a rational table
+  /// (`TableInfo::rational`) homogeneous columns come from homogeneous columns, and nothing else makes sense.
   /// @throws InvalidParameter  spans of the wrong length, channels < 1
   void apply(std::span<const Real> points, int channels, std::span<Real> result) const;
 

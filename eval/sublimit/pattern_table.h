@@ -121,8 +121,8 @@ class PatternTable {
 };
 
 /// In the other precision: weights are rounded.
-StencilTable<float> in_float(const StencilTable<double>& table);
-PatternTable<float> in_float(const PatternTable<double>& table);
+[[nodiscard]] StencilTable<float> in_float(const StencilTable<double>& table);
+[[nodiscard]] PatternTable<float> in_float(const PatternTable<double>& table);
 
 extern template class PatternTable<float>;
 extern template class PatternTable<double>;

@@ -2,7 +2,6 @@
 #include "sublimit/pattern_transpose.h"
 
 #include <algorithm>
-#include <mutex>
 #include <vector>
 
 #include "sublimit/base/parallel_for.h"
@@ -49,24 +48,12 @@ struct PatternTranspose<Real>::Lists {
 };
 
 template <class Real>
-struct PatternTranspose<Real>::Once {
-  std::once_flag flag;
-  std::unique_ptr<const Lists> lists;
-};
-
-template <class Real>
 PatternTranspose<Real>::PatternTranspose(const PatternTable<Real>& table)
-    : table_(table), once_(std::make_unique<Once>()) {}
+    : table_(table), lists_(std::make_unique<FoundOnce<Lists>>()) {}
 template <class Real>
 PatternTranspose<Real>::~PatternTranspose() = default;
 template <class Real>
 PatternTranspose<Real>::PatternTranspose(PatternTranspose&&) noexcept = default;
-
-template <class Real>
-auto PatternTranspose<Real>::lists() const -> const Lists& {
-  std::call_once(once_->flag, [&] { once_->lists = std::make_unique<const Lists>(table_); });
-  return *once_->lists;
-}
 
 template <class Real>
 void PatternTranspose<Real>::apply(std::span<const Real> values, int channels, std::span<Real> result, bool contract,
@@ -75,7 +62,7 @@ void PatternTranspose<Real>::apply(std::span<const Real> values, int channels, s
   const auto quantities = size_t(checked_quantities<Real>(table_, values, channels, result));
   const size_t quantity = size_t(table_.num_points()) * size_t(channels);
   if (quantity == 0) return std::fill(result.begin(), result.end(), Real(0));
-  const Lists& lists = this->lists();
+  const Lists& lists = lists_->get([&] { return Lists(table_); });
 
   // A copy gives what it gets to its source. Last ones first: sources may be copies too.
   const auto moved = buffers.take(a.copies.empty() ? 0 : quantity);

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "sublimit/base/buffer_pool.h"
+#include "sublimit/base/found_once.h"
 #include "sublimit/pattern_table.h"
 
 namespace sublimit {
@@ -15,6 +16,7 @@ class PatternTranspose {
  public:
   /// @param table  which must stay
   explicit PatternTranspose(const PatternTable<Real>& table);
+  explicit PatternTranspose(const PatternTable<Real>&&) = delete;
   ~PatternTranspose();
   PatternTranspose(PatternTranspose&&) noexcept;
 
@@ -24,10 +26,8 @@ class PatternTranspose {
 
  private:
   struct Lists;
-  struct Once;
-  const Lists& lists() const;
   const PatternTable<Real>& table_;
-  std::unique_ptr<Once> once_;
+  std::unique_ptr<FoundOnce<Lists>> lists_;
 };
 
 extern template class PatternTranspose<float>;

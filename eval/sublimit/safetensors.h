@@ -55,6 +55,8 @@ struct Tensor {
   std::span<const std::byte> bytes;  ///< row by row, little-endian; of any alignment
 };
 
+/// An array where it lies.
+/// @param items  which must stay
 /// @param shape  its product is the number of items
 template <class T>
 Tensor tensor(std::string name, std::span<const T> items, std::vector<std::int64_t> shape) {
@@ -87,8 +89,9 @@ void write_safetensors(const std::filesystem::path& path, Safetensors file);
 /// @param name   of the file, for messages
 /// @throws FormatError  anything else
 Safetensors read_safetensors(std::span<const std::byte> bytes, const std::string& name);
+Safetensors read_safetensors(const std::vector<std::byte>&& bytes, const std::string& name) = delete;
 
 /// Whether data is what was written; nothing if there is no checksum of it.
-std::optional<bool> matches_checksum(const Safetensors& file, const Tensor& tensor);
+[[nodiscard]] std::optional<bool> matches_checksum(const Safetensors& file, const Tensor& tensor);
 
 }  // namespace sublimit

@@ -11,7 +11,7 @@
 
 namespace sublimit {
 
-/// Never changes; copies share what they hold.
+/// Never changes; copies share what they hold. One that was moved from is empty.
 template <class T>
 class SharedArray {
  public:
@@ -26,6 +26,15 @@ class SharedArray {
   /// @param owner  keeps `numbers` where they are
   SharedArray(std::span<const T> numbers, std::shared_ptr<const void> owner)
       : numbers_(numbers), owner_(std::move(owner)) {}
+  SharedArray(const SharedArray&) = default;
+  SharedArray& operator=(const SharedArray&) = default;
+  SharedArray(SharedArray&& other) noexcept
+      : numbers_(std::exchange(other.numbers_, {})), owner_(std::move(other.owner_)) {}
+  SharedArray& operator=(SharedArray&& other) noexcept {
+    numbers_ = std::exchange(other.numbers_, {});
+    owner_ = std::move(other.owner_);
+    return *this;
+  }
 
   operator std::span<const T>() const { return numbers_; }
   std::span<const T> span() const { return numbers_; }

@@ -292,6 +292,11 @@ AnyTable load_table(std::span<const std::byte> bytes, const std::string& name, s
   }
 }
 
+AnyTable load_table(std::vector<std::byte>&& bytes, const std::string& name, const LoadOptions& options) {
+  const auto kept = std::make_shared<const std::vector<std::byte>>(std::move(bytes));
+  return load_table(std::span(*kept), name, kept, options);
+}
+
 AnyTable load_table(const std::filesystem::path& path, const LoadOptions& options) {
   const MappedFile file = map_file(path);
   return load_table(file.bytes, path.string(), file.owner, options);

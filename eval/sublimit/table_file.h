@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <span>
 #include <variant>
+#include <vector>
 
 #include "sublimit/baked_table.h"
 
@@ -26,12 +27,15 @@ struct LoadOptions {
 /// @throws IoError        missing, unreadable
 /// @throws FormatError    not a table, or a broken one; says what is wrong with which tensor
 /// @throws ResourceError  no memory for what cannot stay in the file
-AnyTable load_table(const std::filesystem::path& path, const LoadOptions& options = {});
+[[nodiscard]] AnyTable load_table(const std::filesystem::path& path, const LoadOptions& options = {});
 
 /// The same of bytes in memory, which must stay as long as the table.
 /// @param name   of the file, for messages
 /// @param owner  keeps them, if given
-AnyTable load_table(std::span<const std::byte> bytes, const std::string& name,
-                    std::shared_ptr<const void> owner = nullptr, const LoadOptions& options = {});
+[[nodiscard]] AnyTable load_table(std::span<const std::byte> bytes, const std::string& name,
+                                  std::shared_ptr<const void> owner = nullptr, const LoadOptions& options = {});
+/// The same of bytes that the table keeps.
+[[nodiscard]] AnyTable load_table(std::vector<std::byte>&& bytes, const std::string& name,
+                                  const LoadOptions& options = {});
 
 }  // namespace sublimit

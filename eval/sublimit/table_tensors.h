@@ -34,6 +34,8 @@ class TableTensors {
  public:
   template <class Real>
   explicit TableTensors(const BakedTable<Real>& table);
+  template <class Real>
+  explicit TableTensors(const BakedTable<Real>&&) = delete;
   TableTensors(const TableTensors&) = delete;
   TableTensors& operator=(const TableTensors&) = delete;
   const Safetensors& file() const { return file_; }

@@ -10,7 +10,7 @@
 
 namespace sublimit {
 
-struct Verification {
+struct [[nodiscard]] Verification {
   /// What is wrong, and where; none: the table is good. Of many alike the first ones and their number.
   std::vector<std::string> findings;
   std::int64_t bytes = 0;        ///< of the file

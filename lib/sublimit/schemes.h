@@ -2,7 +2,11 @@
 #pragma once
 // The registry: one line a scheme.
 #include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
+#include "sublimit/core/unknown_scheme.h"
 #include "sublimit/schemes/averaging.h"
 #include "sublimit/schemes/bilinear.h"
 #include "sublimit/schemes/butterfly.h"
@@ -47,16 +51,16 @@ inline constexpr SchemeEntry<T> registry[] = {
 
 /// Every scheme with its default options.
 template <class T = double>
-std::vector<Scheme<T>> all_schemes() {
+[[nodiscard]] std::vector<Scheme<T>> all_schemes() {
   std::vector<Scheme<T>> schemes;
   for (const SchemeEntry<T>& entry : registry<T>) schemes.push_back(entry.make({}));
   return schemes;
 }
 
-/// A scheme by name; nothing if there is none (`nearest_scheme_names` offers some).
+/// A scheme by name; nothing if there is none (`nearest_scheme_names` offers some). `scheme` below throws instead.
 /// @throws InvalidOption  an unknown option, or a value outside its range
 template <class T = double>
-std::optional<Scheme<T>> find_scheme(const std::string& name, const SchemeOptions& options = {}) {
+[[nodiscard]] std::optional<Scheme<T>> find_scheme(const std::string& name, const SchemeOptions& options = {}) {
   for (const SchemeEntry<T>& entry : registry<T>) {
     if (name != entry.name) continue;
     check_options(name, entry.make({}).options, options);
@@ -65,6 +69,15 @@ std::optional<Scheme<T>> find_scheme(const std::string& name, const SchemeOption
     return scheme;
   }
   return std::nullopt;
+}
+
+/// A scheme by name: `scheme("catmull-clark")`, `scheme("kobbelt", {{"tension", "3/4"}})`.
+/// @throws InvalidOption  no scheme of surfaces has this name: says which are nearest, or what makes it; an unknown
+///                        option, or a value outside its range
+template <class T = double>
+[[nodiscard]] Scheme<T> scheme(const std::string& name, const SchemeOptions& options = {}) {
+  if (std::optional<Scheme<T>> found = find_scheme<T>(name, options)) return *std::move(found);
+  throw_unknown_scheme(name, SchemeKind::surface);
 }
 
 // Made once, in the library: else every file that names a scheme makes all of them.

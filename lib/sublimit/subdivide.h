@@ -15,7 +15,8 @@ using FaceMatrix = Eigen::Matrix<Index, Eigen::Dynamic, Eigen::Dynamic, Eigen::R
 /// @param F  #F x 3 or #F x 4, counter-clockwise
 /// @return   the product of the levels' matrices, and the refined faces
 /// @throws InvalidOption  an unknown scheme; and whatever `refine` throws
-std::pair<SparseMatrix, FaceMatrix> subdivide(const std::string& scheme, Index num_vertices, const FaceMatrix& F,
-                                              int levels = 1, const SubdivisionOptions& options = {});
+[[nodiscard]] std::pair<SparseMatrix, FaceMatrix> subdivide(const std::string& scheme, Index num_vertices,
+                                                            const FaceMatrix& F, int levels = 1,
+                                                            const SubdivisionOptions& options = {});
 
 }  // namespace sublimit

@@ -250,7 +250,7 @@ int analyze_mesh(const AnalyzeOptions& options) {
   write_outputs(options, report, progress);
   progress.step("");
   if (!options.common.quiet) print_asset(found, options.common.mesh);
-  return found.seams.within_tolerance ? 0 : negative_verdict;
+  return found.seams.within_tolerance == false ? negative_verdict : 0;
 }
 
 int analyze_shapes(const AnalyzeOptions& options) {
@@ -259,7 +259,7 @@ int analyze_shapes(const AnalyzeOptions& options) {
   write_outputs(options, report, progress);
   progress.step("");
   if (!options.common.quiet) print_free_form_report(report);
-  return report["free_form"]["within_tolerance"].get<bool>() ? 0 : negative_verdict;
+  return report["free_form"]["within_tolerance"] == false ? negative_verdict : 0;
 }
 
 /// Whether the file is one of recipes, or an .obj that is there and has free-form curves or surfaces.
@@ -317,8 +317,10 @@ Command add_analyze(CLI::App& app) {
                       "Of seams and joints: g0=1e-9, g1=0.1deg, g2=5%; exit 1 beyond");
   command->add_option("--mask", options->mask, "A curve mask, as in \"1 4 6 4 1 /8\"");
   command->add_option("--sweep", options->sweep, "Smoothness over an option: tension=0:4:0.05");
-  command->add_option("--claim", options->claims,
-                      "What the scheme shall claim instead: extraordinary=2; exit 1 if it is disproved");
+  command->add_option(
+      "--claim", options->claims,
+      "What the scheme shall claim instead: extraordinary=2, interpolates=no for no such claim; exit 1 if it is "
+      "disproved");
   command->add_option("--export", options->exports,
                       "A directory for local matrices (exact) and characteristic maps (.obj)");
   command->add_option("--option", options->common.options, "An option of the scheme, name=value");

@@ -8,10 +8,10 @@
 #include <array>
 #include <cerrno>
 #include <chrono>
-#include <new>
 #include <nlohmann/json.hpp>
 
 #include "curves.h"
+#include "ending.h"
 #include "peak_memory.h"
 #include "sublimit/base/error.h"
 #include "sublimit/base/file_error.h"
@@ -64,15 +64,8 @@ Report done(const BakeJob& job, Dictionaries& dictionaries, Progress& progress) 
     check(job);
     report.outcome = bake_table(job, dictionaries, progress, true);
     dictionaries.save();
-  } catch (const Error& error) {
-    report.status = exit_status(error.code());
-    report.error = error.what();
-  } catch (const std::bad_alloc&) {
-    report.status = exit_status(ErrorCode::resource_error);
-    report.error = "out of memory; use fewer levels or samples";
-  } catch (const std::exception& error) {
-    report.status = 70;
-    report.error = error.what();
+  } catch (...) {
+    report.status = status_of_exception(&report.error);
   }
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   report.peak = peak_memory();

@@ -27,14 +27,6 @@
 namespace sublimit::cli {
 namespace {
 
-std::mutex directories_mutex;
-std::vector<std::string> directories;  // of outputs, for cleaning up after an interrupt
-
-void remember_output_directory(const std::string& name) {
-  const std::lock_guard lock(directories_mutex);
-  if (std::find(directories.begin(), directories.end(), name) == directories.end()) directories.push_back(name);
-}
-
 /// The words as CLI11's set of choices.
 CLI::IsMember one_of(std::span<const char* const> words) {
   return CLI::IsMember(std::vector<std::string>(words.begin(), words.end()));
@@ -200,7 +192,6 @@ void check_output_path(const std::string& path, const std::vector<std::string>& 
   if (::access(directory.c_str(), W_OK) != 0)
     throw IoError("cannot write " + path + ": " + (link.empty() ? "its directory" : link + directory.string()) +
                   " is not writable");
-  remember_output_directory(directory.string());
 }
 
 void check_not_sidecar(const std::string& option, const std::string& path, const std::string& mesh) {
@@ -223,12 +214,6 @@ void make_output_directory(const std::string& path) {
   std::error_code failed;
   std::filesystem::create_directories(followed_links(path), failed);
   if (failed) throw IoError("cannot make the directory " + path + ": " + failed.message());
-  remember_output_directory(path);
-}
-
-std::vector<std::string> output_directories() {
-  const std::lock_guard lock(directories_mutex);
-  return directories;
 }
 
 Progress::Progress(bool quiet) {

@@ -112,9 +112,6 @@ void check_disk(const std::string& what, const std::string& path, double bytes, 
 /// Makes the directory of outputs, and those above it, where they are missing.
 void make_output_directory(const std::string& path);
 
-/// Where outputs of this run go, as told to `check_output_path` and `make_output_directory`.
-std::vector<std::string> output_directories();
-
 /// A subcommand: its options on an app, and what runs once they are parsed; returns the exit status.
 using Command = std::function<int()>;
 Command add_schemes(CLI::App& app);

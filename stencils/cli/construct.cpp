@@ -52,7 +52,9 @@ Command add_construct(CLI::App& app) {
       "  {\"kind\": \"cone\", \"curve\": {\"degree\": 1, \"knots\": [0, 0, 1, 1], \"points\": [[1, 0], [0, 1]]}, \"apex\": [0, 0, 2]}\n"
       "Kinds:\n" +
       kinds +
-      "\nKinds without an exact net (triangles, screw surfaces, Gregory's patches whose twists disagree, polynomials of\n"
+      "\nThe matrix of a bmatrix_curve has a row for each control point, the coefficients of 1, t, t^2 .., as OBJ's bmat has\n"
+      "it; \"form\": \"textbook\" is for M of (t^n .. t 1) M P.\n"
+      "Kinds without an exact net (triangles, screw surfaces, Gregory's patches whose twists disagree, polynomials of\n"
       "too high a degree, nielson, piper) are refused with the reason; `sublimit sample` takes them.");
   return [=] { return run(*job); };
 }

@@ -23,7 +23,7 @@ std::string curve_scheme_names() {
   return names;
 }
 
-CurveScheme<double> scheme_of(const Common& common) { return *find_curve_scheme(common.scheme, curve_options(common)); }
+CurveScheme<double> scheme_of(const Common& common) { return curve_scheme(common.scheme, curve_options(common)); }
 
 }  // namespace
 

@@ -38,13 +38,7 @@ nlohmann::ordered_json analyze_free_form(const Common& common, const std::vector
 
 namespace {
 
-std::string order_words(const nlohmann::ordered_json& orders) {
-  const int c = orders.at("c").get<int>(), g = orders.at("g").get<int>();
-  const std::string obstacle = orders.at("obstacle").get<std::string>();
-  if (orders.at("same").get<bool>()) return "C^infinity, G^" + std::to_string(g);
-  if (g < 0) return obstacle == "pole" ? "a pole" : "a gap";
-  return fmt::format("C^{}, G^{}{}", c, g, obstacle == "none" ? "" : " (" + obstacle + ")");
-}
+std::string order_words(const nlohmann::ordered_json& orders) { return orders.at("says").get<std::string>(); }
 
 /// The joins that recipes ask for, one by one.
 void print_asked_joins(const nlohmann::ordered_json& found) {

@@ -112,7 +112,7 @@ int run(const Common& common, bool as_json, bool limit) {
     fmt::print("{}\n", to_json(info, common.mesh).dump(2));
   else
     print(info, common.mesh);
-  return 0;
+  return info.why_not.empty() ? 0 : 1;  // whether the scheme takes the mesh is a question, and the answer may be no
 }
 
 }  // namespace
@@ -131,6 +131,7 @@ Command add_info(CLI::App& app) {
   command->footer(
       "Examples:\n  sublimit info cage.obj\n  sublimit info cage.obj -s loop --json\n"
       "  sublimit info cage.obj -s catmull-clark --limit\n"
+      "Exit status 1 where the scheme does not take the mesh.\n"
       "Of an .obj with free-form curves and surfaces: bases, degrees, knots, continuity, weights, collapsed sides, trims.\n"
       "Of recipes (.json): kinds, faces or segments, control points, whether there is an exact net.");
   return [=] { return run(*common, *as_json, *limit); };

@@ -7,6 +7,8 @@
 
 #include "free_form.h"
 #include "searched.h"
+#include "sublimit/base/error.h"
+#include "sublimit/base/format_number.h"
 #include "sublimit/files/ray_files.h"
 
 namespace sublimit::cli {
@@ -14,31 +16,49 @@ namespace {
 
 struct IntersectOptions {
   Common common;
-  std::string rays, output;
+  std::string rays, output, most_parts;  // a number as given
   bool all = false;
 };
+
+RayOptions ray_options(const IntersectOptions& options) {
+  RayOptions result{.all = options.all};
+  if (options.most_parts.empty()) return result;
+  const Parsed<int> parsed = parse_number<int>(options.most_parts);
+  if (!parsed || parsed.value < 1)
+    throw InvalidOption(
+        fmt::format("--most-parts {}: it should be a whole number of parts, 1 or more", options.most_parts));
+  result.most_parts = parsed.value;
+  return result;
+}
 
 int run(const IntersectOptions& options) {
   const bool free_form = is_free_form_job(options.common);
   check_output_path(options.output, {".csv"});
+  const RayOptions search = ray_options(options);
   Progress progress(options.common.quiet);
   progress.step("reading " + options.rays);
   const std::vector<Ray> rays = read_rays(options.rays);
   RayHits hits;
   with_searched_surface(options.common, free_form, progress, [&](const SearchedSurface& surface) {
     progress.step(fmt::format("tracing {} rays", rays.size()));
-    hits = intersect(surface, rays, {.all = options.all});
+    hits = intersect(surface, rays, search);
   });
   progress.step("writing " + options.output);
   write_ray_hits(options.output, hits);
   progress.step("");
-  if (options.common.quiet) return 0;
-  const auto undecided = std::ranges::count_if(hits.undecided, [](std::int64_t n) { return n > 0; });
-  fmt::print("{}: {} hits of {} rays", options.output, hits.t.size(), rays.size());
-  if (undecided > 0)
-    fmt::print("; {} of them touch the surface, or meet an extraordinary vertex, as near as numbers go", undecided);
+  const auto given_up = std::ranges::count(hits.kinds, HitKind::given_up);
+  const int status = given_up > 0 ? 1 : 0;
+  if (options.common.quiet) return status;
+  const auto touching = std::ranges::count(hits.kinds, HitKind::touching);
+  fmt::print("{}: {} hits of {} rays", options.output, std::ssize(hits.kinds) - given_up, rays.size());
+  if (touching > 0) fmt::print("; {} of them touch the surface, as near as numbers go (status touching)", touching);
   fmt::print("\n");
-  return 0;
+  if (given_up > 0)
+    fmt::print(stderr,
+               "sublimit: warning: {}: {} rays were given up: each has a row with the status given-up where the search "
+               "stopped, and may have more hits from there on than are listed\n",
+               options.output, given_up);
+  return status;
 }
 
 }  // namespace
@@ -50,6 +70,10 @@ Command add_intersect(CLI::App& app) {
   command->add_option("--rays", options->rays, "Rays: a .csv with the header ox,oy,oz,dx,dy,dz[,tmin,tmax]")
       ->required();
   command->add_flag("--all", options->all, "All hits of a ray, by rising t (default: the nearest)");
+  command->add_option("--most-parts", options->most_parts,
+                      fmt::format("Give a ray up that meets N parts within one part of the surface, or 16 N in all "
+                                  "(default {})",
+                                  RayOptions{}.most_parts));
   command->add_option("-o,--output", options->output, "OUT.csv: ray,t,face,u,v,x,y,z,nx,ny,nz,status, a row a hit")
       ->required();
   command->footer(
@@ -58,7 +82,10 @@ Command add_intersect(CLI::App& app) {
       "  sublimit intersect cage.obj -s loop --rays rays.csv --all -o hits.csv\n"
       "  sublimit intersect teapot.obj --rays rays.csv -o hits.csv\n"
       "A hit is at o + t d. Rays are counted from 0, and go from t = 0 on without end unless tmin and tmax say otherwise.\n"
-      "No hit is missed, and a ray through a side that faces share hits once. Holes are no part of the limit.\n"
+      "No hit is missed, and a ray through a side that faces share hits once. Holes are no part of the limit. Of schemes\n"
+      "without polynomials (butterfly, kobbelt, the sqrt3) every hit is one, but that there are no others is estimated.\n"
+      "Status is touching where the ray touches the surface. A ray that meets too much of it is given up: it has a row\n"
+      "with the status given-up, where the search stopped, and the exit code is 1.\n"
       "Without -s the rays meet the free-form surfaces of an .obj, or recipes (.json), rational ones too; those that are no\n"
       "B-spline and no polynomial (screw, gregory with twists that differ), or have a pole, are refused.");
   return [=] { return run(*options); };

@@ -1,89 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 // The program `sublimit`: parses the command line, runs one subcommand, turns errors into exit statuses.
 #include <fmt/core.h>
-#include <pthread.h>
-#include <unistd.h>
 
-#include <atomic>
 #include <csignal>
-#include <new>
-#include <thread>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "command_line.h"
 #include "common.h"
+#include "ending.h"
 #include "heap.h"
 #include "input_files.h"
 #include "standard_streams.h"
-#include "sublimit/base/error.h"
 
 namespace {
 
 using namespace sublimit;
 
-constexpr int fault_of_ours = 70;
-
-std::atomic<bool> interrupted = false;
-
-/// Removes temporaries of unfinished outputs; whether there were any.
-bool remove_temporaries() {
-  const std::string mark = "." + std::to_string(::getpid()) + "-";
-  std::error_code ignored;
-  bool found = false;
-  for (const std::string& directory : cli::output_directories())
-    for (const auto& entry : std::filesystem::directory_iterator(directory, ignored)) {
-      const std::string name = entry.path().filename().string();
-      if (name.starts_with(".") && name.ends_with(".tmp") && name.find(mark) != std::string::npos)
-        found |= std::filesystem::remove(entry.path(), ignored);
-    }
-  return found;
-}
-
-/// Ctrl-C ends the program with status 130 and takes the temporaries of unfinished outputs along.
-void handle_interrupts() {
-  sigset_t interrupts;
-  sigemptyset(&interrupts);
-  for (const int number : {SIGINT, SIGTERM}) {
-    struct sigaction action {};
-    ::sigaction(number, nullptr, &action);
-    if (action.sa_handler != SIG_IGN) sigaddset(&interrupts, number);  // nohup and `&` ask us not to care
-  }
-  pthread_sigmask(SIG_BLOCK, &interrupts, nullptr);
-  std::thread([interrupts] {
-    int signal = 0;
-    while (sigwait(&interrupts, &signal) != 0) ::pause();  // only if there are none to wait for
-    interrupted = true;
-    while (remove_temporaries()) continue;  // the other threads may have begun another one
-    _exit(130);
-  }).detach();
-}
-
-int guarded(const cli::Command& command) {
-  try {
-    return command();
-  } catch (const Error& error) {
-    if (interrupted) return 130;  // its temporary was taken away
-    const int status = exit_status(error.code());
-    fmt::print(stderr, "sublimit: {}{}\n", status == fault_of_ours ? "a fault of ours: " : "", error.what());
-    return status;
-  } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "sublimit: out of memory; use fewer levels or samples\n");
-    return exit_status(ErrorCode::resource_error);
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "sublimit: a fault of ours: {}\n", error.what());
-  } catch (...) {
-    fmt::print(stderr, "sublimit: a fault of ours\n");
-  }
-  return fault_of_ours;
-}
-
-}  // namespace
-
-int main(int argc, char** argv) {
-  std::signal(SIGXFSZ, SIG_IGN);  // a full disk is an error with a message, not the end
-  cli::prepare_standard_streams();
-  cli::prepare_heap();
-  handle_interrupts();
-
+int run(int argc, char** argv) {
   CLI::App app("Subdivision surfaces as sparse matrices, and their exact limits.", "sublimit");
   app.set_version_flag("--version", "sublimit " SUBLIMIT_VERSION);
   app.require_subcommand(1);
@@ -120,13 +55,23 @@ int main(int argc, char** argv) {
   const cli::ParsedCommandLine line = cli::parse_command_line(app, argc, argv);
   fmt::print("{}", line.out);
   fmt::print(stderr, "{}", line.err);
-  int status = line.status;
   for (const auto& [name, command] : commands)
-    if (line.runs && app.got_subcommand(name))
-      status = guarded([&app, name = name, run = command] {
-        cli::check_input_files(*app.get_subcommand(name));
-        return run();
-      });
-  status = cli::finish_standard_streams("sublimit", status);
-  _exit(interrupted ? 130 : status);  // the thread that waits for interrupts has nothing to finish
+    if (line.runs && app.got_subcommand(name)) {
+      cli::check_input_files(*app.get_subcommand(name));
+      return command();
+    }
+  return line.status;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::signal(SIGXFSZ, SIG_IGN);  // a full disk is an error with a message, not the end
+  cli::prepare_standard_streams();
+  cli::prepare_heap();
+  cli::handle_lack_of_memory();
+  cli::end(cli::guarded([&] {
+    cli::handle_interrupts();
+    return run(argc, argv);
+  }));
 }

@@ -21,7 +21,7 @@ namespace sublimit::cli {
 namespace {
 
 GeometricNormalScheme normal_scheme(const Common& common) {
-  return *find_geometric_scheme<NormalMesh>(common.scheme, given_options(common));
+  return geometric_scheme<NormalMesh>(common.scheme, given_options(common));
 }
 
 /// The normals of the mesh, unless they are to be estimated; no rows where there are none.

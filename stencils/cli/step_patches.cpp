@@ -61,7 +61,7 @@ std::vector<NamedPatch> recipe_surfaces(const Common& common, Progress& progress
                         std::back_inserter(patches));
     }
   }
-  if (patches.empty()) recipe_patches(recipes, common.mesh);  // tells what there is instead
+  if (patches.empty()) (void)recipe_patches(recipes, common.mesh);  // tells what there is instead
   std::erase_if(recipes, [](const Recipe& recipe) { return recipe.normal_triangles() != nullptr; });
   tell_left_out(common, recipes, Sampled::surfaces);
   return patches;

@@ -25,10 +25,13 @@ class TableApplier {
 /// @param table  which must stay, here and below
 template <class Real>
 std::unique_ptr<TableApplier<Real>> cpu_applier(const PatternTable<Real>& table);
+template <class Real>
+std::unique_ptr<TableApplier<Real>> cpu_applier(const PatternTable<Real>&&) = delete;
 
 /// @param device  as `sublimit devices` counts
 /// @throws InvalidOption  there is no such device, with what is missing and how to do without
 /// @throws ResourceError, IoError  no memory left on the device; it is lost
 std::unique_ptr<TableApplier<float>> gpu_applier(const PatternTable<float>& table, int device);
+std::unique_ptr<TableApplier<float>> gpu_applier(const PatternTable<float>&&, int) = delete;
 
 }  // namespace sublimit::cli

@@ -63,6 +63,7 @@ int print_findings(const std::string& path, const std::vector<std::string>& find
 }
 
 std::string verdicts_in_words(const report::ReportVerification& found) {
+  if (found.kind == "curve") return "sound: its joints are what its pieces give";
   if (found.kind != "schemes") return fmt::format("a report of kind {}, which has no verdicts to prove", found.kind);
   std::string text =
       fmt::format("sound: {} verdicts, {} of them proofs with a witness", found.verdicts, found.seen_again);
@@ -70,6 +71,8 @@ std::string verdicts_in_words(const report::ReportVerification& found) {
   if (found.seen_with_scheme > 0)
     text += fmt::format(" ({} on the masks of the scheme's own file)", found.seen_with_scheme);
   if (found.by_nets > 0) text += fmt::format("; {} are proofs of C^1 by refined nets, which have none", found.by_nets);
+  if (found.masks_again > 0)
+    text += fmt::format("; {} regular parts and neighbourhoods are what masks give", found.masks_again);
   return text + fmt::format(";\n  {} are proved or disproved without a witness, and {} are not decided", found.decided,
                             found.verdicts - found.decided - found.seen_again - found.by_nets);
 }
@@ -79,9 +82,10 @@ int verify_report(const VerifyOptions& options) {
   progress.step("verifying " + options.table);
   report::ReportVerification found;
   try {
-    found = report::verify_report(read_file(options.table), [&](int done, int all) {
-      progress.note(fmt::format("verifying {}: {} of {} witnesses", options.table, done, all));
-    });
+    found =
+        report::verify_report(read_file(options.table), {.progress = [&](int done, int all) {
+                                progress.note(fmt::format("verifying {}: {} of {} parts", options.table, done, all));
+                              }});
   } catch (const FormatError& error) {
     throw FormatError(options.table + ": " + error.what());
   }
@@ -129,7 +133,9 @@ Command add_verify(CLI::App& app) {
       "indices, that weights are finite, that those of a position sum to one and those of a derivative to zero, that\n"
       "every point is made once, and checksums. Checked of reports: that each witness proves C^1 at its neighbourhood\n"
       "(by a checker of its own, and on the masks of the scheme's file where the scheme is one of ours), that C^1 is\n"
-      "nowhere said to be proved without one (but by refined nets, of which there are none yet), and that verdicts agree with their hypotheses and with the summary.\n"
+      "nowhere said to be proved without one (but by refined nets, of which there are none yet), that regular parts, types,\n"
+      "weights and claims are what masks give (the file's, or of schemes that are not ours those in the report), and that\n"
+      "verdicts agree with their hypotheses and with the summary.\n"
       "Exit status 1 if a check fails, 3 if the file cannot be read.");
   return [=] { return verify(*options); };
 }

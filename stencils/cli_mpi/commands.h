@@ -9,7 +9,7 @@
 
 namespace sublimit::cli_mpi {
 
-using Command = std::function<void(const Ranks&)>;
+using Command = std::function<int(const Ranks&)>;  // the exit status, of all ranks the same
 /// @param chosen  becomes the command if it is the one that is given
 void add_info(CLI::App& app, Command& chosen);
 void add_bake(CLI::App& app, Command& chosen);

@@ -81,7 +81,12 @@ void add_fit(CLI::App& app, Command& chosen) {
       "  face,u,v,x,y,z[,weight]          the limit at a place, as in `sample`: least squares\n"
       "Where targets do not determine the control points, those nearest to MESH are taken, or the fairest ones. The result\n"
       "is that of `sublimit fit` to about 1e-12, not bit by bit. --petsc \"-ksp_monitor\" shows the iterations.");
-  command->callback([&chosen, options] { chosen = [options](const Ranks& ranks) { fit(ranks, *options); }; });
+  command->callback([&chosen, options] {
+    chosen = [options](const Ranks& ranks) {
+      fit(ranks, *options);
+      return 0;
+    };
+  });
 }
 
 }  // namespace sublimit::cli_mpi

@@ -46,17 +46,20 @@ void print(const SpreadInfo& info, const std::string& name) {
   for (const std::string& warning : info.warnings) fmt::print("  warning: {}\n", warning);
 }
 
-void info(const Ranks& ranks, const InfoOptions& options) {
+/// @return  exit status 1 where the scheme does not take the mesh
+int info(const Ranks& ranks, const InfoOptions& options) {
   const Told told = begin(ranks, options.common);
   const std::string& name = options.common.mesh;
   const MeshRequest request = checked_request(ranks, options.common);
   told("reading " + name);
   const SpreadInfo found = spread_info(ranks, request, read_spread_mesh(ranks, name), name, told);
-  if (!ranks.is_first()) return;
+  const int status = found.why_not.empty() ? 0 : 1;
+  if (!ranks.is_first()) return status;
   if (options.as_json)
     fmt::print("{}\n", to_json(found, name).dump(2));
   else
     print(found, name);
+  return status;
 }
 
 }  // namespace
@@ -72,8 +75,9 @@ void add_info(CLI::App& app, Command& chosen) {
       "Examples:\n"
       "  mpirun -n 2 sublimit-mpi info city.ply\n"
       "  mpirun -n 8 sublimit-mpi info city.ply -s loop --json\n"
-      "Counts are those of `sublimit info`, which names every fault of a mesh too.");
-  command->callback([&chosen, options] { chosen = [options](const Ranks& ranks) { info(ranks, *options); }; });
+      "Counts are those of `sublimit info`, which names every fault of a mesh too. Exit status 1 where the scheme does\n"
+      "not take the mesh.");
+  command->callback([&chosen, options] { chosen = [options](const Ranks& ranks) { return info(ranks, *options); }; });
 }
 
 }  // namespace sublimit::cli_mpi

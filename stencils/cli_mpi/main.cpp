@@ -23,7 +23,7 @@ int main(int argc, char** argv) {
   for (const auto add : {cli_mpi::add_info, cli_mpi::add_bake, cli_mpi::add_apply, cli_mpi::add_verify,
                          cli_mpi::add_fit, cli_mpi::add_refine, cli_mpi::add_sample})
     add(app, chosen);
-  int misuse = 0;
+  int misuse = 0, verdict = 0;
   const int status = ranks.run([&] {
     std::string said;
     for (int i = 1; i < argc; ++i) said += (i > 1 ? " " : "") + std::string(argv[i]);
@@ -36,7 +36,7 @@ int main(int argc, char** argv) {
     misuse = line.status;
     if (!line.runs) return;
     ranks.together([&] { cli::check_input_files(*app.get_subcommands().front()); });
-    chosen(ranks);
+    verdict = chosen(ranks);
   });
-  return cli::finish_standard_streams("sublimit-mpi", status != 0 ? status : misuse);
+  return cli::finish_standard_streams("sublimit-mpi", status != 0 ? status : misuse != 0 ? misuse : verdict);
 }

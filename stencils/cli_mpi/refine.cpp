@@ -43,7 +43,12 @@ void add_refine(CLI::App& app, Command& chosen) {
       "  mpirun -n 2 sublimit-mpi refine torus.ply -s catmull-clark -l 2 -o refined.ply\n"
       "  mpirun -n 8 sublimit-mpi refine city.ply -s loop -l 4 --limit -o limit.npy\n"
       "Points stand as `apply` of shards has them; faces in the order of the control faces, without those of holes.");
-  command->callback([&chosen, options] { chosen = [options](const Ranks& ranks) { refine(ranks, *options); }; });
+  command->callback([&chosen, options] {
+    chosen = [options](const Ranks& ranks) {
+      refine(ranks, *options);
+      return 0;
+    };
+  });
 }
 
 }  // namespace sublimit::cli_mpi

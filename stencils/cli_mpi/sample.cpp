@@ -80,7 +80,12 @@ void add_sample(CLI::App& app, Command& chosen) {
       "  mpirun -n 2 sublimit-mpi sample city.ply -s catmull-clark --at places.csv --derivatives 1 -o points.csv\n"
       "  mpirun -n 8 sublimit-mpi sample city.ply -s loop --random 1000000 --seed 7 -o points.csv\n"
       "Faces, places, columns and bytes are those of `sublimit sample`, in the order asked.");
-  command->callback([&chosen, options] { chosen = [options](const Ranks& ranks) { sample(ranks, *options); }; });
+  command->callback([&chosen, options] {
+    chosen = [options](const Ranks& ranks) {
+      sample(ranks, *options);
+      return 0;
+    };
+  });
 }
 
 }  // namespace sublimit::cli_mpi

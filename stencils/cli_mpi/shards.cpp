@@ -52,7 +52,12 @@ void add_bake(CLI::App& app, Command& chosen) {
       "A bake that was ended goes on with the shards that are missing. Each is a table that sublimit reads too: 'shard.inputs'\n"
       "are its control points, 'shard.runs' say where its points stand: in the order of faces, those on a side with the\n"
       "first face that has them, whatever the numbers of ranks and shards.");
-  command->callback([&chosen, options] { chosen = [options](const Ranks& ranks) { bake(ranks, *options); }; });
+  command->callback([&chosen, options] {
+    chosen = [options](const Ranks& ranks) {
+      bake(ranks, *options);
+      return 0;
+    };
+  });
 }
 
 void add_apply(CLI::App& app, Command& chosen) {
@@ -83,6 +88,7 @@ void add_apply(CLI::App& app, Command& chosen) {
                                                options->any_cage, begin(ranks, options->common));
       if (ranks.is_first() && !options->common.quiet)
         fmt::print("{}: {} frame{}; {:.3f} s\n", options->output, frames, frames == 1 ? "" : "s", seconds_since(start));
+      return 0;
     };
   });
 }
@@ -109,6 +115,7 @@ void add_verify(CLI::App& app, Command& chosen) {
         if (!list.empty()) throw FormatError(list);
       });
       if (ranks.is_first() && !options->common.quiet) fmt::print("{}: whole\n", options->shards);
+      return 0;
     };
   });
 }

@@ -1,5 +1,5 @@
 # Configures, builds and runs the foreign project KIND: against an install of the build tree BUILD into a prefix of its own, or,
-# for `subdirectory`, with the sources.
+# for `subdirectory`, with the sources. Of `components` nothing is built.
 set(scratch ${BUILD}/consumer/${KIND})
 set(binary ${scratch}/build)
 file(REMOVE_RECURSE ${scratch})
@@ -23,8 +23,17 @@ else()
   set(place -DCMAKE_PREFIX_PATH=${scratch}/prefix)
 endif()
 
-run(log ${CMAKE_COMMAND} -S ${SOURCE}/tests/consumer/${KIND} -B ${binary} -G Ninja -DCMAKE_BUILD_TYPE=Release
+set(configure ${CMAKE_COMMAND} -S ${SOURCE}/tests/consumer/${KIND} -B ${binary} -G Ninja -DCMAKE_BUILD_TYPE=Release
     -DCMAKE_CXX_COMPILER=${COMPILER} -DSUBLIMIT_SOURCE=${SOURCE} ${place})
+run(log ${configure})
+if(KIND STREQUAL components)
+  execute_process(COMMAND ${configure} -DREQUIRED_PART=nonsense RESULT_VARIABLE status OUTPUT_QUIET ERROR_VARIABLE printed)
+  string(REGEX REPLACE "[ \n]+" " " printed "${printed}")
+  if(status EQUAL 0 OR NOT printed MATCHES "sublimit::nonsense: there is no such component, but eval, ")
+    message(FATAL_ERROR "a required component that does not exist ends a configuration (${status}) with\n${printed}")
+  endif()
+  return()
+endif()
 run(log ${CMAKE_COMMAND} --build ${binary} --target ${targets})
 run(log ${binary}/consumer)
 

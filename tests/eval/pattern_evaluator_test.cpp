@@ -184,7 +184,7 @@ TEST(PatternEvaluator, ServesManyThreadsAtOnce) {
   std::vector<float> transposed(of.points.size());
   evaluator.apply_transpose(expected, 3, transposed);
   std::atomic<int> different = 0;
-  std::vector<std::thread> threads;  // of our own: the thread sanitizer does not see how TBB's wait for each other
+  std::vector<std::thread> threads;
   for (int i = 0; i < 4; ++i)
     threads.emplace_back([&] {
       for (int trial = 0; trial < 8; ++trial) {

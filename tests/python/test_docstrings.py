@@ -8,6 +8,7 @@ import pathlib
 import re
 
 import pytest
+from conftest import shared_mesh
 
 import sublimit
 
@@ -46,9 +47,16 @@ def test_the_readme_names_what_there_is() -> None:
     assert names and all(hasattr(sublimit, name) for name in names - {"write"}), names
 
 
-def test_the_example_of_the_readme_runs(tagged: sublimit.Mesh, tmp_path: pathlib.Path, monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize("cage", ["tagged", "large and far away", "catmark_car"])
+def test_the_example_of_the_readme_runs(cage: str, tagged: sublimit.Mesh, tmp_path: pathlib.Path,
+                                        monkeypatch: pytest.MonkeyPatch) -> None:
     (example,) = re.findall(r"```python\n(.*?)```", README.read_text(), flags=re.S)
-    tagged.write(tmp_path / "cage.obj")
+    mesh = tagged
+    if cage == "large and far away":
+        mesh = sublimit.Mesh(1000 * tagged.points + [3e4, -7e3, 1e5], tagged.faces, creases=tagged.creases)
+    if cage == "catmark_car":
+        mesh = sublimit.read(shared_mesh(cage))
+    mesh.write(tmp_path / "cage.obj")
     monkeypatch.chdir(tmp_path)
     exec(compile(example, "README.md", "exec"), {})
 

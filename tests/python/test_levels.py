@@ -2,10 +2,13 @@
 """Refined meshes, matrices and limits: the bits of the program's files, and the laws that they obey."""
 from __future__ import annotations
 
+import functools
+import inspect
 import pathlib
 import warnings
 from collections.abc import Callable
 from fractions import Fraction
+from typing import Any
 
 import numpy as np
 import pytest
@@ -149,9 +152,55 @@ def test_warns_of_what_is_left_out(cube: sublimit.Mesh) -> None:
     assert sublimit.refine(mesh, "catmull-clark").uv is not None
 
 
+def parameters(thing: Any) -> set[str]:
+    """Names of parameters; none of what has no signature in Python."""
+    try:
+        return set(inspect.signature(thing).parameters)
+    except (TypeError, ValueError):
+        return set()
+
+
+def test_what_takes_a_mesh_and_a_scheme_warns_of_it(cube: sublimit.Mesh) -> None:
+    """Once, where it was called; with `strict` it is an error, and a filter silences it."""
+    faulty = sublimit.Mesh(cube.points, [[0, 1, 2, 3], [1, 0, 5, 4], [0, 1, 6, 7]])
+    assert 1 <= len(faulty.faults()) <= 5
+    places = np.zeros(1, int), np.array([0.25]), np.array([0.5])
+    more: dict[str, tuple[Any, ...]] = {"fit": ([2], cube.points[2:3]), "fit_places": (*places, cube.points[:1]), "bake": (1,),
+                                        "fit_cloud": (cube.points,)}
+    functions = [name for name in sublimit.__all__ if {"mesh", "scheme"} <= parameters(getattr(sublimit, name))]
+    assert {"refine", "limit", "bake", "LimitSurface", "subdivision_matrix", "analyze_mesh", *more} == set(functions)
+    for name in functions:
+        call = functools.partial(getattr(sublimit, name), faulty, "catmull-clark", *more.get(name, ()))
+        with pytest.warns(sublimit.MeshWarning) as caught:
+            call()
+        assert [str(one.message) for one in caught] == faulty.faults(), name
+        assert caught[0].filename == __file__, name
+        with pytest.raises(sublimit.InvalidMesh, match="strict"):
+            call(strict=True)
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            warnings.simplefilter("ignore", sublimit.MeshWarning)
+            call()
+
+
+def test_many_faults_are_a_few_warnings(cube: sublimit.Mesh) -> None:
+    faulty = sublimit.Mesh(cube.points, [[0, 1, 2], [1, 0, 3], [0, 1, 4]] + [[i, (i + 1) % 8, (i + 3) % 8] for i in range(8)] * 2)
+    assert len(faulty.faults()) > 6
+    with pytest.warns(sublimit.MeshWarning) as caught:
+        sublimit.refine(faulty, "loop")
+    assert len(caught) == 6 and str(caught[-1].message).startswith(f"and {len(faulty.faults()) - 5} more")
+
+
+def test_defaults_of_options_are_values_of_theirs() -> None:
+    for name, info in sublimit.schemes().items():
+        sublimit.scheme(name, **{option: one.default for option, one in info.options.items()})
+
+
 def test_schemes_with_options(cube: sublimit.Mesh) -> None:
     half = sublimit.scheme("kobbelt", tension=Fraction(1, 2))
     assert str(half) == "kobbelt tension=1/2"
+    virtual = sublimit.scheme("modified-butterfly", boundary_rule="virtual-vertex")  # - of a name is written _
+    assert virtual == sublimit.scheme("modified-butterfly", **{"boundary-rule": "virtual-vertex"})
     by_option = sublimit.refine(cube, "kobbelt", option={"tension": 0.5})
     assert np.array_equal(sublimit.refine(cube, half).points, by_option.points)
     assert not np.array_equal(sublimit.refine(cube, "kobbelt").points, by_option.points)

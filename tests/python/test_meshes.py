@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import gc
+import inspect
 import pathlib
 import pickle
 from typing import Any
@@ -78,6 +79,47 @@ def test_tags_in_their_forms() -> None:
             assert mesh.boundary == "edge-only"
 
 
+def with_every_tag() -> list[sublimit.Mesh]:
+    """Meshes with all tags, some of them, and none; one tag of a kind, two, and as many as columns."""
+    everything = dict(creases={(0, 1): 2.5, (1, 2): np.inf, (2, 3): 10}, corners={3: 1.5, 0: np.inf}, holes=[1],
+                      boundary="edge-only", uv=np.arange(8).reshape(4, 2))
+    meshes = [sublimit.Mesh(SQUARE, [[0, 1, 2], [0, 2, 3]], **everything)]  # type: ignore[arg-type]
+    meshes += [sublimit.Mesh(SQUARE, [[0, 1, 2, 3], [0, 1, 2]][:1], **{name: value})  # type: ignore[arg-type]
+               for name, value in everything.items() if name != "holes"]
+    for count in range(5):
+        edges = [(0, 1), (1, 2), (2, 3), (3, 0)][:count]
+        meshes.append(sublimit.Mesh(SQUARE, [[0, 1, 2, 3]], creases={edge: 2 for edge in edges}, corners=dict.fromkeys(range(count), 1)))
+    return [*meshes, sublimit.Mesh(SQUARE, [[0, 1, 2, 3], [0, 1, 2]], holes=[1]), sublimit.Mesh([], [])]
+
+
+@pytest.mark.parametrize("mesh", with_every_tag())
+def test_is_made_of_its_own_attributes(mesh: sublimit.Mesh) -> None:
+    """Whatever the constructor takes is an attribute, and it takes it as that."""
+    names = [name for name in inspect.signature(sublimit.Mesh.__init__).parameters if name != "self"]
+    assert {"points", "faces", "creases", "corners", "holes", "boundary", "uv", "uv_faces"} == set(names)
+    everything = {name: getattr(mesh, name) for name in names}
+    again = sublimit.Mesh(**everything)
+    assert same(again, mesh)
+    if len(mesh.faces[0]) > 0 and len(set(mesh.faces[0])) == 1:
+        assert same(sublimit.Mesh(**{**everything, "faces": mesh.face_array}), mesh)
+    for name in names[2:]:  # each by itself
+        if name != "uv_faces" or mesh.uv is not None:
+            one = {name: getattr(mesh, name)} | ({"uv": mesh.uv} if name == "uv_faces" else {})
+            sublimit.Mesh(mesh.points, mesh.faces, **one)
+
+
+def test_two_arrays_are_tags_or_rows() -> None:
+    face = [[0, 1, 2, 3]]
+    rows = sublimit.Mesh(SQUARE, face, corners=(np.array([3, 1.5]), np.array([0, 2.5])))
+    assert [part.tolist() for part in rows.corners] == [[3, 0], [1.5, 2.5]]
+    pair = sublimit.Mesh(SQUARE, face, corners=(np.array([3, 0]), np.array([1.5, 2.5])))
+    assert same(pair, rows)
+    with pytest.raises(ValueError, match="which may be"):
+        sublimit.Mesh(SQUARE, face, corners=(np.array([3, 2]), np.array([0, 2])))
+    two = sublimit.Mesh(SQUARE, face, creases=(np.array([0, 1, 2]), np.array([1, 2, 3])))
+    assert [part.tolist() for part in two.creases] == [[[0, 1], [1, 2]], [2, 3]]
+
+
 def test_texture_coordinates_in_their_forms() -> None:
     uv = [[0, 0], [1, 0], [1, 1], [0, 1]]
     faces = [[0, 1, 2], [0, 2, 3]]
@@ -112,7 +154,11 @@ SEVERAL_COLUMNS = np.zeros((4, 4))
     (dict(faces=(np.array([3, 3]), np.array([0, 1, 2]))), "sizes add up to 6 corners, but there are 3"),
     (dict(creases={(0, 2): 1}), r"crease \(0,2\) is not an edge"),
     (dict(creases={(0, 1): -1}), "sharpness -1"),
-    (dict(creases={(0.5, 1): 1}), "creases names vertex"),
+    (dict(creases={(0.5, 1): 1}), "creases names vertex 0.5; whole numbers"),
+    (dict(creases={(np.nan, 1): 1}), "creases names vertex nan; whole numbers"),
+    (dict(creases={(np.inf, 1): 1}), "creases names vertex inf; whole numbers"),
+    (dict(creases={(0, 1): np.nan}), r"creases\[0\] has sharpness nan; 0 to infinity"),
+    (dict(creases=(np.array([[0, 1]]), np.array([1.0, 2]))), "creases is"),
     (dict(creases=[(0, 1)]), r"creases has shape \(1, 2\); \{\(tail, head\): sharpness\}"),
     (dict(corners={9: 1}), "corner 9 is not a vertex"),
     (dict(holes=[7]), "hole 7 is not a face"),

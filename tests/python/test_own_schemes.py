@@ -173,7 +173,7 @@ class Kobbelt(sublimit.Scheme):
 
     def across(self, f: sublimit.WideFaceSite, i: int) -> sublimit.Stencil:
         """From the points of edges i and i + 2."""
-        beyond = [f.edge_point_beyond(k) if f.has_across(k) else 2 * f.edge_point(k) - f.edge_point(k + 2) for k in (i, i + 2)]
+        beyond = [f.edge_point_beyond(k) if f.has_across(k) else 2 * f.edge_point(k) - f.edge_point(k - 2) for k in (i, i + 2)]
         return (9 * (f.edge_point(i) + f.edge_point(i + 2)) - total(beyond)) / 16
 
     def wide_face(self, f: sublimit.WideFaceSite) -> sublimit.Stencil:
@@ -356,7 +356,9 @@ MISTAKES: list[tuple[Callable[[Any], Any], type[Exception], str]] = [
     (lambda e: e.middle, AttributeError, "middle"),
     (lambda e: 1 / 0, ZeroDivisionError, "division by zero"),
     (lambda e: e.ratio(1, 0) * e.tail, sublimit.InvalidParameter, "q that is not 0"),
-    (lambda e: e.left_face.corner(7) * e.cos_2pi(1, 0), sublimit.InvalidParameter, "n of at least 1"),
+    (lambda e: e.left_face.corner(1) * e.cos_2pi(1, 0), sublimit.InvalidParameter, "n of at least 1"),
+    (lambda e: e.left_face.corner(4), sublimit.InvalidParameter, "corner 4 of a face of [34]; 0 to [23] exist"),
+    (lambda e: e.left_face.corner(-5), sublimit.InvalidParameter, "corner -5 of a face"),
     (lambda e: (kept_first(e).tail + e.head) / 2, sublimit.InvalidParameter, "kept from another call"),
 ]
 

@@ -68,6 +68,60 @@ def test_a_sphere_by_a_recipe(tmp_path: pathlib.Path) -> None:
     np.testing.assert_allclose(hits.t, [(9 - 3.75**0.5) / 2, (9 + 3.75**0.5) / 2], rtol=0, atol=derivatives)
 
 
+@pytest.fixture
+def quarter(tmp_path: pathlib.Path) -> sublimit.Patches:
+    """A quarter of a cylinder of radius 1."""
+    w = 0.5**0.5
+    (tmp_path / "quarter.json").write_text(json.dumps({
+        "kind": "nurbs_surface", "degree": [2, 1], "shape": [3, 2], "knots_u": [0, 0, 0, 1, 1, 1], "knots_v": [0, 0, 1, 1],
+        "homogeneous": [[1, 0, 0, 1], [w, w, 0, w], [0, 1, 0, 1], [1, 0, 1, 1], [w, w, w, w], [0, 1, 1, 1]]}))
+    return sublimit.Patches.read(tmp_path / "quarter.json")
+
+
+def test_rational_tables_take_columns_or_points_with_weights(quarter: sublimit.Patches, bicubic: sublimit.Patches) -> None:
+    weights = quarter.weights
+    assert weights is not None and bicubic.weights is None
+    xyz = quarter.points[:, :3] / weights[:, None]
+    table = quarter.bake(grid=5, derivatives=1, precision="double")
+    made = table.apply(quarter.points)
+    np.testing.assert_allclose(np.hypot(made[0, :, 0], made[0, :, 1]), 1, rtol=0, atol=rounding)
+    np.testing.assert_allclose(table.apply(xyz, weights=weights), made, rtol=0, atol=products)
+    frames = np.stack([xyz, 2 * xyz])
+    for given in (weights, np.stack([weights, weights])):
+        np.testing.assert_allclose(table.apply(frames, weights=given), np.stack([made, 2 * made]), rtol=0, atol=products)
+    one = table.apply(xyz[:, 2:], weights=weights)  # any values
+    np.testing.assert_allclose(one, made[:, :, 2:], rtol=0, atol=products)
+    for values, given, words in (
+            (xyz, None, r"points has 3 columns, and the table is rational: 4, \(w x"), (xyz[:, :2], None, "2 columns"),
+            (xyz, weights[:3], r"weights has shape \(3,\); one for each"), (xyz, weights[:, None], "weights has shape"),
+            (xyz, np.full(len(xyz), "a"), "dtype <U1")):
+        with pytest.raises(ValueError, match=words):
+            table.apply(values, weights=given)
+    with pytest.raises(ValueError, match="weights are for rational tables"):
+        bicubic.bake(grid=3).apply(bicubic.points, weights=np.ones(16))
+
+
+def test_operators_of_rational_tables_are_their_matrices(quarter: sublimit.Patches) -> None:
+    table = quarter.bake(grid=5, derivatives=1, precision="double")
+    matrix, operator = table.matrix(), table.operator()
+    x = np.random.default_rng(1).random((matrix.shape[1], 70))  # more than are applied at once
+    np.testing.assert_allclose(operator @ x, matrix @ x, rtol=0, atol=products)
+    np.testing.assert_allclose(operator @ x[:, 0], matrix @ x[:, 0], rtol=0, atol=products)
+    y = np.random.default_rng(2).random(matrix.shape[0])
+    np.testing.assert_allclose(operator.T @ y, matrix.T @ y, rtol=0, atol=products)
+
+
+def test_tables_are_baked_at_the_addresses_of_others(quarter: sublimit.Patches, bicubic: sublimit.Patches) -> None:
+    for patches in (quarter, bicubic):
+        grid = patches.bake(grid=4, precision="double")
+        again = patches.bake(at=grid.addresses, precision="double")
+        np.testing.assert_allclose(again.apply(patches.points), grid.apply(patches.points), rtol=0, atol=rounding)
+    with pytest.raises(ValueError, match="at is not"):
+        bicubic.bake(at=(0,))
+    with pytest.raises(ValueError, match=r"at has \(u, v\) of shape \(3,\)"):
+        bicubic.bake(at=(0, [1, 2, 3]))
+
+
 def test_refuses_in_clear_words(bicubic: sublimit.Patches, tmp_path: pathlib.Path) -> None:
     with pytest.raises(TypeError, match="Patches.read"):
         sublimit.Patches()

@@ -126,6 +126,8 @@ def test_rays(cube: sublimit.Mesh) -> None:
     origins, directions = np.array([[0.5, 0.45, -3], [9, 9, 9], [0.5, 0.45, 0.5]]), [0, 0, 2]
     hits = surface.intersect(origins, directions, all=True)
     assert hits.first.tolist() == [0, 2, 2, 3] and not hits.undecided.any()
+    assert hits.kinds == ("crossing", "touching", "given-up") and not hits.kind.any()
+    assert hits.words == ["regular"] * 3
     on_rays = origins[[0, 0, 2]] + hits.t[:, None] * directions
     np.testing.assert_allclose(hits.points, on_rays, atol=searched)
     np.testing.assert_allclose(surface.evaluate(hits.face, hits.u, hits.v).points, on_rays, atol=searched)

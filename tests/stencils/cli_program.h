@@ -104,6 +104,13 @@ inline Outcome expect_done(const Outcome& outcome, bool warned = false) {
   return outcome;
 }
 
+/// Expects an answer, and that it is no.
+inline Outcome expect_no(const Outcome& outcome) {
+  EXPECT_EQ(outcome.status, 1) << outcome.out << outcome.err;
+  EXPECT_EQ(outcome.err, "");
+  return outcome;
+}
+
 /// Expects a failure with this status and a message with every part.
 inline void expect_failure(const Outcome& outcome, int status, std::initializer_list<std::string_view> parts) {
   EXPECT_EQ(outcome.status, status) << outcome.out << outcome.err;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <regex>
 #include <set>
 #include <sstream>
@@ -93,6 +94,58 @@ TEST(House, NoRoomOfLibReadsClaims) {
     for (std::string line; std::getline(text, line);)
       EXPECT_FALSE(std::regex_search(line, read)) << entry.path() << ": " << line;
   }
+}
+
+/// Where references to arguments are kept though a temporary would do: what is made and used in one place, by us.
+const std::set<std::string> made_in_one_place{
+    "lib/sublimit/scheme/sites.h",                    // sites live for the call of a mask
+    "lib/sublimit/scheme/subdivision_matrix_impl.h",  // makers of rows for the assembly of one matrix
+    "stencils/sublimit/patterns/patterns.h",          // examples for one call
+    "stencils/sublimit/picture/panel.h",              // a panel for the call that draws it
+};
+
+/// Where what is kept is a part of the argument, which is refused.
+const std::map<std::string, std::string> part_of{
+    {"lib/sublimit/neighborhood/regular_faces.h: Topology", "Level"},
+    {"lib/sublimit/limit/piece_parts.h: LimitSurface::Parts", "LimitSurface"},
+    {"lib/sublimit/limit/limit_patches.h: LimitSurface::Parts::Pieces", "LimitSurface::Parts"},
+};
+
+// A reference to an argument that a header keeps, as a member or a pointer, has an overload for temporaries, deleted.
+TEST(House, WhatKeepsAReferenceTakesNoTemporary) {
+  const std::regex member("\\s+const ([\\w:]+(?:<[^;()]*>)?)& \\w+;.*"), address("\\w+_\\(&(\\w+)\\)");
+  size_t kept = 0;
+  std::set<std::string> excused;
+  for (const char* folder : {"lib", "eval", "stencils"})
+    for (const auto& entry : fs::recursive_directory_iterator(fs::path(SUBLIMIT_SOURCE) / folder)) {
+      if (entry.path().extension() != ".h") continue;
+      const std::string file = entry.path().lexically_relative(SUBLIMIT_SOURCE).string();
+      const std::string text = read_file(entry.path());
+      std::set<std::string> types;
+      std::istringstream lines(text);
+      for (std::string line; std::getline(lines, line);) {
+        std::smatch found;
+        if (std::regex_match(line, found, member)) types.insert(found[1].str());
+        if (!std::regex_search(line, found, address)) continue;
+        // The parameter's type, if it is const: others take no temporaries anyway.
+        const std::regex parameter("const ([\\w:]+(?:<[^;()]*>)?)& " + found[1].str() + "[,)]");
+        if (std::smatch declared; std::regex_search(text, declared, parameter)) types.insert(declared[1].str());
+      }
+      for (const std::string& type : types) {
+        if (made_in_one_place.contains(file)) {
+          excused.insert(file);
+          continue;
+        }
+        const auto whole = part_of.find(file + ": " + type);
+        const std::string refused = "const " + (whole == part_of.end() ? type : whole->second) + "&&";
+        EXPECT_NE(text.find(refused), std::string::npos)
+            << file << " keeps a reference to a " << type << "; delete the overload for temporaries, (" << refused
+            << ", ...) = delete, or let it own what it needs";
+        ++kept;
+      }
+    }
+  EXPECT_GT(kept, 30u);
+  EXPECT_EQ(excused, made_in_one_place);
 }
 
 }  // namespace

@@ -23,9 +23,10 @@ const MaySkip may_skip[] = {
     {"programs that are missing: skipped on a desk, a failure in CI", {"support/skip.h"}},
     {"OpenSubdiv's regression shapes and meshes that fuzzing found are not ours to publish; a clone without "
      "../shared/meshes compares meshes of the tests' own",
-     {"lib/every_scheme_sweep_test.cpp", "lib/every_surface_sweep_test.cpp", "lib/fit/shared_meshes_fit_test.cpp",
-      "lib/fit/shared_meshes_polygons_test.cpp", "lib/primvar/opensubdiv_face_varying_test.cpp",
-      "lib/shared_meshes_test.cpp", "stencils/report/asset/asset_shared_meshes_test.cpp", "stencils/bake/bake_test.cpp",
+     {"lib/every_ray_sweep_test.cpp", "lib/every_scheme_sweep_test.cpp", "lib/every_surface_sweep_test.cpp",
+      "lib/fit/shared_meshes_fit_test.cpp", "lib/fit/shared_meshes_polygons_test.cpp",
+      "lib/primvar/opensubdiv_face_varying_test.cpp", "lib/shared_meshes_test.cpp",
+      "stencils/report/asset/asset_shared_meshes_test.cpp", "stencils/bake/bake_test.cpp",
       "stencils/cli/cli_found_limits_test.cpp", "stencils/cli/cli_found_test.cpp",
       "stencils/distributed/ranks_test.cpp", "stencils/gpu/baked_tables_test.cpp"}},
     {"a file system of 64 KB, mounted for one job, takes rights that containers may withhold",

@@ -44,6 +44,8 @@ inline constexpr double found_again = 1e-10, found_control_points = 1e-7;
 /// Distances and parameters of rays, relative to the size of the surface: what a search stops at, and how it grows
 /// where rays come at an angle.
 inline constexpr double found_hit = 1e-10;
+/// The same at slopes down to 1e-5, by which roundings of the coordinates are divided.
+inline constexpr double found_grazing = 1e-9;
 /// Where a ray touches a surface of the size 1: it is as near as a search sees for the root of that, on either side.
 inline constexpr double found_touch = 1e-5;
 /// Distances from a search that stops at 1e-12 of the surface's size.

@@ -6,7 +6,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cerrno>
 #include <cstdint>
 #include <cstdio>
@@ -19,6 +18,7 @@
 
 #include "sublimit/base/file_error.h"
 #include "sublimit/base/followed_links.h"
+#include "sublimit/base/temporaries.h"
 
 namespace sublimit {
 
@@ -28,7 +28,8 @@ namespace sublimit {
 /// existing target keeps its permissions. A link stays a link: the file at its end is written, which need not be there
 /// yet. Devices and pipes are written in place.
 /// @note  Under a limit on file sizes the kernel sends SIGXFSZ, which kills: a program that wants the error instead
-///        ignores that signal. A killed program leaves its temporary, ".NAME.PID-N.tmp", behind.
+///        ignores that signal. A killed program leaves its temporary, ".NAME.PID-N.tmp", behind; one that ends itself
+///        in the middle calls `Temporary::remove_all`.
 /// @note  No fsync: the rename is atomic for every process, not against power failure.
 class AtomicFile {
  public:
@@ -48,7 +49,15 @@ class AtomicFile {
     std::error_code unresolved;
     destination_ = exists ? std::filesystem::canonical(target, unresolved) : followed_links(target);
     if (unresolved) throw_file_error(target, "write", unresolved.value());
-    open_temporary();
+    const int error = temporary_.make_beside(destination_, [this](const char* name) {
+      file_ = ::open(name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+      return file_ >= 0;
+    });
+    if (error != 0) {
+      std::string remedy = destination_ == target_ ? "" : "it is a link to " + destination_.string();
+      if (error == ENOENT) remedy += (remedy.empty() ? "" : "; ") + std::string("its directory must exist");
+      throw_file_error(target_, "write", error, remedy);
+    }
     if (exists) (void)!::fchmod(file_, status.st_mode & 07777);
   }
 
@@ -56,7 +65,6 @@ class AtomicFile {
   AtomicFile& operator=(const AtomicFile&) = delete;
   ~AtomicFile() {
     if (file_ >= 0) ::close(file_);
-    if (!temporary_.empty()) ::unlink(temporary_.c_str());
   }
 
   /// Appends bytes. Small pieces are gathered, large ones go straight through.
@@ -70,38 +78,32 @@ class AtomicFile {
     }
   }
 
+  /// Replaces bytes that were written before. Regular files only.
+  void rewrite(std::int64_t at, std::string_view bytes) {
+    flush();
+    while (!bytes.empty()) {
+      const ssize_t count = ::pwrite(file_, bytes.data(), bytes.size(), at);
+      if (count < 0 && errno == EINTR) continue;
+      if (count <= 0) throw_file_error(target_, "write", count < 0 ? errno : EIO);
+      bytes.remove_prefix(std::size_t(count));
+      at += count;
+    }
+  }
+
   /// Writes what is left and gives the file its name. Nothing may be written after.
   void commit() {
     flush();
     // Some file systems report a full disk only here; the descriptor is gone whatever close says.
     if (::close(std::exchange(file_, -1)) != 0) throw_file_error(target_, "write", errno);
     if (temporary_.empty()) return;
-    if (std::rename(temporary_.c_str(), destination_.c_str()) != 0) throw_file_error(target_, "write", errno);
-    temporary_.clear();
+    if (std::rename(temporary_.name().c_str(), destination_.c_str()) != 0) throw_file_error(target_, "write", errno);
+    temporary_.forget();
   }
 
  private:
   // A call to the system is cheap beside so many bytes, and they are still in the cache when it copies them.
   static constexpr std::size_t buffer_size = std::size_t{1} << 16;
   static constexpr std::size_t largest_piece = std::size_t{1} << 22;
-
-  void open_temporary() {
-    static std::atomic<unsigned> counter{0};
-    const std::string name = destination_.filename().string().substr(0, 200);  // room for the rest within 255 bytes
-    std::filesystem::path path;
-    do {
-      path = destination_;
-      path.replace_filename("." + name + "." + std::to_string(::getpid()) + "-" + std::to_string(counter++) + ".tmp");
-      file_ = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    } while (file_ < 0 && errno == EEXIST);
-    if (file_ < 0) {
-      const int number = errno;
-      std::string remedy = destination_ == target_ ? "" : "it is a link to " + destination_.string();
-      if (number == ENOENT) remedy += (remedy.empty() ? "" : "; ") + std::string("its directory must exist");
-      throw_file_error(target_, "write", number, remedy);
-    }
-    temporary_ = std::move(path);
-  }
 
   void flush() {
     write_through(buffer_);
@@ -121,7 +123,7 @@ class AtomicFile {
 
   std::filesystem::path target_;       // as the caller named it
   std::filesystem::path destination_;  // with links resolved
-  std::filesystem::path temporary_;    // empty: written in place, or already renamed
+  Temporary temporary_;                // none: written in place, or already renamed
   int file_ = -1;
   std::string buffer_;
   std::int64_t written_ = 0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// What the system said about a file, as one of our errors: a full disk is a lack of resources, the rest is I/O.
+// What the system said about a file, as one of our errors: a full disk or memory is a lack of resources, the rest is
+// I/O.
 #include <cerrno>
 #include <filesystem>
 #include <string>
@@ -13,7 +14,7 @@ namespace sublimit {
 
 /// Throws "PATH: cannot ACTION: what the system says", then `remedy` if there is one.
 /// @param number  errno as the failed call left it
-/// @throws ResourceError  no space, quota or file size left;  IoError  anything else
+/// @throws ResourceError  no space, quota, file size or memory left;  IoError  anything else
 [[noreturn]] inline void throw_file_error(const std::filesystem::path& path, std::string_view action, int number,
                                           std::string_view remedy = {}) {
   std::string message =
@@ -21,6 +22,7 @@ namespace sublimit {
   if (number == ENOSPC || number == EFBIG || number == EDQUOT) {
     throw ResourceError(message + "; free some space or write elsewhere");
   }
+  if (number == ENOMEM) throw ResourceError(message);
   if (!remedy.empty()) message += "; " + std::string(remedy);
   throw IoError(message);
 }

@@ -2,21 +2,15 @@
 #pragma once
 // Loops over blocks. The split into blocks depends on the range alone, never on the number of threads, so whatever is
 // computed per block has the same bits on every machine.
-#ifdef __SANITIZE_THREAD__
-// The thread sanitizer sees nothing of TBB's own synchronisation, which is not instrumented, and reports races in it.
-#include <atomic>
-#include <exception>
-#include <mutex>
-#include <thread>
-#include <vector>
-#else
 #include <tbb/parallel_for.h>
-#endif
+#include <tbb/task.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cstdint>
 
 #include "sublimit/base/interruption.h"
+#include "sublimit/base/thread_sanitizer.h"
 
 namespace sublimit {
 
@@ -27,9 +21,28 @@ constexpr std::int64_t num_blocks(std::int64_t count, std::int64_t size = block_
   return (count + size - 1) / size;
 }
 
+namespace detail {
+
+/// A block as TBB has it.
+template <class Run>
+struct LoopBlock {
+  const Run& run;
+  const HandOver& hand_over;
+
+  SUBLIMIT_NOT_WATCHED void operator()(std::int64_t block) const {
+    const HandOver::Taken taken(hand_over);
+    run(block);
+  }
+};
+
+}  // namespace detail
+
 /// Calls body(block, begin, end) for every block of [0, count), in parallel. It returns when all are done, and throws
-/// what one of them threw, or an interruption; the rest may then be left out. Loops inside of others go on by
-/// themselves: TBB's own would return halfway where another block of the outer one has failed.
+/// what one of them threw, or an interruption; the rest may then be left out.
+///
+/// A loop inside of another's block goes on by itself: TBB's own would return halfway where another block of the outer
+/// one has failed. And a thread that waits for it takes up none of the outer one's blocks meanwhile, so what the block
+/// has in hand, a lock or a buffer of its thread, is nobody else's until it is done.
 template <class Body>
 void parallel_for_blocks(std::int64_t count, const Body& body, std::int64_t size = block_size) {
   const std::int64_t blocks = num_blocks(count, size);
@@ -41,30 +54,15 @@ void parallel_for_blocks(std::int64_t count, const Body& body, std::int64_t size
     if (blocks == 1) run(0);
     return;
   }
-#ifdef __SANITIZE_THREAD__
-  std::atomic<std::int64_t> next{0};
-  std::mutex mutex;
-  std::exception_ptr failure;
-  const auto work = [&] {
-    for (std::int64_t block; (block = next++) < blocks;) {
-      try {
-        run(block);
-      } catch (...) {
-        const std::lock_guard lock(mutex);
-        if (!failure) failure = std::current_exception();
-        next = blocks;
-      }
-    }
+  const auto loop = [&] {
+    const detail::HandOver hand_over;
+    tbb::task_group_context own(tbb::task_group_context::isolated);
+    tbb::parallel_for(std::int64_t{0}, blocks, detail::LoopBlock<decltype(run)>{run, hand_over}, own);
   };
-  std::vector<std::thread> threads;
-  for (int i = 0; i < 3; ++i) threads.emplace_back(work);
-  work();
-  for (std::thread& thread : threads) thread.join();
-  if (failure) std::rethrow_exception(failure);
-#else
-  tbb::task_group_context own(tbb::task_group_context::isolated);
-  tbb::parallel_for(std::int64_t{0}, blocks, run, own);
-#endif
+  if (tbb::task::current_context())
+    tbb::this_task_arena::isolate(loop);
+  else
+    loop();
 }
 
 /// Calls body(i) for every i of [0, count), in parallel.

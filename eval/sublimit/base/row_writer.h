@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 // Many rows on their way out: formatted by all threads, written in their order.
-#ifndef __SANITIZE_THREAD__
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
-#endif
 
 #include <algorithm>
 #include <cstdint>
@@ -63,12 +61,8 @@ class RowWriter {
 
  private:
   static std::int64_t num_threads() {
-#ifdef __SANITIZE_THREAD__
-    return 4;
-#else
     const auto allowed = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
     return std::min(static_cast<std::int64_t>(allowed), std::int64_t{tbb::this_task_arena::max_concurrency()});
-#endif
   }
 
   AtomicFile* file_ = nullptr;

@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <bit>
 #include <limits>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "sublimit/base/error.h"
+#include "sublimit/base/found_once.h"
 #include "sublimit/base/parallel_for.h"
 #include "sublimit/evaluation_layouts.h"
 #include "sublimit/gpu/driver.h"
@@ -91,8 +91,7 @@ struct GpuEvaluator::Uploaded {
     std::int64_t num_parts = 0;
     std::unique_ptr<gpu::Memory> memory;
   };
-  std::once_flag transpose_flag;
-  std::optional<Transpose> made_transpose;
+  FoundOnce<Transpose> made_transpose;
 
   gpu::MemoryPool pool;  // of `apply`
 
@@ -111,12 +110,11 @@ struct GpuEvaluator::Uploaded {
   }
 
   const Transpose& transpose() {
-    std::call_once(transpose_flag, [&] {
+    return made_transpose.get([&] {
       gpu::PackedTranspose packed(table);
-      made_transpose =
-          Transpose{packed.fold, packed.patches, packed.inputs, packed.first, packed.num_parts, upload(packed.image)};
+      return Transpose{packed.fold,  packed.patches,   packed.inputs,
+                       packed.first, packed.num_parts, upload(packed.image)};
     });
-    return *made_transpose;
   }
 
   std::uint64_t address(const Part& part) const { return memory->address() + std::uint64_t(part.table); }

@@ -50,6 +50,7 @@ class GpuEvaluator {
   /// @throws IoError           the device is lost
   /// @throws InvalidParameter  a table that copies a point and writes it later, or makes a point nowhere
   GpuEvaluator(const PatternTable<float>& table, const GpuDevice& device);
+  GpuEvaluator(const PatternTable<float>&&, const GpuDevice&) = delete;
   ~GpuEvaluator();
   GpuEvaluator(GpuEvaluator&&) noexcept;
 

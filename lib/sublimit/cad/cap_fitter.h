@@ -36,6 +36,7 @@ class CapFitter {
   /// @param surface  which must stay
   /// @param degree   of the patches: that of the polynomials around them at least
   CapFitter(const LimitSurface& surface, const Points& points, int degree);
+  CapFitter(const LimitSurface&&, const Points&, int) = delete;
 
   /// Patches of cells that are no polynomials, one of a square, three of a triangle.
   /// @param group  of each cell: those around the same vertex have the same

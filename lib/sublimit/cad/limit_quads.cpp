@@ -12,11 +12,12 @@
 #include "sublimit/base/error.h"
 #include "sublimit/base/parallel_for.h"
 #include "sublimit/cad/cad_cells.h"
+#include "sublimit/base/format_number.h"
 #include "sublimit/cad/cap_fitter.h"
 #include "sublimit/cad/signed_classes.h"
 #include "sublimit/cad/triangle_thirds.h"
+#include "sublimit/core/finite_points.h"
 #include "sublimit/limit/limit_patches.h"
-#include "sublimit/base/format_number.h"
 #include "sublimit/limit/place_numbers.h"
 
 namespace sublimit {
@@ -181,7 +182,7 @@ void cut_addresses(const LimitSurface& surface, const Points& points, std::vecto
 LimitQuads limit_quads(const LimitSurface& surface, const Points& points, const LimitQuadOptions& options) {
   if (!(options.tolerance > 0) || !std::isfinite(options.tolerance))
     throw InvalidParameter("the tolerance is " + format_number(options.tolerance) + "; a distance above 0 is right");
-  if (!points.allFinite()) throw InvalidParameter("points have to be finite");
+  check_measurable_control(points);
   if (options.join_smoothly && surface.addresses().triangles())
     throw UnsupportedTopology("caps of triangles join by g0; g1 is for schemes of quadrilaterals");
   std::vector<CadCell> exact, rest;

@@ -6,12 +6,14 @@
 #include <algorithm>
 #include <vector>
 
+#include "sublimit/core/finite_points.h"
 #include "sublimit/limit/quadrature.h"
 
 namespace sublimit {
 
 SurfaceIntegrals surface_integrals(const SplineSurface& surface, const Points& columns, Coordinates coordinates,
                                    const Eigen::RowVector3d& apex) {
+  check_finite_control(columns);
   const int degree = std::max(surface.u().degree(), surface.v().degree());
   // Of x . (du x dv) the degree is 3 p - 1 in each direction; quotients and roots take more.
   const std::vector<QuadraturePoint> rule = square_rule(std::max(12, 3 * degree / 2 + 1));

@@ -8,6 +8,7 @@
 #include "sublimit/base/error.h"
 #include "sublimit/certificates/turned_map.h"
 #include "sublimit/certificates/valence_family.h"
+#include "sublimit/limit/for_all.h"
 
 namespace sublimit {
 namespace {
@@ -118,17 +119,16 @@ class Proof {
     });
   }
 
-  /// A lower bound of lambda on [h, 1].
+  /// A lower bound of lambda on [h, 1]; 0 where no interval tells.
   Ball lambda_from(double h) const {
-    double least = 1;
+    std::optional<double> least;
     for (const ValenceInterval& part : parts)
-      if (part.h.upper() >= h) least = std::min(least, part.lambda.lower());
-    return Ball(least);
+      if (part.h.upper() >= h) least = std::min(least.value_or(1), part.lambda.lower());
+    return Ball(least.value_or(0));
   }
 
   bool increases() const {
-    return std::all_of(parts.begin(), parts.end(),
-                       [](const ValenceInterval& p) { return certainly_positive(p.slope); });
+    return holds_for_all(parts, [](const ValenceInterval& p) { return certainly_positive(p.slope); }) == true;
   }
 
   bool other_blocks() const {
@@ -363,10 +363,11 @@ AllValences all_valences(const C1Prover& prover, int first) {
                   shown(map), By::enclosure, map ? "on " + std::to_string(proof.parts.size()) + " intervals of h" : "");
   }
   result.intervals = std::move(proof.parts);
-  v.because =
-      "proved of the family of matrices that the masks give at the valences compared; that the scheme's file goes on "
-      "in "
-      "the same way at others is a condition of the statement, as no number of valences can show it";
+  if (goes_on)
+    v.because =
+        "proved of the family of matrices that the masks give at the valences compared; that the scheme's file goes on "
+        "in "
+        "the same way at others is a condition of the statement, as no number of valences can show it";
   v.answer = goes_on ? Verdict::Answer::proved : Verdict::Answer::unknown;
   return result;
 }

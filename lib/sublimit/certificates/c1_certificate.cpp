@@ -11,6 +11,7 @@
 #include "sublimit/base/error.h"
 #include "sublimit/certificates/mirror.h"
 #include "sublimit/certificates/spectral_verdicts.h"
+#include "sublimit/limit/for_all.h"
 
 namespace sublimit {
 namespace {
@@ -46,8 +47,8 @@ constexpr int net_levels = 7, evidence_level = 3;
 /// descendant see one point of the piece in common, so that the diameter shrinks by a factor (Micchelli, Prautzsch
 /// 1989, "Uniform refinement of curves").
 bool contracts(const RegularPieces& pieces) {
-  for (const auto& [at, weight] : pieces.mask.weights)
-    if (!certainly_positive(weight.real_enclosure())) return false;
+  const auto is_positive = [](const auto& weight) { return certainly_positive(weight.second.real_enclosure()); };
+  if (holds_for_all(pieces.mask.weights, is_positive) != true) return false;
   const std::vector<ChildPiece> children = child_pieces(pieces.pieces, pieces.mask.dilation);
   using Points = std::set<LatticePoint>;
   // By piece, of all descendants of one level: which points of the piece each of their points sees.
@@ -58,7 +59,7 @@ bool contracts(const RegularPieces& pieces) {
     seen[k].emplace_back(k, std::move(own));
   }
   for (int step = 0; step < 3; ++step) {
-    bool all = true;
+    ForAll all;
     for (auto& of_piece : seen) {
       std::vector<std::pair<size_t, std::map<LatticePoint, Points>>> next;
       for (const auto& [piece, points] : of_piece)
@@ -76,12 +77,12 @@ bool contracts(const RegularPieces& pieces) {
           Points common = finer.begin()->second;
           for (const auto& of_point : finer)
             std::erase_if(common, [&](LatticePoint q) { return !of_point.second.contains(q); });
-          all &= !common.empty();
+          all.look(!common.empty());
           next.emplace_back(child.piece, std::move(finer));
         }
       of_piece = std::move(next);
     }
-    if (all) return true;
+    if (all.holds() == true) return true;
   }
   return false;
 }
@@ -176,8 +177,7 @@ C1Certificate C1Prover::certify(int n) const {
     c.map->lambda = ComplexBall(lambda);
   }
   // What the map of another pair looks like says nothing.
-  const bool leads =
-      std::all_of(v.hypotheses.begin(), v.hypotheses.end(), [](const Hypothesis& h) { return h.holds == true; });
+  const bool leads = holds_for_all(v.hypotheses, [](const Hypothesis& h) { return h.holds; }) == true;
   if (!c.map) return v.answer = answer_of(v.hypotheses, true), c;
   if (!pieces_ && !tail_) return add_evidence(c, leads), c;
   if (pieces_)

@@ -10,7 +10,7 @@
 namespace sublimit {
 
 /// What was found at one neighbourhood.
-struct C1Certificate {
+struct [[nodiscard]] C1Certificate {
   Verdict verdict;
   std::optional<CharacteristicMap> map;  ///< of schemes whose block 1 has an isolated leading eigenvalue
   std::optional<MapProof> proof;         ///< of polynomial schemes, and of others whose second differences are schemes

@@ -93,6 +93,9 @@ bool is_symmetric(const Parts& w) {
 
 void check_spectrum(Parts& w, std::vector<std::string>& problems) {
   const auto fail = [&](const std::string& what) { problems.push_back("spectrum: " + what); };
+  if (w.rows.contains({0, 0}) == w.dual)
+    return fail(w.dual ? "there is a row of a centre, and a face has no point there"
+                       : "the row of the centre is missing");
   for (const auto& [at, row] : w.rows) {
     Exact sum;
     for (const auto& [from, weight] : row) {

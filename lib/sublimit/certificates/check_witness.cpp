@@ -100,8 +100,8 @@ Parts parts_of(const Json& j) {
         throw FormatError("a function has not as many coefficients as its degree asks for");
       piece.functions.push_back(std::move(coefficients));
     }
-    if (piece.functions.size() != piece.controls.size())
-      throw FormatError("a piece needs one function a control point");
+    if (piece.functions.size() != piece.controls.size() || piece.controls.empty())
+      throw FormatError("a piece needs control points, and one function each");
     w.pieces.push_back(std::move(piece));
   }
   for (const Json& r : j.at("rows")) {

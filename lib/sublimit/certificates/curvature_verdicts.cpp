@@ -4,6 +4,7 @@
 #include <charconv>
 
 #include "sublimit/certificates/spectral_verdicts.h"
+#include "sublimit/limit/for_all.h"
 
 namespace sublimit {
 namespace {
@@ -87,22 +88,22 @@ Verdict shapes(const ExactAnalysis& analysis, const SecondOrderGiven& given) {
   if (!begin(v, s, analysis, given)) return v;
   // Longer chains win among equals.
   std::vector<int> blocks;
-  bool all_seen = true;
+  ForAll all_seen;
   for (const ExactEigenvalue& value : s->mu) {
     if (value.largest_jordan() < s->largest_jordan) continue;
     blocks.push_back(value.block);
     if (value.copies == 2) blocks.push_back(analysis.n() - value.block);  // at n = 3 block 1 stands for block 2 too
-    all_seen = all_seen && is_seen(analysis, value) == true;
+    if (all_seen.looked_at() == 0 || all_seen.holds() == true) all_seen.look(is_seen(analysis, value));
   }
   std::sort(blocks.begin(), blocks.end());
   const int n = analysis.n();
   const auto has = [&](int k) { return std::count(blocks.begin(), blocks.end(), k) > 0; };
-  const bool only = std::all_of(blocks.begin(), blocks.end(), [&](int k) { return k == 0 || k == 2 || k == n - 2; });
+  const bool only = holds_for_all(blocks, [&](int k) { return k == 0 || k == 2 || k == n - 2; }) == true;
   const std::string which = has(0) && has(2) ? "all" : !only ? "other" : has(0) ? "elliptic" : "hyperbolic";
   v.hypotheses.push_back(
       {"the modes of mu with the longest chains are those of blocks " + list(blocks), true, By::exact});
   v.hypotheses.push_back({"each of these blocks has a mode that is not zero at a regular point",
-                          all_seen ? std::optional<bool>(true) : std::nullopt, By::enclosure});
+                          all_seen.holds() == true ? std::optional(true) : std::nullopt, By::enclosure});
   // Blocks exclude: a mode without block 0 has both signs, one of block 0 alone turns its gradient the right way round.
   // Whether a mode of block 0 is convex they do not tell.
   v.says = which == "all"          ? "neither elliptic nor hyperbolic shapes are excluded near the point"

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sublimit/certificates/cyclotomic.h"
 
-#include <map>
 #include <memory>
-#include <mutex>
-#include <shared_mutex>
+
+#include "sublimit/base/found_once.h"
 
 namespace sublimit {
 namespace {
@@ -32,16 +31,8 @@ const fmpz_poly_struct* cyclotomic_polynomial(long order) {
     }
     ~Known() { fmpz_poly_clear(p); }
   };
-  static std::shared_mutex mutex;
-  static std::map<long, std::unique_ptr<Known>> all;
-  {
-    const std::shared_lock lock(mutex);
-    if (const auto at = all.find(order); at != all.end()) return at->second->p;
-  }
-  const std::unique_lock lock(mutex);
-  std::unique_ptr<Known>& known = all[order];
-  if (!known) known = std::make_unique<Known>(order);
-  return known->p;
+  static const FoundByKey<long, std::unique_ptr<const Known>> all;
+  return all.get(order, [&] { return std::make_unique<const Known>(order); })->p;
 }
 
 void reduce_cyclotomic(fmpz_poly_t p, long order) {

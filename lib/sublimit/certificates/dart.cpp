@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "sublimit/base/error.h"
+#include "sublimit/limit/for_all.h"
 
 namespace sublimit {
 namespace {
@@ -51,7 +52,7 @@ bool adds_smaller(const ExactAnalysis& analysis, const AlgebraicRoot& value) {
   if (!wider) return false;
   const std::vector<Ball> sums = outer_sums(*wider, analysis.patch);
   const Ball bound = value.real_enclosure();
-  return std::all_of(sums.begin(), sums.end(), [&](const Ball& sum) { return certainly_less(sum, bound); });
+  return holds_for_all(sums, [&](const Ball& sum) { return certainly_less(sum, bound); }) == true;
 }
 
 }  // namespace

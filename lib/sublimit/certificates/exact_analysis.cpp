@@ -145,9 +145,7 @@ std::optional<bool> is_seen(const ExactAnalysis& analysis, const ExactEigenvalue
   if (analysis.n() < 3 || analysis.regular_position.empty()) return std::nullopt;
   const ComplexBall& at = value.value.enclosure();
   const std::array<double, 4> key{double(value.rank), double(value.block), at.re().mid(), at.im().mid()};
-  const auto found = analysis.seen.find(key);
-  if (found != analysis.seen.end()) return found->second;
-  return analysis.seen[key] = look_for(analysis, value);
+  return analysis.seen.get(key, [&] { return look_for(analysis, value); });
 }
 
 }  // namespace sublimit

@@ -3,9 +3,9 @@
 // A centre of one kind under one scheme with all that is exactly known of it: local matrix, spectrum, and whether its
 // modes can be seen in the limit.
 #include <array>
-#include <map>
 #include <optional>
 
+#include "sublimit/base/found_once.h"
 #include "sublimit/certificates/exact_kernel.h"
 #include "sublimit/certificates/exact_spectrum.h"
 #include "sublimit/neighborhood/local_type.h"
@@ -21,8 +21,8 @@ struct ExactAnalysis {
   std::vector<Algebraic> regular_position = {};
 
   /// What `is_seen` has answered, by rank, block and place of the eigenvalue: several verdicts ask, and exact
-  /// eigenvectors are long to find. An analysis belongs to one thread.
-  mutable std::map<std::array<double, 4>, std::optional<bool>> seen = {};
+  /// eigenvectors are long to find.
+  FoundByKey<std::array<double, 4>, std::optional<bool>> seen = {};
 
   int n() const { return spectrum.blocks.sectors; }
 };

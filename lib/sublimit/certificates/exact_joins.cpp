@@ -10,6 +10,20 @@ std::vector<Rational> ratios_of(const std::vector<double>& numbers) {
   return result;
 }
 
+/// Homogeneous if that is asked for.
+SeamNet<Rational> with_weights(SeamNet<Rational> net, Coordinates coordinates) {
+  if (net.coordinates == coordinates) return net;
+  std::vector<Rational> columns;
+  for (size_t at = 0; at < net.columns.size(); at += 3) {
+    columns.insert(columns.end(), net.columns.begin() + std::ptrdiff_t(at),
+                   net.columns.begin() + std::ptrdiff_t(at + 3));
+    columns.emplace_back(1);
+  }
+  net.columns = std::move(columns);
+  net.coordinates = coordinates;
+  return net;
+}
+
 }  // namespace
 
 BezierPiece<Rational> in_ratios(const BezierPiece<double>& piece) {
@@ -37,9 +51,14 @@ SurfaceJoin exact_surface_join(const BezierPatch<Rational>& left, const BezierPa
 }
 
 std::vector<std::optional<JoinOrders>> exact_seams(std::span<const PatchColumns> patches, Coordinates coordinates,
-                                                   std::span<const PatchSeam> seams) {
+                                                   std::span<const PatchSeam> seams,
+                                                   std::span<const std::optional<SeamNet<Rational>>> exact) {
   std::vector<SeamNet<Rational>> nets;
-  for (const PatchColumns& patch : patches) nets.emplace_back(patch, coordinates);
+  for (size_t p = 0; p < patches.size(); ++p)
+    if (p < exact.size() && exact[p])
+      nets.push_back(with_weights(*exact[p], coordinates));
+    else
+      nets.emplace_back(patches[p], coordinates);
   std::vector<std::optional<JoinOrders>> result;
   for (const PatchSeam& seam : seams) {
     std::optional<JoinOrders>& all = result.emplace_back();

@@ -26,7 +26,9 @@ SurfaceJoin exact_surface_join(const BezierPatch<Rational>& left, const BezierPa
 /// Of every seam of kind `knot`, `period` or `sides` the orders that hold for the patches of exactly these doubles:
 /// sides that are equal but for the last bit have a gap. Of others nothing.
 /// @param seams  found in the same patches (patch_seams)
+/// @param exact  nets that are known without rounding, by patch: of its degrees and faces. None, or one entry a patch
 std::vector<std::optional<JoinOrders>> exact_seams(std::span<const PatchColumns> patches, Coordinates coordinates,
-                                                   std::span<const PatchSeam> seams);
+                                                   std::span<const PatchSeam> seams,
+                                                   std::span<const std::optional<SeamNet<Rational>>> exact = {});
 
 }  // namespace sublimit

@@ -139,7 +139,7 @@ MapProof prove_map(CharacteristicMap& map, const RegularPieces& pieces, const Ba
   proof.parts = proof.leaves.size();
   // The map folds where the sign changes; a map that only turns the plane over does not.
   if (search.negative && search.positive) proof.regular = MapProof::Regular::folds;
-  if (!search.negative && !search.failed) proof.regular = MapProof::Regular::yes;
+  if (!search.negative && !search.failed && !proof.leaves.empty()) proof.regular = MapProof::Regular::yes;
   if (!proof.leaves.empty()) {
     proof.least = proof.leaves.front().least;
     proof.greatest = proof.leaves.front().greatest;

@@ -145,7 +145,7 @@ MapProof prove_map(CharacteristicMap& map, const DerivativeTail& tail, int ring,
   for (const PlacedPiece& p : proof.placed)
     if (!search.failed) search.look(p.piece, p.cell, 0, outer);
   if (search.negative && search.positive) proof.regular = MapProof::Regular::folds;
-  if (search.failed || search.negative) return proof;
+  if (search.failed || search.negative || proof.parts == 0) return proof;
   proof.regular = MapProof::Regular::yes;
   const auto start = map.at({outer, 0});
   // Nets of all levels have the limit's directions: they differ by lambda^k.

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <set>
 
+#include "sublimit/limit/for_all.h"
+
 namespace sublimit {
 namespace {
 
@@ -25,11 +27,21 @@ std::string text_of(const std::vector<ExactEigenvalue>& values) {
 
 Hypothesis one_dominates(const ExactAnalysis& analysis) {
   const std::vector<ExactEigenvalue> first = analysis.spectrum.of_rank(0);
-  Hypothesis h{"eigenvalue 1 is simple and larger than all others in modulus", false, By::enclosure, text_of(first)};
-  h.holds =
-      first.size() == 1 && first[0].value.exact() && first[0].value.exact()->is_one() && first[0].multiplicity == 1;
+  Hypothesis h{"eigenvalue 1 is simple and larger than all others in modulus", std::nullopt, By::enclosure,
+               text_of(first)};
+  if (!first.empty())
+    h.holds = first.size() == 1 && first[0].multiplicity == 1 && first[0].value == AlgebraicRoot(Algebraic(1));
   if (analysis.spectrum.num_ranks() > 1) h.value += ", then " + text_of(analysis.spectrum.of_rank(1));
   return h;
+}
+
+/// Why powers of the local matrix do not tend to one point.
+std::string divergence(const Hypothesis& rows, const Hypothesis& dominates, const ExactAnalysis& analysis) {
+  if (rows.holds == false) return "the weights of a new point do not sum to 1 (" + rows.value + ")";
+  for (const ExactEigenvalue& value : analysis.spectrum.of_rank(0))
+    if (compare_moduli(value.value, AlgebraicRoot(Algebraic(1))) > 0)
+      return "an eigenvalue is larger than 1 in modulus, " + text_of(value) + ": points run away from one another";
+  return "the leading eigenvalues are " + dominates.value;
 }
 
 bool is_positive(const AlgebraicRoot& root) { return root.is_real() && compare(root, AlgebraicRoot(Algebraic(0))) > 0; }
@@ -38,18 +50,14 @@ bool is_positive(const AlgebraicRoot& root) { return root.is_real() && compare(r
 
 Hypothesis rows_sum_to_one(const LocalPatch<Algebraic>& patch) {
   const DenseMatrix<Algebraic>& A = patch.A;
-  Hypothesis h{"the weights of every new point sum to 1", true, By::exact};
-  for (Eigen::Index i = 0; i < A.rows(); ++i) {
+  ForAll rows;
+  for (Eigen::Index i = 0; i < A.rows() && rows.holds() != false; ++i) {
     Algebraic sum;
     for (Eigen::Index j = 0; j < A.cols(); ++j)
       if (!A(i, j).is_zero()) sum += A(i, j);
-    if (!sum.is_one()) {
-      h.holds = false;
-      h.value = "point " + std::to_string(i) + ": " + sum.text();
-      break;
-    }
+    rows.look(sum.is_one(), "point " + std::to_string(i) + ": " + sum.text());
   }
-  return h;
+  return {"the weights of every new point sum to 1", rows.holds(), By::exact, rows.where()};
 }
 
 Verdict affine_invariance(const ExactAnalysis& analysis) {
@@ -57,20 +65,21 @@ Verdict affine_invariance(const ExactAnalysis& analysis) {
   v.theorem = "a sum of points moves with an affine map if and only if its weights sum to 1";
   v.hypotheses = {rows_sum_to_one(analysis.patch)};
   v.answer = answer_of(v.hypotheses, true);
-  v.because = *v.hypotheses[0].holds ? "every row of the local matrix sums to 1 exactly"
-                                     : "a row of the local matrix does not sum to 1: " + v.hypotheses[0].value;
+  v.because = v.hypotheses[0].holds == true ? "every row of the local matrix sums to 1 exactly"
+              : v.hypotheses[0].holds       ? "a row of the local matrix does not sum to 1: " + v.hypotheses[0].value
+                                            : "the local matrix has no rows";
   return v;
 }
 
 Verdict convergence(const ExactAnalysis& analysis) {
-  Verdict v{"convergence", "points around the centre converge to one point"};
+  Verdict v{"convergence", "points around the centre converge to one point, which moves with them"};
   v.theorem =
       "powers of a matrix with row sums 1 tend to a matrix of rank 1 if and only if 1 is a simple eigenvalue "
       "and the only one of modulus 1 or more";
   v.hypotheses = {rows_sum_to_one(analysis.patch), one_dominates(analysis)};
   v.answer = answer_of(v.hypotheses, true);
   v.because =
-      v.answer == Answer::proved ? "1 is simple and dominant" : "the leading eigenvalues are " + v.hypotheses[1].value;
+      v.answer == Answer::proved ? "1 is simple and dominant" : divergence(v.hypotheses[0], v.hypotheses[1], analysis);
   return v;
 }
 
@@ -82,7 +91,7 @@ Verdict spectral_c1(const ExactAnalysis& analysis) {
   v.hypotheses = {rows_sum_to_one(analysis.patch), one_dominates(analysis)};
   if (answer_of(v.hypotheses, true) == Answer::disproved) {
     v.answer = Answer::disproved;
-    v.because = "there is no limit: the leading eigenvalues are " + v.hypotheses[1].value;
+    v.because = "there is no limit: " + divergence(v.hypotheses[0], v.hypotheses[1], analysis);
     return v;
   }
   const std::vector<ExactEigenvalue> lead = analysis.spectrum.of_rank(1);

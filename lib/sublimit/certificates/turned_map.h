@@ -18,9 +18,12 @@ struct TurnedPoint {
 
 class TurnedMap {
  public:
+  /// @param mask         which must stay
   /// @param labels, net  of sector 0: the unknowns of `real_block`
   TurnedMap(Ball h, Ball lambda, const RegularMask<Algebraic>& mask, const std::vector<SectorLabel>& labels,
             const std::vector<Ball>& net);
+  TurnedMap(Ball, Ball, const RegularMask<Algebraic>&&, const std::vector<SectorLabel>&,
+            const std::vector<Ball>&) = delete;
 
   /// A point of the plane around sector 0. Nothing where it has no label, or the mask reaches too far.
   std::optional<TurnedPoint> at(LatticePoint p);

@@ -8,11 +8,11 @@ namespace sublimit {
 
 /// S * points: the new points, one row per row of S.
 /// @throws InvalidParameter  as many points as S has columns are needed
-Points apply(const SparseMatrix& S, const Points& points);
+[[nodiscard]] Points apply(const SparseMatrix& S, const Points& points);
 
 /// A * B, columns of a row ascending.
 /// @throws InvalidParameter  the shapes do not fit
 /// @throws ResourceError     more nonzeros than 32-bit indices
-SparseMatrix product(const SparseMatrix& A, const SparseMatrix& B);
+[[nodiscard]] SparseMatrix product(const SparseMatrix& A, const SparseMatrix& B);
 
 }  // namespace sublimit

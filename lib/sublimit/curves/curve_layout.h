@@ -12,9 +12,12 @@
 #include <cassert>
 #include <cstdint>
 
-#include "sublimit/curves/curve_scheme.h"
+#include "sublimit/curves/check_curve_scheme.h"
 
 namespace sublimit {
+
+/// Points along the curve, or their unknowns, that a mask may reach: far beyond what any scheme does.
+inline constexpr Index curve_reach = 1 << 16;
 
 /// A curve of a level without its points.
 struct CurveOutline {
@@ -30,14 +33,15 @@ class CurveLayout {
  public:
   template <class T>
   explicit CurveLayout(const CurveScheme<T>& scheme, int level = 0)
-      : dual_(scheme.masks.dual()),
+      : dual_(check_scheme(scheme).masks.dual()),
         kept_(static_cast<bool>(scheme.ends.beyond)),
         unknowns_(scheme.masks.unknowns()),
         end_points_(scheme.ends.points) {
     const CurveSite<T> site(level, unknowns_);
     for (int which : {0, 1}) {
       for (int component = 0; component < unknowns_; ++component) {
-        const Stencil<T> mask = scheme.masks.child(which, component)(site);
+        const Stencil<T> mask =
+            check_mask(scheme, which, component, scheme.masks.child(which, component)(site), -curve_reach, curve_reach);
         low_[which] = std::min(low_[which], steps(mask.terms().front().first));
         high_[which] = std::max(high_[which], steps(mask.terms().back().first));
       }
@@ -47,7 +51,10 @@ class CurveLayout {
     if (kept_) return;
     const int starts[] = {-4 * low_[0] + child_offset(0), -4 * low_[1] + child_offset(1)};
     start_ = std::min(starts[0], starts[1]);
-    assert(std::abs(starts[0] - starts[1]) == 2);  // the masks' reaches must leave children without gaps
+    if (std::abs(starts[0] - starts[1]) != 2)
+      throw InvalidParameter(scheme.name +
+                             " has masks that reach differently far along the curve, so that children are "
+                             "missing at free ends; give it a rule for the points beyond (ends.beyond)");
   }
 
   bool is_dual() const { return dual_; }

@@ -15,7 +15,7 @@ CurveAnalysis::CurveAnalysis(const CurveScheme<double>& scheme) : scheme_(scheme
   canonical_ = layout_.control(4 * (layout_.radius() + layout_.end_points() + margin_), false);
 }
 
-CurveNeighborhood CurveAnalysis::neighborhood(CurveAnchor anchor, int level, int margin) {
+CurveNeighborhood CurveAnalysis::neighborhood(CurveAnchor anchor, int level, int margin) const {
   const Matrix& S = canonical_matrix(level, anchor == CurveAnchor::end);
   const CurveOutline child = layout_.child(canonical_);
   const std::int64_t at = anchor == CurveAnchor::inside ? 2 * (canonical_.size / 4) : 0;
@@ -39,7 +39,8 @@ CurveNeighborhood CurveAnalysis::neighborhood(CurveAnchor anchor, int level, int
   return result;
 }
 
-CurveLimits CurveAnalysis::limits(const CurveOutline& curve, int level, const std::vector<std::int64_t>& positions) {
+CurveLimits CurveAnalysis::limits(const CurveOutline& curve, int level,
+                                  const std::vector<std::int64_t>& positions) const {
   if (!curve.closed && curve.size < canonical_.size) {  // too short for ends that do not see each other: refine
     std::vector<std::int64_t> doubled;
     for (const std::int64_t p : positions) doubled.push_back(2 * p);
@@ -86,7 +87,7 @@ CurveLimits CurveAnalysis::limits(const CurveOutline& curve, int level, const st
   return result;
 }
 
-CurveLimits CurveAnalysis::limits(const CurveLevelOf<double>& level) {
+CurveLimits CurveAnalysis::limits(const CurveLevelOf<double>& level) const {
   const Index columns = level.num_points() * level.unknowns;
   CurveRows<double> rows[] = {
       {level.num_points(), columns}, {level.num_points(), columns}, {level.num_points(), columns}};
@@ -133,9 +134,11 @@ Eigen::VectorXd CurveAnalysis::linear(const std::vector<CurveUnknown>& unknowns)
   return x;
 }
 
-const Eigen::MatrixXd& CurveAnalysis::canonical_matrix(int level, bool from_end) {
-  const auto at = canonical_matrices_.find({level, from_end});
-  if (at != canonical_matrices_.end()) return at->second;
+const Eigen::MatrixXd& CurveAnalysis::canonical_matrix(int level, bool from_end) const {
+  return canonical_matrices_.get({level, from_end}, [&] { return found_canonical_matrix(level, from_end); });
+}
+
+Eigen::MatrixXd CurveAnalysis::found_canonical_matrix(int level, bool from_end) const {
   Matrix S(curve_matrix(scheme_, {canonical_}, level));
   if (from_end) {
     const auto turned = [&](Eigen::Index size) {
@@ -147,7 +150,7 @@ const Eigen::MatrixXd& CurveAnalysis::canonical_matrix(int level, bool from_end)
     for (Eigen::Index i = 0; i < S.rows(); ++i)
       for (Eigen::Index j = 0; j < S.cols(); ++j) S(i, j) *= sign(Index(i)) * sign(Index(j));
   }
-  return canonical_matrices_[{level, from_end}] = S;
+  return S;
 }
 
 CurveAnalysis::Rows CurveAnalysis::pulled_back(const Rows& fine, const Matrix& A, std::vector<CurveUnknown> unknowns) {
@@ -167,9 +170,11 @@ CurveAnalysis::Rows CurveAnalysis::pulled_back(const Rows& fine, const Matrix& A
   return rows;
 }
 
-const CurveAnalysis::Rows& CurveAnalysis::rows_at_anchor(CurveAnchor anchor, int level) {
-  const auto known = anchor_rows_.find({anchor, level});
-  if (known != anchor_rows_.end()) return known->second;
+const CurveAnalysis::Rows& CurveAnalysis::rows_at_anchor(CurveAnchor anchor, int level) const {
+  return anchor_rows_.get({anchor, level}, [&] { return found_rows_at_anchor(anchor, level); });
+}
+
+CurveAnalysis::Rows CurveAnalysis::found_rows_at_anchor(CurveAnchor anchor, int level) const {
   std::vector<CurveNeighborhood> steps{neighborhood(anchor, level, margin_)};
   for (int k = level + 1;; ++k) {
     CurveNeighborhood next = neighborhood(anchor, k, margin_);
@@ -182,7 +187,7 @@ const CurveAnalysis::Rows& CurveAnalysis::rows_at_anchor(CurveAnchor anchor, int
   if (anchor != CurveAnchor::inside && !rows_at_anchor(CurveAnchor::inside, level).has_second[0])
     rows.has_second[0] = rows.has_second[1] = false;  // a Taylor polynomial, but no derivative around the end
   for (size_t i = steps.size() - 1; i-- > 0;) rows = pulled_back(rows, steps[i].A, steps[i].unknowns);
-  return anchor_rows_[{anchor, level}] = rows;
+  return rows;
 }
 
 CurveAnalysis::Rows CurveAnalysis::eigen_rows(const CurveNeighborhood& n) const {
@@ -284,18 +289,20 @@ std::optional<Eigen::VectorXd> CurveAnalysis::left_eigenvector(const Matrix& A, 
   return l;
 }
 
-const CurveAnalysis::Rows& CurveAnalysis::rows_inside(int level, bool odd) {
+const CurveAnalysis::Rows& CurveAnalysis::rows_inside(int level, bool odd) const {
   if (!odd) return rows_at_anchor(CurveAnchor::inside, level);
-  const auto known = odd_rows_.find(level);
-  if (known != odd_rows_.end()) return known->second;
-  const std::int64_t at = 2 * (canonical_.size / 4) + 1;
-  return odd_rows_[level] = from_canonical(one_step(level, at, rows_at_anchor(CurveAnchor::inside, level + 1)), at);
+  return odd_rows_.get(level, [&] {
+    const std::int64_t at = 2 * (canonical_.size / 4) + 1;
+    return from_canonical(one_step(level, at, rows_at_anchor(CurveAnchor::inside, level + 1)), at);
+  });
 }
 
-const CurveAnalysis::Rows& CurveAnalysis::rows_near_end(int level, std::int64_t position, bool reversed) {
+const CurveAnalysis::Rows& CurveAnalysis::rows_near_end(int level, std::int64_t position, bool reversed) const {
   if (position < 0) position = 0;
-  const auto known = end_rows_.find({level, position, reversed});
-  if (known != end_rows_.end()) return known->second;
+  return end_rows_.get({level, position, reversed}, [&] { return found_rows_near_end(level, position, reversed); });
+}
+
+CurveAnalysis::Rows CurveAnalysis::found_rows_near_end(int level, std::int64_t position, bool reversed) const {
   Rows rows;
   if (position == 0) {
     rows = on_canonical(rows_at_anchor(reversed ? CurveAnchor::end : CurveAnchor::start, level), canonical_, 0);
@@ -306,7 +313,7 @@ const CurveAnalysis::Rows& CurveAnalysis::rows_near_end(int level, std::int64_t 
     rows = pulled_back(fine, canonical_matrix(level, reversed).topRows(canonical_.size * layout_.unknowns()),
                        unknowns_of(canonical_));
   }
-  return end_rows_[{level, position, reversed}] = rows;
+  return rows;
 }
 
 CurveAnalysis::Rows CurveAnalysis::on_canonical(const Rows& rows, const CurveOutline& curve, std::int64_t at) const {
@@ -325,7 +332,7 @@ CurveAnalysis::Rows CurveAnalysis::on_canonical(const Rows& rows, const CurveOut
   return result;
 }
 
-CurveAnalysis::Rows CurveAnalysis::one_step(int level, std::int64_t at, const Rows& rows) {
+CurveAnalysis::Rows CurveAnalysis::one_step(int level, std::int64_t at, const Rows& rows) const {
   const CurveOutline child = layout_.child(canonical_);
   return pulled_back(on_canonical(rows, child, 2 * at), canonical_matrix(level, false), unknowns_of(canonical_));
 }

@@ -7,9 +7,9 @@
 // those of non-stationary schemes, whose A settles after some levels.
 #include <Eigen/Core>
 
-#include <map>
 #include <optional>
 
+#include "sublimit/base/found_once.h"
 #include "sublimit/curves/curve_refine.h"
 
 namespace sublimit {
@@ -36,28 +36,29 @@ struct CurveNeighborhood {
 };
 
 /// Functionals of the points of a level: the limit and its derivatives at each of the requested positions.
-struct CurveLimits {
+struct [[nodiscard]] CurveLimits {
   CurveMatrix<double> position, first,
       second;              ///< derivatives per leg of the control polygon; empty rows if there is none
   std::vector<int> order;  ///< per row: the highest derivative that exists there, 0 to 2
 };
 
+/// What the limits of a scheme's curves are, each found when it is first asked for, once. Shared between threads.
 class CurveAnalysis {
  public:
   explicit CurveAnalysis(const CurveScheme<double>& scheme);
 
   /// The local matrix at an anchor of a level.
   /// @param margin  half legs added to the radius that the masks ask for
-  CurveNeighborhood neighborhood(CurveAnchor anchor, int level = 0, int margin = 0);
+  CurveNeighborhood neighborhood(CurveAnchor anchor, int level = 0, int margin = 0) const;
 
   /// Rows over the points of one curve of a level.
   /// @param positions  in half legs of the level from the start of the limit (CurveLayout); beyond an open end: the end
   /// @throws AnalysisError  no limit: eigenvalue 1 is not simple and dominant, or the masks never settle
-  CurveLimits limits(const CurveOutline& curve, int level, const std::vector<std::int64_t>& positions);
+  CurveLimits limits(const CurveOutline& curve, int level, const std::vector<std::int64_t>& positions) const;
 
   /// The limits of all points of a level, one curve after the other, over these points. Points beyond the start or end
   /// of the limit (free ends) get its start or end.
-  CurveLimits limits(const CurveLevelOf<double>& level);
+  CurveLimits limits(const CurveLevelOf<double>& level) const;
 
   const CurveLayout& layout() const { return layout_; }
 
@@ -99,12 +100,14 @@ class CurveAnalysis {
   static Vector linear(const std::vector<CurveUnknown>& unknowns);
 
   /// S of the canonical curve; seen from its other end if `from_end`.
-  const Matrix& canonical_matrix(int level, bool from_end);
+  const Matrix& canonical_matrix(int level, bool from_end) const;
+  Matrix found_canonical_matrix(int level, bool from_end) const;
 
   /// Rows pulled back through one step: A has their weights' points as rows.
   static Rows pulled_back(const Rows& fine, const Matrix& A, std::vector<CurveUnknown> unknowns);
 
-  const Rows& rows_at_anchor(CurveAnchor anchor, int level);
+  const Rows& rows_at_anchor(CurveAnchor anchor, int level) const;
+  Rows found_rows_at_anchor(CurveAnchor anchor, int level) const;
 
   /// Left eigenvectors of a local matrix for 1, 1/2 and 1/4, as far as the limit has derivatives.
   Rows eigen_rows(const CurveNeighborhood& n) const;
@@ -123,15 +126,16 @@ class CurveAnalysis {
   static std::optional<Vector> left_eigenvector(const Matrix& A, double value, const Vector& scale);
 
   /// At a position away from ends: at an anchor, or (odd) half a leg beside one.
-  const Rows& rows_inside(int level, bool odd);
+  const Rows& rows_inside(int level, bool odd) const;
 
   /// Over the points of the canonical curve, at a position so far from an end.
-  const Rows& rows_near_end(int level, std::int64_t position, bool reversed);
+  const Rows& rows_near_end(int level, std::int64_t position, bool reversed) const;
+  Rows found_rows_near_end(int level, std::int64_t position, bool reversed) const;
 
   /// Rows by offset as rows by point of the canonical curve.
   Rows on_canonical(const Rows& rows, const CurveOutline& curve, std::int64_t at) const;
   /// One step of the canonical curve, from `rows` at twice the position.
-  Rows one_step(int level, std::int64_t at, const Rows& rows);
+  Rows one_step(int level, std::int64_t at, const Rows& rows) const;
   /// Rows by point of the canonical curve as rows by offset.
   Rows from_canonical(const Rows& rows, std::int64_t at) const;
 
@@ -148,10 +152,11 @@ class CurveAnalysis {
   CurveScheme<double> scheme_;
   CurveLayout layout_;
   CurveOutline canonical_;
-  std::map<std::pair<int, bool>, Matrix> canonical_matrices_;
-  std::map<std::pair<CurveAnchor, int>, Rows> anchor_rows_;
-  std::map<int, Rows> odd_rows_;
-  std::map<ByNear, Rows> end_rows_;
+  // Matrices need nothing else, rows at anchors those inside, rows beside them those of later levels.
+  FoundByKey<std::pair<int, bool>, Matrix> canonical_matrices_;
+  FoundByKey<std::pair<CurveAnchor, int>, Rows> anchor_rows_;
+  FoundByKey<int, Rows> odd_rows_;
+  FoundByKey<ByNear, Rows> end_rows_;
 };
 
 }  // namespace sublimit

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "sublimit/base/error.h"
+#include "sublimit/curves/check_curve_scheme.h"
 #include "sublimit/curves/curve_layout.h"
 #include "sublimit/mesh/control_polygon.h"
 
@@ -75,7 +76,9 @@ CurveMatrix<T> curve_matrix(const CurveScheme<T>& scheme, const std::vector<Curv
   std::vector<Stencil<T>> inner;  // by child and unknown
   for (int which : {0, 1})
     for (int component = 0; component < unknowns; ++component)
-      inner.push_back(masks.child(which, component)(CurveSite<T>(number, unknowns)));
+      inner.push_back(check_mask(scheme, which, component,
+                                 masks.child(which, component)(CurveSite<T>(number, unknowns)), -curve_reach,
+                                 curve_reach));
   std::int64_t rows = 0, columns = 0;
   for (const CurveOutline& curve : parents) {
     rows += 2 * std::int64_t{curve.size} * unknowns;
@@ -107,8 +110,10 @@ CurveMatrix<T> curve_matrix(const CurveScheme<T>& scheme, const std::vector<Curv
           for (const auto& [slot, weight] : terms)
             row.push_back({start + ((parent * unknowns + slot) % size + size) % size, weight});
         } else {
-          const Stencil<T> stencil =
-              masks.child(which, component)(CurveSite<T>(number, scheme.ends, layout.is_dual(), parent, curve.size));
+          const Stencil<T> stencil = check_mask(
+              scheme, which, component,
+              masks.child(which, component)(CurveSite<T>(number, scheme.ends, layout.is_dual(), parent, curve.size)),
+              -parent, curve.size - 1 - parent);
           for (const auto& [slot, weight] : stencil.terms()) row.push_back({start + parent + slot, weight});
         }
       }
@@ -171,15 +176,15 @@ CurveLevelOf<T> next_level(const CurveScheme<T>& scheme, const CurveLevelOf<T>& 
 /// Levels 0 to `levels`.
 /// @param progress  called before each level with its number, if given
 /// @throws InvalidParameter  negative `levels`; and what control_level and next_level throw
-std::vector<CurveLevel> refine(const CurveScheme<double>& scheme, const ControlPolygon& polygon, int levels,
-                               const std::function<void(int)>& progress = {});
+[[nodiscard]] std::vector<CurveLevel> refine(const CurveScheme<double>& scheme, const ControlPolygon& polygon,
+                                             int levels, const std::function<void(int)>& progress = {});
 
 /// Level k from the control points: S_{k-1} ... S_0 and the choice of level 0.
-SparseMatrix refinement_matrix(const std::vector<CurveLevel>& levels);
+[[nodiscard]] SparseMatrix refinement_matrix(const std::vector<CurveLevel>& levels);
 
 /// What the columns of a scheme's matrices stand for: the points, in a Hermite scheme each followed by its derivative.
 /// @throws InvalidMesh  a Hermite scheme and a polygon without tangents
-Points unknowns(const CurveScheme<double>& scheme, const ControlPolygon& polygon);
+[[nodiscard]] Points unknowns(const CurveScheme<double>& scheme, const ControlPolygon& polygon);
 
 /// The curves of a level, without points.
 ControlPolygon curve_outlines(const CurveLevel& level);

@@ -16,7 +16,7 @@ struct CurveSample {
 };
 
 /// Limits row by row. Absent quantities are zero; `order` and `status` say what is there.
-struct CurveSamples {
+struct [[nodiscard]] CurveSamples {
   Points position;  ///< #samples x dimension
   Points first;     ///< order >= 1
   Points second;    ///< order 2

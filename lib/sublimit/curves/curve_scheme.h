@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "sublimit/base/error.h"
 #include "sublimit/core/number.h"
 #include "sublimit/core/scheme_options.h"
 #include "sublimit/core/stencil.h"
@@ -24,7 +25,9 @@ class CurveSite;
 template <class T>
 class CurveEnd {
  public:
+  /// @param site  which must stay
   CurveEnd(const CurveSite<T>& site, bool left) : site_(&site), left_(left) {}
+  CurveEnd(const CurveSite<T>&&, bool) = delete;
   /// The end point (0), its neighbour (1), and so on into the polygon.
   Stencil<T> point(int i) const { return site_->from_end(i, left_); }
   static T ratio(int p, int q) { return Number<T>::ratio(p, q); }
@@ -40,7 +43,7 @@ struct CurveEnds {
   /// The point m = 1, 2, ... steps beyond the end. With this rule end points stay where they are, and in dual schemes
   /// the first and the last leg count half: the points lie at parameters 0, 1/2, 3/2, ..., n-5/2, n-2. Empty: new
   /// points that would need a point beyond the end are left out, and the curve is shorter than the polygon.
-  std::function<Stencil<T>(const CurveEnd<T>& end, int m)> beyond = {};
+  std::function<Stencil<T>(const CurveEnd<T>& end, int m)> beyond{};
   int points = 1;  ///< points of the polygon that `beyond` needs
 };
 
@@ -53,13 +56,22 @@ class CurveSite {
   /// A site away from ends.
   explicit CurveSite(int level, int unknowns = 1) : level_(level), unknowns_(unknowns) {}
   /// Point `at` of an open polygon.
+  /// @param ends  which must stay
   CurveSite(int level, const CurveEnds<T>& ends, bool dual, Index at, Index size)
       : level_(level), ends_(&ends), at_(at), size_(size), margin_(dual ? 1 : 0) {}
+  CurveSite(int, const CurveEnds<T>&&, bool, Index, Index) = delete;
 
   /// The point i steps further along the curve.
   Stencil<T> point(int i) const { return ends_ ? absolute(at_ + i) : Stencil<T>(unknowns_ * i); }
   /// The derivative there, in a Hermite scheme.
-  Stencil<T> derivative(int i) const { return Stencil<T>(unknowns_ * i + 1); }
+  /// @throws InvalidParameter  the scheme has no derivatives
+  Stencil<T> derivative(int i) const {
+    if (unknowns_ != 2)
+      throw InvalidParameter(
+          "a mask asks for a derivative, which points of Hermite schemes alone have; give the scheme "
+          "the masks point_derivative and leg_derivative");
+    return Stencil<T>(unknowns_ * i + 1);
+  }
   /// Level of the parent, 0 for the control polygon.
   int level() const { return level_; }
   static T ratio(int p, int q) { return Number<T>::ratio(p, q); }
@@ -68,6 +80,10 @@ class CurveSite {
  private:
   friend class CurveEnd<T>;
   Stencil<T> from_end(int i, bool left) const {
+    if (i < 0 || i >= size_)
+      throw InvalidParameter("the rule for points beyond an end asks for point " + std::to_string(i) +
+                             " of a curve of " + std::to_string(size_) + "; 0 to " + std::to_string(size_ - 1) +
+                             " exist");
     const Index a = left ? i : size_ - 1 - i;
     return i == 0 ? Stencil<T>(a - at_) : absolute(a);
   }
@@ -87,11 +103,11 @@ class CurveSite {
 template <class T>
 struct CurveMasks {
   using Mask = std::function<Stencil<T>(const CurveSite<T>&)>;
-  Mask point = {};                                  ///< primal: the child of point(0)
-  Mask leg = {};                                    ///< primal: the child of the leg from point(0) to point(1)
-  Mask point_derivative = {}, leg_derivative = {};  ///< Hermite: the derivatives there, per leg of the child
-  Mask before = {};                                 ///< dual: the child of point(0) on its leg from point(-1)
-  Mask after = {};                                  ///< dual: the child of point(0) on its leg to point(1)
+  Mask point{};                               ///< primal: the child of point(0)
+  Mask leg{};                                 ///< primal: the child of the leg from point(0) to point(1)
+  Mask point_derivative{}, leg_derivative{};  ///< Hermite: the derivatives there, per leg of the child
+  Mask before{};                              ///< dual: the child of point(0) on its leg from point(-1)
+  Mask after{};                               ///< dual: the child of point(0) on its leg to point(1)
 
   bool dual() const { return static_cast<bool>(before); }
   /// At every point: itself, and in a Hermite scheme the derivative.

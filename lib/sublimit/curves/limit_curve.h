@@ -32,7 +32,7 @@ class CurvePieces;
 /// Status: `regular`: position and two derivatives; `unbounded_second`: the second derivative is unbounded or not
 /// continuous, and absent; `crease`: an end of an open curve, or a corner of the curve: derivatives are one-sided, at a
 /// corner those of the segment that was given; `undefined_normal`: no derivative; `outside`: see above.
-struct CurveStencil {
+struct [[nodiscard]] CurveStencil {
   LimitStatus status = LimitStatus::regular;
   std::vector<Index> unknowns;  ///< ascending; points, in Hermite schemes 2i for point i and 2i + 1 for its derivative
   /// Rows: position, then the first and the second derivative as far as asked for and existing; one column per unknown.

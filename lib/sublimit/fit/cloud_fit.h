@@ -41,7 +41,7 @@ struct CloudFitOptions {
   std::function<void(int, const CloudIteration&)> progress = {};
 };
 
-struct CloudFit {
+struct [[nodiscard]] CloudFit {
   Points points;                           ///< control points, #V x 3
   std::vector<CloudIteration> iterations;  ///< the first guess before them
   ClosestPoints feet;                      ///< of the cloud's points on the result

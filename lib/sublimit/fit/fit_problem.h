@@ -47,7 +47,7 @@ struct FitSolverOptions {
   std::function<void(int, double)> progress = {};
 };
 
-struct FitSolution {
+struct [[nodiscard]] FitSolution {
   Points x;                              ///< n x channels
   FitMethod method = FitMethod::direct;  ///< that was used
   int iterations = 0;                    ///< of refinement or of conjugate gradients, all channels at once

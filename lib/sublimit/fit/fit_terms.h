@@ -9,6 +9,7 @@ namespace sublimit {
 /// The problem must outlive it.
 struct FitTerms {
   explicit FitTerms(const FitProblem& problem);
+  explicit FitTerms(const FitProblem&&) = delete;
 
   const FitProblem& problem;
   SparseMatrix At, Ct;                        ///< A^T W and C^T

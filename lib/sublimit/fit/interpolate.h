@@ -41,7 +41,7 @@ struct InterpolationAttempt {
   std::vector<Index> contradictory = {};  ///< vertices whose targets the control points cannot meet
 };
 
-struct Interpolation {
+struct [[nodiscard]] Interpolation {
   Level level;    ///< whose limit it is; of schemes that keep vertices the first ones are the given mesh's, in order
   Points points;  ///< its control points
   FitSolution solution;                        ///< how they were found; without x
@@ -50,7 +50,7 @@ struct Interpolation {
   Eigen::VectorXd normal_error;                ///< radians, by target, the largest of its sides; NaN without a normal
   /// Targets with a normal at vertices where the scheme has no tangent plane, or only holes around: it is left out.
   std::vector<Index> without_plane;
-  bool solved() const { return attempts.back().solved; }
+  [[nodiscard]] bool solved() const { return attempts.back().solved; }
 };
 
 /// A normal holds on every side of its vertex. Vertices without a target stay as near to the guess as the others allow.

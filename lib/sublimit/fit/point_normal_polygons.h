@@ -21,7 +21,7 @@ struct PolygonOptions {
 };
 
 /// A control mesh with a face for every vertex of the given one.
-struct PointNormalMesh {
+struct [[nodiscard]] PointNormalMesh {
   Level level;                        ///< 1, of mid-edge schemes 2
   Points points;                      ///< its control points, #V x 3
   std::vector<Index> faces;           ///< by target: the face that carries it (the first one's of several sheets)

@@ -27,7 +27,7 @@ struct ScatteredFitOptions {
   bool conditioning = false;  ///< rank and singular values: time, on large meshes
 };
 
-struct ScatteredFit {
+struct [[nodiscard]] ScatteredFit {
   Points points;                ///< control points, #control points x channels
   FitSolution solution;         ///< how they were found
   Eigen::VectorXd residuals;    ///< distance |x - b| by target, those of weight 0 too

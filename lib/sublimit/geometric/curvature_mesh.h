@@ -14,7 +14,7 @@
 
 namespace sublimit {
 
-struct CurvatureMesh {
+struct [[nodiscard]] CurvatureMesh {
   std::vector<Index> triangles;      ///< vertices, three a triangle, counter-clockwise
   std::vector<SurfacePoint> points;  ///< a vertex each
   std::vector<bool> original = {};   ///< per vertex, whether it was given; empty: all

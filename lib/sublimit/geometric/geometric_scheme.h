@@ -62,8 +62,8 @@ using GeometricCurveScheme = GeometricScheme<ControlPolygon>;
 /// Data of level `levels`.
 /// @param progress  called before each level with its number, if given
 template <class Data>
-Data refine(const GeometricScheme<Data>& scheme, const Data& data, int levels,
-            const std::function<void(int)>& progress = {}) {
+[[nodiscard]] Data refine(const GeometricScheme<Data>& scheme, const Data& data, int levels,
+                          const std::function<void(int)>& progress = {}) {
   if (levels < 0) throw InvalidParameter("levels is " + std::to_string(levels) + "; it must be 0 or more");
   Data result = scheme.checked(data);
   for (int k = 1; k <= levels; ++k) {

@@ -2,7 +2,11 @@
 #pragma once
 // The registry of schemes without a matrix: one line a scheme, a list for each kind of data.
 #include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
+#include "sublimit/core/unknown_scheme.h"
 #include "sublimit/geometric/hermite_incentre.h"
 #include "sublimit/geometric/nielson.h"
 #include "sublimit/geometric/piper.h"
@@ -19,6 +23,12 @@ struct GeometricSchemeEntry {
 /// Specialised for every kind of data.
 template <class Data>
 inline constexpr void* geometric_registry = nullptr;
+template <class Data>
+inline constexpr SchemeKind geometric_kind = SchemeKind::polygon;
+template <>
+inline constexpr SchemeKind geometric_kind<CurvatureMesh> = SchemeKind::curvature_mesh;
+template <>
+inline constexpr SchemeKind geometric_kind<NormalMesh> = SchemeKind::normal_mesh;
 template <>
 inline constexpr GeometricSchemeEntry<ControlPolygon> geometric_registry<ControlPolygon>[] = {
     {"hermite-incentre", hermite_incentre},
@@ -41,16 +51,26 @@ std::vector<GeometricScheme<Data>> all_geometric_schemes() {
   return schemes;
 }
 
-/// A scheme by name; nothing if there is none.
+/// A scheme by name; nothing if there is none. `geometric_scheme` below throws instead.
 /// @throws InvalidOption  an unknown option, or a value outside its range
 template <class Data = ControlPolygon>
-std::optional<GeometricScheme<Data>> find_geometric_scheme(const std::string& name, const SchemeOptions& options = {}) {
+[[nodiscard]] std::optional<GeometricScheme<Data>> find_geometric_scheme(const std::string& name,
+                                                                         const SchemeOptions& options = {}) {
   for (const GeometricSchemeEntry<Data>& entry : geometric_registry<Data>) {
     if (name != entry.name) continue;
     check_options(name, entry.make({}).options, options);
     return entry.make(options);
   }
   return std::nullopt;
+}
+
+/// A scheme by name: `geometric_scheme("hermite-incentre")`, `geometric_scheme<CurvatureMesh>("torus-pieces")`.
+/// @throws InvalidOption  no scheme for this kind of data has this name: says which are nearest, or what makes it; an
+///                        unknown option, or a value outside its range
+template <class Data = ControlPolygon>
+[[nodiscard]] GeometricScheme<Data> geometric_scheme(const std::string& name, const SchemeOptions& options = {}) {
+  if (std::optional<GeometricScheme<Data>> found = find_geometric_scheme<Data>(name, options)) return *std::move(found);
+  throw_unknown_scheme(name, geometric_kind<Data>);
 }
 
 }  // namespace sublimit

@@ -12,7 +12,7 @@
 
 namespace sublimit {
 
-struct NormalMesh {
+struct [[nodiscard]] NormalMesh {
   std::vector<Index> triangles;  ///< vertices, three a triangle, counter-clockwise
   Points positions;              ///< #V x 3
   Points normals;                ///< #V x 3, any length > 0; no rows: not known

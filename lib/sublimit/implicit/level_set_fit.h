@@ -29,7 +29,7 @@ struct LevelSetError {
 /// Whether a is the better one. Folded ones are last: a limit that is all at one point of a surface has no distance.
 bool is_nearer(const LevelSetError& a, const LevelSetError& b);
 
-struct LevelSetFit {
+struct [[nodiscard]] LevelSetFit {
   Points points;               ///< control points
   LevelSetError error;         ///< of them
   std::vector<double> rounds;  ///< largest distances, the first guess before them

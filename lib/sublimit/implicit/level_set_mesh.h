@@ -35,7 +35,7 @@ struct LevelSetAttempt {
   bool met(double tolerance) const { return error.largest <= tolerance && !error.is_folded(); }
 };
 
-struct LevelSetMesh {
+struct [[nodiscard]] LevelSetMesh {
   ControlMesh cage;  ///< a closed manifold, with tags where the field has sharp edges
   LevelSetAttempt attempt;
   std::vector<LevelSetAttempt> attempts;  ///< all of them

@@ -26,7 +26,7 @@ class ObjIndices {
   struct Forward {
     std::int64_t index, line;
   };
-  std::string_view what_;
+  std::string what_;
   std::vector<Forward> forward_;  // ascending
 };
 

@@ -17,6 +17,9 @@ namespace sublimit {
 /// Text: a row is a line.
 class PlyTextValues {
  public:
+  /// @param bytes  which must stay
+  template <TemporaryString Text>
+  PlyTextValues(Text&& bytes, const PlyHeader&, std::string_view) = delete;
   PlyTextValues(std::string_view bytes, const PlyHeader& header, std::string_view name)
       : scanner_(bytes.substr(static_cast<std::size_t>(header.size)), name, TextScanner::Continuation::none),
         first_line_(header.lines) {}
@@ -59,6 +62,9 @@ class PlyTextValues {
 /// Binary of either byte order; rows have no marks.
 class PlyBinaryValues {
  public:
+  /// @param bytes  which must stay
+  template <TemporaryString Text>
+  PlyBinaryValues(Text&& bytes, const PlyHeader&, std::string_view) = delete;
   PlyBinaryValues(std::string_view bytes, const PlyHeader& header, std::string_view name)
       : bytes_(bytes),
         name_(name),

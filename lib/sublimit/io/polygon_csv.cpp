@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "sublimit/base/error.h"
 #include "sublimit/base/format_number.h"
@@ -36,6 +38,7 @@ class CsvReader {
       if (num_points_ == 0 && polygon_.columns.empty() && is_header(fields)) {
         for (const std::string_view field : fields) polygon_.columns.emplace_back(field);
         check_columns(fields.size());
+        check_names(fields);
         continue;
       }
       check_columns(fields.size());
@@ -51,6 +54,10 @@ class CsvReader {
     const Points all = Eigen::Map<const Points>(values_.data(), num_points_, columns_);
     polygon_.points = tangents_ ? Points(all.leftCols(columns_ / 2)) : all;
     if (tangents_) polygon_.tangents = all.rightCols(columns_ / 2);
+    if (tangents_ && columns_ == 6 && polygon_.columns.empty())
+      polygon_.warnings.push_back(name_ +
+                                  ": 6 columns without names are read as x,y,z,tx,ty,tz; second derivatives are "
+                                  "not taken. A first line with the names of the columns says so");
     return std::move(polygon_);
   }
 
@@ -91,14 +98,43 @@ class CsvReader {
   void check_columns(size_t count) {
     if (columns_ == 0) {
       columns_ = static_cast<Index>(count);
-      if (tangents_ && (count < 4 || count % 2 != 0))
-        throw FormatError(place() + format_number(count) + (count == 1 ? " column" : " columns") +
-                          "; points with tangents are expected, x,y,tx,ty or x,y,z,tx,ty,tz");
+      if (tangents_ && (count < 4 || count % 2 != 0)) refuse_columns("");
     }
     if (static_cast<Index>(count) != columns_)
       throw FormatError(place() + format_number(count) + (count == 1 ? " value" : " values") +
                         " where the lines before have " + format_number(columns_) +
                         "; every point should have as many coordinates");
+  }
+
+  [[noreturn]] void refuse_columns(const std::string& why) const {
+    throw FormatError(place() + format_number(columns_) + (columns_ == 1 ? " column" : " columns") + why +
+                      "; points with tangents are expected, x,y,tx,ty or x,y,z,tx,ty,tz, and no other columns");
+  }
+
+  /// Names may be any. But where they begin with x, as coordinates do, no other column is taken for a coordinate.
+  void check_names(const std::vector<std::string_view>& fields) const {
+    constexpr std::string_view letters[] = {"x", "y", "z"};
+    const auto letter_at = [&](size_t i) {
+      return static_cast<size_t>(std::find(std::begin(letters), std::end(letters), fields[i]) - std::begin(letters));
+    };
+    size_t coordinates = 0;
+    while (coordinates < fields.size() && coordinates < 3 && letter_at(coordinates) == coordinates) ++coordinates;
+    for (size_t i = coordinates; i < fields.size(); ++i)
+      if (letter_at(i) < 3)
+        throw FormatError(place() + "column " + format_number(i + 1) + " is named " + in_quotes(fields[i]) +
+                          ", which belongs to column " + format_number(letter_at(i) + 1) +
+                          "; coordinates come first, in the order x,y,z");
+    if (coordinates == 0) return;
+    if (tangents_ && 2 * coordinates != fields.size())
+      refuse_columns(", of which " + format_number(coordinates) + " are coordinates of points");
+    const auto is_of_vector = [&](std::string_view name) {
+      return name.size() > 1 &&
+             std::find(std::begin(letters), std::end(letters), name.substr(name.size() - 1)) != std::end(letters);
+    };
+    for (size_t i = coordinates; i < fields.size() && !tangents_; ++i)
+      if (is_of_vector(fields[i]))
+        throw FormatError(place() + "column " + format_number(i + 1) + " is named " + in_quotes(fields[i]) +
+                          ", as of a vector; points alone are expected, x,y or x,y,z");
   }
 
   double number(std::string_view field, size_t column) const {

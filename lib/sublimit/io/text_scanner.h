@@ -1,13 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 // Text files as lines of tokens, with the line number at hand for every message.
+#include <concepts>
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <type_traits>
 
 #include "sublimit/core/types.h"
 
 namespace sublimit {
+
+/// A string without a name, which what refers to text does not take.
+template <class Text>
+concept TemporaryString = std::same_as<std::remove_const_t<Text>, std::string>;
 
 /// Walks over text that outlives it. Blanks separate tokens; '#' starts a comment; lines end with LF, CRLF or CR.
 class TextScanner {
@@ -19,6 +25,8 @@ class TextScanner {
 
   /// @param first_line  number of the first line, of text from the middle of a file
   TextScanner(std::string_view text, std::string_view name, Continuation continuation, std::int64_t first_line = 1);
+  template <TemporaryString Text>
+  TextScanner(Text&& text, std::string_view name, Continuation continuation, std::int64_t first_line = 1) = delete;
 
   /// Moves behind the end of this line (at first: to the first line); false at the end of the text.
   bool next_line();

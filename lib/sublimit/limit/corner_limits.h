@@ -2,10 +2,10 @@
 #pragma once
 // Limits of the places where pieces meet that are no polynomials: vertices of a level, and middles of its faces. Their
 // tangents are those of the characteristic map, or of one side of a crease.
-#include <map>
-#include <mutex>
 #include <optional>
+#include <utility>
 
+#include "sublimit/base/found_once.h"
 #include "sublimit/limit/limit_rows.h"
 
 namespace sublimit {
@@ -13,16 +13,17 @@ namespace sublimit {
 /// Computed when asked for, kept, by threads together.
 class CornerLimits {
  public:
-  /// @param masks  of the scheme, shared with other levels
+  /// @param masks  of the scheme, shared with other levels; must stay
+  /// @param level  which must stay
   CornerLimits(LimitTypes& masks, const Level& level) : level_(level), masks_(masks) {}
+  CornerLimits(LimitTypes&, const Level&&) = delete;
   /// Null where there is no limit. A vertex is seen from the face of `centre.start`.
   const LimitRows* at(const Centre& centre) const;
 
  private:
   const Level& level_;
   LimitTypes& masks_;
-  mutable std::mutex mutex_;
-  mutable std::map<std::pair<int, Index>, std::optional<LimitRows>> known_;
+  FoundByKey<std::pair<int, Index>, std::optional<LimitRows>> known_;
 };
 
 }  // namespace sublimit

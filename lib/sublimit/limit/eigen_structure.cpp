@@ -11,6 +11,7 @@
 #include "sublimit/base/error.h"
 #include "sublimit/core/dense_decompositions.h"
 #include "sublimit/core/number.h"
+#include "sublimit/limit/no_limit.h"
 
 namespace sublimit {
 namespace {
@@ -44,7 +45,7 @@ Eigen::MatrixXcd left_eigenvectors(const Eigen::MatrixXcd& A, Complex value) {
   return null_space(A.transpose() - value * Eigen::MatrixXcd::Identity(A.rows(), A.cols()), static_cast<int>(A.rows()));
 }
 
-EigenStructure eigen_structure(const Eigen::MatrixXcd& A, int block, int leading) {
+EigenStructure eigen_structure(const Eigen::MatrixXcd& A, int block, int leading, double least) {
   EigenStructure result;
   if (A.rows() == 0) return result;
   const Eigen::ComplexEigenSolver<Eigen::MatrixXcd> solver(A, false);
@@ -57,6 +58,7 @@ EigenStructure eigen_structure(const Eigen::MatrixXcd& A, int block, int leading
       return std::pair(std::abs(a), a.real()) < std::pair(std::abs(b), b.real());
     });
     const Complex seed = *largest;
+    if (std::abs(seed) < least) break;
     Complex sum = 0;
     EigenCluster cluster;
     cluster.block = block;
@@ -77,8 +79,8 @@ EigenStructure eigen_structure(const Eigen::MatrixXcd& A, int block, int leading
     cluster.right = null_space(shifted, cluster.multiplicity);
     cluster.left = null_space(shifted.transpose(), cluster.multiplicity);
     const Eigen::JacobiSVD<Eigen::MatrixXcd> overlap(cluster.left.transpose() * cluster.right);
-    const double least = overlap.singularValues().minCoeff();
-    cluster.conditioning = cluster.is_jordan() || least == 0 ? std::numeric_limits<double>::infinity() : 1 / least;
+    const double cosine = overlap.singularValues().minCoeff();
+    cluster.conditioning = cluster.is_jordan() || cosine == 0 ? std::numeric_limits<double>::infinity() : 1 / cosine;
     result.clusters.push_back(std::move(cluster));
   }
   return result;
@@ -92,10 +94,126 @@ Complex root_of_unity(long long turn, int n) {
   return {Number<double>::cos_2pi(k, n), Number<double>::cos_2pi(4 * k - n, 4 * n)};
 }
 
+/// Orbits that depend on each other, directly or not.
+std::vector<std::vector<int>> strong_components(const std::vector<std::vector<SectorRows::Term>>& rows) {
+  const size_t size = rows.size();
+  std::vector<std::vector<std::uint8_t>> reaches(size, std::vector<std::uint8_t>(size, 0));
+  for (size_t i = 0; i < size; ++i)
+    for (const SectorRows::Term& term : rows[i]) reaches[i][size_t(term.orbit)] = 1;
+  for (size_t k = 0; k < size; ++k)
+    for (size_t i = 0; i < size; ++i)
+      if (reaches[i][k])
+        for (size_t j = 0; j < size; ++j) reaches[i][j] |= reaches[k][j];
+  std::vector<std::vector<int>> components;
+  std::vector<std::uint8_t> done(size, 0);
+  for (size_t i = 0; i < size; ++i) {
+    if (done[i]) continue;
+    components.emplace_back();
+    for (size_t j = i; j < size; ++j)
+      if (j == i || (reaches[i][j] && reaches[j][i])) {
+        done[j] = 1;
+        components.back().push_back(static_cast<int>(j));
+      }
+  }
+  return components;
+}
+
+/// Compares rows of a matrix with those of the first sector, turned.
+class SectorRowsFinder {
+ public:
+  SectorRowsFinder(const SparseMatrix& A, SectorRows& result)
+      : A_(A), result_(result), orbit_of_(size_t(A.rows()), -1), sector_of_(size_t(A.rows()), 0) {
+    for (size_t i = 0; i < result.orbits.size(); ++i)
+      for (size_t s = 0; s < result.orbits[i].size(); ++s) {
+        orbit_of_[size_t(result.orbits[i][s])] = static_cast<int>(i);
+        sector_of_[size_t(result.orbits[i][s])] = static_cast<int>(s);
+      }
+    weight_.assign(result.orbits.size() * size_t(result.n), 0);
+    double largest = 1;
+    for (Eigen::Index k = 0; k < A.nonZeros(); ++k) largest = std::max(largest, std::abs(A.valuePtr()[k]));
+    tolerance_ = 64 * std::numeric_limits<double>::epsilon() * largest;
+  }
+
+  bool find() {
+    if (std::find(orbit_of_.begin(), orbit_of_.end(), -1) != orbit_of_.end()) return false;
+    for (int i = 0; i < static_cast<int>(result_.orbits.size()); ++i)
+      if (!(i < result_.fixed ? add_fixed(i) : add_row(i))) return false;
+    return true;
+  }
+
+ private:
+  using Iterator = SparseMatrix::InnerIterator;
+
+  std::vector<SectorRows::Term> terms(int i) const {
+    std::vector<SectorRows::Term> terms;
+    for (Iterator it(A_, result_.orbits[size_t(i)][0]); it; ++it)
+      terms.push_back({orbit_of_[size_t(it.col())], sector_of_[size_t(it.col())], it.value()});
+    std::sort(terms.begin(), terms.end(),
+              [](const auto& a, const auto& b) { return std::pair(a.orbit, a.turn) < std::pair(b.orbit, b.turn); });
+    return terms;
+  }
+  double& weight(int orbit, int turn) { return weight_[size_t(orbit) * size_t(result_.n) + size_t(turn)]; }
+
+  /// What stays sees all sectors alike.
+  bool add_fixed(int i) {
+    const std::vector<SectorRows::Term> row = terms(i);
+    for (size_t first = 0, end = 0; first < row.size(); first = end) {
+      while (end < row.size() && row[end].orbit == row[first].orbit) ++end;
+      if (row[first].orbit < result_.fixed) continue;
+      const bool all = end - first == size_t(result_.n);
+      for (size_t k = first; k < end; ++k)
+        if (std::abs(row[k].weight - (all ? row[first].weight : 0)) > tolerance_) return false;
+    }
+    result_.rows.push_back(row);
+    return true;
+  }
+
+  bool add_row(int i) {
+    const std::vector<SectorRows::Term> row = terms(i);
+    const auto is_large = [&](double value) { return std::abs(value) > tolerance_; };
+    std::ptrdiff_t large = 0;
+    for (const SectorRows::Term& term : row) {
+      weight(term.orbit, term.turn) = term.weight;
+      large += is_large(term.weight);
+    }
+    bool same = true;
+    for (int s = 1; s < result_.n && same; ++s) {
+      std::ptrdiff_t met = 0;  // of the first row's large terms
+      for (Iterator it(A_, result_.orbits[size_t(i)][size_t(s)]); it && same; ++it) {
+        const int orbit = orbit_of_[size_t(it.col())], turn = sector_of_[size_t(it.col())] - s;
+        const double first = weight(orbit, orbit < result_.fixed ? 0 : turn < 0 ? turn + result_.n : turn);
+        met += is_large(first);
+        same = std::abs(it.value() - first) <= tolerance_;
+      }
+      same = same && met == large;
+    }
+    for (const SectorRows::Term& term : row) weight(term.orbit, term.turn) = 0;
+    result_.rows.push_back(row);
+    return same;
+  }
+
+  const SparseMatrix& A_;
+  SectorRows& result_;
+  std::vector<int> orbit_of_, sector_of_;  // by slot
+  std::vector<double> weight_;             // of the first row, by orbit and turn
+  double tolerance_ = 0;
+};
+
+/// Slot 0 and p orbits around it.
+std::vector<std::vector<int>> orbits_around(Eigen::Index slots, int n) {
+  const int p = static_cast<int>(slots - 1) / n;
+  std::vector<std::vector<int>> orbits{{0}};
+  for (int i = 0; i < p; ++i) {
+    orbits.emplace_back();
+    for (int s = 0; s < n; ++s) orbits.back().push_back(1 + s * p + i);
+  }
+  return orbits;
+}
+
 }  // namespace
 
-std::optional<FourierBlocks> fourier_blocks(const Eigen::MatrixXd& A, std::vector<std::vector<int>> orbits) {
-  FourierBlocks result;
+std::optional<SectorRows> sector_rows(const SparseMatrix& A, std::vector<std::vector<int>> orbits) {
+  SectorRows result;
   std::stable_partition(orbits.begin(), orbits.end(), [](const auto& orbit) { return orbit.size() == 1; });
   for (const auto& orbit : orbits) {
     if (orbit.size() == 1)
@@ -105,52 +223,94 @@ std::optional<FourierBlocks> fourier_blocks(const Eigen::MatrixXd& A, std::vecto
     else
       result.n = static_cast<int>(orbit.size());
   }
-  const int n = result.n, fixed = result.fixed, size = static_cast<int>(orbits.size());
-  if (n < 2) return std::nullopt;
-  const double tolerance = 64 * std::numeric_limits<double>::epsilon() * std::max(1.0, A.cwiseAbs().maxCoeff());
-  const auto at = [&](int i, int s) { return orbits[i][i < fixed ? 0 : s % n]; };
-  for (int i = 0; i < size; ++i)
-    for (int j = 0; j < size; ++j)
-      for (int s = 0; s < n; ++s)
-        for (int t = 0; t < n; ++t)
-          if (std::abs(A(at(i, s), at(j, s + t)) - A(at(i, 0), at(j, t))) > tolerance) return std::nullopt;
-  for (int k = 0; k < n; ++k) {
-    const int first = k == 0 ? 0 : fixed;
-    Eigen::MatrixXcd B = Eigen::MatrixXcd::Zero(size - first, size - first);
-    for (int i = first; i < size; ++i)
-      for (int j = first; j < size; ++j) {
-        if (j < fixed) {
-          B(i, j) = A(at(i, 0), at(j, 0));
-          continue;
-        }
-        for (int t = 0; t < n; ++t)
-          B(i - first, j - first) += A(at(i, 0), at(j, t)) * root_of_unity(static_cast<long long>(k) * t, n);
-      }
-    result.blocks.push_back(std::move(B));
-  }
+  if (result.n < 2) return std::nullopt;
   result.orbits = std::move(orbits);
+  if (!SectorRowsFinder(A, result).find()) return std::nullopt;
+  result.components = strong_components(result.rows);
+  for (int t = 0; t < result.n; ++t) result.roots.push_back(root_of_unity(t, result.n));
+  return result;
+}
+
+std::optional<SectorRows> sector_rows(const SparseMatrix& A, int n) {
+  if (n < 2 || (A.rows() - 1) % n != 0) return std::nullopt;
+  return sector_rows(A, orbits_around(A.rows(), n));
+}
+
+std::optional<FourierBlocks> fourier_blocks(const Eigen::MatrixXd& A, std::vector<std::vector<int>> orbits) {
+  std::optional<SectorRows> rows = sector_rows(SparseMatrix(A.sparseView()), std::move(orbits));
+  if (!rows) return std::nullopt;
+  FourierBlocks result{std::move(*rows), {}};
+  for (int k = 0; k < result.n; ++k) result.blocks.push_back(result.block(k));
   return result;
 }
 
 std::optional<FourierBlocks> fourier_blocks(const Eigen::MatrixXd& A, int n) {
   if (n < 2 || (A.rows() - 1) % n != 0) return std::nullopt;
-  const int p = static_cast<int>(A.rows() - 1) / n;
-  std::vector<std::vector<int>> orbits{{0}};
-  for (int i = 0; i < p; ++i) {
-    orbits.emplace_back();
-    for (int s = 0; s < n; ++s) orbits.back().push_back(1 + s * p + i);
-  }
-  return fourier_blocks(A, std::move(orbits));
+  return fourier_blocks(A, orbits_around(A.rows(), n));
 }
 
-Eigen::VectorXcd FourierBlocks::mask(int k, const Eigen::VectorXcd& l) const {
+Eigen::MatrixXcd SectorRows::block(int k) const {
+  const int first = k == 0 ? 0 : fixed, size = static_cast<int>(orbits.size());
+  Eigen::MatrixXcd B = Eigen::MatrixXcd::Zero(size - first, size - first);
+  for (int i = first; i < size; ++i)
+    for (const Term& term : rows[size_t(i)])
+      if (term.orbit >= first)
+        B(i - first, term.orbit - first) +=
+            term.weight * (term.orbit < fixed ? 1.0 : roots[size_t(std::int64_t{k} * term.turn % n)]);
+  return B;
+}
+
+std::vector<Complex> SectorRows::values(int k) const {
+  const int first = k == 0 ? 0 : fixed;
+  const Eigen::MatrixXcd B = block(k);
+  std::vector<Complex> values;
+  for (const std::vector<int>& component : components) {
+    std::vector<int> places;
+    for (const int i : component)
+      if (i >= first) places.push_back(i - first);
+    if (places.empty()) continue;
+    if (places.size() == 1) {
+      values.push_back(B(places[0], places[0]));
+      continue;
+    }
+    const Eigen::ComplexEigenSolver<Eigen::MatrixXcd> solver(B(places, places), false);
+    if (solver.info() != Eigen::Success) throw AnalysisError("the eigenvalues of a local matrix did not converge");
+    values.insert(values.end(), solver.eigenvalues().begin(), solver.eigenvalues().end());
+  }
+  return values;
+}
+
+Eigen::VectorXcd SectorRows::mask(int k, const Eigen::VectorXcd& l) const {
   const int first = k == 0 ? 0 : fixed, size = static_cast<int>(orbits.size());
   Eigen::VectorXcd result = Eigen::VectorXcd::Zero(fixed + n * (size - fixed));
   for (int i = first; i < size; ++i)
     for (int s = 0; s < static_cast<int>(orbits[i].size()); ++s)
-      result[orbits[i][s]] = i < fixed ? l[i]
-                                       : l[i - first] * std::conj(root_of_unity(static_cast<long long>(k) * s, n)) /
-                                             static_cast<double>(n);
+      result[orbits[i][s]] =
+          i < fixed ? l[i] : l[i - first] * std::conj(roots[size_t(std::int64_t{k} * s % n)]) / static_cast<double>(n);
+  return result;
+}
+
+namespace {
+
+void sort_by_modulus(EigenStructure& structure) {
+  std::stable_sort(
+      structure.clusters.begin(), structure.clusters.end(),
+      [](const EigenCluster& a, const EigenCluster& b) { return std::abs(a.value) > std::abs(b.value) * (1 + 1e-12); });
+}
+
+}  // namespace
+
+EigenStructure leading_structure(const SectorRows& rows, const std::vector<std::vector<Complex>>& values,
+                                 double least) {
+  EigenStructure result;
+  for (size_t k = 0; k < values.size(); ++k) {
+    const auto is_leading = [&](Complex value) { return std::abs(value) >= least; };
+    if (std::none_of(values[k].begin(), values[k].end(), is_leading)) continue;
+    for (EigenCluster& cluster :
+         eigen_structure(rows.block(static_cast<int>(k)), static_cast<int>(k), 1 << 30, least).clusters)
+      result.clusters.push_back(std::move(cluster));
+  }
+  sort_by_modulus(result);
   return result;
 }
 
@@ -159,9 +319,7 @@ EigenStructure eigen_structure(const FourierBlocks& fourier) {
   for (int k = 0; k < fourier.n; ++k)
     for (EigenCluster& cluster : eigen_structure(fourier.blocks[k], k).clusters)
       result.clusters.push_back(std::move(cluster));
-  std::stable_sort(result.clusters.begin(), result.clusters.end(), [](const EigenCluster& a, const EigenCluster& b) {
-    return std::abs(a.value) > std::abs(b.value) * (1 + 1e-12);
-  });
+  sort_by_modulus(result);
   return result;
 }
 
@@ -175,11 +333,11 @@ Eigen::VectorXd limit_weights(const Eigen::MatrixXd& A) {
   Eigen::VectorXd l = qr.solve(right);
   l += qr.solve(right - equations * l);  // one step of refinement: the last digits
   if (qr.rank() < size || (equations * l - right).norm() > 1e-10)
-    throw AnalysisError("a local matrix has no limit: eigenvalue 1 is not simple");
+    throw AnalysisError(std::string(local_divergence) + ": eigenvalue 1 is not simple");
   const Eigen::VectorXcd values = size > 1 ? eigenvalues(A) : Eigen::VectorXcd::Ones(1);
   int at_one = 0;
   for (const Complex value : values) at_one += std::abs(value) >= 1 - 1e-9;
-  if (at_one != 1) throw AnalysisError("a local matrix has no limit: eigenvalue 1 is not dominant");
+  if (at_one != 1) throw AnalysisError(std::string(local_divergence) + ": eigenvalue 1 is not dominant");
   return l;
 }
 

@@ -2,6 +2,7 @@
 // Boxes around parts of the limit.
 #include "sublimit/base/error.h"
 #include "sublimit/base/parallel_for.h"
+#include "sublimit/core/finite_points.h"
 #include "sublimit/limit/limit_surface_parts.h"
 #include "sublimit/limit/piece_hull.h"
 
@@ -40,6 +41,7 @@ std::vector<Eigen::AlignedBox3d> LimitSurface::bounding_boxes(const Points& poin
   const Parts& parts = *parts_;
   if (points.cols() != 3 || points.rows() != parts.level.topology().num_vertices())
     throw InvalidParameter("boxes need a point of three coordinates for each vertex");
+  check_finite_control(points);
   const Parts::Pieces& pieces = parts.pieces();
   const Points fine = parts.prepared ? Points(parts.prepared->S * points) : Points();
   const Points& x = parts.prepared ? fine : points;

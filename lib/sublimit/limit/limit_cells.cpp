@@ -7,6 +7,7 @@
 
 #include "sublimit/base/error.h"
 #include "sublimit/base/parallel_for.h"
+#include "sublimit/core/finite_points.h"
 #include "sublimit/limit/limit_patches.h"
 #include "sublimit/limit/hull_cell.h"
 #include "sublimit/limit/piece_hull.h"
@@ -156,6 +157,7 @@ std::vector<LimitCell> limit_cells(const LimitSurface& surface, const Points& po
   const LimitSurface::Parts& parts = LimitPatches::parts_of(surface);
   if (points.cols() != 3 || points.rows() != parts.level.topology().num_vertices())
     throw InvalidParameter("cells need a point of three coordinates for each vertex");
+  check_finite_control(points);
   const LimitSurface::Parts::Pieces& pieces = parts.pieces();
   const Points fine = parts.prepared ? Points(parts.prepared->S * points) : Points();
   const Points& x = parts.prepared ? fine : points;

@@ -6,12 +6,15 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <map>
-#include <mutex>
+#include <cstdint>
 #include <tuple>
+#include <utility>
+#include <vector>
 
 #include "sublimit/base/error.h"
+#include "sublimit/base/found_once.h"
 #include "sublimit/base/parallel_for.h"
+#include "sublimit/core/finite_points.h"
 #include "sublimit/limit/closed_surface.h"
 #include "sublimit/limit/limit_patches.h"
 #include "sublimit/limit/piece_hull.h"
@@ -26,9 +29,12 @@ namespace {
 constexpr double negligible = 0x1p-30;
 /// Children that a piece may be cut into before it is taken for one that has more on every level: along a line.
 constexpr int most_pieces = 1 << 12;
-/// Of the area of a piece that squares may differ by when they are halved, and how often they are.
+/// Of the area of a piece that squares may differ by when they are quartered.
 constexpr double area_tolerance = 2e-13;
-constexpr int most_halvings = 16;
+/// Squares that all pieces together, and a single one at least, may be quartered into for their area. Smooth pieces
+/// take some dozens; where a surface folds, its area has a kink along a line, which no number of squares resolves to
+/// the last digit: what is left is told as the error.
+constexpr std::int64_t most_squares = 1 << 15, least_squares = 1 << 10;
 
 /// x, y and z of coefficients or nodes.
 using Columns = Eigen::Matrix<double, Eigen::Dynamic, 3>;
@@ -111,22 +117,22 @@ class PieceRules {
  public:
   const PieceRule& of(const PiecePolynomial& p) {
     const bool halves = p.coefficients.size() > 1;
-    const std::lock_guard lock(mutex_);
-    return rules_.try_emplace({p.basis.degree(), p.basis.total(), halves}, p.basis, halves).first->second;
+    return rules_.get({p.basis.degree(), p.basis.total(), halves}, [&] { return PieceRule(p.basis, halves); });
   }
 
  private:
-  std::mutex mutex_;
-  std::map<std::tuple<int, bool, bool>, PieceRule> rules_;
+  FoundByKey<std::tuple<int, bool, bool>, PieceRule> rules_;
 };
 
 class Integrator {
  public:
-  explicit Integrator(PieceRules& rules) : rules_(rules) {}
+  /// @param squares  that a piece may be quartered into
+  Integrator(PieceRules& rules, std::int64_t squares) : rules_(rules), most_squares_(squares) {}
 
   /// Nothing of a piece that is not made of polynomials but for a point.
   std::optional<EstimatedSums> piece(const PieceType& type, const Points& points) {
     visited_ = 0;
+    squares_ = most_squares_;
     const double size = extent(points);
     sums_ = {};
     if (!add(type, points, negligible * size, area_tolerance * size * size)) return std::nullopt;
@@ -164,7 +170,7 @@ class Integrator {
     sums_.value.volume += flux.sum() / 3;
     sums_.value.first += x.transpose() * flux / 4;
     sums_.value.second += x.transpose() * flux.asDiagonal() * x / 5;
-    add_area(rule, net, origin, area(rule, nodes), tolerance, 0);
+    add_area(rule, net, origin, area(rule, nodes), tolerance);
   }
 
   /// The area, and the position over it.
@@ -175,30 +181,56 @@ class Integrator {
     return sum;
   }
 
+  /// A square and its quarters, whose sum is taken for its area.
+  struct Square {
+    std::array<Columns, 4> nets;
+    std::array<Eigen::Vector4d, 4> parts;
+    Eigen::Vector4d sum = Eigen::Vector4d::Zero();
+    double error = 0;  ///< difference to the area by the square itself
+    bool operator<(const Square& other) const { return error < other.error; }
+  };
+  Square quartered(const PieceRule& rule, const Columns& net, const Eigen::Vector4d& whole) {
+    --squares_;
+    Square square;
+    for (int k = 0; k < 4; ++k) {
+      square.nets[size_t(k)] = rule.quarter(k) * net;
+      square.parts[size_t(k)] = area(rule, rule.nodes(square.nets[size_t(k)]));
+      square.sum += square.parts[size_t(k)];
+    }
+    square.error = std::abs(square.sum[0] - whole[0]);
+    return square;
+  }
+
+  /// Quarters the square of the largest error until all errors together are small, or there are enough squares.
   void add_area(const PieceRule& rule, const Columns& net, const Eigen::RowVector3d& origin,
-                const Eigen::Vector4d& whole, double tolerance, int depth) {
+                const Eigen::Vector4d& whole, double tolerance) {
     const auto accept = [&](const Eigen::Vector4d& sum, double error) {
       sums_.value.area += sum[0];
       sums_.value.of_area += sum.tail<3>() + sum[0] * origin.transpose();
       sums_.error.area += error;
     };
     if (whole[0] <= tolerance) return accept(whole, whole[0]);
-    std::array<Columns, 4> nets;
-    std::array<Eigen::Vector4d, 4> parts;
-    Eigen::Vector4d sum = Eigen::Vector4d::Zero();
-    for (int k = 0; k < 4; ++k) {
-      nets[size_t(k)] = rule.quarter(k) * net;
-      parts[size_t(k)] = area(rule, rule.nodes(nets[size_t(k)]));
-      sum += parts[size_t(k)];
+    std::vector<Square> squares{quartered(rule, net, whole)};  // a heap
+    double error = squares[0].error;
+    while (error > tolerance && squares_ >= 4) {
+      std::pop_heap(squares.begin(), squares.end());
+      const Square largest = std::move(squares.back());
+      squares.pop_back();
+      error -= largest.error;
+      for (size_t k = 0; k < 4; ++k) {
+        squares.push_back(quartered(rule, largest.nets[k], largest.parts[k]));
+        error += squares.back().error;
+        std::push_heap(squares.begin(), squares.end());
+      }
     }
-    const double error = std::abs(sum[0] - whole[0]);
-    if (error <= tolerance || depth == most_halvings) return accept(sum, error);
-    for (int k = 0; k < 4; ++k) add_area(rule, nets[size_t(k)], origin, parts[size_t(k)], tolerance / 4, depth + 1);
+    for (const Square& square : squares) accept(square.sum, square.error);
   }
 
   EstimatedSums sums_;
   int visited_ = 0;
+  std::int64_t squares_ = 0;  // that are left to the piece
   PieceRules& rules_;
+  std::int64_t most_squares_;
 };
 
 /// By a power of two, so that squares and fifth powers of coordinates neither overflow nor vanish.
@@ -225,12 +257,13 @@ std::optional<EstimatedSums> polynomial_sums(const LimitSurface::Parts& parts, c
   const LimitSurface::Parts::Pieces& pieces = parts.pieces();
   constexpr std::int64_t pieces_a_block = 32;
   PieceRules rules;
+  const std::int64_t squares = std::max(least_squares, most_squares / std::max<std::int64_t>(parts.num_pieces(), 1));
   std::vector<EstimatedSums> blocks(size_t(num_blocks(parts.num_pieces(), pieces_a_block)));
   std::atomic<bool> is_complete{true};
   parallel_for_blocks(
       parts.num_pieces(),
       [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
-        Integrator integrator(rules);
+        Integrator integrator(rules, squares);
         for (std::int64_t i = begin; i < end && is_complete; ++i) {
           if (parts.sides(parts.piece(Index(i))) & LimitSurface::Parts::hole) continue;
           const std::optional<EstimatedSums> sums =
@@ -263,7 +296,7 @@ LimitIntegrals limit_integrals(const LimitSurface& surface, const Points& points
   const LimitSurface::Parts& parts = LimitPatches::parts_of(surface);
   if (points.cols() != 3 || points.rows() != parts.level.topology().num_vertices())
     throw InvalidParameter("integrals need a point of three coordinates for each vertex");
-  if (!points.allFinite()) throw InvalidParameter("integrals need points that are finite");
+  check_finite_control(points);
   LimitIntegrals result;
   if (points.rows() == 0) {
     result.why_no_solid = "there are no faces";

@@ -31,7 +31,7 @@ struct SolidIntegrals {
   double inertia_error = 0;  ///< of its Frobenius norm
 };
 
-struct LimitIntegrals {
+struct [[nodiscard]] LimitIntegrals {
   double area = 0;
   double area_error = 0;                    ///< estimated by halving squares, or by leaving levels out
   std::optional<Eigen::Vector3d> centroid;  ///< of the surface; none without an area

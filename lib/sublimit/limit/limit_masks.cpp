@@ -2,12 +2,16 @@
 #include "sublimit/limit/limit_masks.h"
 
 #include <algorithm>
+#include <deque>
 #include <numbers>
 #include <numeric>
 #include <string>
 
 #include "sublimit/base/error.h"
+#include "sublimit/core/sparse_product.h"
+#include "sublimit/core/submatrix.h"
 #include "sublimit/limit/eigen_structure.h"
+#include "sublimit/limit/sparse_spectrum.h"
 #include "sublimit/limit/tangents.h"
 #include "sublimit/neighborhood/local_matrix.h"
 #include "sublimit/neighborhood/local_patch.h"
@@ -15,18 +19,18 @@
 namespace sublimit {
 namespace {
 
-using Eigen::MatrixXcd;
 using Eigen::MatrixXd;
 using Eigen::VectorXcd;
 using Eigen::VectorXd;
 using Side = LimitMasks::Side;
 using Plane = LimitMasks::Plane;
 
-std::optional<FourierBlocks> symmetric_blocks(const MatrixXd& A, const CanonicalNeighborhood& type) {
+/// The rows of one sector, where all sectors are alike.
+std::optional<SectorRows> symmetric_rows(const SparseMatrix& A, const CanonicalNeighborhood& type) {
   if (type.fans.size() != 1 || !type.fans[0].closed) return std::nullopt;
   for (const auto& spoke : type.spokes)
     if (is_sharp(spoke.sharpness)) return std::nullopt;
-  return fourier_blocks(A, static_cast<int>(type.fans[0].corners.size()));
+  return sector_rows(A, static_cast<int>(type.fans[0].corners.size()));
 }
 
 /// Where the slots of a side lie if its edges are spread evenly over `angle`: a plane picture to orient tangents by.
@@ -47,7 +51,7 @@ MatrixXd plane_picture(const CanonicalNeighborhood& type, const Side& side, doub
 }
 
 /// One sharp edge in a closed ring (a dart): mirror images make even and odd modes, one tangent from each.
-void add_tangents_by_reflection(Side& side, const MatrixXd& A, const CanonicalNeighborhood& type) {
+void add_tangents_by_reflection(Side& side, const SparseMatrix& A, const CanonicalNeighborhood& type) {
   const Index n = side.num_corners, size = static_cast<Index>(A.rows());
   const auto& corners = type.fans[side.fan].corners;
   const auto corner = [&](Index c) -> const auto& { return corners[((side.first_corner + c) % n + n) % n]; };
@@ -57,26 +61,36 @@ void add_tangents_by_reflection(Side& side, const MatrixXd& A, const CanonicalNe
     const Slots& b = corner(n - 1 - c).slots;
     for (size_t i = 1; i < a.size(); ++i) mirror[a[i]] = b[a.size() - i];
   }
-  MatrixXd even = MatrixXd::Zero(size, size), odd = MatrixXd::Zero(size, size);
+  SparseMatrix even(size, size), odd(size, size);
   Index num_even = 0, num_odd = 0;
   for (Index i = 0; i < size; ++i) {
     if (mirror[i] < i) continue;
+    even.startVec(num_even);
     if (mirror[i] == i) {
-      even(i, num_even++) = 1;
+      even.insertBack(num_even++, i) = 1;
       continue;
     }
     const double h = std::numbers::sqrt2 / 2;
-    even(i, num_even) = even(mirror[i], num_even) = h;
-    odd(i, num_odd) = h;
-    odd(mirror[i], num_odd) = -h;
-    ++num_even, ++num_odd;
+    even.insertBack(num_even, i) = h;
+    even.insertBack(num_even++, mirror[i]) = h;
+    odd.startVec(num_odd);
+    odd.insertBack(num_odd, i) = h;
+    odd.insertBack(num_odd++, mirror[i]) = -h;
   }
-  even.conservativeResize(size, num_even);
-  odd.conservativeResize(size, num_odd);
-  const EigenStructure evens = eigen_structure(MatrixXcd(even.transpose() * A * even), 0, 4);
-  const EigenStructure odds = eigen_structure(MatrixXcd(odd.transpose() * A * odd), 1, 3);
-  const auto mask = [&](const MatrixXd& basis, const EigenCluster& cluster) -> VectorXd {
-    return basis * made_real(cluster.left.col(0));
+  even.finalize();
+  odd.finalize();
+  even = SparseMatrix(even.topRows(num_even));
+  odd = SparseMatrix(odd.topRows(num_odd));
+  // Of modes of one kind.
+  const auto reduced = [&](const SparseMatrix& basis) {
+    const SparseMatrix transposed = basis.transpose();
+    return product(product(basis, A), transposed);
+  };
+  const EigenStructure evens = leading_clusters(reduced(even), 4);
+  EigenStructure odds = leading_clusters(reduced(odd), 3);
+  for (EigenCluster& cluster : odds.clusters) cluster.block = 1;
+  const auto mask = [&](const SparseMatrix& basis, const EigenCluster& cluster) -> VectorXd {
+    return basis.transpose() * made_real(cluster.left.col(0));
   };
   side.tangent1 = mask(even, evens.clusters[1]);
   side.tangent2 = mask(odd, odds.clusters[0]);
@@ -86,7 +100,7 @@ void add_tangents_by_reflection(Side& side, const MatrixXd& A, const CanonicalNe
   if ((side.tangent1.transpose() * picture)(0) < 0) side.tangent1 *= -1;
   if ((side.tangent2.transpose() * picture)(1) < 0) side.tangent2 *= -1;
   const double slower = std::min(side.lambda1, side.lambda2);
-  const auto add_next = [&](const MatrixXd& basis, const std::vector<EigenCluster>& clusters, size_t at) {
+  const auto add_next = [&](const SparseMatrix& basis, const std::vector<EigenCluster>& clusters, size_t at) {
     if (at >= clusters.size()) return;  // three triangles around a dart have but one odd mode
     if (decays_like(std::abs(clusters[at].value), slower)) side.plane = Plane::no;
     side.second_order.push_back(mask(basis, clusters[at]));
@@ -97,7 +111,7 @@ void add_tangents_by_reflection(Side& side, const MatrixXd& A, const CanonicalNe
 }
 
 /// One side between two sharp edges: its outline is the vertex and the ends of these edges.
-void add_tangents_between_edges(Side& side, const MatrixXd& A, const CanonicalNeighborhood& type, Rule rule) {
+void add_tangents_between_edges(Side& side, const SparseMatrix& A, const CanonicalNeighborhood& type, Rule rule) {
   const auto& corners = type.fans[side.fan].corners;
   const auto corner = [&](Index c) -> const auto& { return corners[(side.first_corner + c) % corners.size()]; };
   Outline outline;
@@ -172,19 +186,22 @@ std::pair<CanonicalNeighborhood, Slots> single_fan(const CanonicalNeighborhood& 
 }
 
 /// Tangents of a side that is a whole closed ring.
-void add_tangents_of_ring(Side& side, const MatrixXd& A, const CanonicalNeighborhood& type) {
+/// @param ring  where all sectors are alike
+void add_tangents_of_ring(Side& side, const SparseMatrix& A, const CanonicalNeighborhood& type,
+                          const std::optional<SectorRows>& ring) {
   if (type.fans.size() > 1) {
     const auto [part, slots] = single_fan(type, side.fan);
     const Index fan = side.fan;
     side.fan = 0;
-    add_tangents_of_ring(side, A(slots, slots), part);
+    const SparseMatrix own = submatrix(A, slots, slots);
+    add_tangents_of_ring(side, own, part, symmetric_rows(own, part));
     side.fan = fan;
     for (VectorXd* mask : {&side.tangent1, &side.tangent2}) *mask = embedded(*mask, slots, type.num_slots);
     for (VectorXd& mask : side.second_order) mask = embedded(mask, slots, type.num_slots);
     return;
   }
-  if (const auto fourier = symmetric_blocks(A, type)) {
-    add_ring_tangents(side, *fourier);
+  if (ring) {
+    add_ring_tangents(side, *ring);
     return;
   }
   const auto& corners = type.fans[0].corners;
@@ -196,15 +213,16 @@ void add_tangents_of_ring(Side& side, const MatrixXd& A, const CanonicalNeighbor
 }
 
 /// Masks at a stationary neighbourhood, over its own slots.
-LimitMasks stationary_masks(const MatrixXd& A, const CanonicalNeighborhood& type) {
+LimitMasks stationary_masks(const SparseMatrix& A, const CanonicalNeighborhood& type) {
   LimitMasks masks;
   masks.rule = type.rule();
-  masks.position = position_mask(A, {0}, symmetric_blocks(A, type));
+  const std::optional<SectorRows> ring = symmetric_rows(A, type);
+  masks.position = position_mask(A, {0}, ring);
   masks.sides = sides_of(type, masks.rule);
   for (Side& side : masks.sides) {
     const auto& fan = type.fans[side.fan];
     if (fan.closed && side.num_corners == static_cast<Index>(fan.corners.size())) {
-      add_tangents_of_ring(side, A, type);
+      add_tangents_of_ring(side, A, type, ring);
     } else {
       add_tangents_between_edges(side, A, type, masks.rule);
     }
@@ -225,14 +243,15 @@ LimitMasks limit_masks(const Scheme<double>& scheme, const CanonicalNeighborhood
   // more turns faces into the split's own.
   constexpr int enough = 32;
   CanonicalNeighborhood current = type;
-  MatrixXd path = MatrixXd::Identity(type.num_slots, type.num_slots);
+  std::deque<SparseMatrix> path;
   for (int k = 0; k < enough; ++k) {
-    const LocalStep<double> step = local_step(scheme, current, k);
+    SparseStep<double> step = sparse_step(scheme, current, k);
     if (step.child.signature() == current.signature()) {
       LimitMasks masks = stationary_masks(step.matrix, current);
       masks.steps = k;
-      if (k == 0) return masks;
-      const auto pull_back = [&](VectorXd& mask) { mask = path.transpose() * mask; };
+      const auto pull_back = [&](VectorXd& mask) {
+        for (auto matrix = path.rbegin(); matrix != path.rend(); ++matrix) mask = VectorXd(matrix->transpose() * mask);
+      };
       pull_back(masks.position);
       for (Side& side : masks.sides) {
         pull_back(side.tangent1);
@@ -241,7 +260,7 @@ LimitMasks limit_masks(const Scheme<double>& scheme, const CanonicalNeighborhood
       }
       return masks;
     }
-    path = (step.matrix * path).eval();
+    path.emplace_back().swap(step.matrix);
     current = step.child;
   }
   throw AnalysisError(scheme.name + ": a vertex with " + std::to_string(type.spokes.size()) +
@@ -249,11 +268,17 @@ LimitMasks limit_masks(const Scheme<double>& scheme, const CanonicalNeighborhood
 }
 
 std::optional<LoneLimit> lone_limit(const Scheme<double>& scheme, const LocalType& type) {
-  const std::optional<LocalPatch<double>> patch = local_patch(scheme, type);
-  if (!patch) return std::nullopt;
+  const bool is_face = type.kind == Centre::Kind::face;
+  const bool open = type.open || type.kind == Centre::Kind::border;
+  // Around closed centres one ring more is looked at besides: what is there may decay as slowly as the tangents, and is
+  // not in the smallest closed set.
+  const int rings = is_face ? 0 : 1;
+  const auto patches = sparse_patches(
+      scheme, type, {.rings = open ? std::vector<int>{rings} : std::vector<int>{rings, rings + 1}, .labels = false});
+  if (!patches) return std::nullopt;
+  const SparsePatch<double>* const patch = &patches->front();
   LoneLimit limit{type, patch->depth, patch->places.signature, patch->slots, {}};
   LimitMasks& masks = limit.masks;
-  const bool open = type.open || type.kind == Centre::Kind::border;
   masks.rule = type.corner ? Rule::corner : open ? Rule::crease : Rule::smooth;
   Side side;
   side.num_corners = type.faces;
@@ -265,17 +290,12 @@ std::optional<LoneLimit> lone_limit(const Scheme<double>& scheme, const LocalTyp
         at != patch->slots.end() && *at == s)
       ring.push_back(static_cast<Index>(at - patch->slots.begin()));
   if (!open) {
-    const auto fourier = fourier_blocks(patch->A, patch->orbits);
-    if (!fourier) throw AnalysisError(scheme.name + ": a lone neighbourhood is not rotationally symmetric");
-    masks.position = position_mask(patch->A, centre, fourier);
-    add_ring_tangents(side, *fourier);
-    // What is around may decay as slowly as the tangents, and is not in the smallest closed set. Dense matrices of
-    // rings around polygons beyond 256 corners would be too large.
-    if (type.faces <= 256) {
-      const auto wider = local_patch(scheme, type, type.kind == Centre::Kind::face ? 1 : 2);
-      const auto blocks = wider ? fourier_blocks(wider->A, wider->orbits) : std::nullopt;
-      if (blocks) side.plane = std::max(side.plane, ring_plane(*blocks));
-    }
+    const auto blocks = sector_rows(patch->A, patch->orbits);
+    if (!blocks) throw AnalysisError(scheme.name + ": a lone neighbourhood is not rotationally symmetric");
+    masks.position = position_mask(patch->A, centre, blocks);
+    add_ring_tangents(side, *blocks);
+    const SparsePatch<double>& wider = patches->back();
+    if (const auto wide = sector_rows(wider.A, wider.orbits)) side.plane = std::max(side.plane, ring_plane(*wide));
   } else {
     masks.position = position_mask(patch->A, centre, std::nullopt);
     Outline outline;
@@ -290,7 +310,7 @@ std::optional<LoneLimit> lone_limit(const Scheme<double>& scheme, const LocalTyp
     const bool on_vertex = type.kind == Centre::Kind::vertex;
     outline.first = 1;
     outline.last = on_vertex ? ring.back() : 0;
-    if (patch->A(outline.curve, outline.inner).isZero(0)) {
+    if (submatrix(patch->A, outline.curve, outline.inner).nonZeros() == 0) {
       add_border_tangents(side, patch->A, outline, type.corner);
     } else {
       add_free_tangents(side, patch->A, ring);

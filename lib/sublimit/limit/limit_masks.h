@@ -17,7 +17,7 @@
 namespace sublimit {
 
 /// Masks by slot of a canonical neighbourhood.
-struct LimitMasks {
+struct [[nodiscard]] LimitMasks {
   using Mask = Eigen::VectorXd;
 
   /// Does the surface have a tangent plane at the vertex, seen from this side, for generic control points?

@@ -12,8 +12,11 @@ namespace sublimit {
 class LimitPatches {
  public:
   /// Finds the types of all pieces, and binds all patches to `points`, in parallel.
-  /// @param points  #V x 3
+  /// @param parts   which must stay
+  /// @param points  #V x 3; must stay
   LimitPatches(const LimitSurface::Parts& parts, const Points& points);
+  LimitPatches(const LimitSurface::Parts&&, const Points&) = delete;
+  LimitPatches(const LimitSurface::Parts&, const Points&&) = delete;
 
   /// Rows [begin, end) of `out`, whose other rows and absent quantities stay as they are.
   /// @return  places in types whose rows had to be made, since no patch has them: alike ones count once

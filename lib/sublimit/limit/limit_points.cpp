@@ -52,8 +52,8 @@ LimitMatrices limit_matrices(const Level& level, LimitTypes& cache) {
   // Block by block, so that rows of a large mesh are not there twice.
   using Row = LimitRows::Row;
   const Index block = std::max<Index>(1 << 14, num_sides / 16);
-  StackedRows position, tangent1, tangent2;
-  std::vector<StackedRows> second_order;
+  StackedRows position, tangent1, tangent2, second_order;
+  result.second_order_begin.push_back(0);
   for (Index begin = 0, v = 0; begin < num_sides || v < num_vertices; begin += block) {
     const Index end = std::min(begin + block, num_sides);
     const std::vector<LimitRows> rows =
@@ -77,20 +77,18 @@ LimitMatrices limit_matrices(const Level& level, LimitTypes& cache) {
     };
     tangent1.add(of_sides([](const LimitRows& row) { return row.tangent1(); }));
     tangent2.add(of_sides([](const LimitRows& row) { return row.tangent2(); }));
-    size_t orders = second_order.size();
-    for (const LimitRows& row : rows) orders = std::max(orders, row.num_second_order());
-    second_order.resize(orders);
-    for (size_t k = 0; k < orders; ++k) {
-      if (second_order[k].empty() && begin > 0) second_order[k].add(SparseMatrix(begin, num_vertices));
-      second_order[k].add(
-          of_sides([&](const LimitRows& row) { return k < row.num_second_order() ? row.second_order(k) : Row(); }));
+    list.clear();
+    for (const LimitRows& row : rows) {
+      for (size_t k = 0; k < row.num_second_order(); ++k) list.push_back(row.second_order(k));
+      result.second_order_begin.push_back(result.second_order_begin.back() +
+                                          static_cast<Index>(row.num_second_order()));
     }
+    second_order.add(matrix_of(list, num_vertices));
   }
   std::move(position).matrix(num_vertices).swap(result.position);
   std::move(tangent1).matrix(num_vertices).swap(result.tangent1);
   std::move(tangent2).matrix(num_vertices).swap(result.tangent2);
-  result.second_order.reserve(second_order.size());
-  for (StackedRows& rows : second_order) std::move(rows).matrix(num_vertices).swap(result.second_order.emplace_back());
+  std::move(second_order).matrix(num_vertices).swap(result.second_order);
   return result;
 }
 
@@ -115,8 +113,6 @@ LimitPoints limit_points(const LimitMatrices& limit, const Topology& topology, c
   const Points scaled = unit == 1 ? Points() : Points(points * unit);
   const Points& x = unit == 1 ? points : scaled;
   const Points t1 = apply(limit.tangent1, x), t2 = apply(limit.tangent2, x);
-  std::vector<Points> higher;
-  for (const SparseMatrix& M : limit.second_order) higher.push_back(apply(M, x));
   result.normal = Points::Zero(t1.rows(), 3);
   parallel_for(t1.rows(), [&](std::int64_t s) {
     if (result.status[s] == LimitStatus::undefined_normal || result.status[s] == LimitStatus::hole) return;
@@ -132,7 +128,11 @@ LimitPoints limit_points(const LimitMatrices& limit, const Topology& topology, c
       return;
     }
     std::vector<Vector3d> modes;
-    for (const Points& values : higher) modes.push_back(values.row(s));
+    for (Index k = limit.second_order_begin[s]; k < limit.second_order_begin[s + 1]; ++k) {
+      modes.push_back(Vector3d::Zero());
+      for (SparseMatrix::InnerIterator it(limit.second_order, k); it; ++it)
+        modes.back() += it.value() * x.row(it.col()).transpose();
+    }
     const Vector3d normal = degenerate_normal(a, b, modes, scale, turn_of(limit, topology, static_cast<Index>(s), x));
     if (normal.isZero()) {
       result.status[s] = LimitStatus::undefined_normal;

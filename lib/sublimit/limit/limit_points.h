@@ -11,13 +11,16 @@
 namespace sublimit {
 
 /// Rows over the points of one level. A vertex has one side, unless sharp edges or several fans cut its faces apart.
-struct LimitMatrices {
-  SparseMatrix position;                   ///< L, #V x #V: x_inf = L * x
-  SparseMatrix tangent1, tangent2;         ///< #sides x #V
-  std::vector<SparseMatrix> second_order;  ///< the next modes, for sides whose tangents degenerate; rows may be empty
-  std::vector<Index> side_vertex;          ///< vertex of each side; ascending
-  std::vector<Index> corner_side;          ///< side of each half-edge (corner of a face)
-  std::vector<LimitStatus> status;         ///< of each side, for generic points
+struct [[nodiscard]] LimitMatrices {
+  SparseMatrix position;            ///< L, #V x #V: x_inf = L * x
+  SparseMatrix tangent1, tangent2;  ///< #sides x #V
+  /// The next modes, for sides whose tangents degenerate: side s has rows second_order_begin[s] to
+  /// second_order_begin[s + 1] - 1. There may be as many as the side has faces.
+  SparseMatrix second_order;
+  std::vector<Index> second_order_begin;
+  std::vector<Index> side_vertex;   ///< vertex of each side; ascending
+  std::vector<Index> corner_side;   ///< side of each half-edge (corner of a face)
+  std::vector<LimitStatus> status;  ///< of each side, for generic points
 };
 
 /// @throws NoLimit  naming the first vertex without one
@@ -25,7 +28,7 @@ LimitMatrices limit_matrices(const Level& level, LimitTypes& cache);
 /// Of the last of levels 0 to any; what has no limit is named by where it is on level 0.
 LimitMatrices limit_matrices(const std::vector<Level>& levels, LimitTypes& cache);
 
-struct LimitPoints {
+struct [[nodiscard]] LimitPoints {
   Points position;                  ///< #V x 3
   Points normal;                    ///< #sides x 3, unit length, zero where undefined
   std::vector<LimitStatus> status;  ///< of each side, for these points

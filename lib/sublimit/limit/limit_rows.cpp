@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 #include <numeric>
+#include <set>
 #include <string>
 
 #include "sublimit/base/error.h"
@@ -80,7 +81,7 @@ std::optional<LimitRows> lone_rows(const Level& level, LimitTypes& cache, const 
   const LocalType type = local_type(level.topology(), level.sharpness, centre, level.number, cache.scheme().period);
   const LoneLimit* limit = cache.lone(type);
   if (!limit) return std::nullopt;
-  const Walk places = walk(level.topology(), level.sharpness, centre, limit->depth);
+  const Walk places = walk(level.topology(), level.sharpness, centre, limit->depth, &limit->signature);
   if (places.decays || places.signature != limit->signature) return std::nullopt;
   return rows_of(limit->masks, limit->masks.sides[0], limit->slots, places.vertices);
 }
@@ -171,15 +172,76 @@ std::optional<LimitRows> known_rows(const Level& level, LimitTypes& cache, const
   return lone_rows(level, cache, centre);
 }
 
+/// Whether a centre is one whose masks take long: those of many faces do. There are few of them in any mesh.
+bool is_among_many(const Topology& t, const Centre& centre) {
+  constexpr Index many = 32;
+  if (centre.kind == Centre::Kind::face) return t.size(t.face(centre.start)) > many;
+  return centre.kind == Centre::Kind::vertex && t.num_faces(t.tail(centre.start)) > many;
+}
+
+/// Finds what the limits of such centres need beforehand, one type a thread: those of a block are found one after the
+/// other, and two that are alike wait for each other. What has no limit is met again, and named, where it is needed.
+void find_large_types(const Level& level, LimitTypes& cache, std::span<const Centre> centres) {
+  const Topology& t = level.topology();
+  if (!level.intervals.empty()) return;
+  const auto for_each_of = [](const auto& types, const auto& find) {
+    if (types.size() < 2) return;
+    parallel_for_blocks(
+        std::ssize(types),
+        [&](std::int64_t i, std::int64_t, std::int64_t) {
+          try {
+            find(types[size_t(i)]);
+          } catch (const AnalysisError&) {
+          }
+        },
+        1);
+  };
+  if (!cache.scheme().has_one_ring_limits()) {
+    std::set<LocalType> distinct;
+    for (const Centre& centre : centres)
+      if (is_among_many(t, centre) && !(centre.kind == Centre::Kind::vertex && cache.scheme().is_dual()))
+        distinct.insert(local_type(t, level.sharpness, centre, level.number, cache.scheme().period));
+    for_each_of(std::vector<LocalType>(distinct.begin(), distinct.end()),
+                [&](const LocalType& type) { cache.lone(type); });
+    return;
+  }
+  std::set<Vertex> vertices;
+  for (const Centre& centre : centres)
+    if (centre.kind == Centre::Kind::vertex && is_among_many(t, centre)) vertices.insert(t.tail(centre.start));
+  std::map<std::vector<std::uint32_t>, CanonicalNeighborhood> distinct;
+  for (const Vertex v : vertices) {
+    NeighborhoodAt at = neighborhood(t, level.sharpness, v);
+    distinct.try_emplace(at.type.signature(), std::move(at.type));
+  }
+  std::vector<const CanonicalNeighborhood*> types;
+  for (const auto& [signature, type] : distinct) types.push_back(&type);
+  for_each_of(types, [&](const CanonicalNeighborhood* type) { cache.masks(*type); });
+}
+
 /// rows * S, with the columns of the result renamed.
-SparseRows pulled_back(const SparseRows& rows, const SparseMatrix& S, const std::vector<Index>& name) {
+/// @param sum  zeros, by column; again so afterwards
+SparseRows pulled_back(const SparseRows& rows, const SparseMatrix& S, const std::vector<Index>& name,
+                       std::vector<double>& sum) {
   SparseRows result;
+  std::vector<Index> columns;
+  sum.resize(static_cast<size_t>(S.cols()), 0);
+  std::vector<std::pair<Index, double>> row;
   for (size_t i = 0; i < rows.size(); ++i) {
-    std::map<Index, double> sum;
+    columns.clear();
+    row.clear();
     for (const auto& [r, weight] : rows[i])
-      for (SparseMatrix::InnerIterator it(S, r); it; ++it) sum[name[it.col()]] += weight * it.value();
-    for (const auto& [column, weight] : sum)
-      if (weight != 0) result.add(column, weight);
+      for (SparseMatrix::InnerIterator it(S, r); it; ++it) {
+        double& to = sum[static_cast<size_t>(it.col())];
+        if (to == 0) columns.push_back(static_cast<Index>(it.col()));
+        to += weight * it.value();
+      }
+    for (const Index column : columns) {
+      double& weight = sum[static_cast<size_t>(column)];
+      if (weight != 0) row.emplace_back(name[static_cast<size_t>(column)], weight);
+      weight = 0;  // what came to nothing halfway is listed twice
+    }
+    std::sort(row.begin(), row.end());
+    for (const auto& [column, weight] : row) result.add(column, weight);
     result.end_row();
   }
   return result;
@@ -203,6 +265,7 @@ std::vector<LimitRows> found_rows(const Level& level, LimitTypes& cache, std::sp
   std::vector<LimitRows> rows(centres.size());
   std::vector<std::uint8_t> done(centres.size(), 0);
   const bool whole = is_prepared_first(scheme, level);
+  if (!whole) find_large_types(level, cache, centres);
   if (!whole)
     parallel_for_blocks(count, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
       OneRing ring;
@@ -265,11 +328,15 @@ std::vector<LimitRows> found_rows(const Level& level, LimitTypes& cache, std::sp
   std::sort(used.begin(), used.end());
   used.erase(std::unique(used.begin(), used.end()), used.end());
   const SparseMatrix S = few ? subdivision_rows(scheme, parent, child_level, used) : child_level.S;
-  parallel_for(static_cast<std::int64_t>(followed.size()), [&](std::int64_t i) {
-    fine[i].rows = pulled_back(fine[i].rows, S, around.vertices);
-    rows[followed[i]] = std::move(fine[i]);
-    why[followed[i]] = std::move(why_not[i]);
-  });
+  parallel_for_blocks(static_cast<std::int64_t>(followed.size()),
+                      [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+                        std::vector<double> sum;
+                        for (std::int64_t i = begin; i < end; ++i) {
+                          fine[i].rows = pulled_back(fine[i].rows, S, around.vertices, sum);
+                          rows[followed[i]] = std::move(fine[i]);
+                          why[followed[i]] = std::move(why_not[i]);
+                        }
+                      });
   return rows;
 }
 
@@ -317,6 +384,7 @@ LimitStatus status_of(const LimitRows& rows, const Scheme<double>& scheme) {
 }  // namespace
 
 std::vector<LimitRows> limit_rows(const Level& level, LimitTypes& cache, std::span<const Centre> centres) {
+  cache.check(level);
   std::vector<std::string> why(centres.size());
   // Pieces are known of levels where a period begins.
   const int period = cache.scheme().period, depth = 12 + (period - level.number % period) % period;

@@ -9,7 +9,7 @@
 namespace sublimit {
 
 /// Weights over control vertices of one place.
-struct LimitStencil {
+struct [[nodiscard]] LimitStencil {
   LimitStatus status = LimitStatus::regular;
   std::vector<Index> vertices;  ///< ascending
   /// Rows: position, then du, dv, then duu, duv, dvv, as far as asked for and existing; one column per vertex. Position
@@ -23,7 +23,7 @@ struct LimitStencil {
 
 /// What `evaluate` gives, row by row. Absent quantities are zero; `order` and `status` say what is there; a place
 /// outside the domain has the status `outside` and nothing else.
-struct LimitSamples {
+struct [[nodiscard]] LimitSamples {
   Points position;       ///< #samples x 3
   Points du, dv;         ///< order >= 1
   Points duu, duv, dvv;  ///< order 2

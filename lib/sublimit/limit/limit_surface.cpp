@@ -13,13 +13,26 @@
 #include "sublimit/limit/derivative_order.h"
 #include "sublimit/limit/limit_masks.h"
 #include "sublimit/limit/limit_patches.h"
+#include "sublimit/scheme/check_scheme.h"
+#include "sublimit/scheme/made_by.h"
 
 namespace sublimit {
+namespace {
+
+/// The level, which a scheme has made.
+/// @throws InvalidParameter  another one has
+Level made_by(const Scheme<double>& scheme, Level level) {
+  check_made_by(level, check_scheme(scheme), "the limit surface");
+  return level;
+}
+
+}  // namespace
+
 LimitSurface::LimitSurface(const Scheme<double>& scheme, const ControlMesh& mesh, const SubdivisionOptions& options,
                            std::shared_ptr<LimitTypes> types)
-    : LimitSurface(scheme, control_level(scheme, mesh, options), std::move(types)) {}
+    : parts_(std::make_unique<Parts>(scheme, control_level(scheme, mesh, options), std::move(types))) {}
 LimitSurface::LimitSurface(const Scheme<double>& scheme, Level level, std::shared_ptr<LimitTypes> types)
-    : parts_(std::make_unique<Parts>(scheme, std::move(level), std::move(types))) {}
+    : parts_(std::make_unique<Parts>(scheme, made_by(scheme, std::move(level)), std::move(types))) {}
 LimitSurface::~LimitSurface() = default;
 LimitSurface::LimitSurface(LimitSurface&&) noexcept = default;
 LimitSurface& LimitSurface::operator=(LimitSurface&&) noexcept = default;
@@ -180,7 +193,7 @@ LimitStencil LimitSurface::Parts::stencil(Found found) const {
 
 Index LimitSurface::num_points() const { return level().topology().num_vertices(); }
 
-std::unique_ptr<BoundSource> LimitSurface::bound(const Points& points) const {
+std::unique_ptr<BoundSource> LimitSurface::bound(const Points& points) const& {
   return std::make_unique<BoundLimitSurface>(*this, points);
 }
 

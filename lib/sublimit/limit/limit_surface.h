@@ -55,7 +55,8 @@ class LimitSurface : public LinearSource {
   /// @param points  of the level, #V x 3
   LimitSamples evaluate(const Points& points, std::span<const Sample> samples, int order = 0,
                         bool normals = true) const override;
-  std::unique_ptr<BoundSource> bound(const Points& points) const override;
+  std::unique_ptr<BoundSource> bound(const Points& points) const& override;
+  std::unique_ptr<BoundSource> bound(const Points& points) const&& = delete;
 
   /// N x N samples per address, ends included, row-major, u fastest; triangles N (N + 1) / 2. Points that squares share
   /// have the same bits in all of them.
@@ -81,6 +82,7 @@ class BoundLimitSurface : public BoundSource {
  public:
   /// @param surface  which must stay
   BoundLimitSurface(const LimitSurface& surface, Points points);
+  BoundLimitSurface(const LimitSurface&&, Points) = delete;
   ~BoundLimitSurface() override;
   LimitSamples evaluate(std::span<const Sample> samples, int order = 0, bool normals = true) const;
   void evaluate(std::span<const Sample> samples, int order, bool normals, LimitSamples& out) const override;
@@ -91,6 +93,6 @@ class BoundLimitSurface : public BoundSource {
 };
 
 /// Curvature where first and second derivatives exist and the first ones span a plane; nothing elsewhere.
-std::optional<Curvature> curvature(const LimitSamples& samples, Index row);
+[[nodiscard]] std::optional<Curvature> curvature(const LimitSamples& samples, Index row);
 
 }  // namespace sublimit

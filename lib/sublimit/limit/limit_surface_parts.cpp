@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sublimit/limit/limit_surface_parts.h"
 
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <string>
 
 #include "sublimit/base/error.h"
 #include "sublimit/base/parallel_for.h"
+#include "sublimit/scheme/made_by.h"
 
 namespace sublimit {
 
@@ -50,7 +49,9 @@ std::optional<Level> prepared_level(const Scheme<double>& scheme, const Level& l
   Scheme<double> first = scheme;
   first.steps = scheme.preparation;
   first.preparation.clear();
-  return next_level(first, level);
+  Level prepared = next_level(first, level);
+  prepared.made_by = level.made_by;  // a part of its way to the next level
+  return prepared;
 }
 
 Scheme<double> without_preparation(Scheme<double> scheme) {
@@ -58,14 +59,24 @@ Scheme<double> without_preparation(Scheme<double> scheme) {
   return scheme;
 }
 
+/// The dictionary that is shared, or one of its own where there is none or it is full.
+/// @throws InvalidParameter  it is of another scheme
+std::shared_ptr<LimitTypes> dictionary(const Scheme<double>& scheme, const Level& level,
+                                       std::shared_ptr<LimitTypes> shared) {
+  if (shared) check_same_scheme(scheme, shared->scheme(), level, "the dictionary of types (LimitTypes)");
+  if (!shared || shared->pieces().is_full()) shared = std::make_shared<LimitTypes>(scheme);
+  shared->trust(level);
+  return shared;
+}
+
 }  // namespace
 
 LimitSurface::Parts::Parts(const Scheme<double>& s, Level l, std::shared_ptr<LimitTypes> shared)
-    : scheme(without_preparation(s)),
+    : scheme(without_preparation(check_scheme(s))),
       level(std::move(l)),
       prepared(prepared_level(s, level)),
       addresses(level.topology(), scheme.face_size() == 3),
-      types(shared && !shared->pieces().is_full() ? std::move(shared) : std::make_shared<LimitTypes>(scheme)),
+      types(dictionary(scheme, level, std::move(shared))),
       corners(*types, base()) {
   if (level.number % scheme.period != 0)
     throw InvalidParameter(scheme.name + ": limits are taken from levels whose number is a multiple of " +
@@ -152,27 +163,24 @@ std::optional<Centre> LimitSurface::Parts::centre(const Target& target) const {
   }
 }
 
-const LimitSurface::Parts::Regular& LimitSurface::Parts::regular() const {
-  std::call_once(regular_once_, [&] { tbb::this_task_arena::isolate([&] { find_regular(); }); });
-  return regular_;
-}
-
-void LimitSurface::Parts::find_regular() const {
+LimitSurface::Parts::Regular LimitSurface::Parts::found_regular() const {
+  Regular regular;
   const Topology& t = base().topology();
   const int corners = addresses.triangles() ? 3 : 4;
   if (t.uniform_face_size() != corners || scheme.is_dual() || !base().intervals.empty() ||
       types->pieces().rings(base().sharpness) != 1)
-    return;
-  regular_.faces.emplace(base(), corners);
-  std::vector<Index> points(size_t(regular_.faces->num_points()));
+    return regular;
+  regular.faces.emplace(base(), corners);
+  std::vector<Index> points(size_t(regular.faces->num_points()));
   for (Index f = 0; f < t.num_faces(); ++f) {
-    if (!regular_.faces->points(Face{f}, points.data())) continue;
+    if (!regular.faces->points(Face{f}, points.data())) continue;
     PieceWalker walker;
     const Piece piece{corners == 3 ? Kind::triangle : Kind::quad, t.first(Face{f})};
     const PieceWalk& walk = walker.walk(base(), piece, 1, scheme.period);
-    if (walk.vertices == points) regular_.type = types->pieces().type(base(), piece, walk);
-    return;
+    if (walk.vertices == points) regular.type = types->pieces().type(base(), piece, walk);
+    return regular;
   }
+  return regular;
 }
 
 const PieceType* LimitSurface::Parts::type_of(const Piece& piece, std::vector<Index>& vertices) const {
@@ -197,9 +205,7 @@ Piece LimitSurface::Parts::piece(Index number) const {
 }
 
 const LimitSurface::Parts::Pieces& LimitSurface::Parts::pieces() const {
-  // Isolated: a thread that waits in here must not take up work that comes back for the same pieces.
-  std::call_once(pieces_once_, [&] { tbb::this_task_arena::isolate([&] { find_pieces(); }); });
-  return pieces_;
+  return pieces_.get([this] { return found_pieces(); });
 }
 
 NoLimit LimitSurface::Parts::without_limit(const Piece& piece, const std::string& why) const {
@@ -208,7 +214,7 @@ NoLimit LimitSurface::Parts::without_limit(const Piece& piece, const std::string
   return {"some place of face " + std::to_string(face), why};
 }
 
-void LimitSurface::Parts::find_pieces() const {
+LimitSurface::Parts::Pieces LimitSurface::Parts::found_pieces() const {
   const Index count = num_pieces();
   struct Block {
     std::vector<Index> vertices, sizes;
@@ -257,7 +263,7 @@ void LimitSurface::Parts::find_pieces() const {
   for (size_t i = 0; i < distinct.size(); ++i) all.tree_of[distinct[i]] = std::move(trees[i]);
   all.trees.resize(count);
   parallel_for(count, [&](std::int64_t i) { all.trees[i] = all.tree_of.find(all.types[i])->second.get(); });
-  pieces_ = std::move(all);
+  return all;
 }
 
 }  // namespace sublimit

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 // What a limit surface consists of: from addresses to pieces of a level, and their types.
-#include <mutex>
 #include <optional>
 
+#include "sublimit/base/found_once.h"
 #include "sublimit/limit/corner_limits.h"
 #include "sublimit/limit/limit_surface.h"
 #include "sublimit/limit/patch_tree.h"
@@ -137,24 +137,25 @@ struct LimitSurface::Parts {
   /// The same where nothing is special; false: it is, and `out` is as it was.
   bool evaluate_plain_row(const Points& points, const Found& found, int order, bool normals, LimitSamples& out,
                           std::int64_t i) const;
-  void find_pieces() const;
-  void find_regular() const;
+  Pieces found_pieces() const;
   /// Faces that need no walk, and the type that all of them have; null where the scheme looks further, or walks find
   /// the points in another order.
   struct Regular {
     std::optional<RegularFaces> faces;
     const PieceType* type = nullptr;
   };
-  const Regular& regular() const;
+  const Regular& regular() const {
+    return regular_.get([this] { return found_regular(); });
+  }
+  Regular found_regular() const;
   bool is_regular(const Piece& piece) const {
     return (piece.kind == Kind::quad || piece.kind == Kind::triangle) && regular().faces &&
            regular().faces->is_regular(base().topology().face(piece.start));
   }
   /// What is told where a piece has no limit.
   NoLimit without_limit(const Piece& piece, const std::string& why) const;
-  mutable std::once_flag pieces_once_, regular_once_;
-  mutable Regular regular_;
-  mutable Pieces pieces_;
+  FoundOnce<Regular> regular_;
+  FoundOnce<Pieces> pieces_;
 };
 
 }  // namespace sublimit

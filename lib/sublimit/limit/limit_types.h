@@ -2,23 +2,24 @@
 #pragma once
 // The dictionary of a scheme: what its limits need to know of neighbourhoods, each found once, by signature, when it is
 // first asked for. Shared between meshes, surfaces and threads; grows by types, not by vertices.
-#include <tbb/concurrent_unordered_map.h>
-
-#include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 
+#include "sublimit/base/found_once.h"
 #include "sublimit/core/signature_hash.h"
 #include "sublimit/limit/limit_masks.h"
 #include "sublimit/neighborhood/piece_types.h"
+#include "sublimit/scheme/check_scheme.h"
 
 namespace sublimit {
 
 class LimitTypes {
  public:
   /// @param max_pieces  a surface that needs more types of pieces, when there are so many, keeps them for itself
+  /// @throws InvalidParameter  a scheme that is not complete, as `check_scheme`
   explicit LimitTypes(const Scheme<double>& scheme, size_t max_pieces = size_t(1) << 16)
-      : scheme_(scheme), pieces_(scheme, max_pieces) {}
+      : scheme_(check_scheme(scheme)), pieces_(scheme, max_pieces) {}
 
   /// Limit masks of a vertex whose one-ring is all that they depend on. The reference stays valid as long as this.
   const LimitMasks& masks(const CanonicalNeighborhood& type);
@@ -28,15 +29,21 @@ class LimitTypes {
   PieceTypes& pieces() { return pieces_; }
 
   const Scheme<double>& scheme() const { return scheme_; }
-  /// Of vertices, faces and borders.
+  /// Throws unless this dictionary is of the scheme that made a level; looks at the masks once for each such scheme.
+  /// @throws InvalidParameter  it is of another scheme
+  void check(const Level& level);
+  /// Levels of whoever made this one have been checked already.
+  void trust(const Level& level);
+  /// Types of vertices, faces and borders that are known.
   size_t num_types() const { return types_.size() + lone_.size(); }
 
  private:
   Scheme<double> scheme_;
   PieceTypes pieces_;
-  std::mutex mutex_;  // of lone_
-  std::map<LocalType, std::optional<LoneLimit>> lone_;
-  tbb::concurrent_unordered_map<std::vector<std::uint32_t>, std::shared_ptr<const LimitMasks>, SignatureHash> types_;
+  std::mutex made_by_mutex_;
+  std::weak_ptr<const Scheme<double>> made_by_;  // of the level that was checked last
+  FoundByKey<LocalType, std::optional<LoneLimit>> lone_;
+  FoundByKey<std::vector<std::uint32_t>, LimitMasks, SignatureHash> types_;
 };
 
 }  // namespace sublimit

@@ -42,7 +42,7 @@ std::vector<Sample> grid_places(FaceCount face_count, int N) {
   return samples;
 }
 
-std::unique_ptr<BoundSource> LinearSource::bound(const Points& points) const {
+std::unique_ptr<BoundSource> LinearSource::bound(const Points& points) const& {
   return std::make_unique<UnpreparedSource>(*this, points);
 }
 

@@ -49,8 +49,12 @@ class LinearSource {
   /// `grid_places` of these faces.
   std::vector<Sample> grid(int N) const { return grid_places(faces(), N); }
 
-  /// @return  which needs this source to stay
-  virtual std::unique_ptr<BoundSource> bound(const Points& points) const;
+  /// This source with its control points, for many evaluations.
+  /// @return  which needs this source to stay: a temporary one has none. A source that overrides it deletes the
+  /// overload
+  ///          for temporaries again, which its own function hides.
+  virtual std::unique_ptr<BoundSource> bound(const Points& points) const&;
+  std::unique_ptr<BoundSource> bound(const Points& points) const&& = delete;
 
  protected:
   LinearSource() = default;

@@ -106,6 +106,7 @@ class AddressPieces {
   /// @param surface  which must stay
   /// @throws InvalidParameter  points that do not fit
   AddressPieces(const LimitSurface& surface, const Points& points);
+  AddressPieces(const LimitSurface&&, const Points&) = delete;
   void visit(Index address, const VisitPiece& visit) const;
   bool has_no_polynomials() const;
 

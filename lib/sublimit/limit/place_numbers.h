@@ -11,8 +11,10 @@ namespace sublimit {
 
 class PlaceNumbers {
  public:
+  /// @param parts  which must stay
   explicit PlaceNumbers(const LimitSurface::Parts& parts)
       : shared_(parts.level.topology(), parts.addresses, cell_steps, parts.scheme.is_dual()) {}
+  explicit PlaceNumbers(const LimitSurface::Parts&&) = delete;
 
   Index add(Index address, const CellCorner& c) { return add(key(address, c)); }
   /// A place inside of a cell that no other one has.

@@ -12,11 +12,14 @@ class SharedPlaces {
  public:
   static constexpr std::int64_t nobody = -1;
 
+  /// @param topology, addresses  which must stay
   /// @param steps  along each side
   /// @param dual   of a dual scheme, which has a border on each side of a non-manifold edge, and a corner for each fan
   ///               of a vertex
   SharedPlaces(const Topology& topology, const Addresses& addresses, std::int64_t steps, bool dual)
       : t_(topology), addresses_(addresses), steps_(steps), dual_(dual) {}
+  SharedPlaces(const Topology&&, const Addresses&, std::int64_t, bool) = delete;
+  SharedPlaces(const Topology&, const Addresses&&, std::int64_t, bool) = delete;
 
   /// Equal numbers, equal points.
   /// @param i, j  in steps along u and v

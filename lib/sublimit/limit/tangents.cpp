@@ -6,6 +6,8 @@
 #include <algorithm>
 
 #include "sublimit/core/dense_decompositions.h"
+#include "sublimit/core/submatrix.h"
+#include "sublimit/limit/sparse_spectrum.h"
 #include "sublimit/neighborhood/closed_set.h"
 
 namespace sublimit {
@@ -73,17 +75,52 @@ VectorXd made_real(const VectorXcd& v) {
   return (v * (std::conj(v[largest]) / std::abs(v[largest]))).real();
 }
 
-VectorXd position_mask(const MatrixXd& A, const Slots& centre, const std::optional<FourierBlocks>& fourier) {
+VectorXd position_mask(const SparseMatrix& A, const Slots& centre, const std::optional<SectorRows>& ring) {
+  const Index size = static_cast<Index>(A.rows());
   const Slots slots = closed_set(A, centre);
-  if (!fourier || static_cast<Index>(slots.size()) < A.rows())
-    return embedded(limit_weights(A(slots, slots)), slots, static_cast<Index>(A.rows()));
-  return fourier->mask(0, limit_weights(fourier->blocks[0].real()).cast<std::complex<double>>()).real();
+  if (!ring || slots == centre) return embedded(limit_weights(submatrix(A, slots, slots)), slots, size);
+  // Orbits that the centre depends on: all their slots are in its closed set.
+  const std::vector<bool> is_used = [&] {
+    std::vector<bool> used(static_cast<size_t>(size), false);
+    for (const Index slot : slots) used[static_cast<size_t>(slot)] = true;
+    return used;
+  }();
+  std::vector<int> used;
+  for (size_t i = 0; i < ring->orbits.size(); ++i)
+    if (is_used[static_cast<size_t>(ring->orbits[i][0])]) used.push_back(static_cast<int>(i));
+  VectorXcd l = VectorXcd::Zero(static_cast<Eigen::Index>(ring->orbits.size()));
+  l(used) = limit_weights(MatrixXd(ring->block(0)(used, used).real())).cast<std::complex<double>>();
+  return ring->mask(0, l).real();
 }
+
+namespace {
+
+/// Leading modes of a ring: what is as slow as the tangents, and the slowest behind them if asked for.
+EigenStructure leading_modes(const SectorRows& ring, bool with_next) {
+  // Before their clusters are made eigenvalues are known to the root of rounding, or worse.
+  constexpr double surely_apart = 1e-3;
+  std::vector<std::vector<std::complex<double>>> values;
+  for (int k = 0; 2 * k <= ring.n; ++k) values.push_back(ring.values(k));
+  std::complex<double> first = 0;
+  for (const auto& value : values[1])
+    if (std::abs(value) > std::abs(first)) first = value;
+  double least = std::abs(first), next = 0;
+  for (size_t k = 0; with_next && k < values.size(); ++k)
+    for (const auto& value : values[k]) {
+      const bool is_one = k == 0 && std::abs(value - 1.0) < surely_apart;
+      const bool is_first = k == 1 && std::abs(value - first) < 3 * cluster_tolerance * std::abs(first);
+      if (!is_one && !is_first) next = std::max(next, std::abs(value));
+    }
+  if (next > 0) least = std::min(least, next);
+  return leading_structure(ring, values, least * (1 - surely_apart));
+}
+
+}  // namespace
 
 /// The whole ring of an interior vertex whose neighbourhood looks the same from every sector: the tangents are the
 /// cosine and the sine mask of block 1.
-void add_ring_tangents(Side& side, const FourierBlocks& fourier) {
-  const EigenStructure structure = eigen_structure(fourier);
+void add_ring_tangents(Side& side, const SectorRows& fourier) {
+  const EigenStructure structure = leading_modes(fourier, true);
   const EigenCluster* first = &first_of_block_1(structure);
   const double lambda = std::abs(first->value);
   side.lambda1 = side.lambda2 = lambda;
@@ -117,7 +154,7 @@ void add_ring_tangents(Side& side, const FourierBlocks& fourier) {
   }
 }
 
-Plane ring_plane(const FourierBlocks& fourier) { return ring_plane(eigen_structure(fourier), fourier.n); }
+Plane ring_plane(const SectorRows& ring) { return ring_plane(leading_modes(ring, false), ring.n); }
 
 namespace {
 
@@ -126,10 +163,10 @@ namespace {
 /// seen.
 /// @param rate   eigenvalue of the modes
 /// @param along  by slot, how far along the outline points are
-bool add_ways_inwards(Side& side, const MatrixXd& whole, const Outline& outline, std::complex<double> rate,
+bool add_ways_inwards(Side& side, const SparseMatrix& whole, const Outline& outline, std::complex<double> rate,
                       const VectorXd& along) {
   if (outline.centre.size() != 2 || outline.inner_ring.empty()) return false;
-  const EigenStructure structure = eigen_structure(whole.cast<std::complex<double>>());
+  const EigenStructure structure = eigen_structure(MatrixXd(whole).cast<std::complex<double>>());
   const auto modes = std::find_if(structure.clusters.begin(), structure.clusters.end(),
                                   [&](const EigenCluster& c) { return std::abs(c.value - rate) <= cluster_tolerance; });
   if (modes == structure.clusters.end() || modes->is_jordan()) return false;
@@ -160,18 +197,25 @@ bool add_ways_inwards(Side& side, const MatrixXd& whole, const Outline& outline,
 /// One side between two sharp edges. Its outline (the vertex and the ends of these edges) is a curve scheme of its own
 /// and gives the tangent along a crease, or the two tangents of a corner; the leading mode of the interior crosses a
 /// crease.
-void add_border_tangents(Side& side, const MatrixXd& whole, const Outline& outline, bool is_corner) {
+void add_border_tangents(Side& side, const SparseMatrix& whole, const Outline& outline, bool is_corner) {
   const Index size = static_cast<Index>(whole.rows()), first = outline.first, last = outline.last;
   const Slots &curve = outline.curve, &inner = outline.inner;
   side.tangent1 = side.tangent2 = VectorXd::Zero(size);
   Slots all = curve;
   all.insert(all.end(), inner.begin(), inner.end());
-  if (whole(all, Eigen::all).cwiseAbs().sum() - whole(all, all).cwiseAbs().sum() > 1e-12) {
+  std::vector<bool> is_inside(static_cast<size_t>(size), false);
+  for (const Index i : all) is_inside[static_cast<size_t>(i)] = true;
+  double beyond = 0;
+  for (const Index i : all)
+    for (SparseMatrix::InnerIterator it(whole, i); it; ++it)
+      if (!is_inside[static_cast<size_t>(it.col())]) beyond += std::abs(it.value());
+  if (beyond > 1e-12) {
     side.plane = Plane::no;  // the crease that passes here is not this side's outline
     return;
   }
-  const MatrixXd C = whole(curve, curve), B = whole(inner, curve), D = whole(inner, inner);
-  const EigenStructure interior = eigen_structure(D.cast<std::complex<double>>(), 0, 3);
+  const MatrixXd C = submatrix(whole, curve, curve);
+  const SparseMatrix B = submatrix(whole, inner, curve), D = submatrix(whole, inner, inner);
+  const EigenStructure interior = leading_clusters(D, 3);
   const auto modulus = [&](size_t i) {
     return i < interior.clusters.size() ? std::abs(interior.clusters[i].value) : 0.0;
   };
@@ -194,7 +238,7 @@ void add_border_tangents(Side& side, const MatrixXd& whole, const Outline& outli
     for (int i = 0; i < 2; ++i) {
       const Index end = i == 0 ? first : last;
       const Slots leg = closed_set(whole, {0, end});
-      const EigenStructure along = eigen_structure(whole(leg, leg).cast<std::complex<double>>());
+      const EigenStructure along = leading_clusters(submatrix(whole, leg, leg), 2);
       *tangents[i] = embedded(per_unit(along.clusters[1], leg, end), leg, size);
       (i == 0 ? side.lambda1 : side.lambda2) = std::abs(along.clusters[1].value);
     }
@@ -240,9 +284,8 @@ void add_border_tangents(Side& side, const MatrixXd& whole, const Outline& outli
   });
   const auto extended = [&](const EigenCluster& mode, Eigen::Index k) {  // a mode of the outline over the inner points
     const VectorXd right = made_real(mode.right.col(k));
-    const MatrixXd shifted = D - mode.value.real() * MatrixXd::Identity(D.rows(), D.cols());
     return VectorXd(embedded(right, curve, size) +
-                    embedded(least_norm_solution(shifted, -(B * right), 1e-10), inner, size));
+                    embedded(shifted_solution(D, mode.value.real(), -(B * right)), inner, size));
   };
   // How far points next to the centre stand off the outline. Those of a border edge lie beside its ends; around a
   // vertex they lie elsewhere along the outline, and what a parabola along it does is taken off.
@@ -280,7 +323,7 @@ void add_border_tangents(Side& side, const MatrixXd& whole, const Outline& outli
       const VectorXd left = made_real(modes.clusters[i].left.col(0)), right = made_real(modes.clusters[i].right.col(0));
       fed -= left.dot(fed(curve)) / left.dot(right) * extended(modes.clusters[i], 0);
     }
-    for (int k = 0; k < 10; ++k) fed = whole * fed / std::abs(leading.value);
+    for (int k = 0; k < 10; ++k) fed = VectorXd(whole * fed) / std::abs(leading.value);
     const double height =
         fed(outline.inner_ring.empty() ? inner : outline.inner_ring).mean() - fed(outline.centre).mean();
     side.tangent2 = (height < 0 ? -1 : 1) * l;
@@ -312,9 +355,9 @@ void add_border_tangents(Side& side, const MatrixXd& whole, const Outline& outli
   side.second_order.push_back(embedded(made_real(bending.left.col(0)), curve, size));
 }
 
-void add_free_tangents(Side& side, const MatrixXd& A, const Slots& ring) {
+void add_free_tangents(Side& side, const SparseMatrix& A, const Slots& ring) {
   const Index size = static_cast<Index>(A.rows());
-  const EigenStructure structure = eigen_structure(A.cast<std::complex<double>>(), 0, 6);
+  const EigenStructure structure = leading_clusters(A, 6);
   std::vector<VectorXd> left, right;
   std::vector<double> moduli;
   for (const EigenCluster& cluster : structure.clusters) {

@@ -21,15 +21,15 @@ Eigen::VectorXd embedded(const Eigen::VectorXd& weights, const Slots& slots, Ind
 Eigen::VectorXd made_real(const Eigen::VectorXcd& v);
 
 /// Mask of the limit position: the left eigenvector of eigenvalue 1, over what the centre's own slots depend on.
-Eigen::VectorXd position_mask(const Eigen::MatrixXd& A, const Slots& centre,
-                              const std::optional<FourierBlocks>& fourier);
+/// @param ring  of a neighbourhood that looks the same from every sector
+Eigen::VectorXd position_mask(const SparseMatrix& A, const Slots& centre, const std::optional<SectorRows>& ring);
 
 /// A closed ring that looks the same from every sector: the tangents are the cosine and the sine mask of block 1.
-void add_ring_tangents(LimitMasks::Side& side, const FourierBlocks& fourier);
+void add_ring_tangents(LimitMasks::Side& side, const SectorRows& ring);
 
 /// Is there a tangent plane, when all modes of a closed ring are looked at? The modes of block 1 with the largest
 /// modulus, and among these the longest Jordan chains, must be alone.
-LimitMasks::Plane ring_plane(const FourierBlocks& fourier);
+LimitMasks::Plane ring_plane(const SectorRows& ring);
 
 /// Where a side ends: the slots of the border curve and those inside; `first` and `last` are the centre's neighbours on
 /// the curve, with the side on the left of the way from the centre to `first`.
@@ -40,10 +40,10 @@ struct Outline {
 };
 /// One side between two sharp edges. Its outline gives the tangent along a crease, or the two tangents of a corner
 /// (slot 0); the leading mode of the interior crosses a crease.
-void add_border_tangents(LimitMasks::Side& side, const Eigen::MatrixXd& A, const Outline& outline, bool is_corner);
+void add_border_tangents(LimitMasks::Side& side, const SparseMatrix& A, const Outline& outline, bool is_corner);
 
 /// Any neighbourhood: the two leading modes, turned so that `ring`, counter-clockwise around slot 0, is so in the
 /// characteristic map.
-void add_free_tangents(LimitMasks::Side& side, const Eigen::MatrixXd& A, const Slots& ring);
+void add_free_tangents(LimitMasks::Side& side, const SparseMatrix& A, const Slots& ring);
 
 }  // namespace sublimit

@@ -7,6 +7,7 @@ namespace sublimit {
 
 Verdict::Answer answer_of(const std::vector<Hypothesis>& hypotheses, bool necessary) {
   using Answer = Verdict::Answer;
+  if (hypotheses.empty()) return Answer::unknown;
   const auto is_firm = [](const Hypothesis& h) { return h.by != Hypothesis::By::floating; };
   const auto fails = [](const Hypothesis& h) { return h.holds == false; };
   if (std::any_of(hypotheses.begin(), hypotheses.end(), fails)) {

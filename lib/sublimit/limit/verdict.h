@@ -18,7 +18,7 @@ struct Hypothesis {
   std::string value = {};  ///< the numbers that decided, as text
 };
 
-struct Verdict {
+struct [[nodiscard]] Verdict {
   enum class Answer {
     proved,
     disproved,
@@ -39,7 +39,8 @@ struct Verdict {
 };
 
 /// The verdict that hypotheses allow which together are sufficient: proved if all hold without floating numbers; if one
-/// fails, disproved where each is `necessary` too (by what the failing one rests on), else unknown.
+/// fails, disproved where each is `necessary` too (by what the failing one rests on), else unknown. Without hypotheses
+/// it is unknown.
 Verdict::Answer answer_of(const std::vector<Hypothesis>& hypotheses, bool necessary);
 
 std::string to_string(Verdict::Answer answer);

@@ -30,7 +30,7 @@ enum class FaceVaryingInterpolation {
   all,            ///< everywhere: bilinear
 };
 
-struct ControlMesh {
+struct [[nodiscard]] ControlMesh {
   Points positions;                  ///< #V x 3
   std::vector<Index> face_sizes;     ///< corners of each face, >= 3
   std::vector<Index> face_vertices;  ///< vertices of all faces, one after the other, counter-clockwise

@@ -10,7 +10,7 @@
 
 namespace sublimit {
 
-struct ControlPolygon {
+struct [[nodiscard]] ControlPolygon {
   /// One curve: its points in order. A closed one does not repeat the first.
   struct Curve {
     std::vector<Index> points;

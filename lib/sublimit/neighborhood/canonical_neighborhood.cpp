@@ -177,9 +177,21 @@ UnfoldedPatch unfold(const CanonicalNeighborhood& type) {
   patch.sharpness.vertex.assign(patch.topology.num_vertices(), infinite_sharpness);
   patch.sharpness.edge.assign(patch.topology.num_edges(), infinite_sharpness);
   patch.sharpness.vertex[0] = type.sharpness;
-  for (const auto& spoke : type.spokes)
-    patch.sharpness.edge[index(find_edge(patch.topology, Vertex{0}, Vertex{spoke.slot}))] = spoke.sharpness;
+  const std::vector<Edge> edges = spoke_edges(type, patch.topology);
+  for (size_t i = 0; i < edges.size(); ++i) patch.sharpness.edge[index(edges[i])] = type.spokes[i].sharpness;
   return patch;
+}
+
+std::vector<Edge> spoke_edges(const CanonicalNeighborhood& type, const Topology& t) {
+  std::vector<Edge> to(static_cast<size_t>(type.num_slots), Edge{-1});
+  for (const Edge e : t.edges(Vertex{0})) {
+    Edge& found = to[static_cast<size_t>(index(t.tail(e) == Vertex{0} ? t.head(e) : t.tail(e)))];
+    if (index(found) < 0 || e < found) found = e;
+  }
+  std::vector<Edge> edges;
+  edges.reserve(type.spokes.size());
+  for (const auto& spoke : type.spokes) edges.push_back(to[static_cast<size_t>(spoke.slot)]);
+  return edges;
 }
 
 }  // namespace sublimit

@@ -61,5 +61,7 @@ struct UnfoldedPatch {
   Sharpness sharpness;
 };
 UnfoldedPatch unfold(const CanonicalNeighborhood& type);
+/// Edges of the unfolded patch, by spoke.
+std::vector<Edge> spoke_edges(const CanonicalNeighborhood& type, const Topology& patch);
 
 }  // namespace sublimit

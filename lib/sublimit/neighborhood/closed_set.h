@@ -37,4 +37,13 @@ std::vector<Index> closed_set(const Matrix& A, std::vector<Index> open) {
   });
 }
 
+/// The same of a sparse matrix.
+template <class T>
+std::vector<Index> closed_set(const Eigen::SparseMatrix<T, Eigen::RowMajor, Index>& A, std::vector<Index> open) {
+  return closed_set(std::move(open), static_cast<Index>(A.rows()), [&](Index i, const auto& add) {
+    for (typename Eigen::SparseMatrix<T, Eigen::RowMajor, Index>::InnerIterator it(A, i); it; ++it)
+      if (it.value() != T(0)) add(static_cast<Index>(it.col()));
+  });
+}
+
 }  // namespace sublimit

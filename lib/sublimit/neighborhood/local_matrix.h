@@ -23,29 +23,37 @@ struct LocalStep {
   DenseMatrix<T> matrix;
 };
 
+/// As LocalStep, by the nonzeros of the matrix.
+template <class T>
+struct SparseStep {
+  CanonicalNeighborhood child;
+  SparseMatrixOf<T> matrix;
+};
+
 /// The step of `scheme` at a neighbourhood. Where the child has the same signature the matrix is square, and
 /// stationary.
 /// @throws AnalysisError  the rows would use points outside the neighbourhood
 template <class T>
-LocalStep<T> local_step(const Scheme<T>& scheme, const CanonicalNeighborhood& type, int level = 0) {
+SparseStep<T> sparse_step(const Scheme<T>& scheme, const CanonicalNeighborhood& type, int level = 0) {
   if (scheme.steps.size() != 1)
     throw AnalysisError(scheme.name + ": local analysis of several steps at once is not known");
   const UnfoldedPatch patch = unfold(type);
   const Step<T>& step = scheme.steps[0];
   const Refinement refinement = refine(patch.topology, step.split);
   Sharpness sharpness = refine(patch.sharpness, patch.topology, refinement);
-  for (const auto& spoke : type.spokes) {
-    const Edge e = find_edge(patch.topology, Vertex{0}, Vertex{spoke.slot});
+  const std::vector<Edge> edges = spoke_edges(type, patch.topology);
+  for (size_t i = 0; i < edges.size(); ++i) {
+    const Edge e = edges[i];
     const auto [first, second] = refinement.halves(patch.topology, patch.topology.half_edge(e));
     const HalfEdge far = patch.topology.tail(e) == Vertex{0} ? second : first;
-    sharpness.edge[index(refinement.topology.edge(far))] = spoke.far_child;
+    sharpness.edge[index(refinement.topology.edge(far))] = type.spokes[i].far_child;
   }
   const SparseMatrixOf<T> S =
       subdivision_matrix(scheme, step, patch.topology, refinement, patch.sharpness, sharpness, level);
   NeighborhoodAt child = neighborhood(refinement.topology, sharpness, refinement.child(Vertex{0}), true);
 
-  LocalStep<T> result;
-  result.matrix.setZero(child.type.num_slots, type.num_slots);
+  SparseStep<T> result;
+  result.matrix.resize(child.type.num_slots, type.num_slots);
   for (Index slot = 0; slot < child.type.num_slots; ++slot) {
     const Vertex v{child.vertices[slot]};
     const Index parent = refinement.parent(v);
@@ -65,10 +73,25 @@ LocalStep<T> local_step(const Scheme<T>& scheme, const CanonicalNeighborhood& ty
     }
     if (!closed)
       throw AnalysisError(scheme.name + ": the one-ring is not closed under refinement; more rings are needed");
+    result.matrix.startVec(slot);
     for (typename SparseMatrixOf<T>::InnerIterator it(S, index(v)); it; ++it)
-      result.matrix(slot, it.col()) = it.value();
+      result.matrix.insertBack(slot, it.col()) = it.value();
   }
+  result.matrix.finalize();
   result.child = std::move(child.type);
+  return result;
+}
+
+/// The same with a dense matrix.
+template <class T>
+LocalStep<T> local_step(const Scheme<T>& scheme, const CanonicalNeighborhood& type, int level = 0) {
+  SparseStep<T> sparse = sparse_step(scheme, type, level);
+  LocalStep<T> result;
+  result.child = std::move(sparse.child);
+  result.matrix.setZero(sparse.matrix.rows(), sparse.matrix.cols());
+  for (Eigen::Index i = 0; i < sparse.matrix.rows(); ++i)
+    for (typename SparseMatrixOf<T>::InnerIterator it(sparse.matrix, i); it; ++it)
+      result.matrix(i, it.col()) = it.value();
   return result;
 }
 

@@ -52,8 +52,7 @@ ControlMesh creased_fan(Index n, Index faces, Index face_size) {
 void cut_out(Level& level, Centre& centre, int rings) {
   const Topology& t = level.topology();
   const Index face = index(t.face(centre.start));
-  // Rings around a face reach half a ring further than those around a vertex of it need.
-  Part around = part(level, std::span(&face, 1), rings + 1);
+  Part around = part(level, std::span(&face, 1), rings);
   for (size_t h = 0; h < around.halves.size(); ++h)
     if (around.halves[h] == index(centre.start)) {
       centre.start = HalfEdge{static_cast<Index>(h)};
@@ -64,5 +63,7 @@ void cut_out(Level& level, Centre& centre, int rings) {
 
 template std::optional<LocalPatch<double>> local_patch<double>(const Scheme<double>&, LocalType, int,
                                                                const ControlMesh*);
+template std::optional<std::vector<SparsePatch<double>>> sparse_patches<double>(const Scheme<double>&, const LocalType&,
+                                                                                const LocalPatchOptions&);
 
 }  // namespace sublimit

@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <numeric>
 #include <optional>
+#include <span>
+#include <utility>
+#include <vector>
 
 #include "sublimit/neighborhood/closed_set.h"
 #include "sublimit/neighborhood/local_matrix.h"
@@ -12,19 +15,30 @@
 #include "sublimit/neighborhood/sector_labels.h"
 #include "sublimit/neighborhood/walk.h"
 #include "sublimit/scheme/refine_impl.h"
+#include "sublimit/scheme/subdivision_rows_impl.h"
 
 namespace sublimit {
 
-template <class T>
-struct LocalPatch {
+/// The points around a centre that its local matrix is over.
+struct LocalPlaces {
   LocalType type;
   int depth = 0;                           ///< of the walk that makes the slots and the signature
   Walk places;                             ///< at that depth
   std::vector<Index> slots;                ///< those of the smallest closed set
   std::vector<SectorLabel> labels;         ///< where they lie
-  DenseMatrix<T> A;                        ///< over `slots`: one period
   std::vector<std::vector<Index>> orbits;  ///< of a closed centre: positions in `slots`, rotated sector by sector
   std::vector<Index> outline;              ///< of an open one: positions in `slots` of border points
+};
+
+template <class T>
+struct LocalPatch : LocalPlaces {
+  DenseMatrix<T> A;  ///< over `slots`: one period
+};
+
+/// As LocalPatch, by the nonzeros of the matrix: as many as the centre has faces, times a constant.
+template <class T>
+struct SparsePatch : LocalPlaces {
+  SparseMatrixOf<T> A;
 };
 
 /// Rings of points that masks may reach. Steps of repeated averaging add up: degree 9 is closed with four rings.
@@ -39,7 +53,14 @@ ControlMesh lone_fan(Index n, Index face_size, bool open);
 /// One edge alone, where `faces` is n, ends there: a dart.
 ControlMesh creased_fan(Index n, Index faces, Index face_size);
 
-/// The faces within some rings around a centre as a level of their own, without a matrix.
+/// Rings of faces around a point that the masks of one level look at, at most.
+template <class T>
+int reach_of_masks(const Scheme<T>& scheme, bool open) {
+  // On a border the curve's masks look along two edges.
+  return scheme.steps.size() > 1 || scheme.is_wide() ? rings_of_masks(scheme) : open ? 2 : 1;
+}
+
+/// The faces within `rings` rings around the face of a centre's start as a level of their own, without a matrix.
 void cut_out(Level& level, Centre& centre, int rings);
 template <class T>
 void cut_out(LevelOf<T>& level, Centre& centre, int rings) {
@@ -55,6 +76,26 @@ void cut_out(LevelOf<T>& level, Centre& centre, int rings) {
   level.holes = std::move(same.holes);
 }
 
+/// How local patches are found.
+struct LocalPatchOptions {
+  /// Of points that the closed sets shall hold at least, ascending, a patch for each; 1 is enough for tangents (0 for
+  /// faces).
+  std::vector<int> rings;
+  /// The mesh that the centre is in the middle of, its vertex 0; a lone fan where there is none. For one side of sharp
+  /// edges: the centre's first face is that of the edge to vertex 1.
+  const ControlMesh* around = nullptr;
+  bool labels = true;  ///< whether places get theirs
+};
+
+/// Local matrices of a type, over a closed set for each number of rings asked for; nothing where a centre of this type
+/// does not have a child of its own type (a vertex in a dual scheme). Time and memory are linear in the faces around
+/// the centre, but for masks that are not: those of polygons look at all corners from each of them.
+/// @throws AnalysisError  no small closed set
+/// @throws UnsupportedTopology  the scheme has no rule for what is sharp `around`
+template <class T>
+std::optional<std::vector<SparsePatch<T>>> sparse_patches(const Scheme<T>& scheme, const LocalType& type,
+                                                          const LocalPatchOptions& options);
+
 /// Local matrix of a type; nothing where a centre of this type does not have a child of its own type (a vertex in a
 /// dual scheme).
 /// @param rings  of points that the closed set shall hold at least; 1 is enough for tangents (0 for faces)
@@ -65,107 +106,202 @@ void cut_out(LevelOf<T>& level, Centre& centre, int rings) {
 template <class T>
 std::optional<LocalPatch<T>> local_patch(const Scheme<T>& scheme, LocalType type, int rings = -1,
                                          const ControlMesh* around = nullptr) {
-  const int margin = rings_of_masks(scheme);
+  if (rings < 0) rings = type.kind == Centre::Kind::face ? 0 : 1;
+  auto sparse = sparse_patches(scheme, type, {.rings = {rings}, .around = around});
+  if (!sparse) return std::nullopt;
+  SparsePatch<T>& found = sparse->front();
+  LocalPatch<T> patch;
+  static_cast<LocalPlaces&>(patch) = std::move(static_cast<LocalPlaces&>(found));
+  patch.A.setZero(found.A.rows(), found.A.cols());
+  for (Eigen::Index i = 0; i < found.A.rows(); ++i)
+    for (typename SparseMatrixOf<T>::InnerIterator it(found.A, i); it; ++it) patch.A(i, it.col()) = it.value();
+  return patch;
+}
+
+namespace local_patch_detail {
+
+/// Rows of the matrix of one period: of some vertices of the last level, over those of the first.
+/// @param levels    the first, and those after it, without matrices
+/// @param vertices  ascending
+template <class T>
+SparseMatrixOf<T> period_rows(const Scheme<T>& scheme, std::vector<LevelOf<T>>& levels, std::vector<Index> vertices) {
+  SparseMatrixOf<T> S;
+  for (size_t k = levels.size() - 1; k > 0; --k) {
+    const LevelOf<T>& parent = levels[k - 1];
+    SparseMatrixOf<T> step_rows;
+    if (scheme.steps.size() == 1)
+      subdivision_rows(scheme, scheme.steps[0], parent.topology(), levels[k].steps[0], parent.sharpness,
+                       levels[k].sharpness, parent.number, std::span<const Index>(vertices), nullptr)
+          .swap(step_rows);
+    else
+      next_level(scheme, parent).S.swap(step_rows);
+    if (S.rows() == 0)
+      S.swap(step_rows);
+    else
+      SparseMatrixOf<T>(product(S, step_rows)).swap(S);
+    if (k == 1) break;
+    std::vector<bool> used(static_cast<size_t>(S.cols()), false);
+    for (Eigen::Index row = 0; row < S.rows(); ++row)
+      for (typename SparseMatrixOf<T>::InnerIterator it(S, row); it; ++it) used[static_cast<size_t>(it.col())] = true;
+    vertices.clear();
+    for (size_t v = 0; v < used.size(); ++v)
+      if (used[v]) vertices.push_back(static_cast<Index>(v));
+  }
+  return S;
+}
+
+/// Patches whose points lie within `depth` rings; none in `patches` if that is not enough.
+/// @return  false where there is nothing to find
+template <class T>
+bool patches_within(const Scheme<T>& scheme, const LocalType& type, const LocalPatchOptions& options, int depth,
+                    std::vector<SparsePatch<T>>& patches) {
   const bool is_face = type.kind == Centre::Kind::face;
-  if (rings < 0) rings = is_face ? 0 : 1;
-  if (type.corner && scheme.is_dual()) return std::nullopt;  // dual schemes round corners
   const bool open = type.open || type.kind == Centre::Kind::border;
   const Index size = scheme.face_size() == 3 ? 3 : 4;
-  const ControlMesh mesh = around ? *around : lone_fan(type.kind == Centre::Kind::border ? 2 : type.faces, size, open);
-  SubdivisionOptions options;
-  options.boundary = Boundary::edge_only;
+  const ControlMesh mesh =
+      options.around ? *options.around : lone_fan(type.kind == Centre::Kind::border ? 2 : type.faces, size, open);
+  SubdivisionOptions subdivision;
+  subdivision.boundary = Boundary::edge_only;
 
-  LevelOf<T> level = control_level(scheme, mesh, options);
+  LevelOf<T> level = control_level(scheme, mesh, subdivision);
   if (type.corner)
     level.sharpness.vertex[0] = infinite_sharpness;  // no tag: of vertices of several fans, under any scheme
   const Topology* t = &level.topology();
   Centre centre{Centre::Kind::vertex, t->outgoing(Vertex{0})};
-  while (around && t->head(centre.start) != Vertex{1}) centre.start = t->ccw(centre.start);
-  const auto follow = [&](LevelOf<T>&& next) {
-    const Topology* before = &level.topology();
+  while (options.around && t->head(centre.start) != Vertex{1}) centre.start = t->ccw(centre.start);
+  const auto follow = [&](const LevelOf<T>& from) {
+    LevelOf<T> next = next_topology(scheme, from, [](const auto&...) {});
+    const Topology* before = &from.topology();
     for (const Refinement& step : next.steps) {
-      centre = child(centre, *before, step, level.number);
+      centre = child(centre, *before, step, from.number);
       before = &step.topology;
     }
-    level = std::move(next);
+    return next;
   };
+  const int dilation = scheme.dilation();
+  // Children within the rings lie within so many of the parent's, and their masks look further.
+  const int needed =
+      std::max(depth + 1, (depth + dilation - 2) / dilation + reach_of_masks(scheme, open) * scheme.period + 1);
+  // A vertex that becomes a face has a level less of regular faces around it.
+  const int wanted = scheme.is_dual() ? 2 * needed : needed;
   int levels = type.phase;
-  for (int have = 1; have < rings + margin + 3 || levels < 2 * scheme.period; have *= scheme.dilation())
-    levels += scheme.period;
-  for (int k = 0; k < levels; ++k) follow(next_topology(scheme, level, [](const auto&...) {}));
-  const int deep = rings + margin;
-  LocalPatch<T> patch;
-  patch.type = local_type(level.topology(), level.sharpness, centre, level.number, scheme.period);
-  if (patch.type != type) return std::nullopt;
-  cut_out(level, centre, deep + scheme.period * (margin + 2));
-  const Walk parent = walk(level.topology(), level.sharpness, centre, deep);
-  const HalfEdge turned = is_face ? level.topology().next(centre.start) : level.topology().ccw(centre.start);
-  const Walk rotated = open ? Walk{} : walk(level.topology(), level.sharpness, {centre.kind, turned}, deep);
-  const LevelOf<T> before = level;
-  const Centre before_centre = centre;
-  SparseMatrixOf<T> S;
-  for (int k = 0; k < scheme.period; ++k) {
-    follow(next_level(scheme, level));
-    if (k == 0)
-      S.swap(level.S);
-    else
-      SparseMatrixOf<T>(level.S * S).swap(S);
-  }
-  const Walk after = walk(level.topology(), level.sharpness, centre, deep);
-  if (local_type(level.topology(), level.sharpness, centre, level.number, scheme.period) != type) return std::nullopt;
+  for (int have = 1; have < wanted || levels < 2 * scheme.period; have *= dilation) levels += scheme.period;
+  for (int k = 0; k < levels; ++k) level = follow(level);
+  if (local_type(level.topology(), level.sharpness, centre, level.number, scheme.period) != type) return false;
+  cut_out(level, centre, needed);
 
-  std::vector<Index> slot_of(S.cols(), -1);
-  for (size_t s = 0; s < parent.vertices.size(); ++s) slot_of[parent.vertices[s]] = static_cast<Index>(s);
-  // The smallest closed set that holds the rings asked for.
+  const Centre parent_centre = centre;
+  std::vector<LevelOf<T>> period(static_cast<size_t>(scheme.period) + 1);
+  period[0] = std::move(level);
+  for (size_t k = 1; k < period.size(); ++k) period[k] = follow(period[k - 1]);
+  const Topology& topology = period.front().topology();
+  const Sharpness& sharpness = period.front().sharpness;
+  if (local_type(period.back().topology(), period.back().sharpness, centre, period.back().number, scheme.period) !=
+      type)
+    return false;
+  const Walk parent = walk(topology, sharpness, parent_centre, depth - 1);
+  const Walk after = walk(period.back().topology(), period.back().sharpness, centre, depth - 1);
+  if (after.ring_end != parent.ring_end) return true;
   const Index known = parent.ring_end.back();
-  std::vector<Index> wanted(parent.ring_end[rings]);
-  std::iota(wanted.begin(), wanted.end(), Index{0});
-  patch.slots = closed_set(std::move(wanted), known, [&](Index s, const auto& add) {
-    for (typename SparseMatrixOf<T>::InnerIterator it(S, after.vertices[s]); it; ++it) {
-      const Index column = slot_of[it.col()];
-      if (column < 0 || column >= parent.ring_end[deep - 1])
-        throw AnalysisError(scheme.name + ": a neighbourhood is not closed under refinement");
-      add(column);
-    }
-  });
-  std::vector<Index> position(known, -1);
-  for (size_t i = 0; i < patch.slots.size(); ++i) position[patch.slots[i]] = static_cast<Index>(i);
-  while (patch.depth < deep && patch.slots.back() >= parent.ring_end[patch.depth]) ++patch.depth;
-  ++patch.depth;
-  patch.places = walk(before.topology(), before.sharpness, before_centre, patch.depth);
-  const std::map<Index, SectorLabel> labels = sector_labels(before.topology(), before_centre, patch.depth + 1);
-  for (const Index s : patch.slots) {
-    const auto at = labels.find(parent.vertices[s]);
-    if (at == labels.end()) throw AnalysisError(scheme.name + ": a point near a centre has no sector");
-    patch.labels.push_back(at->second);
-  }
-  const auto count = static_cast<Eigen::Index>(patch.slots.size());
-  patch.A.setZero(count, count);
-  for (Eigen::Index i = 0; i < count; ++i)
-    for (typename SparseMatrixOf<T>::InnerIterator it(S, after.vertices[patch.slots[i]]); it; ++it)
-      patch.A(i, position[slot_of[it.col()]]) = it.value();
+  std::vector<Index> rows(after.vertices.begin(), after.vertices.begin() + known);
+  std::sort(rows.begin(), rows.end());
+  const SparseMatrixOf<T> S = period_rows(scheme, period, std::move(rows));
+  std::vector<Index> slot_of(static_cast<size_t>(S.cols()), -1);
+  for (size_t s = 0; s < parent.vertices.size(); ++s) slot_of[parent.vertices[s]] = static_cast<Index>(s);
 
-  if (open) {
-    for (Eigen::Index i = 0; i < count; ++i)
-      if (parent.on_border[patch.slots[i]]) patch.outline.push_back(static_cast<Index>(i));
-    return patch;
-  }
-  std::vector<Index> rotation(count);  // position of the same place, one sector on
-  for (Eigen::Index i = 0; i < count; ++i) rotation[i] = position[slot_of[rotated.vertices[patch.slots[i]]]];
-  std::vector<bool> seen(count, false);
-  for (Eigen::Index i = 0; i < count; ++i) {
-    if (seen[i]) continue;
-    std::vector<Index> orbit;
-    for (Index p = static_cast<Index>(i); !seen[p]; p = rotation[p]) {
-      seen[p] = true;
-      orbit.push_back(p);
+  for (const int rings : options.rings) {
+    // The smallest closed set that holds the rings asked for.
+    SparsePatch<T> patch;
+    patch.type = type;
+    std::vector<Index> asked(parent.ring_end[rings]);
+    std::iota(asked.begin(), asked.end(), Index{0});
+    bool closed = true;
+    patch.slots = closed_set(std::move(asked), known, [&](Index s, const auto& add) {
+      for (typename SparseMatrixOf<T>::InnerIterator it(S, after.vertices[s]); it; ++it) {
+        const Index column = slot_of[it.col()];
+        if (column < 0)
+          closed = false;
+        else
+          add(column);
+      }
+    });
+    const auto most = static_cast<size_t>(rings + rings_of_masks(scheme)) - 1;
+    if (closed && most < parent.ring_end.size() && patch.slots.back() >= parent.ring_end[most])
+      throw AnalysisError(scheme.name + ": a neighbourhood is not closed under refinement");
+    if (!closed) {
+      patches.clear();
+      return true;
     }
-    patch.orbits.push_back(std::move(orbit));
+    std::vector<Index> position(known, -1);
+    for (size_t i = 0; i < patch.slots.size(); ++i) position[patch.slots[i]] = static_cast<Index>(i);
+    while (patch.slots.back() >= parent.ring_end[patch.depth]) ++patch.depth;
+    ++patch.depth;
+    patch.places = walk(topology, sharpness, parent_centre, patch.depth);
+    if (options.labels) {
+      const std::map<Index, SectorLabel> labels = sector_labels(topology, parent_centre, patch.depth + 1);
+      for (const Index s : patch.slots) {
+        const auto at = labels.find(parent.vertices[s]);
+        if (at == labels.end()) throw AnalysisError(scheme.name + ": a point near a centre has no sector");
+        patch.labels.push_back(at->second);
+      }
+    }
+    const auto count = static_cast<Index>(patch.slots.size());
+    patch.A.resize(count, count);
+    std::vector<std::pair<Index, T>> row;
+    for (Index i = 0; i < count; ++i) {
+      row.clear();
+      for (typename SparseMatrixOf<T>::InnerIterator it(S, after.vertices[patch.slots[i]]); it; ++it)
+        row.emplace_back(position[slot_of[it.col()]], it.value());
+      std::sort(row.begin(), row.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+      patch.A.startVec(i);
+      for (auto& [column, weight] : row) patch.A.insertBack(i, column) = std::move(weight);
+    }
+    patch.A.finalize();
+
+    if (open) {
+      for (Index i = 0; i < count; ++i)
+        if (patch.places.on_border[patch.slots[i]]) patch.outline.push_back(i);
+      patches.push_back(std::move(patch));
+      continue;
+    }
+    const HalfEdge turned = is_face ? topology.next(parent_centre.start) : topology.ccw(parent_centre.start);
+    const Walk rotated = walk(topology, sharpness, {parent_centre.kind, turned}, patch.depth - 1);
+    std::vector<Index> rotation(count);  // position of the same place, one sector on
+    for (Index i = 0; i < count; ++i) rotation[i] = position[slot_of[rotated.vertices[patch.slots[i]]]];
+    std::vector<bool> seen(count, false);
+    for (Index i = 0; i < count; ++i) {
+      if (seen[i]) continue;
+      std::vector<Index> orbit;
+      for (Index p = i; !seen[p]; p = rotation[p]) {
+        seen[p] = true;
+        orbit.push_back(p);
+      }
+      patch.orbits.push_back(std::move(orbit));
+    }
+    patches.push_back(std::move(patch));
   }
-  return patch;
+  return true;
+}
+
+}  // namespace local_patch_detail
+
+template <class T>
+std::optional<std::vector<SparsePatch<T>>> sparse_patches(const Scheme<T>& scheme, const LocalType& type,
+                                                          const LocalPatchOptions& options) {
+  if (type.corner && scheme.is_dual()) return std::nullopt;  // dual schemes round corners
+  const int most = options.rings.back() + rings_of_masks(scheme);
+  for (int depth = options.rings.back() + (scheme.is_wide() ? 2 : 1); depth <= most; ++depth) {
+    std::vector<SparsePatch<T>> patches;
+    if (!local_patch_detail::patches_within(scheme, type, options, depth, patches)) return std::nullopt;
+    if (!patches.empty()) return patches;
+  }
+  throw AnalysisError(scheme.name + ": a neighbourhood is not closed under refinement");
 }
 
 extern template std::optional<LocalPatch<double>> local_patch<double>(const Scheme<double>&, LocalType, int,
                                                                       const ControlMesh*);
+extern template std::optional<std::vector<SparsePatch<double>>> sparse_patches<double>(const Scheme<double>&,
+                                                                                       const LocalType&,
+                                                                                       const LocalPatchOptions&);
 
 }  // namespace sublimit

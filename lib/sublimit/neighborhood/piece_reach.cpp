@@ -28,20 +28,17 @@ bool PieceType::has_only_means() const {
   return is;
 }
 
-double PieceType::reach() const {
-  std::call_once(reach_once_, [&] {
-    if (has_only_means()) return;
-    double most = 0;
-    const int corners = kind_ == Piece::Kind::triangle ? 3 : 4;
-    for (const PieceLink& link : children())
-      for (int c = 0; c < corners; ++c) {
-        const RowMatrix row = link.block.pulled_back(link.type->corner_limit(c));
-        const double own = 1 - row.sum();  // of slot 0
-        most = std::max(most, row.cwiseMin(0).cwiseAbs().sum() + std::max(0.0, -own));
-      }
-    reach_ = 2 * most;
-  });
-  return reach_;
+double PieceType::found_reach() const {
+  if (has_only_means()) return 0;
+  double most = 0;
+  const int corners = kind_ == Piece::Kind::triangle ? 3 : 4;
+  for (const PieceLink& link : children())
+    for (int c = 0; c < corners; ++c) {
+      const RowMatrix row = link.block.pulled_back(link.type->corner_limit(c));
+      const double own = 1 - row.sum();  // of slot 0
+      most = std::max(most, row.cwiseMin(0).cwiseAbs().sum() + std::max(0.0, -own));
+    }
+  return 2 * most;
 }
 
 }  // namespace sublimit

@@ -17,6 +17,7 @@
 #include "sublimit/neighborhood/regular_smoothness.h"
 #include "sublimit/neighborhood/canonical_part.h"
 #include "sublimit/neighborhood/closed_set.h"
+#include "sublimit/scheme/check_scheme.h"
 #include "sublimit/scheme/refine_impl.h"
 #include "sublimit/scheme/subdivision_rows.h"
 
@@ -145,36 +146,34 @@ double bytes_of(const Topology& t) {
 
 }  // namespace
 
-const PieceType::Surroundings& PieceType::surroundings() const {
-  std::call_once(surroundings_once_, [&] {
-    const Scheme<double>& scheme = types_->scheme_;
-    const Index face = index(met_in_->topology().face(surroundings_.piece.start));
-    const bool narrow = scheme.has_one_ring_limits();
-    // Masks near the rim of a part are not the mesh's: one more ring, where they look further.
-    // (and one for the knots of those).
-    const int rings = rings_ + (met_in_->intervals.empty() ? 0 : 1) +
-                      (narrow || (scheme.is_dual() && scheme.steps.size() == 1) ? 0 : scheme.period);
-    Part around = part(*met_in_, std::span(&face, 1), rings);
-    types_->take(bytes_of(around.level.topology()), num_slots());
-    const auto position = [](const std::vector<Index>& list, Index i) {
-      return static_cast<Index>(std::lower_bound(list.begin(), list.end(), i) - list.begin());
-    };
-    Surroundings own;
-    for (const Index v : surroundings_.slots) own.slots.push_back(position(around.vertices, v));
-    own.piece = {kind_, HalfEdge{position(around.halves, index(surroundings_.piece.start))}};
-    if (decays_) {
-      // Means of sharpness are float sums in the order of the mesh, as the reference has them.
-      own.level = std::move(around.level);
-    } else {
-      CanonicalPart canonical = canonical_part(around.level, own.slots);
-      own.level = std::move(canonical.level);
-      own.piece.start = HalfEdge{canonical.half_edge[index(own.piece.start)]};
-      std::iota(own.slots.begin(), own.slots.end(), 0);
-    }
-    surroundings_ = std::move(own);
-    met_in_.reset();
-  });
-  return surroundings_;
+PieceType::Surroundings PieceType::found_surroundings() const {
+  const Scheme<double>& scheme = types_->scheme_;
+  const Index face = index(met_.level->topology().face(met_.piece.start));
+  const bool narrow = scheme.has_one_ring_limits();
+  // Masks near the rim of a part are not the mesh's: one more ring, where they look further.
+  // (and one for the knots of those).
+  const int rings = rings_ + (met_.level->intervals.empty() ? 0 : 1) +
+                    (narrow || (scheme.is_dual() && scheme.steps.size() == 1) ? 0 : scheme.period);
+  Part around = part(*met_.level, std::span(&face, 1), rings);
+  types_->take(bytes_of(around.level.topology()), num_slots());
+  const auto position = [](const std::vector<Index>& list, Index i) {
+    return static_cast<Index>(std::lower_bound(list.begin(), list.end(), i) - list.begin());
+  };
+  Surroundings own;
+  for (const Index v : met_.slots) own.slots.push_back(position(around.vertices, v));
+  own.piece = {kind_, HalfEdge{position(around.halves, index(met_.piece.start))}};
+  if (decays_) {
+    // Means of sharpness are float sums in the order of the mesh, as the reference has them.
+    own.level = std::move(around.level);
+  } else {
+    CanonicalPart canonical = canonical_part(around.level, own.slots);
+    own.level = std::move(canonical.level);
+    own.piece.start = HalfEdge{canonical.half_edge[index(own.piece.start)]};
+    std::iota(own.slots.begin(), own.slots.end(), 0);
+  }
+  static_assert(std::is_nothrow_move_constructible_v<Surroundings>, "what they were taken from is gone");
+  met_ = {};
+  return own;
 }
 
 PieceType::Refined PieceType::refined() const {
@@ -253,33 +252,30 @@ PieceType::ChildCorners PieceType::child_corners() const {
   return result;
 }
 
-const std::deque<PieceLink>& PieceType::children() const {
-  std::call_once(children_once_, [&] {
-    const Refined after = refined();
-    const Level& fine = *after.levels.back();
-    PieceWalker walker;
-    std::deque<PieceLink> links;
-    std::vector<std::vector<Index>> vertices;  // of the children
-    std::vector<Index> all;
-    for (const PieceChild& child : after.children) {
-      const PieceWalk& walk = walker.walk(fine, child.piece, types_->rings(fine.sharpness), types_->scheme_.period);
-      PieceLink& link = links.emplace_back();
-      link.map = child.map;
-      link.type = types_->type(after.levels.back(), child.piece, walk);
-      link.repeats = link.type == this && pure_scale(link.map) != 0;
-      link.begins_new = std::none_of(vertices.begin(), vertices.end(),
-                                     [&](const auto& before) { return before[0] == walk.vertices[0]; });
-      all.insert(all.end(), walk.vertices.begin(), walk.vertices.end());
-      vertices.push_back(walk.vertices);
-    }
-    // Masks have some 12 points, and S and the blocks have each of the children's points once.
-    constexpr double bytes_of_row = 12 * 12 + 16, bytes_of_slot = 64;
-    types_->take(bytes_of_row * double(all.size()) + bytes_of_slot * double(links.size()) * num_slots(), num_slots());
-    const SparseMatrix S = rows_of(after, std::move(all));
-    for (size_t i = 0; i < links.size(); ++i) links[i].block = PieceBlock(rows_over_slots(after, S, vertices[i]));
-    children_ = std::move(links);
-  });
-  return children_;
+std::deque<PieceLink> PieceType::found_children() const {
+  const Refined after = refined();
+  const Level& fine = *after.levels.back();
+  PieceWalker walker;
+  std::deque<PieceLink> links;
+  std::vector<std::vector<Index>> vertices;  // of the children
+  std::vector<Index> all;
+  for (const PieceChild& child : after.children) {
+    const PieceWalk& walk = walker.walk(fine, child.piece, types_->rings(fine.sharpness), types_->scheme_.period);
+    PieceLink& link = links.emplace_back();
+    link.map = child.map;
+    link.type = types_->type(after.levels.back(), child.piece, walk);
+    link.repeats = link.type == this && pure_scale(link.map) != 0;
+    link.begins_new = std::none_of(vertices.begin(), vertices.end(),
+                                   [&](const auto& before) { return before[0] == walk.vertices[0]; });
+    all.insert(all.end(), walk.vertices.begin(), walk.vertices.end());
+    vertices.push_back(walk.vertices);
+  }
+  // Masks have some 12 points, and S and the blocks have each of the children's points once.
+  constexpr double bytes_of_row = 12 * 12 + 16, bytes_of_slot = 64;
+  types_->take(bytes_of_row * double(all.size()) + bytes_of_slot * double(links.size()) * num_slots(), num_slots());
+  const SparseMatrix S = rows_of(after, std::move(all));
+  for (size_t i = 0; i < links.size(); ++i) links[i].block = PieceBlock(rows_over_slots(after, S, vertices[i]));
+  return links;
 }
 
 const PieceLink& PieceType::child(const Place& place) const {
@@ -298,9 +294,13 @@ const PieceLink& PieceType::child(const Place& place) const {
 }
 
 const PiecePolynomial* PieceType::polynomial() const {
-  const int state = polynomial_state_.load(std::memory_order_acquire);
-  if (state == 0) PolynomialSearch(*types_).decide(*this);
-  return polynomial_state_.load(std::memory_order_acquire) == 2 ? &*candidate_ : nullptr;
+  if (polynomial_state_.load(std::memory_order_acquire) == 0) {
+    // Children of pieces with many points take long: they are found before, while others search.
+    if (!decays_ && !types_->has_no_polynomials()) children();
+    // Isolated, for a search holds a lock: its thread must not come back for it with other work.
+    tbb::this_task_arena::isolate([this] { PolynomialSearch(*types_).decide(*this); });
+  }
+  return known_polynomial();
 }
 
 /// The types that a corner comes through, until it comes to one that has been there: a cycle, of one step but at the
@@ -360,24 +360,21 @@ struct PieceType::CornerPath {
   }
 };
 
-const Eigen::RowVectorXd& PieceType::corner_limit(int corner) const {
-  std::call_once(limit_once_[corner], [&] {
-    const CornerPath path(this, corner);
-    RowMatrix row;
-    if (path.first > 0) {  // where the cycle begins the limit is known, or becomes known for all that come there
-      row = path.visits[path.first].type->corner_limit(path.visits[path.first].corner);
-      for (size_t i = path.first; i-- > 0;) row = path.visits[i].link->block.pulled_back(row);
-    } else {
-      const bool begins_here = kind_ == Piece::Kind::quad || kind_ == Piece::Kind::triangle;
-      row = path.is_large() ? fixed_row(path.rows(), begins_here ? corner : 0) : fixed_row(path.cycle());
-      const Index slot = begins_here ? corner : 0;
-      if (row.size() > 0 && !(row.cwiseAbs().maxCoeff() < 1e8 && path.attracts(row, slot)))
-        throw AnalysisError(types_->scheme_.name +
-                            ": no limit where a neighbourhood repeats itself: eigenvalue 1 is not simple and dominant");
-    }
-    corner_limits_[corner] = row;
-  });
-  return corner_limits_[corner];
+Eigen::RowVectorXd PieceType::found_corner_limit(int corner) const {
+  const CornerPath path(this, corner);
+  RowMatrix row;
+  if (path.first > 0) {  // where the cycle begins the limit is known, or becomes known for all that come there
+    row = path.visits[path.first].type->corner_limit(path.visits[path.first].corner);
+    for (size_t i = path.first; i-- > 0;) row = path.visits[i].link->block.pulled_back(row);
+  } else {
+    const bool begins_here = kind_ == Piece::Kind::quad || kind_ == Piece::Kind::triangle;
+    row = path.is_large() ? fixed_row(path.rows(), begins_here ? corner : 0) : fixed_row(path.cycle());
+    const Index slot = begins_here ? corner : 0;
+    if (row.size() > 0 && !(row.cwiseAbs().maxCoeff() < 1e8 && path.attracts(row, slot)))
+      throw AnalysisError(types_->scheme_.name +
+                          ": no limit where a neighbourhood repeats itself: eigenvalue 1 is not simple and dominant");
+  }
+  return row;
 }
 
 bool PieceType::is_extraordinary(int corner) const {
@@ -424,45 +421,40 @@ std::optional<PieceType::Modes> PieceType::modes(int corner, const Eigen::Matrix
   return Modes{coefficients * space->left, space->right * coefficients.inverse()};
 }
 
-const PieceType::CornerRows& PieceType::corner(int corner) const {
-  std::call_once(corner_once_[corner], [&] {
-    const CornerPath path(this, corner);
-    const auto& [at, own, link, ignored] = path.visits[path.first];
-    const double scale = path.visits.size() == path.first + 1 ? pure_scale(link->map) : 0;
-    const int smoothness = types_->regular_smoothness();
-    CornerRows result;
-    RowMatrix& rows = result.rows;
-    rows = path.first > 0 ? at->corner(own).rows : RowMatrix(corner_limit(corner));
-    if (path.first == 0 && scale != 0 && !at->is_extraordinary(own) && types_->has_no_polynomials() &&
-        smoothness >= 1 && !link->block.is_large()) {
-      const Eigen::MatrixXd D = link->block.differences();
-      const std::optional<Modes> linear = at->modes(own, D, scale, 1);
-      const std::optional<Modes> quadratic = linear && smoothness >= 2 ? at->modes(own, D, scale, 2) : std::nullopt;
-      rows.conservativeResize(quadratic ? 6 : linear ? 3 : 1, Eigen::NoChange);
-      if (linear) rows.middleRows(1, 2) = linear->derivatives;
-      if (quadratic) rows.bottomRows(3) = quadratic->derivatives;
-      if (linear) result.linear = linear->functions;
-    }
-    for (size_t i = path.first; i-- > 0;) {
-      rows = path.visits[i].link->block.pulled_back(rows);
-      apply_chain(path.visits[i].link->map.chain(path.visits[i].place), rows);
-    }
-    corners_[corner] = std::move(result);
-  });
-  return corners_[corner];
+PieceType::CornerRows PieceType::found_corner(int corner) const {
+  const CornerPath path(this, corner);
+  const auto& [at, own, link, ignored] = path.visits[path.first];
+  const double scale = path.visits.size() == path.first + 1 ? pure_scale(link->map) : 0;
+  const int smoothness = types_->regular_smoothness();
+  CornerRows result;
+  RowMatrix& rows = result.rows;
+  rows = path.first > 0 ? at->corner(own).rows : RowMatrix(corner_limit(corner));
+  if (path.first == 0 && scale != 0 && !at->is_extraordinary(own) && types_->has_no_polynomials() && smoothness >= 1 &&
+      !link->block.is_large()) {
+    const Eigen::MatrixXd D = link->block.differences();
+    const std::optional<Modes> linear = at->modes(own, D, scale, 1);
+    const std::optional<Modes> quadratic = linear && smoothness >= 2 ? at->modes(own, D, scale, 2) : std::nullopt;
+    rows.conservativeResize(quadratic ? 6 : linear ? 3 : 1, Eigen::NoChange);
+    if (linear) rows.middleRows(1, 2) = linear->derivatives;
+    if (quadratic) rows.bottomRows(3) = quadratic->derivatives;
+    if (linear) result.linear = linear->functions;
+  }
+  for (size_t i = path.first; i-- > 0;) {
+    rows = path.visits[i].link->block.pulled_back(rows);
+    apply_chain(path.visits[i].link->map.chain(path.visits[i].place), rows);
+  }
+  return result;
 }
 
-PieceTypes::PieceTypes(const Scheme<double>& scheme, size_t max_types) : scheme_(scheme), max_types_(max_types) {
+PieceTypes::PieceTypes(const Scheme<double>& scheme, size_t max_types)
+    : scheme_(check_scheme(scheme)), max_types_(max_types) {
   scheme_.preparation.clear();  // surfaces begin behind it
 }
 
 PieceTypes::~PieceTypes() = default;
 
 int PieceTypes::regular_smoothness() const {
-  // Isolated: a thread that waits in here must not take up work that comes back for the same.
-  std::call_once(smoothness_once_,
-                 [&] { tbb::this_task_arena::isolate([&] { smoothness_ = sublimit::regular_smoothness(scheme_); }); });
-  return smoothness_;
+  return smoothness_.get([this] { return sublimit::regular_smoothness(scheme_); });
 }
 
 int PieceTypes::rings(const Sharpness& sharpness) const {
@@ -503,8 +495,7 @@ std::unique_ptr<PieceType> PieceTypes::made(std::shared_ptr<const Level> level, 
   type->kind_ = piece.kind;
   type->rings_ = walk.rings;
   type->decays_ = walk.decays;
-  type->surroundings_ = {{}, piece, walk.vertices};
-  type->met_in_ = std::move(level);
+  type->met_ = {std::move(level), piece, walk.vertices};
   return type;
 }
 

@@ -12,6 +12,7 @@
 #include <span>
 #include <unordered_map>
 
+#include "sublimit/base/found_once.h"
 #include "sublimit/core/signature_hash.h"
 #include "sublimit/neighborhood/piece_walk.h"
 #include "sublimit/neighborhood/repeated_block.h"
@@ -46,7 +47,9 @@ class PieceType {
   const Piece& piece() const { return surroundings().piece; }
   std::span<const Index> slots() const { return surroundings().slots; }
   /// Its children, whether or not it is a polynomial.
-  const std::deque<PieceLink>& children() const;
+  const std::deque<PieceLink>& children() const {
+    return children_.get([this] { return found_children(); });
+  }
   /// Corners of its children over its own slots, child after child and counter-clockwise: rows of S, without looking at
   /// what types the children are.
   struct ChildCorners {
@@ -72,11 +75,17 @@ class PieceType {
     int order() const { return rows.rows() == 6 ? 2 : rows.rows() == 3 ? 1 : 0; }
   };
   /// @throws AnalysisError  no limit
-  const CornerRows& corner(int corner) const;
-  const Eigen::RowVectorXd& corner_limit(int corner) const;
+  const CornerRows& corner(int corner) const {
+    return corners_[corner].get([&] { return found_corner(corner); });
+  }
+  const Eigen::RowVectorXd& corner_limit(int corner) const {
+    return corner_limits_[corner].get([&] { return found_corner_limit(corner); });
+  }
   /// How far the limit leaves the points, relative to their extent: 0 where no weight of its refinement is negative,
   /// now or later; else as seen at the corners of its children, and doubled for what lies between.
-  double reach() const;
+  double reach() const {
+    return reach_.get([this] { return found_reach(); });
+  }
 
  private:
   struct CornerPath;
@@ -91,7 +100,14 @@ class PieceType {
     std::vector<Index> slots;  ///< vertex of each
   };
   /// Taken out of the level that the type was met in when first needed: most children lie beside the ways to places.
-  const Surroundings& surroundings() const;
+  const Surroundings& surroundings() const {
+    return surroundings_.get([this] { return found_surroundings(); });
+  }
+  Surroundings found_surroundings() const;
+  std::deque<PieceLink> found_children() const;
+  CornerRows found_corner(int corner) const;
+  Eigen::RowVectorXd found_corner_limit(int corner) const;
+  double found_reach() const;
   /// The level after its own, and the children on it.
   struct Refined {
     std::vector<std::shared_ptr<const Level>> levels;  ///< of one period
@@ -116,21 +132,23 @@ class PieceType {
   int rings_ = 1;        // of faces around it that it depends on
   bool decays_ = false;  // finite sharpness: its children are others, and it is no polynomial
   Index num_slots_ = 0;
-  mutable std::once_flag surroundings_once_;
-  mutable Surroundings surroundings_;  // until they are taken out, in terms of `met_in_`, but for the level
-  mutable std::shared_ptr<const Level> met_in_;
-
-  mutable std::once_flag children_once_;
-  mutable std::deque<PieceLink> children_;
+  /// Where the type was met first, until its surroundings are taken out.
+  struct Met {
+    std::shared_ptr<const Level> level;
+    Piece piece;
+    std::vector<Index> slots;
+  };
+  mutable Met met_;  // read and dropped by `found_surroundings` alone
+  FoundOnce<Surroundings> surroundings_;
+  FoundOnce<std::deque<PieceLink>> children_;
   mutable std::atomic<int> polynomial_state_{0};  // 0: not known, 1: none, 2: there is one
+  // By the search alone, of which there is one at a time.
   mutable std::optional<PiecePolynomial> candidate_;
   mutable bool has_candidate_ = false;
-  mutable std::array<std::once_flag, 4> limit_once_, corner_once_;
-  mutable std::array<Eigen::RowVectorXd, 4> corner_limits_;
-  mutable std::array<CornerRows, 4> corners_;
+  std::array<FoundOnce<Eigen::RowVectorXd>, 4> corner_limits_;
+  std::array<FoundOnce<CornerRows>, 4> corners_;
   mutable std::atomic<int> only_means_{0};  // 0: not known, 1: no, 2: yes
-  mutable std::once_flag reach_once_;
-  mutable double reach_ = 0;
+  FoundOnce<double> reach_;
 };
 
 /// The types of one scheme, shared between surfaces and threads.
@@ -151,7 +169,8 @@ class PieceTypes {
   int regular_smoothness() const;
 
   /// The type of a piece, made if it is new.
-  /// @param walk  of the piece
+  /// @param walk  of the piece; a walker of the calling thread may keep it, for this thread takes up no other work in
+  ///              here
   const PieceType* type(const Level& level, const Piece& piece, const PieceWalk& walk);
   /// The same, where the type may keep the level until it looks at its surroundings.
   const PieceType* type(const std::shared_ptr<const Level>& level, const Piece& piece, const PieceWalk& walk);
@@ -173,12 +192,11 @@ class PieceTypes {
   std::atomic<double> memory_{0};
   mutable std::shared_mutex mutex_;
   std::unordered_map<std::vector<std::uint32_t>, std::unique_ptr<PieceType>, SignatureHash> types_;
-  mutable std::recursive_mutex polynomials_;  // one search at a time
-  std::optional<PolynomialBasis> basis_;      // of the first regular piece's polynomial
-  bool halves_ = false, searched_ = false;    // regular pieces are cut along u = v; have been looked at
-  std::atomic<bool> has_none_{false};         // regular pieces are no polynomials
-  mutable std::once_flag smoothness_once_;
-  mutable int smoothness_ = 0;
+  mutable std::mutex polynomials_;          // one search at a time
+  std::optional<PolynomialBasis> basis_;    // of the first regular piece's polynomial
+  bool halves_ = false, searched_ = false;  // regular pieces are cut along u = v; have been looked at
+  std::atomic<bool> has_none_{false};       // regular pieces are no polynomials
+  FoundOnce<int> smoothness_;
 };
 
 /// Whether a place is where polynomials meet: on a side of its piece, or on the line that cuts the piece in two.

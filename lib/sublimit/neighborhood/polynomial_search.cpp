@@ -119,31 +119,40 @@ PolynomialSearch::Verdict PolynomialSearch::verdict(const PieceType& type) {
 }
 
 const PiecePolynomial* PolynomialSearch::candidate(const PieceType& type) {
-  if (type.has_candidate_) return type.candidate_ ? &*type.candidate_ : nullptr;
-  type.has_candidate_ = true;
+  if (!type.has_candidate_) {
+    type.has_candidate_ = true;  // and while it is looked for, there is none: types may come back in turns
+    try {
+      type.candidate_ = found_candidate(type);
+    } catch (...) {  // no memory, or interrupted: nothing is known of it
+      type.has_candidate_ = false;
+      throw;
+    }
+  }
+  return type.candidate_ ? &*type.candidate_ : nullptr;
+}
+
+std::optional<PiecePolynomial> PolynomialSearch::found_candidate(const PieceType& type) {
   const bool total = type.kind() == Piece::Kind::triangle;
   const auto found = [&](const PolynomialBasis& basis, bool halves) {
     std::optional<PiecePolynomial> p = interpolated(type, basis, halves, false);
     if (!p || total || halves || basis.degree() < wide_degree) return p;
     return satisfies_refinement(type, *p, rough_tolerance) ? interpolated(type, basis, halves, true) : std::nullopt;
   };
-  if (!types_.basis_ && is_regular(type)) {
-    types_.searched_ = true;
-    for (int pieces = 1; pieces <= (total ? 1 : 2); ++pieces)
-      for (int degree = 1; degree <= (pieces == 1 ? largest_degree : 3); ++degree) {
-        const PolynomialBasis basis(degree, total);
-        std::optional<PiecePolynomial> p = found(basis, pieces == 2);
-        if (!p || !satisfies_refinement(type, *p, tolerance)) continue;
-        types_.basis_ = basis;
-        types_.halves_ = pieces == 2;
-        type.candidate_ = std::move(p);
-        return &*type.candidate_;
-      }
-    types_.has_none_ = true;
-    return nullptr;
-  }
-  if (types_.basis_) type.candidate_ = found(*types_.basis_, types_.halves_);
-  return type.candidate_ ? &*type.candidate_ : nullptr;
+  if (types_.basis_) return found(*types_.basis_, types_.halves_);
+  if (!is_regular(type)) return std::nullopt;
+  for (int pieces = 1; pieces <= (total ? 1 : 2); ++pieces)
+    for (int degree = 1; degree <= (pieces == 1 ? largest_degree : 3); ++degree) {
+      const PolynomialBasis basis(degree, total);
+      std::optional<PiecePolynomial> p = found(basis, pieces == 2);
+      if (!p || !satisfies_refinement(type, *p, tolerance)) continue;
+      types_.basis_ = basis;
+      types_.halves_ = pieces == 2;
+      types_.searched_ = true;
+      return p;
+    }
+  types_.has_none_ = true;
+  types_.searched_ = true;
+  return std::nullopt;
 }
 
 std::optional<PiecePolynomial> PolynomialSearch::interpolated(const PieceType& type, const PolynomialBasis& basis,

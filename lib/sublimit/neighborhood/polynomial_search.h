@@ -12,6 +12,7 @@
 
 namespace sublimit {
 
+/// Its thread takes up no other work while it lives (tbb::this_task_arena::isolate): it holds a lock.
 class PolynomialSearch {
  public:
   explicit PolynomialSearch(PieceTypes& types) : types_(types), lock_(types.polynomials_) {}
@@ -27,12 +28,13 @@ class PolynomialSearch {
   /// Decides a regular piece between equal knot intervals, from whose polynomial all others are known.
   void start_from_equal_intervals();
   const PiecePolynomial* candidate(const PieceType& type);
+  std::optional<PiecePolynomial> found_candidate(const PieceType& type);
   std::optional<PiecePolynomial> interpolated(const PieceType& type, const PolynomialBasis& basis, bool halves,
                                               bool wide) const;
   bool satisfies_refinement(const PieceType& type, const PiecePolynomial& p, double tolerance);
 
   PieceTypes& types_;
-  std::unique_lock<std::recursive_mutex> lock_;
+  std::unique_lock<std::mutex> lock_;
   std::vector<const PieceType*> stack_;
 };
 

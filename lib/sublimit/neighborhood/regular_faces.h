@@ -16,6 +16,7 @@ class RegularFaces {
   /// @param level    whose faces and half-edges are to stay
   /// @param corners  of the faces: 3 or 4
   RegularFaces(const Level& level, int corners);
+  RegularFaces(const Level&&, int) = delete;
 
   bool is_regular(Face face) const { return regular_[index(face)] != 0; }
   /// The points of a face and of those around it, in the order in which `PieceWalker` finds them in one ring.

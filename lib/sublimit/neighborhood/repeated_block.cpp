@@ -30,51 +30,52 @@ Eigen::MatrixXd null_space(const Eigen::MatrixXd& M, Eigen::Index expected) {
 
 const RowMatrix& RepeatedBlock::Stage::power(int i) const {
   if (i == 0) return D;
-  std::call_once(once[i], [&] { powers[i] = power(i - 1) * power(i - 1); });
-  return powers[i];
+  return powers[i].get([&] { return RowMatrix(power(i - 1) * power(i - 1)); });
 }
 
 const PieceBlock& RepeatedBlock::power(int i) const {
   if (i == 0) return block_;
-  std::call_once(once_[i], [&] { powers_[i] = power(i - 1).then(power(i - 1)); });
-  return powers_[i];
+  return powers_[i].get([&] { return power(i - 1).then(power(i - 1)); });
 }
 
-const std::vector<std::unique_ptr<RepeatedBlock::Stage>>& RepeatedBlock::stages() const {
-  std::call_once(stages_once_, [&] {
-    stages_.push_back(std::make_unique<Stage>());
-    stages_[0]->D = block_.differences();
-    const Eigen::MatrixXd D = stages_[0]->D;
-    const auto n = D.rows();
-    if (n < 2) return;
-    Eigen::VectorXcd values = eigenvalues(D);
-    std::sort(values.begin(), values.end(), [](const auto& a, const auto& b) { return std::abs(a) > std::abs(b); });
-    for (Eigen::Index at = 0; at < n && stages_.size() < 6;) {
-      const double lambda = values[at].real(), modulus = std::abs(values[at]);
-      Eigen::Index count = 0;
-      bool real = true;
-      while (at + count < n && std::abs(values[at + count]) > modulus * (1 - 1e-6)) {
-        real &= std::abs(values[at + count].imag()) < 1e-7 * modulus &&
-                std::abs(values[at + count].real() - lambda) < 1e-6 * modulus;
-        ++count;
-      }
-      if (!real || modulus < 1e-3) return;
-      const double mean = values.segment(at, count).real().mean();
-      const Eigen::MatrixXd shifted = D - mean * Eigen::MatrixXd::Identity(n, n);
-      const Eigen::MatrixXd right = null_space(shifted, count), left = null_space(shifted.transpose(), count);
-      if (right.size() == 0 || left.size() == 0) return;
-      const Eigen::MatrixXd pairing = left.transpose() * right;
-      const Eigen::FullPivLU<Eigen::MatrixXd> lu(pairing);
-      if (!lu.isInvertible() || lu.rcond() < 1e-8) return;
-      auto stage = std::make_unique<Stage>();
-      stage->right = right;
-      stage->left = lu.solve(left.transpose());
-      stage->D = stages_.back()->D - mean * right * stage->left;
-      stages_.push_back(std::move(stage));
-      at += count;
+const RepeatedBlock::Stages& RepeatedBlock::stages() const {
+  return stages_.get([this] { return found_stages(); });
+}
+
+RepeatedBlock::Stages RepeatedBlock::found_stages() const {
+  Stages stages;
+  stages.push_back(std::make_unique<Stage>());
+  stages[0]->D = block_.differences();
+  const Eigen::MatrixXd D = stages[0]->D;
+  const auto n = D.rows();
+  if (n < 2) return stages;
+  Eigen::VectorXcd values = eigenvalues(D);
+  std::sort(values.begin(), values.end(), [](const auto& a, const auto& b) { return std::abs(a) > std::abs(b); });
+  for (Eigen::Index at = 0; at < n && stages.size() < 6;) {
+    const double lambda = values[at].real(), modulus = std::abs(values[at]);
+    Eigen::Index count = 0;
+    bool real = true;
+    while (at + count < n && std::abs(values[at + count]) > modulus * (1 - 1e-6)) {
+      real &= std::abs(values[at + count].imag()) < 1e-7 * modulus &&
+              std::abs(values[at + count].real() - lambda) < 1e-6 * modulus;
+      ++count;
     }
-  });
-  return stages_;
+    if (!real || modulus < 1e-3) return stages;
+    const double mean = values.segment(at, count).real().mean();
+    const Eigen::MatrixXd shifted = D - mean * Eigen::MatrixXd::Identity(n, n);
+    const Eigen::MatrixXd right = null_space(shifted, count), left = null_space(shifted.transpose(), count);
+    if (right.size() == 0 || left.size() == 0) return stages;
+    const Eigen::MatrixXd pairing = left.transpose() * right;
+    const Eigen::FullPivLU<Eigen::MatrixXd> lu(pairing);
+    if (!lu.isInvertible() || lu.rcond() < 1e-8) return stages;
+    auto stage = std::make_unique<Stage>();
+    stage->right = right;
+    stage->left = lu.solve(left.transpose());
+    stage->D = stages.back()->D - mean * right * stage->left;
+    stages.push_back(std::move(stage));
+    at += count;
+  }
+  return stages;
 }
 
 Eigen::RowVectorXd RepeatedBlock::shrunk(Eigen::RowVectorXd row, double size, int times, size_t least_stage) const {

@@ -9,16 +9,18 @@
 // the block.
 #include <array>
 #include <memory>
-#include <mutex>
 #include <vector>
 
+#include "sublimit/base/found_once.h"
 #include "sublimit/neighborhood/piece_block.h"
 
 namespace sublimit {
 
 class RepeatedBlock {
  public:
+  /// @param block  which must stay
   explicit RepeatedBlock(const PieceBlock& block) : block_(block) {}
+  explicit RepeatedBlock(const PieceBlock&&) = delete;
 
   /// The position, the first of `rows`, `times` steps back, and the rows below it, derivatives.
   RowMatrix pulled_back(const RowMatrix& rows, int times) const;
@@ -31,22 +33,21 @@ class RepeatedBlock {
   struct Stage {
     Eigen::MatrixXd right, left;  ///< eigenvectors that were split off before it, left * right = 1
     RowMatrix D;
-    mutable std::array<std::once_flag, 13> once;
-    mutable std::array<RowMatrix, 13> powers;
+    std::array<FoundOnce<RowMatrix>, 13> powers;
     const RowMatrix& power(int i) const;
   };
+  using Stages = std::vector<std::unique_ptr<Stage>>;  // the first has nothing split off
   const PieceBlock& power(int i) const;
-  const std::vector<std::unique_ptr<Stage>>& stages() const;
+  const Stages& stages() const;
+  Stages found_stages() const;
   /// A derivative row, by the stage that its leading part allows.
   /// @param size  of rows like this one: what is small is measured by it, as the row itself may be what rounding left
   /// of 0
   Eigen::RowVectorXd shrunk(Eigen::RowVectorXd row, double size, int times, size_t least_stage) const;
 
   const PieceBlock& block_;
-  mutable std::array<std::once_flag, 13> once_;
-  mutable std::array<PieceBlock, 13> powers_;
-  mutable std::once_flag stages_once_;
-  mutable std::vector<std::unique_ptr<Stage>> stages_;  // the first has nothing split off
+  std::array<FoundOnce<PieceBlock>, 13> powers_;
+  FoundOnce<Stages> stages_;
 };
 
 }  // namespace sublimit

@@ -8,7 +8,8 @@
 
 namespace sublimit {
 
-Walk walk(const Topology& t, const Sharpness& sharpness, const Centre& centre, int depth) {
+Walk walk(const Topology& t, const Sharpness& sharpness, const Centre& centre, int depth,
+          const std::vector<std::uint32_t>* expected) {
   Walk result;
   std::unordered_map<std::int64_t, Index> slot_of;
   std::vector<HalfEdge> found_at;  // a half-edge that leaves the point, by slot
@@ -48,10 +49,13 @@ Walk walk(const Topology& t, const Sharpness& sharpness, const Centre& centre, i
       HalfEdge first = found_at[next], h = first;
       std::uint32_t back = 0;
       bool open = false;
+      size_t compared = result.signature.size();
+      if (expected && compared >= expected->size()) return result;
+      const std::uint32_t most_faces = expected ? (*expected)[compared] / 4 : ~0u;
       while (!is_cut(h)) {  // clockwise to the first half-edge of the fan, if it is open
         h = t.next(t.twin(h));
         if (h == found_at[next]) break;
-        ++back;
+        if (++back > most_faces) return result;
       }
       if (is_cut(h)) {
         first = h;
@@ -73,6 +77,7 @@ Walk walk(const Topology& t, const Sharpness& sharpness, const Centre& centre, i
           result.signature.push_back(slot(g));
           g = t.next(g);
         } while (g != h);
+        if (faces > most_faces) return result;
         into = t.prev(h);
         if (is_cut(into)) break;
         h = t.twin(into);
@@ -83,6 +88,12 @@ Walk walk(const Topology& t, const Sharpness& sharpness, const Centre& centre, i
       result.signature[head + 1] = back;
       // Between the two sides of one edge, but on a curve that goes on along another: the vertex has not its own rule.
       if (open && !sharp && t.edge(first) == t.edge(into)) result.signature.push_back(~0u);
+      if (expected) {
+        const size_t seen = result.signature.size();
+        if (seen > expected->size()) return result;
+        for (; compared < seen; ++compared)
+          if (result.signature[compared] != (*expected)[compared]) return result;
+      }
       result.on_border.push_back(open);
       result.decays |= is_semi_sharp(sharpness.vertex[result.vertices[next]]);
     }

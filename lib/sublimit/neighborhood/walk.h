@@ -20,6 +20,9 @@ struct Walk {
 
 /// Walks the fans of the points in rings 0 to depth - 1, which finds ring `depth`. Infinitely sharp edges cut fans, as
 /// boundaries do; a non-manifold vertex has a slot for each of its fans that is met.
-Walk walk(const Topology& topology, const Sharpness& sharpness, const Centre& centre, int depth);
+/// @param expected  a signature that the walk is wanted for: it ends as soon as it meets something else, so that the
+///                  neighbours of a vertex of a thousand faces do not walk around it
+Walk walk(const Topology& topology, const Sharpness& sharpness, const Centre& centre, int depth,
+          const std::vector<std::uint32_t>* expected = nullptr);
 
 }  // namespace sublimit

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "sublimit/base/parallel_for.h"
+#include "sublimit/core/finite_points.h"
 #include "sublimit/limit/derivative_order.h"
 #include "sublimit/patches/spline_rows.h"
 
@@ -89,6 +90,7 @@ double BezierPieces::num_numbers(const PatchSet& patches) {
 
 BezierPieces::BezierPieces(const PatchSet& patches, const Points& columns) : patches_(patches), columns_(columns) {
   check_columns(columns, patches.num_points(), patches.coordinates());
+  check_measurable_control(columns);
   const bool rational = patches.coordinates() == Coordinates::homogeneous;
   pieces_.resize(size_t(patches.faces().size));
   numbers_.resize(size_t(num_numbers(patches)));

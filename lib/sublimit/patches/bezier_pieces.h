@@ -18,6 +18,7 @@ class BezierPieces : public BoundSource {
   /// @param columns  of the set
   /// @throws InvalidParameter  columns of another size
   BezierPieces(const PatchSet& patches, const Points& columns);
+  BezierPieces(const PatchSet&&, const Points&) = delete;
 
   void evaluate(std::span<const Sample> samples, int order, bool normals, LimitSamples& out) const override;
 

@@ -20,7 +20,7 @@ Knots<double> free_form_knots(FreeFormBasis basis, const FreeFormDirection& dire
 SegmentBasis free_form_segments(const FreeForm& shapes, FreeFormBasis basis, const FreeFormDirection& direction);
 
 /// Patches, the columns of their control points, and what each was in the file.
-struct FreeFormPatches {
+struct [[nodiscard]] FreeFormPatches {
   PatchSet patches;
   Points columns;                  ///< x 3, or x 4, homogeneous, if one of them is rational
   std::vector<std::int64_t> line;  ///< of each patch
@@ -33,7 +33,7 @@ struct FreeFormPatches {
 FreeFormPatches free_form_patches(const FreeForm& shapes, const std::string& name);
 
 /// The space curves of a file as one source: B-splines, pieces in other bases as the Bezier pieces that they are.
-struct FreeFormCurves {
+struct [[nodiscard]] FreeFormCurves {
   CurveSet curves;
   Points columns;  ///< x 3, or x 4, homogeneous, if one of them is rational; of one curve after the other
   Coordinates coordinates = Coordinates::plain;

@@ -147,7 +147,7 @@ LimitSamples PatchSet::evaluate(const Points& columns, std::span<const Sample> s
   return all;
 }
 
-std::unique_ptr<BoundSource> PatchSet::bound(const Points& columns) const {
+std::unique_ptr<BoundSource> PatchSet::bound(const Points& columns) const& {
   const double most = std::min<double>(1 << 28, memory_limit() / 32);  // two gigabytes, a quarter of what there is
   if (const double numbers = BezierPieces::num_numbers(*this); numbers == 0 || numbers > most)
     return LinearSource::bound(columns);

@@ -47,7 +47,8 @@ class PatchSet : public LinearSource {
   LimitSamples evaluate(const Points& columns, std::span<const Sample> samples, int order = 0,
                         bool normals = true) const override;
   /// B-splines become Bezier pieces, if there is memory for them.
-  std::unique_ptr<BoundSource> bound(const Points& columns) const override;
+  std::unique_ptr<BoundSource> bound(const Points& columns) const& override;
+  std::unique_ptr<BoundSource> bound(const Points& columns) const&& = delete;
 
   /// All patches with finer nets, and S; points are no longer shared.
   /// @throws UnsupportedTopology  a patch has no net

@@ -20,6 +20,9 @@ Points homogeneous(const Points& points, const Eigen::VectorXd& weights) {
     if (!std::isfinite(w))
       throw InvalidParameter("weight " + format_number(i) + " is " + format_number(w) + ": weights must be finite");
     columns.row(i) << (w == 0 ? 1 : w) * points.row(i), w;
+    if (points.row(i).allFinite() && !columns.row(i).allFinite())
+      throw InvalidParameter("control point " + format_number(i) + " times its weight " + format_number(w) +
+                             " is too large for a number; another unit of length is right");
   }
   if (weights.isZero(0)) throw InvalidParameter("all weights are 0: one of them at least must not be");
   return columns;

@@ -18,6 +18,7 @@ class WeightedSource : public LinearSource {
   ///                              point: it would be a direction
   /// @throws UnsupportedTopology  patches over plain columns
   WeightedSource(const PatchSet& patches, Eigen::VectorXd weights);
+  WeightedSource(const PatchSet&&, Eigen::VectorXd) = delete;
 
   Index num_points() const override { return patches_.num_points(); }
   FaceCount faces() const override { return patches_.faces(); }

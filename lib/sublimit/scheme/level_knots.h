@@ -11,7 +11,10 @@ namespace sublimit {
 
 class LevelKnots {
  public:
+  /// @param topology, split  which must stay
   LevelKnots(const Topology& topology, const KnotSplit& split) : t_(topology), split_(split) {}
+  LevelKnots(const Topology&&, const KnotSplit&) = delete;
+  LevelKnots(const Topology&, const KnotSplit&&) = delete;
 
   /// Of the edge of a half-edge, seen from its tail.
   EdgeKnots<double> at(HalfEdge h) const {

@@ -6,11 +6,13 @@
 #include <algorithm>
 #include <map>
 #include <span>
+#include <string>
 #include <type_traits>
 #include <vector>
 
 #include "sublimit/base/error.h"
 #include "sublimit/mesh/topology.h"
+#include "sublimit/scheme/check_scheme.h"
 #include "sublimit/scheme/sites.h"
 
 namespace sublimit {
@@ -29,14 +31,22 @@ class MaskTable {
     Index count() const { return static_cast<Index>(has_zeros ? kept.size() : this->size()); }
   };
 
-  MaskTable(const Masks<T>& masks, int level) : masks_(&masks), level_(level) {}
+  /// @param scheme  name of the scheme that the masks are of; must stay, as the masks must
+  MaskTable(const std::string& scheme, const Masks<T>& masks, int level)
+      : scheme_(&scheme), masks_(&masks), level_(level) {}
+  MaskTable(const std::string&&, const Masks<T>&, int) = delete;
+  MaskTable(const std::string&, const Masks<T>&&, int) = delete;
+  MaskTable(const std::string&&, const Masks<T>&&, int) = delete;
+  MaskTable(MaskTable&&) = default;
+  MaskTable(const MaskTable&) = delete;  // it points to weights of its own
+  MaskTable& operator=(const MaskTable&) = delete;
 
   const Weights& face(Index size) {
     Weights& weights = at(faces_, size);
     if (weights.empty()) {
       std::vector<Index> slots(size);
       for (Index i = 0; i < size; ++i) slots[i] = i;
-      weights = dense(masks_->face(FaceSite<T>(*masks_, level_, slots)), size);
+      weights = dense("face", masks_->face(FaceSite<T>(*masks_, level_, slots)), size);
     }
     return weights;
   }
@@ -46,7 +56,7 @@ class MaskTable {
     if (weights.empty()) {
       std::vector<Index> slots(size);
       for (Index i = 0; i < size; ++i) slots[i] = i;
-      weights = dense(masks_->corner(FaceSite<T>(*masks_, level_, slots)), size);
+      weights = dense("corner", masks_->corner(FaceSite<T>(*masks_, level_, slots)), size);
     }
     return weights;
   }
@@ -72,7 +82,8 @@ class MaskTable {
   const Weights& edge(Index left_size, Index right_size) {
     Weights& weights = edges_[{left_size, right_size}];
     if (weights.empty())
-      weights = dense(masks_->edge(EdgeSite<T>(*masks_, level_, left_size, right_size)), left_size + right_size - 2);
+      weights =
+          dense("edge", masks_->edge(EdgeSite<T>(*masks_, level_, left_size, right_size)), left_size + right_size - 2);
     return weights;
   }
 
@@ -82,7 +93,7 @@ class MaskTable {
     if (weights.empty()) {
       Index slots = 1;
       for (const Index size : face_sizes) slots += size - 2;
-      weights = dense(masks_->vertex(Ring<T>(*masks_, level_, face_sizes)), slots);
+      weights = dense("vertex", masks_->vertex(Ring<T>(*masks_, level_, face_sizes)), slots);
       if (weights.kept == std::vector<Index>{0}) weights = finished(Weights(1, weights[0]));
     }
     return weights;
@@ -100,17 +111,17 @@ class MaskTable {
   }
   // Sites whose intervals differ: found by their knots. Valid until the next call.
   const Weights& face(const Knots& knots) {
-    return known(knots, 'f', [&] { return of_face(masks_->face, knots); });
+    return known(knots, 'f', [&] { return of_face("face", masks_->face, knots); });
   }
   /// @param knots  of the face from the corner on
   const Weights& corner(const Knots& knots) {
-    return known(knots, 'c', [&] { return of_face(masks_->corner, knots); });
+    return known(knots, 'c', [&] { return of_face("corner", masks_->corner, knots); });
   }
   /// @param knots  of the left face from the edge on, then of the right one
   const Weights& edge(const Knots& knots) {
     return known(knots, 'e', [&] {
       const auto left = static_cast<Index>(knots[0].size()), right = static_cast<Index>(knots[1].size());
-      return dense(masks_->edge(EdgeSite<T>(*masks_, level_, left, right, cast(knots[0]), cast(knots[1]))),
+      return dense("edge", masks_->edge(EdgeSite<T>(*masks_, level_, left, right, cast(knots[0]), cast(knots[1]))),
                    left + right - 2);
     });
   }
@@ -125,7 +136,7 @@ class MaskTable {
         slots += sizes.back() - 2;
         own.push_back(cast(face));
       }
-      return dense(masks_->vertex(Ring<T>(*masks_, level_, sizes, std::move(own))), slots);
+      return dense("vertex", masks_->vertex(Ring<T>(*masks_, level_, sizes, std::move(own))), slots);
     });
   }
 
@@ -145,11 +156,11 @@ class MaskTable {
   }
 
  private:
-  Weights of_face(const Mask<T, FaceSite<T>>& mask, const Knots& knots) {
+  Weights of_face(const char* name, const Mask<T, FaceSite<T>>& mask, const Knots& knots) {
     const auto size = static_cast<Index>(knots[0].size());
     std::vector<Index> slots(size);
     for (Index i = 0; i < size; ++i) slots[i] = i;
-    return dense(mask(FaceSite<T>(*masks_, level_, slots, cast(knots[0]))), size);
+    return dense(name, mask(FaceSite<T>(*masks_, level_, slots, cast(knots[0]))), size);
   }
   static T number(double x) {
     if constexpr (std::is_constructible_v<T, double>)
@@ -179,7 +190,10 @@ class MaskTable {
     if (static_cast<size_t>(i) >= list.size()) list.resize(i + 1);
     return list[i];
   }
-  static Weights dense(const Stencil<T>& stencil, Index slots) {
+  /// Weights by slot of what a mask returned.
+  /// @throws InvalidParameter  as `check_weights`
+  Weights dense(const char* mask, const Stencil<T>& stencil, Index slots) const {
+    check_weights(*scheme_, mask, stencil, slots);
     Weights weights(slots, T(0));
     for (const auto& [slot, weight] : stencil.terms()) weights[slot] = weight;
     return finished(std::move(weights));
@@ -196,7 +210,7 @@ class MaskTable {
     Weights& weights = wide_edges_[{tail, head}];
     if (weights.empty()) {
       const auto site = [&] { return WideEdgeSite<T>(*masks_, level_, face_size, tail, head); };
-      Weights all = dense(masks_->wide_edge(site()), site().num_slots());
+      Weights all = dense("wide_edge", masks_->wide_edge(site()), site().num_slots());
       // Points of a ring that have no weight need no visit. The head's stand last, the tail's behind the edge's own
       // faces.
       const auto leave_out = [&](FanShape& ring, auto first) {
@@ -224,7 +238,8 @@ class MaskTable {
     Weights& weights = wide_faces_[shapes];
     if (weights.empty()) {
       const WideFaceSite<T> site(*masks_, level_, shapes);
-      Weights all = dense(masks_->wide_face(site), site.num_slots() + 2 * static_cast<Index>(shapes.size()));
+      Weights all =
+          dense("wide_face", masks_->wide_face(site), site.num_slots() + 2 * static_cast<Index>(shapes.size()));
       std::vector<T> on_edges(all.begin() + site.num_slots(), all.end());
       all.resize(site.num_slots());
       weights = finished(std::move(all));
@@ -234,6 +249,7 @@ class MaskTable {
     return weights;
   }
 
+  const std::string* scheme_;
   const Masks<T>* masks_;
   int level_;
   std::vector<const Weights*> alike_faces_;
@@ -255,6 +271,8 @@ class MaskTable {
 template <Index N>
 class UniformFaces {
  public:
+  /// @param t  which must stay
+  explicit UniformFaces(const Topology&& t) = delete;
   explicit UniformFaces(const Topology& t) : t_(t), tails_(t.num_faces() > 0 ? t.vertices(Face{0}).data() : nullptr) {}
   Index size(Face) const { return N; }
   Face face(HalfEdge h) const { return Face{index(h) / N}; }

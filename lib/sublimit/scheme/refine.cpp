@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sublimit/scheme/refine.h"
 
+#include <algorithm>
+#include <iterator>
 #include <limits>
 #include <string>
 
@@ -43,27 +45,79 @@ struct Counts {
   double mesh_bytes() const { return 4 * (corners + faces) + 24 * vertices; }
 };
 
-/// Faces that share a vertex with `faces`, themselves included; ascending.
-std::vector<Index> with_neighbors(const Topology& t, std::span<const Index> faces) {
-  const auto distinct = [](std::vector<Index>& list) {
-    std::sort(list.begin(), list.end());
-    list.erase(std::unique(list.begin(), list.end()), list.end());
-  };
-  // Each vertex once: around one of n faces all n would ask for all n.
-  std::vector<Index> vertices, result(faces.begin(), faces.end());
-  for (const Index f : faces) vertices.insert(vertices.end(), t.vertices(Face{f}).begin(), t.vertices(Face{f}).end());
-  distinct(vertices);
-  for (const Index v : vertices)
-    for (const HalfEdge start : t.fans(Vertex{v})) {
-      HalfEdge h = start;
-      do {
-        result.push_back(index(t.face(h)));
-        h = t.ccw(h);
-      } while (exists(h) && h != start);
-    }
-  distinct(result);
-  return result;
+void sort_distinct(std::vector<Index>& list) {
+  std::sort(list.begin(), list.end());
+  list.erase(std::unique(list.begin(), list.end()), list.end());
 }
+
+/// Those of `list` that are not in `known`; both ascending.
+std::vector<Index> without(const std::vector<Index>& list, const std::vector<Index>& known) {
+  std::vector<Index> rest;
+  std::set_difference(list.begin(), list.end(), known.begin(), known.end(), std::back_inserter(rest));
+  return rest;
+}
+
+void merge_into(std::vector<Index>& known, const std::vector<Index>& more) {
+  const auto middle = static_cast<std::ptrdiff_t>(known.size());
+  known.insert(known.end(), more.begin(), more.end());
+  std::inplace_merge(known.begin(), known.begin() + middle, known.end());
+}
+
+/// Faces within some rings around others, ascending. Rings grow from what the last one added: each vertex is walked
+/// around once, that of a thousand faces too.
+class Rings {
+ public:
+  Rings(const Topology& t, std::span<const Index> faces) : t_(t), faces_(faces.begin(), faces.end()) {
+    sort_distinct(faces_);
+    added_ = faces_;
+  }
+  const std::vector<Index>& faces() const { return faces_; }
+  /// Those that share a vertex with them, too.
+  void add_ring() {
+    std::vector<Index> corners;
+    for (const Index f : added_)
+      corners.insert(corners.end(), t_.vertices(Face{f}).begin(), t_.vertices(Face{f}).end());
+    sort_distinct(corners);
+    const std::vector<Index> reached = without(corners, vertices_);
+    merge_into(vertices_, reached);
+    std::vector<Index> around;
+    for (const Index v : reached)
+      for (const HalfEdge start : t_.fans(Vertex{v})) {
+        HalfEdge h = start;
+        do {
+          around.push_back(index(t_.face(h)));
+          h = t_.ccw(h);
+        } while (exists(h) && h != start);
+      }
+    sort_distinct(around);
+    added_ = without(around, faces_);
+    merge_into(faces_, added_);
+  }
+
+ private:
+  const Topology& t_;
+  std::vector<Index> faces_, added_;
+  std::vector<Index> vertices_;  // that were walked around
+};
+
+/// Places of numbers in an ascending list, -1 elsewhere: by a table where the list is a good part of all there are.
+class Positions {
+ public:
+  Positions(const std::vector<Index>& list, Index count) : list_(list) {
+    if (list.size() * 32 < static_cast<size_t>(count)) return;
+    table_.assign(static_cast<size_t>(count), -1);
+    for (size_t i = 0; i < list.size(); ++i) table_[static_cast<size_t>(list[i])] = static_cast<Index>(i);
+  }
+  Index operator()(Index i) const {
+    if (!table_.empty()) return i < 0 ? -1 : table_[static_cast<size_t>(i)];
+    const auto at = std::lower_bound(list_.begin(), list_.end(), i);
+    return at != list_.end() && *at == i ? static_cast<Index>(at - list_.begin()) : -1;
+  }
+
+ private:
+  const std::vector<Index>& list_;
+  std::vector<Index> table_;
+};
 
 SparseMatrix selected_rows(const SparseMatrix& S, const std::vector<Index>& rows) {
   SparseMatrix result(static_cast<Index>(rows.size()), S.cols());
@@ -207,28 +261,23 @@ double predicted_bytes(const Scheme<double>& scheme, const Topology& t, int leve
 
 Part part(const Level& whole, std::span<const Index> chosen, int rings) {
   const Topology& t = whole.topology();
-  std::vector<Index> complete(chosen.begin(),
-                              chosen.end());  // faces of which every vertex has all its faces in the part
-  for (int k = 1; k < rings; ++k) complete = with_neighbors(t, complete);
+  Rings grown(t, chosen);
+  for (int k = 1; k < rings; ++k) grown.add_ring();
+  const std::vector<Index> complete = grown.faces();  // of which every vertex has all its faces in the part
+  grown.add_ring();
   Part part;
-  part.faces = with_neighbors(t, complete);
+  part.faces = grown.faces();
 
   RenumberedFaces order{.faces = part.faces, .offsets = {0}, .corners = {}};
   for (const Index f : part.faces) {
     for (Index k = 0; k < t.size(Face{f}); ++k) order.corners.push_back(index(t.corner(Face{f}, k)));
     order.offsets.push_back(static_cast<Index>(order.corners.size()));
   }
-  const auto position = [](const std::vector<Index>& list, Index i) {
-    const auto at = std::lower_bound(list.begin(), list.end(), i);
-    return at != list.end() && *at == i ? static_cast<Index>(at - list.begin()) : -1;
-  };
   std::vector<Index>& vertices = part.vertices;
   for (const Index h : order.corners) vertices.push_back(index(t.tail(HalfEdge{h})));
-  std::sort(vertices.begin(), vertices.end());
-  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-  part.level = renumbered_level(
-      whole, order, static_cast<Index>(vertices.size()), [&](Index h) { return position(order.corners, h); },
-      [&](Index v) { return position(vertices, v); });
+  sort_distinct(vertices);
+  const Positions corner(order.corners, t.num_half_edges()), vertex(vertices, t.num_vertices());
+  part.level = renumbered_level(whole, order, static_cast<Index>(vertices.size()), corner, vertex);
   part.halves = std::move(order.corners);
 
   Level& level = part.level;
@@ -236,7 +285,7 @@ Part part(const Level& whole, std::span<const Index> chosen, int rings) {
   // Vertices on the rim stay out of the next refinement, and any rule will do.
   level.sharpness.vertex.assign(vertices.size(), infinite_sharpness);
   for (const Index f : complete)
-    for (const Index v : t.vertices(Face{f})) level.sharpness.vertex[position(vertices, v)] = whole.sharpness.vertex[v];
+    for (const Index v : t.vertices(Face{f})) level.sharpness.vertex[vertex(v)] = whole.sharpness.vertex[v];
   // An edge of the rim has lost a face; without this it would be asked for its smooth mask.
   for (Index e = 0; e < own.num_edges(); ++e)
     if (!exists(own.twin(own.half_edge(Edge{e})))) level.sharpness.edge[e] = infinite_sharpness;

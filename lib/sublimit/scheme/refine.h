@@ -2,6 +2,7 @@
 #pragma once
 // Levels: a control mesh, refined step by step, with the matrix of every level.
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -28,7 +29,9 @@ struct LevelOf {
   Sharpness sharpness;
   KnotIntervals intervals;  ///< empty where all are equal
   std::vector<bool> holes;  ///< per face
-  SparseMatrixOf<T> S;      ///< from the level before (empty for level 0): x_k = S * x_{k-1}
+  /// The scheme that made it, which a dictionary of limits must be of; null where a level was put together otherwise.
+  std::shared_ptr<const Scheme<T>> made_by;
+  SparseMatrixOf<T> S;  ///< from the level before (empty for level 0): x_k = S * x_{k-1}
 
   const Topology& topology() const { return steps.back().topology; }
   /// New knots of the step to the next level; none where all intervals are equal.
@@ -47,6 +50,7 @@ struct LevelOf {
     sharpness = std::move(other.sharpness);
     intervals = std::move(other.intervals);
     holes = std::move(other.holes);
+    made_by = std::move(other.made_by);
     S.swap(other.S);
     return *this;
   }
@@ -70,14 +74,15 @@ LevelOf<T> next_level(const Scheme<T>& scheme, const LevelOf<T>& parent);
 /// @throws UnsupportedTopology  a face that the scheme cannot take
 /// @throws ResourceError     more elements than 32-bit indices, or more memory than the machine has; predicted before
 ///                           memory is taken
-std::vector<Level> refine(const Scheme<double>& scheme, const ControlMesh& mesh, int levels,
-                          const SubdivisionOptions& options = {}, const std::function<void(int)>& progress = {});
+[[nodiscard]] std::vector<Level> refine(const Scheme<double>& scheme, const ControlMesh& mesh, int levels,
+                                        const SubdivisionOptions& options = {},
+                                        const std::function<void(int)>& progress = {});
 /// The same from a control level that is there.
-std::vector<Level> refine(const Scheme<double>& scheme, Level control, int levels,
-                          const std::function<void(int)>& progress = {});
+[[nodiscard]] std::vector<Level> refine(const Scheme<double>& scheme, Level control, int levels,
+                                        const std::function<void(int)>& progress = {});
 
 /// P_k = S_{k-1} ... S_0: level k from the control points. The identity for k = 0.
-SparseMatrix refinement_matrix(const std::vector<Level>& levels);
+[[nodiscard]] SparseMatrix refinement_matrix(const std::vector<Level>& levels);
 
 /// Vertices of a level; exact but for dual steps across borders.
 double predicted_vertices(const Scheme<double>& scheme, const Topology& control, int level);
@@ -110,6 +115,6 @@ int rings_for_refinement(const Scheme<double>& scheme);
 
 /// The children of the chosen faces (all of them are chosen again), without touching the rest of the mesh. Rows of
 /// `level.S` are the rows that refining the whole mesh would give, over the vertices of `part`.
-Subset refine(const Scheme<double>& scheme, const Subset& part);
+[[nodiscard]] Subset refine(const Scheme<double>& scheme, const Subset& part);
 
 }  // namespace sublimit

@@ -5,6 +5,7 @@
 
 #include "sublimit/core/sparse_product.h"
 #include "sublimit/scheme/refine.h"
+#include "sublimit/scheme/same_scheme.h"
 #include "sublimit/scheme/subdivision_matrix_impl.h"
 #include "sublimit/splits/child_intervals.h"
 #include "sublimit/splits/child_sharpness.h"
@@ -20,11 +21,12 @@ SparseMatrixOf<T> product(const SparseMatrixOf<T>& A, const SparseMatrixOf<T>& B
 /// Whether the limit of a face depends on its own corners alone: edge points on the edge, vertices that stay.
 template <class T>
 bool needs_neighbors(const Scheme<T>& scheme) {
+  const Index size = scheme.face_size() == 3 ? 3 : 4;
   for (const Step<T>& step : scheme.steps) {
     if (!step.masks.vertex || !step.masks.edge) return true;
-    MaskTable<T> masks(step.masks, 0);
-    const std::vector<T>& vertex = masks.vertex(4, 4);
-    const std::vector<T>& edge = masks.edge(4, 4);
+    MaskTable<T> masks(scheme.name, step.masks, 0);
+    const std::vector<T>& vertex = masks.vertex(4, size);
+    const std::vector<T>& edge = masks.edge(size, size);
     const auto zero = [](const T& w) { return w == T(0); };
     if (!std::all_of(vertex.begin() + 1, vertex.end(), zero) || !std::all_of(edge.begin() + 2, edge.end(), zero))
       return true;
@@ -43,6 +45,7 @@ void check_wide_faces(const std::string& scheme, int corners, const Topology& to
 
 template <class T>
 LevelOf<T> control_level(const Scheme<T>& scheme, const ControlMesh& mesh, const SubdivisionOptions& options) {
+  check_scheme(scheme);
   const Boundary boundary = options.boundary.value_or(mesh.boundary.value_or(Boundary::edge_and_corner));
   const Creasing creasing = options.creasing.value_or(mesh.creasing.value_or(Creasing::uniform));
   LevelOf<T> level;
@@ -54,6 +57,7 @@ LevelOf<T> control_level(const Scheme<T>& scheme, const ControlMesh& mesh, const
   level.intervals =
       initial_intervals(level.topology(), mesh, scheme.knots, scheme.is_dual() ? KnotOwner::point : KnotOwner::edge);
   level.holes = initial_holes(level.topology(), mesh, holes_at_boundary ? boundary : Boundary::edge_only);
+  level.made_by = std::make_shared<const Scheme<T>>(scheme);
   return level;
 }
 
@@ -63,6 +67,8 @@ template <class T, class OnStep>
 LevelOf<T> next_topology(const Scheme<T>& scheme, const LevelOf<T>& parent, const OnStep& on_step) {
   LevelOf<T> child;
   child.number = parent.number + 1;
+  child.made_by =
+      !parent.made_by || is_alike(*parent.made_by, scheme) ? parent.made_by : std::make_shared<const Scheme<T>>(scheme);
   const Topology* topology = &parent.topology();
   const Sharpness* sharpness = &parent.sharpness;
   const std::vector<bool>* holes = &parent.holes;

@@ -45,6 +45,7 @@ Level renumbered_level(const Level& whole, const RenumberedFaces& part, Index nu
 
   Level level;
   level.number = whole.number;
+  level.made_by = whole.made_by;
   level.steps.emplace_back();
   level.steps[0].topology = std::move(b).build();
   const Topology& own = level.topology();

@@ -42,8 +42,8 @@ struct Claims {
 template <class T>
 struct Scheme {
   std::string name;
-  std::string source;          ///< author, year, title
-  std::vector<Step<T>> steps;  ///< in templates written `{Step<T>{...}}`: g++ 12 fails on nested plain braces
+  std::string source;  ///< author, year, title
+  std::vector<Step<T>> steps;
   CreaseMasks<T> creases;
   Claims claims = {};
   std::vector<OptionInfo> options = {};  ///< that it knows

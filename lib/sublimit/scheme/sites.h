@@ -7,8 +7,10 @@
 #include <compare>
 #include <functional>
 #include <span>
+#include <string>
 #include <vector>
 
+#include "sublimit/base/error.h"
 #include "sublimit/core/number.h"
 #include "sublimit/core/stencil.h"
 
@@ -41,6 +43,16 @@ struct PointKnots {
   T part() const { return split / length; }
 };
 
+/// Position of element `i` among `count` that are counted from 0, or from the end on: -1 is the last one.
+/// @param element, owner  words of the message, as in "corner 3 of a face"
+/// @throws InvalidParameter  there is none
+inline int site_position(int i, int count, const char* element, const char* owner) {
+  if (i >= -count && i < count) return i < 0 ? i + count : i;
+  throw InvalidParameter("a mask asks for " + std::string(element) + " " + std::to_string(i) + " of " + owner + " of " +
+                         std::to_string(count) + "; 0 to " + std::to_string(count - 1) +
+                         " exist, -1 is the last one and -" + std::to_string(count) + " the first");
+}
+
 /// What every site knows: the level of the parent (0 for the control mesh), constants in the number type, and the masks
 /// of the step, for child points that are already made.
 template <class T>
@@ -56,7 +68,7 @@ class Site {
   int level_;
 };
 
-/// A face, seen from a given corner on.
+/// A face, seen from a given corner on. Corners and edges count from 0; -1 is the last one.
 template <class T>
 class FaceSite : public Site<T> {
  public:
@@ -64,28 +76,40 @@ class FaceSite : public Site<T> {
       : Site<T>(masks, level), slots_(std::move(slots)), knots_(std::move(knots)) {}
   int size() const { return static_cast<int>(slots_.size()); }
   /// Of the edge from corner i to the next one, seen from there.
-  EdgeKnots<T> knots(int i) const { return knots_.empty() ? EdgeKnots<T>{} : knots_[i]; }
+  EdgeKnots<T> knots(int i) const {
+    const int at = position(i);
+    return knots_.empty() ? EdgeKnots<T>{} : knots_[at];
+  }
   /// Degree 2: of corner i, along the edge to the next corner and along that to the one before.
   PointKnots<T> knots_to_next(int i) const {
+    const int at = position(i);
     if (knots_.empty()) return {};
-    const EdgeKnots<T>& k = knots_[i];
+    const EdgeKnots<T>& k = knots_[at];
     return {k.length, k.split};
   }
   PointKnots<T> knots_to_previous(int i) const {
+    const int at = position(i);
     if (knots_.empty()) return {};
-    const EdgeKnots<T>& k = knots_[(i + size() - 1) % size()];
+    const EdgeKnots<T>& k = knots_[at == 0 ? size() - 1 : at - 1];
     return {k.after, k.before};
   }
-  Stencil<T> corner(int i) const { return Stencil<T>(slots_[i]); }
+  Stencil<T> corner(int i) const { return Stencil<T>(slots_[position(i)]); }
   Stencil<T> centroid() const {
     Stencil<T> sum;
     for (const Index slot : slots_) sum += Stencil<T>(slot);
     return std::move(sum) / T(size());
   }
   /// The child point that the step makes for this face.
-  Stencil<T> point() const { return this->masks_->face(*this); }
+  /// @throws InvalidParameter  the step has no mask of faces
+  Stencil<T> point() const {
+    if (!this->masks_->face)
+      throw InvalidParameter(
+          "a mask asks for the new point of a face, but its step has no mask `face`; centroids of faces are known");
+    return this->masks_->face(*this);
+  }
 
  private:
+  int position(int i) const { return site_position(i, size(), "corner", "a face"); }
   std::vector<Index> slots_;
   std::vector<EdgeKnots<T>> knots_;  // none: all are equal
 };
@@ -119,7 +143,8 @@ class EdgeSite : public Site<T> {
 /// A vertex with its faces, counter-clockwise; the ring is closed around an interior vertex, and open where a boundary
 /// or a sharp edge cuts it. Slots of the site of a vertex: 0 the vertex, then for each face its corners from the far
 /// end of its first edge on, up to the next face's. Rings of wide sites number edges and faces from the site's own edge
-/// on: neighbor(0) is its other end, neighbor(-1) the one before.
+/// on: neighbor(0) is its other end, neighbor(-1) the one before. Edges and faces of a closed ring count modulo the
+/// valence; in an open one those beyond its ends do not exist.
 template <class T>
 class Ring : public Site<T> {
  public:
@@ -144,6 +169,7 @@ class Ring : public Site<T> {
   Stencil<T> center() const { return Stencil<T>(faces_[0][0]); }
   /// The vertex at the other end of edge i; face i lies between edges i and i+1.
   Stencil<T> neighbor(int i) const {
+    if (!has_neighbor(i)) refuse("edge", i, valence());
     const int n = valence(), at = closed_ ? position(i) : start_ + i;
     return Stencil<T>(at == n ? faces_[n - 1].back() : faces_[at][1]);
   }
@@ -155,11 +181,21 @@ class Ring : public Site<T> {
   /// Of edge i of a closed ring, seen from the vertex.
   EdgeKnots<T> knots(int i) const { return knots_.empty() ? EdgeKnots<T>{} : knots_[position(i)][0]; }
   /// The corner of the quadrilateral face i that is opposite to the vertex.
-  Stencil<T> diagonal(int i) const { return Stencil<T>(faces_[position(i)][2]); }
+  Stencil<T> diagonal(int i) const {
+    const std::vector<Index>& corners = faces_[position(i)];
+    if (corners.size() != 4)
+      throw InvalidParameter("a mask asks for the diagonal of face " + std::to_string(i) + " of a ring, which has " +
+                             std::to_string(corners.size()) +
+                             " corners; only in a quadrilateral one is opposite (face(i).corner(j) has all)");
+    return Stencil<T>(corners[2]);
+  }
 
   /// Triangles only: neighbor(i) of a ring that is closed by two virtual points, one beyond each border edge, so that
   /// the triangle there is half of a parallelogram; the regular border vertex then has valence 6.
   Stencil<T> continued(int i) const {
+    if (faces_[0].size() != 3)
+      throw InvalidParameter("a mask asks for a ring of faces of " + std::to_string(faces_[0].size()) +
+                             " corners to be continued beyond the border; only rings of triangles are");
     if (closed_) return neighbor(i);
     const int n = valence(), edges = n + 3, at = ((start_ + i) % edges + edges) % edges;
     const auto end = [&](int k) { return Stencil<T>(k == n ? faces_[n - 1].back() : faces_[k][1]); };
@@ -178,12 +214,25 @@ class Ring : public Site<T> {
   }
 
  private:
+  /// Of face i, between edges i and i + 1.
   int position(int i) const {
     const int n = valence();
-    return closed_ ? ((start_ + i) % n + n) % n : start_ + i;
+    if (closed_) return ((start_ + i) % n + n) % n;
+    if (start_ + i < 0 || start_ + i >= n) refuse("face", i, n - 1);
+    return start_ + i;
+  }
+  /// @param last  position of the last one that exists
+  [[noreturn]] void refuse(const char* element, int i, int last) const {
+    throw InvalidParameter("a mask asks for " + std::string(element) + " " + std::to_string(i) +
+                           " of an open ring, which ends before: " + std::to_string(-start_) + " to " +
+                           std::to_string(last - start_) + " exist (has_neighbor)");
   }
   template <class Point>
   Stencil<T> mean(const Point& point) const {
+    if (!closed_)
+      throw InvalidParameter(
+          "a mask asks for the mean around an open ring; a mean is known of closed rings (is_closed), neighbors and "
+          "faces of open ones are known one by one");
     Stencil<T> sum;
     for (int i = 0; i < valence(); ++i) sum += point(i);
     return std::move(sum) / T(valence());
@@ -325,15 +374,24 @@ class WideFaceSite : public Site<T> {
 
   int size() const { return static_cast<int>(rings_.size()); }
   Index num_slots() const { return slots_; }
-  Stencil<T> corner(int i) const { return Stencil<T>(wrapped(i)); }
-  const Ring<T>& ring(int i) const { return rings_[wrapped(i)]; }
-  bool has_across(int i) const { return has_across_[wrapped(i)]; }
-  /// The child point on edge i, and on the opposite edge of the face across it.
-  Stencil<T> edge_point(int i) const { return Stencil<T>(slots_ + wrapped(i)); }
-  Stencil<T> edge_point_beyond(int i) const { return Stencil<T>(slots_ + size() + wrapped(i)); }
+  Stencil<T> corner(int i) const { return Stencil<T>(position(i)); }
+  const Ring<T>& ring(int i) const { return rings_[position(i)]; }
+  bool has_across(int i) const { return has_across_[position(i)]; }
+  /// The child point on edge i, and on the opposite edge of the quadrilateral across it.
+  Stencil<T> edge_point(int i) const { return Stencil<T>(slots_ + position(i)); }
+  Stencil<T> edge_point_beyond(int i) const {
+    const int at = position(i);
+    if (!has_across_[at])
+      throw InvalidParameter("a mask asks for the point beyond edge " + std::to_string(i) +
+                             " of a face, where there is no face across (has_across)");
+    if (size() != 4)
+      throw InvalidParameter("a mask asks for the point opposite to edge " + std::to_string(i) + " in a face of " +
+                             std::to_string(size()) + " corners; only quadrilaterals have opposite edges");
+    return Stencil<T>(slots_ + size() + at);
+  }
 
  private:
-  int wrapped(int i) const { return (i % size() + size()) % size(); }
+  int position(int i) const { return site_position(i, size(), "corner or edge", "a face"); }
   Index slots_ = 0;
   std::vector<Ring<T>> rings_;
   std::vector<bool> has_across_;
@@ -384,23 +442,23 @@ using Mask = std::function<Stencil<T>(const Site&)>;
 /// The masks of one step; a group that the step's split does not make stays empty.
 template <class T>
 struct Masks {
-  Mask<T, Ring<T>> vertex = {};
-  Mask<T, EdgeSite<T>> edge = {};
-  Mask<T, FaceSite<T>> face = {};
+  Mask<T, Ring<T>> vertex{};
+  Mask<T, EdgeSite<T>> edge{};
+  Mask<T, FaceSite<T>> face{};
   /// Of a dual split, for the point at corner 0 of the face.
-  Mask<T, FaceSite<T>> corner = {};
+  Mask<T, FaceSite<T>> corner{};
   /// Instead of `edge` and `face`, where these need more of the mesh. A wide edge mask makes border points too, if
   /// `wide_borders`; else the crease masks do.
-  Mask<T, WideEdgeSite<T>> wide_edge = {};
-  Mask<T, WideFaceSite<T>> wide_face = {};
+  Mask<T, WideEdgeSite<T>> wide_edge{};
+  Mask<T, WideFaceSite<T>> wide_face{};
   bool wide_borders = false;
 };
 
 /// The masks along sharp edges and boundaries. A corner stays where it is.
 template <class T>
 struct CreaseMasks {
-  Mask<T, CreaseSite<T>> vertex = {};
-  Mask<T, CreaseEdgeSite<T>> edge = {};
+  Mask<T, CreaseSite<T>> vertex{};
+  Mask<T, CreaseEdgeSite<T>> edge{};
 };
 
 }  // namespace sublimit

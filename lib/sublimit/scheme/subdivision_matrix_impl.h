@@ -40,16 +40,18 @@ class RowMaker {
         sharpness_(sharpness),
         child_sharpness_(child_sharpness),
         is_plain_(is_plain),
-        masks_(step.masks, level),
-        creases_(step.creases.edge ? step.creases : scheme.creases),
+        scheme_(check_scheme(scheme).name),
+        masks_(scheme.name, step.masks, level),
+        creases_(creases_of(scheme, step)),
         step_masks_(step.masks),
         level_(level) {
     if (split) knots_.emplace(parent, *split);
     const CreaseMasks<T>& creases = creases_;
-    if (creases.vertex) crease_vertex_ = dense(creases.vertex(CreaseSite<T>(step.masks, level)), 3);
+    if (creases.vertex) crease_vertex_ = dense("crease_vertex", creases.vertex(CreaseSite<T>(step.masks, level)), 3);
     for (const int before : {0, 1})
       for (const int after : {0, 1})
-        crease_edge_[before][after] = dense(creases.edge(CreaseEdgeSite<T>(step.masks, level, before, after)), 4);
+        crease_edge_[before][after] =
+            dense("crease_edge", creases.edge(CreaseEdgeSite<T>(step.masks, level, before, after)), 4);
     const auto& all = crease_edge_[1][1];
     crease_is_wide_ = all[2] != T(0) || all[3] != T(0);
     wide_edge_ = static_cast<bool>(step.masks.wide_edge);
@@ -134,7 +136,8 @@ class RowMaker {
     return sharp(row(border));
   }
 
-  static std::vector<T> dense(const Stencil<T>& stencil, size_t slots) {
+  std::vector<T> dense(const char* mask, const Stencil<T>& stencil, Index slots) const {
+    check_weights(scheme_, mask, stencil, slots);
     std::vector<T> weights(slots, T(0));
     for (const auto& [slot, weight] : stencil.terms()) weights[slot] = weight;
     return weights;
@@ -196,7 +199,8 @@ class RowMaker {
       after = along_curve(e, head);
     }
     const std::vector<T>& weights =
-        knots_ ? curve_ = dense(creases_.edge(CreaseEdgeSite<T>(step_masks_, level_, before >= 0, after >= 0,
+        knots_ ? curve_ = dense("crease_edge",
+                                creases_.edge(CreaseEdgeSite<T>(step_masks_, level_, before >= 0, after >= 0,
                                                                 curve_knots(e, tail, head))),
                                 4)
                : crease_edge_[before >= 0][after >= 0];
@@ -417,7 +421,7 @@ class RowMaker {
           const std::optional<Edge> beyond = next_on_curve(ends[k], Vertex{vertices[k + 1]});
           return MaskTable<T>::cast(knots_->along(ends[k], v, ends[1 - k], beyond));
         };
-        weights = dense(creases_.vertex(CreaseSite<T>(step_masks_, level_, seen(0), seen(1))), 3);
+        weights = dense("crease_vertex", creases_.vertex(CreaseSite<T>(step_masks_, level_, seen(0), seen(1))), 3);
       }
       for (int k = 0; k < 3; ++k) row_.push_back({vertices[k], w * weights[k]});
     } else {
@@ -506,6 +510,7 @@ class RowMaker {
   const Sharpness& sharpness_;
   const Sharpness& child_sharpness_;
   const std::vector<std::uint8_t>& is_plain_;
+  const std::string& scheme_;  // its name
   MaskTable<T> masks_;
   const CreaseMasks<T>& creases_;
   const Masks<T>& step_masks_;

@@ -51,7 +51,7 @@ Scheme<T> kobbelt(const SchemeOptions& options) {
   };
   const auto across = [=](const WideFaceSite<T>& f, int i) {  // from the points of edges i and i + 2
     const auto next = [&](int k) {
-      return f.has_across(k) ? f.edge_point_beyond(k) : 2 * f.edge_point(k) - f.edge_point(k + 2);
+      return f.has_across(k) ? f.edge_point_beyond(k) : 2 * f.edge_point(k) - f.edge_point((k + 2) % 4);
     };
     return inner(f) * (f.edge_point(i) + f.edge_point(i + 2)) - outer(f) * (next(i) + next(i + 2));
   };

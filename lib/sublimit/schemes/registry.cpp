@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sublimit/schemes.h"
 
+#include <algorithm>
+#include <iterator>
 #include <utility>
 
+#include "sublimit/base/error.h"
 #include "sublimit/core/nearest_names.h"
 #include "sublimit/curves/schemes/curve_schemes.h"
 #include "sublimit/geometric/geometric_schemes.h"
@@ -14,14 +17,52 @@ template std::optional<Scheme<double>> find_scheme<double>(const std::string&, c
 template std::vector<CurveScheme<double>> all_curve_schemes<double>();
 template std::optional<CurveScheme<double>> find_curve_scheme<double>(const std::string&, const SchemeOptions&);
 
+namespace {
+
+template <class Registry>
+std::vector<std::string> names_in(const Registry& registry) {
+  std::vector<std::string> names;
+  for (const auto& entry : registry) names.emplace_back(entry.name);
+  return names;
+}
+
+/// A registry, in words that follow a name of one of its schemes, and what makes them.
+struct NamedRegistry {
+  SchemeKind kind;
+  const char* refines;
+  const char* function;
+  std::vector<std::string> names;
+};
+
+std::vector<NamedRegistry> registries() {
+  return {{SchemeKind::surface, "surfaces", "scheme", names_in(registry<double>)},
+          {SchemeKind::curve, "curves", "curve_scheme", names_in(curve_registry<double>)},
+          {SchemeKind::polygon, "curves with tangents, without a matrix", "geometric_scheme<ControlPolygon>",
+           names_in(geometric_registry<ControlPolygon>)},
+          {SchemeKind::curvature_mesh, "points with normals and curvatures, without a matrix",
+           "geometric_scheme<CurvatureMesh>", names_in(geometric_registry<CurvatureMesh>)},
+          {SchemeKind::normal_mesh, "points with normals, without a matrix", "geometric_scheme<NormalMesh>",
+           names_in(geometric_registry<NormalMesh>)}};
+}
+
+}  // namespace
+
 std::vector<std::string> nearest_scheme_names(const std::string& name, int count) {
   std::vector<std::string> names;
-  for (const SchemeEntry<double>& entry : registry<double>) names.push_back(entry.name);
-  for (const CurveSchemeEntry<double>& entry : curve_registry<double>) names.push_back(entry.name);
-  for (const auto& entry : geometric_registry<ControlPolygon>) names.push_back(entry.name);
-  for (const auto& entry : geometric_registry<CurvatureMesh>) names.push_back(entry.name);
-  for (const auto& entry : geometric_registry<NormalMesh>) names.push_back(entry.name);
+  for (NamedRegistry& one : registries()) std::ranges::move(one.names, std::back_inserter(names));
   return nearest_names(name, std::move(names), count);
+}
+
+void throw_unknown_scheme(const std::string& name, SchemeKind wanted) {
+  const std::vector<NamedRegistry> all = registries();
+  const NamedRegistry& asked = *std::ranges::find(all, wanted, &NamedRegistry::kind);
+  for (const NamedRegistry& other : all)
+    if (std::ranges::find(other.names, name) != other.names.end())
+      throw InvalidOption("'" + name + "' is a scheme of " + other.refines + ", which " + other.function + "(\"" +
+                          name + "\") makes; " + asked.function + " makes those of " + asked.refines);
+  std::string offers;
+  for (const std::string& near : nearest_names(name, asked.names)) offers += (offers.empty() ? "" : ", ") + near;
+  throw InvalidOption("unknown scheme '" + name + "' of " + asked.refines + "; the nearest are " + offers);
 }
 
 }  // namespace sublimit

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sublimit/subdivide.h"
 
-#include <optional>
-
 #include "sublimit/base/error.h"
 #include "sublimit/core/sparse_product.h"
 #include "sublimit/scheme/check_levels.h"
@@ -12,20 +10,18 @@ namespace sublimit {
 
 std::pair<SparseMatrix, FaceMatrix> subdivide(const std::string& name, Index num_vertices, const FaceMatrix& F,
                                               int levels, const SubdivisionOptions& options) {
-  const std::optional<Scheme<double>> scheme = find_scheme(name);
-  if (!scheme)
-    throw InvalidOption("unknown scheme '" + name + "'; did you mean " + nearest_scheme_names(name, 1)[0] + "?");
+  const Scheme<double> scheme = sublimit::scheme(name);
   Level level;
   level.steps.emplace_back();
   level.steps[0].topology = Topology(view<Eigen::Dynamic>(num_vertices, F));
   const Boundary boundary = options.boundary.value_or(Boundary::edge_and_corner);
   level.sharpness = initial_sharpness(level.topology(), {}, boundary, options.creasing.value_or(Creasing::uniform));
   level.holes.assign(level.topology().num_faces(), false);
-  check_levels(*scheme, level.topology(), levels);
+  check_levels(scheme, level.topology(), levels);
   SparseMatrix P(num_vertices, num_vertices);
   P.setIdentity();
   for (int k = 0; k < levels; ++k) {
-    level = next_level(*scheme, level);
+    level = next_level(scheme, level);
     k == 0 ? P.swap(level.S) : product(level.S, P).swap(P);
   }
   const Topology& t = level.topology();

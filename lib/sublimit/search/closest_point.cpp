@@ -9,6 +9,7 @@
 
 #include "sublimit/base/error.h"
 #include "sublimit/base/parallel_for.h"
+#include "sublimit/core/finite_points.h"
 #include "sublimit/limit/limit_cells.h"
 #include "sublimit/search/box_tree.h"
 #include "sublimit/search/distance_bound.h"
@@ -162,12 +163,7 @@ void check(const SearchedSurface& surface, const Points& queries, const ClosestP
   if (!(options.radius >= 0)) throw InvalidParameter("a radius is not below 0, and a number");
   if (queries.cols() != 3)
     throw InvalidParameter("points to project have " + std::to_string(queries.cols()) + " coordinates, not 3");
-  for (Eigen::Index i = 0; i < queries.rows(); ++i) {
-    const double largest = queries.row(i).cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
-    if (largest <= farthest_coordinate) continue;
-    throw InvalidParameter("point " + std::to_string(i) + " to project " +
-                           (std::isfinite(largest) ? "has a coordinate above 1e150 in size" : "is not finite"));
-  }
+  check_measurable(queries, "point to project");
   if (!guess.empty() && guess.size() != size_t(queries.rows()))
     throw InvalidParameter(std::to_string(guess.size()) + " places to begin with for " +
                            std::to_string(queries.rows()) + " points; one each, or none");

@@ -25,7 +25,7 @@
 
 namespace sublimit {
 
-struct ClosestPoints {
+struct [[nodiscard]] ClosestPoints {
   /// Rows of query i are [first[i], first[i + 1]), the nearest first: one each, unless `count` or `radius` was given.
   std::vector<std::int64_t> first;
   std::vector<Sample> places;

@@ -14,13 +14,14 @@
 
 namespace sublimit {
 
-struct ProvedDistance {
+struct [[nodiscard]] ProvedDistance {
   double lower = 0;              ///< no point of the surface is nearer; 0: nothing is proved
   std::optional<Sample> closer;  ///< a place that is nearer than was said; `lower` is what had been proved by then
 };
 
 class DistanceBound {
  public:
+  /// @param surface  which may go; what a `SearchedLimit` is of has to stay
   explicit DistanceBound(const SearchedSurface& surface) : parts_(surface) {}
 
   /// @param distance  of the nearest point that is known

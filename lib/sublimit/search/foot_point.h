@@ -22,6 +22,7 @@ class FootSearch {
   /// @param size       of the surface: steps of 1e-14 of it are none
   FootSearch(const BoundSource& surface, bool triangles, double size)
       : surface_(surface), triangles_(triangles), tiny_(1e-14 * size) {}
+  FootSearch(const BoundSource&&, bool, double) = delete;
 
   /// @param domain   where to look, `start` in it
   /// @param order    of derivatives that the surface has, 2 or 1; set to 1 if it turns out so

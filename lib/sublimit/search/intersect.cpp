@@ -3,6 +3,7 @@
 
 #include <tbb/enumerable_thread_specific.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <string>
@@ -10,6 +11,7 @@
 
 #include "sublimit/base/error.h"
 #include "sublimit/base/parallel_for.h"
+#include "sublimit/core/finite_points.h"
 #include "sublimit/search/closest_point.h"
 #include "sublimit/search/surface_parts.h"
 #include "sublimit/base/format_number.h"
@@ -30,6 +32,7 @@ void place_on_rays(const SearchedSurface& surface, const std::vector<Ray>& rays,
   for (size_t i = 0; i < rays.size(); ++i)
     for (std::int64_t k = hits.first[i]; k < hits.first[i + 1]; ++k) {
       on_rays.row(k) = rays[i].origin + hits.t[size_t(k)] * rays[i].direction;
+      if (hits.kinds[size_t(k)] == HitKind::given_up) continue;
       const double allowed = 10 * (same_hit * parts.size() + 8 * parts.rounding(rays[i].origin));
       if (!((samples.position.row(k) - on_rays.row(k)).norm() <= allowed)) off.push_back(k);
     }
@@ -41,6 +44,16 @@ void place_on_rays(const SearchedSurface& surface, const std::vector<Ray>& rays,
   hits.points.swap(samples.position);
   hits.normals.swap(samples.normal);
   hits.status = std::move(samples.status);
+  for (size_t k = 0; k < hits.kinds.size(); ++k) {
+    if (hits.kinds[k] != HitKind::given_up) continue;
+    hits.points.row(Eigen::Index(k)) = on_rays.row(Eigen::Index(k));
+    hits.normals.row(Eigen::Index(k)).setZero();
+    hits.status[k] = LimitStatus::outside;
+  }
+}
+
+std::int64_t not_crossing(const std::vector<Tracer::Hit>& hits) {
+  return std::ranges::count_if(hits, [](const Tracer::Hit& hit) { return hit.kind != HitKind::crossing; });
 }
 
 void check(const Ray& ray, const std::string& which) {
@@ -64,6 +77,22 @@ void check_has_parts(const SearchedSurface& surface) {
 
 }  // namespace
 
+const char* name(HitKind kind) {
+  switch (kind) {
+    case HitKind::crossing:
+      return "crossing";
+    case HitKind::touching:
+      return "touching";
+    default:
+      return "given-up";
+  }
+}
+
+const char* RayHits::word(std::int64_t hit) const {
+  const HitKind kind = kinds[size_t(hit)];
+  return kind == HitKind::crossing ? name(status[size_t(hit)]) : name(kind);
+}
+
 RayHits intersect(const LimitSurface& surface, const Points& points, const std::vector<Ray>& rays,
                   const RayOptions& options) {
   return intersect(SearchedLimit(surface, points), rays, options);
@@ -72,7 +101,7 @@ RayHits intersect(const LimitSurface& surface, const Points& points, const std::
 RayHits intersect(const SearchedSurface& surface, const std::vector<Ray>& rays, const RayOptions& options) {
   check(rays);
   check_has_parts(surface);
-  const SurfaceParts parts(surface);
+  const SurfaceParts parts(surface, PartBoxes::for_rays);
   std::vector<std::vector<Tracer::Hit>> found(rays.size());
   RayHits result;
   result.undecided.resize(rays.size());
@@ -80,13 +109,17 @@ RayHits intersect(const SearchedSurface& surface, const std::vector<Ray>& rays, 
       std::ssize(rays),
       [&](std::int64_t, std::int64_t begin, std::int64_t end) {
         Tracer trace(parts, options);
-        for (auto i = size_t(begin); i < size_t(end); ++i) found[i] = trace(rays[i], result.undecided[i]);
+        for (auto i = size_t(begin); i < size_t(end); ++i) {
+          found[i] = trace(rays[i]);
+          result.undecided[i] = not_crossing(found[i]);
+        }
       },
       64);
   result.first = {0};
   for (const std::vector<Tracer::Hit>& hits : found) {
     for (const Tracer::Hit& hit : hits) {
       result.t.push_back(hit.t);
+      result.kinds.push_back(hit.kind);
       result.places.push_back(hit.place);
     }
     result.first.push_back(std::ssize(result.t));
@@ -106,7 +139,7 @@ RayTracer::RayTracer(const LimitSurface& surface, const Points& points) : RayTra
 
 RayTracer::RayTracer(const SearchedSurface& surface) {
   check_has_parts(surface);
-  prepared_.reset(new Prepared{.parts = SurfaceParts(surface),
+  prepared_.reset(new Prepared{.parts = SurfaceParts(surface, PartBoxes::for_rays),
                                .first = std::vector<std::int64_t>(size_t(surface.faces().size) + 1)});
   std::vector<std::int64_t>& first = prepared_->first;
   for (const SurfacePart& part : prepared_->parts.parts()) ++first[size_t(part.address) + 1];
@@ -126,13 +159,12 @@ std::vector<RayHit> RayTracer::trace(const Ray& ray, const RayOptions& options, 
     throw InvalidParameter("address " + std::to_string(*address) + " of " + std::to_string(addresses));
   Tracer& trace = prepared_->tracers.local();
   trace.set(options);
-  std::int64_t not_decided = 0;
   const std::vector<Tracer::Hit> found =
-      address ? trace(ray, first[size_t(*address)], first[size_t(*address) + 1], not_decided) : trace(ray, not_decided);
-  if (undecided) *undecided = not_decided;
+      address ? trace(ray, first[size_t(*address)], first[size_t(*address) + 1]) : trace(ray);
+  if (undecided) *undecided = not_crossing(found);
   std::vector<RayHit> hits;
   hits.reserve(found.size());
-  for (const Tracer::Hit& hit : found) hits.push_back({hit.t, hit.place});
+  for (const Tracer::Hit& hit : found) hits.push_back({hit.t, hit.place, hit.kind});
   return hits;
 }
 

@@ -5,9 +5,14 @@
 // Seen along the ray a polynomial part is a map to the plane across it, and hits are its zeros, of a rational part
 // those of its numerators. A part whose Bernstein coefficients are all on one side of a line through the ray has none.
 // Where intervals of its derivatives show that the map is one to one (its Jacobian, times the inverse of one in the
-// middle, is near the identity), steps by that inverse come to the one zero, or to a side that it is beyond. Other
-// parts are cut in quarters; those towards extraordinary vertices are replaced by their children, until they are
-// points. Zeros on a side are found from every part there and count once.
+// middle, is near the identity), steps by that inverse come to the one zero, or to a side that it is beyond. A side
+// that is a point on the ray, as poles and apexes are, is the one zero of a part that leads away from it. Other parts
+// are cut in quarters; those towards extraordinary vertices are replaced by their children, until they are points.
+// Zeros on a side are found from every part there and count once.
+//
+// Pieces without polynomials are seen as limits on a grid: how far they go, and how much their Jacobian varies, between
+// these is estimated. Steps by exact limits lead to zeros, as near as elsewhere; that there are no others rests on the
+// estimates.
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -23,25 +28,42 @@ struct Ray {
   double tmin = 0, tmax = std::numeric_limits<double>::infinity();  ///< of origin + t direction
 };
 
-struct RayHits {
+/// What a ray does at a hit.
+enum class HitKind : std::uint8_t {
+  crossing,  ///< it goes from one side of the surface to the other
+  /// It is as near as numbers go without being seen to cross: it touches the surface or runs within it, or meets an
+  /// edge or a vertex, or two sheets at once, that it sees from both sides.
+  touching,
+  given_up,  ///< no hit: the search stopped here, and what the ray meets from this t on may not be all
+};
+/// `crossing`, `touching`, `given-up`.
+const char* name(HitKind kind);
+
+struct [[nodiscard]] RayHits {
   std::vector<std::int64_t> first;  ///< hits of ray i are [first[i], first[i + 1]), by rising t
   std::vector<double> t;
+  std::vector<HitKind> kinds;
   std::vector<Sample> places;
-  Points points, normals;  ///< of the surface there, #hits x 3; normals zero where undefined
-  std::vector<LimitStatus> status;
-  /// Not decided: parts that a ray touches, or extraordinary vertices that it meets, which were cut to points: together
-  /// they count as one hit, whose t is off by up to the root of a rounding; and parts that were left after
-  /// `RayOptions::most_parts`, which do not count. A ray within the surface has one hit, where it comes to it.
-  std::vector<std::int64_t> undecided;  ///< how many, by ray
+  /// Of the surface there, #hits x 3; normals zero where undefined. Where a ray was given up: the point of the ray.
+  Points points, normals;
+  std::vector<LimitStatus> status;  ///< `outside` where a ray was given up
+  /// The word of a hit, as files have it: of its kind, or of its status where the ray crosses.
+  const char* word(std::int64_t hit) const;
+  /// How many hits of a ray are no crossings. A touching hit has a t that is off by up to the root of a rounding; a ray
+  /// within the surface has one, where it comes to it. At most one of a ray is given up, the first one.
+  std::vector<std::int64_t> undecided;  ///< by ray
 };
 
 struct RayOptions {
-  bool all = false;        ///< all hits, not only the nearest
-  int most_parts = 20000;  ///< to look at for one ray
+  bool all = false;  ///< all hits, not only the nearest
+  /// To look at within one part of the surface that a ray may meet, and sixteen times as many of all of them. A ray
+  /// that needs more is given up there: it has a hit that says so, and those found elsewhere.
+  int most_parts = 8000;
 };
 
-/// Holes left out. Equal input, equal answer, whatever the number of threads. Where hulls are estimates
-/// (`SurfaceParts::are_certain`), as of schemes without polynomials, a hit may be missed that they do not hold.
+/// Holes left out. Equal input, equal answer, whatever the number of threads. Where a ray is not given up, no hit is
+/// missed, but where hulls are estimates (`SurfaceParts::are_certain`), as of schemes without polynomials: there every
+/// hit is one, and one may be missed that the estimates do not hold.
 /// @throws InvalidParameter     a ray that is not finite, has no direction, or ends before it begins: says which
 /// @throws UnsupportedTopology  a face that has no parts (`SearchedSurface::without_parts`)
 RayHits intersect(const SearchedSurface& surface, const std::vector<Ray>& rays, const RayOptions& options = {});
@@ -53,6 +75,7 @@ RayHits intersect(const LimitSurface& surface, const Points& points, const std::
 struct RayHit {
   double t = 0;
   Sample place;
+  HitKind kind = HitKind::crossing;
 };
 
 /// A surface made ready for single rays, as a renderer traces them, whose own tree may say which addresses a ray can
@@ -66,6 +89,7 @@ class RayTracer {
   /// @param points   of its level, #V x 3
   /// @throws InvalidParameter  points that do not fit
   RayTracer(const LimitSurface& surface, const Points& points);
+  RayTracer(const LimitSurface&&, const Points&) = delete;
   RayTracer(RayTracer&&) noexcept;
   RayTracer& operator=(RayTracer&&) noexcept;
   ~RayTracer();

@@ -8,6 +8,7 @@
 #include "sublimit/base/error.h"
 #include "sublimit/base/parallel_for.h"
 #include "sublimit/core/binomial.h"
+#include "sublimit/core/finite_points.h"
 #include "sublimit/limit/hull_cell.h"
 #include "sublimit/patches/joins/patch_seams.h"
 
@@ -74,7 +75,7 @@ SearchedPatches::SearchedPatches(const PatchSet& patches, const Points& columns)
       parts_(size_t(patches.faces().size)),
       sampled_(parts_.size()) {
   check_columns(columns, patches.num_points(), patches.coordinates());
-  if (!columns.allFinite()) throw InvalidParameter("control points to search are not finite");
+  check_measurable_control(columns);
   std::vector<std::string> without(parts_.size());
   parallel_for_blocks(
       faces().size,

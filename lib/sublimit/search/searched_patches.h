@@ -15,6 +15,7 @@ class SearchedPatches : public SearchedSurface {
   /// @param columns  of the set
   /// @throws InvalidParameter  columns of another size, or not finite
   SearchedPatches(const PatchSet& patches, const Points& columns);
+  SearchedPatches(const PatchSet&&, const Points&) = delete;
   FaceCount faces() const override { return patches_.faces(); }
   const BoundSource& samples() const override { return *samples_; }
   std::vector<LimitCell> cells() const override;

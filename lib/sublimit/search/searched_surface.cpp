@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sublimit/search/searched_surface.h"
 
+#include "sublimit/core/finite_points.h"
 #include "sublimit/limit/closed_surface.h"
 
 namespace sublimit {
@@ -12,11 +13,16 @@ int levels_of(const AddressPieces& pieces, Index addresses) {
   return pieces.has_no_polynomials() ? 1 : addresses < many ? 5 : 2;
 }
 
+const Points& measurable(const Points& points) {
+  check_measurable_control(points);
+  return points;
+}
+
 }  // namespace
 
 SearchedLimit::SearchedLimit(const LimitSurface& surface, const Points& points)
     : surface_(surface),
-      points_(points),
+      points_(measurable(points)),
       pieces_(surface, points_),
       samples_(surface, points_),
       levels_(levels_of(pieces_, surface.addresses().size())) {}

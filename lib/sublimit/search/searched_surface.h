@@ -42,6 +42,7 @@ class SearchedLimit : public SearchedSurface {
   /// @param points   of its level, #V x 3
   /// @throws InvalidParameter  points that do not fit
   SearchedLimit(const LimitSurface& surface, const Points& points);
+  SearchedLimit(const LimitSurface&&, const Points&) = delete;
   FaceCount faces() const override { return surface_.faces(); }
   const BoundSource& samples() const override { return samples_; }
   std::vector<LimitCell> cells() const override { return limit_cells(surface_, points_); }

@@ -3,6 +3,9 @@
 // A part of a surface as a ray sees it: a map to the plane across the ray, whose zeros are hits.
 #include <Eigen/Dense>
 
+#include <optional>
+#include <span>
+
 #include "sublimit/limit/piece_parts.h"
 
 namespace sublimit {
@@ -20,28 +23,62 @@ struct RayFrame {
   Points seen(const Points& net) const;
 };
 
+/// Where a part is hit, if that is one place at most.
+struct SeenZero {
+  enum class Kind { none, one, unknown } kind;
+  Eigen::Vector2d uv = Eigen::Vector2d::Zero();
+  double s = 0;      ///< distance along the ray
+  double reach = 0;  ///< how far off that may be
+  int side = 0;      ///< of the surface that the ray sees: 1 or -1; 0 where that turns over
+};
+
+/// A stretch of the ray along which a part is as near to it as counts as a hit.
+struct SeenStrip {
+  double low = 0, high = 0;  ///< distances along the ray
+  Eigen::Vector2d uv = Eigen::Vector2d::Zero();
+};
+
+/// A point of the part's domain, the square or the triangle.
+Eigen::Vector2d nearest_inside(const Eigen::Vector2d& p, bool triangle);
+
+/// No line through the ray has all of these points on one side, of a few directions of lines.
+/// @param points  seen along the ray: x, y, s and, of rational ones, a positive weight
+bool can_be_hit(const Points& points, double slack);
+
+/// The stretch that points span which all lie in a strip along the ray, as wide as counts as a hit, if they reach over
+/// the ray; else nothing.
+/// @param corners  rows of points that are on the surface
+/// @param within   how far from the points the surface may be
+std::optional<SeenStrip> strip_of(const Points& points, std::span<const Eigen::Index> corners, double within,
+                                  double slack);
+
 class SeenNet {
  public:
-  /// @param net  seen along a ray
+  /// @param basis  which must stay
+  /// @param net    seen along a ray
   SeenNet(const PolynomialBasis& basis, Points net) : basis_(basis), net_(std::move(net)) {}
+  SeenNet(const PolynomialBasis&&, Points) = delete;
 
   /// No line through the ray has all of it on one side.
   /// @param slack  how far off counts as a hit
-  bool can_be_hit(double slack) const;
-
-  struct Zero {
-    enum class Kind { none, one, unknown } kind;
-    Eigen::Vector2d uv = Eigen::Vector2d::Zero();
-    double s = 0;      ///< distance along the ray
-    double reach = 0;  ///< how far off that may be
-  };
+  bool can_be_hit(double slack) const { return sublimit::can_be_hit(net_, slack); }
   /// Of the part of a convex domain, the square or the triangle: where it is hit, if that is one place at most.
   /// @param slack  how far off counts as a hit
-  Zero zero(double slack) const;
+  SeenZero zero(double slack) const;
+
+  /// A side on the ray: a point, as poles and apexes are, or a line.
+  struct Side {
+    SeenStrip strip;
+    double reach = 0;  ///< how far off the distances may be
+    int side = 0;      ///< as of zeros, next to a point
+  };
+  /// A side on the ray if all else of the part leads away from it: the map is a power of the distance from the side,
+  /// times a net that is on one side of the ray.
+  std::optional<Side> side_on_ray(double slack) const;
+  std::optional<SeenStrip> strip(double slack) const;
 
  private:
   bool is_rational() const { return net_.cols() == 4; }
-  Eigen::Vector2d nearest_inside(const Eigen::Vector2d& p) const;
 
   const PolynomialBasis& basis_;
   Points net_;

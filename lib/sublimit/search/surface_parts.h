@@ -5,26 +5,41 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <array>
+#include <memory>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "sublimit/limit/piece_parts.h"
 #include "sublimit/search/box_tree.h"
+#include "sublimit/search/piece_limits.h"
 #include "sublimit/search/searched_surface.h"
 
 namespace sublimit {
-
-/// Of points and rays: squares of distances are still numbers.
-inline constexpr double farthest_coordinate = 1e150;
 
 /// A part of an address.
 struct SurfacePart {
   Index address = 0;
   PiecePart part;
   bool placed = true;  ///< its corners are known: not next to the border of a dual scheme
+  /// (u, v) of the corners of a triangle that comes from no quarters, as of schemes that turn: these are not `placed`.
+  std::optional<std::array<Eigen::Vector2d, 3>> turned;
 };
+
+/// (u, v) of the corners of a child of a triangle, by those of the triangle.
+std::array<Eigen::Vector2d, 3> child_triangle(const std::array<Eigen::Vector2d, 3>& corners, const PieceMap& map);
+/// (u, v) of the corners of a triangular part.
+std::array<Eigen::Vector2d, 3> triangle_of(const SurfacePart& part);
 
 /// A box that holds a part: the hull of its coefficients, or of its points, widened by their reach.
 Eigen::AlignedBox3d box_of(const PiecePart& part);
+/// The same for rays: of a part whose weights may be negative a box of its limits, widened by what is estimated between
+/// them; of one that diverges, of its points.
+/// @param limits  of a part without polynomials
+Eigen::AlignedBox3d ray_box_of(const PiecePart& part, const Points& limits);
+/// A part of a scheme without polynomials: what is known of it comes from its limits.
+inline bool is_limit_alone(const PiecePart& part) { return !part.basis && part.type->types().has_no_polynomials(); }
 
 /// The quarters of a polynomial or rational part, or the children of another.
 /// @param cutter  of the calling thread
@@ -36,16 +51,22 @@ void for_each_child(const SurfacePart& whole, PieceParts& cutter, const Visit& v
       const std::optional<CellCorners> own = child_of(part.corners, link.map, part.is_triangle());
       std::vector<PiecePart> found;
       cutter.find(*link.type, child_points(link, part.points), own.value_or(part.corners), 0, found);
-      for (PiecePart& child : found) visit(SurfacePart{whole.address, std::move(child), whole.placed && own});
+      std::optional<std::array<Eigen::Vector2d, 3>> turned;
+      if (link.map.is_triangle && (whole.turned || !own)) turned = child_triangle(triangle_of(whole), link.map);
+      for (PiecePart& child : found) visit(SurfacePart{whole.address, std::move(child), whole.placed && own, turned});
     }
     return;
   }
-  for (int k = 0; k < 4; ++k) visit(SurfacePart{whole.address, cutter.quarter(part, k), whole.placed});
+  for (int k = 0; k < 4; ++k) visit(SurfacePart{whole.address, cutter.quarter(part, k), whole.placed, {}});
 }
+
+/// `box_of`, or `ray_box_of`.
+enum class PartBoxes { for_distances, for_rays };
 
 class SurfaceParts {
  public:
-  explicit SurfaceParts(const SearchedSurface& surface);
+  /// @param surface  which may go; what a `SearchedLimit` is of has to stay
+  explicit SurfaceParts(const SearchedSurface& surface, PartBoxes boxes = PartBoxes::for_distances);
   const std::vector<SurfacePart>& parts() const { return parts_; }
   /// Of their boxes; empty where there is no surface.
   const BoxTree& tree() const { return tree_; }
@@ -59,10 +80,13 @@ class SurfaceParts {
   /// There are parts of all faces, and hulls hold what they say: no weight that a part's own points have is negative,
   /// which makes them estimates.
   bool are_certain() const { return certain_; }
+  /// Of pieces that are no polynomials, once a type.
+  const PieceLimits& limits() const { return *limits_; }
 
  private:
   std::vector<SurfacePart> parts_;
   BoxTree tree_;
+  std::unique_ptr<const PieceLimits> limits_ = std::make_unique<PieceLimits>();
   double largest_ = 0;  // coordinate
   bool certain_ = true;
 };

@@ -3,8 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <tuple>
 #include <utility>
+
+#include "sublimit/search/seen_limit.h"
 
 namespace sublimit {
 namespace {
@@ -33,24 +36,17 @@ std::optional<Extent> along(const Eigen::AlignedBox3d& box, const Ray& ray, doub
 
 }  // namespace
 
-std::vector<Tracer::Hit> Tracer::operator()(const Ray& ray, std::int64_t& undecided) {
+std::vector<Tracer::Hit> Tracer::operator()(const Ray& ray) {
   begin(ray);
   const std::vector<BoxTree::Node>& nodes = parts_.tree().nodes();
   if (!nodes.empty()) push(nodes[0].box, 0, 0);
-  return look(undecided);
+  return look();
 }
 
-std::vector<Tracer::Hit> Tracer::operator()(const Ray& ray, std::int64_t first, std::int64_t last,
-                                            std::int64_t& undecided) {
+std::vector<Tracer::Hit> Tracer::operator()(const Ray& ray, std::int64_t first, std::int64_t last) {
   begin(ray);
-  for (std::int64_t i = first; i < last; ++i) {
-    const SurfacePart& part = parts_.parts()[size_t(i)];
-    const Eigen::AlignedBox3d box = box_of(part.part);
-    if (!along(box, ray, slack_)) continue;
-    cells_.push_back(part);
-    push(box, -1, std::ssize(cells_) - 1);
-  }
-  return look(undecided);
+  for (std::int64_t i = first; i < last; ++i) push_whole(parts_.parts()[size_t(i)]);
+  return look();
 }
 
 void Tracer::begin(const Ray& ray) {
@@ -58,13 +54,15 @@ void Tracer::begin(const Ray& ray) {
   frame_.emplace(ray.origin, ray.direction);
   slack_ = same_hit * parts_.size() + 8 * parts_.rounding(ray.origin);
   hits_.clear();
+  given_up_.reset();
   heap_.clear();
   cells_.clear();
-  undecided_ = 0;
+  wholes_.clear();
   nearest_ = ray.tmax;
+  within_to_ = -INFINITY;
 }
 
-std::vector<Tracer::Hit> Tracer::look(std::int64_t& undecided) {
+std::vector<Tracer::Hit> Tracer::look() {
   const std::vector<BoxTree::Node>& nodes = parts_.tree().nodes();
   for (int looked = 0; !heap_.empty();) {
     std::pop_heap(heap_.begin(), heap_.end());
@@ -73,23 +71,21 @@ std::vector<Tracer::Hit> Tracer::look(std::int64_t& undecided) {
     if (!options_.all && first.t > nearest_) break;
     if (first.node >= 0) {
       const BoxTree::Node& node = nodes[size_t(first.node)];
-      if (node.item >= 0) {
-        cells_.push_back(parts_.parts()[size_t(node.item)]);
-        heap_.push_back({first.t, -1, std::ssize(cells_) - 1});
-        std::push_heap(heap_.begin(), heap_.end());
-      } else {
+      if (node.item >= 0)
+        push_whole(parts_.parts()[size_t(node.item)]);
+      else
         for (const Index child : {node.first_child, node.first_child + 1}) push(nodes[size_t(child)].box, child, child);
-      }
       continue;
     }
-    const SurfacePart part = std::move(cells_[size_t(first.number)]);
-    if (++looked > options_.most_parts) {
-      undecided_ += 1 + std::ssize(heap_);
-      break;
-    }
-    look_at(part);
+    Cell cell = std::move(cells_[size_t(first.number)]);
+    Whole& whole = wholes_[cell.whole];
+    if (whole.is_given_up) continue;
+    constexpr int wholes_a_ray = 16;
+    if (++whole.looked > options_.most_parts || ++looked > std::int64_t(wholes_a_ray) * options_.most_parts)
+      give_up(cell, first.t);
+    else
+      look_at(std::move(cell));
   }
-  undecided += undecided_;
   return merged();
 }
 
@@ -100,50 +96,175 @@ void Tracer::push(const Eigen::AlignedBox3d& box, Index node, std::int64_t numbe
   std::push_heap(heap_.begin(), heap_.end());
 }
 
-void Tracer::look_at(const SurfacePart& cell) {
-  const PiecePart& part = cell.part;
-  const double slack = slack_;
-  bool known = part.basis.has_value();
+void Tracer::push_whole(const SurfacePart& part) {
+  wholes_.emplace_back();
+  push_cell(SurfacePart(part), wholes_.size() - 1, 0);
+}
+
+void Tracer::push_cell(SurfacePart&& part, size_t whole, int side) {
+  Cell cell{std::move(part), {}, {}, whole, side};
+  const PiecePart& piece = cell.part.part;
+  if (is_limit_alone(piece)) {
+    cell.limits = parts_.limits().at(*piece.type, piece.points);
+    cell.box = ray_box_of(piece, cell.limits);
+  } else {
+    cell.box = box_of(piece);
+  }
+  const Eigen::AlignedBox3d box = cell.box;
+  if (!along(box, *ray_, slack_)) return;
+  cells_.push_back(std::move(cell));
+  push(box, -1, std::ssize(cells_) - 1);
+}
+
+void Tracer::look_at(Cell&& cell) {
+  const PiecePart& part = cell.part.part;
+  const bool decided = part.basis             ? decides_nets(cell)
+                       : is_limit_alone(part) ? decides_limits(cell)
+                                              : decides_points(cell);
+  if (decided) return;
+  const double diagonal = cell.box.diagonal().norm();
+  if (diagonal <= slack_ / 32) {  // well below what counts as on the ray
+    add_smallest(cell);
+    return;
+  }
+  const bool has_digits = diagonal >= 1e-6 * parts_.size() + 1000 * parts_.rounding(ray_->origin);
+  const int side = part.basis ? 0 : has_digits ? seen_side(cell) : cell.side;
+  for_each_child(cell.part, cutter_, [&](SurfacePart&& child) { push_cell(std::move(child), cell.whole, side); });
+}
+
+bool Tracer::decides_nets(const Cell& cell) {
+  const PiecePart& part = cell.part.part;
+  bool all = true;
   for (size_t half = 0; half < part.nets.size(); ++half) {
     const SeenNet net(*part.basis, frame_->seen(part.nets[half]));
-    if (!net.can_be_hit(slack)) continue;
-    const SeenNet::Zero zero = net.zero(slack);
+    if (!net.can_be_hit(slack_)) continue;
+    const SeenZero zero = net.zero(slack_);
     const Eigen::Vector2d& uv = zero.uv;
-    if (zero.kind == SeenNet::Zero::Kind::unknown) {
-      known = false;
-      break;
-    }
     // Of a part that is cut along u = v each polynomial has its side.
     const bool own =
         part.nets.size() == 1 || (half == 0 ? uv.x() >= uv.y() - beyond_part : uv.y() >= uv.x() - beyond_part);
-    if (zero.kind == SeenNet::Zero::Kind::one && own) add(cell, uv, zero.s, zero.reach);
+    if (zero.kind == SeenZero::Kind::one && own) add(cell, uv, zero.s, zero.reach, zero.side);
+    if (zero.kind != SeenZero::Kind::unknown) continue;
+    bool decided = false;
+    if (part.nets.size() == 1)
+      if (const std::optional<SeenNet::Side> side = net.side_on_ray(slack_))
+        decided = adds_strip(cell, side->strip, side->reach, side->side);
+    if (!decided)
+      if (const std::optional<SeenStrip> strip = net.strip(slack_)) decided = adds_strip(cell, *strip, 0, 0);
+    all = all && decided;
   }
-  if (known) return;
-  const Eigen::AlignedBox3d box = box_of(part);
-  if (box.diagonal().norm() <= slack) {
-    ++undecided_;
-    const Points middle = frame_->seen(box.center().transpose());
-    // Where a ray touches, the surface is as near as that for the root of it.
-    if (middle.leftCols(2).norm() <= 2 * slack) add(cell, {0.25, 0.25}, middle(0, 2), std::sqrt(slack * parts_.size()));
-    return;
-  }
-  for_each_child(cell, cutter_, [&](SurfacePart&& child) {
-    cells_.push_back(std::move(child));
-    push(box_of(cells_.back().part), -1, std::ssize(cells_) - 1);
-  });
+  return all;
 }
 
-void Tracer::add(const SurfacePart& cell, const Eigen::Vector2d& uv, double s, double reach) {
-  const bool triangle = cell.part.is_triangle();
-  const auto [u, v] = at_place(cell.part.corners, triangle, uv.x(), uv.y());
-  const double t = s / frame_->length;
-  if (!(t >= ray_->tmin && t <= ray_->tmax)) return;
+bool Tracer::decides_limits(const Cell& cell) {
+  const PiecePart& part = cell.part.part;
+  if (cell.limits.rows() == 0) {  // what diverges is no surface, and not known to be none
+    give_up(cell, std::max(ray_->tmin, along(cell.box, *ray_, slack_)->low));
+    return true;
+  }
+  if (part.type->reach() == 0 && !can_be_hit(frame_->seen(part.points), slack_)) return true;
+  const SeenLimit seen(PieceGrid{part.is_triangle()}, frame_->seen(cell.limits));
+  if (!seen.can_be_hit(slack_)) return true;
+  const Points differences = part.points.bottomRows(part.points.rows() - 1).rowwise() - part.points.row(0);
+  const SeenZero zero = seen.zero(slack_, [&](const Eigen::Vector2d& p) -> Eigen::Vector3d {
+    const Place place = part.is_triangle() ? triangle_place(p.x(), p.y()) : quad_place(p.x(), p.y());
+    const Points x = piece_rows(*part.type, place, 0).rows.topRows(1) * differences + part.points.topRows(1);
+    return frame_->seen(x).row(0).transpose();
+  });
+  if (zero.kind == SeenZero::Kind::one) add(cell, zero.uv, zero.s, zero.reach, zero.side);
+  if (zero.kind != SeenZero::Kind::unknown) return true;
+  const std::optional<SeenStrip> strip = seen.strip(slack_);
+  return strip && adds_strip(cell, *strip, 0, 0);
+}
+
+bool Tracer::decides_points(const Cell& cell) {
+  const PiecePart& part = cell.part.part;
+  const Points seen = frame_->seen(part.points);
+  const double reach = part.type->reach() * cell.box.diagonal().norm();
+  if (!can_be_hit(seen, slack_ + reach)) return true;
+  const Points corners = seen_corners(cell);
+  Points all(corners.rows() + seen.rows(), 3);
+  all << corners, seen;
+  constexpr std::array<Eigen::Index, 4> rows{0, 1, 2, 3};
+  const std::optional<SeenStrip> strip = strip_of(all, std::span(rows).first(size_t(corners.rows())), reach, slack_);
+  return strip && adds_strip(cell, *strip, 0, 0);
+}
+
+void Tracer::add_smallest(const Cell& cell) {
+  const PiecePart& part = cell.part.part;
+  const Points seen = part.basis ? frame_->seen(cell.box.center().transpose()) : seen_corners(cell);
+  Eigen::Index nearest = 0;
+  if (!(seen.leftCols(2).rowwise().norm().minCoeff(&nearest) <= 2 * slack_)) return;
+  const CellCorner corner =
+      part.is_triangle() ? triangle_corners[size_t(nearest) % 3] : square_corners[size_t(nearest)];
+  const Eigen::Vector2d uv = part.basis
+                                 ? (part.is_triangle() ? Eigen::Vector2d(1. / 3, 1. / 3) : Eigen::Vector2d(0.5, 0.5))
+                                 : Eigen::Vector2d(corner.i, corner.j);
+  add(cell, uv, seen(nearest, 2), 2 * slack_, cell.side);
+}
+
+Points Tracer::seen_corners(const Cell& cell) const {
+  const PiecePart& part = cell.part.part;
+  const int count = part.is_triangle() ? 3 : 4;
+  Points corners(count, 3);
+  if (is_limit_alone(part)) {
+    const std::array<Eigen::Index, 4> rows = PieceGrid{part.is_triangle()}.corners();
+    for (int c = 0; c < count; ++c) corners.row(c) = cell.limits.row(rows[size_t(c)]);
+  } else {
+    const Points differences = part.points.bottomRows(part.points.rows() - 1).rowwise() - part.points.row(0);
+    for (int c = 0; c < count; ++c) corners.row(c) = part.type->corner_limit(c) * differences + part.points.row(0);
+  }
+  return frame_->seen(corners);
+}
+
+int Tracer::seen_side(const Cell& cell) const {
+  const Points x = seen_corners(cell);
+  double area = 0;
+  for (Eigen::Index k = 1; k + 1 < x.rows(); ++k)
+    area += (x(k, 0) - x(0, 0)) * (x(k + 1, 1) - x(0, 1)) - (x(k, 1) - x(0, 1)) * (x(k + 1, 0) - x(0, 0));
+  return area > 0 ? 1 : area < 0 ? -1 : 0;
+}
+
+bool Tracer::adds_strip(const Cell& cell, const SeenStrip& strip, double reach, int side) {
+  // Where a ray touches, the surface is as near as counts for the root of that.
+  const double short_enough = std::sqrt(slack_ * parts_.size()), length = frame_->length;
+  if (strip.high - strip.low > short_enough && !(strip.low / length <= within_to_ + apart())) return false;
+  if (side == 0) within_to_ = std::max(within_to_, strip.high / length);
+  add(cell, strip.uv, (strip.low + strip.high) / 2, reach + (strip.high - strip.low) / 2, side);
+  return true;
+}
+
+void Tracer::add(const Cell& cell, const Eigen::Vector2d& uv, double s, double reach, int side) {
+  const bool triangle = cell.part.part.is_triangle();
+  double u = 0, v = 0;
+  if (cell.part.turned) {
+    const std::array<Eigen::Vector2d, 3>& x = *cell.part.turned;
+    const Eigen::Vector2d at = x[0] + uv.x() * (x[1] - x[0]) + uv.y() * (x[2] - x[0]);
+    u = at.x(), v = at.y();
+  } else {
+    const std::array<double, 2> at = at_place(cell.part.part.corners, triangle, uv.x(), uv.y());
+    u = at[0], v = at[1];
+  }
+  double t = s / frame_->length;
   reach /= frame_->length;
-  hits_.push_back(
-      {t,
-       reach,
-       {cell.address, std::clamp(u, 0.0, 1.0), std::clamp(v, 0.0, triangle ? 1 - std::clamp(u, 0.0, 1.0) : 1.0)}});
+  if (side == 0) t = std::clamp(t, std::min(ray_->tmin, t + reach), std::max(ray_->tmax, t - reach));
+  if (!(t >= ray_->tmin && t <= ray_->tmax)) return;
+  u = std::clamp(u, 0.0, 1.0);
+  hits_.push_back({t,
+                   reach,
+                   side == 0 ? HitKind::touching : HitKind::crossing,
+                   side,
+                   {cell.part.address, u, std::clamp(v, 0.0, triangle ? 1 - u : 1.0)}});
   nearest_ = std::min(nearest_, t + 2 * reach + apart());  // what counts as the same hit has to be found too
+}
+
+void Tracer::give_up(const Cell& cell, double t) {
+  wholes_[cell.whole].is_given_up = true;
+  if (given_up_ && given_up_->t <= t) return;
+  const bool triangle = cell.part.part.is_triangle();
+  const double middle = triangle ? 1. / 3 : 0.5;
+  const auto [u, v] = at_place(cell.part.part.corners, triangle, middle, middle);
+  given_up_ = Hit{t, 0, HitKind::given_up, 0, {cell.part.address, u, v}};
 }
 
 std::vector<Tracer::Hit> Tracer::merged() {
@@ -155,13 +276,20 @@ std::vector<Tracer::Hit> Tracer::merged() {
   for (const Hit& hit : hits_) {
     if (!result.empty() && hit.t - hit.reach <= end) {
       Hit& best = result.back();
+      const int side = best.side == hit.side ? best.side : 0;
       if (hit.reach < best.reach / 2 || (hit.reach < 2 * best.reach && hit.place.face < best.place.face)) best = hit;
+      best.side = side;
+      best.kind = side == 0 ? HitKind::touching : HitKind::crossing;
       end = std::max(end, hit.t + hit.reach + apart());
       continue;
     }
     if (!options_.all && !result.empty()) break;
     result.push_back(hit);
     end = hit.t + hit.reach + apart();
+  }
+  if (given_up_) {
+    const auto later = std::ranges::find_if(result, [&](const Hit& hit) { return hit.t >= given_up_->t; });
+    result.insert(later, *given_up_);
   }
   return result;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 // One ray after the other through the parts of a surface.
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -20,17 +21,20 @@ class Tracer {
   struct Hit {
     double t = 0;
     double reach = 0;  ///< how far off t may be: much where the ray grazes the surface
+    HitKind kind = HitKind::crossing;
+    int side = 0;  ///< of the surface that the ray sees: 1, -1, or 0 where it turns over
     Sample place;
   };
 
+  /// @param parts  which must stay
   explicit Tracer(const SurfaceParts& parts, const RayOptions& options = {}) : parts_(parts), options_(options) {}
+  explicit Tracer(const SurfaceParts&&, const RayOptions& = {}) = delete;
   void set(const RayOptions& options) { options_ = options; }
 
   /// By rising t.
-  /// @param undecided  is counted up
-  std::vector<Hit> operator()(const Ray& ray, std::int64_t& undecided);
+  std::vector<Hit> operator()(const Ray& ray);
   /// Of the parts [first, last) alone.
-  std::vector<Hit> operator()(const Ray& ray, std::int64_t first, std::int64_t last, std::int64_t& undecided);
+  std::vector<Hit> operator()(const Ray& ray, std::int64_t first, std::int64_t last);
 
  private:
   struct Waiting {
@@ -39,13 +43,40 @@ class Tracer {
     std::int64_t number;
     friend bool operator<(const Waiting& a, const Waiting& b) { return a.t != b.t ? a.t > b.t : a.number > b.number; }
   };
+  struct Cell {
+    SurfacePart part;
+    Eigen::AlignedBox3d box;
+    Points limits;     ///< on a grid, of parts without polynomials
+    size_t whole = 0;  ///< the part of the surface that it comes from
+    int side = 0;      ///< that is seen of it, where its points still tell
+  };
+  /// A part of the surface: how many of its own parts have been looked at.
+  struct Whole {
+    int looked = 0;
+    bool is_given_up = false;
+  };
 
   void begin(const Ray& ray);
   /// At all that waits, nearest first.
-  std::vector<Hit> look(std::int64_t& undecided);
+  std::vector<Hit> look();
   void push(const Eigen::AlignedBox3d& box, Index node, std::int64_t number);
-  void look_at(const SurfacePart& cell);
-  void add(const SurfacePart& cell, const Eigen::Vector2d& uv, double s, double reach);
+  void push_whole(const SurfacePart& part);
+  void push_cell(SurfacePart&& part, size_t whole, int side);
+  void look_at(Cell&& cell);
+  /// Whether all of it is decided.
+  bool decides_nets(const Cell& cell);
+  bool decides_limits(const Cell& cell);
+  /// Of parts that become polynomials further on: limits of corners, then all points.
+  bool decides_points(const Cell& cell);
+  /// A part that is as small as numbers go.
+  void add_smallest(const Cell& cell);
+  /// Limits of the corners, counter-clockwise, seen along the ray.
+  Points seen_corners(const Cell& cell) const;
+  int seen_side(const Cell& cell) const;
+  /// Whether a strip is one hit: short, or going on where the ray was within the surface before.
+  bool adds_strip(const Cell& cell, const SeenStrip& strip, double reach, int side);
+  void add(const Cell& cell, const Eigen::Vector2d& uv, double s, double reach, int side);
+  void give_up(const Cell& cell, double t);
   /// Hits that are nearer to each other along the ray are one.
   double apart() const { return 100 * slack_ / frame_->length; }
   /// By t; what several parts have is one hit: the one that is known best, of the least face.
@@ -57,11 +88,13 @@ class Tracer {
   const Ray* ray_ = nullptr;
   std::optional<RayFrame> frame_;
   std::vector<Hit> hits_;
+  std::optional<Hit> given_up_;
   std::vector<Waiting> heap_;
-  std::vector<SurfacePart> cells_;
-  std::int64_t undecided_ = 0;
+  std::vector<Cell> cells_;
+  std::vector<Whole> wholes_;
   double nearest_ = 0;
-  double slack_ = 0;  // how far off a ray counts as a hit
+  double within_to_ = 0;  // t up to which the ray has been within the surface
+  double slack_ = 0;      // how far off a ray counts as a hit
 };
 
 }  // namespace sublimit

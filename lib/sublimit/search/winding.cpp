@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "sublimit/base/error.h"
+#include "sublimit/core/finite_points.h"
 #include "sublimit/search/intersect.h"
 
 namespace sublimit {
@@ -35,6 +36,7 @@ std::optional<int> windings(const RayHits& hits, size_t ray, const Eigen::Vector
 std::vector<int> winding_numbers(const SearchedSurface& surface, const Points& queries) {
   if (const std::string why = surface.why_not_closed(); !why.empty())
     throw UnsupportedTopology("what is inside is known of closed surfaces alone: " + why);
+  check_measurable(queries, "point to look from");
   std::vector<int> numbers(size_t(queries.rows()));
   std::vector<Eigen::Index> left(numbers.size());
   for (size_t i = 0; i < left.size(); ++i) left[i] = Eigen::Index(i);

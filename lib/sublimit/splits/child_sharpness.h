@@ -12,6 +12,6 @@ namespace sublimit {
 std::pair<float, float> sharpness_of_halves(const Sharpness& sharpness, const Topology& parent, Edge e);
 
 /// Sharpness of the child's edges and vertices; of other splits than primal ones only borders are sharp.
-Sharpness refine(const Sharpness& sharpness, const Topology& parent, const Refinement& refinement);
+[[nodiscard]] Sharpness refine(const Sharpness& sharpness, const Topology& parent, const Refinement& refinement);
 
 }  // namespace sublimit

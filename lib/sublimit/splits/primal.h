@@ -26,8 +26,10 @@ std::pair<HalfEdge, HalfEdge> ptq_halves(const Topology& parent, HalfEdge h);
 template <class First, class Second, class Inner>
 class PrimalHalves {
  public:
+  /// @param parent  which must stay
   PrimalHalves(const Topology& parent, First first, Second second, Inner inner)
       : t_(parent), first_(first), second_(second), inner_(inner) {}
+  PrimalHalves(const Topology&&, First, Second, Inner) = delete;
 
   /// Twins of the two children of every half-edge, in `twin`.
   void set_twins(Index h, UninitializedVector<Index>& twin) const {

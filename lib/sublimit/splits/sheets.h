@@ -20,6 +20,8 @@ Refinement refine_keep(const Topology& parent);
 
 class Sheets {
  public:
+  /// @param topology  which must stay
+  explicit Sheets(const Topology&& topology) = delete;
   explicit Sheets(const Topology& topology) : t_(topology) {
     const Index edges = t_.num_edges();
     cut_.assign(t_.num_half_edges(), -1);

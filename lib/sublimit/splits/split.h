@@ -27,7 +27,7 @@ const char* name(Split split);
 ///
 /// Dual splits (dqq, mid_edge, dual) and sqrt3 cut non-manifold edges into sheets: "border" below is a half-edge
 /// without twin.
-struct Refinement {
+struct [[nodiscard]] Refinement {
   /// corner: of a face, known by its half-edge; border: a point of a half-edge without twin.
   enum class Origin { vertex, face, edge, corner, border };
 

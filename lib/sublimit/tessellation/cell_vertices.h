@@ -11,6 +11,7 @@ class CellVertices {
  public:
   /// @param parts  which must stay
   explicit CellVertices(const LimitSurface::Parts& parts) : numbers_(parts) {}
+  explicit CellVertices(const LimitSurface::Parts&&) = delete;
 
   Index add(Index address, const CellCorner& c) {
     const Index number = numbers_.add(address, c);

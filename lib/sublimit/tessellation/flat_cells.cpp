@@ -14,6 +14,7 @@
 
 #include "sublimit/base/error.h"
 #include "sublimit/base/parallel_for.h"
+#include "sublimit/core/finite_points.h"
 #include "sublimit/limit/limit_patches.h"
 #include "sublimit/limit/limit_surface_parts.h"
 #include "sublimit/limit/net_derivatives.h"
@@ -230,6 +231,7 @@ class Cutter {
 }  // namespace
 
 std::vector<FlatCell> flat_cells(const LimitSurface& surface, const Points& points, const FlatCellOptions& options) {
+  check_measurable_control(points);
   const LimitSurface::Parts& parts = LimitPatches::parts_of(surface);
   if (!options.rates.empty()) check_edge_rates(parts.level.topology(), options.rates);
   // Differences alone count: about one of the points they keep their digits far from the origin.

@@ -24,7 +24,7 @@ struct TessellationOptions {
   std::vector<Index> rates = {};
 };
 
-struct Tessellation {
+struct [[nodiscard]] Tessellation {
   struct Triangle {
     Index face = 0;                           ///< square or triangle of the surface, as in `Sample`
     std::array<Index, 3> vertices;            ///< counter-clockwise

@@ -24,6 +24,7 @@ class TableOnGpus {
  public:
   /// @param table  which must stay
   explicit TableOnGpus(const PatternTable<Real>& table) : table_(table) {}
+  explicit TableOnGpus(const PatternTable<Real>&&) = delete;
   /// @throws InvalidOption  there is no such GPU, with what is missing and how to do without
   /// @throws ResourceError, IoError, InvalidParameter  as `GpuEvaluator`
   void apply(const Evaluation<Real>& evaluation, int gpu) const;

@@ -129,6 +129,15 @@ ControlMesh from_state(const py::tuple& state) {
   return mesh;
 }
 
+/// What a scheme accepts of a mesh but its user should know: of its file, tags that the scheme ignores, what is no
+/// manifold.
+std::vector<std::string> warnings(const ControlMesh& mesh, const MeshRequest& request) {
+  const MeshJob job = mesh_job(request, mesh, "mesh");
+  std::vector<std::string> all = job.mesh.warnings;
+  for (std::string& fault : faults(job.mesh)) all.push_back(std::move(fault));
+  return all;
+}
+
 /// The file with the tags that lie beside it.
 ControlMesh read(const std::filesystem::path& path) {
   ControlMesh mesh = read_mesh(path);
@@ -173,6 +182,7 @@ void add_meshes(py::module_& m) {
         return to_json(found, name).dump();
       },
       py::arg("mesh"), py::arg("request"), py::arg("name"), py::arg("limit"), long_call);
+  m.def("warnings", &warnings, py::arg("mesh"), py::arg("request"), long_call);
   m.def("read", &read, py::arg("path"), long_call);
 }
 

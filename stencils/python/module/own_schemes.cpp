@@ -4,8 +4,8 @@
 #include "own_schemes.h"
 
 #include <pybind11/stl.h>
+#include <tbb/task_arena.h>
 
-#include <cmath>
 #include <map>
 #include <mutex>
 #include <numeric>
@@ -16,6 +16,7 @@
 #include "module.h"
 #include "own_stencils.h"
 #include "sublimit/report/analysis/scheme_report.h"
+#include "sublimit/scheme/check_scheme.h"
 #include "sublimit/schemes.h"
 #include "sublimit/schemes/cubic_bspline_creases.h"
 
@@ -26,7 +27,8 @@ namespace {
 template <class T>
 class KnownStencils {
  public:
-  /// make() calls Python, one at a time: others wait here, without the GIL that it needs.
+  /// make() calls Python, one at a time: others wait here, without the GIL that it needs. What Python does is its own,
+  /// so the thread takes up no work of ours meanwhile, which might wait here too.
   template <class Make>
   Stencil<T> find(std::pair<std::string, std::vector<int>> type, const Make& make) {
     std::unique_lock lock(calling_, std::try_to_lock);
@@ -37,7 +39,7 @@ class KnownStencils {
     }
     const auto known = stencils_.find(type);
     if (known != stencils_.end()) return known->second;
-    Stencil<T> made = make();
+    Stencil<T> made = tbb::this_task_arena::isolate(make);
     return stencils_.emplace(std::move(type), std::move(made)).first->second;
   }
 
@@ -112,14 +114,6 @@ SiteType type_of(const CreaseEdgeSite<T>& e) {  // virtual points are sums of tw
   return {{e.before().terms().size() == 1, e.after().terms().size() == 1}, 4};
 }
 
-template <class T>
-bool is_one(const T& sum) {
-  if constexpr (std::is_same_v<T, double>)
-    return std::abs(sum - 1) < 1e-9;  // what a mask may lose of its 16 digits, and a wrong weight not
-  else
-    return sum.is_one();
-}
-
 /// The masks of a scheme in one type of numbers.
 template <class T>
 class OwnMasks {
@@ -174,13 +168,8 @@ class OwnMasks {
                            "; a mask returns a stencil, a sum of points of its site");
     const auto& any = made.cast<const AnyStencil&>();
     const auto* stencil = std::get_if<Stencil<T>>(&any.sum);
-    if (!stencil || (!stencil->terms().empty() && stencil->terms().back().first >= slots))
-      throw InvalidParameter(mask + " returns points of another site, kept from another call");
-    T sum(0);
-    for (const auto& [slot, weight] : stencil->terms()) sum += weight;
-    if (!is_one(sum))
-      throw InvalidParameter(mask + ": the weights add up to " + std::string(py::repr(py::cast(sum))) +
-                             "; masks are affine, with a sum of 1");
+    if (!stencil) throw InvalidParameter(mask + " returns points of another site, kept from another call");
+    check_mask(name_, method, *stencil, slots);
     return *stencil;
   }
 
@@ -243,30 +232,6 @@ struct OwnStep {
     if (is_primal() && !step.creases.edge) step.creases.edge = usual.edge;
     return step;
   }
-
-  /// @throws InvalidParameter  a mask is missing that the split needs
-  void check(const std::string& name) const {
-    const auto needs = [&](bool needed, std::initializer_list<const char*> one_of, const char* what) {
-      std::string names;
-      for (const char* method : one_of) {
-        if (!needed || has(method)) return;
-        names += (names.empty() ? "" : " or ") + std::string(method);
-      }
-      if (needed)
-        throw InvalidParameter(name + " lacks the mask " + names + ", which its split " + sublimit::name(split) +
-                               " needs for " + what);
-    };
-    const bool makes_edges = sublimit::is_primal(split) || split == Split::mid_edge;
-    needs(is_primal() || split == Split::sqrt3, {"vertex"}, "points of vertices");
-    needs(makes_edges && split != Split::mid_edge, {"edge", "wide_edge"}, "points of edges");
-    needs(split == Split::mid_edge, {"edge"}, "points of edges");
-    needs(split == Split::pqq || split == Split::sqrt3 || split == Split::quads, {"face", "wide_face"},
-          "points of faces");
-    needs(split == Split::dual, {"face"}, "points of faces");
-    needs(split == Split::dqq, {"corner"}, "points at the corners of faces");
-    needs(split == Split::mid_edge || split == Split::sqrt3, {"crease_vertex"}, "vertices of borders");
-    needs(!is_primal(), {"crease_edge"}, "edges of borders");
-  }
 };
 
 /// @param corners  as of Scheme, with `preparation`
@@ -277,19 +242,10 @@ OwnScheme own_scheme(const std::vector<OwnStep>& steps, const std::string& name,
   if (name.empty() || find_scheme(name))
     throw InvalidOption("the name '" + name + "' is " + (name.empty() ? "empty" : "one of sublimit's schemes") +
                         "; give yours one of its own (`name`)");
-  if (steps.empty()) throw InvalidParameter(name + " has no steps; one or more is right");
-  if (period < 1) throw InvalidParameter("period is " + std::to_string(period) + "; 1 or more is right");
+  check_shape(name, steps.size(), preparation.size(), period, corners);
   Claims claimed;
   claimed.generates = claimed.reproduces = 0;  // nothing, unless it is said
   for (const std::string& claim : claims) report::set_claim(claimed, claim);
-  if (corners != 0 && corners < 3)
-    throw InvalidParameter("corners is " + std::to_string(corners) +
-                           "; 3 or more, or 0 for faces of any size, is right");
-  if (corners == 0 && !preparation.empty())
-    throw InvalidParameter(name +
-                           " has steps of preparation, but does not say for faces of how many corners (`corners`)");
-  for (const OwnStep& step : steps) step.check(name);
-  for (const OwnStep& step : preparation) step.check(name);
   const auto in_numbers = [&]<class T>(Scheme<T> scheme) {
     scheme.name = name;
     scheme.source = source;
@@ -300,7 +256,7 @@ OwnScheme own_scheme(const std::vector<OwnStep>& steps, const std::string& name,
     for (const OwnStep& step : steps) scheme.steps.push_back(step.template in<T>(name, period));
     for (const OwnStep& step : preparation) scheme.preparation.push_back(step.template in<T>(name, period));
     scheme.creases = scheme.steps[0].creases;
-    return std::make_shared<const Scheme<T>>(std::move(scheme));
+    return std::make_shared<const Scheme<T>>(check_scheme(scheme));
   };
   return {in_numbers(Scheme<double>{}), in_numbers(Scheme<Algebraic>{})};
 }

@@ -160,20 +160,6 @@ void ends(SiteClass<Site>& edges, const char* tail) {
       edges, "head", [](const auto& e) { return e.head(); }, "The other end.");
 }
 
-int wrapped(int i, int n) { return (i % n + n) % n; }
-
-/// Child points of faces, which not every split has.
-template <class Point>
-auto face_point(const Point& point) {
-  return [=](const auto& site) {
-    try {
-      return point(site);
-    } catch (const std::bad_function_call&) {
-      throw InvalidParameter("this split makes no points of faces; centroids of faces are known");
-    }
-  };
-}
-
 void add_faces(py::module_& m) {
   auto faces = site_class<FaceSite>(m, "FaceSite", "A face, seen from a corner on.");
   faces
@@ -182,13 +168,12 @@ void add_faces(py::module_& m) {
           "Corners of the face.")
       .def(
           "corner",
-          [](const Seen<FaceSite>& f, int i) {
-            return f.point([&](const auto& site) { return site.corner(wrapped(i, site.size())); });
-          },
+          [](const Seen<FaceSite>& f, int i) { return f.point([&](const auto& site) { return site.corner(i); }); },
           py::arg("i"), "Corner i; the last one is corner -1.");
   point(
       faces, "centroid", [](const auto& f) { return f.centroid(); }, "The mean of its corners.");
-  point(faces, "point", face_point([](const auto& f) { return f.point(); }), "The new point of this face.");
+  point(
+      faces, "point", [](const auto& f) { return f.point(); }, "The new point of this face.");
 }
 
 void add_edges(py::module_& m) {
@@ -207,29 +192,6 @@ void add_edges(py::module_& m) {
           "The face that has it from head to tail.");
 }
 
-/// @throws InvalidParameter  a ring that a border cuts, where all around is meant
-template <class T>
-const Ring<T>& closed(const Ring<T>& ring) {
-  if (!ring.is_closed())
-    throw InvalidParameter("the ring is open (is_closed): neighbors and faces are known one by one");
-  return ring;
-}
-/// @throws IndexError  edges `i` to `last` are not all there
-template <class T>
-const Ring<T>& reaching(const Ring<T>& ring, int i, int last) {
-  if (!ring.has_neighbor(i) || !ring.has_neighbor(last))
-    throw py::index_error("the open ring ends before " + std::to_string(i) + " (has_neighbor)");
-  return ring;
-}
-
-template <class T>
-Stencil<T> corner_across(const Ring<T>& ring, int i) {
-  if (const int size = ring.face(i).size(); size != 4)
-    throw InvalidParameter("face " + std::to_string(i) + " has " + std::to_string(size) +
-                           " corners; only in a quadrilateral one is opposite (face(i).corner(j) has all)");
-  return ring.diagonal(i);
-}
-
 void add_rings(py::module_& m) {
   auto rings = site_class<Ring>(
       m, "Ring", "A vertex with its edges and faces, counter-clockwise: face i is between edges i and i + 1.");
@@ -244,16 +206,10 @@ void add_rings(py::module_& m) {
           [](const Seen<Ring>& v, int i) { return v.see([&](const auto& r) { return r.has_neighbor(i); }); },
           py::arg("i"), "Whether there is an edge i; in a closed ring always.")
       .def(
-          "neighbor",
-          [](const Seen<Ring>& v, int i) {
-            return v.point([&](const auto& r) { return reaching(r, i, i).neighbor(i); });
-          },
+          "neighbor", [](const Seen<Ring>& v, int i) { return v.point([&](const auto& r) { return r.neighbor(i); }); },
           py::arg("i"), "The other end of edge i.")
       .def(
-          "diagonal",
-          [](const Seen<Ring>& v, int i) {
-            return v.point([&](const auto& r) { return corner_across(reaching(r, i, i + 1), i); });
-          },
+          "diagonal", [](const Seen<Ring>& v, int i) { return v.point([&](const auto& r) { return r.diagonal(i); }); },
           py::arg("i"), "The corner of face i, a quadrilateral, that is opposite to the vertex.")
       .def(
           "continued",
@@ -261,21 +217,19 @@ void add_rings(py::module_& m) {
           py::arg("i"),
           "Of triangles: neighbor(i) of a ring that two points beyond the border close, each making a parallelogram.")
       .def(
-          "face",
-          [](const Seen<Ring>& v, int i) {
-            return v.part<FaceSite>([&](const auto& r) { return reaching(r, i, i + 1).face(i); });
-          },
+          "face", [](const Seen<Ring>& v, int i) { return v.part<FaceSite>([&](const auto& r) { return r.face(i); }); },
           py::arg("i"), "The face between edges i and i + 1.");
   point(
       rings, "center", [](const auto& v) { return v.center(); }, "The vertex.");
   point(
-      rings, "neighbor_mean", [](const auto& v) { return closed(v).neighbor_mean(); },
+      rings, "neighbor_mean", [](const auto& v) { return v.neighbor_mean(); },
       "The mean of the other ends of its edges.");
   point(
-      rings, "face_centroid_mean", [](const auto& v) { return closed(v).face_centroid_mean(); },
+      rings, "face_centroid_mean", [](const auto& v) { return v.face_centroid_mean(); },
       "The mean of the centroids of its faces.");
-  point(rings, "face_point_mean", face_point([](const auto& v) { return closed(v).face_point_mean(); }),
-        "The mean of the new points of its faces.");
+  point(
+      rings, "face_point_mean", [](const auto& v) { return v.face_point_mean(); },
+      "The mean of the new points of its faces.");
 }
 
 void add_wide_sites(py::module_& m) {
@@ -312,12 +266,7 @@ void add_wide_sites(py::module_& m) {
           py::arg("i"), "The new point of edge i.")
       .def(
           "edge_point_beyond",
-          [](const Faces& f, int i) {
-            return f.point([&](const auto& s) {
-              if (!s.has_across(i)) throw py::index_error("no face across edge " + std::to_string(i) + " (has_across)");
-              return s.edge_point_beyond(i);
-            });
-          },
+          [](const Faces& f, int i) { return f.point([&](const auto& s) { return s.edge_point_beyond(i); }); },
           py::arg("i"), "The new point of the edge opposite to edge i in the quadrilateral across it.");
 }
 

@@ -63,7 +63,8 @@ struct PatchData {
 };
 inline PatchData read_patches(const std::filesystem::path& path) {
   if (path.extension() == ".json") {
-    RecipePatches found = recipe_patches(read_recipes(path), path);
+    const std::vector<Recipe> recipes = read_recipes(path);
+    RecipePatches found = recipe_patches(recipes, path);
     return {std::move(found.patches), std::move(found.columns)};
   }
   FreeFormPatches found = free_form_patches(read_free_form(path), path);

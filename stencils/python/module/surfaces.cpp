@@ -166,14 +166,14 @@ py::dict closest(const Source& surface, const Array<double>& queries, int count,
 }
 
 py::dict intersect(const Source& surface, const Array<double>& origins, const Array<double>& directions,
-                   const Array<double>& tmin, const Array<double>& tmax, bool all_hits, int threads) {
+                   const Array<double>& tmin, const Array<double>& tmax, bool all_hits, int most_parts, int threads) {
   const Points from = points(origins), along = points(directions);
   RayHits hits = without_gil([&] {
     const Threads held(threads);
     std::vector<Ray> rays;
     for (Eigen::Index i = 0; i < from.rows(); ++i)
       rays.push_back({from.row(i).transpose(), along.row(i).transpose(), tmin.data()[i], tmax.data()[i]});
-    return sublimit::intersect(*surface.searched(), rays, {.all = all_hits});
+    return sublimit::intersect(*surface.searched(), rays, {.all = all_hits, .most_parts = most_parts});
   });
   py::dict all;
   add_places(all, hits.places);
@@ -181,6 +181,9 @@ py::dict intersect(const Source& surface, const Array<double>& origins, const Ar
   all["points"] = array(std::move(hits.points));
   all["normals"] = array(std::move(hits.normals));
   all["status"] = numbers(hits.status);
+  std::vector<std::int8_t> kinds;
+  for (const HitKind kind : hits.kinds) kinds.push_back(std::int8_t(kind));
+  all["kind"] = array(std::move(kinds));
   all["first"] = array(std::move(hits.first));
   all["undecided"] = array(std::move(hits.undecided));
   return all;
@@ -237,6 +240,7 @@ py::array_t<double> curvatures(const Array<double>& du, const Array<double>& dv,
 }  // namespace
 
 void add_surfaces(py::module_& m) {
+  m.attr("hit_kinds") = py::make_tuple(name(HitKind::crossing), name(HitKind::touching), name(HitKind::given_up));
   const py::call_guard<LongCall> long_call;
   py::class_<Source, std::shared_ptr<Source>>(m, "Source")
       .def_property_readonly("num_points", [](const Source& s) { return s.surface().num_points(); })
@@ -249,7 +253,7 @@ void add_surfaces(py::module_& m) {
       .def("closest", &closest, py::arg("points"), py::arg("count"), py::arg("radius"), py::arg("is_signed"),
            py::arg("threads"))
       .def("intersect", &intersect, py::arg("origins"), py::arg("directions"), py::arg("tmin"), py::arg("tmax"),
-           py::arg("all"), py::arg("threads"));
+           py::arg("all"), py::arg("most_parts"), py::arg("threads"));
   py::class_<Surface, Source, std::shared_ptr<Surface>>(m, "Surface")
       .def(py::init<const ControlMesh&, const MeshRequest&>(), py::arg("mesh"), py::arg("request"), long_call)
       .def("tessellate", &tessellate, py::arg("chord"), py::arg("angle"), py::arg("most"), py::arg("threads"));

@@ -46,9 +46,10 @@ class Table {
 };
 
 /// Points of some frames, (frames, points, channels) numbers, to (frames, quantities, points, channels).
+/// @param divided  by the weight, the last channel, if the table is rational
 template <class Real>
 void apply(const Table<Real>& table, const Array<Real>& points, Array<Real>& result, int threads,
-           std::optional<int> gpu) {
+           std::optional<int> gpu, bool divided) {
   const std::int64_t channels = points.shape(2), frames = points.shape(0);
   const std::span<const Real> in = span(points);
   const std::span<Real> out{result.mutable_data(), size_t(result.size())};
@@ -58,7 +59,7 @@ void apply(const Table<Real>& table, const Array<Real>& points, Array<Real>& res
   asked.channels = static_cast<int>(channels);
   asked.frames = static_cast<int>(frames);
   asked.points = in;
-  asked.rational = table.baked().info.rational;
+  asked.rational = divided && table.baked().info.rational;
   const std::int64_t made = table.table().num_points() * asked.result_channels(), q = table.table().quantities();
   asked.result_layout.frame = q * made;
   for (std::int64_t k = 0; k < q && frames > 0; ++k)
@@ -144,7 +145,8 @@ void add_table(py::module_& m, const char* name) {
       .def_property_readonly("status_words", [](const Table<Real>& t) { return t.baked().info.statuses; })
       .def("faces", &faces<Real>)
       .def("addresses", &addresses<Real>)
-      .def("apply", &apply<Real>, py::arg("points"), py::arg("result"), py::arg("threads"), py::arg("gpu"))
+      .def("apply", &apply<Real>, py::arg("points"), py::arg("result"), py::arg("threads"), py::arg("gpu"),
+           py::arg("divided"))
       .def("apply_transpose", &apply_transpose<Real>, py::arg("values"), py::arg("result"), py::arg("threads"),
            py::arg("gpu"))
       .def("matrix", &matrix<Real>)

@@ -37,6 +37,7 @@ if TYPE_CHECKING:
     from ._errors import InvalidOption as InvalidOption
     from ._errors import InvalidParameter as InvalidParameter
     from ._errors import IoError as IoError
+    from ._errors import MeshWarning as MeshWarning
     from ._errors import ResourceError as ResourceError
     from ._errors import UnsupportedTopology as UnsupportedTopology
     from ._fits import Fit as Fit
@@ -78,7 +79,7 @@ _PARTS = {
                   "WideFaceSite"),
     "_curves": ("CurveSamples", "LimitCurve", "refine_curve"),
     "_errors": ("AnalysisError", "Error", "FormatError", "InvalidMesh", "InvalidOption", "InvalidParameter", "IoError",
-               "ResourceError", "UnsupportedTopology"),
+                "MeshWarning", "ResourceError", "UnsupportedTopology"),
     "_fits": ("Fit", "FittedPoints", "fit", "fit_cloud", "fit_places"),
     "_gpus": ("GpuInfo", "gpu_devices"),
     "_levels": ("Limit", "limit", "refine", "subdivision_matrix"),

@@ -72,6 +72,16 @@ class ResourceError(Error, MemoryError):
     __module__ = "sublimit"
 
 
+class MeshWarning(UserWarning):
+    """What a scheme accepts of a mesh but you should know: that it is no manifold, tags that are ignored.
+
+    ``warnings.simplefilter("ignore", sublimit.MeshWarning)`` silences these; ``strict=True`` makes errors of those that name
+    what is no manifold.
+    """
+
+    __module__ = "sublimit"
+
+
 _TYPES = {t.code: t for t in (InvalidMesh, UnsupportedTopology, InvalidOption, InvalidParameter, FormatError,
                               AnalysisError, IoError, ResourceError)}
 

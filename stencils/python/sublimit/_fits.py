@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from . import _arrays as arrays
 from . import _sublimit
-from ._levels import core_of
+from ._levels import core_of, warn_of
 from ._meshes import Mesh
 from ._schemes import OptionValue, Scheme, request
 from ._surfaces import places
@@ -100,6 +100,7 @@ def fit(mesh: Mesh, scheme: Scheme | str, vertices: npt.ArrayLike, points: npt.A
     parts = _sublimit.fit(core_of(mesh), asked, numbers, where, along, _sublimit.Fairness(thin_plate, membrane), refinements,
                           threads)
     parts["mesh"] = Mesh._of(parts["mesh"])
+    warn_of(mesh, asked)
     return Fit(**parts)
 
 
@@ -123,9 +124,11 @@ def fit_places(mesh: Mesh, scheme: Scheme | str, face: npt.ArrayLike, u: npt.Arr
                     no_creases=no_creases, strict=strict)
     faces, at_u, at_v, _ = places(face, u, v)
     count = len(faces)
-    return FittedPoints(**_sublimit.fit_places(
+    parts = _sublimit.fit_places(
         core_of(mesh), asked, faces, at_u, at_v, arrays.floats(points, "points", (count, 3), f"({count} targets, 3)"),
-        _weights(weights, count), _sublimit.Fairness(thin_plate, membrane), _pins(pins), threads))
+        _weights(weights, count), _sublimit.Fairness(thin_plate, membrane), _pins(pins), threads)
+    warn_of(mesh, asked)
+    return FittedPoints(**parts)
 
 
 def fit_cloud(mesh: Mesh, scheme: Scheme | str, points: npt.ArrayLike, *, weights: npt.ArrayLike | None = None,
@@ -149,9 +152,11 @@ def fit_cloud(mesh: Mesh, scheme: Scheme | str, points: npt.ArrayLike, *, weight
     asked = request(scheme, boundary=boundary, creasing=creasing, triangles=triangles, option=option, triangulate=triangulate,
                     no_creases=no_creases, strict=strict)
     cloud = arrays.floats(points, "points", (None, 3), "(n, 3)")
-    return FittedPoints(**_sublimit.fit_cloud(
+    parts = _sublimit.fit_cloud(
         core_of(mesh), asked, cloud, _weights(weights, len(cloud)), _sublimit.Fairness(thin_plate, membrane), list(schedule),
-        _pins(pins), iterations, tolerance, threads))
+        _pins(pins), iterations, tolerance, threads)
+    warn_of(mesh, asked)
+    return FittedPoints(**parts)
 
 
 def _weights(weights: Any, count: int) -> arrays.Floats | None:

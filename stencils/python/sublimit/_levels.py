@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from . import _arrays as arrays
 from . import _sublimit
+from ._errors import MeshWarning
 from ._meshes import Mesh
 from ._schemes import OptionValue, Scheme, request
 
@@ -37,7 +38,7 @@ def refine(mesh: Mesh, scheme: Scheme | str, levels: int = 1, *, boundary: str |
     strict : refuse meshes that are no clean manifolds
     no_tags : leave tags out
     threads : at most so many (default: all)
-    quiet : no warnings
+    quiet : no warnings, `MeshWarning`, of what is no manifold or left out
 
     Raises
     ------
@@ -54,8 +55,7 @@ def refine(mesh: Mesh, scheme: Scheme | str, levels: int = 1, *, boundary: str |
                     triangulate=triangulate, no_creases=no_creases, strict=strict)
     fine = Mesh._of(_sublimit.refine(core_of(mesh), asked, levels, not no_tags, threads))
     if not quiet:
-        for message in fine.warnings:
-            warnings.warn(message, stacklevel=2)
+        warn_of(mesh, asked, fine.warnings)
     return fine
 
 
@@ -74,7 +74,9 @@ def subdivision_matrix(mesh: Mesh, scheme: Scheme | str, levels: int = 1, *, bou
     """
     asked = request(scheme, boundary=boundary, creasing=creasing, triangles=triangles, option=option, triangulate=triangulate,
                     no_creases=no_creases, strict=strict)
-    return csr(_sublimit.subdivision_matrix(core_of(mesh), asked, levels, threads))
+    made = _sublimit.subdivision_matrix(core_of(mesh), asked, levels, threads)
+    warn_of(mesh, asked)
+    return csr(made)
 
 
 class Limit:
@@ -134,7 +136,24 @@ def limit(mesh: Mesh, scheme: Scheme | str, level: int = 0, *, boundary: str | N
     """
     asked = request(scheme, boundary=boundary, creasing=creasing, triangles=triangles, option=option, triangulate=triangulate,
                     no_creases=no_creases, strict=strict)
-    return Limit(_sublimit.limit(core_of(mesh), asked, level, threads))
+    made = _sublimit.limit(core_of(mesh), asked, level, threads)
+    warn_of(mesh, asked)
+    return Limit(made)
+
+
+def warn_of(mesh: Mesh, asked: _sublimit.MeshRequest, further: Sequence[str] = ()) -> None:
+    """Warns, where a function of the package was called, of what its scheme accepts of a mesh: five of them.
+
+    Parameters
+    ----------
+    further : other warnings, which come first
+    """
+    found = [*further, *(message for message in _sublimit.warnings(mesh._core, asked) if message not in further)]
+    most = 5
+    if len(found) > most:
+        found[most:] = [f"and {len(found) - most} more (Mesh.warnings and Mesh.faults() have all)"]
+    for message in found:
+        warnings.warn(message, MeshWarning, stacklevel=3)
 
 
 def core_of(mesh: Mesh) -> _sublimit.ControlMesh:

@@ -26,15 +26,17 @@ class Mesh:
     points : (vertices, 3), real numbers
     faces : (faces, 3) or (faces, 4) vertices; or a list of lists; or ``(sizes, corners)``, the number of corners of each
         face and the vertices of all faces, one after the other. Counter-clockwise, counted from 0
-    creases : {(tail, head): sharpness} or rows (tail, head, sharpness), optional
-        Sharpness in levels; 10 and more never gets smooth
-    corners : {vertex: sharpness} or rows (vertex, sharpness), optional
+    creases : {(tail, head): sharpness}, rows (tail, head, sharpness) or ``(edges, sharpness)``, two arrays, optional
+        Sharpness in levels; 10 and more, or infinity, never gets smooth
+    corners : {vertex: sharpness}, rows (vertex, sharpness) or ``(vertices, sharpness)``, two arrays, optional
     holes : faces that are refined but are no part of the surface, optional
     boundary : ``"none"``, ``"edge-only"`` or ``"edge-and-corner"``, optional
         Edges and vertices of the boundary that are sharp (default: edge-and-corner)
     uv : (values, 1 to 3), optional
         Texture coordinates: of vertices, of corners, or those that `uv_faces` names
     uv_faces : the value of every corner, in the form of `faces` or one after the other, optional
+
+    All of these are attributes of a mesh as well, which another one can be made of as they are.
 
     Raises
     ------
@@ -51,6 +53,8 @@ class Mesh:
     <sublimit.Mesh: 3 vertices, 1 faces>
     >>> triangle.faces
     (array([3], dtype=int32), array([0, 1, 2], dtype=int32))
+    >>> sublimit.Mesh(2 * triangle.points, triangle.faces, corners=triangle.corners)
+    <sublimit.Mesh: 3 vertices, 1 faces>
     """
 
     __module__ = "sublimit"
@@ -101,12 +105,12 @@ class Mesh:
 
     @property
     def creases(self) -> tuple[arrays.Ints, arrays.Floats32]:
-        """Edges (creases, 2) and their sharpness in levels."""
+        """``(edges, sharpness)``: (creases, 2) vertices, and levels, as `Mesh` takes them."""
         return self._core.creases
 
     @property
     def corners(self) -> tuple[arrays.Ints, arrays.Floats32]:
-        """Sharp vertices and their sharpness in levels."""
+        """``(vertices, sharpness)`` of sharp vertices, sharpness in levels, as `Mesh` takes them."""
         return self._core.sharp_vertices
 
     @property
@@ -235,27 +239,45 @@ def read(path: str | os.PathLike[str]) -> Mesh:
 
 
 def _rows(values: Any, name: str, columns: int, words: str) -> arrays.Floats:
-    """Rows of whole numbers and a sharpness, from a mapping or from rows."""
+    """Rows of whole numbers and a sharpness, from a mapping, from rows, or from what `Mesh` has of them: two arrays."""
     if isinstance(values, Mapping):
         values = [(*(key if columns == 3 else (key,)), sharpness) for key, sharpness in values.items()]
+    elif isinstance(values, tuple) and len(values) == 2 and all(isinstance(part, np.ndarray) for part in values):
+        values = _joined(*values, name, columns)
     elif values is not None and not isinstance(values, np.ndarray):
         values = [tuple(row) for row in values]
-    return arrays.floats([] if values is None else values, name, (None, columns), words)
+    rows = arrays.floats([] if values is None else values, name, (None, columns), words, finite=False)
+    if np.isnan(rows[:, -1]).any():
+        row = int(np.argmax(np.isnan(rows[:, -1])))
+        raise ValueError(f"{name}[{row}] has sharpness nan; 0 to infinity is right")
+    return rows
+
+
+def _joined(first: npt.NDArray[Any], second: npt.NDArray[Any], name: str, columns: int) -> Any:
+    """Rows of two arrays: the vertices of each tag, and its sharpness. Two arrays may be two rows as well."""
+    is_pair = second.ndim == 1 and first.shape == ((len(second), 2) if columns == 3 else (len(second),))
+    if is_pair and first.dtype.kind not in "iu" and first.size > 0:
+        is_pair = False
+    if is_pair and columns == 2 and len(first) == 2 and second.dtype.kind in "iu":
+        raise ValueError(f"{name} is two arrays of two whole numbers, which may be (vertices, sharpness) or two rows; give a "
+                         "list of rows, or sharpness in float")
+    return np.column_stack([first, second]) if is_pair else [first, second]
 
 
 def _whole(column: arrays.Floats, name: str) -> arrays.Ints:
-    if (column != np.floor(column)).any() or (np.abs(column) > 2**31 - 1).any():
-        raise ValueError(f"{name} names vertex {column[column != np.floor(column)][:1] or column.max()}; whole numbers are right")
+    wrong = ~(column == np.floor(column)) | (np.abs(column) > 2**31 - 1)
+    if wrong.any():
+        raise ValueError(f"{name} names vertex {column[wrong][0]:.17g}; whole numbers are right")
     return np.ascontiguousarray(column, dtype=np.int32)
 
 
 def _creases(values: Any) -> tuple[arrays.Ints, arrays.Floats32]:
-    rows = _rows(values, "creases", 3, "{(tail, head): sharpness} or rows (tail, head, sharpness)")
+    rows = _rows(values, "creases", 3, "{(tail, head): sharpness}, rows (tail, head, sharpness) or (edges, sharpness)")
     return _whole(rows[:, :2], "creases"), np.ascontiguousarray(rows[:, 2], dtype=np.float32)
 
 
 def _corners(values: Any) -> tuple[arrays.Ints, arrays.Floats32]:
-    rows = _rows(values, "corners", 2, "{vertex: sharpness} or rows (vertex, sharpness)")
+    rows = _rows(values, "corners", 2, "{vertex: sharpness}, rows (vertex, sharpness) or (vertices, sharpness)")
     return _whole(rows[:, 0], "corners"), np.ascontiguousarray(rows[:, 1], dtype=np.float32)
 
 

@@ -9,7 +9,7 @@ import numpy.typing as npt
 
 from . import _arrays as arrays
 from . import _sublimit
-from ._surfaces import Source, order, places
+from ._surfaces import Source, order, places_of
 from ._tables import Table
 
 
@@ -48,14 +48,21 @@ class Patches(Source):
         return self._core.columns
 
     @property
+    def weights(self) -> arrays.Floats | None:
+        """(control points,): the weights of rational surfaces, the last column of `points`."""
+        columns = self._core.columns
+        return columns[:, 3] if columns.shape[1] == 4 else None
+
+    @property
     def first_faces(self) -> arrays.Ints:
         """(patches + 1,): the first face of each patch, and the end."""
         return self._core.first_faces
 
     def bake(self, levels: int | None = None, *, grid: int | None = None,
-             at: tuple[npt.ArrayLike, npt.ArrayLike, npt.ArrayLike] | None = None, derivatives: int = 0,
+             at: tuple[npt.ArrayLike, ...] | None = None, derivatives: int = 0,
              precision: str = "float", threads: int = 0) -> Table:
-        """A table of grids, of places, or of the nets that halving every span so often gives. To be applied to `points`.
+        """A table of grids, of places, or of the nets that halving every span so often gives. To be applied to `points`; where
+        they are rational, to other ones of the same form, or with weights (`Table.apply`).
 
         Parameters
         ----------
@@ -71,7 +78,7 @@ class Patches(Source):
         asked.grid = grid or 0
         asked.derivatives = order(derivatives)
         asked.in_float = precision == "float"
-        where = None if at is None else places(*at)[:3]
+        where = None if at is None else places_of(at)
         return Table._of(_sublimit.bake_patches(self._core, asked, where, threads))
 
     def __reduce__(self) -> NoReturn:

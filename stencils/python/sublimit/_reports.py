@@ -8,7 +8,7 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 from . import _sublimit
-from ._levels import core_of
+from ._levels import core_of, warn_of
 from ._meshes import Mesh
 from ._schemes import NamedScheme, OptionValue, Scheme, as_scheme, claim_word, request, schemes
 
@@ -84,4 +84,6 @@ def analyze_mesh(mesh: Mesh, scheme: Scheme | str, *, tolerance: Mapping[str, ob
     asked = request(scheme, boundary=boundary, creasing=creasing, triangles=triangles, option=option, triangulate=triangulate,
                     no_creases=no_creases, strict=strict)
     words = [f"{key}={value}" for key, value in (tolerance or {}).items()]
-    return Report(_sublimit.mesh_report(core_of(mesh), asked, words, name, threads))
+    report = Report(_sublimit.mesh_report(core_of(mesh), asked, words, name, threads))
+    warn_of(mesh, asked)
+    return report

@@ -105,7 +105,8 @@ class Scheme:
 
     Notes
     -----
-    The masks, and what their sites have:
+    The masks, and what their sites have (corners and edges of a face count from 0, and -1 is the last one; others are
+    errors):
 
     ``vertex(v)``, Ring
         center, valence, neighbor(i), face(i), diagonal(i) of quadrilaterals, neighbor_mean, face_centroid_mean,
@@ -190,7 +191,7 @@ def scheme(name: str, **options: OptionValue) -> Scheme:
     Parameters
     ----------
     name : as in `schemes`
-    **options : words or numbers; ``Fraction(3, 4)`` stays exact
+    **options : words or numbers, ``-`` of a name written ``_``; ``Fraction(3, 4)`` stays exact
 
     Raises
     ------
@@ -204,9 +205,14 @@ def scheme(name: str, **options: OptionValue) -> Scheme:
     >>> print(sublimit.scheme("kobbelt", tension=Fraction(3, 4)))
     kobbelt tension=3/4
     """
-    texts = {key: _text(value) for key, value in options.items()}
+    texts = _texts(options)
     _sublimit.check_scheme(name, texts)
     return NamedScheme(name, tuple(sorted(texts.items())))
+
+
+def _texts(options: Mapping[str, OptionValue]) -> dict[str, str]:
+    """As the compiled part takes them: names have ``-`` where arguments have ``_``."""
+    return {name.replace("_", "-"): _text(value) for name, value in options.items()}
 
 
 def _text(value: OptionValue) -> str:
@@ -242,7 +248,7 @@ def request(scheme: Scheme | str, *, boundary: str | None = None, creasing: str 
     """What is asked of a mesh, for the compiled part."""
     own = as_scheme(scheme)
     asked = _sublimit.MeshRequest()
-    asked.options = {key: _text(value) for key, value in (option or {}).items()}
+    asked.options = _texts(option or {})
     if isinstance(own, NamedScheme):
         asked.scheme = own.name
         asked.options = {**dict(own.options), **asked.options}

@@ -6,14 +6,14 @@ import math
 import operator
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, NoReturn
+from typing import TYPE_CHECKING, Any, ClassVar, NoReturn
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _arrays as arrays
 from . import _sublimit
-from ._levels import core_of, csr
+from ._levels import core_of, csr, warn_of
 from ._meshes import Mesh
 from ._schemes import OptionValue, Scheme, request
 
@@ -164,8 +164,11 @@ class RayHits:
     points : (n, 3)
     normals : (n, 3), there; zero where there is none
     status : (n,), numbers; ``Samples.statuses[number]`` is the word
+    kind : (n,), numbers; ``kinds[number]`` is the word: ``crossing``; ``touching`` where the ray touches the surface or runs
+        within it, as near as numbers go; ``given-up`` where the search stopped, with the point of the ray there: what the
+        ray meets from this t on may not be all
     first : (rays + 1,), hits of ray i are ``first[i]:first[i + 1]``, by rising t
-    undecided : (rays,), parts that a ray touches, or extraordinary vertices that it meets, as near as numbers go
+    undecided : (rays,), how many hits of a ray are no crossings
     """
 
     __module__ = "sublimit"
@@ -176,8 +179,15 @@ class RayHits:
     points: arrays.Floats
     normals: arrays.Floats
     status: npt.NDArray[np.int8]
+    kind: npt.NDArray[np.int8]
     first: npt.NDArray[np.int64]
     undecided: npt.NDArray[np.int64]
+    kinds: ClassVar[tuple[str, ...]] = _sublimit.hit_kinds
+
+    @property
+    def words(self) -> list[str]:
+        """The word of each hit, as files have it: of its kind, or of its status where the ray crosses."""
+        return [self.kinds[kind] if kind else Samples.statuses[status] for kind, status in zip(self.kind, self.status)]
 
 
 @dataclass(frozen=True)
@@ -284,8 +294,12 @@ class Source:
                                                   float(radius), bool(signed), threads))
 
     def intersect(self, origins: npt.ArrayLike, directions: npt.ArrayLike, *, tmin: npt.ArrayLike = 0,
-                  tmax: npt.ArrayLike = math.inf, all: bool = False, threads: int = 0) -> RayHits:
+                  tmax: npt.ArrayLike = math.inf, all: bool = False, most_parts: int = 8000, threads: int = 0) -> RayHits:
         """Where rays meet the surface; none is missed, and a ray through a side that faces share hits once.
+
+        Of schemes without polynomials (``butterfly``, ``kobbelt``, the sqrt3) every hit is one, but that there are no
+        others is estimated. A ray that meets too much of the surface is given up, and has a hit that says so
+        (`RayHits.kind`).
 
         Parameters
         ----------
@@ -293,6 +307,7 @@ class Source:
         directions : (n, 3) or (3,), of any length
         tmin, tmax : (n,) or numbers, of ``origin + t * direction``
         all : all hits, not the nearest alone
+        most_parts : to look at within one part of the surface, and 16 times as many in all, before a ray is given up
 
         Raises
         ------
@@ -319,7 +334,7 @@ class Source:
                              f"tmax {np.shape(tmax)}; (n, 3) or (3,), and (n,) or numbers, are right") from error
         from_, along = (np.ascontiguousarray(np.broadcast_to(x, shape)) for x in (from_, along))
         first, last = (np.ascontiguousarray(t) for t in ends)
-        return RayHits(**self._core.intersect(from_, along, first, last, bool(all), threads))
+        return RayHits(**self._core.intersect(from_, along, first, last, bool(all), operator.index(most_parts), threads))
 
     def __repr__(self) -> str:
         return f"<sublimit.{type(self).__name__}: {self.num_faces} faces, {self.num_points} control points>"
@@ -355,6 +370,7 @@ class LimitSurface(Source):
         asked = request(scheme, boundary=boundary, creasing=creasing, triangles=triangles, option=option,
                         triangulate=triangulate, no_creases=no_creases, strict=strict)
         self._core = _sublimit.Surface(core_of(mesh), asked)
+        warn_of(mesh, asked)
 
     def tessellate(self, chord: float, *, angle: float = 0, max_triangles: int = 1 << 24, threads: int = 0) -> Tessellation:
         """As few triangles as a proved bound on their distance from the surface allows.
@@ -385,6 +401,18 @@ def order(derivatives: int) -> int:
     if derivatives not in (0, 1, 2):
         raise ValueError(f"derivatives is {derivatives}; 0, 1 or 2 are right")
     return int(derivatives)
+
+
+def places_of(at: Any) -> tuple[arrays.Ints, arrays.Floats, arrays.Floats]:
+    """Flat arrays of (face, u, v), or of (face, (u, v)), as tables have them."""
+    if not isinstance(at, (tuple, list)) or len(at) not in (2, 3):
+        raise ValueError("at is not (face, u, v) or (face, (u, v)), as Table.addresses has it")
+    if len(at) == 2:
+        both = np.asarray(at[1])
+        if both.ndim < 1 or both.shape[-1] != 2:
+            raise ValueError(f"at has (u, v) of shape {both.shape}; (..., 2) is right")
+        return places(at[0], both[..., 0], both[..., 1])[:3]
+    return places(*at)[:3]
 
 
 def places(face: npt.ArrayLike, u: npt.ArrayLike, v: npt.ArrayLike) -> tuple[arrays.Ints, arrays.Floats, arrays.Floats,

@@ -12,10 +12,10 @@ import numpy.typing as npt
 from . import _arrays as arrays
 from . import _sublimit
 from ._gpus import number_of
-from ._levels import core_of, csr
+from ._levels import core_of, csr, warn_of
 from ._meshes import Mesh
 from ._schemes import OptionValue, Scheme, request
-from ._surfaces import Tessellation, order, places
+from ._surfaces import Tessellation, order, places_of
 
 if TYPE_CHECKING:
     from scipy.sparse import csr_array
@@ -31,7 +31,7 @@ class Table:
     num_control_points : points that it is applied to
     quantities : 1: positions; 3: du and dv too; 6: duu, duv and dvv as well
     dtype : of its weights, and of what it makes
-    rational : it is applied to homogeneous columns, and divides
+    rational : it is applied to homogeneous columns (w x, w y, w z, w), or to points with weights, and divides
 
     Examples
     --------
@@ -106,14 +106,18 @@ class Table:
         made = channels - 1 if self.rational else channels
         return (self.num_points, made) if self.quantities == 1 else (self.quantities, self.num_points, made)
 
-    def apply(self, points: npt.ArrayLike, out: npt.NDArray[Any] | None = None, *, threads: int = 0,
-              device: str = "cpu") -> npt.NDArray[Any]:
-        """The table times control points.
+    def apply(self, points: npt.ArrayLike, out: npt.NDArray[Any] | None = None, *, weights: npt.ArrayLike | None = None,
+              threads: int = 0, device: str = "cpu") -> npt.NDArray[Any]:
+        """The table times control points; of a rational one divided by the weight.
 
         Parameters
         ----------
         points : (control points, channels) or (frames, control points, channels)
-            Used where they are if they are of the table's `dtype` and rows follow each other, else copied first.
+            Used where they are if they are of the table's `dtype` and rows follow each other, else copied first. Of a
+            rational table, without `weights`, (.., control points, 4): columns (w x, w y, w z, w), as `Patches.points` has
+            them
+        weights : (control points,) or (frames, control points), of a rational table: `points` are points then, or other
+            values of any number of channels
         out : array for the result, of the shape below and the table's `dtype`, optional
         device : ``"cpu"``, ``"gpu"`` (the first one) or ``"gpu:1"``, see `gpu_devices`
             GPUs apply tables in float, and make the same points to rounding. The table is copied to a GPU when it is
@@ -134,7 +138,7 @@ class Table:
             No memory left on the GPU; it was lost.
         """
         gpu = number_of(device)
-        given = self._input(points, "points", self.num_control_points, "control points")
+        given = self._input(self._homogeneous(points, weights), "points", self.num_control_points, "control points")
         frames = given.reshape((-1, *given.shape[-2:]))
         if not 1 <= given.shape[-1] <= 64:
             raise ValueError(f"points has {given.shape[-1]} channels; 1 to 64 are right")
@@ -143,8 +147,30 @@ class Table:
             out = np.empty(shape, self.dtype)
         self._check_out(out, shape, given, "points")
         if len(frames):
-            self._core.apply(frames, out.reshape((len(frames), self.quantities * self.num_points, -1)), threads, gpu)
+            self._core.apply(frames, out.reshape((len(frames), self.quantities * self.num_points, -1)), threads, gpu, True)
         return out
+
+    def _homogeneous(self, points: npt.ArrayLike, weights: npt.ArrayLike | None) -> npt.ArrayLike:
+        """What a rational table takes: columns with their weight."""
+        if weights is None:
+            if not self.rational:
+                return points
+            points = arrays.of_others(points)
+            shape = np.shape(points)
+            if len(shape) in (2, 3) and shape[-1] != 4:
+                raise ValueError(f"points has {shape[-1]} columns, and the table is rational: 4, (w x, w y, w z, w), as "
+                                 "Patches.points has them, are right, or points with weights=")
+            return points
+        if not self.rational:
+            raise ValueError("weights are for rational tables; this one is not")
+        values, factors = np.asarray(arrays.of_others(points)), np.asarray(arrays.of_others(weights))
+        if values.ndim not in (2, 3) or factors.shape not in (values.shape[:-1], values.shape[-2:-1]):
+            raise ValueError(f"weights has shape {factors.shape}; one for each of the points, which have shape "
+                             f"{values.shape}, is right")
+        if factors.dtype.kind not in "fiu" or values.dtype.kind not in "fiu":
+            raise ValueError(f"points have dtype {values.dtype} and weights {factors.dtype}; real numbers are right")
+        factors = np.broadcast_to(factors.astype(np.float64), values.shape[:-1])[..., None]
+        return np.concatenate([values * factors, factors], axis=-1)
 
     def apply_transpose(self, values: npt.ArrayLike, out: npt.NDArray[Any] | None = None, *,
                         threads: int = 0, device: str = "cpu") -> npt.NDArray[Any]:
@@ -152,7 +178,8 @@ class Table:
 
         Parameters
         ----------
-        values : as `apply` makes them, of one frame; or of positions alone, (points, channels)
+        values : as `apply` makes them, of one frame; or of positions alone, (points, channels). Of a rational table, before
+            anything is divided: values for each homogeneous column, as `matrix` makes them
         out : array for the result, optional
         device : as for `apply`
 
@@ -198,7 +225,9 @@ class Table:
             raise ValueError(f"out shares memory with {name}, which is read while out is written")
 
     def matrix(self) -> csr_array:
-        """(quantities x points, control points): all positions first, then all du, ..."""
+        """(quantities x points, control points): all positions first, then all du, ... Of a rational table it makes homogeneous
+        columns, and divides nothing.
+        """
         return csr(self._core.matrix())
 
     def operator(self) -> LinearOperator:
@@ -211,8 +240,14 @@ class Table:
         from scipy.sparse.linalg import LinearOperator
 
         def forward(x: npt.NDArray[Any]) -> npt.NDArray[Any]:
-            made = self.apply(x.reshape(self.num_control_points, -1))
-            return made.reshape(self.quantities * self.num_points, -1).reshape((-1, *x.shape[1:]))
+            columns = self._input(x.reshape(self.num_control_points, -1), "x", self.num_control_points, "control points")
+            made = np.empty((self.quantities * self.num_points, columns.shape[1]), self.dtype)
+            for first in range(0, columns.shape[1], 64):  # as many channels as are applied at once
+                some = np.ascontiguousarray(columns[:, first:first + 64])
+                part = np.empty((1, len(made), some.shape[1]), self.dtype)
+                self._core.apply(some[None], part, 0, None, False)
+                made[:, first:first + 64] = part[0]
+            return made.reshape((-1, *x.shape[1:]))
 
         def backward(y: npt.NDArray[Any]) -> npt.NDArray[Any]:
             shaped = y.reshape(self.num_points, -1) if self.quantities == 1 else y.reshape(self.quantities, self.num_points, -1)
@@ -251,7 +286,7 @@ def _unpickled(data: bytes) -> Table:
 
 
 def bake(mesh: Mesh, scheme: Scheme | str, levels: int | None = None, *, limit: bool = False, grid: int | None = None,
-         at: tuple[npt.ArrayLike, npt.ArrayLike, npt.ArrayLike] | None = None, tessellation: Tessellation | None = None,
+         at: tuple[npt.ArrayLike, ...] | None = None, tessellation: Tessellation | None = None,
          derivatives: int = 0, precision: str = "float",
          boundary: str | None = None, creasing: str | None = None, triangles: str | None = None,
          option: Mapping[str, OptionValue] | None = None, triangulate: bool = False, no_creases: bool = False,
@@ -264,7 +299,7 @@ def bake(mesh: Mesh, scheme: Scheme | str, levels: int | None = None, *, limit: 
     levels : points of this level, 1 to 11; with `limit` from 0
     limit : these moved to the limit
     grid : N x N places on each face instead, sides included
-    at : places (face, u, v) instead, that broadcast to one shape
+    at : places (face, u, v) instead, that broadcast to one shape; or (face, (u, v)), as `Table.addresses` has them
     tessellation : the points of `LimitSurface.tessellate` instead; `Table.faces` are its triangles
     derivatives : 0, 1 or 2, of the limit
     precision : of the weights, ``"float"`` or ``"double"``
@@ -292,8 +327,10 @@ def bake(mesh: Mesh, scheme: Scheme | str, levels: int | None = None, *, limit: 
     table.grid = grid or 0
     table.derivatives = order(derivatives)
     table.in_float = precision == "float"
-    where = None if at is None else places(*at)[:3]
-    return Table._of(_sublimit.bake(core_of(mesh), asked, table, where, triangles_between, threads))
+    where = None if at is None else places_of(at)
+    baked = Table._of(_sublimit.bake(core_of(mesh), asked, table, where, triangles_between, threads))
+    warn_of(mesh, asked)
+    return baked
 
 
 def load(path: str | os.PathLike[str], *, checksums: bool = False) -> Table:

@@ -62,7 +62,7 @@ struct BakeStatistics {
 ///
 /// At vertices of a level the derivatives are those of the face that has the point; at extraordinary vertices, and by
 /// rows, two tangents that span the plane. Statuses tell what there is.
-struct Baked {
+struct [[nodiscard]] Baked {
   BakedTable<double> table;
   BakeStatistics statistics;
 };
@@ -88,7 +88,7 @@ Baked bake(Patterns& patterns, const ControlMesh& mesh, const BakeRequest& reque
 Baked bake(const PatchSet& patches, const BakeRequest& request);
 
 /// What a bake will make and take, found out at the cost of a look at every face.
-struct BakePlan {
+struct [[nodiscard]] BakePlan {
   /// Counted, weights and bytes of schemes with wide masks at most; but for tables by rows, whose weights and bytes are
   /// estimated, and so are all `channel_bytes`.
   BakeStatistics statistics;

@@ -27,7 +27,7 @@ std::pair<Index, Index> edge_key(Index a, Index b) { return {std::min(a, b), std
 
 template <class Real>
 EditableTable<Real>::EditableTable(Patterns& patterns, ControlMesh mesh, int level, const SubdivisionOptions& options)
-    : patterns_(patterns), options_(options), level_(level), num_vertices_(mesh.num_vertices()) {
+    : patterns_(&patterns), options_(options), level_(level), num_vertices_(mesh.num_vertices()) {
   mesh.face_varying.clear();
   const BakeRequest request{.level = level};
   check(request);
@@ -46,8 +46,7 @@ EditableTable<Real>::EditableTable(Patterns& patterns, ControlMesh mesh, int lev
     throw UnsupportedTopology(patterns.scheme().name + ": a table can be edited where faces need no preparation");
   lattice_ = lattices.lattice();
   ranks_ = LatticeRanks(lattice_);
-  base_ = in_precision<Real>(baked.table.table);
-  base_evaluator_ = std::make_unique<PatternEvaluator<Real>>(base_);
+  base_ = std::make_shared<const Prepared>(in_precision<Real>(baked.table.table));
   faces_.resize(size_t(mesh.num_faces()));
   faces_of_.resize(size_t(num_vertices_));
   const Index sides = lattice_.num_sides();
@@ -111,7 +110,7 @@ Level EditableTable<Real>::local_level(const std::vector<Index>& faces, std::vec
   for (size_t v = 0; v < vertices.size(); ++v)
     if (const auto at = corners_.find(vertices[v]); at != corners_.end())
       local.corners.push_back({static_cast<Index>(v), at->second});
-  return control_level(patterns_.scheme(), local, options_);
+  return control_level(patterns_->scheme(), local, options_);
 }
 
 /// The face of the lowest number at the edge.
@@ -218,7 +217,7 @@ typename EditableTable<Real>::Change EditableTable<Real>::edit(const MeshEdit& e
   change.faces = faces_around(touched);
   Sharpness rules;
   rules.creasing = options_.creasing.value_or(tags_.creasing.value_or(Creasing::uniform));
-  const int rings = patterns_.types()->pieces().rings(rules);
+  const int rings = patterns_->types()->pieces().rings(rules);
   for (int ring = 1; ring < rings; ++ring) change.faces = with_neighbors(change.faces);
   std::vector<Index> around = change.faces, vertices;
   for (int ring = 0; ring < rings; ++ring) around = with_neighbors(around);
@@ -228,7 +227,7 @@ typename EditableTable<Real>::Change EditableTable<Real>::edit(const MeshEdit& e
     for (const Index f : change.faces) {
       const auto local = static_cast<Index>(std::lower_bound(around.begin(), around.end(), f) - around.begin());
       const Piece piece{kind, level.topology().first(Face{local})};
-      const Patterns::Match match = patterns_.match(level, piece);
+      const Patterns::Match match = patterns_->match(level, piece);
       FaceState& face = faces_[f];
       face.pattern = match.pattern;
       face.turn = static_cast<std::int8_t>(match.turn);
@@ -236,7 +235,7 @@ typename EditableTable<Real>::Change EditableTable<Real>::edit(const MeshEdit& e
       for (const Index v : match.vertices) face.vertices.push_back(vertices[v]);
       face.is_edited = true;
       edited_.insert(f);
-      patterns_.rows(*match.pattern, {level, piece, match.turn}, level_);
+      patterns_->rows(*match.pattern, {level, piece, match.turn}, level_);
     }
   }
   for (const Index f : change.faces) {
@@ -252,7 +251,7 @@ typename EditableTable<Real>::Change EditableTable<Real>::edit(const MeshEdit& e
     ranks_.add(face.share);
   }
   rebuild();
-  change.first_points = base_.num_points();
+  change.first_points = base_->table.num_points();
   return change;
 }
 
@@ -263,14 +262,14 @@ void EditableTable<Real>::rebuild() {
   std::map<size_t, std::int32_t> blocks;
   std::vector<double> weights;
   std::vector<std::int32_t> rows, columns;
-  std::int64_t next = base_.num_points();
+  std::int64_t next = base_->table.num_points();
   // Patches of a block and share together; faces keep the order of their numbers within.
   std::map<std::pair<std::int32_t, LatticeRanks::Share>, std::vector<Index>> groups;
   for (const Index f : edited_) {
     const Pattern& pattern = *faces_[f].pattern;
     const auto [at, is_new] = blocks.try_emplace(pattern.number, static_cast<std::int32_t>(arrays.blocks.size()));
     if (is_new) {
-      const RowMatrix& W = *patterns_.known_rows(pattern, level_);
+      const RowMatrix& W = *patterns_->known_rows(pattern, level_);
       arrays.blocks.push_back({static_cast<std::int32_t>(W.rows()), static_cast<std::int32_t>(W.cols()),
                                static_cast<std::int64_t>(weights.size())});
       weights.insert(weights.end(), W.data(), W.data() + W.size());
@@ -292,13 +291,12 @@ void EditableTable<Real>::rebuild() {
   arrays.weights = std::move(weights);
   arrays.rows = std::move(rows);
   arrays.columns = std::move(columns);
-  edits_ = in_precision<Real>(PatternTable<double>(num_vertices_, std::move(arrays)));
-  edits_evaluator_ = std::make_unique<PatternEvaluator<Real>>(edits_);
+  edits_ = std::make_shared<const Prepared>(in_precision<Real>(PatternTable<double>(num_vertices_, std::move(arrays))));
 }
 
 template <class Real>
 std::int64_t EditableTable<Real>::num_points() const {
-  return base_.num_points() + edits_.num_points();
+  return base_->table.num_points() + (edits_ ? edits_->table.num_points() : 0);
 }
 
 template <class Real>
@@ -308,10 +306,10 @@ void EditableTable<Real>::apply(std::span<const Real> points, int channels, std:
     throw InvalidParameter("editable table: points hold " + std::to_string(points.size()) + " numbers and the result " +
                            std::to_string(result.size()) + "; " + std::to_string(num_vertices_) + " and " +
                            std::to_string(num_points()) + " x " + std::to_string(channels) + " channels are needed");
-  const size_t of_base = size_t(base_.num_points()) * size_t(channels);
-  base_evaluator_->apply(points.first(size_t(base_.num_control_points()) * size_t(channels)), channels,
+  const size_t of_base = size_t(base_->table.num_points()) * size_t(channels);
+  base_->evaluator.apply(points.first(size_t(base_->table.num_control_points()) * size_t(channels)), channels,
                          result.first(of_base));
-  if (edits_evaluator_) edits_evaluator_->apply(points, channels, result.subspan(of_base));
+  if (edits_) edits_->evaluator.apply(points, channels, result.subspan(of_base));
 }
 
 template <class Real>

@@ -7,6 +7,8 @@
 #include <map>
 #include <memory>
 #include <set>
+#include <utility>
+#include <vector>
 
 #include "sublimit/bake/bake.h"
 #include "sublimit/pattern_evaluator.h"
@@ -22,6 +24,8 @@ struct MeshEdit {
   std::vector<ControlMesh::Corner> corners;
 };
 
+/// A value: copies are edited apart from each other and share what they have in common; one that was moved from may be
+/// assigned to or destroyed.
 template <class Real>
 class EditableTable {
  public:
@@ -78,7 +82,16 @@ class EditableTable {
   void set_crease(Index a, Index b, float sharpness);
   void rebuild();
 
-  Patterns& patterns_;
+  /// A table and what applies it: at one place for as long as any copy needs it.
+  struct Prepared {
+    explicit Prepared(PatternTable<Real> made) : table(std::move(made)), evaluator(table) {}
+    Prepared(const Prepared&) = delete;
+    Prepared& operator=(const Prepared&) = delete;
+    PatternTable<Real> table;
+    PatternEvaluator<Real> evaluator;
+  };
+
+  Patterns* patterns_;
   SubdivisionOptions options_;
   ControlMesh tags_;  // boundary, creasing and triangles rules, holes
   Lattice lattice_;
@@ -90,8 +103,7 @@ class EditableTable {
   std::map<Index, float> corners_;
   LatticeRanks ranks_;
   std::set<Index> edited_;
-  PatternTable<Real> base_, edits_;
-  std::unique_ptr<PatternEvaluator<Real>> base_evaluator_, edits_evaluator_;
+  std::shared_ptr<const Prepared> base_, edits_;  // null: nothing has been edited
 };
 
 extern template class EditableTable<float>;

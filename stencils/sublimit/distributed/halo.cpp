@@ -2,21 +2,22 @@
 #include "sublimit/distributed/halo.h"
 
 #include <algorithm>
-#include <map>
+
+#include "sublimit/base/found_once.h"
 
 namespace sublimit {
 namespace {
 
 /// A point of so many channels, as MPI counts. Never freed: PETSc remembers types that it has seen.
 MPI_Datatype point_type(int channels) {
-  static std::map<int, MPI_Datatype> types;
+  static const FoundByKey<int, MPI_Datatype> types;
   if (channels == 1) return MPI_DOUBLE;
-  const auto [type, is_new] = types.try_emplace(channels, MPI_DATATYPE_NULL);
-  if (is_new) {
-    MPI_Type_contiguous(channels, MPI_DOUBLE, &type->second);
-    MPI_Type_commit(&type->second);
-  }
-  return type->second;
+  return types.get(channels, [&] {
+    MPI_Datatype type = MPI_DATATYPE_NULL;
+    MPI_Type_contiguous(channels, MPI_DOUBLE, &type);
+    MPI_Type_commit(&type);
+    return type;
+  });
 }
 
 }  // namespace

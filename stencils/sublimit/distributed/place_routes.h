@@ -26,6 +26,10 @@ class PlaceRoutes {
   /// @param part  of each face of the own run; part p is of rank p
   /// @param own   this rank's part
   PlaceRoutes(const Ranks& ranks, const SpreadJob& job, const std::vector<int>& part, const MeshPart& own);
+  PlaceRoutes(const Ranks&&, const SpreadJob&, const std::vector<int>&, const MeshPart&) = delete;
+  PlaceRoutes(const Ranks&, const SpreadJob&&, const std::vector<int>&, const MeshPart&) = delete;
+  PlaceRoutes(const Ranks&, const SpreadJob&, const std::vector<int>&&, const MeshPart&) = delete;
+  PlaceRoutes(const Ranks&, const SpreadJob&, const std::vector<int>&, const MeshPart&&) = delete;
 
   std::int64_t num_addresses() const { return addresses_.size(); }  ///< of the whole
   bool triangles() const { return whole_ == 3; }

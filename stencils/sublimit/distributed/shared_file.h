@@ -15,8 +15,10 @@ class SharedFile {
  public:
   /// All ranks call. Room for all of it is taken at once, so that a full disk is told before any work. Of a link the
   /// file at its end is written; devices and pipes are refused.
+  /// @param ranks  which must stay
   /// @throws IoError, ResourceError  on all ranks
   SharedFile(const Ranks& ranks, const std::filesystem::path& target, std::int64_t bytes);
+  SharedFile(const Ranks&&, const std::filesystem::path&, std::int64_t) = delete;
   ~SharedFile();
   SharedFile(const SharedFile&) = delete;
   SharedFile& operator=(const SharedFile&) = delete;

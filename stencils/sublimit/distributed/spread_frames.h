@@ -11,8 +11,10 @@ namespace sublimit {
 class SpreadFrames {
  public:
   /// A mesh, as `read_spread_mesh` reads it, or an .npy: vertices x channels, or frames x vertices x channels.
+  /// @param ranks  which must stay
   /// @throws FormatError, InvalidMesh, IoError  on all ranks
   SpreadFrames(const Ranks& ranks, const std::filesystem::path& path);
+  SpreadFrames(const Ranks&&, const std::filesystem::path&) = delete;
 
   const Runs& runs() const { return runs_; }
   std::int64_t num_frames() const { return num_frames_; }

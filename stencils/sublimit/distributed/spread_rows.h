@@ -19,6 +19,7 @@ class SpreadRows {
   /// @param scale  by which each row is multiplied; empty: by 1
   /// @param channels  that `matrix` takes at once
   SpreadRows(SparseMatrix rows, const Halo& halo, Eigen::VectorXd scale = {}, int channels = 1);
+  SpreadRows(SparseMatrix, const Halo&&, Eigen::VectorXd = {}, int = 1) = delete;
 
   std::int64_t num_rows() const { return rows_.rows(); }  ///< of this rank
   const Halo& halo() const { return halo_; }
@@ -40,6 +41,7 @@ class SpreadRows {
 /// As PETSc's, with MatMult and MatMultTranspose, of all channels at once: vectors are interleaved.
 /// @param rows  must stay
 PetscObjectOf<Mat> matrix(const SpreadRows& rows);
+PetscObjectOf<Mat> matrix(const SpreadRows&&) = delete;
 
 /// A sum of terms that ranks have, each over its inputs, as PETSc's assembled matrix over all control points. Those
 /// that are in no term get a 1 on the diagonal.

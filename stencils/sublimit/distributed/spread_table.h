@@ -48,5 +48,6 @@ class SpreadTable {
 /// As PETSc's: MatMult is `apply` of one channel, MatMultTranspose its transpose; for any KSP.
 /// @param table  must stay
 PetscObjectOf<Mat> matrix(const SpreadTable& table);
+PetscObjectOf<Mat> matrix(const SpreadTable&&) = delete;
 
 }  // namespace sublimit

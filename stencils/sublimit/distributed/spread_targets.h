@@ -21,8 +21,10 @@ struct SpreadTarget {
 class SpreadTargets {
  public:
   /// Reads the header: `vertex,x,y,z` or `face,u,v,x,y,z[,weight]`.
+  /// @param ranks  which must stay
   /// @throws FormatError, IoError  on all ranks
   SpreadTargets(const Ranks& ranks, const std::filesystem::path& path);
+  SpreadTargets(const Ranks&&, const std::filesystem::path&) = delete;
 
   bool at_vertices() const { return at_vertices_; }
   /// "NAME:LINE: ", what messages about a target begin with.

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sublimit/files/export_table.h"
 
-#include <unistd.h>
+#include <sys/stat.h>
 
 #include <cerrno>
 #include <cstdio>
+#include <forward_list>
+#include <initializer_list>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <system_error>
@@ -26,48 +28,43 @@ namespace {
 class AtomicDirectory {
  public:
   explicit AtomicDirectory(const std::filesystem::path& target)
-      : target_(followed_links(target.has_filename() ? target : target.parent_path())), temporary_(target_) {
+      : target_(followed_links(target.has_filename() ? target : target.parent_path())) {
     if (!target_.has_filename()) throw_file_error(target, "write", EISDIR, "name a directory that is not there yet");
     std::error_code error;
     const bool exists = std::filesystem::exists(target_, error);
     if (exists && !std::filesystem::is_directory(target_, error)) throw_file_error(target_, "write", ENOTDIR);
     if (exists && !std::filesystem::is_empty(target_, error))
       throw_file_error(target_, "write", ENOTEMPTY, "name a directory that is not there yet");
-    std::string name = (target_.parent_path() / ("." + target_.filename().string() + ".XXXXXX")).string();
-    if (!::mkdtemp(name.data())) throw_file_error(target_, "write", errno, "the directory that it is in must exist");
-    temporary_ = name;
-    std::filesystem::permissions(temporary_,
-                                 std::filesystem::perms::group_read | std::filesystem::perms::group_exec |
-                                     std::filesystem::perms::others_read | std::filesystem::perms::others_exec,
-                                 std::filesystem::perm_options::add, error);
+    const int failed = temporary_.make_beside(target_, [](const char* name) { return ::mkdir(name, 0777) == 0; });
+    if (failed != 0) throw_file_error(target_, "write", failed, "the directory that it is in must exist");
   }
   AtomicDirectory(const AtomicDirectory&) = delete;
   AtomicDirectory& operator=(const AtomicDirectory&) = delete;
-  ~AtomicDirectory() {
-    std::error_code ignored;
-    if (!temporary_.empty()) std::filesystem::remove_all(temporary_, ignored);
+  /// Writes a file in it.
+  void write(const std::string& name, std::initializer_list<std::string_view> parts) {
+    files_.emplace_front(temporary_.name() + "/" + name);
+    AtomicFile file(files_.front().name());
+    for (const std::string_view part : parts) file.write(part);
+    file.commit();
   }
-  const std::filesystem::path& path() const { return temporary_; }
   void commit() {
-    if (std::rename(temporary_.c_str(), target_.c_str()) != 0) throw_file_error(target_, "write", errno);
-    temporary_.clear();
+    if (std::rename(temporary_.name().c_str(), target_.c_str()) != 0) throw_file_error(target_, "write", errno);
+    for (Temporary& file : files_) file.forget();
+    temporary_.forget();
   }
 
  private:
-  std::filesystem::path target_, temporary_;
+  std::filesystem::path target_;
+  Temporary temporary_;
+  std::forward_list<Temporary> files_;  // go before the directory does
 };
 
 void write_directory(const std::filesystem::path& path, const Safetensors& file) {
   AtomicDirectory directory(path);
-  for (const Tensor& tensor : file.tensors) {
-    AtomicFile out(directory.path() / (tensor.name + ".npy"));
-    out.write(npy_header(tensor.dtype, tensor.shape));
-    out.write({reinterpret_cast<const char*>(tensor.bytes.data()), tensor.bytes.size()});
-    out.commit();
-  }
-  AtomicFile metadata(directory.path() / "metadata.json");
-  metadata.write(nlohmann::json(file.metadata).dump(2) + "\n");
-  metadata.commit();
+  for (const Tensor& tensor : file.tensors)
+    directory.write(tensor.name + ".npy", {npy_header(tensor.dtype, tensor.shape),
+                                           {reinterpret_cast<const char*>(tensor.bytes.data()), tensor.bytes.size()}});
+  directory.write("metadata.json", {nlohmann::json(file.metadata).dump(2) + "\n"});
   directory.commit();
 }
 

@@ -25,6 +25,9 @@ class NpyArray {
   explicit NpyArray(const std::filesystem::path& path);
   /// The same of bytes, which must stay.
   NpyArray(std::span<const std::byte> bytes, const std::string& name);
+  NpyArray(const std::vector<std::byte>&& bytes, const std::string& name) = delete;
+  NpyArray(const NpyArray&) = default;  // which share the bytes; moved from are copied from
+  NpyArray& operator=(const NpyArray&) = default;
 
   DType dtype() const { return dtype_; }  ///< F32 or F64
   const std::vector<std::int64_t>& shape() const { return shape_; }

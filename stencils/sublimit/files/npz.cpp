@@ -6,11 +6,14 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <exception>
 #include <memory>
+#include <new>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "sublimit/base/atomic_file.h"
 #include "sublimit/base/error.h"
 #include "sublimit/base/file_error.h"
 #include "sublimit/files/npy.h"
@@ -19,6 +22,7 @@ namespace sublimit {
 namespace {
 
 [[noreturn]] void fail(const std::filesystem::path& path, zip_error_t* error) {
+  if (zip_error_code_zip(error) == ZIP_ER_MEMORY) throw std::bad_alloc();
   if (zip_error_system_type(error) == ZIP_ET_SYS && zip_error_code_system(error) != 0)
     throw_file_error(path, "write", zip_error_code_system(error));
   throw IoError(path.string() + ": cannot write: " + zip_error_strerror(error));
@@ -80,27 +84,91 @@ struct NamedEntry {
   Entry entry;
 };
 
+/// The archive itself, which libzip writes through this and goes back in, to the header of each entry.
+struct Archive {
+  AtomicFile file;
+  std::int64_t at = 0, end = 0;
+  std::exception_ptr failure = nullptr;
+
+  zip_int64_t write(const void* data, zip_uint64_t length) noexcept {
+    try {
+      const std::string_view bytes(static_cast<const char*>(data), length);
+      const std::int64_t before = std::min(std::int64_t(length), end - at);
+      if (before > 0) file.rewrite(at, bytes.substr(0, size_t(before)));
+      file.write(bytes.substr(size_t(before)));
+      at += std::int64_t(length);
+      end = std::max(end, at);
+      return zip_int64_t(length);
+    } catch (...) {  // libzip is C
+      failure = std::current_exception();
+      return -1;
+    }
+  }
+};
+
+/// What libzip asks of the archive.
+zip_int64_t archive_answer(void* state, void* data, zip_uint64_t length, zip_source_cmd_t command) {
+  Archive& archive = *static_cast<Archive*>(state);
+  switch (command) {
+    case ZIP_SOURCE_WRITE:
+      return archive.write(data, length);
+    case ZIP_SOURCE_SEEK_WRITE: {
+      zip_error_t error;
+      zip_error_init(&error);
+      const zip_int64_t to =
+          zip_source_seek_compute_offset(zip_uint64_t(archive.at), zip_uint64_t(archive.end), data, length, &error);
+      if (to < 0) return -1;
+      archive.at = to;
+      return 0;
+    }
+    case ZIP_SOURCE_TELL_WRITE:
+      return archive.at;
+    case ZIP_SOURCE_STAT: {
+      auto* const status = static_cast<zip_stat_t*>(data);
+      zip_stat_init(status);
+      status->size = 0;
+      status->valid = ZIP_STAT_SIZE;
+      return sizeof(zip_stat_t);
+    }
+    case ZIP_SOURCE_ERROR: {
+      const int failed[2] = {ZIP_ER_WRITE, 0};
+      std::memcpy(data, failed, sizeof failed);
+      return sizeof failed;
+    }
+    case ZIP_SOURCE_SUPPORTS:
+      return ZIP_SOURCE_SUPPORTS_WRITABLE;
+    default:
+      return 0;
+  }
+}
+
 void write_archive(const std::filesystem::path& path, std::vector<NamedEntry>& entries) {
-  int code = 0;
-  // libzip writes to a temporary next to the target, and renames it when it is closed.
-  std::unique_ptr<zip_t, void (*)(zip_t*)> open(zip_open(path.c_str(), ZIP_CREATE | ZIP_TRUNCATE, &code), zip_discard);
+  Archive archive{.file = AtomicFile(path)};
+  zip_error_t error;
+  zip_error_init(&error);
+  zip_source_t* const whole = zip_source_function_create(archive_answer, &archive, &error);
+  if (!whole) fail(path, &error);
+  std::unique_ptr<zip_t, void (*)(zip_t*)> open(zip_open_from_source(whole, ZIP_CREATE | ZIP_TRUNCATE, &error),
+                                                zip_discard);
   if (!open) {
-    zip_error_t error;
-    zip_error_init_with_code(&error, code);
-    if (zip_error_code_system(&error) == 0 && errno != 0 && code == ZIP_ER_OPEN) throw_file_error(path, "write", errno);
+    zip_source_free(whole);
     fail(path, &error);
   }
   for (NamedEntry& named : entries) {
     zip_source_t* const source = zip_source_function(open.get(), answer, &named.entry);
-    const zip_int64_t index =
-        source ? zip_file_add(open.get(), (named.name + ".npy").c_str(), source, ZIP_FL_ENC_UTF_8) : -1;
+    if (!source) fail(path, zip_get_error(open.get()));
+    const zip_int64_t index = zip_file_add(open.get(), (named.name + ".npy").c_str(), source, ZIP_FL_ENC_UTF_8);
+    if (index < 0) zip_source_free(source);
     constexpr std::uint16_t january_1980 = 1 << 5 | 1;  // as NumPy has it: no clock in the bytes
     if (index < 0 || zip_set_file_compression(open.get(), zip_uint64_t(index), ZIP_CM_STORE, 0) != 0 ||
         zip_file_set_dostime(open.get(), zip_uint64_t(index), 0, january_1980, 0) != 0)
       fail(path, zip_get_error(open.get()));
   }
-  if (zip_close(open.get()) != 0) fail(path, zip_get_error(open.get()));
+  const bool closed = zip_close(open.get()) == 0;
+  if (archive.failure) std::rethrow_exception(archive.failure);
+  if (!closed) fail(path, zip_get_error(open.get()));
   (void)open.release();  // closing has freed it
+  archive.file.commit();
 }
 
 std::string_view text(std::span<const std::byte> bytes) {

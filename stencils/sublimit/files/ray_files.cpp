@@ -48,7 +48,7 @@ void write_ray_hits(const std::filesystem::path& path, const RayHits& hits) {
       append_point(text, hits.points, i);
       append_normal(text, hits.normals, i);
       text += ',';
-      text += name(hits.status[size_t(i)]);
+      text += hits.word(i);
       text += '\n';
     }
   };

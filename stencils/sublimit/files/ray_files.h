@@ -17,8 +17,8 @@ namespace sublimit {
 /// @throws IoError      missing, unreadable
 std::vector<Ray> read_rays(const std::filesystem::path& path);
 
-/// A row for each hit, by ray and by rising t; the file appears whole or not at all. What does not exist is an empty
-/// field.
+/// A row for each hit, by ray and by rising t, with its word as status (`RayHits::word`); the file appears whole or not
+/// at all. What does not exist is an empty field.
 void write_ray_hits(const std::filesystem::path& path, const RayHits& hits);
 
 }  // namespace sublimit

@@ -7,7 +7,7 @@
 
 namespace sublimit {
 
-struct CurvatureFit {
+struct [[nodiscard]] CurvatureFit {
   CurvatureMesh given, refined;  ///< the first vertices of `refined` are those of `given`
   FitReport report;
 };

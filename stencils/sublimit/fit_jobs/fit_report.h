@@ -18,7 +18,7 @@ struct FitLevel {
   double normal_deviation = 0;  ///< radians, the most between a triangle's normal and those of its corners' data
 };
 
-struct FitReport {
+struct [[nodiscard]] FitReport {
   std::string kind;                            ///< interpolation, construction, least-squares, cloud, torus-pieces
   std::string mesh, targets, scheme, output;   ///< names, of files as given
   std::map<std::string, std::string> options;  ///< on the command line, of the scheme and of the fit
@@ -47,7 +47,7 @@ struct FitReport {
   std::vector<std::string> notes;
 
   /// Targets at vertices are met.
-  bool solved() const { return attempts.empty() || attempts.back().solved; }
+  [[nodiscard]] bool solved() const { return attempts.empty() || attempts.back().solved; }
 };
 
 /// Largest and root mean square of the numbers that are there.

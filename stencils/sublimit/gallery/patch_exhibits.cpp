@@ -44,7 +44,7 @@ SampledSurface describe(const RecipeSurface& surface, PatchExhibit& exhibit) {
 }
 
 SampledSurface describe(const NormalTriangles& data, PatchExhibit& exhibit) {
-  const GeometricNormalScheme scheme = find_geometric_scheme<NormalMesh>(exhibit.kind).value();
+  const GeometricNormalScheme scheme = geometric_scheme<NormalMesh>(exhibit.kind);
   const std::shared_ptr<const PlacedSurface> surface =
       scheme.surface(scheme.checked({{0, 1, 2}, data.points, data.normals}));
   exhibit.form = PatchForm::nonlinear;

@@ -104,7 +104,7 @@ PictureMesh surface_of(const Part& part, Color color) {
 }
 
 PictureMesh net_of(const ControlMesh& mesh) {
-  const Scheme<double> scheme = *find_scheme(stitched_scheme);
+  const Scheme<double> scheme = sublimit::scheme(stitched_scheme);
   PictureMesh wire = wire_picture(control_level(scheme, mesh), mesh.positions);
   wire.faces = false;
   wire.color = net_color;
@@ -114,7 +114,7 @@ PictureMesh net_of(const ControlMesh& mesh) {
 /// How far the limit is from the surface on its faces: the faces where it is the same, and the largest distance on the
 /// others.
 std::pair<Index, double> deviation(const Part& part, const ControlMesh& mesh, Index first_face) {
-  const LimitSurface limit(*find_scheme(stitched_scheme), mesh);
+  const LimitSurface limit(sublimit::scheme(stitched_scheme), mesh);
   const PatchSet patches({std::make_shared<SplineSurface>(part.surface)});
   const std::vector<Index> faces = interval_mesh(part.surface).faces;
   Index same = 0;
@@ -150,7 +150,7 @@ ControlMesh stitched_mesh() {
 StitchedPictures stitched_pictures(const std::function<std::string(const ControlMesh&, const std::string&)>& report) {
   const Part top = lid(), side = wall(top);
   const ControlMesh mesh = stitched_mesh();
-  const Scheme<double> scheme = *find_scheme(stitched_scheme);
+  const Scheme<double> scheme = sublimit::scheme(stitched_scheme);
   LimitTypes types(scheme);
   constexpr int drawn_level = 3;
   std::vector<Level> levels = refine(scheme, mesh, drawn_level);

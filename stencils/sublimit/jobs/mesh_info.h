@@ -13,7 +13,7 @@
 
 namespace sublimit {
 
-struct MeshInfo {
+struct [[nodiscard]] MeshInfo {
   /// How many there are of each.
   using Histogram = std::map<Index, Index>;
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <string>
 #include <utility>
 
@@ -117,14 +118,7 @@ const PieceType& Patterns::type(const Pattern& pattern, const Example& example) 
 }
 
 const RowMatrix& Patterns::differences(const PieceType& type, int levels, Ends ends) {
-  const std::tuple key{&type, levels, ends};
-  {
-    const std::lock_guard lock(rows_mutex_);
-    if (const auto known = differences_.find(key); known != differences_.end()) return *known->second;
-  }
-  auto made = std::make_unique<const RowMatrix>(made_rows(type, levels, ends));
-  const std::lock_guard lock(rows_mutex_);
-  return *differences_.try_emplace(key, std::move(made)).first->second;
+  return differences_.get({&type, levels, ends}, [&] { return made_rows(type, levels, ends); });
 }
 
 namespace {
@@ -197,11 +191,8 @@ RowMatrix Patterns::made_corner_rows(const PieceType& type, int levels, Ends end
 }
 
 std::int64_t Patterns::num_corner_rows(const Pattern& pattern, const Example& example, int levels) {
-  {
-    const std::lock_guard lock(rows_mutex_);
-    for (const Ends ends : {Ends::points, Ends::limits})
-      if (const auto at = rows_.find({pattern.number, levels, ends}); at != rows_.end()) return at->second->rows();
-  }
+  for (const Ends ends : {Ends::points, Ends::limits})
+    if (const RowMatrix* rows = rows_.known({pattern.number, levels, ends})) return rows->rows();
   std::map<std::pair<const PieceType*, int>, std::int64_t> known;
   const std::function<std::int64_t(const PieceType&, int)> count = [&](const PieceType& type, int left) {
     if (const auto at = known.find({&type, left}); at != known.end()) return at->second;
@@ -247,17 +238,13 @@ RowMatrix Patterns::made_rows(const PieceType& type, int levels, Ends ends) {
 }
 
 const RowMatrix& Patterns::whole_rows(const Pattern& pattern, const Example& example, int levels, Ends ends) {
-  const std::tuple key{pattern.number, levels, ends};
-  {
-    const std::lock_guard lock(rows_mutex_);
-    if (const auto known = rows_.find(key); known != rows_.end()) return *known->second;
-  }
-  const RowMatrix& D = differences(type(pattern, example), levels, ends);
-  auto made = std::make_unique<RowMatrix>(D.rows(), D.cols() + 1);
-  made->rightCols(D.cols()) = D;
-  made->col(0) = 1 - D.rowwise().sum().array();
-  const std::lock_guard lock(rows_mutex_);
-  return *rows_.try_emplace(key, std::move(made)).first->second;
+  return rows_.get({pattern.number, levels, ends}, [&] {
+    const RowMatrix& D = differences(type(pattern, example), levels, ends);
+    RowMatrix made(D.rows(), D.cols() + 1);
+    made.rightCols(D.cols()) = D;
+    made.col(0) = 1 - D.rowwise().sum().array();
+    return made;
+  });
 }
 
 const RowMatrix& Patterns::rows(const Pattern& pattern, const Example& example, int levels) {
@@ -265,9 +252,7 @@ const RowMatrix& Patterns::rows(const Pattern& pattern, const Example& example, 
 }
 
 const RowMatrix* Patterns::known_rows(const Pattern& pattern, int levels) const {
-  const std::lock_guard lock(rows_mutex_);
-  const auto known = rows_.find({pattern.number, levels, Ends::points});
-  return known == rows_.end() ? nullptr : known->second.get();
+  return rows_.known({pattern.number, levels, Ends::points});
 }
 
 const RowMatrix& Patterns::limit_rows(const Pattern& pattern, const Example& example, int levels) {
@@ -278,15 +263,9 @@ const Patterns::LimitBlock* Patterns::limit_block(const Pattern& pattern, const 
                                                   const LimitRequest& request) {
   const auto& [lattice, place, by_address, derivatives] = request;
   const LimitKey key{pattern.number, lattice.n, place.turn, place.quarter, by_address, derivatives};
-  {
-    const std::lock_guard lock(rows_mutex_);
-    if (const auto known = limits_.find(key); known != limits_.end()) return known->second.get();
-  }
-  std::unique_ptr<const LimitBlock> made;
-  if (std::optional<LimitBlock> block = limits_of_type(types_, type(pattern, example), request))
-    made = std::make_unique<const LimitBlock>(std::move(*block));
-  const std::lock_guard lock(rows_mutex_);
-  return limits_.try_emplace(key, std::move(made)).first->second.get();
+  const std::optional<LimitBlock>& block =
+      limits_.get(key, [&] { return limits_of_type(types_, type(pattern, example), request); });
+  return block ? &*block : nullptr;
 }
 
 std::optional<Patterns::LimitBlock> Patterns::limits_at(const Pattern& pattern, const Example& example,
@@ -301,14 +280,10 @@ size_t Patterns::num_types() const {
   return patterns_.size();
 }
 
-size_t Patterns::num_matrices() const {
-  const std::lock_guard lock(rows_mutex_);
-  return rows_.size() + limits_.size();
-}
+size_t Patterns::num_matrices() const { return rows_.size() + limits_.size(); }
 
 std::vector<Patterns::Stored> Patterns::stored() const {
   const std::shared_lock lock(mutex_);
-  const std::lock_guard rows_lock(rows_mutex_);
   std::vector<Stored> all(patterns_.size());
   for (const Pattern& pattern : patterns_) {
     all[pattern.number].kind = pattern.kind;
@@ -319,10 +294,11 @@ std::vector<Patterns::Stored> Patterns::stored() const {
   for (Stored& one : all)  // the same file whatever the order of a hash table
     std::sort(one.signatures.begin(), one.signatures.end(),
               [](const auto& a, const auto& b) { return std::tie(a.turn, a.words) < std::tie(b.turn, b.words); });
-  for (const auto& [key, rows] : rows_)
-    all[std::get<0>(key)].rows.push_back({std::get<1>(key), std::get<2>(key), *rows});
-  for (const auto& [key, block] : limits_) {
-    if (!block) continue;
+  rows_.for_each([&](const auto& key, const RowMatrix& rows) {
+    all[std::get<0>(key)].rows.push_back({std::get<1>(key), std::get<2>(key), rows});
+  });
+  limits_.for_each([&](const LimitKey& key, const std::optional<LimitBlock>& block) {
+    if (!block) return;
     const auto& [number, n, turn, quarter, by_address, derivatives] = key;
     const bool triangle = all[number].kind == Piece::Kind::triangle;
     all[number].limits.push_back({{{n, triangle},
@@ -330,12 +306,12 @@ std::vector<Patterns::Stored> Patterns::stored() const {
                                    by_address,
                                    derivatives},
                                   *block});
-  }
+  });
   return all;
 }
 
 void Patterns::add(Stored stored) {
-  const std::unique_lock lock(mutex_);
+  std::unique_lock lock(mutex_);
   const Pattern* pattern = nullptr;
   for (const Stored::Signature& signature : stored.signatures)
     if (const auto known = turned_.find(signature.words); known != turned_.end()) pattern = known->second.pattern;
@@ -348,14 +324,12 @@ void Patterns::add(Stored stored) {
     }
     pattern = &added;
   }
-  const std::lock_guard rows_lock(rows_mutex_);
-  for (Stored::Rows& rows : stored.rows)
-    rows_.try_emplace({pattern->number, rows.levels, rows.ends},
-                      std::make_unique<const RowMatrix>(std::move(rows.weights)));
+  lock.unlock();
+  for (Stored::Rows& rows : stored.rows) rows_.add({pattern->number, rows.levels, rows.ends}, std::move(rows.weights));
   for (Stored::Limits& limits : stored.limits) {
     const LimitRequest& r = limits.request;
-    limits_.try_emplace({pattern->number, r.lattice.n, r.place.turn, r.place.quarter, r.by_address, r.derivatives},
-                        std::make_unique<const LimitBlock>(std::move(limits.block)));
+    limits_.add({pattern->number, r.lattice.n, r.place.turn, r.place.quarter, r.by_address, r.derivatives},
+                std::move(limits.block));
   }
 }
 

@@ -7,12 +7,12 @@
 //   R_k(type)  =  R_{k-p}(child type) * block     on the child's share of the face
 #include <atomic>
 #include <deque>
-#include <map>
 #include <mutex>
 #include <optional>
 #include <shared_mutex>
 #include <span>
 
+#include "sublimit/base/found_once.h"
 #include "sublimit/face_lattices.h"
 #include "sublimit/limit/limit_types.h"
 
@@ -142,13 +142,13 @@ class Patterns {
   mutable std::shared_mutex mutex_;  // of the patterns and their signatures
   std::deque<Pattern> patterns_;
   std::unordered_map<std::vector<std::uint32_t>, Turned, SignatureHash> turned_;
-  mutable std::mutex rows_mutex_;
-  std::map<std::tuple<const PieceType*, int, Ends>, std::unique_ptr<const RowMatrix>> differences_;
+  /// Rows of fewer levels are found while those of more are.
+  FoundByKey<std::tuple<const PieceType*, int, Ends>, RowMatrix> differences_;
   /// By number of the pattern, levels, ends.
-  std::map<std::tuple<size_t, int, Ends>, std::unique_ptr<const RowMatrix>> rows_;
+  FoundByKey<std::tuple<size_t, int, Ends>, RowMatrix> rows_;
   /// By number of the pattern, cells a side, turn, quarter, order of points, derivatives.
   using LimitKey = std::tuple<size_t, std::int32_t, int, int, bool, int>;
-  std::map<LimitKey, std::unique_ptr<const LimitBlock>> limits_;
+  FoundByKey<LimitKey, std::optional<LimitBlock>> limits_;
 };
 
 }  // namespace sublimit

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <cmath>
 #include <utility>
 
 #include "sublimit/base/error.h"
@@ -36,6 +37,30 @@ void read_bezier_curve(RecipeObject& object, Recipe& recipe) {
   set_curve(recipe, bezier_curve(std::move(given.columns), begin, end, given.coordinates));
 }
 
+/// How the matrix of a basis is written: a row of coefficients for each control point, 1 first, as OBJ's `bmat` has it;
+/// or M of (t^n .. t 1) M (P_0 .. P_n)^T, as textbooks do.
+constexpr const char* matrix_forms[] = {"obj", "textbook"};
+
+/// Functions of a curve that is made of points sum to 1.
+bool is_partition(const Points& by_point) {
+  const Eigen::RowVectorXd sums = by_point.colwise().sum();
+  const double rounding = 1e-12 * by_point.cwiseAbs().maxCoeff() * static_cast<double>(by_point.rows());
+  return std::abs(sums[0] - 1) <= rounding && sums.tail(sums.size() - 1).cwiseAbs().maxCoeff() <= rounding;
+}
+
+/// By rows of control points.
+Points basis_matrix(RecipeObject& object, const Points& given) {
+  const Points textbook = given.colwise().reverse().transpose();
+  if (object.has("form")) return object.word("form", matrix_forms) == 0 ? given : textbook;
+  // Vectors among the points, as of Hermite curves, sum to anything: then no form is more likely than the other.
+  if (!is_partition(given) && is_partition(textbook))
+    object.fail(
+        "matrix",
+        "is M of (t^n .. t 1) M P, as textbooks write it; a row for each control point with the coefficients of "
+        "1, t, t^2 .. is expected, as OBJ's bmat has it; add \"form\": \"textbook\", or \"obj\" if it is meant so");
+  return given;
+}
+
 void read_bmatrix_curve(RecipeObject& object, Recipe& recipe) {
   const int degree = object.integer("degree", 1, max_degree), order = degree + 1;
   MatrixCurve curve;
@@ -43,7 +68,7 @@ void read_bmatrix_curve(RecipeObject& object, Recipe& recipe) {
   if (matrix.rows() != order)
     object.fail("matrix", "has " + format_number(matrix.rows()) + " rows; degree " + format_number(degree) + " needs " +
                               format_number(order));
-  curve.matrix = matrix;
+  curve.matrix = basis_matrix(object, matrix);
   curve.step = object.integer("step", 1, 1000000);
   curve.points = object.points("points", 1, most_coordinates);
   if (object.has("parm")) curve.ends = object.numbers("parm");

@@ -8,7 +8,7 @@
 namespace sublimit {
 
 /// The recipes that have such a net, and those that have none.
-struct RecipeNets {
+struct [[nodiscard]] RecipeNets {
   FreeForm shapes;
   std::vector<const Recipe*> surface, curve;  ///< of each element
   struct LeftOut {
@@ -19,6 +19,7 @@ struct RecipeNets {
 };
 /// @param recipes  have to stay
 RecipeNets recipe_nets(const std::vector<Recipe>& recipes);
+RecipeNets recipe_nets(const std::vector<Recipe>&&) = delete;
 
 /// @throws UnsupportedTopology  a recipe without an exact net, or with one that OBJ cannot hold: which and why
 FreeForm net_file(const std::vector<Recipe>& recipes);

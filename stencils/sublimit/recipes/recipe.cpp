@@ -41,6 +41,28 @@ RecipeKind find_kind(const std::string& kind, const std::string& place) {
                     "; the nearest are " + offers);
 }
 
+/// @param what  of which these are the control points
+/// @throws FormatError  a sum of the recipe's numbers, which are finite, is not
+void check_net(const Points& columns, const std::string& place, const char* what) {
+  for (Eigen::Index i = 0; i < columns.rows(); ++i) {
+    if (columns.row(i).allFinite()) continue;
+    std::string text;
+    for (Eigen::Index c = 0; c < columns.cols(); ++c) text += (c == 0 ? "(" : ", ") + format_number(columns(i, c));
+    throw FormatError(place + ": control point " + format_number(i) + " of its " + what + " would be " + text +
+                      "): its numbers are so large that their sums and products overflow; another unit of length is "
+                      "right");
+  }
+}
+void check_numbers(const Recipe& recipe) {
+  const auto check = [&](const auto* shape, const char* what) {
+    if (!shape) return;
+    check_net(shape->columns, recipe.place, what);
+    if (shape->net) check_net(shape->net->columns, recipe.place, "exact net");
+  };
+  check(recipe.surface(), "surface");
+  check(recipe.curve(), "curve");
+}
+
 Recipe read_one(const JsonValue& value, std::size_t index, const std::string& file) {
   Recipe recipe;
   recipe.index = index;
@@ -60,6 +82,7 @@ Recipe read_one(const JsonValue& value, std::size_t index, const std::string& fi
   recipe.group = read_label(object, "group");
   try {
     kind.read(object, recipe);
+    check_numbers(recipe);
   } catch (const InvalidParameter& error) {
     throw FormatError(recipe.place + ": " + error.what());
   } catch (const InvalidMesh& error) {
@@ -85,7 +108,8 @@ std::vector<std::string> recipe_kinds() {
 }
 
 std::vector<Recipe> parse_recipes(std::string_view text, const std::string& name) {
-  const JsonValue root = parse_json(text, name);
+  const auto whole = std::make_shared<const JsonValue>(parse_json(text, name));
+  const JsonValue& root = *whole;
   if (root.type != JsonValue::Type::object)
     throw FormatError(name + ": holds " + show(root) +
                       "; a recipe is an object {\"kind\": ..}, several are {\"recipes\": [..]}");
@@ -97,9 +121,13 @@ std::vector<Recipe> parse_recipes(std::string_view text, const std::string& name
     RecipeObject object(root, name);
     object.has("recipes");
     object.finish();
-    for (std::size_t i = 0; i < list->items.size(); ++i) recipes.push_back(read_one(list->items[i], i, name));
+    for (std::size_t i = 0; i < list->items.size(); ++i) {
+      recipes.push_back(read_one(list->items[i], i, name));
+      recipes.back().object = {whole, &list->items[i]};
+    }
   } else {
     recipes.push_back(read_one(root, 0, name));
+    recipes.back().object = whole;
   }
   return recipes;
 }

@@ -63,7 +63,8 @@ struct Recipe {
   std::string kind, name, group;
   std::string place;  ///< "file.json: recipe 2 'wing' (ruled)", for messages
   std::variant<RecipeSurface, RecipeCurve, NormalTriangles, JoinRecipe, FieldRecipe> shape;
-  std::vector<std::string> notes;  ///< what was accepted but should be known
+  std::shared_ptr<const JsonValue> object;  ///< its fields as they are written, for code that computes exactly
+  std::vector<std::string> notes;           ///< what was accepted but should be known
 
   const RecipeSurface* surface() const { return std::get_if<RecipeSurface>(&shape); }
   const RecipeCurve* curve() const { return std::get_if<RecipeCurve>(&shape); }

@@ -17,9 +17,11 @@ namespace sublimit {
 
 class RecipeObject {
  public:
+  /// @param value  which must stay
   /// @param place  before every message: "file.json: recipe 2 'wing' (ruled)"
   /// @param path   of the object in the recipe: "" or "c0."
   RecipeObject(const JsonValue& value, std::string place, std::string path = "");
+  RecipeObject(const JsonValue&&, std::string, std::string = "") = delete;
 
   const std::string& place() const { return place_; }
   const JsonValue& value() const { return *value_; }

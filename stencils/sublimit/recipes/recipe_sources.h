@@ -7,7 +7,7 @@
 
 namespace sublimit {
 
-struct RecipePatches {
+struct [[nodiscard]] RecipePatches {
   PatchSet patches;
   Points columns;                     ///< x 3, or x 4, homogeneous, if one of them is rational
   std::vector<const Recipe*> recipe;  ///< of each patch
@@ -16,14 +16,17 @@ struct RecipePatches {
 /// @param name     of the file, for messages
 /// @throws UnsupportedTopology  no surfaces; triangles beside squares
 RecipePatches recipe_patches(const std::vector<Recipe>& recipes, const std::string& name);
+RecipePatches recipe_patches(const std::vector<Recipe>&&, const std::string&) = delete;
 
-struct RecipeCurves {
+struct [[nodiscard]] RecipeCurves {
   CurveSet curves;
   Points columns;  ///< of the largest dimension, 0 where a curve has less
   Coordinates coordinates = Coordinates::plain;
   std::vector<const Recipe*> recipe;  ///< of each curve
 };
+/// @param recipes  have to stay
 /// @throws UnsupportedTopology  no curves
 RecipeCurves recipe_curves(const std::vector<Recipe>& recipes, const std::string& name);
+RecipeCurves recipe_curves(const std::vector<Recipe>&&, const std::string&) = delete;
 
 }  // namespace sublimit

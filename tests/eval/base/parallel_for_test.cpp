@@ -2,6 +2,7 @@
 #include "sublimit/base/parallel_for.h"
 
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
 
 #include <atomic>
 #include <chrono>
@@ -40,6 +41,30 @@ TEST(ParallelFor, LoopsInsideGoOnWhereTheOuterOneFails) {
   EXPECT_THROW(parallel_for_blocks(16, body, 1), std::runtime_error);
   EXPECT_GT(loops, 0);
   EXPECT_EQ(halfway, 0) << "of " << loops;
+}
+
+/// A thread that waits for a loop inside of a block takes up no other block of the outer loop: buffers of its own, and
+/// locks, are the block's until it is done.
+TEST(ParallelFor, BlocksAreNotTakenUpInsideOfOthers) {
+  for (const size_t threads : {1, 2, 8}) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    static thread_local int inside = 0;
+    std::atomic<int> deepest{0};
+    const auto body = [&](std::int64_t, std::int64_t, std::int64_t) {
+      ++inside;
+      for (int before = deepest; inside > before && !deepest.compare_exchange_weak(before, inside);) continue;
+      const std::thread::id own = std::this_thread::get_id();
+      parallel_for_blocks(
+          16,
+          [&](std::int64_t, std::int64_t, std::int64_t) {  // who helps is the last to be done
+            std::this_thread::sleep_for(own == std::this_thread::get_id() ? 200us : 5ms);
+          },
+          1);
+      --inside;
+    };
+    for (int round = 0; round < 3; ++round) parallel_for_blocks(16, body, 1);
+    EXPECT_EQ(deepest, 1);
+  }
 }
 
 TEST(ParallelFor, BlocksCoverTheRangeOnce) {

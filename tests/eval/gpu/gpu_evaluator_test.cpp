@@ -17,12 +17,15 @@
 #include "sublimit/base/error.h"
 #include "sublimit/gpu/packed_table.h"
 #include "sublimit/pattern_evaluator.h"
+#include "support/keeps_references.h"
 
 namespace sublimit::testing {
 namespace {
 
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 constexpr double eps = float_rounding;
+
+static_assert(keeps_named_only<GpuEvaluator, PatternTable<float>, const GpuDevice&>);
 
 /// One of all combinations of parts, and a number of channels.
 MadeTable parts_of(unsigned seed) {

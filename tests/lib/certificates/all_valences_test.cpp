@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <type_traits>
+#include <vector>
 
 #include "sublimit/base/error.h"
 #include "sublimit/certificates/turned_map.h"
@@ -13,6 +15,11 @@
 
 namespace sublimit {
 namespace {
+
+using Labels = const std::vector<SectorLabel>&;
+using Net = const std::vector<Ball>&;
+static_assert(std::is_constructible_v<TurnedMap, Ball, Ball, const RegularMask<Algebraic>&, Labels, Net> &&
+              !std::is_constructible_v<TurnedMap, Ball, Ball, RegularMask<Algebraic>, Labels, Net>);  // which it keeps
 
 /// The first hypothesis that was not shown.
 std::string open_one(const AllValences& all) {

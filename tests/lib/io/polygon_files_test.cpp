@@ -36,6 +36,29 @@ TEST(PolygonCsv, Tangents) {
   expect_error<FormatError>([] { parse_polygon_csv("1,2,3\n", "p.csv", true); }, {"p.csv:1", "3 columns", "tx"});
 }
 
+TEST(PolygonCsv, OtherColumnsThanPointsAndTangentsAreRefused) {
+  const auto refuses = [](const char* header, const char* row, bool tangents,
+                          std::initializer_list<std::string_view> parts) {
+    expect_error<FormatError>([&] { parse_polygon_csv(std::string(header) + "\n" + row + "\n", "p.csv", tangents); },
+                              parts);
+  };
+  refuses("x,y,tx,ty,ax,ay", "1,2,3,4,5,6", true,
+          {"p.csv:1", "6 columns, of which 2 are coordinates", "x,y,tx,ty or x,y,z,tx,ty,tz, and no other"});
+  refuses("x,y,z,tx,ty,tz,ax,ay,az", "1,2,3,4,5,6,7,8,9", true, {"p.csv:1", "9 columns", "no other columns"});
+  refuses("x,y,z,tx,ty,tz,kx,ky", "1,2,3,4,5,6,7,8", true, {"p.csv:1", "8 columns, of which 3"});
+  refuses("tx,ty,x,y", "1,2,3,4", true, {"column 3 is named 'x'", "belongs to column 1"});
+  refuses("x,y,tx,ty", "1,2,3,4", false, {"p.csv:1", "column 3 is named 'tx'", "points alone"});
+  refuses("id,x,y", "1,2,3", false, {"column 2 is named 'x'", "coordinates come first"});
+  // Names that say nothing are taken, and 6 columns without names are told how they were read.
+  EXPECT_EQ(parse_polygon_csv("x,y,z,w\n1,2,3,4\n", "p.csv").dimension(), 4);
+  EXPECT_EQ(parse_polygon_csv("px,py\n1,2\n", "p.csv").dimension(), 2);
+  EXPECT_EQ(parse_polygon_csv("x,y,z,tx,ty,tz\n1,2,3,4,5,6\n", "p.csv", true).warnings.size(), 0u);
+  const ControlPolygon unnamed = parse_polygon_csv("1,2,3,4,5,6\n", "p.csv", true);
+  EXPECT_EQ(unnamed.dimension(), 3);
+  ASSERT_EQ(unnamed.warnings.size(), 1u);
+  EXPECT_NE(unnamed.warnings[0].find("x,y,z,tx,ty,tz"), std::string::npos);
+}
+
 TEST(PolygonCsv, Errors) {
   const auto fails = [](std::string_view text, std::initializer_list<std::string_view> parts) {
     expect_error<FormatError>([&] { parse_polygon_csv(text, "p.csv"); }, parts);

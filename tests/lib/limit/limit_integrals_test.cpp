@@ -268,7 +268,7 @@ TEST(LimitIntegrals, RefusesWhatHasNone) {
   Points points = cube().positions;
   expect_error<InvalidParameter>([&] { limit_integrals(surface, points.topRows(7)); }, {"for each vertex"});
   points(3, 1) = NAN;
-  expect_error<InvalidParameter>([&] { limit_integrals(surface, points); }, {"finite"});
+  expect_error<InvalidMesh>([&] { limit_integrals(surface, points); }, {"finite"});
 }
 
 }  // namespace

@@ -9,7 +9,9 @@
 #include <random>
 
 #include "sublimit/base/error.h"
+#include "sublimit/scheme/prepare.h"
 #include "sublimit/schemes.h"
+#include "sublimit/search/tracer.h"
 #include "sublimit/tessellation/tessellate.h"
 #include "support/meshes.h"
 #include "support/places.h"
@@ -44,10 +46,19 @@ struct Case {
 std::vector<Case> closed_cases() {
   ControlMesh creased = cube();
   add_crease(creased, {0, 1, 3}, {10, 1.5f});
-  return {{"bilinear", jittered(cube())},        {"catmull-clark", jittered(creased)},
-          {"catmull-clark", jittered(prism(5))}, {"catmull-clark", torus(7, 5)},
-          {"loop", jittered(icosahedron())},     {"loop", triangle_torus(6, 5)},
-          {"doo-sabin", jittered(prism(5))},     {"averaging", torus(6, 4)}};
+  return {{"bilinear", jittered(cube())},
+          {"catmull-clark", jittered(creased)},
+          {"catmull-clark", jittered(prism(5))},
+          {"catmull-clark", torus(7, 5)},
+          {"loop", jittered(icosahedron())},
+          {"loop", triangle_torus(6, 5)},
+          {"doo-sabin", jittered(prism(5))},
+          {"averaging", torus(6, 4)},
+          {"kobbelt", jittered(cube())},
+          {"butterfly", jittered(icosahedron())},
+          {"sqrt3", jittered(icosahedron())},
+          {"interpolatory-sqrt3", jittered(icosahedron())},
+          {"modified-butterfly", jittered(octahedron())}};
 }
 
 TEST(Intersect, HitsAreOnRayAndSurface) {
@@ -314,6 +325,101 @@ TEST(Intersect, RaysInTheSurfaceTellWhereTheyEnterIt) {
     EXPECT_NEAR(hits.t[i], 2, found_touch * diagonal(box));
     EXPECT_GT(hits.undecided[i], 0);
   }
+}
+
+/// A pyramid over a regular n-gon, its apex (0, 0, 1) a sharp corner.
+ControlMesh sharp_pyramid(Index n) {
+  std::vector<Eigen::Vector3d> x{{0, 0, 1}};
+  std::vector<std::vector<Index>> faces;
+  std::vector<Index> base;
+  for (Index i = 0; i < n; ++i) {
+    const double angle = 2 * M_PI * i / n;
+    x.push_back({std::cos(angle), std::sin(angle), 0});
+    faces.push_back({0, 1 + i, 1 + (i + 1) % n});
+    base.insert(base.begin(), 1 + i);
+  }
+  faces.push_back(base);
+  ControlMesh mesh = make_mesh(x, faces);
+  mesh.corners.push_back({0, 10});
+  return mesh;
+}
+
+// A sharp corner is the vertex itself, and from within the cone of its faces a ray crosses there.
+TEST(Intersect, RaysThroughSharpApexesHitTheVertex) {
+  for (const char* scheme : {"catmull-clark", "loop"})
+    for (Index n = 3; n <= 8; ++n) {
+      ControlMesh mesh = sharp_pyramid(n);
+      if (std::string(scheme) == "loop") mesh = triangulated(mesh);
+      const LimitSurface surface(find_scheme(scheme).value(), mesh);
+      std::vector<Ray> rays;
+      for (const Eigen::Vector3d& along : {Eigen::Vector3d(0, 0, -1), Eigen::Vector3d(0.05, 0.02, -1).normalized()})
+        rays.push_back({Eigen::Vector3d(0, 0, 1) - 4 * along, along});
+      for (const bool all : {false, true}) {
+        const RayHits hits = intersect(surface, mesh.positions, rays, {.all = all});
+        for (size_t i = 0; i < rays.size(); ++i) {
+          ASSERT_EQ(hits.first[i + 1] - hits.first[i], all ? 2 : 1) << scheme << " " << n;
+          EXPECT_NEAR(hits.t[size_t(hits.first[i])], 4, same_hit) << scheme << " " << n;
+          EXPECT_EQ(hits.kinds[size_t(hits.first[i])], HitKind::crossing) << scheme << " " << n;
+        }
+      }
+    }
+}
+
+// The plane x + y + z = 1 at angles down to some 0.005 degrees, after few parts.
+TEST(Intersect, GrazingRaysHitATriangle) {
+  const ControlMesh triangle = make_mesh({{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 1, 2}});
+  const Eigen::Vector3d normal = Eigen::Vector3d::Ones().normalized(), middle = Eigen::Vector3d::Constant(1. / 3);
+  for (const char* scheme : {"bilinear", "catmull-clark", "loop"}) {
+    const LimitSurface surface(find_scheme(scheme).value(), triangle);
+    std::vector<Ray> rays;
+    std::mt19937 random(21);
+    std::uniform_real_distribution<double> angles(0, 2 * M_PI), offsets(-0.08, 0.08);
+    for (const double slope : {1e-2, 1e-3, 1e-4, 1e-5})
+      for (int i = 0; i < 25; ++i) {
+        const double a = angles(random);
+        const Eigen::Vector3d x = Eigen::Vector3d(1, -1, 0).normalized(), y = normal.cross(x);
+        const Eigen::Vector3d at = middle + offsets(random) * x + offsets(random) * y;
+        rays.push_back({at, std::cos(a) * x + std::sin(a) * y + slope * normal, -1});
+        rays.back().origin -= rays.back().direction;
+        rays.back().tmin = 0;
+      }
+    const RayHits hits = intersect(surface, triangle.positions, rays, {.all = true, .most_parts = 500});
+    for (size_t i = 0; i < rays.size(); ++i) {
+      ASSERT_EQ(hits.first[i + 1] - hits.first[i], 1) << scheme << " " << i;
+      const auto hit = size_t(hits.first[i]);
+      EXPECT_EQ(hits.kinds[hit], HitKind::crossing) << scheme << " " << i;
+      EXPECT_NEAR(hits.t[hit], 1, found_grazing) << scheme << " " << i;
+    }
+  }
+}
+
+// A ray that is given up says so, where it stopped, and keeps what was found.
+TEST(Intersect, RaysThatAreGivenUpSaySo) {
+  const ControlMesh mesh = jittered(cube());
+  const LimitSurface surface(find_scheme("kobbelt").value(), mesh);
+  const std::vector<Ray> rays = random_rays(mesh, 40, 23);
+  const RayHits all = intersect(surface, mesh.positions, rays, {.all = true}),
+                short_of = intersect(surface, mesh.positions, rays, {.all = true, .most_parts = 1});
+  int given_up = 0;
+  for (size_t i = 0; i < rays.size(); ++i)
+    for (auto k = size_t(short_of.first[i]); k < size_t(short_of.first[i + 1]); ++k) {
+      if (short_of.kinds[k] != HitKind::given_up) continue;
+      ++given_up;
+      EXPECT_STREQ(short_of.word(std::int64_t(k)), "given-up");
+      EXPECT_EQ(short_of.status[k], LimitStatus::outside);
+      EXPECT_GT(short_of.undecided[i], 0);
+      EXPECT_TRUE(short_of.normals.row(Eigen::Index(k)).isZero(0));
+      const Eigen::Vector3d on_ray = rays[i].origin + short_of.t[k] * rays[i].direction;
+      EXPECT_EQ(Eigen::Vector3d(short_of.points.row(Eigen::Index(k))), on_ray);
+      // No hit lies before it that was not found.
+      for (auto hit = size_t(all.first[i]); hit < size_t(all.first[i + 1]); ++hit) {
+        if (all.t[hit] >= short_of.t[k]) continue;
+        EXPECT_TRUE(std::any_of(short_of.t.begin() + short_of.first[i], short_of.t.begin() + short_of.first[i + 1],
+                                [&](double t) { return std::abs(t - all.t[hit]) <= found_hit * diagonal(mesh); }));
+      }
+    }
+  EXPECT_GT(given_up, 0);
+  EXPECT_EQ(std::ranges::count(all.kinds, HitKind::given_up), 0);
 }
 
 TEST(Intersect, HasTheSameBitsForAnyNumberOfThreads) {

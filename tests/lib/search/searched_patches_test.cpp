@@ -104,6 +104,62 @@ TEST(SearchedPatches, RaysHitATorusAsOftenAsItsEquationChangesSign) {
   EXPECT_GT(several, 5);
 }
 
+/// How far rays pass beside a pole.
+constexpr double beside_poles[]{0, 1e-16, 1e-13, 1e-11, 1e-9, 1e-7, 1e-5, 1e-3};
+
+/// Rays from outside by a point, along random directions.
+std::vector<Ray> rays_beside(const Eigen::Vector3d& point, int directions, unsigned seed) {
+  const Points random = random_queries(2 * directions, 1, seed);
+  std::vector<Ray> rays;
+  for (int i = 0; i < directions; ++i) {
+    // Along the axis first, which looks at the pole from above.
+    const Eigen::Vector3d along = i == 0 ? Eigen::Vector3d(0, 0, -1) : Eigen::Vector3d(random.row(2 * i)).normalized();
+    const Eigen::Vector3d aside = along.cross(Eigen::Vector3d(random.row(2 * i + 1))).normalized();
+    for (const double beside : beside_poles) rays.push_back({point + beside * aside - 5 * along, along});
+  }
+  return rays;
+}
+
+// |x|^2 = r^2 along the ray, as roots of a quadratic equation.
+TEST(SearchedPatches, RaysThroughPolesHitASphereWhereItsEquationSays) {
+  constexpr double radius = 1.5;
+  const Searched s = sphere(radius);
+  for (const double pole : {radius, -radius}) {
+    const std::vector<Ray> rays = rays_beside({0, 0, pole}, 25, 11);
+    const RayHits hits = intersect(s.surface(), rays, {.all = true, .most_parts = 2000});
+    for (size_t i = 0; i < rays.size(); ++i) {
+      const double b = rays[i].origin.dot(rays[i].direction),
+                   discriminant = b * b - rays[i].origin.squaredNorm() + radius * radius;
+      if (std::abs(discriminant) < 1e-4) continue;  // it all but touches
+      ASSERT_EQ(hits.first[i + 1] - hits.first[i], discriminant > 0 ? 2 : 0) << i;
+      for (int k = 0; discriminant > 0 && k < 2; ++k) {
+        const auto hit = size_t(hits.first[i] + k);
+        EXPECT_EQ(hits.kinds[hit], HitKind::crossing) << i;
+        EXPECT_NEAR(hits.t[hit], -b + (k == 0 ? -1 : 1) * std::sqrt(discriminant), 100 * found_hit) << i;
+      }
+    }
+  }
+}
+
+// A cone about the z axis, x^2 + y^2 = (2 - z)^2 / 4 from z = 0 to its apex at z = 2, of a line turned.
+TEST(SearchedPatches, RaysThroughTheApexOfAConeHitIt) {
+  Points line(2, 2);
+  line << 1, 0, 0, 2;
+  const Searched s = searched(revolution({bezier_knots<double>(1), line}));
+  const std::vector<Ray> down = rays_beside({0, 0, 2}, 1, 13);
+  const RayHits hits = intersect(s.surface(), down, {.all = true, .most_parts = 2000});
+  for (size_t i = 0; i < down.size(); ++i) {
+    ASSERT_EQ(hits.first[i + 1] - hits.first[i], 1) << i;
+    const auto hit = size_t(hits.first[i]);
+    EXPECT_EQ(hits.kinds[hit], HitKind::crossing) << i;
+    EXPECT_NEAR(hits.t[hit], 5 + 2 * beside_poles[i], found_hit) << i;
+  }
+  // From the side the apex is touched, or passed.
+  const RayHits aside = intersect(s.surface(), {{{-5, 0, 2}, {1, 0, 0}}, {{-5, 0, 2.001}, {1, 0, 0}}}, {.all = true});
+  ASSERT_EQ(aside.first, (std::vector<std::int64_t>{0, 1, 1}));
+  EXPECT_EQ(aside.kinds[0], HitKind::touching);
+}
+
 /// A closed uniform bicubic B-spline, and the limit of catmull-clark over its net.
 struct SameSurface {
   Searched patches;
@@ -254,7 +310,7 @@ TEST(SearchedPatches, ControlPointsAreFiniteAndAsMany) {
   const Searched s = ring();
   Points columns = s.columns;
   columns(3, 1) = NAN;
-  expect_error<InvalidParameter>([&] { SearchedPatches(s.set, columns); }, {"not finite"});
+  expect_error<InvalidMesh>([&] { SearchedPatches(s.set, columns); }, {"not finite"});
   expect_error<InvalidParameter>([&] { SearchedPatches(s.set, Points(s.columns.topRows(3))); }, {});
 }
 

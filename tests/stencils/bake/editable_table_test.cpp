@@ -6,6 +6,8 @@
 
 #include <map>
 #include <random>
+#include <utility>
+#include <vector>
 
 #include "support/expect_error.h"
 #include "support/meshes.h"
@@ -133,6 +135,37 @@ TEST_P(EditableTables, FollowExtrusionsRemovalsAndTags) {
     EXPECT_FALSE(change.faces.empty());
     expect_a_new_table(table, patterns);
   }
+}
+
+TEST_P(EditableTables, MoveWithWhatTheyReferTo) {
+  Patterns patterns(scheme_);
+  std::vector<EditableTable<double>> tables;
+  for (int i = 0; i < 5; ++i) {  // moved as the vector grows, with and without edits
+    tables.emplace_back(patterns, mesh(), level);
+    if (i % 2 == 0) tables.back().edit(extrusion(tables.back(), i));
+  }
+  for (const EditableTable<double>& table : tables) expect_a_new_table(table, patterns);
+  std::swap(tables[0], tables[1]);
+  tables.erase(tables.begin() + 2);
+  tables[2].edit(extrusion(tables[2], 4));
+  for (const EditableTable<double>& table : tables) expect_a_new_table(table, patterns);
+  EditableTable<double> moved(std::move(tables.back()));
+  tables.clear();
+  moved.edit(extrusion(moved, 9));
+  expect_a_new_table(moved, patterns);
+}
+
+TEST_P(EditableTables, AreEditedApartFromTheirCopies) {
+  Patterns patterns(scheme_);
+  EditableTable<double> table(patterns, mesh(), level);
+  table.edit(extrusion(table, 2));
+  EditableTable<double> copy = table;
+  const Made before = made_by(copy);
+  table.edit(extrusion(table, 5));
+  EXPECT_EQ(made_by(copy), before);
+  copy.edit(extrusion(copy, 7));
+  expect_a_new_table(copy, patterns);
+  expect_a_new_table(table, patterns);
 }
 
 class EditableCreases : public EditableTables {};

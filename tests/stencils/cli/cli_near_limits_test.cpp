@@ -145,6 +145,49 @@ TEST(CliIntersect, FindsHitsOnACube) {
   expect_parts(nearest.out, {"2 hits of 4 rays"});
 }
 
+// Schemes without polynomials as well: in and out.
+TEST(CliIntersect, FindsAllHitsOfClosedSurfaces) {
+  const TemporaryDirectory directory;
+  const std::string mesh = write_cube(directory), out = (directory / "o.csv").string(),
+                    rays = directory.write("r.csv", "ox,oy,oz,dx,dy,dz\n-5,0.1,0.2,1,0,0\n0.3,5,-0.1,0,-1,0.01\n")
+                               .string();
+  for (const char* scheme : {"butterfly", "modified-butterfly", "kobbelt", "sqrt3", "interpolatory-sqrt3"}) {
+    const Outcome done =
+        expect_done(sublimit({"intersect", mesh, "-s", scheme, "--triangulate", "--rays", rays, "--all", "-o", out}));
+    expect_parts(done.out, {"4 hits of 2 rays\n"});
+    EXPECT_EQ(csv_rows(out).size(), 5u) << scheme;
+  }
+}
+
+TEST(CliIntersect, SaysWhereARayTouches) {
+  const TemporaryDirectory directory;
+  const std::string mesh = write_cube(directory), out = (directory / "o.csv").string(),
+                    rays = directory.write("r.csv", "ox,oy,oz,dx,dy,dz\n-3,0.3,1,1,0,0\n").string();
+  const Outcome done = expect_done(sublimit({"intersect", mesh, "-s", "bilinear", "--rays", rays, "--all", "-o", out}));
+  expect_parts(done.out, {"1 hits of 1 rays", "1 of them touch the surface", "status touching"});
+  EXPECT_EQ(csv_rows(out)[1][11], "touching");
+}
+
+TEST(CliIntersect, SaysWhereARayWasGivenUp) {
+  const TemporaryDirectory directory;
+  const std::string mesh = write_cube(directory), out = (directory / "o.csv").string(),
+                    rays = directory.write("r.csv", "ox,oy,oz,dx,dy,dz\n-5,0.1,0.2,1,0,0\n9,9,9,1,0,0\n").string();
+  const std::vector<std::string> command{"intersect", mesh, "-s", "kobbelt",      "--rays",
+                                         rays,        "-o", out,  "--most-parts", "1"};
+  const Outcome stopped = sublimit(command);
+  EXPECT_EQ(stopped.status, 1);
+  expect_parts(stopped.err, {"warning", "1 rays were given up", "given-up"});
+  const std::vector<CsvRow> rows = csv_rows(out);
+  ASSERT_GE(rows.size(), 2u);
+  EXPECT_EQ(rows[1][0], "0");
+  EXPECT_EQ(rows[1][11], "given-up");
+  EXPECT_EQ(rows[1][8], "");  // no normal
+  EXPECT_NEAR(csv_number(rows[1][5]), -5 + csv_number(rows[1][1]), rounding(10));
+  for (const char* most : {"0", "many"})
+    expect_failure(sublimit({"intersect", mesh, "-s", "kobbelt", "--rays", rays, "-o", out, "--most-parts", most}), 2,
+                   {std::string("--most-parts ") + most});
+}
+
 TEST(CliIntersect, RefusesInClearWords) {
   const TemporaryDirectory directory;
   const std::string mesh = write_cube(directory), out = (directory / "o.csv").string();

@@ -32,7 +32,7 @@ class OnMesh {
     all.insert(all.end(), more.begin(), more.end());
     return sublimit(all);
   }
-  /// Every subcommand refuses: refine and limit with status 3, info in words.
+  /// Every subcommand refuses: refine and limit with status 3, info with status 1 and in words.
   void expect_refused(const std::string& scheme, std::initializer_list<std::string_view> parts) const {
     SCOPED_TRACE(scheme);
     for (const char* command : {"refine", "limit"}) {
@@ -43,7 +43,9 @@ class OnMesh {
       EXPECT_EQ(count_of(outcome.err, "\n"), 1u) << outcome.err;
       EXPECT_EQ(directory_.num_files(), 1);
     }
-    const Json info = Json::parse(expect_done(run("info", scheme, {"--json"})).out);
+    const Outcome asked = run("info", scheme, {"--json"});
+    EXPECT_EQ(asked.status, 1) << asked.err;
+    const Json info = Json::parse(asked.out);
     const std::string takes = info["scheme"]["takes_mesh"];
     EXPECT_TRUE(takes.starts_with("no: ")) << takes;
     expect_parts(takes, parts);

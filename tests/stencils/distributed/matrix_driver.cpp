@@ -4,15 +4,45 @@
 
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
+#include <type_traits>
+#include <vector>
 
 #include "sublimit/base/error.h"
 #include "sublimit/distributed/partition.h"
+#include "sublimit/distributed/place_routes.h"
+#include "sublimit/distributed/shared_file.h"
 #include "sublimit/distributed/spread_frames.h"
+#include "sublimit/distributed/spread_rows.h"
 #include "sublimit/distributed/spread_table.h"
+#include "sublimit/distributed/spread_targets.h"
 
 namespace {
 
 using namespace sublimit;
+
+// What refers to an argument takes no temporary one.
+using Path = const std::filesystem::path&;
+using Parts = const std::vector<int>;
+static_assert(std::is_constructible_v<SpreadFrames, Ranks&, Path> &&
+              !std::is_constructible_v<SpreadFrames, Ranks, Path>);
+static_assert(std::is_constructible_v<SpreadTargets, Ranks&, Path> &&
+              !std::is_constructible_v<SpreadTargets, Ranks, Path>);
+static_assert(std::is_constructible_v<SharedFile, Ranks&, Path, int> &&
+              !std::is_constructible_v<SharedFile, Ranks, Path, int>);
+static_assert(std::is_constructible_v<SpreadRows, SparseMatrix, Halo&> &&
+              !std::is_constructible_v<SpreadRows, SparseMatrix, Halo>);
+static_assert(std::is_constructible_v<PlaceRoutes, Ranks&, SpreadJob&, Parts&, MeshPart&> &&
+              !std::is_constructible_v<PlaceRoutes, Ranks, SpreadJob&, Parts&, MeshPart&> &&
+              !std::is_constructible_v<PlaceRoutes, Ranks&, SpreadJob, Parts&, MeshPart&> &&
+              !std::is_constructible_v<PlaceRoutes, Ranks&, SpreadJob&, Parts, MeshPart&> &&
+              !std::is_constructible_v<PlaceRoutes, Ranks&, SpreadJob&, Parts&, MeshPart>);
+template <class Applied>
+constexpr bool has_matrix = requires(Applied&& applied) {
+  matrix(std::forward<Applied>(applied));
+};
+static_assert(has_matrix<SpreadTable&> && !has_matrix<SpreadTable> && has_matrix<SpreadRows&> &&
+              !has_matrix<SpreadRows>);
 
 double noise(std::int64_t number, int seed) {
   const double x = std::sin(double(number + 1) * 12.9898 + seed) * 43758.5453;

@@ -88,12 +88,14 @@ CurveJoint joint(const Eigen::MatrixXd& before, const Eigen::MatrixXd& after, do
     }
     j.g = static_cast<int>(n);
   }
+  j.g_is_least = j.g + 1 == orders;
   if (j.g == 0) {
     const double sine =
         std::sqrt(std::max(0.0, 1 - std::pow(l.row(1).dot(r.row(1)) / (l.row(1).norm() * r.row(1).norm()), 2)));
     j.because = "the tangents have different directions (sine of the angle " + format_number(sine) + ")";
   } else {
-    j.because = "with the tangents' ratio " + format_number(j.ratios[0]) + " > 0 " + order_word('G', j.g) + " holds";
+    j.because = "with the tangents' ratio " + format_number(j.ratios[0]) + " > 0 " + order_word('G', j.g) +
+                (j.g_is_least ? " holds, and no order up to the degree fails" : " holds");
     if (j.ratios.size() > 1) j.because += "; the second ratio, " + format_number(j.ratios[1]) + ", may have any sign";
     if (j.same_polynomial) j.because = "both sides are the same polynomial";
   }

@@ -19,6 +19,7 @@ struct BezierCurve {
 struct CurveJoint {
   int piece = 0;                 ///< the one that ends here
   int c = -1, g = -1;            ///< largest orders found; -1: a gap. At most the degree of the pieces
+  bool g_is_least = false;       ///< no order up to the degree fails: g may be more
   bool same_polynomial = false;  ///< all derivatives agree: no knot at all
   bool has_tangents = false;     ///< neither derivative vanishes
   double gap = 0;                ///< distance of the ends

@@ -9,6 +9,7 @@
 
 #include "sublimit/base/error.h"
 #include "sublimit/certificates/regularity/rational_schemes.h"
+#include "sublimit/limit/for_all.h"
 
 namespace sublimit {
 namespace {
@@ -201,11 +202,11 @@ CurveRegularity curve_regularity(const Symbol& symbol, const JointSpectralRadius
     r.costs.push_back({which == 0 ? (dual ? "before" : "point") : (dual ? "after" : "leg"), count});
   }
   r.interpolates = is_interpolatory(a);
-  r.positive =
-      std::all_of(a.coefficients.begin(), a.coefficients.end(), [](const Rational& c) { return c >= Rational(0); });
+  r.positive = holds_for_all(a.coefficients, [](const Rational& c) { return c >= Rational(0); }) == true;
   r.support[0] = Rational(a.first) - a.shift;
   r.support[1] = Rational(a.last()) - a.shift;
   if (r.verdicts[0].answer != Verdict::Answer::proved) {
+    r.positive = false;  // limits, if there are any, leave the hull of the points
     r.sum_rules = 0;
     r.smoothness.possible = -1;
     r.verdicts.push_back(
@@ -218,11 +219,25 @@ CurveRegularity curve_regularity(const Symbol& symbol, const JointSpectralRadius
     return r;
   }
   r.degrees = degrees_of(a, r.sum_rules);
+  r.degrees.at_least = !r.independent && !r.interpolates;
   std::vector<DifferenceNorm> norms;
   for (int order = 1; order <= r.sum_rules; ++order) norms.push_back(difference_norm(a, order));
   r.smoothness = smoothness(curve_transitions(a, r.sum_rules), norms, r.sum_rules, options);
   r.verdicts.insert(r.verdicts.end(), r.smoothness.verdicts.begin(), r.smoothness.verdicts.end());
   return r;
+}
+
+std::optional<bool> keeps_points(const CurveScheme<double>& scheme) {
+  if (scheme.masks.dual()) return false;
+  constexpr int levels = 12;
+  ForAll keeps, moves;
+  for (int level = 0; level < levels; ++level) {
+    const Stencil<double> mask = scheme.masks.child(0)(CurveSite<double>(level, scheme.masks.unknowns()));
+    const bool stays = mask.terms().size() == 1 && mask.terms()[0].first == 0 && mask.terms()[0].second == 1;
+    keeps.look(stays), moves.look(!stays);
+  }
+  if (moves.holds() == true) return false;
+  return keeps.holds() == true ? std::optional(true) : std::nullopt;
 }
 
 std::optional<CurveRegularity> curve_regularity(const std::string& name, const SchemeOptions& options) {
@@ -243,6 +258,7 @@ std::optional<CurveRegularity> curve_regularity(const std::string& name, const S
   };
   weaken(r.verdicts);
   weaken(r.smoothness.verdicts);
+  r.interpolates = r.interpolates && keeps_points(*scheme) == true;
   r.smoothness.notes.push_back("the masks depend on the level; those that they tend to were analysed");
   return r;
 }

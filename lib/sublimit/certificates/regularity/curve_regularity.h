@@ -15,6 +15,9 @@ namespace sublimit {
 struct PolynomialDegrees {
   int generates = -1;   ///< polynomials up to this degree are limits; -1: not even constants
   int reproduces = -1;  ///< and limits of their own values at the points
+  /// Higher degrees than `generates` are not excluded: what the mask is divided by is sufficient, and necessary only
+  /// where shifts of the basis function are independent.
+  bool at_least = false;
   int approximation_order() const { return reproduces + 1; }
 };
 
@@ -29,7 +32,7 @@ struct BasisSamples {
   std::vector<double> x, value, derivative;  ///< x in parameters of the control points, 0 at the point itself
 };
 
-struct CurveRegularity {
+struct [[nodiscard]] CurveRegularity {
   Symbol mask;
   int sum_rules = 0;             ///< (1+z)^sum_rules divides the symbol
   bool independent = false;      ///< integer shifts of the basis function are linearly independent (shown)
@@ -44,6 +47,10 @@ struct CurveRegularity {
 
 /// @param a  exact; its two masks should sum to 1, else that is what is reported
 CurveRegularity curve_regularity(const Symbol& a, const JointSpectralRadiusOptions& options = {});
+
+/// Whether the child of every point is the point itself, by the mask; in a Hermite scheme whatever its derivative is.
+/// @return  nothing where masks depend on the level, and some levels keep points and others do not
+std::optional<bool> keeps_points(const CurveScheme<double>& scheme);
 
 /// A scheme by name. Of a non-stationary one the masks that it settles to are analysed, in double precision: what was
 /// proved of them is evidence for the scheme, and notes say so.

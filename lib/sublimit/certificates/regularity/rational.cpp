@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "sublimit/base/error.h"
+#include "sublimit/base/format_number.h"
 
 namespace sublimit {
 
@@ -16,7 +17,9 @@ Rational::Rational(long p, long q) : Rational() {
 }
 
 Rational::Rational(double value) : Rational() {
-  if (!std::isfinite(value)) throw AnalysisError("a number is not finite");
+  if (!std::isfinite(value))
+    throw InvalidMesh("a coordinate is " + format_number(value) +
+                      ", which is no ratio: finite ones, so small that their sums and products are finite, are right");
   arf_get_fmpq(x_, arb_midref(Ball(value).get()));
 }
 

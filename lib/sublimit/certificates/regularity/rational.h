@@ -29,7 +29,7 @@ class Rational {
   /// @throws AnalysisError  q = 0
   Rational(long p, long q);
   /// Exactly this double.
-  /// @throws AnalysisError  it is not finite
+  /// @throws InvalidMesh  it is not finite, as coordinates may be that overflow
   explicit Rational(double value);
   explicit Rational(const fmpq_t value) : Rational() { fmpq_set(x_, value); }
   Rational(const Rational& other) : Rational() { *this = other; }

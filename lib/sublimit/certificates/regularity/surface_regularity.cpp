@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "sublimit/certificates/regularity/difference_space.h"
+#include "sublimit/limit/for_all.h"
 
 namespace sublimit {
 namespace {
@@ -57,6 +58,7 @@ void find_degrees(SurfaceRegularity& s) {
     s.degrees.generates = degree;
     if (reproduces) s.degrees.reproduces = degree;
   }
+  s.degrees.at_least = true;
 }
 
 std::string kind_of(const RegularMask<Rational>& mask, const Offset& r) {
@@ -97,6 +99,7 @@ void use_tensor(SurfaceRegularity& s, const std::array<Symbol, 2>& factors, cons
   };
   const int which = rank(curves[1]) < rank(curves[0]) ? 1 : 0;
   s.smoothness = curves[which].smoothness;
+  s.degrees.at_least |= curves[0].degrees.at_least || curves[1].degrees.at_least;
   for (Verdict& v : s.smoothness.verdicts) {
     v.hypotheses.insert(v.hypotheses.begin(),
                         {"the mask is the product of two curve masks", true, Hypothesis::By::exact,
@@ -115,9 +118,12 @@ void use_differences(SurfaceRegularity& s, const JointSpectralRadiusOptions& opt
   limits.necessary_because = "old points stay, so differences of points are those of the limit";
   if (!s.interpolates) {
     const Functional values = limit_functional(s.mask);
+    constexpr int most = 8;
+    s.degrees.at_least = true;
     if (!values.empty()) {
       try {
-        while (s.degrees.generates < 8 && generates(s.mask, values, s.degrees.generates + 1)) ++s.degrees.generates;
+        while (s.degrees.generates < most && generates(s.mask, values, s.degrees.generates + 1)) ++s.degrees.generates;
+        s.degrees.at_least = s.degrees.generates >= most;
       } catch (const AnalysisError&) {  // too many dimensions: what was found is a lower bound
       }
       limits = difference_transitions(s.mask, std::min(s.degrees.generates + 1, 4), values);
@@ -130,6 +136,15 @@ void use_differences(SurfaceRegularity& s, const JointSpectralRadiusOptions& opt
 }
 
 }  // namespace
+
+bool keeps_vertices(const RegularMask<Rational>& mask) {
+  if (mask.dual) return false;
+  const auto moves = [&](const auto& term) {
+    return residue(term.first, mask.dilation) == Offset{0, 0} && term.first != Offset{0, 0};
+  };
+  const auto centre = mask.weights.find({0, 0});
+  return centre != mask.weights.end() && centre->second == 1 && std::ranges::none_of(mask.weights, moves);
+}
 
 std::optional<std::array<Symbol, 2>> tensor_factors(const RegularMask<Rational>& mask) {
   if (mask.dilation != 2) return std::nullopt;
@@ -157,15 +172,13 @@ SurfaceRegularity surface_regularity(const RegularMask<Rational>& mask, const Jo
   SurfaceRegularity s;
   s.mask = mask;
   s.outline = hull(mask);
-  s.positive =
-      std::all_of(mask.weights.begin(), mask.weights.end(), [](const auto& term) { return term.second > Rational(0); });
+  s.positive = holds_for_all(mask.weights, [](const auto& term) { return term.second > Rational(0); }) == true;
   for (const Offset& r : residues(mask.dilation)) {
     int count = 0;
     for (const auto& [key, weight] : mask.weights) count += residue(key, mask.dilation) == r;
     s.costs.push_back({kind_of(mask, r), count});
   }
-  const auto centre = mask.weights.find({0, 0});
-  s.interpolates = !mask.dual && s.costs[0].points == 1 && centre != mask.weights.end() && centre->second == 1;
+  s.interpolates = keeps_vertices(mask);
   const bool affine = sum_to_one(mask);
   Verdict invariance{.property = "affine-invariance",
                      .says = "new points move with the old ones under affine maps",
@@ -175,7 +188,15 @@ SurfaceRegularity surface_regularity(const RegularMask<Rational>& mask, const Jo
   invariance.because = affine ? "all masks sum to 1" : "a mask does not sum to 1";
   s.verdicts.push_back(std::move(invariance));
   if (!affine) {
+    s.positive = false;
     s.smoothness.possible = -1;
+    s.verdicts.push_back(
+        {.property = "convergence",
+         .says = "the levels converge to continuous limits, not all of them a point",
+         .answer = Verdict::Answer::disproved,
+         .theorem = "Cavaretta, Dahmen, Micchelli 1991, proposition 2.1: the masks of schemes that converge sum to 1",
+         .hypotheses = s.verdicts[0].hypotheses,
+         .because = s.verdicts[0].because});
     return s;
   }
   find_degrees(s);

@@ -8,7 +8,7 @@
 
 namespace sublimit {
 
-struct SurfaceRegularity {
+struct [[nodiscard]] SurfaceRegularity {
   RegularMask<Rational> mask;
   bool tensor = false;  ///< the product of two curve masks
   int sum_rules = 0;    ///< polynomials of total degree below this are generated
@@ -24,6 +24,9 @@ struct SurfaceRegularity {
 /// @param options  how much effort goes into joint spectral radii
 SurfaceRegularity surface_regularity(const RegularMask<Rational>& mask, const JointSpectralRadiusOptions& options);
 SurfaceRegularity surface_regularity(const RegularMask<Rational>& mask);
+
+/// Whether the child of every old vertex of a regular mesh is the vertex itself.
+bool keeps_vertices(const RegularMask<Rational>& mask);
 
 /// The curve masks whose product a mask is; nothing if it is none.
 std::optional<std::array<Symbol, 2>> tensor_factors(const RegularMask<Rational>& mask);

@@ -25,7 +25,7 @@ struct SweepPoint {
   Smoothness smoothness = {};
 };
 
-struct Sweep {
+struct [[nodiscard]] Sweep {
   std::string scheme;
   SweepRange range;
   std::vector<SweepPoint> points = {};

@@ -2,6 +2,7 @@
 #include "sublimit/certificates/regularity/typed_mask.h"
 
 #include <algorithm>
+#include <cstdlib>
 
 #include "sublimit/base/error.h"
 
@@ -40,6 +41,24 @@ std::vector<std::string> words_of(const std::string& text) {
   }
   if (words.back().empty()) words.pop_back();
   return words;
+}
+
+/// The coefficient of a mask that keeps old points: 1, and alone among every other one. The middle one if there are
+/// two.
+std::optional<int> kept_weight(const Symbol& a) {
+  std::optional<int> own;
+  const int count = static_cast<int>(a.coefficients.size());
+  for (const int parity : {0, 1}) {
+    int others = 0, one = -1;
+    for (int j = parity; j < count; j += 2)
+      if (a.coefficients[j] == 1 && one < 0)
+        one = j;
+      else
+        others += !a.coefficients[j].is_zero();
+    if (one < 0 || others > 0) continue;
+    if (!own || std::abs(2 * one - (count - 1)) < std::abs(2 * *own - (count - 1))) own = one;
+  }
+  return own;
 }
 
 [[noreturn]] void refuse(const std::string& what) {
@@ -85,10 +104,15 @@ Symbol typed_mask(const std::string& text) {
   }
   const auto is_zero = [](const Rational& c) { return c.is_zero(); };
   if (std::all_of(a.coefficients.begin(), a.coefficients.end(), is_zero)) refuse("all weights are zero");
-  const int count = static_cast<int>(words.size());
+  a = trimmed(std::move(a));
+  const int count = static_cast<int>(a.coefficients.size());
+  if (const std::optional<int> own = kept_weight(a)) {
+    a.first = -*own;
+    return a;
+  }
   a.first = -((count - 1) / 2);
   a.shift = count % 2 == 0 ? Number<Rational>::ratio(1, 2) : Rational(0);
-  return trimmed(std::move(a));
+  return a;
 }
 
 }  // namespace sublimit

@@ -2,7 +2,11 @@
 #pragma once
 // The registry of curve schemes: one line a scheme.
 #include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
+#include "sublimit/core/unknown_scheme.h"
 #include "sublimit/curves/schemes/chaikin.h"
 #include "sublimit/curves/schemes/four_point.h"
 #include "sublimit/curves/schemes/hermite_merrien.h"
@@ -30,22 +34,33 @@ inline constexpr CurveSchemeEntry<T> curve_registry[] = {
 
 /// Every curve scheme with its default options.
 template <class T = double>
-std::vector<CurveScheme<T>> all_curve_schemes() {
+[[nodiscard]] std::vector<CurveScheme<T>> all_curve_schemes() {
   std::vector<CurveScheme<T>> schemes;
   for (const CurveSchemeEntry<T>& entry : curve_registry<T>) schemes.push_back(entry.make({}));
   return schemes;
 }
 
-/// A curve scheme by name; nothing if there is none.
+/// A curve scheme by name; nothing if there is none. `curve_scheme` below throws instead.
 /// @throws InvalidOption  an unknown option, or a value outside its range
 template <class T = double>
-std::optional<CurveScheme<T>> find_curve_scheme(const std::string& name, const SchemeOptions& options = {}) {
+[[nodiscard]] std::optional<CurveScheme<T>> find_curve_scheme(const std::string& name,
+                                                              const SchemeOptions& options = {}) {
   for (const CurveSchemeEntry<T>& entry : curve_registry<T>) {
     if (name != entry.name) continue;
     check_options(name, entry.make({}).options, options);
     return entry.make(options);
   }
   return std::nullopt;
+}
+
+/// A curve scheme by name: `curve_scheme("chaikin")`, `curve_scheme("four-point", {{"tension", "3/4"}})`.
+/// @throws InvalidOption  no linear scheme of curves has this name: says which are nearest, or what makes it; an
+/// unknown
+///                        option, or a value outside its range
+template <class T = double>
+[[nodiscard]] CurveScheme<T> curve_scheme(const std::string& name, const SchemeOptions& options = {}) {
+  if (std::optional<CurveScheme<T>> found = find_curve_scheme<T>(name, options)) return *std::move(found);
+  throw_unknown_scheme(name, SchemeKind::curve);
 }
 
 // Made once, in the library, as the registry of surfaces is.

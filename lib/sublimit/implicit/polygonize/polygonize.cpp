@@ -6,7 +6,6 @@
 #include <openvdb/tools/VolumeToMesh.h>
 
 #include <limits>
-#include <mutex>
 #include <vector>
 
 #include "sublimit/base/error.h"
@@ -14,8 +13,7 @@
 namespace sublimit {
 
 ControlMesh polygonize(const FieldGrid& field) {
-  static std::once_flag started;
-  std::call_once(started, [] { openvdb::initialize(); });
+  [[maybe_unused]] static const bool started = (openvdb::initialize(), true);
   const openvdb::CoordBBox box({0, 0, 0}, {field.size[0] - 1, field.size[1] - 1, field.size[2] - 1});
   // It only reads, but has no type that says so.
   const openvdb::tools::Dense<double, openvdb::tools::LayoutXYZ> dense(box, const_cast<double*>(field.values.data()));

@@ -160,7 +160,7 @@ JoinOrders measured_orders(const EdgeDeviation& deviation, int c, bool is_same, 
   if (!deviation.curvature_jump) return result;
   const double scale = std::max(deviation.greatest_curvature, 1 / size);
   if (!(deviation.curvature_jump->value <= tolerance.curvature * scale)) return result;
-  result.g = 2;
+  result.g = std::max(2, result.c);
   result.obstacle = JoinObstacle::none;
   return result;
 }

@@ -3,6 +3,7 @@
 // What is said of a join of two pieces. C^k: their derivatives up to order k agree, per unit of the given parameters.
 // G^k: they do after the parameters of one piece are changed; G^1 is one tangent (plane) on both sides, G^2 one
 // curvature too. C^k is G^k where the derivative does not vanish (the surface has normals), not elsewhere.
+#include <string>
 #include <string_view>
 
 namespace sublimit {
@@ -23,12 +24,21 @@ enum class JoinObstacle {
 std::string_view name(JoinObstacle obstacle);
 
 struct JoinOrders {
-  int c = -1, g = -1;    ///< greatest k of C^k and G^k; -1: a gap, or a pole
+  /// Greatest k of C^k and G^k; -1: a gap, or a pole. If `is_same` c, and if there is no obstacle g, is the highest
+  /// order that was looked at: see `c_words`, `g_words`.
+  int c = -1, g = -1;
   bool is_same = false;  ///< all derivatives that can differ agree: C^infinity, one polynomial or rational map
   JoinObstacle obstacle = JoinObstacle::gap;
 
   bool operator==(const JoinOrders&) const = default;
 };
+
+/// "C^1", or "C^infinity" where both pieces are one polynomial or rational map.
+std::string c_words(const JoinOrders& orders);
+/// "G^1"; "G^3 at least" where no order that was looked at fails; "G^infinity" of one map with a tangent (normals).
+std::string g_words(const JoinOrders& orders);
+/// "C^1, G^2 (curvature)", "a gap", "a pole".
+std::string words_of(const JoinOrders& orders);
 
 /// What holds on all of an edge, of its parts.
 constexpr JoinOrders worst(const JoinOrders& a, const JoinOrders& b) {

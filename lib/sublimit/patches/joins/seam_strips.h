@@ -56,6 +56,8 @@ struct SeamNet {
   std::vector<T> columns;  ///< u fastest, 3 or 4 of each point
   Coordinates coordinates;
 
+  SeamNet(Knots<T> in_u, Knots<T> in_v, std::vector<T> all, Coordinates given)
+      : u(std::move(in_u)), v(std::move(in_v)), columns(std::move(all)), coordinates(given) {}
   SeamNet(const PatchColumns& patch, Coordinates given)
       : u(converted<T>(patch.surface->u())), v(converted<T>(patch.surface->v())), coordinates(given) {
     columns.reserve(static_cast<std::size_t>(patch.columns.size()));

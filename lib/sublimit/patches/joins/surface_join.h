@@ -90,7 +90,8 @@ int highest_order(const BezierPatch<T>& left, const BezierPatch<T>& right) {
 
 }  // namespace surface_join_detail
 
-/// The orders of a join by the identities above, without any tolerance: exact in exact numbers, which T must be.
+/// The orders of a join by the identities above, without any tolerance: exact in exact numbers, which T must be. G^k of
+/// orders above 2 is not looked for, but follows from C^k.
 ///
 /// Where normals vanish at an end of the edge (a pole), or at single points, what is said holds beside them.
 /// @throws InvalidParameter  naming the patch: a negative degree, wrong counts, numbers that are not finite, lengths
@@ -148,7 +149,7 @@ JoinOrders exact_orders(const BezierPatch<T>& left, const BezierPatch<T>& right)
   const LinePolynomial<T> of_left = a * a * dot(P, H[2]) + T(2) * (a * b * dot(P, H_uv)) + b * b * dot(P, H_vv);
   result.obstacle = JoinObstacle::curvature;
   if (!(K[0][3] * (p * p * dot(P, K[2])) - H[0][3] * of_left).is_zero()) return result;
-  result.g = 2;
+  result.g = std::max(2, result.c);  // with normals C^k is G^k
   result.obstacle = JoinObstacle::none;
   return result;
 }

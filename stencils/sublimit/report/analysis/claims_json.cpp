@@ -10,6 +10,8 @@
 #include <tuple>
 #include <vector>
 
+#include "sublimit/limit/for_all.h"
+
 namespace sublimit::report {
 namespace {
 
@@ -56,11 +58,33 @@ std::string ranges(const std::vector<int>& numbers) {
 using ValencesByAnswer = std::map<std::string, std::vector<int>>;
 
 /// Interior valences by what was found of a property there.
-ValencesByAnswer valences_by_answer(const Json& neighborhoods, const std::string& property) {
+/// @param left_out  the regular valence, where the property is about others
+ValencesByAnswer valences_by_answer(const Json& neighborhoods, const std::string& property, int left_out = 0) {
   ValencesByAnswer by;
   for (const Json& n : neighborhoods)
-    if (is_interior(n)) by[answer_in(n["verdicts"], property)].push_back(n.value("n", 0));
+    if (is_interior(n) && n.value("n", 0) != left_out)
+      by[answer_in(n["verdicts"], property)].push_back(n.value("n", 0));
   return by;
+}
+
+int regular_valence(const Json& scheme) { return scheme.value("mesh", "") == "triangles" ? 6 : 4; }
+
+/// "vertex 5"
+std::string place_of(const Json& neighborhood) {
+  return neighborhood.value("kind", "") + " " + std::to_string(neighborhood.value("n", 0));
+}
+
+/// What the rows of a neighbourhood show; nothing in reports that do not have it.
+std::optional<bool> in_rows(const Json& neighborhood, const char* key) {
+  const auto rows = neighborhood.find("rows");
+  if (rows == neighborhood.end() || !rows->is_object()) return std::nullopt;
+  const auto found = rows->find(key);
+  if (found == rows->end() || !found->is_boolean()) return std::nullopt;
+  return found->get<bool>();
+}
+
+std::string verdict_of(const std::optional<bool>& holds) {
+  return holds == true ? "proved" : holds == false ? "disproved" : "unknown";
 }
 
 /// The weakest of what was found, and where.
@@ -111,14 +135,21 @@ Json regular_claim(const Claims& claims, const Json& regular) {
   return claim("regular", claims.regular, proved >= 0 ? Json(proved) : Json(nullptr), answer, because);
 }
 
-Json extraordinary_claim(const Claims& claims, const Json& neighborhoods) {
-  const auto by = valences_by_answer(neighborhoods, claims.extraordinary >= 1 ? "c1" : "convergence");
-  if (by.empty()) return claim("extraordinary", claims.extraordinary, nullptr, "unknown", "no valence was looked at");
+Json extraordinary_claim(const Claims& claims, const Json& scheme) {
+  const Json& neighborhoods = scheme["neighborhoods"];
+  const int regular = regular_valence(scheme);
+  const auto by = valences_by_answer(neighborhoods, claims.extraordinary >= 1 ? "c1" : "convergence", regular);
+  if (by.empty())
+    return claim("extraordinary", claims.extraordinary, nullptr, "unknown", "no extraordinary valence was looked at");
   if (claims.extraordinary >= 2) {
-    const auto c2 = valences_by_answer(neighborhoods, "c2");
-    const std::string answer = c2.count("disproved") ? "disproved" : weakest(c2).first;
-    return claim("extraordinary", claims.extraordinary, c2.count("disproved") ? Json(1) : Json(nullptr), answer,
-                 "C^2: " + in_words(c2));
+    const auto c2 = valences_by_answer(neighborhoods, "c2", regular);
+    const bool is_no = c2.contains("disproved"), is_c1 = by.size() == 1 && by.contains("proved");
+    const std::string beyond = claims.extraordinary > 2 ? "; nothing is known of C^3 there" : "";
+    return claim("extraordinary", claims.extraordinary, is_no && is_c1 ? Json(1) : Json(nullptr),
+                 is_no                      ? "disproved"
+                 : claims.extraordinary > 2 ? "unknown"
+                                            : weakest(c2).first,
+                 "C^2: " + in_words(c2) + (is_no ? "" : beyond));
   }
   const std::string answer = weakest(by).first;
   const bool holds = answer == "proved" || answer == "evidence-for";
@@ -132,8 +163,12 @@ Json degree_claim(const char* name, int claimed, const Json& regular) {
     degree = &regular["degrees"][name];
   if (!degree) return claim(name, claimed, nullptr, "unknown", "the regular limit was not looked at");
   const int found = degree->get<int>();
-  return claim(name, claimed, found, found >= claimed ? "proved" : "disproved",
-               fmt::format("polynomials up to degree {}, from the mask", found));
+  const bool is_least = regular["degrees"].value("at_least", false) && regular["degrees"]["generates"] == found;
+  return claim(name, claimed, found,
+               found >= claimed ? "proved"
+               : is_least       ? "unknown"
+                                : "disproved",
+               fmt::format("polynomials up to degree {}{}, from the mask", found, is_least ? " at least" : ""));
 }
 
 /// Of a neighbourhood that is a piece of a regular mesh: what is known of regular limits is known of it.
@@ -153,6 +188,36 @@ void use_regular(Json& neighborhood, const std::string& property, int order, int
 
 }  // namespace
 
+Finding interpolation(const Json& neighborhoods) {
+  ForAll vertices;
+  bool has_faces = false, has_inner = false;
+  for (const Json& n : neighborhoods) {
+    const std::string kind = n.value("kind", "");
+    has_faces |= kind == "face";
+    has_inner |= kind == "vertex";
+    if (kind != "face") vertices.look(in_rows(n, "keeps_centre"), place_of(n));
+  }
+  if (vertices.holds() == false) return {false, "a vertex moves: " + vertices.where()};
+  if (has_faces && !has_inner) return {false, "no vertex has a child vertex: it becomes a face"};
+  if (!has_inner) return {std::nullopt, "no vertex inside was looked at"};
+  if (!vertices.holds()) return {std::nullopt, "not known of " + vertices.where()};
+  return {true, fmt::format("each of the {} kinds of vertices looked at is its own child", vertices.looked_at())};
+}
+
+Finding convexity(const Json& neighborhoods) {
+  ForAll signs, sums;
+  for (const Json& n : neighborhoods) {
+    signs.look(in_rows(n, "non_negative"), place_of(n));
+    sums.look(in_rows(n, "sum_to_one"), place_of(n));
+  }
+  if (signs.holds() == false) return {false, "a local matrix has a negative weight: " + signs.where()};
+  if (sums.holds() == false) return {false, "weights of a local matrix do not sum to 1: " + sums.where()};
+  if (signs.looked_at() == 0) return {std::nullopt, "no local matrix was looked at"};
+  if (!signs.holds() || !sums.holds()) return {std::nullopt, "not known of " + (signs.holds() ? sums : signs).where()};
+  return {true, fmt::format("none of the {} local matrices looked at has a negative weight, and their rows sum to 1",
+                            signs.looked_at())};
+}
+
 std::optional<int> disproved_continuity(const Json& verdicts) {
   std::optional<int> least;
   for (const Json& v : verdicts) {
@@ -170,7 +235,7 @@ void use_regular(Json& scheme) {
   const Json& regular = scheme["regular"];
   if (!regular.is_object() || !regular["smoothness"]["continuity"].is_number()) return;
   if (answer_in(regular["verdicts"], "regular-smoothness") != "proved") return;
-  const int continuity = regular["smoothness"]["continuity"], valence = scheme["mesh"] == "triangles" ? 6 : 4;
+  const int continuity = regular["smoothness"]["continuity"], valence = regular_valence(scheme);
   for (Json& n : scheme["neighborhoods"]) {
     if (!is_interior(n) || n["n"] != valence) continue;
     use_regular(n, "c1", 1, continuity);
@@ -178,28 +243,29 @@ void use_regular(Json& scheme) {
   }
 }
 
-Json claims_json(const Claims& claims, const Json& scheme, const WeightFindings& weights) {
+Json claims_json(const Claims& claims, const Json& scheme) {
   const Json regular = scheme.value("regular", Json());
   Json all = Json::array();
   all.push_back(regular_claim(claims, regular));
-  all.push_back(extraordinary_claim(claims, scheme["neighborhoods"]));
+  all.push_back(extraordinary_claim(claims, scheme));
   all.push_back(degree_claim("generates", claims.generates, regular));
   all.push_back(degree_claim("reproduces", claims.reproduces, regular));
-  if (claims.convex_hull)
-    all.push_back(claim("convex-hull", true, !weights.has_negative_weights,
-                        weights.has_negative_weights ? "disproved" : "proved",
-                        weights.has_negative_weights ? "a local matrix has a negative weight"
-                                                     : "no local matrix looked at has a negative weight"));
-  if (claims.interpolates)
-    all.push_back(claim("interpolates", true, weights.keeps_vertices, weights.keeps_vertices ? "proved" : "disproved",
-                        weights.keeps_vertices ? "every vertex looked at is its own child" : "a vertex moves"));
+  const auto add = [&](const char* name, const Finding& found) {
+    all.push_back(
+        claim(name, true, found.holds ? Json(*found.holds) : Json(nullptr), verdict_of(found.holds), found.because));
+  };
+  if (claims.convex_hull) add("convex-hull", convexity(scheme["neighborhoods"]));
+  if (claims.interpolates) add("interpolates", interpolation(scheme["neighborhoods"]));
   return all;
 }
 
 Json summary_row(const Json& scheme) {
   const Json regular = scheme.value("regular", Json());
+  const Json interpolates = scheme.value("interpolates", Json());
   Json row{{"scheme", scheme["name"]},
-           {"type", scheme.value("interpolates", false) ? "interpolating" : "approximating"},
+           {"type", !interpolates.is_boolean() ? Json(nullptr)
+                    : interpolates.get<bool>() ? Json("interpolating")
+                                               : Json("approximating")},
            {"mesh", scheme["mesh"]},
            {"regular", nullptr},
            {"extraordinary", nullptr},
@@ -214,7 +280,8 @@ Json summary_row(const Json& scheme) {
         answer_in(regular.value("verdicts", Json::array()), k > 0 ? "regular-smoothness" : "convergence");
   }
   const ValencesByAnswer by = valences_by_answer(scheme["neighborhoods"], "c1");
-  if (by.empty()) return row;
+  // Of the regular valence alone nothing follows for extraordinary points.
+  if (valences_by_answer(scheme["neighborhoods"], "c1", regular_valence(scheme)).empty()) return row;
   const bool is_c1 = by.contains("proved") || by.contains("evidence-for");
   const ValencesByAnswer shown = is_c1 ? by : valences_by_answer(scheme["neighborhoods"], "convergence");
   const std::string answer = prevalent(shown);

@@ -2,14 +2,23 @@
 #pragma once
 // What becomes of a scheme's claims, and its row in the summary: both read from what was found, as a reader of the
 // report would.
+#include <optional>
+#include <string>
+
 #include "sublimit/report/analysis/neighborhood.h"
 
 namespace sublimit::report {
 
-/// What the weights of all neighbourhoods show.
-struct WeightFindings {
-  bool has_negative_weights = false, keeps_vertices = true;
+/// What is found of a property of a scheme, nothing where it is not decided, and why.
+struct Finding {
+  std::optional<bool> holds;
+  std::string because;
 };
+/// Whether old vertices stay, by the rows of all vertices in the list. Those of a dual scheme have no children.
+/// @param neighborhoods  of SCHEME
+Finding interpolation(const Json& neighborhoods);
+/// Whether new points are convex combinations of old ones, by the rows of all neighbourhoods in the list.
+Finding convexity(const Json& neighborhoods);
 
 /// The least k of which C^k is disproved, if there is one: exponents alone do not tell C^(k-1,1) from C^k.
 std::optional<int> disproved_continuity(const Json& verdicts);
@@ -18,12 +27,12 @@ std::optional<int> disproved_continuity(const Json& verdicts);
 /// @param scheme  SCHEME with `regular` and `neighborhoods`
 void use_regular(Json& scheme);
 
-/// CLAIMS of a scheme.
-/// @param scheme   SCHEME with `regular` (or null) and `neighborhoods`
-Json claims_json(const Claims& claims, const Json& scheme, const WeightFindings& weights);
+/// CLAIMS of a scheme: those on convex hulls and interpolation only if they are made.
+/// @param scheme   SCHEME with `mesh`, `regular` (or null) and `neighborhoods`
+Json claims_json(const Claims& claims, const Json& scheme);
 
-/// ROW of the summary.
-/// @param scheme  SCHEME with its claims
+/// ROW of the summary; claims have no part in it.
+/// @param scheme  SCHEME
 Json summary_row(const Json& scheme);
 
 }  // namespace sublimit::report

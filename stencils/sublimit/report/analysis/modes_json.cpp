@@ -107,6 +107,8 @@ Json characteristic_map_json(const std::shared_ptr<LimitTypes>& pieces, const Lo
     }
     json["lines"].push_back(std::move(line));
   }
+  json["jacobian"] = nullptr;
+  if (!(least <= greatest)) return json;  // no derivatives anywhere
   const int sign = least > 0 ? 1 : greatest < 0 ? -1 : 0;
   json["jacobian"] = {{"sign", sign}, {"least", drawn(least)}, {"greatest", drawn(greatest)}, {"by", "floating"}};
   return json;
@@ -177,14 +179,15 @@ SampleSurface sample_surface(const std::shared_ptr<LimitTypes>& pieces, const Lo
   const LimitSamples around = surface.evaluate(net.mesh.positions, samples, 1);
   Json steps = Json::array(), spreads = Json::array();
   for (int step = 0; step < circles; ++step) {
-    double least = 1;
+    std::optional<double> least;  // cosine of an angle between two
     const Points normals = around.normal.middleRows(static_cast<Eigen::Index>(step) * places, places);
     for (Eigen::Index i = 0; i < places; ++i)
       for (Eigen::Index j = 0; j < i; ++j)
         if (normals.row(i).squaredNorm() > 0 && normals.row(j).squaredNorm() > 0)
-          least = std::min(least, normals.row(i).dot(normals.row(j)));
+          least = std::min(least.value_or(1), normals.row(i).dot(normals.row(j)));
     steps.push_back(step);
-    spreads.push_back(drawn(std::acos(std::clamp(least, -1.0, 1.0)) * 180 / std::numbers::pi, 4));
+    spreads.push_back(least ? drawn(std::acos(std::clamp(*least, -1.0, 1.0)) * 180 / std::numbers::pi, 4)
+                            : Json(nullptr));
   }
   result.normals = {{"steps", steps}, {"spread_degrees", spreads}};
   if (!is_drawn) return result;

@@ -10,6 +10,7 @@
 #include "sublimit/certificates/spectral_verdicts.h"
 #include "sublimit/certificates/witness.h"
 #include "sublimit/limit/eigen_structure.h"
+#include "sublimit/limit/for_all.h"
 #include "sublimit/limit/limit_types.h"
 #include "sublimit/report/analysis/masks_json.h"
 #include "sublimit/report/analysis/modes_json.h"
@@ -46,7 +47,8 @@ Verdict c1_verdict(const ReportedScheme& scheme, const SharedAnalysis& shared, c
     }
     if (is_decided(v)) return v;
   }
-  if (is_decided(spectral) || spectral.answer == Answer::borderline || map.is_null()) return spectral;
+  if (is_decided(spectral) || spectral.answer == Answer::borderline || map.is_null() || map["jacobian"].is_null())
+    return spectral;
   const int sign = map["jacobian"]["sign"];
   spectral.hypotheses.push_back({"the Jacobian determinant of the characteristic map is positive", sign == 1,
                                  Hypothesis::By::floating,
@@ -79,20 +81,41 @@ int most_open_faces(const Scheme<double>& scheme, int valence) {
   constexpr size_t many_points = 30;
   int most = 0;
   while (most < std::min(8, valence)) {
-    const auto next = local_patch(scheme, {.faces = most + 1, .open = true});
+    const auto next = sublimit::local_patch(scheme, {.faces = most + 1, .open = true});
     if (!next || (most > 0 && next->slots.size() > many_points)) break;
     ++most;
   }
   return most;
 }
 
-void look_at_weights(const LocalPatch<Algebraic>& patch, Neighborhood& found) {
-  for (Eigen::Index i = 0; i < patch.A.rows(); ++i)
-    for (Eigen::Index j = 0; j < patch.A.cols(); ++j)
-      if (const Algebraic& w = patch.A(i, j); !w.is_zero()) {
-        found.has_negative_weights |= certainly_less(w.real_enclosure(), Ball(0));
-        if (patch.labels[static_cast<size_t>(i)] == SectorLabel{}) found.keeps_vertices &= w.is_one();
+Json decided(const ForAll& all) { return all.holds() ? Json(*all.holds()) : Json(nullptr); }
+
+/// Moduli below lambda^2 may come from rings that the limit itself does not need.
+int analysed_rings(const RegularMask<Algebraic>* mask) {
+  return std::max(least_rings, mask ? mask->recurrent_rings() : 0);
+}
+
+bool is_closed(const NeighborhoodKind& kind) { return kind.kind == Kind::vertex || kind.kind == Kind::face; }
+
+/// What pictures show of a limit; nothing is drawn if some place of the picture has no limit.
+struct Drawings {
+  Json map, eigenfunctions;
+  SampleSurface sample;
+};
+Drawings drawings(const ReportedScheme& scheme, const SharedAnalysis& shared, const NeighborhoodKind& kind,
+                  bool is_drawn) {
+  Drawings result;
+  const LocalType type = local_type(kind);
+  try {
+    if (is_closed(kind))
+      if (const std::optional<LocalModes> modes = local_modes(scheme.scheme, type)) {
+        result.map = characteristic_map_json(shared.types, *modes);
+        result.eigenfunctions = eigenfunctions_json(*modes);
       }
+    result.sample = sample_surface(shared.types, type, is_drawn, kind.kind == Kind::dart);
+  } catch (const AnalysisError&) {  // the verdicts say why
+  }
+  return result;
 }
 
 }  // namespace
@@ -121,6 +144,32 @@ std::optional<LocalPatch<Algebraic>> local_patch(const Scheme<Algebraic>& scheme
   if (kind.kind == Kind::dart) return dart_patch(scheme, kind.n);
   if (kind.kind == Kind::crease) return crease_patch(scheme, kind.n);
   return sublimit::local_patch(scheme, local_type(kind));
+}
+
+std::optional<LocalPatch<Algebraic>> analysed_patch(const Scheme<Algebraic>& scheme, const NeighborhoodKind& kind,
+                                                    const RegularMask<Algebraic>* mask) {
+  if (!is_closed(kind)) return local_patch(scheme, kind);
+  return sublimit::local_patch(scheme, local_type(kind), analysed_rings(mask));
+}
+
+Json rows_json(const LocalPatch<Algebraic>& patch) {
+  ForAll weights, centre;
+  for (Eigen::Index i = 0; i < patch.A.rows(); ++i) {
+    const bool is_centre = patch.labels[static_cast<size_t>(i)] == SectorLabel{};
+    for (Eigen::Index j = 0; j < patch.A.cols(); ++j) {
+      const Algebraic& w = patch.A(i, j);
+      if (is_centre) centre.look(i == j ? w.is_one() : w.is_zero());
+      if (w.is_zero()) continue;
+      const Ball value = w.real_enclosure();
+      weights.look(certainly_positive(value)   ? std::optional(true)
+                   : certainly_negative(value) ? std::optional(false)
+                                               : std::nullopt);
+    }
+  }
+  const std::optional<bool> sums = rows_sum_to_one(patch).holds;
+  return {{"sum_to_one", sums ? Json(*sums) : Json(nullptr)},
+          {"non_negative", decided(weights)},
+          {"keeps_centre", decided(centre)}};
 }
 
 std::string NeighborhoodKind::name() const {
@@ -161,43 +210,38 @@ SharedAnalysis shared_analysis(const ReportedScheme& scheme) {
   return shared;
 }
 
-Neighborhood neighborhood(const ReportedScheme& scheme, const SharedAnalysis& shared, const NeighborhoodKind& kind,
-                          bool is_drawn) {
-  Neighborhood result;
+Json neighborhood(const ReportedScheme& scheme, const SharedAnalysis& shared, const NeighborhoodKind& kind,
+                  bool is_drawn) {
   const LocalType type = local_type(kind);
-  const bool closed = kind.kind == Kind::vertex || kind.kind == Kind::face;
+  const bool closed = is_closed(kind);
   const bool is_dart = kind.kind == Kind::dart;
   const std::optional<LocalPatch<Algebraic>> patch = local_patch(scheme.exact, kind);
-  if (!patch) return result;
-  Json& json = result.json;
-  json = {{"kind", kind.name()}, {"n", kind.n}};
+  if (!patch) return nullptr;
+  Json json = {{"kind", kind.name()}, {"n", kind.n}};
   if (kind.kind == Kind::crease)
     if (const auto border = sublimit::local_patch(scheme.exact, type); border && is_same_matrix(*border, *patch)) {
       json["same_as"] = "border";
-      return result;
+      return json;
     }
   json["points"] = patch->slots.size();
   json["labels"] = Json::array();
   for (const SectorLabel& label : patch->labels) json["labels"].push_back(to_json(label));
-  // Moduli below lambda^2 may come from rings that the limit itself does not need.
-  const int rings = std::max(least_rings, shared.prover ? shared.prover->mask().recurrent_rings() : 0);
+  const int rings = analysed_rings(shared.prover ? &shared.prover->mask() : nullptr);
   const ExactAnalysis analysis =
       closed ? *exact_analysis(scheme.exact, type, rings) : open_analysis(scheme.exact, *patch);
-  look_at_weights(analysis.patch, result);
+  json["rows"] = rows_json(analysis.patch);
   add_spectrum(json, analysis.spectrum);
-  std::string why;
-  json["masks"] = is_dart ? dart_masks_json(scheme.scheme, *patch, why)
-                  : kind.kind == Kind::crease
-                      ? Json(nullptr)  // those of the border are not its own
-                      : masks_json(scheme.scheme, &*patch, type, subdominant_in_field(analysis.spectrum), why);
-  Json map;
-  if (closed) {
-    if (const std::optional<LocalModes> modes = local_modes(scheme.scheme, type)) {
-      map = characteristic_map_json(shared.types, *modes);
-      json["eigenfunctions"] = eigenfunctions_json(*modes);
-    }
-  }
   std::vector<Verdict> verdicts{affine_invariance(analysis), convergence(analysis)};
+  const bool has_limit = verdicts.back().answer != Answer::disproved;
+  std::string why;
+  json["masks"] = is_dart && has_limit ? dart_masks_json(scheme.scheme, *patch, why)
+                  : kind.kind == Kind::crease || !has_limit
+                      ? Json(nullptr)  // those of the border are not a crease's own
+                      : masks_json(scheme.scheme, &*patch, type, subdominant_in_field(analysis.spectrum), why);
+  Drawings pictures;
+  if (has_limit) pictures = drawings(scheme, shared, kind, is_drawn);
+  Json& map = pictures.map;
+  if (!pictures.eigenfunctions.is_null()) json["eigenfunctions"] = std::move(pictures.eigenfunctions);
   if (closed) {
     const Verdict c1 = c1_verdict(scheme, shared, analysis, kind.n, map);
     const SecondOrderGiven given = second_order(shared, c1);
@@ -207,12 +251,11 @@ Neighborhood neighborhood(const ReportedScheme& scheme, const SharedAnalysis& sh
     verdicts.push_back(is_dart ? dart_tangent_plane(analysis) : tangent_plane(analysis));
   }
   json["characteristic_map"] = std::move(map);
-  SampleSurface sample = sample_surface(shared.types, type, is_drawn, is_dart);
-  json["surface"] = std::move(sample.surface);
-  json["normals"] = std::move(sample.normals);
+  json["surface"] = std::move(pictures.sample.surface);
+  json["normals"] = std::move(pictures.sample.normals);
   json["verdicts"] = Json::array();
   for (const Verdict& verdict : verdicts) json["verdicts"].push_back(to_json(verdict));
-  return result;
+  return json;
 }
 
 }  // namespace sublimit::report

@@ -35,15 +35,19 @@ struct SharedAnalysis {
 };
 SharedAnalysis shared_analysis(const ReportedScheme& scheme);
 
-struct Neighborhood {
-  Json json;  ///< NEIGHBORHOOD, or null where the scheme has no such place
-  bool has_negative_weights = false, keeps_vertices = true;  ///< rows of the local matrix, exactly
-};
+/// The local matrix that verdicts are about: of a closed centre with all rings that influence the surface next to it.
+/// @param mask  of regular meshes, if there is one
+/// @return  nothing where the scheme has no such place
+std::optional<LocalPatch<Algebraic>> analysed_patch(const Scheme<Algebraic>& scheme, const NeighborhoodKind& kind,
+                                                    const RegularMask<Algebraic>* mask);
 
+/// `rows` of a neighbourhood: what its weights show, exactly. `keeps_centre` is null where no point is in the centre.
+Json rows_json(const LocalPatch<Algebraic>& patch);
+
+/// NEIGHBORHOOD, or null where the scheme has no such place.
 /// @param drawn  with the limit surface of generic data
 /// @note  A side of a crease whose matrix is a border's is this one word, `same_as`: see crease_json.
-Neighborhood neighborhood(const ReportedScheme& scheme, const SharedAnalysis& shared, const NeighborhoodKind& kind,
-                          bool drawn);
+Json neighborhood(const ReportedScheme& scheme, const SharedAnalysis& shared, const NeighborhoodKind& kind, bool drawn);
 
 /// What a side of a crease has, where its matrix is that of the border.
 Json crease_json(const Json& border);

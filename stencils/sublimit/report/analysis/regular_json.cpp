@@ -50,7 +50,10 @@ Json radius_json(const Smoothness& s) {
 }
 
 Json degrees_json(const PolynomialDegrees& d) {
-  return {{"generates", d.generates}, {"reproduces", d.reproduces}, {"approximation_order", d.approximation_order()}};
+  return {{"generates", d.generates},
+          {"reproduces", d.reproduces},
+          {"approximation_order", d.approximation_order()},
+          {"at_least", d.at_least}};
 }
 
 double mean_cost(const std::vector<PointCost>& costs) {
@@ -247,7 +250,8 @@ Json curve_json(const BezierCurve& curve, double tolerance) {
     for (const double ratio : j.ratios) knot["ratios"].push_back(stated(ratio));
     knot["verdict"] = j.c < 0             ? std::string("not continuous")
                       : j.same_polynomial ? std::string("no knot")
-                                          : "C^" + std::to_string(j.c) + ", G^" + std::to_string(j.g);
+                                          : "C^" + std::to_string(j.c) + ", G^" + std::to_string(j.g) +
+                                                (j.g_is_least ? " at least" : "");
     knot["because"] = j.because;
     json["knots"].push_back(std::move(knot));
   }
@@ -265,7 +269,13 @@ Json regular_json(const std::string& scheme, const SchemeOptions& options) {
 }
 
 Json regular_json(const Scheme<Algebraic>& scheme) {
-  const std::optional<RegularMask<Rational>> mask = rational_mask(regular_mask(scheme));
+  std::optional<RegularMask<Algebraic>> found;
+  try {
+    found = regular_mask(scheme);
+  } catch (const AnalysisError&) {  // the rules on regular meshes are not one mask
+    return nullptr;
+  }
+  const std::optional<RegularMask<Rational>> mask = rational_mask(*found);
   return mask ? to_json(surface_regularity(*mask)) : Json(nullptr);
 }
 
@@ -273,14 +283,9 @@ Json curve_scheme_json(const std::string& name, const SchemeOptions& options) {
   const std::optional<CurveScheme<double>> scheme = find_curve_scheme<double>(name, options);
   if (!scheme) throw InvalidOption("there is no curve scheme '" + name + "'");
   const std::optional<CurveRegularity> r = curve_regularity(name, options);
-  Json json{{"name", name},
-            {"kind", "curve"},
-            {"options", Json::object()},
-            {"source", scheme->source},
-            {"mesh", "line"},
-            {"split", Json::array()},
-            {"interpolates", scheme->claims.interpolates},
-            {"claims", Json::array()}};
+  Json json{{"name", name},   {"kind", "curve"},        {"options", Json::object()}, {"source", scheme->source},
+            {"mesh", "line"}, {"split", Json::array()}, {"interpolates", nullptr},   {"claims", Json::array()}};
+  if (const std::optional<bool> stays = r ? r->interpolates : keeps_points(*scheme)) json["interpolates"] = *stays;
   for (const auto& [option, value] : options) json["options"][option] = value;
   using Answer = Verdict::Answer;
   if (r) {
@@ -290,9 +295,13 @@ Json curve_scheme_json(const std::string& name, const SchemeOptions& options) {
       if (found >= claimed) return firm ? Answer::proved : Answer::evidence_for;
       return possible >= claimed ? Answer::unknown : firm ? Answer::disproved : Answer::evidence_against;
     };
-    const auto same = [&](bool claimed, bool found) {
-      return !claimed || found ? (firm ? Answer::proved : Answer::evidence_for) : Answer::disproved;
+    // Of what is not claimed nothing is said.
+    const auto add_if = [&](bool claimed, const char* what, bool found, const char* yes, const char* no) {
+      const Answer answer = found ? (firm ? Answer::proved : Answer::evidence_for)
+                                  : (firm ? Answer::disproved : Answer::evidence_against);
+      if (claimed) json["claims"].push_back(claim_json(what, true, found, answer, found ? yes : no));
     };
+    const auto most = [&](int found) { return r->degrees.at_least && found == r->degrees.generates ? 1000 : found; };
     // What the verdicts do not exclude is possible.
     Json verdicts = Json::array();
     for (const Verdict& v : r->verdicts) verdicts.push_back(to_json(v));
@@ -302,15 +311,14 @@ Json curve_scheme_json(const std::string& name, const SchemeOptions& options) {
                                 at_least(c.regular, r->smoothness.continuity, possible),
                                 r->verdicts.empty() ? "" : "see the verdicts of the regular part"));
     claims.push_back(claim_json("generates", c.generates, r->degrees.generates,
-                                at_least(c.generates, r->degrees.generates, r->degrees.generates),
+                                at_least(c.generates, r->degrees.generates, most(r->degrees.generates)),
                                 "(1+z)^" + std::to_string(r->sum_rules) + " divides the symbol"));
     claims.push_back(claim_json("reproduces", c.reproduces, r->degrees.reproduces,
-                                at_least(c.reproduces, r->degrees.reproduces, r->degrees.reproduces),
+                                at_least(c.reproduces, r->degrees.reproduces, most(r->degrees.reproduces)),
                                 "moments of the masks"));
-    claims.push_back(claim_json("convex-hull", c.convex_hull, r->positive, same(c.convex_hull, r->positive),
-                                r->positive ? "no weight is negative" : "a weight is negative"));
-    claims.push_back(claim_json("interpolates", c.interpolates, r->interpolates, same(c.interpolates, r->interpolates),
-                                r->interpolates ? "old points stay" : "old points move"));
+    add_if(c.convex_hull, "convex-hull", r->positive, "no weight is negative, and they sum to 1",
+           "a weight is negative, or they do not sum to 1");
+    add_if(c.interpolates, "interpolates", r->interpolates, "old points stay", "old points move");
   }
   json["regular"] = r ? to_json(*r) : Json(nullptr);
   json["neighborhoods"] = Json::array();

@@ -12,6 +12,7 @@
 #include "sublimit/base/error.h"
 #include "sublimit/base/parallel_for.h"
 #include "sublimit/certificates/all_valences.h"
+#include "sublimit/jobs/mesh_job.h"
 #include "sublimit/report/analysis/claims_json.h"
 #include "sublimit/report/analysis/knot_json.h"
 #include "sublimit/report/analysis/neighborhood.h"
@@ -41,7 +42,7 @@ Json scheme_json(const ReportedScheme& reported) {
           {"source", scheme.source},
           {"mesh", triangles ? "triangles" : "any"},
           {"split", splits},
-          {"interpolates", scheme.claims.interpolates}};
+          {"interpolates", nullptr}};  // made from what follows
 }
 
 /// All valences at once, where it takes no longer than a second or so: higher degrees take ten. Null where nothing is
@@ -64,9 +65,7 @@ void for_all(size_t count, const Job& job) {
 }  // namespace
 
 ReportedScheme reported_scheme(const std::string& name, const SchemeOptions& options) {
-  std::optional<Scheme<double>> scheme = find_scheme<double>(name, options);
-  if (!scheme) throw InvalidOption("unknown scheme '" + name + "'");
-  return {std::move(*scheme), *find_scheme<Algebraic>(name, options), options};
+  return {scheme_or_throw(name, options), scheme<Algebraic>(name, options), options};
 }
 
 Json schemes_report(const std::vector<ReportedScheme>& schemes, const ReportOptions& options) {
@@ -79,7 +78,7 @@ Json schemes_report(const std::vector<ReportedScheme>& schemes, const ReportOpti
   for_all(schemes.size(), [&](size_t s) { shared[s] = shared_analysis(schemes[s]); });
   std::vector<Json> regular(schemes.size()), all(schemes.size()), curves(options.curves.size());
   std::vector<std::vector<NeighborhoodKind>> kinds(schemes.size());
-  std::vector<std::vector<Neighborhood>> found(schemes.size());
+  std::vector<std::vector<Json>> found(schemes.size());
   std::vector<std::function<void()>> jobs;
   for (size_t s = 0; s < schemes.size(); ++s) jobs.push_back([&, s] { regular[s] = regular_json(schemes[s].exact); });
   for (size_t s = 0; s < schemes.size(); ++s) jobs.push_back([&, s] { all[s] = all_valences_json(shared[s]); });
@@ -108,23 +107,18 @@ Json schemes_report(const std::vector<ReportedScheme>& schemes, const ReportOpti
     json["claims"] = nullptr;  // its place; it is made from what follows
     json["regular"] = std::move(regular[s]);
     json["neighborhoods"] = Json::array();
-    WeightFindings weights;
     std::map<int, const Json*> borders;
     for (size_t k = 0; k < found[s].size(); ++k)
-      if (kinds[s][k].kind == Kind::border) borders[kinds[s][k].n] = &found[s][k].json;
+      if (kinds[s][k].kind == Kind::border) borders[kinds[s][k].n] = &found[s][k];
     for (size_t k = 0; k < found[s].size(); ++k)
-      if (Json& n = found[s][k].json; n.is_object() && n.contains("same_as"))
-        n = crease_json(*borders.at(kinds[s][k].n));
-    for (Neighborhood& n : found[s]) {
-      if (n.json.is_null()) continue;
-      weights.has_negative_weights |= n.has_negative_weights;
-      weights.keeps_vertices &= n.keeps_vertices;
-      json["neighborhoods"].push_back(std::move(n.json));
-    }
+      if (Json& n = found[s][k]; n.is_object() && n.contains("same_as")) n = crease_json(*borders.at(kinds[s][k].n));
+    for (Json& n : found[s])
+      if (!n.is_null()) json["neighborhoods"].push_back(std::move(n));
     json["all_valences"] = std::move(all[s]);
     json["knot_intervals"] = knot_json(schemes[s].scheme, json["all_valences"]);
     use_regular(json);
-    json["claims"] = claims_json(schemes[s].scheme.claims, json, weights);
+    if (const auto holds = interpolation(json["neighborhoods"]).holds) json["interpolates"] = *holds;
+    json["claims"] = claims_json(schemes[s].scheme.claims, json);
     report["schemes"].push_back(std::move(json));
   }
   for (Json& curve : curves) report["schemes"].push_back(std::move(curve));

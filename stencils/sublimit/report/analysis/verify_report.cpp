@@ -5,14 +5,16 @@
 
 #include <algorithm>
 #include <array>
-#include <map>
+#include <functional>
 #include <mutex>
+#include <tuple>
 
 #include "sublimit/base/error.h"
 #include "sublimit/base/parallel_for.h"
 #include "sublimit/certificates/witness.h"
 #include "sublimit/report/analysis/claims_json.h"
 #include "sublimit/report/analysis/registered_rows.h"
+#include "sublimit/report/analysis/seen_again.h"
 
 namespace sublimit::report {
 namespace {
@@ -47,6 +49,7 @@ bool is_by_regular(const Json& verdict) {
   return all.size() == 1 && all[0].at("says") == "regular surfaces are C^1";
 }
 
+/// By the report's own words; whether they are right is looked at in `regular`.
 bool is_proved_regular(const Json& scheme, int n) {
   const Json& regular = scheme.at("regular");
   if (!regular.is_object() || n != (scheme.at("mesh") == "triangles" ? 6 : 4)) return false;
@@ -54,14 +57,14 @@ bool is_proved_regular(const Json& scheme, int n) {
   return continuity.is_number() && continuity.get<int>() >= 1;
 }
 
-struct Finding {
+struct Found {
   size_t order;
   std::string what;
 };
 
 struct Reader {
   ReportVerification result = {};
-  std::vector<Finding> findings = {};
+  std::vector<Found> findings = {};
   std::vector<Stand> stands = {};
   size_t order = 0;
 
@@ -69,7 +72,12 @@ struct Reader {
 
   void hypotheses(const Json& verdict, const std::string& place) {
     const std::string answer = verdict.at("verdict");
+    const Json& all = verdict.at("hypotheses");
+    const auto is_false = [](const Json& h) { return h.at("holds") == false && h.at("by") != "floating"; };
+    if (answer == "disproved" && std::none_of(all.begin(), all.end(), is_false))
+      find(place, "said to be disproved, although no hypothesis is known to fail");
     if (answer != "proved") return;
+    if (all.empty()) find(place, "said to be proved, without a hypothesis");
     for (const Json& h : verdict.at("hypotheses")) {
       const std::string says = h.at("says");
       const Json& holds = h.at("holds");
@@ -115,6 +123,8 @@ struct Reader {
       for (const Json& v : regular.at("verdicts")) verdict(v, name + ", regular", nullptr);
     if (const auto all = scheme.find("all_valences"); all != scheme.end() && !all->is_null())
       verdict(*all, name + ", all valences", nullptr);
+    if (const auto knots = scheme.find("knot_intervals"); knots != scheme.end() && knots->is_object())
+      verdict(knots->at("verdict"), name + ", knot intervals", nullptr);
     for (const Json& n : scheme.at("neighborhoods")) {
       const std::string kind = n.at("kind");
       Stand stand{nullptr, name, "", n.at("n").get<int>(), kind == "face", &exact};
@@ -124,7 +134,8 @@ struct Reader {
       if (closed) {
         const Json& all = n.at("verdicts");
         const auto is_c1 = [](const Json& v) { return v.at("property") == "c1"; };
-        if (std::none_of(all.begin(), all.end(), is_c1)) find(place, "there is no verdict on c1");
+        const auto count = std::count_if(all.begin(), all.end(), is_c1);
+        if (count != 1) find(place, count == 0 ? "there is no verdict on c1" : "there are several verdicts on c1");
       }
       for (const Json& v : n.at("verdicts")) verdict(v, place, closed ? &stand : nullptr);
     }
@@ -137,8 +148,8 @@ struct Reader {
       return find("summary", fmt::format("{} rows for {} schemes", rows.size(), schemes.size()));
     for (size_t i = 0; i < rows.size(); ++i) {
       const Json made = summary_row(schemes[i]);
-      for (const char* key :
-           {"scheme", "regular", "regular_verdict", "extraordinary", "extraordinary_verdict", "valences", "notes"})
+      for (const char* key : {"scheme", "type", "mesh", "regular", "regular_verdict", "extraordinary",
+                              "extraordinary_verdict", "valences", "notes"})
         if (rows[i].at(key) != made.at(key))
           find(fmt::format("summary, {}", made.at("scheme").dump()),
                fmt::format("{} is {}, and the verdicts say {}", key, rows[i].at(key).dump(), made.at(key).dump()));
@@ -176,6 +187,49 @@ std::vector<std::string> problems(const Stand& stand, bool& with_scheme) {
   return all;
 }
 
+/// Something to look at, on its own: returns what is wrong.
+struct Look {
+  size_t order = 0;
+  std::string place;
+  std::function<std::vector<std::string>()> wrong;
+};
+
+/// The parts of SCHEME that conclusions are drawn from, with the rows that the masks of the registry give.
+Json with_rows(const Json& scheme, const std::vector<Json>& rows) {
+  Json light = Json::object();
+  for (const char* key : {"name", "kind", "mesh", "interpolates", "claims", "regular"}) light[key] = scheme.at(key);
+  light["neighborhoods"] = Json::array();
+  for (size_t k = 0; k < scheme.at("neighborhoods").size(); ++k) {
+    const Json& n = scheme.at("neighborhoods")[k];
+    Json part{{"kind", n.at("kind")}, {"n", n.at("n")}, {"verdicts", n.at("verdicts")}};
+    if (!rows.empty())
+      part["rows"] = rows[k];
+    else if (const auto own = n.find("rows"); own != n.end())
+      part["rows"] = *own;
+    light["neighborhoods"].push_back(std::move(part));
+  }
+  return light;
+}
+
+/// Rows of a neighbourhood as the report has them (those of earlier builds have none) against the masks.
+std::vector<std::string> rows_differ(const Json& neighborhood, const ExactScheme& exact, Json& rows) {
+  rows = rows_again(neighborhood, exact);
+  if (rows.is_null()) return {"the scheme has no such neighbourhood"};
+  const auto given = neighborhood.find("rows");
+  if (given == neighborhood.end() || *given == rows) return {};
+  return {fmt::format("its rows are said to be {}, and the masks give {}", given->dump(), rows.dump())};
+}
+
+std::vector<std::string> caught(const std::function<std::vector<std::string>()>& wrong) {
+  try {
+    return wrong();
+  } catch (const nlohmann::json::exception& error) {
+    return {std::string("a part is missing, or of another kind: ") + error.what()};
+  } catch (const Error& error) {
+    return {error.what()};
+  }
+}
+
 Json parsed(const std::string& text) {
   Json report;
   try {
@@ -199,41 +253,76 @@ Json parsed(const std::string& text) {
 
 }  // namespace
 
-ReportVerification verify_report(const std::string& text, const std::function<void(int, int)>& progress) {
+ReportVerification verify_report(const std::string& text, const ReportVerificationOptions& options) {
   const Json report = parsed(text);
   Reader reader;
   reader.result.kind = report.at("kind");
   std::vector<Exact> exact;
+  std::vector<size_t> orders;           // of findings on a scheme as a whole
+  std::vector<std::vector<Json>> rows;  // by the masks of the registry
+  std::vector<Look> looks, afterwards;  // the latter at what the former have computed
+  std::mutex telling;
   try {
+    if (reader.result.kind == "curve") looks.push_back({0, "curve", [&] { return curve_differs(report.at("curve")); }});
     if (reader.result.kind == "schemes") {
       const Json& schemes = report.at("schemes");
+      if (schemes.empty()) reader.find("schemes", "there are none, so nothing was looked at");
       for (const Json& scheme : schemes)
         exact.push_back(scheme.at("kind") == "surface" ? registered_scheme(scheme.at("name"), options_of(scheme))
                                                        : std::nullopt);
-      for (size_t s = 0; s < exact.size(); ++s) reader.scheme(schemes[s], exact[s]);
+      for (size_t s = 0; s < exact.size(); ++s) {
+        orders.push_back(++reader.order);
+        reader.scheme(schemes[s], exact[s]);
+        rows.emplace_back(exact[s] ? schemes[s].at("neighborhoods").size() : 0);
+      }
       reader.summary(report);
+      for (size_t s = 0; s < exact.size(); ++s) {
+        const Json& scheme = schemes[s];
+        const std::string name = scheme.at("name");
+        looks.push_back({orders[s], name + ", regular", [&, s] {
+                           return regular_differs(schemes[s], exact[s] ? &*exact[s] : nullptr, options.analyse_masks);
+                         }});
+        for (size_t k = 0; k < rows[s].size(); ++k) {
+          const Json& n = scheme.at("neighborhoods")[k];
+          looks.push_back(
+              {orders[s], fmt::format("{}, {} {}", name, n.at("kind").get<std::string>(), n.at("n").dump()),
+               [&, s, k] { return rows_differ(schemes[s].at("neighborhoods")[k], *exact[s], rows[s][k]); }});
+        }
+        if (scheme.at("kind") == "surface")
+          afterwards.push_back(
+              {orders[s], name, [&, s] { return conclusions_differ(with_rows(schemes[s], rows[s])); }});
+      }
     }
   } catch (const nlohmann::json::exception& error) {
     throw FormatError(std::string("a part of the report is missing, or of another kind: ") + error.what());
   }
-  std::mutex telling;
+  const size_t witnesses = reader.stands.size();
   int done = 0;
   parallel_for_blocks(
-      static_cast<std::int64_t>(reader.stands.size()),
+      static_cast<std::int64_t>(witnesses + looks.size()),
       [&](std::int64_t, std::int64_t i, std::int64_t) {
-        const Stand& stand = reader.stands[static_cast<size_t>(i)];
+        const auto at = static_cast<size_t>(i);
+        const bool is_witness = at < witnesses;
         bool with_scheme = false;
-        const std::vector<std::string> wrong = problems(stand, with_scheme);
+        const std::vector<std::string> wrong =
+            is_witness ? problems(reader.stands[at], with_scheme) : caught(looks[at - witnesses].wrong);
         const std::lock_guard lock(telling);
-        for (const std::string& what : wrong) reader.findings.push_back({stand.order, stand.place + ": " + what});
-        reader.result.seen_again += wrong.empty();
-        reader.result.seen_with_scheme += wrong.empty() && with_scheme;
-        if (progress) progress(++done, static_cast<int>(reader.stands.size()));
+        const size_t order = is_witness ? reader.stands[at].order : looks[at - witnesses].order;
+        const std::string& place = is_witness ? reader.stands[at].place : looks[at - witnesses].place;
+        for (const std::string& what : wrong) reader.findings.push_back({order, place + ": " + what});
+        reader.result.seen_again += is_witness && wrong.empty();
+        reader.result.seen_with_scheme += is_witness && wrong.empty() && with_scheme;
+        reader.result.masks_again += !is_witness && wrong.empty();
+        if (options.progress) options.progress(++done, static_cast<int>(witnesses + looks.size()));
       },
       1);
-  std::stable_sort(reader.findings.begin(), reader.findings.end(),
-                   [](const Finding& a, const Finding& b) { return a.order < b.order; });
-  for (Finding& finding : reader.findings) reader.result.findings.push_back(std::move(finding.what));
+  for (const Look& look : afterwards)
+    for (const std::string& what : caught(look.wrong))
+      reader.findings.push_back({look.order, look.place + ": " + what});
+  std::stable_sort(reader.findings.begin(), reader.findings.end(), [](const Found& a, const Found& b) {
+    return std::tie(a.order, a.what) < std::tie(b.order, b.what);
+  });
+  for (Found& finding : reader.findings) reader.result.findings.push_back(std::move(finding.what));
   return std::move(reader.result);
 }
 

@@ -140,7 +140,7 @@ Json to_json(const AssetReport& r, const std::string& file) {
   seams["inside"] = deviation(s.inside);
   seams["across_creases"] = deviation(s.across_creases);
   seams["around_points"] = deviation(s.around_points);
-  seams["within_tolerance"] = s.within_tolerance;
+  seams["within_tolerance"] = s.within_tolerance ? Json(*s.within_tolerance) : Json(nullptr);
   seams["beyond"] = list(s.beyond, excess);
   seams["worst"] = list(s.worst, excess);
   j["seams"] = std::move(seams);

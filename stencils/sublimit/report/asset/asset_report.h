@@ -76,12 +76,12 @@ struct SeamExcess {
 };
 struct AssetSeams {
   std::int64_t edges = 0, crease_edges = 0, border_edges = 0, patch_seams = 0;
-  SeamDeviation inside;          ///< across smooth edges, and across seams of patches inside faces
-  SeamDeviation across_creases;  ///< expected; g1 is the sharpest crease
-  SeamDeviation around_points;   ///< at 2^-10 from extraordinary points, between the faces around them
-  bool within_tolerance = true;
-  std::vector<SeamExcess> beyond;  ///< of the tolerance, the worst of each what, descending
-  std::vector<SeamExcess> worst;   ///< for every what and kind of seam the worst one, whatever is allowed
+  SeamDeviation inside;                    ///< across smooth edges, and across seams of patches inside faces
+  SeamDeviation across_creases;            ///< expected; g1 is the sharpest crease
+  SeamDeviation around_points;             ///< at 2^-10 from extraordinary points, between the faces around them
+  std::optional<bool> within_tolerance{};  ///< nothing where none is asked for, or nothing could be compared with it
+  std::vector<SeamExcess> beyond;          ///< of the tolerance, the worst of each what, descending
+  std::vector<SeamExcess> worst;           ///< for every what and kind of seam the worst one, whatever is allowed
 };
 
 struct CurvatureRange {
@@ -121,7 +121,7 @@ struct AssetWarning {
   std::optional<Eigen::Vector3d> place = {};
 };
 
-struct AssetReport {
+struct [[nodiscard]] AssetReport {
   std::string scheme;
   Index vertices = 0, faces = 0, edges = 0;
   Eigen::Vector3d box_min = Eigen::Vector3d::Zero(), box_max = Eigen::Vector3d::Zero();  ///< of the control points

@@ -24,8 +24,11 @@ struct SeamSamples {
 
 class SeamPlaces {
  public:
+  /// @param surface, inventory  which must stay
   /// @param polynomial  pieces are polynomials, which can be told apart next to a seam; else no patch has an inside
   SeamPlaces(const Scheme<double>& scheme, const LimitSurface& surface, const Inventory& inventory, bool polynomial);
+  SeamPlaces(const Scheme<double>&, const LimitSurface&&, const Inventory&, bool) = delete;
+  SeamPlaces(const Scheme<double>&, const LimitSurface&, const Inventory&&, bool) = delete;
   /// Edges, then faces, then vertices: whatever has a number has zero or more groups.
   std::int64_t size() const;
   void add(std::int64_t number, SeamSamples& out) const;

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "sublimit/base/parallel_for.h"
+#include "sublimit/limit/for_all.h"
 
 namespace sublimit::asset {
 namespace {
@@ -67,7 +68,8 @@ class Collector {
     const auto one = [&](const Peak& peak, std::optional<double>& largest, const char* what, double limit, int k) {
       if (peak.value < 0) return;
       const bool is_worst = !largest || peak.value > *largest;
-      const bool is_beyond = peak.value > limit && (!crease || k == 0);
+      const bool is_judged = std::isfinite(limit) && (!crease || k == 0), is_beyond = is_judged && peak.value > limit;
+      if (is_judged) within_.look(!is_beyond);
       if (!is_worst && !is_beyond) return;
       const SeamExcess excess = this->excess(seam, what, peak, work.samples[size_t(peak.row)], samples);
       if (is_worst) {
@@ -89,13 +91,14 @@ class Collector {
       keep_worst(k);
       seams_.beyond.insert(seams_.beyond.end(), beyond_[k].begin(), beyond_[k].end());
     }
-    seams_.within_tolerance = seams_.beyond.empty();
+    seams_.within_tolerance = within_.holds();
     for (const auto& part : worst_)
       for (const std::optional<SeamExcess>& excess : part)
         if (excess) seams_.worst.push_back(*excess);
   }
 
  private:
+  ForAll within_;
   static constexpr double limits_none = std::numeric_limits<double>::infinity();
   SeamExcess excess(const Seam& seam, const char* what, const Peak& peak, const Sample& sample,
                     const LimitSamples& samples) const {

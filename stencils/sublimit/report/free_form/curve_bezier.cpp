@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sublimit/report/free_form/curve_bezier.h"
 
-#include <algorithm>
-
 #include "sublimit/patches/free_form_patches.h"
-#include "sublimit/patches/joins/seam_strips.h"
 
 namespace sublimit {
 namespace {
@@ -21,32 +18,10 @@ std::vector<T> columns_of(const FreeForm& shapes, const FreeFormCurve& curve) {
   return columns;
 }
 
-/// The pieces of the part of the domain that the curve means.
-/// @param ends  gets the parameters of their ends
 template <class T>
 std::vector<BezierPiece<T>> pieces_of(const Knots<T>& knots, const std::vector<T>& columns, const FreeFormCurve& curve,
                                       std::vector<T>& ends) {
-  const int p = knots.degree(), width = curve.rational ? 4 : 3;
-  std::vector<BezierPiece<T>> pieces;
-  for (Index face = 0; face < knots.num_faces(); ++face) {
-    const Index span = knots.span(face);
-    const T from = std::max(knots.all()[size_t(span)], T(curve.u.first)),
-            to = std::min(knots.all()[size_t(span) + 1], T(curve.u.last));
-    if (!(from < to)) continue;
-    BezierPiece<T> piece{.degree = p, .columns = {}, .coordinates = Coordinates::plain, .length = T(to - from)};
-    if (curve.rational) piece.coordinates = Coordinates::homogeneous;
-    const std::vector<T> rows = part_rows(knots, LinePart<T>{face, from, to});
-    for (int i = 0; i <= p; ++i)
-      for (int k = 0; k < width; ++k) {
-        T sum(0);
-        for (int m = 0; m <= p; ++m)
-          sum += rows[size_t(i * (p + 1) + m)] * columns[size_t(knots.point(span - p + m) * width + k)];
-        piece.columns.push_back(sum);
-      }
-    pieces.push_back(std::move(piece));
-    ends.push_back(to);
-  }
-  return pieces;
+  return bezier_pieces_of(knots, columns, curve.rational, T(curve.u.first), T(curve.u.last), ends);
 }
 
 /// Knots of pieces that share nothing, and their control points.

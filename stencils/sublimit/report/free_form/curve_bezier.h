@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 // A free-form curve of a file as its Bezier pieces, one for each span of its knots, in doubles and in ratios.
+#include <algorithm>
 #include <vector>
 
 #include "sublimit/certificates/regularity/rational.h"
 #include "sublimit/io/free_form.h"
-#include "sublimit/patches/joins/bezier_piece.h"
+#include "sublimit/patches/joins/seam_strips.h"
 
 namespace sublimit {
 
@@ -19,6 +20,34 @@ struct CurveBezier {
 
 /// @throws InvalidParameter  knots that make no B-spline
 CurveBezier curve_bezier(const FreeForm& shapes, const FreeFormCurve& curve);
+
+/// The Bezier pieces of a part of a spline curve's domain.
+/// @param columns   3 numbers for each control point, or 4 if it is rational
+/// @param ends      gets the parameters where they end
+template <class T>
+std::vector<BezierPiece<T>> bezier_pieces_of(const Knots<T>& knots, const std::vector<T>& columns, bool rational,
+                                             const T& first, const T& last, std::vector<T>& ends) {
+  const int p = knots.degree(), width = rational ? 4 : 3;
+  std::vector<BezierPiece<T>> pieces;
+  for (Index face = 0; face < knots.num_faces(); ++face) {
+    const Index span = knots.span(face);
+    const T from = std::max(knots.all()[size_t(span)], first), to = std::min(knots.all()[size_t(span) + 1], last);
+    if (!(from < to)) continue;
+    BezierPiece<T> piece{.degree = p, .columns = {}, .coordinates = Coordinates::plain, .length = T(to - from)};
+    if (rational) piece.coordinates = Coordinates::homogeneous;
+    const std::vector<T> rows = part_rows(knots, LinePart<T>{face, from, to});
+    for (int i = 0; i <= p; ++i)
+      for (int k = 0; k < width; ++k) {
+        T sum(0);
+        for (int m = 0; m <= p; ++m)
+          sum += rows[size_t(i * (p + 1) + m)] * columns[size_t(knots.point(span - p + m) * width + k)];
+        piece.columns.push_back(sum);
+      }
+    pieces.push_back(std::move(piece));
+    ends.push_back(to);
+  }
+  return pieces;
+}
 
 /// The same piece, run through backwards.
 template <class T>

@@ -124,6 +124,16 @@ FreeFormJoints free_form_joints(std::span<const CurveBezier> curves, double same
   return result;
 }
 
+std::size_t free_ends_of_pairs(std::span<const CurveBezier> curves, double same) {
+  std::size_t count = 0;
+  for (size_t c = 0; c + 1 < curves.size(); c += 2) {
+    const std::optional<Eigen::Vector3d> start = end_point(curves[c], false), end = end_point(curves[c + 1], true);
+    const bool closes = start && end && (*start - *end).norm() <= same;
+    if (!closes) count += start.has_value() + end.has_value();
+  }
+  return count;
+}
+
 FreeFormJoint end_to_start(std::span<const CurveBezier> curves, std::size_t left, std::size_t right) {
   return ends_joint(curves, {.curve = left, .at_end = true}, {.curve = right, .at_end = false});
 }

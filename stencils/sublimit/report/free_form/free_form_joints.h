@@ -42,6 +42,11 @@ struct FreeFormJoints {
 /// @param near  ends beyond `same` and within that are compared where they have no other partner: a gap
 FreeFormJoints free_form_joints(std::span<const CurveBezier> curves, double same, double near);
 
+/// Ends of pairs of curves, the end of the first being joined to the start of the second, that are left over: two of
+/// each pair, none where these two are one point.
+/// @param same  ends as near as that are one point
+std::size_t free_ends_of_pairs(std::span<const CurveBezier> curves, double same);
+
 /// The end of one curve with the start of another, wherever they are.
 FreeFormJoint end_to_start(std::span<const CurveBezier> curves, std::size_t left, std::size_t right);
 

@@ -42,7 +42,11 @@ FreeFormJson list_json(const Range& values, const F& f) {
 
 FreeFormJson orders_json(const std::optional<JoinOrders>& orders) {
   if (!orders) return nullptr;
-  return {{"c", orders->c}, {"g", orders->g}, {"same", orders->is_same}, {"obstacle", name(orders->obstacle)}};
+  return {{"c", orders->c},
+          {"g", orders->g},
+          {"same", orders->is_same},
+          {"obstacle", name(orders->obstacle)},
+          {"says", words_of(*orders)}};
 }
 
 FreeFormJson deviation_json(const JoinDeviation& d) {
@@ -54,7 +58,10 @@ FreeFormJson deviation_json(const JoinDeviation& d) {
 
 FreeFormJson verdict_json(const std::optional<JoinVerdict>& v) {
   if (!v) return nullptr;
-  return {{"says", v->says}, {"g", v->g}, {"compared", v->compared}, {"exceptions", v->exceptions}};
+  return {{"says", v->says},
+          {"g", v->compared > 0 ? FreeFormJson(v->g) : FreeFormJson(nullptr)},
+          {"compared", v->compared},
+          {"exceptions", v->exceptions}};
 }
 
 FreeFormJson maximum_json(const std::optional<SeamMaximum>& found, double scale) {
@@ -242,7 +249,7 @@ FreeFormJson to_json(const FreeFormReport& r, const std::string& file) {
   j["tolerance"] = {{"g0", number_json(g0)},
                     {"g1_degrees", number_json(r.tolerance.g1_degrees)},
                     {"g2", number_json(r.tolerance.g2)}};
-  j["within_tolerance"] = r.within_tolerance;
+  j["within_tolerance"] = r.within_tolerance ? FreeFormJson(*r.within_tolerance) : FreeFormJson(nullptr);
   j["beyond"] = list_json(r.beyond, excess_json);
   j["patches"] = list_json(counted(r.shapes.surfaces.size()), [&](size_t p) { return patch_json(r, p); });
   FreeFormJson seams;

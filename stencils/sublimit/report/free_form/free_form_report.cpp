@@ -9,6 +9,7 @@
 
 #include "sublimit/base/error.h"
 #include "sublimit/certificates/exact_joins.h"
+#include "sublimit/limit/for_all.h"
 #include "sublimit/patches/joins/line_samples.h"
 
 namespace sublimit {
@@ -70,8 +71,8 @@ class Judge {
     hold(is_joint, number, 2, found.curvature, found.curvature_at);
   }
   void finish(Index listed) {
+    report_.within_tolerance = within_.holds();
     for (std::vector<JoinExcess>& list : beyond_) {
-      report_.within_tolerance &= list.empty();
       std::ranges::stable_sort(list, std::greater<>(), &JoinExcess::value);
       if (std::ssize(list) > listed) list.resize(size_t(listed));
       report_.beyond.insert(report_.beyond.end(), list.begin(), list.end());
@@ -82,19 +83,22 @@ class Judge {
   void hold(bool is_joint, std::size_t number, size_t k, const std::optional<double>& value,
             const Eigen::Vector3d& place) {
     constexpr const char* what[] = {"g0", "g1", "g2"};
-    if (value && allowed_[k] && !(*value <= *allowed_[k]))
-      beyond_[k].push_back({is_joint, number, what[k], *value, place});
+    if (!value || !allowed_[k]) return;
+    const bool is_within = *value <= *allowed_[k];
+    within_.look(is_within);
+    if (!is_within) beyond_[k].push_back({is_joint, number, what[k], *value, place});
   }
 
   FreeFormReport& report_;
   double diagonal_;
   std::optional<double> allowed_[3];
   std::vector<JoinExcess> beyond_[3];
+  ForAll within_;
 };
 
 /// The worst first: the least order, then the greatest of what stands in the way of a higher one.
 auto rank_of(const PatchSeam& seam) {
-  const int g = seam.measured ? seam.measured->g : 3;
+  const int g = seam.measured ? std::min(2, seam.measured->g) : 3;
   const auto& decisive = g < 0 ? seam.gap : g == 0 ? seam.angle : seam.curvature_jump;
   return std::tuple(g, decisive ? -decisive->value : 0, static_cast<int>(seam.kind));
 }
@@ -158,7 +162,8 @@ std::vector<Eigen::Vector3d> seam_points(const SplinePatches& patches, const Pat
 }
 
 /// Of the first patches.
-void find_seams(FreeFormReport& report, size_t count, const FreeFormReportOptions& options) {
+void find_seams(FreeFormReport& report, size_t count, const FreeFormReportOptions& options,
+                std::span<const std::optional<SeamNet<Rational>>> nets) {
   const SplinePatches& patches = report.patches;
   const std::span<const PatchColumns> first = std::span(patches.patches).first(count);
   const SeamOptions seam_options;
@@ -178,7 +183,7 @@ void find_seams(FreeFormReport& report, size_t count, const FreeFormReportOption
     own_number.push_back(i);
   }
   std::vector<std::optional<JoinOrders>> exact(found.seams.size());
-  const std::vector<std::optional<JoinOrders>> decided = exact_seams(first, patches.coordinates, own);
+  const std::vector<std::optional<JoinOrders>> decided = exact_seams(first, patches.coordinates, own, nets);
   for (size_t i = 0; i < own.size(); ++i) exact[own_number[i]] = decided[i];
 
   const std::vector<PatchSeam> near = near_seams(first, patches.coordinates, found, seam_options, options.near);
@@ -232,7 +237,9 @@ CurveBezier one_piece(const BezierPiece<double>& piece, const BezierPiece<Ration
   return {.pieces = {piece}, .breaks = {0, piece.length}, .exact = {exact}};
 }
 
-void add_joins(FreeFormReport& report, const GivenJoins& joins) {
+/// @param same  ends as near as that are one point
+void add_joins(FreeFormReport& report, const GivenJoins& joins, double same) {
+  const size_t other_curves = report.curves.size();
   size_t patch = report.shapes.surfaces.size() - 2 * joins.surfaces.size();
   for (const GivenJoins::Surfaces& join : joins.surfaces) {
     report.seams.push_back(given_seam(report.patches, patch, join));
@@ -245,6 +252,28 @@ void add_joins(FreeFormReport& report, const GivenJoins& joins) {
     report.joints.joints.push_back(end_to_start(report.curves, left, left + 1));
     report.joints.joints.back().recipe = join.recipe;
   }
+  report.joints.free_ends += free_ends_of_pairs(std::span(report.curves).subspan(other_curves), same);
+}
+
+/// Of each patch its net without rounding, if it is known and has the same faces; patches without one are converted.
+std::vector<std::optional<SeamNet<Rational>>> exact_nets(const ExactShapes& exact, SplinePatches& patches) {
+  std::vector<std::optional<SeamNet<Rational>>> nets = exact.surfaces;
+  for (size_t p = 0; p < nets.size(); ++p) {
+    const auto is_like = [](const Knots<Rational>& own, const Knots<double>& rounded) {
+      return own.degree() == rounded.degree() && own.num_faces() == rounded.num_faces() &&
+             own.num_points() == rounded.num_points();
+    };
+    const SplineSurface& surface = *patches.surfaces[p];
+    if (nets[p] && !(is_like(nets[p]->u, surface.u()) && is_like(nets[p]->v, surface.v()))) nets[p].reset();
+    patches.is_converted[p] = !nets[p];
+  }
+  return nets;
+}
+
+/// Pieces without rounding in the place of those of rounded numbers; none where they are not known.
+void use_exact(const std::optional<std::vector<BezierPiece<Rational>>>& pieces, CurveBezier& curve) {
+  curve.exact.clear();
+  if (pieces && pieces->size() == curve.pieces.size()) curve.exact = *pieces;
 }
 
 void find_box(FreeFormReport& report) {
@@ -274,29 +303,32 @@ double free_form_detail::line_parameter(const SplinePatches& patches, const Patc
 }
 
 FreeFormReport free_form_report(FreeForm shapes, const std::string& name, const FreeFormReportOptions& options,
-                                const GivenJoins& joins) {
+                                const GivenJoins& joins, const ExactShapes* exact) {
   if (shapes.surfaces.empty() && shapes.curves.empty())
     throw UnsupportedTopology(name + ": neither curves in space nor surfaces; give a file with `surf` or `curv`");
   FreeFormReport report;
   report.shapes = std::move(shapes);
   report.tolerance = options.tolerance;
   find_box(report);
+  std::vector<std::optional<SeamNet<Rational>>> nets;
   if (!report.shapes.surfaces.empty()) {
     report.patches = spline_patches(report.shapes, name);
+    if (exact) nets = exact_nets(*exact, report.patches);
     if (const size_t count = report.shapes.surfaces.size() - 2 * joins.surfaces.size(); count > 0)
-      find_seams(report, count, options);
+      find_seams(report, count, options, nets);
   }
   for (size_t c = 0; c + 2 * joins.curves.size() < report.shapes.curves.size(); ++c) {
     const FreeFormCurve& curve = report.shapes.curves[c];
     try {
       report.curves.push_back(curve_bezier(report.shapes, curve));
+      if (exact) use_exact(exact->curves[c], report.curves.back());
     } catch (const InvalidParameter& error) {
       throw InvalidParameter(name + ":" + std::to_string(curve.line) + ": " + error.what());
     }
   }
   constexpr double same = 1e-6;
   report.joints = free_form_joints(report.curves, same * report.diagonal(), options.near * report.diagonal());
-  add_joins(report, joins);
+  add_joins(report, joins, same * report.diagonal());
   std::ranges::stable_sort(report.seams, {}, [](const ReportedSeam& seam) { return rank_of(seam.seam); });
   std::ranges::stable_sort(report.joints.joints, {}, [](const FreeFormJoint& joint) { return rank_of(joint); });
 

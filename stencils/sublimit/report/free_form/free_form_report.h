@@ -43,6 +43,12 @@ struct GivenJoins {
   std::vector<Surfaces> surfaces;
 };
 
+/// Nets of `shapes` without rounding, where they are known: by surface, and by curve as its pieces.
+struct ExactShapes {
+  std::vector<std::optional<SeamNet<Rational>>> surfaces;
+  std::vector<std::optional<std::vector<BezierPiece<Rational>>>> curves;
+};
+
 struct ReportedSeam {
   PatchSeam seam;
   std::optional<JoinOrders> exact{};
@@ -68,7 +74,7 @@ struct JoinExcess {
 
 /// "G^1 everywhere but 4 seams: ..."
 struct JoinVerdict {
-  int g = -1;  ///< of most seams, or joints
+  int g = -1;  ///< of most seams, or joints; no meaning where none was compared
   std::size_t compared = 0, exceptions = 0;
   std::string says;
 };
@@ -96,7 +102,7 @@ struct FreeFormPicture {
   std::vector<CurvePicture> curves{};
 };
 
-struct FreeFormReport {
+struct [[nodiscard]] FreeFormReport {
   FreeForm shapes;  ///< what the report is about
   SplinePatches patches;
   std::vector<CurveBezier> curves;
@@ -111,8 +117,8 @@ struct FreeFormReport {
   FreeFormJoints joints;  ///< the worst first
   JoinDeviation seam_deviation, joint_deviation;
   std::optional<JoinVerdict> seam_verdict, joint_verdict;  ///< nothing without surfaces, without curves
-  bool within_tolerance = true;
-  std::vector<JoinExcess> beyond;  ///< of the tolerance, the worst of each what, descending
+  std::optional<bool> within_tolerance{};  ///< nothing where none is asked for, or nothing could be compared with it
+  std::vector<JoinExcess> beyond;          ///< of the tolerance, the worst of each what, descending
   std::vector<FreeFormWarning> warnings;
   FreeFormPicture picture;
 
@@ -122,11 +128,13 @@ struct FreeFormReport {
 /// @param name   of the file, for messages
 /// @param joins  the last surfaces and curves of `shapes`, two for each, in their order; no other joins of these are
 ///               looked for
+/// @param exact  of the first surfaces and curves of `shapes`, whose numbers are then not those that exact verdicts are
+///               about; of these nothing is decided exactly where no net is known. Null: the numbers are the file's own
 /// @throws UnsupportedTopology  neither curves in space nor surfaces
 /// @throws InvalidParameter     knots that make no B-spline, with the line
 /// @note  Deterministic: same build and input, same report.
 FreeFormReport free_form_report(FreeForm shapes, const std::string& name, const FreeFormReportOptions& options = {},
-                                const GivenJoins& joins = {});
+                                const GivenJoins& joins = {}, const ExactShapes* exact = nullptr);
 
 namespace free_form_detail {
 

@@ -29,11 +29,12 @@ int common_order(const std::vector<int>& orders) {
 }
 
 /// @param worst  what keeps the worst one from that order
-JoinVerdict verdict_of(const std::vector<int>& orders, const std::string& one, const std::string& worst) {
+/// @param all_same  each of them is of one map
+JoinVerdict verdict_of(const std::vector<int>& orders, bool all_same, const std::string& one,
+                       const std::string& worst) {
   JoinVerdict verdict;
   verdict.compared = orders.size();
   if (orders.empty()) {
-    verdict.g = 2;
     verdict.says = "no " + one + "s to compare";
     return verdict;
   }
@@ -43,9 +44,12 @@ JoinVerdict verdict_of(const std::vector<int>& orders, const std::string& one, c
   if (verdict.g < 0)
     verdict.says = fmt::format("most of {} have a gap: {}", all(orders.size()), worst);
   else if (verdict.exceptions == 0)
-    verdict.says =
-        fmt::format("G^{} at {}{}", verdict.g, orders.size() == 1 ? "its only " + one : "all " + all(orders.size()),
-                    verdict.g == 2 ? "" : ": " + worst);
+    verdict.says = fmt::format("{} at {}{}",
+                               verdict.g < 2 ? "G^" + std::to_string(verdict.g)
+                               : all_same    ? "C^infinity, G^infinity"
+                                             : "G^2 at least",
+                               orders.size() == 1 ? "its only " + one : "all " + all(orders.size()),
+                               verdict.g == 2 ? "" : ": " + worst);
   else
     verdict.says = fmt::format("G^{} everywhere but {}: {}", verdict.g, all(verdict.exceptions), worst);
   return verdict;
@@ -75,8 +79,12 @@ std::string words_of(const FreeFormJoint& joint) {
 
 JoinVerdict seam_verdict(const FreeFormReport& report) {
   std::vector<int> orders;
+  bool all_same = true;
   for (const ReportedSeam& seam : report.seams)
-    if (seam.seam.is_compared()) orders.push_back(seam.seam.measured->g);
+    if (seam.seam.is_compared()) {
+      orders.push_back(std::min(2, seam.seam.measured->g));
+      all_same &= seam.seam.measured->is_same;
+    }
   std::string worst;
   if (!orders.empty()) {  // the worst first
     const PatchSeam& seam = report.seams.front().seam;
@@ -91,12 +99,16 @@ JoinVerdict seam_verdict(const FreeFormReport& report) {
     else
       worst = fmt::format("{} {}", name(found.obstacle), where);
   }
-  return verdict_of(orders, "seam", worst);
+  return verdict_of(orders, all_same, "seam", worst);
 }
 
 JoinVerdict joint_verdict(const FreeFormReport& report) {
   std::vector<int> orders;
-  for (const FreeFormJoint& joint : report.joints.joints) orders.push_back(std::min(2, joint.measured.orders.g));
+  bool all_same = true;
+  for (const FreeFormJoint& joint : report.joints.joints) {
+    orders.push_back(std::min(2, joint.measured.orders.g));
+    all_same &= joint.measured.orders.is_same;
+  }
   std::string worst;
   if (!orders.empty()) {
     const FreeFormJoint& joint = report.joints.joints.front();
@@ -110,7 +122,7 @@ JoinVerdict joint_verdict(const FreeFormReport& report) {
     else
       worst = fmt::format("{} {}", name(found.obstacle), words_of(joint));
   }
-  return verdict_of(orders, "joint", worst);
+  return verdict_of(orders, all_same, "joint", worst);
 }
 
 std::size_t count_boundary_loops(const FreeFormReport& report, double same) {

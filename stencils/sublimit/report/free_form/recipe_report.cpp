@@ -7,6 +7,7 @@
 #include "sublimit/base/error.h"
 #include "sublimit/certificates/exact_joins.h"
 #include "sublimit/recipes/net_file.h"
+#include "sublimit/report/free_form/exact_net.h"
 
 namespace sublimit {
 namespace {
@@ -156,7 +157,10 @@ FreeFormReport recipe_report(const std::vector<Recipe>& recipes, const std::stri
   if (surface_recipes.empty() && curve_recipes.empty())
     throw UnsupportedTopology(label(*nets.left_out[0].recipe) +
                               ": no exact net, so that there are no joins to analyse: " + nets.left_out[0].why);
-  FreeFormReport report = free_form_report(std::move(nets.shapes), name, options, joins);
+  ExactShapes exact;
+  for (const Recipe* const recipe : nets.surface) exact.surfaces.push_back(exact_net(*recipe));
+  for (const Recipe* const recipe : nets.curve) exact.curves.push_back(exact_pieces(*recipe));
+  FreeFormReport report = free_form_report(std::move(nets.shapes), name, options, joins, &exact);
   report.surface_recipes = std::move(surface_recipes);
   report.curve_recipes = std::move(curve_recipes);
   for (FreeFormWarning& warning : warnings_of(nets.left_out)) report.warnings.push_back(std::move(warning));

@@ -31,25 +31,32 @@ std::string lines_words(const Json& seam) {
   return text;
 }
 
+std::string c_sign(const Json& orders) {
+  return "C<sup>" + (is_true(at(orders, "same")) ? "∞" : std::to_string(whole(at(orders, "c"), -1))) + "</sup>";
+}
+/// An order that nothing stands in the way of is the highest one that was looked for, or all of one map.
+std::string g_sign(const Json& orders) {
+  const std::string g = std::to_string(whole(at(orders, "g"), -1));
+  if (string(at(orders, "obstacle")) != "none") return "G<sup>" + g + "</sup>";
+  return is_true(at(orders, "same")) ? "G<sup>∞</sup>" : "G<sup>" + g + "</sup> at least";
+}
+
 /// "C^1, G^2" of orders; a word where there is no join.
 std::string orders_words(const Json& orders) {
   if (!orders.is_object()) return dash;
-  const int c = whole(at(orders, "c"), -1), g = whole(at(orders, "g"), -1);
-  if (g < 0) return string(at(orders, "obstacle"), "gap");
-  if (is_true(at(orders, "same"))) return "C<sup>∞</sup>";
-  return "C<sup>" + std::to_string(c) + "</sup>, G<sup>" + std::to_string(g) + "</sup>";
+  if (whole(at(orders, "g"), -1) < 0) return string(at(orders, "obstacle"), "gap");
+  return c_sign(orders) + ", " + g_sign(orders);
 }
 
 /// The order G^k in a box, then C^k, or what stands in the way of G^1.
 std::string measured_words(const Json& orders) {
   if (!orders.is_object()) return dash;
-  const int c = whole(at(orders, "c"), -1), g = whole(at(orders, "g"), -1);
+  const int g = whole(at(orders, "g"), -1);
   const char* css = g >= 2 ? "proved" : g == 1 ? "borderline" : "disproved";
   const std::string obstacle = string(at(orders, "obstacle"), "gap");
-  const std::string word = g < 0 ? escaped(obstacle) : "G<sup>" + std::to_string(g) + "</sup>";
+  const std::string word = g < 0 ? escaped(obstacle) : g_sign(orders);
   std::string text = std::string("<span class=\"badge ") + css + "\">" + word + "</span>";
-  if (is_true(at(orders, "same"))) return text + " C<sup>∞</sup>";
-  if (g >= 0) text += " C<sup>" + std::to_string(c) + "</sup>";
+  if (g >= 0) text += " " + c_sign(orders);
   return g == 0 && obstacle != "angle" ? text + ", " + escaped(obstacle) : text;
 }
 
@@ -245,13 +252,15 @@ std::string free_form_section(const Json& report) {
               prose(at(v, "says")) + ".</p>\n";
   const bool asked =
       !at(tolerance, "g0").is_null() || !at(tolerance, "g1_degrees").is_null() || !at(tolerance, "g2").is_null();
-  text += facts({{"Surfaces", shown(at(counts, "surfaces"))},
-                 {"Curves", shown(at(counts, "curves"))},
-                 {"Box", box.is_array() ? place(at(box, 0)) + " to " + place(at(box, 1)) : dash},
-                 {"Against the tolerance", !asked ? ""
-                                           : is_true(at(report, "within_tolerance"))
-                                               ? "<span class=\"badge proved\">✓ within</span>"
-                                               : "<span class=\"badge disproved\">✗ beyond</span>"}});
+  text +=
+      facts({{"Surfaces", shown(at(counts, "surfaces"))},
+             {"Curves", shown(at(counts, "curves"))},
+             {"Box", box.is_array() ? place(at(box, 0)) + " to " + place(at(box, 1)) : dash},
+             {"Against the tolerance",
+              !asked                                         ? ""
+              : !at(report, "within_tolerance").is_boolean() ? "<span class=\"badge unknown\">nothing to compare</span>"
+              : is_true(at(report, "within_tolerance"))      ? "<span class=\"badge proved\">✓ within</span>"
+                                                             : "<span class=\"badge disproved\">✗ beyond</span>"}});
   const Json &seams = at(report, "seams"), &joints = at(report, "joints");
   if (asked || !at(at(seams, "deviation"), "g0").is_null() || !at(at(joints, "deviation"), "g0").is_null()) {
     Table table{"Largest deviations; G^2 as a part of the larger curvature",

@@ -121,6 +121,15 @@ TEST(CurveJoin, DerivativesThatAgreeAreCAndGWhereTheSpeedIsNotZero) {
     }
 }
 
+TEST(JoinOrders, AreSaidWithoutCapsThatReadLikeVerdicts) {
+  EXPECT_EQ(words_of({5, 5, true, JoinObstacle::none}), "C^infinity, G^infinity");
+  EXPECT_EQ(words_of({5, 1, true, JoinObstacle::no_speed}), "C^infinity, G^1 (no-speed)");
+  EXPECT_EQ(words_of({0, 3, false, JoinObstacle::none}), "C^0, G^3 at least");
+  EXPECT_EQ(words_of({2, 2, false, JoinObstacle::curvature}), "C^2, G^2 (curvature)");
+  EXPECT_EQ(words_of({-1, -1, false, JoinObstacle::gap}), "a gap");
+  EXPECT_EQ(words_of({-1, -1, false, JoinObstacle::pole}), "a pole");
+}
+
 TEST(CurveJoin, ChangesOfParametersAreFound) {
   std::mt19937 random(4);
   for (int repeat = 0; repeat < 60; ++repeat) {

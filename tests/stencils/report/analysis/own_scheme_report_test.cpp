@@ -36,7 +36,8 @@ Scheme<T> boasting() {
 Json report_of(const ReportedScheme& scheme, const std::vector<int>& valences) {
   const Json report = report::schemes_report({scheme}, {.valences = valences});
   // Negative ones are sound reports too.
-  for (const std::string& finding : report::verify_report(report.dump()).findings) ADD_FAILURE() << finding;
+  for (const std::string& finding : report::verify_report(report.dump(), {.analyse_masks = false}).findings)
+    ADD_FAILURE() << finding;
   return report;
 }
 
@@ -95,6 +96,64 @@ TEST(OwnSchemeReport, ClaimsThatAreFalseAreDisproved) {
   // At 3 mu/lambda^2 = 0.991: a flat spot, which is C^2.
   expect_parts(claim(report, "extraordinary")["because"].get<std::string>(), {"disproved at 5", "proved at 3, 4"});
   EXPECT_EQ(report::contradicted_claims(report), 1);
+}
+
+/// Vertices are pushed away from the mean of their neighbours.
+template <class T>
+Scheme<T> running_away() {
+  Scheme<T> scheme = *find_scheme<T>("loop");
+  scheme.name = "running-away";
+  scheme.steps[0].masks.vertex = [](const Ring<T>& v) { return 3 * v.center() - 2 * v.neighbor_mean(); };
+  return scheme;
+}
+
+/// Weights of vertices sum to 11/10.
+template <class T>
+Scheme<T> growing() {
+  Scheme<T> scheme = *find_scheme<T>("catmull-clark");
+  scheme.name = "growing";
+  scheme.steps[0].masks.vertex = [](const Ring<T>& v) {
+    return v.ratio(6, 10) * v.center() + v.ratio(5, 10) * v.neighbor_mean();
+  };
+  return scheme;
+}
+
+TEST(OwnSchemeReport, SchemesThatDivergeAreDisprovedByTheirEigenvalue) {
+  const Json report = report_of({running_away<double>(), running_away<Algebraic>()}, {3, 6, 7});
+  const Json& scheme = report["schemes"][0];
+  // Of the centre and the mean of its ring: (3 -2; 3/8 5/8), eigenvalues of x^2 - 29/8 x + 21/8.
+  for (const Json& n : scheme["neighborhoods"]) {
+    if (n["kind"] != "vertex") continue;
+    const Json& convergence = n["verdicts"][1];
+    EXPECT_EQ(convergence["property"], "convergence");
+    EXPECT_EQ(convergence["verdict"], "disproved") << n["n"];
+    expect_parts(convergence["because"].get<std::string>(), {"larger than 1", "21/8", "run away"});
+    EXPECT_EQ(n["masks"], nullptr);
+    EXPECT_EQ(n["surface"], nullptr);
+  }
+  expect_disproved(report, {3, 6, 7}, {"there is no limit", "21/8"});
+  EXPECT_EQ(claim(report, "regular")["verdict"], "disproved");
+  EXPECT_EQ(claim(report, "convex-hull")["verdict"], "disproved");
+  EXPECT_EQ(report["summary"][0]["extraordinary_verdict"], "disproved");
+}
+
+TEST(OwnSchemeReport, RowsThatDoNotSumToOneAreDisproved) {
+  const Json report = report_of({growing<double>(), growing<Algebraic>()}, {5});
+  const Json& verdicts = report["schemes"][0]["neighborhoods"][0]["verdicts"];
+  EXPECT_EQ(verdicts[0]["property"], "affine-invariance");
+  EXPECT_EQ(verdicts[0]["verdict"], "disproved");
+  expect_parts(verdicts[1]["because"].get<std::string>(), {"do not sum to 1", "11/10"});
+  EXPECT_EQ(report["schemes"][0]["regular"]["verdicts"][1]["property"], "convergence");
+  EXPECT_EQ(report["schemes"][0]["regular"]["verdicts"][1]["verdict"], "disproved");
+  EXPECT_EQ(claim(report, "convex-hull")["verdict"], "disproved") << "no weight is negative, but points leave the hull";
+}
+
+TEST(OwnSchemeReport, TypesNeedNoClaim) {
+  Scheme<double> scheme = staying<double>();
+  scheme.claims = {};
+  const Json report = report_of({scheme, staying<Algebraic>()}, {3});
+  EXPECT_EQ(report["schemes"][0]["interpolates"], true);
+  EXPECT_EQ(report["summary"][0]["type"], "interpolating");
 }
 
 TEST(OwnSchemeReport, Sqrt3WithoutRelaxationHasSpikes) {

@@ -24,7 +24,7 @@ TEST(RegularJson, CurveSchemesKeepTheirClaims) {
     }
     for (const Json& claim : json["claims"]) {
       const std::string verdict = claim["verdict"];
-      EXPECT_TRUE(verdict == "proved" || (verdict == "evidence-for" && !is_stationary(scheme)))
+      EXPECT_TRUE(verdict == "proved" || (verdict == "evidence-for" && !testing::is_stationary(scheme)))
           << scheme.name << " " << claim.dump();
     }
   }

@@ -9,6 +9,8 @@
 #include "stencils/cli_program.h"
 #include "sublimit/base/error.h"
 #include "sublimit/files/numbers.h"
+#include "sublimit/report/analysis/claims_json.h"
+#include "sublimit/report/analysis/regular_json.h"
 #include "sublimit/report/analysis/scheme_report.h"
 
 namespace sublimit::testing {
@@ -33,9 +35,10 @@ Json& verdict(Json& report, const std::string& property = "c1") {
   throw std::runtime_error("no verdict on " + property);
 }
 
-std::string findings(const Json& report) {
+/// @param analyse_masks  takes a second, and is for what is changed in regular parts
+std::string findings(const Json& report, bool analyse_masks = false) {
   std::string all;
-  for (const std::string& f : verify_report(report.dump()).findings) all += f + "\n";
+  for (const std::string& f : verify_report(report.dump(), {.analyse_masks = analyse_masks}).findings) all += f + "\n";
   return all;
 }
 
@@ -89,8 +92,11 @@ TEST(VerifyReport, WantsTheWitnessOfTheSchemeAndTheNeighborhood) {
   for (size_t at = 0; (at = renamed.find("\"loop\"", at)) != std::string::npos;)
     renamed.replace(at, 6, "\"loop-warren\"");
   const ReportVerification found = verify_report(renamed);
-  ASSERT_EQ(found.findings.size(), 1u);  // both have the same weights at valence 3
-  expect_parts(found.findings[0], {"loop-warren, vertex 5, c1: ", "its row for the point at (0, 0)"});
+  // Both have the same weights at valence 3.
+  std::string all;
+  for (const std::string& finding : found.findings) all += finding + "\n";
+  expect_parts(all, {"loop-warren, vertex 5, c1: ", "its row for the point at (0, 0)"});
+  EXPECT_EQ(all.find("vertex 3"), std::string::npos) << all;
   // A scheme that nobody knows is believed to have these rows.
   std::string own = good().dump();
   for (size_t at = 0; (at = own.find("\"loop\"", at)) != std::string::npos;) own.replace(at, 6, "\"mine\"");
@@ -120,6 +126,107 @@ TEST(VerifyReport, FindsVerdictsThatAreNotProved) {
   bad = good();
   verdict(bad)["property"] = "c3";
   expect_parts(findings(bad), {"there is no verdict on c1"});
+}
+
+/// Doo-Sabin's scheme said to be interpolating, as a scheme of the registry or as one that is not there.
+Json said_to_interpolate(const std::string& name = "doo-sabin") {
+  static const Json made = report::schemes_report({report::reported_scheme("doo-sabin")}, {.valences = {3, 4}});
+  Json bad = made;
+  Json& scheme = bad["schemes"][0];
+  scheme["interpolates"] = true;
+  scheme["claims"].push_back({{"claim", "interpolates"},
+                              {"claimed", true},
+                              {"found", true},
+                              {"verdict", "proved"},
+                              {"because", "every vertex looked at is its own child"}});
+  bad["summary"][0]["type"] = "interpolating";
+  for (Json* const word : {&scheme["name"], &bad["summary"][0]["scheme"]}) *word = name;
+  for (Json& n : scheme["neighborhoods"])
+    for (Json& v : n["verdicts"])
+      if (v["witness"].is_object()) v["witness"]["scheme"] = name;
+  return bad;
+}
+
+TEST(VerifyReport, RefusesAProofOfSomethingFalse) {
+  for (const char* name : {"doo-sabin", "mine"}) {
+    const std::string all = findings(said_to_interpolate(name));
+    expect_parts(all, {std::string(name) + ": it is said to be interpolating, and its masks are approximating",
+                       "the claim interpolates is said to be \"proved\"", "\"disproved\""});
+  }
+  // As reports of earlier builds were, without rows.
+  Json old = said_to_interpolate();
+  for (Json& n : old["schemes"][0]["neighborhoods"]) n.erase("rows");
+  expect_parts(findings(old), {"doo-sabin: it is said to be interpolating"});
+  // Nothing was looked at.
+  Json empty = said_to_interpolate("mine");
+  empty["schemes"][0]["neighborhoods"] = Json::array();
+  expect_parts(findings(empty), {"no vertex inside was looked at"});
+  // The type alone.
+  Json type = good();
+  type["summary"][0]["type"] = "interpolating";
+  expect_parts(findings(type), {"summary, \"loop\": type is \"interpolating\""});
+  type["schemes"][0]["interpolates"] = true;
+  expect_parts(findings(type), {"loop: it is said to be interpolating"});
+  for (Json& n : type["schemes"][0]["neighborhoods"]) n["rows"]["keeps_centre"] = true;
+  expect_parts(findings(type), {"loop, vertex 5: its rows are said to be"});
+}
+
+TEST(VerifyReport, LooksAtRegularPartsAgain) {
+  Json bad = good();
+  Json& regular = bad["schemes"][0]["regular"];
+  regular["smoothness"]["continuity"] = 3;
+  expect_parts(findings(bad, true), {"loop, regular: continuity is 3, and the mask gives 2"});
+  bad = good();
+  for (Json& v : bad["schemes"][0]["regular"]["verdicts"])
+    if (v["says"] == "C^2") v["says"] = "C^3";
+  expect_parts(findings(bad, true), {"loop, regular: verdicts is"});
+  bad = good();
+  bad["schemes"][0]["regular"]["mask"][0]["exact"] = "1/5";
+  expect_parts(findings(bad), {"loop, regular: its mask is not that of the scheme"});
+  bad = good();
+  bad["schemes"][0]["regular"]["mask"][0]["exact"] = "1/0";
+  expect_parts(findings(bad), {"loop, regular: '1/0' is no ratio"});
+  bad = good();
+  bad["schemes"][0]["claims"][0]["claimed"] = 5;
+  expect_parts(findings(bad), {"the claim regular is said to be \"proved\""});
+}
+
+TEST(VerifyReport, WantsHypothesesOfProofsAndDisproofs) {
+  Json bad = good();
+  verdict(bad, "affine-invariance")["hypotheses"] = Json::array();
+  expect_parts(findings(bad), {"affine-invariance: said to be proved, without a hypothesis"});
+  bad = good();
+  verdict(bad, "convergence")["verdict"] = "disproved";
+  expect_parts(findings(bad), {"convergence: said to be disproved, although no hypothesis is known to fail"});
+  bad = good();
+  bad["schemes"] = bad["summary"] = Json::array();
+  expect_parts(findings(bad), {"there are none, so nothing was looked at"});
+}
+
+TEST(VerifyReport, LooksAtCurvesAgain) {
+  Json report = report::report_head("schemes");
+  report["schemes"] = {report::curve_scheme_json("four-point"), report::curve_scheme_json("chaikin"),
+                       report::curve_scheme_json("hermite-merrien"), report::curve_scheme_json("trigonometric-cubic"),
+                       report::mask_scheme_json("0 1 2 1 /2")};
+  report["summary"] = Json::array();
+  for (const Json& scheme : report["schemes"]) report["summary"].push_back(report::summary_row(scheme));
+  EXPECT_EQ(findings(report), "");
+  for (size_t s = 0; s < 5; ++s) {
+    Json bad = report;
+    Json& type = bad["schemes"][s]["interpolates"];
+    type = !type.get<bool>();
+    bad["summary"][s] = report::summary_row(bad["schemes"][s]);
+    expect_parts(findings(bad), {report["schemes"][s]["name"].get<std::string>() + ", regular: it is said to be"});
+  }
+  Json bad = report;
+  bad["schemes"][0]["regular"]["mask"][0]["exact"] = "1/3";
+  expect_parts(findings(bad), {"four-point, regular: its mask is not that of the scheme"});
+  // Joints of the pieces of a curve.
+  Json pieces = report::report_head("curve");
+  pieces["curve"] = report::curve_json(read_bezier_curve("piece,x,y\n0,0,0\n0,1,0\n1,1,0\n1,1,1\n"));
+  EXPECT_EQ(findings(pieces), "");
+  pieces["curve"]["knots"][0]["g"] = 1;
+  expect_parts(findings(pieces), {"curve: joint 0: g is 1, and the pieces give 0"});
 }
 
 void collect(Json& j, std::vector<Json*>& all) {
@@ -177,7 +284,7 @@ TEST(VerifyReport, RefusesWhatIsNoReport) {
   refused(head + "1, \"kind\": \"schemes\"}", "missing");
   refused(head + "1, \"kind\": \"schemes\", \"schemes\": [1], \"summary\": []}", "missing");
   refused(std::string(100000, '['), "nested too deep");
-  EXPECT_TRUE(verify_report(head + "1, \"kind\": \"curve\"}").findings.empty());
+  EXPECT_TRUE(verify_report(head + "1, \"kind\": \"mesh\"}").findings.empty());
 }
 
 TEST(VerifyReport, StatusOfTheProgram) {
@@ -192,6 +299,7 @@ TEST(VerifyReport, StatusOfTheProgram) {
   EXPECT_EQ(tampered.status, 1);
   expect_parts(tampered.out, {"r.json: loop, vertex 5, c1: said to be proved, without a witness"});
   EXPECT_EQ(tampered.err, "");
+  EXPECT_EQ(status(said_to_interpolate().dump()).status, 1);
   expect_failure(status("{"), 3, {"r.json", "not JSON"});
   expect_failure(status("{}"), 3, {"r.json", "no report"});
   expect_failure(sublimit({"verify", (directory / "none.json").string()}), 3, {"none.json", "No such file"});

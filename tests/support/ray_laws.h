@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// Rays laid through points of the limit: corners, middles of sides and middles of faces, along the normal and against
+// it, and as far beside as numbers of other programs are off. They hit there, and closed surfaces as often from inside
+// as from outside.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "sublimit/base/error.h"
+#include "sublimit/limit/closed_surface.h"
+#include "sublimit/limit/limit_types.h"
+#include "sublimit/scheme/prepare.h"
+#include "sublimit/schemes.h"
+#include "sublimit/search/intersect.h"
+#include "support/tolerance.h"
+
+namespace sublimit::testing {
+
+/// Of the size of the surface: rounding, and what programs in float are off.
+inline constexpr double ray_offsets[]{0, 1e-16, 1e-14, 1e-12, 1e-9, 1e-6, 1e-3};
+/// Beside by less than what counts as on a ray: t is that of the point.
+inline constexpr double as_good_as_through = 1e-14;
+
+/// Rays through points, and at which t.
+struct LaidRays {
+  std::vector<Ray> rays;
+  std::vector<Eigen::Vector3d> through;
+  std::vector<double> beside;  ///< how far a ray was moved, of the size of the surface
+  double t = 0;
+};
+
+/// Corners, middles of sides and of faces, each point once.
+inline std::vector<Sample> marked_places(const LimitSurface& surface, const Points& points) {
+  std::vector<Sample> all;
+  for (Index f = 0; f < surface.faces().size; ++f)
+    for (const auto& [u, v] : std::vector<std::pair<double, double>>{
+             {0, 0}, {1, 0}, {0, 1}, {0.5, 0}, {0, 0.5}, {0.5, 0.5}, {1, 1}, {1. / 3, 1. / 3}})
+      if (!surface.faces().triangles || u + v <= 1) all.push_back({f, u, v});
+  const LimitSamples found = surface.evaluate(points, all, 0, false);
+  std::set<std::array<std::int64_t, 3>> seen;
+  std::vector<Sample> once;
+  for (size_t i = 0; i < all.size(); ++i) {
+    if (found.status[i] == LimitStatus::hole) continue;
+    const Eigen::Vector3d p = 1e9 * found.position.row(Eigen::Index(i)) / diagonal(points);
+    if (seen.insert({std::llround(p.x()), std::llround(p.y()), std::llround(p.z())}).second) once.push_back(all[i]);
+  }
+  return once;
+}
+
+inline LaidRays laid_rays(const LimitSurface& surface, const Points& points) {
+  const std::vector<Sample> places = marked_places(surface, points);
+  const LimitSamples on = surface.evaluate(points, places, 1);
+  const double size = diagonal(points);
+  LaidRays laid;
+  laid.t = 3 * size;
+  for (Eigen::Index i = 0; i < on.position.rows(); ++i) {
+    const Eigen::Vector3d at = on.position.row(i);
+    Eigen::Vector3d normal = on.normal.row(i);
+    if (normal.isZero(0)) normal = Eigen::Vector3d(0.36, 0.48, 0.8);
+    Eigen::Index least = 0;
+    normal.cwiseAbs().minCoeff(&least);
+    const Eigen::Vector3d aside = normal.cross(Eigen::Vector3d(Eigen::Vector3d::Unit(least))).normalized();
+    for (const double offset : ray_offsets)
+      for (const double sign : {1.0, -1.0}) {
+        const Eigen::Vector3d through = at + sign * offset * size * aside;
+        laid.rays.push_back({through + sign * laid.t * normal, -sign * normal});
+        laid.through.push_back(at);
+        laid.beside.push_back(offset);
+      }
+  }
+  return laid;
+}
+
+/// Looks at the laws, and counts rays.
+inline int looked_at_rays(const LimitSurface& surface, const Points& points) {
+  const LaidRays laid = laid_rays(surface, points);
+  const RayHits hits = intersect(surface, points, laid.rays, {.all = true});
+  const double size = diagonal(points);
+  const bool closed = why_not_closed(surface).empty();
+  for (size_t i = 0; i < laid.rays.size(); ++i) {
+    SCOPED_TRACE("ray " + std::to_string(i) + " through (" + std::to_string(laid.through[i].x()) + ", " +
+                 std::to_string(laid.through[i].y()) + ", " + std::to_string(laid.through[i].z()) + "), " +
+                 std::to_string(laid.beside[i]) + " beside");
+    bool found = false, touches = false;
+    int crossings = 0;
+    for (auto k = size_t(hits.first[i]); k < size_t(hits.first[i + 1]); ++k) {
+      EXPECT_NE(hits.kinds[k], HitKind::given_up);
+      touches = touches || hits.kinds[k] == HitKind::touching;
+      crossings += hits.kinds[k] == HitKind::crossing;
+      const double off = std::abs(hits.t[k] - laid.t) / size;
+      found = found || off <= (hits.kinds[k] == HitKind::touching ? found_touch : found_hit);
+    }
+    if (laid.beside[i] <= as_good_as_through) {
+      EXPECT_TRUE(found);
+    }
+    if (closed && !touches) {
+      EXPECT_EQ(crossings % 2, 0);
+    }
+  }
+  return int(laid.rays.size());
+}
+
+class RayLaws : public ::testing::TestWithParam<std::string> {
+ protected:
+  /// As many meshes as the scheme takes; those without a limit somewhere are left out.
+  void look_at_mesh(ControlMesh mesh, const std::string& name) {
+    SCOPED_TRACE(scheme_.name + " on " + name);
+    if (scheme_.face_size() == 3) mesh = triangulated(mesh);
+    std::unique_ptr<LimitSurface> surface;
+    try {
+      surface = std::make_unique<LimitSurface>(scheme_, mesh, SubdivisionOptions{}, types_);
+    } catch (const UnsupportedTopology&) {
+      mesh = without_creases(mesh);
+      surface = std::make_unique<LimitSurface>(scheme_, mesh, SubdivisionOptions{}, types_);
+    }
+    try {
+      surface->prepare();
+      rays_ += looked_at_rays(*surface, mesh.positions);
+    } catch (const AnalysisError&) {
+      ++without_limit_;
+    }
+  }
+
+  const Scheme<double> scheme_ = *find_scheme(GetParam());
+  const std::shared_ptr<LimitTypes> types_ = std::make_shared<LimitTypes>(scheme_, 4096);
+  int rays_ = 0, without_limit_ = 0;
+};
+
+inline std::vector<std::string> names_of_schemes() {
+  std::vector<std::string> names;
+  for (const Scheme<double>& scheme : all_schemes()) names.push_back(scheme.name);
+  return names;
+}
+
+/// Of a parameter that is a name.
+inline std::string ray_test_name(const ::testing::TestParamInfo<std::string>& tested) {
+  std::string name = tested.param;
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+}
+
+}  // namespace sublimit::testing
