@@ -102,9 +102,10 @@ TEST(CliInputFiles, EachIsKnownInTheWrongPlace) {
       {with_scheme({"fit", mesh, "--targets", "?", "-o", obj}), "--targets", {"places.csv"}},
       {with_scheme({"fit", mesh, "--cloud", "?", "-o", obj}), "--cloud", {"places.csv", "mesh.obj", "mesh.ply"}},
   };
+  size_t turn = 0;  // a third of the kinds for each place, and each kind in a third of the places
   for (const Line& line : lines)
     for (const auto& [name, kind] : samples.words) {
-      if (std::ranges::find(line.right, name) != line.right.end()) continue;
+      if (++turn % 3 != 0 || std::ranges::find(line.right, name) != line.right.end()) continue;
       Words words = line.words;
       std::ranges::replace(words, std::string("?"), samples.path(name));
       SCOPED_TRACE(line.words[0] + " " + line.argument + " " + name);
