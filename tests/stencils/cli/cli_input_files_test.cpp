@@ -47,7 +47,7 @@ class Samples {
                                                  {"places.csv", " is a CSV file"},
                                                  {"field.json", " is a JSON file"},
                                                  {"picture.svg", " is an XML or HTML file"},
-                                                 {"nothing.obj", ": it is empty; "},
+                                                 {"nothing.obj", ": empty; "},
                                                  {"folder", ": it is a directory; name a file in it"}};
 
  private:
@@ -65,7 +65,7 @@ struct Line {
 TEST(CliInputFiles, EachIsKnownInTheWrongPlace) {
   const Samples samples;
   const std::string mesh = samples.path("mesh.obj"), table = samples.path("table.safetensors");
-  const Words meshes{"mesh.obj", "mesh.ply"}, shapes{"mesh.obj", "mesh.ply", "places.csv", "field.json"};
+  const Words meshes{"mesh.obj", "mesh.ply"}, shapes{"mesh.obj", "mesh.ply", "places.csv", "field.json", "nothing.obj"};
   const auto with_scheme = [&](Words words) {
     words.insert(words.end(), {"-s", "catmull-clark"});
     return words;
