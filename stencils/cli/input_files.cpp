@@ -137,8 +137,7 @@ std::string argument_of(const Given& given) { return fmt::format("{} is {}", giv
 [[noreturn]] void refuse(const Given& given, const std::vector<Given>& all) {
   if (given.kind == FileKind::directory)
     throw IoError(fmt::format("{}: it is a directory; name a file in it ({})", given.path, argument_of(given)));
-  if (given.kind == FileKind::empty)
-    throw FormatError(fmt::format("{}: empty; {}", given.path, argument_of(given)));
+  if (given.kind == FileKind::empty) throw FormatError(fmt::format("{}: empty; {}", given.path, argument_of(given)));
   for (const Given& other : all)
     if (&other != &given && given.fits(*other.role) && other.fits(*given.role))
       throw FormatError(fmt::format("{} is {} and {} is {}: they are swapped; {}, and {}", given.path,
