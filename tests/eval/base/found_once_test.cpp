@@ -52,7 +52,7 @@ int sum_by_loop() {
 }
 
 TEST(FoundOnce, IsFoundByOneThreadAndTheSameForAll) {
-  for (int round = 0; round < 30; ++round) {
+  for (int round = 0; round < 10; ++round) {
     const FoundOnce<std::string> once;
     std::atomic<int> calls = 0;
     std::vector<const std::string*> seen(num_threads);
@@ -147,7 +147,7 @@ TEST(FoundOnce, KeepsThatThereIsNone) {
 
 /// Where there was no memory there may be some now; and who waited finds it.
 TEST(FoundOnce, TriesAgainAfterAnyOtherError) {
-  for (int round = 0; round < 30; ++round) {
+  for (int round = 0; round < 10; ++round) {
     const FoundOnce<int> once;
     std::atomic<int> calls = 0, failed = 0, found = 0;
     by_threads(num_threads, [&](size_t) {
