@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <memory>
 #include <set>
 #include <string>
@@ -20,6 +21,7 @@
 #include "sublimit/scheme/prepare.h"
 #include "sublimit/schemes.h"
 #include "sublimit/search/intersect.h"
+#include "support/full_sweep.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {
@@ -55,7 +57,8 @@ inline std::vector<Sample> marked_places(const LimitSurface& surface, const Poin
   return once;
 }
 
-inline LaidRays laid_rays(const LimitSurface& surface, const Points& points) {
+/// @param stride  of the offsets
+inline LaidRays laid_rays(const LimitSurface& surface, const Points& points, size_t stride) {
   const std::vector<Sample> places = marked_places(surface, points);
   const LimitSamples on = surface.evaluate(points, places, 1);
   const double size = diagonal(points);
@@ -68,8 +71,9 @@ inline LaidRays laid_rays(const LimitSurface& surface, const Points& points) {
     Eigen::Index least = 0;
     normal.cwiseAbs().minCoeff(&least);
     const Eigen::Vector3d aside = normal.cross(Eigen::Vector3d(Eigen::Vector3d::Unit(least))).normalized();
-    for (const double offset : ray_offsets)
+    for (size_t k = 0; k < std::size(ray_offsets); k += stride)
       for (const double sign : {1.0, -1.0}) {
+        const double offset = ray_offsets[k];
         const Eigen::Vector3d through = at + sign * offset * size * aside;
         laid.rays.push_back({through + sign * laid.t * normal, -sign * normal});
         laid.through.push_back(at);
@@ -80,8 +84,8 @@ inline LaidRays laid_rays(const LimitSurface& surface, const Points& points) {
 }
 
 /// Looks at the laws, and counts rays.
-inline int looked_at_rays(const LimitSurface& surface, const Points& points) {
-  const LaidRays laid = laid_rays(surface, points);
+inline int looked_at_rays(const LimitSurface& surface, const Points& points, size_t stride) {
+  const LaidRays laid = laid_rays(surface, points, stride);
   const RayHits hits = intersect(surface, points, laid.rays, {.all = true});
   const double size = diagonal(points);
   const bool closed = why_not_closed(surface).empty();
@@ -113,6 +117,9 @@ class RayLaws : public ::testing::TestWithParam<std::string> {
   /// As many meshes as the scheme takes; those without a limit somewhere are left out.
   void look_at_mesh(ControlMesh mesh, const std::string& name) {
     SCOPED_TRACE(scheme_.name + " on " + name);
+    // Without polynomials a ray through a vertex takes a hundred times as long.
+    const bool is_slow = types_->pieces().has_no_polynomials();
+    if (!full_sweep() && rays_ >= (is_slow ? 200 : 4000)) return;
     if (scheme_.face_size() == 3) mesh = triangulated(mesh);
     std::unique_ptr<LimitSurface> surface;
     try {
@@ -123,7 +130,7 @@ class RayLaws : public ::testing::TestWithParam<std::string> {
     }
     try {
       surface->prepare();
-      rays_ += looked_at_rays(*surface, mesh.positions);
+      rays_ += looked_at_rays(*surface, mesh.positions, types_->pieces().has_no_polynomials() && !full_sweep() ? 3 : 1);
     } catch (const AnalysisError&) {
       ++without_limit_;
     }

@@ -110,7 +110,7 @@ SeenZero SeenLimit::zero(double slack, const std::function<Eigen::Vector3d(const
     const Eigen::Vector2d move = inverse * x.head<2>();
     const bool is_hit = move.cwiseAbs().maxCoeff() <= 1e-15 || x.head<2>().norm() <= 1e-3 * slack;
     if (is_hit || (sure - p).cwiseAbs().maxCoeff() < 1e-15) {
-      if (!(move.cwiseAbs().maxCoeff() <= off.maxCoeff())) return {SeenZero::Kind::none};
+      if (!is_none(move, off, triangle)) return {SeenZero::Kind::none};
       return {SeenZero::Kind::one, p, x.z() - along.dot(move), steepest.dot(off), inverse.determinant() > 0 ? 1 : -1};
     }
     Eigen::Vector2d next = p - B * x.head<2>();

@@ -37,6 +37,12 @@ Eigen::Vector2d nearest_inside(const Eigen::Vector2d& p, bool triangle) {
   return {u, 1 - u};
 }
 
+bool is_none(const Eigen::Vector2d& step, const Eigen::Vector2d& off, bool triangle) {
+  // On a side of a square a step goes across it alone. Seen at an angle, one may be known to much less than the other.
+  if (triangle) return step.cwiseAbs().maxCoeff() <= off.maxCoeff();
+  return std::abs(step[0]) <= off[0] && std::abs(step[1]) <= off[1];
+}
+
 namespace {
 
 constexpr std::array<std::array<double, 2>, 4> line_directions{
@@ -165,7 +171,7 @@ SeenZero SeenNet::zero(double slack) const {
   }
   // What the neighbour may miss by as much as rounding moves zeros is taken here too.
   const Eigen::Vector2d off = off_by_slack.array() + beyond_part;
-  if (!(move.cwiseAbs().maxCoeff() <= off.maxCoeff())) return {SeenZero::Kind::none};
+  if (!is_none(move, off, triangle)) return {SeenZero::Kind::none};
   const double w = is_rational() ? jet.x[3] : 1, s = jet.x[2] / w;
   const double su = (jet.u[2] - s * jet.u[3]) / w, sv = (jet.v[2] - s * jet.v[3]) / w;
   return {SeenZero::Kind::one, p, s, std::abs(su) * off[0] + std::abs(sv) * off[1], sign(inverse.determinant())};

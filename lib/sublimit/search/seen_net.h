@@ -10,8 +10,10 @@
 
 namespace sublimit {
 
-/// How far outside of a part a zero may be for the neighbour to have it.
-inline constexpr double beyond_part = 1e-9;
+/// How far outside of a part a zero may be for the neighbour to have it, beside what counts as on the ray.
+inline constexpr double beyond_part = 1e-12;
+/// The same of the line u = v of a part that is cut along it, where both halves may have it.
+inline constexpr double beyond_half = 1e-9;
 
 /// A ray as an origin and three axes, the last one along it.
 struct RayFrame {
@@ -44,6 +46,10 @@ Eigen::Vector2d nearest_inside(const Eigen::Vector2d& p, bool triangle);
 /// The middle of the angle, below 180 degrees, that points of the plane across the ray are in; nothing if they are in
 /// none: their hull holds the ray.
 std::optional<Eigen::Vector2d> facing(const Eigen::Matrix<double, Eigen::Dynamic, 2>& points);
+
+/// Whether a step that is left at a place of the domain is as good as none.
+/// @param off  by u, by v
+bool is_none(const Eigen::Vector2d& step, const Eigen::Vector2d& off, bool triangle);
 
 /// No line through the ray has all of these points on one side, of those across the middle of their angle and a few
 /// more.

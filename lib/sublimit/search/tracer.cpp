@@ -172,7 +172,7 @@ bool Tracer::decides_nets(const Cell& cell) {
     const Eigen::Vector2d& uv = zero.uv;
     // Of a part that is cut along u = v each polynomial has its side.
     const bool own =
-        part.nets.size() == 1 || (half == 0 ? uv.x() >= uv.y() - beyond_part : uv.y() >= uv.x() - beyond_part);
+        part.nets.size() == 1 || (half == 0 ? uv.x() >= uv.y() - beyond_half : uv.y() >= uv.x() - beyond_half);
     if (zero.kind == SeenZero::Kind::one && own) add(cell, uv, zero.s, zero.reach, zero.side);
     if (zero.kind != SeenZero::Kind::unknown) continue;
     bool decided = false;

@@ -22,13 +22,13 @@ TEST_P(RayLaws, HoldOnClosedMeshes) {
     look_at_mesh(cube(), "even cube");
   }
   EXPECT_EQ(without_limit_, 0);
-  EXPECT_GT(rays_, 1000);
+  EXPECT_GT(rays_, 100);
 }
 
 TEST_P(RayLaws, HoldOnTaggedMeshes) {
   for (const NamedMesh& named : tagged_meshes())
     if (full_sweep() || named.mesh.num_faces() <= 4) look_at_mesh(named.mesh, named.name);
-  EXPECT_GT(rays_, 500);
+  EXPECT_GT(rays_, 100);
 }
 
 INSTANTIATE_TEST_SUITE_P(Schemes, RayLaws, ::testing::ValuesIn(names_of_schemes()), ray_test_name);

@@ -70,22 +70,6 @@ INSTANTIATE_TEST_SUITE_P(Commands, FoundMeshes, ::testing::ValuesIn(timeouts), [
   return name;
 });
 
-/// Rays that did not end: all of them now do, or say that they were given up.
-TEST(FoundMesh, RaysAtItEnd) {
-  for (const auto& [name, scheme] : {std::pair{"slow-1-1837-intersect", "kobbelt"},
-                                     {"slow-2-3819-intersect", "butterfly"},
-                                     {"slow-2-7197-intersect", "kobbelt"}}) {
-    const std::string mesh = (found / (std::string(name) + ".obj")).string(),
-                      rays = (found / (std::string(name) + ".csv")).string();
-    if (!fs::exists(mesh)) GTEST_SKIP() << "NO SHARED MESHES at " << found;
-    const TemporaryDirectory directory;
-    const Outcome done = sublimit({"intersect", mesh, "-s", scheme, "--triangulate", "--quiet", "--rays", rays, "--all",
-                                   "-o", (directory / "o.csv").string()});
-    EXPECT_TRUE(done.status == 0 || done.status == 1) << name << done.err;
-    EXPECT_EQ(directory.num_files(), 1) << name;
-  }
-}
-
 TEST(FoundMesh, OfAFitWithoutSecondDerivativesIsRefused) {
   const std::string mesh = (found / "w1-0029-timeout-fit.obj").string(),
                     targets = (found / "w1-0029-timeout-fit.csv").string();
