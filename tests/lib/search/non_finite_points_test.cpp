@@ -58,7 +58,7 @@ TEST_P(ControlPoints, HaveSquaresWhereDistancesAreProved) {
     refused([&] { closest_points(surface_, points, query); });
     refused([&] { intersect(surface_, points, rays); });
     refused([&] { winding_numbers(SearchedLimit(surface_, points), query); });
-    refused([&] { limit_quads(surface_, points, {.tolerance = 0.1}); });
+    refused([&] { limit_quads(surface_, points, {.tolerance = 0.1, .progress = {}}); });
   }
 }
 
