@@ -85,7 +85,7 @@ TEST(Queries, AreFinite) {
   Points queries = Points::Zero(3, 3);
   for (const double x : {nan, infinity, 1e200}) {
     queries(2, 0) = x;
-    expect_error<InvalidParameter>([&] { closest_points(surface, mesh.positions, queries); }, {"point to project 2"});
+    expect_error<InvalidParameter>([&] { closest_points(surface, mesh.positions, queries); }, {"query point 2"});
     expect_error<InvalidParameter>([&] { winding_numbers(SearchedLimit(surface, mesh.positions), queries); },
                                    {"point to look from 2"});
   }
