@@ -54,7 +54,7 @@ const std::vector<Role>& roles() {
       {nullptr, "--points", "points, .csv, .npy, .obj, .ply or .off", {csv, npy, obj, ply, off}},
       {nullptr, "--cloud", "points, .csv, .obj, .ply or .off", {csv, obj, ply, off}},
       {nullptr, "--tessellation", "triangles of `sublimit tessellate`, .ply", {ply}},
-      {nullptr, "--manifest", "jobs, .jsonl", {json}},
+      {nullptr, "--manifest", "jobs, .jsonl", {json, FileKind::empty}},  // there may be none
       {nullptr, "--dictionary", "a dictionary that `bake` keeps, or a directory of them", {safetensors, directory}},
   };
   return all;

@@ -25,7 +25,7 @@ void expect_analysis_refused(std::vector<std::string> arguments, int status, Par
       arguments.insert(arguments.end(), {option, (directory / name).string()});
   const Outcome outcome = sublimit(arguments);
   expect_failure(outcome, status, parts);
-  EXPECT_TRUE(outcome.err.starts_with("sublimit: ")) << outcome.err;
+  EXPECT_TRUE(outcome.err.starts_with("sublimit: ") || outcome.err.starts_with("sublimit analyze: ")) << outcome.err;
   EXPECT_EQ(count_of(outcome.err, "\n"), 1u) << outcome.err;
   EXPECT_EQ(directory.num_files(), 0);
 }
