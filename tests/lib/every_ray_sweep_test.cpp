@@ -17,7 +17,6 @@ TEST_P(EveryRay, HitsTheSharedMeshes) {
     const ControlMesh mesh = read_mesh(shared.path);
     if (mesh.num_faces() <= (full_sweep() ? 400 : 3)) look_at_mesh(mesh, shared.name);
   }
-  EXPECT_LE(given_up_ * rays_to_one_given_up, rays_);
   EXPECT_GT(rays_, 100);
 }
 

@@ -101,7 +101,7 @@ def test_is_made_of_its_own_attributes(mesh: sublimit.Mesh) -> None:
     again = sublimit.Mesh(**everything)
     assert same(again, mesh)
     if len(mesh.faces[0]) > 0 and len(set(mesh.faces[0])) == 1:
-        assert same(sublimit.Mesh(**{**everything, "faces": mesh.face_array}), mesh)
+        assert same(sublimit.Mesh(**dict(everything, faces=mesh.face_array)), mesh)
     for name in names[2:]:  # each by itself
         if name != "uv_faces" or mesh.uv is not None:
             one: dict[str, Any] = {name: getattr(mesh, name)} | ({"uv": mesh.uv} if name == "uv_faces" else {})

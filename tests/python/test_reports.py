@@ -71,7 +71,7 @@ def test_schemes_that_diverge_are_disproved() -> None:
             assert "larger than 1" in verdicts["convergence"]["because"]
     octahedron = sublimit.Mesh([[1, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1]],
                                [[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4], [1, 0, 5], [2, 1, 5], [3, 2, 5], [0, 3, 5]])
-    with pytest.raises(sublimit.AnalysisError, match="diverges"):
+    with pytest.raises(sublimit.UnsupportedTopology, match="diverges"):
         sublimit.limit(octahedron, RunningAway())
 
 

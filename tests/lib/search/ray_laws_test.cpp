@@ -29,7 +29,6 @@ TEST_P(RayLaws, HoldOnClosedMeshes) {
 TEST_P(RayLaws, HoldOnTaggedMeshes) {
   for (const NamedMesh& named : tagged_meshes())
     if (full_sweep() || named.mesh.num_faces() <= 4) look_at_mesh(named.mesh, named.name);
-  EXPECT_LE(given_up_ * rays_to_one_given_up, rays_);
   EXPECT_GT(rays_, 100);
 }
 
