@@ -52,7 +52,8 @@ ParsedCommandLine refused(const CLI::App& app, const std::string& verb, const st
   const std::string program = app.get_name();
   const std::string help = program + " help" + (verb.empty() ? "" : " " + verb);
   return {false, 2, "",
-          fmt::format("{}{}{}: {}; `{}` {}\n", program, verb.empty() ? "" : " ", verb, what, help,
+          fmt::format("{}{}{}: {}{} `{}` {}\n", program, verb.empty() ? "" : " ", verb, what,
+                      what.ends_with('?') ? "" : ";", help,
                       verb.empty() ? "lists the subcommands" : "shows options and examples")};
 }
 

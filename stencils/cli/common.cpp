@@ -139,6 +139,11 @@ double distance_option(const std::string& option, const std::string& text, doubl
   if (!parsed || !(parsed.value > 0) || !std::isfinite(parsed.value))
     throw InvalidOption(fmt::format(
         "{} {}: it should be a distance above 0, such as 0.01, or 0.1% of the mesh's diagonal", option, text));
+  if (relative && !std::isfinite(diagonal))
+    throw InvalidMesh(fmt::format(
+        "{} {}: the diagonal of the mesh is no number, as its coordinates are too large; another unit of length is "
+        "right",
+        option, text));
   return relative ? parsed.value / 100 * diagonal : parsed.value;
 }
 

@@ -44,8 +44,8 @@ const std::vector<Role>& roles() {
       {nullptr, "RECIPE", "recipes, .json", {json}},
       {nullptr, "FIELD", "a field, .json", {json}},
       {"sublimit-mpi", "MESH", "a control mesh, .obj, .ply or .safetensors", {obj, ply, safetensors}},
-      // The readers say more of a polygon or a recipe in the place of a mesh.
-      {nullptr, "MESH", "a control mesh, .obj, .ply or .off", {obj, ply, off, csv, json}},
+      // The readers say more of a polygon, a recipe or nothing in the place of a mesh.
+      {nullptr, "MESH", "a control mesh, .obj, .ply or .off", {obj, ply, off, csv, json, FileKind::empty}},
       {nullptr, "--at", "places, .csv", {csv}},
       {nullptr, "--rays", "rays, .csv", {csv}},
       {nullptr, "--rates", "rates of edges, .csv", {csv}},
@@ -54,7 +54,8 @@ const std::vector<Role>& roles() {
       {nullptr, "--points", "points, .csv, .npy, .obj, .ply or .off", {csv, npy, obj, ply, off}},
       {nullptr, "--cloud", "points, .csv, .obj, .ply or .off", {csv, obj, ply, off}},
       {nullptr, "--tessellation", "triangles of `sublimit tessellate`, .ply", {ply}},
-      {nullptr, "--manifest", "jobs, .jsonl", {json}},
+      {nullptr, "--manifest", "jobs, .jsonl", {json, FileKind::empty}},  // there may be none
+      {nullptr, "--dictionary", "a dictionary that `bake` keeps, or a directory of them", {safetensors, directory}},
   };
   return all;
 }
@@ -136,8 +137,7 @@ std::string argument_of(const Given& given) { return fmt::format("{} is {}", giv
 [[noreturn]] void refuse(const Given& given, const std::vector<Given>& all) {
   if (given.kind == FileKind::directory)
     throw IoError(fmt::format("{}: it is a directory; name a file in it ({})", given.path, argument_of(given)));
-  if (given.kind == FileKind::empty)
-    throw FormatError(fmt::format("{}: it is empty; {}", given.path, argument_of(given)));
+  if (given.kind == FileKind::empty) throw FormatError(fmt::format("{}: empty; {}", given.path, argument_of(given)));
   for (const Given& other : all)
     if (&other != &given && given.fits(*other.role) && other.fits(*given.role))
       throw FormatError(fmt::format("{} is {} and {} is {}: they are swapped; {}, and {}", given.path,

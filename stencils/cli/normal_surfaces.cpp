@@ -157,7 +157,7 @@ std::vector<NormalSurface> load_normal_surfaces(const Common& common, Progress& 
 
 std::string why_no_normal_surface(const Common& common, const ControlMesh& mesh) {
   try {
-    checked_data(common, normal_scheme(common), mesh);
+    static_cast<void>(checked_data(common, normal_scheme(common), mesh));
   } catch (const UnsupportedTopology& error) {
     return error.what();
   } catch (const InvalidMesh& error) {

@@ -83,8 +83,9 @@ TEST(Errata, DooSabinWithOneTermMoreIsNotAffine) {
   for (Index n = 3; n <= 20; ++n) {
     std::vector<Index> slots(static_cast<size_t>(n));
     std::iota(slots.begin(), slots.end(), 0);
+    const Stencil<double> corner = masks.corner(FaceSite<double>(masks, 0, slots));
     double sum = 0;
-    for (const auto& [slot, weight] : masks.corner(FaceSite<double>(masks, 0, slots)).terms()) sum += weight;
+    for (const auto& [slot, weight] : corner.terms()) sum += weight;
     EXPECT_NEAR(sum, 1 + (n + 5) / (4.0 * n), rounding(2 * n)) << n;
     expect_error<InvalidParameter>([&] { local_patch(scheme, face_of(n)); },
                                    {"one-term-more.corner: the weights add up to", "sum of 1"});

@@ -91,7 +91,8 @@ def test_threads_share_tables_and_tables_share_devices(gpu: str, cube: sublimit.
 
 def test_refuses_what_gpus_do_not_take(gpu: str, cube: sublimit.Mesh) -> None:
     double = sublimit.bake(cube, "catmull-clark", levels=1, precision="double")
-    for apply, count in ((double.apply, 8), (double.apply_transpose, double.num_points)):
+    calls: list[tuple[Any, int]] = [(double.apply, 8), (double.apply_transpose, double.num_points)]
+    for apply, count in calls:
         with pytest.raises(sublimit.InvalidOption, match="tables in float.*precision='float'.*device='cpu'"):
             apply(np.zeros((count, 3)), device=gpu)
     single_table = sublimit.bake(cube, "catmull-clark", levels=1)

@@ -81,10 +81,10 @@ def test_tags_in_their_forms() -> None:
 
 def with_every_tag() -> list[sublimit.Mesh]:
     """Meshes with all tags, some of them, and none; one tag of a kind, two, and as many as columns."""
-    everything = dict(creases={(0, 1): 2.5, (1, 2): np.inf, (2, 3): 10}, corners={3: 1.5, 0: np.inf}, holes=[1],
-                      boundary="edge-only", uv=np.arange(8).reshape(4, 2))
-    meshes = [sublimit.Mesh(SQUARE, [[0, 1, 2], [0, 2, 3]], **everything)]  # type: ignore[arg-type]
-    meshes += [sublimit.Mesh(SQUARE, [[0, 1, 2, 3], [0, 1, 2]][:1], **{name: value})  # type: ignore[arg-type]
+    everything: dict[str, Any] = dict(creases={(0, 1): 2.5, (1, 2): np.inf, (2, 3): 10}, corners={3: 1.5, 0: np.inf},
+                                      holes=[1], boundary="edge-only", uv=np.arange(8).reshape(4, 2))
+    meshes = [sublimit.Mesh(SQUARE, [[0, 1, 2], [0, 2, 3]], **everything)]
+    meshes += [sublimit.Mesh(SQUARE, [[0, 1, 2, 3], [0, 1, 2]][:1], **{name: value})
                for name, value in everything.items() if name != "holes"]
     for count in range(5):
         edges = [(0, 1), (1, 2), (2, 3), (3, 0)][:count]
@@ -97,14 +97,14 @@ def test_is_made_of_its_own_attributes(mesh: sublimit.Mesh) -> None:
     """Whatever the constructor takes is an attribute, and it takes it as that."""
     names = [name for name in inspect.signature(sublimit.Mesh.__init__).parameters if name != "self"]
     assert {"points", "faces", "creases", "corners", "holes", "boundary", "uv", "uv_faces"} == set(names)
-    everything = {name: getattr(mesh, name) for name in names}
+    everything: dict[str, Any] = {name: getattr(mesh, name) for name in names}
     again = sublimit.Mesh(**everything)
     assert same(again, mesh)
     if len(mesh.faces[0]) > 0 and len(set(mesh.faces[0])) == 1:
-        assert same(sublimit.Mesh(**{**everything, "faces": mesh.face_array}), mesh)
+        assert same(sublimit.Mesh(**dict(everything, faces=mesh.face_array)), mesh)
     for name in names[2:]:  # each by itself
         if name != "uv_faces" or mesh.uv is not None:
-            one = {name: getattr(mesh, name)} | ({"uv": mesh.uv} if name == "uv_faces" else {})
+            one: dict[str, Any] = {name: getattr(mesh, name)} | ({"uv": mesh.uv} if name == "uv_faces" else {})
             sublimit.Mesh(mesh.points, mesh.faces, **one)
 
 

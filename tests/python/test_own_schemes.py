@@ -209,8 +209,9 @@ def open_mesh(triangles: bool) -> sublimit.Mesh:
             a, b, c, d = 1 + i, 6 + i, 6 + (i + 1) % 5, 1 + (i + 1) % 5
             faces += [[a, b, c], [a, c, d]]
     else:
-        faces = [[1, 2, 3, 4, 5]] + [[1 + i, 6 + i, 6 + (i + 1) % 5, 1 + (i + 1) % 5] for i in range(5)]
-    return sublimit.Mesh(points, faces, creases={(1, 2): 1.5} if triangles else {(1, 6): 1.5, (1, 2): 1.5})
+        points = points[1:]
+        faces = [[0, 1, 2, 3, 4]] + [[i, 5 + i, 5 + (i + 1) % 5, (i + 1) % 5] for i in range(5)]
+    return sublimit.Mesh(points, faces, creases={(1, 2): 1.5} if triangles else {(0, 5): 1.5, (0, 1): 1.5})
 
 
 def meshes(own: sublimit.Scheme, cube: sublimit.Mesh, icosahedron: sublimit.Mesh) -> list[sublimit.Mesh]:

@@ -94,7 +94,7 @@ def test_rational_tables_take_columns_or_points_with_weights(quarter: sublimit.P
     for values, given, words in (
             (xyz, None, r"points has 3 columns, and the table is rational: 4, \(w x"), (xyz[:, :2], None, "2 columns"),
             (xyz, weights[:3], r"weights has shape \(3,\); one for each"), (xyz, weights[:, None], "weights has shape"),
-            (xyz, np.full(len(xyz), "a"), "dtype <U1")):
+            (xyz, np.full(len(xyz), "a"), "weights <U1; real numbers")):
         with pytest.raises(ValueError, match=words):
             table.apply(values, weights=given)
     with pytest.raises(ValueError, match="weights are for rational tables"):

@@ -34,6 +34,47 @@ def test_curves_and_claims() -> None:
     assert verdicts["interpolates"] == "disproved" and verdicts["convex-hull"] == "proved"
 
 
+class Staying(sublimit.Scheme):
+    """Points of edges are midpoints, and vertices stay."""
+
+    split = "ptq"
+
+    def vertex(self, v: sublimit.Ring) -> sublimit.Stencil:
+        return v.center
+
+    def edge(self, e: sublimit.EdgeSite) -> sublimit.Stencil:
+        return (e.tail + e.head) / 2
+
+
+class RunningAway(Staying):
+    """Vertices are pushed away from their neighbours."""
+
+    def vertex(self, v: sublimit.Ring) -> sublimit.Stencil:
+        return 3 * v.center - 2 * v.neighbor_mean
+
+
+def test_types_need_no_claims() -> None:
+    report = sublimit.analyze(Staying(), valences=[5])
+    assert report["schemes"][0]["interpolates"] is True and report["summary"][0]["type"] == "interpolating"
+    for name in ("doo-sabin", "mid-edge"):
+        wrong = sublimit.analyze(name, valences=[3], claims={"interpolates": True})
+        verdicts = {claim["claim"]: claim["verdict"] for claim in wrong["schemes"][0]["claims"]}
+        assert verdicts["interpolates"] == "disproved" and wrong["summary"][0]["type"] == "approximating"
+
+
+def test_schemes_that_diverge_are_disproved() -> None:
+    report = sublimit.analyze(RunningAway(), valences=[5, 6])
+    for at in report["schemes"][0]["neighborhoods"]:
+        if at["kind"] == "vertex":
+            verdicts = {verdict["property"]: verdict for verdict in at["verdicts"]}
+            assert verdicts["convergence"]["verdict"] == verdicts["c1"]["verdict"] == "disproved"
+            assert "larger than 1" in verdicts["convergence"]["because"]
+    octahedron = sublimit.Mesh([[1, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1]],
+                               [[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4], [1, 0, 5], [2, 1, 5], [3, 2, 5], [0, 3, 5]])
+    with pytest.raises(sublimit.UnsupportedTopology, match="diverges"):
+        sublimit.limit(octahedron, RunningAway())
+
+
 def test_meshes_are_the_programs(tagged: sublimit.Mesh, program: Program, tmp_path: pathlib.Path) -> None:
     tagged.write(tmp_path / "cage.obj")
     report = sublimit.analyze_mesh(tagged, "catmull-clark", tolerance={"g1": "0.1deg"}, name="cage.obj")

@@ -29,6 +29,8 @@ constexpr NotRun not_run[] = {
     {R"(sublimit .*(\[|\(|\w\|\w).*)", "a synopsis: ReadmeSynopsis holds it to --help"},
     {R"(sublimit info MESH -s SCHEME)", "a synopsis in a sentence, likewise"},
     {R"(\.ci/install-deps.*)", "installs and builds: .ci/run takes the test command from the README and runs it"},
+    {R"(sublimit schemes \| head -1)", "ends before its reader has all: CliStreams.ClosedPipeIsAQuietEnd runs it"},
+    {R"(sublimit apply cage\.obj level3\.safetensors)", "swapped arguments, an error: CliInputFiles has them"},
     {R"(cmake --install build/release --prefix DIR)", "consumer.lib and consumer.eval install and build against it"},
     {R"(cmake --preset bench.*)", "builds"},
     {R"(cmake --build --preset release --target gallery)", "remakes the pictures of the source tree"},

@@ -13,16 +13,16 @@ const std::vector<LostNormals>& lost_normals() {
       "direction (LimitMasks::Plane::tied), with more they need not";
   static const std::string slow = "modes of the inside shrink no faster than the one along the border";
   static const std::vector<LostNormals> all{
-      {"bilinear", inside, 2, 0, false, own},
-      {"bilinear", border, 2, 0, false, own},
-      {"bilinear", corner, 2, 0, false, own},
-      {"mid-edge", border, 3, 0, true, tied},
-      {"mid-edge-habib-warren", border, 3, 0, true, tied},
-      {"butterfly", inside, 3, 3, false, "block 0 shrinks no faster than block 1"},
-      {"butterfly", inside, 8, 0, false, "block 2 shrinks no faster than block 1, which the modification mends"},
-      {"butterfly", border, 4, 5, false, slow},
-      {"modified-butterfly", border, 4, 5, false, slow},
-      {"kobbelt", border, 3, 0, false, slow},
+      {"bilinear", inside, 2, 0, false, true, own},
+      {"bilinear", border, 2, 0, false, true, own},
+      {"bilinear", corner, 2, 0, false, true, own},
+      {"mid-edge", border, 3, 0, true, false, tied},
+      {"mid-edge-habib-warren", border, 3, 0, true, false, tied},
+      {"butterfly", inside, 3, 3, false, true, "block 0 shrinks no faster than block 1"},
+      {"butterfly", inside, 8, 0, false, true, "block 2 shrinks no faster than block 1, which the modification mends"},
+      {"butterfly", border, 4, 5, false, false, slow},
+      {"modified-butterfly", border, 4, 5, false, false, slow},
+      {"kobbelt", border, 3, 0, false, true, slow},
   };
   return all;
 }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Where limits have no normal for generic control points: a table with reasons. Exact verdicts prove each row
-// (certificates/lost_normals_test.cpp), and laws expect normals everywhere else.
+// Where limits have no normal for generic control points: a table with reasons. Exact verdicts prove rows about centres
+// that are their own children (certificates/lost_normals_test.cpp); laws expect no normals there, and normals
+// everywhere else.
 #include <string>
 #include <vector>
 
@@ -15,6 +16,7 @@ struct LostNormals {
   Where where;
   Index least, most;    ///< faces at the vertex; 0: any more
   bool before = false;  ///< at the vertex of level 0 that it comes from: later levels cut faces off
+  bool exact = true;    ///< exact eigenvalues prove it; otherwise LimitMasks::Plane, from those in double
   std::string why;
 };
 

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <tuple>
 #include <utility>
@@ -37,10 +38,13 @@ std::array<size_t, 2> ends_of(PatchSide side) {
 /// Poles of homogeneous columns, and their weights; none where all are 1.
 std::pair<Points, Eigen::VectorXd> poles_of(const Points& columns) {
   if (columns.cols() == 3) return {columns, {}};
-  const Eigen::VectorXd weights = columns.col(3);
+  Eigen::VectorXd weights = columns.col(3);
   Points poles = columns.leftCols(3);
   if ((weights.array() == 1).all()) return {std::move(poles), {}};
   for (Eigen::Index i = 0; i < poles.rows(); ++i) poles.row(i) /= weights[i];
+  // A common factor means nothing, but kernels of CAD take none that are next to 0; powers of two change no digit.
+  if (const double largest = weights.maxCoeff(); largest < 0x1p-20 || largest > 0x1p20)
+    for (double& weight : weights) weight = std::ldexp(weight, -std::ilogb(largest));
   return {std::move(poles), weights};
 }
 

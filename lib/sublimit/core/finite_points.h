@@ -13,7 +13,7 @@ namespace sublimit {
 inline constexpr double farthest_coordinate = 1e150;
 
 /// Points that a caller asks about.
-/// @param what  one of them, for the message: "point to project"
+/// @param what  one of them, for the message: "query point"
 /// @throws InvalidParameter  a coordinate is not finite, or above `farthest_coordinate` in size, naming the first such
 ///                           point
 void check_measurable(const Points& points, const std::string& what);

@@ -88,6 +88,7 @@ CurveLimits CurveAnalysis::limits(const CurveOutline& curve, int level,
 }
 
 CurveLimits CurveAnalysis::limits(const CurveLevelOf<double>& level) const {
+  check_made_by(level, scheme_, "the analysis of limits (CurveAnalysis)");
   const Index columns = level.num_points() * level.unknowns;
   CurveRows<double> rows[] = {
       {level.num_points(), columns}, {level.num_points(), columns}, {level.num_points(), columns}};

@@ -46,6 +46,39 @@ std::vector<CurveLevel> refine(const CurveScheme<double>& scheme, const ControlP
   return result;
 }
 
+namespace {
+
+/// Rows of one step over an open curve and a closed one, each long enough for a middle.
+std::vector<SparseMatrix> sample_rows(const CurveScheme<double>& scheme, int level) {
+  const CurveLayout layout(scheme, level);
+  const Index size = 4 * (layout.radius() + layout.end_points() + 2);
+  std::vector<SparseMatrix> rows;
+  for (const bool closed : {false, true}) rows.push_back(curve_matrix(scheme, {layout.control(size, closed)}, level));
+  return rows;
+}
+
+bool has_same_bits(const SparseMatrix& a, const SparseMatrix& b) {
+  return a.rows() == b.rows() && a.cols() == b.cols() && a.nonZeros() == b.nonZeros() &&
+         std::equal(a.outerIndexPtr(), a.outerIndexPtr() + a.rows() + 1, b.outerIndexPtr()) &&
+         std::equal(a.innerIndexPtr(), a.innerIndexPtr() + a.nonZeros(), b.innerIndexPtr()) &&
+         std::equal(a.valuePtr(), a.valuePtr() + a.nonZeros(), b.valuePtr());
+}
+
+}  // namespace
+
+void check_made_by(const CurveLevel& level, const CurveScheme<double>& scheme, const std::string& what) {
+  if (!level.made_by) return;
+  const CurveScheme<double>& other = *level.made_by;
+  if (other.name == scheme.name) {
+    const std::vector<SparseMatrix> a = sample_rows(scheme, level.number), b = sample_rows(other, level.number);
+    if (std::equal(a.begin(), a.end(), b.begin(), has_same_bits)) return;
+  }
+  throw InvalidParameter(
+      what + " is of the scheme '" + scheme.name + "', but the level that it meets was made by " +
+      (other.name == scheme.name ? "a scheme of this name with other masks or ends" : "'" + other.name + "'") +
+      "; take one scheme for both");
+}
+
 SparseMatrix refinement_matrix(const std::vector<CurveLevel>& levels) {
   SparseMatrix P = levels.front().S;
   for (size_t k = 1; k < levels.size(); ++k) product(levels[k].S, P).swap(P);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,8 @@ struct CurveLevelOf {
   int number = 0;
   int unknowns = 1;  ///< at every point; rows and columns of a point stand together
   std::vector<CurveOutline> curves;
+  /// The scheme that made it, whose limits alone it has; null where a level was put together otherwise.
+  std::shared_ptr<const CurveScheme<T>> made_by;
   /// x_k = S x_{k-1}; for level 0 the choice of the curves' points from those of the control polygon.
   CurveMatrix<T> S;
 
@@ -157,6 +160,7 @@ CurveLevelOf<T> control_level(const CurveScheme<T>& scheme, const ControlPolygon
         choice.append({{i * level.unknowns + component, T(1)}});
     }
   level.S = choice.finish();
+  level.made_by = std::make_shared<const CurveScheme<T>>(scheme);
   return level;
 }
 
@@ -167,6 +171,8 @@ CurveLevelOf<T> next_level(const CurveScheme<T>& scheme, const CurveLevelOf<T>& 
   CurveLevelOf<T> level;
   level.number = parent.number + 1;
   level.unknowns = parent.unknowns;
+  const bool is_parents = parent.made_by && parent.made_by->name == scheme.name;
+  level.made_by = is_parents ? parent.made_by : std::make_shared<const CurveScheme<T>>(scheme);
   const CurveLayout layout(scheme, parent.number);
   level.S = curve_matrix(scheme, parent.curves, parent.number);
   for (const CurveOutline& curve : parent.curves) level.curves.push_back(layout.child(curve));
@@ -178,6 +184,11 @@ CurveLevelOf<T> next_level(const CurveScheme<T>& scheme, const CurveLevelOf<T>& 
 /// @throws InvalidParameter  negative `levels`; and what control_level and next_level throw
 [[nodiscard]] std::vector<CurveLevel> refine(const CurveScheme<double>& scheme, const ControlPolygon& polygon,
                                              int levels, const std::function<void(int)>& progress = {});
+
+/// Throws unless a scheme makes the rows, to the last bit, that the scheme of a level makes.
+/// @param what  takes limits by `scheme`, for the message: "the limit curve"
+/// @throws InvalidParameter  another scheme made the level
+void check_made_by(const CurveLevel& level, const CurveScheme<double>& scheme, const std::string& what);
 
 /// Level k from the control points: S_{k-1} ... S_0 and the choice of level 0.
 [[nodiscard]] SparseMatrix refinement_matrix(const std::vector<CurveLevel>& levels);

@@ -142,11 +142,22 @@ struct LimitCurve::Parts {
   }
 };
 
+namespace {
+
+/// The level, which this scheme has made.
+/// @throws InvalidParameter  another one has
+const CurveLevel& made_by(const CurveLevel& level, const CurveScheme<double>& scheme) {
+  check_made_by(level, scheme, "the limit curve");
+  return level;
+}
+
+}  // namespace
+
 LimitCurve::LimitCurve(const CurveScheme<double>& scheme, const CurveLevel& level)
-    : parts_(std::make_unique<Parts>(scheme, level)) {}
+    : parts_(std::make_unique<Parts>(scheme, made_by(level, scheme))) {}
 
 LimitCurve::LimitCurve(const CurveScheme<double>& scheme, const ControlPolygon& polygon)
-    : LimitCurve(scheme, control_level(scheme, polygon)) {
+    : parts_(std::make_unique<Parts>(scheme, control_level(scheme, polygon))) {
   parts_->points.clear();
   for (const ControlPolygon::Curve& curve : polygon.curves)
     parts_->points.insert(parts_->points.end(), curve.points.begin(), curve.points.end());

@@ -30,7 +30,9 @@ struct [[nodiscard]] LimitMasks {
   struct Side {
     Index fan = 0, first_corner = 0, num_corners = 0;  ///< corners of the neighbourhood's fan, counter-clockwise
     Mask tangent1, tangent2;  ///< tangent1 x tangent2 is along the normal, per unit of the characteristic parameter
-    std::vector<Mask> second_order;  ///< the next modes, for control points that make the tangents degenerate
+    /// The next modes, for control points that make the tangents degenerate. Where more than some decay alike, sums of
+    /// them that span the same.
+    std::vector<Mask> second_order;
     Plane plane = Plane::yes;
     double lambda1 = 0, lambda2 = 0;  ///< moduli that the tangents shrink by in a step
   };

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <tuple>
@@ -145,12 +146,20 @@ struct LimitPatches::Loop {
   bool one_to_one;  ///< pieces are the addresses
   bool triangles;
 
+  /// Rows of a run of samples that are left for the long way. No vector: g++ 12 lets no exception out of functions that
+  /// it clones.
+  struct Rest {
+    static constexpr std::int64_t most = 512;
+    std::array<std::int64_t, most> rows;
+    std::int64_t count = 0;
+  };
+
   void positions(std::span<const Sample> samples, std::int64_t begin, std::int64_t end, LimitSamples& out,
-                 std::vector<std::int64_t>& rest) const;
+                 Rest& rest) const;
   void first_derivatives(std::span<const Sample> samples, std::int64_t begin, std::int64_t end, bool normals,
-                         LimitSamples& out, std::vector<std::int64_t>& rest) const;
+                         LimitSamples& out, Rest& rest) const;
   void second_derivatives(std::span<const Sample> samples, std::int64_t begin, std::int64_t end, bool normals,
-                          LimitSamples& out, std::vector<std::int64_t>& rest) const;
+                          LimitSamples& out, Rest& rest) const;
 
   /// A piece, and the place in it.
   struct At {
@@ -328,30 +337,29 @@ namespace {
 
 template <int Order, class Loop>
 [[gnu::always_inline]] inline void run(const Loop& loop, std::span<const Sample> samples, std::int64_t begin,
-                                       std::int64_t end, bool normals, LimitSamples& out,
-                                       std::vector<std::int64_t>& rest) {
+                                       std::int64_t end, bool normals, LimitSamples& out, typename Loop::Rest& rest) {
   constexpr std::int64_t patches_ahead = 6, pieces_ahead = 12;
   for (std::int64_t i = begin; i < end; ++i) {
     if (i + pieces_ahead < end) loop.fetch_piece(samples[i + pieces_ahead]);
     if (i + patches_ahead < end) loop.fetch_patch(samples[i + patches_ahead]);
-    if (!loop.template row<Order>(samples[i], normals, out, i)) rest.push_back(i);
+    if (!loop.template row<Order>(samples[i], normals, out, i)) rest.rows[rest.count++] = i;
   }
 }
 
 }  // namespace
 
 SUBLIMIT_WIDE void LimitPatches::Loop::positions(std::span<const Sample> samples, std::int64_t begin, std::int64_t end,
-                                                 LimitSamples& out, std::vector<std::int64_t>& rest) const {
+                                                 LimitSamples& out, Rest& rest) const {
   run<0>(*this, samples, begin, end, false, out, rest);
 }
 SUBLIMIT_WIDE void LimitPatches::Loop::first_derivatives(std::span<const Sample> samples, std::int64_t begin,
                                                          std::int64_t end, bool normals, LimitSamples& out,
-                                                         std::vector<std::int64_t>& rest) const {
+                                                         Rest& rest) const {
   run<1>(*this, samples, begin, end, normals, out, rest);
 }
 SUBLIMIT_WIDE void LimitPatches::Loop::second_derivatives(std::span<const Sample> samples, std::int64_t begin,
                                                           std::int64_t end, bool normals, LimitSamples& out,
-                                                          std::vector<std::int64_t>& rest) const {
+                                                          Rest& rest) const {
   run<2>(*this, samples, begin, end, normals, out, rest);
 }
 
@@ -365,10 +373,14 @@ std::int64_t LimitPatches::evaluate(std::span<const Sample> samples, std::int64_
                   !parts_.prepared && !parts_.scheme.is_dual(),
                   parts_.addresses.triangles()};
   std::vector<std::int64_t> rest;
-  rest.reserve(end - begin);  // no exception gets out of functions that g++ 12 clones
-  if (order == 0) loop.positions(samples, begin, end, out, rest);
-  if (order == 1) loop.first_derivatives(samples, begin, end, normals, out, rest);
-  if (order == 2) loop.second_derivatives(samples, begin, end, normals, out, rest);
+  for (std::int64_t first = begin; first < end; first += Loop::Rest::most) {
+    const std::int64_t last = std::min(end, first + Loop::Rest::most);
+    Loop::Rest left;
+    if (order == 0) loop.positions(samples, first, last, out, left);
+    if (order == 1) loop.first_derivatives(samples, first, last, normals, out, left);
+    if (order == 2) loop.second_derivatives(samples, first, last, normals, out, left);
+    rest.insert(rest.end(), left.rows.begin(), left.rows.begin() + left.count);
+  }
   // Alike ones one after another: their rows are the same.
   struct Left {
     const PieceType* type;

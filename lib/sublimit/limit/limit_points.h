@@ -15,7 +15,7 @@ struct [[nodiscard]] LimitMatrices {
   SparseMatrix position;            ///< L, #V x #V: x_inf = L * x
   SparseMatrix tangent1, tangent2;  ///< #sides x #V
   /// The next modes, for sides whose tangents degenerate: side s has rows second_order_begin[s] to
-  /// second_order_begin[s + 1] - 1. There may be as many as the side has faces.
+  /// second_order_begin[s + 1] - 1.
   SparseMatrix second_order;
   std::vector<Index> second_order_begin;
   std::vector<Index> side_vertex;   ///< vertex of each side; ascending

@@ -219,29 +219,31 @@ void find_large_types(const Level& level, LimitTypes& cache, std::span<const Cen
 }
 
 /// rows * S, with the columns of the result renamed.
-/// @param sum  zeros, by column; again so afterwards
+/// @param name  of each column, ascending
+/// @param sum   zeros, by column; again so afterwards
 SparseRows pulled_back(const SparseRows& rows, const SparseMatrix& S, const std::vector<Index>& name,
                        std::vector<double>& sum) {
   SparseRows result;
   std::vector<Index> columns;
   sum.resize(static_cast<size_t>(S.cols()), 0);
-  std::vector<std::pair<Index, double>> row;
+  const auto add = [&](size_t column) {
+    if (sum[column] != 0) result.add(name[column], sum[column]);
+    sum[column] = 0;  // what came to nothing halfway is listed twice
+  };
   for (size_t i = 0; i < rows.size(); ++i) {
     columns.clear();
-    row.clear();
     for (const auto& [r, weight] : rows[i])
       for (SparseMatrix::InnerIterator it(S, r); it; ++it) {
         double& to = sum[static_cast<size_t>(it.col())];
         if (to == 0) columns.push_back(static_cast<Index>(it.col()));
         to += weight * it.value();
       }
-    for (const Index column : columns) {
-      double& weight = sum[static_cast<size_t>(column)];
-      if (weight != 0) row.emplace_back(name[static_cast<size_t>(column)], weight);
-      weight = 0;  // what came to nothing halfway is listed twice
+    if (columns.size() * 16 > sum.size()) {  // around a vertex of many faces: sorting would cost more
+      for (size_t column = 0; column < sum.size(); ++column) add(column);
+    } else {
+      std::sort(columns.begin(), columns.end());
+      for (const Index column : columns) add(static_cast<size_t>(column));
     }
-    std::sort(row.begin(), row.end());
-    for (const auto& [column, weight] : row) result.add(column, weight);
     result.end_row();
   }
   return result;

@@ -108,24 +108,30 @@ std::optional<EigenStructure> leading_by_inversion(const SparseMatrix& A, int co
               [&](Eigen::Index a, Eigen::Index b) { return std::abs(inner.values[a]) > std::abs(inner.values[b]); });
     pairs.clear();
     const auto wanted = static_cast<size_t>(count) + 3;
-    double worst = 0;
     for (size_t i = 0; i < order.size() && pairs.size() < wanted; ++i) {
       const Complex value = shift + 1.0 / inner.values[order[i]];
       if (std::abs(value.imag()) > 1e-9 * largest) return std::nullopt;
-      const VectorXd vector = inner.vectors.col(order[i]).real().normalized();
-      worst = std::max(worst, (A * vector - value.real() * vector).norm());
-      pairs.emplace_back(value.real(), vector);
+      pairs.emplace_back(value.real(), inner.vectors.col(order[i]).real().normalized());
     }
+    std::sort(pairs.begin(), pairs.end(), [](const auto& x, const auto& y) { return x.first > y.first; });
+    double worst = 0;  // of those that are asked for; the others only keep the space wide
+    for (size_t i = 0; i < std::min(pairs.size(), static_cast<size_t>(count) + 1); ++i)
+      worst = std::max(worst, (A * pairs[i].second - pairs[i].first * pairs[i].second).norm());
     if (worst <= 1e-12 * largest) break;
-    const double spread = pairs.front().first - pairs.back().first;
-    shift = pairs.front().first + std::max(0.2 * spread, 1e-7 * largest);
+    shift = pairs.front().first + std::max(0.2 * (pairs.front().first - pairs.back().first), 1e-7 * largest);
   }
-  std::sort(pairs.begin(), pairs.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
-  // What turns or changes sign does not come so close to a shift; seen from outside it would stand out.
+  // What turns or changes sign does not come so close to a shift; seen from outside it would stand out, and converge.
   const double last = pairs[std::min(pairs.size(), static_cast<size_t>(count)) - 1].first;
-  for (const Complex value : outer.values)
-    if (std::abs(value) > last * (1 + 1e-3) && (std::abs(value.imag()) > 1e-3 * largest || value.real() < 0))
-      return std::nullopt;
+  for (Eigen::Index i = 0; i < outer.values.size(); ++i) {
+    const Complex value = outer.values[i];
+    const bool is_among = std::abs(value.imag()) <= 1e-3 * largest && value.real() > 0;
+    if (is_among || std::abs(value) <= last * (1 + 1e-3)) continue;
+    const VectorXcd vector = outer.vectors.col(i).normalized();
+    const VectorXd real = A * vector.real(), imaginary = A * vector.imag();
+    const double away =
+        std::hypot((real - (value * vector).real()).norm(), (imaginary - (value * vector).imag()).norm());
+    if (away <= 1e-2 * largest) return std::nullopt;
+  }
   if (!(last > 0)) return std::nullopt;
 
   EigenStructure result;

@@ -4,6 +4,8 @@
 #include <Eigen/LU>
 
 #include <algorithm>
+#include <cmath>
+#include <random>
 
 #include "sublimit/core/dense_decompositions.h"
 #include "sublimit/core/submatrix.h"
@@ -22,6 +24,8 @@ using Plane = LimitMasks::Plane;
 
 /// Two moduli this close (relative) decay at the same rate.
 constexpr double same_rate = 1e-9;
+/// Masks of second order that a closed ring has at most.
+constexpr size_t most_second_order = 16;
 
 /// Left eigenvector that takes the right one, scaled to be 1 at a slot, to 1: per unit of the edge to that slot.
 VectorXd per_unit(const EigenCluster& cluster, const Slots& slots, Index slot) {
@@ -78,7 +82,7 @@ VectorXd made_real(const VectorXcd& v) {
 VectorXd position_mask(const SparseMatrix& A, const Slots& centre, const std::optional<SectorRows>& ring) {
   const Index size = static_cast<Index>(A.rows());
   const Slots slots = closed_set(A, centre);
-  if (!ring || slots == centre) return embedded(limit_weights(submatrix(A, slots, slots)), slots, size);
+  if (!ring || slots.size() == 1) return embedded(limit_weights(submatrix(A, slots, slots)), slots, size);
   // Orbits that the centre depends on: all their slots are in its closed set.
   const std::vector<bool> is_used = [&] {
     std::vector<bool> used(static_cast<size_t>(size), false);
@@ -140,18 +144,34 @@ void add_ring_tangents(Side& side, const SectorRows& fourier) {
   }
   side.plane = ring_plane(structure, fourier.n);
   double next = 0;
+  std::vector<std::pair<const EigenCluster*, Eigen::Index>> modes;
   for (const EigenCluster& cluster : structure.clusters) {
     const double modulus = std::abs(cluster.value);
     const bool conjugate = fourier.n > 2 && cluster.block == fourier.n - 1 && decays_like(modulus, lambda);
     if (&cluster == first || is_constant(cluster) || conjugate) continue;
     if (next == 0) next = modulus;
     if (modulus < next * (1 - same_rate) || 2 * cluster.block > fourier.n) continue;
-    for (Eigen::Index c = 0; c < cluster.left.cols(); ++c) {
-      const VectorXcd mask = fourier.mask(cluster.block, cluster.left.col(c));
-      for (const VectorXd& part : {VectorXd(mask.real()), VectorXd(mask.imag())})
-        if (part.norm() > 1e-9 * mask.norm()) side.second_order.push_back(part);
-    }
+    for (Eigen::Index c = 0; c < cluster.left.cols(); ++c) modes.emplace_back(&cluster, c);
   }
+  const auto visit_masks = [&](const auto& visit) {
+    for (const auto& [cluster, c] : modes) {
+      const VectorXcd mask = fourier.mask(cluster->block, cluster->left.col(c));
+      for (const VectorXd& part : {VectorXd(mask.real()), VectorXd(mask.imag())})
+        if (part.norm() > 1e-9 * mask.norm()) visit(part);
+    }
+  };
+  if (modes.size() <= most_second_order / 2) {
+    visit_masks([&](const VectorXd& mask) { side.second_order.push_back(mask); });
+    return;
+  }
+  // As many as the ring has faces, under Doo and Sabin's weights for one. What counts is the line or plane that they
+  // span: so many sums of them with signs at random, the same at every run, span it too.
+  std::mt19937 signs(1);
+  side.second_order.assign(most_second_order, VectorXd::Zero(side.tangent1.size()));
+  visit_masks([&](const VectorXd& mask) {
+    for (VectorXd& sum : side.second_order) sum += (signs() & 1 ? 1 : -1) * mask;
+  });
+  for (VectorXd& sum : side.second_order) sum /= std::sqrt(static_cast<double>(modes.size()));
 }
 
 Plane ring_plane(const SectorRows& ring) { return ring_plane(leading_modes(ring, false), ring.n); }

@@ -2,6 +2,8 @@
 #include "sublimit/scheme/made_by.h"
 
 #include <algorithm>
+#include <exception>
+#include <new>
 #include <set>
 
 #include "sublimit/base/error.h"
@@ -40,8 +42,10 @@ bool is_same_scheme(const Scheme<double>& a, const Scheme<double>& b, const Leve
     if (second.corners && around.level.topology().uniform_face_size() != second.corners) continue;  // to be prepared
     try {
       if (!has_same_bits(next_level(first, around.level).S, next_level(second, around.level).S)) return false;
-    } catch (const Error&) {
-      return true;  // the limit itself meets what is wrong here, and says it of the whole level
+    } catch (const std::bad_alloc&) {
+      throw;
+    } catch (const std::exception&) {
+      return true;  // what is wrong here the limit itself meets, and says it of the whole level
     }
   }
   return true;

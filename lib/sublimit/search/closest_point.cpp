@@ -163,7 +163,7 @@ void check(const SearchedSurface& surface, const Points& queries, const ClosestP
   if (!(options.radius >= 0)) throw InvalidParameter("a radius is not below 0, and a number");
   if (queries.cols() != 3)
     throw InvalidParameter("points to project have " + std::to_string(queries.cols()) + " coordinates, not 3");
-  check_measurable(queries, "point to project");
+  check_measurable(queries, "query point");
   if (!guess.empty() && guess.size() != size_t(queries.rows()))
     throw InvalidParameter(std::to_string(guess.size()) + " places to begin with for " +
                            std::to_string(queries.rows()) + " points; one each, or none");

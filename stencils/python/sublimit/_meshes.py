@@ -243,7 +243,7 @@ def _rows(values: Any, name: str, columns: int, words: str) -> arrays.Floats:
     if isinstance(values, Mapping):
         values = [(*(key if columns == 3 else (key,)), sharpness) for key, sharpness in values.items()]
     elif isinstance(values, tuple) and len(values) == 2 and all(isinstance(part, np.ndarray) for part in values):
-        values = _joined(*values, name, columns)
+        values = _joined(values[0], values[1], name, columns)
     elif values is not None and not isinstance(values, np.ndarray):
         values = [tuple(row) for row in values]
     rows = arrays.floats([] if values is None else values, name, (None, columns), words, finite=False)

@@ -170,7 +170,8 @@ class Table:
         if factors.dtype.kind not in "fiu" or values.dtype.kind not in "fiu":
             raise ValueError(f"points have dtype {values.dtype} and weights {factors.dtype}; real numbers are right")
         factors = np.broadcast_to(factors.astype(np.float64), values.shape[:-1])[..., None]
-        return np.concatenate([values * factors, factors], axis=-1)
+        columns: npt.NDArray[np.float64] = np.concatenate([values * factors, factors], axis=-1)
+        return columns
 
     def apply_transpose(self, values: npt.ArrayLike, out: npt.NDArray[Any] | None = None, *,
                         threads: int = 0, device: str = "cpu") -> npt.NDArray[Any]:

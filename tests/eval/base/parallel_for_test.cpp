@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
+#include <tbb/task_arena.h>
 
 #include <atomic>
 #include <chrono>
@@ -43,28 +44,39 @@ TEST(ParallelFor, LoopsInsideGoOnWhereTheOuterOneFails) {
   EXPECT_EQ(halfway, 0) << "of " << loops;
 }
 
-/// A thread that waits for a loop inside of a block takes up no other block of the outer loop: buffers of its own, and
-/// locks, are the block's until it is done.
+/// A thread that waits for a loop inside of a block takes up no block of another one: buffers of its own, and locks,
+/// are the block's until it is done.
 TEST(ParallelFor, BlocksAreNotTakenUpInsideOfOthers) {
-  for (const size_t threads : {1, 2, 8}) {
-    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    static thread_local int inside = 0;
-    std::atomic<int> deepest{0};
-    const auto body = [&](std::int64_t, std::int64_t, std::int64_t) {
-      ++inside;
-      for (int before = deepest; inside > before && !deepest.compare_exchange_weak(before, inside);) continue;
-      const std::thread::id own = std::this_thread::get_id();
-      parallel_for_blocks(
-          16,
-          [&](std::int64_t, std::int64_t, std::int64_t) {  // who helps is the last to be done
-            std::this_thread::sleep_for(own == std::this_thread::get_id() ? 200us : 5ms);
-          },
-          1);
-      --inside;
-    };
-    for (int round = 0; round < 3; ++round) parallel_for_blocks(16, body, 1);
-    EXPECT_EQ(deepest, 1);
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 8);
+  tbb::task_arena arena{8, 2};  // both loops are in it, so that threads of one help with the other
+  static thread_local int inside = 0;
+  std::atomic<int> deepest{0};
+  const auto begin = [&] {
+    ++inside;
+    for (int before = deepest; inside > before && !deepest.compare_exchange_weak(before, inside);) continue;
+  };
+  const auto with_loop = [&](std::int64_t, std::int64_t, std::int64_t) {
+    begin();
+    const std::thread::id own = std::this_thread::get_id();
+    parallel_for_blocks(
+        16,
+        [&](std::int64_t, std::int64_t, std::int64_t) {  // who helps is the last to be done
+          std::this_thread::sleep_for(own == std::this_thread::get_id() ? 200us : 5ms);
+        },
+        1);
+    --inside;
+  };
+  const auto without = [&](std::int64_t, std::int64_t, std::int64_t) {
+    begin();
+    std::this_thread::sleep_for(1ms);
+    --inside;
+  };
+  for (int round = 0; round < 10; ++round) {
+    std::thread other([&] { arena.execute([&] { parallel_for_blocks(64, without, 1); }); });
+    arena.execute([&] { parallel_for_blocks(2, with_loop, 1); });
+    other.join();
   }
+  EXPECT_EQ(deepest, 1);
 }
 
 TEST(ParallelFor, BlocksCoverTheRangeOnce) {

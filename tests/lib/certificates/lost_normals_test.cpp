@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "lib/certificates/exact_analyses.h"
 #include "sublimit/certificates/spectral_verdicts.h"
 
@@ -23,7 +25,10 @@ Verdict verdict_of(const LostNormals& row, Index faces) {
 bool is_inside(const LostNormals& row) { return row.where == Where::inside; }
 
 TEST(LostNormals, AreProvedByExactVerdicts) {
+  int proved = 0;
   for (const LostNormals& row : lost_normals()) {
+    if (!row.exact) continue;
+    ++proved;
     const Index first = is_inside(row) ? std::max<Index>(row.least, 3) : row.least;
     for (Index faces = first; faces <= (row.most > 0 ? row.most : first + 2); ++faces) {
       const Verdict verdict = verdict_of(row, faces);
@@ -31,6 +36,7 @@ TEST(LostNormals, AreProvedByExactVerdicts) {
           << row.scheme << ", " << faces << " faces, " << int(row.where) << ": " << verdict.because;
     }
   }
+  EXPECT_GE(proved, 6);
 }
 
 TEST(LostNormals, AreNotClaimedWhereVerdictsAllowNormals) {
@@ -40,7 +46,7 @@ TEST(LostNormals, AreNotClaimedWhereVerdictsAllowNormals) {
         return other.scheme == row.scheme && other.where == row.where && faces >= other.least &&
                (other.most == 0 || faces <= other.most);
       });
-      if (covered || faces < (is_inside(row) ? 3 : 1)) continue;
+      if (!row.exact || covered || faces < (is_inside(row) ? 3 : 1)) continue;
       const Verdict verdict = verdict_of(row, faces);
       EXPECT_NE(verdict.answer, Verdict::Answer::disproved)
           << row.scheme << ", " << faces << " faces, " << int(row.where) << ": " << verdict.because;

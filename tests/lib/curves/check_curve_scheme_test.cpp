@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "sublimit/curves/curve_limits.h"
 #include "sublimit/curves/limit_curve.h"
 #include "sublimit/curves/schemes/curve_ends.h"
 #include "sublimit/curves/schemes/curve_schemes.h"
@@ -74,10 +75,27 @@ TEST(CheckedCurveSchemes, HaveAffineMasks) {
 
 TEST(CheckedCurveSchemes, HaveEndsThatUseTheCurvesPoints) {
   CurveScheme<double> scheme = own();
+  scheme.masks.leg = [](const CurveSite<double>& p) {  // looks beyond the ends
+    return (9 * (p.point(0) + p.point(1)) - p.point(-1) - p.point(2)) / 16;
+  };
+  EXPECT_NO_THROW(refine(scheme, polygon(false), 1));
   scheme.ends.beyond = [](const CurveEnd<double>& end, int) { return end.point(-1); };
   expect_error<InvalidParameter>([&] { refine(scheme, polygon(false), 1); }, {"point -1", "0 to 4 exist"});
   scheme.ends.beyond = [](const CurveEnd<double>& end, int) { return end.point(0) + end.point(1); };
-  expect_error<InvalidParameter>([&] { refine(scheme, polygon(false), 1); }, {"own.point", "add up to"});
+  expect_error<InvalidParameter>([&] { refine(scheme, polygon(false), 1); }, {"own.leg", "add up to"});
+}
+
+TEST(CurveLevels, HaveTheLimitsOfTheirSchemeAlone) {
+  const CurveScheme<double> four = *find_curve_scheme("four-point"), spline = *find_curve_scheme("lane-riesenfeld"),
+                            tense = *find_curve_scheme("four-point", {{"tension", "1/2"}});
+  const std::vector<CurveLevel> levels = refine(four, polygon(false), 2);
+  for (const CurveLevel& level : levels) {
+    EXPECT_NO_THROW(CurveAnalysis(*find_curve_scheme("four-point")).limits(level));
+    EXPECT_NO_THROW(LimitCurve(*find_curve_scheme("four-point"), level));
+    expect_error<InvalidParameter>([&] { CurveAnalysis(spline).limits(level); }, {"'lane-riesenfeld'", "'four-point'"});
+    expect_error<InvalidParameter>([&] { LimitCurve(spline, level); }, {"'lane-riesenfeld'", "'four-point'"});
+    expect_error<InvalidParameter>([&] { LimitCurve(tense, level); }, {"'four-point'", "other masks or ends"});
+  }
 }
 
 }  // namespace

@@ -263,6 +263,35 @@ TEST(LimitIntegrals, SaysWhyThereIsNoSolid) {
   EXPECT_FALSE(nothing.centroid);
 }
 
+/// Of a sheet that turns back inside a piece: its area is that of both layers, the line where it turns a kink that
+/// quarters come near to.
+TEST(LimitIntegrals, OfAFoldedSheetHaveAnErrorThatHolds) {
+  constexpr Index n = 6;
+  ControlMesh sheet = grid(n, n);
+  const double x[] = {0, 1, 2, 1.7, 0.4, -1, -2.2};
+  for (Index v = 0; v < sheet.num_vertices(); ++v) sheet.positions.row(v) << x[v % (n + 1)], v / (n + 1), 0;
+  const LimitSurface surface(*find_scheme<double>("catmull-clark"), sheet);
+  const LimitIntegrals found = limit_integrals(surface, sheet.positions);
+  // x depends on one parameter, y on the other: the area is the way that x goes there and back, times that of y.
+  constexpr int steps = 1 << 12;
+  std::vector<Sample> places;
+  for (Index face = 0; face < n; ++face)
+    for (int i = 0; i <= steps; ++i) places.push_back({face, double(i) / steps, 0});
+  const Points at = surface.evaluate(sheet.positions, places).position;
+  double way = 0, turned = 0;
+  for (Eigen::Index i = 1; i < at.rows(); ++i) {
+    const double step = at(i, 0) - at(i - 1, 0);
+    way += std::abs(step);
+    turned += step < 0;
+  }
+  EXPECT_GT(turned, 0) << "the grid's first faces go along x";
+  // Only in the step that turns back something of the way is lost: less than the step's square times x'' <= 4.
+  const double lost = 4.0 / steps / steps * n;
+  EXPECT_NEAR(found.area, way * n, found.area_error + lost * n);
+  EXPECT_LT(found.area_error, 1e-3 * found.area);
+  EXPECT_GT(found.area_error, 0) << "it is no rounding";
+}
+
 TEST(LimitIntegrals, RefusesWhatHasNone) {
   const LimitSurface surface(*find_scheme<double>("catmull-clark"), cube());
   Points points = cube().positions;

@@ -28,7 +28,7 @@ struct Size {
   Index cells;               ///< a side of the regular grid
   int rounds;
 };
-Size size() { return full_sweep() ? Size{60, 300, 1400, 200, 20} : Size{8, 20, 160, 24, 3}; }
+Size size() { return full_sweep() ? Size{60, 300, 1400, 200, 20} : Size{4, 20, 60, 10, 3}; }
 
 ControlMesh poles_beside_a_grid(Index face_size) {
   const Size s = size();

@@ -68,7 +68,7 @@ TEST(Poles, MasksBySectorsAreThoseOfDenseMatrices) {
 
 TEST(Poles, HighValencesAreEigenvectorsToo) {
   for (const Scheme<double>& scheme : all_schemes())
-    for (const int n : {150, 400}) {
+    for (const int n : {150, 300}) {
       const SparsePatch<double> patch = closed_patch(scheme, n);
       const auto limit = lone_limit(scheme, smooth_type(scheme, n));
       ASSERT_TRUE(limit.has_value()) << scheme.name << n;
@@ -81,7 +81,7 @@ TEST(Poles, HighValencesAreEigenvectorsToo) {
 
 TEST(Poles, WorkPerFaceDoesNotGrowWithTheValence) {
   for (const Scheme<double>& scheme : all_schemes()) {
-    const SparsePatch<double> small = closed_patch(scheme, 30, 1), large = closed_patch(scheme, 240, 1);
+    const SparsePatch<double> small = closed_patch(scheme, 30, 1), large = closed_patch(scheme, 120, 1);
     const auto few = sector_rows(small.A, small.orbits), many = sector_rows(large.A, large.orbits);
     ASSERT_TRUE(few && many) << scheme.name;
     EXPECT_EQ(few->orbits.size(), many->orbits.size()) << scheme.name << ": the largest dense matrix";
@@ -93,7 +93,7 @@ TEST(Poles, WorkPerFaceDoesNotGrowWithTheValence) {
       return most;
     };
     if (longest(*many) > longest(*few)) continue;
-    EXPECT_LE(large.A.nonZeros(), 8 * small.A.nonZeros()) << scheme.name;
+    EXPECT_LE(large.A.nonZeros(), 4 * small.A.nonZeros()) << scheme.name;
   }
 }
 
@@ -105,8 +105,8 @@ TEST(Poles, RingsThatAreCutAwayWouldChangeNoRow) {
         const auto at = std::lower_bound(far.slots.begin(), far.slots.end(), near.slots[i]) - far.slots.begin();
         for (size_t j = 0; j < near.slots.size(); ++j) {
           const auto to = std::lower_bound(far.slots.begin(), far.slots.end(), near.slots[j]) - far.slots.begin();
-          ASSERT_EQ(near.A.coeff(static_cast<Index>(i), static_cast<Index>(j)),
-                    far.A.coeff(static_cast<Index>(at), static_cast<Index>(to)))
+          ASSERT_NEAR(near.A.coeff(static_cast<Index>(i), static_cast<Index>(j)),
+                      far.A.coeff(static_cast<Index>(at), static_cast<Index>(to)), rounding(16))
               << scheme.name << n;
         }
       }
@@ -116,7 +116,7 @@ TEST(Poles, RingsThatAreCutAwayWouldChangeNoRow) {
 TEST(Poles, OneMoreStepChangesNoLimit) {
   for (const Scheme<double>& scheme : all_schemes()) {
     if (scheme.is_dual()) continue;  // a vertex is a face one level on
-    const ControlMesh mesh = jittered(fan(200, scheme.face_size() == 3 ? 3 : 4, 2));
+    const ControlMesh mesh = jittered(fan(60, scheme.face_size() == 3 ? 3 : 4, 2));
     LimitTypes cache(scheme);
     const std::vector<Level> levels = refine(scheme, mesh, 1);
     Vertex pole{0};
@@ -132,7 +132,7 @@ TEST(Poles, OneMoreStepChangesNoLimit) {
 /// One side of a border vertex of many faces.
 TEST(Poles, SectorsOfManyFacesHaveTheirLimit) {
   for (const Scheme<double>& scheme : all_schemes())
-    for (const int n : {20, 400})
+    for (const int n : {20, 60})
       for (const bool corner : {false, true}) {
         const LocalType type{.faces = n, .open = true, .corner = corner};
         const auto patches = sparse_patches(scheme, type, {.rings = {1}, .labels = false});
@@ -163,7 +163,7 @@ SparseMatrix chain(Index n) {
 }
 
 TEST(SparseSpectrum, CloseEigenvaluesAreToldApart) {
-  for (const Index n : {100, 300, 2000}) {
+  for (const Index n : {100, 300, 1500}) {
     const EigenStructure structure = leading_clusters(chain(n), 3);
     ASSERT_EQ(structure.clusters.size(), 3u);
     for (int k = 1; k <= 3; ++k) {

@@ -66,7 +66,7 @@ TEST(CliAnalyze, ReportHasEveryKeyOfTheFormatInOrder) {
   std::map<std::string, int> kinds;
   for (const Json& n : scheme["neighborhoods"]) {
     ++kinds[n["kind"]];
-    const Keys head{"kind", "n", "points", "labels", "spectrum", "lambda", "mu", "ratio", "mu_blocks", "masks"};
+    const Keys head{"kind", "n", "points", "labels", "rows", "spectrum", "lambda", "mu", "ratio", "mu_blocks", "masks"};
     const Keys tail{"characteristic_map", "surface", "normals", "verdicts"};
     Keys expected = head;
     if (n["kind"] == "crease") expected.insert(expected.begin() + 2, "same_as");
@@ -133,6 +133,9 @@ TEST(CliAnalyze, StatusTellsWhetherClaimsHold) {
   expect_done(sublimit({"analyze", "-s", "loop", "--valence", "3", "--claim", "extraordinary=1"}));
   EXPECT_EQ(sublimit({"analyze", "-s", "loop", "--valence", "3", "--claim", "interpolates=yes"}).status, 1);
   EXPECT_EQ(sublimit({"analyze", "-s", "loop", "--valence", "3", "--claim", "generates=4"}).status, 1);
+  const Outcome dual = sublimit({"analyze", "-s", "doo-sabin", "--valence", "3", "--claim", "interpolates=yes"});
+  EXPECT_EQ(dual.status, 1);
+  expect_parts(dual.out, {"approximating", "the claim interpolates = true is disproved: no vertex has a child vertex"});
 }
 
 TEST(CliAnalyze, SaysOnlyWhatIsAskedFor) {
@@ -209,6 +212,7 @@ TEST(CliAnalyze, CurvesOfPieces) {
   EXPECT_EQ(knot("1,2,0\n")["c"], 1);
   EXPECT_EQ(knot("1,3,0\n")["c"], 0);
   EXPECT_EQ(knot("1,3,0\n")["g"], 1);
+  EXPECT_EQ(knot("1,3,0\n")["verdict"], "C^0, G^1 at least") << "it is a line";
   EXPECT_EQ(knot("1,0.5,0\n")["g"], 0);  // it turns back
 }
 

@@ -99,7 +99,7 @@ TEST_F(CliLinks, LeadOutOfDirectoriesThatAreReadOnly) {
 TEST_F(CliLinks, ToDirectoriesAreFilled) {
   link("tables", "there/tables");
   link("of_empty", "empty");
-  link("demo", "there/demo");
+  link("masks", "there/masks");
   const std::string table = path("t.safetensors");
   expect_done(sublimit({"bake", mesh, "-s", "catmull-clark", "-l", "1", "-o", table}));
   for (const auto& [name, end] : {std::pair("tables", "there/tables"), {"of_empty", "empty"}}) {
@@ -107,9 +107,9 @@ TEST_F(CliLinks, ToDirectoriesAreFilled) {
     EXPECT_TRUE(fs::is_symlink(directory / name));
     EXPECT_TRUE(fs::is_regular_file(directory / end / "metadata.json"));
   }
-  expect_done(sublimit({"demo", path("demo")}));
-  EXPECT_TRUE(fs::is_symlink(directory / "demo"));
-  EXPECT_TRUE(fs::is_regular_file(directory / "there/demo/control.obj"));
+  EXPECT_EQ(sublimit({"analyze", "-s", "loop", "--valence", "4", "--export", path("masks"), "--quiet"}).status, 0);
+  EXPECT_TRUE(fs::is_symlink(directory / "masks"));
+  EXPECT_FALSE(fs::is_empty(directory / "there/masks"));
 }
 
 }  // namespace

@@ -31,7 +31,7 @@ TEST(CliMessages, NumbersHaveTheirShortestForm) {
             "1.000000001"},
            {{"fit", mesh, "-s", scheme, "--targets", normals, "--thin-plate", "-1e-9", "-o", obj}, "-1e-09"},
            {{"tessellate", mesh, "-s", scheme, "--chord", "-1e-9", "-o", obj}, "-1e-9"},
-           {{"tessellate", mesh, "-s", scheme, "--chord", "1", "--angle", "-1e-9", "-o", obj}, "-1e-09"},
+           {{"tessellate", mesh, "-s", scheme, "--chord", "1", "--angle", "-1e-9", "-o", obj}, "-1e-9"},
            {{"refine", creased, "-s", scheme, "-l", "1", "-o", obj}, "-1e-09"}}) {
     const Outcome outcome = sublimit(words);
     EXPECT_GE(outcome.status, 2);

@@ -135,7 +135,7 @@ TEST(CliTessellationTables, AreRefusedInClearWords) {
     expect_failure(on.bake(arguments), status, parts);
     EXPECT_FALSE(std::filesystem::exists(on.table));
   };
-  refused({"--tessellation", on.mesh}, 2, {"mesh.obj", ".ply", "tessellate"});
+  refused({"--tessellation", on.mesh}, 3, {"mesh.obj", ".ply", "tessellate"});
   refused({"--tessellation", on.path("none.ply")}, 3, {"none.ply"});
   refused({"--tessellation", on.triangles, "-l", "2"}, 2, {"more than one", "--tessellation"});
   refused({"--tessellation", on.triangles, "--tags"}, 2, {"--tags"});

@@ -221,6 +221,27 @@ TEST(RankFailures, AKilledRankLeavesNothingHalfAndTheNextRunGoesOn) {
   EXPECT_EQ(run_ranks(2, "verify " + baked.shards).status, 0);
 }
 
+TEST(RankFailures, LinksAreFollowedAndDevicesRefused) {
+  const BakedFiles baked;
+  fs::create_symlink("new.npy", baked.directory / "link.npy");
+  fs::create_symlink("/dev/null", baked.directory / "null.npy");
+  const std::string apply = "apply " + baked.shards + " " + baked.obj + " -o " + baked.directory.path().string();
+  EXPECT_EQ(run_ranks(2, apply + "/link.npy").status, 0);
+  EXPECT_TRUE(fs::is_symlink(baked.directory / "link.npy"));
+  EXPECT_TRUE(fs::is_regular_file(baked.directory / "new.npy"));
+  expect_one_line(run_ranks(2, apply + "/null.npy"), 3, {"null.npy: cannot write", "name a file"});
+  EXPECT_TRUE(fs::is_character_file("/dev/null"));
+}
+
+TEST(RankFailures, AClosedPipeIsAQuietEnd) {
+  const BakedFiles baked(torus(4, 3), false);
+  const std::string info = SUBLIMIT_MPI_PROGRAM " info " + baked.obj + " -s catmull-clark";
+  for (const std::string& line : {info, std::string(SUBLIMIT_MPI_PROGRAM " help bake")}) {
+    const std::string script = "bash -c '" + line + " | true; exit ${PIPESTATUS[0]}'";
+    EXPECT_EQ(std::system(script.c_str()), 0) << line;
+  }
+}
+
 TEST(RankFailures, AFullDiskIsToldBeforeAnyWork) {
   const BakedFiles baked;
   // A file system of 64 KB, seen by this job alone.

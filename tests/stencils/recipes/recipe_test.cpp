@@ -184,6 +184,8 @@ TEST(Recipes, WrongFilesAreNamed) {
            {R"({"kind": "ruled", "name": "a\nb"})", {"name: is too long or has line ends"}},
            {R"({"kind": "implicit", "field": )" + deep, {"nests deeper"}},
            {R"({"kind": "taylor_curve", "points": [[1e999]]})", {"r.json:1: not JSON", "number overflow"}},
+           {R"({"kind": "taylor_curve", "points": [[1e308], [1e308], [1e308]]})",
+            {"r.json: recipe 0 (taylor_curve)", "control point 2", "inf", "overflow"}},
            {R"({"kind": "taylor_curve", "points": [[NaN]]})", {"r.json:1: not JSON"}}})
     expect_error<FormatError>([&] { parse(wrong.text); }, wrong.parts);
 }

@@ -10,6 +10,7 @@
 #include <STEPConstruct.hxx>
 #include <STEPControl_Writer.hxx>
 #include <Standard_Failure.hxx>
+#include <Standard_OutOfMemory.hxx>
 #include <StepData_Protocol.hxx>
 #include <StepData_StepModel.hxx>
 #include <StepData_StepWriter.hxx>
@@ -22,6 +23,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <mutex>
+#include <new>
 #include <sstream>
 #include <string_view>
 
@@ -98,8 +100,8 @@ std::string step_text(const BoundaryModel& source, const ModelShape& made, const
 CadFile cad_file(const BoundaryModel& model, const std::string& name, bool step) {
   static std::mutex one_at_a_time;  // its settings are the program's
   const std::lock_guard lock(one_at_a_time);
-  Message::DefaultMessenger()->RemovePrinters(STANDARD_TYPE(Message_PrinterOStream));
   try {
+    Message::DefaultMessenger()->RemovePrinters(STANDARD_TYPE(Message_PrinterOStream));
     const ModelShape made = shape_of(model);
     CadFile file{{}, made.solids, made.shells, made.volume, made.is_valid};
     if (step) {
@@ -110,6 +112,8 @@ CadFile cad_file(const BoundaryModel& model, const std::string& name, bool step)
       file.bytes = out.str();
     }
     return file;
+  } catch (const Standard_OutOfMemory&) {
+    throw std::bad_alloc();
   } catch (const Standard_Failure& failure) {
     throw AnalysisError(std::string("OpenCASCADE: ") + failure.GetMessageString());
   }

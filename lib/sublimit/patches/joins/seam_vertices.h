@@ -43,7 +43,7 @@ struct SeamVertex {
   std::optional<double> twist_residual{};
   /// Those of even valence: the alternating sum of the r_i, 1/length, and whether it vanishes.
   std::optional<double> enclosure{};
-  bool can_be_enclosed = true;
+  std::optional<bool> can_be_enclosed{};
 
   int valence() const { return static_cast<int>(corners.size()); }
 };

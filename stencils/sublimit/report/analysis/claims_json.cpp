@@ -188,18 +188,30 @@ void use_regular(Json& neighborhood, const std::string& property, int order, int
 
 }  // namespace
 
-Finding interpolation(const Json& neighborhoods) {
+Finding interpolation_inside(const Json& neighborhoods) {
   ForAll vertices;
-  bool has_faces = false, has_inner = false;
+  bool has_faces = false;
   for (const Json& n : neighborhoods) {
     const std::string kind = n.value("kind", "");
     has_faces |= kind == "face";
-    has_inner |= kind == "vertex";
-    if (kind != "face") vertices.look(in_rows(n, "keeps_centre"), place_of(n));
+    if (kind == "vertex") vertices.look(in_rows(n, "keeps_centre"), place_of(n));
   }
   if (vertices.holds() == false) return {false, "a vertex moves: " + vertices.where()};
-  if (has_faces && !has_inner) return {false, "no vertex has a child vertex: it becomes a face"};
-  if (!has_inner) return {std::nullopt, "no vertex inside was looked at"};
+  if (vertices.looked_at() == 0)
+    return has_faces ? Finding{false, "no vertex has a child vertex: it becomes a face"}
+                     : Finding{std::nullopt, "no vertex inside was looked at"};
+  if (!vertices.holds()) return {std::nullopt, "not known of " + vertices.where()};
+  return {true,
+          fmt::format("each of the {} kinds of vertices looked at inside is its own child", vertices.looked_at())};
+}
+
+Finding interpolation(const Json& neighborhoods) {
+  const Finding inside = interpolation_inside(neighborhoods);
+  if (inside.holds != true) return inside;
+  ForAll vertices;
+  for (const Json& n : neighborhoods)
+    if (n.value("kind", "") != "face") vertices.look(in_rows(n, "keeps_centre"), place_of(n));
+  if (vertices.holds() == false) return {false, "a vertex moves: " + vertices.where()};
   if (!vertices.holds()) return {std::nullopt, "not known of " + vertices.where()};
   return {true, fmt::format("each of the {} kinds of vertices looked at is its own child", vertices.looked_at())};
 }
@@ -280,6 +292,10 @@ Json summary_row(const Json& scheme) {
         answer_in(regular.value("verdicts", Json::array()), k > 0 ? "regular-smoothness" : "convergence");
   }
   const ValencesByAnswer by = valences_by_answer(scheme["neighborhoods"], "c1");
+  std::string moves;
+  if (const Finding all = interpolation(scheme["neighborhoods"]); interpolates == true && all.holds == false)
+    moves = all.because;
+  row["notes"] = moves;
   // Of the regular valence alone nothing follows for extraordinary points.
   if (valences_by_answer(scheme["neighborhoods"], "c1", regular_valence(scheme)).empty()) return row;
   const bool is_c1 = by.contains("proved") || by.contains("evidence-for");
@@ -288,7 +304,8 @@ Json summary_row(const Json& scheme) {
   row["extraordinary"] = is_c1 ? "C^1" : "C^0";
   row["extraordinary_verdict"] = answer;
   row["valences"] = ranges(shown.at(answer));
-  row["notes"] = is_c1 ? notes_on("C^1", by, answer) : joined(notes_on("C^0", shown, answer), notes_on("C^1", by));
+  row["notes"] =
+      joined(is_c1 ? notes_on("C^1", by, answer) : joined(notes_on("C^0", shown, answer), notes_on("C^1", by)), moves);
   return row;
 }
 

@@ -14,8 +14,11 @@ struct Finding {
   std::optional<bool> holds;
   std::string because;
 };
-/// Whether old vertices stay, by the rows of all vertices in the list. Those of a dual scheme have no children.
+/// Whether old vertices inside stay, by the rows of those in the list: the type of a scheme. Those of a dual scheme
+/// have no children.
 /// @param neighborhoods  of SCHEME
+Finding interpolation_inside(const Json& neighborhoods);
+/// The same of all vertices, those of borders and sharp edges too: what a claim says.
 Finding interpolation(const Json& neighborhoods);
 /// Whether new points are convex combinations of old ones, by the rows of all neighbourhoods in the list.
 Finding convexity(const Json& neighborhoods);

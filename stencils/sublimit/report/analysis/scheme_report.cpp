@@ -117,7 +117,7 @@ Json schemes_report(const std::vector<ReportedScheme>& schemes, const ReportOpti
     json["all_valences"] = std::move(all[s]);
     json["knot_intervals"] = knot_json(schemes[s].scheme, json["all_valences"]);
     use_regular(json);
-    if (const auto holds = interpolation(json["neighborhoods"]).holds) json["interpolates"] = *holds;
+    if (const auto holds = interpolation_inside(json["neighborhoods"]).holds) json["interpolates"] = *holds;
     json["claims"] = claims_json(schemes[s].scheme.claims, json);
     report["schemes"].push_back(std::move(json));
   }

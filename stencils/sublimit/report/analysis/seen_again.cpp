@@ -218,7 +218,7 @@ Json rows_again(const Json& neighborhood, const ExactScheme& exact) {
 
 std::vector<std::string> conclusions_differ(const Json& scheme) {
   std::vector<std::string> wrong;
-  const Finding found = interpolation(scheme.at("neighborhoods"));
+  const Finding found = interpolation_inside(scheme.at("neighborhoods"));
   const Json type = found.holds ? Json(*found.holds) : Json(nullptr);
   if (scheme.at("interpolates") != type)
     wrong.push_back(fmt::format("it is said to be {}, and its masks are {}: {}",
@@ -226,6 +226,15 @@ std::vector<std::string> conclusions_differ(const Json& scheme) {
   const Json& regular = scheme.at("regular");
   if (found.holds == true && regular.is_object() && !keeps_vertices(mask_in(regular)))
     wrong.push_back("it is said to be interpolating, and on regular meshes its mask moves old vertices");
+  for (const Json& n : scheme.at("neighborhoods"))
+    for (const Json& v : n.at("verdicts")) {
+      if (v.at("property") != "affine-invariance") continue;
+      const Json rows = n.value("rows", Json()), sums = rows.is_object() ? rows.at("sum_to_one") : Json();
+      if (sums.is_boolean() && v.at("verdict") != (sums.get<bool>() ? "proved" : "disproved"))
+        wrong.push_back(fmt::format("{} {}: affine-invariance is said to be {}, and its rows {}",
+                                    n.at("kind").get<std::string>(), n.at("n").dump(), v.at("verdict").dump(),
+                                    sums.get<bool>() ? "sum to 1" : "do not sum to 1"));
+    }
   compare_claims(scheme.at("claims"), claims_json(claims_in(scheme.at("claims")), scheme), wrong);
   return wrong;
 }

@@ -123,8 +123,13 @@ struct Reader {
       for (const Json& v : regular.at("verdicts")) verdict(v, name + ", regular", nullptr);
     if (const auto all = scheme.find("all_valences"); all != scheme.end() && !all->is_null())
       verdict(*all, name + ", all valences", nullptr);
-    if (const auto knots = scheme.find("knot_intervals"); knots != scheme.end() && knots->is_object())
-      verdict(knots->at("verdict"), name + ", knot intervals", nullptr);
+    if (const auto knots = scheme.find("knot_intervals"); knots != scheme.end() && knots->is_object()) {
+      const std::string place = name + ", knot intervals";
+      verdict(knots->at("verdict"), place, nullptr);
+      const Json all = scheme.value("all_valences", Json());
+      if (knots->at("verdict").at("verdict") == "proved" && !(all.is_object() && all.at("verdict") == "proved"))
+        find(place, "said to be proved, although C^1 at all valences is not");
+    }
     for (const Json& n : scheme.at("neighborhoods")) {
       const std::string kind = n.at("kind");
       Stand stand{nullptr, name, "", n.at("n").get<int>(), kind == "face", &exact};

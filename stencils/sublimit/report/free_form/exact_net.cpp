@@ -147,10 +147,20 @@ bool make_homogeneous(std::span<Curve> curves) {
   return any;
 }
 
-SeamNet<Rational> net_of(Knots<Rational> u, Knots<Rational> v, const Rows& rows, bool homogeneous) {
+/// An open spline with the first control points of a closed one again behind its last, as files have it.
+Knots<Rational> unrolled(const Knots<Rational>& knots) {
+  if (!knots.is_closed()) return knots;
+  return Knots<Rational>::open(knots.degree(), knots.num_functions(), Ratios(knots.all().begin(), knots.all().end()));
+}
+
+SeamNet<Rational> net_of(const Knots<Rational>& u, const Knots<Rational>& v, const Rows& rows, bool homogeneous) {
   Ratios columns;
-  for (const Ratios& row : rows) columns.insert(columns.end(), row.begin(), row.end());
-  return {std::move(u), std::move(v), std::move(columns), homogeneous ? Coordinates::homogeneous : Coordinates::plain};
+  for (Index j = 0; j < v.num_functions(); ++j)
+    for (Index i = 0; i < u.num_functions(); ++i) {
+      const Ratios& row = rows[size_t(u.point(i)) + size_t(u.num_points()) * size_t(v.point(j))];
+      columns.insert(columns.end(), row.begin(), row.end());
+    }
+  return {unrolled(u), unrolled(v), std::move(columns), homogeneous ? Coordinates::homogeneous : Coordinates::plain};
 }
 
 // Polynomials.
@@ -458,6 +468,7 @@ constexpr size_t most_nodes = 24;
 }  // namespace
 
 std::optional<std::vector<BezierPiece<Rational>>> exact_pieces(const Recipe& recipe) {
+  if (!recipe.object) return std::nullopt;
   const JsonValue& object = *recipe.object;
   const std::string_view kind = recipe.kind;
   bool homogeneous = false;
@@ -480,6 +491,7 @@ std::optional<std::vector<BezierPiece<Rational>>> exact_pieces(const Recipe& rec
 }
 
 std::optional<SeamNet<Rational>> exact_net(const Recipe& recipe) {
+  if (!recipe.object) return std::nullopt;
   const JsonValue& object = *recipe.object;
   const std::string_view kind = recipe.kind;
   if (kind == "bezier_surface" || kind == "bspline_surface" || kind == "nurbs_surface") return spline_surface(object);

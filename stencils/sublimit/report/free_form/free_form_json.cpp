@@ -84,7 +84,7 @@ FreeFormJson seam_json(const ReportedSeam& reported, const FreeFormReport& repor
                         {line.along_v ? "u" : "v", free_form_detail::line_parameter(report.patches, line)}};
   });
   j["part"] = seam.part ? FreeFormJson(*seam.part) : FreeFormJson(nullptr);
-  j["same_orientation"] = seam.same_orientation;
+  j["same_orientation"] = seam.is_compared() ? FreeFormJson(seam.same_orientation) : FreeFormJson(nullptr);
   j["columns_c"] = seam.columns_c ? FreeFormJson(*seam.columns_c) : FreeFormJson(nullptr);
   j["measured"] = orders_json(seam.measured);
   j["exact"] = orders_json(reported.exact);
@@ -119,7 +119,7 @@ FreeFormJson vertex_json(const SeamVertex& vertex) {
   j["tangent_plane"] = !filled ? "unknown" : vertex.planes_agree ? "yes" : "no";
   j["twist_residual"] = number_json(vertex.twist_residual);
   j["enclosure"] = number_json(vertex.enclosure);
-  j["can_be_enclosed"] = filled ? FreeFormJson(vertex.can_be_enclosed) : FreeFormJson(nullptr);
+  j["can_be_enclosed"] = vertex.can_be_enclosed ? FreeFormJson(*vertex.can_be_enclosed) : FreeFormJson(nullptr);
   j["at"] = point_json(vertex.point);
   return j;
 }

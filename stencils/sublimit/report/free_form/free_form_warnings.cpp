@@ -140,8 +140,8 @@ void add_elements(FreeFormWarnings& all, const FreeFormReport& report) {
             "seams along trimming curves are not looked for");
   for (size_t p = 0; p < shapes.surfaces.size(); ++p)
     if (is_trimmed(shapes.surfaces[p])) all.add_patch(p);
-  all.begin(Severity::hint, "nets that are not the file's: joins are measured, and not decided exactly",
-            "give Bezier or B-spline surfaces over their whole domain for exact verdicts");
+  all.begin(Severity::hint, "nets that are computed, with rounding: joins are measured, and not decided exactly",
+            "give Bezier or B-spline curves and surfaces over their whole domain for exact verdicts");
   for (size_t p = 0; p < shapes.surfaces.size(); ++p)
     if (report.patches.is_converted[p]) all.add_patch(p);
   for (size_t c = 0; c < shapes.curves.size(); ++c)

@@ -26,7 +26,7 @@ TEST(Rational, OfDoublesIsExact) {
   EXPECT_EQ(Rational(0.375), Rational(3, 8));
   EXPECT_EQ(Rational(-0x1p70), -Rational(1L << 35) * Rational(1L << 35));
   for (const double x : {0.1, -1e300, 5e-324, 0.0}) EXPECT_EQ(Rational(x).value(), x);
-  EXPECT_THROW(Rational(std::numeric_limits<double>::quiet_NaN()), AnalysisError);
+  EXPECT_THROW(Rational(std::numeric_limits<double>::quiet_NaN()), InvalidMesh);
 }
 
 TEST(Rational, IsEnclosed) {

@@ -61,7 +61,7 @@ TEST(PatchSeams, SphereAndTorusAreSmoothThoughTheirColumnsAreNot) {
   EXPECT_TRUE(corners[0].planes_agree);
   EXPECT_LE(*corners[0].twist_residual, reference);
   EXPECT_LE(std::abs(*corners[0].enclosure), reference);
-  EXPECT_TRUE(corners[0].can_be_enclosed);
+  EXPECT_EQ(corners[0].can_be_enclosed, true);
 }
 
 TEST(PatchSeams, ClosedKnotsHaveAPeriod) {
@@ -312,7 +312,7 @@ TEST(SeamVertices, EnclosureIsPetersCondition) {
                  (std::sin(before) * std::sin(after));
         }
         EXPECT_NEAR(std::abs(*any.enclosure), std::abs(sum), reference * 100);
-        EXPECT_FALSE(any.can_be_enclosed);
+        EXPECT_EQ(any.can_be_enclosed, false);
       }
       // Curvatures of one second fundamental form, and its twists.
       const double L = draw(random), M = draw(random), N = draw(random);
@@ -326,7 +326,7 @@ TEST(SeamVertices, EnclosureIsPetersCondition) {
       }
       const SeamVertex smooth = middle(star(angles, curvatures, twists));
       EXPECT_LE(*smooth.twist_residual, reference * 100);
-      EXPECT_TRUE(smooth.can_be_enclosed);
+      EXPECT_EQ(smooth.can_be_enclosed, n % 2 == 0 ? std::optional(true) : std::nullopt) << "asked of even ones";
       if (n % 2 == 0) {
         EXPECT_LE(std::abs(*smooth.enclosure), reference * 100);
       }

@@ -47,7 +47,8 @@ TEST(RegularJson, HasWhatTheFormatSays) {
   EXPECT_EQ(chaikin["smoothness"]["exponent"], Json::parse("[2.0, 2.0]"));
   EXPECT_EQ(chaikin["operations"]["per_new_point"], 2.0);
   const Json catmull_clark = report::regular_json("catmull-clark");
-  EXPECT_EQ(catmull_clark["degrees"], Json::parse(R"({"generates": 3, "reproduces": 1, "approximation_order": 2})"));
+  EXPECT_EQ(catmull_clark["degrees"],
+            Json::parse(R"({"generates": 3, "reproduces": 1, "approximation_order": 2, "at_least": false})"));
   EXPECT_EQ(catmull_clark["operations"]["per_new_point"], 6.25);  // 9, 6, 6 and 4 weights
   EXPECT_THROW(report::regular_json("no-such-scheme"), InvalidOption);
   EXPECT_TRUE(report::regular_json("hermite-merrien").is_null());

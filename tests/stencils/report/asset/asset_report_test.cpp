@@ -105,7 +105,7 @@ TEST(AssetReport, BilinearShowsTheAnglesOfTheMesh) {
   const AssetReport r = report("bilinear", cube(), options);
   EXPECT_NEAR(r.seams.inside.g1_degrees.value(), 90, in_degrees);
   EXPECT_LT(r.seams.inside.g0.value(), same_place);
-  EXPECT_FALSE(r.seams.within_tolerance);
+  EXPECT_EQ(r.seams.within_tolerance, false);
   ASSERT_FALSE(r.seams.beyond.empty());
   EXPECT_STREQ(r.seams.beyond[0].what, "g1");
   EXPECT_NEAR(r.seams.beyond[0].place.cwiseAbs().maxCoeff(), 1, on_the_edge);
@@ -143,7 +143,7 @@ TEST(AssetReport, CreaseShowsItsAngleAndIsNotJudged) {
   EXPECT_NEAR(r.seams.across_creases.g1_degrees.value(), 50, in_degrees);
   EXPECT_LT(r.seams.across_creases.g0.value(), same_place);
   EXPECT_LT(r.seams.inside.g1_degrees.value(), same_normal);
-  EXPECT_TRUE(r.seams.within_tolerance);
+  EXPECT_EQ(r.seams.within_tolerance, true);
   const AssetKind* crease = find_kind(r, "crease vertex", 4);
   ASSERT_TRUE(crease);
   EXPECT_EQ(crease->count, 2);
@@ -184,7 +184,7 @@ TEST(AssetReport, WarnsOfBorderVerticesWithTooManyFaces) {
   EXPECT_EQ(warning->place.value(), Eigen::Vector3d(open_fan(6).positions.row(0)));
   EXPECT_FALSE(warning->advice.empty());
   // And the normals around it are measured: they would not come closer however near.
-  EXPECT_FALSE(r.seams.within_tolerance);
+  EXPECT_EQ(r.seams.within_tolerance, false);
   EXPECT_EQ(r.seams.beyond[0].at, SeamExcess::At::point);
 }
 

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where something is proved, bounded or measured, points that are no numbers are refused by name: a bound of NaN
+// compares as none at all.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "sublimit/cad/limit_quads.h"
+#include "sublimit/limit/limit_cells.h"
+#include "sublimit/limit/limit_integrals.h"
+#include "sublimit/limit/limit_surface.h"
+#include "sublimit/schemes.h"
+#include "sublimit/search/closest_point.h"
+#include "sublimit/search/intersect.h"
+#include "sublimit/search/winding.h"
+#include "sublimit/tessellation/bezier_cells.h"
+#include "sublimit/tessellation/tessellate.h"
+#include "support/expect_error.h"
+#include "support/meshes.h"
+
+namespace sublimit::testing {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
+
+class ControlPoints : public ::testing::TestWithParam<const char*> {
+ protected:
+  const ControlMesh mesh_ = GetParam() == std::string("loop") ? octahedron() : cube();
+  const LimitSurface surface_{*find_scheme(GetParam()), mesh_};
+
+  Points with(double x) const {
+    Points points = mesh_.positions;
+    points(3, 1) = x;
+    return points;
+  }
+};
+
+TEST_P(ControlPoints, AreFiniteWhereSomethingIsMeasured) {
+  for (const double x : {nan, infinity, -infinity}) {
+    const Points points = with(x);
+    expect_error<InvalidMesh>([&] { limit_integrals(surface_, points); }, {"control point 3", "not finite"});
+    expect_error<InvalidMesh>([&] { surface_.bounding_boxes(points); }, {"control point 3", "not finite"});
+    expect_error<InvalidMesh>([&] { limit_cells(surface_, points); }, {"control point 3", "not finite"});
+  }
+}
+
+TEST_P(ControlPoints, HaveSquaresWhereDistancesAreProved) {
+  const Points query = Points::Zero(1, 3);
+  const std::vector<Ray> rays{{.origin = {0, 0, 5}, .direction = {0, 0, -1}}};
+  for (const double x : {nan, infinity, 1e308, -1e200}) {
+    const Points points = with(x);
+    const auto refused = [&](const auto& action) { expect_error<InvalidMesh>(action, {"control point 3 is ("}); };
+    refused([&] { tessellate(surface_, points, {.chord = 0.1}); });
+    refused([&] { bezier_cells(surface_, points, 0.1); });
+    refused([&] { closest_points(surface_, points, query); });
+    refused([&] { intersect(surface_, points, rays); });
+    refused([&] { winding_numbers(SearchedLimit(surface_, points), query); });
+    refused([&] { limit_quads(surface_, points, {.tolerance = 0.1, .progress = {}}); });
+  }
+}
+
+TEST_P(ControlPoints, MayBeLargeAndSmall) {
+  for (const double scale : {1e140, 1e-140}) {
+    const Points points = scale * mesh_.positions;
+    EXPECT_GT(limit_integrals(surface_, points).area, 0);
+    const ClosestPoints found = closest_points(surface_, points, Points::Zero(1, 3));
+    ASSERT_EQ(found.distances.size(), 1);
+    EXPECT_TRUE(std::isfinite(found.distances[0]));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Schemes, ControlPoints, ::testing::Values("catmull-clark", "doo-sabin", "loop"),
+                         [](const auto& named) {
+                           std::string name = named.param;
+                           std::erase(name, '-');
+                           return name;
+                         });
+
+TEST(Queries, AreFinite) {
+  const ControlMesh mesh = cube();
+  const LimitSurface surface(*find_scheme("catmull-clark"), mesh);
+  Points queries = Points::Zero(3, 3);
+  for (const double x : {nan, infinity, 1e200}) {
+    queries(2, 0) = x;
+    expect_error<InvalidParameter>([&] { closest_points(surface, mesh.positions, queries); }, {"query point 2"});
+    expect_error<InvalidParameter>([&] { winding_numbers(SearchedLimit(surface, mesh.positions), queries); },
+                                   {"point to look from 2"});
+  }
+}
+
+}  // namespace
+}  // namespace sublimit::testing
