@@ -5,6 +5,8 @@
 #include <mpi.h>
 #include <petscsys.h>
 
+#include <signal.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <exception>
@@ -27,10 +29,13 @@ std::int64_t sent = 0;
 }  // namespace
 
 Ranks::Ranks(int& argc, char**& argv) {
+  struct sigaction closed_pipes {};
+  ::sigaction(SIGPIPE, nullptr, &closed_pipes);
   int threads = 0;
   MPI_Init_thread(&argc, &argv, MPI_THREAD_MULTIPLE, &threads);  // threads of PT-Scotch send messages too
   PetscInitializeNoArguments();
-  PetscPopSignalHandler();  // a fault is a fault: PETSc's page of advice is for its own
+  PetscPopSignalHandler();                       // a fault is a fault: PETSc's page of advice is for its own
+  ::sigaction(SIGPIPE, &closed_pipes, nullptr);  // which that has reset
   PetscPushErrorHandler(PetscReturnErrorHandler, nullptr);
   MPI_Comm_rank(all_ranks, &rank_);
   MPI_Comm_size(all_ranks, &size_);
