@@ -7,7 +7,7 @@ if(NOT TARGET)
   run(${CMAKE_COMMAND} -S ${SOURCE} -B ${binary} -G Ninja -DCMAKE_BUILD_TYPE=Release "-DCMAKE_CXX_FLAGS_RELEASE=-O1 -g1 -DHWY_COMPILE_ONLY_STATIC"
       -DCMAKE_CXX_COMPILER=clang++-14 -DSUBLIMIT_BUILD_PROGRAM=OFF -DSUBLIMIT_BUILD_IMPLICIT_MESH=OFF -DSUBLIMIT_BUILD_CAD=OFF -DSUBLIMIT_BUILD_GPU=OFF -DSUBLIMIT_BUILD_FUZZERS=ON -DSUBLIMIT_WARNINGS_AS_ERRORS=OFF
       -DSUBLIMIT_SHARED_MESHES=${MESHES}
-      "-DSUBLIMIT_LIB_WITHOUT=/(fit|primvar|curves|search|tessellation)/|/implicit/(cage|closed_mesh|field_grid|level_set)|/limit/(local_modes|limit_(boxes|cells|grid)|curvature)[.]cpp$")
+      "-DSUBLIMIT_LIB_WITHOUT=/(cad|fit|primvar|curves|search|tessellation)/|/implicit/(cage|closed_mesh|field_grid|level_set)|/limit/(local_modes|limit_(boxes|cells|grid)|curvature)[.]cpp$")
   run(${CMAKE_COMMAND} --build ${binary} --target fuzz_obj fuzz_table fuzz_recipe sweep_tests)
   return()
 endif()

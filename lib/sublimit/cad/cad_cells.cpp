@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "sublimit/core/dense_decompositions.h"
 #include "sublimit/patches/blossom.h"
 
 namespace sublimit {
@@ -45,7 +46,7 @@ Eigen::MatrixXd interpolation(int degree) {
   const std::vector<double> nodes = interpolation_nodes(degree);
   Eigen::MatrixXd values(degree + 1, degree + 1);
   for (int k = 0; k <= degree; ++k) values.row(k) = bernstein_values(degree, nodes[size_t(k)]);
-  return values.fullPivLu().inverse();
+  return PivotedLu(values).inverse();
 }
 
 }  // namespace sublimit

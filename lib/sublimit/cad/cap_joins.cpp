@@ -8,6 +8,7 @@
 
 #include "sublimit/cad/cap_fitter.h"
 #include "sublimit/cad/quad_edges.h"
+#include "sublimit/core/dense_decompositions.h"
 
 namespace sublimit {
 namespace {
@@ -36,7 +37,7 @@ void fit_spoke(const Eigen::MatrixXd& values, const Points& points, const Coeffi
   const Eigen::Index d = values.cols() - 1;
   Points right = points;
   for (const Eigen::Index i : {Eigen::Index{0}, d - 1, d}) right -= values.col(i) * at(i);
-  const Eigen::MatrixXd found = values.middleCols(1, d - 2).colPivHouseholderQr().solve(right);
+  const Eigen::MatrixXd found = PivotedQr(values.middleCols(1, d - 2)).solve(right);
   for (Eigen::Index i = 1; i <= d - 2; ++i) at(i) = found.row(i - 1);
 }
 
@@ -55,7 +56,7 @@ void fit_inside(const Eigen::MatrixXd& values, const Points& points, const SeenN
           else
             right.row(a * n + b) -= w * net(i, j);
         }
-  const Eigen::MatrixXd found = A.colPivHouseholderQr().solve(right);
+  const Eigen::MatrixXd found = PivotedQr(A).solve(right);
   for (Eigen::Index i = 1; i <= free; ++i)
     for (Eigen::Index j = 1; j <= free; ++j) net(i, j) = found.row((i - 1) * free + j - 1);
 }

@@ -2,6 +2,7 @@
 #include "sublimit/core/dense_decompositions.h"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <Eigen/QR>
 #include <Eigen/SVD>
 
@@ -55,6 +56,24 @@ Eigen::MatrixXd triangular_factor(const Eigen::MatrixXd& X) {
   const Eigen::HouseholderQR<Eigen::MatrixXd> qr(X);
   return qr.matrixQR().topRows(X.cols()).triangularView<Eigen::Upper>();
 }
+
+Eigen::MatrixXd square_solution(const Eigen::MatrixXd& M, const Eigen::MatrixXd& right) {
+  return Eigen::PartialPivLU<Eigen::MatrixXd>(M).solve(right);
+}
+
+Eigen::MatrixXd inverse(const Eigen::MatrixXd& M) { return M.inverse(); }
+
+double determinant(const Eigen::MatrixXd& M) { return M.determinant(); }
+
+PivotedLu::PivotedLu(const Eigen::MatrixXd& M) : lu_(M) {}
+
+bool PivotedLu::is_invertible() const { return lu_.isInvertible(); }
+
+double PivotedLu::rcond() const { return lu_.rcond(); }
+
+Eigen::MatrixXd PivotedLu::solve(const Eigen::MatrixXd& right) const { return lu_.solve(right); }
+
+Eigen::MatrixXd PivotedLu::inverse() const { return lu_.inverse(); }
 
 Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& M) {
   return Eigen::EigenSolver<Eigen::MatrixXd>(M, false).eigenvalues();

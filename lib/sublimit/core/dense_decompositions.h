@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Decompositions of small real matrices, made once: Eigen's are templates that take long to compile.
+// Decompositions of small matrices, made once: Eigen's are templates that take long to compile.
 #include <Eigen/Core>
+#include <Eigen/LU>
 #include <Eigen/QR>
 
 #include <complex>
@@ -41,6 +42,24 @@ Eigen::MatrixXd orthonormal_columns(const Eigen::MatrixXd& X);
 
 /// The triangular factor of a matrix of at least as many rows as columns.
 Eigen::MatrixXd triangular_factor(const Eigen::MatrixXd& X);
+
+/// M^-1 * right of a square matrix, rows exchanged (LU).
+Eigen::MatrixXd square_solution(const Eigen::MatrixXd& M, const Eigen::MatrixXd& right);
+Eigen::MatrixXd inverse(const Eigen::MatrixXd& M);
+double determinant(const Eigen::MatrixXd& M);
+
+/// LU with rows and columns exchanged, which tells whether there is an inverse.
+class PivotedLu {
+ public:
+  explicit PivotedLu(const Eigen::MatrixXd& M);
+  bool is_invertible() const;
+  double rcond() const;  ///< an estimate of 1 / condition
+  Eigen::MatrixXd solve(const Eigen::MatrixXd& right) const;
+  Eigen::MatrixXd inverse() const;
+
+ private:
+  Eigen::FullPivLU<Eigen::MatrixXd> lu_;
+};
 
 /// Of a square matrix, in no order.
 Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& M);

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sublimit/limit/eigen_structure.h"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
-#include <Eigen/SVD>
-
 #include <algorithm>
 #include <limits>
 
 #include "sublimit/base/error.h"
+#include "sublimit/core/complex_decompositions.h"
 #include "sublimit/core/dense_decompositions.h"
 #include "sublimit/core/number.h"
 #include "sublimit/limit/no_limit.h"
@@ -23,20 +20,20 @@ Eigen::MatrixXcd null_space(const Eigen::MatrixXcd& M, int at_most) {
   const Eigen::Index size = M.rows();
   if (at_most == 1 && size > 32) {  // inverse iteration: the singular values would cost more and tell no more
     const double shift = std::numeric_limits<double>::epsilon() * std::max(1.0, M.norm());
-    const Eigen::PartialPivLU<Eigen::MatrixXcd> lu(M + shift * Eigen::MatrixXcd::Identity(size, size));
+    const ComplexLu lu(M + shift * Eigen::MatrixXcd::Identity(size, size));
     Eigen::VectorXcd x = Eigen::VectorXcd::Ones(size);
     for (Eigen::Index i = 0; i < size; ++i)
       x[i] += 0.5 * std::sin(static_cast<double>(i));  // no symmetry to be blind to
-    for (int k = 0; k < 4; ++k) x = lu.solve(x.normalized()).eval();
+    for (int k = 0; k < 4; ++k) x = lu.solve(x.normalized());
     return x.normalized();
   }
-  const Eigen::JacobiSVD<Eigen::MatrixXcd> svd(M, Eigen::ComputeFullV);
-  const auto& sigma = svd.singularValues();
+  const ComplexSingularValues svd = singular_values(M);
+  const Eigen::VectorXd& sigma = svd.values;
   // A cluster's value is known to some ulps; what is no null vector has a singular value of the order of a gap.
   const double zero = 1e-9 * std::max(sigma[0], 1e-3);
   int dimension = 0;
   while (dimension < at_most && dimension < size && sigma[size - 1 - dimension] <= zero) ++dimension;
-  return svd.matrixV().rightCols(std::max(dimension, 1));
+  return svd.right.rightCols(std::max(dimension, 1));
 }
 
 }  // namespace
@@ -48,9 +45,9 @@ Eigen::MatrixXcd left_eigenvectors(const Eigen::MatrixXcd& A, Complex value) {
 EigenStructure eigen_structure(const Eigen::MatrixXcd& A, int block, int leading, double least) {
   EigenStructure result;
   if (A.rows() == 0) return result;
-  const Eigen::ComplexEigenSolver<Eigen::MatrixXcd> solver(A, false);
-  if (solver.info() != Eigen::Success) throw AnalysisError("the eigenvalues of a local matrix did not converge");
-  std::vector<Complex> values(solver.eigenvalues().begin(), solver.eigenvalues().end());
+  const std::optional<Eigen::VectorXcd> found = eigenvalues(A);
+  if (!found) throw AnalysisError("the eigenvalues of a local matrix did not converge");
+  std::vector<Complex> values(found->begin(), found->end());
   const double scale = std::abs(
       *std::max_element(values.begin(), values.end(), [](Complex a, Complex b) { return std::abs(a) < std::abs(b); }));
   while (!values.empty() && static_cast<int>(result.clusters.size()) < leading) {
@@ -78,8 +75,7 @@ EigenStructure eigen_structure(const Eigen::MatrixXcd& A, int block, int leading
     const Eigen::MatrixXcd shifted = A - cluster.value * Eigen::MatrixXcd::Identity(A.rows(), A.cols());
     cluster.right = null_space(shifted, cluster.multiplicity);
     cluster.left = null_space(shifted.transpose(), cluster.multiplicity);
-    const Eigen::JacobiSVD<Eigen::MatrixXcd> overlap(cluster.left.transpose() * cluster.right);
-    const double cosine = overlap.singularValues().minCoeff();
+    const double cosine = smallest_singular_value(cluster.left.transpose() * cluster.right);
     cluster.conditioning = cluster.is_jordan() || cosine == 0 ? std::numeric_limits<double>::infinity() : 1 / cosine;
     result.clusters.push_back(std::move(cluster));
   }
@@ -273,9 +269,9 @@ std::vector<Complex> SectorRows::values(int k) const {
       values.push_back(B(places[0], places[0]));
       continue;
     }
-    const Eigen::ComplexEigenSolver<Eigen::MatrixXcd> solver(B(places, places), false);
-    if (solver.info() != Eigen::Success) throw AnalysisError("the eigenvalues of a local matrix did not converge");
-    values.insert(values.end(), solver.eigenvalues().begin(), solver.eigenvalues().end());
+    const std::optional<Eigen::VectorXcd> found = eigenvalues(Eigen::MatrixXcd(B(places, places)));
+    if (!found) throw AnalysisError("the eigenvalues of a local matrix did not converge");
+    values.insert(values.end(), found->begin(), found->end());
   }
   return values;
 }

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sublimit/limit/knot_spectrum.h"
 
-#include <Eigen/Eigenvalues>
-
 #include <algorithm>
 #include <cmath>
 #include <string>
 
 #include "sublimit/base/error.h"
 #include "sublimit/base/format_number.h"
+#include "sublimit/core/dense_decompositions.h"
 #include "sublimit/neighborhood/sector_mesh.h"
 #include "sublimit/scheme/refine.h"
 
@@ -93,7 +92,7 @@ std::vector<std::complex<double>> knot_spectrum(const Scheme<double>& scheme, st
   for (size_t i = 0; i < fine.size(); ++i)
     for (SparseMatrix::InnerIterator it(next.S, fine[i]); it; ++it)
       if (column[it.col()] >= 0) block(Index(i), column[it.col()]) = it.value();
-  const Eigen::VectorXcd values = block.eigenvalues();
+  const Eigen::VectorXcd values = eigenvalues(block);
   std::vector<std::complex<double>> result(values.begin(), values.end());
   std::sort(result.begin(), result.end(), [](const auto& a, const auto& b) { return std::abs(a) > std::abs(b); });
   return result;

@@ -14,6 +14,7 @@
 #include "sublimit/base/error.h"
 #include "sublimit/base/found_once.h"
 #include "sublimit/base/parallel_for.h"
+#include "sublimit/core/dense_decompositions.h"
 #include "sublimit/core/finite_points.h"
 #include "sublimit/limit/closed_surface.h"
 #include "sublimit/limit/limit_patches.h"
@@ -56,7 +57,7 @@ class PieceRule {
     // Areas, which are no polynomials, are halved less often with some nodes more.
     const int n = std::max(4, 5 * d / 2);
     const std::vector<QuadraturePoint> rule = own_.total() ? triangle_rule(n) : square_rule(n);
-    const Eigen::MatrixXd to_basis = nets_.from_basis().fullPivLu().inverse();
+    const Eigen::MatrixXd to_basis = PivotedLu(nets_.from_basis()).inverse();
     const auto count = Eigen::Index(rule.size());
     x_.resize(count, own_.size());
     u_.resize(count, own_.size());
@@ -102,7 +103,7 @@ class PieceRule {
         ours.row(row) = own_.at(s, t, 0);
         theirs.row(row) = above ? basis.at(s, s + t, 0) : basis.at(s + t, t, 0);
       }
-    return ours.fullPivLu().solve(theirs);
+    return PivotedLu(ours).solve(theirs);
   }
 
   PolynomialBasis own_;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <vector>
 
+#include "sublimit/core/dense_decompositions.h"
 #include "sublimit/limit/triangle_blossom.h"
 
 #include "sublimit/core/binomial.h"
@@ -96,7 +97,7 @@ Eigen::Vector2d BernsteinQuarters::in_quarter(int k, bool triangle, double u, do
 Eigen::MatrixXd bernstein_from(const PolynomialBasis& basis) {
   Eigen::MatrixXd ours(basis.size(), basis.size());
   for_each_node(basis, [&](int row, double u, double v) { ours.row(row) = basis.at(u, v, 0); });
-  return nodes_of(basis).fullPivLu().solve(ours);
+  return PivotedLu(nodes_of(basis)).solve(ours);
 }
 
 BernsteinQuarters::BernsteinQuarters(int degree, bool total) {

@@ -1,17 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sublimit/limit/sparse_spectrum.h"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
-#include <Eigen/SparseLU>
-
 #include <algorithm>
 #include <limits>
 #include <optional>
 #include <random>
 
 #include "sublimit/base/error.h"
+#include "sublimit/core/complex_decompositions.h"
 #include "sublimit/core/dense_decompositions.h"
+#include "sublimit/core/sparse_lu.h"
 
 namespace sublimit {
 namespace {
@@ -21,7 +19,6 @@ using Eigen::MatrixXcd;
 using Eigen::MatrixXd;
 using Eigen::VectorXcd;
 using Eigen::VectorXd;
-using ColumnMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, Index>;
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
 
@@ -33,18 +30,18 @@ class Shifted {
       ColumnMatrix M = A;
       for (Index i = 0; i < static_cast<Index>(M.rows()); ++i) M.coeffRef(i, i) -= shift + away;
       M.makeCompressed();
-      lu_.compute(M);
-      if (lu_.info() == Eigen::Success) return;
+      lu_.emplace(M);
+      if (lu_->has_factors()) return;
     }
     throw AnalysisError("a local matrix cannot be factored");
   }
   template <class Right>
   MatrixXd solve(const Right& right) const {
-    return lu_.solve(MatrixXd(right));
+    return lu_->solve(MatrixXd(right));
   }
 
  private:
-  Eigen::SparseLU<ColumnMatrix> lu_;
+  std::optional<SparseLu> lu_;
 };
 
 /// Columns without symmetry, the same at every run.
@@ -78,8 +75,8 @@ RitzPairs ritz_pairs(const Operator& take, Eigen::Index rows, int width, int pow
       next = orthonormal_columns(next);
     }
   }
-  const Eigen::EigenSolver<MatrixXd> solver(V.transpose() * images);
-  return {solver.eigenvalues(), V * solver.eigenvectors()};
+  const Eigenvectors seen = eigenvectors(V.transpose() * images);
+  return {seen.values, V * seen.vectors};
 }
 
 /// An eigenvector near an eigenvalue that is known to rounding.
@@ -155,7 +152,7 @@ std::optional<EigenStructure> leading_by_inversion(const SparseMatrix& A, int co
         // As many eigenvectors as span a plane: of a Jordan block the second is the first again.
         const VectorXcd r = right.cast<Complex>(), l = left.cast<Complex>();
         const auto is_new = [](const MatrixXcd& have, const VectorXcd& v) {
-          return (v - have * have.colPivHouseholderQr().solve(v)).norm() > 1e-6;
+          return (v - have * least_squares(have, v)).norm() > 1e-6;
         };
         if (is_new(before.right, r) && is_new(before.left, l)) {
           before.right.conservativeResize(size, before.right.cols() + 1);

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sublimit/limit/tangents.h"
 
-#include <Eigen/LU>
-
 #include <algorithm>
 #include <cmath>
 #include <random>
 
+#include "sublimit/core/complex_decompositions.h"
 #include "sublimit/core/dense_decompositions.h"
 #include "sublimit/core/submatrix.h"
 #include "sublimit/limit/sparse_spectrum.h"
@@ -191,8 +190,7 @@ bool add_ways_inwards(Side& side, const SparseMatrix& whole, const Outline& outl
                                   [&](const EigenCluster& c) { return std::abs(c.value - rate) <= cluster_tolerance; });
   if (modes == structure.clusters.end() || modes->is_jordan()) return false;
   const MatrixXcd pairing = modes->left.transpose() * modes->right;
-  const MatrixXd projector =
-      (modes->right * Eigen::FullPivLU<MatrixXcd>(pairing).solve(modes->left.transpose())).real();
+  const MatrixXd projector = (modes->right * pivoted_solution(pairing, modes->left.transpose())).real();
   VectorXd mean = VectorXd::Zero(whole.rows());
   std::vector<VectorXd> ways;
   for (const Index i : outline.inner) {
@@ -329,8 +327,8 @@ void add_border_tangents(Side& side, const SparseMatrix& whole, const Outline& o
       takes.col(k) = embedded(made_real(shared->left.col(k)), curve, size);
     }
     const MatrixXd seen = bends.transpose() * takes;
-    const Eigen::FullPivLU<MatrixXd> lu(seen);
-    if (lu.isInvertible()) mask -= takes * lu.solve(bends.transpose() * mask);
+    const PivotedLu lu(seen);
+    if (lu.is_invertible()) mask -= takes * lu.solve(bends.transpose() * mask);
   }
   if (solvable) {
     side.tangent2 = inward * mask;

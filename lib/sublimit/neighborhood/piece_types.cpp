@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sublimit/neighborhood/piece_types.h"
 
-#include <Eigen/LU>
-#include <Eigen/SparseLU>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
@@ -12,6 +10,7 @@
 #include "sublimit/base/error.h"
 #include "sublimit/base/memory.h"
 #include "sublimit/core/dense_decompositions.h"
+#include "sublimit/core/sparse_lu.h"
 #include "sublimit/core/sparse_product.h"
 #include "sublimit/neighborhood/polynomial_search.h"
 #include "sublimit/neighborhood/regular_smoothness.h"
@@ -74,15 +73,15 @@ std::optional<Eigenspace> eigenspace(const Eigen::MatrixXd& D, double lambda, Ei
   const Eigen::MatrixXd left = null_space(shifted.transpose());
   if (left.cols() != multiplicity) return std::nullopt;
   const Eigen::MatrixXd pairing = left.transpose() * right;
-  if (!(std::abs(pairing.determinant()) > 1e-6)) return std::nullopt;
-  return Eigenspace{pairing.inverse() * left.transpose(), right};
+  if (!(std::abs(determinant(pairing)) > 1e-6)) return std::nullopt;
+  return Eigenspace{inverse(pairing) * left.transpose(), right};
 }
 
 /// p = origin + p D: the left eigenvector of eigenvalue 1, in differences.
 Eigen::RowVectorXd fixed_row(const PieceBlock& block) {
   const auto n = block.origin().size();
-  const Eigen::PartialPivLU<Eigen::MatrixXd> lu((RowMatrix::Identity(n, n) - block.differences()).transpose());
-  return lu.solve(block.origin().transpose()).transpose();
+  const Eigen::MatrixXd equations = (RowMatrix::Identity(n, n) - block.differences()).transpose();
+  return square_solution(equations, block.origin().transpose()).transpose();
 }
 
 /// The same of rows of S, by the points that one of them depends on: all rows tend to this one.
@@ -94,7 +93,6 @@ Eigen::RowVectorXd fixed_row(const SparseMatrix& B, Index slot) {
   for (size_t i = 0; i < closed.size(); ++i) position[closed[i]] = static_cast<Index>(i);
   // l (B - 1) = 0, one column of which follows from the others, and the sum of l is 1.
   const auto count = static_cast<Index>(closed.size());
-  using Columns = Eigen::SparseMatrix<double, Eigen::ColMajor, Index>;
   std::vector<Eigen::Triplet<double, Index>> entries;
   for (Index i = 0; i < count; ++i) {
     entries.push_back({0, i, 1.0});
@@ -102,11 +100,11 @@ Eigen::RowVectorXd fixed_row(const SparseMatrix& B, Index slot) {
     for (SparseMatrix::InnerIterator it(B, closed[i]); it; ++it)
       if (position[it.col()] > 0) entries.push_back({position[it.col()], i, it.value()});
   }
-  Columns equations(count, count);
+  ColumnMatrix equations(count, count);
   equations.setFromTriplets(entries.begin(), entries.end());
-  const Eigen::SparseLU<Columns> lu(equations);
+  const SparseLu lu(equations);
   Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(B.cols() - 1);
-  if (lu.info() != Eigen::Success) return Eigen::RowVectorXd::Constant(B.cols() - 1, INFINITY);
+  if (!lu.has_factors()) return Eigen::RowVectorXd::Constant(B.cols() - 1, INFINITY);
   const Eigen::VectorXd weights = lu.solve(Eigen::VectorXd::Unit(count, 0));
   for (Index i = 0; i < count; ++i)
     if (closed[i] > 0) row[closed[i] - 1] = weights[i];
@@ -411,14 +409,14 @@ std::optional<PieceType::Modes> PieceType::modes(int corner, const Eigen::Matrix
     places.row(i) = polynomials(known[i]);
     values.row(i) = value(known[i]);
   }
-  const Eigen::MatrixXd coefficients = places.inverse() * values;
+  const Eigen::MatrixXd coefficients = inverse(places) * values;
   // They are polynomials of the parameters where the neighbourhood is regular; around an extraordinary vertex whose
   // eigenvalue happens to be the same, they are not.
   for (const auto& [u, v] : {std::pair{0.5, 0.25}, {0.25, 0.5}, {0.5, 0.5}}) {
     const Place p = there(u, v);
     if (!((value(p) - polynomials(p) * coefficients).norm() < 1e-9 * coefficients.norm())) return std::nullopt;
   }
-  return Modes{coefficients * space->left, space->right * coefficients.inverse()};
+  return Modes{coefficients * space->left, space->right * inverse(coefficients)};
 }
 
 PieceType::CornerRows PieceType::found_corner(int corner) const {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sublimit/neighborhood/repeated_block.h"
 
-#include <Eigen/LU>
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -66,8 +64,8 @@ RepeatedBlock::Stages RepeatedBlock::found_stages() const {
     const Eigen::MatrixXd right = null_space(shifted, count), left = null_space(shifted.transpose(), count);
     if (right.size() == 0 || left.size() == 0) return stages;
     const Eigen::MatrixXd pairing = left.transpose() * right;
-    const Eigen::FullPivLU<Eigen::MatrixXd> lu(pairing);
-    if (!lu.isInvertible() || lu.rcond() < 1e-8) return stages;
+    const PivotedLu lu(pairing);
+    if (!lu.is_invertible() || lu.rcond() < 1e-8) return stages;
     auto stage = std::make_unique<Stage>();
     stage->right = right;
     stage->left = lu.solve(left.transpose());

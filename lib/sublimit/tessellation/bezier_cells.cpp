@@ -11,6 +11,7 @@
 
 #include "sublimit/base/error.h"
 #include "sublimit/base/format_number.h"
+#include "sublimit/core/dense_decompositions.h"
 #include "sublimit/limit/net_derivatives.h"
 
 namespace sublimit {
@@ -24,7 +25,7 @@ class Halves {
     for_each_net_row(triangle_, [&](int i, int j, Eigen::Index row) {
       values.row(row) = triangle_.at(double(i) / triangle_.degree(), double(j) / triangle_.degree(), 0);
     });
-    from_values_ = bernstein_from(triangle_) * values.fullPivLu().inverse();
+    from_values_ = bernstein_from(triangle_) * PivotedLu(values).inverse();
   }
   BezierCell cell(const FlatCell& whole, int half) const {
     BezierCell cell{whole.address, whole.corners, true, true, triangle_.degree(), {}};

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sublimit/patches/constructions/interpolation.h"
 
-#include <Eigen/SparseLU>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,6 +9,7 @@
 
 #include "sublimit/base/error.h"
 #include "sublimit/base/format_number.h"
+#include "sublimit/core/sparse_lu.h"
 #include "sublimit/core/sparse_rows.h"
 #include "sublimit/patches/spline_rows.h"
 
@@ -73,15 +72,15 @@ Points solve_conditions(const Knots<double>& knots, std::span<const SplineCondit
                            " control points: one is needed for each");
   if (!values.allFinite()) throw InvalidParameter("points to be interpolated must be finite numbers");
   const SparseMatrix rows = condition_rows(knots, conditions);
-  const Eigen::SparseMatrix<double> M = rows;
-  Eigen::SparseLU<Eigen::SparseMatrix<double>> factors(M);
+  const ColumnMatrix M = rows;
+  const SparseLu factors(M);
   const auto refuse = [] {
     throw InvalidParameter("the conditions on the spline depend on each other: other parameters are needed");
   };
-  if (factors.info() != Eigen::Success) refuse();
+  if (!factors.has_factors()) refuse();
   const Eigen::MatrixXd right = values;
   Eigen::MatrixXd solution = factors.solve(right);
-  if (factors.info() != Eigen::Success || !solution.allFinite()) refuse();
+  if (!solution.allFinite()) refuse();
   solution += factors.solve(Eigen::MatrixXd(right - M * solution));
   return solution;
 }

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sublimit/core/sparse_lu.h"
+
+#include <Eigen/SparseLU>
+
+namespace sublimit {
+
+struct SparseLu::Factors {
+  Eigen::SparseLU<ColumnMatrix> lu;
+};
+
+SparseLu::SparseLu(const ColumnMatrix& M) : factors_(std::make_unique<Factors>()) { factors_->lu.compute(M); }
+SparseLu::~SparseLu() = default;
+SparseLu::SparseLu(SparseLu&&) noexcept = default;
+SparseLu& SparseLu::operator=(SparseLu&&) noexcept = default;
+
+bool SparseLu::has_factors() const { return factors_->lu.info() == Eigen::Success; }
+
+Eigen::MatrixXd SparseLu::solve(const Eigen::MatrixXd& right) const { return factors_->lu.solve(right); }
+
+}  // namespace sublimit

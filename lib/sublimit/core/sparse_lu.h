@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// LU factors of square sparse matrices, made once: Eigen's are templates that take long to compile.
+#include <memory>
+
+#include <Eigen/SparseCore>
+
+#include "sublimit/core/types.h"
+
+namespace sublimit {
+
+using ColumnMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, Index>;
+
+/// Factors in a fill-reducing order, rows exchanged (Eigen::SparseLU).
+class SparseLu {
+ public:
+  explicit SparseLu(const ColumnMatrix& M);
+  ~SparseLu();
+  SparseLu(SparseLu&&) noexcept;
+  SparseLu& operator=(SparseLu&&) noexcept;
+
+  bool has_factors() const;  ///< no pivot was zero
+  /// M^-1 * right, n x columns.
+  Eigen::MatrixXd solve(const Eigen::MatrixXd& right) const;
+
+ private:
+  struct Factors;
+  std::unique_ptr<Factors> factors_;
+};
+
+}  // namespace sublimit
