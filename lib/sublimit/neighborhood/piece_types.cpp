@@ -18,6 +18,7 @@
 #include "sublimit/neighborhood/closed_set.h"
 #include "sublimit/scheme/check_scheme.h"
 #include "sublimit/scheme/refine_impl.h"
+#include "sublimit/scheme/sheet_part.h"
 #include "sublimit/scheme/subdivision_rows.h"
 
 namespace sublimit {
@@ -152,7 +153,8 @@ PieceType::Surroundings PieceType::found_surroundings() const {
   // (and one for the knots of those).
   const int rings = rings_ + (met_.level->intervals.empty() ? 0 : 1) +
                     (narrow || (scheme.is_dual() && scheme.steps.size() == 1) ? 0 : scheme.period);
-  Part around = part(*met_.level, std::span(&face, 1), rings);
+  const std::span<const Index> faces(&face, 1);
+  Part around = apart_ ? sheet_part(*met_.level, faces, rings) : part(*met_.level, faces, rings);
   types_->take(bytes_of(around.level.topology()), num_slots());
   const auto position = [](const std::vector<Index>& list, Index i) {
     return static_cast<Index>(std::lower_bound(list.begin(), list.end(), i) - list.begin());
@@ -493,6 +495,7 @@ std::unique_ptr<PieceType> PieceTypes::made(std::shared_ptr<const Level> level, 
   type->kind_ = piece.kind;
   type->rings_ = walk.rings;
   type->decays_ = walk.decays;
+  type->apart_ = walk.apart;
   type->met_ = {std::move(level), piece, walk.vertices};
   return type;
 }

@@ -131,6 +131,7 @@ class PieceType {
   Piece::Kind kind_ = Piece::Kind::quad;
   int rings_ = 1;        // of faces around it that it depends on
   bool decays_ = false;  // finite sharpness: its children are others, and it is no polynomial
+  bool apart_ = false;   // around it are the sheets that its walk has met
   Index num_slots_ = 0;
   /// Where the type was met first, until its surroundings are taken out.
   struct Met {

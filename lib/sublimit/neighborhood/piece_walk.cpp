@@ -4,22 +4,25 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <unordered_set>
+
+#include "sublimit/scheme/sheet_part.h"
 
 namespace sublimit {
 
-Index PieceWalker::slot(HalfEdge h) {
+Index PieceWalker::slot(HalfEdge h, bool& is_new) {
   const Index v = index(t_->tail(h));
-  if (stamp_[v] != now_) {
+  is_new = stamp_[v] != now_;
+  if (is_new) {
     stamp_[v] = now_;
     slot_[v] = static_cast<std::uint32_t>(walk_.vertices.size());
     walk_.vertices.push_back(v);
-    found_at_.push_back(h);
   }
   return static_cast<Index>(slot_[v]);
 }
 
 const PieceWalk& PieceWalker::walk(const Topology& t, const Sharpness& sharpness, const Piece& piece, int rings,
-                                   int phase) {
+                                   int phase, bool apart) {
   if (t_ != &t || stamp_.size() != size_t(t.num_vertices()) || now_ == ~0u) {
     t_ = &t;
     stamp_.assign(t.num_vertices(), 0);
@@ -38,25 +41,42 @@ const PieceWalk& PieceWalker::walk(const Topology& t, const Sharpness& sharpness
     walk_.decays |= is_sharp(value) && !is_infinite(value);
   };
   walk_.rings = rings;
+  walk_.apart = apart;
+  std::unordered_set<Index> met;  // half-edges of sheets that are apart
+  const auto meet = [&](HalfEdge h) {
+    bool is_new = false;
+    const Index own = slot(h, is_new);
+    if (apart && are_sheets_apart(t, sharpness, t.tail(h))) {
+      is_new = !met.contains(index(h));
+      if (is_new) for_each_in_fan(t, h, [&](HalfEdge g) { met.insert(index(g)); });
+    }
+    if (is_new) found_at_.push_back(h);
+    return own;
+  };
   put(4 * phase + int(piece.kind) + (sharpness.creasing == Creasing::chaikin ? 1 << 16 : 0));
 
   HalfEdge h = piece.start;
   if (piece.kind == Piece::Kind::corner) {
-    slot(h);
+    meet(h);
   } else {
     do {
-      slot(h);
+      meet(h);
       h = t.next(h);
     } while (h != piece.start);
   }
   // The size of its own face, since the walk below counts corners from there.
   put(t.size(t.face(piece.start)));
 
-  size_t next = 0;  // vertices before it have been walked around
+  size_t next = 0;     // places before it have been walked around
+  Index in_order = 0;  // slots before it, on one sheet at least
   for (int ring = 0; ring < rings; ++ring) {
-    const size_t end = walk_.vertices.size();
+    const size_t end = found_at_.size();
     for (; next < end; ++next) {
-      const Vertex v{walk_.vertices[next]};
+      const Vertex v = t.tail(found_at_[next]);
+      if (slot_[index(v)] == std::uint32_t(in_order))
+        ++in_order;
+      else
+        put(0xc0000000u + slot_[index(v)]);  // another sheet of a point: no sharpness begins like that
       const float own = sharpness.vertex[index(v)];
       // Inside a mesh there is one fan, and it is closed.
       const bool inside = !t.is_nonmanifold(v) && exists(t.twin(t.outgoing(v)));
@@ -82,7 +102,7 @@ const PieceWalk& PieceWalker::walk(const Topology& t, const Sharpness& sharpness
           put(t.size(t.face(g)));
           HalfEdge k = t.next(g);
           do {
-            put(slot(k));
+            put(meet(k));
             k = t.next(k);
           } while (k != g);
           const HalfEdge into = t.prev(g);
@@ -104,7 +124,7 @@ const PieceWalk& PieceWalker::walk(const Topology& t, const Sharpness& sharpness
             g = t.twin(t.prev(g));
         }
       };
-      if (!t.is_nonmanifold(v)) {
+      if (!t.is_nonmanifold(v) || (apart && are_sheets_apart(t, sharpness, v))) {
         put_sharpness(own);
         fan(found_at_[next]);
         continue;
@@ -190,6 +210,11 @@ bool PieceWalker::add_intervals(const KnotIntervals& intervals, const Piece& pie
   return true;
 }
 
+const PieceWalk& PieceWalker::walk(const Topology& t, const Sharpness& sharpness, const Piece& piece, int rings,
+                                   int phase) {
+  return walk(t, sharpness, piece, rings, phase, false);
+}
+
 const PieceWalk& PieceWalker::walk(const Level& level, const Piece& piece, int rings, int period) {
   const int phase = level.number % period;
   if (!level.intervals.empty()) {
@@ -197,7 +222,7 @@ const PieceWalk& PieceWalker::walk(const Level& level, const Piece& piece, int r
     walk(level.topology(), level.sharpness, piece, std::max(rings, needed), phase);
     if (add_intervals(level.intervals, piece, walk_.inner)) return walk_;
   }
-  return walk(level.topology(), level.sharpness, piece, rings, phase);
+  return walk(level.topology(), level.sharpness, piece, rings, phase, may_part_sheets(level));
 }
 
 }  // namespace sublimit

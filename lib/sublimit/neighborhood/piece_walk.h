@@ -17,6 +17,7 @@ struct PieceWalk {
   int rings = 1;        ///< of faces around the piece
   size_t inner = 0;     ///< points that stand before those of the last ring
   bool decays = false;  ///< some finite sharpness matters
+  bool apart = false;   ///< sheets that are apart (`are_sheets_apart`) were walked around where they were met
 };
 
 /// Walks the faces around the points of rings 0 to rings - 1. One walker for each thread: it keeps its memory.
@@ -25,17 +26,22 @@ class PieceWalker {
   /// @param phase  of the level, modulo the period of the scheme
   const PieceWalk& walk(const Topology& topology, const Sharpness& sharpness, const Piece& piece, int rings, int phase);
   /// The same where intervals between knots may differ: then two rings at least, and the intervals up to a power of
-  /// two.
+  /// two. Elsewhere each sheet for itself, where the level allows it (`may_part_sheets`).
   /// @param rings  that a piece depends on where they are equal
   const PieceWalk& walk(const Level& level, const Piece& piece, int rings, int period);
 
  private:
-  Index slot(HalfEdge h);
+  const PieceWalk& walk(const Topology& topology, const Sharpness& sharpness, const Piece& piece, int rings, int phase,
+                        bool apart);
+  /// Of the tail; `is_new` where it has not been met.
+  Index slot(HalfEdge h, bool& is_new);
   /// Adds the intervals around the points that were walked around; false if all are equal, and stay so.
   bool add_intervals(const KnotIntervals& intervals, const Piece& piece, size_t points);
   const Topology* t_ = nullptr;
   PieceWalk walk_;
-  std::vector<HalfEdge> found_at_;           // by slot: a half-edge that leaves the point
+  /// A half-edge for each point that is walked around, in that order, which leaves it: by slot; of points whose sheets
+  /// are apart one for each sheet.
+  std::vector<HalfEdge> found_at_;
   std::vector<std::uint32_t> stamp_, slot_;  // by vertex
   std::uint32_t now_ = 0;
 };

@@ -5,12 +5,14 @@
 #include <iterator>
 #include <limits>
 #include <string>
+#include <unordered_set>
 
 #include "sublimit/base/error.h"
 #include "sublimit/base/memory.h"
 #include "sublimit/scheme/check_levels.h"
 #include "sublimit/scheme/refine_impl.h"
 #include "sublimit/scheme/renumbered_level.h"
+#include "sublimit/scheme/sheet_part.h"
 
 namespace sublimit {
 namespace {
@@ -67,20 +69,32 @@ void merge_into(std::vector<Index>& known, const std::vector<Index>& more) {
 /// around once, that of a thousand faces too.
 class Rings {
  public:
-  Rings(const Topology& t, std::span<const Index> faces) : t_(t), faces_(faces.begin(), faces.end()) {
+  /// @param apart  not null: on sheets alone that have been met, where these are apart
+  Rings(const Topology& t, std::span<const Index> faces, const Sharpness* apart = nullptr)
+      : t_(t), apart_(apart), faces_(faces.begin(), faces.end()) {
     sort_distinct(faces_);
     added_ = faces_;
   }
   const std::vector<Index>& faces() const { return faces_; }
   /// Those that share a vertex with them, too.
   void add_ring() {
-    std::vector<Index> corners;
-    for (const Index f : added_)
-      corners.insert(corners.end(), t_.vertices(Face{f}).begin(), t_.vertices(Face{f}).end());
+    std::vector<Index> corners, around;
+    for (const Index f : added_) {
+      if (!apart_) {
+        corners.insert(corners.end(), t_.vertices(Face{f}).begin(), t_.vertices(Face{f}).end());
+        continue;
+      }
+      for (Index k = 0; k < t_.size(Face{f}); ++k) {
+        const HalfEdge h = t_.corner(Face{f}, k);
+        if (are_sheets_apart(t_, *apart_, t_.tail(h)))
+          add_fan(h, around);
+        else
+          corners.push_back(index(t_.tail(h)));
+      }
+    }
     sort_distinct(corners);
     const std::vector<Index> reached = without(corners, vertices_);
     merge_into(vertices_, reached);
-    std::vector<Index> around;
     for (const Index v : reached)
       for (const HalfEdge start : t_.fans(Vertex{v})) {
         HalfEdge h = start;
@@ -93,9 +107,38 @@ class Rings {
     added_ = without(around, faces_);
     merge_into(faces_, added_);
   }
+  /// Adds the rest of each fan that has been met where sheets meet along a crease, at corners of some faces: an edge of
+  /// the rim there would be one more crease.
+  void complete_creases(const std::vector<Index>& faces) {
+    std::unordered_set<Index> creases;
+    for (const Index f : faces)
+      for (const Index v : t_.vertices(Face{f}))
+        if (!is_infinite(apart_->vertex[v]) && are_sheets_apart(t_, *apart_, Vertex{v})) creases.insert(v);
+    if (creases.empty()) return;
+    for (added_ = faces_; !added_.empty();) {
+      std::vector<Index> around;
+      for (const Index f : added_)
+        for (Index k = 0; k < t_.size(Face{f}); ++k)
+          if (const HalfEdge h = t_.corner(Face{f}, k); creases.contains(index(t_.tail(h)))) add_fan(h, around);
+      sort_distinct(around);
+      added_ = without(around, faces_);
+      merge_into(faces_, added_);
+    }
+  }
 
  private:
+  /// Of one vertex and one sheet, unless it has been added.
+  void add_fan(HalfEdge h, std::vector<Index>& around) {
+    if (walked_.contains(index(h))) return;
+    for_each_in_fan(t_, h, [&](HalfEdge g) {
+      walked_.insert(index(g));
+      around.push_back(index(t_.face(g)));
+    });
+  }
+
   const Topology& t_;
+  const Sharpness* apart_;
+  std::unordered_set<Index> walked_;  // half-edges of fans
   std::vector<Index> faces_, added_;
   std::vector<Index> vertices_;  // that were walked around
 };
@@ -259,14 +302,13 @@ double predicted_bytes(const Scheme<double>& scheme, const Topology& t, int leve
   return bytes;
 }
 
-Part part(const Level& whole, std::span<const Index> chosen, int rings) {
+namespace {
+
+/// @param complete  faces of which every vertex has all its faces in the part, but for those of sheets that are apart
+Part part_of(const Level& whole, std::vector<Index> faces, const std::vector<Index>& complete) {
   const Topology& t = whole.topology();
-  Rings grown(t, chosen);
-  for (int k = 1; k < rings; ++k) grown.add_ring();
-  const std::vector<Index> complete = grown.faces();  // of which every vertex has all its faces in the part
-  grown.add_ring();
   Part part;
-  part.faces = grown.faces();
+  part.faces = std::move(faces);
 
   RenumberedFaces order{.faces = part.faces, .offsets = {0}, .corners = {}};
   for (const Index f : part.faces) {
@@ -290,6 +332,25 @@ Part part(const Level& whole, std::span<const Index> chosen, int rings) {
   for (Index e = 0; e < own.num_edges(); ++e)
     if (!exists(own.twin(own.half_edge(Edge{e})))) level.sharpness.edge[e] = infinite_sharpness;
   return part;
+}
+
+}  // namespace
+
+Part part(const Level& whole, std::span<const Index> chosen, int rings) {
+  Rings grown(whole.topology(), chosen);
+  for (int k = 1; k < rings; ++k) grown.add_ring();
+  const std::vector<Index> complete = grown.faces();
+  grown.add_ring();
+  return part_of(whole, grown.faces(), complete);
+}
+
+Part sheet_part(const Level& whole, std::span<const Index> chosen, int rings) {
+  Rings grown(whole.topology(), chosen, &whole.sharpness);
+  for (int k = 1; k < rings; ++k) grown.add_ring();
+  const std::vector<Index> complete = grown.faces();
+  grown.add_ring();
+  grown.complete_creases(complete);
+  return part_of(whole, grown.faces(), complete);
 }
 
 Subset subset(const Level& whole, std::span<const Index> chosen, int rings) {

@@ -47,6 +47,13 @@ const Found timeouts[] = {
     {"w1-0037-timeout-grid", Words{"sample", "-s", "interpolatory-sqrt3", "--triangulate", "--no-creases"} + grid3},
     {"w1-0041-timeout-grid",
      Words{"sample", "-s", "mid-edge-habib-warren", "--triangulate", "--no-creases", "--creasing", "uniform"} + grid3},
+    // Sheets that meet at one vertex: 64 faces folded on it.
+    {"slow-1-7279-closest",
+     Words{"closest", "-s", "catmull-clark", "--triangulate", "--points", "slow-1-7279-closest.csv", "-o", "o.csv"}},
+    {"slow-2-3819-intersect",
+     Words{"intersect", "-s", "butterfly", "--triangulate", "--rays", "slow-2-3819-intersect.csv", "-o", "o.csv"}},
+    {"slow-2-7197-intersect", Words{"intersect", "-s", "kobbelt", "--triangulate", "--all", "--rays",
+                                    "slow-2-7197-intersect.csv", "-o", "o.csv"}},
 };
 
 class FoundMeshes : public ::testing::TestWithParam<Found> {};
@@ -58,7 +65,9 @@ TEST_P(FoundMeshes, AreDone) {
   Words all{GetParam().command[0], mesh.string(), "--quiet"};
   for (size_t i = 1; i < GetParam().command.size(); ++i) {
     const std::string& word = GetParam().command[i];
-    all.push_back(GetParam().command[i - 1] == "-o" ? (directory / word).string() : word);
+    const std::string& before = GetParam().command[i - 1];
+    const bool is_input = before == "--rays" || before == "--points";
+    all.push_back(is_input ? (found / word).string() : before == "-o" ? (directory / word).string() : word);
   }
   expect_done(sublimit(all));
   EXPECT_EQ(directory.num_files(), 1);
