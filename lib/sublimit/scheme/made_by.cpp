@@ -5,9 +5,12 @@
 #include <exception>
 #include <new>
 #include <set>
+#include <vector>
 
 #include "sublimit/base/error.h"
+#include "sublimit/scheme/refine_impl.h"
 #include "sublimit/scheme/same_scheme.h"
+#include "sublimit/scheme/subdivision_rows.h"
 
 namespace sublimit {
 namespace {
@@ -22,6 +25,22 @@ bool has_same_bits(const SparseMatrix& a, const SparseMatrix& b) {
          std::equal(a.outerIndexPtr(), a.outerIndexPtr() + a.rows() + 1, b.outerIndexPtr()) &&
          std::equal(a.innerIndexPtr(), a.innerIndexPtr() + a.nonZeros(), b.innerIndexPtr()) &&
          std::equal(a.valuePtr(), a.valuePtr() + a.nonZeros(), b.valuePtr());
+}
+
+/// Rows of S around a face: those of all children of its part or, where a vertex of many faces makes that large, those
+/// of the face's own children. Next to such a vertex every row may be as long as there are faces.
+SparseMatrix rows_around(const Scheme<double>& scheme, const Part& around, Index face) {
+  constexpr Index many = 512;  // faces; parts of regular meshes have up to some hundred
+  if (scheme.steps.size() > 1 || around.level.topology().num_faces() <= many) return next_level(scheme, around.level).S;
+  const Level child = next_topology(scheme, around.level, [](const auto&...) {});
+  const auto own =
+      static_cast<Index>(std::lower_bound(around.faces.begin(), around.faces.end(), face) - around.faces.begin());
+  const Topology& t = child.topology();
+  std::set<Index> vertices;
+  for (Index f = 0; f < t.num_faces(); ++f)
+    if (child.steps[0].face_parent[f] == own)
+      for (const Index v : t.vertices(Face{f})) vertices.insert(v);
+  return subdivision_rows(scheme, around.level, child, std::vector<Index>(vertices.begin(), vertices.end()));
 }
 
 std::string title(const Scheme<double>& scheme) {
@@ -41,7 +60,7 @@ bool is_same_scheme(const Scheme<double>& a, const Scheme<double>& b, const Leve
     const Part around = part(level, std::span(&face, 1), rings_for_refinement(second));
     if (second.corners && around.level.topology().uniform_face_size() != second.corners) continue;  // to be prepared
     try {
-      if (!has_same_bits(next_level(first, around.level).S, next_level(second, around.level).S)) return false;
+      if (!has_same_bits(rows_around(first, around, face), rows_around(second, around, face))) return false;
     } catch (const std::bad_alloc&) {
       throw;
     } catch (const std::exception&) {
