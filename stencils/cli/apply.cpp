@@ -119,6 +119,23 @@ void apply_frame(const TableApplier<Real>& applier, bool rational, std::span<con
   applier.apply(e);
 }
 
+/// @throws InvalidMesh  a value is larger than numbers of this type are
+/// @param values  of one frame, quantity after quantity
+template <class Real>
+void check_range(const ApplyOptions& options, std::int64_t frame, std::span<const Real> values, std::int64_t points,
+                 int channels) {
+  bool finite = true;  // to the end: a loop without a way out takes several numbers at once
+  for (const Real x : values) finite &= x - x == 0;
+  if (finite) return;
+  const auto bad = std::ranges::find_if(values, [](Real x) { return !std::isfinite(x); });
+  const std::int64_t row = (bad - values.begin()) / channels;
+  throw InvalidMesh(fmt::format(
+      "{}: frame {}: {} of point {} of the table is larger than numbers in {} are; give points in another unit{}",
+      options.points, frame, row < points ? "the position" : "a derivative", row % points,
+      std::is_same_v<Real, float> ? "float" : "double",
+      std::is_same_v<Real, float> ? ", or bake a table in double" : ""));
+}
+
 /// Where the weight is zero within rounding.
 template <class Real>
 std::vector<std::uint8_t> poles_of(const TableApplier<Real>& applier, std::span<const Real> columns) {
@@ -205,6 +222,7 @@ Applied apply_table(const ApplyOptions& options, const BakedTable<Real>& table, 
                                     options.points, frame, (bad - points.begin()) / frames.num_channels(),
                                     format_number(read[size_t(bad - points.begin())])));
     apply_frame<Real>(*applier, rational, points, frames.num_channels(), values);
+    if (!rational) check_range<Real>(options, frame, values, t.num_points(), channels);  // there poles have no point
     if (array) array->write<Real>(values);
   }
   progress.step("writing " + options.output);

@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <chrono>
 #include <nlohmann/json.hpp>
+#include <string_view>
 
 #include "curves.h"
 #include "ending.h"
@@ -36,9 +37,12 @@ class Log {
   void write(const std::string& line) {
     if (file_ < 0) return;
     const std::string whole = line + "\n";
-    errno = 0;
-    if (::write(file_, whole.data(), whole.size()) != static_cast<ssize_t>(whole.size()))
-      throw_file_error(path_, "write", errno == 0 ? ENOSPC : errno);
+    for (std::string_view rest = whole; !rest.empty();) {  // the rest of a short write: it says why it was short
+      const ssize_t count = ::write(file_, rest.data(), rest.size());
+      if (count < 0 && errno == EINTR) continue;
+      if (count <= 0) throw_file_error(path_, "write", count < 0 ? errno : EIO);
+      rest.remove_prefix(static_cast<size_t>(count));
+    }
   }
 
  private:

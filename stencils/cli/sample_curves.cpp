@@ -7,7 +7,6 @@
 // or, of free-form files and recipes, curve,t[,side] in both: see patch_places.h.
 #include <fmt/core.h>
 
-#include <cmath>
 #include <functional>
 #include <memory>
 #include <random>
@@ -107,9 +106,14 @@ std::int64_t write(const SampleJob& job, Index dimension, const Source& source, 
       text += ',';
       text += name(found.status[i]);
       const auto append = [&](const Points& m, bool exists) {
+        if (exists && !m.row(row).allFinite())
+          throw InvalidMesh(fmt::format(
+              "segment {}, t = {}: its position, a derivative or the normal there is larger than numbers are "
+              "(1.8e308); give points in another unit of length",
+              batch[i].segment, batch[i].t));
         for (Index k = 0; k < dimension; ++k) {
           text += ',';
-          if (exists && std::isfinite(m(row, k))) append_number(text, m(row, k));
+          if (exists) append_number(text, m(row, k));
         }
       };
       append(found.position, found.status[i] != LimitStatus::pole);

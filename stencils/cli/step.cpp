@@ -17,7 +17,7 @@ namespace {
 
 /// Without one a hundred-thousandth of the diagonal.
 double tolerance_of(const std::string& text, double diagonal) {
-  return text.empty() ? 1e-5 * diagonal : distance_option("--tolerance", text, diagonal);
+  return distance_option("--tolerance", text.empty() ? "0.001%" : text, diagonal);
 }
 
 nlohmann::ordered_json report_of(const StepJob& job, const LimitModel& model, const CadFile& file, double tolerance,

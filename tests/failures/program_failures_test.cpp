@@ -53,13 +53,11 @@ const std::vector<Use>& uses() {
       {"tessellate", "tessellate <cube.obj -s catmull-clark --chord 5% -o >out.ply --places >places.csv"},
       {"tessellate_glb", "tessellate <cube.obj -s catmull-clark --chord 5% -o >out.glb", {}, true},
       {"tessellate_vtu", "tessellate <cube.obj -s catmull-clark --chord 5% -o >out.vtu", {}, true},
-      // Full sweep alone: OpenCASCADE tells of a lack of memory as of failures of its own.
       {"step", "step <spindle.json -o >out.step --report >out.json", {"out.step", "out.json"}, true},
       {"step_mesh", "step <cube.obj -s catmull-clark -o >out.brep", {}, true},
       {"bake", "bake <cube.obj -s catmull-clark -l 2 -o >out.safetensors"},
       {"bake_dictionary",
        "bake <cube.obj -s catmull-clark --grid 3 --derivatives 1 --dictionary >types -o >out.safetensors"},
-      // Full sweep alone: a short write of the log is told as a full disk, whatever it was.
       {"bake_manifest", "bake --manifest <jobs.jsonl --log >log.jsonl", {"log.jsonl"}, true},
       {"construct", "construct <spindle.json -o >out.obj"},
       {"implicit", "implicit <torus.json --at <points.csv -o >out.csv"},
@@ -225,7 +223,7 @@ class Runs {
     return sublimit(words, [&] {
       ::setenv("LD_PRELOAD", SUBLIMIT_FAILING_CALLS, 1);
       ::setenv(failing_calls_variable, page_.path().c_str(), 1);
-      ::alarm(120);  // a run that hangs is killed
+      ::alarm(120);                                        // a run that hangs is killed
       if (::chdir(out.path().c_str()) != 0) ::_exit(127);  // reports name their files: the same words in each run
     });
   }

@@ -140,6 +140,16 @@ def test_refuses_points(points: Any, words: str, table: sublimit.Table) -> None:
         table.apply(points)
 
 
+def test_refuses_numbers_that_its_type_has_no_room_for(cube: sublimit.Mesh) -> None:
+    points = cube.points.copy()
+    points[2, 1] = 1e200
+    with pytest.raises(ValueError, match=r"points\[2, 1\] is 1e\+200, too large for a table in float"):
+        sublimit.bake(cube, "catmull-clark", levels=1).apply(points)
+    assert np.isfinite(sublimit.bake(cube, "catmull-clark", levels=1, precision="double").apply(points)).all()
+    points[2, 1] = np.inf  # the caller's: it comes out where it goes in
+    assert not np.isfinite(sublimit.bake(cube, "catmull-clark", levels=1).apply(points)).all()
+
+
 def test_refuses_results(table: sublimit.Table) -> None:
     points = np.zeros((20, 3), table.dtype)
     n, other = table.num_points, np.float64 if table.dtype == np.float32 else np.float32

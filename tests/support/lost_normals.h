@@ -16,7 +16,7 @@ struct LostNormals {
   Where where;
   Index least, most;    ///< faces at the vertex; 0: any more
   bool before = false;  ///< at the vertex of level 0 that it comes from: later levels cut faces off
-  bool exact = true;    ///< exact eigenvalues prove it; otherwise LimitMasks::Plane, from those in double
+  bool exact = true;    ///< exact verdicts prove it; otherwise they have evidence, and LimitMasks::Plane says it
   std::string why;
 };
 

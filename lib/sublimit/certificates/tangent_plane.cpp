@@ -14,26 +14,44 @@ using Answer = Verdict::Answer;
 
 struct Modes {
   std::vector<AlgebraicRoot> values;  ///< each as often as its multiplicity, by modulus
+  std::vector<int> blocks;            ///< of `values`: by the mirror 0 even, 1 odd
   int largest_jordan = 0;             ///< of the first value below 1, among these alone
+  int largest_jordan_of_first = 0;    ///< of the first value
 };
 
+/// Rows of a block whose points are (or are not) on the curve. The curve is its own mirror image, so each block falls
+/// apart like the whole.
+std::vector<Index> rows_of(const ExactBlocks& blocks, size_t k, const std::vector<Index>& curve, bool on_curve) {
+  std::vector<Index> rows;
+  for (size_t i = 0; i < blocks.orbits[k].size(); ++i)
+    if (std::binary_search(curve.begin(), curve.end(), blocks.orbits[k][i][0]) == on_curve)
+      rows.push_back(static_cast<Index>(i));
+  return rows;
+}
+
 /// Eigenvalues of the rows and columns whose points are (or are not) on the curve, each as often as its multiplicity,
-/// by modulus. The curve is its own mirror image, so each block falls apart like the whole.
+/// by modulus.
 Modes modes_of(const ExactBlocks& blocks, const std::vector<Index>& curve, bool on_curve) {
   std::vector<ExactEigenvalue> all;
   for (size_t k = 0; k < blocks.blocks.size(); ++k) {
-    std::vector<Index> rows;
-    for (size_t i = 0; i < blocks.orbits[k].size(); ++i)
-      if (std::binary_search(curve.begin(), curve.end(), blocks.orbits[k][i][0]) == on_curve)
-        rows.push_back(static_cast<Index>(i));
+    const std::vector<Index> rows = rows_of(blocks, k, curve, on_curve);
     const DenseMatrix<Algebraic> part = blocks.blocks[k](rows, rows);
-    for (ExactEigenvalue& value : exact_eigenvalues(part)) all.push_back(std::move(value));
+    for (ExactEigenvalue& value : exact_eigenvalues(part)) {
+      value.block = static_cast<int>(k);
+      all.push_back(std::move(value));
+    }
   }
   std::stable_sort(all.begin(), all.end(), [](const ExactEigenvalue& a, const ExactEigenvalue& b) {
     return compare_moduli(a.value, b.value) > 0;
   });
   Modes modes;
-  for (const ExactEigenvalue& value : all) modes.values.insert(modes.values.end(), value.multiplicity, value.value);
+  for (const ExactEigenvalue& value : all) {
+    modes.values.insert(modes.values.end(), value.multiplicity, value.value);
+    modes.blocks.insert(modes.blocks.end(), value.multiplicity, value.block);
+  }
+  for (const ExactEigenvalue& value : all)
+    if (value.value == all[0].value)
+      modes.largest_jordan_of_first = std::max(modes.largest_jordan_of_first, value.largest_jordan());
   for (size_t i = 1; i < all.size(); ++i)
     if (all[i].value == all[1].value) modes.largest_jordan = std::max(modes.largest_jordan, all[i].largest_jordan());
   return modes;
@@ -46,6 +64,27 @@ std::optional<ExactAnalysis> with_interior(const ExactAnalysis& analysis) {
   if (!same || !wider || !is_same_matrix(*same, patch) || wider->slots.size() == patch.slots.size())
     return std::nullopt;
   return open_analysis(analysis.scheme, *wider);
+}
+
+/// Whether a simple mode of the interior is, at the points around the centre, on both sides of the curve, where it
+/// vanishes. Of an odd one that has any such point: yes.
+bool is_on_both_sides(const ExactAnalysis& analysis, const std::vector<Index>& curve, const AlgebraicRoot& value,
+                      int block) {
+  const ExactBlocks& blocks = analysis.spectrum.blocks;
+  const auto k = static_cast<size_t>(block);
+  const std::vector<Index> rows = rows_of(blocks, k, curve, false);
+  const std::optional<std::vector<ComplexBall>> heights =
+      enclosed_eigenvector(DenseMatrix<Algebraic>(blocks.blocks[k](rows, rows)), value);
+  if (!heights) return false;
+  bool above = false, below = false;
+  for (size_t i = 0; i < rows.size(); ++i) {
+    const SectorLabel& label = analysis.patch.labels[size_t(blocks.orbits[k][size_t(rows[i])][0])];
+    if (label.x2 > 2 || label.y2 > 2) continue;
+    const Ball height = (*heights)[i].re();
+    above |= certainly_positive(height) || (block == 1 && certainly_negative(height));
+    below |= certainly_negative(height) || (block == 1 && certainly_positive(height));
+  }
+  return above && below;
 }
 
 bool is_positive(const AlgebraicRoot& root) { return root.is_real() && compare(root, AlgebraicRoot(Algebraic(0))) > 0; }
@@ -108,6 +147,10 @@ Verdict tangent_plane(const ExactAnalysis& analysis) {
   for (const ExactEigenvalue& value : analysis.spectrum.values)
     if (value.value == t) longest = std::max(longest, value.largest_jordan());
   const bool defective = longest > 1;
+  // The first mode of the interior alone next to the tangent, and both even or both odd.
+  const bool leads = !two_curves && !across.empty() && (across.size() == 1 || compare_moduli(across[1], across[0]) < 0);
+  const bool is_tied = !two_curves && across.size() > 1 && !leads;
+  const bool folds = leads && blocks.blocks.size() == 2 && inner_modes.blocks[0] == curve_modes.blocks[1];
   if (order > 0) {
     v.answer = Answer::disproved;
     v.because =
@@ -119,6 +162,23 @@ Verdict tangent_plane(const ExactAnalysis& analysis) {
   } else if (order == 0) {
     v.answer = Answer::disproved;
     v.because = name + " equals the tangent's, with eigenvectors of its own: three directions lead together";
+  } else if (folds) {
+    v.answer = Answer::disproved;
+    v.hypotheses.push_back({"the first mode of the interior is even or odd under the mirror as the tangent's is not",
+                            false, By::exact, across[0].text()});
+    v.because =
+        "the first mode of the interior is odd under the mirror like the tangent's: the Jacobian determinant of both "
+        "changes its sign there, and the surface folds";
+  } else if (is_tied && compare_moduli(across[0], t) < 0 &&
+             (along.size() < 3 || compare_moduli(along[2], across[0]) <= 0)) {
+    const bool one_chain = across[1] == across[0] && inner_modes.largest_jordan_of_first > 1;
+    v.answer = one_chain ? Answer::borderline : Answer::evidence_against;  // not known whether limits show both
+    v.hypotheses.push_back({"the first mode of the interior is larger than the second", false, By::exact,
+                            across[0].text() + " and " + across[1].text()});
+    v.because = one_chain
+                    ? "the first modes of the interior are one Jordan block: the plane is reached, but like 1/steps"
+                    : "two modes of the interior shrink alike: normals on the border are spanned by the tangent "
+                      "and what data take of both, which need not be one direction";
   } else if (!two_curves && compare_moduli(across[0], t) == 0 && defective) {
     v.answer = Answer::borderline;
     v.because = "the first mode of the interior and the tangent share a Jordan block of size " +
@@ -136,6 +196,11 @@ Verdict tangent_plane(const ExactAnalysis& analysis) {
   } else if (!two_curves && (across.empty() || !is_positive(across[0]))) {
     v.because = across.empty() ? "there are no modes but those of the tangent"
                                : "the first mode of the interior is not positive: " + across[0].text();
+  } else if (leads && is_on_both_sides(analysis, curve, across[0], inner_modes.blocks[0])) {
+    v.answer = Answer::evidence_against;
+    v.hypotheses.push_back({"the first mode of the interior is on one side of the border curve, at the points around",
+                            false, By::enclosure, across[0].text()});
+    v.because = "the first mode of the interior has points around on both sides of the border curve";
   } else {
     v.answer = Answer::evidence_for;
     v.hypotheses.push_back({"the map of the two leading modes is regular and injective", std::nullopt, By::exact});

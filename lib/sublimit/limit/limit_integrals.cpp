@@ -7,11 +7,13 @@
 #include <atomic>
 #include <cmath>
 #include <cstdint>
+#include <string>
 #include <tuple>
 #include <utility>
 #include <vector>
 
 #include "sublimit/base/error.h"
+#include "sublimit/base/format_number.h"
 #include "sublimit/base/found_once.h"
 #include "sublimit/base/parallel_for.h"
 #include "sublimit/core/dense_decompositions.h"
@@ -237,6 +239,28 @@ class Integrator {
 /// By a power of two, so that squares and fifth powers of coordinates neither overflow nor vanish.
 double power_of_two(double size) { return size > 0 ? std::exp2(std::ilogb(size)) : 1; }
 
+/// What a number or a matrix of numbers is where lengths are so much larger. One by one, so that 0 stays 0.
+template <class T>
+T scaled(T value, double scale, int power) {
+  for (int k = 0; k < power; ++k) value *= scale;
+  return value;
+}
+
+/// @throws InvalidMesh  some of them are larger than numbers are, naming the control point that is farthest out
+void check_range(const LimitIntegrals& found, const Points& points) {
+  const char* what = !std::isfinite(found.area) || !std::isfinite(found.area_error) ? "area" : "";
+  if (const std::optional<SolidIntegrals>& solid = found.solid) {
+    if (!std::isfinite(solid->inertia_error) || !solid->inertia.allFinite()) what = "inertia";
+    if (!std::isfinite(solid->volume_error) || !std::isfinite(solid->volume)) what = "volume";
+  }
+  if (*what == 0) return;
+  Eigen::Index row = 0, column = 0;
+  points.cwiseAbs().maxCoeff(&row, &column);
+  throw InvalidMesh("control point " + std::to_string(row) + " has the coordinate " +
+                    format_number(points(row, column)) + ", and the " + what +
+                    " of the limit is larger than numbers are (1.8e308); give points in another unit of length");
+}
+
 SolidIntegrals solid_of(const EstimatedSums& sums) {
   const SurfaceSums &value = sums.value, &error = sums.error;
   SolidIntegrals solid;
@@ -308,27 +332,27 @@ LimitIntegrals limit_integrals(const LimitSurface& surface, const Points& points
   const Points centred = (points.rowwise() - middle) / scale;
   const EstimatedSums sums = sums_over(surface, centred);
   const SurfaceSums& value = sums.value;
-  result.area = value.area * scale * scale;
-  result.area_error = sums.error.area * scale * scale;
+  result.area = scaled(value.area, scale, 2);
+  result.area_error = scaled(sums.error.area, scale, 2);
   if (value.area > 0) {
     const Eigen::Vector3d centroid = value.of_area / value.area;
     result.centroid = middle.transpose() + scale * centroid;
     result.centroid_error = scale * (sums.error.of_area.norm() + centroid.norm() * sums.error.area) / value.area;
   }
   result.why_no_solid = why_not_closed(surface);
-  if (!result.why_no_solid.empty()) return result;
-  if (std::abs(value.volume) <= std::max(1e-13 * value.area, sums.error.volume)) {
+  if (result.why_no_solid.empty() && std::abs(value.volume) <= std::max(1e-13 * value.area, sums.error.volume))
     result.why_no_solid = "the surface encloses no volume";
-    return result;
+  if (result.why_no_solid.empty()) {
+    SolidIntegrals solid = solid_of(sums);
+    solid.volume = scaled(solid.volume, scale, 3);
+    solid.volume_error = scaled(solid.volume_error, scale, 3);
+    solid.centroid = middle.transpose() + scale * solid.centroid;
+    solid.centroid_error *= scale;
+    solid.inertia = scaled(solid.inertia, scale, 5);
+    solid.inertia_error = scaled(solid.inertia_error, scale, 5);
+    result.solid = solid;
   }
-  SolidIntegrals solid = solid_of(sums);
-  solid.volume *= scale * scale * scale;
-  solid.volume_error *= scale * scale * scale;
-  solid.centroid = middle.transpose() + scale * solid.centroid;
-  solid.centroid_error *= scale;
-  solid.inertia *= std::pow(scale, 5);
-  solid.inertia_error *= std::pow(scale, 5);
-  result.solid = solid;
+  check_range(result, points);
   return result;
 }
 

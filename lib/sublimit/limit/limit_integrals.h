@@ -53,7 +53,8 @@ struct [[nodiscard]] LimitIntegrals {
 /// of a surface that intersects itself counts every point by its winding number.
 /// @param points  of the level, #V x 3
 /// @return  the same bits for any number of threads
-/// @throws InvalidParameter     points that do not fit, or are not finite
+/// @throws InvalidParameter     points that do not fit
+/// @throws InvalidMesh          points that are not finite, or so large that an integral is not
 /// @throws UnsupportedTopology  as `refined_sums`: holes
 /// @throws ResourceError        two levels of such a mesh take more memory than there is
 LimitIntegrals limit_integrals(const LimitSurface& surface, const Points& points);

@@ -131,7 +131,8 @@ class Table:
         Raises
         ------
         ValueError
-            Arrays of another shape or type; an `out` that shares memory with `points`.
+            Arrays of another shape or type; numbers too large for the table's `dtype`; an `out` that shares memory with
+            `points`.
         InvalidOption
             A GPU and no such one here, with what is missing; a GPU and a table in double. The CPU never takes over.
         ResourceError, IoError
@@ -213,7 +214,15 @@ class Table:
             raise ValueError(f"{name} has dtype {array.dtype}; real numbers are right")
         if array.ndim not in (2, 3) or array.shape[-2] != count or array.shape[-1] < 1:
             raise ValueError(f"{name} has shape {array.shape}; ({count} {what}, channels) is right, or a first axis before it")
-        return np.ascontiguousarray(array, dtype=self.dtype)
+        with np.errstate(over="ignore"):  # told below, with its place
+            taken = np.ascontiguousarray(array, dtype=self.dtype)
+        if array.dtype.itemsize > taken.dtype.itemsize and not np.isfinite(taken).all():
+            lost = np.argwhere(np.isfinite(array) & ~np.isfinite(taken))
+            if len(lost):
+                place = tuple(int(i) for i in lost[0])
+                raise ValueError(f"{name}[{', '.join(map(str, place))}] is {array[place]}, too large for a table in float; "
+                                 "bake one with precision=\"double\"")
+        return taken
 
     def _check_out(self, out: npt.NDArray[Any], shape: tuple[int, ...], given: npt.NDArray[Any], name: str) -> None:
         if not isinstance(out, np.ndarray) or out.dtype != self.dtype:

@@ -97,9 +97,18 @@ std::string sample_header(SampleColumns columns, const std::string& places) {
 }
 
 void append_found(std::string& out, const LimitSamples& found, std::int64_t i, SampleColumns columns) {
+  const size_t place_end = out.size();
   out += ',';
   out += name(found.status[i]);
-  const auto row = [&](const Points& m, bool exists) { append_fields(out, m.data() + 3 * i, 3, exists); };
+  const auto row = [&](const Points& m, bool exists) {
+    if (exists && !m.row(i).allFinite()) {
+      const size_t line = out.rfind('\n', place_end) + 1;  // npos + 1 is 0
+      throw InvalidMesh("place " + out.substr(line, place_end - line) +
+                        ": its position or a derivative there is larger than numbers are (1.8e308); give control "
+                        "points in another unit of length");
+    }
+    append_fields(out, m.data() + 3 * i, 3, exists);
+  };
   const int order = found.order[i];
   row(found.position, has_position(found.status[i]));
   if (columns.derivatives >= 1)

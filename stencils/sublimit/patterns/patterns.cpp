@@ -26,6 +26,18 @@ namespace {
 /// Corners that the walk may begin with.
 int num_turns(Piece::Kind kind) { return kind == Piece::Kind::quad ? 4 : kind == Piece::Kind::triangle ? 3 : 1; }
 
+/// Throws unless the level was made by the scheme of these types. A thread remembers the last pair that was right, by
+/// who owns them, which costs no lock: find() asks for every face.
+void check_level(const std::shared_ptr<LimitTypes>& types, const Level& level) {
+  static thread_local std::weak_ptr<const LimitTypes> last_types;
+  static thread_local std::weak_ptr<const Scheme<double>> last_scheme;
+  const auto is_owner = [](const auto& a, const auto& b) { return !a.owner_before(b) && !b.owner_before(a); };
+  if (!level.made_by || (is_owner(last_scheme, level.made_by) && is_owner(last_types, types))) return;
+  types->check(level);
+  last_types = types;
+  last_scheme = level.made_by;
+}
+
 /// Walks around a piece, begun at any of its corners.
 class Walks {
  public:
@@ -50,6 +62,7 @@ class Walks {
 }  // namespace
 
 bool Patterns::find(const Level& level, const Piece& piece, Match& match) const {
+  check_level(types_, level);
   const Walks walk(types_->pieces(), level, piece);
   const PieceWalk* own = &walk(0);
   match.size = own->signature.size();
@@ -111,6 +124,7 @@ Patterns::Match Patterns::match(const Level& level, const Piece& piece) {
 
 const PieceType& Patterns::type(const Pattern& pattern, const Example& example) {
   if (const PieceType* known = pattern.type) return *known;
+  check_level(types_, example.level);
   const Walks walk(types_->pieces(), example.level, example.piece);
   const PieceType* type = types_->pieces().type(example.level, walk.piece(example.turn), walk(example.turn));
   pattern.type = type;

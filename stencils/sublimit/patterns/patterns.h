@@ -48,6 +48,7 @@ class Patterns {
     size_t size = 0;              ///< of the piece's own signature, whether its type is known or not
   };
   /// Made where it is new.
+  /// @throws InvalidParameter  the level was made by another scheme, here and below
   Match match(const Level& level, const Piece& piece);
   /// The same if the type is known already.
   /// @param match  keeps its memory from call to call

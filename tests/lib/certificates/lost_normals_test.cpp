@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Each row of the table of lost normals is proved by an exact verdict, and not proved for the numbers of faces that it
-// leaves out.
+// Rows of the table of lost normals are proved by exact verdicts, or have evidence by them, and are not proved for the
+// numbers of faces that they leave out.
 #include "support/lost_normals.h"
 
 #include <gtest/gtest.h>
@@ -9,6 +9,8 @@
 
 #include "lib/certificates/exact_analyses.h"
 #include "sublimit/certificates/spectral_verdicts.h"
+#include "sublimit/limit/limit_masks.h"
+#include "sublimit/schemes.h"
 
 namespace sublimit::testing {
 namespace {
@@ -18,6 +20,7 @@ using Where = LostNormals::Where;
 /// Whether generic control points have a tangent plane at such a vertex, by exact eigenvalues.
 Verdict verdict_of(const LostNormals& row, Index faces) {
   const Scheme<Algebraic> scheme = find_scheme<Algebraic>(row.scheme).value();
+  if (row.before) return tangent_plane(analyzed(scheme, {.kind = Centre::Kind::border, .faces = 0}, 1));
   if (row.where == Where::inside) return spectral_c1(analyzed(scheme, int(faces), 2));
   return tangent_plane(analyzed(scheme, {.faces = faces, .open = true, .corner = row.where == Where::corner}, 1));
 }
@@ -36,7 +39,32 @@ TEST(LostNormals, AreProvedByExactVerdicts) {
           << row.scheme << ", " << faces << " faces, " << int(row.where) << ": " << verdict.because;
     }
   }
-  EXPECT_GE(proved, 6);
+  EXPECT_GE(proved, 8);
+}
+
+TEST(LostNormals, AreNowhereSaidToBeThereByExactVerdicts) {
+  int looked_at = 0;
+  for (const LostNormals& row : lost_normals()) {
+    if (row.exact) continue;
+    ++looked_at;
+    const Verdict verdict = verdict_of(row, row.least);
+    EXPECT_EQ(verdict.answer, Verdict::Answer::evidence_against)
+        << row.scheme << ", " << row.least << " faces: " << verdict.because;
+  }
+  EXPECT_GE(looked_at, 4);
+}
+
+TEST(LostNormals, AreToldAlikeByMasksAndByExactVerdictsOnBorders) {
+  for (const std::string name : {"catmull-clark", "loop", "butterfly", "modified-butterfly", "kobbelt"})
+    for (const Index faces : {2, 3, 4, 5}) {
+      const LocalType border{.faces = faces, .open = true};
+      const std::optional<LoneLimit> limit = lone_limit(*find_scheme(name), border);
+      const Verdict verdict = tangent_plane(analyzed(find_scheme<Algebraic>(name).value(), border, 1));
+      ASSERT_TRUE(limit);
+      const bool by_masks = limit->masks.sides[0].plane == LimitMasks::Plane::no;
+      EXPECT_EQ(verdict.answer == Verdict::Answer::disproved, by_masks)
+          << name << ", " << faces << " faces: " << verdict.because;
+    }
 }
 
 TEST(LostNormals, AreNotClaimedWhereVerdictsAllowNormals) {

@@ -110,6 +110,18 @@ TEST(CliStepPatches, EveryRecipeOfASurfaceIsExportedOrRefused) {
   EXPECT_EQ(surfaces, 18);
 }
 
+TEST(CliStepPatches, WhatOpenCascadeRefusesIsAnErrorOfTheInput) {
+  const TemporaryDirectory directory;
+  const std::string knots =
+      directory
+          .write("knots.json", R"({"kind": "revolution", "profile": {"degree": 2, "knots": )"
+                               R"([0, 0, 0, 1e-308, 1e-308, 1e-308], "points": [[0, -1], [2, 0], [0, 1]]}})")
+          .string();
+  const std::string out = (directory / "o.step").string();
+  expect_failure(sublimit({"step", knots, "-o", out}), 3, {"OpenCASCADE does not take the surface", "too close"});
+  EXPECT_FALSE(std::filesystem::exists(out));
+}
+
 TEST(CliStepPatches, LeavesNoFileAfterErrors) {
   const TemporaryDirectory directory;
   write_free_form(directory / "s.obj", free_form_of({unit_sphere()}));

@@ -22,6 +22,8 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <cstdlib>
+#include <exception>
 #include <mutex>
 #include <new>
 #include <sstream>
@@ -32,6 +34,11 @@
 
 namespace sublimit {
 namespace {
+
+/// What OpenCASCADE says that it cannot do.
+struct Refused {
+  std::string why;
+};
 
 /// What stands for the backslash of a directive: the writer doubles those that it is given.
 constexpr char directive = '\1';
@@ -76,7 +83,7 @@ std::string step_text(const BoundaryModel& source, const ModelShape& made, const
   Interface_Static::SetCVal("write.step.product.name", step_string(name).c_str());
   Interface_Static::SetCVal("write.step.schema", "AP214IS");
   if (writer.Transfer(made.shape, STEPControl_AsIs) != IFSelect_RetDone)
-    throw AnalysisError("OpenCASCADE could not make a STEP model of the surface");
+    throw Refused{"it could not make a STEP model of the surface"};
   set_names(source, made, writer);
   const Handle(StepData_StepModel) model = writer.Model();
   APIHeaderSection_MakeHeader header(model);
@@ -89,17 +96,14 @@ std::string step_text(const BoundaryModel& source, const ModelShape& made, const
   text.FloatWriter().SetFormat("%.16E");  // OpenCASCADE's own has 13 digits
   text.SendModel(Handle(StepData_Protocol)::DownCast(writer.WS()->Protocol()));
   std::ostringstream out;
-  if (!text.Print(out)) throw AnalysisError("OpenCASCADE could not print the STEP model");
+  if (!text.Print(out) || !out) throw Refused{"it could not print the STEP model"};
   std::string bytes = out.str();
   std::ranges::replace(bytes, directive, '\\');
   return bytes;
 }
 
-}  // namespace
-
-CadFile cad_file(const BoundaryModel& model, const std::string& name, bool step) {
-  static std::mutex one_at_a_time;  // its settings are the program's
-  const std::lock_guard lock(one_at_a_time);
+/// @throws Refused, std::bad_alloc
+CadFile made_file(const BoundaryModel& model, const std::string& name, bool step) {
   try {
     Message::DefaultMessenger()->RemovePrinters(STANDARD_TYPE(Message_PrinterOStream));
     const ModelShape made = shape_of(model);
@@ -109,13 +113,64 @@ CadFile cad_file(const BoundaryModel& model, const std::string& name, bool step)
     } else {
       std::ostringstream out;
       BRepTools::Write(made.shape, out);
+      if (!out) throw Refused{"it could not print the shape"};
       file.bytes = out.str();
     }
     return file;
   } catch (const Standard_OutOfMemory&) {
     throw std::bad_alloc();
   } catch (const Standard_Failure& failure) {
-    throw AnalysisError(std::string("OpenCASCADE: ") + failure.GetMessageString());
+    throw Refused{failure.GetMessageString()};
+  }
+}
+
+/// OpenCASCADE takes memory in destructors too: where there is none while an error is on its way they throw, which ends
+/// the process. As long as this lives, by the handler that the program has for std::bad_alloc.
+class NamedLackOfMemory {
+ public:
+  NamedLackOfMemory() : own_(std::set_terminate(end)) { before_ = own_; }
+  NamedLackOfMemory(const NamedLackOfMemory&) = delete;
+  NamedLackOfMemory& operator=(const NamedLackOfMemory&) = delete;
+  ~NamedLackOfMemory() { std::set_terminate(own_); }
+
+ private:
+  [[noreturn]] static void end() {
+    try {
+      if (std::current_exception()) throw;
+    } catch (const Standard_OutOfMemory&) {
+      try {
+        throw std::bad_alloc();
+      } catch (...) {
+        before_();
+      }
+    } catch (...) {
+      before_();
+    }
+    before_();
+    std::abort();
+  }
+  std::terminate_handler own_;
+  static inline std::terminate_handler before_ = nullptr;  // one file is made at a time
+};
+
+}  // namespace
+
+CadFile cad_file(const BoundaryModel& model, const std::string& name, bool step) {
+  static std::mutex one_at_a_time;  // its settings are the program's
+  const std::lock_guard lock(one_at_a_time);
+  const NamedLackOfMemory named;
+  // Inside OpenCASCADE a lack of memory may be caught and told as another failure, or as a shape that is not valid.
+  // Made once more, what it really refuses it refuses again; where memory is lacking still, it says so somewhere.
+  try {
+    CadFile file = made_file(model, name, step);
+    if (file.is_valid) return file;
+  } catch (const Refused&) {
+  }
+  try {
+    return made_file(model, name, step);
+  } catch (const Refused& refused) {
+    throw InvalidMesh("OpenCASCADE does not take the surface: " + refused.why +
+                      "; edges and faces below 1e-7 in size, and faces that fold, are what it may refuse");
   }
 }
 

@@ -15,7 +15,8 @@ struct CadFile {
 };
 
 /// @param name  of the product
-/// @throws AnalysisError  what OpenCASCADE refuses
+/// @throws InvalidMesh     what OpenCASCADE refuses
+/// @throws std::bad_alloc  it has no memory
 CadFile cad_file(const BoundaryModel& model, const std::string& name, bool step);
 
 }  // namespace sublimit

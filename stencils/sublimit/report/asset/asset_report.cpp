@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "sublimit/base/error.h"
+#include "sublimit/core/finite_points.h"
 #include "sublimit/limit/limit_surface.h"
 #include "sublimit/limit/limit_types.h"
 #include "sublimit/report/asset/curvature_statistics.h"
@@ -46,6 +47,7 @@ AssetReport asset_report(const Scheme<double>& scheme, const ControlMesh& mesh, 
   };
   const auto types = std::make_shared<LimitTypes>(scheme);
   const LimitSurface surface(scheme, mesh, subdivision, types);
+  check_measurable_control(mesh.positions);
   const Topology& t = surface.level().topology();
 
   AssetReport report;

@@ -135,7 +135,7 @@ struct [[nodiscard]] AssetReport {
 };
 
 /// @param progress  called with what is done and what there is to do, by one thread, if given
-/// @throws InvalidMesh, UnsupportedTopology  a mesh that the scheme cannot take
+/// @throws InvalidMesh, UnsupportedTopology  a mesh that the scheme cannot take, or coordinates above 1e150 in size
 /// @throws InvalidOption                     a negative tolerance or an option below 1
 /// @note  Deterministic: same build and input, same report, for any number of threads.
 AssetReport asset_report(const Scheme<double>& scheme, const ControlMesh& mesh,
