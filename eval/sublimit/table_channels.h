@@ -37,10 +37,13 @@ struct TableTags {
   std::string creasing;                 ///< how sharpness decays: uniform, chaikin
 };
 
-/// @param num_points   that indices of tags count
+/// Checks texture coordinates.
 /// @param num_corners  of the faces between points
-/// @throws InvalidParameter  arrays that do not fit together, a number out of range, a word that is none of those above
+/// @throws InvalidParameter  arrays that do not fit together, a number out of range
 void check_channels(const TableChannels& channels, std::int64_t num_corners);
+/// Checks tags.
+/// @param num_points  that their indices count
+/// @throws InvalidParameter  arrays that do not fit together, a number out of range, a word that is none of those above
 void check_tags(const TableTags& tags, std::int64_t num_points);
 
 }  // namespace sublimit

@@ -303,7 +303,8 @@ int analyze(const AnalyzeOptions& options) {
 }  // namespace
 
 Command add_analyze(CLI::App& app) {
-  auto* command = app.add_subcommand("analyze", "How smooth a scheme's limit is, or a mesh's, or free-form shapes");
+  auto* command = app.add_subcommand(
+      "analyze", "Report how smooth the limit of a scheme or a mesh is, or how free-form shapes join");
   auto options = std::make_shared<AnalyzeOptions>();
   command->add_option("MESH", options->common.mesh,
                       "A mesh, .obj, .off or .ply: how smooth its own limit is; an .obj of free-form curves and "
@@ -335,8 +336,7 @@ Command add_analyze(CLI::App& app) {
       "  sublimit analyze shapes.json -o shapes.html          (recipes: their exact nets, and curve_join, surface_join)\n"
       "  sublimit analyze -s four-point --sweep tension=0:4:0.05 -o sweep.html\n"
       "  sublimit analyze --mask \"1 4 6 4 1 /8\" -o mask.html\n"
-      "  sublimit analyze pieces.csv -o joints.html   (header piece,x,y or piece,x,y,z: Bezier control points)\n"
-      "Exit status 1 if a claim of a scheme is contradicted, or seams of a mesh or of patches are beyond a tolerance.");
+      "  sublimit analyze pieces.csv -o joints.html   (header piece,x,y or piece,x,y,z: Bezier control points)");
   return [=] {
     for (const auto& [option, owner] : owners)
       if (command->count(option) > 0) options->given.emplace_back(option);

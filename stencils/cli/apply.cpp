@@ -262,7 +262,7 @@ int run(const ApplyOptions& options) {
 }  // namespace
 
 Command add_apply(CLI::App& app) {
-  auto* command = app.add_subcommand("apply", "New points from a table and the points of its cage");
+  auto* command = app.add_subcommand("apply", "Compute new points from a table and the points of its cage");
   auto options = std::make_shared<ApplyOptions>();
   command->add_option("TABLE", options->table, "What `sublimit bake` made")->required();
   command
@@ -288,13 +288,13 @@ Command add_apply(CLI::App& app) {
       "  sublimit apply level3.safetensors animation.npy -o refined.npy\n"
       "  sublimit apply level3.safetensors animation.npy --gpu -o refined.npy\n"
       "  sublimit apply teapot.safetensors teapot.obj -o points.csv               free-form surfaces\n"
-      "Frames of an .npy are read, applied and written one by one, so that any number of them takes the memory of one.\n"
+      "\nFrames of an .npy are read, applied and written one by one, so that any number of them takes the memory of one.\n"
       "OUT.npy is in the table's precision: [frames x] [quantities x] points x channels; quantities, if there are\n"
       "derivatives, are position, u, v[, uu, uv, vv]. Columns of OUT.csv: face,u,v and status where the table knows\n"
       "them, then x,y,z[,xu,...][,nx,ny,nz] as `sample` has them, or the channels' own names. Where creases meet, and in\n"
       "tables by rows, two tangents of the surface stand for first derivatives that do not exist. Tables of rational\n"
       "surfaces divide by the weight; where it is zero the status is `pole` and nothing else is there.\n"
-      "--gpu makes the same points to the rounding of floats. Where there is no GPU, or the table is in double, it is an\n"
+      "\n--gpu makes the same points to the rounding of floats. Where there is no GPU, or the table is in double, it is an\n"
       "error: the CPU never takes over.");
   return [=] { return run(*options); };
 }

@@ -77,7 +77,7 @@ int run(const BakeOptions& options) {
 }  // namespace
 
 Command add_bake(CLI::App& app) {
-  auto* command = app.add_subcommand("bake", "A table of stencils, to be applied every frame");
+  auto* command = app.add_subcommand("bake", "Make a table of stencils, to be applied every frame");
   auto options = std::make_shared<BakeOptions>();
   BakeJob& job = options->job;
   add_mesh(*command, job.common, false);
@@ -138,12 +138,12 @@ Command add_bake(CLI::App& app) {
       "  sublimit apply level3.safetensors frames.npy -o level3.npy\n"
       "  sublimit bake --manifest jobs.jsonl --shard 3/8 --log log.jsonl\n"
       "  sublimit bake cage.obj -s catmull-clark -l 3 --dictionary types.safetensors -o level3.safetensors\n"
-      "A job of a manifest is an object with the keys mesh, scheme, output, one of levels (with limit: true), grid,\n"
+      "\nA job of a manifest is an object with the keys mesh, scheme, output, one of levels (with limit: true), grid,\n"
       "at and tessellation, and, if wanted, derivatives, precision, options: {name: value}, boundary, creasing,\n"
       "triangles, triangulate, no-creases, face-varying, tags, strict, as above; paths are relative to the manifest.\n"
-      "A job is skipped if a sound table of the same job is there; one that fails does not stop the others. The exit\n"
+      "\nA job is skipped if a sound table of the same job is there; one that fails does not stop the others. The exit\n"
       "status is the highest of any job.\n"
-      "The same bytes for any number of threads. The table knows its cage by the connectivity that was refined (with\n"
+      "\nThe same bytes for any number of threads. The table knows its cage by the connectivity that was refined (with\n"
       "--triangulate that of the triangles); positions are no part of it. --face-varying and --tags refine the mesh\n"
       "itself, once, and make the table about as large as the mesh; faces of holes are left out of it.");
   return [=] { return run(*options); };

@@ -81,7 +81,7 @@ int run(const ClosestOptions& options) {
 }  // namespace
 
 Command add_closest(CLI::App& app) {
-  auto* command = app.add_subcommand("closest", "The nearest points of the limit, or of patches");
+  auto* command = app.add_subcommand("closest", "Find the nearest points of the limit, or of patches");
   auto options = std::make_shared<ClosestOptions>();
   add_mesh(*command, options->common, false);
   command
@@ -103,12 +103,12 @@ Command add_closest(CLI::App& app) {
       "  sublimit closest cage.obj -s catmull-clark --points scan.csv --signed -o signed.csv\n"
       "  sublimit closest cage.obj -s catmull-clark --points scan.csv --nearest 3 --radius 0.1 -o near.csv\n"
       "  sublimit closest teapot.obj --points scan.csv -o closest.csv\n"
-      "Faces and places are those of `sublimit sample`, in whose file x,y,z stand for the same point. The limit is not\n"
+      "\nFaces and places are those of `sublimit sample`, in whose file x,y,z stand for the same point. The limit is not\n"
       "nearer than `lower`, as is proved: the distance but for rounding, less where the proof was cut short, as from the\n"
       "centre of a sphere, all of which is equally near, and 0 where nothing is proved, as of schemes without polynomials.\n"
       "Of the second row of a point on, `lower` is of all faces but those in the rows before. Holes are no part of the\n"
       "limit. Inside is what the surface winds around, however its normals look; `lower` has no sign.\n"
-      "Without -s the free-form surfaces of an .obj, or recipes (.json), are searched, rational ones too. Nothing is proved\n"
+      "\nWithout -s the free-form surfaces of an .obj, or recipes (.json), are searched, rational ones too. Nothing is proved\n"
       "where one of them is no B-spline and no polynomial (screw, gregory with twists that differ), or has a pole.");
   return [=] { return run(*options); };
 }

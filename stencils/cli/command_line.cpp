@@ -129,13 +129,17 @@ bool is_own_option(const CLI::App& app, const std::string& word) {
 
 ParsedCommandLine parse_command_line(CLI::App& app, int argc, const char* const* argv) {
   std::string asked;
-  CLI::App* help = app.add_subcommand("help", "What a subcommand does, its options, examples");
+  CLI::App* help = app.add_subcommand("help", "Show what a subcommand does, its options and examples");
   help->add_option("SUBCOMMAND", asked, "Its name; without one, all subcommands are listed");
-  help->footer(fmt::format("Examples:\n  {0} help\n  {0} help info", app.get_name()));
+  help->footer(fmt::format("Examples:\n  {0} help\n  {0} help info\n  {0} info --help", app.get_name()));
 
   const Words names = subcommand_names(app);
   const auto is_subcommand = [&](const std::string& word) { return std::ranges::find(names, word) != names.end(); };
   const Words words(argv + 1, argv + argc);
+  if (!words.empty() && words.front() == "--generate" && app.get_option_no_throw("--generate")) {
+    if (words.size() != 3) return refused(app, "", "--generate takes a kind of manual and a directory");
+    return {true, 0, "", "", words[1], words[2]};
+  }
   const auto first = std::ranges::find_if_not(words, [&](const std::string& w) { return is_own_option(app, w); });
   if (first != words.end() && !is_subcommand(*first)) {
     if (!is_option(*first)) return unknown_subcommand(app, *first);

@@ -13,9 +13,10 @@ struct ParsedCommandLine {
   bool runs = true;      ///< a subcommand is to run; otherwise only the texts are to print
   int status = 0;        ///< else the exit status: 0, or 2 for a line that is wrong
   std::string out, err;  ///< texts for stdout and stderr
+  std::string manual_kind = {}, manual_directory = {};  ///< of `--generate KIND DIR`, instead of a subcommand
 };
 
-/// Adds the subcommand `help` and parses.
+/// Adds the subcommand `help` and parses. `--generate KIND DIR` is taken if the program has that option.
 ParsedCommandLine parse_command_line(CLI::App& app, int argc, const char* const* argv);
 
 }  // namespace sublimit::cli

@@ -32,7 +32,8 @@ int run(const ConstructJob& job) {
 }  // namespace
 
 Command add_construct(CLI::App& app) {
-  auto* command = app.add_subcommand("construct", "The exact nets of classical curves and surfaces, as free-form OBJ");
+  auto* command =
+      app.add_subcommand("construct", "Write the exact nets of classical curves and surfaces as free-form OBJ");
   auto job = std::make_shared<ConstructJob>();
   command->add_option("RECIPE", job->common.mesh, "Recipes: a .json, one object or {\"recipes\": [..]}")->required();
   command->add_option("-o,--output", job->output, "NET.obj: cstype bezier, bspline, rat where rational")->required();
@@ -47,14 +48,15 @@ Command add_construct(CLI::App& app) {
   command->footer(
       "Examples:\n"
       "  sublimit construct sphere.json -o sphere.obj\n"
+      "  sublimit construct arcs.json --quiet -o arcs.obj\n"
       "  sublimit sample sphere.json --grid 9 --derivatives 1 -o points.csv\n"
-      "A recipe is an object with its kind and that kind's fields; numbers may be fractions, \"1/3\":\n"
+      "\nA recipe is an object with its kind and that kind's fields; numbers may be fractions, \"1/3\":\n"
       "  {\"kind\": \"cone\", \"curve\": {\"degree\": 1, \"knots\": [0, 0, 1, 1], \"points\": [[1, 0], [0, 1]]}, \"apex\": [0, 0, 2]}\n"
-      "Kinds:\n" +
+      "\nKinds:\n" +
       kinds +
-      "\nThe matrix of a bmatrix_curve has a row for each control point, the coefficients of 1, t, t^2 .., as OBJ's bmat has\n"
+      "\n\nThe matrix of a bmatrix_curve has a row for each control point, the coefficients of 1, t, t^2 .., as OBJ's bmat has\n"
       "it; \"form\": \"textbook\" is for M of (t^n .. t 1) M P.\n"
-      "Kinds without an exact net (triangles, screw surfaces, Gregory's patches whose twists disagree, polynomials of\n"
+      "\nKinds without an exact net (triangles, screw surfaces, Gregory's patches whose twists disagree, polynomials of\n"
       "too high a degree, nielson, piper) are refused with the reason; `sublimit sample` takes them.");
   return [=] { return run(*job); };
 }

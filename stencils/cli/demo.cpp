@@ -113,11 +113,11 @@ int run(const DemoOptions& options) {
 }  // namespace
 
 Command add_demo(CLI::App& app) {
-  auto* command = app.add_subcommand("demo", "The whole chain on a mesh that the program carries");
+  auto* command = app.add_subcommand("demo", "Run the whole chain on a mesh that the program carries");
   auto options = std::make_shared<DemoOptions>();
   command->add_option("DIR", options->directory, "Where the files go (default: sublimit-demo)");
   add_run(*command, options->common);
-  command->footer("Examples:\n  sublimit demo\n  sublimit demo out/demo");
+  command->footer("Examples:\n  sublimit demo\n  sublimit demo out/demo\n  sublimit demo --threads 1 --quiet");
   return [=] { return run(*options); };
 }
 

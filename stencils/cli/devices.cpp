@@ -71,7 +71,7 @@ int run(bool as_json) {
 }  // namespace
 
 Command add_devices(CLI::App& app) {
-  auto* command = app.add_subcommand("devices", "GPUs that tables can be applied on");
+  auto* command = app.add_subcommand("devices", "List the GPUs that tables can be applied on");
   auto as_json = std::make_shared<bool>(false);
   command->add_flag("--json", *as_json, "As JSON");
   command->footer(
@@ -79,7 +79,7 @@ Command add_devices(CLI::App& app) {
       "  sublimit devices\n"
       "  sublimit devices --json\n"
       "  sublimit apply level3.safetensors animation.npy --gpu --device 1 -o refined.npy\n"
-      "Number, name, API (Vulkan, CUDA), kind, memory, whether results can be half floats (in a program that has its points\n"
+      "\nNumber, name, API (Vulkan, CUDA), kind, memory, whether results can be half floats (in a program that has its points\n"
       "on the GPU; files have floats) and driver. Discrete GPUs come first, then integrated and virtual ones; of kind cpu\n"
       "are processors that stand in for a GPU, as Mesa's lavapipe. Of Vulkan those of version 1.2 with buffer device\n"
       "addresses. Where there is none it says why, and with --json writes an empty list and says why on stderr; the exit\n"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// How the program ends: with the status that stencils/README.md lists, a message, and no temporaries of unfinished
-// outputs, also where no exception gets out.
+// How the program ends: with the status that stencils/docs/program.md lists, a message, and no temporaries of
+// unfinished outputs, also where no exception gets out.
 #include <functional>
 #include <string>
 

@@ -28,7 +28,7 @@ int write_export(const ExportOptions& options) {
 }  // namespace
 
 Command add_export(CLI::App& app) {
-  auto* command = app.add_subcommand("export", "A table as a sparse matrix, for other programs");
+  auto* command = app.add_subcommand("export", "Write a table as a sparse matrix for other programs");
   auto options = std::make_shared<ExportOptions>();
   command->add_option("TABLE", options->table, "What `sublimit bake` made")->required();
   command
@@ -41,7 +41,7 @@ Command add_export(CLI::App& app) {
       "  sublimit export level3.safetensors -o level3.npz\n"
       "  sublimit export level3.safetensors -o level3.mtx\n"
       "  sublimit export level3.safetensors -o level3/\n"
-      "Rows are points in the table's order (all positions, then all derivatives along u, ...), columns control "
+      "\nRows are points in the table's order (all positions, then all derivatives along u, ...), columns control "
       "points.");
   return [=] { return write_export(*options); };
 }

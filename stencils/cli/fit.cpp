@@ -227,7 +227,7 @@ int run(const FitOptions& options) {
 }  // namespace
 
 Command add_fit(CLI::App& app) {
-  auto* command = app.add_subcommand("fit", "Control points whose limit goes through given points and normals");
+  auto* command = app.add_subcommand("fit", "Find control points whose limit goes through given points and normals");
   auto options = std::make_shared<FitOptions>();
   FitSettings& settings = options->settings;
   add_mesh(*command, options->common, false);
@@ -272,13 +272,13 @@ Command add_fit(CLI::App& app) {
       "  sublimit fit cage.obj --targets normals.csv -s doo-sabin --construct -o fitted.obj\n"
       "  sublimit fit mesh.obj --targets curvatures.csv -s torus-pieces -l 4 -o surface.obj --picture fit.svg\n"
       "  sublimit fit nurbs.obj --targets places.csv --thin-plate 1e-6 -o fitted.obj\n"
-      "IN.csv begins with one of these lines:\n"
+      "\nIN.csv begins with one of these lines:\n"
       "  vertex,x,y,z[,nx,ny,nz[,k1,k2,d1x,d1y,d1z]]   the limit of a vertex of MESH, counted from 0; a normal of any\n"
       "                                                length, or three empty fields\n"
       "  face,u,v,x,y,z[,weight]                       the limit at a place, as in `sublimit sample`: least squares\n"
       "  patch,u,v,x,y,z[,weight]                      the same of free-form surfaces, by their own parameters\n"
-      "A cloud should lie near the limit of MESH, which is its first guess.\n"
-      "Points alone are as many conditions as there are control points, which may depend on each other (a cube's do);\n"
+      "\nA cloud should lie near the limit of MESH, which is its first guess.\n"
+      "\nPoints alone are as many conditions as there are control points, which may depend on each other (a cube's do);\n"
       "normals are more. Then MESH is refined, and of all control points that meet the targets those nearest to it are\n"
       "taken, or the fairest ones (--thin-plate, --membrane). Under schemes that keep vertices the first ones of OUT are\n"
       "those of MESH, in order. torus-pieces takes everything at every vertex, k1 being the curvature along (d1x, d1y, d1z)\n"

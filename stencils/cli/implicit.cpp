@@ -186,7 +186,8 @@ int run(const ImplicitJob& job) {
 }  // namespace
 
 Command add_implicit(CLI::App& app) {
-  auto* command = app.add_subcommand("implicit", "Implicit surfaces: fields at places, control meshes of level sets");
+  auto* command =
+      app.add_subcommand("implicit", "Evaluate implicit surfaces, or make control meshes of their level sets");
   auto job = std::make_shared<ImplicitJob>();
   job->common.scheme = "catmull-clark";
   command->add_option("FIELD", job->common.mesh, "A recipe of kind implicit, .json, or a field {\"field\": ..}")
@@ -209,13 +210,11 @@ Command add_implicit(CLI::App& app) {
       "  sublimit implicit torus.json -o cage.obj --report report.json --picture torus.svg\n"
       "  sublimit implicit torus.json -s loop --cells 12 --tolerance 1e-3 -o cage.obj\n"
       "  sublimit implicit torus.json --at places.csv -o values.csv\n"
-      "A field is negative inside:\n"
+      "\nA field is negative inside:\n"
       "  {\"kind\": \"implicit\", \"field\": \"distance-circle\", \"center\": [0, 0, 0], \"normal\": [0, 0, 1], \"ring\": 1,\n"
       "   \"radius\": 0.4, \"box\": [[-2, -2, -1], [2, 2, 1]]}\n"
-      "Fields: " +
-      names +
-      "\nbox and cells may be left out where the field has an extent. Exit status 1: the tolerance is not met; the nearest\n"
-      "mesh is written.");
+      "\nFields: " +
+      names + "\n\nbox and cells may be left out where the field has an extent.");
   return [=] { return run(*job); };
 }
 

@@ -118,7 +118,7 @@ int run(const Common& common, bool as_json, bool limit) {
 }  // namespace
 
 Command add_info(CLI::App& app) {
-  auto* command = app.add_subcommand("info", "Counts, valences, boundaries, tags and every fault of a mesh");
+  auto* command = app.add_subcommand("info", "Report counts, valences, boundaries, tags and every fault of a mesh");
   auto common = std::make_shared<Common>();
   auto as_json = std::make_shared<bool>(false);
   auto limit = std::make_shared<bool>(false);
@@ -131,8 +131,7 @@ Command add_info(CLI::App& app) {
   command->footer(
       "Examples:\n  sublimit info cage.obj\n  sublimit info cage.obj -s loop --json\n"
       "  sublimit info cage.obj -s catmull-clark --limit\n"
-      "Exit status 1 where the scheme does not take the mesh.\n"
-      "Of an .obj with free-form curves and surfaces: bases, degrees, knots, continuity, weights, collapsed sides, trims.\n"
+      "\nOf an .obj with free-form curves and surfaces: bases, degrees, knots, continuity, weights, collapsed sides, trims.\n"
       "Of recipes (.json): kinds, faces or segments, control points, whether there is an exact net.");
   return [=] { return run(*common, *as_json, *limit); };
 }

@@ -150,6 +150,16 @@ std::string argument_of(const Given& given) { return fmt::format("{} is {}", giv
   throw FormatError(fmt::format("{} is {}; {}", given.path, name_of(given.kind), argument_of(given)));
 }
 
+/// The role of an option of a subcommand; null if it names no file to read.
+const Role* role_of(const CLI::App& command, const CLI::Option& option) {
+  const auto role = std::ranges::find_if(roles(), [&](const Role& r) {
+    const bool owned = !r.owner || command.get_name() == r.owner ||
+                       (command.get_parent() && command.get_parent()->get_name() == r.owner);
+    return owned && option.check_name(r.name);
+  });
+  return role == roles().end() ? nullptr : &*role;
+}
+
 }  // namespace
 
 FileKind file_kind(const std::string& path) {
@@ -211,15 +221,37 @@ const char* name_of(FileKind kind) {
   return "a file of an unknown kind";
 }
 
+std::string input_meaning(const CLI::App& command, const CLI::Option& option) {
+  const Role* role = role_of(command, option);
+  return role ? role->takes : "";
+}
+
+std::vector<std::string> input_extensions(const CLI::App& command, const CLI::Option& option) {
+  using enum FileKind;
+  std::vector<std::string> extensions;
+  const Role* role = role_of(command, option);
+  if (!role) return extensions;
+  const auto add = [&](std::initializer_list<const char*> names) {
+    extensions.insert(extensions.end(), names.begin(), names.end());
+  };
+  for (const FileKind kind : role->kinds) {
+    if (kind == obj) add({"obj"});
+    if (kind == ply) add({"ply"});
+    if (kind == off) add({"off"});
+    if (kind == csv) add({"csv"});
+    if (kind == json) add({"json", "jsonl"});
+    if (kind == npy) add({"npy"});
+    if (kind == safetensors) add({"safetensors"});
+  }
+  return extensions;
+}
+
 void check_input_files(const CLI::App& command) {
   std::vector<Given> all;
   for (const CLI::Option* option : command.get_options()) {
     if (option->count() != 1) continue;
-    const auto role = std::ranges::find_if(roles(), [&](const Role& r) {
-      const bool owned = !r.owner || command.get_name() == r.owner || command.get_parent()->get_name() == r.owner;
-      return owned && option->check_name(r.name);
-    });
-    if (role != roles().end()) all.push_back({&*role, option->results().front(), file_kind(option->results().front())});
+    if (const Role* role = role_of(command, *option))
+      all.push_back({role, option->results().front(), file_kind(option->results().front())});
   }
   for (const Given& given : all)
     if (!given.fits()) refuse(given, all);

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 
 #include <string>
+#include <vector>
 
 namespace sublimit::cli {
 
@@ -32,6 +33,13 @@ FileKind file_kind(const std::string& path);
 
 /// "an OBJ file"; for use in messages.
 const char* name_of(FileKind kind);
+
+/// What belongs in the place of an argument or option, "a control mesh, .obj, .ply or .off"; empty if it names no file
+/// to read.
+std::string input_meaning(const CLI::App& command, const CLI::Option& option);
+
+/// Extensions of the files that an argument or option takes, without the dot; empty for any, or if it names none.
+std::vector<std::string> input_extensions(const CLI::App& command, const CLI::Option& option);
 
 /// Fails if a file stands where a subcommand takes another kind: a table for a mesh, a mesh for a CSV, swapped
 /// arguments, a directory, an empty file. Arguments and options are known by their names.

@@ -64,7 +64,7 @@ int run(const IntersectOptions& options) {
 }  // namespace
 
 Command add_intersect(CLI::App& app) {
-  auto* command = app.add_subcommand("intersect", "Where rays meet the limit, or patches");
+  auto* command = app.add_subcommand("intersect", "Find where rays meet the limit, or patches");
   auto options = std::make_shared<IntersectOptions>();
   add_mesh(*command, options->common, false);
   command->add_option("--rays", options->rays, "Rays: a .csv with the header ox,oy,oz,dx,dy,dz[,tmin,tmax]")
@@ -81,12 +81,12 @@ Command add_intersect(CLI::App& app) {
       "  sublimit intersect cage.obj -s catmull-clark --rays rays.csv -o hits.csv\n"
       "  sublimit intersect cage.obj -s loop --rays rays.csv --all -o hits.csv\n"
       "  sublimit intersect teapot.obj --rays rays.csv -o hits.csv\n"
-      "A hit is at o + t d. Rays are counted from 0, and go from t = 0 on without end unless tmin and tmax say otherwise.\n"
+      "\nA hit is at o + t d. Rays are counted from 0, and go from t = 0 on without end unless tmin and tmax say otherwise.\n"
       "No hit is missed, and a ray through a side that faces share hits once. Holes are no part of the limit. Of schemes\n"
       "without polynomials (butterfly, kobbelt, the sqrt3) every hit is one, but that there are no others is estimated.\n"
-      "Status is touching where the ray touches the surface. A ray that meets too much of it is given up: it has a row\n"
+      "\nStatus is touching where the ray touches the surface. A ray that meets too much of it is given up: it has a row\n"
       "with the status given-up, where the search stopped, and the exit code is 1.\n"
-      "Without -s the rays meet the free-form surfaces of an .obj, or recipes (.json), rational ones too; those that are no\n"
+      "\nWithout -s the rays meet the free-form surfaces of an .obj, or recipes (.json), rational ones too; those that are no\n"
       "B-spline and no polynomial (screw, gregory with twists that differ), or have a pole, are refused.");
   return [=] { return run(*options); };
 }

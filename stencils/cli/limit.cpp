@@ -89,14 +89,15 @@ Command add_limit(CLI::App& app) {
       "Examples:\n"
       "  sublimit limit cage.obj -s catmull-clark -l 3 --normals -o surface.obj\n"
       "  sublimit limit cage.obj -s loop -o control_points_at_the_limit.ply\n"
-      "Curves: MESH is a .csv of points or an .obj with lines, OUT a .csv or .obj; --normals adds unit tangents as columns\n"
+      "  sublimit limit cage.obj -s doo-sabin -l 2 -o surface.ply\n"
+      "\nCurves: MESH is a .csv of points or an .obj with lines, OUT a .csv or .obj; --normals adds unit tangents as columns\n"
       "tx,ty,... of a .csv, empty where there is none:\n"
       "  sublimit limit polygon.csv -s four-point -l 4 --normals -o curve.csv\n"
-      "Free-form surfaces of an .obj, without -s: control points of the nets of a level, moved to where they tend to:\n"
+      "\nFree-form surfaces of an .obj, without -s: control points of the nets of a level, moved to where they tend to:\n"
       "  sublimit limit teapot.obj -l 3 --normals -o surface.ply\n"
-      "hermite-incentre takes points with unit tangents, x,y,tx,ty or x,y,z,tx,ty,tz; its points of a level are on the\n"
+      "\nhermite-incentre takes points with unit tangents, x,y,tx,ty or x,y,z,tx,ty,tz; its points of a level are on the\n"
       "limit, and are placed on its exact arcs.\n"
-      "Recipes (.json, see `sublimit construct --help`) stand wherever free-form surfaces do, and, of kinds nielson and\n"
+      "\nRecipes (.json, see `sublimit construct --help`) stand wherever free-form surfaces do, and, of kinds nielson and\n"
       "piper, meshes with normals, without -s.");
   return [=] { return run(*options); };
 }

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <csignal>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "ending.h"
 #include "heap.h"
 #include "input_files.h"
+#include "manual.h"
 #include "standard_streams.h"
 
 namespace {
@@ -20,7 +22,10 @@ using namespace sublimit;
 
 int run(int argc, char** argv) {
   CLI::App app("Subdivision surfaces as sparse matrices, and their exact limits.", "sublimit");
+  app.formatter(std::make_shared<cli::HelpFormatter>());
   app.set_version_flag("--version", "sublimit " SUBLIMIT_VERSION);
+  std::string generate;  // what it is given is in the parsed line
+  app.add_option("--generate", generate, "Write the manual into a directory; KIND is man, bash, zsh, fish or markdown");
   app.require_subcommand(1);
   app.footer(
       "Examples:\n"
@@ -30,9 +35,7 @@ int run(int argc, char** argv) {
       "  sublimit sample cage.obj -s catmull-clark --random 1000 --derivatives 2 -o points.csv\n"
       "  sublimit fit cage.obj --targets points.csv -s catmull-clark -o fitted.obj\n"
       "  sublimit bake cage.obj -s catmull-clark -l 3 -o level3.safetensors\n"
-      "  sublimit apply level3.safetensors animation.npy -o refined.npy\n"
-      "Exit status: 0 done; 1 the verdict is no (verify); 2 bad command line; 3 bad input or unwritable output; 4 too little\n"
-      "memory or disk; 70 a fault of ours; 130 interrupted.");
+      "  sublimit apply level3.safetensors animation.npy -o refined.npy");
   std::vector<std::pair<std::string, cli::Command>> commands{{"schemes", cli::add_schemes(app)},
                                                              {"info", cli::add_info(app)},
                                                              {"refine", cli::add_refine(app)},
@@ -55,6 +58,10 @@ int run(int argc, char** argv) {
   const cli::ParsedCommandLine line = cli::parse_command_line(app, argc, argv);
   fmt::print("{}", line.out);
   fmt::print(stderr, "{}", line.err);
+  if (!line.manual_kind.empty()) {
+    cli::write_manual(cli::program_page(app), line.manual_kind, line.manual_directory);
+    return 0;
+  }
   for (const auto& [name, command] : commands)
     if (line.runs && app.got_subcommand(name)) {
       cli::check_input_files(*app.get_subcommand(name));

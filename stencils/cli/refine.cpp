@@ -86,15 +86,15 @@ Command add_refine(CLI::App& app) {
       "  sublimit refine cage.obj -s catmull-clark -l 2 -o refined.obj\n"
       "  sublimit refine cage.obj -s loop -l 3 -o refined.ply --matrix stencils.mtx\n"
       "  sublimit refine cage.obj -s catmull-clark -l 2 --face-varying boundaries -o refined.obj\n"
-      "Curves: MESH is a .csv of points (a line each; a blank line begins another curve) or an .obj with lines, OUT a .csv or .obj:\n"
+      "\nCurves: MESH is a .csv of points (a line each; a blank line begins another curve) or an .obj with lines, OUT a .csv or .obj:\n"
       "  sublimit refine polygon.csv -s chaikin -l 3 --closed -o curve.csv\n"
-      "Free-form surfaces of an .obj, without -s: the middle of every span becomes a knot; OUT.obj has the finer nets as\n"
+      "\nFree-form surfaces of an .obj, without -s: the middle of every span becomes a knot; OUT.obj has the finer nets as\n"
       "bspline surfaces, OUT.ply their polygons:\n"
       "  sublimit refine teapot.obj -l 2 -o nets.obj --matrix S.mtx\n"
-      "hermite-incentre takes and writes points with unit tangents, x,y,tx,ty or x,y,z,tx,ty,tz; it has no matrix.\n"
-      "nielson, piper: points of their surface with normals, which are those of `limit`; nothing refines them further:\n"
+      "\nhermite-incentre takes and writes points with unit tangents, x,y,tx,ty or x,y,z,tx,ty,tz; it has no matrix.\n"
+      "\nnielson, piper: points of their surface with normals, which are those of `limit`; nothing refines them further:\n"
       "  sublimit refine triangles.obj -s nielson -l 3 -o surface.obj\n"
-      "Recipes (.json, see `sublimit construct --help`) stand wherever such surfaces do, without -s.");
+      "\nRecipes (.json, see `sublimit construct --help`) stand wherever such surfaces do, without -s.");
   return [=] { return run(*options); };
 }
 

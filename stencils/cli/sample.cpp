@@ -189,7 +189,8 @@ int run(const SampleOptions& options) {
 }  // namespace
 
 Command add_sample(CLI::App& app) {
-  auto* command = app.add_subcommand("sample", "The exact limit anywhere: points, derivatives, normals, curvature");
+  auto* command =
+      app.add_subcommand("sample", "Evaluate the exact limit anywhere: points, derivatives, normals, curvature");
   auto options = std::make_shared<SampleOptions>();
   SampleJob& job = options->job;
   add_mesh(*command, job.common, false);
@@ -218,24 +219,24 @@ Command add_sample(CLI::App& app) {
       "  sublimit sample cage.obj -s catmull-clark --at places.csv --derivatives 2 --curvature -o points.csv\n"
       "  sublimit sample teapot.obj --grid 9 --derivatives 1 -o points.csv       free-form surfaces: without a scheme\n"
       "  sublimit sample sphere.json --grid 9 --derivatives 1 -o points.csv      recipes: see `sublimit construct --help`\n"
-      "Faces are numbered from 0 as Ptex does. A quad is one face: (0,0) at its first corner, u towards the second, v\n"
+      "\nFaces are numbered from 0 as Ptex does. A quad is one face: (0,0) at its first corner, u towards the second, v\n"
       "towards the last one. Any other polygon of n corners is n faces, one a corner: (0,0) at the corner, u towards the\n"
       "middle of the edge to the next corner, v towards the middle of the edge before, (1,1) in the centre. Under schemes\n"
       "for triangles a triangle is one face: (0,0), (1,0), (0,1) at its corners. `sublimit info MESH -s SCHEME` counts\n"
       "them. Derivatives are per unit of u and v.\n"
-      "Free-form surfaces of an .obj (cstype bezier, bspline, rat): a face is a span of both knots that is not empty, u\n"
+      "\nFree-form surfaces of an .obj (cstype bezier, bspline, rat): a face is a span of both knots that is not empty, u\n"
       "fastest, surface after surface; u and v go from 0 to 1 in it. Places of --at can be patch,u,v[,side] too: surface\n"
       "and parameters of its knots; side, of u and v each + (right of a knot) or -, like +-.\n"
-      "nielson and piper: surfaces through the vertices and normals (vn) of a mesh of triangles, one patch each:\n"
+      "\nnielson and piper: surfaces through the vertices and normals (vn) of a mesh of triangles, one patch each:\n"
       "  sublimit sample triangles.obj -s nielson --grid 9 --derivatives 1 -o points.csv\n"
       "Recipes of these kinds are the same surfaces without -s, their triangles recipe after recipe.\n"
-      "Curves: MESH is a .csv of points or an .obj with lines, places are segment,t: from point segment (t = 0) to the\n"
+      "\nCurves: MESH is a .csv of points or an .obj with lines, places are segment,t: from point segment (t = 0) to the\n"
       "next; derivatives are columns xt,..., xtt,...:\n"
       "  sublimit sample polygon.csv -s four-point --grid 9 --derivatives 2 -o curve.csv\n"
-      "Curves of a free-form .obj (curv) or of recipes: places are segment,t, by the spans of their knots, or\n"
+      "\nCurves of a free-form .obj (curv) or of recipes: places are segment,t, by the spans of their knots, or\n"
       "curve,t[,side]: number of the curve and parameter of its knots; side + (right of a knot) or -:\n"
       "  sublimit sample arcs.json --at places.csv --derivatives 1 -o curve.csv\n"
-      "Status: regular; extraordinary (a smooth corner of another valence: no derivatives, but a normal); unbounded-second\n"
+      "\nStatus: regular; extraordinary (a smooth corner of another valence: no derivatives, but a normal); unbounded-second\n"
       "(no second derivatives); crease (derivatives and normal of this face's side); hole; undefined-normal. What does not\n"
       "exist is an empty field.");
   return [=] { return run(*options); };

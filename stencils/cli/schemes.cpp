@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "gallery.h"
+#include "manual.h"
 #include "sublimit/curves/schemes/curve_schemes.h"
 #include "sublimit/geometric/geometric_schemes.h"
 
@@ -188,8 +189,22 @@ int run(bool as_json) {
 
 }  // namespace
 
+std::vector<std::pair<std::string, std::vector<OptionInfo>>> scheme_words() {
+  std::vector<std::pair<std::string, std::vector<OptionInfo>>> all;
+  const auto add = [&](const auto& schemes) {
+    for (const auto& scheme : schemes) all.emplace_back(scheme.name, scheme.options);
+  };
+  add(all_schemes());
+  add(all_curve_schemes());
+  add(all_geometric_schemes());
+  add(all_geometric_schemes<CurvatureMesh>());
+  add(all_geometric_schemes<NormalMesh>());
+  return all;
+}
+
 Command add_schemes(CLI::App& app) {
-  auto* command = app.add_subcommand("schemes", "Every scheme: split, faces, limit, smoothness, source");
+  auto* command =
+      app.add_subcommand("schemes", "List every scheme with its split, faces, limit, smoothness and source");
   auto as_json = std::make_shared<bool>(false);
   command->add_flag("--json", *as_json, "As JSON");
   const auto gallery = add_gallery(*command);

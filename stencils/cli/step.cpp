@@ -98,7 +98,8 @@ int run(const StepJob& job) {
 }  // namespace
 
 Command add_step(CLI::App& app) {
-  auto* command = app.add_subcommand("step", "Limits for CAD: exact B-spline faces, solids where closed (STEP, BREP)");
+  auto* command =
+      app.add_subcommand("step", "Write limits for CAD: exact B-spline faces, solids where closed (STEP, BREP)");
   auto job = std::make_shared<StepJob>();
   add_mesh(*command, job->common, false);
   command->add_option("--tolerance", job->tolerance,
@@ -117,17 +118,15 @@ Command add_step(CLI::App& app) {
       "  sublimit step cage.obj -s catmull-clark -o surface.step\n"
       "  sublimit step cage.obj -s loop --tolerance 0.01% -o surface.brep --report report.json\n"
       "  sublimit step teapot.obj -o teapot.step\n"
-      "Regular faces are exact, and packed into the largest B-splines that keep knots and smoothness; a triangle of loop is\n"
+      "\nRegular faces are exact, and packed into the largest B-splines that keep knots and smoothness; a triangle of loop is\n"
       "three biquartic patches. Around extraordinary vertices there are rings of exact patches, as many as leave a cap within\n"
       "the tolerance. Creases and borders are edges. Names of groups (else objects) of an .obj are those of their faces in STEP\n"
       "files; faces of different names stay apart. Schemes without polynomials (butterfly, kobbelt, sqrt3) are refused.\n"
-      "Free-form surfaces of an .obj and recipes (.json, see `sublimit construct --help`), without -s: a face for each\n"
+      "\nFree-form surfaces of an .obj and recipes (.json, see `sublimit construct --help`), without -s: a face for each\n"
       "patch, its own B-spline, rational ones with weights, three faces for a Bezier triangle. Sides that are one\n"
       "curve in one parameter are one edge, closed sets of patches solids; names of groups, objects and recipes are those\n"
       "of faces in STEP files. Surfaces that are no B-spline (screw; gregory with twists that differ; nielson) are refused,\n"
-      "trimming loops left out. -s piper takes triangles with normals: three Bezier triangles each.\n"
-      "Exit status 1: the tolerance is not met, or the shape is not valid by OpenCASCADE's check, as of some non-manifold\n"
-      "meshes; the file is written all the same.");
+      "trimming loops left out. -s piper takes triangles with normals: three Bezier triangles each.");
   return [=] { return run(*job); };
 }
 

@@ -160,7 +160,7 @@ int run(const TessellateOptions& options) {
 
 Command add_tessellate(CLI::App& app) {
   auto* command =
-      app.add_subcommand("tessellate", "Triangles near the limit: by less than a distance, proved, and without cracks");
+      app.add_subcommand("tessellate", "Make triangles within a proved distance of the limit, without cracks");
   auto options = std::make_shared<TessellateOptions>();
   add_mesh(*command, options->common, true);
   command->add_option("--chord", options->chord,
@@ -194,13 +194,13 @@ Command add_tessellate(CLI::App& app) {
       "  sublimit tessellate cage.obj -s catmull-clark --chord 0.01% -o surface.vtu    exact polynomials, curved\n"
       "  sublimit tessellate cage.obj -s catmull-clark --rates rates.csv -o surface.obj\n"
       "  sublimit tessellate cage.obj -s catmull-clark --chord 1% --rates rates.csv -o surface.obj\n"
-      "Rates are kept by quadrilaterals and triangles; edges of other polygons have the next even number of segments.\n"
+      "\nRates are kept by quadrilaterals and triangles; edges of other polygons have the next even number of segments.\n"
       "No distance is proved with them alone, and every scheme is taken. With --chord edges have at least so many.\n"
-      "The distance is that of points with the same parameters, bounded by second derivatives; towards extraordinary\n"
+      "\nThe distance is that of points with the same parameters, bounded by second derivatives; towards extraordinary\n"
       "vertices by how far the limit is from an affine map of its parameters. Schemes without polynomials (butterfly,\n"
       "kobbelt, sqrt3), and those whose hulls are estimates (mid-edge-habib-warren), have no such bounds: `refine` or\n"
       "`limit -l N` serve them.\n"
-      "Texture coordinates are carried along: `vt` of an .obj; in .ply (s, t) and .glb points on seams are written once\n"
+      "\nTexture coordinates are carried along: `vt` of an .obj; in .ply (s, t) and .glb points on seams are written once\n"
       "for each side, with normals those on creases too, so a mesh is open there. Cells of a .vtu are each on their own.");
   return [=] { return run(*options); };
 }

@@ -121,7 +121,7 @@ int verify(const VerifyOptions& options) {
 }  // namespace
 
 Command add_verify(CLI::App& app) {
-  auto* command = app.add_subcommand("verify", "Whether a table is sound, or a report proves what it says");
+  auto* command = app.add_subcommand("verify", "Check whether a table is sound, or a report proves what it says");
   auto options = std::make_shared<VerifyOptions>();
   command->add_option("TABLE", options->table, "What `sublimit bake` made, or `sublimit analyze --json`")->required();
   add_run(*command, options->common);
@@ -129,14 +129,15 @@ Command add_verify(CLI::App& app) {
       "Examples:\n"
       "  sublimit verify level3.safetensors\n"
       "  sublimit verify report.json\n"
-      "Checked of tables: the layout of the file (every tensor within it, no overlaps, no holes, sizes that fit their shapes),\n"
+      "  sublimit verify --quiet level3.safetensors && echo sound\n"
+      "\nChecked of tables: the layout of the file (every tensor within it, no overlaps, no holes, sizes that fit their shapes),\n"
       "indices, that weights are finite, that those of a position sum to one and those of a derivative to zero, that\n"
-      "every point is made once, and checksums. Checked of reports: that each witness proves C^1 at its neighbourhood\n"
+      "every point is made once, and checksums.\n"
+      "\nChecked of reports: that each witness proves C^1 at its neighbourhood\n"
       "(by a checker of its own, and on the masks of the scheme's file where the scheme is one of ours), that C^1 is\n"
       "nowhere said to be proved without one (but by refined nets, of which there are none yet), that regular parts, types,\n"
       "weights and claims are what masks give (the file's, or of schemes that are not ours those in the report), and that\n"
-      "verdicts agree with their hypotheses and with the summary.\n"
-      "Exit status 1 if a check fails, 3 if the file cannot be read.");
+      "verdicts agree with their hypotheses and with the summary.");
   return [=] { return verify(*options); };
 }
 

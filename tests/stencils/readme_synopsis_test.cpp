@@ -53,11 +53,11 @@ TEST(ReadmeSynopsis, NamesVerbsAndOptionsOfTheProgram) {
 TEST(ReadmeSynopsis, HasEveryVerb) {
   std::set<std::string> described;
   for (const CommandLine& command : command_lines())
-    if (command.document == "stencils/README.md" && command.section == "The program")
+    if (command.document == "stencils/docs/program.md" && command.section == "The program")
       described.merge(matches(command.text, std::regex(R"((?:^sublimit +|\|)([a-z]+))")));
   EXPECT_GE(verbs().size(), 12u);
   for (const auto& [name, options] : verbs()) {
-    EXPECT_TRUE(described.contains(name)) << "stencils/README.md does not describe " << name;
+    EXPECT_TRUE(described.contains(name)) << "stencils/docs/program.md does not describe " << name;
     EXPECT_TRUE(options.contains("--help")) << name;
   }
 }

@@ -65,8 +65,8 @@ MapProof prove_map(CharacteristicMap& map, const RegularPieces& pieces, const Ba
 /// net of level k is the net itself between rings D^k r and D^(k+1) r, times lambda^k, so it is only looked at further
 /// out. Of interpolating schemes; others get no winding. Leaves are all kept as numbers of the finest level needed, no
 /// paths.
-/// @param ring   `regular_ring` with `tail.pieces`
-/// @param level  up to which nets are refined
+/// @param ring    `regular_ring` with `tail.pieces`
+/// @param levels  up to which nets are refined
 MapProof prove_map(CharacteristicMap& map, const DerivativeTail& tail, int ring, int levels);
 
 /// What refined nets look like, as floating numbers: the signs of the determinants of their edges between rings

@@ -31,7 +31,6 @@ class SpreadTargets {
   std::string where(std::int64_t line) const;
 
   /// This rank's share of the rows, any of them; a vertex is the place of a corner there. All ranks call, once.
-  /// @param num_vertices  of the whole
   /// @throws FormatError  on all ranks, naming the line: a field that is no finite number, a face, place or vertex that
   ///                      does not exist, a negative weight, two targets at a vertex, a vertex without a surface; no
   ///                      rows, or none that counts

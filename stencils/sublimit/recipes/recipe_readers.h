@@ -28,7 +28,7 @@ struct GivenColumns {
 GivenColumns read_columns(RecipeObject& object, bool in_any_dimension, std::vector<std::string>& notes);
 
 /// Open knots, or break points if closed; the number of control points has to fit.
-/// @param of  the field that has the control points, for messages
+/// @param points  number of control points
 Knots<double> read_knots(RecipeObject& object, const std::string& field, int degree, Eigen::Index points, bool closed,
                          std::vector<std::string>& notes);
 

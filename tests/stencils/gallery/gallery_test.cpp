@@ -84,7 +84,7 @@ TEST(CliGallery, ShowsEverySchemeOnEveryCageAndPolygon) {
   }
   for (const char* file : {"overview.svg", "patches.svg"}) {
     EXPECT_EQ(count_of(html, "src=\"" + std::string(file) + "\""), 1u) << file;
-    EXPECT_LT(read_file(gallery / file).size(), 400'000u) << file;  // stencils/README.md shows them
+    EXPECT_LT(read_file(gallery / file).size(), 400'000u) << file;  // pages show them
   }
   EXPECT_EQ(count_of(html, "href=\"patches.json\""), 1u);
   const auto pictures = std::ranges::count_if(files, [](const std::string& file) { return file.ends_with(".svg"); });

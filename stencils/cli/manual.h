@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// The manual: one description of the subcommands, read from CLI11's tree, and what is made of it: `--help`, manual
+// pages, completions for shells, reference pages. None of them has words of its own, so they cannot disagree.
+#include <CLI/CLI.hpp>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "sublimit/core/scheme_options.h"
+
+namespace sublimit::cli {
+
+/// What stands behind an option, or for an argument.
+enum class ValueKind { none, text, words, scheme, scheme_option, in_file, out_file, directory, verb };
+
+struct OptionPage {
+  std::vector<std::string> names;  ///< "-l", "--levels"; of an argument its one name
+  ValueKind kind = ValueKind::text;
+  std::string value;                    ///< "LEVELS", "float|double"; empty for a flag
+  std::string text;                     ///< what it does
+  std::vector<std::string> words;       ///< values to choose from
+  std::vector<std::string> extensions;  ///< of files that it reads, "obj"; empty for any
+  bool argument = false, required = false, repeats = false;
+};
+
+struct OptionGroup {
+  std::string title;
+  std::vector<OptionPage> options;
+};
+
+struct Example {
+  std::string line, remark;
+};
+
+/// A paragraph of sentences, or lines that are kept as they are.
+struct Note {
+  bool as_it_is = false;
+  std::string text;
+};
+
+struct VerbPage {
+  std::string name, sentence;  ///< "refine", "Refine a mesh or curves"
+  std::string usage;           ///< "sublimit refine [OPTIONS] MESH"
+  std::vector<Example> examples;
+  std::vector<OptionPage> arguments;
+  std::vector<OptionGroup> groups;
+  std::vector<Note> notes;
+  std::vector<std::pair<int, std::string>> exits;          ///< status, meaning
+  std::vector<std::pair<std::string, std::string>> files;  ///< "MESH", "a control mesh, .obj, ..., is read"
+};
+
+struct ProgramPage {
+  std::string name, version;
+  VerbPage program;             ///< the program itself: its sentence, options, examples
+  std::vector<VerbPage> verbs;  ///< in the order of `sublimit --help`
+};
+
+/// Names of all schemes, surfaces and curves, with their options: what `-s` and `--option` take.
+std::vector<std::pair<std::string, std::vector<OptionInfo>>> scheme_words();
+
+/// Page of a subcommand, or of the program itself.
+VerbPage verb_page(const CLI::App& command);
+ProgramPage program_page(const CLI::App& app);
+
+/// `--help` of the pages above.
+class HelpFormatter : public CLI::Formatter {
+ public:
+  std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const override;
+};
+
+/// Kinds of `--generate`: man, bash, zsh, fish, markdown.
+const std::vector<std::string>& manual_kinds();
+
+/// Files of a kind, as name and text: "sublimit-refine.1", "_sublimit".
+std::vector<std::pair<std::string, std::string>> manual_files(const ProgramPage& page, const std::string& kind);
+
+/// Writes them into a directory, which is made if it is not there: all of them, or none.
+/// @throws InvalidOption  no such kind, with the nearest names
+/// @throws IoError        the directory cannot be made, a file cannot be written
+void write_manual(const ProgramPage& page, const std::string& kind, const std::string& directory);
+
+}  // namespace sublimit::cli
