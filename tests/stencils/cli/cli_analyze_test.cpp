@@ -142,7 +142,8 @@ TEST(CliAnalyze, SaysOnlyWhatIsAskedFor) {
   EXPECT_EQ(expect_done(sublimit({"analyze", "-s", "loop", "--valence", "3", "--quiet"})).out, "");
   EXPECT_EQ(expect_done(sublimit({"analyze", "--mask", "1 2 1 /2", "--quiet"})).out, "");
   expect_parts(expect_done(sublimit({"analyze", "--help"})).out,
-               {"Examples:", "sublimit analyze -s catmull-clark -o report.html", "--sweep", "Exit status 1"});
+               {"Examples:", "sublimit analyze -s catmull-clark -o report.html", "--sweep",
+                "  1   a claim of the scheme is disproved"});
   expect_parts(expect_done(sublimit({"verify", "--help"})).out, {"sublimit verify report.json", "witness"});
 }
 
