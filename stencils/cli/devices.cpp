@@ -5,30 +5,27 @@
 #include <nlohmann/json.hpp>
 
 #include "common.h"
-#include "optional_parts.h"
+#include "gpu/entry.h"
+#include "loaded_library.h"
+#include "sublimit/base/error.h"
 #include "sublimit/base/memory.h"
-#include "sublimit/gpu/gpu_device.h"
 
 namespace sublimit::cli {
 namespace {
 
-/// A device in the words of both outputs.
-struct Described {
-  GpuInfo info;
-  std::string api, kind;
-};
-
-std::vector<Described> described_devices(std::string& why_none) {
-  std::vector<Described> all;
-#ifdef SUBLIMIT_GPU
-  for (const GpuInfo& info : gpu_devices(&why_none)) all.push_back({info, name(info.api), name(info.kind)});
-#else
-  why_none = "this program was built without its part for GPUs: " + how_to_build(gpu_part);
-#endif
+std::vector<DescribedGpu> described_devices(std::string& why_none) {
+  std::vector<DescribedGpu> all;
+  try {
+    auto* const devices = reinterpret_cast<GpuDevicesEntry*>(
+        loaded_function(gpu_part, gpu_library, gpu_devices_entry, "results of GPUs"));
+    devices(all, why_none);
+  } catch (const InvalidOption& error) {  // the part is not here
+    why_none = error.what();
+  }
   return all;
 }
 
-void print_json(const std::vector<Described>& all) {
+void print_json(const std::vector<DescribedGpu>& all) {
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
   for (const auto& [info, api, kind] : all)
     json.push_back({{"number", json.size()},
@@ -41,9 +38,9 @@ void print_json(const std::vector<Described>& all) {
   fmt::print("{}\n", json.dump(2));
 }
 
-void print_table(const std::vector<Described>& all) {
+void print_table(const std::vector<DescribedGpu>& all) {
   size_t width = 4;
-  for (const Described& device : all) width = std::max(width, device.info.name.size());
+  for (const DescribedGpu& device : all) width = std::max(width, device.info.name.size());
   fmt::print("{:>6}  {:<{}}  {:<6}  {:<10}  {:>8}  {:<6}  {}\n", "number", "name", width, "API", "kind", "memory",
              "halves", "driver");
   for (size_t i = 0; i < all.size(); ++i) {
@@ -55,7 +52,7 @@ void print_table(const std::vector<Described>& all) {
 
 int run(bool as_json) {
   std::string why_none;
-  const std::vector<Described> all = described_devices(why_none);
+  const std::vector<DescribedGpu> all = described_devices(why_none);
   const std::string none = "no GPU that tables can be applied on: " + why_none;
   if (as_json) {
     if (all.empty()) fmt::print(stderr, "sublimit: note: {}\n", none);

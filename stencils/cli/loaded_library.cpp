@@ -9,17 +9,34 @@
 #include "sublimit/base/error.h"
 
 namespace sublimit::cli {
+namespace {
+
+/// The version that the library of a part says that it has; they share types, so that another one must not be used.
+void check_version(void* loaded, const char* library) {
+  const auto* const version = static_cast<const char*>(::dlsym(loaded, "sublimit_part_version"));
+  if (version && std::string_view(version) == SUBLIMIT_VERSION) return;
+  Dl_info place{};
+  const bool is_known = version && ::dladdr(version, &place) != 0;
+  throw IoError(fmt::format("{} is of {}, and this program is of sublimit {}: both must be of one version; {}",
+                            is_known ? place.dli_fname : library,
+                            version ? fmt::format("sublimit {}", version) : "an unknown version", SUBLIMIT_VERSION,
+                            "look whether LD_LIBRARY_PATH names the folder of another one"));
+}
+
+}  // namespace
 
 void* loaded_function(const OptionalPart& part, const char* library, const char* function, const char* makes) {
   void* const loaded = ::dlopen(library, RTLD_NOW);
+  if (loaded) check_version(loaded, library);
   void* const entry = loaded ? ::dlsym(loaded, function) : nullptr;
   if (entry) return entry;
   const std::string_view why = ::dlerror();
   // A library that is there, or one that it needs, is named first with its whole path or its own name.
   if (!loaded && why.substr(0, std::string_view(library).size()) == library)
-    throw InvalidOption(
-        fmt::format("{} need a part that is not here: {} is neither beside the program nor where it was installed; {}",
-                    makes, library, how_to_build(part)));
+    throw InvalidOption(fmt::format(
+        "{} need a part that is not here: {} is neither beside the program nor where it was installed; where sublimit "
+        "came as Debian packages, install {}; where it was built, {}",
+        makes, library, part.package, how_to_build(part)));
   throw IoError(fmt::format("cannot load {}, which makes {}: {}", library, makes, why));
 }
 

@@ -8,8 +8,8 @@ namespace sublimit::cli {
 
 /// A function of a library that was built with the program, and is looked for beside it and where it was installed.
 /// @param makes  what it is for, in the plural: "CAD files"
-/// @throws InvalidOption  there is no such library: the message has the packages that it needs, and how to build it
-/// @throws IoError  it cannot be loaded, or is without the function
+/// @throws InvalidOption  there is no such library: the message has the package of it, and how to build it
+/// @throws IoError  it cannot be loaded, is of another version, or is without the function
 void* loaded_function(const OptionalPart& part, const char* library, const char* function, const char* makes);
 
 }  // namespace sublimit::cli

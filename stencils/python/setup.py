@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Builds the compiled part with CMake, in the tree of what ships: who has built the program waits a minute, others ten."""
+"""Builds the compiled part with CMake, in the tree of what ships: a minute where the program has been built, ten where not.
+
+Source distributions carry the sources of the whole project, but for tests and benchmarks, in the folder `source`."""
 import os
 import pathlib
 import re
@@ -10,9 +12,10 @@ import sysconfig
 
 from setuptools import Extension, setup
 from setuptools.command.build_ext import build_ext
+from setuptools.command.sdist import sdist
 
 HERE = pathlib.Path(__file__).resolve().parent
-SOURCE = HERE.parent.parent
+SOURCE = HERE / "source" if (HERE / "source" / "CMakeLists.txt").exists() else HERE.parent.parent
 TREE = pathlib.Path(os.environ.get("SUBLIMIT_BUILD_DIR", SOURCE / "build" / "release"))
 
 
@@ -43,9 +46,24 @@ class CMakeBuild(build_ext):
         shutil.copyfile(TREE / "python" / "sublimit" / ("_sublimit" + sysconfig.get_config_var("EXT_SUFFIX")), target)
 
 
+class SourceDistribution(sdist):
+    """The package, and beside it the sources that its compiled part is built from."""
+
+    def make_release_tree(self, base_dir, files):
+        super().make_release_tree(base_dir, [file for file in files if not file.startswith("..")])  # not those of OUTPUT
+        names = OUTPUT / "sources.txt"
+        subprocess.run(["cmake", f"-DSOURCE={SOURCE}", f"-DOUT={names}", "-P",
+                        str(SOURCE / "stencils" / "packaging" / "sources.cmake")], check=True)
+        for name in names.read_text().splitlines():
+            if not name.startswith(("bench/", "tests/")):
+                target = pathlib.Path(base_dir, "source", name)
+                target.parent.mkdir(parents=True, exist_ok=True)
+                shutil.copy2(SOURCE / name, target)
+
+
 # Nothing is left beside the sources.
 OUTPUT = TREE / "wheel"
 OUTPUT.mkdir(parents=True, exist_ok=True)
 setup(options={"build": {"build_base": str(OUTPUT)}, "egg_info": {"egg_base": str(OUTPUT)}},
       version=re.search(r"project\(sublimit VERSION ([0-9.]+)", (SOURCE / "CMakeLists.txt").read_text())[1],
-      ext_modules=[Extension("sublimit._sublimit", [])], cmdclass={"build_ext": CMakeBuild})
+      ext_modules=[Extension("sublimit._sublimit", [])], cmdclass={"build_ext": CMakeBuild, "sdist": SourceDistribution})

@@ -1,0 +1,31 @@
+# sublimit_sources(SOURCE VARIABLE) -- the files that the project consists of, relative to its root, sorted.
+# As a script, cmake -DSOURCE=DIR -DOUT=FILE -P sources.cmake, a line each in a file.
+function(sublimit_sources source variable)
+  set(files "")
+  if(EXISTS ${source}/.git)
+    execute_process(COMMAND git -c safe.directory=* -c core.quotePath=off ls-files WORKING_DIRECTORY ${source}
+                    RESULT_VARIABLE status OUTPUT_VARIABLE files ERROR_VARIABLE why)
+    if(NOT status EQUAL 0)
+      message(FATAL_ERROR "git cannot list the files of ${source}: ${why}")
+    endif()
+    string(REGEX REPLACE "\n$" "" files "${files}")
+    string(REPLACE "\n" ";" files "${files}")
+  else()
+    file(GLOB_RECURSE files RELATIVE ${source} LIST_DIRECTORIES OFF ${source}/*)
+    list(FILTER files EXCLUDE REGEX "^(build|demo|LICENSES)/|(^|/)__pycache__/|^compile_commands[.]json$")
+  endif()
+  set(there "")
+  foreach(file IN LISTS files)  # not those that are deleted and not committed yet
+    if(EXISTS ${source}/${file})
+      list(APPEND there ${file})
+    endif()
+  endforeach()
+  list(SORT there)
+  set(${variable} ${there} PARENT_SCOPE)
+endfunction()
+
+if(CMAKE_SCRIPT_MODE_FILE STREQUAL CMAKE_CURRENT_LIST_FILE)
+  sublimit_sources(${SOURCE} files)
+  list(JOIN files "\n" files)
+  file(WRITE ${OUT} "${files}\n")
+endif()
