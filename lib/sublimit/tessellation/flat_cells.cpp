@@ -8,11 +8,13 @@
 #include <bit>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <span>
 #include <string>
 #include <utility>
 
 #include "sublimit/base/error.h"
+#include "sublimit/base/format_number.h"
 #include "sublimit/base/parallel_for.h"
 #include "sublimit/core/finite_points.h"
 #include "sublimit/limit/limit_patches.h"
@@ -230,8 +232,26 @@ class Cutter {
 
 }  // namespace
 
+namespace {
+
+/// Cells below rounding are cut for nothing, until there are too many of them.
+/// @throws InvalidParameter  a chord or an angle that is smaller than what points or normals are rounded to
+void check_above_rounding(const Points& points, const FlatCellOptions& options) {
+  constexpr double eps = std::numeric_limits<double>::epsilon();
+  const double rounding = points.size() > 0 ? eps * points.cwiseAbs().maxCoeff() : 0;
+  if (options.chord < rounding)
+    throw InvalidParameter("the chord is " + format_number(options.chord) + ", and control points are rounded to " +
+                           format_number(rounding) + "; a larger distance is right");
+  if (options.angle > 0 && options.angle < eps)
+    throw InvalidParameter("the angle is " + format_number(options.angle) + " radians, and normals are rounded to " +
+                           format_number(eps) + "; a larger one is right, or 0 for any");
+}
+
+}  // namespace
+
 std::vector<FlatCell> flat_cells(const LimitSurface& surface, const Points& points, const FlatCellOptions& options) {
   check_measurable_control(points);
+  check_above_rounding(points, options);
   const LimitSurface::Parts& parts = LimitPatches::parts_of(surface);
   if (!options.rates.empty()) check_edge_rates(parts.level.topology(), options.rates);
   // Differences alone count: about one of the points they keep their digits far from the origin.

@@ -8,7 +8,9 @@
 #include <tuple>
 
 #include "sublimit/base/error.h"
+#include "sublimit/base/format_number.h"
 #include "sublimit/certificates/exact_joins.h"
+#include "sublimit/core/finite_points.h"
 #include "sublimit/limit/for_all.h"
 #include "sublimit/patches/joins/line_samples.h"
 
@@ -289,6 +291,35 @@ void find_box(FreeFormReport& report) {
   if (low.x() <= high.x()) report.box_min = low, report.box_max = high;
 }
 
+/// @throws InvalidMesh  coordinates whose squares are no numbers
+void check_box(const FreeFormReport& report, const std::string& name) {
+  const double farthest = std::max(report.box_min.cwiseAbs().maxCoeff(), report.box_max.cwiseAbs().maxCoeff());
+  if (!(farthest <= farthest_coordinate))
+    throw InvalidMesh(name + ": a control point has the coordinate " + format_number(farthest) +
+                      ", above 1e150 in size, whose square is no number; give points in another unit of length");
+}
+
+/// @throws InvalidMesh  a gap or an angle is no number, naming where
+void check_numbers(const FreeFormReport& report, const std::string& name) {
+  const auto check = [&](double value, const char* what, const std::string& where) {
+    if (!std::isfinite(value))
+      throw InvalidMesh(name + ": the " + what + " " + where +
+                        " is no number: control points, weights or knot intervals there are so large, or so small, "
+                        "that their products are none; numbers nearer to 1 are right");
+  };
+  for (const ReportedSeam& reported : report.seams) {
+    const PatchSeam& seam = reported.seam;
+    if (seam.measured && seam.measured->obstacle == JoinObstacle::pole) continue;
+    if (seam.gap) check(seam.gap->value, "gap", free_form_detail::words_of(seam, report.patches));
+    if (seam.angle) check(seam.angle->value, "angle", free_form_detail::words_of(seam, report.patches));
+  }
+  for (const FreeFormJoint& joint : report.joints.joints) {
+    if (joint.measured.orders.obstacle == JoinObstacle::pole) continue;
+    check(joint.measured.gap, "gap", free_form_detail::words_of(joint));
+    if (joint.measured.angle) check(*joint.measured.angle, "angle", free_form_detail::words_of(joint));
+  }
+}
+
 }  // namespace
 
 double free_form_detail::part_of_curvature(double jump, double greatest, double diagonal) {
@@ -310,6 +341,7 @@ FreeFormReport free_form_report(FreeForm shapes, const std::string& name, const 
   report.shapes = std::move(shapes);
   report.tolerance = options.tolerance;
   find_box(report);
+  check_box(report, name);
   std::vector<std::optional<SeamNet<Rational>>> nets;
   if (!report.shapes.surfaces.empty()) {
     report.patches = spline_patches(report.shapes, name);
@@ -329,6 +361,7 @@ FreeFormReport free_form_report(FreeForm shapes, const std::string& name, const 
   constexpr double same = 1e-6;
   report.joints = free_form_joints(report.curves, same * report.diagonal(), options.near * report.diagonal());
   add_joins(report, joins, same * report.diagonal());
+  check_numbers(report, name);
   std::ranges::stable_sort(report.seams, {}, [](const ReportedSeam& seam) { return rank_of(seam.seam); });
   std::ranges::stable_sort(report.joints.joints, {}, [](const FreeFormJoint& joint) { return rank_of(joint); });
 
