@@ -39,6 +39,10 @@ TEST(ReadmeSynopsis, NamesVerbsAndOptionsOfTheProgram) {
     std::smatch parts;
     if (!std::regex_match(command.text, parts, std::regex(R"(sublimit +(\S+)([\s\S]*))"))) continue;
     SCOPED_TRACE(command.text);
+    if (parts[1].str().starts_with("-")) {  // an option of the program itself
+      EXPECT_TRUE(options_in(expect_done(sublimit({"--help"})).out).contains(parts[1])) << parts[1];
+      continue;
+    }
     std::istringstream names(parts[1]);
     for (std::string name; std::getline(names, name, '|');) {
       const auto verb = verbs().find(name);

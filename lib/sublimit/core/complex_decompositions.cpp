@@ -26,7 +26,7 @@ ComplexLu::ComplexLu(const Eigen::MatrixXcd& M) : lu_(M) {}
 
 Eigen::VectorXcd ComplexLu::solve(const Eigen::VectorXcd& right) const { return lu_.solve(right); }
 
-Eigen::VectorXcd least_squares(const Eigen::MatrixXcd& M, const Eigen::VectorXcd& right) {
+Eigen::VectorXcd least_squares_solution(const Eigen::MatrixXcd& M, const Eigen::VectorXcd& right) {
   return Eigen::ColPivHouseholderQR<Eigen::MatrixXcd>(M).solve(right);
 }
 

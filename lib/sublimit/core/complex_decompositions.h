@@ -17,12 +17,14 @@ struct ComplexSingularValues {
 };
 /// By Jacobi rotations: small values keep their digits.
 ComplexSingularValues singular_values(const Eigen::MatrixXcd& M);
+/// The last of them alone.
 double smallest_singular_value(const Eigen::MatrixXcd& M);
 
 /// LU of a square matrix, rows exchanged.
 class ComplexLu {
  public:
   explicit ComplexLu(const Eigen::MatrixXcd& M);
+  /// M^-1 * right.
   Eigen::VectorXcd solve(const Eigen::VectorXcd& right) const;
 
  private:
@@ -30,7 +32,7 @@ class ComplexLu {
 };
 
 /// Of least squares, by reflections with column pivoting.
-Eigen::VectorXcd least_squares(const Eigen::MatrixXcd& M, const Eigen::VectorXcd& right);
+Eigen::VectorXcd least_squares_solution(const Eigen::MatrixXcd& M, const Eigen::VectorXcd& right);
 
 /// M^-1 * right of a square matrix, rows and columns exchanged.
 Eigen::MatrixXcd pivoted_solution(const Eigen::MatrixXcd& M, const Eigen::MatrixXcd& right);

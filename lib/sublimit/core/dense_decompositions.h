@@ -45,16 +45,21 @@ Eigen::MatrixXd triangular_factor(const Eigen::MatrixXd& X);
 
 /// M^-1 * right of a square matrix, rows exchanged (LU).
 Eigen::MatrixXd square_solution(const Eigen::MatrixXd& M, const Eigen::MatrixXd& right);
+/// Of a square matrix, rows exchanged.
 Eigen::MatrixXd inverse(const Eigen::MatrixXd& M);
+/// Of a square matrix.
 double determinant(const Eigen::MatrixXd& M);
 
 /// LU with rows and columns exchanged, which tells whether there is an inverse.
 class PivotedLu {
  public:
   explicit PivotedLu(const Eigen::MatrixXd& M);
+  /// No pivot counts as zero.
   bool is_invertible() const;
   double rcond() const;  ///< an estimate of 1 / condition
+  /// M^-1 * right.
   Eigen::MatrixXd solve(const Eigen::MatrixXd& right) const;
+  /// M^-1.
   Eigen::MatrixXd inverse() const;
 
  private:

@@ -152,7 +152,7 @@ std::optional<EigenStructure> leading_by_inversion(const SparseMatrix& A, int co
         // As many eigenvectors as span a plane: of a Jordan block the second is the first again.
         const VectorXcd r = right.cast<Complex>(), l = left.cast<Complex>();
         const auto is_new = [](const MatrixXcd& have, const VectorXcd& v) {
-          return (v - have * least_squares(have, v)).norm() > 1e-6;
+          return (v - have * least_squares_solution(have, v)).norm() > 1e-6;
         };
         if (is_new(before.right, r) && is_new(before.left, l)) {
           before.right.conservativeResize(size, before.right.cols() + 1);

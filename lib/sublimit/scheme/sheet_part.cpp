@@ -31,7 +31,7 @@ bool are_sheets_apart(const Topology& t, const Sharpness& sharpness, Vertex v) {
 }
 
 bool may_part_sheets(const Level& level) {
-  return level.made_by && level.intervals.empty() && !level.topology().is_manifold() &&
+  return level.made_by && level.made_by->period == 1 && level.intervals.empty() && !level.topology().is_manifold() &&
          std::ranges::none_of(level.made_by->steps, [](const Step<double>& s) { return s.masks.wide_borders; });
 }
 

@@ -15,8 +15,9 @@ namespace sublimit {
 /// @return  false for other vertices
 bool are_sheets_apart(const Topology& topology, const Sharpness& sharpness, Vertex v);
 
-/// Whether a level may be looked at sheet by sheet: intervals between knots go on from sheet to sheet, and a mask of
-/// border edges that looks inside (`wide_borders`) looks at one sheet for all.
+/// Whether a level may be looked at sheet by sheet: intervals between knots go on from sheet to sheet, a mask of border
+/// edges that looks inside (`wide_borders`) looks at one sheet for all, and where edges turn from level to level
+/// (sqrt(3)), those in which sheets meet do not.
 bool may_part_sheets(const Level& level);
 
 /// Calls visit(half-edge) for those with the same tail on the same sheet, counter-clockwise.

@@ -129,7 +129,7 @@ void count_table(Baked& baked) {
 Baked bake(Patterns& patterns, const ControlMesh& mesh, const BakeRequest& request, const SubdivisionOptions& options) {
   check(request);
   const Scheme<double>& scheme = patterns.scheme();
-  Level control = control_level(scheme, mesh, options);
+  Level control = patterns.control_level(mesh, options);
   const double faces = control.topology().num_faces();
   const double bytes =
       request.rows == TableRows::samples ? double(request.samples.size()) * 1000 : faces * points_of_face(request) * 4;
@@ -164,7 +164,7 @@ BakePlan bake_plan(Patterns& patterns, const ControlMesh& mesh, const BakeReques
   constexpr double bytes_of_face = 300;
   check_limit(bytes_of_face * mesh.num_faces(), limit);
   const Scheme<double>& scheme = patterns.scheme();
-  const Level control = control_level(scheme, mesh, options);
+  const Level control = patterns.control_level(mesh, options);
   const Topology& t = control.topology();
   const bool by_level = request.rows == TableRows::level || request.rows == TableRows::limit;
   // Where level 1 has the patterns it is there too.

@@ -35,8 +35,8 @@ EditableTable<Real>::EditableTable(Patterns& patterns, ControlMesh mesh, int lev
   if (patterns.scheme().period > 1)
     throw UnsupportedTopology(patterns.scheme().name + ": a table can be edited where each level keeps edges");
   // Who has a point must be known from the faces there alone.
-  const std::optional<Baked> made = bake_by_patterns(patterns, control_level(patterns.scheme(), mesh, options), request,
-                                                     {.owners = OwnerRule::first});
+  const std::optional<Baked> made =
+      bake_by_patterns(patterns, patterns.control_level(mesh, options), request, {.owners = OwnerRule::first});
   if (!made || !made->table.lattices)
     throw UnsupportedTopology(patterns.scheme().name +
                               ": a table can be edited where all faces are cut into four of their kind");
@@ -110,7 +110,7 @@ Level EditableTable<Real>::local_level(const std::vector<Index>& faces, std::vec
   for (size_t v = 0; v < vertices.size(); ++v)
     if (const auto at = corners_.find(vertices[v]); at != corners_.end())
       local.corners.push_back({static_cast<Index>(v), at->second});
-  return control_level(patterns_->scheme(), local, options_);
+  return patterns_->control_level(local, options_);
 }
 
 /// The face of the lowest number at the edge.

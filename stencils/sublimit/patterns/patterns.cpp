@@ -61,6 +61,12 @@ class Walks {
 
 }  // namespace
 
+Level Patterns::control_level(const ControlMesh& mesh, const SubdivisionOptions& options) const {
+  Level control = sublimit::control_level(scheme_, mesh, options);
+  types_->trust(control);
+  return control;
+}
+
 bool Patterns::find(const Level& level, const Piece& piece, Match& match) const {
   check_level(types_, level);
   const Walks walk(types_->pieces(), level, piece);

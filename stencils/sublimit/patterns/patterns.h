@@ -93,6 +93,9 @@ class Patterns {
                                       std::span<const AddressParameters> parameters, int derivatives);
 
   const Scheme<double>& scheme() const { return scheme_; }
+  /// The control level of a mesh under this scheme, which is not compared with it again.
+  /// @throws as `sublimit::control_level`
+  Level control_level(const ControlMesh& mesh, const SubdivisionOptions& options = {}) const;
   const std::shared_ptr<LimitTypes>& types() const { return types_; }
   /// Types that faces have had, rotations not counted.
   size_t num_types() const;

@@ -63,9 +63,11 @@ TEST_P(ControlPoints, HaveSquaresWhereDistancesAreProved) {
 }
 
 TEST_P(ControlPoints, MayBeLargeAndSmall) {
+  for (const double scale : {1e60, 1e-60}) EXPECT_GT(limit_integrals(surface_, scale * mesh_.positions).area, 0);
+  expect_error<InvalidMesh>([&] { limit_integrals(surface_, 1e140 * mesh_.positions); },  // a volume of 1e420
+                            {"control point 0", "volume", "larger than numbers"});
   for (const double scale : {1e140, 1e-140}) {
     const Points points = scale * mesh_.positions;
-    EXPECT_GT(limit_integrals(surface_, points).area, 0);
     const ClosestPoints found = closest_points(surface_, points, Points::Zero(1, 3));
     ASSERT_EQ(found.distances.size(), 1);
     EXPECT_TRUE(std::isfinite(found.distances[0]));

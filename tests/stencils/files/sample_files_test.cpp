@@ -221,7 +221,6 @@ TEST(SampleWriter, NumbersReadBackToTheSameBits) {
     found.du.row(Index(i)).setConstant(values[i % 3]);
     found.order[i] = std::int8_t(i % 3);
   }
-  found.position(7, 1) = std::numeric_limits<double>::infinity();
   SampleWriter writer(directory / "out.csv", {.derivatives = 2});
   writer.write(samples, found);
   writer.commit();
@@ -233,11 +232,7 @@ TEST(SampleWriter, NumbersReadBackToTheSameBits) {
     ASSERT_EQ(rows.integer(0, ""), std::int64_t(i));
     ASSERT_TRUE(same_bits(rows.finite(1), samples[i].u) && same_bits(rows.finite(2), samples[i].v)) << i;
     ASSERT_TRUE(same_bits(rows.finite(4), found.position(Index(i), 0))) << i;
-    if (i == 7) {
-      EXPECT_THROW(rows.finite(5), FormatError);
-    } else {
-      ASSERT_TRUE(same_bits(rows.finite(5), found.position(Index(i), 1))) << i;
-    }
+    ASSERT_TRUE(same_bits(rows.finite(5), found.position(Index(i), 1))) << i;
     if (i % 3 >= 1) {
       ASSERT_TRUE(same_bits(rows.finite(7), values[i % 3])) << i;
     } else {
@@ -249,6 +244,10 @@ TEST(SampleWriter, NumbersReadBackToTheSameBits) {
     ASSERT_THROW(rows.finite(22), FormatError);  // no normal
   }
   EXPECT_FALSE(rows.next());
+
+  found.position(7, 1) = std::numeric_limits<double>::infinity();
+  SampleWriter again(directory / "out.csv", {.derivatives = 2});
+  expect_error<InvalidMesh>([&] { again.write(samples, found); }, {"place 7,123456789,", "larger than numbers"});
 }
 
 TEST(WriteSamples, CountsStatusesAndLeavesNothingAfterAnError) {
