@@ -4,12 +4,12 @@
 #include <dlfcn.h>
 #include <fmt/core.h>
 
-#include <cstdlib>
 #include <exception>
 #include <new>
 #include <string_view>
 
 #include "sublimit/base/error.h"
+#include "sublimit/base/terminate_as_bad_alloc.h"
 
 namespace sublimit::cli {
 namespace {
@@ -26,50 +26,34 @@ void check_version(void* loaded, const char* library) {
                             "look whether LD_LIBRARY_PATH names the folder of another one"));
 }
 
-/// A library as dlopen finds it. Its initialisers run in there, and no exception leaves dlopen: those of OpenCASCADE,
-/// which are no std::exception, are thrown for a lack of memory and end the process. They do as std::bad_alloc does.
-class LoadedLibrary {
- public:
-  explicit LoadedLibrary(const char* name) : own_(std::set_terminate(end)) {
-    before_ = own_;
-    try {
-      handle_ = ::dlopen(name, RTLD_NOW);
-    } catch (const std::exception&) {
-      std::set_terminate(own_);
-      throw;
-    } catch (...) {
-      std::set_terminate(own_);
-      throw std::bad_alloc();
-    }
-    std::set_terminate(own_);
+/// Whether the exception that is handled is none of the standard library's: OpenCASCADE's, for a lack of memory.
+bool is_foreign() {
+  try {
+    throw;
+  } catch (const std::exception&) {
+    return false;
+  } catch (...) {
+    return true;
   }
-  void* handle() const { return handle_; }
+}
 
- private:
-  [[noreturn]] static void end() {
-    try {
-      if (std::current_exception()) throw;
-    } catch (const std::exception&) {
-      before_();
-    } catch (...) {
-      try {
-        throw std::bad_alloc();
-      } catch (...) {
-        before_();
-      }
-    }
-    before_();
-    std::abort();
+/// A library as dlopen finds it; null if it does not. Its initialisers run in there, and what OpenCASCADE's throw for a
+/// lack of memory ends the process, for no exception leaves dlopen.
+void* loaded_library(const char* name) {
+  const TerminateAsBadAlloc<is_foreign> named;
+  try {
+    return ::dlopen(name, RTLD_NOW);
+  } catch (const std::exception&) {
+    throw;
+  } catch (...) {
+    throw std::bad_alloc();
   }
-  std::terminate_handler own_;
-  void* handle_ = nullptr;
-  static inline std::terminate_handler before_ = nullptr;  // the program loads one library at a time
-};
+}
 
 }  // namespace
 
 void* loaded_function(const OptionalPart& part, const char* library, const char* function, const char* makes) {
-  void* const loaded = LoadedLibrary(library).handle();
+  void* const loaded = loaded_library(library);
   if (loaded) check_version(loaded, library);
   void* const entry = loaded ? ::dlsym(loaded, function) : nullptr;
   if (entry) return entry;

@@ -106,12 +106,6 @@ std::vector<std::string> choices(const std::string& type) {
   return found;
 }
 
-std::string joined(const std::vector<std::string>& parts, const char* between) {
-  std::string text;
-  for (const std::string& part : parts) text += (text.empty() ? "" : between) + part;
-  return text;
-}
-
 OptionPage option_page(const CLI::App& command, const CLI::Option& option) {
   OptionPage page;
   page.argument = option.get_positional();
@@ -286,6 +280,12 @@ std::string help_row(const OptionPage& option) {
 }
 
 }  // namespace
+
+std::string joined(const std::vector<std::string>& parts, const char* between) {
+  std::string text;
+  for (const std::string& part : parts) text += (text.empty() ? "" : between) + part;
+  return text;
+}
 
 VerbPage verb_page(const CLI::App& command) {
   VerbPage page;

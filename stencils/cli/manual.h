@@ -60,6 +60,9 @@ struct ProgramPage {
 /// Names of all schemes, surfaces and curves, with their options: what `-s` and `--option` take.
 std::vector<std::pair<std::string, std::vector<OptionInfo>>> scheme_words();
 
+/// Returns words in one line.
+std::string joined(const std::vector<std::string>& parts, const char* between = " ");
+
 /// Page of a subcommand, or of the program itself.
 VerbPage verb_page(const CLI::App& command);
 ProgramPage program_page(const CLI::App& app);

@@ -23,12 +23,6 @@ std::string with_replaced(std::string text, std::string_view what, std::string_v
   return text;
 }
 
-std::string list_of(const Words& words, const char* between = " ") {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : between) + word;
-  return text;
-}
-
 std::string lower_first(std::string text) {
   // "N x N places": a capital that is a name stays.
   if (text.size() > 1 && std::islower(static_cast<unsigned char>(text[1])) != 0)
@@ -197,7 +191,7 @@ std::string prose(const std::string& text) {
 std::string markdown_rows(const std::vector<OptionPage>& options) {
   std::string rows = "| | |\n|---|---|\n";
   for (const OptionPage& option : options) {
-    std::string name = list_of(option.names, ", ");
+    std::string name = joined(option.names, ", ");
     if (!option.argument && !option.value.empty()) name += " " + option.value;
     rows += "| `" + with_replaced(name, "|", "\\|") + "` | " + with_replaced(prose(option.text), "|", "\\|") +
             (option.required && !option.argument ? " (required)" : "") + " |\n";
@@ -238,11 +232,11 @@ std::string markdown_page(const VerbPage& page, const ProgramPage& all) {
 /// In single quotes of a shell.
 std::string quoted(const std::string& text) { return "'" + with_replaced(text, "'", "'\\''") + "'"; }
 
-std::string patterns_of(const OptionPage& option) { return list_of(option.extensions, "|"); }
+std::string patterns_of(const OptionPage& option) { return joined(option.extensions, "|"); }
 
 /// A line of a `case`: what to complete behind one of the option's names.
 std::string bash_values(const OptionPage& option, const ProgramPage& page) {
-  if (const Words list = candidates(option, page); !list.empty()) return "_sublimit_words " + quoted(list_of(list));
+  if (const Words list = candidates(option, page); !list.empty()) return "_sublimit_words " + quoted(joined(list, " "));
   if (option.kind == in_file) return "_sublimit_files " + quoted(patterns_of(option));
   if (option.kind == out_file) return "_sublimit_files ''";
   if (option.kind == directory) return "_sublimit_directories";
@@ -255,11 +249,11 @@ std::string bash_verb(const VerbPage& verb, const ProgramPage& page) {
   for (const OptionPage& option : options_of(verb)) {
     names.insert(names.end(), option.names.begin(), option.names.end());
     if (option.kind != none)
-      values += fmt::format("        {}) {}; return ;;\n", list_of(option.names, "|"), bash_values(option, page));
+      values += fmt::format("        {}) {}; return ;;\n", joined(option.names, "|"), bash_values(option, page));
   }
   for (size_t i = 0; i < verb.arguments.size(); ++i)
     arguments += fmt::format("        {}) {} ;;\n", i, bash_values(verb.arguments[i], page));
-  std::string text = fmt::format("    {})\n      options={}\n", verb.name, quoted(list_of(names)));
+  std::string text = fmt::format("    {})\n      options={}\n", verb.name, quoted(joined(names)));
   if (!values.empty()) text += "      case $previous in\n" + values + "      esac\n";
   text += "      [[ $current == -* ]] && { _sublimit_words \"$options\"; return; }\n";
   if (!arguments.empty()) text += "      case $arguments in\n" + arguments + "      esac\n";
@@ -323,13 +317,12 @@ _sublimit() {
       "  # The subcommand, and how many arguments stand before the word.\n  for ((at = 1; at < end; ++at)); do\n"
       "    word=${COMP_WORDS[at]}\n    if [[ -z $verb ]]; then\n      [[ $word == -* ]] || verb=$word\n      continue\n"
       "    fi\n    case $word in\n      " +
-      list_of(with_values, "|") +
+      joined(with_values, "|") +
       ") if [[ ${COMP_WORDS[at+1]-} == = ]]; then at+=2; else at+=1; fi ;;\n      -*) ;;\n"
       "      *) arguments+=1 ;;\n    esac\n  done\n";
   text += "  if [[ -z $verb ]]; then\n    if [[ $previous == --generate ]]; then _sublimit_words " +
-          quoted(list_of(manual_kinds())) + "\n    elif [[ $current == -* ]]; then _sublimit_words " +
-          quoted(list_of(own)) + "\n    else _sublimit_words " + quoted(list_of(verbs)) +
-          "\n    fi\n    return\n  fi\n";
+          quoted(joined(manual_kinds())) + "\n    elif [[ $current == -* ]]; then _sublimit_words " +
+          quoted(joined(own)) + "\n    else _sublimit_words " + quoted(joined(verbs)) + "\n    fi\n    return\n  fi\n";
   text += "  if [[ ${COMP_WORDS[1]} == --generate ]]; then _sublimit_directories; return; fi\n";
   text += "  case $verb in\n";
   for (const VerbPage& verb : page.verbs) text += bash_verb(verb, page);
@@ -345,8 +338,8 @@ std::string zsh_text(std::string text) {
 
 std::string zsh_action(const OptionPage& option, const ProgramPage& page) {
   const Words list = candidates(option, page);
-  if (option.kind == scheme_option) return "{compadd -S \"\" -- " + list_of(list) + "}";
-  if (!list.empty()) return "(" + list_of(list) + ")";
+  if (option.kind == scheme_option) return "{compadd -S \"\" -- " + joined(list, " ") + "}";
+  if (!list.empty()) return "(" + joined(list, " ") + ")";
   if (option.kind == in_file)
     return option.extensions.empty() ? "_files" : "_files -g \"*.(" + patterns_of(option) + ")(-.)\"";
   if (option.kind == out_file) return "_files";
@@ -358,7 +351,7 @@ std::string zsh_option(const OptionPage& option, const ProgramPage& page) {
   std::string lines;
   for (const std::string& name : option.names) {
     const bool is_long = name.starts_with("--");
-    lines += "        '" + (option.repeats ? std::string("*") : "(" + list_of(option.names) + ")") + name +
+    lines += "        '" + (option.repeats ? std::string("*") : "(" + joined(option.names) + ")") + name +
              (option.kind == none ? ""
               : is_long           ? "="
                                   : "+") +
@@ -377,7 +370,7 @@ std::string zsh_completion(const ProgramPage& page) {
   text += "  )\n  _arguments -C \\\n";
   for (const OptionPage& option : options_of(page.program)) {
     if (option.names.back() == "--generate")
-      text += "    '--generate[" + zsh_text(option.text) + "]:kind:(" + list_of(manual_kinds()) +
+      text += "    '--generate[" + zsh_text(option.text) + "]:kind:(" + joined(manual_kinds()) +
               "):directory:_files -/' \\\n";
     else
       text += with_replaced(zsh_option(option, page), "        '", "    '");
@@ -404,7 +397,7 @@ std::string fish_completion(const ProgramPage& page) {
   };
   Words verbs;
   for (const VerbPage& verb : page.verbs) verbs.push_back(verb.name);
-  const std::string none_yet = "not __fish_seen_subcommand_from " + list_of(verbs);
+  const std::string none_yet = "not __fish_seen_subcommand_from " + joined(verbs);
   text += "complete -c sublimit -f\n";
   const auto add = [&](const OptionPage& option, const std::string& condition) {
     std::string line = "complete -c sublimit -n " + fish_quoted(condition);
@@ -415,7 +408,7 @@ std::string fish_completion(const ProgramPage& page) {
     const Words list = candidates(option, page);
     std::string values;
     if (!list.empty())
-      values = " -a " + fish_quoted(list_of(list));
+      values = " -a " + fish_quoted(joined(list, " "));
     else if (option.kind == directory)
       values = " -a '(__fish_complete_directories)'";
     else if (option.kind == in_file && !option.extensions.empty())

@@ -66,16 +66,16 @@ std::optional<ExactAnalysis> with_interior(const ExactAnalysis& analysis) {
   return open_analysis(analysis.scheme, *wider);
 }
 
-/// Whether a simple mode of the interior is, at the points around the centre, on both sides of the curve, where it
-/// vanishes. Of an odd one that has any such point: yes.
-bool is_on_both_sides(const ExactAnalysis& analysis, const std::vector<Index>& curve, const AlgebraicRoot& value,
-                      int block) {
+/// Tells whether a simple mode of the interior is, at the points around the centre, on both sides of the curve, where
+/// it vanishes; an odd one is if it has any such point. Nothing where no eigenvector could be enclosed.
+std::optional<bool> is_on_both_sides(const ExactAnalysis& analysis, const std::vector<Index>& curve,
+                                     const AlgebraicRoot& value, int block) {
   const ExactBlocks& blocks = analysis.spectrum.blocks;
   const auto k = static_cast<size_t>(block);
   const std::vector<Index> rows = rows_of(blocks, k, curve, false);
   const std::optional<std::vector<ComplexBall>> heights =
       enclosed_eigenvector(DenseMatrix<Algebraic>(blocks.blocks[k](rows, rows)), value);
-  if (!heights) return false;
+  if (!heights) return std::nullopt;
   bool above = false, below = false;
   for (size_t i = 0; i < rows.size(); ++i) {
     const SectorLabel& label = analysis.patch.labels[size_t(blocks.orbits[k][size_t(rows[i])][0])];
@@ -196,13 +196,18 @@ Verdict tangent_plane(const ExactAnalysis& analysis) {
   } else if (!two_curves && (across.empty() || !is_positive(across[0]))) {
     v.because = across.empty() ? "there are no modes but those of the tangent"
                                : "the first mode of the interior is not positive: " + across[0].text();
-  } else if (leads && is_on_both_sides(analysis, curve, across[0], inner_modes.blocks[0])) {
+  } else if (const std::optional<bool> both =
+                 leads ? is_on_both_sides(analysis, curve, across[0], inner_modes.blocks[0]) : false;
+             both == true) {
     v.answer = Answer::evidence_against;
     v.hypotheses.push_back({"the first mode of the interior is on one side of the border curve, at the points around",
                             false, By::enclosure, across[0].text()});
     v.because = "the first mode of the interior has points around on both sides of the border curve";
   } else {
     v.answer = Answer::evidence_for;
+    if (!both)
+      v.hypotheses.push_back({"the first mode of the interior is on one side of the border curve, at the points around",
+                              std::nullopt, By::enclosure, across[0].text()});
     v.hypotheses.push_back({"the map of the two leading modes is regular and injective", std::nullopt, By::exact});
     v.because = two_curves ? "the tangents of the two curves lead"
                            : "the tangent along the curve and the first mode of the interior lead";

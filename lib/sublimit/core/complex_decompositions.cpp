@@ -5,11 +5,13 @@
 #include <Eigen/QR>
 #include <Eigen/SVD>
 
+#include "sublimit/base/error.h"
+
 namespace sublimit {
 
-std::optional<Eigen::VectorXcd> eigenvalues(const Eigen::MatrixXcd& M) {
+Eigen::VectorXcd eigenvalues(const Eigen::MatrixXcd& M) {
   const Eigen::ComplexEigenSolver<Eigen::MatrixXcd> solver(M, false);
-  if (solver.info() != Eigen::Success) return std::nullopt;
+  if (solver.info() != Eigen::Success) throw AnalysisError("the eigenvalues of a complex matrix did not converge");
   return solver.eigenvalues();
 }
 

@@ -6,7 +6,18 @@
 #include <Eigen/QR>
 #include <Eigen/SVD>
 
+#include "sublimit/base/error.h"
+
 namespace sublimit {
+namespace {
+
+Eigen::EigenSolver<Eigen::MatrixXd> solved(const Eigen::MatrixXd& M, bool with_vectors) {
+  Eigen::EigenSolver<Eigen::MatrixXd> solver(M, with_vectors);
+  if (solver.info() != Eigen::Success) throw AnalysisError("the eigenvalues of a real matrix did not converge");
+  return solver;
+}
+
+}  // namespace
 
 SingularValues singular_values(const Eigen::MatrixXd& M) {
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(M, Eigen::ComputeFullV);
@@ -75,12 +86,10 @@ Eigen::MatrixXd PivotedLu::solve(const Eigen::MatrixXd& right) const { return lu
 
 Eigen::MatrixXd PivotedLu::inverse() const { return lu_.inverse(); }
 
-Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& M) {
-  return Eigen::EigenSolver<Eigen::MatrixXd>(M, false).eigenvalues();
-}
+Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& M) { return solved(M, false).eigenvalues(); }
 
 Eigenvectors eigenvectors(const Eigen::MatrixXd& M) {
-  const Eigen::EigenSolver<Eigen::MatrixXd> solver(M);
+  const Eigen::EigenSolver<Eigen::MatrixXd> solver = solved(M, true);
   return {solver.eigenvalues(), solver.eigenvectors()};
 }
 

@@ -43,36 +43,38 @@ Eigen::MatrixXd orthonormal_columns(const Eigen::MatrixXd& X);
 /// The triangular factor of a matrix of at least as many rows as columns.
 Eigen::MatrixXd triangular_factor(const Eigen::MatrixXd& X);
 
-/// M^-1 * right of a square matrix, rows exchanged (LU).
+/// Returns M^-1 * right of a square matrix, by LU with rows exchanged.
 Eigen::MatrixXd square_solution(const Eigen::MatrixXd& M, const Eigen::MatrixXd& right);
-/// Of a square matrix, rows exchanged.
+/// Returns M^-1 of a square matrix, by LU with rows exchanged.
 Eigen::MatrixXd inverse(const Eigen::MatrixXd& M);
-/// Of a square matrix.
+/// Returns the determinant of a square matrix, by LU with rows exchanged.
 double determinant(const Eigen::MatrixXd& M);
 
 /// LU with rows and columns exchanged, which tells whether there is an inverse.
 class PivotedLu {
  public:
   explicit PivotedLu(const Eigen::MatrixXd& M);
-  /// No pivot counts as zero.
+  /// Tells whether no pivot counts as zero.
   bool is_invertible() const;
   double rcond() const;  ///< an estimate of 1 / condition
-  /// M^-1 * right.
+  /// Returns M^-1 * right.
   Eigen::MatrixXd solve(const Eigen::MatrixXd& right) const;
-  /// M^-1.
+  /// Returns M^-1.
   Eigen::MatrixXd inverse() const;
 
  private:
   Eigen::FullPivLU<Eigen::MatrixXd> lu_;
 };
 
-/// Of a square matrix, in no order.
+/// Returns the eigenvalues of a square matrix, in no order.
+/// @throws AnalysisError  they do not converge
 Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& M);
 
 struct Eigenvectors {
   Eigen::VectorXcd values;   ///< in no order
   Eigen::MatrixXcd vectors;  ///< by columns
 };
+/// @throws AnalysisError  they do not converge
 Eigenvectors eigenvectors(const Eigen::MatrixXd& M);
 
 struct SymmetricEigenvectors {

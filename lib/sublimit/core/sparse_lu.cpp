@@ -11,8 +11,6 @@ struct SparseLu::Factors {
 
 SparseLu::SparseLu(const ColumnMatrix& M) : factors_(std::make_unique<Factors>()) { factors_->lu.compute(M); }
 SparseLu::~SparseLu() = default;
-SparseLu::SparseLu(SparseLu&&) noexcept = default;
-SparseLu& SparseLu::operator=(SparseLu&&) noexcept = default;
 
 bool SparseLu::has_factors() const { return factors_->lu.info() == Eigen::Success; }
 

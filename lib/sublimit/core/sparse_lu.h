@@ -11,16 +11,14 @@ namespace sublimit {
 
 using ColumnMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, Index>;
 
-/// Factors in a fill-reducing order, rows exchanged (Eigen::SparseLU).
+/// Factors of a matrix in a fill-reducing order, rows exchanged (Eigen::SparseLU).
 class SparseLu {
  public:
   explicit SparseLu(const ColumnMatrix& M);
   ~SparseLu();
-  SparseLu(SparseLu&&) noexcept;
-  SparseLu& operator=(SparseLu&&) noexcept;
 
   bool has_factors() const;  ///< no pivot was zero
-  /// M^-1 * right, n x columns.
+  /// Returns M^-1 * right, n x columns.
   Eigen::MatrixXd solve(const Eigen::MatrixXd& right) const;
 
  private:

@@ -45,9 +45,8 @@ Eigen::MatrixXcd left_eigenvectors(const Eigen::MatrixXcd& A, Complex value) {
 EigenStructure eigen_structure(const Eigen::MatrixXcd& A, int block, int leading, double least) {
   EigenStructure result;
   if (A.rows() == 0) return result;
-  const std::optional<Eigen::VectorXcd> found = eigenvalues(A);
-  if (!found) throw AnalysisError("the eigenvalues of a local matrix did not converge");
-  std::vector<Complex> values(found->begin(), found->end());
+  const Eigen::VectorXcd found = eigenvalues(A);
+  std::vector<Complex> values(found.begin(), found.end());
   const double scale = std::abs(
       *std::max_element(values.begin(), values.end(), [](Complex a, Complex b) { return std::abs(a) < std::abs(b); }));
   while (!values.empty() && static_cast<int>(result.clusters.size()) < leading) {
@@ -269,9 +268,8 @@ std::vector<Complex> SectorRows::values(int k) const {
       values.push_back(B(places[0], places[0]));
       continue;
     }
-    const std::optional<Eigen::VectorXcd> found = eigenvalues(Eigen::MatrixXcd(B(places, places)));
-    if (!found) throw AnalysisError("the eigenvalues of a local matrix did not converge");
-    values.insert(values.end(), found->begin(), found->end());
+    const Eigen::VectorXcd found = eigenvalues(Eigen::MatrixXcd(B(places, places)));
+    values.insert(values.end(), found.begin(), found.end());
   }
   return values;
 }

@@ -33,7 +33,7 @@ class PieceWalker {
  private:
   const PieceWalk& walk(const Topology& topology, const Sharpness& sharpness, const Piece& piece, int rings, int phase,
                         bool apart);
-  /// Of the tail; `is_new` where it has not been met.
+  /// Returns the slot of the tail, and in `is_new` whether it has not been met before.
   Index slot(HalfEdge h, bool& is_new);
   /// Adds the intervals around the points that were walked around; false if all are equal, and stay so.
   bool add_intervals(const KnotIntervals& intervals, const Piece& piece, size_t points);

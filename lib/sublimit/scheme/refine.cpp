@@ -127,7 +127,7 @@ class Rings {
   }
 
  private:
-  /// Of one vertex and one sheet, unless it has been added.
+  /// Adds the faces around a vertex on one sheet, unless they have been added.
   void add_fan(HalfEdge h, std::vector<Index>& around) {
     if (walked_.contains(index(h))) return;
     for_each_in_fan(t_, h, [&](HalfEdge g) {
@@ -304,11 +304,18 @@ double predicted_bytes(const Scheme<double>& scheme, const Topology& t, int leve
 
 namespace {
 
-/// @param complete  faces of which every vertex has all its faces in the part, but for those of sheets that are apart
-Part part_of(const Level& whole, std::vector<Index> faces, const std::vector<Index>& complete) {
+/// Part of a level around some faces.
+/// @param apart  as `Rings`
+Part part_around(const Level& whole, std::span<const Index> chosen, int rings, const Sharpness* apart) {
   const Topology& t = whole.topology();
+  Rings grown(t, chosen, apart);
+  for (int k = 1; k < rings; ++k) grown.add_ring();
+  // Of these every vertex has all its faces in the part, but for those of sheets that are apart.
+  const std::vector<Index> complete = grown.faces();
+  grown.add_ring();
+  if (apart) grown.complete_creases(complete);
   Part part;
-  part.faces = std::move(faces);
+  part.faces = grown.faces();
 
   RenumberedFaces order{.faces = part.faces, .offsets = {0}, .corners = {}};
   for (const Index f : part.faces) {
@@ -337,20 +344,11 @@ Part part_of(const Level& whole, std::vector<Index> faces, const std::vector<Ind
 }  // namespace
 
 Part part(const Level& whole, std::span<const Index> chosen, int rings) {
-  Rings grown(whole.topology(), chosen);
-  for (int k = 1; k < rings; ++k) grown.add_ring();
-  const std::vector<Index> complete = grown.faces();
-  grown.add_ring();
-  return part_of(whole, grown.faces(), complete);
+  return part_around(whole, chosen, rings, nullptr);
 }
 
 Part sheet_part(const Level& whole, std::span<const Index> chosen, int rings) {
-  Rings grown(whole.topology(), chosen, &whole.sharpness);
-  for (int k = 1; k < rings; ++k) grown.add_ring();
-  const std::vector<Index> complete = grown.faces();
-  grown.add_ring();
-  grown.complete_creases(complete);
-  return part_of(whole, grown.faces(), complete);
+  return part_around(whole, chosen, rings, &whole.sharpness);
 }
 
 Subset subset(const Level& whole, std::span<const Index> chosen, int rings) {

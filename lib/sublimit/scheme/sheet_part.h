@@ -35,7 +35,8 @@ void for_each_in_fan(const Topology& t, HalfEdge from, const Visit& visit) {
   } while (exists(h) && h != first);
 }
 
-/// As `part`, but rings go around a vertex whose sheets are apart on those sheets alone that have been met.
+/// Takes a part as `part` does, but rings go around a vertex whose sheets are apart on those sheets alone that have
+/// been met.
 Part sheet_part(const Level& whole, std::span<const Index> faces, int rings);
 
 }  // namespace sublimit

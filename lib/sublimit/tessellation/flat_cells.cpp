@@ -230,10 +230,6 @@ class Cutter {
   PieceParts parts_;
 };
 
-}  // namespace
-
-namespace {
-
 /// Cells below rounding are cut for nothing, until there are too many of them.
 /// @throws InvalidParameter  a chord or an angle that is smaller than what points or normals are rounded to
 void check_above_rounding(const Points& points, const FlatCellOptions& options) {

@@ -41,7 +41,7 @@ TEST(CliManual, HasAPageForEverySubcommand) {
     expect_done(sublimit({"--generate", kind, (directory / kind).string()}));
     EXPECT_EQ(names_in(directory / kind), expected);
   }
-  // The same options, statuses and examples in all of them: those of --help.
+  // Each of them has the options, statuses and examples of --help.
   const std::string help = expect_done(sublimit({"sample", "--help"})).out;
   const std::string page = read_file(directory / "markdown/sublimit-sample.md");
   for (const char* part : {"--derivatives", "--mem-limit", "a fault of ours", "sublimit sample cage.obj -s loop"}) {

@@ -22,14 +22,13 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <cstdlib>
-#include <exception>
 #include <mutex>
 #include <new>
 #include <sstream>
 #include <string_view>
 
 #include "sublimit/base/error.h"
+#include "sublimit/base/terminate_as_bad_alloc.h"
 #include "sublimit/cad/opencascade/shape.h"
 
 namespace sublimit {
@@ -124,41 +123,23 @@ CadFile made_file(const BoundaryModel& model, const std::string& name, bool step
   }
 }
 
-/// OpenCASCADE takes memory in destructors too: where there is none while an error is on its way they throw, which ends
-/// the process. As long as this lives, by the handler that the program has for std::bad_alloc.
-class NamedLackOfMemory {
- public:
-  NamedLackOfMemory() : own_(std::set_terminate(end)) { before_ = own_; }
-  NamedLackOfMemory(const NamedLackOfMemory&) = delete;
-  NamedLackOfMemory& operator=(const NamedLackOfMemory&) = delete;
-  ~NamedLackOfMemory() { std::set_terminate(own_); }
-
- private:
-  [[noreturn]] static void end() {
-    try {
-      if (std::current_exception()) throw;
-    } catch (const Standard_OutOfMemory&) {
-      try {
-        throw std::bad_alloc();
-      } catch (...) {
-        before_();
-      }
-    } catch (...) {
-      before_();
-    }
-    before_();
-    std::abort();
+/// OpenCASCADE takes memory in destructors too: where there is none while an error is on its way they throw.
+bool is_lack_of_memory() {
+  try {
+    throw;
+  } catch (const Standard_OutOfMemory&) {
+    return true;
+  } catch (...) {
+    return false;
   }
-  std::terminate_handler own_;
-  static inline std::terminate_handler before_ = nullptr;  // one file is made at a time
-};
+}
 
 }  // namespace
 
 CadFile cad_file(const BoundaryModel& model, const std::string& name, bool step) {
   static std::mutex one_at_a_time;  // its settings are the program's
   const std::lock_guard lock(one_at_a_time);
-  const NamedLackOfMemory named;
+  const TerminateAsBadAlloc<is_lack_of_memory> named;
   // Inside OpenCASCADE a lack of memory may be caught and told as another failure, or as a shape that is not valid.
   // Made once more, what it really refuses it refuses again; where memory is lacking still, it says so somewhere.
   try {
