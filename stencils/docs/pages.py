@@ -230,6 +230,56 @@ def tested_page(site: Site) -> None:
     site.write(DOCS / "tested.md", "\n".join(text))
 
 
+def section_of(root: pathlib.Path, page: str, title: str) -> str:
+    """The text below a heading of a page, its links as they are from this folder."""
+    text = (root / page).read_text()
+    found = re.search(rf"^## {re.escape(title)}\n(.*?)(?=^## |\Z)", text, re.M | re.S)
+    if not found:
+        raise SystemExit(f"{page} has no section '{title}'")
+    home = pathlib.Path(page).parent
+
+    def moved(match: re.Match[str]) -> str:
+        picture, label, target = match.groups()
+        if "://" in target:
+            return match.group(0)
+        path, mark, part = target.partition("#")
+        return f"{picture}[{label}]({os.path.relpath(home / path if path else page, DOCS)}{mark}{part})"
+
+    return LINK.sub(moved, found.group(1)).strip() + "\n"
+
+
+def exact_page(site: Site) -> None:
+    """What is exact, as the READMEs say it, and how it was measured: truth tests, and errors in the benchmarks' results."""
+    root = site.root
+    results = json.loads((root / "bench/results.json").read_text())
+    measured = [row for row in results["rows"] if "error" in row["work"]]
+    truths = []
+    for path in sources(root / "tests", "*_test.cpp"):
+        text = (root / "tests" / path).read_text()
+        if re.search(r'256|#include ".*truth', text):
+            told = re.match(r"// SPDX.*\n((?://.*\n)+)", text)
+            if not told:
+                continue
+            said = " ".join(line.lstrip("/ ") for line in told.group(1).splitlines())
+            truths.append(f"| `tests/{path}` | {api.escaped(said.split('. ')[0])} |")
+    text = ["# What is exact, and how it was measured\n", section_of(root, "README.md", "What is exact"),
+            "## Exceptions, and what is not promised\n",
+            section_of(root, "lib/README.md", "What is exact, and what is not promised"),
+            "## How it is measured in the tests\n",
+            "Refinement in floats of 256 bits is the truth; tests fail where a result is farther from it than said above.\n",
+            "| file | |\n|---|---|", *truths,
+            "\n## How it was measured beside others\n",
+            f"From the results of the benchmarks ({results['machine']['cpu']}, {results['machine']['cores']} cores): largest "
+            "errors.\n", "| what | mesh | of | unit | error |\n|---|---|---|---|---|"]
+    for row in measured:
+        for own in row["times"]:
+            text.append(f"| {row['work']} | {row['mesh']} | {own['name']} | {row['unit']} | {own['median']:.1e} |")
+    if not measured or not truths:
+        site.errors.append("exact: no errors were measured, or no test has the truth")
+    page = DOCS / "exact.md"
+    site.write(page, site.linked(page, "\n".join(text) + "\n"))
+
+
 def python_page(site: Site) -> None:
     """Public names of the module and their docstrings, read without importing it."""
     folder = site.root / "stencils/python/sublimit"
@@ -320,6 +370,7 @@ def main() -> int:
     site.gather(reference)
     scheme_index = scheme_pages(site, schemes, json.loads((build / "schemes.json").read_text()), gallery)
     tested_page(site)
+    exact_page(site)
     docs = str(DOCS)
     others = [str(p.with_suffix("")) for p in sources(root, "*.md")]
     verbs = sorted(str(p.relative_to(site.pages).with_suffix("")) for p in (site.pages / DOCS / "verbs").glob("*.md"))
@@ -339,7 +390,7 @@ def main() -> int:
                site.toctree("Formats", ["eval/table_format", "stencils/report_format", "stencils/fit_format"]) +
                site.toctree("Libraries", ["lib/README", "stencils/python/README", f"{docs}/python_reference", "api/index",
                                           "rooms"]) +
-               site.toctree("How good it is", [f"{docs}/tested", "bench/README", "CHANGELOG"]))
+               site.toctree("How good it is", [f"{docs}/exact", f"{docs}/tested", "bench/README", "CHANGELOG"]))
     shutil.copyfile(root / DOCS / "conf.py", site.pages / "conf.py")
     shutil.copytree(root / DOCS / "static", site.pages / "_static", dirs_exist_ok=True)
     if site.errors:

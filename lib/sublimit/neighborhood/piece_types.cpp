@@ -342,17 +342,44 @@ struct PieceType::CornerPath {
   }
   /// Whether what a slot is after k cycles tends to a fixed row: one that repels is a fixed row as well.
   bool attracts(const RowMatrix& fixed, Index slot) const {
+    if (averages(fixed, slot)) return true;
     RowMatrix rest = -fixed;
     if (slot > 0) rest(0, slot - 1) += 1;
     const double small = 0x1p-20 * rest.norm();
-    constexpr int enough = 1024;  // cycles: the slowest of our schemes shrink by 0.9
+    constexpr int enough = 1024;  // cycles: but for averages the slowest of our schemes shrink by 0.9
     for (int k = 0; k < enough; ++k) {
       if (rest.norm() <= small) return true;
       for (size_t i = visits.size(); i-- > first;) rest = visits[i].link->block.derivatives_pulled_back(rest);
     }
     return false;
   }
-  /// The cycle of large blocks.
+  /// Whether weights are non-negative and all slots that this one depends on have, after some cycles, a positive weight
+  /// of one and the same slot, so that cycles contract differences (Doeblin 1937). Averages of a polygon of n vertices
+  /// shrink by as little as cos(pi/n).
+  bool averages(const RowMatrix& fixed, Index slot) const {
+    for (size_t i = first; i < visits.size(); ++i) {
+      const PieceBlock& block = visits[i].link->block;
+      if (block.rows().rows() == 0 || block.least_weight() < 0) return false;
+    }
+    const SparseMatrix B = rows();
+    const std::vector<Index> needed = closed_set(B, {slot});
+    Eigen::Index heaviest = 0;
+    const double largest = fixed.row(0).maxCoeff(&heaviest);
+    std::vector<char> has(B.rows(), false);
+    const Index common = fixed.sum() > 1 - largest ? Index(heaviest) + 1 : 0;
+    if (!(B.coeff(common, common) > 0)) return false;  // with it, what has a weight of it keeps one
+    has[common] = true;
+    for (bool grows = true; grows;) {
+      grows = false;
+      for (const Index s : needed) {
+        if (has[s]) continue;
+        for (SparseMatrix::InnerIterator it(B, s); it && !has[s]; ++it) has[s] = it.value() > 0 && has[it.col()];
+        grows |= bool(has[s]);
+      }
+    }
+    return std::all_of(needed.begin(), needed.end(), [&](Index s) { return bool(has[s]); });
+  }
+  /// The cycle of blocks that have rows.
   SparseMatrix rows() const {
     SparseMatrix B = visits[first].link->block.rows();
     for (size_t i = first + 1; i < visits.size(); ++i) SparseMatrix(product(visits[i].link->block.rows(), B)).swap(B);

@@ -10,6 +10,7 @@
 #include "sublimit/core/sparse_product.h"
 #include "sublimit/core/submatrix.h"
 #include "sublimit/limit/limit_points.h"
+#include "sublimit/limit/limit_surface.h"
 #include "sublimit/limit/sparse_spectrum.h"
 #include "sublimit/limit/tangents.h"
 #include "sublimit/neighborhood/closed_set.h"
@@ -110,6 +111,29 @@ TEST(Poles, RingsThatAreCutAwayWouldChangeNoRow) {
               << scheme.name << n;
         }
       }
+    }
+}
+
+/// The mid-edge schemes average polygons, whose differences shrink by as little as cos(pi/n) in a step.
+TEST(Poles, AreSampledWhereTheirLimitsAre) {
+  for (const Scheme<double>& scheme : all_schemes())
+    for (const int n : {27, 60, 100}) {
+      if (n > 60 && scheme.name == "kobbelt") continue;  // a second for each type
+      ControlMesh mesh = fan(n, scheme.face_size() == 3 ? 3 : 4, 2);
+      mesh.positions(0, 2) = 1;
+      const LimitSurface surface(scheme, mesh);
+      const Topology& t = surface.level().topology();
+      const auto corners = t.vertices(Face{0});
+      const auto corner = std::find(corners.begin(), corners.end(), 0) - corners.begin();
+      const Sample pole = scheme.face_size() == 3 ? Sample{0, double(corner == 1), double(corner == 2)}
+                                                  : Sample{0, double(corner == 1 || corner == 2), double(corner > 1)};
+      const LimitSamples found = surface.evaluate(mesh.positions, std::vector<Sample>{pole}, 0);
+      EXPECT_LE(found.position.row(0).head(2).norm(), by_two_routes) << scheme.name << n << ": off the axis";
+      if (scheme.is_dual()) continue;  // a vertex is a face one level on
+      LimitTypes types(scheme);
+      const Level level = control_level(scheme, mesh);
+      const LimitPoints limits = limit_points(limit_matrices(level, types), level.topology(), mesh.positions);
+      EXPECT_LE((found.position.row(0) - limits.position.row(0)).norm(), by_two_routes) << scheme.name << n;
     }
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <utility>
 
 #include "sublimit/base/error.h"
 #include "sublimit/certificates/dart.h"
@@ -150,6 +151,20 @@ std::optional<LocalPatch<Algebraic>> analysed_patch(const Scheme<Algebraic>& sch
                                                     const RegularMask<Algebraic>* mask) {
   if (!is_closed(kind)) return local_patch(scheme, kind);
   return sublimit::local_patch(scheme, local_type(kind), analysed_rings(mask));
+}
+
+std::vector<Verdict> spectral_verdicts(const Scheme<Algebraic>& scheme, const NeighborhoodKind& kind,
+                                       const RegularMask<Algebraic>* mask) {
+  std::optional<ExactAnalysis> analysis;
+  if (is_closed(kind))
+    analysis = exact_analysis(scheme, local_type(kind), analysed_rings(mask));
+  else if (std::optional<LocalPatch<Algebraic>> patch = local_patch(scheme, kind))
+    analysis = open_analysis(scheme, std::move(*patch));
+  if (!analysis) return {};
+  return {affine_invariance(*analysis), convergence(*analysis),
+          is_closed(kind)           ? spectral_c1(*analysis)
+          : kind.kind == Kind::dart ? dart_tangent_plane(*analysis)
+                                    : tangent_plane(*analysis)};
 }
 
 Json rows_json(const LocalPatch<Algebraic>& patch) {

@@ -3,10 +3,12 @@
 // One neighbourhood of a report: what the surface is like at a centre of one kind, alone among regular points.
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "sublimit/certificates/c1_certificate.h"
 #include "sublimit/files/numbers.h"
 #include "sublimit/limit/limit_surface.h"
+#include "sublimit/limit/verdict.h"
 #include "sublimit/report/analysis/scheme_report.h"
 
 namespace sublimit::report {
@@ -40,6 +42,13 @@ SharedAnalysis shared_analysis(const ReportedScheme& scheme);
 /// @return  nothing where the scheme has no such place
 std::optional<LocalPatch<Algebraic>> analysed_patch(const Scheme<Algebraic>& scheme, const NeighborhoodKind& kind,
                                                     const RegularMask<Algebraic>* mask);
+
+/// What the masks of a neighbourhood and their spectrum alone decide: affine invariance, convergence and, of a closed
+/// centre, what the spectrum says of C^1, of an open one or a dart the tangent plane.
+/// @param mask  of regular meshes, if there is one
+/// @return  nothing where the scheme has no such place
+std::vector<Verdict> spectral_verdicts(const Scheme<Algebraic>& scheme, const NeighborhoodKind& kind,
+                                       const RegularMask<Algebraic>* mask);
 
 /// `rows` of a neighbourhood: what its weights show, exactly. `keeps_centre` is null where no point is in the centre.
 Json rows_json(const LocalPatch<Algebraic>& patch);

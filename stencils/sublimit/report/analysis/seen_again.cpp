@@ -162,6 +162,20 @@ void compare_claims(const Json& given, const Json& made, std::vector<std::string
                                : "nothing"));
 }
 
+NeighborhoodKind kind_in(const Json& neighborhood) {
+  const std::string word = neighborhood.at("kind");
+  const int n = whole_in(neighborhood.at("n"));
+  for (const auto kind :
+       {NeighborhoodKind::Kind::vertex, NeighborhoodKind::Kind::face, NeighborhoodKind::Kind::border,
+        NeighborhoodKind::Kind::crease, NeighborhoodKind::Kind::corner, NeighborhoodKind::Kind::dart}) {
+    const NeighborhoodKind own{kind, n};
+    if (own.name() != word) continue;
+    if (n < 1 || n > greatest_valence) throw FormatError("no neighbourhood has n = " + std::to_string(n));
+    return own;
+  }
+  throw FormatError("there are no neighbourhoods of kind '" + word + "'");
+}
+
 std::string type_in_words(const Json& interpolates) {
   return !interpolates.is_boolean() ? "of no known type" : interpolates.get<bool>() ? "interpolating" : "approximating";
 }
@@ -202,18 +216,23 @@ std::vector<std::string> regular_differs(const Json& scheme, const ExactScheme* 
 }
 
 Json rows_again(const Json& neighborhood, const ExactScheme& exact) {
-  const std::string word = neighborhood.at("kind");
-  const int n = whole_in(neighborhood.at("n"));
-  for (const auto kind :
-       {NeighborhoodKind::Kind::vertex, NeighborhoodKind::Kind::face, NeighborhoodKind::Kind::border,
-        NeighborhoodKind::Kind::crease, NeighborhoodKind::Kind::corner, NeighborhoodKind::Kind::dart}) {
-    const NeighborhoodKind own{kind, n};
-    if (own.name() != word) continue;
-    if (n < 1 || n > greatest_valence) throw FormatError("no neighbourhood has n = " + std::to_string(n));
-    const auto patch = analysed_patch(exact.scheme, own, &exact.mask);
-    return patch ? rows_json(*patch) : Json(nullptr);
+  const auto patch = analysed_patch(exact.scheme, kind_in(neighborhood), &exact.mask);
+  return patch ? rows_json(*patch) : Json(nullptr);
+}
+
+std::vector<std::string> spectrum_differs(const Json& neighborhood, const ExactScheme& exact) {
+  using Answer = Verdict::Answer;
+  std::vector<std::string> wrong;
+  for (const Verdict& made : spectral_verdicts(exact.scheme, kind_in(neighborhood), &exact.mask)) {
+    const bool is_c1 = made.property == "c1";  // proved with a map, or disproved by one, where the spectrum allows both
+    if (is_c1 && made.answer != Answer::disproved && made.answer != Answer::borderline) continue;
+    const Json own = to_json(made).at("verdict");
+    for (const Json& given : neighborhood.at("verdicts"))
+      if (given.at("property") == made.property && given.at("verdict") != own)
+        wrong.push_back(fmt::format("{} is said to be {}, and the spectrum of the masks says {}: {}", made.property,
+                                    given.at("verdict").dump(), own.dump(), made.because));
   }
-  throw FormatError("there are no neighbourhoods of kind '" + word + "'");
+  return wrong;
 }
 
 std::vector<std::string> conclusions_differ(const Json& scheme) {

@@ -21,6 +21,11 @@ std::vector<std::string> regular_differs(const Json& scheme, const ExactScheme* 
 /// @throws FormatError  no such kind of neighbourhood
 Json rows_again(const Json& neighborhood, const ExactScheme& exact);
 
+/// What is wrong with verdicts of a neighbourhood that the masks of the registered scheme and their spectrum decide:
+/// affine invariance, convergence, the tangent plane, and C^1 where the spectrum disproves it or is a borderline case.
+/// @throws FormatError  no such kind of neighbourhood
+std::vector<std::string> spectrum_differs(const Json& neighborhood, const ExactScheme& exact);
+
 /// What is wrong with the words of a SCHEME that follow from its neighbourhoods and its regular part: whether it
 /// interpolates, and what becomes of its claims.
 /// @param scheme  with rows that were seen again

@@ -216,13 +216,16 @@ Json with_rows(const Json& scheme, const std::vector<Json>& rows) {
   return light;
 }
 
-/// Rows of a neighbourhood as the report has them (those of earlier builds have none) against the masks.
+/// Rows of a neighbourhood as the report has them (those of earlier builds have none), and verdicts that their spectrum
+/// decides, against the masks.
 std::vector<std::string> rows_differ(const Json& neighborhood, const ExactScheme& exact, Json& rows) {
   rows = rows_again(neighborhood, exact);
   if (rows.is_null()) return {"the scheme has no such neighbourhood"};
+  std::vector<std::string> wrong = spectrum_differs(neighborhood, exact);
   const auto given = neighborhood.find("rows");
-  if (given == neighborhood.end() || *given == rows) return {};
-  return {fmt::format("its rows are said to be {}, and the masks give {}", given->dump(), rows.dump())};
+  if (given != neighborhood.end() && *given != rows)
+    wrong.push_back(fmt::format("its rows are said to be {}, and the masks give {}", given->dump(), rows.dump()));
+  return wrong;
 }
 
 std::vector<std::string> caught(const std::function<std::vector<std::string>()>& wrong) {

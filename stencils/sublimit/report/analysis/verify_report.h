@@ -28,7 +28,8 @@ struct ReportVerificationOptions {
 };
 
 /// Checks that witnesses prove what they say, at the neighbourhood that they stand in; that C^1 is nowhere said to be
-/// proved without one; that no verdict contradicts its own hypotheses; that the regular part, the weights of
+/// proved without one; that no verdict contradicts its own hypotheses; that convergence, tangent planes and C^1 are
+/// what the spectra of a registered scheme's masks say, where these decide; that the regular part, the weights of
 /// neighbourhoods, the type (interpolating or not) and what became of claims are what masks give, those of the scheme's
 /// file if the registry has it, else those in the report; and that the summary says what the verdicts do.
 /// @param text  of report.json
