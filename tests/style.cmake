@@ -1,11 +1,11 @@
-# What machines can say of style: cmake -DSOURCE=DIR -DBUILD=DIR [-DROOM=lib/sublimit/limit [-DTOGETHER=ON] [-DONLY=REGEX]] -P style.cmake
-# Without a room: all sources are formatted as .clang-format says. With one: clang-tidy finds nothing in its sources, looked
-# at together where they can be, as most of the time goes into the headers that they share.
+# What machines can say of style: cmake -DSOURCE=DIR -DBUILD=DIR [-DFOLDER=lib/sublimit -DROOMS=limit,search [-DONLY=REGEX]] -P style.cmake
+# Without rooms: all sources are formatted as .clang-format says. With some: clang-tidy finds nothing in their sources, looked
+# at together, as most of the time goes into the headers that they share.
 foreach(tool clang-format clang-tidy)
   find_program(${tool} NAMES ${tool}-14)
 endforeach()
 set(tool clang-format)
-if(ROOM)
+if(ROOMS)
   set(tool clang-tidy)
 endif()
 if(NOT ${tool})
@@ -16,18 +16,23 @@ if(NOT ${tool})
   return()
 endif()
 
-if(ROOM)
-  file(GLOB sources ${SOURCE}/${ROOM}/*.cpp)
+if(ROOMS)
+  set(sources "")
+  string(REPLACE "," ";" rooms ${ROOMS})
+  foreach(room ${rooms})
+    file(GLOB found ${SOURCE}/${FOLDER}/${room}/*.cpp)
+    if(NOT found)
+      message(FATAL_ERROR "there are no sources in ${FOLDER}/${room}")
+    endif()
+    list(APPEND sources ${found})
+  endforeach()
   if(ONLY)
     list(FILTER sources INCLUDE REGEX "/(${ONLY})[.]cpp$")
   endif()
-  if(TOGETHER)
-    list(TRANSFORM sources REPLACE "(.+)" "#include \"\\1\"\n")
-    string(REPLACE "/" "_" name ${ROOM})
-    list(JOIN sources "" text)
-    set(sources ${BUILD}/style/${name}.cpp)
-    file(WRITE ${sources} "${text}")
-  endif()
+  list(TRANSFORM sources REPLACE "(.+)" "#include \"\\1\"\n")
+  list(JOIN sources "" text)
+  set(sources ${BUILD}/style/${ROOMS}.cpp)
+  file(WRITE ${sources} "${text}")
   execute_process(COMMAND ${clang-tidy} --quiet --config-file=${SOURCE}/.clang-tidy ${sources} -- -std=c++20 -w
                           -I${SOURCE}/lib -I${SOURCE}/eval -I${BUILD}/include/base -isystem /usr/include/eigen3
                   OUTPUT_VARIABLE found ERROR_VARIABLE log RESULT_VARIABLE failed)

@@ -16,11 +16,11 @@ constexpr std::uint8_t reversed = 8;
 /// A face has sixteen million points then.
 constexpr std::int32_t last_n = 4096;
 
-[[noreturn]] void fail(const std::string& what) { throw InvalidParameter("lattices of faces: " + what); }
+[[noreturn]] void refuse(const std::string& what) { throw InvalidParameter("lattices of faces: " + what); }
 
 void check_size(const char* name, size_t size, size_t right) {
   if (size != right)
-    fail(std::string(name) + " has " + std::to_string(size) + " entries, not " + std::to_string(right));
+    refuse(std::string(name) + " has " + std::to_string(size) + " entries, not " + std::to_string(right));
 }
 
 }  // namespace
@@ -87,10 +87,10 @@ void LatticeRanks::add(Share share) {
 FaceLattices::FaceLattices(std::int64_t num_points, Arrays arrays) : arrays_(std::move(arrays)) {
   const Arrays& a = arrays_;
   if (a.lattice.n < 1 || a.lattice.n > last_n)
-    fail(std::to_string(a.lattice.n) + " cells a side; 1 to " + std::to_string(last_n) + " are right");
+    refuse(std::to_string(a.lattice.n) + " cells a side; 1 to " + std::to_string(last_n) + " are right");
   const int sides = a.lattice.num_sides();
   const size_t faces = a.first_points.size(), all = faces * size_t(sides);
-  if (faces > size_t(std::numeric_limits<std::int32_t>::max())) fail("too many faces");
+  if (faces > size_t(std::numeric_limits<std::int32_t>::max())) refuse("too many faces");
   check_size("side_faces", a.side_faces.size(), all);
   check_size("side_places", a.side_places.size(), all);
   check_size("corner_faces", a.corner_faces.size(), all);
@@ -103,7 +103,7 @@ FaceLattices::FaceLattices(std::int64_t num_points, Arrays arrays) : arrays_(std
   ranks_ = LatticeRanks(a.lattice);
   const auto check_owner = [&](const char* what, size_t i, std::int32_t owner, int place, int most) {
     if (owner < 0 || size_t(owner) >= faces || (place & 7) >= sides || place > most)
-      fail("the owner of " + std::string(what) + " " + std::to_string(i) + " does not exist");
+      refuse("the owner of " + std::string(what) + " " + std::to_string(i) + " does not exist");
   };
   parallel_for(std::int64_t(faces), [&](std::int64_t f) {
     for (size_t at = size_t(f) * size_t(sides); at < size_t(f + 1) * size_t(sides); ++at) {
@@ -114,19 +114,19 @@ FaceLattices::FaceLattices(std::int64_t num_points, Arrays arrays) : arrays_(std
     if (!a.places.empty()) {
       const int turn = a.places[f] & 7, quarter = (a.places[f] >> 3) - 1;
       if (turn >= sides || quarter >= sides || a.addresses[f] < 0)
-        fail("face " + std::to_string(f) + " has no place in an address");
+        refuse("face " + std::to_string(f) + " has no place in an address");
     }
   });
   for (const std::uint8_t share : share_) ranks_.add(share);
   parallel_for(std::int64_t(faces), [&](std::int64_t f) {
     if (a.first_points[f] < 0 || a.first_points[f] > num_points - ranks_.num_rows(share_[f]))
-      fail("points of face " + std::to_string(f) + " from " + std::to_string(a.first_points[f]) + " on, of " +
+      refuse("points of face " + std::to_string(f) + " from " + std::to_string(a.first_points[f]) + " on, of " +
            std::to_string(num_points));
     for (int k = 0; k < sides; ++k) {
       const std::int64_t at = f * sides + k;
       if (!(share_[a.side_faces[at]] >> (a.side_places[at] & 7) & 1) ||
           !(share_[a.corner_faces[at]] >> (4 + a.corner_places[at]) & 1))
-        fail("face " + std::to_string(f) + " takes points from a face that does not have them");
+        refuse("face " + std::to_string(f) + " takes points from a face that does not have them");
     }
   });
 }

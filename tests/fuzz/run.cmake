@@ -1,13 +1,24 @@
 # BUILD: makes what watches the instrumented library, in a tree below it. TARGET: runs that, a fuzzer for SECONDS on a copy of its corpus.
+# WHOLE: with all of the library instrumented, in a tree of its own.
 set(binary ${BUILD}/instrumented)
+if(WHOLE)
+  set(binary ${BUILD}/instrumented_whole)
+endif()
 include(${CMAKE_CURRENT_LIST_DIR}/../cmake/Run.cmake)
 if(NOT TARGET)
-  # Warnings are errors where the flags that ship are; another compiler sees other things. Parts that neither meshes nor limits of
-  # surfaces need are left out, and kernels are compiled for one kind of registers.
+  # Warnings are errors where the flags that ship are; another compiler sees other things. Kernels are compiled for one kind of
+  # registers. Parts that neither readers nor limits of surfaces need are left out; what recipes make patches with, and
+  # decompositions, which are Eigen's, are those of the library that ships.
+  set(part "")
+  if(NOT WHOLE)
+    set(part -DSUBLIMIT_REST_OF_LIBRARY=${BUILD}/lib/libsublimit_lib.a
+        "-DSUBLIMIT_LIB_WITHOUT=/(cad|fit|primvar|curves|search|tessellation|patches|geometric|implicit)/|/core/(dense_decompositions|complex_decompositions|sparse_lu)[.]cpp$")
+  endif()
   run(${CMAKE_COMMAND} -S ${SOURCE} -B ${binary} -G Ninja -DCMAKE_BUILD_TYPE=Release "-DCMAKE_CXX_FLAGS_RELEASE=-O1 -g1 -DHWY_COMPILE_ONLY_STATIC"
-      -DCMAKE_CXX_COMPILER=clang++-14 -DSUBLIMIT_BUILD_PROGRAM=OFF -DSUBLIMIT_BUILD_IMPLICIT_MESH=OFF -DSUBLIMIT_BUILD_CAD=OFF -DSUBLIMIT_BUILD_GPU=OFF -DSUBLIMIT_BUILD_FUZZERS=ON -DSUBLIMIT_WARNINGS_AS_ERRORS=OFF
-      -DSUBLIMIT_SHARED_MESHES=${MESHES}
-      "-DSUBLIMIT_LIB_WITHOUT=/(cad|fit|primvar|curves|search|tessellation)/|/implicit/(cage|closed_mesh|field_grid|level_set)|/limit/(local_modes|limit_(boxes|cells|grid)|curvature)[.]cpp$")
+      -DCMAKE_CXX_COMPILER=clang++-14 -DSUBLIMIT_BUILD_PROGRAM=OFF
+      -DSUBLIMIT_BUILD_IMPLICIT_MESH=OFF -DSUBLIMIT_BUILD_CAD=OFF -DSUBLIMIT_BUILD_GPU=OFF -DSUBLIMIT_BUILD_FUZZERS=ON
+      -DSUBLIMIT_WARNINGS_AS_ERRORS=OFF
+      -DSUBLIMIT_SHARED_MESHES=${MESHES} ${part})
   run(${CMAKE_COMMAND} --build ${binary} --target fuzz_obj fuzz_table fuzz_recipe sweep_tests)
   return()
 endif()

@@ -29,6 +29,27 @@ std::vector<Index> faces_at(const Topology& t, const std::vector<HalfEdge>& corn
   return faces;
 }
 
+/// All that a step depends on: where it is as before, so are the weights of the next one.
+struct State {
+  std::vector<HalfEdge> corners;
+  Vertex centre;
+  std::vector<Index> sizes = {}, vertices = {}, holes = {};
+  std::vector<float> edges = {}, points = {};
+  friend bool operator==(const State&, const State&) = default;
+};
+State state(const Level& level, const std::vector<HalfEdge>& corners, Vertex centre) {
+  State all{.corners = corners, .centre = centre};
+  const Topology& t = level.topology();
+  for (Index f = 0; f < t.num_faces(); ++f) {
+    all.sizes.push_back(t.size(Face{f}));
+    for (const Index v : t.vertices(Face{f})) all.vertices.push_back(v);
+  }
+  all.holes.assign(level.holes.begin(), level.holes.end());
+  all.edges.assign(level.sharpness.edge.begin(), level.sharpness.edge.end());
+  all.points.assign(level.sharpness.vertex.begin(), level.sharpness.vertex.end());
+  return all;
+}
+
 }  // namespace
 
 std::vector<RefinedRing> brute_force(const Scheme<Precise>& scheme, const Level& level, const Points& points, Vertex v,
@@ -64,6 +85,14 @@ std::vector<RefinedRing> brute_force(const Scheme<Precise>& scheme, const Level&
     for (Eigen::Index i = 0; i < ring.points.rows(); ++i) ring.points.row(i) -= moved_by;
   };
   recentre(centre);
+  const auto keep = [&](int k) {
+    if (std::find(depths.begin(), depths.end(), k) == depths.end()) return;
+    ring.level = part.level;
+    ring.vertex = centre;
+    ring.corners = corners;
+    result.push_back(ring);
+  };
+  State before = state(part.level, corners, centre);
   for (int k = 1; k <= depths.back(); ++k) {
     LevelOf<Precise> from;
     from.number = part.level.number;
@@ -88,12 +117,22 @@ std::vector<RefinedRing> brute_force(const Scheme<Precise>& scheme, const Level&
     centre = Vertex{position(vertices, index(child))};
     recentre(centre);
     corners = moved(plain.topology(), part, corners);
-    if (std::find(depths.begin(), depths.end(), k) != depths.end()) {
-      ring.level = part.level;
-      ring.vertex = centre;
-      ring.corners = corners;
-      result.push_back(ring);
+    keep(k);
+    State after = state(part.level, corners, centre);
+    if (after == before) {  // and so it stays: the same weights, again and again
+      PrecisePoints refined_again(ring.points.rows(), 3);
+      while (++k <= depths.back()) {
+        for (size_t i = 0; i < vertices.size(); ++i) {
+          refined_again.row(Index(i)).setZero();
+          for (decltype(next.S)::InnerIterator it(next.S, vertices[i]); it; ++it)
+            refined_again.row(Index(i)) += it.value() * ring.points.row(it.col());
+        }
+        ring.points.swap(refined_again);
+        recentre(centre);
+        keep(k);
+      }
     }
+    before = std::move(after);
   }
   return result;
 }

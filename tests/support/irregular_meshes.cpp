@@ -119,7 +119,9 @@ ControlMesh merged(const ControlMesh& mesh, int edges, unsigned seed, Index most
   return m.mesh(mesh.positions);
 }
 
-std::vector<NamedMesh> closed_triangle_meshes() {
+namespace {
+
+std::vector<NamedMesh> made_closed_triangle_meshes() {
   std::vector<NamedMesh> list;
   const auto add = [&](const std::string& name, const ControlMesh& mesh, unsigned seed = 1) {
     list.push_back({name, {}, jittered(mesh, 0.1, seed)});
@@ -137,8 +139,8 @@ std::vector<NamedMesh> closed_triangle_meshes() {
   return list;
 }
 
-std::vector<NamedMesh> closed_polygon_meshes() {
-  std::vector<NamedMesh> list = closed_triangle_meshes();
+std::vector<NamedMesh> made_closed_polygon_meshes() {
+  std::vector<NamedMesh> list = made_closed_triangle_meshes();
   const auto add = [&](const std::string& name, const ControlMesh& mesh, unsigned seed = 1) {
     list.push_back({name, {}, jittered(mesh, 0.05, seed)});
   };
@@ -150,6 +152,18 @@ std::vector<NamedMesh> closed_polygon_meshes() {
   for (unsigned seed = 1; seed <= 4; ++seed)
     add("merged_" + std::to_string(seed), merged(flipped(triangle_torus(9, 8), 200, seed), 90, seed), seed);
   return list;
+}
+
+}  // namespace
+
+// Every process of a test asks more than once.
+std::vector<NamedMesh> closed_triangle_meshes() {
+  static const std::vector<NamedMesh> all = made_closed_triangle_meshes();
+  return all;
+}
+std::vector<NamedMesh> closed_polygon_meshes() {
+  static const std::vector<NamedMesh> all = made_closed_polygon_meshes();
+  return all;
 }
 
 std::vector<NamedMesh> open_triangle_meshes() {
