@@ -121,7 +121,7 @@ FaceLattices::FaceLattices(std::int64_t num_points, Arrays arrays) : arrays_(std
   parallel_for(std::int64_t(faces), [&](std::int64_t f) {
     if (a.first_points[f] < 0 || a.first_points[f] > num_points - ranks_.num_rows(share_[f]))
       refuse("points of face " + std::to_string(f) + " from " + std::to_string(a.first_points[f]) + " on, of " +
-           std::to_string(num_points));
+             std::to_string(num_points));
     for (int k = 0; k < sides; ++k) {
       const std::int64_t at = f * sides + k;
       if (!(share_[a.side_faces[at]] >> (a.side_places[at] & 7) & 1) ||

@@ -31,6 +31,8 @@ printf '{"kind": "implicit", "field": "sphere", "center": [0, 0, 0], "radius": 1
 sublimit implicit ball.json -o ball.obj
 sublimit devices
 sublimit bake cube.obj -s catmull-clark -l 2 --precision float -o cube.safetensors
+# Mesa keeps what it compiled in a cache at home, which is not ours to remove.
+export MESA_SHADER_CACHE_DISABLE=true
 if sublimit devices --json | grep -q '"number"'; then sublimit apply cube.safetensors cube.obj --gpu -o on_gpu.obj; fi
 echo "== many processes"
 mpirun --allow-run-as-root --oversubscribe -n 2 sublimit-mpi bake cube.obj -s catmull-clark -l 2 -o shards

@@ -12,6 +12,7 @@ endif()
 run(lintian --fail-on error ${packages})
 
 set(root ${tree}/root)
+execute_process(COMMAND umount ${root}/proc OUTPUT_QUIET ERROR_QUIET)  # of a run that failed
 file(REMOVE_RECURSE ${root})
 run(mmdebstrap --variant=minbase bookworm ${root})
 file(MAKE_DIRECTORY ${root}/packages ${root}/uses)

@@ -36,6 +36,14 @@ def test_samples_are_the_programs(tagged: sublimit.Mesh, program: Program, tmp_p
             assert np.array_equal(part[there, k], numbers[name.format(axis)][there]), name
 
 
+def test_numbers_too_large_are_errors(cube: sublimit.Mesh) -> None:
+    largest = sublimit.Mesh(cube.points * (1.7e308 / np.abs(cube.points).max()), cube.faces)
+    surface = sublimit.LimitSurface(largest, "catmull-clark")
+    assert np.isfinite(surface.evaluate(0, 0.5, 0.5).points).all()
+    with pytest.raises(sublimit.InvalidMesh, match=r"face 0, u 0\.5, v 0\.25: .* another unit of length"):
+        surface.evaluate(0, 0.5, [0.25, 0.75], derivatives=2)
+
+
 def test_shapes_broadcast(cube: sublimit.Mesh) -> None:
     surface = sublimit.LimitSurface(cube, "catmull-clark")
     u = np.linspace(0, 1, 5)

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cstdint>
+#include <fstream>
 #include <limits>
 #include <string>
 
@@ -13,8 +14,17 @@
 
 namespace sublimit {
 
+/// What the machine has, or the control group that this process is in (of a container or a batch job) if that is less.
 inline double physical_memory() {
-  return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
+  static const double bytes = [] {
+    double least = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
+    for (const char* path : {"/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory/memory.limit_in_bytes"}) {
+      double limit = 0;
+      if (std::ifstream(path) >> limit && limit > 0) least = std::min(least, limit);  // "max" is no number
+    }
+    return least;
+  }();
+  return bytes;
 }
 
 namespace detail {
@@ -22,8 +32,9 @@ inline std::atomic<double> memory_limit{std::numeric_limits<double>::infinity()}
 }
 /// Holds the jobs of this process to so many bytes, where what they take is predicted.
 inline void limit_memory(double bytes) { detail::memory_limit = bytes; }
-/// Bytes that a job may take: what the machine has, or less.
-inline double memory_limit() { return std::min(physical_memory(), detail::memory_limit.load()); }
+/// Bytes that a job may take: what the machine has, less a sixteenth for all else that runs there, or what it was held
+/// to.
+inline double memory_limit() { return std::min(physical_memory() * 15 / 16, detail::memory_limit.load()); }
 
 /// `1.5 GB`.
 inline std::string bytes_in_words(double bytes) {
@@ -40,8 +51,9 @@ inline std::string bytes_in_words(double bytes) {
 
 /// `this machine has 16.0 GB`, or `the limit is 1.0 GB`.
 inline std::string memory_limit_in_words() {
-  const bool is_given = detail::memory_limit < physical_memory();
-  return (is_given ? "the limit is " : "this machine has ") + bytes_in_words(memory_limit());
+  const bool is_given = detail::memory_limit < physical_memory() * 15 / 16;
+  return (is_given ? "the limit is " : "this machine has ") +
+         bytes_in_words(is_given ? memory_limit() : physical_memory());
 }
 
 /// @param what    the job, in the plural: `3 levels of 100 faces`

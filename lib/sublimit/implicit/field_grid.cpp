@@ -64,7 +64,7 @@ FieldGrid sample_field(const Field& field, const Eigen::AlignedBox3d& box, int c
   const Vector3d covered(grid.size[0] - 1, grid.size[1] - 1, grid.size[2] - 1);
   grid.origin = box.center() - grid.cell / 2 * covered;
   grid.values.resize(size_t(count));
-  const auto [nx, ny, nz] = grid.size;
+  const int nx = grid.size[0], ny = grid.size[1], nz = grid.size[2];  // clang 14 captures no structured bindings
   std::vector<Slab> slabs(size_t(nz), Slab{});
   parallel_for_blocks(
       nz,

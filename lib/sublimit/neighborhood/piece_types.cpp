@@ -270,10 +270,14 @@ std::deque<PieceLink> PieceType::found_children() const {
     all.insert(all.end(), walk.vertices.begin(), walk.vertices.end());
     vertices.push_back(walk.vertices);
   }
-  // Masks have some 12 points, and S and the blocks have each of the children's points once.
-  constexpr double bytes_of_row = 12 * 12 + 16, bytes_of_slot = 64;
+  constexpr double bytes_of_slot = 64, bytes_of_row = 16, bytes_of_weight = 12;
   types_->take(bytes_of_row * double(all.size()) + bytes_of_slot * double(links.size()) * num_slots(), num_slots());
   const SparseMatrix S = rows_of(after, std::move(all));
+  // Beside vertices of many edges a row may have as many weights; blocks have each of the rows that they share.
+  double weights = double(S.nonZeros());
+  for (const std::vector<Index>& child : vertices)
+    for (const Index v : child) weights += double(S.outerIndexPtr()[v + 1] - S.outerIndexPtr()[v]);
+  types_->take(bytes_of_weight * weights, num_slots());
   for (size_t i = 0; i < links.size(); ++i) links[i].block = PieceBlock(rows_over_slots(after, S, vertices[i]));
   return links;
 }

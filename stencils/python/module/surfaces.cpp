@@ -14,6 +14,7 @@
 #include "module.h"
 #include "sources.h"
 #include "sublimit/base/error.h"
+#include "sublimit/base/format_number.h"
 #include "sublimit/base/parallel_for.h"
 #include "sublimit/core/uninitialized.h"
 #include "sublimit/search/closest_point.h"
@@ -73,12 +74,28 @@ py::dict arrays(LimitSamples&& samples) {
   return all;
 }
 
+/// @throws InvalidMesh  a position or a derivative larger than numbers are: says where
+void check_finite(const LimitSamples& found, const Places& at) {
+  for (const Points* part : {&found.position, &found.du, &found.dv, &found.duu, &found.duv, &found.dvv}) {
+    if (part->allFinite()) continue;
+    Eigen::Index row = 0;
+    while (part->row(row).allFinite()) ++row;
+    const Sample& place = at[size_t(row)];
+    throw InvalidMesh(
+        "face " + std::to_string(place.face) + ", u " + format_number(place.u) + ", v " + format_number(place.v) +
+        ": the position or a derivative there is larger than numbers are (1.8e308); give control points in another "
+        "unit of length");
+  }
+}
+
 py::dict evaluate(const Source& surface, const Array<Index>& faces, const Array<double>& u, const Array<double>& v,
                   int order, int threads) {
   return arrays(without_gil([&] {
     const Threads held(threads);
     const Places at(surface.surface().faces(), faces, u, v);
-    return surface.evaluate(at.all(), order);
+    LimitSamples found = surface.evaluate(at.all(), order);
+    check_finite(found, at);
+    return found;
   }));
 }
 

@@ -251,6 +251,8 @@ class Source:
         ------
         InvalidParameter
             A face that there is not, parameters outside of it or not finite.
+        InvalidMesh
+            A position or a derivative larger than numbers are (1.8e308).
         """
         faces, at_u, at_v, shape = places(face, u, v)
         return Samples(self._core.evaluate(faces, at_u, at_v, order(derivatives), threads), shape)

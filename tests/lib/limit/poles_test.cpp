@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Vertices of many faces: the blocks of one sector give what dense matrices give, and their size does not grow.
 #include <gtest/gtest.h>
+#include <malloc.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <memory>
 #include <numbers>
 
+#include "sublimit/base/memory.h"
 #include "sublimit/core/dense_decompositions.h"
 #include "sublimit/core/sparse_product.h"
 #include "sublimit/core/submatrix.h"
@@ -16,6 +20,7 @@
 #include "sublimit/neighborhood/closed_set.h"
 #include "sublimit/neighborhood/local_patch.h"
 #include "sublimit/schemes.h"
+#include "support/allocations.h"
 #include "support/local_types.h"
 #include "support/meshes.h"
 #include "support/tolerance.h"
@@ -135,6 +140,33 @@ TEST(Poles, AreSampledWhereTheirLimitsAre) {
       const LimitPoints limits = limit_points(limit_matrices(level, types), level.topology(), mesh.positions);
       EXPECT_LE((found.position.row(0) - limits.position.row(0)).norm(), by_two_routes) << scheme.name << n;
     }
+}
+
+/// Bytes of glibc's heap in use.
+double bytes_in_use() {
+  const struct mallinfo2 heap = mallinfo2();
+  return double(heap.uordblks) + double(heap.hblkhd);
+}
+
+TEST(Poles, TakeNoMoreMemoryThanTheyAreAllowed) {
+  if (!allocations_are_counted()) GTEST_SKIP() << "the heap is not glibc's";
+  constexpr double allowed = 100e6;
+  struct Unlimited {
+    ~Unlimited() { limit_memory(std::numeric_limits<double>::infinity()); }
+  } at_the_end;
+  const Scheme<double> scheme =
+      find_scheme("interpolatory-sqrt3").value();  // rows have as many weights as the pole edges
+  const ControlMesh mesh = fan(300, 3, 3);
+  const auto types = std::make_shared<LimitTypes>(scheme);
+  const LimitSurface surface(scheme, mesh, {}, types);
+  const double before = bytes_in_use();
+  limit_memory(allowed);
+  std::vector<Sample> places;
+  for (int i = 0; i < 40; ++i) places.push_back({i, 0.013 * i, 0.3});
+  EXPECT_THROW(surface.evaluate(mesh.positions, places, 1), ResourceError);
+  const double taken = bytes_in_use() - before;
+  EXPECT_LE(taken, 1.5 * allowed);
+  EXPECT_GE(taken, 0.1 * allowed) << "refused far too early";
 }
 
 TEST(Poles, OneMoreStepChangesNoLimit) {
