@@ -15,7 +15,7 @@ void add_memory_limit(CLI::App& command, std::string& limit) {
   command.add_option(
       "--mem-limit", limit,
       "Fail, before it is taken, if more memory is needed than this: 500M, 2G (10^9 bytes), 2GiB (2^30); "
-      "default: what the machine has");
+      "default: what the machine has, less a sixteenth");
 }
 
 double parse_memory_limit(const std::string& text) {

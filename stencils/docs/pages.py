@@ -256,7 +256,7 @@ def exact_page(site: Site) -> None:
     truths = []
     for path in sources(root / "tests", "*_test.cpp"):
         text = (root / "tests" / path).read_text()
-        if re.search(r'256|#include ".*truth', text):
+        if re.search(r'256[-_ ]?[Bb]its?|#include ".*(truth|brute_force)', text):
             told = re.match(r"// SPDX.*\n((?://.*\n)+)", text)
             if not told:
                 continue
@@ -266,7 +266,8 @@ def exact_page(site: Site) -> None:
             "## Exceptions, and what is not promised\n",
             section_of(root, "lib/README.md", "What is exact, and what is not promised"),
             "## How it is measured in the tests\n",
-            "Refinement in floats of 256 bits is the truth; tests fail where a result is farther from it than said above.\n",
+            "Against refinement, closed forms or exact numbers in floats of 256 bits; tests fail where a result is farther from them than "
+            "said above.\n",
             "| file | |\n|---|---|", *truths,
             "\n## How it was measured beside others\n",
             f"From the results of the benchmarks ({results['machine']['cpu']}, {results['machine']['cores']} cores): largest "

@@ -29,7 +29,8 @@ std::vector<Index> faces_at(const Topology& t, const std::vector<HalfEdge>& corn
   return faces;
 }
 
-/// All that a step depends on: where it is as before, so are the weights of the next one.
+/// What a step depends on: where it is as before, so are the weights of the next one. Under sqrt3 every second step is
+/// another one on borders, where the number of faces takes turns too, so that no state follows itself.
 struct State {
   std::vector<HalfEdge> corners;
   Vertex centre;

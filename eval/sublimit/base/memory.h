@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <cstdint>
 #include <fstream>
 #include <limits>
@@ -14,16 +15,35 @@
 
 namespace sublimit {
 
-/// What the machine has, or the control group that this process is in (of a container or a batch job) if that is less.
+/// The least that the control groups of this process (of a container, a batch job) allow; infinity if none says so.
+/// @param root  of the file system; tests have one of their own
+inline double control_group_memory(const std::string& root = "") {
+  double least = std::numeric_limits<double>::infinity();
+  const auto look = [&](const std::string& file) {
+    double bytes = 0;
+    if (std::ifstream(file) >> bytes && bytes > 0) least = std::min(least, bytes);  // "max" is no number
+  };
+  std::ifstream groups(root + "/proc/self/cgroup");
+  for (std::string line; std::getline(groups, line);) {  // 0::/path, or 4:memory:/path of the first version
+    const size_t first = line.find(':'), second = line.find(':', first + 1);
+    if (second == std::string::npos) continue;
+    const std::string controllers = "," + line.substr(first + 1, second - first - 1) + ",";
+    const bool unified = controllers == ",,";
+    if (!unified && controllers.find(",memory,") == std::string::npos) continue;
+    const std::string mount = root + (unified ? "/sys/fs/cgroup" : "/sys/fs/cgroup/memory");
+    const std::string name = unified ? "/memory.max" : "/memory.limit_in_bytes";
+    std::string path = line.substr(second + 1);
+    for (; !path.empty() && path != "/"; path.erase(path.rfind('/'))) look(mount + path + name);
+    look(mount + name);
+  }
+  return least;
+}
+
+/// What the machine has, or the control groups of this process if that is less.
 inline double physical_memory() {
-  static const double bytes = [] {
-    double least = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
-    for (const char* path : {"/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory/memory.limit_in_bytes"}) {
-      double limit = 0;
-      if (std::ifstream(path) >> limit && limit > 0) least = std::min(least, limit);  // "max" is no number
-    }
-    return least;
-  }();
+  static const double bytes =
+      std::min(static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE)),
+               control_group_memory());
   return bytes;
 }
 
@@ -32,9 +52,11 @@ inline std::atomic<double> memory_limit{std::numeric_limits<double>::infinity()}
 }
 /// Holds the jobs of this process to so many bytes, where what they take is predicted.
 inline void limit_memory(double bytes) { detail::memory_limit = bytes; }
-/// Bytes that a job may take: what the machine has, less a sixteenth for all else that runs there, or what it was held
-/// to.
-inline double memory_limit() { return std::min(physical_memory() * 15 / 16, detail::memory_limit.load()); }
+/// Bytes that a job may take: what it was held to, else what the machine has, less a sixteenth for all else there.
+inline double memory_limit() {
+  const double given = detail::memory_limit.load();
+  return std::isfinite(given) ? std::min(given, physical_memory()) : physical_memory() * 15 / 16;
+}
 
 /// `1.5 GB`.
 inline std::string bytes_in_words(double bytes) {
@@ -49,11 +71,11 @@ inline std::string bytes_in_words(double bytes) {
   return std::to_string(tenths / 10) + "." + std::to_string(tenths % 10) + " " + units[unit];
 }
 
-/// `this machine has 16.0 GB`, or `the limit is 1.0 GB`.
+/// `this machine has 16.0 GB, 15.0 GB of it for a job`, or `the limit is 1.0 GB`.
 inline std::string memory_limit_in_words() {
-  const bool is_given = detail::memory_limit < physical_memory() * 15 / 16;
-  return (is_given ? "the limit is " : "this machine has ") +
-         bytes_in_words(is_given ? memory_limit() : physical_memory());
+  const std::string limit = bytes_in_words(memory_limit());
+  if (std::isfinite(detail::memory_limit.load())) return "the limit is " + limit;
+  return "this machine has " + bytes_in_words(physical_memory()) + ", " + limit + " of it for a job";
 }
 
 /// @param what    the job, in the plural: `3 levels of 100 faces`

@@ -363,21 +363,25 @@ struct PieceType::CornerPath {
   bool averages(const RowMatrix& fixed, Index slot) const {
     for (size_t i = first; i < visits.size(); ++i) {
       const PieceBlock& block = visits[i].link->block;
-      if (block.rows().rows() == 0 || block.least_weight() < 0) return false;
+      if (block.rows().rows() == 0 || block.least_weight() < -1e-15) return false;
     }
+    RowMatrix after = fixed;  // in differences: fixed = origin + fixed D
+    for (size_t i = visits.size(); i-- > first;) after = visits[i].link->block.pulled_back(after);
+    if (!((after - fixed).norm() <= 1e-9)) return false;  // that is, it was not solved for
     const SparseMatrix B = rows();
     const std::vector<Index> needed = closed_set(B, {slot});
     Eigen::Index heaviest = 0;
     const double largest = fixed.row(0).maxCoeff(&heaviest);
     std::vector<char> has(B.rows(), false);
     const Index common = fixed.sum() > 1 - largest ? Index(heaviest) + 1 : 0;
-    if (!(B.coeff(common, common) > 0)) return false;  // with it, what has a weight of it keeps one
+    constexpr double least = 1e-15;                        // what is less is rounding
+    if (!(B.coeff(common, common) > least)) return false;  // with it, what has a weight of it keeps one
     has[common] = true;
     for (bool grows = true; grows;) {
       grows = false;
       for (const Index s : needed) {
         if (has[s]) continue;
-        for (SparseMatrix::InnerIterator it(B, s); it && !has[s]; ++it) has[s] = it.value() > 0 && has[it.col()];
+        for (SparseMatrix::InnerIterator it(B, s); it && !has[s]; ++it) has[s] = it.value() > least && has[it.col()];
         grows |= bool(has[s]);
       }
     }

@@ -9,6 +9,7 @@
 #include "calls.h"
 #include "module.h"
 #include "sublimit/base/error.h"
+#include "sublimit/base/format_number.h"
 #include "sublimit/curves/limit_curve.h"
 #include "sublimit/curves/schemes/curve_schemes.h"
 
@@ -42,6 +43,15 @@ class Curve {
       const Threads held(threads);
       return curve_->evaluate(unknowns_, at, order);
     });
+    for (const Points* part : {&found.position, &found.first, &found.second}) {
+      if (part->allFinite()) continue;
+      Eigen::Index row = 0;
+      while (part->row(row).allFinite()) ++row;
+      throw InvalidMesh(
+          "segment " + std::to_string(at[size_t(row)].segment) + ", t " + format_number(at[size_t(row)].t) +
+          ": the point or a derivative there is larger than numbers are (1.8e308); give points in another unit of "
+          "length");
+    }
     std::vector<std::int8_t> status;
     for (const LimitStatus one : found.status) status.push_back(std::int8_t(one));
     py::dict all;

@@ -8,6 +8,7 @@
 #include <map>
 
 #include "sublimit/base/error.h"
+#include "sublimit/certificates/c1_certificate.h"
 #include "sublimit/certificates/regularity/rational_schemes.h"
 #include "sublimit/report/analysis/claims_json.h"
 
@@ -222,15 +223,33 @@ Json rows_again(const Json& neighborhood, const ExactScheme& exact) {
 
 std::vector<std::string> spectrum_differs(const Json& neighborhood, const ExactScheme& exact) {
   using Answer = Verdict::Answer;
+  const NeighborhoodKind kind = kind_in(neighborhood);
   std::vector<std::string> wrong;
-  for (const Verdict& made : spectral_verdicts(exact.scheme, kind_in(neighborhood), &exact.mask)) {
-    const bool is_c1 = made.property == "c1";  // proved with a map, or disproved by one, where the spectrum allows both
-    if (is_c1 && made.answer != Answer::disproved && made.answer != Answer::borderline) continue;
-    const Json own = to_json(made).at("verdict");
-    for (const Json& given : neighborhood.at("verdicts"))
-      if (given.at("property") == made.property && given.at("verdict") != own)
-        wrong.push_back(fmt::format("{} is said to be {}, and the spectrum of the masks says {}: {}", made.property,
-                                    given.at("verdict").dump(), own.dump(), made.because));
+  for (const Verdict& made : spectral_verdicts(exact.scheme, kind, &exact.mask)) {
+    const Json* given = nullptr;
+    int count = 0;
+    for (const Json& verdict : neighborhood.at("verdicts"))
+      if (verdict.at("property") == made.property) given = &verdict, ++count;
+    if (count != 1) {
+      wrong.push_back(
+          fmt::format("there {} on {}", count == 0 ? "is no verdict" : "is more than one verdict", made.property));
+      continue;
+    }
+    const Json& said = given->at("verdict");
+    const auto refuse = [&](const char* by, Answer answer, const std::string& because) {
+      const Json right = to_string(answer);
+      if (said != right)
+        wrong.push_back(fmt::format("{} is said to be {}, and {} of the masks says {}: {}", made.property, said.dump(),
+                                    by, right.dump(), because));
+    };
+    // Where the spectrum allows C^1 the characteristic map decides: witnesses show proofs of it, and nothing disproofs.
+    const bool by_map = made.property == "c1" && made.answer != Answer::disproved && made.answer != Answer::borderline;
+    if (!by_map) {
+      refuse("the spectrum", made.answer, made.because);
+    } else if (said == to_string(Answer::disproved)) {
+      const Verdict again = C1Prover(exact.scheme).certify(kind.n).verdict;
+      refuse("the characteristic map", again.answer, again.because);
+    }
   }
   return wrong;
 }

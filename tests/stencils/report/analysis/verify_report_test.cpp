@@ -203,6 +203,42 @@ TEST(VerifyReport, WantsHypothesesOfProofsAndDisproofs) {
   expect_parts(findings(bad), {"there are none, so nothing was looked at"});
 }
 
+/// A verdict turned, with a hypothesis that is said to fail, so that it does not contradict itself.
+Json& disproved(Json& report, const std::string& property) {
+  Json& turned = verdict(report, property);
+  turned["verdict"] = "disproved";
+  turned["hypotheses"][0]["holds"] = false;
+  turned["hypotheses"][0]["by"] = "exact";
+  if (turned.contains("witness")) turned["witness"] = nullptr;
+  return turned;
+}
+
+TEST(VerifyReport, TakesSpectraAgain) {
+  Json bad = good();
+  disproved(bad, "convergence");
+  expect_parts(findings(bad), {"loop, vertex 5: convergence is said to be \"disproved\", and the spectrum of the masks",
+                               "\"proved\""});
+  bad = good();
+  disproved(bad, "c1");
+  expect_parts(
+      findings(bad),
+      {"loop, vertex 5: c1 is said to be \"disproved\", and the characteristic map of the masks", "\"proved\""});
+  bad = good();
+  verdict(bad, "convergence")["property"] = "confidence";
+  expect_parts(findings(bad), {"loop, vertex 5: there is no verdict on convergence"});
+  // At valence 3 butterfly's leading eigenvalue has multiplicity three.
+  bad = report::schemes_report({report::reported_scheme("butterfly")}, {.valences = {3}});
+  EXPECT_EQ(findings(bad), "");
+  for (Json& n : bad["schemes"][0]["neighborhoods"])
+    for (Json& v : n["verdicts"])
+      if (n["kind"] == "vertex" && v["property"] == "c1") {
+        EXPECT_EQ(v["verdict"], "disproved");
+        v["verdict"] = "unknown";
+      }
+  expect_parts(findings(bad), {"butterfly, vertex 3: c1 is said to be \"unknown\", and the spectrum of the masks says "
+                               "\"disproved\""});
+}
+
 TEST(VerifyReport, LooksAtCurvesAgain) {
   Json report = report::report_head("schemes");
   report["schemes"] = {report::curve_scheme_json("four-point"), report::curve_scheme_json("chaikin"),
