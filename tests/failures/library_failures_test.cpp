@@ -154,9 +154,9 @@ TEST_F(LackOfMemory, InFilesOfMeshesIsAnError) {
     } else {
       expect_survives_failures(std::string("write ") + name, [&] {
         write_mesh(path, mesh);
-        EXPECT_EQ(directory_.num_files(), 1);
         return read_file(path);
       });
+      EXPECT_EQ(directory_.num_files(), 1);  // counted with all memory: libstdc++ ends the program without
     }
     expect_survives_failures(std::string("read ") + name, [&] { return bits(read_mesh(path).positions); });
     std::filesystem::remove(path);
