@@ -3,13 +3,18 @@
 
 #include <Eigen/SparseLU>
 
+#include "sublimit/core/lu_memory.h"
+
 namespace sublimit {
 
 struct SparseLu::Factors {
   Eigen::SparseLU<ColumnMatrix> lu;
 };
 
-SparseLu::SparseLu(const ColumnMatrix& M) : factors_(std::make_unique<Factors>()) { factors_->lu.compute(M); }
+SparseLu::SparseLu(const ColumnMatrix& M) : factors_(std::make_unique<Factors>()) {
+  factors_->lu.compute(M);
+  check_memory_of(factors_->lu);
+}
 SparseLu::~SparseLu() = default;
 
 bool SparseLu::has_factors() const { return factors_->lu.info() == Eigen::Success; }

@@ -9,6 +9,7 @@
 
 #include "sublimit/base/error.h"
 #include "sublimit/base/memory.h"
+#include "sublimit/core/lu_memory.h"
 
 namespace sublimit {
 namespace {
@@ -58,6 +59,7 @@ SparseFactors::SparseFactors(const SparseMatrix& M) : factors_(std::make_unique<
   factors_->lu.isSymmetric(true);
   factors_->lu.setPivotThreshold(0);  // none is needed: positive definite
   factors_->lu.compute(ordered);
+  check_memory_of(factors_->lu);
 }
 SparseFactors::~SparseFactors() = default;
 SparseFactors::SparseFactors(SparseFactors&&) noexcept = default;
