@@ -79,7 +79,15 @@ void handle_interrupts() {
 }
 
 void handle_lack_of_memory() {
-  std::set_terminate([] { end_at_once(std::current_exception() ? status_of_exception() : fault_of_ours); });
+  std::set_terminate([] {
+    if (std::current_exception()) end_at_once(status_of_exception());
+    // Thrown and not caught yet, out of what throws nothing: an Eigen matrix takes memory even where it is moved from.
+    if (std::uncaught_exceptions() > 0) {
+      tell(out_of_memory);
+      end_at_once(lacking_resources);
+    }
+    end_at_once(fault_of_ours);
+  });
   set_out_of_memory_handler([] {
     tell(out_of_memory);
     end_at_once(lacking_resources);
