@@ -7,6 +7,8 @@
 
 #include <memory>
 #include <span>
+#include <initializer_list>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -74,6 +76,17 @@ inline py::tuple csr(SparseMatrix&& matrix) {
                         py::array_t<Index>({count}, all->innerIndexPtr(), owner),
                         py::array_t<Index>({py::ssize_t(all->rows()) + 1}, all->outerIndexPtr(), owner),
                         py::make_tuple(all->rows(), all->cols()));
+}
+
+/// Returns the first row in which one of these has a number that is none; nothing if all are finite.
+inline std::optional<Eigen::Index> first_infinite_row(std::initializer_list<const Points*> parts) {
+  for (const Points* part : parts) {
+    if (part->allFinite()) continue;
+    Eigen::Index row = 0;
+    while (part->row(row).allFinite()) ++row;
+    return row;
+  }
+  return std::nullopt;
 }
 
 }  // namespace sublimit::python

@@ -43,15 +43,11 @@ class Curve {
       const Threads held(threads);
       return curve_->evaluate(unknowns_, at, order);
     });
-    for (const Points* part : {&found.position, &found.first, &found.second}) {
-      if (part->allFinite()) continue;
-      Eigen::Index row = 0;
-      while (part->row(row).allFinite()) ++row;
-      throw InvalidMesh(
-          "segment " + std::to_string(at[size_t(row)].segment) + ", t " + format_number(at[size_t(row)].t) +
-          ": the point or a derivative there is larger than numbers are (1.8e308); give points in another unit of "
-          "length");
-    }
+    if (const auto row = first_infinite_row({&found.position, &found.first, &found.second}))
+      throw InvalidMesh("segment " + std::to_string(at[size_t(*row)].segment) + ", t " +
+                        format_number(at[size_t(*row)].t) +
+                        ": the point or a derivative there is larger than numbers are (1.8e308); give points in "
+                        "another unit of length");
     std::vector<std::int8_t> status;
     for (const LimitStatus one : found.status) status.push_back(std::int8_t(one));
     py::dict all;

@@ -76,16 +76,13 @@ py::dict arrays(LimitSamples&& samples) {
 
 /// @throws InvalidMesh  a position or a derivative larger than numbers are: says where
 void check_finite(const LimitSamples& found, const Places& at) {
-  for (const Points* part : {&found.position, &found.du, &found.dv, &found.duu, &found.duv, &found.dvv}) {
-    if (part->allFinite()) continue;
-    Eigen::Index row = 0;
-    while (part->row(row).allFinite()) ++row;
-    const Sample& place = at[size_t(row)];
-    throw InvalidMesh(
-        "face " + std::to_string(place.face) + ", u " + format_number(place.u) + ", v " + format_number(place.v) +
-        ": the position or a derivative there is larger than numbers are (1.8e308); give control points in another "
-        "unit of length");
-  }
+  const auto row = first_infinite_row({&found.position, &found.du, &found.dv, &found.duu, &found.duv, &found.dvv});
+  if (!row) return;
+  const Sample& place = at[size_t(*row)];
+  throw InvalidMesh(
+      "face " + std::to_string(place.face) + ", u " + format_number(place.u) + ", v " + format_number(place.v) +
+      ": the position or a derivative there is larger than numbers are (1.8e308); give control points in another "
+      "unit of length");
 }
 
 py::dict evaluate(const Source& surface, const Array<Index>& faces, const Array<double>& u, const Array<double>& v,

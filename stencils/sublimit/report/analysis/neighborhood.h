@@ -43,10 +43,10 @@ SharedAnalysis shared_analysis(const ReportedScheme& scheme);
 std::optional<LocalPatch<Algebraic>> analysed_patch(const Scheme<Algebraic>& scheme, const NeighborhoodKind& kind,
                                                     const RegularMask<Algebraic>* mask);
 
-/// What the masks of a neighbourhood and their spectrum alone decide: affine invariance, convergence and, of a closed
-/// centre, what the spectrum says of C^1, of an open one or a dart the tangent plane.
+/// Returns the verdicts that the masks of a neighbourhood and their spectrum decide alone: affine invariance,
+/// convergence and C^1 of a closed centre, or the tangent plane of an open one or a dart.
 /// @param mask  of regular meshes, if there is one
-/// @return  nothing where the scheme has no such place
+/// @return  none where the scheme has no such place
 std::vector<Verdict> spectral_verdicts(const Scheme<Algebraic>& scheme, const NeighborhoodKind& kind,
                                        const RegularMask<Algebraic>* mask);
 

@@ -21,9 +21,9 @@ std::vector<std::string> regular_differs(const Json& scheme, const ExactScheme* 
 /// @throws FormatError  no such kind of neighbourhood
 Json rows_again(const Json& neighborhood, const ExactScheme& exact);
 
-/// What is wrong with verdicts of a neighbourhood that the masks of the registered scheme and their spectrum decide:
-/// affine invariance, convergence, the tangent plane, and C^1 where the spectrum disproves it or is a borderline case.
-/// Disproofs of C^1 by the characteristic map, which have no witness, are done once more.
+/// Returns which verdicts of a neighbourhood contradict the masks of the registered scheme and their spectrum, or are
+/// missing: affine invariance, convergence, the tangent plane, and C^1 where the spectrum disproves it or is a
+/// borderline case. Disproofs of C^1 by the characteristic map, which have no witness, are done once more.
 /// @throws FormatError  no such kind of neighbourhood
 std::vector<std::string> spectrum_differs(const Json& neighborhood, const ExactScheme& exact);
 
