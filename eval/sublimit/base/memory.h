@@ -33,7 +33,7 @@ inline double control_group_memory(const std::string& root = "") {
     const std::string mount = root + (unified ? "/sys/fs/cgroup" : "/sys/fs/cgroup/memory");
     const std::string name = unified ? "/memory.max" : "/memory.limit_in_bytes";
     std::string path = line.substr(second + 1);
-    for (; !path.empty() && path != "/"; path.erase(path.rfind('/'))) look(mount + path + name);
+    for (; path.starts_with('/') && path != "/"; path.erase(path.rfind('/'))) look(mount + path + name);
     look(mount + name);
   }
   return least;

@@ -5,10 +5,10 @@
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
-#include <memory>
-#include <span>
 #include <initializer_list>
+#include <memory>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
