@@ -81,7 +81,7 @@ void handle_interrupts() {
 void handle_lack_of_memory() {
   std::set_terminate([] {
     if (std::current_exception()) end_at_once(status_of_exception());
-    // Thrown and not caught yet, out of what throws nothing: an Eigen matrix takes memory even where it is moved from.
+    // Thrown out of what throws nothing: memory lacks, the one error that may come from there.
     if (std::uncaught_exceptions() > 0) {
       tell(out_of_memory);
       end_at_once(lacking_resources);

@@ -189,6 +189,24 @@ TEST_F(LackOfMemory, InRefinedMeshesIsAnError) {
   expect_survives_failures("subdivide", [&] { return bits(subdivide("loop", 4, faces, 2).first); });
 }
 
+TEST_F(LackOfMemory, DoesNotMatterToALevelThatIsMoved) {
+  std::vector<Level> levels = refine(catmull_clark_, quads_, 2);
+  const std::string S = bits(levels[2].S);
+  {
+    const FailingMemory failing(1, true);
+    Level moved = std::move(levels[2]);
+    levels[2] = std::move(moved);
+    std::swap(levels[1], levels[2]);
+    EXPECT_EQ(failing.count(), 0);
+  }
+  EXPECT_EQ(bits(levels[1].S), S);
+  Level from = std::move(levels[1]);
+  levels[1] = from;
+  const Level copy = levels[1];
+  EXPECT_EQ(bits(copy.S), S);
+  EXPECT_EQ(bits(levels[1].S), S) << "the matrix of what was copied was taken away";
+}
+
 TEST_F(LackOfMemory, OnSurfacesIsAnError) {
   const std::vector<Sample> places{{0, 0.25, 0.5}, {1, 0, 0}, {5, 1e-6, 1e-7}, {3, 1, 0.125}};
   expect_survives_failures("LimitSurface", [&] {

@@ -27,7 +27,9 @@ inline double control_group_memory(const std::string& root = "") {
   for (std::string line; std::getline(groups, line);) {  // 0::/path, or 4:memory:/path of the first version
     const size_t first = line.find(':'), second = line.find(':', first + 1);
     if (second == std::string::npos) continue;
-    const std::string controllers = "," + line.substr(first + 1, second - first - 1) + ",";
+    std::string controllers = ",";
+    controllers.append(line, first + 1, second - first - 1);
+    controllers += ',';
     const bool unified = controllers == ",,";
     if (!unified && controllers.find(",memory,") == std::string::npos) continue;
     const std::string mount = root + (unified ? "/sys/fs/cgroup" : "/sys/fs/cgroup/memory");

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sublimit/core/sparse_lu.h"
 
-#include <Eigen/SparseLU>
-
 #include "sublimit/core/lu_memory.h"
 
 namespace sublimit {

@@ -2,7 +2,6 @@
 #include "sublimit/fit/sparse_factors.h"
 
 #include <Eigen/OrderingMethods>
-#include <Eigen/SparseLU>
 
 #include <limits>
 #include <vector>

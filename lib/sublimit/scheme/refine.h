@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "sublimit/core/moved_sparse.h"
 #include "sublimit/mesh/control_mesh.h"
 #include "sublimit/scheme/subdivision_matrix.h"
 
@@ -42,8 +43,14 @@ struct LevelOf {
   LevelOf() = default;
   LevelOf(const LevelOf&) = default;
   LevelOf& operator=(const LevelOf&) = default;
-  // Eigen 3.4 copies a sparse matrix where it could move it.
-  LevelOf(LevelOf&& other) noexcept { *this = std::move(other); }
+  LevelOf(LevelOf&& other) noexcept
+      : number(other.number),
+        steps(std::move(other.steps)),
+        sharpness(std::move(other.sharpness)),
+        intervals(std::move(other.intervals)),
+        holes(std::move(other.holes)),
+        made_by(std::move(other.made_by)),
+        S(moved(other.S)) {}
   LevelOf& operator=(LevelOf&& other) noexcept {
     number = other.number;
     steps = std::move(other.steps);
