@@ -142,10 +142,11 @@ C1Prover::C1Prover(Scheme<Algebraic> scheme) : scheme_(std::move(scheme)), mask_
 LocalPatch<Algebraic> C1Prover::patch(int n) const { return patch_of(scheme_, mask_, n); }
 
 C1Certificate C1Prover::certify(int n) const {
+  LocalPatch<Algebraic> around = patch(n);  // before: g++ 12 destroys a nested aggregate twice if a later part throws
   C1Certificate c{.verdict = {.property = "c1", .says = "C^1 at the extraordinary point"},
                   .map = {},
                   .proof = {},
-                  .patch = patch(n)};
+                  .patch = std::move(around)};
   Verdict& v = c.verdict;
   v.theorem =
       "Reif 1995: where 1 and then one real pair lead the spectrum, and the characteristic map of the pair is regular "

@@ -37,6 +37,36 @@ Eigen::Index grow_factors(Array& array, Eigen::Index& length, Eigen::Index num_k
   }
 }
 
+/// Finds columns of a factor that are treated as one: whole subtrees of the elimination tree with few columns. Eigen 3.4
+/// frees an array of its own twice here if memory ends.
+/// @param parents  of each column, n for none; ascending towards the root
+/// @param most     columns below the root of a subtree, less than
+/// @param below    columns below each one, made here
+/// @param last     last column of the subtree that begins with a column; -1 where none does
+template <class Array>
+void find_relaxed_columns(Eigen::Index n, const Array& parents, Eigen::Index most, Array& below, Array& last) {
+  using Column = typename Array::Scalar;
+  Array position, column(n + 1), parent(n);  // by position in postorder: its column, its parent's position
+  Eigen::internal::treePostorder(static_cast<Column>(n), const_cast<Array&>(parents), position);
+  for (Eigen::Index j = 0; j <= n; ++j) column(position(j)) = static_cast<Column>(j);
+  for (Eigen::Index j = 0; j < n; ++j) parent(position(j)) = position(parents(j));
+  below.setZero();
+  last.setConstant(-1);
+  for (Eigen::Index i = 0; i < n; ++i)
+    if (parent(i) != n) below(parent(i)) += below(i) + 1;
+  for (Eigen::Index i = 0; i < n;) {
+    const Eigen::Index begin = i;
+    while (parent(i) != n && below(parent(i)) < most) i = parent(i);
+    const auto columns = column.segment(begin, i - begin + 1);
+    if (const Column first = columns.minCoeff(); columns.maxCoeff() - first == i - begin)
+      last(first) = columns.maxCoeff();
+    else
+      for (Eigen::Index k = begin; k <= i; ++k)
+        if (below(k) == 0) last(column(k)) = column(k);
+    for (++i; i < n && below(i) != 0;) ++i;  // to the next leaf
+  }
+}
+
 /// Throws if a factorization ended for want of memory: SparseLU catches that, says it in words and may leave its status
 /// as it was.
 /// @throws std::bad_alloc  it did
@@ -60,6 +90,12 @@ template <>
 inline Index SparseLUImpl<double, int>::expand(Matrix<int, Dynamic, 1>& array, Index& length, Index num_kept,
                                                Index keep_length, Index& num_expansions) {
   return sublimit::grow_factors(array, length, num_kept, keep_length != 0, num_expansions);
+}
+
+template <>
+inline void SparseLUImpl<double, int>::heap_relax_snode(const Index n, IndexVector& parents, const Index most,
+                                                        IndexVector& below, IndexVector& last) {
+  sublimit::find_relaxed_columns(n, parents, most, below, last);
 }
 
 }  // namespace Eigen::internal

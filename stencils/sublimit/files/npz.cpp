@@ -22,7 +22,8 @@ namespace sublimit {
 namespace {
 
 [[noreturn]] void fail(const std::filesystem::path& path, zip_error_t* error) {
-  if (zip_error_code_zip(error) == ZIP_ER_MEMORY) throw std::bad_alloc();
+  const int code = zip_error_code_zip(error);
+  if (code == ZIP_ER_MEMORY || code == ZIP_ER_OK) throw std::bad_alloc();  // which libzip 1.7 does not always say
   if (zip_error_system_type(error) == ZIP_ET_SYS && zip_error_code_system(error) != 0)
     throw_file_error(path, "write", zip_error_code_system(error));
   throw IoError(path.string() + ": cannot write: " + zip_error_strerror(error));
