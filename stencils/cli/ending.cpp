@@ -81,9 +81,9 @@ void handle_interrupts() {
 void handle_lack_of_memory() {
   std::set_terminate([] {
     if (std::current_exception()) end_at_once(status_of_exception());
-    // Thrown out of what throws nothing: memory lacks, the one error that may come from there.
+    // Thrown out of what throws nothing, as libraries do that make threads while they are loaded.
     if (std::uncaught_exceptions() > 0) {
-      tell(out_of_memory);
+      tell("out of memory, or of threads");
       end_at_once(lacking_resources);
     }
     end_at_once(fault_of_ours);

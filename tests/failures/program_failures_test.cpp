@@ -7,6 +7,7 @@
 #include <sys/mman.h>
 
 #include <algorithm>
+#include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <map>
@@ -30,6 +31,7 @@ struct Use {
   std::string words;
   std::set<std::string> changing = {};  ///< outputs with times or paths in them
   bool full = false;                    ///< for the full sweep alone
+  bool drivers = false;                 ///< loads drivers of GPUs, which end the process where they lack memory
   friend std::ostream& operator<<(std::ostream& out, const Use& use) { return out << use.words; }
 };
 
@@ -47,7 +49,7 @@ const std::vector<Use>& uses() {
       {"limit_obj", "limit <tetrahedron.obj -s modified-butterfly -l 1 -o >out.obj", {}, true},
       {"sample", "sample <cube.obj -s catmull-clark --at <places.csv --derivatives 2 -o >out.csv"},
       {"sample_recipe", "sample <spindle.json --grid 3 -o >out.csv"},
-      {"sample_dual", "sample <cube.obj -s doo-sabin --grid 3 -o >out.csv", {}, true},
+      {"sample_dual", "sample <cube.obj -s doo-sabin --no-creases --grid 3 -o >out.csv", {}, true},
       {"closest", "closest <cube.obj -s catmull-clark --points <points.csv --signed -o >out.csv"},
       {"intersect", "intersect <cube.obj -s catmull-clark --rays <rays.csv --all -o >out.csv"},
       {"tessellate", "tessellate <cube.obj -s catmull-clark --chord 5% -o >out.ply --places >places.csv"},
@@ -64,7 +66,7 @@ const std::vector<Use>& uses() {
       {"implicit_mesh", "implicit <torus.json --cells 8 --tolerance 0.3 -o >out.obj --report >found.json", {}, true},
       {"apply", "apply <table.safetensors <cube.obj -o >out.obj"},
       {"apply_npy", "apply <table.safetensors <corners.csv -o >out.npy"},
-      {"devices", "devices --json", {}, true},
+      {"devices", "devices --json", {}, true, true},
       {"verify", "verify <table.safetensors"},
       {"verify_report", "verify <report.json"},
       {"export_npz", "export <table.safetensors -o >out.npz"},
@@ -154,19 +156,19 @@ struct Case {
   Call call;
   Failing failing;
   int error;
-  std::vector<int> statuses;  ///< that may come of it
-  std::string told;           ///< is in the message
+  std::vector<int> statuses;      ///< that may come of it
+  std::vector<std::string> told;  ///< one of these is in the message
 };
 const std::vector<Case> cases{
-    {Call::memory, Failing::once, ENOMEM, {4}, "memory"},
-    {Call::memory, Failing::on, ENOMEM, {4}, "memory"},
-    {Call::map, Failing::once, ENOMEM, {4}, "memory"},
-    {Call::thread, Failing::on, EAGAIN, {4}, "temporarily unavailable"},
-    {Call::write, Failing::once, ENOSPC, {4}, "No space"},
-    {Call::write, Failing::on, EIO, {3}, "error"},
-    {Call::write, Failing::short_, 0, {}, ""},
-    {Call::rename, Failing::once, EACCES, {3}, "denied"},
-    {Call::open, Failing::once, EMFILE, {3}, "open files"},
+    {Call::memory, Failing::once, ENOMEM, {4}, {"memory"}},
+    {Call::memory, Failing::on, ENOMEM, {4}, {"memory"}},
+    {Call::map, Failing::once, ENOMEM, {4}, {"memory"}},
+    {Call::thread, Failing::on, EAGAIN, {4}, {"temporarily unavailable", "threads"}},
+    {Call::write, Failing::once, ENOSPC, {4}, {"No space"}},
+    {Call::write, Failing::on, EIO, {3}, {"error"}},
+    {Call::write, Failing::short_, 0, {}, {""}},
+    {Call::rename, Failing::once, EACCES, {3}, {"denied"}},
+    {Call::open, Failing::once, EMFILE, {3}, {"open files"}},
 };
 const char* const call_names[num_calls] = {"allocation", "mmap", "write", "rename", "open", "thread"};
 
@@ -181,6 +183,7 @@ class Runs {
 
   void all() {
     page_.reset();
+    const auto begin = std::chrono::steady_clock::now();
     {
       const TemporaryDirectory out;
       const Outcome outcome = run(out);
@@ -191,12 +194,16 @@ class Runs {
     std::int64_t counts[num_calls];
     for (int i = 0; i < num_calls; ++i) counts[i] = page_.calls().counts[i];
     ASSERT_GT(counts[0], 0) << "nothing was counted";
+    // Of long ones fewer, or one alone takes an hour.
+    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
+    const int drawn = full_sweep() ? std::clamp(int(20 / seconds.count()), 5, 60) : 3;
     std::mt19937 random(40);
     for (const Case& one : cases) {
+      if (use_.drivers && (one.call == Call::memory || one.call == Call::map)) continue;
       const std::int64_t count = counts[static_cast<int>(one.call)];
       std::set<std::int64_t> at;
       for (std::int64_t n = 1; n <= count; n *= 2) at.insert(n);
-      for (int i = 0; i < (full_sweep() ? 60 : 3) && count > 0; ++i)
+      for (int i = 0; i < drawn && count > 0; ++i)
         at.insert(std::uniform_int_distribution<std::int64_t>(1, count)(random));
       for (const std::int64_t n : at) check(one, n);
       if (::testing::Test::HasFatalFailure()) return;
@@ -223,7 +230,7 @@ class Runs {
     return sublimit(words, [&] {
       ::setenv("LD_PRELOAD", SUBLIMIT_FAILING_CALLS, 1);
       ::setenv(failing_calls_variable, page_.path().c_str(), 1);
-      ::alarm(120);                                        // a run that hangs is killed
+      ::alarm(full_sweep() ? 600 : 120);                   // a run that hangs is killed
       if (::chdir(out.path().c_str()) != 0) ::_exit(127);  // reports name their files: the same words in each run
     });
   }
@@ -258,7 +265,8 @@ class Runs {
     if (!done) {
       if (one.call != Call::write || one.failing != Failing::on) {  // then there is nowhere to tell it
         EXPECT_TRUE(outcome.err.find("sublimit: ") != std::string::npos && outcome.err.ends_with("\n"));
-        EXPECT_NE(outcome.err.find(one.told), std::string::npos);
+        EXPECT_TRUE(std::ranges::any_of(
+            one.told, [&](const std::string& part) { return outcome.err.find(part) != std::string::npos; }));
       }
       EXPECT_EQ(outcome.err.find("a fault of ours"), std::string::npos);
     }
