@@ -95,8 +95,8 @@ void count_table(Counts& counts, const Case& c, const Scheme<double>& scheme, co
 }
 
 void count_limits(Counts& counts, const Case& c, const Scheme<double>& scheme) {
-  std::optional<LimitSurface> surface;
-  std::optional<BoundLimitSurface> bound;
+  std::optional<LimitMap> surface;
+  std::optional<LimitSurface> bound;
   count_memory(counts, "limit surface, prepared", [&] {
     surface.emplace(scheme, c.control);
     surface->prepare();

@@ -7,7 +7,7 @@
 #include "sublimit/core/sparse_product.h"
 #include "sublimit/fit/scattered_fit.h"
 #include "sublimit/limit/limit_points.h"
-#include "sublimit/limit/limit_surface.h"
+#include "sublimit/limit/limit_map.h"
 #include "sublimit/schemes.h"
 #include "support/meshes.h"
 
@@ -63,13 +63,13 @@ FitProblem fairness(Index vertices) {
   p.C = limit_matrices(levels[1], cache).position.topRows(mesh.positions.rows());
   p.d = mesh.positions;
   p.x0 = apply(refinement_matrix(levels), mesh.positions);
-  p.H = fairness_energy(LimitSurface(cache.scheme(), levels[1]), {.thin_plate = 1});
+  p.H = fairness_energy(LimitMap(cache.scheme(), levels[1]), {.thin_plate = 1});
   return p;
 }
 
 FitProblem places(Index vertices) {
   const ControlMesh mesh = torus(vertices);
-  const LimitSurface surface(find_scheme<double>("catmull-clark").value(), mesh);
+  const LimitMap surface(find_scheme<double>("catmull-clark").value(), mesh);
   std::mt19937 generator(1);
   const auto random = [&] { return double(generator() >> 5) / double(1 << 27); };
   std::vector<Sample> list(4 * mesh.positions.rows());

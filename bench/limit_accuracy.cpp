@@ -21,7 +21,7 @@
 #include <vector>
 
 #include "sublimit/io/read_mesh.h"
-#include "sublimit/limit/limit_surface.h"
+#include "sublimit/limit/limit_map.h"
 #include "support/compare_with_opensubdiv.h"
 #include "support/dyadic_limits.h"
 #include "support/opensubdiv_limit_reference.h"
@@ -59,7 +59,7 @@ Contender opensubdiv(const std::string& name, const LimitOptions& options) {
 
 Contender ours() {
   return {"ours", [](const ControlMesh& mesh, const std::vector<Sample>& places) {
-            const LimitSurface surface(testing::scheme_for(mesh, "catmull-clark"), mesh);
+            const LimitMap surface(testing::scheme_for(mesh, "catmull-clark"), mesh);
             const LimitSamples made = surface.evaluate(mesh.positions, places, 1);
             std::vector<Point> points;
             for (Index i = 0; i < made.position.rows(); ++i)

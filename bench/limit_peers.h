@@ -50,7 +50,7 @@ std::unique_ptr<LimitEvaluator> far_float(const Case& mesh);
 std::unique_ptr<LimitEvaluator> far_double(const Case& mesh);
 std::unique_ptr<LimitEvaluator> embree(const Case& mesh);
 
-/// Ours: `LimitSurface`, prepared a `BoundLimitSurface`; without normals, as the others, and with them from order 1 on.
+/// Ours: `LimitMap`, prepared a `LimitSurface`; without normals, as the others, and with them from order 1 on.
 std::unique_ptr<LimitEvaluator> our_limits(const Case& mesh);
 std::unique_ptr<LimitEvaluator> our_limits_and_normals(const Case& mesh);
 

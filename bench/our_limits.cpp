@@ -43,8 +43,8 @@ class OurEvaluator : public LimitEvaluator {
   Scheme<double> scheme_;
   Level level_, given_;
   bool normals_;
-  std::optional<LimitSurface> surface_;
-  std::optional<BoundLimitSurface> bound_;
+  std::optional<LimitMap> surface_;
+  std::optional<LimitSurface> bound_;
   std::vector<Sample> places_;
   LimitSamples made_;
 };

@@ -89,8 +89,8 @@ void measure_places(Report& report, Interpreter& python, const std::string& work
                     const std::string& name, int places, int count, int order, const std::string& unit, double scale) {
   const std::string detail = order == 0 ? "points" : "with D1";
   if (!report.wants(work, name, detail)) return;
-  const LimitSurface surface(find_scheme("catmull-clark").value(), mesh, {});
-  const BoundLimitSurface bound(surface, mesh.positions);
+  const LimitMap surface(find_scheme("catmull-clark").value(), mesh, {});
+  const LimitSurface bound(surface, mesh.positions);
   std::mt19937 random(1);
   std::uniform_int_distribution<Index> face(0, surface.faces().size - 1);
   std::uniform_real_distribution<double> parameter(0, 1);
@@ -107,7 +107,7 @@ void measure_places(Report& report, Interpreter& python, const std::string& work
   python.set("face", faces);
   python.set("u", u);
   python.set("v", v);
-  python.run("surface = sublimit.LimitSurface(mesh, 'catmull-clark')");
+  python.run("surface = sublimit.LimitMap(mesh, 'catmull-clark')");
   for (const int threads : report.threads()) {
     const Threads scope(threads);
     const auto ours = python.loop("surface.evaluate(face, u, v, " + std::to_string(order) + ")", count);

@@ -36,14 +36,14 @@ struct Job {
   PeerCase peer;
   std::vector<Level> ours_given;  // for BM_StencilTable
   std::unique_ptr<PeerRefiner> peer_given;
-  std::unique_ptr<MeshRefiner> refiner_given;  // for BM_PointsAgain
+  std::unique_ptr<Refiner> refiner_given;  // for BM_PointsAgain
 
   Job(const Case& c, int levels_, bool given)
       : mesh(c), levels(levels_), scheme(find_scheme(c.scheme).value()), peer(c) {
     if (!given) return;
     ours_given = refine(scheme, c.mesh, levels);
     peer_given = std::make_unique<PeerRefiner>(peer.mesh, levels);
-    refiner_given = std::make_unique<MeshRefiner>(scheme, c.mesh, levels);
+    refiner_given = std::make_unique<Refiner>(scheme, c.mesh, levels);
   }
 };
 

@@ -20,7 +20,7 @@
 #include "measuring.h"
 #include "report.h"
 #include "sublimit/base/parallel_for.h"
-#include "sublimit/limit/limit_surface.h"
+#include "sublimit/limit/limit_map.h"
 #include "sublimit/schemes.h"
 #include "sublimit/search/closest_point.h"
 #include "sublimit/search/intersect.h"
@@ -120,7 +120,7 @@ class EmbreeScene {
 
  private:
   void add_triangles(const Case& c) {
-    const LimitSurface surface(find_scheme(c.scheme).value(), c.mesh);
+    const LimitMap surface(find_scheme(c.scheme).value(), c.mesh);
     const Points grid = surface.evaluate_grid(c.mesh.positions, steps + 1).position;
     points_.assign(grid.data(), grid.data() + grid.size());
     for (unsigned face = 0; face < unsigned(surface.faces().size); ++face)
@@ -185,7 +185,7 @@ void measure_closest(Report& report, const Case& c, int count) {
   const Box box(c.mesh);
   Points q(count, 3);
   for (int i = 0; i < count; ++i) q.row(i) = box.random(numbers);
-  const LimitSurface surface(find_scheme(c.scheme).value(), c.mesh);
+  const LimitMap surface(find_scheme(c.scheme).value(), c.mesh);
   EmbreeScene triangles(c, true);
   std::vector<double> theirs(static_cast<size_t>(count));
   ClosestPoints ours;
@@ -193,9 +193,9 @@ void measure_closest(Report& report, const Case& c, int count) {
     const Threads scope(threads);
     report.measure(
         {"closest", c.name, "", threads, "us", 1e6},
-        {{"ours", Role::ours, turn(threads, count, [&] { ours = closest_points(surface, c.mesh.positions, q); })},
+        {{"ours", Role::ours, turn(threads, count, [&] { ours = closest(surface, c.mesh.positions, q); })},
          {"unproved", Role::shown,
-          turn(threads, count, [&] { closest_points(surface, c.mesh.positions, q, {.prove = false}); })},
+          turn(threads, count, [&] { closest(surface, c.mesh.positions, q, {.prove = false}); })},
          {"Embree float", Role::peer, turn(threads, count, [&] {
             triangles.commit();
             parallel_for(count, [&](std::int64_t i) { theirs[size_t(i)] = triangles.distance(q.row(i).transpose()); });
@@ -219,7 +219,7 @@ void measure_rays(Report& report, const Case& c, int count) {
     const Eigen::Vector3d through = box.random(numbers), along = box.random(numbers) - box.random(numbers);
     ray = {through - 2 * box.diagonal() * along.normalized(), along.normalized()};
   }
-  const LimitSurface surface(find_scheme(c.scheme).value(), c.mesh);
+  const LimitMap surface(find_scheme(c.scheme).value(), c.mesh);
   EmbreeScene triangles(c, true), subdivision(c, false);
   RayHits ours;
   std::array<std::vector<double>, 2> theirs{std::vector<double>(rays.size()), std::vector<double>(rays.size())};

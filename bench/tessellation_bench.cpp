@@ -21,7 +21,7 @@
 #include "opensubdiv_point.h"
 #include "opensubdiv_refiner.h"
 #include "report.h"
-#include "sublimit/limit/limit_surface.h"
+#include "sublimit/limit/limit_map.h"
 #include "sublimit/patterns/demo_mesh.h"
 #include "sublimit/schemes.h"
 #include "sublimit/tessellation/tessellate.h"
@@ -36,7 +36,7 @@ namespace Far = OpenSubdiv::Far;
 using Triangles = std::vector<Tessellation::Triangle>;
 
 /// Largest distance of triangles from the limit along its normal; only that it is larger, once it is.
-double error_of(const LimitSurface& surface, const Points& control, const Triangles& triangles, double most) {
+double error_of(const LimitMap& surface, const Points& control, const Triangles& triangles, double most) {
   constexpr int steps = 4;
   constexpr size_t at_once = 4096;
   double largest = 0;
@@ -222,7 +222,7 @@ struct Needed {
   std::int64_t of_level = 0, of_rate = 0, of_lengths = 0;  ///< triangles
 };
 
-Needed needed(const BfrTessellator& bfr, const LimitSurface& surface, const Case& c, double error) {
+Needed needed(const BfrTessellator& bfr, const LimitMap& surface, const Case& c, double error) {
   Needed n;
   Triangles places;
   const auto is_as_near = [&] { return error_of(surface, c.mesh.positions, places, error) <= error; };
@@ -247,7 +247,7 @@ void measure(Report& report, const Case& c, const char* percent) {
   if (!report.wants("triangles", c.name, percent) && !report.wants("tessellate", c.name, percent)) return;
   const Points& control = c.mesh.positions;
   const TessellationOptions options{.chord = std::atof(percent) / 100 * testing::diagonal(control)};
-  const LimitSurface surface(find_scheme(c.scheme).value(), c.mesh);
+  const LimitMap surface(find_scheme(c.scheme).value(), c.mesh);
   const Tessellation ours = tessellate(surface, control, options);
   Triangles own = ours.triangles;  // of whole faces, as the others are measured
   std::erase_if(own, [&](const auto& t) { return surface.addresses().place(t.face).corner >= 0; });
@@ -266,7 +266,7 @@ void measure(Report& report, const Case& c, const char* percent) {
   report.measure(
       {"tessellate", c.name, percent, 1, "ms", 1e3},
       {{"ours", Role::ours, turn([&] {
-          const LimitSurface made(find_scheme(c.scheme).value(), c.mesh);
+          const LimitMap made(find_scheme(c.scheme).value(), c.mesh);
           benchmark::DoNotOptimize(tessellate(made, control, options));
         })},
        {"surface there", Role::shown, turn([&] { benchmark::DoNotOptimize(tessellate(surface, control, options)); })},

@@ -11,6 +11,7 @@
 #include "sublimit/base/format_number.h"
 #include "sublimit/base/memory.h"
 #include "sublimit/files/closest_files.h"
+#include "sublimit/search/searched_surface.h"
 
 namespace sublimit::cli {
 namespace {
@@ -46,7 +47,7 @@ ClosestPoints search_of(const SearchedSurface& surface, const Points& queries, c
   check_memory(fmt::format("{:.0f} nearest faces of {} points", rows, queries.rows()), rows * bytes_a_row,
                "give a smaller --nearest, or divide the file");
   progress.step(fmt::format("searching for {} points", queries.rows()));
-  return closest_points(surface, queries, search);
+  return closest(surface, queries, search);
 }
 
 int run(const ClosestOptions& options) {

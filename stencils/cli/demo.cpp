@@ -14,7 +14,7 @@
 #include "sublimit/files/random_samples.h"
 #include "sublimit/files/refined_mesh.h"
 #include "sublimit/files/sample_files.h"
-#include "sublimit/limit/limit_surface.h"
+#include "sublimit/limit/limit_map.h"
 #include "sublimit/patterns/demo_mesh.h"
 #include "sublimit/picture/picture_mesh.h"
 #include "sublimit/table_file.h"
@@ -68,7 +68,7 @@ int run(const DemoOptions& options) {
     targets.write(row + "\n");
   }
   targets.commit();
-  const LimitSurface anywhere(scheme, mesh);
+  const LimitMap anywhere(scheme, mesh);
   RandomSamples places(anywhere.addresses(), 1000, 0);
   const SampleSummary samples =
       write_samples(path("samples.csv"), anywhere, mesh.positions,

@@ -66,7 +66,7 @@ void write_text(const std::string& path, const std::string& text) {
 }
 
 /// A level and its points, with the tags and texture coordinates that it has.
-MeshOutput mesh_output(const FitOptions& options, const Loaded& loaded, const Fit& fit, Progress& progress) {
+MeshOutput mesh_output(const FitOptions& options, const Loaded& loaded, const ReportedFit& fit, Progress& progress) {
   MeshOutput out = level_output(fit.level, fit.points, loaded.mesh, loaded.rules, true);
   if (loaded.mesh.face_varying.empty()) return out;
   const std::vector<Level> levels = refined_levels(loaded, fit.level.number, progress);
@@ -94,14 +94,14 @@ void write_outputs(const FitOptions& options, const std::function<void()>& write
 }
 
 int fit_linear(const FitOptions& options, Progress& progress,
-               const std::function<Fit(const Loaded& loaded, const FitSettings& settings)>& job) {
+               const std::function<ReportedFit(const Loaded& loaded, const FitSettings& settings)>& job) {
   const Loaded loaded = load(options.common, progress);
   check_mesh_memory(options.common.mesh, loaded.mesh);
   FitSettings settings = options.settings;
   settings.rules = loaded.rules;
   settings.progress = [&](const std::string& what) { progress.note(what); };
   if (!options.pin.empty()) settings.pins = read_pins(options.pin, loaded.mesh.num_vertices());
-  Fit fit;
+  ReportedFit fit;
   std::string picture;
   MeshOutput mesh;
   naming_mesh(options.common, [&] {

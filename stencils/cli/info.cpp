@@ -7,7 +7,8 @@
 #include "free_form.h"
 #include "normal_surfaces.h"
 #include "recipes.h"
-#include "sublimit/jobs/mesh_info.h"
+#include "sublimit/jobs/mesh_info_json.h"
+#include "sublimit/jobs/mesh_job.h"
 
 namespace sublimit::cli {
 namespace {

@@ -10,6 +10,7 @@
 #include "sublimit/base/error.h"
 #include "sublimit/base/format_number.h"
 #include "sublimit/files/ray_files.h"
+#include "sublimit/search/searched_surface.h"
 
 namespace sublimit::cli {
 namespace {

@@ -160,7 +160,7 @@ void sample_mesh(const SampleJob& job, SampleReader* reader, Progress& progress)
   const auto types = std::make_shared<LimitTypes>(*loaded.scheme);
   SampleSummary summary;
   naming_mesh(job.common, [&] {
-    const LimitSurface surface(*loaded.scheme, loaded.mesh, loaded.rules, types);
+    const LimitMap surface(*loaded.scheme, loaded.mesh, loaded.rules, types);
     summary = sample_source(job, surface, loaded.mesh.positions, reader, progress);
   });
   print_summary(job, summary, fmt::format("{} types of pieces", types->pieces().size()), reader);

@@ -4,6 +4,7 @@
 #include "free_form.h"
 #include "memory_limit.h"
 #include "sublimit/search/searched_patches.h"
+#include "sublimit/search/searched_surface.h"
 
 namespace sublimit::cli {
 
@@ -20,7 +21,7 @@ void with_searched_surface(const Common& common, bool free_form, Progress& progr
   const Loaded loaded = load(common, progress);
   check_mesh_memory(common.mesh, loaded.mesh);
   naming_mesh(common, [&] {
-    const LimitSurface surface(*loaded.scheme, loaded.mesh, loaded.rules);
+    const LimitMap surface(*loaded.scheme, loaded.mesh, loaded.rules);
     search(SearchedLimit(surface, loaded.mesh.positions));
   });
 }

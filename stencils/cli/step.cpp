@@ -65,7 +65,7 @@ int run(const StepJob& job) {
   LimitModel model;
   LimitIntegrals exact;
   naming_mesh(job.common, [&] {
-    const LimitSurface surface(*loaded.scheme, loaded.mesh, loaded.rules);
+    const LimitMap surface(*loaded.scheme, loaded.mesh, loaded.rules);
     progress.step("cutting the limit into patches");
     LimitModelOptions wanted;
     wanted.tolerance = tolerance;

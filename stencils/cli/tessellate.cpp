@@ -58,7 +58,7 @@ void check_triangle_options(const TessellateOptions& options) {
   if (!options.rates.empty()) refuse("--rates");
 }
 
-int write_cells(const TessellateOptions& options, const LimitSurface& surface, const Points& control,
+int write_cells(const TessellateOptions& options, const LimitMap& surface, const Points& control,
                 const TessellationOptions& wanted, Progress& progress) {
   progress.step("finding polynomials");
   BezierCells cells;
@@ -73,7 +73,7 @@ int write_cells(const TessellateOptions& options, const LimitSurface& surface, c
 }
 
 /// Texture coordinates, where the scheme has a limit of them.
-void add_texture(const TessellateOptions& options, const Loaded& loaded, const LimitSurface& surface,
+void add_texture(const TessellateOptions& options, const Loaded& loaded, const LimitMap& surface,
                  const Tessellation& made, MeshOutput& out) {
   if (loaded.mesh.face_varying.empty()) return;
   try {
@@ -123,7 +123,7 @@ int run(const TessellateOptions& options) {
         distance_option("--chord", options.chord, (control.colwise().maxCoeff() - control.colwise().minCoeff()).norm());
   if (!by_rates && !(wanted.chord > 0))
     throw InvalidMesh(options.common.mesh + ": no extent that --chord could be a part of");
-  std::optional<LimitSurface> surface;
+  std::optional<LimitMap> surface;
   naming_mesh(options.common, [&] { surface.emplace(*loaded.scheme, loaded.mesh, loaded.rules); });
   if (extension == ".vtu") return write_cells(options, *surface, control, wanted, progress);
   if (!options.rates.empty()) wanted.rates = read_edge_rates(options.rates, surface->level().topology());

@@ -182,8 +182,8 @@ TEST_F(LackOfMemory, InRefinementAndLimitsIsAnErrorUnderEveryScheme) {
 
 TEST_F(LackOfMemory, InRefinedMeshesIsAnError) {
   expect_survives_failures("refined_mesh", [&] { return bits(refined_mesh(catmull_clark_, quads_, 2).positions); });
-  const MeshRefiner refiner(catmull_clark_, quads_, 2);
-  expect_survives_failures("MeshRefiner::points", [&] { return bits(refiner.points(quads_.positions)); });
+  const Refiner refiner(catmull_clark_, quads_, 2);
+  expect_survives_failures("Refiner::points", [&] { return bits(refiner.points(quads_.positions)); });
   FaceMatrix faces(2, 3);
   faces << 0, 1, 2, 0, 2, 3;
   expect_survives_failures("subdivide", [&] { return bits(subdivide("loop", 4, faces, 2).first); });
@@ -209,24 +209,23 @@ TEST_F(LackOfMemory, DoesNotMatterToALevelThatIsMoved) {
 
 TEST_F(LackOfMemory, OnSurfacesIsAnError) {
   const std::vector<Sample> places{{0, 0.25, 0.5}, {1, 0, 0}, {5, 1e-6, 1e-7}, {3, 1, 0.125}};
-  expect_survives_failures("LimitSurface", [&] {
-    const LimitSurface surface(catmull_clark_, quads_);
+  expect_survives_failures("LimitMap", [&] {
+    const LimitMap surface(catmull_clark_, quads_);
     return bits(surface.evaluate(quads_.positions, places, 2).position);
   });
-  const LimitSurface surface(catmull_clark_, quads_);
-  expect_survives_failures("LimitSurface::evaluate_grid",
+  const LimitMap surface(catmull_clark_, quads_);
+  expect_survives_failures("LimitMap::evaluate_grid",
                            [&] { return bits(surface.evaluate_grid(quads_.positions, 3, 1).position); });
-  expect_survives_failures("LimitSurface::bounding_boxes",
+  expect_survives_failures("LimitMap::bounding_boxes",
                            [&] { return std::to_string(surface.bounding_boxes(quads_.positions).front().min().x()); });
-  const BoundLimitSurface bound(surface, quads_.positions);
-  expect_survives_failures("BoundLimitSurface::evaluate", [&] { return bits(bound.evaluate(places, 2).position); });
+  const LimitSurface bound(surface, quads_.positions);
+  expect_survives_failures("LimitSurface::evaluate", [&] { return bits(bound.evaluate(places, 2).position); });
   expect_survives_failures("tessellate",
                            [&] { return bits(tessellate(surface, quads_.positions, {.chord = 0.1}).points); });
   Points queries(3, 3);
   queries << 0.1, 0.2, 0.3, 2, 2, 2, -1, 0, 4;
-  expect_survives_failures("closest_points", [&] {
-    return bits(closest_points(surface, quads_.positions, queries, {.is_signed = true}).points);
-  });
+  expect_survives_failures(
+      "closest_points", [&] { return bits(closest(surface, quads_.positions, queries, {.is_signed = true}).points); });
   const Ray ray{{0.1, 0.2, -5}, {0, 0, 1}};
   expect_survives_failures("intersect",
                            [&] { return bits(intersect(surface, quads_.positions, {ray}, {.all = true}).points); });
@@ -360,7 +359,7 @@ TEST_F(LackOfMemory, InFitsIsAnError) {
   const std::vector<VertexTarget> targets{{.vertex = 0, .position = {-1, -1, -1}},
                                           {.vertex = 7, .position = {1, 1, 1}}};
   expect_survives_failures("interpolate", [&] { return bits(interpolate(catmull_clark_, quads_, targets).points); });
-  const LimitSurface surface(catmull_clark_, quads_);
+  const LimitMap surface(catmull_clark_, quads_);
   const PlaceTargets places{.places = {{0, 0.5, 0.5}, {3, 0.25, 0.5}}, .values = Points::Ones(2, 3)};
   expect_survives_failures("fit_places", [&] { return bits(fit_places(surface, places, quads_.positions).points); });
   const Cloud cloud{.points = surface.evaluate_grid(quads_.positions, 3).position};

@@ -10,7 +10,7 @@
 
 #include "sublimit/base/error.h"
 #include "sublimit/io/read_mesh.h"
-#include "sublimit/limit/limit_surface.h"
+#include "sublimit/limit/limit_map.h"
 #include "sublimit/limit/limit_types.h"
 #include "sublimit/scheme/prepare.h"
 #include "sublimit/schemes.h"
@@ -76,13 +76,13 @@ TEST_P(EverySurface, HasStencilsOnTheSharedMeshes) {
     if (mesh.num_faces() >= 40 && !full_sweep()) continue;
     SCOPED_TRACE(scheme.name + " on " + shared.name);
     if (scheme.face_size() == 3) mesh = triangulated(mesh);
-    std::unique_ptr<LimitSurface> surface;
+    std::unique_ptr<LimitMap> surface;
     try {
-      surface = std::make_unique<LimitSurface>(scheme, mesh, SubdivisionOptions{}, types);
+      surface = std::make_unique<LimitMap>(scheme, mesh, SubdivisionOptions{}, types);
       static_cast<void>(surface->stencil({0, 0.25, 0.25}));  // whether there is one
     } catch (const UnsupportedTopology&) {
       mesh = without_creases(mesh);
-      surface = std::make_unique<LimitSurface>(scheme, mesh, SubdivisionOptions{}, types);
+      surface = std::make_unique<LimitMap>(scheme, mesh, SubdivisionOptions{}, types);
     } catch (const AnalysisError&) {
     }
     const std::vector<Sample> samples = places(surface->addresses(), full_sweep() ? 40 : 3, random);
@@ -116,7 +116,7 @@ TEST(RotatingSurfaces, AreWhatRefinementMakesOnTheSharedMeshes) {
     for (const SharedMesh& shared : shared_meshes()) {
       const ControlMesh mesh = without_creases(triangulated(read_mesh(shared.path)));
       if (mesh.num_faces() >= (full_sweep() ? 200 : 30)) continue;
-      EXPECT_EQ(wrong_at_thirds(LimitSurface(scheme, mesh, {}, types), scheme), "") << name << " on " << shared.name;
+      EXPECT_EQ(wrong_at_thirds(LimitMap(scheme, mesh, {}, types), scheme), "") << name << " on " << shared.name;
     }
   }
 }

@@ -27,6 +27,7 @@
 #include "sublimit/search/intersect.h"
 #include "sublimit/search/net_distance.h"
 #include "sublimit/search/searched_patches.h"
+#include "sublimit/search/searched_surface.h"
 #include "sublimit/search/tracer.h"
 #include "sublimit/splits/sheets.h"
 #include "sublimit/tessellation/cell_vertices.h"
@@ -34,20 +35,19 @@
 namespace sublimit::testing {
 namespace {
 
-using Parts = LimitSurface::Parts;
+using Parts = LimitMap::Parts;
 using P = const Points&;
 
 // What users make.
-static_assert(keeps_named_only<BoundLimitSurface, LimitSurface, Points>);
-static_assert(keeps_named_only<SearchedLimit, LimitSurface, P>);
+static_assert(std::is_constructible_v<LimitSurface, LimitMap, Points>);  // which it owns
+static_assert(std::is_constructible_v<SearchedLimit, LimitSurface> && std::is_constructible_v<RayTracer, LimitMap, P>);
 static_assert(keeps_named_only<SearchedPatches, PatchSet, P>);
-static_assert(keeps_named_only<RayTracer, LimitSurface, P>);
 static_assert(std::is_constructible_v<RayTracer, SearchedPatches>);  // which it does not keep
 static_assert(keeps_named_only<WeightedSource, PatchSet, Eigen::VectorXd>);
 static_assert(keeps_named_only<BezierPieces, PatchSet, P>);
 static_assert(keeps_named_only<FitTerms, FitProblem>);
-static_assert(keeps_named_only<AddressPieces, LimitSurface, P>);
-static_assert(keeps_named_only<CapFitter, LimitSurface, P, int>);
+static_assert(keeps_named_only<AddressPieces, LimitMap, P>);
+static_assert(keeps_named_only<CapFitter, LimitMap, P, int>);
 static_assert(keeps_named_only<FootSearch, BezierPieces, bool, double>);
 static_assert(keeps_named_only<MaskTable<double>, std::string, const Masks<double>&, int>);
 static_assert(keeps_second_named_only<MaskTable<double>, const std::string&, Masks<double>, int>);
@@ -85,12 +85,10 @@ constexpr bool binds_named_only = requires(const Source& named, P points) {
 &&!requires(const Source& named, P points) { std::move(named).bound(points); }
 &&!requires(Source && temporary, P points) { std::move(temporary).bound(points); };
 static_assert(binds_named_only<LinearSource>);
-static_assert(binds_named_only<LimitSurface>);
 static_assert(binds_named_only<PatchSet>);
 static_assert(binds_named_only<WeightedSource>);
 
 // What refers to members of its own stays where it is, or its moves take them along.
-static_assert(!std::is_move_constructible_v<BoundLimitSurface>);
 static_assert(!std::is_move_constructible_v<PieceLink>);
 static_assert(!std::is_move_constructible_v<LimitTypes>);
 static_assert(!std::is_copy_constructible_v<MaskTable<double>> && std::is_move_constructible_v<MaskTable<double>>);
@@ -98,7 +96,7 @@ static_assert(!std::is_copy_constructible_v<RayTracer> && std::is_move_construct
 static_assert(!std::is_move_constructible_v<SearchedLimit> && !std::is_move_constructible_v<SearchedPatches>);
 
 TEST(KeepsReferences, SurfacesMoveWithWhatTheyReferTo) {
-  static_assert(std::is_nothrow_move_constructible_v<LimitSurface> && std::is_nothrow_move_assignable_v<LimitSurface>);
+  static_assert(std::is_nothrow_move_constructible_v<LimitMap> && std::is_nothrow_move_assignable_v<LimitMap>);
 }
 
 }  // namespace

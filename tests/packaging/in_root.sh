@@ -50,7 +50,7 @@ END
 cmake -S by_cmake -B by_cmake/build -DCMAKE_CXX_FLAGS=-O0 >/dev/null
 cmake --build by_cmake/build >/dev/null
 by_cmake/build/limits cube.obj > by_cmake.txt
-g++ -std=c++20 -O0 limits.cpp -o limits $(pkg-config --cflags --libs sublimit-lib)
+g++ -std=c++20 -O0 limits.cpp -o limits $(pkg-config --cflags --libs sublimit)
 ./limits cube.obj | cmp - by_cmake.txt
 echo "== C by pkg-config"
 printf 'int use_from_c(void);\nint main(void) { return use_from_c(); }\n' > main.c

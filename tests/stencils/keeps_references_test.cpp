@@ -20,9 +20,8 @@ namespace {
 using Bytes = std::vector<std::byte>;
 static_assert(keeps_named_only<NpyArray, Bytes, const char*>);
 static_assert(keeps_named_only<RecipeObject, JsonValue, const char*>);
-static_assert(keeps_second_named_only<asset::SeamPlaces, const Scheme<double>&, LimitSurface, asset::Inventory&, bool>);
-static_assert(
-    !std::is_constructible_v<asset::SeamPlaces, const Scheme<double>&, LimitSurface&, asset::Inventory, bool>);
+static_assert(keeps_second_named_only<asset::SeamPlaces, const Scheme<double>&, LimitMap, asset::Inventory&, bool>);
+static_assert(!std::is_constructible_v<asset::SeamPlaces, const Scheme<double>&, LimitMap&, asset::Inventory, bool>);
 static_assert(!std::is_constructible_v<EditableTable<float>, Patterns, ControlMesh, int>);
 
 using Recipes = std::vector<Recipe>;

@@ -39,7 +39,7 @@ const MaySkip may_skip[] = {
       "lib/limit/poles_test.cpp"}},
     {"half floats are a feature that a GPU may lack; lavapipe, which CI has, does not",
      {"eval/gpu/gpu_evaluator_test.cpp"}},
-    {"the largest shared meshes are for the full sweep (label full)", {"lib/limit/limit_surface_truth_test.cpp"}},
+    {"the largest shared meshes are for the full sweep (label full)", {"lib/limit/limit_map_truth_test.cpp"}},
 };
 
 const std::filesystem::path tests = SUBLIMIT_SOURCE "/tests";

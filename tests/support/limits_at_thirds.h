@@ -6,14 +6,14 @@
 #include <string>
 
 #include "sublimit/limit/limit_points.h"
-#include "sublimit/limit/limit_surface.h"
+#include "sublimit/limit/limit_map.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {
 
 /// The first place of some triangle where the surface's stencil is not L_k P_k of that vertex; empty if there is none.
 /// Thirds of a side are asked for on both sides of it.
-inline std::string wrong_at_thirds(const LimitSurface& surface, const Scheme<double>& scheme) {
+inline std::string wrong_at_thirds(const LimitMap& surface, const Scheme<double>& scheme) {
   const Level one = next_level(scheme, surface.level()), two = next_level(scheme, one);
   const SparseMatrix P = two.S * one.S;
   LimitTypes cache(scheme);

@@ -40,7 +40,7 @@ struct LaidRays {
 };
 
 /// Corners, middles of sides and of faces, each point once.
-inline std::vector<Sample> marked_places(const LimitSurface& surface, const Points& points) {
+inline std::vector<Sample> marked_places(const LimitMap& surface, const Points& points) {
   std::vector<Sample> all;
   for (Index f = 0; f < surface.faces().size; ++f)
     for (const auto& [u, v] : std::vector<std::pair<double, double>>{
@@ -58,7 +58,7 @@ inline std::vector<Sample> marked_places(const LimitSurface& surface, const Poin
 }
 
 /// @param stride  of the offsets
-inline LaidRays laid_rays(const LimitSurface& surface, const Points& points, size_t stride) {
+inline LaidRays laid_rays(const LimitMap& surface, const Points& points, size_t stride) {
   const std::vector<Sample> places = marked_places(surface, points);
   const LimitSamples on = surface.evaluate(points, places, 1);
   const double size = diagonal(points);
@@ -88,7 +88,7 @@ struct LookedAtRays {
 };
 
 /// Looks at the laws. Rays that are given up tell so, and are none of polynomials.
-inline LookedAtRays look_at_rays(const LimitSurface& surface, const Points& points, size_t stride, bool polynomials) {
+inline LookedAtRays look_at_rays(const LimitMap& surface, const Points& points, size_t stride, bool polynomials) {
   const LaidRays laid = laid_rays(surface, points, stride);
   const RayHits hits = intersect(surface, points, laid.rays, {.all = true});
   const double size = diagonal(points);
@@ -143,12 +143,12 @@ class RayLaws : public ::testing::TestWithParam<std::string> {
     const bool is_slow = types_->pieces().has_no_polynomials();
     if (!full_sweep() && rays_ >= (is_slow ? 200 : 800)) return;
     if (scheme_.face_size() == 3) mesh = triangulated(mesh);
-    std::unique_ptr<LimitSurface> surface;
+    std::unique_ptr<LimitMap> surface;
     try {
-      surface = std::make_unique<LimitSurface>(scheme_, mesh, SubdivisionOptions{}, types_);
+      surface = std::make_unique<LimitMap>(scheme_, mesh, SubdivisionOptions{}, types_);
     } catch (const UnsupportedTopology&) {
       mesh = without_creases(mesh);
-      surface = std::make_unique<LimitSurface>(scheme_, mesh, SubdivisionOptions{}, types_);
+      surface = std::make_unique<LimitMap>(scheme_, mesh, SubdivisionOptions{}, types_);
     }
     try {
       surface->prepare();

@@ -75,7 +75,7 @@ std::vector<int> centres_of(const std::vector<CadCell>& cells) {
   return centres;
 }
 
-CapFitter::CapFitter(const LimitSurface& surface, const Points& points, int degree)
+CapFitter::CapFitter(const LimitMap& surface, const Points& points, int degree)
     : bound_(surface, points),
       triangles_(surface.addresses().triangles()),
       degree_(degree),

@@ -13,6 +13,7 @@
 
 #include "sublimit/cad/cad_cells.h"
 #include "sublimit/cad/limit_quads.h"
+#include "sublimit/limit/limit_surface.h"
 
 namespace sublimit {
 
@@ -35,8 +36,8 @@ class CapFitter {
  public:
   /// @param surface  which must stay
   /// @param degree   of the patches: that of the polynomials around them at least
-  CapFitter(const LimitSurface& surface, const Points& points, int degree);
-  CapFitter(const LimitSurface&&, const Points&, int) = delete;
+  CapFitter(const LimitMap& surface, const Points& points, int degree);
+  CapFitter(const LimitMap&&, const Points&, int) = delete;
 
   /// Patches of cells that are no polynomials, one of a square, three of a triangle.
   /// @param group  of each cell: those around the same vertex have the same
@@ -52,7 +53,7 @@ class CapFitter {
   std::vector<double> exponents(const std::vector<CadCell>& cells, std::span<const int> centres,
                                 std::span<const size_t> group) const;
 
-  BoundLimitSurface bound_;
+  LimitSurface bound_;
   bool triangles_;
   int degree_;
   Eigen::MatrixXd coefficients_;

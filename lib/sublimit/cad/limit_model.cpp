@@ -11,7 +11,7 @@ namespace sublimit {
 namespace {
 
 /// Names of quads: those of the faces of the mesh that they are in.
-std::vector<Index> names_of(const std::vector<LimitQuad>& quads, const LimitSurface& surface,
+std::vector<Index> names_of(const std::vector<LimitQuad>& quads, const LimitMap& surface,
                             const ControlMesh::FaceNames& names) {
   std::vector<Index> numbers;
   if (names.of_face.empty()) return numbers;
@@ -34,7 +34,7 @@ void check_names(const ControlMesh::FaceNames& names, Index faces) {
 
 }  // namespace
 
-LimitModel limit_model(const LimitSurface& surface, const Points& points, const LimitModelOptions& options) {
+LimitModel limit_model(const LimitMap& surface, const Points& points, const LimitModelOptions& options) {
   const auto tell = [&](const std::string& what) {
     if (options.progress) options.progress(what);
   };

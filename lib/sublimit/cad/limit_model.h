@@ -32,6 +32,6 @@ struct LimitModel {
 /// @throws InvalidParameter, UnsupportedTopology  as `limit_quads`
 /// @throws InvalidParameter  names that are not one for each face of the mesh
 /// @throws ResourceError  more faces than allowed
-LimitModel limit_model(const LimitSurface& surface, const Points& points, const LimitModelOptions& options);
+LimitModel limit_model(const LimitMap& surface, const Points& points, const LimitModelOptions& options);
 
 }  // namespace sublimit

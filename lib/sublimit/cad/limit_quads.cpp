@@ -10,9 +10,9 @@
 #include <utility>
 
 #include "sublimit/base/error.h"
+#include "sublimit/base/format_number.h"
 #include "sublimit/base/parallel_for.h"
 #include "sublimit/cad/cad_cells.h"
-#include "sublimit/base/format_number.h"
 #include "sublimit/cad/cap_fitter.h"
 #include "sublimit/cad/signed_classes.h"
 #include "sublimit/cad/triangle_thirds.h"
@@ -118,7 +118,7 @@ class ExactQuads {
 };
 
 /// Numbers of the groups of cells that share corners: those around one extraordinary vertex.
-std::vector<size_t> groups_of(const std::vector<CadCell>& cells, const LimitSurface::Parts& parts) {
+std::vector<size_t> groups_of(const std::vector<CadCell>& cells, const LimitMap::Parts& parts) {
   SignedClasses classes(cells.size());
   PlaceNumbers places(parts);
   std::vector<size_t> first;
@@ -146,7 +146,7 @@ int depth_of(const CellCorners& c, bool triangle) {
 }
 
 /// Cells of all addresses, polynomials and the rest.
-void cut_addresses(const LimitSurface& surface, const Points& points, std::vector<CadCell>& exact,
+void cut_addresses(const LimitMap& surface, const Points& points, std::vector<CadCell>& exact,
                    std::vector<CadCell>& rest) {
   const AddressPieces pieces(surface, points);
   if (pieces.has_no_polynomials())
@@ -179,7 +179,7 @@ void cut_addresses(const LimitSurface& surface, const Points& points, std::vecto
 
 }  // namespace
 
-LimitQuads limit_quads(const LimitSurface& surface, const Points& points, const LimitQuadOptions& options) {
+LimitQuads limit_quads(const LimitMap& surface, const Points& points, const LimitQuadOptions& options) {
   if (!(options.tolerance > 0) || !std::isfinite(options.tolerance))
     throw InvalidParameter("the tolerance is " + format_number(options.tolerance) + "; a distance above 0 is right");
   check_measurable_control(points);

@@ -52,6 +52,6 @@ struct LimitQuads {
 /// @throws InvalidParameter     points that do not fit
 /// @throws UnsupportedTopology  a scheme without polynomial pieces, pieces that are cut along a diagonal or whose
 ///                              children are no quarters
-LimitQuads limit_quads(const LimitSurface& surface, const Points& points, const LimitQuadOptions& options);
+LimitQuads limit_quads(const LimitMap& surface, const Points& points, const LimitQuadOptions& options);
 
 }  // namespace sublimit

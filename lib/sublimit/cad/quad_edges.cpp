@@ -68,7 +68,7 @@ Points side_net(const LimitQuad& q, int side) {
 
 class EdgeFinder {
  public:
-  EdgeFinder(const LimitSurface& surface, const std::vector<LimitQuad>& quads)
+  EdgeFinder(const LimitMap& surface, const std::vector<LimitQuad>& quads)
       : parts_(LimitPatches::parts_of(surface)),
         quads_(quads),
         corners_(parts_),
@@ -185,7 +185,7 @@ class EdgeFinder {
     return true;
   }
 
-  const LimitSurface::Parts& parts_;
+  const LimitMap::Parts& parts_;
   const std::vector<LimitQuad>& quads_;
   PlaceNumbers corners_, middles_;
   bool all_cut_;
@@ -194,7 +194,7 @@ class EdgeFinder {
 
 }  // namespace
 
-QuadEdges quad_edges(const LimitSurface& surface, const std::vector<LimitQuad>& quads) {
+QuadEdges quad_edges(const LimitMap& surface, const std::vector<LimitQuad>& quads) {
   return EdgeFinder(surface, quads).find();
 }
 

@@ -32,7 +32,7 @@ struct QuadEdges {
   Points vertices;
 };
 
-QuadEdges quad_edges(const LimitSurface& surface, const std::vector<LimitQuad>& quads);
+QuadEdges quad_edges(const LimitMap& surface, const std::vector<LimitQuad>& quads);
 
 /// Row of a net by local indices of a quad that is turned so that its corner `turn` is the first one.
 inline Eigen::Index turned_row(int degree, int turn, int i, int j) {

@@ -60,9 +60,9 @@ class BallPolynomial {
   std::vector<Ball> c_;
 };
 
-using BallBlock = Table<BallPolynomial>;
+using BallBlock = MatrixRows<BallPolynomial>;
 
-BallBlock in_balls(const Table<Polynomial>& R) {
+BallBlock in_balls(const MatrixRows<Polynomial>& R) {
   BallBlock result;
   for (const auto& row : R) result.emplace_back(row.begin(), row.end());
   return result;
@@ -103,8 +103,8 @@ bool covered(double low, double high, const std::function<bool(double, double)>&
 
 class Proof {
  public:
-  Proof(const C1Prover& prover, const ValenceFamily& family, const Table<Polynomial>& first,
-        const Table<Polynomial>& other, int n, int ring)
+  Proof(const C1Prover& prover, const ValenceFamily& family, const MatrixRows<Polynomial>& first,
+        const MatrixRows<Polynomial>& other, int n, int ring)
       : prover_(prover), family_(family), first_(in_balls(first)), other_(in_balls(other)), ring_(ring), from_(n) {
     same_ = first == other;
     low_ = Number<Ball>::cos_2pi(1, 2 * n).lower();
@@ -223,7 +223,7 @@ class Proof {
   }
 
   bool fading_centre() const {
-    const Table<RingPolynomial>& Z = family_.zero;
+    const MatrixRows<RingPolynomial>& Z = family_.zero;
     if (!same_ || !increases()) return false;
     // The other rows are those of L(1), exactly.
     DenseMatrix<ComplexBall> L(std::ssize(Z) - 1, std::ssize(Z) - 1);

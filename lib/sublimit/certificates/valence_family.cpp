@@ -17,10 +17,10 @@ Places places(const LocalPatch<Algebraic>& patch) {
 bool is_centre(const SectorLabel& label) { return label.x2 == 0 && label.y2 == 0; }
 
 /// Block k, rows from sector 0.
-Table<Algebraic> exact_block(const LocalPatch<Algebraic>& patch, const Places& at, int k) {
+MatrixRows<Algebraic> exact_block(const LocalPatch<Algebraic>& patch, const Places& at, int k) {
   const int n = patch.type.faces;
   const std::vector<SectorLabel> labels = block_labels(patch, k);
-  Table<Algebraic> B(labels.size(), std::vector<Algebraic>(labels.size()));
+  MatrixRows<Algebraic> B(labels.size(), std::vector<Algebraic>(labels.size()));
   for (size_t i = 0; i < labels.size(); ++i)
     for (size_t j = 0; j < labels.size(); ++j)
       for (int s = 0; s < (is_centre(labels[j]) ? 1 : n); ++s) {
@@ -90,18 +90,18 @@ Algebraic at(const RingPolynomial& p, int n) {
   return sum;
 }
 
-bool of_order(const Table<Algebraic>& B, int p) {
+bool of_order(const MatrixRows<Algebraic>& B, int p) {
   for (const auto& row : B)
     for (const Algebraic& e : row)
       if (e.order() != 1 && e.order() != p) return false;
   return true;
 }
 
-std::optional<Table<RingPolynomial>> block_zero(const std::array<int, 3>& primes,
-                                                const std::array<Table<Algebraic>, 3>& B) {
+std::optional<MatrixRows<RingPolynomial>> block_zero(const std::array<int, 3>& primes,
+                                                     const std::array<MatrixRows<Algebraic>, 3>& B) {
   for (size_t k = 0; k < 3; ++k)
     if (B[k].size() != B[0].size() || !of_order(B[k], primes[k])) return std::nullopt;
-  Table<RingPolynomial> Z(B[0].size(), std::vector<RingPolynomial>(B[0].size()));
+  MatrixRows<RingPolynomial> Z(B[0].size(), std::vector<RingPolynomial>(B[0].size()));
   const std::array<Algebraic, 3> t{Algebraic::ratio(1, primes[0]), Algebraic::ratio(1, primes[1]),
                                    Algebraic::ratio(1, primes[2])};
   for (size_t i = 0; i < Z.size(); ++i)
@@ -119,7 +119,7 @@ bool is_member(const ValenceFamily& family, const LocalPatch<Algebraic>& patch) 
   const Places at_label = places(patch);
   if (!looks_the_same_from_all_sectors(patch, at_label)) return false;
   for (int k = 0; 2 * k <= n; ++k) {
-    const Table<Algebraic> B = exact_block(patch, at_label, k);
+    const MatrixRows<Algebraic> B = exact_block(patch, at_label, k);
     if (k == 0 && B.size() != family.zero.size()) return false;
     for (size_t i = 0; i < B.size(); ++i)
       for (size_t j = 0; j < B.size(); ++j)
@@ -155,8 +155,8 @@ std::optional<std::vector<size_t>> mirror_images(const std::vector<SectorLabel>&
 
 }  // namespace
 
-std::optional<Table<Polynomial>> real_block(const std::vector<SectorLabel>& labels,
-                                            const Table<TurnPolynomial>& block) {
+std::optional<MatrixRows<Polynomial>> real_block(const std::vector<SectorLabel>& labels,
+                                                 const MatrixRows<TurnPolynomial>& block) {
   const auto mirror = mirror_images(labels);
   if (!mirror) return std::nullopt;
   const Polynomial h = Polynomial::x(), one({1}), none;
@@ -169,7 +169,7 @@ std::optional<Table<Polynomial>> real_block(const std::vector<SectorLabel>& labe
   const size_t size = labels.size();
   const auto on_spoke = [&](size_t p) { return labels[p].y2 == 0; };
   const auto in_middle = [&](size_t p) { return labels[p].x2 == labels[p].y2; };
-  Table<Polynomial> R(size, std::vector<Polynomial>(size));
+  MatrixRows<Polynomial> R(size, std::vector<Polynomial>(size));
   for (size_t j = 0; j < size; ++j) {
     // Basis vector j: of two mirror images the one with x > y holds a, the other b.
     std::vector<Turned> v(size);
@@ -214,7 +214,7 @@ std::optional<Table<Polynomial>> real_block(const std::vector<SectorLabel>& labe
 std::optional<ValenceFamily> valence_family(const C1Prover& prover, const std::vector<int>& valences) {
   const std::array<int, 3> primes{7, 11, 13};
   ValenceFamily family;
-  std::array<Table<Algebraic>, 3> zero;
+  std::array<MatrixRows<Algebraic>, 3> zero;
   for (size_t p = 0; p < 3; ++p) {
     const LocalPatch<Algebraic> patch = prover.patch(primes[p]);
     const Places at_label = places(patch);
@@ -223,9 +223,9 @@ std::optional<ValenceFamily> valence_family(const C1Prover& prover, const std::v
     family.labels = block_labels(patch, 1);
     family.has_centre = block_labels(patch, 0).size() > family.labels.size();
     for (const int k : {1, 2}) {
-      const Table<Algebraic> B = exact_block(patch, at_label, k);
+      const MatrixRows<Algebraic> B = exact_block(patch, at_label, k);
       if (!of_order(B, 11)) return std::nullopt;
-      Table<TurnPolynomial>& block = k == 1 ? family.first : family.other;
+      MatrixRows<TurnPolynomial>& block = k == 1 ? family.first : family.other;
       for (const auto& row : B) {
         block.emplace_back();
         // w^2 -> w, as 2*6 = 1 modulo 11

@@ -23,15 +23,15 @@ using TurnPolynomial = std::array<Algebraic, 5>;
 using RingPolynomial = std::array<std::array<Algebraic, 3>, 3>;
 
 template <class T>
-using Table = std::vector<std::vector<T>>;
+using MatrixRows = std::vector<std::vector<T>>;
 
 struct ValenceFamily {
-  bool has_centre = false;             ///< it is row and column 0 of block 0
-  std::vector<SectorLabel> labels;     ///< of sector 0, without the centre: rows of the other blocks
-  Table<TurnPolynomial> first, other;  ///< block 1, and blocks 2 ... n - 2
-  Table<RingPolynomial> zero;          ///< block 0
-  std::optional<int> ring;             ///< `regular_ring`, where it is the same at all valences compared
-  std::vector<int> checked;            ///< valences at which all blocks were compared
+  bool has_centre = false;                  ///< it is row and column 0 of block 0
+  std::vector<SectorLabel> labels;          ///< of sector 0, without the centre: rows of the other blocks
+  MatrixRows<TurnPolynomial> first, other;  ///< block 1, and blocks 2 ... n - 2
+  MatrixRows<RingPolynomial> zero;          ///< block 0
+  std::optional<int> ring;                  ///< `regular_ring`, where it is the same at all valences compared
+  std::vector<int> checked;                 ///< valences at which all blocks were compared
 };
 
 /// @param valences  to compare at; 7 and more
@@ -44,6 +44,7 @@ std::optional<ValenceFamily> valence_family(const C1Prover& prover, const std::v
 /// x, it being x exp(i phi/2); and of (x, y), x > y, and (y, x) together a and b, they being a + i s b and its mirror
 /// image w (a - i s b). So the limit h -> 1 is no other case than the rest. For s != 0 the two matrices are similar.
 /// @return  nothing where it is not symmetric
-std::optional<Table<Polynomial>> real_block(const std::vector<SectorLabel>& labels, const Table<TurnPolynomial>& block);
+std::optional<MatrixRows<Polynomial>> real_block(const std::vector<SectorLabel>& labels,
+                                                 const MatrixRows<TurnPolynomial>& block);
 
 }  // namespace sublimit

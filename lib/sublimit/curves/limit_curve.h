@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// The exact limit of curves anywhere: what limit_surface.h is for surfaces.
+// The exact limit of curves anywhere: what limit_map.h is for surfaces.
 //
 //   x(i,t) = b T_m ... T_1 x_0      T_i: blocks of S on the path; b: basis of a polynomial piece, or a limit mask
 //

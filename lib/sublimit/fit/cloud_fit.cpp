@@ -7,8 +7,8 @@
 #include <cmath>
 #include <string>
 
-#include "sublimit/base/format_number.h"
 #include "sublimit/base/error.h"
+#include "sublimit/base/format_number.h"
 
 namespace sublimit {
 namespace {
@@ -44,7 +44,7 @@ void check(const Cloud& cloud, const CloudFitOptions& o) {
 /// The rows of every coordinate of every vertex: columns by vertex, then coordinate.
 class Iteration {
  public:
-  Iteration(const LimitSurface& surface, const Cloud& cloud, const CloudFitOptions& options)
+  Iteration(const LimitMap& surface, const Cloud& cloud, const CloudFitOptions& options)
       : surface_(surface), cloud_(cloud), options_(options) {
     const Eigen::Index count = cloud.points.rows();
     weights_ = Eigen::VectorXd::Ones(count);
@@ -109,7 +109,7 @@ class Iteration {
     add_tangent_rows(problem, A, cloud_.points, normals, weights_, tangential);
   }
 
-  const LimitSurface& surface_;
+  const LimitMap& surface_;
   const Cloud& cloud_;
   const CloudFitOptions& options_;
   Eigen::VectorXd weights_;  // of the mean
@@ -118,8 +118,7 @@ class Iteration {
 
 }  // namespace
 
-CloudFit fit_cloud(const LimitSurface& surface, const Cloud& cloud, const Points& guess,
-                   const CloudFitOptions& options) {
+CloudFit fit_cloud(const LimitMap& surface, const Cloud& cloud, const Points& guess, const CloudFitOptions& options) {
   check(cloud, options);
   if (guess.cols() != 3)
     throw InvalidParameter("the first guess has " + std::to_string(guess.cols()) + " columns, not 3");
@@ -127,7 +126,7 @@ CloudFit fit_cloud(const LimitSurface& surface, const Cloud& cloud, const Points
   // Pins are set, and everything else is checked, by a fit to nothing.
   fit.points = fit_places(surface, {{}, Points(0, 3)}, guess, {.pins = options.pins}).points;
   const Iteration iteration(surface, cloud, options);
-  fit.feet = closest_points(surface, fit.points, cloud.points, {.prove = false});
+  fit.feet = closest(surface, fit.points, cloud.points, {.prove = false});
   const double size = (cloud.points.colwise().maxCoeff() - cloud.points.colwise().minCoeff()).norm();
   const auto factor = [&](size_t k) {
     return options.schedule.empty() ? 1 : options.schedule[std::min(k, options.schedule.size() - 1)];
@@ -144,7 +143,7 @@ CloudFit fit_cloud(const LimitSurface& surface, const Cloud& cloud, const Points
     const bool at_end = size_t(k) + 1 >= options.schedule.size();
     for (;;) {
       Points x = iteration.step(fit.feet, fit.points, f, tangential);
-      ClosestPoints feet = closest_points(surface, x, cloud.points, {.guess = fit.feet.places, .prove = false});
+      ClosestPoints feet = closest(surface, x, cloud.points, {.guess = fit.feet.places, .prove = false});
       const CloudIteration now = iteration.measure(feet, x, f);
       if (now.energy <= before) {
         fit.points = std::move(x);

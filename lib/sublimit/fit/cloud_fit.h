@@ -14,9 +14,9 @@
 // reconstruction", for fits of subdivision surfaces.
 #include <functional>
 
-#include "sublimit/search/closest_point.h"
 #include "sublimit/fit/cloud.h"
 #include "sublimit/fit/scattered_fit.h"
+#include "sublimit/search/closest_point.h"
 
 namespace sublimit {
 
@@ -53,7 +53,7 @@ struct [[nodiscard]] CloudFit {
 /// @throws InvalidParameter  no points, shapes that do not fit, numbers that are not finite, negative weights or
 ///                           factors; and as `fit_places` does
 /// @throws InvalidMesh       no face that is not a hole
-CloudFit fit_cloud(const LimitSurface& surface, const Cloud& cloud, const Points& guess,
+CloudFit fit_cloud(const LimitMap& surface, const Cloud& cloud, const Points& guess,
                    const CloudFitOptions& options = {});
 
 }  // namespace sublimit

@@ -9,7 +9,7 @@
 #include "sublimit/fit/for_coordinates.h"
 #include "sublimit/fit/unit_frame.h"
 #include "sublimit/fit/vertex_conditions.h"
-#include "sublimit/limit/limit_surface.h"
+#include "sublimit/limit/limit_map.h"
 #include "sublimit/neighborhood/vertex_sides.h"
 #include "sublimit/scheme/check_levels.h"
 
@@ -106,7 +106,7 @@ void attempt(const Problem& problem, LimitTypes& cache, Interpolation& result) {
   const VertexLimits limits = vertex_limits(problem.levels, cache, vertices);
   FitProblem linear;
   if (!problem.options.fairness.empty())
-    linear.H = fairness_energy(LimitSurface(problem.scheme, level), problem.options.fairness);
+    linear.H = fairness_energy(LimitMap(problem.scheme, level), problem.options.fairness);
   VertexConditions conditions;
   std::map<Index, TangentFrame> frames;
   for (int turns = 0; turns <= most_turns; ++turns) {

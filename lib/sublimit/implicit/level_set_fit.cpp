@@ -11,6 +11,7 @@
 #include "sublimit/fit/scattered_fit.h"
 #include "sublimit/fit/sparse_factors.h"
 #include "sublimit/fit/tangent_rows.h"
+#include "sublimit/limit/curvature.h"
 
 namespace sublimit {
 namespace {
@@ -41,7 +42,7 @@ struct FitPlaces {
   std::vector<std::vector<size_t>> sides;
 };
 
-FitPlaces fit_places_of(const LimitSurface& surface, const Cage& cage) {
+FitPlaces fit_places_of(const LimitMap& surface, const Cage& cage) {
   FitPlaces all;
   const Addresses& addresses = surface.addresses();
   const Topology& topology = surface.level().topology();
@@ -113,7 +114,7 @@ FitPlaces fit_places_of(const LimitSurface& surface, const Cage& cage) {
 }
 
 /// Thin plate energy, or nothing where a scheme has no second derivatives.
-SparseMatrix fairness_of(const LimitSurface& surface) {
+SparseMatrix fairness_of(const LimitMap& surface) {
   try {
     return for_coordinates(fairness_energy(surface, {.thin_plate = 1}));
   } catch (const InvalidParameter&) {
@@ -155,7 +156,7 @@ bool is_nearer(const LevelSetError& a, const LevelSetError& b) {
   return a.is_folded() == b.is_folded() ? a.largest < b.largest : b.is_folded();
 }
 
-LevelSetFit fit_level_set(const LimitSurface& surface, const Cage& cage, const FieldSides& sides, int rounds,
+LevelSetFit fit_level_set(const LimitMap& surface, const Cage& cage, const FieldSides& sides, int rounds,
                           const std::function<void(int)>& progress) {
   surface.prepare();
   const FitPlaces places = fit_places_of(surface, cage);
@@ -203,8 +204,8 @@ LevelSetFit fit_level_set(const LimitSurface& surface, const Cage& cage, const F
   return best;
 }
 
-LevelSetError level_set_error(const LimitSurface& surface, const Points& points, const Cage& cage,
-                              const FieldSides& sides, int N, bool curved) {
+LevelSetError level_set_error(const LimitMap& surface, const Points& points, const Cage& cage, const FieldSides& sides,
+                              int N, bool curved) {
   const Field& field = sides.field();
   const std::vector<Sample> grid = surface.grid(N);
   const LimitSamples found = surface.evaluate(points, grid, curved ? 2 : 1);

@@ -6,7 +6,7 @@
 #include <functional>
 
 #include "sublimit/implicit/cage.h"
-#include "sublimit/limit/limit_surface.h"
+#include "sublimit/limit/limit_map.h"
 
 namespace sublimit {
 
@@ -37,12 +37,12 @@ struct [[nodiscard]] LevelSetFit {
 
 /// @param surface  of the cage's mesh with its tags
 /// @param rounds   of projection and least squares
-LevelSetFit fit_level_set(const LimitSurface& surface, const Cage& cage, const FieldSides& sides, int rounds,
+LevelSetFit fit_level_set(const LimitMap& surface, const Cage& cage, const FieldSides& sides, int rounds,
                           const std::function<void(int)>& progress = {});
 
 /// Measured on grids of N x N places a face, normals beside the gradient of the side that the face is of.
 /// @param curved  whether to compare curvatures, too
-LevelSetError level_set_error(const LimitSurface& surface, const Points& points, const Cage& cage,
-                              const FieldSides& sides, int N = 7, bool curved = true);
+LevelSetError level_set_error(const LimitMap& surface, const Points& points, const Cage& cage, const FieldSides& sides,
+                              int N = 7, bool curved = true);
 
 }  // namespace sublimit

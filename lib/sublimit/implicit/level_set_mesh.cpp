@@ -113,7 +113,7 @@ class Maker {
     for (double before = -1;; cage = split(cage, sides)) {
       LevelSetAttempt attempt{
           .cells = cells, .splits = splits_of(cage, coarse.cell), .faces = cage.mesh.num_faces(), .error = {}};
-      const LimitSurface surface(scheme_, cage.mesh, {}, types_);
+      const LimitMap surface(scheme_, cage.mesh, {}, types_);
       LevelSetFit fit = fit_level_set(surface, cage, sides, options_.rounds, [&](int round) {
         tell("fitting " + format_number(attempt.faces) + " faces, round " + format_number(round + 1) + " of " +
              format_number(options_.rounds));

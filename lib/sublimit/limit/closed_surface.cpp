@@ -5,13 +5,13 @@
 #include <map>
 #include <utility>
 
+#include "sublimit/limit/limit_map_parts.h"
 #include "sublimit/limit/limit_patches.h"
-#include "sublimit/limit/limit_surface_parts.h"
 
 namespace sublimit {
 
-std::string why_not_closed(const LimitSurface& surface) {
-  const LimitSurface::Parts& parts = LimitPatches::parts_of(surface);
+std::string why_not_closed(const LimitMap& surface) {
+  const LimitMap::Parts& parts = LimitPatches::parts_of(surface);
   const Level& level = parts.level;
   const Topology& t = level.topology();
   // Sheets that meet at an edge have the same curve there, unless the scheme keeps them apart: their boundaries cancel

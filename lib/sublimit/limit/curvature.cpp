@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "sublimit/limit/curvature.h"
+
+#include <Eigen/Geometry>
 #include <Eigen/Jacobi>
 
 #include <cmath>
-
-#include "sublimit/limit/limit_surface.h"
 
 namespace sublimit {
 

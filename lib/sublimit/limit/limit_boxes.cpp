@@ -3,7 +3,7 @@
 #include "sublimit/base/error.h"
 #include "sublimit/base/parallel_for.h"
 #include "sublimit/core/finite_points.h"
-#include "sublimit/limit/limit_surface_parts.h"
+#include "sublimit/limit/limit_map_parts.h"
 #include "sublimit/limit/piece_hull.h"
 
 namespace sublimit {
@@ -37,7 +37,7 @@ class Boxes {
 
 }  // namespace
 
-std::vector<Eigen::AlignedBox3d> LimitSurface::bounding_boxes(const Points& points) const {
+std::vector<Eigen::AlignedBox3d> LimitMap::bounding_boxes(const Points& points) const {
   const Parts& parts = *parts_;
   if (points.cols() != 3 || points.rows() != parts.level.topology().num_vertices())
     throw InvalidParameter("boxes need a point of three coordinates for each vertex");

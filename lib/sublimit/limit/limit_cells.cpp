@@ -8,8 +8,8 @@
 #include "sublimit/base/error.h"
 #include "sublimit/base/parallel_for.h"
 #include "sublimit/core/finite_points.h"
-#include "sublimit/limit/limit_patches.h"
 #include "sublimit/limit/hull_cell.h"
+#include "sublimit/limit/limit_patches.h"
 #include "sublimit/limit/piece_hull.h"
 
 namespace sublimit {
@@ -153,12 +153,12 @@ class Cutter {
 
 }  // namespace
 
-std::vector<LimitCell> limit_cells(const LimitSurface& surface, const Points& points) {
-  const LimitSurface::Parts& parts = LimitPatches::parts_of(surface);
+std::vector<LimitCell> limit_cells(const LimitMap& surface, const Points& points) {
+  const LimitMap::Parts& parts = LimitPatches::parts_of(surface);
   if (points.cols() != 3 || points.rows() != parts.level.topology().num_vertices())
     throw InvalidParameter("cells need a point of three coordinates for each vertex");
   check_finite_control(points);
-  const LimitSurface::Parts::Pieces& pieces = parts.pieces();
+  const LimitMap::Parts::Pieces& pieces = parts.pieces();
   const Points fine = parts.prepared ? Points(parts.prepared->S * points) : Points();
   const Points& x = parts.prepared ? fine : points;
   const Index count = parts.addresses.size();
@@ -176,8 +176,8 @@ std::vector<LimitCell> limit_cells(const LimitSurface& surface, const Points& po
               // Short numbers, and off the middle lines: there second derivatives may jump.
               const double off = triangles ? 0.3125 : 0.4375;
               const Sample s{Index(a), (i + off) / places_a_side, (j + off) / places_a_side};
-              const LimitSurface::Parts::Target target = parts.target(s);
-              if (parts.sides(target.piece) & LimitSurface::Parts::hole) continue;
+              const LimitMap::Parts::Target target = parts.target(s);
+              if (parts.sides(target.piece) & LimitMap::Parts::hole) continue;
               known[parts.number(s, target)].push_back({s, target.place});
             }
           for (const auto& [piece, places] : known) {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "sublimit/limit/hull_cell.h"
-#include "sublimit/limit/limit_surface.h"
+#include "sublimit/limit/limit_map.h"
 
 namespace sublimit {
 
@@ -15,6 +15,6 @@ namespace sublimit {
 /// polynomial that would be much too wide: there boxes hold a net of limit points, widened by a quarter.
 /// @param points  of the level, #V x 3
 /// @throws InvalidParameter  points that do not fit
-std::vector<LimitCell> limit_cells(const LimitSurface& surface, const Points& points);
+std::vector<LimitCell> limit_cells(const LimitMap& surface, const Points& points);
 
 }  // namespace sublimit

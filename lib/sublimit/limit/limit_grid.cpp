@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Grids: the same places on all squares or triangles. Points on sides belong to several of them, and get the same bits.
-#include "sublimit/limit/limit_surface_parts.h"
+#include "sublimit/limit/limit_map_parts.h"
 #include "sublimit/limit/shared_places.h"
 
 namespace sublimit {
@@ -25,7 +25,7 @@ std::vector<std::pair<std::int64_t, std::int64_t>> shared_grid_places(const Topo
   return pairs;
 }
 
-LimitSamples LimitSurface::evaluate_grid(const Points& points, int N, int order, bool normals) const {
+LimitSamples LimitMap::evaluate_grid(const Points& points, int N, int order, bool normals) const {
   const std::vector<Sample> samples = grid(N);
   LimitSamples result = evaluate(points, samples, order, normals);
   for (const auto& [row, first] :

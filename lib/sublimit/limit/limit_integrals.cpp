@@ -278,8 +278,8 @@ SolidIntegrals solid_of(const EstimatedSums& sums) {
 
 /// Of all pieces; nothing if some are not made of polynomials.
 /// @param x  points of the level that has the pieces
-std::optional<EstimatedSums> polynomial_sums(const LimitSurface::Parts& parts, const Points& x) {
-  const LimitSurface::Parts::Pieces& pieces = parts.pieces();
+std::optional<EstimatedSums> polynomial_sums(const LimitMap::Parts& parts, const Points& x) {
+  const LimitMap::Parts::Pieces& pieces = parts.pieces();
   constexpr std::int64_t pieces_a_block = 32;
   PieceRules rules;
   const std::int64_t squares = std::max(least_squares, most_squares / std::max<std::int64_t>(parts.num_pieces(), 1));
@@ -290,7 +290,7 @@ std::optional<EstimatedSums> polynomial_sums(const LimitSurface::Parts& parts, c
       [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
         Integrator integrator(rules, squares);
         for (std::int64_t i = begin; i < end && is_complete; ++i) {
-          if (parts.sides(parts.piece(Index(i))) & LimitSurface::Parts::hole) continue;
+          if (parts.sides(parts.piece(Index(i))) & LimitMap::Parts::hole) continue;
           const std::optional<EstimatedSums> sums =
               integrator.piece(*pieces.types[size_t(i)], pieces.points_of(Index(i), x));
           if (sums)
@@ -307,8 +307,8 @@ std::optional<EstimatedSums> polynomial_sums(const LimitSurface::Parts& parts, c
 }
 
 /// @param points  about their middle, of a size near 1
-EstimatedSums sums_over(const LimitSurface& surface, const Points& points) {
-  const LimitSurface::Parts& parts = LimitPatches::parts_of(surface);
+EstimatedSums sums_over(const LimitMap& surface, const Points& points) {
+  const LimitMap::Parts& parts = LimitPatches::parts_of(surface);
   const Points fine = parts.prepared ? Points(parts.prepared->S * points) : Points();
   const Points& x = parts.prepared ? fine : points;
   if (const std::optional<EstimatedSums> sums = polynomial_sums(parts, x)) return *sums;
@@ -317,8 +317,8 @@ EstimatedSums sums_over(const LimitSurface& surface, const Points& points) {
 
 }  // namespace
 
-LimitIntegrals limit_integrals(const LimitSurface& surface, const Points& points) {
-  const LimitSurface::Parts& parts = LimitPatches::parts_of(surface);
+LimitIntegrals limit_integrals(const LimitMap& surface, const Points& points) {
+  const LimitMap::Parts& parts = LimitPatches::parts_of(surface);
   if (points.cols() != 3 || points.rows() != parts.level.topology().num_vertices())
     throw InvalidParameter("integrals need a point of three coordinates for each vertex");
   check_finite_control(points);

@@ -17,7 +17,7 @@
 #include <optional>
 #include <string>
 
-#include "sublimit/limit/limit_surface.h"
+#include "sublimit/limit/limit_map.h"
 
 namespace sublimit {
 
@@ -57,6 +57,6 @@ struct [[nodiscard]] LimitIntegrals {
 /// @throws InvalidMesh          points that are not finite, or so large that an integral is not
 /// @throws UnsupportedTopology  as `refined_sums`: holes
 /// @throws ResourceError        two levels of such a mesh take more memory than there is
-LimitIntegrals limit_integrals(const LimitSurface& surface, const Points& points);
+LimitIntegrals limit_integrals(const LimitMap& surface, const Points& points);
 
 }  // namespace sublimit

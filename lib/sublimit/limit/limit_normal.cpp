@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "sublimit/limit/degenerate_normal.h"
-#include "sublimit/limit/limit_surface_parts.h"
+#include "sublimit/limit/limit_map_parts.h"
 
 namespace sublimit {
 namespace {
@@ -30,8 +30,8 @@ Vector3d one_sided_normal(const Points& rows, const Place& p, bool triangle, dou
 
 }  // namespace
 
-Vector3d LimitSurface::Parts::normal_of(const LimitStencil& s, const Points& local, const Sample& sample,
-                                        const Points& points) const {
+Vector3d LimitMap::Parts::normal_of(const LimitStencil& s, const Points& local, const Sample& sample,
+                                    const Points& points) const {
   if (s.tangents.rows() < 2) return Vector3d::Zero();
   // Squares of huge or tiny tangents would leave the range of numbers; powers of two change no digit.
   const Points centred = local.rowwise() - local.row(0);

@@ -139,7 +139,7 @@ SUBLIMIT_WIDE void bind_patches(const RowMatrix& matrix, int patch_size, const d
 
 /// What a loop over samples needs of everything else, by plain pointers.
 struct LimitPatches::Loop {
-  const LimitSurface::Parts& parts;
+  const LimitMap::Parts& parts;
   const Bound* bound;
   const double* coefficients;
   bool second_jumps, dual;
@@ -170,7 +170,7 @@ struct LimitPatches::Loop {
   };
   [[gnu::always_inline]] At at(const Sample& s) const {
     if (one_to_one) return {s.face, triangles ? triangle_place(s.u, s.v) : quad_place(s.u, s.v)};
-    const LimitSurface::Parts::Target target = parts.target(s);
+    const LimitMap::Parts::Target target = parts.target(s);
     return {parts.number(s, target), target.place, target.map, target.outer};
   }
 
@@ -240,8 +240,8 @@ struct LimitPatches::Loop {
     LimitStatus status = LimitStatus::regular;
     const unsigned own_sides = piece.sides;
     if (own_sides != 0) {
-      if (own_sides & LimitSurface::Parts::sides_at(p, tree.total())) status = LimitStatus::crease;
-      if (own_sides & LimitSurface::Parts::hole) status = LimitStatus::hole;
+      if (own_sides & LimitMap::Parts::sides_at(p, tree.total())) status = LimitStatus::crease;
+      if (own_sides & LimitMap::Parts::hole) status = LimitStatus::hole;
     }
     int order = Order;
     if (Order == 2 && second_jumps) {
@@ -293,7 +293,7 @@ struct LimitPatches::Loop {
   }
 };
 
-LimitPatches::LimitPatches(const LimitSurface::Parts& parts, const Points& points)
+LimitPatches::LimitPatches(const LimitMap::Parts& parts, const Points& points)
     : parts_(parts), points_(points), pieces_(parts.pieces()) {
   const Index count = parts.num_pieces();
   bound_.resize(count);
@@ -395,13 +395,13 @@ std::int64_t LimitPatches::evaluate(std::span<const Sample> samples, std::int64_
       left.push_back({nullptr, 0, 0, i});
       continue;
     }
-    const LimitSurface::Parts::Target target = parts_.target(s);
+    const LimitMap::Parts::Target target = parts_.target(s);
     left.push_back({pieces_.types[parts_.number(s, target)], target.place.u, target.place.v, i});
   }
   std::sort(left.begin(), left.end(), [](const Left& a, const Left& b) {
     return a.type != b.type ? std::less<>()(a.type, b.type) : std::tie(a.u, a.v, a.i) < std::tie(b.u, b.v, b.i);
   });
-  LimitSurface::Parts::KnownRows known{.pieces = &pieces_};
+  LimitMap::Parts::KnownRows known{.pieces = &pieces_};
   for (const Left& one : left) parts_.evaluate_row(points_, samples[one.i], order, normals, out, one.i, &known);
   return known.made;
 }

@@ -1,98 +1,70 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// The exact limit anywhere. A piece of the surface depends on the points around it alone; where it is a polynomial, its
-// basis is evaluated, elsewhere the place is followed through the children of the piece:
+// The limit surface of a mesh: points, derivatives, normals and stencils anywhere.
 //
-//   x(f,u,v) = b T_m ... T_1 x_0      T_i: blocks of S on the path; b: basis of a polynomial piece, or a limit mask
-//
-// Pieces are computed once a type of neighbourhood (piece_types.h).
-#include <Eigen/Geometry>
-
+//   const LimitSurface surface(read_mesh("torus.obj"), "catmull-clark");
+//   const LimitSamples samples = surface.evaluate({{.face = 7, .u = 0.25, .v = 0.5}}, 2);
+//   const std::optional<Curvature> bend = curvature(samples, 0);
+#include <initializer_list>
 #include <memory>
-#include <optional>
 #include <span>
-#include <utility>
 #include <vector>
 
-#include "sublimit/limit/linear_source.h"
-#include "sublimit/scheme/refine.h"
+#include "sublimit/limit/curvature.h"
+#include "sublimit/limit/limit_map.h"
+#include "sublimit/limit/place_stencils.h"
+#include "sublimit/scheme/any_scheme.h"
 
 namespace sublimit {
 
-class LimitTypes;
-class LimitPatches;
-
-/// Curvature of the surface, by its first and second derivatives.
-struct Curvature {
-  double gauss = 0, mean = 0;              ///< mean > 0 where the surface bends towards its normal
-  double k1 = 0, k2 = 0;                   ///< principal ones, k1 >= k2
-  Eigen::Vector3d direction1, direction2;  ///< of k1, k2: unit length, in the tangent plane
-};
-
-class LimitSurface : public LinearSource {
+/// A limit surface with its control points, which it owns. It never changes: threads may share it, and copies share all
+/// that it consists of.
+class LimitSurface : public BoundSource {
  public:
-  struct Parts;
-  /// @param types  shared between surfaces of the same scheme, if given
-  /// @throws InvalidMesh, UnsupportedTopology  as refinement does
-  LimitSurface(const Scheme<double>& scheme, const ControlMesh& mesh, const SubdivisionOptions& options = {},
-               std::shared_ptr<LimitTypes> types = nullptr);
-  /// Of a level, with stencils over its vertices.
-  LimitSurface(const Scheme<double>& scheme, Level level, std::shared_ptr<LimitTypes> types = nullptr);
-  ~LimitSurface() override;
-  LimitSurface(LimitSurface&&) noexcept;
-  LimitSurface& operator=(LimitSurface&&) noexcept;
+  /// The limit of a mesh under a scheme; by its rules for boundaries, creases and triangles.
+  /// @param cache  shared between surfaces of the same scheme, if given: types of neighbourhoods are found once
+  /// @throws InvalidMesh, UnsupportedTopology  a mesh that the scheme cannot refine: says where
+  /// @throws InvalidParameter                  a cache of another scheme
+  LimitSurface(const ControlMesh& mesh, const AnyScheme& scheme, std::shared_ptr<LimitTypes> cache = nullptr);
+  /// @param points  #V x 3
+  /// @throws InvalidParameter  another number of rows or columns
+  LimitSurface(LimitMap map, Points points);
+  // What is moved stays as it is.
+  LimitSurface(const LimitSurface&) = default;
+  LimitSurface& operator=(const LimitSurface&) = default;
 
-  const Addresses& addresses() const;
-  const Level& level() const;
+  /// Returns the surface with other control points, as in another frame: what depends on connectivity is shared.
+  /// @param points  #V x 3
+  /// @throws InvalidParameter  another number of rows or columns
+  LimitSurface with(Points points) const;
 
-  /// Finds the types of all pieces now, in parallel; else they are found at the first use.
-  void prepare() const;
+  const LimitMap& map() const;
+  const Points& points() const;  ///< control points, #V x 3
+  FaceCount faces() const { return map().faces(); }
+  /// Returns the places of a grid on every face: N x N, sides included, u fastest; on triangles N (N + 1) / 2.
+  /// @throws InvalidParameter  N below 2;  ResourceError  more places than memory holds
+  std::vector<Sample> grid(int N) const { return grid_places(faces(), N); }
 
-  Index num_points() const override;
-  FaceCount faces() const override { return addresses(); }
-  FaceLengths lengths(Index address) const override;
-  LimitStencil stencil(const Sample& sample, int order = 0) const override;
-  /// @param points  of the level, #V x 3
-  LimitSamples evaluate(const Points& points, std::span<const Sample> samples, int order = 0,
-                        bool normals = true) const override;
-  std::unique_ptr<BoundSource> bound(const Points& points) const& override;
-  std::unique_ptr<BoundSource> bound(const Points& points) const&& = delete;
+  /// Evaluates places, in parallel.
+  /// @param derivatives  0, 1 (du, dv, normals) or 2 (duu, duv, dvv too)
+  /// @throws InvalidParameter  other derivatives
+  /// @note  A place on no face, or outside of it, has the status `outside`.
+  LimitSamples evaluate(std::span<const Sample> places, int derivatives = 0, bool normals = true) const;
+  LimitSamples evaluate(std::initializer_list<Sample> places, int derivatives = 0) const {
+    return evaluate(std::span(places.begin(), places.size()), derivatives);
+  }
+  void evaluate(std::span<const Sample> places, int derivatives, bool normals, LimitSamples& out) const override;
 
-  /// N x N samples per address, ends included, row-major, u fastest; triangles N (N + 1) / 2. Points that squares share
-  /// have the same bits in all of them.
-  LimitSamples evaluate_grid(const Points& points, int N, int order = 0, bool normals = true) const;
-
-  /// For each address a box that holds its part of the limit: of the Bernstein coefficients of polynomial pieces, of
-  /// the points elsewhere, widened where weights are negative.
-  std::vector<Eigen::AlignedBox3d> bounding_boxes(const Points& points) const;
+  /// Returns what `evaluate` multiplies the control points with, a row for each place.
+  /// @throws InvalidParameter  a place on no face, parameters outside of it, other derivatives
+  /// @throws ResourceError     more weights than 32-bit indices count
+  PlaceStencils stencils(std::span<const Sample> places, int derivatives = 0) const {
+    return place_stencils(map(), places, derivatives);
+  }
 
  private:
-  friend class LimitPatches;
-  friend class BoundLimitSurface;
-  std::unique_ptr<Parts> parts_;
+  struct Bound;
+  std::shared_ptr<const Bound> bound_;
 };
-
-/// Pairs of rows of a grid, a later one and the first one, that are the same point.
-/// @param dual  of a dual scheme, which keeps the sides of non-manifold edges and vertices apart
-std::vector<std::pair<std::int64_t, std::int64_t>> shared_grid_places(const Topology& topology,
-                                                                      const Addresses& addresses, int N, bool dual);
-
-/// A surface with its points, for many evaluations.
-class BoundLimitSurface : public BoundSource {
- public:
-  /// @param surface  which must stay
-  BoundLimitSurface(const LimitSurface& surface, Points points);
-  BoundLimitSurface(const LimitSurface&&, Points) = delete;
-  ~BoundLimitSurface() override;
-  LimitSamples evaluate(std::span<const Sample> samples, int order = 0, bool normals = true) const;
-  void evaluate(std::span<const Sample> samples, int order, bool normals, LimitSamples& out) const override;
-
- private:
-  Points points_;
-  std::unique_ptr<LimitPatches> patches_;
-};
-
-/// Curvature where first and second derivatives exist and the first ones span a plane; nothing elsewhere.
-[[nodiscard]] std::optional<Curvature> curvature(const LimitSamples& samples, Index row);
 
 }  // namespace sublimit

@@ -133,8 +133,7 @@ PiecePart PieceParts::quarter(const PiecePart& part, int k) {
   return quarter;
 }
 
-AddressPieces::AddressPieces(const LimitSurface& surface, const Points& points)
-    : parts_(LimitPatches::parts_of(surface)) {
+AddressPieces::AddressPieces(const LimitMap& surface, const Points& points) : parts_(LimitPatches::parts_of(surface)) {
   if (points.cols() != 3 || points.rows() != parts_.level.topology().num_vertices())
     throw InvalidParameter("cells need a point of three coordinates for each vertex");
   points_ = parts_.prepared ? Points(parts_.prepared->S * points) : points;
@@ -144,7 +143,7 @@ AddressPieces::AddressPieces(const LimitSurface& surface, const Points& points)
 bool AddressPieces::has_no_polynomials() const { return parts_.types->pieces().has_no_polynomials(); }
 
 void AddressPieces::visit(Index address, const VisitPiece& visit) const {
-  const LimitSurface::Parts::Pieces& pieces = parts_.pieces();
+  const LimitMap::Parts::Pieces& pieces = parts_.pieces();
   const bool triangles = parts_.addresses.triangles();
   std::array<Index, 4> done{-1, -1, -1, -1};
   size_t count = 0;
@@ -152,8 +151,8 @@ void AddressPieces::visit(Index address, const VisitPiece& visit) const {
     for (const double v : {0.25, 0.75}) {
       if (triangles && u + v > 1) continue;
       const Sample s{address, u, v};
-      const LimitSurface::Parts::Target target = parts_.target(s);
-      if (parts_.sides(target.piece) & LimitSurface::Parts::hole) continue;
+      const LimitMap::Parts::Target target = parts_.target(s);
+      if (parts_.sides(target.piece) & LimitMap::Parts::hole) continue;
       const Index piece = parts_.number(s, target);
       if (std::ranges::find(done, piece) != done.end()) continue;
       done[count++] = piece;

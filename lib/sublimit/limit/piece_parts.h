@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "sublimit/limit/limit_surface.h"
+#include "sublimit/limit/limit_map.h"
 #include "sublimit/limit/piece_hull.h"
 
 namespace sublimit {
@@ -105,13 +105,13 @@ class AddressPieces {
  public:
   /// @param surface  which must stay
   /// @throws InvalidParameter  points that do not fit
-  AddressPieces(const LimitSurface& surface, const Points& points);
-  AddressPieces(const LimitSurface&&, const Points&) = delete;
+  AddressPieces(const LimitMap& surface, const Points& points);
+  AddressPieces(const LimitMap&&, const Points&) = delete;
   void visit(Index address, const VisitPiece& visit) const;
   bool has_no_polynomials() const;
 
  private:
-  const LimitSurface::Parts& parts_;
+  const LimitMap::Parts& parts_;
   Points points_;
 };
 

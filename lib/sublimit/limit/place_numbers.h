@@ -3,7 +3,7 @@
 // Numbers for places of cells, equal where points are: by connectivity (`SharedPlaces`), never by position.
 #include <unordered_map>
 
-#include "sublimit/limit/limit_surface_parts.h"
+#include "sublimit/limit/limit_map_parts.h"
 #include "sublimit/limit/piece_parts.h"
 #include "sublimit/limit/shared_places.h"
 
@@ -12,9 +12,9 @@ namespace sublimit {
 class PlaceNumbers {
  public:
   /// @param parts  which must stay
-  explicit PlaceNumbers(const LimitSurface::Parts& parts)
+  explicit PlaceNumbers(const LimitMap::Parts& parts)
       : shared_(parts.level.topology(), parts.addresses, cell_steps, parts.scheme.is_dual()) {}
-  explicit PlaceNumbers(const LimitSurface::Parts&&) = delete;
+  explicit PlaceNumbers(const LimitMap::Parts&&) = delete;
 
   Index add(Index address, const CellCorner& c) { return add(key(address, c)); }
   /// A place inside of a cell that no other one has.

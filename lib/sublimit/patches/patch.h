@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// One classical patch as a linear source: what LimitSurface is for schemes. A kind of patch says which control points
+// One classical patch as a linear source: what LimitMap is for schemes. A kind of patch says which control points
 // the rows of a face are over, and what these rows are; stencils, samples with normals and poles, and tables by types
 // of faces follow here.
 //

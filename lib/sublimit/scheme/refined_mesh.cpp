@@ -147,7 +147,7 @@ ControlMesh simple_mesh(const Level& before, const Refinement& numbering, const 
 }  // namespace
 
 /// Rows of one step by their weights: there are few kinds of them, and a row is its kind and its columns.
-struct MeshRefiner::Stage {
+struct Refiner::Stage {
   std::vector<double> weights;                // kind after kind
   std::vector<std::int64_t> first_weight{0};  // of each kind, and the end
   UninitializedVector<std::uint32_t> kinds;   // of the rows
@@ -158,7 +158,7 @@ struct MeshRefiner::Stage {
   Points points(const Points& coarse) const;
 };
 
-MeshRefiner::Stage::Stage(const StepView& s) {
+Refiner::Stage::Stage(const StepView& s) {
   const std::vector<std::uint8_t> plain = assembly::plain_vertices(s.parent, s.sharpness);
   tbb::enumerable_thread_specific<RowMaker<double>> makers([&] { return s.maker(plain); });
   struct Block {
@@ -215,7 +215,7 @@ MeshRefiner::Stage::Stage(const StepView& s) {
   });
 }
 
-Points MeshRefiner::Stage::points(const Points& coarse) const {
+Points Refiner::Stage::points(const Points& coarse) const {
   Points fine(Eigen::Index(kinds.size()), coarse.cols());
   prefer_huge_pages(fine.data(), size_t(fine.size()) * sizeof(double));
   parallel_for_blocks(fine.rows(), [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
@@ -275,23 +275,23 @@ ControlMesh refined_mesh(const Scheme<double>& scheme, const ControlMesh& mesh, 
   return refined;
 }
 
-MeshRefiner::MeshRefiner(const Scheme<double>& scheme, const ControlMesh& mesh, int levels,
-                         const SubdivisionOptions& options, const std::function<void(int)>& progress)
+Refiner::Refiner(const Scheme<double>& scheme, const ControlMesh& mesh, int levels, const SubdivisionOptions& options,
+                 const std::function<void(int)>& progress)
     : num_control_points_(mesh.num_vertices()) {
   mesh_ = refine_steps(scheme, mesh, levels, options, progress,
                        [&](const StepView& step) { stages_.push_back(std::make_unique<const Stage>(step)); });
 }
 
-MeshRefiner::~MeshRefiner() = default;
-MeshRefiner::MeshRefiner(MeshRefiner&&) noexcept = default;
-MeshRefiner& MeshRefiner::operator=(MeshRefiner&&) noexcept = default;
+Refiner::~Refiner() = default;
+Refiner::Refiner(Refiner&&) noexcept = default;
+Refiner& Refiner::operator=(Refiner&&) noexcept = default;
 
-Index MeshRefiner::num_control_points() const { return num_control_points_; }
-Index MeshRefiner::num_points() const {
+Index Refiner::num_control_points() const { return num_control_points_; }
+Index Refiner::num_points() const {
   return stages_.empty() ? num_control_points_ : static_cast<Index>(stages_.back()->kinds.size());
 }
 
-Points MeshRefiner::points(const Points& control) const {
+Points Refiner::points(const Points& control) const {
   if (control.rows() != num_control_points_)
     throw InvalidParameter("the mesh has " + std::to_string(num_control_points_) + " vertices, but " +
                            std::to_string(control.rows()) + " points are given");

@@ -4,6 +4,7 @@
 // corners of its faces.
 #include <memory>
 
+#include "sublimit/scheme/any_scheme.h"
 #include "sublimit/scheme/refine.h"
 
 namespace sublimit {
@@ -21,14 +22,17 @@ ControlMesh refined_mesh(const Scheme<double>& scheme, const ControlMesh& mesh, 
                          const SubdivisionOptions& options = {}, const std::function<void(int)>& progress = {});
 
 /// Refines one connectivity for any number of points: what does not depend on them is made once.
-class MeshRefiner {
+class Refiner {
  public:
   /// As `refined_mesh`.
-  MeshRefiner(const Scheme<double>& scheme, const ControlMesh& mesh, int levels, const SubdivisionOptions& options = {},
-              const std::function<void(int)>& progress = {});
-  ~MeshRefiner();
-  MeshRefiner(MeshRefiner&&) noexcept;
-  MeshRefiner& operator=(MeshRefiner&&) noexcept;
+  Refiner(const Scheme<double>& scheme, const ControlMesh& mesh, int levels, const SubdivisionOptions& options = {},
+          const std::function<void(int)>& progress = {});
+  /// The same by the mesh's own rules.
+  Refiner(const ControlMesh& mesh, const AnyScheme& scheme, int levels)
+      : Refiner(*scheme.for_mesh(mesh), mesh, levels) {}
+  ~Refiner();
+  Refiner(Refiner&&) noexcept;
+  Refiner& operator=(Refiner&&) noexcept;
 
   /// Faces and tags of the last level, without positions.
   const ControlMesh& mesh() const { return mesh_; }

@@ -8,13 +8,14 @@
 #include <string>
 
 #include "sublimit/base/error.h"
+#include "sublimit/base/format_number.h"
 #include "sublimit/base/parallel_for.h"
 #include "sublimit/core/finite_points.h"
 #include "sublimit/limit/limit_cells.h"
 #include "sublimit/search/box_tree.h"
 #include "sublimit/search/distance_bound.h"
 #include "sublimit/search/foot_point.h"
-#include "sublimit/base/format_number.h"
+#include "sublimit/search/searched_surface.h"
 #include "sublimit/search/winding.h"
 
 namespace sublimit {
@@ -175,13 +176,16 @@ void check(const SearchedSurface& surface, const Points& queries, const ClosestP
 
 }  // namespace
 
-ClosestPoints closest_points(const LimitSurface& surface, const Points& control, const Points& queries,
-                             const ClosestPointOptions& options) {
-  return closest_points(SearchedLimit(surface, control), queries, options);
+ClosestPoints closest(const LimitSurface& surface, const Points& queries, const ClosestPointOptions& options) {
+  return closest(SearchedLimit(surface), queries, options);
 }
 
-ClosestPoints closest_points(const SearchedSurface& surface, const Points& queries,
-                             const ClosestPointOptions& options) {
+ClosestPoints closest(const LimitMap& surface, const Points& control, const Points& queries,
+                      const ClosestPointOptions& options) {
+  return closest(SearchedLimit(surface, control), queries, options);
+}
+
+ClosestPoints closest(const SearchedSurface& surface, const Points& queries, const ClosestPointOptions& options) {
   check(surface, queries, options);
   const std::vector<LimitCell> cells = surface.cells();
   if (cells.empty()) throw InvalidMesh("there is no surface to project on: no faces, or only holes");

@@ -21,9 +21,10 @@
 #include <vector>
 
 #include "sublimit/limit/limit_surface.h"
-#include "sublimit/search/searched_surface.h"
 
 namespace sublimit {
+
+class SearchedSurface;
 
 struct [[nodiscard]] ClosestPoints {
   /// Rows of query i are [first[i], first[i + 1]), the nearest first: one each, unless `count` or `radius` was given.
@@ -57,10 +58,10 @@ struct ClosestPointOptions {
 ///                              guesses on no face; a count below 1, a radius below 0
 /// @throws InvalidMesh          no face that is not a hole
 /// @throws UnsupportedTopology  signed distances from a surface that is not closed: says where
-ClosestPoints closest_points(const SearchedSurface& surface, const Points& queries,
-                             const ClosestPointOptions& options = {});
-/// @param control  points of the surface's level, #V x 3
-ClosestPoints closest_points(const LimitSurface& surface, const Points& control, const Points& queries,
-                             const ClosestPointOptions& options = {});
+ClosestPoints closest(const SearchedSurface& surface, const Points& queries, const ClosestPointOptions& options = {});
+ClosestPoints closest(const LimitSurface& surface, const Points& queries, const ClosestPointOptions& options = {});
+/// @param control  points of the map's level, #V x 3
+ClosestPoints closest(const LimitMap& surface, const Points& control, const Points& queries,
+                      const ClosestPointOptions& options = {});
 
 }  // namespace sublimit

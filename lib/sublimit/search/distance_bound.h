@@ -10,6 +10,7 @@
 #include <optional>
 #include <span>
 
+#include "sublimit/search/searched_surface.h"
 #include "sublimit/search/surface_parts.h"
 
 namespace sublimit {

@@ -10,11 +10,12 @@
 #include <utility>
 
 #include "sublimit/base/error.h"
+#include "sublimit/base/format_number.h"
 #include "sublimit/base/parallel_for.h"
 #include "sublimit/core/finite_points.h"
 #include "sublimit/search/closest_point.h"
+#include "sublimit/search/searched_surface.h"
 #include "sublimit/search/surface_parts.h"
-#include "sublimit/base/format_number.h"
 #include "sublimit/search/tracer.h"
 
 namespace sublimit {
@@ -37,7 +38,7 @@ void place_on_rays(const SearchedSurface& surface, const std::vector<Ray>& rays,
       if (!((samples.position.row(k) - on_rays.row(k)).norm() <= allowed)) off.push_back(k);
     }
   if (!off.empty()) {
-    const ClosestPoints found = closest_points(surface, on_rays(off, Eigen::all), {.prove = false});
+    const ClosestPoints found = closest(surface, on_rays(off, Eigen::all), {.prove = false});
     for (size_t m = 0; m < off.size(); ++m) hits.places[size_t(off[m])] = found.places[m];
     surface.samples().evaluate(hits.places, 1, true, samples);
   }
@@ -99,7 +100,11 @@ const char* RayHits::word(std::int64_t hit) const {
   return kind == HitKind::crossing ? name(status[size_t(hit)]) : name(kind);
 }
 
-RayHits intersect(const LimitSurface& surface, const Points& points, const std::vector<Ray>& rays,
+RayHits intersect(const LimitSurface& surface, const std::vector<Ray>& rays, const RayOptions& options) {
+  return intersect(SearchedLimit(surface), rays, options);
+}
+
+RayHits intersect(const LimitMap& surface, const Points& points, const std::vector<Ray>& rays,
                   const RayOptions& options) {
   return intersect(SearchedLimit(surface, points), rays, options);
 }
@@ -140,9 +145,10 @@ struct RayTracer::Prepared {
   std::vector<std::int64_t> first;  // parts of address a are [first[a], first[a + 1])
   // What cuts parts is made once a thread.
   tbb::enumerable_thread_specific<Tracer> tracers{[this] { return Tracer(parts); }};
+  std::optional<LimitMap> map = {};  // whose types the parts refer to
 };
 
-RayTracer::RayTracer(const LimitSurface& surface, const Points& points) : RayTracer(SearchedLimit(surface, points)) {}
+RayTracer::RayTracer(const LimitSurface& surface) : RayTracer(SearchedLimit(surface)) { prepared_->map = surface.map(); }
 
 RayTracer::RayTracer(const SearchedSurface& surface) {
   check_has_parts(surface);

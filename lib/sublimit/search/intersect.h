@@ -19,9 +19,11 @@
 #include <optional>
 #include <vector>
 
-#include "sublimit/search/searched_surface.h"
+#include "sublimit/limit/limit_surface.h"
 
 namespace sublimit {
+
+class SearchedSurface;
 
 struct Ray {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero(), direction = Eigen::Vector3d::Zero();
@@ -70,9 +72,10 @@ struct RayOptions {
 ///                              to look at
 /// @throws UnsupportedTopology  a face that has no parts (`SearchedSurface::without_parts`)
 RayHits intersect(const SearchedSurface& surface, const std::vector<Ray>& rays, const RayOptions& options = {});
-/// @param points  of the surface's level, #V x 3
+RayHits intersect(const LimitSurface& surface, const std::vector<Ray>& rays, const RayOptions& options = {});
+/// @param points  of the map's level, #V x 3
 /// @throws InvalidParameter  points that do not fit
-RayHits intersect(const LimitSurface& surface, const Points& points, const std::vector<Ray>& rays,
+RayHits intersect(const LimitMap& surface, const Points& points, const std::vector<Ray>& rays,
                   const RayOptions& options = {});
 
 struct RayHit {
@@ -88,11 +91,10 @@ class RayTracer {
   /// @param surface  which may go; what a `SearchedLimit` is of has to stay
   /// @throws UnsupportedTopology  as `intersect`
   explicit RayTracer(const SearchedSurface& surface);
-  /// @param surface  which must stay
-  /// @param points   of its level, #V x 3
+  explicit RayTracer(const LimitSurface& surface);
+  /// @param points  of the map's level, #V x 3
   /// @throws InvalidParameter  points that do not fit
-  RayTracer(const LimitSurface& surface, const Points& points);
-  RayTracer(const LimitSurface&&, const Points&) = delete;
+  RayTracer(const LimitMap& map, const Points& points) : RayTracer(LimitSurface(map, points)) {}
   RayTracer(RayTracer&&) noexcept;
   RayTracer& operator=(RayTracer&&) noexcept;
   ~RayTracer();

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sublimit/search/searched_surface.h"
 
+#include <utility>
+
 #include "sublimit/core/finite_points.h"
 #include "sublimit/limit/closed_surface.h"
 
@@ -13,19 +15,17 @@ int levels_of(const AddressPieces& pieces, Index addresses) {
   return pieces.has_no_polynomials() ? 1 : addresses < many ? 5 : 2;
 }
 
-const Points& measurable(const Points& points) {
-  check_measurable_control(points);
-  return points;
+LimitSurface measurable(LimitSurface surface) {
+  check_measurable_control(surface.points());
+  return surface;
 }
 
 }  // namespace
 
-SearchedLimit::SearchedLimit(const LimitSurface& surface, const Points& points)
-    : surface_(surface),
-      points_(measurable(points)),
-      pieces_(surface, points_),
-      samples_(surface, points_),
-      levels_(levels_of(pieces_, surface.addresses().size())) {}
+SearchedLimit::SearchedLimit(LimitSurface surface)
+    : surface_(measurable(std::move(surface))),
+      pieces_(surface_.map(), surface_.points()),
+      levels_(levels_of(pieces_, surface_.faces().size)) {}
 
 void SearchedLimit::find_parts(Index face, PieceParts& cutter, std::vector<PiecePart>& out) const {
   pieces_.visit(face, [&](const PieceType& type, const Points& local, const CellCorners& corners) {
@@ -33,6 +33,6 @@ void SearchedLimit::find_parts(Index face, PieceParts& cutter, std::vector<Piece
   });
 }
 
-std::string SearchedLimit::why_not_closed() const { return sublimit::why_not_closed(surface_); }
+std::string SearchedLimit::why_not_closed() const { return sublimit::why_not_closed(surface_.map()); }
 
 }  // namespace sublimit

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 // What a search in space asks of a surface with its points, whatever it is: limits of schemes (`SearchedLimit`),
-// patches
-// (`SearchedPatches`).
+// patches (`SearchedPatches`).
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "sublimit/limit/limit_cells.h"
+#include "sublimit/limit/limit_surface.h"
 #include "sublimit/limit/linear_source.h"
 #include "sublimit/limit/piece_parts.h"
 
@@ -38,22 +38,20 @@ class SearchedSurface {
 
 class SearchedLimit : public SearchedSurface {
  public:
-  /// @param surface  which must stay
-  /// @param points   of its level, #V x 3
-  /// @throws InvalidParameter  points that do not fit
-  SearchedLimit(const LimitSurface& surface, const Points& points);
-  SearchedLimit(const LimitSurface&&, const Points&) = delete;
+  /// @throws InvalidParameter  points beyond 1e150
+  explicit SearchedLimit(LimitSurface surface);
+  /// @param points  of the map's level, #V x 3
+  /// @throws InvalidParameter  points that do not fit, or beyond 1e150
+  SearchedLimit(const LimitMap& map, const Points& points) : SearchedLimit(LimitSurface(map, points)) {}
   FaceCount faces() const override { return surface_.faces(); }
-  const BoundSource& samples() const override { return samples_; }
-  std::vector<LimitCell> cells() const override { return limit_cells(surface_, points_); }
+  const BoundSource& samples() const override { return surface_; }
+  std::vector<LimitCell> cells() const override { return limit_cells(surface_.map(), surface_.points()); }
   void find_parts(Index face, PieceParts& cutter, std::vector<PiecePart>& out) const override;
   std::string why_not_closed() const override;
 
  private:
-  const LimitSurface& surface_;
-  Points points_;
+  LimitSurface surface_;
   AddressPieces pieces_;
-  BoundLimitSurface samples_;
   int levels_;  // that are looked into at once
 };
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "sublimit/base/parallel_for.h"
+#include "sublimit/search/searched_surface.h"
 #include "sublimit/search/seen_limit.h"
 
 namespace sublimit {

@@ -9,6 +9,7 @@
 #include "sublimit/base/error.h"
 #include "sublimit/core/finite_points.h"
 #include "sublimit/search/intersect.h"
+#include "sublimit/search/searched_surface.h"
 
 namespace sublimit {
 namespace {

@@ -47,7 +47,7 @@ class Halves {
 
 }  // namespace
 
-BezierCells bezier_cells(const LimitSurface& surface, const Points& control, double chord, std::int64_t max_cells) {
+BezierCells bezier_cells(const LimitMap& surface, const Points& control, double chord, std::int64_t max_cells) {
   if (!(chord > 0) || !std::isfinite(chord))
     throw InvalidParameter("the chord is " + format_number(chord) + "; a distance above 0 is right");
   const bool triangle = surface.faces().triangles;

@@ -26,7 +26,7 @@ struct BezierCells {
 /// @param max_cells  about
 /// @throws InvalidParameter, UnsupportedTopology, ResourceError  as `flat_cells`
 /// @note  Cells are not cut for the sake of their neighbours: a bilinear one meets a curved one within the chord.
-BezierCells bezier_cells(const LimitSurface& surface, const Points& control, double chord,
+BezierCells bezier_cells(const LimitMap& surface, const Points& control, double chord,
                          std::int64_t max_cells = std::int64_t{1} << 23);
 
 }  // namespace sublimit

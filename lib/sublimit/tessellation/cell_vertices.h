@@ -10,8 +10,8 @@ namespace sublimit {
 class CellVertices {
  public:
   /// @param parts  which must stay
-  explicit CellVertices(const LimitSurface::Parts& parts) : numbers_(parts) {}
-  explicit CellVertices(const LimitSurface::Parts&&) = delete;
+  explicit CellVertices(const LimitMap::Parts& parts) : numbers_(parts) {}
+  explicit CellVertices(const LimitMap::Parts&&) = delete;
 
   Index add(Index address, const CellCorner& c) {
     const Index number = numbers_.add(address, c);

@@ -6,7 +6,7 @@
 
 namespace sublimit {
 
-CornerValues corner_values(const Tessellation& made, const LimitSurface& channel) {
+CornerValues corner_values(const Tessellation& made, const LimitMap& channel) {
   CellVertices values(LimitPatches::parts_of(channel));
   CornerValues found;
   found.indices.reserve(3 * made.triangles.size());

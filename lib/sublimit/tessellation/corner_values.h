@@ -15,6 +15,6 @@ struct CornerValues {
 };
 
 /// @param channel  a surface of the same faces
-CornerValues corner_values(const Tessellation& made, const LimitSurface& channel);
+CornerValues corner_values(const Tessellation& made, const LimitMap& channel);
 
 }  // namespace sublimit

@@ -17,8 +17,8 @@
 #include "sublimit/base/format_number.h"
 #include "sublimit/base/parallel_for.h"
 #include "sublimit/core/finite_points.h"
+#include "sublimit/limit/limit_map_parts.h"
 #include "sublimit/limit/limit_patches.h"
-#include "sublimit/limit/limit_surface_parts.h"
 #include "sublimit/limit/net_derivatives.h"
 #include "sublimit/tessellation/edge_rates.h"
 
@@ -83,7 +83,7 @@ Eigen::Matrix3d affine_map(const std::vector<PiecePart>& parts, const CellCorner
 class LongestSides {
  public:
   /// @param rates  for each edge, or none
-  LongestSides(const LimitSurface::Parts& parts, std::span<const Index> rates) : parts_(parts), rates_(rates) {}
+  LongestSides(const LimitMap::Parts& parts, std::span<const Index> rates) : parts_(parts), rates_(rates) {}
   void go_to(Index address) {
     if (rates_.empty()) return;
     const std::array<SideEdge, 4> edges = side_edges(parts_.level.topology(), parts_.addresses, address);
@@ -115,7 +115,7 @@ class LongestSides {
     return side == 2 && !triangle ? c.j == cell_steps : c.i == 0;
   }
 
-  const LimitSurface::Parts& parts_;
+  const LimitMap::Parts& parts_;
   std::span<const Index> rates_;
   std::array<std::int32_t, 4> longest_{};
 };
@@ -123,7 +123,7 @@ class LongestSides {
 class Cutter {
  public:
   /// @param count  of triangles that all cells become at least
-  Cutter(const FlatCellOptions& options, const LimitSurface::Parts& parts, std::atomic<std::int64_t>& count,
+  Cutter(const FlatCellOptions& options, const LimitMap::Parts& parts, std::atomic<std::int64_t>& count,
          std::vector<FlatCell>& out)
       : options_(options),
         triangles_a_cell_(parts.addresses.triangles() ? 1 : 2),
@@ -245,10 +245,10 @@ void check_above_rounding(const Points& points, const FlatCellOptions& options) 
 
 }  // namespace
 
-std::vector<FlatCell> flat_cells(const LimitSurface& surface, const Points& points, const FlatCellOptions& options) {
+std::vector<FlatCell> flat_cells(const LimitMap& surface, const Points& points, const FlatCellOptions& options) {
   check_measurable_control(points);
   check_above_rounding(points, options);
-  const LimitSurface::Parts& parts = LimitPatches::parts_of(surface);
+  const LimitMap::Parts& parts = LimitPatches::parts_of(surface);
   if (!options.rates.empty()) check_edge_rates(parts.level.topology(), options.rates);
   // Differences alone count: about one of the points they keep their digits far from the origin.
   const AddressPieces pieces(surface, points.rows() > 0 ? Points(points.rowwise() - points.row(0)) : points);

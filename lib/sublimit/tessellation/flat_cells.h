@@ -45,6 +45,6 @@ struct FlatCellOptions {
 /// hulls are
 ///                              estimates; pieces whose children are no quarters
 /// @throws ResourceError        more triangles than allowed
-std::vector<FlatCell> flat_cells(const LimitSurface& surface, const Points& points, const FlatCellOptions& options);
+std::vector<FlatCell> flat_cells(const LimitMap& surface, const Points& points, const FlatCellOptions& options);
 
 }  // namespace sublimit

@@ -49,7 +49,7 @@ using Chain = std::vector<ChainPoint>;
 
 class RatedFaces {
  public:
-  RatedFaces(const LimitSurface::Parts& parts, std::span<const Index> rates)
+  RatedFaces(const LimitMap::Parts& parts, std::span<const Index> rates)
       : t_(parts.level.topology()), addresses_(parts.addresses), rates_(rates), triangle_(addresses_.triangles()) {}
 
   Sides sides(Index address) const {
@@ -175,9 +175,9 @@ class FaceGrid {
 
 }  // namespace
 
-Tessellation tessellate_by_rates(const LimitSurface& surface, const Points& control, std::span<const Index> rates,
+Tessellation tessellate_by_rates(const LimitMap& surface, const Points& control, std::span<const Index> rates,
                                  std::int64_t max_triangles) {
-  const LimitSurface::Parts& parts = LimitPatches::parts_of(surface);
+  const LimitMap::Parts& parts = LimitPatches::parts_of(surface);
   check_edge_rates(parts.level.topology(), rates);
   const AddressPieces pieces(surface, control);
   const RatedFaces faces(parts, rates);

@@ -14,7 +14,7 @@ namespace sublimit {
 /// @return  triangles of all but holes; `bound` is 0 and means nothing: no distance is proved. Every scheme is taken
 /// @throws InvalidParameter  another number of rates, one below 1 or above 2^22
 /// @throws ResourceError     more triangles than allowed: before they are made
-Tessellation tessellate_by_rates(const LimitSurface& surface, const Points& control, std::span<const Index> rates,
+Tessellation tessellate_by_rates(const LimitMap& surface, const Points& control, std::span<const Index> rates,
                                  std::int64_t max_triangles = TessellationOptions{}.max_triangles);
 
 }  // namespace sublimit

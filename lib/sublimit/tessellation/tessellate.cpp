@@ -7,10 +7,10 @@
 #include <utility>
 
 #include "sublimit/base/error.h"
+#include "sublimit/base/format_number.h"
 #include "sublimit/limit/limit_patches.h"
 #include "sublimit/tessellation/cell_polygon.h"
 #include "sublimit/tessellation/cell_vertices.h"
-#include "sublimit/base/format_number.h"
 #include "sublimit/tessellation/flat_cells.h"
 
 namespace sublimit {
@@ -40,9 +40,9 @@ void check(const TessellationOptions& options) {
 
 }  // namespace
 
-Tessellation tessellate(const LimitSurface& surface, const Points& control, const TessellationOptions& options) {
+Tessellation tessellate(const LimitMap& surface, const Points& control, const TessellationOptions& options) {
   check(options);
-  const LimitSurface::Parts& parts = LimitPatches::parts_of(surface);
+  const LimitMap::Parts& parts = LimitPatches::parts_of(surface);
   const size_t corners = parts.addresses.triangles() ? 3 : 4;
   const std::vector<FlatCell> cells = flat_cells(
       surface, control,

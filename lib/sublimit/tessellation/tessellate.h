@@ -38,11 +38,14 @@ struct [[nodiscard]] Tessellation {
 };
 
 /// Triangles of all of the surface but its holes. Equal input, equal result, whatever the number of threads.
-/// @param control  points of the surface's level, #V x 3
+/// @param control  points of the map's level, #V x 3
 /// @throws InvalidParameter     points that do not fit; a chord that is not positive, an angle below 0;
 ///                              rates as of `tessellate_by_rates`
 /// @throws UnsupportedTopology  as `flat_cells`
 /// @throws ResourceError        more triangles than allowed: before most of them are made
-Tessellation tessellate(const LimitSurface& surface, const Points& control, const TessellationOptions& options);
+Tessellation tessellate(const LimitMap& map, const Points& control, const TessellationOptions& options);
+inline Tessellation tessellate(const LimitSurface& surface, const TessellationOptions& options) {
+  return tessellate(surface.map(), surface.points(), options);
+}
 
 }  // namespace sublimit

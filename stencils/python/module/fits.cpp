@@ -10,11 +10,8 @@
 #include "arrays.h"
 #include "calls.h"
 #include "module.h"
-#include "sublimit/fit/cloud_fit.h"
-#include "sublimit/fit/interpolate.h"
-#include "sublimit/fit/scattered_fit.h"
 #include "sublimit/jobs/mesh_job.h"
-#include "sublimit/scheme/refined_mesh.h"
+#include "sublimit/sublimit.h"
 
 namespace sublimit::python {
 namespace {
@@ -39,25 +36,19 @@ py::dict fit_vertices(const ControlMesh& mesh, const MeshRequest& request, const
     if (!normals || std::isnan(normals->at(i, 0))) continue;
     target.normal = Eigen::Vector3d(normals->at(i, 0), normals->at(i, 1), normals->at(i, 2));
   }
-  std::optional<Interpolation> found;
-  auto fitted = std::make_shared<ControlMesh>(without_gil([&] {
+  Fit found = without_gil([&] {
     const Threads held(threads);
     const MeshJob job = mesh_job(request, mesh, "mesh");
-    found = interpolate(*job.scheme, job.mesh, targets,
-                        {.least_refinements = refinements.first,
-                         .most_refinements = refinements.second,
-                         .fairness = fairness,
-                         .rules = job.rules,
-                         .conditioning = false});
-    return level_mesh(found->level, std::move(found->points), job.mesh, job.rules);
-  }));
+    return fit(job.mesh, *job.scheme, targets,
+               {.fairness = fairness, .least_refinements = refinements.first, .most_refinements = refinements.second});
+  });
   py::dict all;
-  all["mesh"] = fitted;
-  all["solved"] = found->solved();
-  all["why_not"] = found->solved() ? "" : why_unsolved(found->attempts.back());
-  all["refinements"] = found->attempts.back().refinements;
-  all["position_error"] = column(found->position_error);
-  all["normal_error"] = column(found->normal_error);
+  all["mesh"] = std::make_shared<ControlMesh>(std::move(found.mesh));
+  all["solved"] = found.solved;
+  all["why_not"] = found.why_not;
+  all["refinements"] = found.refinements;
+  all["position_error"] = column(found.position_error);
+  all["normal_error"] = column(found.normal_error);
   return all;
 }
 
@@ -73,7 +64,7 @@ py::dict fit_to_places(const ControlMesh& mesh, const MeshRequest& request, cons
   ScatteredFit found = without_gil([&] {
     const Threads held(threads);
     const MeshJob job = mesh_job(request, mesh, "mesh");
-    return fit_places(LimitSurface(*job.scheme, job.mesh, job.rules), targets, job.mesh.positions, options);
+    return fit_places(LimitSurface(job.mesh, *job.scheme), targets, options);
   });
   py::dict all;
   all["points"] = array(std::move(found.points));
@@ -93,7 +84,7 @@ py::dict fit_to_cloud(const ControlMesh& mesh, const MeshRequest& request, const
   CloudFit found = without_gil([&] {
     const Threads held(threads);
     const MeshJob job = mesh_job(request, mesh, "mesh");
-    return fit_cloud(LimitSurface(*job.scheme, job.mesh, job.rules), near, job.mesh.positions, options);
+    return fit_cloud(LimitSurface(job.mesh, *job.scheme), near, options);
   });
   std::vector<double> rms;
   for (const CloudIteration& one : found.iterations) rms.push_back(one.rms);

@@ -8,9 +8,8 @@
 #include "calls.h"
 #include "module.h"
 #include "sublimit/base/error.h"
-#include "sublimit/core/sparse_product.h"
 #include "sublimit/jobs/refined_job.h"
-#include "sublimit/limit/limit_points.h"
+#include "sublimit/limit/limit.h"
 
 namespace sublimit::python {
 namespace {
@@ -29,57 +28,27 @@ SparseMatrix matrix(const ControlMesh& mesh, const MeshRequest& request, int lev
   return refinement_matrix(sublimit::refine(*job.scheme, job.mesh, levels, job.rules));
 }
 
-/// Limits of the vertices of a level, and their rows over the control points.
-struct VertexLimits {
-  Points points, normals, tangent1, tangent2;
-  SparseMatrix position_rows, tangent1_rows, tangent2_rows;
-  std::vector<Index> side_vertex, corner_side;
-  std::vector<std::int8_t> status;
-  std::vector<Index> sizes, corners;
-};
-
-std::unique_ptr<VertexLimits> limit(const ControlMesh& mesh, const MeshRequest& request, int level, int threads) {
+Limit limit(const ControlMesh& mesh, const MeshRequest& request, int level, int threads) {
   const Threads held(threads);
   const MeshJob job = mesh_job(request, mesh, "mesh");
-  std::vector<Level> levels = sublimit::refine(*job.scheme, job.mesh, level, job.rules);
-  LimitTypes types(*job.scheme);
-  LimitMatrices rows = limit_matrices(levels, types);
-  const SparseMatrix P = refinement_matrix(levels);
-  const Topology& topology = levels.back().topology();
-  const Points at_level = apply(P, job.mesh.positions);
-  LimitPoints limits = limit_points(rows, topology, at_level);
-  auto all = std::make_unique<VertexLimits>();
-  all->tangent1 = apply(rows.tangent1, at_level);
-  all->tangent2 = apply(rows.tangent2, at_level);
-  product(rows.position, P).swap(all->position_rows);
-  product(rows.tangent1, P).swap(all->tangent1_rows);
-  product(rows.tangent2, P).swap(all->tangent2_rows);
-  all->points.swap(limits.position);
-  all->normals.swap(limits.normal);
-  all->side_vertex.swap(rows.side_vertex);
-  all->corner_side.swap(rows.corner_side);
-  for (const LimitStatus status : limits.status) all->status.push_back(std::int8_t(status));
-  for (Index f = 0; f < topology.num_faces(); ++f) {
-    all->sizes.push_back(topology.size(Face{f}));
-    const auto corners = topology.vertices(Face{f});
-    all->corners.insert(all->corners.end(), corners.begin(), corners.end());
-  }
-  return all;
+  return sublimit::limit(job.mesh, *job.scheme, {.level = level});
 }
 
-py::dict arrays(std::unique_ptr<VertexLimits> limits) {
+py::dict arrays(Limit limit) {
+  std::vector<std::int8_t> status;
+  for (const LimitStatus one : limit.status) status.push_back(std::int8_t(one));
   py::dict all;
-  all["points"] = array(std::move(limits->points));
-  all["normals"] = array(std::move(limits->normals));
-  all["tangents"] = py::make_tuple(array(std::move(limits->tangent1)), array(std::move(limits->tangent2)));
-  all["matrix"] = csr(std::move(limits->position_rows));
+  all["points"] = array(std::move(limit.points));
+  all["normals"] = array(std::move(limit.normals));
+  all["tangents"] = py::make_tuple(array(std::move(limit.tangent1)), array(std::move(limit.tangent2)));
+  all["matrix"] = csr(std::move(limit.matrix));
   all["tangent_matrices"] =
-      py::make_tuple(csr(std::move(limits->tangent1_rows)), csr(std::move(limits->tangent2_rows)));
-  all["side_vertex"] = array(std::move(limits->side_vertex));
-  all["corner_side"] = array(std::move(limits->corner_side));
-  all["status"] = array(std::move(limits->status));
-  all["sizes"] = array(std::move(limits->sizes));
-  all["corners"] = array(std::move(limits->corners));
+      py::make_tuple(csr(std::move(limit.tangent1_matrix)), csr(std::move(limit.tangent2_matrix)));
+  all["side_vertex"] = array(std::move(limit.side_vertex));
+  all["corner_side"] = array(std::move(limit.corner_side));
+  all["status"] = array(std::move(status));
+  all["sizes"] = array(std::move(limit.face_sizes));
+  all["corners"] = array(std::move(limit.face_vertices));
   return all;
 }
 

@@ -15,7 +15,8 @@
 #include "sublimit/files/sidecar.h"
 #include "sublimit/io/read_mesh.h"
 #include "sublimit/io/write_mesh.h"
-#include "sublimit/jobs/mesh_info.h"
+#include "sublimit/jobs/mesh_info_json.h"
+#include "sublimit/jobs/mesh_job.h"
 #include "sublimit/mesh/sharpness.h"
 
 namespace sublimit::python {

@@ -12,6 +12,7 @@
 #include "sublimit/recipes/recipe.h"
 #include "sublimit/recipes/recipe_sources.h"
 #include "sublimit/search/searched_patches.h"
+#include "sublimit/search/searched_surface.h"
 
 namespace sublimit::python {
 
@@ -38,22 +39,19 @@ class Source {
 class Surface : public Source {
  public:
   Surface(const ControlMesh& mesh, const MeshRequest& request)
-      : job_(mesh_job(request, mesh, "mesh")),
-        surface_(*job_.scheme, job_.mesh, job_.rules),
-        bound_(surface_, job_.mesh.positions) {}
+      : surface_([&] {
+          const MeshJob job = mesh_job(request, mesh, "mesh");
+          return LimitSurface(job.mesh, *job.scheme);
+        }()) {}
 
-  const LimitSurface& surface() const override { return surface_; }
-  const Points& points() const override { return job_.mesh.positions; }
-  std::unique_ptr<SearchedSurface> searched() const override {
-    return std::make_unique<SearchedLimit>(surface_, points());
-  }
+  const LimitMap& surface() const override { return surface_.map(); }
+  const Points& points() const override { return surface_.points(); }
+  std::unique_ptr<SearchedSurface> searched() const override { return std::make_unique<SearchedLimit>(surface_); }
 
  private:
-  const BoundSource& bound() const override { return bound_; }
+  const BoundSource& bound() const override { return surface_; }
 
-  MeshJob job_;
   LimitSurface surface_;
-  BoundLimitSurface bound_;
 };
 
 /// Classical surfaces of a file. Columns are points, or homogeneous.

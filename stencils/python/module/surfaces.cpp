@@ -17,6 +17,8 @@
 #include "sublimit/base/format_number.h"
 #include "sublimit/base/parallel_for.h"
 #include "sublimit/core/uninitialized.h"
+#include "sublimit/limit/curvature.h"
+#include "sublimit/limit/place_stencils.h"
 #include "sublimit/search/closest_point.h"
 #include "sublimit/search/intersect.h"
 #include "sublimit/tessellation/tessellate.h"
@@ -96,47 +98,11 @@ py::dict evaluate(const Source& surface, const Array<Index>& faces, const Array<
   }));
 }
 
-/// A matrix for the position and one for each derivative; rows of what does not exist are empty.
-struct Stencils {
-  std::vector<SparseMatrix> matrices;
-  std::vector<LimitStatus> status;
-};
-
-Stencils stencils_at(const LinearSource& surface, const Places& at, int order) {
-  std::vector<LimitStencil> rows(at.size());
-  parallel_for_blocks(
-      std::ssize(rows),
-      [&](std::int64_t, std::int64_t begin, std::int64_t end) {
-        for (std::int64_t i = begin; i < end; ++i) rows[size_t(i)] = surface.stencil(at[size_t(i)], order);
-      },
-      256);
-  double entries = 0;
-  for (const LimitStencil& row : rows) entries += double(row.vertices.size());
-  if (entries > std::numeric_limits<Index>::max())
-    throw ResourceError("stencils of " + std::to_string(at.size()) +
-                        " places have more weights than 32-bit indices count; "
-                        "take fewer places at a time");
-  Stencils all;
-  for (const LimitStencil& row : rows) all.status.push_back(row.status);
-  for (Eigen::Index q = 0; q < (order == 0 ? 1 : order == 1 ? 3 : 6); ++q) {
-    SparseMatrix& matrix = all.matrices.emplace_back(Index(at.size()), surface.num_points());
-    matrix.reserve(Eigen::Index(entries));
-    for (size_t i = 0; i < rows.size(); ++i) {
-      matrix.startVec(Eigen::Index(i));
-      if (q >= rows[i].weights.rows()) continue;
-      for (size_t k = 0; k < rows[i].vertices.size(); ++k)
-        matrix.insertBack(Eigen::Index(i), rows[i].vertices[k]) = rows[i].weights(q, Eigen::Index(k));
-    }
-    matrix.finalize();
-  }
-  return all;
-}
-
 py::tuple stencils(const Source& surface, const Array<Index>& faces, const Array<double>& u, const Array<double>& v,
                    int order, int threads) {
-  Stencils found = without_gil([&] {
+  PlaceStencils found = without_gil([&] {
     const Threads held(threads);
-    return stencils_at(surface.surface(), Places(surface.surface().faces(), faces, u, v), order);
+    return place_stencils(surface.surface(), Places(surface.surface().faces(), faces, u, v).all(), order);
   });
   py::list matrices;
   for (SparseMatrix& matrix : found.matrices) matrices.append(csr(std::move(matrix)));
@@ -166,7 +132,7 @@ py::dict closest(const Source& surface, const Array<double>& queries, int count,
   const Points from = points(queries);
   ClosestPoints found = without_gil([&] {
     const Threads held(threads);
-    return closest_points(*surface.searched(), from, {.count = count, .radius = radius, .is_signed = is_signed});
+    return sublimit::closest(*surface.searched(), from, {.count = count, .radius = radius, .is_signed = is_signed});
   });
   py::dict all;
   add_places(all, found.places);

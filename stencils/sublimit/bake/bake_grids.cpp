@@ -7,8 +7,8 @@
 #include "sublimit/bake/bake_rows.h"
 #include "sublimit/bake/pattern_counts.h"
 #include "sublimit/base/memory.h"
+#include "sublimit/limit/limit_map.h"
 #include "sublimit/patterns/point_status.h"
-#include "sublimit/limit/limit_surface.h"
 
 namespace sublimit {
 

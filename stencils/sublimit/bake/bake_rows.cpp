@@ -6,8 +6,8 @@
 #include "sublimit/base/error.h"
 #include "sublimit/base/memory.h"
 #include "sublimit/base/parallel_for.h"
+#include "sublimit/limit/limit_map.h"
 #include "sublimit/limit/limit_points.h"
-#include "sublimit/limit/limit_surface.h"
 #include "sublimit/patterns/point_status.h"
 
 namespace sublimit {
@@ -170,7 +170,7 @@ Baked bake_by_rows(Patterns& patterns, const Level& control, const BakeRequest& 
     }
     baked.table.faces = face_list(levels.back());
   } else {
-    const LimitSurface surface(scheme, control, patterns.types());
+    const LimitMap surface(scheme, control, patterns.types());
     if (request.rows == TableRows::grid) {
       add_places(surface, surface.grid(request.grid), request.derivatives, baked, arrays);
       arrays.copies = grid_copies(control.topology(), surface.addresses(), request.grid, scheme.is_dual());

@@ -8,7 +8,7 @@
 
 #include "sublimit/base/error.h"
 #include "sublimit/files/rule_words.h"
-#include "sublimit/jobs/mesh_info.h"
+#include "sublimit/jobs/mesh_info_json.h"
 
 namespace sublimit {
 namespace {

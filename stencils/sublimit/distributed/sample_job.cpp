@@ -50,7 +50,7 @@ SampleSource places_of(const SampleRequest& request, FaceCount faces, SampleRead
   };
 }
 
-/// Pieces that the limit of the whole has (`LimitSurface::Parts::num_pieces`): a few samples a piece pay for its patch.
+/// Pieces that the limit of the whole has (`LimitMap::Parts::num_pieces`): a few samples a piece pay for its patch.
 std::int64_t num_pieces(const Ranks& ranks, const SpreadJob& job, std::int64_t num_addresses) {
   return job.scheme.is_dual() ? ranks.sum(std::ssize(job.mesh.face_vertices)) : num_addresses;
 }
@@ -89,7 +89,7 @@ class OwnSurface {
  private:
   const Points& points_;
   SampleColumns columns_;
-  std::optional<LimitSurface> surface_;
+  std::optional<LimitMap> surface_;
   std::unique_ptr<BoundSource> bound_;
   LimitSamples found_;
 };

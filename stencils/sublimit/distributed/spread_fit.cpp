@@ -16,7 +16,7 @@
 #include "sublimit/files/npy.h"
 #include "sublimit/fit/scattered_fit.h"
 #include "sublimit/io/file_extension.h"
-#include "sublimit/limit/limit_surface.h"
+#include "sublimit/limit/limit_map.h"
 #include "sublimit/patterns/patterns.h"
 
 namespace sublimit {
@@ -34,7 +34,7 @@ SparseMatrix energy_of_owned(const SpreadJob& job, const MeshPart& part, const F
   mesh.holes.clear();
   for (size_t f = 0; f < hole.size(); ++f)
     if (hole[f]) mesh.holes.push_back(static_cast<Index>(f));
-  return fairness_energy(LimitSurface(job.scheme, mesh, job.rules), fairness);
+  return fairness_energy(LimitMap(job.scheme, mesh, job.rules), fairness);
 }
 
 /// What a rank has of the problem: rows of targets and energy of faces, over the control points of its part.
@@ -61,7 +61,7 @@ Terms own_terms(const SpreadJob& job, const MeshPart& part, const std::vector<Sa
   terms.H = SparseMatrix(n, n);
   if (part.faces.empty()) return terms;
   {
-    const LimitSurface surface(job.scheme, part.mesh, job.rules);
+    const LimitMap surface(job.scheme, part.mesh, job.rules);
     for (size_t i = 0; i < samples.size(); ++i)
       if (surface.level().holes[size_t(index(surface.addresses().place(samples[i].face).face))])
         throw FormatError(fmt::format("{}face {} is a hole, which is no part of the limit; leave this row out",

@@ -9,6 +9,7 @@
 #include "sublimit/base/format_number.h"
 #include "sublimit/base/row_writer.h"
 #include "sublimit/files/csv_fields.h"
+#include "sublimit/limit/curvature.h"
 
 namespace sublimit {
 namespace {

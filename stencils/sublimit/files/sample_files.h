@@ -18,7 +18,7 @@
 #include "sublimit/base/atomic_file.h"
 #include "sublimit/files/csv_rows.h"
 #include "sublimit/files/patch_places.h"
-#include "sublimit/limit/limit_surface.h"
+#include "sublimit/limit/limit_map.h"
 
 namespace sublimit {
 

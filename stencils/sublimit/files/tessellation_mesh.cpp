@@ -27,7 +27,7 @@ Sample place_of_corner(const Tessellation& made, Index corner) {
 
 }  // namespace
 
-MeshOutput tessellation_mesh(const Tessellation& made, const LimitSurface& surface, bool face_ids) {
+MeshOutput tessellation_mesh(const Tessellation& made, const LimitMap& surface, bool face_ids) {
   MeshOutput out;
   out.positions = made.points;
   out.face_sizes.assign(made.triangles.size(), 3);
@@ -38,7 +38,7 @@ MeshOutput tessellation_mesh(const Tessellation& made, const LimitSurface& surfa
   return out;
 }
 
-void add_normals(MeshOutput& out, const Tessellation& made, const LimitSurface& surface, const Points& control,
+void add_normals(MeshOutput& out, const Tessellation& made, const LimitMap& surface, const Points& control,
                  bool complete) {
   std::vector<Sample> at;
   at.reserve(3 * made.triangles.size());
@@ -67,7 +67,7 @@ void add_channel(MeshOutput& out, const Tessellation& made, const Scheme<double>
   if (values.cols() > 3) throw InvalidOption("a channel of more than 3 columns has no room as texture coordinates");
   Points three = Points::Zero(values.rows(), 3);  // as points of a surface
   three.leftCols(values.cols()) = values;
-  const LimitSurface surface(face_varying_scheme(scheme, interpolation), std::move(channel.level));
+  const LimitMap surface(face_varying_scheme(scheme, interpolation), std::move(channel.level));
   CornerValues corners = corner_values(made, surface);
   const Points limit = surface.evaluate(three, corners.places).position;
   out.face_varying.push_back({given.name, limit.leftCols(values.cols()), std::move(corners.indices)});

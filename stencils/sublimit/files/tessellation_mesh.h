@@ -11,11 +11,11 @@
 namespace sublimit {
 
 /// Points and triangles; vertex i is place i. `face_ids` are faces of the control mesh.
-MeshOutput tessellation_mesh(const Tessellation& made, const LimitSurface& surface, bool face_ids);
+MeshOutput tessellation_mesh(const Tessellation& made, const LimitMap& surface, bool face_ids);
 
 /// Limit normals of each face's own side at its corners.
 /// @param complete  corners that have none get that of their triangle
-void add_normals(MeshOutput& out, const Tessellation& made, const LimitSurface& surface, const Points& control,
+void add_normals(MeshOutput& out, const Tessellation& made, const LimitMap& surface, const Points& control,
                  bool complete);
 
 /// Places of the vertices of a mesh that was split: the tessellation's own, but on creases that of each side in its own

@@ -23,15 +23,15 @@ void tell(const FitSettings& settings, const char* what) {
   if (settings.progress) settings.progress(what);
 }
 
-void count(Fit& fit, const Scheme<double>& scheme) {
+void count(ReportedFit& fit, const Scheme<double>& scheme) {
   fit.report.output_vertices = fit.level.topology().num_vertices();
   fit.report.output_faces = fit.level.topology().num_faces();
   fit.report.refinements = fit.level.number;
   fit.report.keeps_vertices = fit.level.number == 0 || !scheme.is_dual();
 }
 
-Fit construct(const Scheme<double>& scheme, const ControlMesh& mesh, const FitTargets& targets,
-              const FitSettings& settings) {
+ReportedFit construct(const Scheme<double>& scheme, const ControlMesh& mesh, const FitTargets& targets,
+                      const FitSettings& settings) {
   if (!scheme.is_dual())
     throw InvalidOption(
         "--construct is for schemes that make faces of vertices (doo-sabin, mid-edge and their "
@@ -40,9 +40,9 @@ Fit construct(const Scheme<double>& scheme, const ControlMesh& mesh, const FitTa
   tell(settings, "laying polygons");
   PointNormalMesh made =
       point_normal_mesh(scheme, mesh, targets.vertices, {.size = settings.size, .rules = settings.rules});
-  Fit fit{.level = std::move(made.level),
-          .points = std::move(made.points),
-          .report = report_of("construction", scheme.name, mesh, targets)};
+  ReportedFit fit{.level = std::move(made.level),
+                  .points = std::move(made.points),
+                  .report = report_of("construction", scheme.name, mesh, targets)};
   fit.report.position_error = std::move(made.position_residual);
   if (targets.num_normals > 0) fit.report.normal_error = std::move(made.normal_residual);
   fit.report.carried_by = std::move(made.faces);
@@ -53,8 +53,8 @@ Fit construct(const Scheme<double>& scheme, const ControlMesh& mesh, const FitTa
   return fit;
 }
 
-Fit interpolated(const Scheme<double>& scheme, const ControlMesh& mesh, const FitTargets& targets,
-                 const FitSettings& settings) {
+ReportedFit interpolated(const Scheme<double>& scheme, const ControlMesh& mesh, const FitTargets& targets,
+                         const FitSettings& settings) {
   InterpolationOptions options{.fairness = settings.fairness,
                                .solver = solver_of(settings),
                                .rules = settings.rules,
@@ -70,9 +70,9 @@ Fit interpolated(const Scheme<double>& scheme, const ControlMesh& mesh, const Fi
   const InterpolationAttempt& last = found.attempts.back();
   if (!found.solved() && !settings.best_effort)
     throw InvalidMesh(why_unsolved(last) + "; --best-effort writes what comes nearest");
-  Fit fit{.level = std::move(found.level),
-          .points = std::move(found.points),
-          .report = report_of("interpolation", scheme.name, mesh, targets)};
+  ReportedFit fit{.level = std::move(found.level),
+                  .points = std::move(found.points),
+                  .report = report_of("interpolation", scheme.name, mesh, targets)};
   FitReport& report = fit.report;
   report.position_error = std::move(found.position_error);
   if (targets.num_normals > 0) report.normal_error = std::move(found.normal_error);
@@ -140,27 +140,27 @@ FitReport report_of(const std::string& kind, const std::string& scheme, const Po
   return report;
 }
 
-Fit fit_vertices(const Scheme<double>& scheme, const ControlMesh& mesh, const FitTargets& targets,
-                 const FitSettings& settings) {
+ReportedFit fit_vertices(const Scheme<double>& scheme, const ControlMesh& mesh, const FitTargets& targets,
+                         const FitSettings& settings) {
   if (targets.num_curvatures > 0)
     throw FormatError(targets.file.string() + ": " + scheme.name +
                       " is linear and takes points and normals; leave the columns k1,k2,d1x,d1y,d1z out, or fit with "
                       "-s torus-pieces");
   const Level control = control_level(scheme, mesh, settings.rules);
   check_vertices(targets, control.topology(), control.holes);
-  Fit fit =
+  ReportedFit fit =
       settings.construct ? construct(scheme, mesh, targets, settings) : interpolated(scheme, mesh, targets, settings);
   count(fit, scheme);
   return fit;
 }
 
-Fit fit_scattered(const Scheme<double>& scheme, const ControlMesh& mesh, const FitTargets& targets,
-                  const FitSettings& settings) {
+ReportedFit fit_scattered(const Scheme<double>& scheme, const ControlMesh& mesh, const FitTargets& targets,
+                          const FitSettings& settings) {
   tell(settings, "taking stencils");
-  const LimitSurface surface(scheme, mesh, settings.rules);
+  const LimitMap surface(scheme, mesh, settings.rules);
   check_places(targets, surface.addresses(), surface.level().holes);
   auto [points, report] = least_squares(surface, scheme.name, mesh.positions, targets, settings);
-  Fit fit{.level = surface.level(), .points = std::move(points), .report = std::move(report)};
+  ReportedFit fit{.level = surface.level(), .points = std::move(points), .report = std::move(report)};
   fit.report.mesh_faces = mesh.num_faces();
   count(fit, scheme);
   return fit;
@@ -185,9 +185,9 @@ std::pair<Points, FitReport> fit_patches(const PatchSet& patches, const Points& 
   return result;
 }
 
-Fit fit_near_cloud(const Scheme<double>& scheme, const ControlMesh& mesh, const Cloud& cloud,
-                   const FitSettings& settings) {
-  const LimitSurface surface(scheme, mesh, settings.rules);
+ReportedFit fit_near_cloud(const Scheme<double>& scheme, const ControlMesh& mesh, const Cloud& cloud,
+                           const FitSettings& settings) {
+  const LimitMap surface(scheme, mesh, settings.rules);
   CloudFitOptions options{.fairness = settings.fairness,
                           .pins = settings.pins,
                           .max_iterations = settings.iterations,
@@ -202,9 +202,9 @@ Fit fit_near_cloud(const Scheme<double>& scheme, const ControlMesh& mesh, const 
   FitTargets targets;
   targets.by_place = true;
   targets.places = {std::move(found.feet.places), cloud.points, cloud.weights};
-  Fit fit{.level = surface.level(),
-          .points = std::move(found.points),
-          .report = report_of("cloud", scheme.name, mesh, targets)};
+  ReportedFit fit{.level = surface.level(),
+                  .points = std::move(found.points),
+                  .report = report_of("cloud", scheme.name, mesh, targets)};
   fit.report.position_error = std::move(found.feet.distances);
   fit.report.iterations = std::move(found.iterations);
   fit.report.pinned = settings.pins.vertices;

@@ -26,7 +26,7 @@ struct FitSettings {
   std::function<void(const std::string&)> progress = {};  ///< what is being done, for people
 };
 
-struct Fit {
+struct ReportedFit {
   Level level;  ///< whose limit it is; of torus pieces absent
   Points points;
   FitReport report;  ///< without names of files
@@ -42,13 +42,13 @@ FitReport report_of(const std::string& kind, const std::string& scheme, const Po
 /// @throws FormatError  what `check_vertices` refuses; curvatures, which are for torus pieces
 /// @throws InvalidMesh  targets that cannot be met, unless `best_effort`: says which
 /// @throws InvalidOption  a `refine` that is no number, `construct` for a scheme that cannot
-Fit fit_vertices(const Scheme<double>& scheme, const ControlMesh& mesh, const FitTargets& targets,
-                 const FitSettings& settings);
+ReportedFit fit_vertices(const Scheme<double>& scheme, const ControlMesh& mesh, const FitTargets& targets,
+                         const FitSettings& settings);
 
 /// Near points at places, least squares.
 /// @throws FormatError  what `check_places` refuses
-Fit fit_scattered(const Scheme<double>& scheme, const ControlMesh& mesh, const FitTargets& targets,
-                  const FitSettings& settings);
+ReportedFit fit_scattered(const Scheme<double>& scheme, const ControlMesh& mesh, const FitTargets& targets,
+                          const FitSettings& settings);
 
 /// Free-form surfaces near points at places, least squares. Weights of rational ones stay; so do control points that no
 /// target sees.
@@ -60,8 +60,8 @@ std::pair<Points, FitReport> fit_patches(const PatchSet& patches, const Points& 
                                          const FitSettings& settings);
 
 /// Near a cloud of points: projections and least squares in turn.
-Fit fit_near_cloud(const Scheme<double>& scheme, const ControlMesh& mesh, const Cloud& cloud,
-                   const FitSettings& settings);
+ReportedFit fit_near_cloud(const Scheme<double>& scheme, const ControlMesh& mesh, const Cloud& cloud,
+                           const FitSettings& settings);
 
 /// A cloud from a CSV with the header x,y,z or x,y,z,weight, or from a mesh: its vertices, each with its share of the
 /// area, or so many points all over its faces.

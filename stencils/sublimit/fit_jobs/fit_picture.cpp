@@ -106,7 +106,8 @@ PictureMesh triangle_picture(const CurvatureMesh& mesh, bool smooth) {
 
 }  // namespace
 
-std::string fit_picture(const Scheme<double>& scheme, const Level& given, const Points& given_points, const Fit& fit) {
+std::string fit_picture(const Scheme<double>& scheme, const Level& given, const Points& given_points,
+                        const ReportedFit& fit) {
   PictureMesh cage = wire_picture(given, given_points);
   cage.creases.clear();  // needles have their colours
   const PictureMesh dots = marks(fit.report);

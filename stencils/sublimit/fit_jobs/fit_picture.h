@@ -10,7 +10,8 @@ namespace sublimit {
 
 /// Three panels: the mesh as it was, its own limit, the limit of the fit.
 /// @param given  level 0 of the mesh
-std::string fit_picture(const Scheme<double>& scheme, const Level& given, const Points& given_points, const Fit& fit);
+std::string fit_picture(const Scheme<double>& scheme, const Level& given, const Points& given_points,
+                        const ReportedFit& fit);
 
 /// Two panels: the triangles with all their data, and what the scheme made of them.
 std::string fit_picture(const CurvatureFit& fit);

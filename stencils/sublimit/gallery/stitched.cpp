@@ -11,7 +11,7 @@
 #include "sublimit/gallery/patch_exhibits.h"
 #include "sublimit/gallery/patch_layers.h"
 #include "sublimit/io/obj.h"
-#include "sublimit/limit/limit_surface.h"
+#include "sublimit/limit/limit_map.h"
 #include "sublimit/patches/interval_mesh.h"
 #include "sublimit/patches/patch_set.h"
 #include "sublimit/picture/picture_mesh.h"
@@ -114,7 +114,7 @@ PictureMesh net_of(const ControlMesh& mesh) {
 /// How far the limit is from the surface on its faces: the faces where it is the same, and the largest distance on the
 /// others.
 std::pair<Index, double> deviation(const Part& part, const ControlMesh& mesh, Index first_face) {
-  const LimitSurface limit(sublimit::scheme(stitched_scheme), mesh);
+  const LimitMap limit(sublimit::scheme(stitched_scheme), mesh);
   const PatchSet patches({std::make_shared<SplineSurface>(part.surface)});
   const std::vector<Index> faces = interval_mesh(part.surface).faces;
   Index same = 0;

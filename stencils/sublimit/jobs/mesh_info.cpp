@@ -5,6 +5,8 @@
 
 #include "sublimit/base/error.h"
 #include "sublimit/files/rule_words.h"
+#include "sublimit/jobs/mesh_info_json.h"
+#include "sublimit/jobs/mesh_job.h"
 #include "sublimit/limit/address.h"
 
 namespace sublimit {
@@ -82,7 +84,7 @@ Json to_json(const LimitIntegrals& limit) {
 
 LimitIntegrals limit_integrals(const MeshJob& job) {
   if (!job.scheme) throw InvalidOption("integrals are of the limit of a scheme; name one");
-  return limit_integrals(LimitSurface(*job.scheme, job.mesh, job.rules), job.mesh.positions);
+  return limit_integrals(LimitMap(*job.scheme, job.mesh, job.rules), job.mesh.positions);
 }
 
 MeshInfo mesh_info(const MeshJob& job, bool triangles) {

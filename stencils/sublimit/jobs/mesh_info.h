@@ -2,16 +2,16 @@
 #pragma once
 // What there is to know of a mesh before it is refined: counts, valences, borders, tags, faults, and whether a scheme
 // takes it.
-#include <nlohmann/json.hpp>
-
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "sublimit/jobs/mesh_job.h"
 #include "sublimit/limit/limit_integrals.h"
 
 namespace sublimit {
+
+struct MeshJob;
 
 struct [[nodiscard]] MeshInfo {
   /// How many there are of each.
@@ -41,39 +41,7 @@ struct [[nodiscard]] MeshInfo {
 MeshInfo mesh_info(const MeshJob& job, bool triangles = false);
 
 /// Integrals over the limit of a mesh.
-/// @throws InvalidOption  no scheme; else as `LimitSurface` and `limit_integrals`
+/// @throws InvalidOption  no scheme; else as `LimitMap` and `limit_integrals`
 LimitIntegrals limit_integrals(const MeshJob& job);
-
-/// What `sublimit info --json` and that of many processes say alike, of whatever counts a mesh.
-template <class Info>
-nlohmann::ordered_json json_of_counts(const Info& info, const std::string& name) {
-  using Json = nlohmann::ordered_json;
-  const auto counts = [](const typename Info::Histogram& histogram) {
-    Json json = Json::object();
-    for (const auto& [key, count] : histogram) json[std::to_string(key)] = count;
-    return json;
-  };
-  return {{"mesh", name},
-          {"vertices", info.vertices},
-          {"edges", info.edges},
-          {"faces", info.faces},
-          {"euler_characteristic", info.euler_characteristic},
-          {"components", info.components},
-          {"boundary_loops", info.boundary_loops},
-          {"face_sizes", counts(info.face_sizes)},
-          {"addresses", info.why_not.empty() ? Json(info.addresses) : Json()},
-          {"interior_valences", counts(info.interior_valences)},
-          {"boundary_valences", counts(info.boundary_valences)},
-          {"creases", info.creases},
-          {"corners", info.corners},
-          {"holes", info.holes},
-          {"boundary", info.boundary},
-          {"creasing", info.creasing},
-          {"triangles", info.smooth_triangles}};
-}
-
-/// As `sublimit info --json` prints it.
-/// @param name  of the mesh
-nlohmann::ordered_json to_json(const MeshInfo& info, const std::string& name);
 
 }  // namespace sublimit

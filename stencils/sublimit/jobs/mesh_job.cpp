@@ -83,6 +83,8 @@ MeshJob mesh_job(const MeshRequest& request, ControlMesh mesh, const std::string
     job.options["triangles"] = word(Triangles::smooth);  // a tag of the mesh is for schemes that know it
     job.scheme = scheme_or_throw(request.scheme, job.options);
   }
+  if (job.rules.boundary) mesh.boundary = job.rules.boundary;
+  if (job.rules.creasing) mesh.creasing = job.rules.creasing;
   if (!mesh.knot_intervals.empty() && job.scheme && job.scheme->knots == NewKnots::none)
     mesh.warnings.push_back(name + ": knot intervals ignored: " + job.scheme->name +
                             " knows none; catmull-clark-intervals and doo-sabin-intervals do");

@@ -5,7 +5,7 @@
 #include <atomic>
 
 #include "sublimit/base/parallel_for.h"
-#include "sublimit/limit/limit_surface_parts.h"
+#include "sublimit/limit/limit_map_parts.h"
 #include "sublimit/pattern_table.h"
 #include "sublimit/patterns/point_status.h"
 
@@ -38,8 +38,8 @@ PieceMap lattice_map(const LatticePlace& place, bool triangle) {
 }
 
 /// The piece of a type that a place of the address is in.
-LimitSurface::Parts::Target target_at(const LimitSurface::Parts& surface, const PieceType& type,
-                                      const LatticePlace& place, const PieceMap& map, const AddressParameters& p) {
+LimitMap::Parts::Target target_at(const LimitMap::Parts& surface, const PieceType& type, const LatticePlace& place,
+                                  const PieceMap& map, const AddressParameters& p) {
   const Place outer = type.kind() == Piece::Kind::triangle ? triangle_place(p.u, p.v) : quad_place(p.u, p.v);
   if (type.kind() == Piece::Kind::quad && surface.scheme.is_dual()) {  // each of its corners is a piece
     const int corner = nearest_corner(p.u, p.v);
@@ -58,7 +58,7 @@ std::optional<Patterns::LimitBlock> limits_of_type(const std::shared_ptr<LimitTy
                                                    std::span<const AddressParameters> parameters, int derivatives) {
   Level level = type.level();
   level.holes.assign(level.holes.size(), false);  // of the mesh that the type was met in first
-  const LimitSurface::Parts surface(types->pieces().scheme(), std::move(level), types);
+  const LimitMap::Parts surface(types->pieces().scheme(), std::move(level), types);
   const PieceMap map = lattice_map(place, type.kind() == Piece::Kind::triangle);
   std::vector<Eigen::Index> slot_of(type.level().topology().num_vertices(), -1);
   for (size_t s = 0; s < type.slots().size(); ++s) slot_of[type.slots()[s]] = Eigen::Index(s);
@@ -77,9 +77,9 @@ std::optional<Patterns::LimitBlock> limits_of_type(const std::shared_ptr<LimitTy
   block.status.resize(size_t(count));
   std::atomic<bool> beyond = false;
   const auto fill_row = [&](Eigen::Index row) {
-    const LimitSurface::Parts::Target target = target_at(surface, type, place, map, parameters[size_t(row)]);
+    const LimitMap::Parts::Target target = target_at(surface, type, place, map, parameters[size_t(row)]);
     const bool is_whole = target.piece.kind == type.kind();
-    const LimitSurface::Parts::Found found =
+    const LimitMap::Parts::Found found =
         is_whole ? surface.find(target, derivatives, type, slots) : surface.find(target, derivatives);
     if (found.tangents.size() > 0 && has_several_fans) beyond = true;
     block.status[size_t(row)] = point_status(found.status, found.rows.order, derivatives);

@@ -23,7 +23,7 @@ struct Made {
 };
 
 Made made_of(const ControlMesh& mesh, const std::string& scheme, double tolerance = 1e-4, bool pack = true) {
-  const LimitSurface surface(find_scheme(scheme).value(), mesh);
+  const LimitMap surface(find_scheme(scheme).value(), mesh);
   const double size = testing::diagonal(mesh.positions);
   LimitModelOptions options;
   options.tolerance = tolerance * size;
@@ -87,7 +87,7 @@ TEST(LimitModel, IsNearerWithMoreRings) {
 TEST(LimitModel, JoinsCapsWithCommonTangentPlanes) {
   for (const auto& [scheme, mesh] : std::vector<std::pair<std::string, ControlMesh>>{
            {"catmull-clark", testing::jittered(testing::cube())}, {"doo-sabin", testing::jittered(testing::pole(5))}}) {
-    const LimitSurface surface(find_scheme(scheme).value(), mesh);
+    const LimitMap surface(find_scheme(scheme).value(), mesh);
     LimitModelOptions options;
     options.tolerance = 1e-4 * testing::diagonal(mesh.positions);
     options.join_smoothly = true;
@@ -115,7 +115,7 @@ TEST(LimitModel, KeepsCreasesAsEdges) {
 
 LimitModel named_model(const ControlMesh& mesh, const std::string& scheme, const ControlMesh::FaceNames& names,
                        bool pack = true) {
-  const LimitSurface surface(find_scheme(scheme).value(), mesh);
+  const LimitMap surface(find_scheme(scheme).value(), mesh);
   LimitModelOptions options;
   options.tolerance = 1e-4 * testing::diagonal(mesh.positions);
   options.pack = pack;
@@ -195,7 +195,7 @@ TEST(LimitModel, RefusesNamesOfOtherMeshes) {
 
 TEST(LimitModel, RefusesWhatIsNoPolynomial) {
   const ControlMesh mesh = testing::icosahedron();
-  const LimitSurface surface(find_scheme("butterfly").value(), mesh);
+  const LimitMap surface(find_scheme("butterfly").value(), mesh);
   LimitModelOptions options;
   options.tolerance = 1e-3;
   EXPECT_THROW(limit_model(surface, mesh.positions, options), UnsupportedTopology);
@@ -205,7 +205,7 @@ TEST(LimitModel, RefusesWhatIsNoPolynomial) {
 
 TEST(LimitModel, StopsBeforeThereAreTooManyFaces) {
   const ControlMesh mesh = testing::cube();
-  const LimitSurface surface(find_scheme("catmull-clark").value(), mesh);
+  const LimitMap surface(find_scheme("catmull-clark").value(), mesh);
   LimitModelOptions options;
   options.tolerance = 1e-3;
   options.max_faces = 10;

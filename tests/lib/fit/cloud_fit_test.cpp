@@ -17,7 +17,7 @@ namespace sublimit::testing {
 namespace {
 
 struct Known {
-  LimitSurface surface;
+  LimitMap surface;
   Points guess, truth;
   Cloud cloud;
 };
@@ -25,7 +25,7 @@ struct Known {
 Known known(const char* name, double amount, double noise = 0) {
   const Scheme<double> scheme = *find_scheme<double>(name);
   const ControlMesh mesh = takes_triangles(scheme) ? icosahedron() : torus(6, 5);
-  Known k{LimitSurface(scheme, mesh), mesh.positions, jittered(mesh, amount).positions, {}};
+  Known k{LimitMap(scheme, mesh), mesh.positions, jittered(mesh, amount).positions, {}};
   k.cloud.points = k.surface.evaluate(k.truth, random_places(k.surface.addresses(), 600, 2)).position;
   std::mt19937 random(5);
   std::normal_distribution<double> normal;
@@ -77,7 +77,7 @@ TEST(CloudFit, GoesDownhillFromFarOffToo) {
 
 TEST(CloudFit, StretchesToTheBorderOfTheCloud) {
   const ControlMesh mesh = grid(4, 3);
-  const LimitSurface surface(*find_scheme<double>("catmull-clark"), mesh);
+  const LimitMap surface(*find_scheme<double>("catmull-clark"), mesh);
   Points truth = mesh.positions;
   truth.leftCols(2) *= 1.2;
   std::vector<Sample> places = random_places(surface.addresses(), 300, 4);

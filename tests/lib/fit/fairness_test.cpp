@@ -47,7 +47,7 @@ TEST(Fairness, IsSymmetricSemidefiniteAndFreeForConstants) {
   for (const char* name : {"bilinear", "catmull-clark", "loop", "doo-sabin"}) {
     SCOPED_TRACE(name);
     const Scheme<double> scheme = *find_scheme<double>(name);
-    const LimitSurface surface(scheme, hard_meshes(scheme, 2)[1]);
+    const LimitMap surface(scheme, hard_meshes(scheme, 2)[1]);
     for (const Fairness& fairness : {Fairness{.thin_plate = 1}, Fairness{.membrane = 2}}) {
       const Eigen::MatrixXd H(fairness_energy(surface, fairness));
       EXPECT_EQ(H, H.transpose());
@@ -107,7 +107,7 @@ TEST(Fairness, OfAQuadraticIsItsIntegral) {
     SCOPED_TRACE(name);
     const Scheme<double> scheme = *find_scheme<double>(name);
     const Plane p = plane(takes_triangles(scheme));
-    const LimitSurface surface(scheme, p.mesh);
+    const LimitMap surface(scheme, p.mesh);
     const SparseMatrix H = fairness_energy(surface, {.thin_plate = 1}), M = fairness_energy(surface, {.membrane = 1});
     const Eigen::ArrayXd x = p.xy.col(0), y = p.xy.col(1);
     // Control points of a quadratic have a limit with the same derivatives.
@@ -125,7 +125,7 @@ TEST(Fairness, IsTheSumOverItsQuadraturePoints) {
   const Scheme<double> scheme = *find_scheme<double>("catmull-clark");
   ControlMesh mesh = hard_polygons(3, {.open = true, .sharp = true});
   mesh.holes.push_back(2);
-  const LimitSurface surface(scheme, mesh);
+  const LimitMap surface(scheme, mesh);
   double expected = 0;
   std::vector<Sample> places;
   for (Index f = 0; f < surface.addresses().size(); ++f)
@@ -150,11 +150,11 @@ TEST(Fairness, DoesNotDependOnTheCornerThatComesFirst) {
   ControlMesh mesh = triangle_torus(5, 4);
   const Scheme<double> scheme = *find_scheme<double>("loop");
   const Fairness fairness{.thin_plate = 1, .membrane = 1};
-  const Eigen::MatrixXd H(fairness_energy(LimitSurface(scheme, mesh), fairness));
+  const Eigen::MatrixXd H(fairness_energy(LimitMap(scheme, mesh), fairness));
   for (size_t f = 0; f < mesh.face_sizes.size(); f += 2)
     std::rotate(mesh.face_vertices.begin() + long(3 * f), mesh.face_vertices.begin() + long(3 * f + 1),
                 mesh.face_vertices.begin() + long(3 * f + 3));
-  const Eigen::MatrixXd turned(fairness_energy(LimitSurface(scheme, mesh), fairness));
+  const Eigen::MatrixXd turned(fairness_energy(LimitMap(scheme, mesh), fairness));
   EXPECT_LE((H - turned).norm(), other_route * H.norm());
 }
 
@@ -170,7 +170,7 @@ TEST(Fairness, IsTheSameSurfaceAfterAStep) {
     const Scheme<double> scheme = *find_scheme<double>(name);
     std::vector<Level> levels = refine(scheme, mesh, scheme.period);
     const SparseMatrix P = refinement_matrix(levels);
-    const LimitSurface coarse(scheme, mesh), fine(scheme, std::move(levels.back()));
+    const LimitMap coarse(scheme, mesh), fine(scheme, std::move(levels.back()));
     const Points x = random_points(mesh.num_vertices(), 2, 7), y = P * x;
     const double thin = energy(fairness_energy(coarse, {.thin_plate = 1}), x),
                  membrane = energy(fairness_energy(coarse, {.membrane = 1}), x);
@@ -181,12 +181,12 @@ TEST(Fairness, IsTheSameSurfaceAfterAStep) {
 }
 
 TEST(Fairness, SaysWhatIsWrong) {
-  const LimitSurface surface(*find_scheme<double>("catmull-clark"), cube());
+  const LimitMap surface(*find_scheme<double>("catmull-clark"), cube());
   const auto with = [&](const Fairness& f) { return [&surface, f] { fairness_energy(surface, f); }; };
   expect_error<InvalidParameter>(with({.thin_plate = -1}), {"thin plate", "-1", ">= 0"});
   expect_error<InvalidParameter>(with({.membrane = NAN}), {"membrane", "nan"});
   expect_error<InvalidParameter>(with({.membrane = 1, .quadrature = 9}), {"9", "1 to 8"});
-  const LimitSurface butterfly(*find_scheme<double>("butterfly"), octahedron());
+  const LimitMap butterfly(*find_scheme<double>("butterfly"), octahedron());
   expect_error<InvalidParameter>([&] { fairness_energy(butterfly, {.thin_plate = 1}); }, {"thin plate", "membrane"});
   EXPECT_GT(fairness_energy(butterfly, {.membrane = 1}).norm(), 0);
   EXPECT_EQ(fairness_energy(surface, {}).nonZeros(), 0);

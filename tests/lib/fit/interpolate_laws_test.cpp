@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What interpolation owes to every scheme: limits that LimitSurface finds on the targets, control points that come back
+// What interpolation owes to every scheme: limits that LimitMap finds on the targets, control points that come back
 // from their own limits, and no preference for an order, a place or a size.
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <random>
 
 #include "sublimit/fit/interpolate.h"
-#include "sublimit/limit/limit_surface.h"
+#include "sublimit/limit/limit_map.h"
 #include "sublimit/limit/limit_types.h"
 #include "sublimit/neighborhood/centre.h"
 #include "support/expect_error.h"
@@ -61,7 +61,7 @@ class InterpolationLaws : public ::testing::TestWithParam<TestedScheme> {
   struct Limit {
     std::vector<Vector3d> position, normal;
   };
-  Limit limit_of(const std::vector<Level>& levels, const LimitSurface& surface, const Points& points, Index v) const {
+  Limit limit_of(const std::vector<Level>& levels, const LimitMap& surface, const Points& points, Index v) const {
     std::vector<Sample> places;
     const Topology& last = levels.back().topology();
     for (const HalfEdge start : levels[0].topology().fans(Vertex{v})) {
@@ -91,7 +91,7 @@ class InterpolationLaws : public ::testing::TestWithParam<TestedScheme> {
     Limit limit;
     for (size_t i = 0; i < places.size(); ++i) {
       limit.position.push_back(samples.position.row(Index(i)));
-      // Along borders of higher averages LimitSurface finds normals at vertices only.
+      // Along borders of higher averages LimitMap finds normals at vertices only.
       if (scheme_.name == "averaging" && samples.status[i] == LimitStatus::undefined_normal) continue;
       limit.normal.push_back(samples.normal.row(Index(i)));
     }
@@ -116,7 +116,7 @@ class InterpolationLaws : public ::testing::TestWithParam<TestedScheme> {
   std::vector<VertexTarget> targets(const ControlMesh& mesh, bool normals, unsigned seed = 1) const {
     std::mt19937 random(seed);
     const std::vector<Level> control = levels(mesh, 0);
-    const LimitSurface surface(scheme_, control[0], types_);
+    const LimitMap surface(scheme_, control[0], types_);
     std::vector<VertexTarget> result;
     for (Index v = 0; v < mesh.num_vertices(); ++v) {
       result.push_back({v, Vector3d(mesh.positions.row(v)) + 0.05 * random_vector(random)});
@@ -133,8 +133,8 @@ class InterpolationLaws : public ::testing::TestWithParam<TestedScheme> {
     EXPECT_TRUE(found.solved()) << why_unsolved(found.attempts.back());
     ASSERT_EQ(found.level.number % scheme_.period, 0);
     const std::vector<Level> all = levels(mesh, found.level.number);
-    const LimitSurface surface = mesh.creases.empty() ? LimitSurface(scheme_, control_mesh(found), {}, types_)
-                                                      : LimitSurface(scheme_, found.level, types_);
+    const LimitMap surface = mesh.creases.empty() ? LimitMap(scheme_, control_mesh(found), {}, types_)
+                                                  : LimitMap(scheme_, found.level, types_);
     for (size_t i = 0; i < targets.size(); ++i) {
       const VertexTarget& target = targets[i];
       const Limit limit = limit_of(all, surface, found.points, target.vertex);
@@ -168,7 +168,7 @@ TEST_P(InterpolationLaws, ControlPointsComeBackFromTheirLimits) {
     SCOPED_TRACE(named.name);
     if (named.name == "strip" && scheme_.is_dual()) continue;  // sheets of a vertex have different limits
     const std::vector<Level> control = levels(named.mesh, 0);
-    const LimitSurface surface(scheme_, control[0], types_);
+    const LimitMap surface(scheme_, control[0], types_);
     std::vector<VertexTarget> own;
     for (Index v = 0; v < named.mesh.num_vertices(); ++v)
       own.push_back({v, limit_of(control, surface, named.mesh.positions, v).position[0]});
@@ -210,7 +210,7 @@ TEST_P(InterpolationLaws, SidesOfACornerTurnTogether) {
   const ControlMesh mesh = meshes(scheme_).back().mesh;
   std::vector<VertexTarget> wanted = targets(mesh, false);
   const std::vector<Level> control = levels(mesh, 0);
-  const Limit own = limit_of(control, LimitSurface(scheme_, control[0], types_), mesh.positions, 5);
+  const Limit own = limit_of(control, LimitMap(scheme_, control[0], types_), mesh.positions, 5);
   for (const Vector3d& side : own.normal) {  // each of them almost turned over
     wanted[5].normal = own.normal[0].cross(side).isZero(0.1)
                            ? Vector3d(-0.9 * own.normal[0] + own.normal[0].unitOrthogonal())

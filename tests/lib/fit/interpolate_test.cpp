@@ -7,7 +7,7 @@
 
 #include "sublimit/core/sparse_product.h"
 #include "sublimit/limit/limit_points.h"
-#include "sublimit/limit/limit_surface.h"
+#include "sublimit/limit/limit_map.h"
 #include "sublimit/schemes.h"
 #include "support/expect_error.h"
 #include "support/meshes.h"
@@ -160,7 +160,7 @@ TEST(Interpolation, FairnessChoosesAmongThem) {
   const Interpolation fair =
       interpolate(scheme, cube(), targets, {.least_refinements = 1, .most_refinements = 1, .fairness = fairness});
   expect_through(scheme, fair, targets, diagonal(cube().positions));
-  const SparseMatrix H = fairness_energy(LimitSurface(scheme, fair.level), fairness);
+  const SparseMatrix H = fairness_energy(LimitMap(scheme, fair.level), fairness);
   const auto product = [&](const Points& a, const Points& b) { return (a.transpose() * (H * b)).trace(); };
   const double energy = product(fair.points, fair.points);
   EXPECT_LT(energy, 0.95 * product(near.points, near.points));

@@ -8,7 +8,7 @@
 
 #include <random>
 
-#include "sublimit/limit/limit_surface.h"
+#include "sublimit/limit/limit_map.h"
 #include "sublimit/limit/limit_types.h"
 #include "sublimit/schemes.h"
 #include "support/expect_error.h"
@@ -57,7 +57,7 @@ std::vector<VertexTarget> random_targets(const ControlMesh& mesh, unsigned seed,
 }
 
 /// The middle of a face, or of its border edge.
-Sample place_of(const LimitSurface& surface, Face face) {
+Sample place_of(const LimitMap& surface, Face face) {
   const Topology& t = surface.level().topology();
   for (Index i = 0; i < t.size(face); ++i)
     if (!exists(t.twin(t.corner(face, i)))) return on_edge(t, surface.addresses(), t.corner(face, i), 0.5);
@@ -82,7 +82,7 @@ ControlMesh control_mesh(const Topology& t, const Points& points) {
 struct Deviation {
   double position = 0, normal = 0;
 };
-Deviation deviation(const LimitSurface& surface, const PointNormalMesh& fit, const std::vector<VertexTarget>& targets) {
+Deviation deviation(const LimitMap& surface, const PointNormalMesh& fit, const std::vector<VertexTarget>& targets) {
   std::vector<Sample> places;
   for (const Index face : fit.faces) places.push_back(place_of(surface, Face{face}));
   const LimitSamples limit = surface.evaluate(fit.points, places, 1);
@@ -107,8 +107,8 @@ std::vector<NamedMesh> meshes() {
 class PointNormalPolygons : public ::testing::TestWithParam<std::string> {
  protected:
   const Scheme<double> scheme_ = *find_scheme(GetParam());
-  LimitSurface surface(const Level& level) const { return {scheme_, level, types_}; }
-  LimitSurface surface(const ControlMesh& mesh) const { return {scheme_, mesh, {}, types_}; }
+  LimitMap surface(const Level& level) const { return {scheme_, level, types_}; }
+  LimitMap surface(const ControlMesh& mesh) const { return {scheme_, mesh, {}, types_}; }
 
  private:
   const std::shared_ptr<LimitTypes> types_ = std::make_shared<LimitTypes>(scheme_);
@@ -219,7 +219,7 @@ TEST_P(PointNormalPolygons, LeaveAMeshWhoseLimitHasThemAlready) {
   for (Index v = 0; v < mesh.num_vertices(); ++v) targets.push_back({v, mesh.positions.row(v).transpose()});
   const PointNormalMesh moved = point_normal_mesh(scheme_, mesh, targets);
   EXPECT_GT((moved.points - none.points).norm(), 0.1);
-  const LimitSurface limit = surface(none.level);
+  const LimitMap limit = surface(none.level);
   for (size_t i = 0; i < targets.size(); ++i) {
     const std::vector<Sample> place{place_of(limit, Face{moved.faces[i]})};
     targets[i].position = limit.evaluate(none.points, place, 0).position.row(0);

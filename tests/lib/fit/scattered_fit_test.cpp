@@ -42,7 +42,7 @@ TEST_P(RoundTrip, GivesTheControlPointsBack) {
   if (is_quick || full_sweep()) meshes.push_back(hard_meshes(scheme, 1)[1]);
   for (const ControlMesh& mesh : meshes) {
     const Index n = mesh.num_vertices();
-    const LimitSurface surface(scheme, mesh);
+    const LimitMap surface(scheme, mesh);
     PlaceTargets targets;
     targets.places = random_places(surface.addresses(), 4 * n, 5);
     std::erase_if(targets.places, [&](const Sample& s) { return surface.stencil(s).status == LimitStatus::hole; });
@@ -64,7 +64,7 @@ TEST_P(RoundTrip, GivesTheControlPointsBack) {
 INSTANTIATE_TEST_SUITE_P(Schemes, RoundTrip, ::testing::ValuesIn(schemes_and_degrees(5)), test_name);
 
 struct Case {
-  LimitSurface surface;
+  LimitMap surface;
   PlaceTargets targets;
   Points guess;
   Eigen::MatrixXd A;
@@ -72,7 +72,7 @@ struct Case {
 
 Case some_case(int count, Index channels) {
   const ControlMesh mesh = hard_polygons(6, {.open = true});
-  Case c{LimitSurface(*find_scheme<double>("catmull-clark"), mesh), {}, {}, {}};
+  Case c{LimitMap(*find_scheme<double>("catmull-clark"), mesh), {}, {}, {}};
   c.targets.places = random_places(c.surface.addresses(), count, 3);
   c.targets.values = random_points(count, channels, 4);
   c.guess = random_points(mesh.num_vertices(), channels, 5);
@@ -155,7 +155,7 @@ TEST(ScatteredFit, SaysWhatIsWrongAndWhere) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   ControlMesh mesh = torus(5, 4);
   mesh.holes = {3};
-  const LimitSurface surface(*find_scheme<double>("catmull-clark"), mesh);
+  const LimitMap surface(*find_scheme<double>("catmull-clark"), mesh);
   PlaceTargets good{.places = {{0, 0.5, 0.5}, {1, 0, 1}}, .values = Points::Zero(2, 3)};
   const auto fails = [&](const auto& change, std::initializer_list<std::string_view> parts) {
     PlaceTargets targets = good;
@@ -182,7 +182,7 @@ TEST(ScatteredFit, SaysWhatIsWrongAndWhere) {
   fails([](T&, Points&, O& o) { o.pins.vertices = {2, 5, 2}; }, {"control point 2", "twice"});
   fails([](T&, Points&, O& o) { o.pins = {{2, 5}, Points::Zero(1, 3)}; }, {"1 x 3", "2 x 3"});
   fails([&](T&, Points&, O& o) { o.pins = {{2}, Points::Constant(1, 3, nan)}; }, {"control point 2", "finite"});
-  const LimitSurface triangles(*find_scheme<double>("loop"), octahedron());
+  const LimitMap triangles(*find_scheme<double>("loop"), octahedron());
   expect_error<InvalidParameter>(
       [&] {
         place_rows(triangles, {{2, 0.7, 0.4}});

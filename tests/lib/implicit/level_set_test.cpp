@@ -30,7 +30,7 @@ TEST(LevelSetMesh, SphereToOneThousandth) {
   EXPECT_EQ(closed_mesh_counts(mesh.cage), (ClosedMeshCounts{.euler = 2, .components = 1}));
   EXPECT_EQ(mesh.counts, mesh.fine_counts);
   // Measured again, by another grid and by the sphere itself.
-  const LimitSurface surface(find_scheme("catmull-clark").value(), mesh.cage);
+  const LimitMap surface(find_scheme("catmull-clark").value(), mesh.cage);
   const LimitSamples samples = surface.evaluate(mesh.cage.positions, surface.grid(11), 1);
   for (Eigen::Index i = 0; i < samples.position.rows(); ++i) {
     const Vector3d x = samples.position.row(i).transpose() - Vector3d(.1, .2, .3);
@@ -62,7 +62,7 @@ LevelSetMesh expect_near(const FieldPointer& field, const std::string& scheme, c
   EXPECT_EQ(closed_mesh_counts(mesh.cage), counts);
   EXPECT_EQ(mesh.counts, mesh.fine_counts);
   EXPECT_LE(mesh.cage.num_faces(), most_faces);
-  const LimitSurface surface(find_scheme(scheme).value(), mesh.cage);
+  const LimitMap surface(find_scheme(scheme).value(), mesh.cage);
   const LimitSamples samples = surface.evaluate(mesh.cage.positions, surface.grid(5), 1);
   for (Eigen::Index i = 0; i < samples.position.rows(); ++i) {
     const FieldJet jet = field->jet(samples.position.row(i));

@@ -36,7 +36,7 @@ TEST(RegularSmoothness, DoesNotNeedPolynomialsNorClaims) {
   EXPECT_EQ(regular_smoothness(scheme), 0);
 }
 
-std::vector<Sample> places_on(const LimitSurface& surface) {
+std::vector<Sample> places_on(const LimitMap& surface) {
   const Topology& t = surface.level().topology();
   std::vector<Sample> places = random_places(surface.addresses(), 40, 5);
   for (Index h = 0; h < t.num_half_edges(); h += 3) {
@@ -67,15 +67,15 @@ TEST_P(ErasedClaims, SteerNothing) {
     Scheme<double> other = scheme;
     other.claims = claims;
     const ControlMesh mesh = hard_meshes(scheme, 11).back();
-    const LimitSurface surface(scheme, mesh), same(other, mesh);
+    const LimitMap surface(scheme, mesh), same(other, mesh);
     const std::vector<Sample> places = places_on(surface);
     expect_same(surface.evaluate(mesh.positions, places, 2), same.evaluate(mesh.positions, places, 2));
     const auto boxes = surface.bounding_boxes(mesh.positions), same_boxes = same.bounding_boxes(mesh.positions);
     for (size_t i = 0; i < boxes.size(); ++i)
       EXPECT_TRUE(boxes[i].min() == same_boxes[i].min() && boxes[i].max() == same_boxes[i].max()) << i;
     const Points queries = 1.5 * mesh.positions.topRows(4);
-    const ClosestPoints near = closest_points(surface, mesh.positions, queries, {.most_cells = 100}),
-                        same_near = closest_points(same, mesh.positions, queries, {.most_cells = 100});
+    const ClosestPoints near = closest(surface, mesh.positions, queries, {.most_cells = 100}),
+                        same_near = closest(same, mesh.positions, queries, {.most_cells = 100});
     EXPECT_EQ(near.points, same_near.points);
     EXPECT_EQ(near.normals, same_near.normals);
     EXPECT_EQ(near.status, same_near.status);

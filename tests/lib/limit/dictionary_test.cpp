@@ -4,7 +4,7 @@
 
 #include "sublimit/limit/limit_points.h"
 #include "sublimit/limit/limit_rows.h"
-#include "sublimit/limit/limit_surface.h"
+#include "sublimit/limit/limit_map.h"
 #include "sublimit/limit/limit_types.h"
 #include "sublimit/schemes.h"
 #include "support/expect_error.h"
@@ -16,12 +16,12 @@ namespace {
 void expect_refused(const Scheme<double>& scheme, const Scheme<double>& other, const ControlMesh& mesh,
                     std::initializer_list<std::string_view> parts) {
   const auto types = std::make_shared<LimitTypes>(other);
-  expect_error<InvalidParameter>([&] { LimitSurface(scheme, mesh, {}, types); }, parts);
+  expect_error<InvalidParameter>([&] { LimitMap(scheme, mesh, {}, types); }, parts);
   const std::vector<Level> levels = refine(scheme, mesh, 2);
   for (const Level& level : levels) expect_error<InvalidParameter>([&] { limit_matrices(level, *types); }, parts);
   expect_error<InvalidParameter>([&] { limit_matrices(levels, *types); }, parts);
-  expect_error<InvalidParameter>([&] { LimitSurface(scheme, levels[2], types); }, parts);
-  expect_error<InvalidParameter>([&] { LimitSurface(other, levels[2]); }, parts);
+  expect_error<InvalidParameter>([&] { LimitMap(scheme, levels[2], types); }, parts);
+  expect_error<InvalidParameter>([&] { LimitMap(other, levels[2]); }, parts);
 }
 
 TEST(LimitDictionary, OfAnotherSchemeIsRefused) {
@@ -51,8 +51,8 @@ TEST(LimitDictionary, OfTheSameSchemeMadeAgainIsTaken) {
     const auto types = std::make_shared<LimitTypes>(*find_scheme(scheme.name));
     const std::vector<Level> levels = refine(scheme, mesh, 2);
     EXPECT_NO_THROW(limit_matrices(levels, *types)) << scheme.name;
-    EXPECT_NO_THROW(LimitSurface(scheme, mesh, {}, types)) << scheme.name;
-    EXPECT_NO_THROW(LimitSurface(scheme, levels[2], types)) << scheme.name;
+    EXPECT_NO_THROW(LimitMap(scheme, mesh, {}, types)) << scheme.name;
+    EXPECT_NO_THROW(LimitMap(scheme, levels[2], types)) << scheme.name;
   }
 }
 

@@ -9,7 +9,8 @@
 #include <numbers>
 #include <vector>
 
-#include "sublimit/limit/limit_surface.h"
+#include "sublimit/limit/curvature.h"
+#include "sublimit/limit/limit_map.h"
 #include "sublimit/limit/quadrature.h"
 #include "support/places.h"
 #include "support/tested_schemes.h"
@@ -57,7 +58,7 @@ std::vector<QuadraturePoint> rules_towards_corners(bool triangles) {
   return rule;
 }
 
-double total_curvature(const LimitSurface& surface, const Points& points) {
+double total_curvature(const LimitMap& surface, const Points& points) {
   std::vector<Sample> samples;
   std::vector<double> weights;
   for (Index f = 0; f < surface.addresses().size(); ++f)
@@ -83,7 +84,7 @@ TEST(GaussBonnet, TotalCurvatureOfClosedLimitsIsTwoPiChi) {
     const ControlMesh ball = jittered(triangles ? octahedron() : cube(), 0.2);
     const ControlMesh ring = jittered(triangles ? triangle_torus(6, 5) : torus(6, 5), 0.1);
     for (const auto& [mesh, chi] : {std::pair{ball, 2}, std::pair{ring, 0}})
-      EXPECT_NEAR(total_curvature(LimitSurface(scheme, mesh), mesh.positions), 2 * std::numbers::pi * chi,
+      EXPECT_NEAR(total_curvature(LimitMap(scheme, mesh), mesh.positions), 2 * std::numbers::pi * chi,
                   curvature_tolerance);
   }
 }
@@ -98,14 +99,14 @@ TEST(GaussBonnet, TotalCurvatureAroundExtraordinaryVerticesIsTwoPiChi) {
        {Case{"catmull-clark", prism(5), curvature_tolerance}, Case{"loop", icosahedron(), curvature_tolerance},
         Case{"catmull-clark", pole(8), tolerance_at_eight}}) {
     const ControlMesh mesh = jittered(c.mesh, 0.1);
-    EXPECT_NEAR(total_curvature(LimitSurface(*find_scheme<double>(c.scheme), mesh), mesh.positions),
-                4 * std::numbers::pi, c.tolerance)
+    EXPECT_NEAR(total_curvature(LimitMap(*find_scheme<double>(c.scheme), mesh), mesh.positions), 4 * std::numbers::pi,
+                c.tolerance)
         << c.scheme;
   }
 }
 
 /// What the border turns by, to the left where the surface is, along its edges and at their ends.
-double turning_of_border(const LimitSurface& surface, const Points& points) {
+double turning_of_border(const LimitMap& surface, const Points& points) {
   const Topology& t = surface.level().topology();
   struct Frame {
     Eigen::Vector3d T, along_T, normal;  ///< first and second derivative along the edge
@@ -137,7 +138,7 @@ double turning_of_border(const LimitSurface& surface, const Points& points) {
 TEST(GaussBonnet, BordersAndCornersTurnByWhatCurvatureLeaves) {
   const Scheme<double> scheme = *find_scheme<double>("catmull-clark");
   for (const ControlMesh& mesh : {jittered(grid(3, 2), 0.2), jittered(fan(5, 4, 2), 0.1)}) {
-    const LimitSurface surface(scheme, mesh);
+    const LimitMap surface(scheme, mesh);
     const double curvature = total_curvature(surface, mesh.positions);
     EXPECT_NEAR(curvature + turning_of_border(surface, mesh.positions), 2 * std::numbers::pi, curvature_tolerance);
     EXPECT_GE(std::abs(curvature), 0.1);

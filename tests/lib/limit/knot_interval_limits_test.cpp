@@ -8,7 +8,7 @@
 #include <random>
 
 #include "sublimit/limit/limit_points.h"
-#include "sublimit/limit/limit_surface.h"
+#include "sublimit/limit/limit_map.h"
 #include "sublimit/patches/interval_mesh.h"
 #include "sublimit/patches/patch_set.h"
 #include "sublimit/patches/spline_surface.h"
@@ -48,7 +48,7 @@ struct Twin {
 };
 
 void expect_same_surface(const Scheme<double>& scheme, const Twin& twin, unsigned seed) {
-  const LimitSurface surface(scheme, twin.mesh);
+  const LimitMap surface(scheme, twin.mesh);
   const Topology& t = surface.level().topology();
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> inside(0, 1);
@@ -138,7 +138,7 @@ TEST(KnotIntervalLimits, OfVerticesHaveNormals) {
   const Level control = control_level(levelled, twin.mesh);
   const Topology& t = control.topology();
   const LimitPoints limit = limit_points(limit_matrices(control, types), t, twin.mesh.positions);
-  const LimitSurface surface(levelled, control);
+  const LimitMap surface(levelled, control);
   ASSERT_EQ(limit.normal.rows(), t.num_vertices());
   for (Index f = 0; f < t.num_faces(); ++f) {
     const Sample corner{f, 0, 0};
@@ -176,7 +176,7 @@ TEST(KnotIntervalLimits, AreTheSameFromTheNextLevel) {
     const Level control = control_level(levelled, mesh);
     if (control.intervals.empty()) continue;
     const Level next = next_level(levelled, control);
-    const LimitSurface coarse(levelled, control), fine(levelled, next);
+    const LimitMap coarse(levelled, control), fine(levelled, next);
     const Points points = mesh.positions, fine_points = next.S * mesh.positions;
     const KnotSplit split = *control.knots();
     std::uniform_real_distribution<double> inside(0, 1);
@@ -249,7 +249,7 @@ TEST(KnotIntervalLimits, OfAnOpenGridAreTheBSplineWithPhantomPoints) {
     at(i, n + 1) = 2 * at(i, n) - at(i, n - 1);
   }
   const PatchSet patches({std::make_shared<SplineSurface>(spline)});
-  const LimitSurface surface(levelled, mesh);
+  const LimitMap surface(levelled, mesh);
   const Topology& t = surface.level().topology();
   std::uniform_real_distribution<double> inside(0, 1);
   for (Index f = 0; f < t.num_faces(); ++f)
@@ -293,7 +293,7 @@ TEST(KnotIntervalLimits, OfAnImportedSurfaceAreTheSurface) {
       columns.row(i) << w * inside(random), w * inside(random), w * inside(random), w;
     }
     const IntervalMesh imported = interval_mesh(surface);
-    const LimitSurface limit(levelled, imported.mesh);
+    const LimitMap limit(levelled, imported.mesh);
     const Points points = imported.from_points * columns;
     const PatchSet patches({std::make_shared<SplineSurface>(surface)}, Coordinates::homogeneous);
     for (int k = 0; k < 100; ++k) {

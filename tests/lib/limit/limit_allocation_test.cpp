@@ -40,13 +40,13 @@ std::vector<Sample> random_samples(FaceCount faces, size_t count) {
   return samples;
 }
 
-TEST(LimitSurface, SamplesOnceBoundWithoutMemoryFromTheSystem) {
+TEST(LimitMap, SamplesOnceBoundWithoutMemoryFromTheSystem) {
   if (!allocations_are_counted()) GTEST_SKIP() << "SKIPPED: sanitizers have allocators of their own";
   const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
   std::int64_t first = 0;
   for (const Surface& s : surfaces()) {
-    const LimitSurface surface(find_scheme(s.scheme).value(), s.mesh);
-    const BoundLimitSurface bound(surface, s.mesh.positions);
+    const LimitMap surface(find_scheme(s.scheme).value(), s.mesh);
+    const LimitSurface bound(surface, s.mesh.positions);
     const std::vector<Sample> samples = random_samples(surface.faces(), 5000);
     for (const int order : {0, 1, 2}) {
       SCOPED_TRACE(s.scheme + " of " + std::to_string(s.mesh.num_faces()) + " faces, order " + std::to_string(order));

@@ -6,7 +6,7 @@
 #include <Eigen/Geometry>
 
 #include "sublimit/limit/limit_points.h"
-#include "sublimit/limit/limit_surface.h"
+#include "sublimit/limit/limit_map.h"
 #include "sublimit/limit/limit_types.h"
 #include "support/laws.h"
 #include "support/limit_truth.h"
@@ -68,7 +68,7 @@ TEST_P(LimitAndSample, SayTheSameOfVertices) {
     if (!scheme.preparation.empty() && GetParam().second.contains("quads") &&
         control_level(scheme, mesh).topology().uniform_face_size() != scheme.corners)
       continue;  // limits are known at its vertices only
-    const LimitSurface surface(scheme, mesh, {}, types);
+    const LimitMap surface(scheme, mesh, {}, types);
     const Topology& t = surface.level().topology();
     const LimitMatrices matrices = limit_matrices(surface.level(), cache);
     const LimitPoints limit = limit_points(matrices, t, mesh.positions);
@@ -109,7 +109,7 @@ INSTANTIATE_TEST_SUITE_P(Registry, LimitAndSample, ::testing::ValuesIn(quick_var
 
 struct Border {
   ControlMesh mesh;
-  LimitSurface surface;
+  LimitMap surface;
   HalfEdge edge = no_half_edge;  ///< of its border
 
   Border(const Scheme<double>& scheme, ControlMesh m, Index tail) : mesh(std::move(m)), surface(scheme, mesh) {
@@ -201,7 +201,7 @@ TEST(NormalsOnBorders, ExistAtVerticesOfMidEdgeWithFewFaces) {
     for (const Index faces : {1, 2, 3, 4}) {
       SCOPED_TRACE(std::string(name) + ", " + std::to_string(faces) + " faces");
       const ControlMesh mesh = jittered(open_fan(faces, 4, 2));
-      const LimitSurface surface(find_scheme(name).value(), mesh);
+      const LimitMap surface(find_scheme(name).value(), mesh);
       const Topology& t = surface.level().topology();
       std::vector<Vector3d> around;
       Vector3d own = Vector3d::Zero();

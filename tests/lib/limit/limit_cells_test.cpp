@@ -17,7 +17,7 @@ TEST(LimitCells, HoldAllOfTheSurface) {
     const Scheme<double> scheme = *find_scheme<double>(name);
     const bool quick = name != std::string("mid-edge") && name != std::string("butterfly");
     const ControlMesh mesh = quick ? hard_meshes(scheme, 3)[1] : takes_triangles(scheme) ? octahedron() : grid(3, 2);
-    const LimitSurface surface(scheme, mesh);
+    const LimitMap surface(scheme, mesh);
     const double size = diagonal(mesh.positions);
     const std::vector<LimitCell> cells = limit_cells(surface, mesh.positions);
     const std::vector<Sample> places = random_places(surface.addresses(), quick ? 1000 : 60, 4);

@@ -6,7 +6,7 @@
 #include <random>
 
 #include "sublimit/base/error.h"
-#include "sublimit/limit/limit_surface.h"
+#include "sublimit/limit/limit_map.h"
 #include "sublimit/schemes.h"
 #include "support/hard_meshes.h"
 #include "support/meshes.h"
@@ -16,14 +16,14 @@ namespace sublimit::testing {
 namespace {
 
 TEST(LimitGrid, HasRowsInOrder) {
-  const LimitSurface squares(*find_scheme("catmull-clark"), prism(5));  // 5 quads and two pentagons
+  const LimitMap squares(*find_scheme("catmull-clark"), prism(5));  // 5 quads and two pentagons
   EXPECT_EQ(squares.addresses().size(), 15);
   const std::vector<Sample> grid = squares.grid(3);
   ASSERT_EQ(grid.size(), 15u * 9);
   EXPECT_EQ(grid[10].face, 1);
   EXPECT_EQ(grid[10].u, 0.5);
   EXPECT_EQ(grid[10].v, 0);
-  EXPECT_EQ(LimitSurface(*find_scheme("loop"), octahedron()).grid(4).size(), 8u * 10);
+  EXPECT_EQ(LimitMap(*find_scheme("loop"), octahedron()).grid(4).size(), 8u * 10);
   EXPECT_THROW(squares.grid(1), InvalidParameter);
 }
 
@@ -33,7 +33,7 @@ TEST(LimitGrid, SharedPointsHaveTheSameBits) {
     const Scheme<double> scheme = *find_scheme(name);
     const bool triangles = scheme.face_size() == 3;
     const ControlMesh mesh = triangles ? hard_triangles(3, {.open = true}) : hard_polygons(3, {.open = true});
-    const LimitSurface surface(scheme, mesh);
+    const LimitMap surface(scheme, mesh);
     constexpr int N = 5;
     const std::vector<Sample> places = surface.grid(N);
     const LimitSamples grid = surface.evaluate_grid(mesh.positions, N, 1),
@@ -71,7 +71,7 @@ TEST(LimitGrid, SidesOfNonmanifoldEdgesAreApartUnderDualSchemes) {
   mesh.face_vertices.insert(mesh.face_vertices.end(), {b, a, static_cast<Index>(v), static_cast<Index>(v + 1)});
   for (const char* name : {"catmull-clark", "doo-sabin", "mid-edge"}) {
     SCOPED_TRACE(name);
-    const LimitSurface surface(*find_scheme(name), mesh);
+    const LimitMap surface(*find_scheme(name), mesh);
     const LimitSamples grid = surface.evaluate_grid(mesh.positions, 4),
                        alone = surface.evaluate(mesh.positions, surface.grid(4));
     EXPECT_LT((grid.position - alone.position).cwiseAbs().maxCoeff(), rounding(40, 2));
@@ -85,7 +85,7 @@ TEST(LimitBoxes, HoldTheirPartOfTheLimit) {
     SCOPED_TRACE(scheme.name);
     const bool triangles = scheme.face_size() == 3;
     const ControlMesh mesh = jittered(triangles ? triangle_grid(4, 3) : grid(4, 3), 0.3);
-    const LimitSurface surface(scheme, mesh);
+    const LimitMap surface(scheme, mesh);
     const std::vector<Eigen::AlignedBox3d> boxes = surface.bounding_boxes(mesh.positions);
     ASSERT_EQ(Index(boxes.size()), surface.addresses().size());
     std::vector<Sample> samples;
@@ -102,7 +102,7 @@ TEST(LimitBoxes, HoldTheirPartOfTheLimit) {
           << samples[i].face << " (" << samples[i].u << ", " << samples[i].v << ")";
     for (const Eigen::AlignedBox3d& box : boxes) EXPECT_LT(box.diagonal().norm(), 2 * whole);  // not all of space
   }
-  EXPECT_THROW(LimitSurface(*find_scheme("loop"), octahedron()).bounding_boxes(Points::Zero(3, 3)), InvalidParameter);
+  EXPECT_THROW(LimitMap(*find_scheme("loop"), octahedron()).bounding_boxes(Points::Zero(3, 3)), InvalidParameter);
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ constexpr double moment_tolerance = 1e-13;
 constexpr double refined_tolerance = 1e-4;
 
 LimitIntegrals integrals(const Scheme<double>& scheme, const ControlMesh& mesh) {
-  return limit_integrals(LimitSurface(scheme, mesh), mesh.positions);
+  return limit_integrals(LimitMap(scheme, mesh), mesh.positions);
 }
 LimitIntegrals integrals(const char* scheme, const ControlMesh& mesh) {
   return integrals(*find_scheme<double>(scheme), mesh);
@@ -34,7 +34,7 @@ LimitIntegrals integrals(const char* scheme, const ControlMesh& mesh) {
 LimitIntegrals refined_integrals(const Scheme<double>& scheme, const ControlMesh& mesh) {
   std::vector<Level> levels = refine(scheme, mesh, scheme.period);
   const Points points = refinement_matrix(levels) * mesh.positions;
-  return limit_integrals(LimitSurface(scheme, std::move(levels.back())), points);
+  return limit_integrals(LimitMap(scheme, std::move(levels.back())), points);
 }
 
 /// Signed volume of a mesh of quadrilaterals and triangles, each the cone over its fan of triangles.
@@ -117,7 +117,7 @@ TEST(LimitIntegrals, OfACylinderOverASplineAreThoseOfItsCurve) {
 TEST(LimitIntegrals, OfARegularTorusAreThoseOfItsSamples) {
   const Scheme<double> scheme = *find_scheme<double>("catmull-clark");
   const ControlMesh mesh = jittered(torus(6, 5), 0.5);
-  const LimitSurface surface(scheme, mesh);
+  const LimitMap surface(scheme, mesh);
   std::vector<Sample> samples;
   std::vector<double> weights;
   for (Index f = 0; f < surface.addresses().size(); ++f)
@@ -174,7 +174,7 @@ TEST_P(Integrals, OfOpenMeshesHaveAnAreaAlone) {
 TEST_P(Integrals, MoveTurnAndScaleWithTheirPoints) {
   const Scheme<double> scheme = GetParam().scheme();
   const ControlMesh mesh = closed_mesh(scheme);
-  const LimitSurface surface(scheme, mesh);
+  const LimitMap surface(scheme, mesh);
   const LimitIntegrals a = limit_integrals(surface, mesh.positions);
   const Eigen::Matrix3d R = Eigen::AngleAxisd(1, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
   const Eigen::Vector3d shift(3, -5, 7);
@@ -270,7 +270,7 @@ TEST(LimitIntegrals, OfAFoldedSheetHaveAnErrorThatHolds) {
   ControlMesh sheet = grid(n, n);
   const double x[] = {0, 1, 2, 1.7, 0.4, -1, -2.2};
   for (Index v = 0; v < sheet.num_vertices(); ++v) sheet.positions.row(v) << x[v % (n + 1)], v / (n + 1), 0;
-  const LimitSurface surface(*find_scheme<double>("catmull-clark"), sheet);
+  const LimitMap surface(*find_scheme<double>("catmull-clark"), sheet);
   const LimitIntegrals found = limit_integrals(surface, sheet.positions);
   // x depends on one parameter, y on the other: the area is the way that x goes there and back, times that of y.
   constexpr int steps = 1 << 12;
@@ -293,7 +293,7 @@ TEST(LimitIntegrals, OfAFoldedSheetHaveAnErrorThatHolds) {
 }
 
 TEST(LimitIntegrals, RefusesWhatHasNone) {
-  const LimitSurface surface(*find_scheme<double>("catmull-clark"), cube());
+  const LimitMap surface(*find_scheme<double>("catmull-clark"), cube());
   Points points = cube().positions;
   expect_error<InvalidParameter>([&] { limit_integrals(surface, points.topRows(7)); }, {"for each vertex"});
   points(3, 1) = NAN;

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "sublimit/limit/limit_surface.h"
+#include "sublimit/limit/limit_map.h"
 #include "sublimit/schemes.h"
 #include "support/meshes.h"
 #include "support/places.h"
@@ -13,7 +13,7 @@ namespace {
 
 TEST(LimitPatches, RowsOfAlikePlacesAreMadeOnce) {
   const ControlMesh mesh = jittered(fan(12, 4, 2));
-  const LimitSurface surface(find_scheme("catmull-clark").value(), mesh);
+  const LimitMap surface(find_scheme("catmull-clark").value(), mesh);
   const Topology& t = surface.level().topology();
   std::vector<Sample> samples;
   for (const double distance : {0x1p-30, 0x1p-31}) {

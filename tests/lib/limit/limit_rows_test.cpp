@@ -11,7 +11,7 @@
 #include "sublimit/core/sparse_product.h"
 #include "sublimit/fit/vertex_limits.h"
 #include "sublimit/limit/limit_points.h"
-#include "sublimit/limit/limit_surface.h"
+#include "sublimit/limit/limit_map.h"
 #include "sublimit/neighborhood/control_place.h"
 #include "sublimit/neighborhood/vertex_sides.h"
 #include "sublimit/scheme/prepare.h"
@@ -101,7 +101,7 @@ TEST_P(EverySchemesRows, AreWhereRefinementGoes) {
 TEST_P(EverySchemesRows, AreThoseOfTheSurface) {
   for (const NamedSheets& named : odd_meshes()) {
     const ControlMesh mesh = taken(named.mesh);
-    const LimitSurface surface(scheme, mesh);
+    const LimitMap surface(scheme, mesh);
     const Topology& t = surface.level().topology();
     LimitTypes cache(scheme);
     const VertexSides sides = vertex_sides(surface.level());
@@ -176,7 +176,7 @@ TEST(LimitRows, NameTheFirstVertexThatHasNoLimit) {
     expect_error<NoLimit>([&] { limit_matrices(levels[0], cache); }, {"no limit at vertex 8:", "eigenvalue 1"});
     expect_error<NoLimit>([&] { limit_matrices(levels, cache); }, {"no limit at vertex 8:", "eigenvalue 1"});
     expect_error<NoLimit>([&] { limit_matrices(levels[1], cache); }, {"no limit at vertex 8 of level 1:"});
-    const LimitSurface surface(scheme, mesh);
+    const LimitMap surface(scheme, mesh);
     expect_error<NoLimit>(
         [&] {
           surface.stencil({6, 0, 0}, 0);

@@ -5,7 +5,7 @@
 
 #include <numbers>
 
-#include "sublimit/limit/limit_surface.h"
+#include "sublimit/limit/limit_map.h"
 #include "sublimit/schemes.h"
 #include "support/tolerance.h"
 
@@ -44,7 +44,7 @@ TEST(LocalModes, ShrinkByTheirEigenvalueFromLevelToLevel) {
       ControlMesh mesh = modes->net.mesh;
       mesh.positions.col(0) = modes->leading.net.real();
       mesh.positions.col(1) = modes->leading.net.imag();
-      const LimitSurface surface(scheme, mesh, {.boundary = Boundary::edge_only, .creasing = {}});
+      const LimitMap surface(scheme, mesh, {.boundary = Boundary::edge_only, .creasing = {}});
       const double d = modes->dilation;
       const auto place = [&](double u, double v) {  // of the first face; (1, 1) is the middle of a polygon
         return scheme.is_dual() ? Sample{0, 1 - u, 1 - v} : Sample{0, u, v};

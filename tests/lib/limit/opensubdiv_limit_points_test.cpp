@@ -6,7 +6,7 @@
 #include <random>
 
 #include "sublimit/io/read_mesh.h"
-#include "sublimit/limit/limit_surface.h"
+#include "sublimit/limit/limit_map.h"
 #include "support/compare_with_opensubdiv.h"
 #include "support/irregular_meshes.h"
 #include "support/meshes.h"
@@ -37,7 +37,7 @@ struct Differences {
 };
 
 Differences compare(const ControlMesh& mesh, const std::string& scheme, int per_address) {
-  const LimitSurface surface(scheme_for(mesh, scheme), mesh);
+  const LimitMap surface(scheme_for(mesh, scheme), mesh);
   const FarLimit far(mesh, reference_options(mesh, scheme, 0), {.inf_sharp_patches = true});
   const std::vector<Sample> places = random_places(surface.addresses(), per_address, 1);
   const LimitSamples ours = surface.evaluate(mesh.positions, places, 2);

@@ -7,7 +7,7 @@
 #include <random>
 
 #include "sublimit/limit/limit_points.h"
-#include "sublimit/limit/limit_surface.h"
+#include "sublimit/limit/limit_map.h"
 #include "sublimit/limit/limit_types.h"
 #include "sublimit/schemes/cubic_bspline_creases.h"
 #include "sublimit/schemes.h"
@@ -43,7 +43,7 @@ Scheme<double> leaning(double center) {
           .claims = {.regular = 1, .extraordinary = 1, .limit = "whatever it is"}};
 }
 
-RowMatrix dense(const LimitSurface& surface, const Sample& s, int order = 0) {
+RowMatrix dense(const LimitMap& surface, const Sample& s, int order = 0) {
   const LimitStencil stencil = surface.stencil(s, order);
   RowMatrix rows = RowMatrix::Zero(stencil.weights.rows(), surface.level().topology().num_vertices());
   for (size_t j = 0; j < stencil.vertices.size(); ++j) rows.col(stencil.vertices[j]) = stencil.weights.col(Index(j));
@@ -54,7 +54,7 @@ double norm1(const RowMatrix& row) { return row.cwiseAbs().sum(); }
 
 /// L_k P_k at the vertices of level k that lie at multiples of 2^-k in a square, against stencils there.
 void expect_dyadic_limits(const Scheme<double>& scheme, const ControlMesh& mesh, int k, int stride) {
-  const LimitSurface surface(scheme, mesh);
+  const LimitMap surface(scheme, mesh);
   const std::vector<Level> levels = refine(scheme, mesh, k);
   LimitTypes cache(scheme);
   const SparseMatrix limits = limit_matrices(levels[size_t(k)], cache).position * refinement_matrix(levels);
@@ -83,7 +83,7 @@ void expect_dyadic_limits(const Scheme<double>& scheme, const ControlMesh& mesh,
 
 TEST(OwnScheme, WithPolynomialsIsCatmullClarkOnRegularMeshes) {
   const ControlMesh mesh = torus(7, 6);
-  const LimitSurface own(leaning(9.0 / 16), mesh), known(find_scheme("catmull-clark").value(), mesh);
+  const LimitMap own(leaning(9.0 / 16), mesh), known(find_scheme("catmull-clark").value(), mesh);
   for (const Sample& s : random_places(own.addresses(), 30, 1)) {
     const RowMatrix x = dense(own, s, 2), y = dense(known, s, 2);
     ASSERT_EQ(x.rows(), 6);
@@ -94,7 +94,7 @@ TEST(OwnScheme, WithPolynomialsIsCatmullClarkOnRegularMeshes) {
 TEST(OwnScheme, WithoutPolynomialsEqualsRefinementAndLimitMasks) {
   for (const double center : {0.5, 0.55, 0.6}) {
     const auto types = std::make_shared<LimitTypes>(leaning(center));
-    const LimitSurface surface(leaning(center), torus(7, 6), {}, types);
+    const LimitMap surface(leaning(center), torus(7, 6), {}, types);
     surface.stencil({0, 0.25, 0.375}, 1);
     EXPECT_TRUE(types->pieces().has_no_polynomials());
     expect_dyadic_limits(leaning(center), hard_polygons(1), 3, 5);
@@ -107,7 +107,7 @@ TEST(OwnScheme, OfManyStepsIsTheRegisteredOneOfTheSameMasks) {
   quintic.name = "my-quintic";
   quintic.claims = {};
   const ControlMesh mesh = hard_polygons(1, {.open = true});
-  const LimitSurface own(quintic, mesh), known(find_scheme("averaging", {{"degree", "5"}}).value(), mesh);
+  const LimitMap own(quintic, mesh), known(find_scheme("averaging", {{"degree", "5"}}).value(), mesh);
   for (const Sample& s : random_places(own.addresses(), 12, 1)) {
     const RowMatrix x = dense(own, s), y = dense(known, s);
     EXPECT_LE(norm1(x - y), eigen(10) * norm1(y));
@@ -130,7 +130,7 @@ TEST(NonPolynomialLimits, ConvergeAtRandomPlaces) {
   cases.emplace_back(find_scheme("kobbelt").value(), hard_polygons(1));
   cases.emplace_back(leaning(0.55), hard_polygons(1));
   for (const auto& [scheme, mesh] : cases) {
-    const LimitSurface surface(scheme, mesh);
+    const LimitMap surface(scheme, mesh);
     std::mt19937 random(3);
     std::uniform_real_distribution<double> unit(0.05, 0.45);
     for (int i = 0; i < 5; ++i) {
@@ -166,7 +166,7 @@ TEST(NonPolynomialLimits, AtTriadicPlacesEqualRefinementAndLimitMasks) {
   for (const char* name : {"sqrt3", "interpolatory-sqrt3"})
     for (size_t i = 0; i < std::size(meshes); ++i) {
       const Scheme<double> scheme = find_scheme(name).value();
-      EXPECT_EQ(wrong_at_thirds(LimitSurface(scheme, meshes[i]), scheme), "") << name << " on mesh " << i;
+      EXPECT_EQ(wrong_at_thirds(LimitMap(scheme, meshes[i]), scheme), "") << name << " on mesh " << i;
     }
 }
 

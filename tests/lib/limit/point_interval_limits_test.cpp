@@ -6,7 +6,7 @@
 #include <random>
 
 #include "sublimit/limit/limit_points.h"
-#include "sublimit/limit/limit_surface.h"
+#include "sublimit/limit/limit_map.h"
 #include "sublimit/patches/patch_set.h"
 #include "sublimit/patches/spline_surface.h"
 #include "sublimit/schemes.h"
@@ -68,7 +68,7 @@ TEST(PointIntervalLimits, OfATorusAreTheBSplineOfItsKnots) {
     Points points(m * n, 3);
     for (Index i = 0; i < m; ++i)
       for (Index j = 0; j < n; ++j) points.row((i + 1) % m * n + (j + 1) % n) = mesh.positions.row(i * n + j);
-    const LimitSurface surface(of_points, mesh);
+    const LimitMap surface(of_points, mesh);
     for (int k = 0; k < 300; ++k) {
       const Index f = static_cast<Index>(random() % t.num_faces()), corner = static_cast<Index>(random() % 4);
       const auto parameter = [&] { return random() % 5 == 0 ? double(random() % 2) : inside(random); };
@@ -116,7 +116,7 @@ TEST(PointIntervalLimits, AreTheSameFromTheNextLevel) {
     const Level control = control_level(of_points, mesh), next = next_level(of_points, control);
     ASSERT_FALSE(next.intervals.empty());
     const Topology &t = control.topology(), &fine = next.topology();
-    const LimitSurface coarse_surface(of_points, control), fine_surface(of_points, next);
+    const LimitMap coarse_surface(of_points, control), fine_surface(of_points, next);
     const Points points = mesh.positions, fine_points = next.S * mesh.positions;
     const KnotSplit split = *next.knots();
     for (int k = 0; k < 120; ++k) {
@@ -127,7 +127,7 @@ TEST(PointIntervalLimits, AreTheSameFromTheNextLevel) {
       const double cu = cut(knot_entry(KnotOwner::point, fine, h)),
                    cv = cut(other_end(knot_entry(KnotOwner::point, fine, fine.prev(h))));
       const double x = k % 6 == 0 ? 1 : inside(random), y = k % 6 == 0 ? 1 : inside(random);
-      const auto stencil = [&](const LimitSurface& surface, double u, double v) {
+      const auto stencil = [&](const LimitMap& surface, double u, double v) {
         if (t.size(f) != 4) return surface.stencil({surface.addresses().first(f) + corner, u, v}, 1);
         const QuarterPlace place = in_face(corner, u, v);
         LimitStencil result = surface.stencil({surface.addresses().first(f), place.u, place.v}, 1);
@@ -152,7 +152,7 @@ TEST(PointIntervalLimits, AreWhatRefinementTendsTo) {
   const std::vector<Level> levels = refine(of_points, mesh, 6);
   Points points = mesh.positions;
   for (size_t k = 1; k < levels.size(); ++k) points = levels[k].S * points;
-  const LimitSurface surface(of_points, mesh);
+  const LimitMap surface(of_points, mesh);
   const Topology &t = levels[0].topology(), &fine = levels.back().topology();
   for (Index f = 0; f < t.num_faces(); ++f) {
     // Faces from faces keep their numbers: the middle of a face stays the middle.
@@ -175,11 +175,11 @@ TEST(PointIntervalLimits, NextToBordersIntervalsAreEqual) {
       mesh.knot_intervals.insert(mesh.knot_intervals.end(), {{i, i + 1, 1.0 + i % 6}, {i + 1, i, 2.0 + i % 6}});
   expect_error<NoLimit>(
       [&] {
-        LimitSurface(of_points, mesh).stencil({2, 0.2, 0.2}, 0);
+        LimitMap(of_points, mesh).stencil({2, 0.2, 0.2}, 0);
       },
       {"borders", "intervals are equal", "boundary none"});
   // Without borders there are the faces inside.
-  const LimitSurface surface(of_points, mesh, {.boundary = Boundary::none, .creasing = {}});
+  const LimitMap surface(of_points, mesh, {.boundary = Boundary::none, .creasing = {}});
   EXPECT_EQ(surface.stencil({12, 0.3, 0.4}, 1).status, LimitStatus::regular);
 }
 

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "sublimit/limit/limit_points.h"
-#include "sublimit/limit/limit_surface.h"
+#include "sublimit/limit/limit_map.h"
 #include "sublimit/schemes.h"
 #include "support/full_sweep.h"
 #include "support/meshes.h"
@@ -87,7 +87,7 @@ TEST_P(PolesByThreads, HaveTheSameBitsFromOneDictionary) {
       if (all.empty()) return;
       std::vector<Sample> turned(all);
       std::rotate(turned.begin(), turned.begin() + std::ptrdiff_t(first * all.size() / num_threads), turned.end());
-      const LimitSurface surface(scheme, level, types);
+      const LimitMap surface(scheme, level, types);
       surface.evaluate(mesh.positions, turned, 1);
       found.samples = surface.evaluate(mesh.positions, all, 1);
     };

@@ -14,7 +14,7 @@
 #include "sublimit/core/sparse_product.h"
 #include "sublimit/core/submatrix.h"
 #include "sublimit/limit/limit_points.h"
-#include "sublimit/limit/limit_surface.h"
+#include "sublimit/limit/limit_map.h"
 #include "sublimit/limit/sparse_spectrum.h"
 #include "sublimit/limit/tangents.h"
 #include "sublimit/neighborhood/closed_set.h"
@@ -126,7 +126,7 @@ TEST(Poles, AreSampledWhereTheirLimitsAre) {
       if (n > 60 && scheme.name == "kobbelt") continue;  // a second for each type
       ControlMesh mesh = fan(n, scheme.face_size() == 3 ? 3 : 4, 2);
       mesh.positions(0, 2) = 1;
-      const LimitSurface surface(scheme, mesh);
+      const LimitMap surface(scheme, mesh);
       const Topology& t = surface.level().topology();
       const auto corners = t.vertices(Face{0});
       const auto corner = std::find(corners.begin(), corners.end(), 0) - corners.begin();
@@ -162,7 +162,7 @@ TEST(Poles, TakeNoMoreMemoryThanTheyAreAllowed) {
       find_scheme("interpolatory-sqrt3").value();  // rows have as many weights as the pole edges
   const ControlMesh mesh = fan(300, 3, 3);
   const auto types = std::make_shared<LimitTypes>(scheme);
-  const LimitSurface surface(scheme, mesh, {}, types);
+  const LimitMap surface(scheme, mesh, {}, types);
   const double before = bytes_in_use();
   ASSERT_GT(before, 0) << "nothing would be measured";
   limit_memory(allowed);

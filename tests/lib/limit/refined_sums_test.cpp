@@ -60,7 +60,7 @@ TEST(RefinedSums, AreThoseOfPolynomialsWithinTheirErrors) {
     if (scheme.name != "mid-edge")
       for (const Index n : {3, 5, 9}) meshes.push_back(jittered(fan(n, size, 2), 0.1));
     for (const ControlMesh& mesh : meshes) {
-      const LimitIntegrals exact = limit_integrals(LimitSurface(scheme, mesh), mesh.positions);
+      const LimitIntegrals exact = limit_integrals(LimitMap(scheme, mesh), mesh.positions);
       for (const std::int64_t most_faces : {1 << 10, 1 << 14, 1 << 17}) {
         SCOPED_TRACE(std::string(name) + ", " + std::to_string(mesh.positions.rows()) + " vertices, " +
                      std::to_string(most_faces) + " faces");
@@ -134,7 +134,7 @@ TEST(RefinedSums, RefuseHolesThatAreNoFacesOfLevels) {
     const Scheme<double> scheme = *find_scheme<double>(name);
     ControlMesh mesh = triangle_torus(6, 5);
     mesh.holes = {0, 1};
-    expect_error<UnsupportedTopology>([&] { limit_integrals(LimitSurface(scheme, mesh), mesh.positions); },
+    expect_error<UnsupportedTopology>([&] { limit_integrals(LimitMap(scheme, mesh), mesh.positions); },
                                       {name, "holes"});
   }
 }

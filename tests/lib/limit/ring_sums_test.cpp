@@ -113,9 +113,9 @@ void add(const PieceType& type, const Basis& M, Form& form, int& sums, int depth
 }
 
 /// @return  volume, and how many pieces had sums of rings
-std::pair<double, int> closed_sum(const LimitSurface& surface, const Points& points) {
-  const LimitSurface::Parts& parts = LimitPatches::parts_of(surface);
-  const LimitSurface::Parts::Pieces& pieces = parts.pieces();
+std::pair<double, int> closed_sum(const LimitMap& surface, const Points& points) {
+  const LimitMap::Parts& parts = LimitPatches::parts_of(surface);
+  const LimitMap::Parts::Pieces& pieces = parts.pieces();
   Form form(3);
   int sums = 0;
   for (Index i = 0; i < parts.num_pieces(); ++i)
@@ -136,7 +136,7 @@ TEST(RingSums, AreThoseOfAllRings) {
   for (const auto& [name, mesh] : cases) {
     const Points points = jittered(mesh, 0.2).positions;
     SCOPED_TRACE(std::string(name) + ", " + std::to_string(points.rows()) + " vertices");
-    const LimitSurface surface(*find_scheme<double>(name), mesh);
+    const LimitMap surface(*find_scheme<double>(name), mesh);
     const LimitIntegrals found = limit_integrals(surface, points);
     const auto [volume, sums] = closed_sum(surface, points);
     ASSERT_TRUE(found.solid) << found.why_no_solid;

@@ -11,7 +11,7 @@
 #include <cmath>
 #include <random>
 
-#include "sublimit/limit/limit_surface.h"
+#include "sublimit/limit/limit_map.h"
 #include "sublimit/limit/limit_types.h"
 #include "sublimit/scheme/refine_impl.h"
 #include "sublimit/schemes.h"
@@ -27,7 +27,7 @@ namespace {
 /// Second derivatives over 35 steps back, each of which keeps quadratics up to rounding.
 constexpr double second_rounding = 1e-9;
 
-RowMatrix dense(const LimitSurface& surface, const Sample& s, int order = 2) {
+RowMatrix dense(const LimitMap& surface, const Sample& s, int order = 2) {
   const LimitStencil stencil = surface.stencil(s, order);
   RowMatrix rows = RowMatrix::Zero(stencil.weights.rows(), surface.level().topology().num_vertices());
   for (size_t j = 0; j < stencil.vertices.size(); ++j) rows.col(stencil.vertices[j]) = stencil.weights.col(Index(j));
@@ -91,7 +91,7 @@ RowMatrix second_differences(const Topology& t, HalfEdge h) {
 TEST(SecondDerivativesOfSqrt3, AreSecondDifferencesAtRegularVertices) {
   for (const bool open : {false, true}) {
     const ControlMesh mesh = hard_triangles(open ? 2 : 1, {.open = open});
-    const LimitSurface surface(sqrt3(), mesh);
+    const LimitMap surface(sqrt3(), mesh);
     const std::vector<Level> levels = refine(sqrt3(), mesh, 4);
     std::mt19937 random(4);
     int compared = 0;
@@ -173,7 +173,7 @@ TEST(SecondDerivativesOfSqrt3, AreSecondDifferencesTowardsExtraordinaryVertices)
   const Scheme<Precise> precise = find_scheme<Precise>("sqrt3").value();
   for (const Index n : {3, 4, 5, 7, 8, 12}) {
     const ControlMesh mesh = jittered(fan(n, 3, 3), 0.2, 3);
-    const LimitSurface surface(sqrt3(), mesh);
+    const LimitMap surface(sqrt3(), mesh);
     const Topology& t = surface.level().topology();
     const HalfEdge corner = t.outgoing(Vertex{0});
     Surroundings around{surface.level(), mesh.positions.cast<Precise>(), corner};
@@ -210,7 +210,7 @@ TEST(SecondDerivativesOfSqrt3, AreSecondDifferencesTowardsExtraordinaryVertices)
 /// On a regular mesh, also where places are no multiples of 3^-k.
 TEST(SecondDerivativesOfSqrt3, ReproduceQuadratics) {
   const Index n = 10;
-  const LimitSurface surface(sqrt3(), triangle_torus(n, n));
+  const LimitMap surface(sqrt3(), triangle_torus(n, n));
   const Topology& t = surface.level().topology();
   for (const Sample& s : places(surface.addresses(), 300, 1)) {
     // Lattice coordinates of all vertices by the triangle's corners, cut where the torus is closed.
@@ -240,7 +240,7 @@ TEST(SecondDerivativesOfSqrt3, ReproduceQuadratics) {
 /// Across the edges of hard meshes, where the parameters of both sides go on in each other.
 TEST(SecondDerivativesOfSqrt3, AgreeAcrossEdges) {
   const ControlMesh mesh = hard_triangles(3);
-  const LimitSurface surface(sqrt3(), mesh);
+  const LimitMap surface(sqrt3(), mesh);
   const Topology& t = surface.level().topology();
   // From derivatives by u and v to those by a along a half-edge, b along the one before, of its triangle.
   const auto turned = [&](HalfEdge h, const RowMatrix& rows) {
@@ -281,7 +281,7 @@ TEST(SecondDerivativesOfSqrt3, DoNotExistWhereSumsRoundToABorder) {
     const auto types = std::make_shared<LimitTypes>(find_scheme(name).value());
     for (const Index faces : {1, 2, 4, 5}) {
       const ControlMesh mesh = jittered(open_fan(faces, 3, 1));
-      const LimitSurface surface(types->pieces().scheme(), mesh, {}, types);
+      const LimitMap surface(types->pieces().scheme(), mesh, {}, types);
       const Topology& t = surface.level().topology();
       int borders = 0;
       for (Index i = 0; i < t.num_half_edges(); ++i) {
@@ -308,7 +308,7 @@ TEST(SecondDerivativesOfSqrt3, DoNotExistWhereSumsRoundToABorder) {
 TEST(SecondDerivativesOfSqrt3, AreTheSameBySampleAndByStencilBesideBorders) {
   for (const Index faces : {1, 2, 3, 4, 5}) {
     const ControlMesh mesh = jittered(open_fan(faces, 3, 1));
-    const LimitSurface surface(sqrt3(), mesh);
+    const LimitMap surface(sqrt3(), mesh);
     for (Index face = 0; face < surface.addresses().size(); ++face)
       for (const auto& [u, v] : {std::pair{2.0 / 3, 1.0 / 3}, {1.0 / 3, 2.0 / 3}, {1.0 / 3, 1.0 / 3}})
         for (const double d : {1e-3, 1e-6, 1e-9, 1e-12}) {
@@ -331,7 +331,7 @@ TEST(SecondDerivativesOfSqrt3, AreTheSameBySampleAndByStencilBesideBorders) {
 
 /// The status is that they are missing at extraordinary vertices alone, not on the edges to them.
 TEST(SecondDerivativesOfSqrt3, ExistBesideExtraordinaryVertices) {
-  const LimitSurface surface(sqrt3(), icosahedron());
+  const LimitMap surface(sqrt3(), icosahedron());
   EXPECT_EQ(surface.stencil({3, 0, 0}, 2).status, LimitStatus::extraordinary);
   EXPECT_EQ(surface.stencil({3, 0, 0}, 2).weights.rows(), 1);
   for (const Sample& s : places(surface.addresses(), 60, 2)) {
@@ -340,7 +340,7 @@ TEST(SecondDerivativesOfSqrt3, ExistBesideExtraordinaryVertices) {
     EXPECT_EQ(surface.stencil(s, 2).weights.rows(), 6) << words(s);
     EXPECT_EQ(surface.stencil(s, 1).weights.rows(), 3) << words(s);
   }
-  const LimitSurface interpolating(find_scheme("interpolatory-sqrt3").value(), icosahedron());
+  const LimitMap interpolating(find_scheme("interpolatory-sqrt3").value(), icosahedron());
   EXPECT_EQ(interpolating.stencil({3, 0.25, 0.25}, 2).status, LimitStatus::unbounded_second);
 }
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sublimit/limit/limit_surface.h"
+#include "sublimit/limit/limit_map.h"
 #include "sublimit/neighborhood/piece_types.h"
 #include "sublimit/schemes.h"
 #include "support/meshes.h"
@@ -102,7 +102,7 @@ TEST_P(SheetTypes, AreThoseOfOnePageHoweverManyThereAre) {
 TEST_P(SheetTypes, LimitsOfAPageAreThoseOfThePageAlone) {
   const ControlMesh one = book(1, triangles()), many = book(5, triangles());
   const Scheme<double> scheme = find_scheme(GetParam()).value();
-  const LimitSurface alone(scheme, control_level(scheme, one)), shared(scheme, control_level(scheme, many));
+  const LimitMap alone(scheme, control_level(scheme, one)), shared(scheme, control_level(scheme, many));
   std::vector<Sample> samples;
   for (Index f = 0; f < static_cast<Index>(one.face_sizes.size()); ++f)
     for (const auto& [u, v] : {std::pair{0.0, 0.0}, {0.25, 0.125}, {0.0, 0.5}, {0.5, 0.0}, {0.625, 0.25}})

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "sublimit/limit/limit_surface.h"
+#include "sublimit/limit/limit_map.h"
 #include "sublimit/patches/constructions/lagrange_basis.h"
 #include "sublimit/patches/constructions/polynomial_curves.h"
 #include "sublimit/patches/finer_knots.h"
@@ -133,7 +133,7 @@ TEST(KnownBases, OpenGridsUnderCatmullClarkAreBsplinesOverPhantomPoints) {
         const Index first = i + m * j;
         mesh.face_vertices.insert(mesh.face_vertices.end(), {first, first + 1, first + 1 + m, first + m});
       }
-    const LimitSurface limit(find_scheme("catmull-clark").value(), mesh);
+    const LimitMap limit(find_scheme("catmull-clark").value(), mesh);
     const auto uniform = [](Index points) {
       std::vector<double> knots;
       for (Index i = 0; i < points + 6; ++i) knots.push_back(i);

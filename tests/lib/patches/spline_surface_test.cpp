@@ -10,9 +10,10 @@
 #include <random>
 
 #include "sublimit/core/sparse_product.h"
+#include "sublimit/limit/curvature.h"
 #include "sublimit/patches/finer_knots.h"
 #include "sublimit/patches/spline_curve.h"
-#include "sublimit/limit/limit_surface.h"
+#include "sublimit/limit/limit_map.h"
 #include "sublimit/schemes.h"
 #include "support/classical_splines.h"
 #include "support/expect_error.h"
@@ -333,7 +334,7 @@ TEST(SplineSurface, UniformClosedOnesAreLimitsOfCatmullClarkAndDooSabin) {
     for (Index i = 0; i < n; ++i) mesh.positions.row(m * i + j) = x.row(i + n * j);
   for (const int degree : {3, 2}) {
     const SplineSurface surface(uniform(degree, n), uniform(degree, m));
-    const LimitSurface limit(find_scheme(degree == 3 ? "catmull-clark" : "doo-sabin").value(), mesh);
+    const LimitMap limit(find_scheme(degree == 3 ? "catmull-clark" : "doo-sabin").value(), mesh);
     for (int k = 0; k < 60; ++k) {
       const Sample s = {static_cast<Index>(random() % (n * m)), double(random() % 64) / 64, double(random() % 64) / 64};
       // Control point i has the parameter of its Greville abscissa: i - 1, and i - 1/2 for quadratics.

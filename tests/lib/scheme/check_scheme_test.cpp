@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "sublimit/limit/limit_surface.h"
+#include "sublimit/limit/limit_map.h"
 #include "sublimit/limit/limit_types.h"
 #include "sublimit/scheme/refined_mesh.h"
 #include "sublimit/schemes.h"
@@ -40,7 +40,7 @@ void expect_refused(const Scheme<double>& scheme, const ControlMesh& mesh,
   expect_error<InvalidParameter>([&] { refined_mesh(scheme, mesh, 2); }, parts);
   expect_error<InvalidParameter>(
       [&] {
-        const LimitSurface surface(scheme, mesh);
+        const LimitMap surface(scheme, mesh);
         surface.prepare();
         surface.evaluate(mesh.positions, std::vector<Sample>{{0, 0.3, 0.4}, {0, 0, 0}});
       },

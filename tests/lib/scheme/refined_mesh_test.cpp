@@ -99,7 +99,7 @@ TEST(RefinedMesh, IsThatOfTheMatricesForEveryScheme) {
         const std::optional<ControlMesh> expected = by_matrices(scheme, meshes[i], levels, options);
         if (!expected) {
           EXPECT_THROW(refined_mesh(scheme, meshes[i], levels, options), Error);
-          EXPECT_THROW(MeshRefiner(scheme, meshes[i], levels, options), Error);
+          EXPECT_THROW(Refiner(scheme, meshes[i], levels, options), Error);
           ++refused;
           continue;
         }
@@ -108,7 +108,7 @@ TEST(RefinedMesh, IsThatOfTheMatricesForEveryScheme) {
         ASSERT_EQ(own.positions.rows(), expected->positions.rows());
         // Rows are summed in another order than that of columns, and steps one after the other.
         EXPECT_LE((own.positions - expected->positions).cwiseAbs().maxCoeff(), rounding(64));
-        const MeshRefiner again(scheme, meshes[i], levels, options);
+        const Refiner again(scheme, meshes[i], levels, options);
         expect_same_faces_and_tags(again.mesh(), own);
         EXPECT_EQ(again.num_points(), own.num_vertices());
         EXPECT_EQ((again.points(meshes[i].positions) - own.positions).norm(), 0);
@@ -142,7 +142,7 @@ TEST(RefinedMesh, DoesNotDependOnThreadsAndRefinersTakeAnyColumns) {
   }
   Points columns(mesh.num_vertices(), 5);
   columns << mesh.positions, mesh.positions.leftCols(2);
-  const MeshRefiner refiner(scheme, mesh, 2);
+  const Refiner refiner(scheme, mesh, 2);
   EXPECT_EQ(refiner.num_control_points(), mesh.num_vertices());
   const Points five = refiner.points(columns);
   EXPECT_EQ((five.leftCols(3) - many).norm(), 0);
@@ -152,7 +152,7 @@ TEST(RefinedMesh, DoesNotDependOnThreadsAndRefinersTakeAnyColumns) {
 TEST(RefinedMesh, SaysWhatIsWrong) {
   const Scheme<double> scheme = *find_scheme("catmull-clark");
   expect_error<InvalidParameter>([&] { refined_mesh(scheme, cube(), -1); }, {"levels is -1"});
-  expect_error<InvalidParameter>([&] { MeshRefiner(scheme, cube(), 1).points(Points::Zero(7, 3)); },
+  expect_error<InvalidParameter>([&] { Refiner(scheme, cube(), 1).points(Points::Zero(7, 3)); },
                                  {"8 vertices", "7 points"});
   expect_error<ResourceError>([&] { refined_mesh(scheme, cube(), 30); }, {"30 levels", "32-bit"});
   std::vector<int> told;

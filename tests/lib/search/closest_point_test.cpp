@@ -24,7 +24,7 @@ constexpr double distance_accuracy = 1e-12;
 class BruteForce {
  public:
   /// @param finest  step
-  BruteForce(const LimitSurface& surface, const Points& control, double finest)
+  BruteForce(const LimitMap& surface, const Points& control, double finest)
       : finest_(finest),
         bound_(surface, control),
         triangles_(surface.addresses().triangles()),
@@ -70,7 +70,7 @@ class BruteForce {
     return best;
   }
   double finest_;
-  BoundLimitSurface bound_;
+  LimitSurface bound_;
   bool triangles_;
   std::vector<Sample> places_;
   LimitSamples samples_;
@@ -91,12 +91,12 @@ Points queries(const LimitSamples& samples, double size, int count, unsigned see
 }
 
 void expect_nearest(const Scheme<double>& scheme, const ControlMesh& mesh, int count) {
-  const LimitSurface surface(scheme, mesh);
+  const LimitMap surface(scheme, mesh);
   // Places of surfaces without polynomials cost a level a digit.
   const BruteForce brute(surface, mesh.positions, has_polynomials(scheme) ? 1e-7 : 1e-3);
   const double size = diagonal(mesh.positions);
   const Points q = queries(brute.samples(), size, count, 7);
-  const ClosestPoints found = closest_points(surface, mesh.positions, q);
+  const ClosestPoints found = closest(surface, mesh.positions, q);
   const LimitSamples there = surface.evaluate(mesh.positions, found.places, 1);
   for (Index i = 0; i < count; ++i) {
     EXPECT_LE(found.distances[i], brute.distance(q.row(i)) + distance_accuracy * size) << scheme.name << " point " << i;
@@ -142,7 +142,7 @@ TEST(ClosestPoints, OfPointsOfTheSurfaceAreTheyThemselves) {
   for (const char* name : {"catmull-clark", "loop"}) {
     const Scheme<double> scheme = *find_scheme<double>(name);
     const ControlMesh mesh = hard_meshes(scheme, 5)[2];
-    const LimitSurface surface(scheme, mesh);
+    const LimitMap surface(scheme, mesh);
     std::vector<Sample> places = random_places(surface.addresses(), 200, 2);
     const Topology& t = surface.level().topology();
     for (Index h = 0; h < t.num_half_edges(); h += 5) {
@@ -150,23 +150,22 @@ TEST(ClosestPoints, OfPointsOfTheSurfaceAreTheyThemselves) {
       places.push_back(on_edge(t, surface.addresses(), HalfEdge{h}, 0.3));
     }
     const Points q = surface.evaluate(mesh.positions, places).position;
-    EXPECT_LE(closest_points(surface, mesh.positions, q).distances.maxCoeff(),
-              distance_accuracy * diagonal(mesh.positions));
+    EXPECT_LE(closest(surface, mesh.positions, q).distances.maxCoeff(), distance_accuracy * diagonal(mesh.positions));
   }
 }
 
 TEST(ClosestPoints, FromTheMiddleOfASymmetricSurfaceEndIt) {
   const Scheme<double> scheme = *find_scheme<double>("loop");
   const ControlMesh mesh = icosahedron();
-  const LimitSurface surface(scheme, mesh);
+  const LimitMap surface(scheme, mesh);
   const double least = surface.evaluate_grid(mesh.positions, 65).position.rowwise().norm().minCoeff();
   const Points middle = Points::Zero(3, 3);
-  const ClosestPoints found = closest_points(surface, mesh.positions, middle);
+  const ClosestPoints found = closest(surface, mesh.positions, middle);
   constexpr double between_samples = 1e-3;  // the least of a grid is not the least
   for (Index i = 0; i < 3; ++i) EXPECT_NEAR(found.distances[i], least, between_samples * least);
   EXPECT_LE(found.distances[0], least);
   // Cut short, it says by how much the answer may be wrong.
-  const ClosestPoints quick = closest_points(surface, mesh.positions, middle, {.most_cells = 1});
+  const ClosestPoints quick = closest(surface, mesh.positions, middle, {.most_cells = 1});
   EXPECT_LT(quick.lower[0], quick.distances[0]);
   EXPECT_LE(quick.lower[0], found.distances[0]);
 }
@@ -179,7 +178,7 @@ std::vector<double> distances_by_face(const Scheme<double>& scheme, const Contro
     ControlMesh one = mesh;
     for (Index g = 0; g < Index(mesh.face_sizes.size()); ++g)
       if (g != f) one.holes.push_back(g);
-    all.push_back(closest_points(LimitSurface(scheme, one), one.positions, q).distances[0]);
+    all.push_back(closest(LimitMap(scheme, one), one.positions, q).distances[0]);
   }
   std::ranges::sort(all);
   return all;
@@ -189,10 +188,10 @@ TEST(ClosestPoints, NearestFacesAreInTurn) {
   for (const char* name : {"catmull-clark", "loop"}) {
     const Scheme<double> scheme = *find_scheme<double>(name);
     const ControlMesh mesh = jittered(takes_triangles(scheme) ? octahedron() : cube());
-    const LimitSurface surface(scheme, mesh);
+    const LimitMap surface(scheme, mesh);
     const double size = diagonal(mesh.positions);
     const Points q = queries(surface.evaluate_grid(mesh.positions, 5), size, 20, 3);
-    const ClosestPoints found = closest_points(surface, mesh.positions, q, {.count = 100});
+    const ClosestPoints found = closest(surface, mesh.positions, q, {.count = 100});
     for (Index i = 0; i < 20; ++i) {
       const std::vector<double> expected = distances_by_face(scheme, mesh, q.row(i));
       const std::int64_t first = found.first[size_t(i)];
@@ -206,10 +205,10 @@ TEST(ClosestPoints, NearestFacesAreInTurn) {
         }
       }
       // Three of them, and those within a radius.
-      const ClosestPoints three = closest_points(surface, mesh.positions, q.row(i), {.count = 3});
+      const ClosestPoints three = closest(surface, mesh.positions, q.row(i), {.count = 3});
       ASSERT_EQ(three.first, (std::vector<std::int64_t>{0, 3}));
       const double radius = (expected[2] + expected[3]) / 2;
-      const ClosestPoints within = closest_points(surface, mesh.positions, q.row(i), {.count = 100, .radius = radius});
+      const ClosestPoints within = closest(surface, mesh.positions, q.row(i), {.count = 100, .radius = radius});
       EXPECT_EQ(within.first[1], std::ranges::count_if(expected, [&](double d) { return d <= radius; })) << i;
     }
   }
@@ -217,9 +216,9 @@ TEST(ClosestPoints, NearestFacesAreInTurn) {
 
 TEST(ClosestPoints, AllFacesAreFoundWhereAllAreAskedFor) {
   const ControlMesh mesh = torus(12, 9);
-  const LimitSurface surface(*find_scheme<double>("catmull-clark"), mesh);
+  const LimitMap surface(*find_scheme<double>("catmull-clark"), mesh);
   const Points q = Eigen::RowVector3d(0.3, -2, 0.4);
-  const ClosestPoints found = closest_points(surface, mesh.positions, q, {.prove = false, .count = 1000});
+  const ClosestPoints found = closest(surface, mesh.positions, q, {.prove = false, .count = 1000});
   EXPECT_EQ(std::ssize(found.places), surface.faces().size);
   EXPECT_TRUE(std::is_sorted(found.distances.begin(), found.distances.end()));
 }
@@ -227,10 +226,10 @@ TEST(ClosestPoints, AllFacesAreFoundWhereAllAreAskedFor) {
 TEST(ClosestPoints, OutsideARadiusAreNone) {
   const Scheme<double> scheme = *find_scheme<double>("bilinear");
   const ControlMesh mesh = cube();  // [-1, 1]^3
-  const LimitSurface surface(scheme, mesh);
+  const LimitMap surface(scheme, mesh);
   Points q(3, 3);
   q << 0, 0, 3, 0, 0, 1.5, 9, 9, 9;
-  const ClosestPoints found = closest_points(surface, mesh.positions, q, {.radius = 1});
+  const ClosestPoints found = closest(surface, mesh.positions, q, {.radius = 1});
   EXPECT_EQ(found.first, (std::vector<std::int64_t>{0, 0, 1, 1}));
   EXPECT_NEAR(found.distances[0], 0.5, rounding(4));
 }
@@ -245,8 +244,8 @@ TEST(ClosestPoints, InsideHaveSignedDistances) {
       (Eigen::VectorXd(6) << -0.5, -0.1, -0.2, 1, std::sqrt(2), std::hypot(0.1, 0.2)).finished();
   for (const bool inwards : {false, true}) {
     if (inwards) std::ranges::reverse(box.face_vertices);
-    const LimitSurface surface(bilinear, box);
-    const ClosestPoints found = closest_points(surface, box.positions, q, {.is_signed = true});
+    const LimitMap surface(bilinear, box);
+    const ClosestPoints found = closest(surface, box.positions, q, {.is_signed = true});
     for (Index i = 0; i < 6; ++i) {
       EXPECT_NEAR(found.distances[i], inside[i], rounding(8)) << i;
       EXPECT_NEAR(found.lower[i], std::abs(inside[i]), distance_accuracy) << i;
@@ -256,31 +255,27 @@ TEST(ClosestPoints, InsideHaveSignedDistances) {
   for (const char* name : {"catmull-clark", "loop", "doo-sabin"}) {
     const Scheme<double> scheme = *find_scheme<double>(name);
     const ControlMesh mesh = takes_triangles(scheme) ? jittered(octahedron()) : jittered(prism(5));
-    const LimitSurface surface(scheme, mesh);
+    const LimitMap surface(scheme, mesh);
     const double size = diagonal(mesh.positions), step = 1e-3 * size;
     const LimitSamples on = surface.evaluate_grid(mesh.positions, 5, 1);
-    const ClosestPoints in = closest_points(surface, mesh.positions, on.position - step * on.normal,
-                                            {.is_signed = true}),
-                        out = closest_points(surface, mesh.positions, on.position + step * on.normal,
-                                             {.is_signed = true});
+    const ClosestPoints in = closest(surface, mesh.positions, on.position - step * on.normal, {.is_signed = true}),
+                        out = closest(surface, mesh.positions, on.position + step * on.normal, {.is_signed = true});
     for (Index i = 0; i < on.position.rows(); ++i) {
       EXPECT_NEAR(in.distances[i], -step, distance_accuracy * size) << name << " " << i;
       EXPECT_NEAR(out.distances[i], step, distance_accuracy * size) << name << " " << i;
     }
   }
   const ControlMesh open = grid(2, 2);
-  expect_error<UnsupportedTopology>(
-      [&] { closest_points(LimitSurface(bilinear, open), open.positions, q, {.is_signed = true}); },
-      {"closed", "edge ("});
+  expect_error<UnsupportedTopology>([&] { closest(LimitMap(bilinear, open), open.positions, q, {.is_signed = true}); },
+                                    {"closed", "edge ("});
 }
 
 TEST(ClosestPoints, LeaveHolesOut) {
   ControlMesh mesh = torus(6, 5);
   mesh.holes = {0, 1, 2, 3, 4};
-  const LimitSurface surface(*find_scheme<double>("catmull-clark"), mesh);
+  const LimitMap surface(*find_scheme<double>("catmull-clark"), mesh);
   const std::vector<Sample> in_holes{{0, 0.5, 0.5}, {3, 0.4, 0.6}};
-  const ClosestPoints found =
-      closest_points(surface, mesh.positions, surface.evaluate(mesh.positions, in_holes).position);
+  const ClosestPoints found = closest(surface, mesh.positions, surface.evaluate(mesh.positions, in_holes).position);
   for (const Sample& s : found.places) EXPECT_GE(s.face, 5);
   EXPECT_GT(found.distances.minCoeff(), 0.01);
 }
@@ -288,45 +283,45 @@ TEST(ClosestPoints, LeaveHolesOut) {
 TEST(ClosestPoints, AreTheSameForAnyGuessAndAnyThreads) {
   const Scheme<double> scheme = *find_scheme<double>("catmull-clark");
   const ControlMesh mesh = hard_polygons(8, {.open = true});
-  const LimitSurface surface(scheme, mesh);
+  const LimitMap surface(scheme, mesh);
   const Points q = queries(surface.evaluate_grid(mesh.positions, 3), diagonal(mesh.positions), 200, 1);
-  const ClosestPoints once = closest_points(surface, mesh.positions, q);
+  const ClosestPoints once = closest(surface, mesh.positions, q);
   const auto same = [&](const ClosestPoints& other) {
     return std::memcmp(once.points.data(), other.points.data(), sizeof(double) * size_t(once.points.size())) == 0;
   };
   {
     const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
-    EXPECT_TRUE(same(closest_points(surface, mesh.positions, q)));
+    EXPECT_TRUE(same(closest(surface, mesh.positions, q)));
   }
   const std::vector<Sample> guess = random_places(surface.addresses(), 200, 3);
-  const ClosestPoints guessed = closest_points(surface, mesh.positions, q, {.guess = guess});
+  const ClosestPoints guessed = closest(surface, mesh.positions, q, {.guess = guess});
   EXPECT_LE((once.distances - guessed.distances).cwiseAbs().maxCoeff(), distance_accuracy * diagonal(mesh.positions));
 }
 
 TEST(ClosestPoints, SayWhatIsWrong) {
   const Scheme<double> scheme = *find_scheme<double>("catmull-clark");
   ControlMesh mesh = cube();
-  const LimitSurface surface(scheme, mesh);
+  const LimitMap surface(scheme, mesh);
   Points q = Points::Zero(4, 3);
-  EXPECT_EQ(closest_points(surface, mesh.positions, Points(0, 3)).places.size(), 0u);
+  EXPECT_EQ(closest(surface, mesh.positions, Points(0, 3)).places.size(), 0u);
   q(2, 1) = std::numeric_limits<double>::infinity();
-  expect_error<InvalidParameter>([&] { closest_points(surface, mesh.positions, q); }, {"point 2", "finite"});
+  expect_error<InvalidParameter>([&] { closest(surface, mesh.positions, q); }, {"point 2", "finite"});
   q(2, 1) = -1e151;
-  expect_error<InvalidParameter>([&] { closest_points(surface, mesh.positions, q); }, {"point 2", "1e150"});
-  expect_error<InvalidParameter>([&] { closest_points(surface, mesh.positions, Points::Zero(1, 2)); }, {"2", "3"});
-  expect_error<InvalidParameter>([&] { closest_points(surface, Points::Zero(7, 3), Points::Zero(1, 3)); }, {"vertex"});
+  expect_error<InvalidParameter>([&] { closest(surface, mesh.positions, q); }, {"point 2", "1e150"});
+  expect_error<InvalidParameter>([&] { closest(surface, mesh.positions, Points::Zero(1, 2)); }, {"2", "3"});
+  expect_error<InvalidParameter>([&] { closest(surface, Points::Zero(7, 3), Points::Zero(1, 3)); }, {"vertex"});
   const std::vector<Sample> guess{{0, 0, 2}};
-  expect_error<InvalidParameter>([&] { closest_points(surface, mesh.positions, Points::Zero(1, 3), {.guess = guess}); },
+  expect_error<InvalidParameter>([&] { closest(surface, mesh.positions, Points::Zero(1, 3), {.guess = guess}); },
                                  {"face 0", "no face"});
-  expect_error<InvalidParameter>([&] { closest_points(surface, mesh.positions, Points::Zero(2, 3), {.guess = guess}); },
+  expect_error<InvalidParameter>([&] { closest(surface, mesh.positions, Points::Zero(2, 3), {.guess = guess}); },
                                  {"1 places", "2 points"});
-  expect_error<InvalidParameter>([&] { closest_points(surface, mesh.positions, Points::Zero(1, 3), {.count = 0}); },
+  expect_error<InvalidParameter>([&] { closest(surface, mesh.positions, Points::Zero(1, 3), {.count = 0}); },
                                  {"0 nearest"});
-  expect_error<InvalidParameter>([&] { closest_points(surface, mesh.positions, Points::Zero(1, 3), {.radius = -1}); },
+  expect_error<InvalidParameter>([&] { closest(surface, mesh.positions, Points::Zero(1, 3), {.radius = -1}); },
                                  {"radius"});
   mesh.holes = {0, 1, 2, 3, 4, 5};
-  const LimitSurface nothing(scheme, mesh);
-  expect_error<InvalidMesh>([&] { closest_points(nothing, mesh.positions, Points::Zero(1, 3)); }, {"holes"});
+  const LimitMap nothing(scheme, mesh);
+  expect_error<InvalidMesh>([&] { closest(nothing, mesh.positions, Points::Zero(1, 3)); }, {"holes"});
 }
 
 }  // namespace

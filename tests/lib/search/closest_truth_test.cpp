@@ -171,8 +171,8 @@ void expect_truth(const char* scheme, const ControlMesh& mesh, std::vector<Eigen
                       size * amount * Eigen::Vector3d(normal(random), normal(random), normal(random)));
   Points q(Index(queries.size()), 3);
   for (size_t i = 0; i < queries.size(); ++i) q.row(Index(i)) = queries[i];
-  const LimitSurface surface(*find_scheme<double>(scheme), mesh);
-  const ClosestPoints found = closest_points(surface, mesh.positions, q);
+  const LimitMap surface(*find_scheme<double>(scheme), mesh);
+  const ClosestPoints found = closest(surface, mesh.positions, q);
   for (Index i = 0; i < q.rows(); ++i) {
     SCOPED_TRACE(std::string(scheme) + ", query " + std::to_string(i));
     const Eigen::Vector3d query = q.row(i);

@@ -11,6 +11,7 @@
 #include "support/hard_meshes.h"
 #include "support/meshes.h"
 #include "support/tolerance.h"
+#include "sublimit/search/searched_surface.h"
 
 namespace sublimit {
 namespace {
@@ -34,10 +35,10 @@ TEST(DistanceBound, IsNeverAboveTheDistance) {
   for (const char* name : {"bilinear", "catmull-clark", "loop", "doo-sabin", "averaging"}) {
     const Scheme<double> scheme = *find_scheme<double>(name);
     for (const ControlMesh& mesh : hard_meshes(scheme, 3)) {
-      const LimitSurface surface(scheme, mesh);
+      const LimitMap surface(scheme, mesh);
       const DistanceBound bound(SearchedLimit(surface, mesh.positions));
       const Points q = random_points(mesh, 20, 3);
-      const Eigen::VectorXd distances = closest_points(surface, mesh.positions, q, {.prove = false}).distances;
+      const Eigen::VectorXd distances = closest(surface, mesh.positions, q, {.prove = false}).distances;
       PieceParts cutter;
       for (Eigen::Index i = 0; i < q.rows(); ++i)
         for (const double factor : {1 + 1e-9, 1.01, 3.0})
@@ -63,10 +64,10 @@ TEST(DistanceBound, HoldsFarFromTheOrigin) {
     ControlMesh moved = mesh;
     moved.positions.array() += offset;
     const Points q = random_points(mesh, 500, 6).array() + offset;
-    const ClosestPoints found = closest_points(LimitSurface(scheme, moved), moved.positions, q);
+    const ClosestPoints found = closest(LimitMap(scheme, moved), moved.positions, q);
     // Back again: differences of near numbers are exact.
     const Points back = q.array() - offset;
-    const Eigen::VectorXd exact = closest_points(LimitSurface(scheme, mesh), mesh.positions, back).distances;
+    const Eigen::VectorXd exact = closest(LimitMap(scheme, mesh), mesh.positions, back).distances;
     const double digits = 1e-14 * (4 + offset);
     for (Eigen::Index i = 0; i < q.rows(); ++i) {
       EXPECT_LE(found.lower[i], exact[i] + rounding(4)) << offset << " " << i;
@@ -78,19 +79,19 @@ TEST(DistanceBound, HoldsFarFromTheOrigin) {
 // Where hulls are estimated nothing is proved.
 TEST(DistanceBound, ProvesNothingByEstimates) {
   const ControlMesh mesh = octahedron();
-  const LimitSurface surface(*find_scheme<double>("butterfly"), mesh);
-  const ClosestPoints found = closest_points(surface, mesh.positions, random_points(mesh, 3, 7));
+  const LimitMap surface(*find_scheme<double>("butterfly"), mesh);
+  const ClosestPoints found = closest(surface, mesh.positions, random_points(mesh, 3, 7));
   EXPECT_EQ(found.lower.maxCoeff(), 0);
 }
 
 TEST(DistanceBound, FindsWhatIsNearer) {
   const Scheme<double> scheme = *find_scheme<double>("catmull-clark");
   const ControlMesh mesh = torus(7, 5);
-  const LimitSurface surface(scheme, mesh);
+  const LimitMap surface(scheme, mesh);
   const DistanceBound bound(SearchedLimit(surface, mesh.positions));
   PieceParts cutter;
   const Points q = random_points(mesh, 50, 4);
-  const Eigen::VectorXd distances = closest_points(surface, mesh.positions, q).distances;
+  const Eigen::VectorXd distances = closest(surface, mesh.positions, q).distances;
   for (Eigen::Index i = 0; i < q.rows(); ++i)
     EXPECT_TRUE(bound(q.row(i), 1.5 * distances[i] + 1e-3, 2000, cutter).closer) << i;
 }

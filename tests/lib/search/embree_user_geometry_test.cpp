@@ -2,7 +2,7 @@
 // A limit surface in a renderer: Embree's tree over the boxes of faces, our exact hits inside of them.
 //
 // Embree has a user geometry, whose primitives are what its callbacks say. Here a primitive is an address of the
-// surface, a square or triangle: `LimitSurface::bounding_boxes` bounds it, and `RayTracer::trace` meets it. Nothing is
+// surface, a square or triangle: `LimitMap::bounding_boxes` bounds it, and `RayTracer::trace` meets it. Nothing is
 // tessellated; the surface takes part in a scene with triangles and all else that Embree has.
 //
 // Embree's rays are float. Its tree only chooses addresses; what it chooses is traced with the ray in double, which
@@ -16,7 +16,7 @@
 #include <random>
 
 #include "sublimit/base/parallel_for.h"
-#include "sublimit/limit/limit_surface.h"
+#include "sublimit/limit/limit_map.h"
 #include "sublimit/schemes.h"
 #include "sublimit/search/intersect.h"
 #include "support/meshes.h"
@@ -35,7 +35,7 @@ struct Query {
 /// What a renderer makes of a surface in one pose. A new pose has new boxes, a new RayTracer, and `rtcCommitGeometry`.
 class LimitGeometry {
  public:
-  LimitGeometry(RTCDevice device, const LimitSurface& surface, const Points& points)
+  LimitGeometry(RTCDevice device, const LimitMap& surface, const Points& points)
       : tracer_(surface, points), boxes_(surface.bounding_boxes(points)), scene_(rtcNewScene(device)) {
     const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
     rtcSetGeometryUserPrimitiveCount(geometry, unsigned(boxes_.size()));
@@ -155,7 +155,7 @@ TEST(EmbreeUserGeometry, HasTheHitsOfIntersect) {
                                                                 {"doo-sabin", jittered(prism(5))}};
   for (const auto& [scheme, mesh] : scenes) {
     SCOPED_TRACE(scheme);
-    const LimitSurface surface(find_scheme(scheme).value(), mesh);
+    const LimitMap surface(find_scheme(scheme).value(), mesh);
     const LimitGeometry geometry(device.get(), surface, mesh.positions);
     ASSERT_EQ(rtcGetDeviceError(device.get()), RTC_ERROR_NONE);
     const std::vector<Ray> rays = camera(mesh, 4000);

@@ -63,7 +63,7 @@ std::vector<Case> closed_cases() {
 
 TEST(Intersect, HitsAreOnRayAndSurface) {
   for (const Case& c : closed_cases()) {
-    const LimitSurface surface(find_scheme(c.scheme).value(), c.mesh);
+    const LimitMap surface(find_scheme(c.scheme).value(), c.mesh);
     const std::vector<Ray> rays = random_rays(c.mesh, 200, 1);
     const RayHits hits = intersect(surface, c.mesh.positions, rays, {.all = true});
     const double size = diagonal(c.mesh);
@@ -85,7 +85,7 @@ TEST(Intersect, HitsAreOnRayAndSurface) {
 // A ray goes in as often as it comes out, and turns sign by sign: none is missed, and none counts twice.
 TEST(Intersect, RaysEnterAndLeaveClosedSurfaces) {
   for (const Case& c : closed_cases()) {
-    const LimitSurface surface(find_scheme(c.scheme).value(), c.mesh);
+    const LimitMap surface(find_scheme(c.scheme).value(), c.mesh);
     const std::vector<Ray> rays = random_rays(c.mesh, 400, 2);
     const RayHits hits = intersect(surface, c.mesh.positions, rays, {.all = true});
     for (size_t i = 0; i < rays.size(); ++i) {
@@ -103,7 +103,7 @@ TEST(Intersect, RaysEnterAndLeaveClosedSurfaces) {
 // Triangles within a proved distance are hit where the surface is, but for rays that graze.
 TEST(Intersect, AreNearThoseOfTriangles) {
   const ControlMesh mesh = jittered(prism(5));
-  const LimitSurface surface(find_scheme("catmull-clark").value(), mesh);
+  const LimitMap surface(find_scheme("catmull-clark").value(), mesh);
   const Tessellation t = tessellate(surface, mesh.positions, {.chord = 1e-4 * diagonal(mesh)});
   const std::vector<Ray> rays = random_rays(mesh, 100, 3);
   const RayHits hits = intersect(surface, mesh.positions, rays, {.all = true});
@@ -129,7 +129,7 @@ TEST(Intersect, AreNearThoseOfTriangles) {
 // Rays through vertices, middles of edges and points of edges meet one side.
 TEST(Intersect, RaysThroughEdgesAndVerticesHitOnce) {
   for (const Case& c : closed_cases()) {
-    const LimitSurface surface(find_scheme(c.scheme).value(), c.mesh);
+    const LimitMap surface(find_scheme(c.scheme).value(), c.mesh);
     std::vector<Sample> at;
     const bool triangles = surface.faces().triangles;
     for (Index f = 0; f < surface.faces().size; ++f)
@@ -160,7 +160,7 @@ TEST(Intersect, MissesNothingFarFromTheOrigin) {
     std::vector<Ray> rays = random_rays(mesh, 300, 8);
     mesh.positions.array() += offset;
     for (Ray& ray : rays) ray.origin.array() += offset;
-    const LimitSurface surface(find_scheme("catmull-clark").value(), mesh);
+    const LimitMap surface(find_scheme("catmull-clark").value(), mesh);
     const RayHits hits = intersect(surface, mesh.positions, rays, {.all = true});
     for (size_t i = 0; i < rays.size(); ++i)
       EXPECT_EQ((hits.first[i + 1] - hits.first[i]) % 2, 0) << offset << " " << i;
@@ -179,7 +179,7 @@ TEST(Intersect, MissesNothingFarFromTheOrigin) {
 
 TEST(Intersect, NearestIsTheFirstOfAll) {
   const ControlMesh mesh = torus(7, 5);
-  const LimitSurface surface(find_scheme("catmull-clark").value(), mesh);
+  const LimitMap surface(find_scheme("catmull-clark").value(), mesh);
   std::vector<Ray> rays = random_rays(mesh, 300, 4);
   const RayHits all = intersect(surface, mesh.positions, rays, {.all = true}),
                 nearest = intersect(surface, mesh.positions, rays);
@@ -203,7 +203,7 @@ TEST(Intersect, NearestIsTheFirstOfAll) {
 // One ray after another as all together; and those of the addresses, each alone, together.
 TEST(RayTracer, FindsWhatIntersectFinds) {
   for (const Case& c : closed_cases()) {
-    const LimitSurface surface(find_scheme(c.scheme).value(), c.mesh);
+    const LimitMap surface(find_scheme(c.scheme).value(), c.mesh);
     const RayTracer tracer(surface, c.mesh.positions);
     const std::vector<Ray> rays = random_rays(c.mesh, 100, 6);
     const RayHits all = intersect(surface, c.mesh.positions, rays, {.all = true});
@@ -228,7 +228,7 @@ TEST(RayTracer, FindsWhatIntersectFinds) {
 
 TEST(RayTracer, RefusesInClearWords) {
   const ControlMesh mesh = cube();
-  const LimitSurface surface(find_scheme("catmull-clark").value(), mesh);
+  const LimitMap surface(find_scheme("catmull-clark").value(), mesh);
   const RayTracer tracer(surface, mesh.positions);
   EXPECT_THROW(tracer.trace({{0, 0, 0}, {0, 0, 0}}), InvalidParameter);
   EXPECT_THROW(tracer.trace({{0, 0, 0}, {0, 0, 1}}, {}, -1), InvalidParameter);
@@ -237,7 +237,7 @@ TEST(RayTracer, RefusesInClearWords) {
 
 TEST(Intersect, AxesOfABoxAreExact) {
   const ControlMesh box = cube();  // [-1,1]^3
-  const LimitSurface surface(find_scheme("bilinear").value(), box);
+  const LimitMap surface(find_scheme("bilinear").value(), box);
   const std::vector<Ray> rays{
       {{0.25, 0.5, -3}, {0, 0, 2}}, {{0, 0, 0}, {1, 0, 0}}, {{5, 5, 5}, {1, 1, 1}}, {{0.1, 0.2, 5}, {0, 0, -1}, 0, 1}};
   const RayHits hits = intersect(surface, box.positions, rays, {.all = true});
@@ -249,15 +249,15 @@ TEST(Intersect, AxesOfABoxAreExact) {
 
 TEST(Intersect, LeavesHolesOutAndTakesOpenSurfaces) {
   ControlMesh holed = cube();
-  const LimitSurface whole(find_scheme("bilinear").value(), holed);
+  const LimitMap whole(find_scheme("bilinear").value(), holed);
   const Ray up{{0.25, 0.5, -3}, {0, 0, 1}};
   EXPECT_EQ(intersect(whole, holed.positions, {up}, {.all = true}).t.size(), 2u);
   const Index face = intersect(whole, holed.positions, {up}).places[0].face;
   holed.holes = {face};
-  const LimitSurface with_hole(find_scheme("bilinear").value(), holed);
+  const LimitMap with_hole(find_scheme("bilinear").value(), holed);
   EXPECT_EQ(intersect(with_hole, holed.positions, {up}, {.all = true}).t.size(), 1u);
   const ControlMesh open = grid(3, 2);
-  const LimitSurface sheet(find_scheme("catmull-clark").value(), open);
+  const LimitMap sheet(find_scheme("catmull-clark").value(), open);
   EXPECT_EQ(intersect(sheet, open.positions, {{{1.3, 0.8, 9}, {0, 0, -1}}}, {.all = true}).t.size(), 1u);
 }
 
@@ -265,7 +265,7 @@ TEST(Intersect, LeavesHolesOutAndTakesOpenSurfaces) {
 TEST(Intersect, PlacesOfOpenSurfacesAreOnTheRay) {
   for (const char* scheme : {"catmull-clark", "doo-sabin", "mid-edge", "averaging"}) {
     const ControlMesh open = jittered(grid(4, 4));
-    const LimitSurface surface(find_scheme(scheme).value(), open);
+    const LimitMap surface(find_scheme(scheme).value(), open);
     std::mt19937 random(9);
     std::uniform_real_distribution<double> across(0, 4);
     std::vector<Ray> rays;
@@ -284,7 +284,7 @@ TEST(Intersect, PlacesOfOpenSurfacesAreOnTheRay) {
 // A ray that touches has one hit, which says that it is not decided; a little off it has none, or two.
 TEST(Intersect, TangentRaysHitOnceOrTwiceOrNot) {
   const ControlMesh mesh = cube();  // its limit is convex
-  const LimitSurface surface(find_scheme("catmull-clark").value(), mesh);
+  const LimitMap surface(find_scheme("catmull-clark").value(), mesh);
   const std::vector<Sample> at = random_places(surface.addresses(), 60, 3);
   const LimitSamples on = surface.evaluate(mesh.positions, at, 1);
   const double size = diagonal(mesh);
@@ -317,7 +317,7 @@ TEST(Intersect, TangentRaysHitOnceOrTwiceOrNot) {
 // In a face or along an edge a ray has no end of hits: the first one is told, and that there is more.
 TEST(Intersect, RaysInTheSurfaceTellWhereTheyEnterIt) {
   const ControlMesh box = cube();  // [-1, 1]^3
-  const LimitSurface surface(find_scheme("bilinear").value(), box);
+  const LimitMap surface(find_scheme("bilinear").value(), box);
   const std::vector<Ray> rays{{{-3, 1, 1}, {1, 0, 0}}, {{-3, 0.3, 1}, {1, 0, 0}}, {{-3, -3, 1}, {1, 1, 0}}};
   const RayHits hits = intersect(surface, box.positions, rays);
   ASSERT_EQ(hits.t.size(), 3u);
@@ -351,7 +351,7 @@ TEST(Intersect, RaysThroughSharpApexesHitTheVertex) {
     for (Index n = 3; n <= 8; ++n) {
       ControlMesh mesh = sharp_pyramid(n);
       if (std::string(scheme) == "loop") mesh = triangulated(mesh);
-      const LimitSurface surface(find_scheme(scheme).value(), mesh);
+      const LimitMap surface(find_scheme(scheme).value(), mesh);
       std::vector<Ray> rays;
       for (const Eigen::Vector3d& along : {Eigen::Vector3d(0, 0, -1), Eigen::Vector3d(0.05, 0.02, -1).normalized()})
         rays.push_back({Eigen::Vector3d(0, 0, 1) - 4 * along, along});
@@ -371,7 +371,7 @@ TEST(Intersect, GrazingRaysHitATriangle) {
   const ControlMesh triangle = make_mesh({{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 1, 2}});
   const Eigen::Vector3d normal = Eigen::Vector3d::Ones().normalized(), middle = Eigen::Vector3d::Constant(1. / 3);
   for (const char* scheme : {"bilinear", "catmull-clark", "loop"}) {
-    const LimitSurface surface(find_scheme(scheme).value(), triangle);
+    const LimitMap surface(find_scheme(scheme).value(), triangle);
     std::vector<Ray> rays;
     std::mt19937 random(21);
     std::uniform_real_distribution<double> angles(0, 2 * M_PI), offsets(-0.08, 0.08);
@@ -397,7 +397,7 @@ TEST(Intersect, GrazingRaysHitATriangle) {
 // A ray that is given up says so, where it stopped, and keeps what was found.
 TEST(Intersect, RaysThatAreGivenUpSaySo) {
   const ControlMesh mesh = jittered(cube());
-  const LimitSurface surface(find_scheme("kobbelt").value(), mesh);
+  const LimitMap surface(find_scheme("kobbelt").value(), mesh);
   const std::vector<Ray> rays = random_rays(mesh, 40, 23);
   const RayHits all = intersect(surface, mesh.positions, rays, {.all = true}),
                 short_of = intersect(surface, mesh.positions, rays, {.all = true, .most_parts = 1});
@@ -425,7 +425,7 @@ TEST(Intersect, RaysThatAreGivenUpSaySo) {
 
 TEST(Intersect, HasTheSameBitsForAnyNumberOfThreads) {
   const ControlMesh mesh = jittered(prism(5));
-  const LimitSurface surface(find_scheme("catmull-clark").value(), mesh);
+  const LimitMap surface(find_scheme("catmull-clark").value(), mesh);
   const std::vector<Ray> rays = random_rays(mesh, 300, 5);
   const RayHits a = intersect(surface, mesh.positions, rays, {.all = true});
   tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
@@ -436,7 +436,7 @@ TEST(Intersect, HasTheSameBitsForAnyNumberOfThreads) {
 
 TEST(Intersect, RefusesInClearWords) {
   const ControlMesh mesh = cube();
-  const LimitSurface surface(find_scheme("catmull-clark").value(), mesh);
+  const LimitMap surface(find_scheme("catmull-clark").value(), mesh);
   EXPECT_THROW(intersect(surface, mesh.positions, {{{0, 0, 0}, {0, 0, 0}}}), InvalidParameter);
   EXPECT_THROW(intersect(surface, mesh.positions, {{{0, 0, std::nan("")}, {0, 0, 1}}}), InvalidParameter);
   EXPECT_THROW(intersect(surface, mesh.positions, {{{0, 0, 0}, {0, 0, HUGE_VAL}}}), InvalidParameter);
@@ -446,8 +446,8 @@ TEST(Intersect, RefusesInClearWords) {
   EXPECT_TRUE(intersect(surface, mesh.positions, {}).t.empty());
   ControlMesh nothing;
   nothing.positions = Points::Zero(0, 3);
-  EXPECT_TRUE(intersect(LimitSurface(find_scheme("loop").value(), nothing), nothing.positions, {{{0, 0, 0}, {0, 0, 1}}})
-                  .t.empty());
+  EXPECT_TRUE(
+      intersect(LimitMap(find_scheme("loop").value(), nothing), nothing.positions, {{{0, 0, 0}, {0, 0, 1}}}).t.empty());
 }
 
 }  // namespace

@@ -11,7 +11,7 @@
 #include "sublimit/cad/limit_quads.h"
 #include "sublimit/limit/limit_cells.h"
 #include "sublimit/limit/limit_integrals.h"
-#include "sublimit/limit/limit_surface.h"
+#include "sublimit/limit/limit_map.h"
 #include "sublimit/schemes.h"
 #include "sublimit/search/closest_point.h"
 #include "sublimit/search/intersect.h"
@@ -20,6 +20,7 @@
 #include "sublimit/tessellation/tessellate.h"
 #include "support/expect_error.h"
 #include "support/meshes.h"
+#include "sublimit/search/searched_surface.h"
 
 namespace sublimit::testing {
 namespace {
@@ -29,7 +30,7 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std:
 class ControlPoints : public ::testing::TestWithParam<const char*> {
  protected:
   const ControlMesh mesh_ = GetParam() == std::string("loop") ? octahedron() : cube();
-  const LimitSurface surface_{*find_scheme(GetParam()), mesh_};
+  const LimitMap surface_{*find_scheme(GetParam()), mesh_};
 
   Points with(double x) const {
     Points points = mesh_.positions;
@@ -55,7 +56,7 @@ TEST_P(ControlPoints, HaveSquaresWhereDistancesAreProved) {
     const auto refused = [&](const auto& action) { expect_error<InvalidMesh>(action, {"control point 3 is ("}); };
     refused([&] { tessellate(surface_, points, {.chord = 0.1}); });
     refused([&] { bezier_cells(surface_, points, 0.1); });
-    refused([&] { closest_points(surface_, points, query); });
+    refused([&] { closest(surface_, points, query); });
     refused([&] { intersect(surface_, points, rays); });
     refused([&] { winding_numbers(SearchedLimit(surface_, points), query); });
     refused([&] { limit_quads(surface_, points, {.tolerance = 0.1, .progress = {}}); });
@@ -68,7 +69,7 @@ TEST_P(ControlPoints, MayBeLargeAndSmall) {
                             {"control point 0", "volume", "larger than numbers"});
   for (const double scale : {1e140, 1e-140}) {
     const Points points = scale * mesh_.positions;
-    const ClosestPoints found = closest_points(surface_, points, Points::Zero(1, 3));
+    const ClosestPoints found = closest(surface_, points, Points::Zero(1, 3));
     ASSERT_EQ(found.distances.size(), 1);
     EXPECT_TRUE(std::isfinite(found.distances[0]));
   }
@@ -83,11 +84,11 @@ INSTANTIATE_TEST_SUITE_P(Schemes, ControlPoints, ::testing::Values("catmull-clar
 
 TEST(Queries, AreFinite) {
   const ControlMesh mesh = cube();
-  const LimitSurface surface(*find_scheme("catmull-clark"), mesh);
+  const LimitMap surface(*find_scheme("catmull-clark"), mesh);
   Points queries = Points::Zero(3, 3);
   for (const double x : {nan, infinity, 1e200}) {
     queries(2, 0) = x;
-    expect_error<InvalidParameter>([&] { closest_points(surface, mesh.positions, queries); }, {"query point 2"});
+    expect_error<InvalidParameter>([&] { closest(surface, mesh.positions, queries); }, {"query point 2"});
     expect_error<InvalidParameter>([&] { winding_numbers(SearchedLimit(surface, mesh.positions), queries); },
                                    {"point to look from 2"});
   }

@@ -54,7 +54,7 @@ TEST(SearchedPatches, DistancesFromASphereAreThoseOfItsEquation) {
   const Searched s = sphere(1.5);
   const SearchedPatches surface = s.surface();
   const Points queries = random_queries(200, 3, 1);
-  const ClosestPoints found = closest_points(surface, queries, {.is_signed = true});
+  const ClosestPoints found = closest(surface, queries, {.is_signed = true});
   for (Eigen::Index i = 0; i < queries.rows(); ++i) {
     const double expected = queries.row(i).norm() - 1.5;
     EXPECT_NEAR(found.distances[i], expected, found_distance * 3) << queries.row(i);
@@ -66,7 +66,7 @@ TEST(SearchedPatches, DistancesFromASphereAreThoseOfItsEquation) {
 TEST(SearchedPatches, DistancesFromATorusAreThoseOfItsEquation) {
   const Searched s = ring();
   const Points queries = random_queries(200, 4, 3);
-  const ClosestPoints found = closest_points(s.surface(), queries, {.is_signed = true});
+  const ClosestPoints found = closest(s.surface(), queries, {.is_signed = true});
   for (Eigen::Index i = 0; i < queries.rows(); ++i) {
     const double expected = std::hypot(queries.row(i).head<2>().norm() - 2, queries(i, 2)) - 0.75;
     EXPECT_NEAR(found.distances[i], expected, 5 * found_distance);
@@ -183,11 +183,11 @@ SameSurface bicubic_torus() {
 
 TEST(SearchedPatches, AreTheLimitsOfTheSameBsplines) {
   const SameSurface same = bicubic_torus();
-  const LimitSurface limit(find_scheme("catmull-clark").value(), same.mesh);
+  const LimitMap limit(find_scheme("catmull-clark").value(), same.mesh);
   const SearchedPatches surface = same.patches.surface();
   const Points queries = random_queries(200, 3, 7);
-  const ClosestPoints a = closest_points(surface, queries, {.is_signed = true}),
-                      b = closest_points(limit, same.mesh.positions, queries, {.is_signed = true});
+  const ClosestPoints a = closest(surface, queries, {.is_signed = true}),
+                      b = closest(limit, same.mesh.positions, queries, {.is_signed = true});
   EXPECT_LE((a.distances - b.distances).cwiseAbs().maxCoeff(), 5 * found_distance);
   EXPECT_LE((a.lower - b.lower).cwiseAbs().maxCoeff(), 5 * found_distance);
   const std::vector<Ray> rays = random_rays(200, 6, 9);
@@ -224,7 +224,7 @@ TEST(SearchedPatches, NoPointOfAnyKindIsNearer) {
   for (const auto& patch : patches) {
     const Searched s = searched(patch, random_points(random, patch->num_points(), 3));
     const Points queries = random_queries(40, 1.5, 17);
-    const ClosestPoints found = closest_points(s.surface(), queries);
+    const ClosestPoints found = closest(s.surface(), queries);
     const LimitSamples grid = s.set.evaluate(s.columns, s.set.grid(40));
     for (Eigen::Index i = 0; i < queries.rows(); ++i) {
       const double near = (grid.position.rowwise() - queries.row(i)).rowwise().norm().minCoeff();
@@ -253,7 +253,7 @@ TEST(SearchedPatches, WeightsBelowZeroAreNoMatterWhereTheDenominatorIsAbove) {
   EXPECT_EQ(surface.without_parts(), "");
   Points queries(3, 3);
   queries << 2, 0.5, 1, 0.25, -0.125, 0.5, 0.5, 1, 3;
-  const ClosestPoints found = closest_points(surface, queries);
+  const ClosestPoints found = closest(surface, queries);
   for (Eigen::Index i = 0; i < 3; ++i) {
     const double expected = std::hypot(queries.row(i).head<2>().norm() - 1, std::max(queries(i, 2) - 2, 0.0));
     EXPECT_NEAR(found.distances[i], expected, found_distance);
@@ -276,7 +276,7 @@ TEST(SearchedPatches, PolesAndScrewsAreSearchedWithoutProofAndNotTraced) {
     const SearchedPatches surface = s->surface();
     Points query(1, 3);
     query << 1.5, 0, 0.25;
-    const ClosestPoints found = closest_points(surface, query);
+    const ClosestPoints found = closest(surface, query);
     EXPECT_EQ(found.lower[0], 0);
     const LimitSamples grid = s->set.evaluate(s->columns, s->set.grid(100));
     double near = INFINITY;

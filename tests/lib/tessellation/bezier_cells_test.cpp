@@ -40,7 +40,7 @@ Eigen::RowVector3d value(const BezierCell& cell, double u, double v) {
 TEST(BezierCells, AreTheLimitInside) {
   for (const Job& job : jobs()) {
     SCOPED_TRACE(job.scheme);
-    const LimitSurface surface(find_scheme(job.scheme).value(), job.mesh);
+    const LimitMap surface(find_scheme(job.scheme).value(), job.mesh);
     const double size = testing::diagonal(job.mesh.positions), chord = 1e-3 * size;
     const BezierCells made = bezier_cells(surface, job.mesh.positions, chord);
     EXPECT_LE(made.bound, chord);
@@ -68,7 +68,7 @@ TEST(BezierCells, AreTheLimitInside) {
 TEST(BezierCells, CoverEveryFaceOnce) {
   for (const Job& job : jobs()) {
     SCOPED_TRACE(job.scheme);
-    const LimitSurface surface(find_scheme(job.scheme).value(), job.mesh);
+    const LimitMap surface(find_scheme(job.scheme).value(), job.mesh);
     std::vector<double> covered(size_t(surface.faces().size));
     for (const BezierCell& cell : bezier_cells(surface, job.mesh.positions, 1e-2).cells) {
       double twice = 0;
@@ -86,7 +86,7 @@ TEST(BezierCells, CoverEveryFaceOnce) {
 
 TEST(BezierCells, AreOneAFaceWhereAllIsRegular) {
   const ControlMesh torus = testing::torus(8, 6);
-  const LimitSurface surface(find_scheme("catmull-clark").value(), torus);
+  const LimitMap surface(find_scheme("catmull-clark").value(), torus);
   const BezierCells made = bezier_cells(surface, torus.positions, 1e-9);
   EXPECT_EQ(made.cells.size(), 48u);
   EXPECT_EQ(made.exact, 48);
@@ -95,11 +95,11 @@ TEST(BezierCells, AreOneAFaceWhereAllIsRegular) {
 
 TEST(BezierCells, RefuseInClearWords) {
   const ControlMesh cube = testing::cube();
-  const LimitSurface surface(find_scheme("catmull-clark").value(), cube);
+  const LimitMap surface(find_scheme("catmull-clark").value(), cube);
   EXPECT_THROW(bezier_cells(surface, cube.positions, 0), InvalidParameter);
   EXPECT_THROW(bezier_cells(surface, cube.positions, 1e-6, 100), ResourceError);
   const ControlMesh triangles = testing::icosahedron();
-  const LimitSurface butterfly(find_scheme("modified-butterfly").value(), triangles);
+  const LimitMap butterfly(find_scheme("modified-butterfly").value(), triangles);
   EXPECT_THROW(bezier_cells(butterfly, triangles.positions, 0.1), UnsupportedTopology);
 }
 

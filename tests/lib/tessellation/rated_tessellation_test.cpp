@@ -44,7 +44,7 @@ double covered(const Tessellation& t) {
 TEST(RatedTessellation, IsClosedForAnyRates) {
   std::mt19937 random(3);
   for (const Shape& shape : closed_shapes()) {
-    const LimitSurface surface(find_scheme(shape.scheme).value(), shape.mesh);
+    const LimitMap surface(find_scheme(shape.scheme).value(), shape.mesh);
     const Topology& t = surface.level().topology();
     for (int round = 0; round < 20; ++round) {
       SCOPED_TRACE(std::string(shape.scheme) + " " + std::to_string(round));
@@ -69,7 +69,7 @@ TEST(RatedTessellation, IsClosedForAnyRates) {
 TEST(RatedTessellation, HasAsManySegmentsAsAsked) {
   // A square of rates 3, 5, 2, 1; a pentagon whose odd rates become even.
   const ControlMesh square = testing::grid(1, 1);
-  const LimitSurface surface(find_scheme("catmull-clark").value(), square);
+  const LimitMap surface(find_scheme("catmull-clark").value(), square);
   std::vector<Index> rates{3, 5, 2, 1};
   const Tessellation made = tessellate_by_rates(surface, square.positions, rates);
   std::array<int, 4> on{};
@@ -79,7 +79,7 @@ TEST(RatedTessellation, HasAsManySegmentsAsAsked) {
   EXPECT_EQ(on, (std::array<int, 4>{4, 6, 3, 2}));
   const ControlMesh pentagon =
       testing::make_mesh({{0, 0, 0}, {2, 0, 0}, {3, 1, 0}, {1, 2, 0}, {-1, 1, 0}}, {{0, 1, 2, 3, 4}});
-  const LimitSurface polygon(find_scheme("catmull-clark").value(), pentagon);
+  const LimitMap polygon(find_scheme("catmull-clark").value(), pentagon);
   rates = {1, 2, 3, 4, 5};
   int border = 0;
   for (const Sample& s : tessellate_by_rates(polygon, pentagon.positions, rates).places) border += s.u == 0 || s.v == 0;
@@ -88,7 +88,7 @@ TEST(RatedTessellation, HasAsManySegmentsAsAsked) {
 
 TEST(RatedTessellation, RefusesInClearWords) {
   const ControlMesh cube = testing::cube();
-  const LimitSurface surface(find_scheme("catmull-clark").value(), cube);
+  const LimitMap surface(find_scheme("catmull-clark").value(), cube);
   std::vector<Index> rates(12, 1);
   EXPECT_EQ(tessellate_by_rates(surface, cube.positions, rates).triangles.size(), 12u);
   EXPECT_THROW(tessellate_by_rates(surface, cube.positions, std::span(rates).first(11)), InvalidParameter);

@@ -25,7 +25,7 @@ using testing::NamedMesh, testing::other_route, testing::rounding;
 double diagonal(const ControlMesh& mesh) { return testing::diagonal(mesh.positions); }
 
 /// How far triangles are from the limit, at the same parameters, on a grid in each.
-double largest_distance(const Tessellation& t, const LimitSurface& surface, const Points& control) {
+double largest_distance(const Tessellation& t, const LimitMap& surface, const Points& control) {
   constexpr int steps = 4;
   std::vector<Sample> at;
   std::vector<Eigen::RowVector3d> flat;
@@ -99,7 +99,7 @@ std::vector<NamedMesh> closed_meshes() {
 TEST(Tessellate, KeepsItsDistanceAndClosesClosedMeshes) {
   for (const NamedMesh& m : closed_meshes())
     for (const std::string& name : m.schemes) {
-      const LimitSurface surface(find_scheme(name).value(), m.mesh);
+      const LimitMap surface(find_scheme(name).value(), m.mesh);
       for (const double part : {0.1, 0.01, 0.001}) {
         SCOPED_TRACE(m.name + " " + name + " " + std::to_string(part));
         const double chord = part * diagonal(m.mesh);
@@ -121,7 +121,7 @@ TEST(Tessellate, CutsEdgesAsOftenAsTheirRatesAtLeast) {
   for (const NamedMesh& m : closed_meshes())
     for (const std::string& name : m.schemes) {
       SCOPED_TRACE(m.name + " " + name);
-      const LimitSurface surface(find_scheme(name).value(), m.mesh);
+      const LimitMap surface(find_scheme(name).value(), m.mesh);
       const Topology& topology = surface.level().topology();
       TessellationOptions options{.chord = 0.05 * diagonal(m.mesh)};
       for (Index e = 0; e < topology.num_edges(); ++e) options.rates.push_back(1 + Index(random() % 9));
@@ -152,7 +152,7 @@ TEST(Tessellate, CutsEdgesAsOftenAsTheirRatesAtLeast) {
       }
     }
   const ControlMesh cube = testing::cube();
-  const LimitSurface flat(find_scheme("bilinear").value(), cube);
+  const LimitMap flat(find_scheme("bilinear").value(), cube);
   EXPECT_EQ(tessellate(flat, cube.positions, {.chord = 1, .rates = std::vector<Index>(12, 1)}).triangles.size(), 12u);
   EXPECT_EQ(tessellate(flat, cube.positions, {.chord = 1, .rates = std::vector<Index>(12, 3)}).triangles.size(),
             6u * 32);
@@ -163,7 +163,7 @@ TEST(Tessellate, CutsEdgesAsOftenAsTheirRatesAtLeast) {
 // What lies between triangles and the limit has at most the area times the distance.
 TEST(Tessellate, HasTheVolumeOfTheLimit) {
   const ControlMesh mesh = testing::jittered(testing::cube());
-  const LimitSurface surface(find_scheme("catmull-clark").value(), mesh);
+  const LimitMap surface(find_scheme("catmull-clark").value(), mesh);
   const LimitIntegrals exact = limit_integrals(surface, mesh.positions);
   for (const double chord : {1e-2, 1e-3}) {
     const Tessellation t = tessellate(surface, mesh.positions, {.chord = chord});
@@ -178,7 +178,7 @@ TEST(Tessellate, HasTheVolumeOfTheLimit) {
 
 TEST(Tessellate, OpensAtBordersAndHolesAlone) {
   ControlMesh grid = testing::grid(4, 3);
-  const LimitSurface surface(find_scheme("catmull-clark").value(), grid);
+  const LimitMap surface(find_scheme("catmull-clark").value(), grid);
   const Tessellation t = tessellate(surface, grid.positions, {.chord = 1e-3});
   const Edges edges(t);
   EXPECT_TRUE(edges.is_manifold());
@@ -192,7 +192,7 @@ TEST(Tessellate, OpensAtBordersAndHolesAlone) {
     }
   }
   grid.holes = {5};
-  const LimitSurface with_hole(find_scheme("catmull-clark").value(), grid);
+  const LimitMap with_hole(find_scheme("catmull-clark").value(), grid);
   const Tessellation u = tessellate(with_hole, grid.positions, {.chord = 1e-3});
   EXPECT_TRUE(std::ranges::none_of(u.triangles, [](const auto& triangle) { return triangle.face == 5; }));
   EXPECT_EQ(Edges(u).euler, 0);
@@ -203,7 +203,7 @@ TEST(Tessellate, SharesPointsOfNonManifoldEdges) {
   const ControlMesh book = testing::make_mesh(
       {{0, 0, 0}, {0, 1, 0}, {1, 0, 0.2}, {1, 1, 0}, {-1, 0, 1}, {-1, 1, 0.5}, {-1, 0, -1}, {-1, 1, -1}},
       {{0, 2, 3, 1}, {1, 5, 4, 0}, {0, 6, 7, 1}});
-  const LimitSurface surface(find_scheme("catmull-clark").value(), book);
+  const LimitMap surface(find_scheme("catmull-clark").value(), book);
   const Tessellation t = tessellate(surface, book.positions, {.chord = 1e-3});
   EXPECT_LE(largest_distance(t, surface, book.positions), t.bound + other_route * diagonal(book));
   std::set<std::array<double, 3>> points;
@@ -213,7 +213,7 @@ TEST(Tessellate, SharesPointsOfNonManifoldEdges) {
 
 TEST(Tessellate, TakesTwoTrianglesForAPlaneFace) {
   const ControlMesh cube = testing::cube();
-  const LimitSurface surface(find_scheme("bilinear").value(), cube);
+  const LimitMap surface(find_scheme("bilinear").value(), cube);
   const Tessellation t = tessellate(surface, cube.positions, {.chord = 1e-9});
   EXPECT_EQ(t.triangles.size(), 12u);
   EXPECT_EQ(t.places.size(), 8u);
@@ -224,7 +224,7 @@ TEST(Tessellate, HalvesTheDistanceForTwiceTheTriangles) {
   // Of a smooth surface the distance goes with the square of a cell's size: 16 times the triangles for 1/16, but for
   // steps of four and what extraordinary vertices add.
   const ControlMesh torus = testing::torus(12, 9);
-  const LimitSurface surface(find_scheme("catmull-clark").value(), torus);
+  const LimitMap surface(find_scheme("catmull-clark").value(), torus);
   const auto count = [&](double chord) {
     return double(tessellate(surface, torus.positions, {.chord = chord}).triangles.size());
   };
@@ -234,7 +234,7 @@ TEST(Tessellate, HalvesTheDistanceForTwiceTheTriangles) {
 
 TEST(Tessellate, KeepsNormalsOfACellTogether) {
   const ControlMesh torus = testing::torus(6, 5);
-  const LimitSurface surface(find_scheme("catmull-clark").value(), torus);
+  const LimitMap surface(find_scheme("catmull-clark").value(), torus);
   const double angle = 10 * std::numbers::pi / 180;
   const Tessellation t = tessellate(surface, torus.positions, {.chord = 10, .angle = angle});
   EXPECT_GT(t.triangles.size(), 60u);
@@ -249,7 +249,7 @@ TEST(Tessellate, KeepsNormalsOfACellTogether) {
 
 TEST(Tessellate, TakesAsManyTrianglesFarFromTheOrigin) {
   const ControlMesh near = testing::jittered(testing::prism(5));
-  const LimitSurface surface(find_scheme("catmull-clark").value(), near);
+  const LimitMap surface(find_scheme("catmull-clark").value(), near);
   const TessellationOptions options{.chord = 1e-3 * diagonal(near)};
   Points far = near.positions;
   far.array() += 1e6;
@@ -260,7 +260,7 @@ TEST(Tessellate, TakesAsManyTrianglesFarFromTheOrigin) {
 
 TEST(Tessellate, HasTheSameBitsForAnyNumberOfThreads) {
   const ControlMesh mesh = testing::quads_from_triangles(testing::triangle_torus(8, 6));
-  const LimitSurface surface(find_scheme("catmull-clark").value(), mesh);
+  const LimitMap surface(find_scheme("catmull-clark").value(), mesh);
   const Tessellation a = tessellate(surface, mesh.positions, {.chord = 1e-3});
   tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
   const Tessellation b = tessellate(surface, mesh.positions, {.chord = 1e-3});
@@ -271,21 +271,21 @@ TEST(Tessellate, HasTheSameBitsForAnyNumberOfThreads) {
 
 TEST(Tessellate, RefusesInClearWords) {
   const ControlMesh cube = testing::cube();
-  const LimitSurface surface(find_scheme("catmull-clark").value(), cube);
+  const LimitMap surface(find_scheme("catmull-clark").value(), cube);
   for (const double chord : {0.0, -1.0, std::nan(""), HUGE_VAL})
     EXPECT_THROW(tessellate(surface, cube.positions, {.chord = chord}), InvalidParameter);
   EXPECT_THROW(tessellate(surface, cube.positions, {.chord = 1, .angle = -1}), InvalidParameter);
   EXPECT_THROW(tessellate(surface, Points::Zero(3, 3), {.chord = 1}), InvalidParameter);
   EXPECT_THROW(tessellate(surface, cube.positions, {.chord = 1e-6, .max_triangles = 1000}), ResourceError);
   const ControlMesh triangles = testing::icosahedron();
-  const LimitSurface butterfly(find_scheme("modified-butterfly").value(), triangles);
+  const LimitMap butterfly(find_scheme("modified-butterfly").value(), triangles);
   EXPECT_THROW(tessellate(butterfly, triangles.positions, {.chord = 0.1}), UnsupportedTopology);
   // Polynomials, but hulls with negative weights around them.
-  const LimitSurface habib_warren(find_scheme("mid-edge-habib-warren").value(), cube);
+  const LimitMap habib_warren(find_scheme("mid-edge-habib-warren").value(), cube);
   EXPECT_THROW(tessellate(habib_warren, cube.positions, {.chord = 0.1}), UnsupportedTopology);
   ControlMesh nothing;
   nothing.positions = Points::Zero(0, 3);
-  EXPECT_TRUE(tessellate(LimitSurface(find_scheme("catmull-clark").value(), nothing), nothing.positions, {.chord = 1})
+  EXPECT_TRUE(tessellate(LimitMap(find_scheme("catmull-clark").value(), nothing), nothing.positions, {.chord = 1})
                   .triangles.empty());
 }
 

@@ -8,7 +8,7 @@
 #include "sublimit/bake/bake.h"
 #include "sublimit/base/format_number.h"
 #include "sublimit/base/read_file.h"
-#include "sublimit/limit/limit_surface.h"
+#include "sublimit/limit/limit_map.h"
 #include "sublimit/point_addresses.h"
 #include "sublimit/schemes.h"
 #include "support/meshes.h"
@@ -29,7 +29,7 @@ void expect_at_addresses(const std::string& name, const ControlMesh& mesh, const
   table.table.apply({mesh.positions.data(), size_t(mesh.positions.size())}, 3, values);
   const SampleAddresses at = addresses_of(table);
   ASSERT_EQ(at.faces.size(), n);
-  const LimitSurface surface(patterns.scheme(), mesh);
+  const LimitMap surface(patterns.scheme(), mesh);
   std::vector<Sample> samples;
   for (size_t i = 0; i < n; ++i) samples.push_back({at.faces[i], at.parameters[2 * i], at.parameters[2 * i + 1]});
   const LimitSamples found = surface.evaluate(mesh.positions, samples, std::max(request.derivatives, 1));

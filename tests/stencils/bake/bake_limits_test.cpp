@@ -11,7 +11,7 @@
 #include "sublimit/bake/bake.h"
 #include "sublimit/limit/limit_masks.h"
 #include "sublimit/limit/limit_points.h"
-#include "sublimit/limit/limit_surface.h"
+#include "sublimit/limit/limit_map.h"
 #include "sublimit/scheme/prepare.h"
 #include "support/expect_error.h"
 #include "support/shared_meshes.h"
@@ -65,7 +65,7 @@ double off_plane(const std::map<Index, double>& t1, const std::map<Index, double
   return (own - other * C).norm() / own.norm();
 }
 
-void expect_the_limit(const Baked& baked, const LimitSurface& surface, std::span<const Sample> samples, int derivatives,
+void expect_the_limit(const Baked& baked, const LimitMap& surface, std::span<const Sample> samples, int derivatives,
                       bool copied) {
   const StencilTable<double> expanded = baked.table.table.expanded();
   const TableRowsOf rows{expanded, baked.table.table.num_points()};
@@ -116,7 +116,7 @@ TEST_P(BakedLimits, OfGridsAreTheSurface) {
       request.grid = N;
       request.derivatives = derivatives;
       const Baked baked = bake(patterns, mesh, request);
-      const LimitSurface surface(scheme_, mesh, {}, patterns.types());
+      const LimitMap surface(scheme_, mesh, {}, patterns.types());
       expect_the_limit(baked, surface, surface.grid(N), derivatives, true);
     }
 }
@@ -124,7 +124,7 @@ TEST_P(BakedLimits, OfGridsAreTheSurface) {
 TEST_P(BakedLimits, OfPlacesAreTheSurface) {
   Patterns patterns(scheme_);
   for (const ControlMesh& mesh : few_hard_meshes(scheme_, 3)) {
-    const LimitSurface surface(scheme_, mesh, {}, patterns.types());
+    const LimitMap surface(scheme_, mesh, {}, patterns.types());
     BakeRequest request;
     request.rows = TableRows::samples;
     for (Index f = 0; f < surface.addresses().size(); f += 2) {
@@ -149,7 +149,7 @@ TEST(BakedPlaces, StandAsTheyWereAskedFor) {
     const Scheme<double> scheme = find_scheme(name).value();
     const ControlMesh mesh = hard_meshes(scheme, 5)[1];
     Patterns patterns(scheme);
-    const LimitSurface surface(scheme, mesh, {}, patterns.types());
+    const LimitMap surface(scheme, mesh, {}, patterns.types());
     BakeRequest request{.rows = TableRows::samples, .derivatives = 1, .method = BakeMethod::patterns};
     std::mt19937 random(3);
     for (int i = 0; i < 300; ++i) {

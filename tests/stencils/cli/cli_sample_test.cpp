@@ -16,7 +16,8 @@
 #include "sublimit/base/format_number.h"
 #include "sublimit/files/random_samples.h"
 #include "sublimit/io/obj.h"
-#include "sublimit/limit/limit_surface.h"
+#include "sublimit/limit/curvature.h"
+#include "sublimit/limit/limit_map.h"
 #include "sublimit/schemes.h"
 #include "support/meshes.h"
 #include "support/tolerance.h"
@@ -99,7 +100,7 @@ TEST(CliSample, RowsAreTheStencilsOfTheirPlaces) {
     const Sampling on(control);
     const Scheme<double> scheme = find_scheme("catmull-clark").value();
     const ControlMesh read = read_obj(on.directory / "mesh.obj");
-    const LimitSurface surface(scheme, read);
+    const LimitMap surface(scheme, read);
     std::vector<Sample> samples, random;
     RandomSamples(surface.addresses(), 200, 4).read(random, 200);
     samples = surface.grid(3);
@@ -169,8 +170,7 @@ TEST(CliSample, GridsAreRowMajorWithUFastest) {
     const std::string scheme = whole ? "loop" : "catmull-clark";
     const std::vector<CsvRow> rows = on.rows({"--grid", "4"}, scheme);
     EXPECT_EQ(rows.size(), 1u + (whole ? 20 * 10 : 15 * 16));
-    const std::vector<Sample> grid =
-        LimitSurface(find_scheme(scheme).value(), whole ? icosahedron() : prism(5)).grid(4);
+    const std::vector<Sample> grid = LimitMap(find_scheme(scheme).value(), whole ? icosahedron() : prism(5)).grid(4);
     ASSERT_EQ(rows.size(), grid.size() + 1);
     for (size_t i = 0; i < grid.size(); ++i) {
       const Sample s = sample_of(rows[i + 1]);
@@ -180,7 +180,7 @@ TEST(CliSample, GridsAreRowMajorWithUFastest) {
     EXPECT_EQ(rows[2][2], "0");
   }
   // More than one batch.
-  const std::vector<Sample> grid = LimitSurface(find_scheme("catmull-clark").value(), prism(5)).grid(70);
+  const std::vector<Sample> grid = LimitMap(find_scheme("catmull-clark").value(), prism(5)).grid(70);
   ASSERT_GT(grid.size(), 70'000u);
   const std::vector<CsvRow> rows = squares.rows({"--grid", "70"});
   ASSERT_EQ(rows.size(), grid.size() + 1);

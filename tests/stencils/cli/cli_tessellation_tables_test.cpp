@@ -12,7 +12,7 @@
 #include "stencils/cli_tables.h"
 #include "sublimit/files/place_files.h"
 #include "sublimit/io/ply.h"
-#include "sublimit/limit/limit_surface.h"
+#include "sublimit/limit/limit_map.h"
 #include "sublimit/schemes.h"
 #include "support/tolerance.h"
 
@@ -65,7 +65,7 @@ TEST(CliTessellationTables, MovePointsAndKeepTriangles) {
     expect_done(on.apply(on.path("pose.obj"), on.out));
     const ControlMesh there = read_mesh(on.out);
     EXPECT_EQ(there.face_vertices, first.face_vertices);
-    const LimitSurface surface(find_scheme(scheme).value(), pose);
+    const LimitMap surface(find_scheme(scheme).value(), pose);
     const Points limit = surface.evaluate(pose.positions, read_placed_faces(on.triangles).places).position;
     EXPECT_LE((there.positions - limit).cwiseAbs().maxCoeff(), other_route);
     EXPECT_GT((there.positions - first.positions).cwiseAbs().maxCoeff(), 0.01);

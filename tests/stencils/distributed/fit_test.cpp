@@ -13,7 +13,7 @@
 #include "sublimit/fit/scattered_fit.h"
 #include "sublimit/io/obj.h"
 #include "sublimit/io/ply.h"
-#include "sublimit/limit/limit_surface.h"
+#include "sublimit/limit/limit_map.h"
 #include "sublimit/schemes.h"
 #include "support/meshes.h"
 
@@ -32,7 +32,7 @@ Points read_points(const std::string& path) {
 double box(const Points& points) { return (points.colwise().maxCoeff() - points.colwise().minCoeff()).norm(); }
 
 /// Places all over the first addresses of a surface, and points near it.
-PlaceTargets random_targets(const LimitSurface& surface, const Points& points, Index count, Index addresses,
+PlaceTargets random_targets(const LimitMap& surface, const Points& points, Index count, Index addresses,
                             bool weighted) {
   std::mt19937 random(count);
   std::uniform_real_distribution<double> unit(0, 1);
@@ -73,7 +73,7 @@ void expect_same(const std::string& scheme, const ControlMesh& mesh, const Place
   write(in, csv_of(targets));
   const ControlMesh read = read_obj(obj);
   const ScatteredFit alone =
-      fit_places(LimitSurface(*find_scheme<double>(scheme), read), targets, read.positions, {.fairness = fairness});
+      fit_places(LimitMap(*find_scheme<double>(scheme), read), targets, read.positions, {.fairness = fairness});
   ASSERT_TRUE(alone.solution.converged);
   for (const int ranks : {1, 2, 3}) {
     const RanksRun run =
@@ -88,7 +88,7 @@ void expect_same(const std::string& scheme, const ControlMesh& mesh, const Place
 }
 
 PlaceTargets random_targets(const std::string& scheme, const ControlMesh& mesh, Index count, bool weighted = false) {
-  const LimitSurface surface(*find_scheme<double>(scheme), mesh);
+  const LimitMap surface(*find_scheme<double>(scheme), mesh);
   return random_targets(surface, mesh.positions, count, surface.addresses().size(), weighted);
 }
 
@@ -118,7 +118,7 @@ TEST(SpreadFit, FairnessCountsEachFaceOnce) {
 
 TEST(SpreadFit, WithoutEnoughTargetsIsTheNearest) {
   const ControlMesh mesh = jittered(torus(9, 6));
-  const LimitSurface surface(*find_scheme<double>("catmull-clark"), mesh);
+  const LimitMap surface(*find_scheme<double>("catmull-clark"), mesh);
   PlaceTargets targets = random_targets(surface, mesh.positions, 12, 20, false);
   for (size_t i = 0; i < targets.places.size(); ++i) targets.places[i].face = Index(2 * i);
   expect_same("catmull-clark", mesh, targets);
@@ -136,7 +136,7 @@ TEST(SpreadFit, FairnessMayLeaveSomethingFree) {  // affine maps of a plane have
   const std::string obj = (directory / "m.obj").string(), in = (directory / "in.csv").string(),
                     out = (directory / "o.npy").string();
   write_obj(obj, output(grid(1, 1)));
-  const LimitSurface surface(*find_scheme<double>("catmull-clark"), read_obj(obj));
+  const LimitMap surface(*find_scheme<double>("catmull-clark"), read_obj(obj));
   const PlaceTargets targets = random_targets("catmull-clark", grid(1, 1), 2);
   write(in, csv_of(targets));
   for (const int ranks : {1, 3}) {

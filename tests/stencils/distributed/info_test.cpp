@@ -6,8 +6,9 @@
 #include "stencils/distributed/tagged_unions.h"
 #include "sublimit/io/obj.h"
 #include "sublimit/io/read_mesh.h"
-#include "sublimit/jobs/mesh_info.h"
+#include "sublimit/jobs/mesh_info_json.h"
 #include "support/meshes.h"
+#include "sublimit/jobs/mesh_job.h"
 
 namespace sublimit::testing {
 namespace {

@@ -253,7 +253,7 @@ TEST(SampleWriter, NumbersReadBackToTheSameBits) {
 TEST(WriteSamples, CountsStatusesAndLeavesNothingAfterAnError) {
   const TemporaryDirectory directory;
   const ControlMesh mesh = cube();
-  const LimitSurface surface(find_scheme("catmull-clark").value(), mesh);
+  const LimitMap surface(find_scheme("catmull-clark").value(), mesh);
   int calls = 0;
   const SampleSource corners = [&](std::vector<Sample>& batch, size_t most) {
     EXPECT_GT(most, 2u);

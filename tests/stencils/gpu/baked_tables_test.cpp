@@ -18,7 +18,7 @@
 #include "sublimit/base/error.h"
 #include "sublimit/gpu/gpu_evaluator.h"
 #include "sublimit/io/read_mesh.h"
-#include "sublimit/limit/limit_surface.h"
+#include "sublimit/limit/limit_map.h"
 #include "sublimit/pattern_evaluator.h"
 #include "support/face_varying_meshes.h"
 #include "support/free_form_shapes.h"
@@ -140,7 +140,7 @@ TEST_P(GpuLimits, AreWhatTheScalarKernelMakes) {
       compare_all_methods(patterns, mesh, {.rows = TableRows::grid, .grid = 4, .derivatives = derivatives}, compared);
       compare_all_methods(patterns, mesh, {.rows = TableRows::limit, .level = 1, .derivatives = derivatives}, compared);
       BakeRequest places{.rows = TableRows::samples, .derivatives = derivatives};
-      const LimitSurface surface(scheme, mesh, {}, patterns.types());
+      const LimitMap surface(scheme, mesh, {}, patterns.types());
       for (Index f = 0; f < surface.addresses().size(); ++f) {
         places.samples.push_back({f, 0.25, 0.125});
         if (f % 2 == 0) places.samples.push_back({f, 0, 0});

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "sublimit/limit/curvature.h"
 #include "sublimit/limit/limit_types.h"
 
 namespace sublimit::report {
@@ -75,7 +76,7 @@ Json characteristic_map_json(const std::shared_ptr<LimitTypes>& pieces, const Lo
     if (std::find(corners.begin(), corners.end(), Json(-1)) == corners.end()) json["faces"].push_back(corners);
   }
   // Parameter lines: sides and middles of faces.
-  const LimitSurface surface(scheme, mesh, rim_rules(), pieces);
+  const LimitMap surface(scheme, mesh, rim_rules(), pieces);
   const bool thirds = scheme.dilation() == 3;
   const int steps = thirds ? 3 : 4;
   const std::vector<double> at_values =
@@ -150,7 +151,7 @@ SampleSurface sample_surface(const std::shared_ptr<LimitTypes>& pieces, const Lo
   if (type.corner) net.mesh.corners.push_back({net.find.at({0, 0, 0}), infinite_sharpness});
   for (int x2 = 0; is_dart && x2 < 2 * rings; x2 += 2)
     net.mesh.creases.push_back({net.find.at({0, x2, 0}), net.find.at({0, x2 + 2, 0}), infinite_sharpness});
-  const LimitSurface surface(scheme, net.mesh, rim_rules(), pieces);
+  const LimitMap surface(scheme, net.mesh, rim_rules(), pieces);
   const std::vector<FaceRange> faces = faces_within(net, drawn_rings);
   SampleSurface result;
 

@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "sublimit/files/numbers.h"
-#include "sublimit/limit/limit_surface.h"
+#include "sublimit/limit/limit_map.h"
 #include "sublimit/limit/local_modes.h"
 
 namespace sublimit::report {

@@ -7,7 +7,7 @@
 
 #include "sublimit/certificates/c1_certificate.h"
 #include "sublimit/files/numbers.h"
-#include "sublimit/limit/limit_surface.h"
+#include "sublimit/limit/limit_map.h"
 #include "sublimit/limit/verdict.h"
 #include "sublimit/report/analysis/scheme_report.h"
 

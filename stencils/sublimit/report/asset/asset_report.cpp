@@ -46,7 +46,7 @@ AssetReport asset_report(const Scheme<double>& scheme, const ControlMesh& mesh, 
     };
   };
   const auto types = std::make_shared<LimitTypes>(scheme);
-  const LimitSurface surface(scheme, mesh, subdivision, types);
+  const LimitMap surface(scheme, mesh, subdivision, types);
   check_measurable_control(mesh.positions);
   const Topology& t = surface.level().topology();
 
@@ -64,7 +64,7 @@ AssetReport asset_report(const Scheme<double>& scheme, const ControlMesh& mesh, 
   asset::PointVerdicts verdicts(scheme);
   asset::Inventory inventory = asset::inventory(scheme, surface.level(), verdicts, options.listed);
   part(0, .1)(1);
-  const BoundLimitSurface bound(surface, mesh.positions);
+  const LimitSurface bound(surface, mesh.positions);
   part(0, .2)(1);
   const asset::LimitTraits traits{.polynomial = !types->pieces().has_no_polynomials(),
                                   .dual = scheme.is_dual(),

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "sublimit/limit/curvature.h"
 #include "sublimit/report/asset/curvature_statistics.h"
 
 #include <Eigen/Geometry>
@@ -55,7 +56,7 @@ Sample CellMiddles::operator()(std::int64_t number) const {
   return {Index(face), (double(i / 2) + at) / side, (double(j) + at) / side};
 }
 
-AssetCurvature curvature_statistics(const LimitSurface& surface, const BoundLimitSurface& bound, std::int64_t samples,
+AssetCurvature curvature_statistics(const LimitMap& surface, const LimitSurface& bound, std::int64_t samples,
                                     const LimitTraits& traits, const std::function<void(double)>& tick) {
   CellMiddles cells{surface.addresses().triangles()};
   if (traits.dual) cells.middle += 0x1p-13;  // off the seams

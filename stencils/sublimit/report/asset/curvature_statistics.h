@@ -15,7 +15,7 @@ struct LimitTraits {
 
 /// @param samples  about so many at most, but one a face; many less of limits that are no polynomials
 /// @param tick     called as work is done, with the part of it
-AssetCurvature curvature_statistics(const LimitSurface& surface, const BoundLimitSurface& bound, std::int64_t samples,
+AssetCurvature curvature_statistics(const LimitMap& surface, const LimitSurface& bound, std::int64_t samples,
                                     const LimitTraits& traits, const std::function<void(double)>& tick);
 
 /// The same places on every square or triangle, counted from the first address on.

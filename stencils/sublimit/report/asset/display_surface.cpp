@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "sublimit/limit/curvature.h"
 #include "sublimit/report/asset/display_surface.h"
 
 #include <Eigen/Geometry>
@@ -24,7 +25,7 @@ Sample moved_in(const Sample& s, bool triangles) {
 
 }  // namespace
 
-AssetSurface display_surface(const LimitSurface& surface, const BoundLimitSurface& bound, const LimitTraits& traits,
+AssetSurface display_surface(const LimitMap& surface, const LimitSurface& bound, const LimitTraits& traits,
                              Index faces) {
   const bool triangles = surface.addresses().triangles();
   const Index addresses = surface.addresses().size();

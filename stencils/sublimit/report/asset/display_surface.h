@@ -7,7 +7,7 @@
 namespace sublimit::asset {
 
 /// @param faces  at most, but one a square or triangle; nothing where that is ten times as many. Holes are left out.
-AssetSurface display_surface(const LimitSurface& surface, const BoundLimitSurface& bound, const LimitTraits& traits,
+AssetSurface display_surface(const LimitMap& surface, const LimitSurface& bound, const LimitTraits& traits,
                              Index faces);
 
 }  // namespace sublimit::asset

@@ -13,7 +13,7 @@ double end_of_square(bool dual) { return dual ? 1 - beside : 1; }
 
 }  // namespace
 
-SeamPlaces::SeamPlaces(const Scheme<double>& scheme, const LimitSurface& surface, const Inventory& inventory,
+SeamPlaces::SeamPlaces(const Scheme<double>& scheme, const LimitMap& surface, const Inventory& inventory,
                        bool polynomial)
     : surface_(surface),
       inventory_(inventory),

@@ -26,9 +26,9 @@ class SeamPlaces {
  public:
   /// @param surface, inventory  which must stay
   /// @param polynomial  pieces are polynomials, which can be told apart next to a seam; else no patch has an inside
-  SeamPlaces(const Scheme<double>& scheme, const LimitSurface& surface, const Inventory& inventory, bool polynomial);
-  SeamPlaces(const Scheme<double>&, const LimitSurface&&, const Inventory&, bool) = delete;
-  SeamPlaces(const Scheme<double>&, const LimitSurface&, const Inventory&&, bool) = delete;
+  SeamPlaces(const Scheme<double>& scheme, const LimitMap& surface, const Inventory& inventory, bool polynomial);
+  SeamPlaces(const Scheme<double>&, const LimitMap&&, const Inventory&, bool) = delete;
+  SeamPlaces(const Scheme<double>&, const LimitMap&, const Inventory&&, bool) = delete;
   /// Edges, then faces, then vertices: whatever has a number has zero or more groups.
   std::int64_t size() const;
   void add(std::int64_t number, SeamSamples& out) const;
@@ -44,7 +44,7 @@ class SeamPlaces {
   void add_point(Vertex v, SeamSamples& out) const;
   bool is_hole(HalfEdge h) const { return surface_.level().holes[index(surface_.level().topology().face(h))]; }
 
-  const LimitSurface& surface_;
+  const LimitMap& surface_;
   const Inventory& inventory_;
   bool polynomial_, dual_, mid_edge_;
   std::vector<double> along_;  // an edge

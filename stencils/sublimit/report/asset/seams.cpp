@@ -136,7 +136,7 @@ class Collector {
 
 }  // namespace
 
-AssetSeams measure_seams(const SeamPlaces& places, const Topology& topology, const BoundLimitSurface& surface,
+AssetSeams measure_seams(const SeamPlaces& places, const Topology& topology, const LimitSurface& surface,
                          double diagonal, const SeamTolerance& tolerance, Index listed,
                          const std::function<void(double)>& tick) {
   AssetSeams seams;

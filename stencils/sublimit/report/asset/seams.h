@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 // How well patches meet.
+#include "sublimit/limit/limit_surface.h"
 #include "sublimit/report/asset/seam_samples.h"
 
 namespace sublimit::asset {
@@ -8,7 +9,7 @@ namespace sublimit::asset {
 /// @param surface   with its points
 /// @param diagonal  of the box of the control points
 /// @param tick      called as work is done, with the part of it
-AssetSeams measure_seams(const SeamPlaces& places, const Topology& topology, const BoundLimitSurface& surface,
+AssetSeams measure_seams(const SeamPlaces& places, const Topology& topology, const LimitSurface& surface,
                          double diagonal, const SeamTolerance& tolerance, Index listed,
                          const std::function<void(double)>& tick);
 

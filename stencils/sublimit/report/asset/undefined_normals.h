@@ -6,7 +6,7 @@
 
 namespace sublimit::asset {
 
-std::vector<AssetWarning> undefined_normals(const LimitSurface& surface, const BoundLimitSurface& bound,
+std::vector<AssetWarning> undefined_normals(const LimitMap& surface, const LimitSurface& bound,
                                             const Inventory& inventory, const Points& points, Index listed);
 
 }  // namespace sublimit::asset

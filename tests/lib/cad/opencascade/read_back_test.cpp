@@ -40,7 +40,7 @@ struct ReadBack {
 };
 
 ReadBack read_back(const ControlMesh& mesh, const std::string& scheme, bool step) {
-  const LimitSurface surface(find_scheme(scheme).value(), mesh);
+  const LimitMap surface(find_scheme(scheme).value(), mesh);
   ReadBack read;
   read.size = testing::diagonal(mesh.positions);
   LimitModelOptions options;
@@ -105,7 +105,7 @@ TEST(ReadBack, FacesHaveTheirNames) {
     for (size_t i = 0; i < 4; ++i) sum += mesh.positions(mesh.face_vertices[4 * f + i], 1);
     options.face_names.of_face.push_back(sum < 0 ? 0 : 1);
   }
-  const LimitSurface surface(find_scheme("catmull-clark").value(), mesh);
+  const LimitMap surface(find_scheme("catmull-clark").value(), mesh);
   const CadFile file = cad_file(limit_model(surface, mesh.positions, options).boundary, "m", true);
   EXPECT_TRUE(file.is_valid);
   EXPECT_EQ(file.solids, 1);
@@ -147,9 +147,8 @@ TEST(ReadBack, ExactFacesAreOnTheLimit) {
     }
     Points points(Index(found.size()), 3);
     for (size_t i = 0; i < found.size(); ++i) points.row(Index(i)) = found[i];
-    const LimitSurface surface(find_scheme(scheme).value(), mesh);
-    EXPECT_LT(closest_points(surface, mesh.positions, points).distances.maxCoeff(), testing::cad_exact * read.size)
-        << scheme;
+    const LimitMap surface(find_scheme(scheme).value(), mesh);
+    EXPECT_LT(closest(surface, mesh.positions, points).distances.maxCoeff(), testing::cad_exact * read.size) << scheme;
   }
 }
 

@@ -56,8 +56,8 @@ constexpr double extrapolated = .1;
 
 /// Gauss, Bonnet: closed surfaces that are C^1, and C^2 but for points, bend by 2 pi chi in all.
 void expect_gauss_bonnet(const AssetReport& r, const ControlMesh& mesh, int characteristic, bool dual = false) {
-  const LimitSurface surface(find_scheme(r.scheme).value(), mesh);
-  const BoundLimitSurface bound(surface, mesh.positions);
+  const LimitMap surface(find_scheme(r.scheme).value(), mesh);
+  const LimitSurface bound(surface, mesh.positions);
   const AssetCurvature coarse = asset::curvature_statistics(surface, bound, curvature_samples / 4, {.dual = dual}, {});
   ASSERT_EQ(4 * coarse.samples, r.curvature.samples);
   const double change = r.curvature.total_gauss.value() - coarse.total_gauss.value();

@@ -4,7 +4,7 @@
 
 #include <Eigen/Geometry>
 
-#include "sublimit/limit/limit_surface.h"
+#include "sublimit/limit/limit_map.h"
 #include "sublimit/schemes.h"
 #include "support/meshes.h"
 #include "support/places.h"
@@ -27,7 +27,7 @@ class Surface {
  public:
   Surface(const char* scheme, ControlMesh mesh, const SubdivisionOptions& options = {})
       : mesh_(std::move(mesh)), surface_(find_scheme(scheme).value(), mesh_, options) {}
-  const LimitSurface& operator*() const { return surface_; }
+  const LimitMap& operator*() const { return surface_; }
   const Topology& topology() const { return surface_.level().topology(); }
 
   /// Of a place and of evaluation, which must say the same by both ways that it has.
@@ -59,7 +59,7 @@ class Surface {
 
  private:
   ControlMesh mesh_;
-  LimitSurface surface_;
+  LimitMap surface_;
 };
 
 void expect(const Answer& found, Status status, int order) {
@@ -171,7 +171,7 @@ TEST(LimitSurfaceStatus, SecondDerivativesThatJumpAreNamed) {
 TEST(LimitSurfaceStatus, PointsThatCoincideHaveNoNormal) {
   ControlMesh mesh = grid(4, 4);
   mesh.positions.rowwise() = Eigen::RowVector3d(1, 2, 3);
-  const LimitSurface surface(find_scheme("catmull-clark").value(), mesh);
+  const LimitMap surface(find_scheme("catmull-clark").value(), mesh);
   for (const size_t count : {size_t(1), size_t(200)}) {
     const LimitSamples samples = surface.evaluate(mesh.positions, std::vector<Sample>(count, Sample{5, 0.25, 0.25}), 1);
     EXPECT_EQ(samples.status.back(), Status::undefined_normal);
@@ -183,7 +183,7 @@ TEST(LimitSurfaceStatus, PointsThatCoincideHaveNoNormal) {
 TEST(LimitSurfaceStatus, PointsOnALineHaveNoNormal) {
   ControlMesh mesh = grid(4, 4);
   mesh.positions.rightCols(2).setZero();
-  const LimitSurface surface(find_scheme("catmull-clark").value(), mesh);
+  const LimitMap surface(find_scheme("catmull-clark").value(), mesh);
   for (const size_t count : {size_t(1), size_t(200)})
     EXPECT_EQ(surface.evaluate(mesh.positions, std::vector<Sample>(count, Sample{5, 0.25, 0.25}), 1).status.back(),
               Status::undefined_normal);
@@ -197,7 +197,7 @@ TEST(LimitSurfaceStatus, NormalsSurviveAVanishingDerivative) {
     const double i = v % 9 - 4, j = v / 9 - 4;
     mesh.positions.row(v) << i * i * i - i, j, 0;  // the cubic B-spline with these is u^3
   }
-  const LimitSurface surface(find_scheme("catmull-clark").value(), mesh);
+  const LimitMap surface(find_scheme("catmull-clark").value(), mesh);
   // Face (4,4) begins at vertex (4,4), which is u = 0.
   const LimitSamples samples = surface.evaluate(mesh.positions, std::vector<Sample>{{36, 0, 0.25}, {36, 0.5, 0.25}}, 2);
   EXPECT_LE(samples.du.row(0).norm(), rounding(64, 60));

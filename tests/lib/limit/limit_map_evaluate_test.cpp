@@ -26,7 +26,7 @@ constexpr Points LimitSamples::*quantities[] = {&LimitSamples::position, &LimitS
                                                 &LimitSamples::duu,      &LimitSamples::duv, &LimitSamples::dvv};
 
 /// Inside, on edges, at corners and near them.
-std::vector<Sample> some_places(const LimitSurface& surface, int count, unsigned seed) {
+std::vector<Sample> some_places(const LimitMap& surface, int count, unsigned seed) {
   const Topology& t = surface.level().topology();
   std::vector<Sample> result;
   std::mt19937 random(seed);
@@ -70,7 +70,7 @@ class LimitSurfaceEvaluation : public ::testing::TestWithParam<TestedScheme> {
   void SetUp() override {
     scheme_ = GetParam().scheme();
     mesh_ = hard_meshes(scheme_, 4).back();
-    surface_ = std::make_unique<LimitSurface>(scheme_, mesh_);
+    surface_ = std::make_unique<LimitMap>(scheme_, mesh_);
     // So many that patches are bound: half of them are the same again.
     const int few = std::max(30, 300 / effort(scheme_));
     few_ = some_places(*surface_, few, 1);
@@ -79,7 +79,7 @@ class LimitSurfaceEvaluation : public ::testing::TestWithParam<TestedScheme> {
   }
   Scheme<double> scheme_;
   ControlMesh mesh_;
-  std::unique_ptr<LimitSurface> surface_;
+  std::unique_ptr<LimitMap> surface_;
   std::vector<Sample> few_, many_;
 };
 
@@ -133,7 +133,7 @@ TEST_P(LimitSurfaceEvaluation, IsStencilsTimesPointsByBothPaths) {
 
 TEST_P(LimitSurfaceEvaluation, HasTheSameBitsWithAnyNumberOfThreads) {
   const auto all = [&] {
-    const LimitSurface fresh(scheme_, mesh_);
+    const LimitMap fresh(scheme_, mesh_);
     return std::pair(fresh.evaluate(mesh_.positions, many_, 2), fresh.evaluate(mesh_.positions, few_, 1));
   };
   const auto parallel = all();
@@ -144,7 +144,7 @@ TEST_P(LimitSurfaceEvaluation, HasTheSameBitsWithAnyNumberOfThreads) {
 }
 
 TEST_P(LimitSurfaceEvaluation, BoundPointsGiveTheSame) {
-  const BoundLimitSurface bound(*surface_, mesh_.positions);
+  const LimitSurface bound(*surface_, mesh_.positions);
   LimitSamples kept;
   for (const int order : {2, 0, 1}) {
     const LimitSamples expected = surface_->evaluate(mesh_.positions, many_, order);
@@ -166,14 +166,14 @@ TEST_P(LimitSurfaceEvaluation, TypesAreSharedBetweenSurfacesAndThreads) {
   std::vector<std::thread> threads;
   for (LimitSamples& samples : found)
     threads.emplace_back([&] {
-      const LimitSurface own(scheme_, mesh_, {}, types);
+      const LimitMap own(scheme_, mesh_, {}, types);
       samples = own.evaluate(mesh_.positions, few_, 2);
     });
   for (std::thread& thread : threads) thread.join();
   for (const LimitSamples& samples : found) EXPECT_TRUE(same_bits(samples, expected));
   const size_t known = types->pieces().size();
   EXPECT_GT(known, 1u);
-  const LimitSurface again(scheme_, mesh_, {}, types);
+  const LimitMap again(scheme_, mesh_, {}, types);
   EXPECT_TRUE(same_bits(again.evaluate(mesh_.positions, few_, 2), expected));
   EXPECT_EQ(types->pieces().size(), known);
 }
@@ -185,20 +185,20 @@ TEST(PieceTypes, ThatAreFullLeaveASurfaceToItself) {
   const Scheme<double> scheme = find_scheme("catmull-clark").value();
   const ControlMesh mesh = hard_polygons(1);
   const auto small = std::make_shared<LimitTypes>(scheme, 5);
-  const LimitSurface own(scheme, mesh), first(scheme, mesh, {}, small);
+  const LimitMap own(scheme, mesh), first(scheme, mesh, {}, small);
   const std::vector<Sample> places = some_places(own, 100, 3);
   const LimitSamples expected = own.evaluate(mesh.positions, places, 2);
   EXPECT_TRUE(same_bits(first.evaluate(mesh.positions, places, 2), expected));
   EXPECT_TRUE(small->pieces().is_full());
   const size_t size = small->pieces().size();
-  const LimitSurface second(scheme, hard_polygons(3), {}, small);
+  const LimitMap second(scheme, hard_polygons(3), {}, small);
   second.prepare();
   EXPECT_EQ(small->pieces().size(), size);
 }
 
-TEST(LimitSurface, PlacesOutsideAreRowsOfTheirOwn) {
+TEST(LimitMap, PlacesOutsideAreRowsOfTheirOwn) {
   const ControlMesh mesh = cube();
-  const LimitSurface surface(find_scheme("catmull-clark").value(), mesh);
+  const LimitMap surface(find_scheme("catmull-clark").value(), mesh);
   const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
   std::vector<Sample> samples{{0, 0.5, 0.5}, {-1, 0, 0},  {6, 0, 0},   {0, -1e-300, 0}, {0, 1 + eps, 0},
                               {0, nan, 0.5}, {0, 0, nan}, {0, inf, 0}, {5, 1, 1}};
@@ -216,14 +216,14 @@ TEST(LimitSurface, PlacesOutsideAreRowsOfTheirOwn) {
   }
 }
 
-TEST(LimitSurface, NoSamplesAreNoRows) {
-  const LimitSurface surface(find_scheme("loop").value(), octahedron());
+TEST(LimitMap, NoSamplesAreNoRows) {
+  const LimitMap surface(find_scheme("loop").value(), octahedron());
   EXPECT_EQ(surface.evaluate(octahedron().positions, {}, 2).position.rows(), 0);
 }
 
-TEST(LimitSurface, BadRequestsAreErrors) {
+TEST(LimitMap, BadRequestsAreErrors) {
   const ControlMesh mesh = cube();
-  const LimitSurface surface(find_scheme("catmull-clark").value(), mesh);
+  const LimitMap surface(find_scheme("catmull-clark").value(), mesh);
   const double nan = std::numeric_limits<double>::quiet_NaN();
   expect_error<InvalidParameter>([&] { surface.stencil({6, 0, 0}); }, {"face 6", "there are 6"});
   expect_error<InvalidParameter>([&] { surface.stencil({-1, 0, 0}); }, {"face -1"});
@@ -235,33 +235,33 @@ TEST(LimitSurface, BadRequestsAreErrors) {
   const std::vector<Sample> one{{0, 0, 0}};
   expect_error<InvalidParameter>([&] { surface.evaluate(mesh.positions, one, 3); }, {"order 3"});
   expect_error<InvalidParameter>([&] { surface.evaluate(Points::Zero(7, 3), one); }, {"7 x 3", "8 x 3"});
-  expect_error<InvalidParameter>([&] { BoundLimitSurface(surface, Points::Zero(9, 3)); }, {"9 x 3", "8 x 3"});
-  expect_error<InvalidParameter>([&] { BoundLimitSurface(surface, mesh.positions).evaluate(one, 3); }, {"order 3"});
+  expect_error<InvalidParameter>([&] { LimitSurface(surface, Points::Zero(9, 3)); }, {"9 x 3", "8 x 3"});
+  expect_error<InvalidParameter>([&] { LimitSurface(surface, mesh.positions).evaluate(one, 3); }, {"order 3"});
   expect_error<InvalidParameter>([&] { surface.grid(1); }, {"grid of 1"});
-  const LimitSurface triangles(find_scheme("loop").value(), octahedron());
+  const LimitMap triangles(find_scheme("loop").value(), octahedron());
   expect_error<InvalidParameter>([&] { triangles.stencil({0, 0.75, 0.5}); }, {"outside the triangle"});
   expect_error<InvalidParameter>([&] { triangles.stencil({8, 0, 0}); }, {"8 triangles"});
 }
 
-TEST(LimitSurface, RotatingSchemesBeginWithEvenLevels) {
+TEST(LimitMap, RotatingSchemesBeginWithEvenLevels) {
   for (const char* name : {"sqrt3", "interpolatory-sqrt3"}) {
     const Scheme<double> scheme = find_scheme(name).value();
     const std::vector<Level> levels = refine(scheme, octahedron(), 2);
-    expect_error<InvalidParameter>([&] { LimitSurface(scheme, levels[1]); }, {name, "multiple of 2", "level 1"});
-    EXPECT_NO_THROW(LimitSurface(scheme, levels[2]).stencil({0, 0.25, 0.25}));
+    expect_error<InvalidParameter>([&] { LimitMap(scheme, levels[1]); }, {name, "multiple of 2", "level 1"});
+    EXPECT_NO_THROW(LimitMap(scheme, levels[2]).stencil({0, 0.25, 0.25}));
   }
 }
 
-TEST(LimitSurface, PolygonsThatAreCutAtEdgesAreRefused) {
+TEST(LimitMap, PolygonsThatAreCutAtEdgesAreRefused) {
   expect_error<UnsupportedTopology>(
       [&] {
-        LimitSurface(find_scheme("kobbelt", {{"quads", "edges"}}).value(), hard_polygons(1));
+        LimitMap(find_scheme("kobbelt", {{"quads", "edges"}}).value(), hard_polygons(1));
       },
       {"kobbelt", "quads"});
 }
 
-TEST(LimitSurface, GridsHaveAllEndsAndOrder) {
-  const LimitSurface quads(find_scheme("catmull-clark").value(), cube()),
+TEST(LimitMap, GridsHaveAllEndsAndOrder) {
+  const LimitMap quads(find_scheme("catmull-clark").value(), cube()),
       triangles(find_scheme("loop").value(), octahedron());
   const std::vector<Sample> q = quads.grid(4), t = triangles.grid(4);
   ASSERT_EQ(q.size(), 6u * 16);

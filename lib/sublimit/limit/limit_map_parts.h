@@ -5,7 +5,7 @@
 
 #include "sublimit/base/found_once.h"
 #include "sublimit/limit/corner_limits.h"
-#include "sublimit/limit/limit_surface.h"
+#include "sublimit/limit/limit_map.h"
 #include "sublimit/limit/patch_tree.h"
 #include "sublimit/neighborhood/regular_faces.h"
 
@@ -21,7 +21,7 @@ inline bool is_sound_normal(double cross2, double tangents2) {
 /// From the square of a quadrilateral to the quarter at one corner, (0, 0) there.
 const PieceMap& quarter_map(int corner);
 
-struct LimitSurface::Parts {
+struct LimitMap::Parts {
   using Kind = Piece::Kind;
   Scheme<double> scheme;  ///< without preparation
   Level level;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sublimit/limit/limit_surface_parts.h"
+#include "sublimit/limit/limit_map_parts.h"
 
 #include <algorithm>
 #include <string>
@@ -71,7 +71,7 @@ std::shared_ptr<LimitTypes> dictionary(const Scheme<double>& scheme, const Level
 
 }  // namespace
 
-LimitSurface::Parts::Parts(const Scheme<double>& s, Level l, std::shared_ptr<LimitTypes> shared)
+LimitMap::Parts::Parts(const Scheme<double>& s, Level l, std::shared_ptr<LimitTypes> shared)
     : scheme(without_preparation(check_scheme(s))),
       level(std::move(l)),
       prepared(prepared_level(s, level)),
@@ -83,7 +83,7 @@ LimitSurface::Parts::Parts(const Scheme<double>& s, Level l, std::shared_ptr<Lim
                            std::to_string(scheme.period) + ", not from level " + std::to_string(level.number));
 }
 
-LimitSurface::Parts::Target LimitSurface::Parts::target(const Sample& s) const {
+LimitMap::Parts::Target LimitMap::Parts::target(const Sample& s) const {
   const Topology& t = level.topology();
   const Addresses::Place at = addresses.place(s.face);
   if (prepared) {
@@ -107,7 +107,7 @@ LimitSurface::Parts::Target LimitSurface::Parts::target(const Sample& s) const {
   return {{Kind::corner, t.corner(at.face, corner)}, map(whole), &map, whole};
 }
 
-bool LimitSurface::Parts::is_on_cut(HalfEdge h) const {
+bool LimitMap::Parts::is_on_cut(HalfEdge h) const {
   const Topology& t = base().topology();
   if (is_infinite(base().sharpness.vertex[index(t.tail(h))])) return true;
   int cut = 0;
@@ -120,7 +120,7 @@ bool LimitSurface::Parts::is_on_cut(HalfEdge h) const {
   return cut >= 2;  // one alone is a dart
 }
 
-unsigned LimitSurface::Parts::sides(const Piece& piece) const {
+unsigned LimitMap::Parts::sides(const Piece& piece) const {
   const Topology& t = base().topology();
   HalfEdge h = piece.start;
   unsigned bits = base().holes[index(t.face(h))] ? hole : 0;
@@ -138,7 +138,7 @@ unsigned LimitSurface::Parts::sides(const Piece& piece) const {
   return bits;
 }
 
-std::optional<Centre> LimitSurface::Parts::centre(const Target& target) const {
+std::optional<Centre> LimitMap::Parts::centre(const Target& target) const {
   const Topology& t = base().topology();
   const Place& p = target.place;
   HalfEdge h = target.piece.start;
@@ -163,7 +163,7 @@ std::optional<Centre> LimitSurface::Parts::centre(const Target& target) const {
   }
 }
 
-LimitSurface::Parts::Regular LimitSurface::Parts::found_regular() const {
+LimitMap::Parts::Regular LimitMap::Parts::found_regular() const {
   Regular regular;
   const Topology& t = base().topology();
   const int corners = addresses.triangles() ? 3 : 4;
@@ -183,7 +183,7 @@ LimitSurface::Parts::Regular LimitSurface::Parts::found_regular() const {
   return regular;
 }
 
-const PieceType* LimitSurface::Parts::type_of(const Piece& piece, std::vector<Index>& vertices) const {
+const PieceType* LimitMap::Parts::type_of(const Piece& piece, std::vector<Index>& vertices) const {
   if (piece.kind == Kind::quad || piece.kind == Kind::triangle)
     if (const Regular& known = regular(); known.type) {
       vertices.resize(size_t(known.faces->num_points()));
@@ -195,7 +195,7 @@ const PieceType* LimitSurface::Parts::type_of(const Piece& piece, std::vector<In
   return types->pieces().type(base(), piece, walk);
 }
 
-Piece LimitSurface::Parts::piece(Index number) const {
+Piece LimitMap::Parts::piece(Index number) const {
   const Topology& t = base().topology();
   if (prepared) return {Kind::quad, t.first(Face{number})};
   if (scheme.is_dual()) return {Kind::corner, HalfEdge{number}};
@@ -204,17 +204,17 @@ Piece LimitSurface::Parts::piece(Index number) const {
   return {addresses.triangles() ? Kind::triangle : Kind::quad, t.first(at.face)};
 }
 
-const LimitSurface::Parts::Pieces& LimitSurface::Parts::pieces() const {
+const LimitMap::Parts::Pieces& LimitMap::Parts::pieces() const {
   return pieces_.get([this] { return found_pieces(); });
 }
 
-NoLimit LimitSurface::Parts::without_limit(const Piece& piece, const std::string& why) const {
+NoLimit LimitMap::Parts::without_limit(const Piece& piece, const std::string& why) const {
   Index face = index(base().topology().face(piece.start));
   if (prepared) face = prepared->steps[0].face_parent[face];
   return {"some place of face " + std::to_string(face), why};
 }
 
-LimitSurface::Parts::Pieces LimitSurface::Parts::found_pieces() const {
+LimitMap::Parts::Pieces LimitMap::Parts::found_pieces() const {
   const Index count = num_pieces();
   struct Block {
     std::vector<Index> vertices, sizes;

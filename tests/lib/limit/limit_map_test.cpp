@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Laws of limit surfaces, for every scheme, on meshes that have everything at once: what stencils must be whatever the
 // scheme.
-#include "sublimit/limit/limit_surface.h"
+#include "sublimit/limit/limit_map.h"
 
 #include <gtest/gtest.h>
 
@@ -26,7 +26,7 @@ constexpr double difference_error = 1e-6, second_difference_error = 10 * differe
 constexpr double rough_difference_error = 1e-2;
 
 /// Rows of a stencil over all vertices of a level.
-RowMatrix dense(const LimitSurface& surface, const LimitStencil& s) {
+RowMatrix dense(const LimitMap& surface, const LimitStencil& s) {
   RowMatrix rows = RowMatrix::Zero(s.weights.rows(), surface.level().topology().num_vertices());
   for (size_t j = 0; j < s.vertices.size(); ++j) rows.col(s.vertices[j]) = s.weights.col(Eigen::Index(j));
   return rows;
@@ -49,11 +49,11 @@ class LimitSurfaceLaws : public ::testing::TestWithParam<TestedScheme> {
     int kind = 0;
     for (const ControlMesh& mesh : hard_meshes(scheme_, 2)) {
       SCOPED_TRACE("hard mesh " + std::to_string(kind++));
-      law(LimitSurface(scheme_, mesh, {}, types_), mesh);
+      law(LimitMap(scheme_, mesh, {}, types_), mesh);
     }
   }
   /// Places of all kinds: inside, on edges, at corners, near them.
-  std::vector<Sample> places(const LimitSurface& surface, int count, unsigned seed) const {
+  std::vector<Sample> places(const LimitMap& surface, int count, unsigned seed) const {
     const Topology& t = surface.level().topology();
     std::vector<Sample> result = random_places(surface.addresses(), count, seed);
     std::mt19937 random(seed);
@@ -77,7 +77,7 @@ class LimitSurfaceLaws : public ::testing::TestWithParam<TestedScheme> {
 };
 
 TEST_P(LimitSurfaceLaws, PositionsSumToOneAndDerivativesToZero) {
-  on_hard_meshes([&](const LimitSurface& surface, const ControlMesh&) {
+  on_hard_meshes([&](const LimitMap& surface, const ControlMesh&) {
     for (const Sample& s : places(surface, count(20), 1)) {
       const LimitStencil stencil = surface.stencil(s, 2);
       ASSERT_GE(stencil.weights.rows(), 1) << words(s);
@@ -98,7 +98,7 @@ TEST_P(LimitSurfaceLaws, PositionsSumToOneAndDerivativesToZero) {
 }
 
 TEST_P(LimitSurfaceLaws, LowerOrdersAreTheSameRows) {
-  on_hard_meshes([&](const LimitSurface& surface, const ControlMesh&) {
+  on_hard_meshes([&](const LimitMap& surface, const ControlMesh&) {
     for (const Sample& s : places(surface, count(6), 4)) {
       const RowMatrix both = dense(surface, surface.stencil(s, 2));
       for (int order = 0; order < 2; ++order) {
@@ -113,7 +113,7 @@ TEST_P(LimitSurfaceLaws, LowerOrdersAreTheSameRows) {
 
 /// Positions from both sides, and derivatives along the edge: differences of places along it say what these are.
 TEST_P(LimitSurfaceLaws, IsOneSurfaceAcrossEdges) {
-  on_hard_meshes([&](const LimitSurface& surface, const ControlMesh&) {
+  on_hard_meshes([&](const LimitMap& surface, const ControlMesh&) {
     const Topology& t = surface.level().topology();
     const Addresses& addresses = surface.addresses();
     struct Side {
@@ -158,7 +158,7 @@ TEST_P(LimitSurfaceLaws, IsOneSurfaceAcrossEdges) {
 
 /// Where children of pieces meet, a place beside another has nearly the same stencil.
 TEST_P(LimitSurfaceLaws, IsContinuousWherePiecesAreCut) {
-  on_hard_meshes([&](const LimitSurface& surface, const ControlMesh&) {
+  on_hard_meshes([&](const LimitMap& surface, const ControlMesh&) {
     for (const Sample& s : random_places(surface.addresses(), count(12), 6))
       for (const double cut : {0.5, 0.25, 1.0 / 3}) {
         const double v = triangles() ? s.v * (1 - cut) : s.v;
@@ -177,7 +177,7 @@ TEST_P(LimitSurfaceLaws, IsContinuousWherePiecesAreCut) {
 /// Away from what is dyadic.
 TEST_P(LimitSurfaceLaws, DerivativesAreDifferences) {
   const double h = std::ldexp(1.0, -17);
-  on_hard_meshes([&](const LimitSurface& surface, const ControlMesh&) {
+  on_hard_meshes([&](const LimitMap& surface, const ControlMesh&) {
     std::mt19937 random(8);
     std::uniform_real_distribution<double> inside(0.01, 0.49);
     int compared = 0;
@@ -211,7 +211,7 @@ TEST_P(LimitSurfaceLaws, DerivativesAreDifferences) {
 
 /// Corners of squares are where limits of vertices are known, with normals on each side.
 TEST_P(LimitSurfaceLaws, CornersAreTheLimitsOfVertices) {
-  on_hard_meshes([&](const LimitSurface& surface, const ControlMesh& mesh) {
+  on_hard_meshes([&](const LimitMap& surface, const ControlMesh& mesh) {
     const Topology& t = surface.level().topology();
     const bool prepared = !scheme_.preparation.empty();
     LimitTypes cache(scheme_);
@@ -265,9 +265,9 @@ class LimitSurfaceLawsOfSquares : public LimitSurfaceLaws {
 
 /// Stencils over level 1 times S are those over level 0.
 TEST_P(LimitSurfaceLawsOfSquares, IsTheSameFromTheNextLevel) {
-  on_hard_meshes([&](const LimitSurface& surface, const ControlMesh&) {
+  on_hard_meshes([&](const LimitMap& surface, const ControlMesh&) {
     const Level next = next_level(scheme_, surface.level());
-    const LimitSurface later(scheme_, next, types_);
+    const LimitMap later(scheme_, next, types_);
     const Topology &t = surface.level().topology(), &fine = next.topology();
     std::mt19937 random(2);
     std::uniform_real_distribution<double> unit(0, 1);

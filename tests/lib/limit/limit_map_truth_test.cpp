@@ -11,7 +11,7 @@
 #include <sstream>
 
 #include "sublimit/io/read_mesh.h"
-#include "sublimit/limit/limit_surface.h"
+#include "sublimit/limit/limit_map.h"
 #include "support/limit_truth.h"
 #include "support/places.h"
 #include "support/shared_meshes.h"
@@ -39,7 +39,7 @@ class Beside {
         points_(mesh.positions),
         box_(diagonal(points_)),
         smoothness_(scheme.claims.regular) {}
-  const LimitSurface& surface() const { return surface_; }
+  const LimitMap& surface() const { return surface_; }
   const Topology& topology() const { return surface_.level().topology(); }
 
   void compare(const Sample& s) {
@@ -108,7 +108,7 @@ class Beside {
 
  private:
   Scheme<Precise> precise_;
-  LimitSurface surface_;
+  LimitMap surface_;
   Points points_;
   double box_;
   int smoothness_;

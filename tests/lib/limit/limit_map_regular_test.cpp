@@ -9,7 +9,8 @@
 #include <functional>
 #include <random>
 
-#include "sublimit/limit/limit_surface.h"
+#include "sublimit/limit/curvature.h"
+#include "sublimit/limit/limit_map.h"
 #include "support/tested_schemes.h"
 #include "support/tolerance.h"
 
@@ -24,7 +25,7 @@ struct InPlane {
 };
 
 /// Of a grid whose vertex (i,j) has number j (side + 1) + i and stands at (i,j).
-InPlane in_plane(const LimitSurface& surface, const Sample& s) {
+InPlane in_plane(const LimitMap& surface, const Sample& s) {
   const Topology& t = surface.level().topology();
   const auto corners = t.vertices(surface.addresses().place(s.face).face);
   const auto place = [](Index v) { return Eigen::Vector2d(v % (side + 1), v / (side + 1)); };
@@ -48,7 +49,7 @@ TEST_P(RegularNets, LinearFunctionsOfTheParameterAreReproduced) {
   const Eigen::Vector3d a(1, -0.25, 2), b(0.5, 1, 1), c(3, 2, 1);
   const ControlMesh mesh =
       net(takes_triangles(scheme), [&](double i, double j) { return Eigen::Vector3d(c + i * a + j * b); });
-  const LimitSurface surface(scheme, mesh);
+  const LimitMap surface(scheme, mesh);
   const double depth = scheme.name == "bilinear" || scheme.name == "catmull-clark" || scheme.name == "loop" ||
                                scheme.name.starts_with("doo-sabin")
                            ? 0
@@ -104,7 +105,7 @@ TEST(LimitSurfaceCurvature, IsThatOfQuadrics) {
       const double less = (q.height(1, 0) + q.height(shear, 1)) / 3;
       return Eigen::Vector3d(x, y, q.height(x, y) - less);
     });
-    const LimitSurface surface(scheme, mesh);
+    const LimitMap surface(scheme, mesh);
     std::mt19937 random(5);
     std::uniform_real_distribution<double> unit(0, 1);
     std::vector<Sample> samples;
@@ -145,14 +146,14 @@ TEST(LimitSurfaceCurvature, IsThatOfQuadrics) {
 }
 
 TEST(LimitSurfaceCurvature, IsAbsentWithoutSecondDerivatives) {
-  const LimitSurface surface(find_scheme("catmull-clark").value(), cube());
+  const LimitMap surface(find_scheme("catmull-clark").value(), cube());
   const LimitSamples samples = surface.evaluate(cube().positions, std::vector<Sample>{{0, 0, 0}, {0, 0.25, 0.25}}, 2);
   EXPECT_FALSE(curvature(samples, 0));  // extraordinary
   EXPECT_TRUE(curvature(samples, 1));
   EXPECT_FALSE(curvature(surface.evaluate(cube().positions, std::vector<Sample>{{0, 0.25, 0.25}}, 1), 0));
   ControlMesh line = grid(4, 4);
   line.positions.rightCols(2).setZero();
-  const LimitSurface degenerate(find_scheme("catmull-clark").value(), line);
+  const LimitMap degenerate(find_scheme("catmull-clark").value(), line);
   EXPECT_FALSE(curvature(degenerate.evaluate(line.positions, std::vector<Sample>{{5, 0.25, 0.25}}, 2), 0));
 }
 

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sublimit/limit/limit.h"
+
+#include <utility>
+
+#include "sublimit/core/sparse_product.h"
+#include "sublimit/limit/limit_points.h"
+
+namespace sublimit {
+
+Limit limit(const ControlMesh& mesh, const AnyScheme& scheme, const LimitOptions& options) {
+  const AnyScheme for_mesh = scheme.for_mesh(mesh);
+  const std::vector<Level> levels = refine(*for_mesh, mesh, options.level);
+  const auto cache = options.cache ? options.cache : std::make_shared<LimitTypes>(*for_mesh);
+  LimitMatrices rows = limit_matrices(levels, *cache);
+  const SparseMatrix P = refinement_matrix(levels);
+  const Topology& topology = levels.back().topology();
+  const Points at_level = apply(P, mesh.positions);
+  LimitPoints limits = limit_points(rows, topology, at_level);
+  Limit all;
+  all.points.swap(limits.position);
+  all.normals.swap(limits.normal);
+  all.tangent1 = apply(rows.tangent1, at_level);
+  all.tangent2 = apply(rows.tangent2, at_level);
+  all.status = std::move(limits.status);
+  all.side_vertex = std::move(rows.side_vertex);
+  all.corner_side = std::move(rows.corner_side);
+  for (Index f = 0; f < topology.num_faces(); ++f) {
+    all.face_sizes.push_back(topology.size(Face{f}));
+    const auto corners = topology.vertices(Face{f});
+    all.face_vertices.insert(all.face_vertices.end(), corners.begin(), corners.end());
+  }
+  product(rows.position, P).swap(all.matrix);
+  product(rows.tangent1, P).swap(all.tangent1_matrix);
+  product(rows.tangent2, P).swap(all.tangent2_matrix);
+  return all;
+}
+
+}  // namespace sublimit
