@@ -45,7 +45,7 @@ std::string option(const SchemeOptions& options, const OptionInfo& info);
 /// @throws InvalidOption  anything else; the message has the range and `info.meaning`
 Ratio ratio_option(const SchemeOptions& options, const OptionInfo& info);
 
-/// The same where the range is of whole numbers.
+/// Value of an option whose range is of whole numbers.
 int whole_option(const SchemeOptions& options, const OptionInfo& info);
 
 /// @throws InvalidOption  an option that a scheme of this name does not have

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Points without order that a surface should be near to.
+// Point clouds: points without order that a surface should be near to.
 #include <vector>
 
 #include "sublimit/mesh/control_mesh.h"

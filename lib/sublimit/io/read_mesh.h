@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Any mesh file that can be read.
+// Reads a mesh from any file format that is known.
 #include <filesystem>
 
 #include "sublimit/mesh/control_mesh.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// A mesh on its way to a file.
+// Meshes as files: what is written, and the writer.
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -13,7 +13,7 @@
 
 namespace sublimit {
 
-/// A number for each vertex, by its name.
+/// A named number for each vertex.
 struct VertexValues {
   std::string name;
   std::vector<double> values = {};  ///< #V
@@ -47,11 +47,11 @@ struct MeshOutput {
   std::vector<std::string> comments;  ///< at the top of the file
 };
 
-/// A control mesh as output, tags included.
+/// Returns a control mesh as it is written, tags included.
 MeshOutput output(ControlMesh mesh);
 
 /// Writes .obj or .ply, by the extension of `path` in either case. The file appears whole or not at all.
-/// @param progress  told how many bytes are written, if given
+/// @param progress  called with the number of bytes written so far, if given
 /// @throws InvalidOption     another extension
 /// @throws InvalidParameter  arrays that do not fit together, or normals per corner in a .ply
 /// @throws InvalidMesh       coordinates or sharpness that no reader would take back: infinite, not a number, negative

@@ -31,7 +31,7 @@ class LimitMap : public LinearSource {
   /// @throws InvalidMesh, UnsupportedTopology  as refinement does
   LimitMap(const Scheme<double>& scheme, const ControlMesh& mesh, const SubdivisionOptions& options = {},
            std::shared_ptr<LimitTypes> types = nullptr);
-  /// Of a level, with stencils over its vertices.
+  /// Makes the map from the points of a level.
   LimitMap(const Scheme<double>& scheme, Level level, std::shared_ptr<LimitTypes> types = nullptr);
   // What is moved stays as it is.
   LimitMap(const LimitMap&) = default;
@@ -56,8 +56,8 @@ class LimitMap : public LinearSource {
   /// have the same bits in all of them.
   LimitSamples evaluate_grid(const Points& points, int N, int order = 0, bool normals = true) const;
 
-  /// For each address a box that holds its part of the limit: of the Bernstein coefficients of polynomial pieces, of
-  /// the points elsewhere, widened where weights are negative.
+  /// Returns a box for each address that contains its part of the limit: around the Bernstein coefficients of
+  /// polynomial pieces, elsewhere around the points, enlarged where weights are negative.
   std::vector<Eigen::AlignedBox3d> bounding_boxes(const Points& points) const;
 
  private:
@@ -65,7 +65,7 @@ class LimitMap : public LinearSource {
   std::shared_ptr<const Parts> parts_;
 };
 
-/// Pairs of rows of a grid, a later one and the first one, that are the same point.
+/// Returns pairs of rows of a grid that are the same point: a later row and the first one.
 /// @param dual  of a dual scheme, which keeps the sides of non-manifold edges and vertices apart
 std::vector<std::pair<std::int64_t, std::int64_t>> shared_grid_places(const Topology& topology,
                                                                       const Addresses& addresses, int N, bool dual);

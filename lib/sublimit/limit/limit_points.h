@@ -23,9 +23,10 @@ struct [[nodiscard]] LimitMatrices {
   std::vector<LimitStatus> status;  ///< of each side, for generic points
 };
 
-/// @throws NoLimit  naming the first vertex without one
+/// Returns the limit rows of a level.
+/// @throws NoLimit  naming the first vertex without a limit
 LimitMatrices limit_matrices(const Level& level, LimitTypes& cache);
-/// Of the last of levels 0 to any; what has no limit is named by where it is on level 0.
+/// Returns the limit rows of the last level. Errors name the vertex by its position on level 0.
 LimitMatrices limit_matrices(const std::vector<Level>& levels, LimitTypes& cache);
 
 struct [[nodiscard]] LimitPoints {
@@ -34,7 +35,8 @@ struct [[nodiscard]] LimitPoints {
   std::vector<LimitStatus> status;  ///< of each side, for these points
 };
 
-/// Normals follow the winding of the faces. Where the tangents degenerate, the next modes decide, if they span a plane.
+/// Returns limit positions and normals for given points. Normals follow the winding of the faces; where the tangents
+/// degenerate, the next modes decide, if they span a plane.
 /// @param topology  of the level
 /// @param points    of the level, #V x 3
 /// @throws InvalidParameter  points of another shape

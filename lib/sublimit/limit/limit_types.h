@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// The dictionary of a scheme: what its limits need to know of neighbourhoods, each found once, by signature, when it is
-// first asked for. Shared between meshes, surfaces and threads; grows by types, not by vertices.
+// Cache of a scheme's limits by type of neighbourhood: each is computed when it is first needed. May be shared between
+// meshes, surfaces and threads; its size depends on the number of types, not of vertices.
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -23,7 +23,7 @@ class LimitTypes {
 
   /// Limit masks of a vertex whose one-ring is all that they depend on. The reference stays valid as long as this.
   const LimitMasks& masks(const CanonicalNeighborhood& type);
-  /// The same for lone centres; null where there is nothing.
+  /// Limits of an isolated extraordinary centre; null if there are none.
   const LoneLimit* lone(const LocalType& type);
   /// What lies between vertices.
   PieceTypes& pieces() { return pieces_; }

@@ -10,7 +10,7 @@ namespace sublimit {
 
 /// A row for each place, over the control points. Rows of what does not exist at a place are empty.
 struct [[nodiscard]] PlaceStencils {
-  /// Of the position; then of du, dv; then of duu, duv, dvv: 1, 3 or 6 of them, as many as were asked for.
+  /// Matrices for the position, then du, dv, then duu, duv, dvv: 1, 3 or 6 of them, as many as were asked for.
   std::vector<SparseMatrix> matrices;
   std::vector<LimitStatus> status;  ///< of each place
 };

@@ -19,8 +19,8 @@ enum class Boundary {
 enum class Creasing { uniform, chaikin };
 /// Weights of Catmull-Clark edge points next to triangles.
 enum class Triangles { catmark, smooth };
-/// Where a face-varying channel is linear (the names of OpenSubdiv's FVarLinearInterpolation); each adds to the one
-/// before.
+/// Where a face-varying channel is interpolated linearly (the names of OpenSubdiv's FVarLinearInterpolation). Each rule
+/// includes the ones before it.
 enum class FaceVaryingInterpolation {
   none,           ///< nowhere: seams are as smooth as boundaries
   corners_only,   ///< values in a single face of their vertex stay
@@ -45,15 +45,15 @@ struct [[nodiscard]] ControlMesh {
   };
   std::vector<Crease> creases;  ///< the last entry for an edge wins
   std::vector<Corner> corners;
-  /// Distance between the knots at the ends of an edge: of its strip, all edges opposite to it in quadrilaterals.
+  /// Knot interval of an edge, shared by its strip: the edges that are opposite to it in quadrilaterals, and so on.
   struct KnotInterval {
     Index tail = 0, head = 0;
     double length = 1;
   };
-  std::vector<KnotInterval> knot_intervals;  ///< 1 of edges whose strip has none
+  std::vector<KnotInterval> knot_intervals;  ///< 1 for edges whose strip has none
   std::vector<Index> holes;                  ///< faces that are refined but are not part of the limit
 
-  /// Absent where the file says nothing; the defaults are edge_and_corner, uniform, catmark.
+  /// Rules. Absent ones have their defaults: edge_and_corner, uniform, catmark.
   std::optional<Boundary> boundary;
   std::optional<Creasing> creasing;
   std::optional<Triangles> triangles;
@@ -68,14 +68,14 @@ struct [[nodiscard]] ControlMesh {
   std::vector<FaceVarying> face_varying;
   std::optional<FaceVaryingInterpolation> face_varying_interpolation;  ///< absent: all
 
-  /// What files call faces: their group or, where they are in none, their object.
+  /// Names of faces in files: their group, or their object if they are in no group.
   struct FaceNames {
     std::vector<std::string> names;  ///< each once
     std::vector<Index> of_face;      ///< one of `names`, -1 none; empty: no face has one
   };
   FaceNames face_names;
 
-  std::vector<std::string> warnings;  ///< what the reader accepted but wants known, each with file:line
+  std::vector<std::string> warnings;  ///< what a reader accepted with a reservation, each with file:line
 
   Index num_vertices() const { return static_cast<Index>(positions.rows()); }
   Index num_faces() const { return static_cast<Index>(face_sizes.size()); }

@@ -64,18 +64,18 @@ struct LevelOf {
 };
 using Level = LevelOf<double>;
 
-/// Level 0 of a control mesh.
+/// Returns level 0 of a control mesh.
 /// @throws InvalidMesh           bad connectivity, a tag that points nowhere, knot intervals that contradict each other
 /// @note  Boundary::none makes no holes for a scheme whose faces need no neighbours (bilinear).
 template <class T>
 LevelOf<T> control_level(const Scheme<T>& scheme, const ControlMesh& mesh, const SubdivisionOptions& options = {});
 
-/// The level after `parent`.
+/// Returns the level after `parent`.
 /// @throws UnsupportedTopology  a face that the scheme cannot take
 template <class T>
 LevelOf<T> next_level(const Scheme<T>& scheme, const LevelOf<T>& parent);
 
-/// Levels 0 to `levels`.
+/// Returns levels 0 to `levels`.
 /// @param progress  called before each level with its number, if given
 /// @throws InvalidParameter     negative `levels`
 /// @throws UnsupportedTopology  a face that the scheme cannot take
@@ -84,26 +84,26 @@ LevelOf<T> next_level(const Scheme<T>& scheme, const LevelOf<T>& parent);
 [[nodiscard]] std::vector<Level> refine(const Scheme<double>& scheme, const ControlMesh& mesh, int levels,
                                         const SubdivisionOptions& options = {},
                                         const std::function<void(int)>& progress = {});
-/// The same from a control level that is there.
+/// Returns levels 0 to `levels`, from a level 0 that was made before.
 [[nodiscard]] std::vector<Level> refine(const Scheme<double>& scheme, Level control, int levels,
                                         const std::function<void(int)>& progress = {});
 
-/// P_k = S_{k-1} ... S_0: level k from the control points. The identity for k = 0.
+/// Returns P_k = S_{k-1} ... S_0, which makes the points of level k from the control points. The identity for k = 0.
 [[nodiscard]] SparseMatrix refinement_matrix(const std::vector<Level>& levels);
 
-/// Vertices of a level; exact but for dual steps across borders.
+/// Returns the number of vertices of a level; exact but for dual steps across borders.
 double predicted_vertices(const Scheme<double>& scheme, const Topology& control, int level);
 
-/// Bytes of memory that `levels` levels take, about, matrices included.
+/// Returns how many bytes `levels` levels take, matrices included; an estimate.
 double predicted_bytes(const Scheme<double>& scheme, const Topology& control, int levels);
 
-/// Some faces of a level as a level of their own. Its rim is no boundary of the mesh, but takes a boundary's rules:
-/// what is made near it means nothing.
+/// Some faces of a level as a level of their own. Its rim is treated as a boundary: points near it are not those of the
+/// mesh.
 struct Part {
   Level level;                                 ///< without a matrix
   std::vector<Index> faces, vertices, halves;  ///< their numbers in the whole, ascending
 };
-/// The faces and `rings` rings of faces around them.
+/// Returns some faces with `rings` rings of faces around them.
 Part part(const Level& whole, std::span<const Index> faces, int rings);
 
 /// A part of a mesh: chosen faces with as many rings of faces around them as their next refinement needs.
@@ -113,15 +113,15 @@ struct Subset {
   std::vector<Index> parents;  ///< of every face of the part: its number in the whole, ascending
 };
 
-/// Part of a level. `level.S` of the result selects vertices of the whole.
+/// Returns a part of a level. `level.S` of the result selects vertices of the whole.
 /// @param rings  of faces around them; `rings_for_refinement` says how many the scheme needs, 1 is enough for narrow
 /// primal ones
 /// @throws InvalidParameter  a face that does not exist
 Subset subset(const Level& level, std::span<const Index> faces, int rings = 1);
 int rings_for_refinement(const Scheme<double>& scheme);
 
-/// The children of the chosen faces (all of them are chosen again), without touching the rest of the mesh. Rows of
-/// `level.S` are the rows that refining the whole mesh would give, over the vertices of `part`.
+/// Refines the chosen faces without the rest of the mesh; all their children are chosen again. Rows of `level.S` are
+/// those that refining the whole mesh would give, over the vertices of `part`.
 [[nodiscard]] Subset refine(const Scheme<double>& scheme, const Subset& part);
 
 }  // namespace sublimit

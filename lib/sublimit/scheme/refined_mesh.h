@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Refined meshes for who wants points and faces: no matrix is made, and the last level has no connectivity but the
-// corners of its faces.
+// Fast refinement to points and faces: no matrix is made, and the last level has no connectivity but the corners of its
+// faces.
 #include <memory>
 
 #include "sublimit/scheme/any_scheme.h"
@@ -9,9 +9,9 @@
 
 namespace sublimit {
 
-/// The last of `levels` levels as a mesh: points and faces in the order of `refine`, with the tags that are left, so
-/// that refining it goes on where this stopped (`level_mesh`). Points are those of the matrices, to rounding, and have
-/// the same bits for any number of threads.
+/// Returns the last of `levels` levels as a mesh: points and faces in the order of `refine`, with the tags that are
+/// left, so that refining it goes on where this stopped (`level_mesh`). Points are those of the matrices, to rounding,
+/// and have the same bits for any number of threads.
 /// @param progress  called before each level with its number, if given
 /// @throws InvalidParameter     negative `levels`
 /// @throws UnsupportedTopology  a face that the scheme cannot take
@@ -21,24 +21,25 @@ namespace sublimit {
 ControlMesh refined_mesh(const Scheme<double>& scheme, const ControlMesh& mesh, int levels,
                          const SubdivisionOptions& options = {}, const std::function<void(int)>& progress = {});
 
-/// Refines one connectivity for any number of points: what does not depend on them is made once.
+/// Refines one connectivity for many sets of points: what does not depend on them is made once.
 class Refiner {
  public:
-  /// As `refined_mesh`.
+  /// @throws as `refined_mesh`
   Refiner(const Scheme<double>& scheme, const ControlMesh& mesh, int levels, const SubdivisionOptions& options = {},
           const std::function<void(int)>& progress = {});
-  /// The same by the mesh's own rules.
+  /// Uses the rules of the mesh.
+  /// @throws as `refined_mesh`
   Refiner(const ControlMesh& mesh, const AnyScheme& scheme, int levels)
       : Refiner(*scheme.for_mesh(mesh), mesh, levels) {}
   ~Refiner();
   Refiner(Refiner&&) noexcept;
   Refiner& operator=(Refiner&&) noexcept;
 
-  /// Faces and tags of the last level, without positions.
+  /// Returns faces and tags of the last level, without positions.
   const ControlMesh& mesh() const { return mesh_; }
   Index num_control_points() const;
   Index num_points() const;
-  /// Points of the last level, num_points() x columns; the bits of `refined_mesh`.
+  /// Returns the points of the last level, num_points() x columns; with the same bits as `refined_mesh`.
   /// @param control  a row for each control point, any number of columns
   /// @throws InvalidParameter  another number of rows
   Points points(const Points& control) const;
@@ -50,8 +51,9 @@ class Refiner {
   ControlMesh mesh_;
 };
 
-/// A level as a mesh: refining it goes on where the level stopped. Sharpness and holes are told where connectivity and
-/// the rule for borders do not imply them; Boundary::none becomes edge-only with the holes that it made.
+/// Returns a level as a mesh, whose refinement continues that of the level. Sharpness and holes are told where
+/// connectivity and the rule for borders do not imply them; Boundary::none becomes edge-only with the holes that it
+/// made.
 /// @param points   a row for each vertex; moved into the mesh
 /// @param control  the mesh of level 0, for its options
 /// @note  The middle of a non-manifold edge of two faces wound alike is a crease here and a corner to a reader, which
@@ -60,7 +62,7 @@ class Refiner {
 ControlMesh level_mesh(const Level& level, Points points, const ControlMesh& control,
                        const SubdivisionOptions& options = {});
 
-/// Sharp edges and vertices of a level that its connectivity and the rule for borders do not imply.
+/// Sharp edges and vertices of a level that do not follow from its connectivity and the rule for borders.
 struct RemainingTags {
   std::vector<Edge> creases;
   std::vector<Vertex> corners;

@@ -28,7 +28,7 @@ enum class Sharpening {
   semi_sharp,  ///< any sharpness
 };
 
-/// What a scheme is said to do, each claim with its law in the tests.
+/// Properties that a scheme is said to have. No result depends on them: reports judge them, and tests check each.
 struct Claims {
   int regular = 0;            ///< the limit is C^regular on regular meshes
   int extraordinary = 0;      ///< and C^extraordinary at extraordinary points
@@ -46,17 +46,16 @@ struct Scheme {
   std::vector<Step<T>> steps;
   CreaseMasks<T> creases;
   Claims claims = {};
-  std::vector<OptionInfo> options = {};  ///< that it knows
-  SchemeOptions chosen = {};             ///< those that it was made with, the others have their defaults
-  /// The masks repeat with this period in the level; 1 for stationary schemes. Rotating schemes (sqrt3, mid_edge) have
-  /// 2: only then a neighbourhood lies as it lay before.
+  std::vector<OptionInfo> options = {};  ///< options that it understands
+  SchemeOptions chosen = {};             ///< options that were given; the others have their defaults
+  /// Levels after which a neighbourhood has its old orientation: 1, or 2 for schemes that rotate (sqrt3, mid_edge).
   int period = 1;
   Sharpening sharpening = Sharpening::semi_sharp;
-  /// Where new knots go, of schemes whose masks know intervals.
+  /// Where new knots are inserted, for schemes whose masks use knot intervals.
   NewKnots knots = NewKnots::none;
-  /// Corners of the faces it takes, 0 for any (or what its split takes).
+  /// Corners of the faces that it takes; 0 for any, or what its split takes.
   int corners = 0;
-  /// Steps before those of level 0 where a control mesh has other faces than `corners`: they become such faces.
+  /// Steps that turn a control mesh with other faces than `corners` into one with such faces, before level 1.
   std::vector<Step<T>> preparation = {};
 
   int face_size() const {
@@ -75,18 +74,18 @@ struct Scheme {
     all.insert(all.end(), steps.begin(), steps.end());
     return all;
   }
-  /// Masks look beyond the faces of their element.
+  /// True if masks use points beyond the faces of their element.
   bool is_wide() const {
     for (const Step<T>& step : steps)
       if (step.masks.wide_edge || step.masks.wide_face) return true;
     return false;
   }
-  /// Limits of vertices depend on the faces around them alone.
+  /// True if limits of vertices depend on the faces around them alone.
   bool has_one_ring_limits() const {
     return steps.size() == 1 && preparation.empty() && period == 1 && !is_wide() &&
            (steps[0].split == Split::pqq || steps[0].split == Split::ptq);
   }
-  /// A vertex has no child vertex: its limit is that of the face (or border edge) that it becomes.
+  /// True if vertices have no child vertices: their limit is that of the face, or border edge, that they become.
   bool is_dual() const {
     for (const Step<T>& step : steps)
       if (step.split == Split::dqq || step.split == Split::mid_edge || step.split == Split::dual) return true;

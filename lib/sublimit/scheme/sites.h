@@ -75,7 +75,7 @@ class FaceSite : public Site<T> {
   FaceSite(const Masks<T>& masks, int level, std::vector<Index> slots, std::vector<EdgeKnots<T>> knots = {})
       : Site<T>(masks, level), slots_(std::move(slots)), knots_(std::move(knots)) {}
   int size() const { return static_cast<int>(slots_.size()); }
-  /// Of the edge from corner i to the next one, seen from there.
+  /// Knots of the edge from corner i to the next one, seen from corner i.
   EdgeKnots<T> knots(int i) const {
     const int at = position(i);
     return knots_.empty() ? EdgeKnots<T>{} : knots_[at];
@@ -132,7 +132,7 @@ class EdgeSite : public Site<T> {
   Stencil<T> head() const { return Stencil<T>(1); }
   FaceSite<T> left_face() const { return {*this->masks_, this->level_, left_, left_knots_}; }
   FaceSite<T> right_face() const { return {*this->masks_, this->level_, right_, right_knots_}; }
-  /// Seen from the tail.
+  /// Knots of the edge, seen from the tail.
   EdgeKnots<T> knots() const { return left_face().knots(0); }
 
  private:
@@ -178,7 +178,7 @@ class Ring : public Site<T> {
     const int at = position(i);
     return {*this->masks_, this->level_, faces_[at], knots_.empty() ? std::vector<EdgeKnots<T>>{} : knots_[at]};
   }
-  /// Of edge i of a closed ring, seen from the vertex.
+  /// Knots of edge i of a closed ring, seen from the vertex.
   EdgeKnots<T> knots(int i) const { return knots_.empty() ? EdgeKnots<T>{} : knots_[position(i)][0]; }
   /// The corner of the quadrilateral face i that is opposite to the vertex.
   Stencil<T> diagonal(int i) const {
@@ -214,7 +214,7 @@ class Ring : public Site<T> {
   }
 
  private:
-  /// Of face i, between edges i and i + 1.
+  /// Site of face i, between edges i and i + 1.
   int position(int i) const {
     const int n = valence();
     if (closed_) return ((start_ + i) % n + n) % n;
@@ -406,7 +406,7 @@ class CreaseSite : public Site<T> {
   Stencil<T> center() const { return Stencil<T>(0); }
   Stencil<T> before() const { return Stencil<T>(1); }
   Stencil<T> after() const { return Stencil<T>(2); }
-  /// Of the edges to these neighbours, seen from the vertex.
+  /// Knots of the edges to these neighbours, seen from the vertex.
   const EdgeKnots<T>& knots_before() const { return knots_before_; }
   const EdgeKnots<T>& knots_after() const { return knots_after_; }
 
@@ -427,7 +427,7 @@ class CreaseEdgeSite : public Site<T> {
   /// Where the curve ends in a corner, the next point is a virtual one, so that the end is the middle.
   Stencil<T> before() const { return has_before_ ? Stencil<T>(2) : T(2) * tail() - head(); }
   Stencil<T> after() const { return has_after_ ? Stencil<T>(3) : T(2) * head() - tail(); }
-  /// Seen from the tail.
+  /// Knots of the edge, seen from the tail.
   const EdgeKnots<T>& knots() const { return knots_; }
 
  private:
@@ -445,7 +445,7 @@ struct Masks {
   Mask<T, Ring<T>> vertex{};
   Mask<T, EdgeSite<T>> edge{};
   Mask<T, FaceSite<T>> face{};
-  /// Of a dual split, for the point at corner 0 of the face.
+  /// Mask of a dual split, for the point at corner 0 of the face.
   Mask<T, FaceSite<T>> corner{};
   /// Instead of `edge` and `face`, where these need more of the mesh. A wide edge mask makes border points too, if
   /// `wide_borders`; else the crease masks do.

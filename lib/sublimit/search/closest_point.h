@@ -42,7 +42,7 @@ struct [[nodiscard]] ClosestPoints {
 };
 
 struct ClosestPointOptions {
-  /// A place each to begin with, or none: the answer is the same, but for points equally near, sooner.
+  /// A place for each query to start from, or none. Good ones save time; results differ only among equally near points.
   std::span<const Sample> guess = {};
   int most_cells = 2000;  ///< to search for each face of a point, and to look at for its proof
   bool prove = true;      ///< else `lower` stays empty
@@ -52,7 +52,7 @@ struct ClosestPointOptions {
   bool is_signed = false;
 };
 
-/// Nearest points of a surface, holes left out. Equal input, equal answer, whatever the number of threads.
+/// Returns nearest points of a surface, without its holes. The result does not depend on the number of threads.
 /// @param queries  #queries x 3
 /// @throws InvalidParameter     shapes that do not fit, queries that are not finite or beyond 1e150: says which;
 ///                              guesses on no face; a count below 1, a radius below 0

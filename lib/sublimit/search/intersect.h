@@ -30,7 +30,7 @@ struct Ray {
   double tmin = 0, tmax = std::numeric_limits<double>::infinity();  ///< of origin + t direction
 };
 
-/// What a ray does at a hit.
+/// Kind of a hit.
 enum class HitKind : std::uint8_t {
   crossing,  ///< it goes from one side of the surface to the other
   /// It is as near as numbers go without being seen to cross: it touches the surface or runs within it, or meets an
@@ -46,7 +46,7 @@ struct [[nodiscard]] RayHits {
   std::vector<double> t;
   std::vector<HitKind> kinds;
   std::vector<Sample> places;
-  /// Of the surface there, #hits x 3; normals zero where undefined. Where a ray was given up: the point of the ray.
+  /// Points and normals of the surface, #hits x 3; normals are zero where undefined. If a ray was given up: its point.
   Points points, normals;
   std::vector<LimitStatus> status;  ///< `outside` where a ray was given up
   /// The word of a hit, as files have it: of its kind, or of its status where the ray crosses.
@@ -84,8 +84,8 @@ struct RayHit {
   HitKind kind = HitKind::crossing;
 };
 
-/// A surface made ready for single rays, as a renderer traces them, whose own tree may say which addresses a ray can
-/// meet. Made once for each pose; any number of threads may trace at a time, and each keeps memory of its own here.
+/// A surface prepared for single rays, as renderers trace them: a renderer's own tree may select the address. Made once
+/// for each pose. Any number of threads may trace at a time.
 class RayTracer {
  public:
   /// @param surface  which may go; what a `SearchedLimit` is of has to stay
@@ -99,8 +99,8 @@ class RayTracer {
   RayTracer& operator=(RayTracer&&) noexcept;
   ~RayTracer();
 
-  /// The hits that `intersect` finds, by rising t. The place is that of the part which is hit: at extraordinary
-  /// vertices it has fewer digits than t, and next to the borders of dual schemes it may be off.
+  /// Returns the hits that `intersect` finds, by rising t. Places are less accurate than t at extraordinary vertices,
+  /// and may be off next to the borders of dual schemes.
   /// @param address    only the part of the surface there; of an edge each of its addresses has the hit
   /// @param undecided  as `RayHits::undecided` counts, if not null
   /// @throws InvalidParameter  as `intersect`; an address that the surface does not have

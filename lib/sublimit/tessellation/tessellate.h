@@ -37,7 +37,7 @@ struct [[nodiscard]] Tessellation {
   std::int64_t cells = 0;
 };
 
-/// Triangles of all of the surface but its holes. Equal input, equal result, whatever the number of threads.
+/// Returns triangles of the whole surface without its holes. The result does not depend on the number of threads.
 /// @param control  points of the map's level, #V x 3
 /// @throws InvalidParameter     points that do not fit; a chord that is not positive, an angle below 0;
 ///                              rates as of `tessellate_by_rates`

@@ -11,7 +11,7 @@
 
 namespace sublimit {
 
-/// How a table is made. All of them make the same points, to rounding; the order of points may differ.
+/// Methods of making a table. All make the same points, to rounding; the order of points may differ.
 enum class BakeMethod {
   automatic,           ///< the first of these that is possible and pays: the second where most types would be rare
   patterns,            ///< a block for each type of neighbourhood
@@ -21,7 +21,7 @@ enum class BakeMethod {
 /// "patterns", "rows then patterns", "rows".
 const char* name(BakeMethod method);
 
-/// What points a table is to make.
+/// The points that a table is to make.
 struct BakeRequest {
   TableRows rows = TableRows::level;
   int level = 0;                     ///< k, of `level` (1 to 11) and `limit` (0 to 11)
@@ -41,7 +41,7 @@ struct BakeRequest {
 /// @throws InvalidParameter  a request outside these ranges, derivatives of a level
 void check(const BakeRequest& request);
 
-/// What became of the faces of a mesh.
+/// Statistics of a bake: how the faces of a mesh were treated.
 struct BakeStatistics {
   BakeMethod method = BakeMethod::rows;  ///< that was taken
   Index faces = 0;                       ///< that have patterns
@@ -54,7 +54,7 @@ struct BakeStatistics {
   std::int64_t channel_bytes = 0;  ///< of face-varying channels and tags, besides
 };
 
-/// A table with what its making told.
+/// A table and the statistics of making it.
 ///
 /// Points of levels by patterns stand face by face, in the order of the table: those inside a face, then those of its
 /// sides and corners that no other face has already, then isolated vertices; of dual schemes corner of a face by
@@ -67,7 +67,7 @@ struct [[nodiscard]] Baked {
   BakeStatistics statistics;
 };
 
-/// A table of any linear scheme.
+/// Bakes a table of any linear scheme.
 /// @param patterns  of the scheme; types that it does not know yet are added
 /// @throws InvalidParameter     a request outside these ranges, derivatives of a level, channels or tags of other
 ///                              points, a place outside its address, a
@@ -79,7 +79,7 @@ struct [[nodiscard]] Baked {
 Baked bake(Patterns& patterns, const ControlMesh& mesh, const BakeRequest& request,
            const SubdivisionOptions& options = {});
 
-/// A table of classical patches: grids by patterns, a block for each type of face; places by rows; of `level` the
+/// Bakes a table of classical patches: grids by patterns, a block for each type of face; places by rows; of `level` the
 /// control points of the nets that halving every span k times gives, patch after patch. `TableInfo::rational` tables
 /// are to be applied to homogeneous columns.
 /// @throws InvalidParameter     as above; channels, tags and limits of levels, which patches do not have
@@ -87,7 +87,7 @@ Baked bake(Patterns& patterns, const ControlMesh& mesh, const BakeRequest& reque
 /// @throws ResourceError        more than memory, predicted before it is taken
 Baked bake(const PatchSet& patches, const BakeRequest& request);
 
-/// What a bake will make and take, found out at the cost of a look at every face.
+/// What a bake will make and how much memory it takes, found by looking at every face once.
 struct [[nodiscard]] BakePlan {
   /// Counted, weights and bytes of schemes with wide masks at most; but for tables by rows, whose weights and bytes are
   /// estimated, and so are all `channel_bytes`.
@@ -95,13 +95,13 @@ struct [[nodiscard]] BakePlan {
   double memory = 0;  ///< bytes that the bake takes at once, about, besides the mesh as it is given
 };
 
-/// Weights and the table are not made.
+/// Returns the plan of a bake, without making weights or the table.
 /// @param limit  bytes of memory
 /// @throws ResourceError  the bake takes more than `limit`, thrown as soon as it is known; and what `bake` throws
 BakePlan bake_plan(Patterns& patterns, const ControlMesh& mesh, const BakeRequest& request,
                    const SubdivisionOptions& options = {}, double limit = std::numeric_limits<double>::infinity());
 
-/// Level k, from 1 to 11.
+/// Bakes a table of level k, from 1 to 11.
 Baked bake_level(Patterns& patterns, const ControlMesh& mesh, int levels, const SubdivisionOptions& options = {});
 
 }  // namespace sublimit

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// A mesh and the scheme that is to refine it, as they are asked for in words: by options of the program, by arguments
-// in Python.
+// A mesh and the scheme that is to refine it, requested in words: by options of the program, by arguments in Python.
 #include <memory>
 #include <optional>
 #include <string>
@@ -12,7 +11,7 @@
 
 namespace sublimit {
 
-/// What is asked for. Rules are the words of files/rule_words.h; empty: the mesh's own.
+/// A request. Rules are the words of files/rule_words.h; empty: the mesh's own.
 struct MeshRequest {
   std::string scheme = {};     ///< empty: none is needed
   SchemeOptions options = {};  ///< of the scheme
@@ -20,10 +19,10 @@ struct MeshRequest {
   bool triangulate = false;                               ///< every face is cut into triangles first
   bool no_creases = false;                                ///< crease and corner tags are dropped first
   bool strict = false;                                    ///< a mesh that is no clean manifold is refused
-  std::shared_ptr<const Scheme<double>> own_scheme = {};  ///< the caller's, instead of a name
+  std::shared_ptr<const Scheme<double>> own_scheme = {};  ///< a scheme of the caller, instead of a name
 };
 
-/// Ready to be refined.
+/// A mesh with its scheme, ready to be refined.
 struct MeshJob {
   ControlMesh mesh;
   std::optional<Scheme<double>> scheme;
@@ -33,22 +32,22 @@ struct MeshJob {
   bool face_varying_asked = false;  ///< not by the mesh's tag: it must be possible
 };
 
-/// The scheme of a name.
+/// Returns the scheme of a name.
 /// @throws InvalidOption  there is none, or it is one of curves or of points with more than positions; the message
 ///                        offers the nearest ones
 Scheme<double> scheme_or_throw(const std::string& name, const SchemeOptions& options = {});
 
-/// Scheme and rules of a request, before a mesh is read: what is misspelt is told at once.
+/// Returns scheme and rules of a request before a mesh is read, so that what is misspelt is reported at once.
 /// @throws InvalidOption  as `scheme_or_throw`; a rule by a word that there is not, an option that the own scheme lacks
 MeshJob scheme_job(const MeshRequest& request);
 
-/// The same with its mesh.
+/// Returns scheme, rules and mesh of a request.
 /// @param name  of the mesh, in messages
 /// @throws InvalidMesh  connectivity that no scheme takes; with `strict`, every fault of it
 /// @note  What is accepted with a warning is added to the mesh's.
 MeshJob mesh_job(const MeshRequest& request, ControlMesh mesh, const std::string& name);
 
-/// What the mesh has that a manifold has not, in words.
+/// Returns what keeps a mesh from being a manifold, in words.
 std::vector<std::string> faults(const ControlMesh& mesh);
 
 }  // namespace sublimit
