@@ -10,7 +10,7 @@
 namespace sublimit {
 
 PatchSide side_of(const PatchLine& line);
-/// Of a side among those of all patches, four of each.
+/// Returns the global number of a patch side: `4 * patch + side`.
 inline size_t side_number(const PatchLine& line) { return 4 * line.patch + size_t(side_of(line)); }
 
 /// Parameters of each side at its ends and at the corners of other patches that lie on it, ascending.
@@ -27,7 +27,7 @@ struct PartDistance {
   bool reversed = false;
   double distance = 0;  ///< largest, at proportional parameters
 };
-/// Of two parts of sides, in the direction in which they are nearer.
+/// Returns the distance of two parts of sides, in the direction in which they are nearer.
 PartDistance part_distance(std::span<const PatchColumns> patches, Coordinates coordinates, const SidePart& a,
                            const SidePart& b);
 

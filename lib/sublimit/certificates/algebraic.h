@@ -79,7 +79,7 @@ class Algebraic {
 
   /// Enclosures, as tight as the thread's precision (PrecisionScope) makes them.
   ComplexBall enclosure() const;
-  /// Of a real number.
+  /// Returns a ball that contains a real number.
   /// @throws AnalysisError  it is not real
   Ball real_enclosure() const;
   /// For pictures, never for proofs; the real part.

@@ -29,7 +29,7 @@ class AlgebraicRoot {
   /// At 128 bits.
   const ComplexBall& enclosure() const { return enclosure_; }
   ComplexBall enclosure(long bits) const;
-  /// Of a real root.
+  /// Returns a ball that contains a real root.
   Ball real_enclosure(long bits = 128) const { return enclosure(bits).re(); }
   bool is_real() const;
 

@@ -12,7 +12,7 @@ namespace sublimit {
 class BallMatrix {
  public:
   BallMatrix(Eigen::Index rows, Eigen::Index columns) { arb_mat_init(m_, rows, columns); }
-  /// Of numbers that say `enclosure()`, or that balls are made of, entry by entry.
+  /// Makes balls of numbers that have an `enclosure()`, or that a ball can be made of, entry by entry.
   template <class Matrix>
   explicit BallMatrix(const Eigen::MatrixBase<Matrix>& entries) : BallMatrix(entries.rows(), entries.cols()) {
     for (Eigen::Index i = 0; i < rows(); ++i)

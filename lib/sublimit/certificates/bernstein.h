@@ -48,7 +48,7 @@ class Bernstein {
   Bernstein du() const { return derivative(1, 0); }
   Bernstein dv() const { return derivative(0, 1); }
 
-  /// The same polynomial seen from a smaller piece: the square [p0.u, p1.u] x [p0.v, p2.v], or the triangle p0 (u = v =
+  /// Returns the polynomial over a smaller piece: the square [p0.u, p1.u] x [p0.v, p2.v], or the triangle p0 (u = v =
   /// 0), p1 (u = 1), p2 (v = 1). By blossoms: coefficients are values of the polar form at corners.
   Bernstein restricted(const PiecePlace<T>& p0, const PiecePlace<T>& p1, const PiecePlace<T>& p2) const;
   T at(const PiecePlace<T>& p) const;

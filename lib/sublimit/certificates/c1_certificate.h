@@ -33,7 +33,7 @@ class C1Prover {
   /// Nothing for schemes whose limits are not polynomials.
   const std::optional<RegularPieces>& pieces() const { return pieces_; }
   const BallFunctions& functions() const { return functions_; }
-  /// Of schemes without polynomials, where there is one.
+  /// Returns the bound on derivatives of a scheme without polynomials, if there is one.
   const std::optional<DerivativeTail>& tail() const { return tail_; }
 
  private:

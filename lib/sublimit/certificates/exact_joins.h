@@ -23,8 +23,8 @@ CurveJoin exact_curve_join(const BezierPiece<Rational>& left, const BezierPiece<
 SurfaceJoin exact_surface_join(const BezierPatch<Rational>& left, const BezierPatch<Rational>& right,
                                const JoinTolerance& tolerance = {});
 
-/// Of every seam of kind `knot`, `period` or `sides` the orders that hold for the patches of exactly these doubles:
-/// sides that are equal but for the last bit have a gap. Of others nothing.
+/// Returns for every seam of kind `knot`, `period` or `sides` the orders that hold for patches of exactly these
+/// doubles: sides that differ in the last bit have a gap. Nothing for other seams.
 /// @param seams  found in the same patches (patch_seams)
 /// @param exact  nets that are known without rounding, by patch: of its degrees and faces. None, or one entry a patch
 std::vector<std::optional<JoinOrders>> exact_seams(std::span<const PatchColumns> patches, Coordinates coordinates,

@@ -32,7 +32,7 @@ struct ExactSpectrum {
 
 ExactSpectrum exact_spectrum(const LocalPatch<Algebraic>& patch);
 ExactSpectrum exact_spectrum(ExactBlocks blocks);
-/// Of any real matrix, without symmetry: by modulus, ranked.
+/// Returns the eigenvalues of a real matrix without symmetry, ranked by modulus.
 std::vector<ExactEigenvalue> exact_eigenvalues(const DenseMatrix<Algebraic>& A);
 
 }  // namespace sublimit

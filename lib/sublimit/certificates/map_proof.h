@@ -61,7 +61,8 @@ Bernstein<Ball> along(const Bernstein<Ball>& f, const std::array<PiecePlace<Ball
 /// @param ring  `regular_ring` of the neighbourhood
 MapProof prove_map(CharacteristicMap& map, const RegularPieces& pieces, const BallFunctions& functions, int ring);
 
-/// The same for limits that are no polynomials, from refined nets: derivatives lie within the tail of differences. The
+/// Proves the same of a characteristic map without polynomials, from refined nets: derivatives lie within the tail of
+/// differences. The
 /// net of level k is the net itself between rings D^k r and D^(k+1) r, times lambda^k, so it is only looked at further
 /// out. Of interpolating schemes; others get no winding. Leaves are all kept as numbers of the finest level needed, no
 /// paths.

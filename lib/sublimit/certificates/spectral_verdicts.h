@@ -36,7 +36,7 @@ std::optional<Subdominant> subdominant(const ExactAnalysis& analysis);
 /// where it is not known to hold, neither are they.
 struct SecondOrderGiven {
   Hypothesis c1 = {"the surface is C^1 at the point", std::nullopt};
-  /// Of piecewise polynomial C^1 surfaces, and of all C^2 ones.
+  /// Holds for piecewise polynomial C^1 surfaces, and for all C^2 ones.
   Hypothesis bounded = {"second derivatives of regular surfaces are bounded", std::nullopt};
   Hypothesis continuous = {"regular surfaces are C^2", std::nullopt};
 };

@@ -34,7 +34,7 @@ class PivotedQr {
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr_;
 };
 
-/// Of least squares the solution of least norm; pivots below `threshold` times the largest are none.
+/// Returns the minimum-norm least-squares solution. Pivots below `threshold` times the largest count as zero.
 Eigen::VectorXd least_norm_solution(const Eigen::MatrixXd& M, const Eigen::VectorXd& right, double threshold);
 
 /// Orthonormal columns that span what those of X do.
@@ -83,7 +83,7 @@ struct SymmetricEigenvectors {
 };
 SymmetricEigenvectors symmetric_eigenvectors(const Eigen::MatrixXd& M);
 
-/// Of a symmetric matrix, ascending.
+/// Returns the eigenvalues of a symmetric matrix, ascending.
 Eigen::VectorXd symmetric_eigenvalues(const Eigen::MatrixXd& M);
 
 }  // namespace sublimit

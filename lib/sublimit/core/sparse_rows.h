@@ -21,7 +21,7 @@ class SparseRows {
     const size_t begin = i == 0 ? 0 : ends_[i - 1];
     return Row(terms_).subspan(begin, ends_[i] - begin);
   }
-  /// Of all rows together.
+  /// Returns the number of terms in all rows.
   size_t num_terms() const { return terms_.size(); }
 
   void reserve(size_t rows, size_t terms) {

@@ -86,7 +86,7 @@ class CurveAnalysis {
   Index column(const CurveOutline& curve, const CurveUnknown& unknown, std::int64_t around) const {
     return layout_.point(curve, around + unknown.position) * layout_.unknowns() + unknown.component;
   }
-  /// Of unknown i counted from one end the index from the other end's unknowns on, and its sign: derivatives turn.
+  /// Returns the index of unknown `i` when the curve is traversed backwards. Odd derivatives change sign: see `sign`.
   Index reversed(Index i) const {
     const Index component = i % layout_.unknowns();
     return component - (i - component);

@@ -46,7 +46,7 @@ class LimitCurve {
   /// @throws InvalidMesh, UnsupportedTopology, ResourceError  as refinement does
   /// @throws AnalysisError  the scheme has no limit
   LimitCurve(const CurveScheme<double>& scheme, const ControlPolygon& polygon);
-  /// Of a level, with stencils over its points, and derivatives per leg of it.
+  /// Makes the curve from a level, with stencils over its points, and derivatives per segment of it.
   LimitCurve(const CurveScheme<double>& scheme, const CurveLevel& level);
   ~LimitCurve();
   LimitCurve(LimitCurve&&) noexcept;
@@ -80,8 +80,8 @@ class LimitCurve {
   std::unique_ptr<Parts> parts_;
 };
 
-/// The same for schemes without a matrix. Segments are legs, t the parameter of the scheme's closed form:
-/// for hermite-incentre every arc of a leg has the same share of it, and t is the fraction of length on the arc.
+/// Evaluates limits of schemes without a matrix. t is the parameter of the scheme's closed form on a segment:
+/// for hermite-incentre every arc of a segment has the same share of it, and t is the fraction of length on the arc.
 /// Derivatives are by length, so that they are the unit tangent and the vector of curvature: the limit is G^1.
 /// @throws InvalidMesh, UnsupportedTopology  what the scheme cannot take
 /// @throws InvalidParameter                  as LimitCurve

@@ -14,8 +14,8 @@
 namespace sublimit {
 
 struct PolygonOptions {
-  /// Of polygons with a normal, in (0, 1): what those at both ends of an edge of a regular grid take of the edge. 1/2
-  /// is how the scheme refines, less is flatter around the points and bends more between them.
+  /// Size of the polygon at each point, as a fraction of the edge length on a regular grid; in (0, 1). 1/2 is how the
+  /// scheme refines, less is flatter around the points and bends more between them.
   double size = 0.5;
   SubdivisionOptions rules = {};
 };

@@ -7,8 +7,8 @@
 
 namespace sublimit {
 
-/// Of a positive definite M: by supernodes without pivoting (Eigen::SparseLU, many times faster here than its Cholesky
-/// factors).
+/// Factors of a positive definite matrix, by supernodes without pivoting (Eigen::SparseLU, many times faster here than
+/// its Cholesky factors).
 class SparseFactors {
  public:
   /// @param M  symmetric; both halves are stored

@@ -16,7 +16,7 @@ struct UnitFrame {
   Points outside(const Points& points) const { return (points * unit).rowwise() + origin; }
 };
 
-/// Of the targets' box; where it is a point, of the mesh's.
+/// Returns the frame of the targets' box; of the mesh's box if that is a point.
 inline UnitFrame unit_frame(const std::vector<VertexTarget>& targets, const Points& mesh) {
   Points at(static_cast<Index>(targets.size()), 3);
   for (size_t i = 0; i < targets.size(); ++i) at.row(i) = targets[i].position;

@@ -38,8 +38,7 @@ inline constexpr double direction_tolerance = 1e-6, unit_tolerance = 1e-6;
 /// @throws UnsupportedTopology  a face of more than four corners
 CurvatureMesh curvature_mesh(const ControlMesh& mesh, std::span<const VertexTarget> targets);
 
-/// The same data fit for use: normals and directions of length 1 and at right angles. What is so already keeps its
-/// bits.
+/// Returns the mesh with normals and directions of length 1 and at right angles; those that are so keep their bits.
 /// @throws InvalidMesh  data that are not finite, of other lengths, or not tangent, naming the vertex
 /// @throws UnsupportedTopology  edges or vertices that are not manifold, vertices without a face, naming them
 CurvatureMesh checked(CurvatureMesh mesh);

@@ -16,7 +16,7 @@
 
 namespace sublimit {
 
-/// Of a curve from a to b, by the parameter t from 0 to 1; `to_a` = 1 - t and `to_b` = t are given both, since near an
+/// Cubic curve from a to b, by the parameter t from 0 to 1; `to_a` = 1 - t and `to_b` = t are given both, since near an
 /// end the small one has digits that a difference would lose.
 template <class T>
 struct EdgeCubic {

@@ -37,7 +37,7 @@ inline MeshView view(const NormalMesh& mesh) {
 /// @throws UnsupportedTopology  a face that is not a triangle, naming the first
 NormalMesh normal_mesh(const ControlMesh& mesh, const Points& normals);
 
-/// The same data fit for use: normals of length 1. What is so already keeps its bits. Any topology will do; vertices
+/// Returns the mesh with normals of length 1; those that have it keep their bits. Any topology will do; vertices
 /// without a face are not looked at.
 /// @throws InvalidMesh  indices out of range; no faces; no normals; at a vertex, naming it: numbers that are not
 /// finite,

@@ -15,7 +15,7 @@ struct SurfacePoint {
   /// The second fundamental form on vectors of space: k1 d1 d1^T + k2 d2 d2^T. It does not depend on signs and order
   /// of the directions, nor, where k1 = k2, on the directions at all.
   Eigen::Matrix3d shape() const;
-  /// The same surface seen from its other side.
+  /// Returns the point with the opposite normal.
   SurfacePoint flipped() const { return {position, -normal, -k1, -k2, direction1}; }
 };
 

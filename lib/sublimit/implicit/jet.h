@@ -17,7 +17,7 @@ struct FieldJet {
   double value = 0;
   Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
   Eigen::Matrix3d hessian = Eigen::Matrix3d::Zero();
-  /// Of the highest derivatives that exist here, 0 to 2; those above are one side's, or zero.
+  /// Order of the highest derivatives that exist here, 0 to 2; those above are one side's, or zero.
   int order = 2;
 
   FieldJet() = default;

@@ -45,10 +45,10 @@ ControlMesh parse_obj(std::string_view text, std::string_view name);
 struct ObjCounts {
   std::int64_t lines = 0, vertices = 0, texture_coordinates = 0, faces = 0;
 };
-/// Of a part of a file: whole lines.
+/// Counts the elements in a part of a file, which consists of whole lines.
 ObjCounts count_obj(std::string_view part);
 
-/// A part of a file for who puts parts together: its own vertices and values, faces and tags with numbers of the whole.
+/// A part of a file, to be joined with others: its own vertices and values, faces and tags with numbers of the whole.
 /// What takes the whole is not checked: numbers out of range, edges of tags, that there are any vertices or faces.
 /// @param before  of the file
 /// @throws as `parse_obj`

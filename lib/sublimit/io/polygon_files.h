@@ -23,7 +23,7 @@ namespace sublimit {
 /// @throws InvalidMesh  numbers that are not finite, indices out of range, no curves;  IoError  missing, unreadable
 ControlPolygon read_polygon(const std::filesystem::path& path, bool tangents = false);
 
-/// The same from text; messages start with `name`.
+/// Reads a control polygon from text; messages start with `name`.
 ControlPolygon parse_polygon_csv(std::string_view text, std::string_view name, bool tangents = false);
 ControlPolygon parse_polygon_obj(std::string_view text, std::string_view name);
 

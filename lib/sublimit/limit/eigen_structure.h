@@ -70,14 +70,14 @@ std::optional<SectorRows> sector_rows(const SparseMatrix& A, std::vector<std::ve
 /// As above, where slot 0 is fixed and slot 1 + s p + i is place i of sector s.
 std::optional<SectorRows> sector_rows(const SparseMatrix& A, int n);
 
-/// The same with all blocks.
+/// Rows of one sector with all Fourier blocks of the matrix.
 struct FourierBlocks : SectorRows {
   std::vector<Eigen::MatrixXcd> blocks;  ///< 0 to n - 1
 };
 
 /// Blocks of A, if it commutes with the rotation (up to rounding).
 std::optional<FourierBlocks> fourier_blocks(const Eigen::MatrixXd& A, std::vector<std::vector<int>> orbits);
-/// The same where slot 0 is fixed and slot 1 + s p + i is place i of sector s.
+/// Returns the Fourier blocks of a matrix whose slot 0 is fixed and whose slot 1 + s p + i is place i of sector s.
 std::optional<FourierBlocks> fourier_blocks(const Eigen::MatrixXd& A, int n);
 
 /// Leading clusters of blocks 0 to n/2 (the others are their conjugates), by descending modulus. Eigenvectors are found

@@ -15,7 +15,7 @@ struct LimitCell {
   /// All of it is about as near to its start in u and v.
   double radius = 0;
   Eigen::AlignedBox3d box;  ///< along the axes
-  /// The same along directions of its own: rows of a rotation, the last one near the normal; in these coordinates.
+  /// A second box along the rows of a rotation, the last one near the normal; in these coordinates.
   Eigen::Matrix3d frame;
   Eigen::AlignedBox3d own_box;
 

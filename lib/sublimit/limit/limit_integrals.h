@@ -21,7 +21,8 @@
 
 namespace sublimit {
 
-/// Of the solid that a closed surface bounds, of density 1. Errors are estimates; 0 where only rounding is left.
+/// Integrals over the solid that a closed surface bounds, of density 1. Errors are estimates; 0 where only rounding is
+/// left.
 struct SolidIntegrals {
   double volume = 0;  ///< negative where normals point inwards
   double volume_error = 0;

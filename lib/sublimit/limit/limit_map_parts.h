@@ -89,7 +89,7 @@ struct LimitMap::Parts {
   /// Tangents on a side where the limit has no derivatives by u and v, though there is a tangent plane; none if there
   /// are none inside either.
   RowMatrix tangents_on_side(const PieceType& type, const Place& place) const;
-  /// The same where the type is known.
+  /// Finds what there is at a place whose type is known.
   /// @param vertices  its points, by slot
   Found find(const Target& at, int order, const PieceType& type, std::vector<Index> vertices,
              KnownRows* known = nullptr) const;
@@ -134,7 +134,8 @@ struct LimitMap::Parts {
   }
 
  private:
-  /// The same where nothing is special; false: it is, and `out` is as it was.
+  /// Fast path for places without special cases. Returns false, and leaves `out` unchanged, if the general path is
+  /// needed.
   bool evaluate_plain_row(const Points& points, const Found& found, int order, bool normals, LimitSamples& out,
                           std::int64_t i) const;
   Pieces found_pieces() const;

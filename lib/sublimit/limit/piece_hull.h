@@ -24,7 +24,7 @@ class BernsteinQuarters {
   std::array<Eigen::MatrixXd, 4> quarters_;
 };
 
-/// The same, and coefficients by those of the basis.
+/// Bernstein nets of a piece: quarters as `BernsteinQuarters` makes them, and coefficients from those of the basis.
 class BernsteinNets : public BernsteinQuarters {
  public:
   explicit BernsteinNets(const PolynomialBasis& basis)

@@ -11,7 +11,8 @@ struct QuadraturePoint {
 
 /// Product rule of n x n points on the unit square, exact for degrees up to 2n - 1 in u and in v. Weights sum to 1.
 std::vector<QuadraturePoint> square_rule(int n);
-/// The same on the triangle u, v >= 0, u + v <= 1, its side u = 1 made a point: exact for total degrees up to 2n - 2.
+/// Returns the rule on the triangle u, v >= 0, u + v <= 1, a square whose side u = 1 is collapsed to a point: exact for
+/// total degrees up to 2n - 2.
 /// Weights sum to 1/2.
 std::vector<QuadraturePoint> triangle_rule(int n);
 

@@ -40,7 +40,7 @@ inline size_t knot_entry(KnotOwner owner, Edge edge, bool at_tail) {
 inline size_t knot_entry(KnotOwner owner, const Topology& t, HalfEdge h) {
   return knot_entry(owner, t.edge(h), t.forward(h));
 }
-/// Of degree 2: the entry at the other end of the same edge.
+/// Returns the entry at the other end of the same edge; degree 2.
 inline size_t other_end(size_t entry) { return entry ^ 1; }
 
 /// Intervals of one level.

@@ -27,7 +27,7 @@ std::vector<Index> closed_set(std::vector<Index> open, Index count, const Depend
   return set;
 }
 
-/// The same of a dense matrix: the smallest set with A(set, rest) = 0.
+/// Returns the smallest closed set of a dense matrix: A(set, rest) = 0.
 template <class Matrix>
 std::vector<Index> closed_set(const Matrix& A, std::vector<Index> open) {
   using Number = typename Matrix::Scalar;
@@ -37,7 +37,7 @@ std::vector<Index> closed_set(const Matrix& A, std::vector<Index> open) {
   });
 }
 
-/// The same of a sparse matrix.
+/// Returns the smallest closed set of a sparse matrix.
 template <class T>
 std::vector<Index> closed_set(const Eigen::SparseMatrix<T, Eigen::RowMajor, Index>& A, std::vector<Index> open) {
   return closed_set(std::move(open), static_cast<Index>(A.rows()), [&](Index i, const auto& add) {

@@ -82,7 +82,7 @@ SparseStep<T> sparse_step(const Scheme<T>& scheme, const CanonicalNeighborhood& 
   return result;
 }
 
-/// The same with a dense matrix.
+/// Returns the local matrix as a dense one.
 template <class T>
 LocalStep<T> local_step(const Scheme<T>& scheme, const CanonicalNeighborhood& type, int level = 0) {
   SparseStep<T> sparse = sparse_step(scheme, type, level);

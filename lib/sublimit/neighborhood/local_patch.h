@@ -49,8 +49,8 @@ int rings_of_masks(const Scheme<T>& scheme) {
 
 /// n faces of a scheme's regular size around a vertex, alone.
 ControlMesh lone_fan(Index n, Index face_size, bool open);
-/// The same, closed, with sharp edges that cut a side of `faces` faces off the vertex: from spoke 0 to spoke `faces`.
-/// One edge alone, where `faces` is n, ends there: a dart.
+/// Returns a closed fan with sharp edges on spokes 0 and `faces`, which separate a side of `faces` faces from the rest.
+/// If `faces` is n, a single sharp edge ends at the vertex: a dart.
 ControlMesh creased_fan(Index n, Index faces, Index face_size);
 
 /// Rings of faces around a point that the masks of one level look at, at most.

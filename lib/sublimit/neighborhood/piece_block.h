@@ -12,7 +12,7 @@ namespace sublimit {
 class PieceBlock {
  public:
   PieceBlock() = default;
-  /// Of the rows of S for the points of the child.
+  /// Returns the rows of S for the points of the child.
   explicit PieceBlock(const SparseMatrix& B);
 
   /// Of S, at most 0: the least of its entries.
@@ -22,7 +22,7 @@ class PieceBlock {
   const Eigen::RowVectorXd& origin() const { return origin_; }
   /// Differences of the child from those of the parent.
   RowMatrix differences() const;
-  /// The same, times differences of points: x_j - x_0 of the parent become those of the child.
+  /// Applies the block to differences of points: x_j - x_0 of the parent become those of the child.
   Points apply(const Points& parent) const;
 
   /// Position row, and derivative rows below it, of the child as rows of the parent.

@@ -56,13 +56,13 @@ class PieceType {
     std::vector<PieceMap> maps;  ///< of the children
     RowMatrix rows;              ///< as many a child as it has corners
   };
-  /// Of quadrilaterals and triangles.
+  /// Returns the corners of the children as rows over the own slots; for quadrilaterals and triangles.
   ChildCorners child_corners() const;
   /// The child that a place is in.
   const PieceLink& child(const Place& place) const;
   /// Null where it is no polynomial.
   const PiecePolynomial* polynomial() const;
-  /// The same if it is known, without finding out.
+  /// Returns the polynomial if it has been computed already, else null.
   const PiecePolynomial* known_polynomial() const {
     return polynomial_state_.load(std::memory_order_acquire) == 2 ? &*candidate_ : nullptr;
   }
@@ -117,7 +117,7 @@ class PieceType {
   Refined refined() const;
   /// S from its own level to the last one: the rows of these vertices, and perhaps others.
   SparseMatrix rows_of(const Refined& refined, std::vector<Index> vertices) const;
-  /// The same over the slots.
+  /// Returns the rows over the slots of the piece.
   SparseMatrix rows_over_slots(const Refined& refined, const SparseMatrix& S, std::span<const Index> vertices) const;
   /// Nothing where the limits are not so.
   std::optional<Modes> modes(int corner, const Eigen::MatrixXd& D, double scale, int degree) const;
@@ -173,7 +173,7 @@ class PieceTypes {
   /// @param walk  of the piece; a walker of the calling thread may keep it, for this thread takes up no other work in
   ///              here
   const PieceType* type(const Level& level, const Piece& piece, const PieceWalk& walk);
-  /// The same, where the type may keep the level until it looks at its surroundings.
+  /// Returns the type of a piece of a shared level, which the type may keep until it looks at its surroundings.
   const PieceType* type(const std::shared_ptr<const Level>& level, const Piece& piece, const PieceWalk& walk);
   /// The type with this signature, or null.
   const PieceType* find(const std::vector<std::uint32_t>& signature) const;
@@ -210,7 +210,7 @@ inline bool is_on_knot(const Place& p, bool triangle, bool dual, bool halves) {
 /// Derivative rows of a child become those of its parent.
 void apply_chain(const PieceMap::Chain& chain, RowMatrix& rows);
 
-/// The same for rows along u and v that turn, and may be scaled together.
+/// Rotates tangent rows as the chain of maps rotates u and v; both may be scaled by a common factor.
 void turn_tangents(const PieceMap::Chain& chain, RowMatrix& tangents);
 
 /// Rows of a place over the slots of a piece, in differences.

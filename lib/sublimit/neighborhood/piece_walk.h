@@ -25,8 +25,8 @@ class PieceWalker {
  public:
   /// @param phase  of the level, modulo the period of the scheme
   const PieceWalk& walk(const Topology& topology, const Sharpness& sharpness, const Piece& piece, int rings, int phase);
-  /// The same where intervals between knots may differ: then two rings at least, and the intervals up to a power of
-  /// two. Elsewhere each sheet for itself, where the level allows it (`may_part_sheets`).
+  /// Walks around a piece whose knot intervals may differ: then two rings at least, with the intervals up to a power of
+  /// two. Else each sheet for itself, if the level allows it (`may_part_sheets`).
   /// @param rings  that a piece depends on where they are equal
   const PieceWalk& walk(const Level& level, const Piece& piece, int rings, int period);
 

@@ -23,7 +23,8 @@ class CutPatch : public Patch {
   Parameters parameters(const Sample& place) const override;
   Lengths lengths(Index face) const override;
   std::optional<BezierRows> bezier(Index face) const override;
-  /// Of parts of B-splines, and of what is refined to one: its net has the part's ends for ends.
+  /// Returns the next level of a part of a B-spline, or of a patch that is refined to one: its net ends at the part's
+  /// ends.
   Refined refined() const override;
 
  private:

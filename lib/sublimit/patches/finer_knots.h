@@ -56,8 +56,8 @@ Knots<T> with_knot(const Knots<T>& knots, const T& t, int times = 1) {
   return cut_to_domain(knots.degree(), fine, knots.begin(), knots.end());
 }
 
-/// The same domain with other knots outside of it, degree many on each side; a closed spline is opened. Weights over
-/// the old control points can be negative and large if the new knots are not among the old ones.
+/// Returns knots with the same domain and other knots outside of it, degree many on each side; a closed spline is
+/// opened. Weights over the old control points can be negative and large if the new knots are not among the old ones.
 /// @param before, after  ascending
 template <class T>
 Knots<T> with_end_knots(const Knots<T>& knots, std::vector<T> before, const std::vector<T>& after) {

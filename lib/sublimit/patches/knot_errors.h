@@ -6,7 +6,7 @@
 
 namespace sublimit {
 
-/// Of B-splines: rows are at most this wide in one variable, less one.
+/// Largest degree of B-splines: rows have one weight more in each variable.
 inline constexpr int max_degree = 25;
 
 enum class KnotFault {

@@ -69,8 +69,8 @@ class Patch {
   /// Nothing of faces that are no polynomials.
   virtual std::optional<BezierRows> bezier(Index) const { return std::nullopt; }
 
-  /// The same patch with a finer net, and S, #its points x #points: the natural next level. Null of patches that have
-  /// no finer net of their kind.
+  /// Returns the patch with a finer net, and S, #its points x #points: the natural next level. Null of patches that
+  /// have no finer net of their kind.
   struct Refined {
     std::shared_ptr<const Patch> patch;
     SparseMatrix S;

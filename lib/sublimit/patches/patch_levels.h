@@ -5,7 +5,7 @@
 
 namespace sublimit {
 
-/// Of a level: control points, at least so many, and about as many nonzeros of the S that makes it.
+/// Size of a level: a lower bound on its control points, and an estimate of the nonzeros of the S that makes it.
 struct PatchLevelSize {
   double points = 0, nonzeros = 0;
 };

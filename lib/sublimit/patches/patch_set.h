@@ -41,7 +41,7 @@ class PatchSet : public LinearSource {
   Index num_points() const override { return num_points_; }
   FaceCount faces() const override { return {first_face_.back(), triangles_}; }
   FaceLengths lengths(Index face) const override;
-  /// Of rational patches over homogeneous columns.
+  /// Returns the stencil of a place; of rational patches over homogeneous columns.
   LimitStencil stencil(const Sample& sample, int order = 0) const override;
   /// @param columns  #points x 3, or x 4 if they are homogeneous
   LimitSamples evaluate(const Points& columns, std::span<const Sample> samples, int order = 0,

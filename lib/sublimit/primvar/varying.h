@@ -20,7 +20,7 @@ SparseMatrix varying_matrix(const Scheme<double>& scheme, std::span<const Level>
 /// those around.
 /// @throws InvalidParameter  no levels
 std::vector<Index> uniform_parents(std::span<const Level> levels);
-/// The same as a matrix, #F_k x #F_0: a one in every row.
+/// Returns the matrix that copies values of faces to level k, #F_k x #F_0: a one in every row.
 SparseMatrix uniform_matrix(std::span<const Level> levels);
 
 }  // namespace sublimit

@@ -16,12 +16,12 @@ class LevelKnots {
   LevelKnots(const Topology&&, const KnotSplit&) = delete;
   LevelKnots(const Topology&, const KnotSplit&&) = delete;
 
-  /// Of the edge of a half-edge, seen from its tail.
+  /// Returns the knots of the edge of a half-edge, seen from its tail.
   EdgeKnots<double> at(HalfEdge h) const {
     if (split_.owner == KnotOwner::point) return of_points(knot_entry(split_.owner, t_, h));
     return {length(h), split(h), beyond(h, true).value_or(length(h)), beyond(h, false).value_or(length(h))};
   }
-  /// Of all edges of its face, from this half-edge on.
+  /// Returns the knots of all edges of its face, from this half-edge on.
   std::vector<EdgeKnots<double>> of_face(HalfEdge h) const {
     std::vector<EdgeKnots<double>> result;
     HalfEdge k = h;
@@ -31,7 +31,8 @@ class LevelKnots {
     } while (k != h);
     return result;
   }
-  /// Of an edge of a curve, seen from one of its ends. Where the curve ends its own interval goes on, mirrored.
+  /// Returns the knots of an edge of a curve, seen from one of its ends. Beyond an end of the curve its last interval
+  /// is mirrored.
   /// @param before, after  the curve's edges beyond this end and beyond the other
   EdgeKnots<double> along(Edge e, Vertex from, std::optional<Edge> before, std::optional<Edge> after) const {
     if (split_.owner == KnotOwner::point) return of_points(knot_entry(split_.owner, e, t_.tail(e) == from));

@@ -87,7 +87,7 @@ class MaskTable {
     return weights;
   }
 
-  /// Of a vertex that stays, its own weight alone.
+  /// Returns the weights of a vertex's child; its own weight alone if the vertex stays.
   const Weights& vertex(const std::vector<Index>& face_sizes) {
     Weights& weights = vertices_[face_sizes];
     if (weights.empty()) {
@@ -310,7 +310,7 @@ template <class Mesh, class Visit>
   for (const Index v : t.vertices(f)) visit(v);
 }
 
-/// The same around an interior edge, in the order of EdgeSite's slots.
+/// Visits the vertices around an interior edge, in the order of EdgeSite's slots.
 template <class Mesh, class Visit>
 [[gnu::always_inline]] inline void visit_site(const Mesh& t, Edge e, const Visit& visit) {
   const HalfEdge left = t.half_edge(e), right = t.twin(left);
@@ -319,7 +319,7 @@ template <class Mesh, class Visit>
   for (const HalfEdge side : {left, right}) visit_corners(t, side, 2, t.size(t.face(side)) - 2, visit);
 }
 
-/// The same around an interior vertex, in the order of Ring's slots.
+/// Visits the vertices around an interior vertex, in the order of Ring's slots.
 template <class Mesh, class Visit>
 [[gnu::always_inline]] inline void visit_site(const Mesh& t, Vertex v, const Visit& visit) {
   visit(index(v));
@@ -331,7 +331,7 @@ template <class Mesh, class Visit>
   } while (h != start);
 }
 
-/// The same for the corner of a face: FaceSite's slots from that corner on.
+/// Visits the vertices of a face from a corner on, in the order of FaceSite's slots.
 template <class Mesh, class Visit>
 [[gnu::always_inline]] inline void visit_site(const Mesh& t, HalfEdge corner, const Visit& visit) {
   visit_corners(t, corner, 0, t.size(t.face(corner)), visit);
@@ -403,7 +403,7 @@ void visit_wide_edge(const Topology& t, HalfEdge left, FanShape tail, FanShape h
   }
 }
 
-/// The same around a face, in the order of WideFaceSite's slots, without the points on edges.
+/// Visits the vertices around a face, in the order of WideFaceSite's slots, without the points on edges.
 template <class Visit>
 void visit_wide_face(const Topology& t, Face f, const std::vector<FanShape>& shapes, const Visit& visit) {
   const Index size = t.size(f);

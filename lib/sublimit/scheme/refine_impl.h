@@ -12,7 +12,7 @@
 
 namespace sublimit {
 
-/// Of numbers other than double, which sparse_product.h has: by Eigen.
+/// Returns the product for numbers other than double, by Eigen (sparse_product.h has double).
 template <class T>
 SparseMatrixOf<T> product(const SparseMatrixOf<T>& A, const SparseMatrixOf<T>& B) {
   return A * B;
@@ -38,7 +38,7 @@ bool needs_neighbors(const Scheme<T>& scheme) {
 void check_sharpness(const std::string& scheme, Sharpening sharpening, bool is_dual, const Topology& topology,
                      const Sharpness& sharpness, const ControlMesh& tags);
 
-/// Of steps whose masks look beyond their element: they count on the sizes of the faces there.
+/// Checks the sizes of faces for steps whose masks look beyond their element.
 /// @param corners  of the faces that the scheme takes; 0: any, all alike
 /// @throws UnsupportedTopology  naming the first face of another size
 void check_wide_faces(const std::string& scheme, int corners, const Topology& topology, int level);

@@ -25,7 +25,7 @@ class NetDistance {
   /// @param rounding  of differences of points and q
   NetDistance(const PolynomialBasis& basis, const Points& net, const Eigen::Vector3d& query, double rounding);
   NetDistance(const PolynomialBasis&&, const Points&, const Eigen::Vector3d&, double) = delete;
-  /// Of the hull from q.
+  /// Returns a lower bound on the distance of the hull from q.
   /// @param towards  a unit vector: the bound is close if it points from q to the nearest place
   double lower(const Eigen::Vector3d& towards) const;
   /// Nothing where intervals do not show that there is one minimum.

@@ -12,7 +12,7 @@ namespace sublimit {
 
 /// How far outside of a part a zero may be for the neighbour to have it, beside what counts as on the ray.
 inline constexpr double beyond_part = 1e-12;
-/// The same of the line u = v of a part that is cut along it, where both halves may have it.
+/// Slack at the line u = v of a part that is cut along it: both halves may report a hit there.
 inline constexpr double beyond_half = 1e-9;
 
 /// A ray as an origin and three axes, the last one along it.
@@ -21,7 +21,7 @@ struct RayFrame {
   Eigen::Matrix3d axes;  ///< rows
   double length = 1;     ///< of the direction
   RayFrame(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction);
-  /// Of a net as parts have them.
+  /// Returns a net in the coordinates of the ray.
   Points seen(const Points& net) const;
 };
 
@@ -73,7 +73,7 @@ class SeenNet {
   /// No line through the ray has all of it on one side.
   /// @param slack  how far off counts as a hit
   bool can_be_hit(double slack) const { return sublimit::can_be_hit(net_, slack); }
-  /// Of the part of a convex domain, the square or the triangle: where it is hit, if that is one place at most.
+  /// Returns where the ray meets a part over its domain, the square or the triangle, if that is one place at most.
   /// @param slack  how far off counts as a hit
   SeenZero zero(double slack) const;
 
@@ -95,7 +95,7 @@ class SeenNet {
   Lengths lengths_in_space() const { return lengths(3); }
 
  private:
-  /// Of a square.
+  /// Returns the side lengths of a square net.
   Lengths lengths(Eigen::Index coordinates) const;
   bool is_rational() const { return net_.cols() == 4; }
 

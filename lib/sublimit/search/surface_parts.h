@@ -34,8 +34,8 @@ std::array<Eigen::Vector2d, 3> triangle_of(const SurfacePart& part);
 
 /// A box that holds a part: the hull of its coefficients, or of its points, widened by their reach.
 Eigen::AlignedBox3d box_of(const PiecePart& part);
-/// The same for rays: of a part whose weights may be negative a box of its limits, widened by what is estimated between
-/// them; of one that diverges, of its points.
+/// Returns the box of a part for rays. If weights may be negative: a box of its limits, enlarged by an estimate of what
+/// lies between them; if the part diverges: a box of its points.
 /// @param limits  of a part without polynomials
 Eigen::AlignedBox3d ray_box_of(const PiecePart& part, const Points& limits);
 /// A part of a scheme without polynomials: what is known of it comes from its limits.
@@ -72,9 +72,9 @@ class SurfaceParts {
   /// @param surface  which may go; what a `SearchedLimit` is of has to stay
   explicit SurfaceParts(const SearchedSurface& surface, PartBoxes boxes = PartBoxes::for_distances);
   const std::vector<SurfacePart>& parts() const { return parts_; }
-  /// Of their boxes; empty where there is no surface.
+  /// Returns the tree of the parts' boxes; empty if there is no surface.
   const BoxTree& tree() const { return tree_; }
-  /// The diagonal of all of it.
+  /// Returns the diagonal of the box of all parts.
   double size() const { return tree_.nodes().empty() ? 0 : tree_.nodes()[0].box.diagonal().norm(); }
   /// How far rounding may move differences of the surface and a point: by the coordinates of both, however small these
   /// differences are, with room for sums of some dozen terms.
@@ -84,7 +84,7 @@ class SurfaceParts {
   /// There are parts of all faces, and hulls hold what they say: no weight that a part's own points have is negative,
   /// which makes them estimates.
   bool are_certain() const { return certain_; }
-  /// Of pieces that are no polynomials, once a type.
+  /// Returns the limits of pieces without polynomials, by type.
   const PieceLimits& limits() const { return *limits_; }
 
  private:

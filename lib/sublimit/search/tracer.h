@@ -35,7 +35,7 @@ class Tracer {
 
   /// By rising t.
   std::vector<Hit> operator()(const Ray& ray);
-  /// Of the parts [first, last) alone.
+  /// Returns the hits with the parts [first, last) alone.
   std::vector<Hit> operator()(const Ray& ray, std::int64_t first, std::int64_t last);
 
  private:
@@ -69,7 +69,7 @@ class Tracer {
   /// Whether all of it is decided.
   bool decides_nets(const Cell& cell);
   bool decides_limits(const Cell& cell);
-  /// Of parts that become polynomials further on: limits of corners, then all points.
+  /// Decides by points for parts that become polynomials on a finer level: limits of corners, then all points.
   bool decides_points(const Cell& cell);
   /// A part that is as small as numbers go.
   void add_smallest(const Cell& cell);
@@ -80,7 +80,7 @@ class Tracer {
   bool is_short(const SeenStrip& strip) const { return strip.high - strip.low <= std::sqrt(slack_ * parts_.size()); }
   /// Whether a strip is one hit: short, or going on where the ray was within the surface before.
   bool adds_strip(const Cell& cell, const SeenStrip& strip, double reach, int side);
-  /// The same of a part with limits at its corners: one of these on the ray is the hit, as at the end of a needle.
+  /// Adds the hit with a thin part that has limits at its corners; a corner on the ray is the hit, as at a sharp tip.
   /// @param points  that hold the part, the corners first
   /// @param within  how far from them it may be
   bool adds_strip_or_corner(const Cell& cell, const Points& points, double within);

@@ -17,7 +17,7 @@ extern template std::optional<CurveScheme<Rational>> find_curve_scheme<Rational>
 extern template std::optional<LocalPatch<Rational>> local_patch<Rational>(const Scheme<Rational>&, LocalType, int,
                                                                           const ControlMesh*);
 
-/// The same mask, exactly; nothing where a weight is irrational.
+/// Returns the mask in rational numbers; nothing if a weight is irrational.
 std::optional<RegularMask<Rational>> rational_mask(const RegularMask<Algebraic>& mask);
 
 }  // namespace sublimit

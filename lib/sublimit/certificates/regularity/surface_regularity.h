@@ -31,8 +31,8 @@ bool keeps_vertices(const RegularMask<Rational>& mask);
 /// The curve masks whose product a mask is; nothing if it is none.
 std::optional<std::array<Symbol, 2>> tensor_factors(const RegularMask<Rational>& mask);
 
-/// Of the basis function, samples by points of some levels, floating numbers: x and y in grid steps from its point,
-/// heights by row.
+/// Samples of the basis function at the points of some levels, in floating-point numbers: x and y in grid steps from
+/// its point, heights by row.
 struct SurfaceSamples {
   std::vector<double> x, y;
   std::vector<std::vector<double>> values;  ///< values[j][i] at (x[i], y[j])

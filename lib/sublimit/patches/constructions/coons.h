@@ -34,8 +34,8 @@ inline constexpr const char* coons_corners[] = {"(0,0)", "(1,0)", "(0,1)", "(1,1
 /// @param knots  of the curves; ends interpolated
 /// @throws InvalidParameter  curves that are not on [0, 1] or whose ends are not interpolated, naming the curve
 NetBuilder coons_builder(const std::array<Knots<double>, 4>& knots, CoonsBlending blending);
-/// The same of general patches: over the control points of c0, c1, d0, d1, xv0, xv1, xu0, xu1, and the twists S_uv at
-/// (0,0), (1,0), (0,1), (1,1).
+/// Returns the builder of general Coons patches, over the control points of c0, c1, d0, d1, xv0, xv1, xu0, xu1, and the
+/// twists S_uv at (0,0), (1,0), (0,1), (1,1).
 NetBuilder general_coons_builder(const std::array<Knots<double>, 8>& knots);
 
 /// How far ends of curves are apart at a corner.

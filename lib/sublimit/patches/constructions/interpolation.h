@@ -31,7 +31,7 @@ Points solve_conditions(const Knots<double>& knots, std::span<const SplineCondit
 /// @param parameters  rising
 /// @throws InvalidParameter  equal or falling parameters, by their numbers; fewer than degree + 1
 Knots<double> averaged_knots(int degree, std::span<const double> parameters);
-/// The same over a domain that has them inside.
+/// Returns averaged knots over a domain that contains the parameters.
 Knots<double> averaged_knots(int degree, std::span<const double> parameters, double begin, double end);
 
 /// Control points of the spline that has given values at parameters, one for each control point.

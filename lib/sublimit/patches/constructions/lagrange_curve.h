@@ -30,9 +30,9 @@ inline constexpr double lagrange_net_accuracy = 1e-12;
 /// The polynomials of a basis in Bezier form: Bezier points x nodes. Nothing where they lose more than
 /// `lagrange_net_accuracy`, which is measured between the nodes, or the degree is above max_degree.
 std::optional<Points> lagrange_to_bezier(const LagrangeBasis& basis);
-/// The same polynomial as a Bezier curve over the nodes' domain, if its basis has that form.
+/// Returns the polynomial as a Bezier curve over the nodes' domain, if its basis has that form.
 std::optional<CurveNet> lagrange_net(const LagrangeBasis& basis, const Points& points);
-/// The same of surfaces.
+/// Returns the polynomial as a Bezier surface over the nodes' domain, if its basis has that form.
 std::optional<SplineNet> lagrange_net(const LagrangeBasis& u, const LagrangeBasis& v, const Points& points);
 
 }  // namespace sublimit

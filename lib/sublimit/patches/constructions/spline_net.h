@@ -40,9 +40,9 @@ SplineNet built(const NetBuilder& builder, const Points& data, Coordinates coord
 /// @throws InvalidParameter  columns that are not one for each control point, of another width, not finite
 void check_space_curve(const CurveNet& curve, const std::string& name);
 
-/// The same curve over columns (x, 1), if it is not rational.
+/// Returns the curve with homogeneous columns: (x, 1) if it is not rational.
 CurveNet homogeneous(CurveNet curve);
-/// All of them rational if one of them is.
+/// Makes all nets rational if one of them is.
 /// @return  what they are then
 Coordinates make_alike(std::span<CurveNet* const> curves);
 
