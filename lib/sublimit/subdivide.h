@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Subdivision of matrices in one line, for those who have their mesh in Eigen.
+// Subdivision in one line for meshes that are Eigen matrices.
 #include <string>
 #include <utility>
 

@@ -13,7 +13,7 @@
 
 namespace sublimit::cli {
 
-/// Keeps what is given back for who comes next, up to arrays of 64 MB, and has huge pages for the first 256 MB:
+/// Tells malloc to reuse freed arrays up to 64 MB and to use huge pages for the first 256 MB:
 /// without, the system clears each page of every array anew, which was a quarter of the time of `refine` and `apply`.
 /// No memory is taken here, addresses only. Where the C library is another one nothing happens.
 inline void prepare_heap() {

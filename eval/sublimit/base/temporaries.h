@@ -43,7 +43,7 @@ class Temporary {
       list(prefix + std::to_string(::getpid()) + "-" + std::to_string(counter++) + ".tmp");
       if (make(name_.c_str())) return 0;
       const int error = errno;
-      forget();  // it may be somebody else's
+      forget();  // it may belong to another process
       if (error != EEXIST) return error;
     }
   }

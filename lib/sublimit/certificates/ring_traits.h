@@ -12,7 +12,7 @@ struct RingTraits : Eigen::GenericNumTraits<T> {
   using Nested = T;
   using Literal = T;
   enum {
-    IsComplex = 0,  // Eigen has nothing to conjugate: whoever wants an adjoint writes it
+    IsComplex = 0,  // Eigen has nothing to conjugate: adjoints are written out
     IsInteger = 0,
     IsSigned = 1,
     RequireInitialization = 1,

@@ -17,8 +17,9 @@ Verdict affine_invariance(const ExactAnalysis& analysis);
 /// Refinement draws the neighbourhood to one point: eigenvalue 1 is simple and dominant.
 Verdict convergence(const ExactAnalysis& analysis);
 
-/// What Reif's criterion asks of the spectrum: the characteristic map is somebody else's. The verdict is `disproved` or
-/// `borderline` where the spectrum decides; `unknown` where all hypotheses hold and the map is to be looked at.
+/// What Reif's criterion asks of the spectrum: the characteristic map is judged in map_proof.h. The verdict is
+/// `disproved` or `borderline` where the spectrum decides; `unknown` where all hypotheses hold and the map is to be
+/// looked at.
 Verdict spectral_c1(const ExactAnalysis& analysis);
 
 /// lambda, mu and what follows, where Reif's hypotheses hold.

@@ -23,7 +23,7 @@ class LimitPatches {
   std::int64_t evaluate(std::span<const Sample> samples, std::int64_t begin, std::int64_t end, int order, bool normals,
                         LimitSamples& out) const;
 
-  /// The parts of a map, for those who cut a surface otherwise.
+  /// Returns the parts of a map, for code that divides a surface in other ways.
   static const LimitMap::Parts& parts_of(const LimitMap& surface) { return *surface.parts_; }
 
  private:

@@ -32,7 +32,7 @@ class LimitTypes {
   /// Throws unless this dictionary is of the scheme that made a level; looks at the masks once for each such scheme.
   /// @throws InvalidParameter  it is of another scheme
   void check(const Level& level);
-  /// Levels of whoever made this one have been checked already.
+  /// Skips the check for levels of the maker of this one.
   void trust(const Level& level);
   /// Types of vertices, faces and borders that are known.
   size_t num_types() const { return types_.size() + lone_.size(); }

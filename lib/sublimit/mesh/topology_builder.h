@@ -31,8 +31,8 @@ class TopologyBuilder {
   /// Consumes the arrays.
   Topology build() &&;
 
-  /// What is left for who needs faces, half-edges, their twins and tails alone: half of the memory. It has no edges and
-  /// no vertices to ask for.
+  /// Drops edges and vertices and keeps faces, half-edges, twins and tails: half of the memory. Edge and
+  /// vertex queries on the result are invalid.
   static Topology corners_only(Topology&& all);
 
  private:

@@ -14,7 +14,7 @@ enum class LevelMemory {
   mesh,      ///< the last one's faces and positions, and the one before
 };
 
-/// What `refine` checks before the first level is made; for those who make levels one by one.
+/// Checks what `refine` checks before the first level is made, for code that makes levels one by one.
 /// @throws InvalidParameter  negative `levels`
 /// @throws ResourceError     more elements than 32-bit indices, or more memory than the machine has
 void check_levels(const Scheme<double>& scheme, const Topology& control, int levels,

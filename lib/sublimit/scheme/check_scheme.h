@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// What a scheme must have before anything is computed with it, whoever wrote it: steps, the masks that their splits ask
-// for, and masks whose answers are affine combinations of points of their site.
+// What a scheme must have before anything is computed with it, built in or your own: steps, the masks that their splits
+// ask for, and masks whose answers are affine combinations of points of their site.
 #include <algorithm>
 #include <cmath>
 #include <limits>

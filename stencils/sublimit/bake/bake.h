@@ -27,12 +27,12 @@ struct BakeRequest {
   int level = 0;                     ///< k, of `level` (1 to 11) and `limit` (0 to 11)
   int grid = 0;                      ///< N, of `grid`, 2 to 2048
   std::vector<Sample> samples = {};  ///< of `samples`
-  /// Of `samples`: faces between them, which the table keeps for who writes a mesh; counter-clockwise.
+  /// Faces between the `samples`, which the table keeps so that a mesh can be written; counter-clockwise.
   std::vector<Index> face_sizes = {}, face_vertices = {};
   int derivatives = 0;  ///< of the limit: 0, 1 or 2
   BakeMethod method = BakeMethod::automatic;
-  // Of `level` and `limit`, for who writes a mesh of the points. Both refine the mesh itself, which takes the time and
-  // memory that tables save, and are as large as a mesh.
+  // For `level` and `limit`, if a mesh of the points is to be written. Both refine the mesh itself, which takes the
+  // time and memory that tables save, and are as large as a mesh.
   bool face_varying = false;  ///< the mesh's face-varying channels, refined, of the limit at their own limit
   std::optional<FaceVaryingInterpolation> face_varying_interpolation = {};  ///< none: that of the mesh, else all
   bool tags = false;  ///< creases and corners that level k has left

@@ -29,7 +29,7 @@ struct Division {
 /// Part of each face of the own run.
 std::vector<int> divided(const Ranks& ranks, const SpreadJob& job, const Division& division);
 
-/// A number for all that is known of faces, or of faces and tags: sums over the mesh, whoever has it.
+/// Hash of faces, or of faces and tags: a sum over the mesh that does not depend on how it is divided.
 std::uint64_t faces_hash(const Ranks& ranks, const SpreadMesh& mesh);
 std::uint64_t mesh_hash(const Ranks& ranks, const SpreadMesh& mesh);
 /// One after the other.

@@ -25,7 +25,7 @@ class SpreadTable {
   /// Points of this rank's shards from control points of its run, interleaved; while those of others are on their way,
   /// patches that need none of them are made. All ranks call.
   void apply(std::span<const double> own, int channels, std::span<double> points) const;
-  /// The same of one shard after the other, for who has no room for all: told of each when it is made.
+  /// Applies one shard at a time, to bound memory; calls `made` after each finished shard.
   void apply(std::span<const double> own, int channels,
              const std::function<void(const LoadedShard&, std::span<const double>)>& made) const;
   /// own = transpose * values. Sums of ranks in any order.

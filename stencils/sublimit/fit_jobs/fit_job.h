@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// One fit from data to a control mesh and a report; files are somebody else's.
+// One fit from data to a control mesh and a report; the program reads and writes the files.
 #include <functional>
 #include <string>
 #include <utility>

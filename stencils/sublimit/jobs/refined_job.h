@@ -12,8 +12,8 @@
 namespace sublimit {
 
 /// Levels of the mesh's texture coordinates; none if it has none.
-/// @param why_not  what keeps the scheme from refining them, where nobody asked for them: they are left out
-/// @throws Error   the same, where somebody did
+/// @param why_not  why the scheme cannot refine them, if they were not asked for: they are left out
+/// @throws Error   the same reason, if they were asked for
 std::vector<FaceVaryingLevel> refined_channel(const MeshJob& job, const std::vector<Level>& levels,
                                               std::string& why_not);
 

@@ -32,7 +32,7 @@ struct AssetOptions {
   SeamTolerance tolerance = {};
   std::int64_t curvature_samples = 400'000;  ///< at most about so many, but one a face
   Index surface_faces = 8000;                ///< of the surface for pictures, at most, but one a face
-  int levels = 4;                            ///< that whoever shows the mesh refines: sharper creases than that stay
+  int levels = 4;                            ///< of refinement that a viewer makes: sharper creases than that stay
   Index listed = 20;                         ///< worst seams, and examples of each kind
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Drawings as inline SVG in figures: a title for those who cannot see it, a caption for all, colours from the page.
+// Drawings as inline SVG in figures: a title for screen readers, a caption for all, colours from the page.
 #include <string>
 #include <utility>
 #include <vector>
