@@ -167,6 +167,7 @@ TableFrame<Real>::TableFrame(const Table& table, std::span<const Real> points, i
 
 template <class Real>
 void TableFrame<Real>::apply_part(int part, int parts) const {
+  if (parts < 1) throw InvalidParameter("a frame in " + std::to_string(parts) + " parts; 1 and more are right");
   if (part < 0 || part >= parts)
     throw InvalidParameter("part " + std::to_string(part) + " of " + std::to_string(parts) + "; 0 to " +
                            std::to_string(parts - 1) + " are right");

@@ -5,6 +5,10 @@
 //   const Table table = load("torus.safetensors");
 //   std::vector<float> result(table.num_results(3));
 //   table.apply(points, 3, result);                      // positions; then derivatives, if the table has them
+//
+//   const TableFrame<float> frame(table, points, 3, result);   // the same by threads of one's own:
+//   frame.apply_part(i, n);                                    // by any of them, for i = 0 ... n - 1
+//   frame.finish();                                            // when all are done
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -21,6 +25,9 @@ namespace sublimit {
 class Table {
  public:
   explicit Table(AnyTable table);
+  // What is moved stays as it is.
+  Table(const Table&) = default;
+  Table& operator=(const Table&) = default;
 
   std::int32_t num_control_points() const;
   std::int64_t num_points() const;
@@ -68,7 +75,8 @@ class Table {
   std::shared_ptr<const Prepared> prepared_;
 };
 
-/// One frame in parts, for threads of one's own: any thread may apply any part; when all are done, one of them finishes.
+/// One frame in parts, for threads of one's own: any thread may apply any part; when all are done, one of them
+/// finishes.
 template <class Real>
 class TableFrame {
  public:

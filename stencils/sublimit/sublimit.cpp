@@ -8,6 +8,7 @@
 #include "sublimit/fit/interpolate.h"
 #include "sublimit/jobs/mesh_job.h"
 #include "sublimit/jobs/refined_job.h"
+#include "sublimit/mesh/points_in_space.h"
 
 namespace sublimit {
 namespace {
@@ -46,7 +47,9 @@ BakeRequest request_of(const BakeOptions& options) {
 }  // namespace
 
 Mesh refine(const Mesh& mesh, const AnyScheme& scheme, int levels, const std::function<void(int)>& progress) {
-  return refined_mesh(job_of(mesh, scheme), levels, progress);
+  MeshJob job = job_of(mesh, scheme);
+  job.mesh.positions = points_in_space(mesh);
+  return refined_mesh(job, levels, progress);
 }
 
 std::vector<Level> levels(const Mesh& mesh, const AnyScheme& scheme, int levels) {

@@ -13,34 +13,42 @@
 //   for (Index v = 0; v < fine.num_vertices(); ++v) use(fine.positions.row(v));  // and face_sizes, face_vertices, ...
 //   const SparseMatrix P = subdivision_matrix(mesh, "loop", 3);  // P * mesh.positions are the points of level 3
 //
-// The limit of vertices, and anywhere; faces are numbered as Ptex does (limit/address.h):
+// `Points` is an Eigen matrix of doubles by rows, #points x 3; `SparseMatrix` one of Eigen's too. Texture coordinates
+// are refined linearly unless `mesh.face_varying_interpolation` says otherwise. `limit`, `levels`, `fit` and `info` are
+// functions: a variable of the same name needs `sublimit::` before the call.
 //
-//   const Limit limit = sublimit::limit(mesh, "catmull-clark");  // .points, .normals, .matrix
+// The limit of vertices, and anywhere. A place is (face, u, v): under schemes for triangles `face` is the number of the
+// triangle; under others that of the face if all are quadrilaterals, while any other polygon counts as one square for
+// each corner, as Ptex numbers them (limit/address.h):
+//
+//   const Limit limit = sublimit::limit(mesh, "catmull-clark");  // .points.row(v); .matrix
+//   // A vertex has a normal for each side of sharp edges that meet there: .normals.row(s), of vertex .side_vertex[s].
 //   const LimitSurface surface(mesh, "catmull-clark");
 //   const LimitSamples samples = surface.evaluate({{.face = 0, .u = 0.5, .v = 0.25}}, 2);  // .position, .du, .normal
-//   const std::optional<Curvature> bend = curvature(samples, 0);  // ->k1, ->k2, ->gauss, ->mean
-//   const PlaceStencils rows = surface.stencils(surface.grid(3));  // .matrices[0] * mesh.positions
-//   const LimitSurface next = surface.with(points_of_another_frame);
-//   const ClosestPoints near = closest(surface, queries);  // .points, .distances, .places, .normals
-//   const RayHits hits = intersect(surface, {{.origin = {0, 0, 9}, .direction = {0, 0, -1}}}, {.all = true});
-//   std::cout << hits.t.size() << " hits, the first at " << hits.points.row(0);
-//   const Tessellation flat = tessellate(surface, {.chord = 1e-3});  // .points, .triangles[0].vertices, .places
+//   // .status[i] says what there is at place i; `outside` of a place on no face, all of whose numbers are 0.
+//   const std::optional<Curvature> bend = curvature(samples, 0);  // ->k1, ->k2, ->gauss, ->mean; not at the cube's
+//   corners const PlaceStencils rows = surface.stencils(surface.grid(3));  // .matrices[0] * mesh.positions const
+//   LimitSurface next = surface.with(points_of_another_frame); const ClosestPoints near = closest(surface, Points{{2,
+//   0, 0}, {0, 1, 3}});  // .points, .distances, .places, .normals const RayHits hits = intersect(surface, {{.origin =
+//   {0, 0, 9}, .direction = {0, 0, -1}}}, {.all = true}); std::cout << hits.t.size() << " hits, the first at " <<
+//   hits.points.row(0); const Tessellation flat = tessellate(surface, {.chord = 1e-3});  // .points, .places;
+//   .triangles[t].vertices are three const Points normals = surface.evaluate(flat.places, 1).normal;
 //
 // Tables, once a connectivity, and applied every frame (table.h, which needs the component eval alone):
 //
 //   bake(mesh, "catmull-clark", {.levels = 3}).save("cube.safetensors");
 //   const Table table = load("cube.safetensors");
 //   std::vector<float> result(table.num_results(3));
-//   table.apply(points, 3, result);
+//   table.apply(points, 3, result);  // by all threads; TableFrame (table.h) is for threads of your own
 //
-// A scheme of your own is a function of the number type: masks of vertices, edges and faces as expressions of the points
-// around them, in double here, in exact numbers for its report (scheme/sites.h; certificates/algebraic.h):
+// A scheme of your own is a function of the number type: masks of vertices, edges and faces as expressions of the
+// points around them (scheme/sites.h), in double here, in exact numbers for its report:
 //
+//   #include <sublimit/certificates/algebraic.h>
 //   template <class T> Scheme<T> mine() {
-//     const auto vertex = [](const Ring<T>& v) { return (v.center() + v.neighbor_mean() + 2 * v.face_point_mean()) / 4; };
-//     const auto edge = [](const EdgeSite<T>& e) { return (e.tail() + e.head()) / 2; };
-//     const auto face = [](const FaceSite<T>& f) { return f.centroid(); };
-//     return {.name = "mine", .source = "here",
+//     const auto vertex = [](const Ring<T>& v) { return (v.center() + v.neighbor_mean() + 2 * v.face_point_mean()) / 4;
+//     }; const auto edge = [](const EdgeSite<T>& e) { return (e.tail() + e.head()) / 2; }; const auto face = [](const
+//     FaceSite<T>& f) { return f.centroid(); }; return {.name = "mine", .source = "here",
 //             .steps = {Step<T>{.split = Split::pqq, .masks = {.vertex = vertex, .edge = edge, .face = face}}},
 //             .creases = cubic_bspline_creases<T>()};
 //   }
@@ -54,8 +62,8 @@
 //   const MeshInfo known = info(mesh, "loop");  // counts, valences, .why_not
 //
 // Functions throw `Error`s (base/error.h): each has a code, and says what is wrong, where, and what would be right.
-// They use all threads of oneTBB. Meshes and results are values; surfaces, tables and schemes share what copies have in
-// common, never change, and may be used by any number of threads.
+// They use all threads of oneTBB. Everything is a value. Surfaces, tables and schemes never change: copies are cheap,
+// and any number of threads may use one.
 #include <functional>
 #include <optional>
 #include <string>
@@ -91,18 +99,20 @@ using Mesh = ControlMesh;
 /// @throws IoError        unwritable;  ResourceError  a full disk
 inline void write_mesh(const std::filesystem::path& path, const Mesh& mesh) { write_mesh(path, output(mesh)); }
 
-/// Returns level `levels` of a mesh, with texture coordinates and with the tags that are left, so that refining it goes
-/// on where this stopped.
+/// Returns level `levels` of a mesh, with its texture coordinates, and with the creases, corners and holes that are
+/// left after so many levels: refining the result continues the refinement.
 /// @param progress  called before each level with its number, if given
 /// @throws InvalidParameter                  negative levels
-/// @throws InvalidMesh, UnsupportedTopology  a mesh that the scheme cannot refine: says where
+/// @throws InvalidMesh, UnsupportedTopology  a mesh that the scheme cannot refine, coordinates that are not finite:
+/// says
+///                                           where
 /// @throws ResourceError                     more memory than there is, predicted before it is taken
 /// @note  Texture coordinates that the scheme cannot refine are left out: `warnings` of the result says why.
 [[nodiscard]] Mesh refine(const Mesh& mesh, const AnyScheme& scheme, int levels,
                           const std::function<void(int)>& progress = {});
 
 /// Returns levels 0 to `levels`: of each its connectivity, and the matrix `S` that makes its points from those of the
-/// level before.
+/// level before (empty for level 0).
 /// @throws as `refine`
 [[nodiscard]] std::vector<Level> levels(const Mesh& mesh, const AnyScheme& scheme, int levels);
 
@@ -116,11 +126,11 @@ inline void write_mesh(const std::filesystem::path& path, const Mesh& mesh) { wr
 
 /// What points a table makes: one of levels, grid and places.
 struct BakeOptions {
-  std::optional<int> levels = {};   ///< points of this level, 1 to 11; with `limit` from 0
-  bool limit = false;               ///< these moved to the limit
+  std::optional<int> levels = {};   ///< points of this level, 1 to 11; 0 to 11 if `limit` is set
+  bool limit = false;               ///< the limits of these points instead
   std::optional<int> grid = {};     ///< N x N places on each face, sides included, N from 2 to 2048
   std::vector<Sample> places = {};  ///< places on the limit
-  std::vector<Index> face_sizes = {}, face_vertices = {};  ///< faces between the places, as of a tessellation
+  std::vector<Index> face_sizes = {}, face_vertices = {};  ///< faces between the places, as triangles of `tessellate`
   int derivatives = 0;                                     ///< of the limit: 0, 1 or 2
   bool in_double = false;                                  ///< weights of 64 bits; else of 32
 };
@@ -129,12 +139,13 @@ struct BakeOptions {
 /// @throws InvalidParameter                  none of levels, grid and places, or several; numbers outside their range
 /// @throws InvalidMesh, UnsupportedTopology  a mesh that the scheme cannot refine: says where
 /// @throws ResourceError                     more memory than there is, predicted before it is taken
-/// @note  Points of levels stand in an order of the table's own, which `Table::faces` knows; those of grids face by
-///        face, u fastest; places as they are given.
+/// @note  Points of levels have an order of the table's own, not that of `refine`: `Table::faces` has the faces between
+///        them. Those of grids stand face by face, u fastest; places as they are given.
 [[nodiscard]] Table bake(const Mesh& mesh, const AnyScheme& scheme, const BakeOptions& options);
 
 struct FitOptions {
-  Fairness fairness = {};  ///< of what the targets leave free; none: as near to the given mesh as can be
+  Fairness fairness =
+      {};  ///< decides what the targets leave free; none: the mesh stays as near to the given one as it can
   /// Refinements, each of which adds control points: as few as meet the targets.
   int least_refinements = 0, most_refinements = 2;
 };

@@ -92,7 +92,6 @@ static_assert(binds_named_only<WeightedSource>);
 static_assert(!std::is_move_constructible_v<PieceLink>);
 static_assert(!std::is_move_constructible_v<LimitTypes>);
 static_assert(!std::is_copy_constructible_v<MaskTable<double>> && std::is_move_constructible_v<MaskTable<double>>);
-static_assert(!std::is_copy_constructible_v<RayTracer> && std::is_move_constructible_v<RayTracer>);
 static_assert(!std::is_move_constructible_v<SearchedLimit> && !std::is_move_constructible_v<SearchedPatches>);
 
 TEST(KeepsReferences, SurfacesMoveWithWhatTheyReferTo) {

@@ -4,13 +4,16 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <string>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
+#include "sublimit/certificates/algebraic.h"
 #include "sublimit/limit/limit_types.h"
 #include "sublimit/schemes.h"
 #include "support/expect_error.h"
@@ -49,8 +52,8 @@ TEST(Verbs, AgreeWithTheMatricesUnderEveryScheme) {
     EXPECT_LE(distance(limit.tangent1, limit.tangent1_matrix * mesh.positions), rounding);
     for (Index side = 0; side < limit.normals.rows(); ++side) {
       const Eigen::Vector3d a = limit.tangent1.row(side), b = limit.tangent2.row(side);
-      if (limit.status[size_t(side)] == LimitStatus::regular)
-        EXPECT_LE((a.cross(b).normalized() - limit.normals.row(side).transpose()).norm(), rounding);
+      if (limit.status[size_t(side)] != LimitStatus::regular) continue;
+      EXPECT_LE((a.cross(b).normalized() - limit.normals.row(side).transpose()).norm(), rounding);
     }
 
     const LimitSurface surface(mesh, scheme);
@@ -263,6 +266,8 @@ TEST(Verbs, RefuseWhatIsWrong) {
   expect_error<InvalidParameter>([&] { (void)surface.evaluate(surface.grid(2), 3); }, {"3"});
   EXPECT_EQ(surface.evaluate({{.face = 6, .u = 0, .v = 0}}).status[0], LimitStatus::outside);
   expect_error<InvalidParameter>([&] { (void)surface.stencils(std::vector<Sample>{{6, 0, 0}}); }, {"6"});
+  expect_error<InvalidParameter>([&] { (void)curvature(surface.evaluate(surface.grid(2), 2), 24); }, {"24 of 24"});
+  expect_error<ResourceError>([&] { (void)surface.grid(1'000'000); }, {"1000000 samples"});
   const Table table = bake(good, "catmull-clark", {.levels = 1});
   std::vector<float> points(24), result(table.num_results(3));
   expect_error<InvalidParameter>([&] { table.apply(points, 2, result); }, {"52 are right"});
@@ -274,12 +279,73 @@ TEST(Verbs, RefuseWhatIsWrong) {
   expect_error<InvalidOption>([&] { (void)analyze(own); }, {"exact"});
 }
 
-TEST(Verbs, EmptyMeshesAreRefusedOrEmpty) {
-  const Mesh empty = sublimit::make_mesh(Points(0, 3), {}, {});
-  EXPECT_EQ(refine(empty, "catmull-clark", 2).num_vertices(), 0);
-  EXPECT_EQ(limit(empty, "catmull-clark").points.rows(), 0);
-  EXPECT_EQ(LimitSurface(empty, "catmull-clark").faces().size, 0);
-  EXPECT_EQ(info(empty).faces, 0);
+TEST(Verbs, OfEmptyMeshesAreEmpty) {
+  for (const Mesh& empty : {Mesh{}, sublimit::make_mesh(Points(0, 3), {}, {})}) {
+    EXPECT_EQ(refine(empty, "catmull-clark", 2).num_vertices(), 0);
+    EXPECT_EQ(limit(empty, "catmull-clark").points.rows(), 0);
+    EXPECT_EQ(LimitSurface(empty, "catmull-clark").faces().size, 0);
+    EXPECT_EQ(info(empty).faces, 0);
+  }
+}
+
+TEST(Verbs, RefuseNumbersThatAreNone) {
+  for (const double x : {std::nan(""), std::numeric_limits<double>::infinity()}) {
+    Mesh mesh = cube();
+    mesh.positions(3, 1) = x;
+    const LimitSurface surface(cube(), "catmull-clark");
+    for (const auto& use : std::vector<std::function<void()>>{
+             [&] { (void)refine(mesh, "catmull-clark", 1); }, [&] { (void)limit(mesh, "catmull-clark"); },
+             [&] { (void)LimitSurface(mesh, "catmull-clark"); }, [&] { (void)surface.with(mesh.positions); }})
+      expect_error<InvalidMesh>(use, {"control point 3", "not finite"});
+  }
+  Mesh flat = cube();
+  flat.positions.conservativeResize(8, 2);
+  expect_error<InvalidMesh>([&] { (void)refine(flat, "catmull-clark", 1); }, {"2 coordinates"});
+  expect_error<InvalidMesh>([&] { (void)limit(flat, "catmull-clark"); }, {"2 coordinates"});
+  const std::vector<std::vector<double>> ragged{{0, 0, 0}, {1, 0}, {0, 1, 0}};
+  const std::vector<std::array<int, 3>> faces{{0, 1, 2}};
+  expect_error<InvalidMesh>([&] { (void)sublimit::make_mesh(ragged, faces); }, {"point 1", "2 coordinates"});
+  const Eigen::MatrixXd two = Eigen::MatrixXd::Zero(3, 2);
+  const Eigen::MatrixXi F = Eigen::RowVector3i(0, 1, 2);
+  expect_error<InvalidMesh>([&] { (void)sublimit::make_mesh(two, F); }, {"2 coordinates"});
+}
+
+TEST(Verbs, WhatIsMovedStaysAsItIs) {
+  const Mesh mesh = cube();
+  AnyScheme scheme("catmull-clark");
+  const AnyScheme moved_scheme = std::move(scheme);
+  EXPECT_EQ(refine(mesh, scheme, 1).num_vertices(), refine(mesh, moved_scheme, 1).num_vertices());  // NOLINT
+  Table table = bake(mesh, "catmull-clark", {.levels = 1});
+  const Table moved = std::move(table);
+  EXPECT_EQ(table.num_points(), moved.num_points());  // NOLINT
+  RayTracer tracer(LimitSurface(mesh, "catmull-clark"));
+  const RayTracer moved_tracer = std::move(tracer);
+  const Ray ray{.origin = {0.1, 0.2, -5}, .direction = {0, 0, 1}};
+  EXPECT_EQ(tracer.trace(ray).size(), moved_tracer.trace(ray).size());  // NOLINT
+}
+
+template <class T>
+Scheme<T> mine(int weight) {
+  return {
+      .name = "mine",
+      .source = "here",
+      .steps = {Step<T>{
+          .split = Split::pqq,
+          .masks = {
+              .vertex = [weight](const Ring<T>& v) { return (weight * v.center() + v.neighbor_mean()) / (weight + 1); },
+              .edge = [](const EdgeSite<T>& e) { return (e.tail() + e.head()) / 2; },
+              .face = [](const FaceSite<T>& f) { return f.centroid(); }}}},
+      .creases = cubic_bspline_creases<T>()};
+}
+
+TEST(Verbs, ReportsNeedTheSameMasksInBothNumbers) {
+  EXPECT_NE(analyze(mine<double>(1), mine<Algebraic>(1), {.valences = {4, 3, 4}}).json(), "");
+  expect_error<InvalidParameter>([&] { (void)analyze(mine<double>(1), mine<Algebraic>(2), {.valences = {3}}); },
+                                 {"mine", "exact numbers", "same masks"});
+  expect_error<InvalidParameter>([&] { (void)analyze(mine<double>(1), Scheme<Algebraic>{}, {.valences = {3}}); },
+                                 {"steps"});
+  expect_error<InvalidParameter>([&] { (void)analyze("loop", {.valences = {}}); }, {"valences"});
+  expect_error<FormatError>([&] { Report("nothing").save_html("report.html"); }, {"no report"});
 }
 
 }  // namespace

@@ -5,11 +5,16 @@
 #include <Eigen/Jacobi>
 
 #include <cmath>
+#include <string>
+
+#include "sublimit/base/error.h"
 
 namespace sublimit {
 
 std::optional<Curvature> curvature(const LimitSamples& s, Index row) {
-  if (s.order[row] < 2 || s.duu.rows() == 0) return std::nullopt;
+  if (row < 0 || size_t(row) >= s.order.size())
+    throw InvalidParameter("sample " + std::to_string(row) + " of " + std::to_string(s.order.size()));
+  if (s.order[size_t(row)] < 2 || s.duu.rows() == 0) return std::nullopt;
   using Eigen::Vector3d;
   const Vector3d xu = s.du.row(row), xv = s.dv.row(row), cross = xu.cross(xv);
   const double E = xu.dot(xu), F = xu.dot(xv), G = xv.dot(xv), area2 = E * G - F * F;

@@ -16,8 +16,10 @@ struct Curvature {
   Eigen::Vector3d direction1, direction2;  ///< of k1, k2: unit length, in the tangent plane
 };
 
-/// Returns the curvature of a sample, if first and second derivatives exist and the first ones span a plane.
+/// Returns the curvature of a sample, if it was evaluated with two derivatives, both exist there, and the first ones
+/// span a plane: not at extraordinary vertices, nor where tangents degenerate.
 /// @param row  of the sample
+/// @throws InvalidParameter  no such row
 [[nodiscard]] std::optional<Curvature> curvature(const LimitSamples& samples, Index row);
 
 }  // namespace sublimit

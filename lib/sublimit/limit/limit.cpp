@@ -1,21 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sublimit/limit/limit.h"
 
+#include <string>
 #include <utility>
 
+#include "sublimit/base/error.h"
 #include "sublimit/core/sparse_product.h"
 #include "sublimit/limit/limit_points.h"
+#include "sublimit/mesh/points_in_space.h"
 
 namespace sublimit {
 
 Limit limit(const ControlMesh& mesh, const AnyScheme& scheme, const LimitOptions& options) {
+  if (options.level < 0) throw InvalidParameter("level is " + std::to_string(options.level) + "; 0 and more are right");
+  const Points positions = points_in_space(mesh);
   const AnyScheme for_mesh = scheme.for_mesh(mesh);
   const std::vector<Level> levels = refine(*for_mesh, mesh, options.level);
   const auto cache = options.cache ? options.cache : std::make_shared<LimitTypes>(*for_mesh);
   LimitMatrices rows = limit_matrices(levels, *cache);
   const SparseMatrix P = refinement_matrix(levels);
   const Topology& topology = levels.back().topology();
-  const Points at_level = apply(P, mesh.positions);
+  const Points at_level = apply(P, positions);
   LimitPoints limits = limit_points(rows, topology, at_level);
   Limit all;
   all.points.swap(limits.position);

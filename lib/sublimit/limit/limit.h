@@ -31,13 +31,16 @@ struct [[nodiscard]] Limit {
 
 struct LimitOptions {
   int level = 0;  ///< whose vertices: 0 of the mesh itself
-  /// Shared between calls with the same scheme, if given: types of neighbourhoods are found once.
+  /// Shared between calls with the same scheme, if given: types of neighbourhoods are found once. Made by
+  /// `std::make_shared<LimitTypes>(*scheme)` (limit/limit_types.h).
   std::shared_ptr<LimitTypes> cache = nullptr;
 };
 
 /// Returns the limits of the vertices of a mesh, or of one of its refinements.
 /// @throws InvalidParameter                  a negative level; a cache of another scheme
-/// @throws InvalidMesh, UnsupportedTopology  a mesh that the scheme cannot refine: says where
+/// @throws InvalidMesh, UnsupportedTopology  a mesh that the scheme cannot refine, coordinates that are not finite:
+/// says
+///                                           where
 /// @throws NoLimit                           a vertex where the scheme does not converge: says which
 /// @throws ResourceError                     more memory than there is
 Limit limit(const ControlMesh& mesh, const AnyScheme& scheme, const LimitOptions& options = {});

@@ -4,8 +4,10 @@
 #include <utility>
 
 #include "sublimit/base/parallel_for.h"
+#include "sublimit/core/finite_points.h"
 #include "sublimit/limit/derivative_order.h"
 #include "sublimit/limit/limit_patches.h"
+#include "sublimit/mesh/points_in_space.h"
 
 namespace sublimit {
 
@@ -22,11 +24,14 @@ struct LimitSurface::Bound {
 };
 
 LimitSurface::LimitSurface(const ControlMesh& mesh, const AnyScheme& scheme, std::shared_ptr<LimitTypes> cache)
-    : LimitSurface(LimitMap(*scheme.for_mesh(mesh), mesh, {}, std::move(cache)), mesh.positions) {}
+    : LimitSurface(LimitMap(*scheme.for_mesh(mesh), mesh, {}, std::move(cache)), points_in_space(mesh)) {}
 LimitSurface::LimitSurface(LimitMap map, Points points)
     : bound_(std::make_shared<const Bound>(std::move(map), std::move(points))) {}
 
-LimitSurface LimitSurface::with(Points points) const { return {map(), std::move(points)}; }
+LimitSurface LimitSurface::with(Points points) const {
+  check_finite_control(points);
+  return {map(), std::move(points)};
+}
 
 const LimitMap& LimitSurface::map() const { return bound_->map; }
 const Points& LimitSurface::points() const { return bound_->points; }

@@ -23,7 +23,8 @@ class LimitSurface : public BoundSource {
  public:
   /// The limit of a mesh under a scheme; by its rules for boundaries, creases and triangles.
   /// @param cache  shared between surfaces of the same scheme, if given: types of neighbourhoods are found once
-  /// @throws InvalidMesh, UnsupportedTopology  a mesh that the scheme cannot refine: says where
+  /// @throws InvalidMesh, UnsupportedTopology  a mesh that the scheme cannot refine, coordinates that are not finite:
+  ///                                           says where
   /// @throws InvalidParameter                  a cache of another scheme
   LimitSurface(const ControlMesh& mesh, const AnyScheme& scheme, std::shared_ptr<LimitTypes> cache = nullptr);
   /// @param points  #V x 3
@@ -36,6 +37,7 @@ class LimitSurface : public BoundSource {
   /// Returns the surface with other control points, as in another frame: what depends on connectivity is shared.
   /// @param points  #V x 3
   /// @throws InvalidParameter  another number of rows or columns
+  /// @throws InvalidMesh       a coordinate that is not finite: says of which control point
   LimitSurface with(Points points) const;
 
   const LimitMap& map() const;
@@ -60,6 +62,9 @@ class LimitSurface : public BoundSource {
   /// @throws ResourceError     more weights than 32-bit indices count
   PlaceStencils stencils(std::span<const Sample> places, int derivatives = 0) const {
     return place_stencils(map(), places, derivatives);
+  }
+  PlaceStencils stencils(std::initializer_list<Sample> places, int derivatives = 0) const {
+    return stencils(std::span(places.begin(), places.size()), derivatives);
   }
 
  private:

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "sublimit/base/error.h"
+#include "sublimit/base/memory.h"
 
 namespace sublimit {
 namespace {
@@ -30,8 +31,8 @@ std::vector<Sample> grid_places(FaceCount face_count, int N) {
   const std::int64_t per_face = triangles ? std::int64_t(N) * (N + 1) / 2 : std::int64_t(N) * N;
   const Index faces = face_count.size;
   std::vector<Sample> samples;
-  if (double(per_face) * faces * sizeof(Sample) > double(samples.max_size()) / 2)
-    throw ResourceError("a grid of " + std::to_string(N) + " samples a side on " + std::to_string(faces) + " faces");
+  check_memory("a grid of " + std::to_string(N) + " samples a side on " + std::to_string(faces) + " faces",
+               double(per_face) * faces * sizeof(Sample), "ask for a smaller one");
   samples.reserve(per_face * faces);
   for (Index f = 0; f < faces; ++f)
     for (int j = 0; j < N; ++j)

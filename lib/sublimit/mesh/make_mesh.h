@@ -7,12 +7,20 @@
 //   const ControlMesh mesh = make_mesh(points, quads);
 //
 // Eigen's matrices are taken too, `make_mesh(V, F)`, and faces of several sizes as `std::vector<std::vector<int>>`.
+#include <cstdint>
 #include <iterator>
+#include <string>
 #include <utility>
 
+#include "sublimit/base/error.h"
 #include "sublimit/mesh/control_mesh.h"
 
 namespace sublimit {
+
+/// @throws InvalidMesh  always: `what` so many coordinates
+[[noreturn]] inline void throw_not_three(const std::string& what, std::int64_t count) {
+  throw InvalidMesh(what + " " + std::to_string(count) + " coordinates; 3 are right");
+}
 
 /// Makes a mesh of points and faces. Connectivity is checked where the mesh is used.
 /// @param points         #V x 3
@@ -27,6 +35,7 @@ inline ControlMesh make_mesh(Points points, std::vector<Index> face_sizes, std::
 }
 
 /// Makes a mesh of a list of points, of three coordinates each, and a list of faces, of their vertices each.
+/// @throws InvalidMesh  a point with another number of coordinates: says which
 template <class PointList, class FaceList>
 requires requires(const PointList& points, const FaceList& faces) {
   double((*std::begin(points))[2]);
@@ -35,7 +44,10 @@ requires requires(const PointList& points, const FaceList& faces) {
 ControlMesh make_mesh(const PointList& points, const FaceList& faces) {
   Points rows(Index(std::size(points)), 3);
   Index row = 0;
-  for (const auto& point : points) rows.row(row++) << double(point[0]), double(point[1]), double(point[2]);
+  for (const auto& point : points) {
+    if (std::size(point) != 3) throw_not_three("point " + std::to_string(row) + " has", std::int64_t(std::size(point)));
+    rows.row(row++) << double(point[0]), double(point[1]), double(point[2]);
+  }
   std::vector<Index> sizes, vertices;
   for (const auto& face : faces) {
     sizes.push_back(Index(std::size(face)));
@@ -45,8 +57,10 @@ ControlMesh make_mesh(const PointList& points, const FaceList& faces) {
 }
 
 /// Makes a mesh of Eigen's matrices: #V x 3 coordinates, #F x n vertices.
+/// @throws InvalidMesh  another number of columns
 template <class V, class F>
 ControlMesh make_mesh(const Eigen::MatrixBase<V>& points, const Eigen::MatrixBase<F>& faces) {
+  if (points.cols() != 3) throw_not_three("points have", points.cols());
   std::vector<Index> vertices;
   vertices.reserve(size_t(faces.size()));
   for (Eigen::Index f = 0; f < faces.rows(); ++f)

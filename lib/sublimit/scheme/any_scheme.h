@@ -16,8 +16,11 @@ class AnyScheme {
   /// @throws InvalidOption  no scheme of surfaces has this name: says which are nearest; an unknown option, or a value
   ///                        outside its range
   AnyScheme(const std::string& name, const SchemeOptions& options = {});
-  AnyScheme(const char* name) : AnyScheme(std::string(name)) {}
+  AnyScheme(const char* name) : AnyScheme(std::string(name ? name : "")) {}
   AnyScheme(Scheme<double> scheme);
+  // What is moved stays as it is.
+  AnyScheme(const AnyScheme&) = default;
+  AnyScheme& operator=(const AnyScheme&) = default;
 
   const Scheme<double>& operator*() const { return *scheme_; }
   const Scheme<double>* operator->() const { return scheme_.get(); }

@@ -148,7 +148,9 @@ struct RayTracer::Prepared {
   std::optional<LimitMap> map = {};  // whose types the parts refer to
 };
 
-RayTracer::RayTracer(const LimitSurface& surface) : RayTracer(SearchedLimit(surface)) { prepared_->map = surface.map(); }
+RayTracer::RayTracer(const LimitSurface& surface) : RayTracer(SearchedLimit(surface)) {
+  prepared_->map = surface.map();
+}
 
 RayTracer::RayTracer(const SearchedSurface& surface) {
   check_has_parts(surface);
@@ -158,10 +160,6 @@ RayTracer::RayTracer(const SearchedSurface& surface) {
   for (const SurfacePart& part : prepared_->parts.parts()) ++first[size_t(part.address) + 1];
   std::partial_sum(first.begin(), first.end(), first.begin());
 }
-
-RayTracer::RayTracer(RayTracer&&) noexcept = default;
-RayTracer& RayTracer::operator=(RayTracer&&) noexcept = default;
-RayTracer::~RayTracer() = default;
 
 std::vector<RayHit> RayTracer::trace(const Ray& ray, const RayOptions& options, std::optional<Index> address,
                                      std::int64_t* undecided) const {

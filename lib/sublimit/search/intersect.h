@@ -95,9 +95,9 @@ class RayTracer {
   /// @param points  of the map's level, #V x 3
   /// @throws InvalidParameter  points that do not fit
   RayTracer(const LimitMap& map, const Points& points) : RayTracer(LimitSurface(map, points)) {}
-  RayTracer(RayTracer&&) noexcept;
-  RayTracer& operator=(RayTracer&&) noexcept;
-  ~RayTracer();
+  // Copies share what was prepared; what is moved stays as it is.
+  RayTracer(const RayTracer&) = default;
+  RayTracer& operator=(const RayTracer&) = default;
 
   /// Returns the hits that `intersect` finds, by rising t. Places are less accurate than t at extraordinary vertices,
   /// and may be off next to the borders of dual schemes.
@@ -109,7 +109,7 @@ class RayTracer {
 
  private:
   struct Prepared;
-  std::unique_ptr<Prepared> prepared_;
+  std::shared_ptr<Prepared> prepared_;
 };
 
 }  // namespace sublimit

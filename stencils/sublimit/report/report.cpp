@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sublimit/report/report.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "sublimit/base/atomic_file.h"
@@ -9,6 +10,7 @@
 #include "sublimit/report/analysis/scheme_report.h"
 #include "sublimit/report/asset/asset_json.h"
 #include "sublimit/report/page/page.h"
+#include "sublimit/scheme/check_scheme.h"
 #include "sublimit/schemes.h"
 
 namespace sublimit {
@@ -20,16 +22,29 @@ void write(const std::filesystem::path& path, const std::string& text) {
   file.commit();
 }
 
+std::vector<int> ascending(std::vector<int> valences) {
+  std::sort(valences.begin(), valences.end());
+  valences.erase(std::unique(valences.begin(), valences.end()), valences.end());
+  return valences;
+}
+
+/// @throws InvalidParameter  no valences, a scheme that is not complete
 Report scheme_report(report::ReportedScheme scheme, const AnalyzeOptions& options) {
+  if (options.valences.empty()) throw InvalidParameter("no valences; 3 to 100 are right");
+  check_scheme(scheme.scheme);
+  check_scheme(scheme.exact);
   for (const std::string& claim : options.claims) report::set_claim(scheme.scheme.claims, claim);
-  return Report(report::report_text(report::schemes_report({std::move(scheme)}, {.valences = options.valences})));
+  return Report(
+      report::report_text(report::schemes_report({std::move(scheme)}, {.valences = ascending(options.valences)})));
 }
 
 }  // namespace
 
 void Report::save_json(const std::filesystem::path& path) const { write(path, json_); }
 void Report::save_html(const std::filesystem::path& path) const {
-  write(path, report_page(nlohmann::ordered_json::parse(json_)));
+  const nlohmann::ordered_json report = nlohmann::ordered_json::parse(json_, nullptr, /*allow_exceptions=*/false);
+  if (report.is_discarded()) throw FormatError("this is no report: its text is no JSON");
+  write(path, report_page(report));
 }
 
 Report analyze(const AnyScheme& scheme, const AnalyzeOptions& options) {

@@ -35,15 +35,16 @@ class Report {
 };
 
 struct AnalyzeOptions {
-  std::vector<int> valences = {3, 4, 5, 6, 7, 8, 9, 10, 11, 12};  ///< ascending, 3 to 100
+  std::vector<int> valences = {3, 4, 5, 6, 7, 8, 9, 10, 11, 12};  ///< 3 to 100
   std::vector<std::string> claims = {};  ///< to be looked at instead of the scheme's own: "extraordinary=2"
 };
 
 /// Returns what is proved, disproved or seen of a scheme: regular meshes, extraordinary vertices, its claims.
 /// @throws InvalidOption     a scheme of your own, whose masks are needed in exact numbers too; no such claim
-/// @throws InvalidParameter  valences outside their range
+/// @throws InvalidParameter  no valences, or one outside its range
 Report analyze(const AnyScheme& scheme, const AnalyzeOptions& options = {});
-/// @param exact  the same masks, instantiated in exact numbers
+/// @param exact  the same masks, instantiated in exact numbers (<sublimit/certificates/algebraic.h>)
+/// @throws InvalidParameter  masks that are not the same, or not complete
 Report analyze(const Scheme<double>& scheme, const Scheme<Algebraic>& exact, const AnalyzeOptions& options = {});
 
 struct AnalyzeMeshOptions {

@@ -8,6 +8,7 @@ int main(int, char** arguments) {
   sublimit::Points queries(2, 3);
   queries << 2, 0, 0, 0.1, 0.2, 0.3;
   const sublimit::ClosestPoints near = closest(surface, queries, {.is_signed = true});
-  const sublimit::RayHits hits = intersect(surface, {{.origin = {5, 0.1, 0.1}, .direction = {-1, 0, 0}}}, {.all = true});
+  const sublimit::RayHits hits =
+      intersect(surface, {{.origin = {5, 0.1, 0.1}, .direction = {-1, 0, 0}}}, {.all = true});
   std::cout << near.points << "\n" << near.distances.transpose() << "\n" << hits.points << "\n";
 }

@@ -7,7 +7,8 @@ int main(void) {
   sublimit_table* table = NULL;
   if (sublimit_table_load("table.safetensors", 0, &table) != SUBLIMIT_OK) return puts(sublimit_last_error()), 1;
   const int64_t numbers = 3 * sublimit_table_num_points(table);
-  if (sublimit_apply_f(table, points, 3 * 8, 3, result, (size_t)numbers) != SUBLIMIT_OK) return puts(sublimit_last_error()), 1;
+  if (sublimit_apply_f(table, points, 3 * 8, 3, result, (size_t)numbers) != SUBLIMIT_OK)
+    return puts(sublimit_last_error()), 1;
   printf("%d numbers\n", (int)numbers);
   sublimit_table_free(table);
 }

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "sublimit/base/error.h"
+#include "sublimit/base/format_number.h"
 #include "sublimit/certificates/dart.h"
 #include "sublimit/certificates/spectral_verdicts.h"
 #include "sublimit/certificates/witness.h"
@@ -225,6 +226,20 @@ SharedAnalysis shared_analysis(const ReportedScheme& scheme) {
   return shared;
 }
 
+/// @throws InvalidParameter  the masks in doubles do not have the weights of those in exact numbers, to rounding
+void check_alike(const ReportedScheme& scheme, const LocalType& type, const LocalPatch<Algebraic>& exact) {
+  const std::optional<LocalPatch<double>> rounded = sublimit::local_patch(scheme.scheme, type);
+  if (!rounded || rounded->A.rows() != exact.A.rows()) return;  // a weight that is zero in one of them alone
+  for (Eigen::Index i = 0; i < exact.A.rows(); ++i)
+    for (Eigen::Index j = 0; j < exact.A.cols(); ++j) {
+      const double weight = double(exact.A(i, j));
+      if (std::abs(rounded->A(i, j) - weight) <= 1e-9 * std::max(1.0, std::abs(weight))) continue;
+      throw InvalidParameter(scheme.scheme.name + ": a weight is " + format_number(rounded->A(i, j)) +
+                             " in doubles and " + format_number(weight) +
+                             " in exact numbers; a report needs the same masks in both");
+    }
+}
+
 Json neighborhood(const ReportedScheme& scheme, const SharedAnalysis& shared, const NeighborhoodKind& kind,
                   bool is_drawn) {
   const LocalType type = local_type(kind);
@@ -238,6 +253,7 @@ Json neighborhood(const ReportedScheme& scheme, const SharedAnalysis& shared, co
       json["same_as"] = "border";
       return json;
     }
+  if (!is_dart && kind.kind != Kind::crease) check_alike(scheme, type, *patch);
   json["points"] = patch->slots.size();
   json["labels"] = Json::array();
   for (const SectorLabel& label : patch->labels) json["labels"].push_back(to_json(label));
