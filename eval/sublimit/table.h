@@ -29,13 +29,13 @@ class Table {
   Table(const Table&) = default;
   Table& operator=(const Table&) = default;
 
-  std::int32_t num_control_points() const;
-  std::int64_t num_points() const;
+  std::int32_t num_control_points() const;  ///< points that it is applied to
+  std::int64_t num_points() const;          ///< points that it makes
   /// 1: positions; 3: du, dv too; 6: duu, duv, dvv too.
   int quantities() const;
   /// Returns how many numbers `apply` makes of points of so many channels.
   size_t num_results(int channels) const;
-  const TableInfo& info() const;
+  const TableInfo& info() const;  ///< what it was made of
   /// Whether its weights are double; else float.
   bool is_double() const;
   /// Returns the faces between the points, without those of holes.
@@ -49,6 +49,7 @@ class Table {
   ///                  by the weight, which is left out
   /// @throws InvalidParameter  spans of the wrong length, channels below 1
   void apply(std::span<const float> points, int channels, std::span<float> result) const;
+  /// Takes and makes doubles; else as above.
   void apply(std::span<const double> points, int channels, std::span<double> result) const;
 
   /// Applies the transpose: gradients with regard to the control points, of those with regard to the results.
@@ -56,6 +57,7 @@ class Table {
   /// @param result  num_control_points x channels; overwritten
   /// @throws InvalidParameter  spans of the wrong length, channels below 1
   void apply_transpose(std::span<const float> values, int channels, std::span<float> result) const;
+  /// Takes and makes doubles; else as above.
   void apply_transpose(std::span<const double> values, int channels, std::span<double> result) const;
 
   /// Returns what applies it: to several frames, other layouts, tangent frames, in parts for a pool of one's own.

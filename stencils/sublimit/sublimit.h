@@ -2,62 +2,75 @@
 #pragma once
 // All of sublimit: a mesh, a scheme, and what the program's subcommands do, as functions of the same names.
 //
-// Meshes are of files or arrays. A scheme is a name, a name with options, or one of your own (scheme/scheme.h). Rules
-// for boundaries, creases and triangles are those of the mesh:
+// Meshes are of files or arrays. A scheme is a name, a name with options, or one of your own. Rules for boundaries,
+// creases and triangles are those of the mesh:
 //
 //   Mesh mesh = read_mesh("cube.obj");  // or make_mesh(points, faces), of lists or of Eigen's matrices
 //   mesh.boundary = Boundary::edge_only;
 //   mesh.creases.push_back({.tail = 0, .head = 1, .sharpness = 2.5F});
-//   write_mesh("fine.obj", refine(mesh, "catmull-clark", 3));  // texture coordinates come along
+//   write_mesh("fine.obj", refine(mesh, "catmull-clark", 3));
 //   const Mesh fine = refine(mesh, {"kobbelt", {{"tension", "3/4"}}}, 2);
-//   for (Index v = 0; v < fine.num_vertices(); ++v) use(fine.positions.row(v));  // and face_sizes, face_vertices, ...
-//   const SparseMatrix P = subdivision_matrix(mesh, "loop", 3);  // P * mesh.positions are the points of level 3
+//   fine.positions.row(v), fine.face_sizes[f], fine.face_vertices, fine.face_varying[0].values;
+//   const SparseMatrix P = subdivision_matrix(mesh, "loop", 3);  // P * mesh.positions: points of level 3
 //
 // `Points` is an Eigen matrix of doubles by rows, #points x 3; `SparseMatrix` one of Eigen's too. Texture coordinates
 // are refined linearly unless `mesh.face_varying_interpolation` says otherwise. `limit`, `levels`, `fit` and `info` are
-// functions: a variable of the same name needs `sublimit::` before the call.
+// functions: where a variable has the same name, write `sublimit::` before the call.
 //
-// The limit of vertices, and anywhere. A place is (face, u, v): under schemes for triangles `face` is the number of the
-// triangle; under others that of the face if all are quadrilaterals, while any other polygon counts as one square for
-// each corner, as Ptex numbers them (limit/address.h):
+// The limit of vertices, and anywhere. A place is (face, u, v). Under schemes for triangles `face` is the number of the
+// triangle. Under others it is that of the face if all faces are quadrilaterals; any other polygon counts as one square
+// for each of its corners, as Ptex numbers them (limit/address.h):
 //
-//   const Limit limit = sublimit::limit(mesh, "catmull-clark");  // .points.row(v); .matrix
-//   // A vertex has a normal for each side of sharp edges that meet there: .normals.row(s), of vertex .side_vertex[s].
+//   const Limit limit = sublimit::limit(mesh, "catmull-clark");  // .points.row(v), .matrix
+//   limit.normals.row(s), limit.side_vertex[s];  // a normal for each side of the sharp edges at a vertex
 //   const LimitSurface surface(mesh, "catmull-clark");
-//   const LimitSamples samples = surface.evaluate({{.face = 0, .u = 0.5, .v = 0.25}}, 2);  // .position, .du, .normal
-//   // .status[i] says what there is at place i; `outside` of a place on no face, all of whose numbers are 0.
-//   const std::optional<Curvature> bend = curvature(samples, 0);  // ->k1, ->k2, ->gauss, ->mean; not at the cube's
-//   corners const PlaceStencils rows = surface.stencils(surface.grid(3));  // .matrices[0] * mesh.positions const
-//   LimitSurface next = surface.with(points_of_another_frame); const ClosestPoints near = closest(surface, Points{{2,
-//   0, 0}, {0, 1, 3}});  // .points, .distances, .places, .normals const RayHits hits = intersect(surface, {{.origin =
-//   {0, 0, 9}, .direction = {0, 0, -1}}}, {.all = true}); std::cout << hits.t.size() << " hits, the first at " <<
-//   hits.points.row(0); const Tessellation flat = tessellate(surface, {.chord = 1e-3});  // .points, .places;
-//   .triangles[t].vertices are three const Points normals = surface.evaluate(flat.places, 1).normal;
+//   const LimitSamples samples = surface.evaluate({{.face = 0, .u = 0.5, .v = 0.25}}, 2);
+//   samples.position.row(0), samples.du.row(0), samples.duu.row(0), samples.normal.row(0);
+//   samples.status[0];  // LimitStatus::outside: no such place, all numbers are 0
+//   const std::optional<Curvature> bend = curvature(samples, 0);  // none at extraordinary vertices
+//   bend->k1, bend->k2, bend->gauss, bend->mean;
+//   const PlaceStencils rows = surface.stencils(surface.grid(3));  // .matrices[0] * mesh.positions
+//   const LimitSurface next = surface.with(points_of_another_frame);
+//
+//   const ClosestPoints near = closest(surface, Points{{2, 0, 0}, {0, 1, 3}});
+//   near.points.row(0), near.distances[0], near.places[0], near.normals.row(0);
+//   const RayHits hits = intersect(surface, {{.origin = {0, 0, 9}, .direction = {0, 0, -1}}}, {.all = true});
+//   hits.t.size(), hits.points.row(0);
+//   const Tessellation flat = tessellate(surface, {.chord = 1e-3});
+//   flat.points.row(flat.triangles[t].vertices[0]);
+//   const Points normals = surface.evaluate(flat.places, 1).normal;
 //
 // Tables, once a connectivity, and applied every frame (table.h, which needs the component eval alone):
 //
 //   bake(mesh, "catmull-clark", {.levels = 3}).save("cube.safetensors");
 //   const Table table = load("cube.safetensors");
 //   std::vector<float> result(table.num_results(3));
-//   table.apply(points, 3, result);  // by all threads; TableFrame (table.h) is for threads of your own
+//   table.apply(points, 3, result);  // by all threads
+//   const TableFrame<float> frame(table, points, 3, result);  // by threads of your own:
+//   frame.apply_part(i, n);                                   // any thread, for i = 0 ... n - 1
+//   frame.finish();                                           // after all of them
 //
 // A scheme of your own is a function of the number type: masks of vertices, edges and faces as expressions of the
 // points around them (scheme/sites.h), in double here, in exact numbers for its report:
 //
 //   #include <sublimit/certificates/algebraic.h>
-//   template <class T> Scheme<T> mine() {
-//     const auto vertex = [](const Ring<T>& v) { return (v.center() + v.neighbor_mean() + 2 * v.face_point_mean()) / 4;
-//     }; const auto edge = [](const EdgeSite<T>& e) { return (e.tail() + e.head()) / 2; }; const auto face = [](const
-//     FaceSite<T>& f) { return f.centroid(); }; return {.name = "mine", .source = "here",
-//             .steps = {Step<T>{.split = Split::pqq, .masks = {.vertex = vertex, .edge = edge, .face = face}}},
+//   template <class T>
+//   Scheme<T> mine() {
+//     const auto vertex = [](const Ring<T>& v) { return (v.center() + v.neighbor_mean()) / 2; };
+//     const auto edge = [](const EdgeSite<T>& e) { return (e.tail() + e.head()) / 2; };
+//     const auto face = [](const FaceSite<T>& f) { return f.centroid(); };
+//     return {.name = "mine",
+//             .source = "here",
+//             .steps = {Step<T>{Split::pqq, {.vertex = vertex, .edge = edge, .face = face}}},
 //             .creases = cubic_bspline_creases<T>()};
 //   }
 //   refine(mesh, mine<double>(), 2);
 //   analyze(mine<double>(), mine<Algebraic>()).save_html("mine.html");
 //
-// Data and reports:
+// Data and reports (report/report.h, if the component report is there):
 //
-//   const Fit fit = sublimit::fit(mesh, "loop", {{.vertex = 0, .position = {0, 0, 1}}});  // .mesh, .solved, .why_not
+//   const Fit fit = sublimit::fit(mesh, "loop", {{.vertex = 0, .position = {0, 0, 1}}});
+//   fit.mesh, fit.solved, fit.why_not;
 //   analyze("loop", {.valences = {3, 5}}).save_html("loop.html");
 //   const MeshInfo known = info(mesh, "loop");  // counts, valences, .why_not
 //
@@ -120,8 +133,9 @@ inline void write_mesh(const std::filesystem::path& path, const Mesh& mesh) { wr
 /// @throws as `refine`
 [[nodiscard]] SparseMatrix subdivision_matrix(const Mesh& mesh, const AnyScheme& scheme, int levels);
 
-/// Returns counts, valences, rules in force, warnings; and whether a scheme can refine the mesh, if one is named.
+/// Returns counts, valences, rules in force and warnings of a mesh.
 [[nodiscard]] MeshInfo info(const Mesh& mesh);
+/// Returns the same, and whether a scheme can refine the mesh: if not, `why_not` says why.
 [[nodiscard]] MeshInfo info(const Mesh& mesh, const AnyScheme& scheme);
 
 /// What points a table makes: one of levels, grid and places.

@@ -37,8 +37,8 @@ Eigen::Index grow_factors(Array& array, Eigen::Index& length, Eigen::Index num_k
   }
 }
 
-/// Finds columns of a factor that are treated as one: whole subtrees of the elimination tree with few columns. Eigen 3.4
-/// frees an array of its own twice here if memory ends.
+/// Finds columns of a factor that are treated as one: whole subtrees of the elimination tree with few columns.
+/// Eigen 3.4 frees an array of its own twice here if memory ends.
 /// @param parents  of each column, n for none; ascending towards the root
 /// @param most     columns below the root of a subtree, less than
 /// @param below    columns below each one, made here
@@ -77,6 +77,7 @@ void check_memory_of(const Lu& lu) {
 
 }  // namespace sublimit
 
+/// @cond  (what is documented is Eigen's)
 namespace Eigen::internal {
 
 template <>
@@ -99,3 +100,4 @@ inline void SparseLUImpl<double, int>::heap_relax_snode(const Index n, IndexVect
 }
 
 }  // namespace Eigen::internal
+/// @endcond

@@ -16,8 +16,8 @@ struct LimitSurface::Bound {
   Points points;
   LimitPatches patches;  // refers to both
 
-  Bound(LimitMap of, Points at)
-      : map(std::move(of)),
+  Bound(const LimitMap& of, Points at)
+      : map(of),
         points(std::move(at)),
         patches((check_points(map.level(), points), LimitPatches::parts_of(map)), points) {}
   Bound(const Bound&) = delete;
@@ -25,8 +25,8 @@ struct LimitSurface::Bound {
 
 LimitSurface::LimitSurface(const ControlMesh& mesh, const AnyScheme& scheme, std::shared_ptr<LimitTypes> cache)
     : LimitSurface(LimitMap(*scheme.for_mesh(mesh), mesh, {}, std::move(cache)), points_in_space(mesh)) {}
-LimitSurface::LimitSurface(LimitMap map, Points points)
-    : bound_(std::make_shared<const Bound>(std::move(map), std::move(points))) {}
+LimitSurface::LimitSurface(const LimitMap& map, Points points)
+    : bound_(std::make_shared<const Bound>(map, std::move(points))) {}
 
 LimitSurface LimitSurface::with(Points points) const {
   check_finite_control(points);

@@ -29,7 +29,7 @@ class LimitSurface : public BoundSource {
   LimitSurface(const ControlMesh& mesh, const AnyScheme& scheme, std::shared_ptr<LimitTypes> cache = nullptr);
   /// @param points  #V x 3
   /// @throws InvalidParameter  another number of rows or columns
-  LimitSurface(LimitMap map, Points points);
+  LimitSurface(const LimitMap& map, Points points);
   // What is moved stays as it is.
   LimitSurface(const LimitSurface&) = default;
   LimitSurface& operator=(const LimitSurface&) = default;
@@ -40,9 +40,9 @@ class LimitSurface : public BoundSource {
   /// @throws InvalidMesh       a coordinate that is not finite: says of which control point
   LimitSurface with(Points points) const;
 
-  const LimitMap& map() const;
-  const Points& points() const;  ///< control points, #V x 3
-  FaceCount faces() const { return map().faces(); }
+  const LimitMap& map() const;                       ///< the same without points
+  const Points& points() const;                      ///< control points, #V x 3
+  FaceCount faces() const { return map().faces(); }  ///< that places may be on
   /// Returns the places of a grid on every face: N x N, sides included, u fastest; on triangles N (N + 1) / 2.
   /// @throws InvalidParameter  N below 2;  ResourceError  more places than memory holds
   std::vector<Sample> grid(int N) const { return grid_places(faces(), N); }
@@ -52,9 +52,11 @@ class LimitSurface : public BoundSource {
   /// @throws InvalidParameter  other derivatives
   /// @note  A place on no face, or outside of it, has the status `outside`.
   LimitSamples evaluate(std::span<const Sample> places, int derivatives = 0, bool normals = true) const;
+  /// Evaluates places that are listed: `evaluate({{.face = 0, .u = 0.5, .v = 0.5}}, 1)`.
   LimitSamples evaluate(std::initializer_list<Sample> places, int derivatives = 0) const {
     return evaluate(std::span(places.begin(), places.size()), derivatives);
   }
+  /// Evaluates places into `out`, whose memory is reused.
   void evaluate(std::span<const Sample> places, int derivatives, bool normals, LimitSamples& out) const override;
 
   /// Returns what `evaluate` multiplies the control points with, a row for each place.
@@ -63,6 +65,7 @@ class LimitSurface : public BoundSource {
   PlaceStencils stencils(std::span<const Sample> places, int derivatives = 0) const {
     return place_stencils(map(), places, derivatives);
   }
+  /// Returns the stencils of places that are listed.
   PlaceStencils stencils(std::initializer_list<Sample> places, int derivatives = 0) const {
     return stencils(std::span(places.begin(), places.size()), derivatives);
   }

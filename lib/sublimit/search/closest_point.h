@@ -59,6 +59,8 @@ struct ClosestPointOptions {
 /// @throws InvalidMesh          no face that is not a hole
 /// @throws UnsupportedTopology  signed distances from a surface that is not closed: says where
 ClosestPoints closest(const SearchedSurface& surface, const Points& queries, const ClosestPointOptions& options = {});
+/// Returns nearest points of a limit surface.
+/// @throws as above
 ClosestPoints closest(const LimitSurface& surface, const Points& queries, const ClosestPointOptions& options = {});
 /// @param control  points of the map's level, #V x 3
 ClosestPoints closest(const LimitMap& surface, const Points& control, const Points& queries,

@@ -72,6 +72,8 @@ struct RayOptions {
 ///                              to look at
 /// @throws UnsupportedTopology  a face that has no parts (`SearchedSurface::without_parts`)
 RayHits intersect(const SearchedSurface& surface, const std::vector<Ray>& rays, const RayOptions& options = {});
+/// Returns where rays meet a limit surface.
+/// @throws as above
 RayHits intersect(const LimitSurface& surface, const std::vector<Ray>& rays, const RayOptions& options = {});
 /// @param points  of the map's level, #V x 3
 /// @throws InvalidParameter  points that do not fit

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sublimit/search/searched_surface.h"
 
-#include <utility>
-
 #include "sublimit/core/finite_points.h"
 #include "sublimit/limit/closed_surface.h"
 
@@ -15,15 +13,15 @@ int levels_of(const AddressPieces& pieces, Index addresses) {
   return pieces.has_no_polynomials() ? 1 : addresses < many ? 5 : 2;
 }
 
-LimitSurface measurable(LimitSurface surface) {
+const LimitSurface& measurable(const LimitSurface& surface) {
   check_measurable_control(surface.points());
   return surface;
 }
 
 }  // namespace
 
-SearchedLimit::SearchedLimit(LimitSurface surface)
-    : surface_(measurable(std::move(surface))),
+SearchedLimit::SearchedLimit(const LimitSurface& surface)
+    : surface_(measurable(surface)),
       pieces_(surface_.map(), surface_.points()),
       levels_(levels_of(pieces_, surface_.faces().size)) {}
 

@@ -39,7 +39,7 @@ class SearchedSurface {
 class SearchedLimit : public SearchedSurface {
  public:
   /// @throws InvalidParameter  points beyond 1e150
-  explicit SearchedLimit(LimitSurface surface);
+  explicit SearchedLimit(const LimitSurface& surface);
   /// @param points  of the map's level, #V x 3
   /// @throws InvalidParameter  points that do not fit, or beyond 1e150
   SearchedLimit(const LimitMap& map, const Points& points) : SearchedLimit(LimitSurface(map, points)) {}

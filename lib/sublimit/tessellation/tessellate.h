@@ -44,6 +44,8 @@ struct [[nodiscard]] Tessellation {
 /// @throws UnsupportedTopology  as `flat_cells`
 /// @throws ResourceError        more triangles than allowed: before most of them are made
 Tessellation tessellate(const LimitMap& map, const Points& control, const TessellationOptions& options);
+/// Returns triangles of a limit surface.
+/// @throws as above
 inline Tessellation tessellate(const LimitSurface& surface, const TessellationOptions& options) {
   return tessellate(surface.map(), surface.points(), options);
 }

@@ -21,7 +21,7 @@ class Report {
  public:
   /// @param json  its text
   explicit Report(std::string json) : json_(std::move(json)) {}
-  const std::string& json() const { return json_; }
+  const std::string& json() const { return json_; }  ///< the text
 
   /// Writes the text; the file appears whole or not at all.
   /// @throws IoError  unwritable;  ResourceError  a full disk
