@@ -77,7 +77,7 @@ void check_memory_of(const Lu& lu) {
 
 }  // namespace sublimit
 
-/// @cond  (what is documented is Eigen's)
+/// @cond eigen_members
 namespace Eigen::internal {
 
 template <>

@@ -1,0 +1,25 @@
+# The programs of jobs/ against an install of BUILD by pkg-config, with warnings as errors, under g++ and clang:
+# cmake -DBUILD=DIR -DSOURCE=DIR -P jobs_by_pkg_config.cmake
+set(scratch ${BUILD}/consumer/pkg_config)
+file(REMOVE_RECURSE ${scratch})
+execute_process(COMMAND ${CMAKE_COMMAND} --install ${BUILD} --prefix ${scratch}/prefix OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
+file(GLOB_RECURSE found ${scratch}/prefix/*/sublimit.pc)
+cmake_path(GET found PARENT_PATH folder)
+set(ENV{PKG_CONFIG_PATH} ${folder})
+find_program(pkg_config pkg-config REQUIRED)
+execute_process(COMMAND ${pkg_config} --cflags --libs sublimit OUTPUT_VARIABLE flags OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
+string(REPLACE "-I/usr/include/eigen3" "-isystem/usr/include/eigen3" flags "${flags}")  # Eigen's own warnings are Eigen's
+separate_arguments(flags)
+file(GLOB sources ${SOURCE}/tests/consumer/jobs/*.cpp)
+foreach(compiler g++ clang++-14)
+  find_program(${compiler} ${compiler} REQUIRED)
+  foreach(source IN LISTS sources)
+    cmake_path(GET source STEM name)
+    execute_process(COMMAND ${${compiler}} -std=c++20 -Wall -Wextra -Wpedantic -Werror -O1 ${source} -o ${scratch}/${name} ${flags}
+                    COMMAND_ERROR_IS_FATAL ANY)
+  endforeach()
+  execute_process(COMMAND ${scratch}/refine OUTPUT_VARIABLE printed COMMAND_ERROR_IS_FATAL ANY)
+  if(NOT printed STREQUAL "130 points, 256 faces\n")
+    message(FATAL_ERROR "by ${compiler}, refine prints ${printed}")
+  endif()
+endforeach()
