@@ -53,7 +53,7 @@ endfunction()
 install(FILES ${packaging}/linked.spdx DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libsublimit-dev)
 
 sublimit_package(libsublimit-dev "subdivision surfaces as sparse matrices (development files)"
-                 "Headers, static libraries, CMake's find_package(sublimit), and\npkg-config's sublimit-lib and sublimit-eval."
+                 "Headers, static libraries, CMake's find_package(sublimit), and\npkg-config's sublimit, sublimit-lib and sublimit-eval."
                  SECTION libdevel
                  DEPENDS libtbb-dev libhwy-dev "libeigen3-dev (>= 3.4)"
                  RECOMMENDS libflint-dev libflint-arb-dev libfmt-dev libzip-dev nlohmann-json3-dev

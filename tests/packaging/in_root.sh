@@ -43,9 +43,9 @@ mkdir -p by_cmake
 cat > by_cmake/CMakeLists.txt <<'END'
 cmake_minimum_required(VERSION 3.25)
 project(uses LANGUAGES CXX)
-find_package(sublimit CONFIG REQUIRED COMPONENTS lib)
+find_package(sublimit CONFIG REQUIRED COMPONENTS report)
 add_executable(limits ../limits.cpp)
-target_link_libraries(limits PRIVATE sublimit::lib)
+target_link_libraries(limits PRIVATE sublimit::sublimit)
 END
 cmake -S by_cmake -B by_cmake/build -DCMAKE_CXX_FLAGS=-O0 >/dev/null
 cmake --build by_cmake/build >/dev/null
