@@ -25,7 +25,7 @@ namespace sublimit {
 class Table {
  public:
   explicit Table(AnyTable table);
-  // What is moved stays as it is.
+  // Moving copies: a moved-from object stays valid.
   Table(const Table&) = default;
   Table& operator=(const Table&) = default;
 

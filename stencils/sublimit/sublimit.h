@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// All of sublimit: a mesh, a scheme, and what the program's subcommands do, as functions of the same names.
+// What the program does with meshes, in C++: refine, limit, closest, intersect, tessellate, bake, fit, analyze and info
+// are functions of the same names. Recipes, fields and STEP files have headers of their own (recipes/, implicit/,
+// cad/).
 //
 // Meshes are of files or arrays. A scheme is a name, a name with options, or one of your own. Rules for boundaries,
 // creases and triangles are those of the mesh:

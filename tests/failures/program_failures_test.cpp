@@ -194,7 +194,7 @@ class Runs {
     std::int64_t counts[num_calls];
     for (int i = 0; i < num_calls; ++i) counts[i] = page_.calls().counts[i];
     ASSERT_GT(counts[0], 0) << "nothing was counted";
-    // Of long ones fewer, or one alone takes an hour.
+    // Draws fewer failures for long uses: one alone would take an hour.
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
     const int drawn = full_sweep() ? std::clamp(int(20 / seconds.count()), 5, 60) : 3;
     std::mt19937 random(40);

@@ -23,7 +23,10 @@
 namespace sublimit::testing {
 namespace {
 
-constexpr double rounding = 1e-13;
+constexpr double rounding = 1e-13;         // sums of some tens of products of numbers of order 1
+constexpr double solved = 1e-12;           // a direct solution, or a search to the last digits, on a mesh of that size
+constexpr double least_squares = 1e-10;    // normal equations lose half of the digits, refinement brings most back
+constexpr double single_precision = 1e-5;  // weights and points of 24 bits, sums of some tens
 
 double distance(const Points& a, const Points& b) {
   if (a.rows() != b.rows() || a.cols() != b.cols()) return std::numeric_limits<double>::infinity();
@@ -109,7 +112,7 @@ TEST(Verbs, SurfacesOwnWhatTheyNeed) {
   EXPECT_EQ(intersect(moved, {{.origin = {0.1, 0.2, -5}, .direction = {0, 0, 1}}}, {.all = true}).t.size(), 2);
   Points query(1, 3);
   query << 3, 0, 0;
-  EXPECT_NEAR(closest(moved, query).distances[0], (closest(moved, query).points.row(0) - query.row(0)).norm(), 1e-12);
+  EXPECT_NEAR(closest(moved, query).distances[0], (closest(moved, query).points.row(0) - query.row(0)).norm(), solved);
 }
 
 TEST(Verbs, TablesAreAppliedInEitherPrecisionAndInParts) {
@@ -128,7 +131,7 @@ TEST(Verbs, TablesAreAppliedInEitherPrecisionAndInParts) {
     std::vector<float> of_float(of_double.size()), parts_of_float(of_double.size());
     table.apply(points, 3, of_double);
     table.apply(in_float, 3, of_float);
-    for (size_t i = 0; i < of_double.size(); ++i) EXPECT_NEAR(of_double[i], of_float[i], 1e-5);
+    for (size_t i = 0; i < of_double.size(); ++i) EXPECT_NEAR(of_double[i], of_float[i], single_precision);
     const auto in_parts = [&]<class Real>(const std::vector<Real>& from, const std::vector<Real>& whole,
                                           std::vector<Real>& made) {
       const TableFrame<Real> frame(table, from, 3, made);
@@ -149,7 +152,7 @@ TEST(Verbs, TablesAreAppliedInEitherPrecisionAndInParts) {
     double left = 0, right = 0;
     for (const double x : of_double) left += x * x;
     for (size_t i = 0; i < back.size(); ++i) right += back[i] * points[i];
-    EXPECT_NEAR(left, right, (in_double ? 1e-12 : 1e-5) * left);
+    EXPECT_NEAR(left, right, (in_double ? solved : single_precision) * left);
     EXPECT_EQ(std::int64_t(table.faces().sizes.size()), 6 * 64);
   }
 }
@@ -205,16 +208,16 @@ TEST(Verbs, FitsMeetTheirTargets) {
                                  {.vertex = 7, .position = {1, 1, 1}, .normal = Eigen::Vector3d(0, 0, 1)}});
   ASSERT_TRUE(fit.solved) << fit.why_not;
   const Limit limit = sublimit::limit(fit.mesh, "catmull-clark");
-  EXPECT_LE((limit.points.row(7) - Eigen::RowVector3d(1, 1, 1)).norm(), 1e-12);
-  EXPECT_LE(fit.position_error.maxCoeff(), 1e-12);
+  EXPECT_LE((limit.points.row(7) - Eigen::RowVector3d(1, 1, 1)).norm(), solved);
+  EXPECT_LE(fit.position_error.maxCoeff(), solved);
 
   const LimitSurface surface(mesh, "catmull-clark");
   const std::vector<Sample> places = surface.grid(4);
   const ScatteredFit scattered =
       fit_places(surface, {.places = places, .values = 2 * surface.evaluate(places).position});
-  EXPECT_LE(distance(scattered.points, 2 * mesh.positions), 1e-10);
+  EXPECT_LE(distance(scattered.points, 2 * mesh.positions), least_squares);
   const CloudFit cloud = fit_cloud(surface, {.points = surface.evaluate(places).position});
-  EXPECT_LE(cloud.feet.distances.cwiseAbs().maxCoeff(), 1e-10);
+  EXPECT_LE(cloud.feet.distances.cwiseAbs().maxCoeff(), least_squares);
 }
 
 TEST(Verbs, ReportsAreTextAndPages) {
@@ -237,7 +240,7 @@ TEST(Verbs, InfoSaysWhatThereIs) {
   EXPECT_NE(of_scheme.why_not, "");
 }
 
-// What is wrong is told, and nothing is made of it.
+// Bad input throws an error that names it, and makes nothing.
 
 TEST(Verbs, RefuseWhatIsWrong) {
   const Mesh good = cube();

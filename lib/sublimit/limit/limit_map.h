@@ -33,7 +33,7 @@ class LimitMap : public LinearSource {
            std::shared_ptr<LimitTypes> types = nullptr);
   /// Makes the map from the points of a level.
   LimitMap(const Scheme<double>& scheme, Level level, std::shared_ptr<LimitTypes> types = nullptr);
-  // What is moved stays as it is.
+  // Moving copies: a moved-from object stays valid.
   LimitMap(const LimitMap&) = default;
   LimitMap& operator=(const LimitMap&) = default;
 

@@ -30,7 +30,7 @@ class LimitSurface : public BoundSource {
   /// @param points  #V x 3
   /// @throws InvalidParameter  another number of rows or columns
   LimitSurface(const LimitMap& map, Points points);
-  // What is moved stays as it is.
+  // Moving copies: a moved-from object stays valid.
   LimitSurface(const LimitSurface&) = default;
   LimitSurface& operator=(const LimitSurface&) = default;
 

@@ -18,7 +18,7 @@ class AnyScheme {
   AnyScheme(const std::string& name, const SchemeOptions& options = {});
   AnyScheme(const char* name) : AnyScheme(std::string(name ? name : "")) {}
   AnyScheme(Scheme<double> scheme);
-  // What is moved stays as it is.
+  // Moving copies: a moved-from object stays valid.
   AnyScheme(const AnyScheme&) = default;
   AnyScheme& operator=(const AnyScheme&) = default;
 

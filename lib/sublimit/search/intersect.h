@@ -97,7 +97,7 @@ class RayTracer {
   /// @param points  of the map's level, #V x 3
   /// @throws InvalidParameter  points that do not fit
   RayTracer(const LimitMap& map, const Points& points) : RayTracer(LimitSurface(map, points)) {}
-  // Copies share what was prepared; what is moved stays as it is.
+  // Copies share what was prepared. Moving copies: a moved-from object stays valid.
   RayTracer(const RayTracer&) = default;
   RayTracer& operator=(const RayTracer&) = default;
 

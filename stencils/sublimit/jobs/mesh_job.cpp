@@ -9,14 +9,11 @@
 #include "sublimit/curves/schemes/curve_schemes.h"
 #include "sublimit/files/rule_words.h"
 #include "sublimit/geometric/geometric_schemes.h"
+#include "sublimit/scheme/any_scheme.h"
 #include "sublimit/scheme/prepare.h"
 
 namespace sublimit {
 namespace {
-
-bool knows(const Scheme<double>& scheme, const std::string& option) {
-  return std::ranges::any_of(scheme.options, [&](const OptionInfo& info) { return info.name == option; });
-}
 
 bool refines_curves(const std::string& name) {
   const auto has_name = [&](const auto& scheme) { return name == scheme.name; };
@@ -78,10 +75,9 @@ MeshJob mesh_job(const MeshRequest& request, ControlMesh mesh, const std::string
   if (request.no_creases) mesh = without_creases(std::move(mesh));
   if (const auto asked = job.options.find("triangles"); asked != job.options.end()) {
     mesh.triangles = rule_of<Triangles>(asked->second);
-  } else if (mesh.triangles == Triangles::smooth && job.scheme && !request.own_scheme &&
-             knows(*job.scheme, "triangles")) {
-    job.options["triangles"] = word(Triangles::smooth);  // a tag of the mesh is for schemes that know it
-    job.scheme = scheme_or_throw(request.scheme, job.options);
+  } else if (job.scheme && !request.own_scheme) {
+    job.scheme = *AnyScheme(*std::move(job.scheme)).for_mesh(mesh);
+    job.options = job.scheme->chosen;
   }
   if (job.rules.boundary) mesh.boundary = job.rules.boundary;
   if (job.rules.creasing) mesh.creasing = job.rules.creasing;

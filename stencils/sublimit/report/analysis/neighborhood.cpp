@@ -17,6 +17,7 @@
 #include "sublimit/report/analysis/masks_json.h"
 #include "sublimit/report/analysis/modes_json.h"
 #include "sublimit/report/analysis/spectrum_json.h"
+#include "sublimit/scheme/check_scheme.h"
 
 namespace sublimit::report {
 namespace {
@@ -226,14 +227,18 @@ SharedAnalysis shared_analysis(const ReportedScheme& scheme) {
   return shared;
 }
 
-/// @throws InvalidParameter  the masks in doubles do not have the weights of those in exact numbers, to rounding
+/// Checks that the masks in doubles have the weights of those in exact numbers, to rounding.
+/// @throws InvalidParameter  a weight differs, or points that one of both does not reach
 void check_alike(const ReportedScheme& scheme, const LocalType& type, const LocalPatch<Algebraic>& exact) {
   const std::optional<LocalPatch<double>> rounded = sublimit::local_patch(scheme.scheme, type);
-  if (!rounded || rounded->A.rows() != exact.A.rows()) return;  // a weight that is zero in one of them alone
+  const Eigen::Index points = rounded ? rounded->A.rows() : 0;
+  if (points != exact.A.rows())
+    throw InvalidParameter(scheme.scheme.name + ": masks reach " + std::to_string(points) + " points in doubles and " +
+                           std::to_string(exact.A.rows()) + " in exact numbers; a report needs the same masks in both");
   for (Eigen::Index i = 0; i < exact.A.rows(); ++i)
     for (Eigen::Index j = 0; j < exact.A.cols(); ++j) {
       const double weight = double(exact.A(i, j));
-      if (std::abs(rounded->A(i, j) - weight) <= 1e-9 * std::max(1.0, std::abs(weight))) continue;
+      if (std::abs(rounded->A(i, j) - weight) <= affine_rounding * std::max(1.0, std::abs(weight))) continue;
       throw InvalidParameter(scheme.scheme.name + ": a weight is " + format_number(rounded->A(i, j)) +
                              " in doubles and " + format_number(weight) +
                              " in exact numbers; a report needs the same masks in both");
