@@ -14,7 +14,7 @@ namespace sublimit::bench {
 
 struct Case {
   std::string name, scheme;
-  ControlMesh mesh;
+  Mesh mesh;
 };
 
 /// The car, where it exists; tori of 100k quads and of 100k triangles, regular throughout; 33k triangles split into

@@ -10,11 +10,11 @@
 #include <string>
 #include <vector>
 
-#include "sublimit/bake/bake.h"
+#include "sublimit/stencils/bake/detail/bake.h"
 #include "sublimit/limit/limit_surface.h"
-#include "sublimit/pattern_evaluator.h"
+#include "sublimit/eval/pattern_evaluator.h"
 #include "sublimit/scheme/refined_mesh.h"
-#include "sublimit/schemes.h"
+#include "sublimit/schemes/schemes.h"
 #include "support/allocations.h"
 #include "support/meshes.h"
 
@@ -26,12 +26,12 @@ using Counts = nlohmann::ordered_json;
 
 struct Case {
   std::string mesh, scheme;
-  ControlMesh control;
+  Mesh control;
 };
 
 std::vector<Case> cases() {
   using namespace testing;
-  ControlMesh creased = disjoint_union(grid(5, 4), cube());
+  Mesh creased = disjoint_union(grid(5, 4), cube());
   add_crease(creased, {6, 7, 8, 9}, 2.5f);
   add_crease(creased, {30, 31, 33, 32}, 10);
   std::vector<Case> list;
@@ -102,7 +102,7 @@ void count_limits(Counts& counts, const Case& c, const Scheme<double>& scheme) {
     surface->prepare();
   });
   count_memory(counts, "limit surface, bound", [&] { bound.emplace(*surface, c.control.positions); });
-  std::vector<Sample> places;
+  std::vector<Place> places;
   for (Index face = 0; face < surface->faces().size; ++face) places.push_back({face, 0.25, 0.5});
   LimitSamples samples;
   bound->evaluate(places, 1, true, samples);

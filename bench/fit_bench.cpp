@@ -17,8 +17,8 @@
 
 #include "fit_systems.h"
 #include "measuring.h"
-#include "report.h"
-#include "sublimit/core/sparse_product.h"
+#include "bench_report.h"
+#include "sublimit/core/detail/sparse_product.h"
 #include "sublimit/fit/conditioning.h"
 
 namespace sublimit::bench {

@@ -4,24 +4,24 @@
 #include <cmath>
 #include <random>
 
-#include "sublimit/core/sparse_product.h"
+#include "sublimit/core/detail/sparse_product.h"
 #include "sublimit/fit/scattered_fit.h"
-#include "sublimit/limit/limit_points.h"
+#include "sublimit/limit/detail/limit_points.h"
 #include "sublimit/limit/limit_map.h"
-#include "sublimit/schemes.h"
+#include "sublimit/schemes/schemes.h"
 #include "support/meshes.h"
 
 namespace sublimit::bench {
 namespace {
 
-ControlMesh torus(Index vertices) {
+Mesh torus(Index vertices) {
   const Index side = Index(std::lround(std::sqrt(double(vertices))));
   return testing::jittered(testing::torus(side, side + 1), 0.001);
 }
 
 FitProblem points(Index vertices) {
-  const ControlMesh mesh = torus(vertices);
-  LimitTypes cache(find_scheme<double>("catmull-clark").value());
+  const Mesh mesh = torus(vertices);
+  LimitCache cache(find_scheme<double>("catmull-clark").value());
   FitProblem p;
   p.C = limit_matrices(refine(cache.scheme(), mesh, 0)[0], cache).position;
   p.d = p.x0 = mesh.positions;
@@ -29,9 +29,9 @@ FitProblem points(Index vertices) {
 }
 
 FitProblem normals(Index vertices) {
-  const ControlMesh mesh = torus(vertices / 4);
+  const Mesh mesh = torus(vertices / 4);
   const Index targets = Index(mesh.positions.rows());
-  LimitTypes cache(find_scheme<double>("catmull-clark").value());
+  LimitCache cache(find_scheme<double>("catmull-clark").value());
   const auto levels = refine(cache.scheme(), mesh, 1);
   const LimitMatrices limit = limit_matrices(levels[1], cache);
   const Points refined = apply(refinement_matrix(levels), mesh.positions);
@@ -56,8 +56,8 @@ FitProblem normals(Index vertices) {
 }
 
 FitProblem fairness(Index vertices) {
-  const ControlMesh mesh = torus(vertices / 4);
-  LimitTypes cache(find_scheme<double>("catmull-clark").value());
+  const Mesh mesh = torus(vertices / 4);
+  LimitCache cache(find_scheme<double>("catmull-clark").value());
   const auto levels = refine(cache.scheme(), mesh, 1);
   FitProblem p;
   p.C = limit_matrices(levels[1], cache).position.topRows(mesh.positions.rows());
@@ -68,12 +68,12 @@ FitProblem fairness(Index vertices) {
 }
 
 FitProblem places(Index vertices) {
-  const ControlMesh mesh = torus(vertices);
+  const Mesh mesh = torus(vertices);
   const LimitMap surface(find_scheme<double>("catmull-clark").value(), mesh);
   std::mt19937 generator(1);
   const auto random = [&] { return double(generator() >> 5) / double(1 << 27); };
-  std::vector<Sample> list(4 * mesh.positions.rows());
-  for (Sample& s : list) s = {Index(generator() % unsigned(surface.addresses().size())), random(), random()};
+  std::vector<Place> list(4 * mesh.positions.rows());
+  for (Place& s : list) s = {Index(generator() % unsigned(surface.addresses().size())), random(), random()};
   FitProblem p;
   p.A = place_rows(surface, list);
   p.b = apply(p.A, mesh.positions);

@@ -22,11 +22,11 @@
 
 #include "bench_meshes.h"
 #include "measuring.h"
-#include "report.h"
-#include "sublimit/bake/bake.h"
-#include "sublimit/gpu/gpu_evaluator.h"
-#include "sublimit/pattern_evaluator.h"
-#include "sublimit/schemes.h"
+#include "bench_report.h"
+#include "sublimit/eval/gpu/gpu_evaluator.h"
+#include "sublimit/eval/pattern_evaluator.h"
+#include "sublimit/schemes/schemes.h"
+#include "sublimit/stencils/bake/detail/bake.h"
 
 namespace sublimit::bench {
 namespace {

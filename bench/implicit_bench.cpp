@@ -14,11 +14,11 @@
 #include <vector>
 
 #include "measuring.h"
-#include "report.h"
-#include "sublimit/implicit/combinations.h"
-#include "sublimit/implicit/level_set_mesh.h"
+#include "bench_report.h"
+#include "sublimit/implicit/detail/combinations.h"
+#include "sublimit/implicit/detail/level_set_mesh.h"
 #include "sublimit/implicit/polygonize/polygonize.h"
-#include "sublimit/schemes.h"
+#include "sublimit/schemes/schemes.h"
 
 namespace sublimit::bench {
 namespace {
@@ -52,7 +52,7 @@ std::vector<Shape> shapes() {
 }
 
 /// Largest distance of places inside the faces, vertices being on the surface, those on sharp edges on the edges.
-double polygon_error(const Field& field, const ControlMesh& mesh) {
+double polygon_error(const Field& field, const Mesh& mesh) {
   double largest = 0;
   constexpr int n = 4;  // middles of faces, too
   size_t first = 0;
@@ -72,9 +72,9 @@ double polygon_error(const Field& field, const ControlMesh& mesh) {
 }
 
 /// Polygons with vertices moved onto the surface; onto its edges if it has some.
-ControlMesh polygons(const Shape& shape, int cells) {
+Mesh polygons(const Shape& shape, int cells) {
   const FieldGrid grid = sample_field(*shape.field, box_of(shape, cells), cells);
-  ControlMesh mesh = polygonize(grid);
+  Mesh mesh = polygonize(grid);
   if (shape.field->has_edges()) return make_cage(std::move(mesh), FieldSides(shape.field, true), grid.cell).mesh;
   for (Index v = 0; v < mesh.num_vertices(); ++v) {
     const Projection p = project(*shape.field, mesh.positions.row(v), 3 * grid.cell);
@@ -86,7 +86,7 @@ ControlMesh polygons(const Shape& shape, int cells) {
 /// Faces of the coarsest polygons that are as near; 0 beyond 400 cells.
 Index polygons_as_near(const Shape& shape, double distance) {
   for (int cells = 8; cells <= 400; cells += std::max(1, cells / 8)) {
-    const ControlMesh mesh = polygons(shape, cells);
+    const Mesh mesh = polygons(shape, cells);
     if (polygon_error(*shape.field, mesh) <= distance) return mesh.num_faces();
   }
   return 0;

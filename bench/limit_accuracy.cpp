@@ -40,15 +40,15 @@ struct Point {
 /// Who makes points at all places.
 struct Contender {
   std::string name;
-  std::function<std::vector<Point>(const ControlMesh&, const std::vector<Sample>&)> points;
+  std::function<std::vector<Point>(const Mesh&, const std::vector<Place>&)> points;
 };
 
 template <class Limit, class LimitOptions>
 Contender opensubdiv(const std::string& name, const LimitOptions& options) {
-  return {name, [options](const ControlMesh& mesh, const std::vector<Sample>& places) {
+  return {name, [options](const Mesh& mesh, const std::vector<Place>& places) {
             const Limit limit(mesh, testing::reference_options(mesh, "catmull-clark", 0), options);
             std::vector<Point> points;
-            for (const Sample& place : places) {
+            for (const Place& place : places) {
               const testing::ReferencePoint p = limit.at(place).value();
               const Eigen::Vector3d normal = p.du.cross(p.dv);
               points.push_back({p.position, normal.norm() > 0 ? Eigen::Vector3d(normal.normalized()) : normal});
@@ -58,7 +58,7 @@ Contender opensubdiv(const std::string& name, const LimitOptions& options) {
 }
 
 Contender ours() {
-  return {"ours", [](const ControlMesh& mesh, const std::vector<Sample>& places) {
+  return {"ours", [](const Mesh& mesh, const std::vector<Place>& places) {
             const LimitMap surface(testing::scheme_for(mesh, "catmull-clark"), mesh);
             const LimitSamples made = surface.evaluate(mesh.positions, places, 1);
             std::vector<Point> points;
@@ -114,7 +114,7 @@ void print_row(const std::string& mesh, const char* corners, const std::string& 
               e.without_normal ? (", " + std::to_string(e.without_normal) + " without normal").c_str() : "");
 }
 
-void print_mesh(const std::string& name, const ControlMesh& mesh, bool every_distance) {
+void print_mesh(const std::string& name, const Mesh& mesh, bool every_distance) {
   testing::DyadicLimits truth(testing::scheme_for(mesh, "catmull-clark"), mesh);
   const double box = (mesh.positions.colwise().maxCoeff() - mesh.positions.colwise().minCoeff()).norm();
   std::vector<DyadicLimit> limits[2];  // at smooth, sharp corners
@@ -127,7 +127,7 @@ void print_mesh(const std::string& name, const ControlMesh& mesh, bool every_dis
   for (const int sharp : {0, 1}) {
     if (limits[sharp].empty()) continue;
     const char* corners = sharp ? "sharp" : "smooth";
-    std::vector<Sample> places;
+    std::vector<Place> places;
     for (const DyadicLimit& l : limits[sharp]) places.push_back(l.place);
     std::vector<std::vector<Errors>> errors;  // by contender, by exponent; 0: all
     const std::vector<Contender> who = contenders();

@@ -23,7 +23,7 @@
 
 #include "limit_peers.h"
 #include "measuring.h"
-#include "report.h"
+#include "bench_report.h"
 
 namespace sublimit::bench {
 namespace {
@@ -83,16 +83,16 @@ std::vector<Case> limit_cases(const std::string& only, bool quick) {
 /// Where points are asked for.
 struct Pattern {
   std::string name;
-  std::vector<Sample> places;
+  std::vector<Place> places;
 };
 
-Index num_addresses(const ControlMesh& mesh) {
+Index num_addresses(const Mesh& mesh) {
   Index sum = 0;
   for (const Index size : mesh.face_sizes) sum += size == 4 ? 1 : size;
   return sum;
 }
 
-Pattern random_places(const ControlMesh& mesh, int count) {
+Pattern random_places(const Mesh& mesh, int count) {
   std::mt19937 random(1);
   std::uniform_int_distribution<Index> face(0, num_addresses(mesh) - 1);
   std::uniform_real_distribution<double> coordinate(0, 1);
@@ -107,10 +107,10 @@ Pattern random_places(const ControlMesh& mesh, int count) {
 Pattern sorted(Pattern pattern) {
   pattern.name = "sorted";
   std::stable_sort(pattern.places.begin(), pattern.places.end(),
-                   [](const Sample& a, const Sample& b) { return a.face < b.face; });
+                   [](const Place& a, const Place& b) { return a.face < b.face; });
   return pattern;
 }
-Pattern gridded(const ControlMesh& mesh, int count) {
+Pattern gridded(const Mesh& mesh, int count) {
   const Index faces = num_addresses(mesh);
   const int N = std::max(2, int(std::lround(std::sqrt(double(count) / faces))));
   Pattern pattern{"gridded", {}};
@@ -119,12 +119,12 @@ Pattern gridded(const ControlMesh& mesh, int count) {
       for (int i = 0; i < N; ++i) pattern.places.push_back({f, double(i) / (N - 1), double(j) / (N - 1)});
   return pattern;
 }
-Pattern one_a_face(const ControlMesh& mesh) {
+Pattern one_a_face(const Mesh& mesh) {
   Pattern pattern{"first", {}};
   for (Index f = 0; f < num_addresses(mesh); ++f) pattern.places.push_back({f, 0.375, 0.625});
   return pattern;
 }
-std::vector<Pattern> patterns(const ControlMesh& mesh, int count) {
+std::vector<Pattern> patterns(const Mesh& mesh, int count) {
   const Pattern random = random_places(mesh, count);
   return {random, sorted(random), gridded(mesh, count)};
 }
@@ -158,7 +158,7 @@ double file_seconds(const LimitContender& contender, const std::filesystem::path
 /// Largest distance from the first evaluator that is double, over the bounding box.
 /// @throws std::logic_error  one means other places
 void print_differences(const std::vector<LimitContender>& who, std::vector<std::unique_ptr<LimitEvaluator>>& evaluators,
-                       const Pattern& pattern, const ControlMesh& mesh) {
+                       const Pattern& pattern, const Mesh& mesh) {
   const double box = (mesh.positions.colwise().maxCoeff() - mesh.positions.colwise().minCoeff()).norm();
   for (auto& e : evaluators) {
     e->set_places(pattern.places);

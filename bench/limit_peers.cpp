@@ -16,7 +16,7 @@
 
 #include "opensubdiv_point.h"
 #include "opensubdiv_refiner.h"
-#include "sublimit/base/parallel_for.h"
+#include "sublimit/base/detail/parallel_for.h"
 
 namespace sublimit::bench {
 namespace {
@@ -28,7 +28,7 @@ constexpr int numbers_per_place(int order) { return 3 * (order + 1) * (order + 2
 
 bool one_thread() { return tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism) == 1; }
 
-Addresses addresses_of(const ControlMesh& mesh) {
+Addresses addresses_of(const Mesh& mesh) {
   return {
       Topology(
           {.num_vertices = mesh.num_vertices(), .face_vertices = mesh.face_vertices, .face_sizes = mesh.face_sizes}),
@@ -53,7 +53,7 @@ class Results {
 };
 
 template <class Real>
-std::vector<Real> coordinates(const ControlMesh& mesh) {
+std::vector<Real> coordinates(const Mesh& mesh) {
   return {mesh.positions.data(), mesh.positions.data() + mesh.positions.size()};
 }
 
@@ -81,9 +81,9 @@ class BfrEvaluator : public LimitEvaluator {
     }
   }
 
-  void set_places(std::span<const Sample> places) override {
+  void set_places(std::span<const Place> places) override {
     places_.clear();
-    for (const Sample& s : places) {
+    for (const Place& s : places) {
       const auto [face, corner] = addresses_.place(s.face);
       BfrParameter p{s.u, s.v};
       if (corner >= 0) p = to_bfr(mesh_.face_sizes[index(face)], corner, s.u, s.v);
@@ -95,7 +95,7 @@ class BfrEvaluator : public LimitEvaluator {
   void evaluate(int order) override {
     parallel_for_blocks(std::int64_t(places_.size()), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
       for (std::int64_t i = begin; i < end; ++i) {
-        const Place& place = places_[i];
+        const PeerPlace& place = places_[i];
         const Bfr::Surface<Real>& surface = surfaces_[place.face];
         const Real* points = &patch_points_[first_point_[place.face]];
         Real* x = results_.at(i, order);
@@ -114,7 +114,7 @@ class BfrEvaluator : public LimitEvaluator {
   Eigen::Vector3d position(size_t place) const override { return results_.position(place); }
 
  private:
-  struct Place {
+  struct PeerPlace {
     Index face;
     Real uv[2];
   };
@@ -140,7 +140,7 @@ class BfrEvaluator : public LimitEvaluator {
     parallel([&](Index f) { surfaces_[f].PreparePatchPoints(points_.data(), 3, &patch_points_[first_point_[f]], 3); });
   }
 
-  const ControlMesh& mesh_;
+  const Mesh& mesh_;
   PeerCase peer_;
   Addresses addresses_;
   std::vector<Real> points_;
@@ -148,7 +148,7 @@ class BfrEvaluator : public LimitEvaluator {
   std::vector<Bfr::Surface<Real>> surfaces_;
   std::vector<size_t> first_point_;  // times 3
   std::vector<Real> patch_points_;
-  std::vector<Place> places_;
+  std::vector<PeerPlace> places_;
   Results<Real> results_;
 };
 
@@ -189,7 +189,7 @@ class FarEvaluator : public LimitEvaluator {
           refined_.data(), refined_.data() + refiner_->GetNumVerticesTotal());
   }
 
-  void set_places(std::span<const Sample> places) override {
+  void set_places(std::span<const Place> places) override {
     places_.assign(places.begin(), places.end());
     results_.resize(places.size());
   }
@@ -210,7 +210,7 @@ class FarEvaluator : public LimitEvaluator {
       constexpr int rows = numbers_per_place(order) / 3;
       Real w[rows][20];
       for (std::int64_t i = begin; i < end; ++i) {
-        const Sample& s = places_[i];
+        const Place& s = places_[i];
         const Far::PatchMap::Handle* patch = map_->FindPatch(s.face, s.u, s.v);
         if constexpr (order == 0) {
           table_->EvaluateBasis(*patch, Real(s.u), Real(s.v), w[0]);
@@ -236,7 +236,7 @@ class FarEvaluator : public LimitEvaluator {
   std::unique_ptr<const Far::PatchTable> table_;
   std::optional<Far::PatchMap> map_;
   std::vector<Point> refined_;
-  std::vector<Sample> places_;
+  std::vector<Place> places_;
   Results<Real> results_;
 };
 
@@ -286,11 +286,11 @@ class EmbreeEvaluator : public LimitEvaluator {
     if (rtcGetDeviceError(device_) != RTC_ERROR_NONE) throw std::runtime_error("Embree refuses the mesh");
   }
 
-  void set_places(std::span<const Sample> places) override {
+  void set_places(std::span<const Place> places) override {
     faces_.clear();
     u_.clear();
     v_.clear();
-    for (const Sample& s : places) {
+    for (const Place& s : places) {
       const auto [face, corner] = addresses_.place(s.face);
       faces_.push_back(unsigned(index(face)));
       // Square i of a polygon lies at [2 (i mod 4) + 1/2, ...+ 1] x [2 (i div 4) + 1/2, ... + 1].
@@ -336,7 +336,7 @@ class EmbreeEvaluator : public LimitEvaluator {
  private:
   static constexpr std::int64_t places_per_call = 1024;
 
-  const ControlMesh& mesh_;
+  const Mesh& mesh_;
   PeerCase peer_;
   Addresses addresses_;
   std::vector<float> points_;

@@ -25,7 +25,7 @@ class LimitEvaluator {
   virtual void forget() = 0;
 
   /// Where points are asked for. Outside the clock, once started.
-  virtual void set_places(std::span<const Sample> places) = 0;
+  virtual void set_places(std::span<const Place> places) = 0;
   /// Positions and derivatives up to `order` at all places.
   virtual void evaluate(int order) = 0;
 

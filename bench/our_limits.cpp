@@ -3,7 +3,7 @@
 
 #include "limit_peers.h"
 #include "sublimit/limit/limit_surface.h"
-#include "sublimit/schemes.h"
+#include "sublimit/schemes/schemes.h"
 
 namespace sublimit::bench {
 namespace {
@@ -26,7 +26,7 @@ class OurEvaluator : public LimitEvaluator {
   void start() override { surface_.emplace(scheme_, std::move(given_)); }
   void prepare() override { bound_.emplace(*surface_, mesh_.positions); }
 
-  void set_places(std::span<const Sample> places) override { places_.assign(places.begin(), places.end()); }
+  void set_places(std::span<const Place> places) override { places_.assign(places.begin(), places.end()); }
 
   void evaluate(int order) override {
     if (bound_) {
@@ -39,13 +39,13 @@ class OurEvaluator : public LimitEvaluator {
   Eigen::Vector3d position(size_t place) const override { return made_.position.row(Index(place)); }
 
  private:
-  const ControlMesh& mesh_;
+  const Mesh& mesh_;
   Scheme<double> scheme_;
   Level level_, given_;
   bool normals_;
   std::optional<LimitMap> surface_;
   std::optional<LimitSurface> bound_;
-  std::vector<Sample> places_;
+  std::vector<Place> places_;
   LimitSamples made_;
 };
 

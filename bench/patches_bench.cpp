@@ -17,17 +17,17 @@
 #include <random>
 
 #include "measuring.h"
-#include "report.h"
-#include "sublimit/bake/bake.h"
-#include "sublimit/pattern_evaluator.h"
-#include "sublimit/patches/bezier_pieces.h"
-#include "sublimit/patches/spline_rows.h"
+#include "bench_report.h"
+#include "sublimit/stencils/bake/detail/bake.h"
+#include "sublimit/eval/pattern_evaluator.h"
+#include "sublimit/patches/detail/bezier_pieces.h"
+#include "sublimit/patches/detail/spline_rows.h"
 #include "support/opencascade_reference.h"
 
 namespace sublimit::bench {
 namespace {
 
-using Places = std::vector<Sample>;
+using Places = std::vector<Place>;
 /// Evaluates all places into 3 or 9 numbers each.
 using Run = std::function<void()>;
 
@@ -120,7 +120,7 @@ class TunedLoop {
     }
   }
   void points(const Places& places, bool derivatives, double* out) const {
-    for (const Sample& s : places) {
+    for (const Place& s : places) {
       const Eigen::Array4d* piece = pieces_.data() + 16 * s.face;
       const double u = s.u, v = s.v, x = 1 - u, y = 1 - v;
       const double bu[4] = {x * x * x, 3 * u * x * x, 3 * u * u * x, u * u * u},
@@ -170,7 +170,7 @@ struct Race {
       : of(std::move(c)), places(std::move(p)), order(order_), peers(of), loop(of), bound(*of.set, of.columns) {
     numbers.resize(places.size() * (order ? 9 : 3));
     parameters.resize(of.set->members().size());
-    for (const Sample& s : places) {
+    for (const Place& s : places) {
       const size_t patch = of.set->patch_of(s.face);
       parameters[patch].push_back(
           of.set->members()[patch].patch->parameters({s.face - of.set->first_face(patch), s.u, s.v}));

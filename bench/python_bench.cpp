@@ -15,11 +15,11 @@
 #include <string>
 
 #include "measuring.h"
-#include "report.h"
-#include "sublimit/bake/bake.h"
+#include "bench_report.h"
+#include "sublimit/stencils/bake/detail/bake.h"
 #include "sublimit/limit/limit_surface.h"
-#include "sublimit/pattern_evaluator.h"
-#include "sublimit/schemes.h"
+#include "sublimit/eval/pattern_evaluator.h"
+#include "sublimit/schemes/schemes.h"
 #include "support/meshes.h"
 
 namespace sublimit::bench {
@@ -46,7 +46,7 @@ class Interpreter {
 };
 
 /// The module's mesh of ours.
-void give(Interpreter& python, const ControlMesh& mesh) {
+void give(Interpreter& python, const Mesh& mesh) {
   python.set("points", py::array_t<double>({mesh.positions.rows(), mesh.positions.cols()}, mesh.positions.data()));
   python.set("sizes", py::array_t<int>(py::ssize_t(mesh.face_sizes.size()), mesh.face_sizes.data()));
   python.set("corners", py::array_t<int>(py::ssize_t(mesh.face_vertices.size()), mesh.face_vertices.data()));
@@ -57,7 +57,7 @@ std::function<double()> turn(int threads, int count, const std::function<void()>
   return [=] { return timed(threads, work) / count; };
 }
 
-void measure_tables(Report& report, Interpreter& python, const std::string& work, const ControlMesh& mesh,
+void measure_tables(Report& report, Interpreter& python, const std::string& work, const Mesh& mesh,
                     const std::string& name, int level, int count, const std::string& unit, double scale) {
   if (!report.wants(work, name)) return;
   Patterns patterns(find_scheme("catmull-clark").value());
@@ -85,7 +85,7 @@ void measure_tables(Report& report, Interpreter& python, const std::string& work
   }
 }
 
-void measure_places(Report& report, Interpreter& python, const std::string& work, const ControlMesh& mesh,
+void measure_places(Report& report, Interpreter& python, const std::string& work, const Mesh& mesh,
                     const std::string& name, int places, int count, int order, const std::string& unit, double scale) {
   const std::string detail = order == 0 ? "points" : "with D1";
   if (!report.wants(work, name, detail)) return;
@@ -94,8 +94,8 @@ void measure_places(Report& report, Interpreter& python, const std::string& work
   std::mt19937 random(1);
   std::uniform_int_distribution<Index> face(0, surface.faces().size - 1);
   std::uniform_real_distribution<double> parameter(0, 1);
-  std::vector<Sample> at(static_cast<size_t>(places));
-  for (Sample& sample : at) sample = {face(random), parameter(random), parameter(random)};
+  std::vector<Place> at(static_cast<size_t>(places));
+  for (Place& sample : at) sample = {face(random), parameter(random), parameter(random)};
   py::array_t<int> faces(places);
   py::array_t<double> u(places), v(places);
   for (int i = 0; i < places; ++i) {
@@ -146,7 +146,7 @@ int run(int argc, char** argv) {
   const py::scoped_interpreter alive(&config);
   Interpreter python;
   using testing::torus;
-  const ControlMesh small = torus(25, 20), large = report.quick() ? torus(40, 25) : torus(400, 250);
+  const Mesh small = torus(25, 20), large = report.quick() ? torus(40, 25) : torus(400, 250);
   measure_tables(report, python, "call apply", small, "500 faces", 2, 1000, "us", 1e6);
   measure_places(report, python, "call evaluate", small, "one place", 1, 1000, 1, "us", 1e6);
   measure_tables(report, python, "apply", large, "torus", 3, 3, "ms", 1e3);

@@ -16,10 +16,10 @@
 
 #include "bench_meshes.h"
 #include "measuring.h"
-#include "report.h"
-#include "sublimit/core/sparse_product.h"
+#include "bench_report.h"
+#include "sublimit/core/detail/sparse_product.h"
 #include "sublimit/scheme/refined_mesh.h"
-#include "sublimit/schemes.h"
+#include "sublimit/schemes/schemes.h"
 
 namespace sublimit::bench {
 namespace {
@@ -53,7 +53,7 @@ Made made_of(const SparseMatrix& S) {
 }
 
 Made ours_refined_mesh(const Job& job) {
-  const ControlMesh refined = refined_mesh(job.scheme, job.mesh.mesh, job.levels);
+  const Mesh refined = refined_mesh(job.scheme, job.mesh.mesh, job.levels);
   benchmark::DoNotOptimize(refined.positions.data());
   const double rows = double(refined.num_vertices()), corners = double(refined.face_vertices.size());
   return {rows, 0, 24 * rows + 4 * corners};

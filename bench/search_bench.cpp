@@ -18,10 +18,10 @@
 
 #include "bench_meshes.h"
 #include "measuring.h"
-#include "report.h"
-#include "sublimit/base/parallel_for.h"
+#include "bench_report.h"
+#include "sublimit/base/detail/parallel_for.h"
 #include "sublimit/limit/limit_map.h"
-#include "sublimit/schemes.h"
+#include "sublimit/schemes/schemes.h"
 #include "sublimit/search/closest_point.h"
 #include "sublimit/search/intersect.h"
 
@@ -165,7 +165,7 @@ class EmbreeScene {
 
 struct Box {
   Eigen::Array3d low, high;
-  explicit Box(const ControlMesh& mesh)
+  explicit Box(const Mesh& mesh)
       : low(mesh.positions.colwise().minCoeff().transpose()), high(mesh.positions.colwise().maxCoeff().transpose()) {}
   double diagonal() const { return (high - low).matrix().norm(); }
   Eigen::Vector3d random(std::mt19937& numbers) const {

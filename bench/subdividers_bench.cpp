@@ -2,7 +2,7 @@
 // Every surface scheme, and OpenMesh's and CGAL's subdividers beside it where they have it, in one run: two levels of
 // tori and of meshes with all valences, 10k and 20k vertices. Time over the vertices made, those of both levels
 // together.
-//   ours      from arrays, as ControlMesh: topology, S_k and positions of all levels
+//   ours      from arrays, as Mesh: topology, S_k and positions of all levels
 //   again     positions of all levels for other control points: the matrices are there
 //   OpenMesh  from its own half-edge mesh, built before the clock starts, refined in place: only the last level is left
 //   CGAL      likewise, a Surface_mesh
@@ -21,10 +21,10 @@
 #include <vector>
 
 #include "measuring.h"
-#include "report.h"
-#include "sublimit/core/sparse_product.h"
+#include "bench_report.h"
+#include "sublimit/core/detail/sparse_product.h"
 #include "sublimit/scheme/refine.h"
-#include "sublimit/schemes.h"
+#include "sublimit/schemes/schemes.h"
 #include "support/cgal_reference.h"
 #include "support/irregular_meshes.h"
 #include "support/meshes.h"
@@ -38,7 +38,7 @@ constexpr int levels = 2;
 struct Input {
   std::string name;
   int face_size;
-  ControlMesh mesh;
+  Mesh mesh;
 };
 std::vector<Input> inputs(bool quick) {
   using namespace testing;
@@ -53,7 +53,7 @@ std::vector<Input> inputs(bool quick) {
 /// the function.
 using Run = std::function<size_t()>;
 
-size_t apply_all(const std::vector<Level>& refined, const ControlMesh& mesh, std::vector<Points>& positions) {
+size_t apply_all(const std::vector<Level>& refined, const Mesh& mesh, std::vector<Points>& positions) {
   for (int k = 1; k <= levels; ++k)
     positions.push_back(apply(refined[k].S, k == 1 ? mesh.positions : positions.back()));
   benchmark::DoNotOptimize(positions.back().data());
@@ -64,13 +64,13 @@ struct Refined {
   std::vector<Level> levels;
   std::vector<Points> positions;
 };
-Run ours(const Scheme<double>& scheme, const ControlMesh& mesh) {
+Run ours(const Scheme<double>& scheme, const Mesh& mesh) {
   return [scheme, &mesh, made = std::make_shared<Refined>()] {
     made->levels = refine(scheme, mesh, levels);
     return apply_all(made->levels, mesh, made->positions);
   };
 }
-Run again(const Scheme<double>& scheme, const ControlMesh& mesh) {
+Run again(const Scheme<double>& scheme, const Mesh& mesh) {
   const auto made = std::make_shared<Refined>(Refined{refine(scheme, mesh, levels), {}});
   return [&mesh, made] { return apply_all(made->levels, mesh, made->positions); };
 }
@@ -107,7 +107,7 @@ std::vector<Job> jobs(const std::vector<Input>& meshes) {
   for (const Scheme<double>& scheme : all_schemes())
     for (const Input& input : meshes) {
       if (input.face_size != (scheme.face_size() == 3 ? 3 : 4)) continue;
-      const ControlMesh& mesh = input.mesh;
+      const Mesh& mesh = input.mesh;
       Job job{scheme.name, input.name, 0, 0, 0, {}};
       const std::vector<Level> refined = refine(scheme, mesh, levels);
       for (int k = 1; k <= levels; ++k) job.vertices += double(refined[k].topology().num_vertices());

@@ -24,10 +24,10 @@
 #include "limit_peers.h"
 #include "measuring.h"
 #include "opensubdiv_table.h"
-#include "report.h"
-#include "sublimit/bake/bake.h"
-#include "sublimit/pattern_evaluator.h"
-#include "sublimit/schemes.h"
+#include "bench_report.h"
+#include "sublimit/eval/pattern_evaluator.h"
+#include "sublimit/schemes/schemes.h"
+#include "sublimit/stencils/bake/detail/bake.h"
 
 namespace sublimit::bench {
 namespace {
@@ -37,9 +37,9 @@ struct OurTable {
   BakeStatistics statistics;
   PatternTable<float> table;
   std::optional<PatternEvaluator<float>> evaluator;
-  OurTable(Patterns& patterns, const ControlMesh& mesh, int levels)
+  OurTable(Patterns& patterns, const Mesh& mesh, int levels)
       : OurTable(patterns, mesh, BakeRequest{.rows = TableRows::level, .level = levels}) {}
-  OurTable(Patterns& patterns, const ControlMesh& mesh, const BakeRequest& request) {
+  OurTable(Patterns& patterns, const Mesh& mesh, const BakeRequest& request) {
     const Baked baked = bake(patterns, mesh, request);
     statistics = baked.statistics;
     table = in_float(baked.table.table);
@@ -105,7 +105,7 @@ void measure_grids(Report& report, const Case& c) {
               c.name.c_str(), grid, grid, ours->statistics.types, static_cast<long long>(ours->statistics.points),
               double(ours->table.num_bytes()) / 1e6, double(theirs->num_bytes()) / 1e6, our_bake * 1e3,
               their_bake * 1e3, largest);
-  std::vector<Sample> places;
+  std::vector<Place> places;
   for (Index f = 0; f < Index(made.size() / (9 * grid * grid)); ++f)
     for (int j = 0; j < grid; ++j)
       for (int i = 0; i < grid; ++i) places.push_back({f, double(i) / (grid - 1), double(j) / (grid - 1)});

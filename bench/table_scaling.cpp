@@ -26,20 +26,20 @@
 #include "bench_meshes.h"
 #include "measuring.h"
 #include "opensubdiv_table.h"
-#include "report.h"
-#include "sublimit/bake/bake.h"
-#include "sublimit/bake/editable_table.h"
-#include "sublimit/pattern_evaluator.h"
+#include "bench_report.h"
+#include "sublimit/eval/pattern_evaluator.h"
+#include "sublimit/eval/table_file.h"
 #include "sublimit/scheme/refined_mesh.h"
-#include "sublimit/schemes.h"
-#include "sublimit/table_file.h"
+#include "sublimit/schemes/schemes.h"
+#include "sublimit/stencils/bake/detail/bake.h"
+#include "sublimit/stencils/bake/detail/pattern_edits.h"
 
 namespace sublimit::bench {
 namespace {
 
 Scheme<double> catmull_clark() { return find_scheme("catmull-clark").value(); }
 
-std::vector<float> positions(const ControlMesh& mesh) {
+std::vector<float> positions(const Mesh& mesh) {
   return {mesh.positions.data(), mesh.positions.data() + mesh.positions.size()};
 }
 
@@ -69,7 +69,7 @@ Taken take(const std::string& work, bool ours, int exponent, int turns) {
     }
   };
   if (work == "refine" && ours) {
-    std::optional<ControlMesh> refined;
+    std::optional<Mesh> refined;
     run([&] {
       refined.reset();
       return refined.emplace(refined_mesh(catmull_clark(), mesh.mesh, levels)).positions.rows();
@@ -198,8 +198,8 @@ void scaling(Report& report, int largest) {
 
 void edits(Report& report) {
   Patterns patterns(catmull_clark());
-  const ControlMesh mesh = testing::torus(400, 250);
-  EditableTable<float> table(patterns, mesh, 2);
+  const Mesh mesh = testing::torus(400, 250);
+  PatternEdits<float> table(patterns, mesh, 2);
   std::vector<double> extrusions, tags;  // in ms
   size_t faces = 0, tagged = 0;
   for (int i = 0; i < 21; ++i) {
@@ -261,7 +261,7 @@ void load(Report& report) {
 
 void small(Report& report) {
   Patterns patterns(catmull_clark());
-  const ControlMesh mesh = testing::torus(25, 20);
+  const Mesh mesh = testing::torus(25, 20);
   const PatternTable<float> table = in_float(bake_level(patterns, mesh, 2).table.table);
   const PatternEvaluator<float> evaluator(table);
   const std::vector<float> points = positions(mesh);

@@ -20,10 +20,10 @@
 #include "measuring.h"
 #include "opensubdiv_point.h"
 #include "opensubdiv_refiner.h"
-#include "report.h"
+#include "bench_report.h"
 #include "sublimit/limit/limit_map.h"
-#include "sublimit/patterns/demo_mesh.h"
-#include "sublimit/schemes.h"
+#include "sublimit/stencils/patterns/demo_mesh.h"
+#include "sublimit/schemes/schemes.h"
 #include "sublimit/tessellation/tessellate.h"
 #include "support/tolerance.h"
 
@@ -40,14 +40,14 @@ double error_of(const LimitMap& surface, const Points& control, const Triangles&
   constexpr int steps = 4;
   constexpr size_t at_once = 4096;
   double largest = 0;
-  std::vector<Sample> places;
+  std::vector<Place> places;
   for (size_t begin = 0; begin < triangles.size() && largest <= most; begin += at_once) {
     const size_t end = std::min(begin + at_once, triangles.size());
     places.clear();
     for (size_t t = begin; t < end; ++t)
       for (int i = 0; i <= steps; ++i)
         for (int j = 0; i + j <= steps; ++j) {
-          Sample s{triangles[t].face, 0, 0};
+          Place s{triangles[t].face, 0, 0};
           const double w[] = {1 - double(i + j) / steps, double(i) / steps, double(j) / steps};
           for (size_t k = 0; k < 3; ++k) s.u += w[k] * triangles[t].uv[k][0], s.v += w[k] * triangles[t].uv[k][1];
           s.u = std::clamp(s.u, 0.0, 1.0), s.v = std::clamp(s.v, 0.0, surface.faces().triangles ? 1 - s.u : 1.0);
@@ -209,7 +209,7 @@ class BfrTessellator {
     return {parameters, int(rates.size()), rates.data()};
   }
 
-  const ControlMesh& mesh_;
+  const Mesh& mesh_;
   PeerCase peer_;
   bool is_loop_;
   std::vector<Index> first_;

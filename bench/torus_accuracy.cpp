@@ -8,7 +8,7 @@
 #include <cstdio>
 #include <functional>
 
-#include "sublimit/base/atomic_file.h"
+#include "sublimit/base/detail/atomic_file.h"
 #include "sublimit/geometric/torus_pieces.h"
 #include "sublimit/report/page/drawing.h"
 #include "sublimit/report/page/plot.h"
@@ -46,7 +46,7 @@ struct Subject {
 
 CurvatureMesh data_of(const Subject& subject) {
   const Index n = subject.squares;
-  ControlMesh mesh = testing::triangle_grid(n, n);
+  Mesh mesh = testing::triangle_grid(n, n);
   for (Index v = 0; v < mesh.num_vertices(); ++v) {
     const double x = subject.half * (2.0 * (v % (n + 1)) / n - 1), y = subject.half * (2.0 * (v / (n + 1)) / n - 1);
     mesh.positions.row(v) << x, y, -subject.surface.at({x, y, 0}).value;

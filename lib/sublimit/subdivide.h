@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Subdivision in one line for meshes that are Eigen matrices.
+// Subdivision in one line for meshes that are Eigen matrices:
+//
+//   const FaceMatrix F{{0, 1, 2}, {0, 2, 3}};
+//   const Points V{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+//   const auto [S, F1] = subdivide("loop", Index(V.rows()), F, 2);
+//   const Points V1 = S * V;
 #include <string>
 #include <utility>
 
@@ -8,13 +13,18 @@
 
 namespace sublimit {
 
-/// Faces as rows of equal length (`F` of libigl and friends).
+/// Faces of equal size, one in each row (`F` of libigl).
 using FaceMatrix = Eigen::Matrix<Index, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// For Eigen users, in one line: `auto [S, F1] = subdivide("loop", V.rows(), F, 2); V1 = S * V;`
-/// @param F  #F x 3 or #F x 4, counter-clockwise
-/// @return   the product of the levels' matrices, and the refined faces
-/// @throws InvalidOption  an unknown scheme; and whatever `refine` throws
+/// Refines a mesh.
+/// @param scheme  name of a scheme, with its default options
+/// @param F       #F x 3 or #F x 4, counter-clockwise
+/// @param levels  number of refinements
+/// @return        the product of the levels' matrices, and the refined faces
+/// @throws InvalidOption                     an unknown scheme
+/// @throws InvalidParameter                  negative `levels`
+/// @throws InvalidMesh, UnsupportedTopology  faces that the scheme cannot refine: says which
+/// @throws ResourceError                     more memory than there is
 [[nodiscard]] std::pair<SparseMatrix, FaceMatrix> subdivide(const std::string& scheme, Index num_vertices,
                                                             const FaceMatrix& F, int levels = 1,
                                                             const SubdivisionOptions& options = {});

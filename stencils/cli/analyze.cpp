@@ -11,19 +11,19 @@
 #include "free_form.h"
 #include "memory_limit.h"
 #include "recipes.h"
-#include "sublimit/base/atomic_file.h"
+#include "sublimit/base/detail/atomic_file.h"
+#include "sublimit/base/detail/read_file.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/read_file.h"
 #include "sublimit/curves/schemes/curve_schemes.h"
-#include "sublimit/files/numbers.h"
 #include "sublimit/geometric/geometric_schemes.h"
-#include "sublimit/io/file_extension.h"
+#include "sublimit/io/detail/file_extension.h"
 #include "sublimit/report/analysis/claims_json.h"
 #include "sublimit/report/analysis/exports.h"
 #include "sublimit/report/analysis/regular_json.h"
 #include "sublimit/report/analysis/scheme_report.h"
 #include "sublimit/report/asset/asset_json.h"
 #include "sublimit/report/page/page.h"
+#include "sublimit/stencils/files/numbers.h"
 
 namespace sublimit::cli {
 namespace {

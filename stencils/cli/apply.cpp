@@ -7,18 +7,18 @@
 
 #include "common.h"
 #include "free_form.h"
-#include "sublimit/bake/applied_points.h"
-#include "sublimit/bake/table_info.h"
-#include "sublimit/bake/table_mesh.h"
+#include "sublimit/stencils/bake/detail/applied_points.h"
+#include "sublimit/stencils/bake/detail/table_info.h"
+#include "sublimit/stencils/bake/detail/table_mesh.h"
 #include "sublimit/base/error.h"
 #include "sublimit/base/format_number.h"
-#include "sublimit/base/memory.h"
-#include "sublimit/files/frames.h"
-#include "sublimit/files/npy.h"
-#include "sublimit/io/file_extension.h"
-#include "sublimit/patches/free_form_patches.h"
-#include "sublimit/scheme/prepare.h"
-#include "sublimit/table_file.h"
+#include "sublimit/base/detail/memory.h"
+#include "sublimit/stencils/files/frames.h"
+#include "sublimit/stencils/files/npy.h"
+#include "sublimit/io/detail/file_extension.h"
+#include "sublimit/patches/detail/free_form_patches.h"
+#include "sublimit/scheme/detail/prepare.h"
+#include "sublimit/eval/table_file.h"
 #include "table_applier.h"
 
 namespace sublimit::cli {
@@ -41,7 +41,7 @@ void check_cage(const ApplyOptions& options, const TableInfo& info, std::int64_t
     throw InvalidMesh(fmt::format("{}: {} points, and {} is a {}; give the points of that cage, in its order",
                                   options.points, frames.num_points(), options.table, cage_of(info, points)));
   if (options.any_cage || !frames.mesh() || info.topology_hash == 0) return;
-  const ControlMesh& mesh = *frames.mesh();
+  const Mesh& mesh = *frames.mesh();
   if (mesh.num_faces() == 0) return;  // points alone
   // What was baked may have been cut into triangles first.
   if (topology_hash(mesh) != info.topology_hash && topology_hash(triangulated(mesh)) != info.topology_hash)
@@ -164,7 +164,7 @@ void write_one(const ApplyOptions& options, const BakedTable<Real>& table, const
     applied.write_csv(options.output, names, values, progress.bytes_written());
     return;
   }
-  MeshOutput mesh = applied.mesh(faces_of(table), values);
+  Mesh mesh = applied.mesh(faces_of(table), values);
   if (mesh.normals.rows() > 0 && file_extension(options.output) == ".obj")  // which leaves out those that do not exist
     for (const Index v : mesh.face_vertices) mesh.face_normals.push_back(mesh.normals.row(v).isZero(0) ? -1 : v);
   if (file_extension(options.output) == ".obj") add_channels(mesh, table);  // a .ply has no place for them

@@ -13,8 +13,8 @@
 #include "curves.h"
 #include "free_form.h"
 #include "memory_limit.h"
+#include "sublimit/base/detail/memory.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/memory.h"
 
 namespace sublimit::cli {
 namespace {

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "common.h"
-#include "sublimit/bake/bake.h"
+#include "sublimit/stencils/bake/detail/bake.h"
 
 namespace sublimit::cli {
 
@@ -21,7 +21,7 @@ struct BakeJob {
   std::string at;            ///< a CSV of places; empty: not given
   std::string tessellation;  ///< a .ply with places; empty: not given
 
-  bool limit = false;              ///< of `levels`
+  bool limit = false;              ///< limits of the vertices of `levels`
   int derivatives = 0;             ///< 0, 1 or 2
   bool tags = false;               ///< those that are left, too
   bool is_float = true;            ///< weights; else double
@@ -57,7 +57,7 @@ struct BakeOutcome {
   BakeStatistics statistics;
   Index control_points = 0;
   std::int64_t file_bytes = 0;
-  std::optional<BakePlan> plan;  ///< of jobs with a limit, and if it was asked for
+  std::optional<BakePlan> plan;  ///< plan of jobs with a memory limit, and if it was asked for
   bool was_there = false;        ///< a valid table of the same job, which stays
 };
 
@@ -65,7 +65,7 @@ struct BakeOutcome {
 /// @param keep  a valid table of the same job that is there already stays
 BakeOutcome bake_table(const BakeJob& job, Dictionaries& dictionaries, Progress& progress, bool keep = false);
 
-/// What was chosen, and what it takes, in words.
+/// Returns the method and size of a table in words.
 std::string in_words(const BakeStatistics& statistics);
 
 }  // namespace sublimit::cli

@@ -8,16 +8,16 @@
 
 #include "bake.h"
 #include "free_form.h"
-#include "sublimit/bake/table_info.h"
+#include "sublimit/base/detail/memory.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/memory.h"
-#include "sublimit/files/patch_places.h"
-#include "sublimit/files/place_files.h"
-#include "sublimit/files/rule_words.h"
-#include "sublimit/files/sample_files.h"
-#include "sublimit/patches/free_form_patches.h"
-#include "sublimit/patterns/pattern_file.h"
-#include "sublimit/table_file.h"
+#include "sublimit/eval/table_file.h"
+#include "sublimit/patches/detail/free_form_patches.h"
+#include "sublimit/stencils/bake/detail/table_info.h"
+#include "sublimit/stencils/files/patch_places.h"
+#include "sublimit/stencils/files/place_files.h"
+#include "sublimit/stencils/files/rule_of_word.h"
+#include "sublimit/stencils/files/sample_files.h"
+#include "sublimit/stencils/patterns/pattern_file.h"
 
 namespace sublimit::cli {
 namespace {
@@ -25,8 +25,8 @@ namespace {
 constexpr size_t places_per_batch = 65536;
 
 /// All of a file, a batch after the other.
-std::vector<Sample> places_of(const std::function<void(std::vector<Sample>& batch, size_t most)>& read) {
-  std::vector<Sample> all, batch;
+std::vector<Place> places_of(const std::function<void(std::vector<Place>& batch, size_t most)>& read) {
+  std::vector<Place> all, batch;
   do {
     read(batch, places_per_batch);
     all.insert(all.end(), batch.begin(), batch.end());
@@ -160,11 +160,11 @@ BakeOutcome bake_free_form(const BakeJob& job, Progress& progress, bool keep) {
   BakeRequest request = request_of(job);
   if (reader)
     request.samples =
-        places_of([&](std::vector<Sample>& batch, size_t most) { reader->read(batch, most, found.patches.faces()); });
+        places_of([&](std::vector<Place>& batch, size_t most) { reader->read(batch, most, found.patches.faces()); });
   OwnPlaces own;
   if (own_reader)
     request.samples =
-        places_of([&](std::vector<Sample>& batch, size_t most) { own_reader->read(batch, own, most, found.patches); });
+        places_of([&](std::vector<Place>& batch, size_t most) { own_reader->read(batch, own, most, found.patches); });
   if (keep && is_there(job, table_info(found.patches, request), request)) {
     outcome.was_there = true;
     return outcome;
@@ -193,7 +193,7 @@ BakeOutcome bake_table(const BakeJob& job, Dictionaries& dictionaries, Progress&
       const Addresses addresses(topology, loaded.scheme->face_size() == 3);
       if (reader)
         request.samples =
-            places_of([&](std::vector<Sample>& batch, size_t most) { reader->read(batch, most, addresses); });
+            places_of([&](std::vector<Place>& batch, size_t most) { reader->read(batch, most, addresses); });
       else
         set_places(*std::move(placed), addresses, job.tessellation, request);
     }

@@ -14,9 +14,9 @@
 #include "curves.h"
 #include "ending.h"
 #include "peak_memory.h"
+#include "sublimit/base/detail/file_error.h"
+#include "sublimit/base/detail/memory.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/file_error.h"
-#include "sublimit/base/memory.h"
 
 namespace sublimit::cli {
 namespace {

@@ -15,12 +15,12 @@
 namespace sublimit::cli {
 
 struct ManifestJob {
-  std::int64_t line = 0;  ///< of the manifest, from 1
+  std::int64_t line = 0;  ///< line of the manifest, from 1
   BakeJob job;
 };
 
-/// All jobs of a manifest, none of them begun.
-/// @param defaults  what a line does not say: threads, quiet, limits
+/// Reads all jobs of a manifest.
+/// @param defaults  values of fields that lines do not set: threads, quiet, limits
 /// @throws FormatError  lines that are no jobs, two jobs with one output; with file:line;  IoError
 std::vector<ManifestJob> read_manifest(const std::string& path, const BakeJob& defaults);
 

@@ -7,11 +7,11 @@
 #include "free_form.h"
 #include "memory_limit.h"
 #include "searched.h"
+#include "sublimit/base/detail/memory.h"
 #include "sublimit/base/error.h"
 #include "sublimit/base/format_number.h"
-#include "sublimit/base/memory.h"
-#include "sublimit/files/closest_files.h"
-#include "sublimit/search/searched_surface.h"
+#include "sublimit/search/detail/searched_surface.h"
+#include "sublimit/stencils/files/closest_files.h"
 
 namespace sublimit::cli {
 namespace {

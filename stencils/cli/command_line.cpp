@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "sublimit/core/nearest_names.h"
+#include "sublimit/core/detail/nearest_names.h"
 
 namespace sublimit::cli {
 namespace {
@@ -20,16 +20,6 @@ std::string any_of_words(const Words& words) {
   std::string text;
   for (size_t i = 0; i < words.size(); ++i) text += (i == 0 ? "" : i + 1 == words.size() ? " or " : ", ") + words[i];
   return text;
-}
-
-/// Names that are near enough to be meant, nearest first.
-Words likely_names(const std::string& name, const Words& names) {
-  Words found = nearest_names(name, names, 3);
-  if (found.empty()) return found;
-  // With half of the letters wrong it is a guess, not a correction.
-  const size_t most = std::min(name_distance(name, found.front()) + 1, (name.size() + 1) / 2);
-  std::erase_if(found, [&](const std::string& other) { return name_distance(name, other) > most; });
-  return found;
 }
 
 /// Without dashes, and without the value that may follow.
@@ -60,7 +50,7 @@ ParsedCommandLine refused(const CLI::App& app, const std::string& verb, const st
 /// What to say about a word that should be a subcommand.
 ParsedCommandLine unknown_subcommand(const CLI::App& app, const std::string& word) {
   std::string what = fmt::format("there is no subcommand '{}'", word);
-  const Words meant = likely_names(word, subcommand_names(app));
+  const Words meant = nearest_names(word, subcommand_names(app));
   if (!meant.empty()) what += "; did you mean " + any_of_words(meant) + "?";
   return refused(app, "", what);
 }
@@ -71,7 +61,7 @@ ParsedCommandLine unknown_option(const CLI::App& app, const CLI::App& command, c
   for (const CLI::Option* option : command.get_options()) {
     for (const std::string& name : option->get_lnames()) names.push_back(name);
   }
-  Words meant = likely_names(bare_name(word), names);
+  Words meant = nearest_names(bare_name(word), names);
   for (std::string& name : meant) name = "--" + name;
   std::string what = fmt::format("there is no option {}", word.substr(0, word.find('=')));
   if (!meant.empty()) what += "; did you mean " + any_of_words(meant) + "?";

@@ -8,12 +8,12 @@
 
 namespace sublimit::cli {
 
-/// What parsing a command line has led to.
+/// Result of parsing a command line.
 struct ParsedCommandLine {
   bool runs = true;      ///< a subcommand is to run; otherwise only the texts are to print
   int status = 0;        ///< else the exit status: 0, or 2 for a line that is wrong
   std::string out, err;  ///< texts for stdout and stderr
-  std::string manual_kind = {}, manual_directory = {};  ///< of `--generate KIND DIR`, instead of a subcommand
+  std::string manual_kind = {}, manual_directory = {};  ///< arguments of `--generate KIND DIR`
 };
 
 /// Adds the subcommand `help` and parses. `--generate KIND DIR` is taken if the program has that option.

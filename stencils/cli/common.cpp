@@ -10,19 +10,21 @@
 #include <cmath>
 #include <memory>
 #include <span>
+#include <string_view>
+#include <utility>
 
 #include "curves.h"
+#include "sublimit/base/detail/followed_links.h"
+#include "sublimit/base/detail/memory.h"
+#include "sublimit/base/detail/rule_words.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/followed_links.h"
 #include "sublimit/base/format_number.h"
-#include "sublimit/base/memory.h"
-#include "sublimit/base/rule_words.h"
-#include "sublimit/core/sparse_product.h"
-#include "sublimit/files/rule_words.h"
-#include "sublimit/files/sidecar.h"
-#include "sublimit/io/file_extension.h"
+#include "sublimit/core/detail/sparse_product.h"
+#include "sublimit/io/detail/file_extension.h"
 #include "sublimit/io/read_mesh.h"
 #include "sublimit/limit/no_limit.h"
+#include "sublimit/stencils/files/rule_of_word.h"
+#include "sublimit/stencils/files/sidecar.h"
 
 namespace sublimit::cli {
 namespace {
@@ -101,7 +103,7 @@ Loaded load(const Common& common, Progress& progress) {
                       common.face_varying, common.triangulate,    common.no_creases, common.strict};
   scheme_job(request);  // a misspelt name is told before a large file is read
   progress.step("reading " + common.mesh);
-  ControlMesh mesh;
+  Mesh mesh;
   try {
     mesh = read_mesh(common.mesh);
   } catch (const Error& error) {
@@ -173,6 +175,16 @@ void naming_mesh(const Common& common, const std::function<void()>& body) {
   } catch (const AnalysisError& error) {
     throw AnalysisError(place + error.what());
   }
+}
+
+std::string with_options(std::string message) {
+  constexpr std::pair<std::string_view, std::string_view> options[] = {{"triangulate the mesh", "--triangulate"},
+                                                                       {"remove the tag", "--no-creases"},
+                                                                       {"not a clean manifold", "--strict"}};
+  for (const auto& [what, option] : options)
+    if (const size_t at = message.find(what); at != std::string::npos)
+      message.insert(at + what.size(), fmt::format(" ({})", option));
+  return message;
 }
 
 void check_output_path(const std::string& path, const std::vector<std::string>& extensions) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// What the subcommands share: options, loading a mesh with its tags, progress.
+// Code that subcommands share: options, loading a mesh with its tags, progress.
 #include <CLI/CLI.hpp>
 
 #include <atomic>
@@ -14,9 +14,9 @@
 #include <thread>
 #include <vector>
 
-#include "sublimit/jobs/refined_job.h"
 #include "sublimit/scheme/refine.h"
-#include "sublimit/schemes.h"
+#include "sublimit/schemes/schemes.h"
+#include "sublimit/stencils/jobs/detail/refined_job.h"
 
 namespace sublimit::cli {
 
@@ -41,7 +41,7 @@ class Progress {
   void step(const std::string& what);
   /// Other words for a step that goes on.
   void note(const std::string& what);
-  /// What writers are to tell how many bytes of this step are written.
+  /// Returns a function for writers, which reports the number of bytes of this step written so far.
   std::function<void(std::int64_t)> bytes_written() {
     return [this](std::int64_t bytes) { bytes_ = bytes; };
   }
@@ -72,7 +72,7 @@ void limit_threads(const Common& common);
 /// Reads the mesh and its sidecar, prints warnings, and finds the scheme if one was named.
 Loaded load(const Common& common, Progress& progress);
 
-/// What `refine` calls before each of `count` levels.
+/// Returns a function for `refine`, which reports each of `count` levels.
 std::function<void(int)> telling_levels(Progress& progress, int count);
 
 /// Levels 0 to `count` of the mesh.
@@ -85,7 +85,7 @@ Points refined_points(const std::vector<Level>& levels, const Points& control);
 /// @throws InvalidOption  no such number, naming the option
 double distance_option(const std::string& option, const std::string& text, double diagonal);
 
-/// Whether the mesh has texture coordinates that the output has room for.
+/// Returns true if the mesh has texture coordinates that the output format can hold.
 bool has_channel(const Loaded& loaded, const std::string& output);
 
 /// Levels of the mesh's texture coordinates, if it has any and the output has room for them. Where the scheme cannot
@@ -93,8 +93,11 @@ bool has_channel(const Loaded& loaded, const std::string& output);
 std::vector<FaceVaryingLevel> refined_channel(const Common& common, const Loaded& loaded,
                                               const std::vector<Level>& levels, const std::string& output);
 
-/// Runs `body`; what it finds wrong with the mesh is told with the names of mesh and scheme.
+/// Calls `body`, and adds the names of mesh and scheme to its errors about the mesh.
 void naming_mesh(const Common& common, const std::function<void()>& body);
+
+/// A message of the library with the options of the program that would help, behind what they would do.
+std::string with_options(std::string message);
 
 /// Fails before any work if an output cannot be written: its extension, its directory, a file in its place that must
 /// not be touched. An empty list takes any extension.

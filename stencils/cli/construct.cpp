@@ -5,7 +5,7 @@
 
 #include "common.h"
 #include "recipes.h"
-#include "sublimit/recipes/net_file.h"
+#include "sublimit/stencils/recipes/detail/net_file.h"
 
 namespace sublimit::cli {
 namespace {

@@ -3,15 +3,15 @@
 
 #include <fmt/core.h>
 
+#include "sublimit/base/detail/read_file.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/read_file.h"
-#include "sublimit/core/sparse_product.h"
-#include "sublimit/curves/curve_limits.h"
+#include "sublimit/core/detail/sparse_product.h"
+#include "sublimit/curves/detail/curve_limits.h"
 #include "sublimit/curves/schemes/curve_schemes.h"
-#include "sublimit/files/matrix_market.h"
 #include "sublimit/geometric/geometric_schemes.h"
-#include "sublimit/io/file_extension.h"
-#include "sublimit/io/polygon_files.h"
+#include "sublimit/io/detail/file_extension.h"
+#include "sublimit/io/detail/polygon_files.h"
+#include "sublimit/stencils/files/matrix_market.h"
 
 namespace sublimit::cli {
 namespace {

@@ -1,44 +1,44 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// What `refine` and `limit` do when the scheme is one for curves.
+// `refine` and `limit` for schemes of curves.
 #include "common.h"
 #include "sublimit/geometric/geometric_scheme.h"
 
 namespace sublimit::cli {
 
-/// What a subcommand was asked for.
+/// Arguments of a subcommand for curves.
 struct CurveJob {
   const Common* common;
   int levels = 0;
   std::string output, matrix;  ///< matrix may be empty
   bool closed = false;         ///< a CSV has closed curves
-  bool tangents = false;       ///< of the limit, as columns
+  bool tangents = false;       ///< write tangents of the limit as columns
 };
 
-/// Whether `common.scheme` names a curve scheme.
+/// Returns true if `common.scheme` names a curve scheme.
 bool is_curve_job(const Common& common);
 
 /// Adds --closed to a subcommand that takes curves too.
 void add_closed(CLI::App& command, bool& closed);
-/// For a job that is none of curves.
-/// @throws InvalidOption  no scheme of meshes has that name; it may be a misspelt one of curves. `closed` is for curves
+/// Checks a job that is not for curves.
+/// @throws InvalidOption  no scheme of meshes has that name (it may be a misspelt one of curves), or `closed` is set
 void check_mesh_job(const Common& common, bool closed);
 
 /// Options of the scheme.
 /// @throws InvalidOption  options of meshes
 SchemeOptions curve_options(const Common& common);
 
-/// For a file that is no mesh: fails with a word about curve schemes if it is a polygon.
+/// Throws an error that suggests curve schemes if the input file is a polygon.
 void refuse_polygon(const Common& common);
 
 int refine_curves(const CurveJob& job);
 int limit_curves(const CurveJob& job);
 
-/// The same for schemes without a matrix, which have tangents in their CSV.
+/// Refines by a scheme without a matrix, which has tangents in its CSV.
 int refine_geometric(const CurveJob& job, const GeometricCurveScheme& scheme);
 int limit_geometric(const CurveJob& job, const GeometricCurveScheme& scheme);
 
-/// What both kinds share. OBJ holds no tangents and no points of more than three coordinates; told early.
+/// Checks the output of curves before work begins: OBJ holds no tangents and no more than three coordinates.
 void check_curve_output(const CurveJob& job);
 ControlPolygon load_polygon(const CurveJob& job, Progress& progress, bool tangents = false);
 

@@ -5,19 +5,19 @@
 #include <filesystem>
 
 #include "common.h"
-#include "sublimit/bake/bake.h"
-#include "sublimit/bake/table_info.h"
-#include "sublimit/base/atomic_file.h"
+#include "sublimit/base/detail/atomic_file.h"
 #include "sublimit/base/error.h"
 #include "sublimit/base/format_number.h"
-#include "sublimit/core/sparse_product.h"
-#include "sublimit/files/random_samples.h"
-#include "sublimit/files/refined_mesh.h"
-#include "sublimit/files/sample_files.h"
+#include "sublimit/core/detail/sparse_product.h"
+#include "sublimit/eval/table_file.h"
 #include "sublimit/limit/limit_map.h"
-#include "sublimit/patterns/demo_mesh.h"
-#include "sublimit/picture/picture_mesh.h"
-#include "sublimit/table_file.h"
+#include "sublimit/stencils/bake/detail/bake.h"
+#include "sublimit/stencils/bake/detail/table_info.h"
+#include "sublimit/stencils/files/level_files.h"
+#include "sublimit/stencils/files/random_samples.h"
+#include "sublimit/stencils/files/sample_files.h"
+#include "sublimit/stencils/patterns/demo_mesh.h"
+#include "sublimit/stencils/picture/picture_mesh.h"
 
 namespace sublimit::cli {
 namespace {
@@ -47,17 +47,17 @@ int run(const DemoOptions& options) {
   limit_threads(options.common);
   Progress progress(options.common.quiet);
   progress.step("refining and taking limits");
-  const ControlMesh mesh = demo_mesh();
+  const Mesh mesh = demo_mesh();
   const Scheme<double> scheme = scheme_or_throw("catmull-clark");
   const std::vector<Level> levels = refine(scheme, mesh, 3);
   std::vector<Points> points{mesh.positions};
   for (size_t k = 1; k < levels.size(); ++k) points.push_back(apply(levels[k].S, points.back()));
-  LimitTypes cache(scheme);
+  LimitCache cache(scheme);
   const LimitMatrices limit = limit_matrices(levels[3], cache);
   const LimitPoints at_limit = limit_points(limit, levels[3].topology(), points[3]);
-  const MeshOutput surface = limit_mesh(levels[3], limit, at_limit, Normals::per_corner);
+  const Mesh surface = limit_mesh(levels[3], limit, at_limit, Normals::per_corner);
 
-  write_mesh(path("control.obj"), output(mesh));
+  write_mesh(path("control.obj"), mesh);
   write_mesh(path("refined.obj"), level_output(levels[2], points[2], mesh, {}, true));
   write_mesh(path("limit.obj"), surface);
   AtomicFile targets(path("targets.csv"));  // for `sublimit fit`: the limit shall go through the control points
@@ -72,7 +72,7 @@ int run(const DemoOptions& options) {
   RandomSamples places(anywhere.addresses(), 1000, 0);
   const SampleSummary samples =
       write_samples(path("samples.csv"), anywhere, mesh.positions,
-                    [&](std::vector<Sample>& batch, size_t most) { places.read(batch, most); }, {.derivatives = 2});
+                    [&](std::vector<Place>& batch, size_t most) { places.read(batch, most); }, {.derivatives = 2});
   const std::string svg = svg_picture(
       {{{control_picture(levels[0], points[0])}, "control mesh", fmt::format("{} points", points[0].rows())},
        {{wire_picture(levels[1], points[1])},

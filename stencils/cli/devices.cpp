@@ -7,8 +7,8 @@
 #include "common.h"
 #include "gpu/entry.h"
 #include "loaded_library.h"
+#include "sublimit/base/detail/memory.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/memory.h"
 
 namespace sublimit::cli {
 namespace {

@@ -14,9 +14,9 @@
 #include <thread>
 
 #include "standard_streams.h"
+#include "sublimit/base/detail/temporaries.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/temporaries.h"
-#include "sublimit/certificates/out_of_memory.h"
+#include "sublimit/certificates/detail/out_of_memory.h"
 
 namespace sublimit::cli {
 namespace {

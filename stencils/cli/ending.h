@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// How the program ends: with the status that stencils/docs/program.md lists, a message, and no temporaries of
-// unfinished outputs, also where no exception gets out.
+// The end of the program: an exit status listed in stencils/docs/program.md, a message, and removal of temporaries of
+// unfinished outputs, also where exceptions cannot propagate.
 #include <functional>
 #include <string>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common.h"
-#include "sublimit/files/export_table.h"
-#include "sublimit/table_file.h"
+#include "sublimit/eval/table_file.h"
+#include "sublimit/stencils/files/export_table.h"
 
 namespace sublimit::cli {
 namespace {

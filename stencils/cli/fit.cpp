@@ -8,10 +8,10 @@
 #include "curves.h"
 #include "free_form.h"
 #include "memory_limit.h"
-#include "sublimit/base/atomic_file.h"
+#include "sublimit/base/detail/atomic_file.h"
 #include "sublimit/base/error.h"
-#include "sublimit/files/refined_mesh.h"
-#include "sublimit/fit_jobs/fit_picture.h"
+#include "sublimit/stencils/files/level_files.h"
+#include "sublimit/stencils/fit_jobs/fit_picture.h"
 
 namespace sublimit::cli {
 namespace {
@@ -66,8 +66,8 @@ void write_text(const std::string& path, const std::string& text) {
 }
 
 /// A level and its points, with the tags and texture coordinates that it has.
-MeshOutput mesh_output(const FitOptions& options, const Loaded& loaded, const ReportedFit& fit, Progress& progress) {
-  MeshOutput out = level_output(fit.level, fit.points, loaded.mesh, loaded.rules, true);
+Mesh mesh_output(const FitOptions& options, const Loaded& loaded, const ReportedFit& fit, Progress& progress) {
+  Mesh out = level_output(fit.level, fit.points, loaded.mesh, loaded.rules, true);
   if (loaded.mesh.face_varying.empty()) return out;
   const std::vector<Level> levels = refined_levels(loaded, fit.level.number, progress);
   const std::vector<FaceVaryingLevel> channel = refined_channel(options.common, loaded, levels, options.output);
@@ -103,7 +103,7 @@ int fit_linear(const FitOptions& options, Progress& progress,
   if (!options.pin.empty()) settings.pins = read_pins(options.pin, loaded.mesh.num_vertices());
   ReportedFit fit;
   std::string picture;
-  MeshOutput mesh;
+  Mesh mesh;
   naming_mesh(options.common, [&] {
     progress.step("fitting");
     fit = job(loaded, settings);

@@ -9,11 +9,11 @@
 #include <utility>
 
 #include "recipes.h"
+#include "sublimit/base/detail/memory.h"
+#include "sublimit/base/detail/read_file.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/memory.h"
-#include "sublimit/base/read_file.h"
-#include "sublimit/io/file_extension.h"
-#include "sublimit/recipes/recipe_sources.h"
+#include "sublimit/io/detail/file_extension.h"
+#include "sublimit/stencils/recipes/detail/recipe_sources.h"
 
 namespace sublimit::cli {
 

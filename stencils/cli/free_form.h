@@ -4,16 +4,16 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "common.h"
-#include "sublimit/fit_jobs/fit_job.h"
 #include "sublimit/io/free_form.h"
 #include "sublimit/patches/curve_set.h"
-#include "sublimit/patches/free_form_patches.h"
+#include "sublimit/patches/detail/free_form_patches.h"
 #include "sublimit/patches/patch_set.h"
+#include "sublimit/stencils/fit_jobs/fit_job.h"
 
 namespace sublimit::cli {
 
-/// Whether the file is to be taken as free-form surfaces: no scheme is named.
-/// @throws InvalidOption  a file that has none, which needs a scheme
+/// Returns true if the file is to be read as free-form surfaces: no scheme is given.
+/// @throws InvalidOption  a file without free-form surfaces, which needs a scheme
 bool is_free_form_job(const Common& common);
 
 /// @throws InvalidOption  options that are of meshes
@@ -21,30 +21,30 @@ void refuse_mesh_options(const Common& common);
 
 /// The shapes of the file; its warnings are printed.
 FreeForm load_free_form(const Common& common);
-/// Its surfaces; what is left out is told.
+/// Loads the surfaces of a file, and reports those that are left out.
 FreeFormPatches load_free_form_patches(const Common& common, const FreeForm& shapes);
 
-/// Surfaces of a free-form .obj or of recipes, as one source. What is left out is told.
+/// Surfaces of a free-form .obj or of recipes, as one source. Those left out are reported.
 struct LoadedPatches {
   PatchSet patches;
   Points columns;  ///< x 3, or x 4, homogeneous
 };
 LoadedPatches load_patches(const Common& common);
-/// The same of curves.
+/// Curves of a free-form .obj or of recipes, as one source.
 struct LoadedCurves {
   CurveSet curves;
   Points columns;
   Coordinates coordinates = Coordinates::plain;
 };
 LoadedCurves load_patch_curves(const Common& common);
-/// Whether there are curves and no surfaces.
+/// Returns true if the file has curves but no surfaces.
 bool has_curves_alone(const Common& common);
 
-/// Whether an .obj has free-form curves or surfaces; a pipe has none.
-/// @throws IoError
+/// Returns true if an .obj has free-form curves or surfaces; false for a pipe.
+/// @throws IoError  unreadable
 bool has_free_form(const std::string& path);
 
-/// What `info` tells of them.
+/// Prints information on free-form shapes, for `info`.
 void print_free_form(const Common& common, const FreeForm& shapes, bool json);
 
 /// `refine` and `limit` of the free-form surfaces of a file.

@@ -7,9 +7,9 @@
 
 #include "free_form.h"
 #include "recipes.h"
-#include "sublimit/files/numbers.h"
 #include "sublimit/report/free_form/free_form_json.h"
 #include "sublimit/report/free_form/recipe_report.h"
+#include "sublimit/stencils/files/numbers.h"
 
 namespace sublimit::cli {
 

@@ -3,8 +3,8 @@
 #include "free_form.h"
 #include "recipes.h"
 #include "sublimit/base/error.h"
-#include "sublimit/fit_jobs/fit_job.h"
-#include "sublimit/patches/free_form_patches.h"
+#include "sublimit/patches/detail/free_form_patches.h"
+#include "sublimit/stencils/fit_jobs/fit_job.h"
 
 namespace sublimit::cli {
 

@@ -10,8 +10,8 @@
 #include "free_form.h"
 #include "sublimit/base/error.h"
 #include "sublimit/base/format_number.h"
-#include "sublimit/io/free_form_counts.h"
-#include "sublimit/patches/free_form_patches.h"
+#include "sublimit/io/detail/free_form_counts.h"
+#include "sublimit/patches/detail/free_form_patches.h"
 
 namespace sublimit::cli {
 namespace {

@@ -7,12 +7,12 @@
 #include "free_form.h"
 #include "sublimit/base/error.h"
 #include "sublimit/base/format_number.h"
-#include "sublimit/core/sparse_product.h"
-#include "sublimit/files/matrix_market.h"
-#include "sublimit/io/file_extension.h"
+#include "sublimit/core/detail/sparse_product.h"
+#include "sublimit/io/detail/file_extension.h"
 #include "sublimit/io/write_mesh.h"
-#include "sublimit/patches/free_form_patches.h"
-#include "sublimit/patches/patch_levels.h"
+#include "sublimit/patches/detail/free_form_patches.h"
+#include "sublimit/patches/detail/patch_levels.h"
+#include "sublimit/stencils/files/matrix_market.h"
 
 namespace sublimit::cli {
 namespace {
@@ -72,7 +72,7 @@ void refine_free_form(const Common& common, int levels, const std::string& outpu
       write_free_form(output, to_free_form(nets.patches, nets.columns));
     } else {
       PatchSet::Net net = nets.patches.net();
-      MeshOutput mesh;
+      Mesh mesh;
       mesh.positions = euclidean(nets.patches, nets.columns);
       mesh.face_sizes = std::move(net.sizes);
       mesh.face_vertices = std::move(net.vertices);
@@ -97,7 +97,7 @@ void limit_free_form(const Common& common, int levels, const std::string& output
     for (size_t i = 0; i < at.status.size(); ++i)
       if (!has_position(at.status[i]))
         throw InvalidMesh("point " + format_number(i) + " of the net tends to a pole: its weight is 0");
-    MeshOutput mesh;
+    Mesh mesh;
     mesh.positions = at.position;
     mesh.face_sizes = std::move(net.sizes);
     mesh.face_vertices = std::move(net.vertices);

@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "sublimit/files/numbers.h"
-#include "sublimit/gallery/gallery.h"
 #include "sublimit/report/asset/asset_json.h"
 #include "sublimit/report/page/page.h"
+#include "sublimit/stencils/files/numbers.h"
+#include "sublimit/stencils/gallery/gallery.h"
 
 namespace sublimit::cli {
 
@@ -35,7 +35,7 @@ void draw_gallery(const GalleryRun& run, bool silent) {
   check_output_path(index.string(), {});
   limit_threads(run.common);
   Progress progress(run.common.quiet);
-  const auto page_of = [](const ControlMesh& mesh, const std::string& scheme) {
+  const auto page_of = [](const Mesh& mesh, const std::string& scheme) {
     nlohmann::ordered_json json = report::report_head("mesh");
     json["mesh"] = to_json(asset_report(scheme_or_throw(scheme, {}), mesh, {}, {}), "stitched.obj");
     return report_page(json);

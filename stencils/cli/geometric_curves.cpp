@@ -7,11 +7,11 @@
 #include <limits>
 
 #include "curves.h"
+#include "sublimit/base/detail/memory.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/memory.h"
-#include "sublimit/io/file_extension.h"
-#include "sublimit/io/polygon_files.h"
-#include "sublimit/scheme/check_levels.h"
+#include "sublimit/io/detail/file_extension.h"
+#include "sublimit/io/detail/polygon_files.h"
+#include "sublimit/scheme/detail/check_levels.h"
 
 namespace sublimit::cli {
 namespace {

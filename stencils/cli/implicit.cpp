@@ -10,14 +10,14 @@
 #include "loaded_library.h"
 #include "memory_limit.h"
 #include "openvdb/entry.h"
-#include "sublimit/base/atomic_file.h"
+#include "sublimit/base/detail/atomic_file.h"
 #include "sublimit/base/error.h"
-#include "sublimit/files/field_samples.h"
-#include "sublimit/files/refined_mesh.h"
-#include "sublimit/implicit/level_set_mesh.h"
+#include "sublimit/implicit/detail/level_set_mesh.h"
 #include "sublimit/io/write_mesh.h"
-#include "sublimit/picture/picture_mesh.h"
-#include "sublimit/recipes/field_recipe.h"
+#include "sublimit/stencils/files/field_samples.h"
+#include "sublimit/stencils/files/level_files.h"
+#include "sublimit/stencils/picture/picture_mesh.h"
+#include "sublimit/stencils/recipes/detail/field_recipe.h"
 
 namespace sublimit::cli {
 namespace {
@@ -35,7 +35,7 @@ Polygonizer polygonizer() {
   void* const entry =
       loaded_function(implicit_mesh_part, openvdb_library, polygonize_entry, "control meshes of fields");
   return [polygonize = reinterpret_cast<PolygonizeEntry*>(entry)](const FieldGrid& grid) {
-    ControlMesh mesh;
+    Mesh mesh;
     polygonize(grid, mesh);
     return mesh;
   };
@@ -105,7 +105,7 @@ std::string picture(const Scheme<double>& scheme, const LevelSetMesh& mesh) {
     level = next_level(scheme, level);
     points = level.S * points;
   }
-  LimitTypes types(scheme);
+  LimitCache types(scheme);
   const LimitMatrices limit = limit_matrices(level, types);
   const PictureMesh surface =
       surface_picture(limit_mesh(level, limit, limit_points(limit, level.topology(), points), Normals::per_corner));
@@ -148,7 +148,7 @@ int make_mesh(const ImplicitJob& job, const FieldJob& field, Progress& progress)
     drawn = picture(scheme, mesh);
   }
   progress.step("writing " + job.output);
-  write_mesh(job.output, output(mesh.cage), progress.bytes_written());
+  write_mesh(job.output, mesh.cage, progress.bytes_written());
   if (!job.report.empty()) write_whole(job.report, report(job, field, mesh));
   if (!job.picture.empty()) write_whole(job.picture, drawn);
   progress.step("");

@@ -7,8 +7,8 @@
 #include "free_form.h"
 #include "normal_surfaces.h"
 #include "recipes.h"
-#include "sublimit/jobs/mesh_info_json.h"
-#include "sublimit/jobs/mesh_job.h"
+#include "sublimit/stencils/jobs/detail/mesh_info_json.h"
+#include "sublimit/stencils/jobs/detail/mesh_job.h"
 
 namespace sublimit::cli {
 namespace {
@@ -58,7 +58,8 @@ void print(const MeshInfo& info, const std::string& name) {
     fmt::print("  face-varying       {}: {} values of {} numbers, interpolation {}\n", channel.name, channel.values,
                channel.numbers, info.face_varying);
   if (!info.scheme.empty()) {
-    fmt::print("  {:<18} {}\n", info.scheme + ":", info.why_not.empty() ? "takes this mesh" : "no: " + info.why_not);
+    fmt::print("  {:<18} {}\n", info.scheme + ":",
+               info.why_not.empty() ? "takes this mesh" : "no: " + with_options(info.why_not));
     for (size_t k = 0; k < info.predicted_bytes.size(); ++k)
       fmt::print("    to level {}         about {:.1f} MB\n", k + 1, info.predicted_bytes[k] / 1e6);
   }

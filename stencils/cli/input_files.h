@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// What files hold, judged by their first bytes, and whether a command line has each in the right place.
+// Recognising input files by their first bytes, and checking that each is in the right place on a command line.
 #include <CLI/CLI.hpp>
 
 #include <string>
@@ -34,8 +34,8 @@ FileKind file_kind(const std::string& path);
 /// "an OBJ file"; for use in messages.
 const char* name_of(FileKind kind);
 
-/// What belongs in the place of an argument or option, "a control mesh, .obj, .ply or .off"; empty if it names no file
-/// to read.
+/// Returns the kind of file that an argument or option takes: "a control mesh, .obj, .ply or .off"; empty if it does
+/// not name a file to read.
 std::string input_meaning(const CLI::App& command, const CLI::Option& option);
 
 /// Extensions of the files that an argument or option takes, without the dot; empty for any, or if it names none.

@@ -9,8 +9,8 @@
 #include "searched.h"
 #include "sublimit/base/error.h"
 #include "sublimit/base/format_number.h"
-#include "sublimit/files/ray_files.h"
-#include "sublimit/search/searched_surface.h"
+#include "sublimit/search/detail/searched_surface.h"
+#include "sublimit/stencils/files/ray_files.h"
 
 namespace sublimit::cli {
 namespace {

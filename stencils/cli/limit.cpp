@@ -8,9 +8,9 @@
 #include "free_form.h"
 #include "normal_surfaces.h"
 #include "sublimit/base/error.h"
-#include "sublimit/core/sparse_product.h"
-#include "sublimit/files/refined_mesh.h"
-#include "sublimit/io/file_extension.h"
+#include "sublimit/core/detail/sparse_product.h"
+#include "sublimit/io/detail/file_extension.h"
+#include "sublimit/stencils/files/level_files.h"
 
 namespace sublimit::cli {
 namespace {
@@ -42,14 +42,14 @@ int run(const LimitOptions& options) {
   std::vector<FaceVaryingLevel> channel;
   Points limit_values;
   LimitMatrices limit;
-  LimitTypes cache(*loaded.scheme);
+  LimitCache cache(*loaded.scheme);
   naming_mesh(options.common, [&] {
     levels = refined_levels(loaded, options.levels, progress);
     progress.step("limits");
     limit = limit_matrices(levels, cache);
     channel = refined_channel(options.common, loaded, levels, options.output);
     if (channel.empty()) return;
-    LimitTypes channel_cache(face_varying_scheme(*loaded.scheme, loaded.face_varying));
+    LimitCache channel_cache(face_varying_scheme(*loaded.scheme, loaded.face_varying));
     limit_values = apply(limit_matrices(channel.back().level, channel_cache).position,
                          refined_values(channel, loaded.mesh.face_varying[0].values));
   });
@@ -57,10 +57,10 @@ int run(const LimitOptions& options) {
   const LimitPoints at_limit = limit_points(limit, levels.back().topology(), points);
   progress.step("writing " + options.output);
   const bool obj = file_extension(options.output) == ".obj";
-  MeshOutput out = limit_mesh(levels.back(), limit, at_limit,
-                              !options.normals ? Normals::none
-                              : obj            ? Normals::per_corner
-                                               : Normals::per_vertex);
+  Mesh out = limit_mesh(levels.back(), limit, at_limit,
+                        !options.normals ? Normals::none
+                        : obj            ? Normals::per_corner
+                                         : Normals::per_vertex);
   if (!channel.empty()) add_channel(out, channel.back(), loaded.mesh.face_varying[0].name, limit_values);
   write_mesh(options.output, out, progress.bytes_written());
   progress.step("");

@@ -8,8 +8,9 @@
 #include <new>
 #include <string_view>
 
+#include "sublimit/base/detail/terminate_as_bad_alloc.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/terminate_as_bad_alloc.h"
+#include "sublimit/base/version.h"
 
 namespace sublimit::cli {
 namespace {

@@ -15,6 +15,8 @@
 #include "input_files.h"
 #include "manual.h"
 #include "standard_streams.h"
+#include "sublimit/base/error.h"
+#include "sublimit/base/version.h"
 
 namespace {
 
@@ -65,7 +67,11 @@ int run(int argc, char** argv) {
   for (const auto& [name, command] : commands)
     if (line.runs && app.got_subcommand(name)) {
       cli::check_input_files(*app.get_subcommand(name));
-      return command();
+      try {
+        return command();
+      } catch (const Error& error) {
+        throw Error(error.code(), cli::with_options(error.what()));
+      }
     }
   return line.status;
 }

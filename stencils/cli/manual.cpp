@@ -12,9 +12,9 @@
 
 #include "common.h"
 #include "input_files.h"
-#include "sublimit/base/atomic_file.h"
+#include "sublimit/base/detail/atomic_file.h"
 #include "sublimit/base/error.h"
-#include "sublimit/core/nearest_names.h"
+#include "sublimit/core/detail/nearest_names.h"
 
 namespace sublimit::cli {
 namespace {
@@ -343,9 +343,10 @@ std::string HelpFormatter::make_help(const CLI::App* app, std::string, CLI::AppF
 
 void write_manual(const ProgramPage& page, const std::string& kind, const std::string& directory) {
   const std::vector<std::string>& kinds = manual_kinds();
+  const std::vector<std::string> meant = nearest_names(kind, kinds, 1);
   if (std::ranges::find(kinds, kind) == kinds.end())
-    throw InvalidOption(fmt::format("--generate {}: there is no such kind; did you mean {}? They are {}", kind,
-                                    nearest_names(kind, kinds, 1).front(), joined(kinds, ", ")));
+    throw InvalidOption(fmt::format("--generate {}: there is no such kind;{} they are {}", kind,
+                                    meant.empty() ? "" : " did you mean " + meant.front() + "?", joined(kinds, ", ")));
   const auto texts = manual_files(page, kind);
   make_output_directory(directory);
   std::list<AtomicFile> files;

@@ -12,16 +12,16 @@
 
 namespace sublimit::cli {
 
-/// What stands behind an option, or for an argument.
+/// Kind of the value of an option or argument.
 enum class ValueKind { none, text, words, scheme, scheme_option, in_file, out_file, directory, verb };
 
 struct OptionPage {
   std::vector<std::string> names;  ///< "-l", "--levels"; of an argument its one name
   ValueKind kind = ValueKind::text;
   std::string value;                    ///< "LEVELS", "float|double"; empty for a flag
-  std::string text;                     ///< what it does
+  std::string text;                     ///< description
   std::vector<std::string> words;       ///< values to choose from
-  std::vector<std::string> extensions;  ///< of files that it reads, "obj"; empty for any
+  std::vector<std::string> extensions;  ///< extensions of files that it reads, "obj"; empty: any
   bool argument = false, required = false, repeats = false;
 };
 

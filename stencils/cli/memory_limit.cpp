@@ -5,9 +5,9 @@
 #include <cmath>
 #include <string_view>
 
+#include "sublimit/base/detail/memory.h"
 #include "sublimit/base/error.h"
 #include "sublimit/base/format_number.h"
-#include "sublimit/base/memory.h"
 
 namespace sublimit::cli {
 
@@ -33,7 +33,7 @@ double parse_memory_limit(const std::string& text) {
 
 void limit_memory(const std::string& text) { sublimit::limit_memory(parse_memory_limit(text)); }
 
-void check_mesh_memory(const std::string& name, const ControlMesh& mesh) {
+void check_mesh_memory(const std::string& name, const Mesh& mesh) {
   constexpr double bytes_of_face = 300;  // who is around it, as bakes count it
   check_memory(name + ": limits of " + std::to_string(mesh.num_faces()) + " faces", bytes_of_face * mesh.num_faces(),
                "use a smaller mesh");

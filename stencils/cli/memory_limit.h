@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "sublimit/mesh/control_mesh.h"
+#include "sublimit/mesh/mesh.h"
 
 namespace sublimit::cli {
 
@@ -23,6 +23,6 @@ void limit_memory(const std::string& text);
 
 /// Fails before a mesh's neighbourhoods are looked at if they alone take more than there is.
 /// @throws ResourceError
-void check_mesh_memory(const std::string& name, const ControlMesh& mesh);
+void check_mesh_memory(const std::string& name, const Mesh& mesh);
 
 }  // namespace sublimit::cli

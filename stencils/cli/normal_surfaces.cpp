@@ -13,8 +13,8 @@
 #include "recipes.h"
 #include "sublimit/base/error.h"
 #include "sublimit/base/format_number.h"
-#include "sublimit/io/file_extension.h"
-#include "sublimit/io/obj_normals.h"
+#include "sublimit/io/detail/file_extension.h"
+#include "sublimit/io/detail/obj_normals.h"
 #include "sublimit/io/write_mesh.h"
 
 namespace sublimit::cli {
@@ -32,7 +32,7 @@ Points given_normals(const Common& common) {
   return read_obj_normals(common.mesh);
 }
 
-NormalMesh checked_data(const Common& common, const GeometricNormalScheme& scheme, const ControlMesh& mesh) {
+NormalMesh checked_data(const Common& common, const GeometricNormalScheme& scheme, const Mesh& mesh) {
   NormalMesh data = normal_mesh(mesh, {});  // other faces than triangles are told before normals are read
   data.normals = given_normals(common);
   return scheme.checked(std::move(data));
@@ -155,7 +155,7 @@ std::vector<NormalSurface> load_normal_surfaces(const Common& common, Progress& 
   return result;
 }
 
-std::string why_no_normal_surface(const Common& common, const ControlMesh& mesh) {
+std::string why_no_normal_surface(const Common& common, const Mesh& mesh) {
   try {
     static_cast<void>(checked_data(common, normal_scheme(common), mesh));
   } catch (const UnsupportedTopology& error) {
@@ -178,7 +178,7 @@ int write_normal_surface(const NormalJob& job) {
   Index patches = 0;
   for (const NormalSurface& surface : surfaces) patches += surface.data.num_faces();
   progress.step("writing " + job.output);
-  MeshOutput out;
+  Mesh out;
   out.face_sizes.assign(size_t(level.num_faces()), 3);
   out.face_vertices = std::move(level.triangles);
   out.positions = std::move(level.positions);

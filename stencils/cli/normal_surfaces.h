@@ -5,12 +5,12 @@
 #include "common.h"
 #include "sublimit/geometric/geometric_schemes.h"
 #include "sublimit/geometric/placed_surface.h"
-#include "sublimit/recipes/recipe.h"
+#include "sublimit/stencils/recipes/detail/recipe.h"
 
 namespace sublimit::cli {
 
-/// Whether `common.scheme` names such a scheme, or the surfaces of a file of recipes are such. Beside linear ones they
-/// are left out.
+/// Returns true if `common.scheme` names such a scheme, or all surfaces of a file of recipes are such. They are left
+/// out of files that have linear surfaces too.
 bool is_normal_job(const Common& common);
 
 /// @throws InvalidOption  options that are of subdivision schemes or curves, unknown options of the scheme
@@ -27,13 +27,13 @@ struct NormalSurface {
 /// @throws InvalidMesh, UnsupportedTopology  what the scheme cannot take, with the name of the mesh or recipe
 /// @throws FormatError, IoError              meshes that recipes name, which cannot be read
 std::vector<NormalSurface> load_normal_surfaces(const Common& common, Progress& progress);
-/// Of one recipe of kind `nielson` or `piper`.
+/// Loads the surface of a recipe of kind `nielson` or `piper`.
 NormalSurface load_normal_surface(const Common& common, const Recipe& recipe, Progress& progress);
 
 /// Why the scheme does not take the mesh; empty if it does.
-std::string why_no_normal_surface(const Common& common, const ControlMesh& mesh);
+std::string why_no_normal_surface(const Common& common, const Mesh& mesh);
 
-/// What `refine` and `limit` do: points of the surface.
+/// Arguments of `refine` and `limit`, which write points of the surface.
 struct NormalJob {
   const Common* common;
   int levels = 0;

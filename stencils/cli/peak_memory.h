@@ -9,10 +9,10 @@
 
 namespace sublimit::cli {
 
-/// What follows counts from here on; where the system cannot forget, from the start of the process.
+/// Resets the peak; on systems that cannot, it counts from the start of the process.
 inline void forget_peak_memory() { std::ofstream("/proc/self/clear_refs") << "5"; }
 
-/// In bytes.
+/// Returns the peak memory of the process in bytes.
 inline std::int64_t peak_memory() {
   std::ifstream status("/proc/self/status");
   for (std::string line; std::getline(status, line);)

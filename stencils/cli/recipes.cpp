@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "normal_surfaces.h"
-#include "sublimit/io/file_extension.h"
+#include "sublimit/io/detail/file_extension.h"
 
 namespace sublimit::cli {
 

@@ -4,8 +4,8 @@
 #include "free_form.h"
 #include "normal_surfaces.h"
 #include "sublimit/base/error.h"
-#include "sublimit/files/matrix_market.h"
-#include "sublimit/files/refined_mesh.h"
+#include "sublimit/stencils/files/level_files.h"
+#include "sublimit/stencils/files/matrix_market.h"
 
 namespace sublimit::cli {
 namespace {
@@ -37,7 +37,7 @@ int run(const RefineOptions& options) {
   Progress progress(options.common.quiet);
   const Loaded loaded = load(options.common, progress);
   std::vector<FaceVaryingLevel> channel;
-  MeshOutput out;
+  Mesh out;
   if (options.matrix.empty() && !has_channel(loaded, options.output)) {
     naming_mesh(options.common, [&] {
       out = mesh_output(refined_mesh(*loaded.scheme, loaded.mesh, options.levels, loaded.rules,

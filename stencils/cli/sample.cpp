@@ -10,13 +10,13 @@
 #include "free_form.h"
 #include "memory_limit.h"
 #include "normal_surfaces.h"
+#include "sublimit/base/detail/memory.h"
 #include "sublimit/base/error.h"
 #include "sublimit/base/format_number.h"
-#include "sublimit/base/memory.h"
-#include "sublimit/files/random_samples.h"
-#include "sublimit/files/sample_files.h"
-#include "sublimit/limit/limit_types.h"
-#include "sublimit/patches/free_form_patches.h"
+#include "sublimit/limit/detail/limit_cache.h"
+#include "sublimit/patches/detail/free_form_patches.h"
+#include "sublimit/stencils/files/random_samples.h"
+#include "sublimit/stencils/files/sample_files.h"
 
 namespace sublimit::cli {
 namespace {
@@ -68,10 +68,10 @@ void check_size(const SampleJob& job, const std::string& what, double count, dou
 SampleSource grid_source(const SampleJob& job, FaceCount face_count, SampleColumns columns) {
   const double N = double(*job.grid), faces = face_count.size;
   const double count = faces * (face_count.triangles ? N * (N + 1) / 2 : N * N);
-  check_size(job, fmt::format("--grid {}: samples of {} faces", *job.grid, faces), count, count * sizeof(Sample),
+  check_size(job, fmt::format("--grid {}: samples of {} faces", *job.grid, faces), count, count * sizeof(Place),
              columns);
-  auto samples = std::make_shared<std::vector<Sample>>(grid_places(face_count, static_cast<int>(*job.grid)));
-  return [samples, next = size_t{0}](std::vector<Sample>& batch, size_t most) mutable {
+  auto samples = std::make_shared<std::vector<Place>>(grid_places(face_count, static_cast<int>(*job.grid)));
+  return [samples, next = size_t{0}](std::vector<Place>& batch, size_t most) mutable {
     const size_t end = std::min(samples->size(), next + most);
     batch.assign(samples->begin() + std::ptrdiff_t(next), samples->begin() + std::ptrdiff_t(end));
     next = end;
@@ -80,8 +80,9 @@ SampleSource grid_source(const SampleJob& job, FaceCount face_count, SampleColum
 
 SampleSource random_source(const SampleJob& job, FaceCount faces, SampleColumns columns) {
   check_size(job, fmt::format("--random {}: samples", *job.random_count), double(*job.random_count), 0, columns);
-  return [samples = RandomSamples(faces, *job.random_count, job.seed)](
-             std::vector<Sample>& batch, size_t most) mutable { samples.read(batch, most); };
+  return [samples = RandomSamples(faces, *job.random_count, job.seed)](std::vector<Place>& batch, size_t most) mutable {
+    samples.read(batch, most);
+  };
 }
 
 /// `write_samples` of some source: from places with columns, telling how many are done.
@@ -97,7 +98,7 @@ SampleSummary sample_faces(const SampleJob& job, FaceCount faces, const WriteSam
   if (given) {
     places = given;
   } else if (reader) {
-    places = [&](std::vector<Sample>& batch, size_t most) { reader->read(batch, most, faces); };
+    places = [&](std::vector<Place>& batch, size_t most) { reader->read(batch, most, faces); };
   } else {
     places = job.grid ? grid_source(job, faces, columns) : random_source(job, faces, columns);
   }
@@ -134,7 +135,7 @@ void sample_patches(const SampleJob& job, SampleReader* reader, Progress& progre
   std::unique_ptr<OwnPlaceReader> own_reader;
   if (!reader && !job.at.empty()) {
     own_reader = std::make_unique<OwnPlaceReader>(job.at);
-    own_source = [&](std::vector<Sample>& batch, size_t most) { own_reader->read(batch, own, most, found.patches); };
+    own_source = [&](std::vector<Place>& batch, size_t most) { own_reader->read(batch, own, most, found.patches); };
   }
   const SampleSummary summary =
       sample_source(job, found.patches, found.columns, reader, progress, own_source, own_reader ? &own : nullptr);
@@ -157,7 +158,7 @@ void sample_normal_surfaces(const SampleJob& job, SampleReader* reader, Progress
 void sample_mesh(const SampleJob& job, SampleReader* reader, Progress& progress) {
   const Loaded loaded = load(job.common, progress);
   check_mesh_memory(job.common.mesh, loaded.mesh);
-  const auto types = std::make_shared<LimitTypes>(*loaded.scheme);
+  const auto types = std::make_shared<LimitCache>(*loaded.scheme);
   SampleSummary summary;
   naming_mesh(job.common, [&] {
     const LimitMap surface(*loaded.scheme, loaded.mesh, loaded.rules, types);

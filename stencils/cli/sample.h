@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// What `sample` was asked for, for surfaces (sample.cpp) and curves (sample_curves.cpp).
+// Arguments of `sample`, for surfaces (sample.cpp) and curves (sample_curves.cpp).
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -19,13 +19,13 @@ struct SampleJob {
   int derivatives = 0;  ///< 0, 1 or 2
   bool clamp = false, curvature = false;
   bool closed = false;  ///< curves of a CSV
-  bool curves = false;  ///< of recipes, not the surfaces
+  bool curves = false;  ///< sample the curves of recipes instead of their surfaces
   std::string output;
 };
 
-/// What `sample` does when the scheme is one for curves.
+/// Samples limits of a scheme for curves.
 int sample_curves(const SampleJob& job);
-/// What it does for the curves of a free-form file or recipes.
+/// Samples the curves of a free-form file or of recipes.
 int sample_patch_curves(const SampleJob& job);
 
 }  // namespace sublimit::cli

@@ -14,14 +14,14 @@
 #include "curves.h"
 #include "free_form.h"
 #include "sample.h"
-#include "sublimit/base/atomic_file.h"
+#include "sublimit/base/detail/atomic_file.h"
 #include "sublimit/base/error.h"
 #include "sublimit/base/format_number.h"
 #include "sublimit/curves/limit_curve.h"
 #include "sublimit/curves/schemes/curve_schemes.h"
-#include "sublimit/files/csv_rows.h"
-#include "sublimit/files/patch_places.h"
 #include "sublimit/geometric/geometric_schemes.h"
+#include "sublimit/stencils/files/csv_rows.h"
+#include "sublimit/stencils/files/patch_places.h"
 
 namespace sublimit::cli {
 namespace {
@@ -29,14 +29,14 @@ namespace {
 constexpr size_t samples_per_batch = 65536;
 
 /// The next places: at most so many, fewer only at the end.
-using Source = std::function<std::vector<CurveSample>(size_t most)>;
-using Evaluation = std::function<CurveSamples(std::span<const CurveSample>)>;
+using Source = std::function<std::vector<CurvePlace>(size_t most)>;
+using Evaluation = std::function<CurveSamples(std::span<const CurvePlace>)>;
 
 Source source_of(const SampleJob& job, Index segments, std::shared_ptr<CsvRows> rows) {
   if (rows)
     return [=, clamp = job.clamp](size_t most) {
       const std::string valid = fmt::format("segments are 0 to {}", segments - 1);
-      std::vector<CurveSample> batch;
+      std::vector<CurvePlace> batch;
       while (batch.size() < most && rows->next()) {
         const std::int64_t segment = rows->integer(0, valid);
         if (segment < 0 || segment >= segments)
@@ -54,7 +54,7 @@ Source source_of(const SampleJob& job, Index segments, std::shared_ptr<CsvRows> 
     };
   if (job.grid)
     return [N = *job.grid, count = *job.grid * segments, next = std::int64_t{0}](size_t most) mutable {
-      std::vector<CurveSample> batch;
+      std::vector<CurvePlace> batch;
       for (; batch.size() < most && next < count; ++next)
         batch.push_back({static_cast<Index>(next / N), double(next % N) / double(N - 1)});
       return batch;
@@ -62,7 +62,7 @@ Source source_of(const SampleJob& job, Index segments, std::shared_ptr<CsvRows> 
   // As random_samples.h has it: the standard's distributions differ between platforms.
   return [numbers = std::mt19937_64(job.seed), left = segments > 0 ? *job.random_count : 0,
           segments](size_t most) mutable {
-    std::vector<CurveSample> batch;
+    std::vector<CurvePlace> batch;
     for (; batch.size() < most && left > 0; --left) {
       const auto segment = static_cast<Index>(numbers() % std::uint64_t(segments));
       batch.push_back({segment, double(numbers() >> 11) * 0x1p-53});
@@ -90,7 +90,7 @@ std::int64_t write(const SampleJob& job, Index dimension, const Source& source, 
   file.write(text + "\n");
   std::int64_t written = 0;
   for (;;) {
-    const std::vector<CurveSample> batch = source(samples_per_batch);
+    const std::vector<CurvePlace> batch = source(samples_per_batch);
     CurveSamples found = evaluate(batch);
     if (own) own->scale(found);
     text.clear();
@@ -170,13 +170,13 @@ int sample_patch_curves(const SampleJob& job) {
       static_cast<Index>(found.columns.cols() - (found.coordinates == Coordinates::homogeneous ? 1 : 0));
   const int order = order_for(job, dimension);
   const auto own_source = [&](size_t most) {
-    std::vector<CurveSample> batch;
+    std::vector<CurvePlace> batch;
     own_reader->read(batch, own, most, found.curves);
     return batch;
   };
   const std::int64_t written = write(
       job, dimension, own_reader ? Source(own_source) : source_of(job, found.curves.num_segments(), rows),
-      [&](std::span<const CurveSample> batch) {
+      [&](std::span<const CurvePlace> batch) {
         return found.curves.evaluate(found.columns, batch, order, found.coordinates);
       },
       progress, own_reader ? &own : nullptr);
@@ -207,14 +207,14 @@ int sample_curves(const SampleJob& job) {
         segments += static_cast<Index>(curve.points.size()) - (curve.closed ? 0 : 1);
       written = write(
           job, polygon.dimension(), source_of(job, segments, rows),
-          [&](std::span<const CurveSample> batch) { return evaluate(*geometric, polygon, batch, order); }, progress);
+          [&](std::span<const CurvePlace> batch) { return evaluate(*geometric, polygon, batch, order); }, progress);
       return;
     }
     const LimitCurve curve(*linear, polygon);
     const Points x = unknowns(*linear, polygon);
     written = write(
         job, polygon.dimension(), source_of(job, curve.num_segments(), rows),
-        [&](std::span<const CurveSample> batch) { return curve.evaluate(x, batch, order); }, progress);
+        [&](std::span<const CurvePlace> batch) { return curve.evaluate(x, batch, order); }, progress);
   });
   progress.step("");
   if (!job.common.quiet) fmt::print("{}: {} samples\n", job.output, written);

@@ -3,8 +3,8 @@
 
 #include "free_form.h"
 #include "memory_limit.h"
-#include "sublimit/search/searched_patches.h"
-#include "sublimit/search/searched_surface.h"
+#include "sublimit/search/detail/searched_patches.h"
+#include "sublimit/search/detail/searched_surface.h"
 
 namespace sublimit::cli {
 

@@ -5,7 +5,7 @@
 #include <functional>
 
 #include "common.h"
-#include "sublimit/search/searched_surface.h"
+#include "sublimit/search/detail/searched_surface.h"
 
 namespace sublimit::cli {
 

@@ -10,8 +10,8 @@
 #include <csignal>
 #include <cstdio>
 
+#include "sublimit/base/detail/file_error.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/file_error.h"
 
 namespace sublimit::cli {
 namespace {

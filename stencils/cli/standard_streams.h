@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// stdout and stderr that a reader may close at any time, as `| head -1` does: what nobody reads is dropped without a
-// word, files are written all the same, and the exit status is that of the work. Text that is lost for another reason,
-// such as a full disk, is an error.
+// stdout and stderr that a reader may close at any time, as `| head -1` does. Text after that is dropped silently,
+// files are still written, and the exit status is that of the work. Text that is lost for other reasons, such as a full
+// disk, is an error.
 
 namespace sublimit::cli {
 

@@ -4,9 +4,9 @@
 #include <filesystem>
 
 #include "loaded_library.h"
-#include "sublimit/base/atomic_file.h"
+#include "sublimit/base/detail/atomic_file.h"
 #include "sublimit/base/error.h"
-#include "sublimit/io/file_extension.h"
+#include "sublimit/io/detail/file_extension.h"
 
 namespace sublimit::cli {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// What `sublimit step` is asked for, and what it does with models of meshes and of free-form surfaces alike.
+// Arguments of `sublimit step`, and its work for models of meshes and of free-form surfaces.
 #include <nlohmann/json.hpp>
 
 #include "common.h"

@@ -15,7 +15,7 @@
 #include "sublimit/base/error.h"
 #include "sublimit/cad/patch_model.h"
 #include "sublimit/cad/piper_patches.h"
-#include "sublimit/recipes/recipe_sources.h"
+#include "sublimit/stencils/recipes/detail/recipe_sources.h"
 
 namespace sublimit::cli {
 namespace {

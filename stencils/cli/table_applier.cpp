@@ -5,7 +5,7 @@
 #include "gpu/entry.h"
 #include "loaded_library.h"
 #include "sublimit/base/error.h"
-#include "sublimit/pattern_evaluator.h"
+#include "sublimit/eval/pattern_evaluator.h"
 
 namespace sublimit::cli {
 

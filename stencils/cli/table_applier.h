@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// What applies a table to the points of a frame: the CPU, or a GPU where the program has its part for these.
+// Interface for applying a table to the points of a frame: on the CPU, or on a GPU if the program's GPU part is there.
 #include <memory>
 #include <span>
 #include <string>
 
-#include "sublimit/evaluation.h"
-#include "sublimit/pattern_table.h"
+#include "sublimit/eval/evaluation.h"
+#include "sublimit/eval/pattern_table.h"
 
 namespace sublimit::cli {
 
@@ -22,7 +22,7 @@ class TableApplier {
   virtual std::string device() const = 0;
 };
 
-/// @param table  which must stay, here and below
+/// @param table  must outlive the result, here and below
 template <class Real>
 std::unique_ptr<TableApplier<Real>> cpu_applier(const PatternTable<Real>& table);
 template <class Real>

@@ -10,16 +10,16 @@
 #include "common.h"
 #include "sublimit/base/error.h"
 #include "sublimit/base/format_number.h"
-#include "sublimit/files/glb.h"
-#include "sublimit/files/place_files.h"
-#include "sublimit/files/rate_files.h"
-#include "sublimit/files/split_mesh.h"
-#include "sublimit/files/tessellation_mesh.h"
-#include "sublimit/files/vtu.h"
-#include "sublimit/io/file_extension.h"
-#include "sublimit/tessellation/bezier_cells.h"
-#include "sublimit/tessellation/rated_tessellation.h"
-#include "sublimit/tessellation/triangle_shapes.h"
+#include "sublimit/io/detail/file_extension.h"
+#include "sublimit/stencils/files/glb.h"
+#include "sublimit/stencils/files/place_files.h"
+#include "sublimit/stencils/files/rate_files.h"
+#include "sublimit/stencils/files/split_mesh.h"
+#include "sublimit/stencils/files/tessellation_mesh.h"
+#include "sublimit/stencils/files/vtu.h"
+#include "sublimit/tessellation/detail/bezier_cells.h"
+#include "sublimit/tessellation/detail/rated_tessellation.h"
+#include "sublimit/tessellation/detail/triangle_shapes.h"
 
 namespace sublimit::cli {
 namespace {
@@ -74,7 +74,7 @@ int write_cells(const TessellateOptions& options, const LimitMap& surface, const
 
 /// Texture coordinates, where the scheme has a limit of them.
 void add_texture(const TessellateOptions& options, const Loaded& loaded, const LimitMap& surface,
-                 const Tessellation& made, MeshOutput& out) {
+                 const Tessellation& made, Mesh& out) {
   if (loaded.mesh.face_varying.empty()) return;
   try {
     add_channel(out, made, *loaded.scheme, loaded.face_varying, loaded.mesh.face_varying[0], surface.level());
@@ -128,7 +128,7 @@ int run(const TessellateOptions& options) {
   if (extension == ".vtu") return write_cells(options, *surface, control, wanted, progress);
   if (!options.rates.empty()) wanted.rates = read_edge_rates(options.rates, surface->level().topology());
   Tessellation made;
-  MeshOutput out;
+  Mesh out;
   naming_mesh(options.common, [&] {
     progress.step("tessellating");
     made = by_rates ? tessellate_by_rates(*surface, control, wanted.rates, wanted.max_triangles)
@@ -139,7 +139,7 @@ int run(const TessellateOptions& options) {
     if (options.normals || extension == ".glb") add_normals(out, made, *surface, control, extension != ".obj");
   });
   progress.step("writing " + options.output);
-  std::vector<Sample> places = made.places;  // in the order of the file's vertices
+  std::vector<Place> places = made.places;  // in the order of the file's vertices
   if (extension != ".obj" && !(out.face_varying.empty() && out.face_normals.empty())) {
     SplitMesh split = split_mesh(std::move(out));
     out = std::move(split.mesh);

@@ -6,13 +6,13 @@
 
 #include "common.h"
 #include "input_files.h"
+#include "sublimit/base/detail/memory.h"
+#include "sublimit/base/detail/read_file.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/memory.h"
-#include "sublimit/base/read_file.h"
-#include "sublimit/io/file_extension.h"
+#include "sublimit/eval/detail/verify_table.h"
+#include "sublimit/eval/table_file.h"
+#include "sublimit/io/detail/file_extension.h"
 #include "sublimit/report/analysis/verify_report.h"
-#include "sublimit/table_file.h"
-#include "sublimit/verify_table.h"
 
 namespace sublimit::cli {
 namespace {

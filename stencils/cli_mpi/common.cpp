@@ -5,9 +5,9 @@
 
 #include "../cli/memory_limit.h"
 #include "commands.h"
+#include "sublimit/base/detail/rule_words.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/rule_words.h"
-#include "sublimit/files/rule_words.h"
+#include "sublimit/stencils/files/rule_of_word.h"
 
 namespace sublimit::cli_mpi {
 

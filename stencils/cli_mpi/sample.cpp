@@ -8,7 +8,7 @@
 #include "commands.h"
 #include "sublimit/base/error.h"
 #include "sublimit/distributed/sample_job.h"
-#include "sublimit/io/file_extension.h"
+#include "sublimit/io/detail/file_extension.h"
 
 namespace sublimit::cli_mpi {
 namespace {

@@ -137,6 +137,12 @@ def read(xml: pathlib.Path, root: pathlib.Path) -> dict[str, list[Entity]]:
     return by_header
 
 
+def room_of(header: str) -> str:
+    """The folder of a header, without the detail/ of what is not public."""
+    folder = pathlib.Path(header).parent
+    return str(folder.parent if folder.name == "detail" else folder)
+
+
 def undocumented(by_header: dict[str, list[Entity]]) -> dict[str, list[str]]:
     """Functions without a text, by room."""
     missing: dict[str, list[str]] = defaultdict(list)
@@ -144,7 +150,7 @@ def undocumented(by_header: dict[str, list[Entity]]) -> dict[str, list[str]]:
         for entity in entities:
             for one in [entity, *entity.members]:
                 if one.must_have_text() and not one.text:
-                    missing[str(pathlib.Path(header).parent)].append(f"{header}:{one.line}: {one.name}")
+                    missing[room_of(header)].append(f"{header}:{one.line}: {one.name}")
     return {room: sorted(set(names)) for room, names in missing.items()}
 
 
@@ -170,7 +176,8 @@ def write(xml: pathlib.Path, root: pathlib.Path, out: pathlib.Path) -> tuple[lis
     by_header = read(xml, root)
     rooms: dict[str, list[str]] = defaultdict(list)
     for header in sorted(by_header):
-        rooms[str(pathlib.Path(header).parent)].append(header)
+        if "/detail/" not in header:
+            rooms[room_of(header)].append(header)
     names = []
     out.mkdir(parents=True, exist_ok=True)
     for room, headers in sorted(rooms.items()):

@@ -44,6 +44,8 @@ class CMakeBuild(build_ext):
         target = pathlib.Path(self.get_ext_fullpath(extension.name))
         target.parent.mkdir(parents=True, exist_ok=True)
         shutil.copyfile(TREE / "python" / "sublimit" / ("_sublimit" + sysconfig.get_config_var("EXT_SUFFIX")), target)
+        for library in (TREE / "python" / "sublimit").glob("libsublimit_*.so"):  # for OpenVDB and OpenCASCADE, where they are
+            shutil.copyfile(library, target.parent / library.name)
 
 
 class SourceDistribution(sdist):
@@ -65,5 +67,5 @@ class SourceDistribution(sdist):
 OUTPUT = TREE / "wheel"
 OUTPUT.mkdir(parents=True, exist_ok=True)
 setup(options={"build": {"build_base": str(OUTPUT)}, "egg_info": {"egg_base": str(OUTPUT)}},
-      version=re.search(r"project\(sublimit VERSION ([0-9.]+)", (SOURCE / "CMakeLists.txt").read_text())[1],
+      version=re.search(r'SUBLIMIT_VERSION "(.*)"', (SOURCE / "eval/sublimit/base/version.h").read_text())[1],
       ext_modules=[Extension("sublimit._sublimit", [])], cmdclass={"build_ext": CMakeBuild, "sdist": SourceDistribution})

@@ -4,16 +4,20 @@
 #include <string>
 #include <utility>
 
-#include "sublimit/bake/bake.h"
-#include "sublimit/fit/interpolate.h"
-#include "sublimit/jobs/mesh_job.h"
-#include "sublimit/jobs/refined_job.h"
-#include "sublimit/mesh/points_in_space.h"
+#include "sublimit/fit/detail/interpolate.h"
+#include "sublimit/mesh/detail/check_mesh.h"
+#include "sublimit/mesh/detail/points_in_space.h"
+#include "sublimit/stencils/bake/detail/bake.h"
+#include "sublimit/stencils/files/tessellation_mesh.h"
+#include "sublimit/stencils/jobs/detail/mesh_job.h"
+#include "sublimit/stencils/jobs/detail/refined_job.h"
 
 namespace sublimit {
 namespace {
 
+/// @throws InvalidMesh  names of some faces, which no result would have
 MeshJob job_of(const Mesh& mesh, const AnyScheme& scheme) {
+  check_face_names(mesh);
   MeshJob job;
   job.mesh = mesh;
   job.scheme = *scheme.for_mesh(mesh);
@@ -41,6 +45,7 @@ BakeRequest request_of(const BakeOptions& options) {
   request.face_sizes = options.face_sizes;
   request.face_vertices = options.face_vertices;
   request.derivatives = options.derivatives;
+  request.order = options.order;
   return request;
 }
 
@@ -65,7 +70,12 @@ MeshInfo info(const Mesh& mesh) {
   job.mesh = mesh;
   return mesh_info(job);
 }
-MeshInfo info(const Mesh& mesh, const AnyScheme& scheme) { return mesh_info(job_of(mesh, scheme)); }
+MeshInfo info(const Mesh& mesh, const AnyScheme& scheme, const InfoOptions& options) {
+  const MeshJob job = job_of(mesh, scheme);
+  MeshInfo known = mesh_info(job);
+  if (options.limit) known.limit = limit_integrals(job);
+  return known;
+}
 
 Table bake(const Mesh& mesh, const AnyScheme& scheme, const BakeOptions& options) {
   const BakeRequest request = request_of(options);
@@ -75,13 +85,36 @@ Table bake(const Mesh& mesh, const AnyScheme& scheme, const BakeOptions& options
   return Table(AnyTable(in_float(baked.table)));
 }
 
+Table bake(const Patches& patches, const BakeOptions& options) {
+  Baked baked = bake(patches.set(), request_of(options));
+  if (options.in_double) return Table(AnyTable(std::move(baked.table)));
+  return Table(AnyTable(in_float(baked.table)));
+}
+
+Mesh tessellate(const Mesh& mesh, const AnyScheme& scheme, const TessellationOptions& options) {
+  const AnyScheme taken = scheme.for_mesh(mesh);
+  const LimitSurface surface(mesh, scheme);
+  const Tessellation made = tessellate(surface, options);
+  Mesh triangles = tessellation_mesh(made, surface.map(), true);
+  if (options.normals) add_normals(triangles, made, surface.map(), surface.points(), false);
+  const auto interpolation = mesh.face_varying_interpolation.value_or(FaceVaryingInterpolation::all);
+  for (const Mesh::FaceVarying& channel : mesh.face_varying)
+    add_channel(triangles, made, *taken, interpolation, channel, surface.map().level());
+  return triangles;
+}
+
 Fit fit(const Mesh& mesh, const AnyScheme& scheme, const std::vector<VertexTarget>& targets,
         const FitOptions& options) {
+  for (const VertexTarget& target : targets)
+    if (target.curvature)
+      throw InvalidParameter("vertex " + std::to_string(target.vertex) +
+                             ": a target has a curvature, which limits of schemes are not fitted to; leave it out");
   Interpolation found = interpolate(*scheme.for_mesh(mesh), mesh, targets,
                                     {.least_refinements = options.least_refinements,
                                      .most_refinements = options.most_refinements,
                                      .fairness = options.fairness,
                                      .conditioning = false});
+  if (targets.empty()) throw InvalidParameter("no targets; one is needed at least");  // faults of the mesh come first
   Fit result;
   result.solved = found.solved();
   if (!result.solved) result.why_not = why_unsolved(found.attempts.back());

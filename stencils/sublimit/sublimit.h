@@ -1,59 +1,96 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// What the program does with meshes, in C++: refine, limit, closest, intersect, tessellate, bake, fit, analyze and info
-// are functions of the same names. Recipes, fields and STEP files have headers of their own (recipes/, implicit/,
-// cad/).
+// The library in one header, in namespace sublimit. What the program does with meshes are functions of the same names:
+// refine, limit, closest, intersect, tessellate, bake, fit, info, construct; analyze, implicit and step too, if the
+// components report, implicit_mesh and cad are linked. Everything is a value; functions may be called by any thread.
 //
-// Meshes are of files or arrays. A scheme is a name, a name with options, or one of your own. Rules for boundaries,
-// creases and triangles are those of the mesh:
+// Meshes come from files or arrays. A scheme is given by its name, by name and options, or as one of your own. The mesh
+// has tags (creases, corners, holes) and rules for boundaries, creases and triangles:
 //
-//   Mesh mesh = read_mesh("cube.obj");  // or make_mesh(points, faces), of lists or of Eigen's matrices
+//   Mesh mesh = read_mesh("cube.obj");
+//   Mesh made = make_mesh(points, faces);  // lists of points and faces, or Eigen matrices #V x 3 and #F x n
+//   made = make_mesh(std::span(floats), 3, std::span(indices), 4);  // flat arrays: stride 3, quadrilaterals
 //   mesh.boundary = Boundary::edge_only;
 //   mesh.creases.push_back({.tail = 0, .head = 1, .sharpness = 2.5F});
+//   mesh = mesh.with_points(points_of_another_frame);  // Points: an Eigen matrix of doubles by rows, #V x 3
+//   for (const SchemeInfo& scheme : schemes()) std::cout << scheme.name << ": " << scheme.limit << "\n";
+//
+// Refinement. Texture coordinates are refined linearly unless `mesh.face_varying_interpolation` says otherwise.
+// `refine`, `limit`, `levels`, `fit` and `info` are functions: where a variable has such a name, write `sublimit::`
+// before a call.
+//
 //   write_mesh("fine.obj", refine(mesh, "catmull-clark", 3));
 //   const Mesh fine = refine(mesh, {"kobbelt", {{"tension", "3/4"}}}, 2);
 //   fine.positions.row(v), fine.face_sizes[f], fine.face_vertices, fine.face_varying[0].values;
 //   const SparseMatrix P = subdivision_matrix(mesh, "loop", 3);  // P * mesh.positions: points of level 3
 //
-// `Points` is an Eigen matrix of doubles by rows, #points x 3; `SparseMatrix` one of Eigen's too. Texture coordinates
-// are refined linearly unless `mesh.face_varying_interpolation` says otherwise. `limit`, `levels`, `fit` and `info` are
-// functions: where a variable has the same name, write `sublimit::` before the call.
+// The limit of all vertices, with a normal for each side of the sharp edges at a vertex. A cache shared by calls with
+// the same scheme saves time:
 //
-// The limit of vertices, and anywhere. A place is (face, u, v). Under schemes for triangles `face` is the number of the
-// triangle. Under others it is that of the face if all faces are quadrilaterals; any other polygon counts as one square
-// for each of its corners, as Ptex numbers them (limit/address.h):
+//   const Limit limit = sublimit::limit(mesh, "catmull-clark");
+//   limit.points.row(v), limit.matrix, limit.normals.row(side), limit.side_vertex[side];
+//   const auto cache = limit_cache("catmull-clark");
+//   const Limit cached = sublimit::limit(mesh, "catmull-clark", {.levels = 2, .cache = cache});
 //
-//   const Limit limit = sublimit::limit(mesh, "catmull-clark");  // .points.row(v), .matrix
-//   limit.normals.row(s), limit.side_vertex[s];  // a normal for each side of the sharp edges at a vertex
+// The limit at any place: points, derivatives, normals, curvature, stencils. A place is (face, u, v), with u and v from
+// 0 to 1. Under schemes for triangles the face is a triangle of the mesh. Under others it is a face of the mesh if all
+// are quadrilaterals; any other polygon counts as one square for each corner, as Ptex does (limit/address.h):
+//
 //   const LimitSurface surface(mesh, "catmull-clark");
 //   const LimitSamples samples = surface.evaluate({{.face = 0, .u = 0.5, .v = 0.25}}, 2);
 //   samples.position.row(0), samples.du.row(0), samples.duu.row(0), samples.normal.row(0);
-//   samples.status[0];  // LimitStatus::outside: no such place, all numbers are 0
-//   const std::optional<Curvature> bend = curvature(samples, 0);  // none at extraordinary vertices
+//   samples.status[0];  // LimitStatus::outside: there is no such place, and all numbers are 0
+//   const std::optional<Curvature> bend = curvature(samples, 0);  // absent at extraordinary vertices
 //   bend->k1, bend->k2, bend->gauss, bend->mean;
 //   const PlaceStencils rows = surface.stencils(surface.grid(3));  // .matrices[0] * mesh.positions
 //   const LimitSurface next = surface.with(points_of_another_frame);
 //
-//   const ClosestPoints near = closest(surface, Points{{2, 0, 0}, {0, 1, 3}});
-//   near.points.row(0), near.distances[0], near.places[0], near.normals.row(0);
-//   const RayHits hits = intersect(surface, {{.origin = {0, 0, 9}, .direction = {0, 0, -1}}}, {.all = true});
-//   hits.t.size(), hits.points.row(0);
-//   const Tessellation flat = tessellate(surface, {.chord = 1e-3});
-//   flat.points.row(flat.triangles[t].vertices[0]);
-//   const Points normals = surface.evaluate(flat.places, 1).normal;
+// Nearest points, rays, and triangles near the limit. `closest`, `intersect` and `tessellate` are members of a surface
+// and functions:
 //
-// Tables, once a connectivity, and applied every frame (table.h, which needs the component eval alone):
+//   const ClosestPoints near = surface.closest(Points{{2, 0, 0}, {0, 1, 3}});
+//   near.points.row(0), near.distances[0], near.places[0], near.normals.row(0);
+//   const RayHits hits = surface.intersect({{.origin = {0, 0, 9}, .direction = {0, 0, -1}}}, {.all = true});
+//   hits.t.size(), hits.points.row(0);
+//   write_mesh("triangles.obj", tessellate(mesh, "catmull-clark", {.chord = 1e-3, .normals = true}));
+//   const Tessellation flat = surface.tessellate({.chord = 1e-3});
+//   flat.points.row(flat.triangles[t].vertices[0]), flat.places;
+//
+// Tables: baked once for a connectivity, applied every frame. eval/table.h needs the component eval alone:
 //
 //   bake(mesh, "catmull-clark", {.levels = 3}).save("cube.safetensors");
 //   const Table table = load("cube.safetensors");
 //   std::vector<float> result(table.num_results(3));
-//   table.apply(points, 3, result);  // by all threads
-//   const TableFrame<float> frame(table, points, 3, result);  // by threads of your own:
-//   frame.apply_part(i, n);                                   // any thread, for i = 0 ... n - 1
-//   frame.finish();                                           // after all of them
+//   table.apply(frame, 3, result);  // frame: std::vector<float>; on all threads
+//   const TableFrame<float> parts(table, frame, 3, result);  // on threads of your own:
+//   parts.apply_part(i, n);                                  // any thread, for i = 0 ... n - 1
+//   parts.finish();                                          // one thread, after all of them
 //
-// A scheme of your own is a function of the number type: masks of vertices, edges and faces as expressions of the
-// points around them (scheme/sites.h), in double here, in exact numbers for its report:
+// Fits: meshes whose limit meets points at vertices, or is near to points at places or without order:
+//
+//   const Fit fitted = fit(mesh, "loop", {{.vertex = 0, .position = {0, 0, 1}}});
+//   fitted.mesh, fitted.solved, fitted.why_not;
+//   const CloudFit near_cloud = fit_cloud(surface, {.points = scan});  // scan: Points
+//   write_mesh("fitted.obj", mesh.with_points(near_cloud.points));
+//
+// Classical curves and surfaces from recipes, control meshes of implicit surfaces, and files for CAD:
+//
+//   const Construction cone = construct("cone.json");  // .surfaces(), .curves(), .write("cone.obj")
+//   cone.surfaces().evaluate({{.face = 0, .u = 0.5, .v = 0.5}}, 1);
+//   const ImplicitMesh torus = implicit("torus.json", "catmull-clark", {.tolerance = 1e-3});
+//   torus.mesh, torus.met, torus.largest_distance;
+//   const StepFile written = step(surface, "surface.step");  // or of cone.surfaces()
+//   written.met, written.solids, written.deviation;
+//
+// Information, and reports on smoothness (report/report.h):
+//
+//   const MeshInfo facts = info(mesh, "loop");  // .vertices, .interior_valences, .warnings, .why_not
+//   analyze("loop", {.valences = {3, 5}}).save_html("loop.html");
+//   analyze(mesh, "catmull-clark").save_html("mesh.html");
+//   std::puts(version());
+//
+// A scheme of your own is a function of the number type. Its masks of vertices, edges and faces are expressions of the
+// points around them (scheme/sites.h); `double` makes meshes, exact numbers make the report:
 //
 //   #include <sublimit/certificates/algebraic.h>
 //   template <class T>
@@ -69,128 +106,148 @@
 //   refine(mesh, mine<double>(), 2);
 //   analyze(mine<double>(), mine<Algebraic>()).save_html("mine.html");
 //
-// Data and reports (report/report.h, if the component report is there):
-//
-//   const Fit fit = sublimit::fit(mesh, "loop", {{.vertex = 0, .position = {0, 0, 1}}});
-//   fit.mesh, fit.solved, fit.why_not;
-//   analyze("loop", {.valences = {3, 5}}).save_html("loop.html");
-//   const MeshInfo known = info(mesh, "loop");  // counts, valences, .why_not
-//
-// Functions throw `Error`s (base/error.h): each has a code, and says what is wrong, where, and what would be right.
-// They use all threads of oneTBB. Everything is a value. Surfaces, tables and schemes never change: copies are cheap,
-// and any number of threads may use one.
+// Functions throw `Error`s (base/error.h): each has a code, and a message that says what is wrong, where, and what
+// would be right. Functions use all threads of oneTBB. Surfaces, tables, schemes and constructions never change: copies
+// are cheap, and any number of threads may share one. Meshes and results are plain data.
 #include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "sublimit/base/error.h"
+#include "sublimit/base/version.h"
+#include "sublimit/curves/limit_curve.h"
+#include "sublimit/eval/table.h"
 #include "sublimit/fit/cloud_fit.h"
 #include "sublimit/fit/scattered_fit.h"
 #include "sublimit/io/read_mesh.h"
 #include "sublimit/io/write_mesh.h"
-#include "sublimit/jobs/mesh_info.h"
 #include "sublimit/limit/limit.h"
 #include "sublimit/limit/limit_surface.h"
 #include "sublimit/mesh/make_mesh.h"
+#include "sublimit/scheme/cubic_bspline_creases.h"
 #include "sublimit/scheme/refined_mesh.h"
-#include "sublimit/schemes/cubic_bspline_creases.h"
+#include "sublimit/scheme/scheme_info.h"
 #include "sublimit/search/closest_point.h"
 #include "sublimit/search/intersect.h"
-#include "sublimit/table.h"
+#include "sublimit/stencils/bake/editable_table.h"
+#include "sublimit/stencils/jobs/mesh_info.h"
+#include "sublimit/stencils/recipes/construct.h"
+#include "sublimit/stencils/recipes/implicit.h"
 #include "sublimit/tessellation/tessellate.h"
-#if __has_include("sublimit/report/report.h")  // the component report is linked
+// Headers of components, included if the component is linked:
+#if __has_include("sublimit/report/report.h")
 #include "sublimit/report/report.h"
+#endif
+#if __has_include("sublimit/cad/opencascade/step.h")
+#include "sublimit/cad/opencascade/step.h"
 #endif
 
 namespace sublimit {
 
-/// A control mesh: `positions`, `face_sizes`, `face_vertices`, and what may be absent: `creases`, `corners`, `holes`,
-/// rules, texture coordinates (`face_varying`), names of faces. `make_mesh` makes one of arrays, `read_mesh` of a file.
-using Mesh = ControlMesh;
-
-/// Writes .obj or .ply, with all tags that the format has room for.
-/// @throws InvalidOption  another extension;  InvalidMesh  coordinates that no reader would take back
-/// @throws IoError        unwritable;  ResourceError  a full disk
-inline void write_mesh(const std::filesystem::path& path, const Mesh& mesh) { write_mesh(path, output(mesh)); }
-
 /// Returns level `levels` of a mesh, with its texture coordinates, and with the creases, corners and holes that are
-/// left after so many levels: refining the result continues the refinement.
+/// left on that level: refining the result continues the refinement.
+/// @param levels    0 or more
 /// @param progress  called before each level with its number, if given
 /// @throws InvalidParameter                  negative levels
-/// @throws InvalidMesh, UnsupportedTopology  a mesh that the scheme cannot refine, coordinates that are not finite:
-/// says
-///                                           where
-/// @throws ResourceError                     more memory than there is, predicted before it is taken
-/// @note  Texture coordinates that the scheme cannot refine are left out: `warnings` of the result says why.
+/// @throws InvalidMesh, UnsupportedTopology  the scheme cannot refine the mesh, coordinates are not finite; the message
+///                                           says where
+/// @throws ResourceError                     not enough memory, predicted before it is taken
+/// @note  All channels of `Mesh::face_varying` are refined. `warnings` of the result says what keeps the mesh from
+/// being
+///        a manifold, and why channels that the scheme cannot refine are left out.
 [[nodiscard]] Mesh refine(const Mesh& mesh, const AnyScheme& scheme, int levels,
                           const std::function<void(int)>& progress = {});
 
-/// Returns levels 0 to `levels`: of each its connectivity, and the matrix `S` that makes its points from those of the
-/// level before (empty for level 0).
+/// Returns levels 0 to `levels`, each with its connectivity and the matrix `S` that makes its points from those of the
+/// previous level (empty for level 0).
 /// @throws as `refine`
 [[nodiscard]] std::vector<Level> levels(const Mesh& mesh, const AnyScheme& scheme, int levels);
 
-/// Returns the matrix that makes the points of level `levels` from the control points, #points x #control points.
+/// Returns the matrix that makes the points of level `levels` from the control points: #points x #control points.
 /// @throws as `refine`
 [[nodiscard]] SparseMatrix subdivision_matrix(const Mesh& mesh, const AnyScheme& scheme, int levels);
 
 /// Returns counts, valences, rules in force and warnings of a mesh.
 [[nodiscard]] MeshInfo info(const Mesh& mesh);
-/// Returns the same, and whether a scheme can refine the mesh: if not, `why_not` says why.
-[[nodiscard]] MeshInfo info(const Mesh& mesh, const AnyScheme& scheme);
+/// Options of `info`.
+struct InfoOptions {
+  bool limit = false;  ///< compute area, volume and other integrals of the limit too, which takes time
+};
+/// Returns counts, valences, rules and warnings of a mesh, and in `why_not` why a scheme cannot refine it, if so.
+/// @throws as `LimitSurface`  if `options.limit`
+[[nodiscard]] MeshInfo info(const Mesh& mesh, const AnyScheme& scheme, const InfoOptions& options = {});
 
-/// What points a table makes: one of levels, grid and places.
+/// Points that a table makes. Set one of levels, grid and places.
 struct BakeOptions {
-  std::optional<int> levels = {};   ///< points of this level, 1 to 11; 0 to 11 if `limit` is set
-  bool limit = false;               ///< the limits of these points instead
-  std::optional<int> grid = {};     ///< N x N places on each face, sides included, N from 2 to 2048
-  std::vector<Sample> places = {};  ///< places on the limit
-  std::vector<Index> face_sizes = {}, face_vertices = {};  ///< faces between the places, as triangles of `tessellate`
-  int derivatives = 0;                                     ///< of the limit: 0, 1 or 2
-  bool in_double = false;                                  ///< weights of 64 bits; else of 32
+  std::optional<int> levels = {};  ///< vertices of this level, 1 to 11; 0 to 11 if `limit` is set
+  bool limit = false;              ///< with `levels`: limits of the vertices instead of their positions on the level
+  std::optional<int> grid = {};    ///< N x N places on each face, sides included, N from 2 to 2048
+  std::vector<Place> places = {};  ///< places on the limit, for example those of a `Tessellation`
+  /// With `places`: faces between them, as the number of corners of each face, and the places at all corners, face by
+  /// face. Optional: `Table::faces` returns them.
+  std::vector<Index> face_sizes = {}, face_vertices = {};
+  int derivatives = 0;     ///< order of derivatives of the limit: 0, 1 (du, dv) or 2 (duu, duv, dvv too)
+  bool in_double = false;  ///< true: weights in double; false: in float, half the memory
+  bool order = false;      ///< with levels: keep which vertex of `refine` each point is, `Table::refined_points`
 };
 
-/// Bakes a table: weights over the control points, made once for a connectivity and its tags.
+/// Bakes a table: weights over the control points for a connectivity and its tags. Positions do not matter.
 /// @throws InvalidParameter                  none of levels, grid and places, or several; numbers outside their range
-/// @throws InvalidMesh, UnsupportedTopology  a mesh that the scheme cannot refine: says where
-/// @throws ResourceError                     more memory than there is, predicted before it is taken
-/// @note  Points of levels have an order of the table's own, not that of `refine`: `Table::faces` has the faces between
-///        them. Those of grids stand face by face, u fastest; places as they are given.
+/// @throws InvalidMesh, UnsupportedTopology  the scheme cannot refine the mesh; the message says where
+/// @throws ResourceError                     not enough memory, predicted before it is taken
+/// @note  Points of levels are in an order of the table, not in that of `refine`; `Table::faces` has the faces between
+///        them, and `Table::refined_points` the point of each vertex of `refine` if `order` is set. Points of grids are
+///        ordered face by face, u fastest; places keep their order.
 [[nodiscard]] Table bake(const Mesh& mesh, const AnyScheme& scheme, const BakeOptions& options);
 
+/// Bakes a table of classical patches. Level k consists of the control nets after halving every knot span k times.
+/// @throws InvalidParameter     none of levels, grid and places, or several; `limit`, which patches do not have
+/// @throws UnsupportedTopology  levels of patches that have no nets
+/// @throws ResourceError        not enough memory, predicted before it is taken
+/// @note  A table of rational patches takes points (w x, w y, w z, w); see `Table::apply`.
+[[nodiscard]] Table bake(const Patches& patches, const BakeOptions& options);
+
+/// Returns triangles near the limit as a mesh, with the texture coordinates of the mesh and, if `options.normals`, a
+/// normal at each corner. `face_ids` of the result are the faces of the mesh that the triangles lie on.
+/// @throws as `LimitSurface` and `tessellate` of a surface
+[[nodiscard]] Mesh tessellate(const Mesh& mesh, const AnyScheme& scheme, const TessellationOptions& options);
+
+/// Options of `fit`.
 struct FitOptions {
-  Fairness fairness =
-      {};  ///< decides what the targets leave free; none: the mesh stays as near to the given one as it can
-  /// Refinements, each of which adds control points: as few as meet the targets.
+  /// Energy to minimise among meshes that meet the targets. Default, all weights 0: the mesh stays near the given one.
+  Fairness fairness = {};
+  /// Range of the number of refinements before the fit, each of which adds control points. The least number that meets
+  /// all targets is taken.
   int least_refinements = 0, most_refinements = 2;
 };
 
 /// A mesh whose limit meets targets at vertices.
 struct [[nodiscard]] Fit {
-  Mesh mesh;
-  bool solved = false;             ///< all targets are met to rounding
-  std::string why_not;             ///< which are not, in words
-  int refinements = 0;             ///< of the given mesh
-  Eigen::VectorXd position_error;  ///< distance, by target
-  Eigen::VectorXd normal_error;    ///< radians, by target; not a number where no normal was asked for
+  Mesh mesh;                       ///< the fitted mesh
+  bool solved = false;             ///< true if all targets are met to rounding
+  std::string why_not;             ///< which targets are not met, in words; empty if solved
+  int refinements = 0;             ///< refinements of the given mesh
+  Eigen::VectorXd position_error;  ///< distance of each target from the limit
+  Eigen::VectorXd normal_error;    ///< angle to the normal of each target, in radians; NaN where none was given
 };
 
-/// Finds a mesh whose limit has given vertices at given points, with given normals.
-/// @throws InvalidParameter                  a vertex that does not exist, or with two targets; numbers that are not
-///                                           finite
-/// @throws InvalidMesh, UnsupportedTopology  a mesh that the scheme cannot refine: says where
+/// Computes a mesh whose limit has given positions and normals at given vertices.
+/// @throws InvalidParameter                  no targets; a vertex that does not exist, or with two targets; a target
+///                                           with a curvature; numbers that are not finite
+/// @throws InvalidMesh, UnsupportedTopology  the scheme cannot refine the mesh; the message says where
 [[nodiscard]] Fit fit(const Mesh& mesh, const AnyScheme& scheme, const std::vector<VertexTarget>& targets,
                       const FitOptions& options = {});
 
-/// Finds control points whose limit comes near to given points at given places, by least squares.
-/// @throws InvalidParameter  a place on no face, numbers that are not finite: says which
+/// Computes control points whose limit is as near as possible to given points at given places, by least squares.
+/// @throws InvalidParameter  no targets, a place on no face, numbers that are not finite; the message says which
 inline ScatteredFit fit_places(const LimitSurface& surface, const PlaceTargets& targets,
                                const ScatteredFitOptions& options = {}) {
+  if (targets.places.empty()) throw InvalidParameter("no targets; one is needed at least");
   return fit_places(surface.map(), targets, surface.points(), options);
 }
 
-/// Finds control points whose limit is near to points without order.
+/// Computes control points whose limit is near to a cloud of points, by repeated projection and least squares.
 /// @throws InvalidParameter  no points, numbers that are not finite
 inline CloudFit fit_cloud(const LimitSurface& surface, const Cloud& cloud, const CloudFitOptions& options = {}) {
   return fit_cloud(surface.map(), cloud, surface.points(), options);

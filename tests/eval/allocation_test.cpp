@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "sublimit/pattern_evaluator.h"
+#include "sublimit/eval/pattern_evaluator.h"
 #include "support/random_tables.h"
 
 namespace sublimit::testing {

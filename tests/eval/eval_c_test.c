@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* The C interface as C sees it. Each check returns null, or what is not as it should be. */
-#include "sublimit/eval.h"
+#include "sublimit/eval/eval.h"
 
 #include <string.h>
 

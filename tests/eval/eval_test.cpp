@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sublimit/eval.h"
+#include "sublimit/eval/eval.h"
 
 #include <gtest/gtest.h>
 
@@ -10,10 +10,10 @@
 #include <string>
 #include <thread>
 
-#include "sublimit/baked_table.h"
+#include "sublimit/eval/baked_table.h"
 #include "sublimit/base/error.h"
-#include "sublimit/eval_handle.h"
-#include "sublimit/table_file.h"
+#include "sublimit/eval/detail/eval_handle.h"
+#include "sublimit/eval/table_file.h"
 #include "support/temporary_directory.h"
 
 extern "C" {

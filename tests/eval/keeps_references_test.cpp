@@ -9,11 +9,13 @@
 #include <utility>
 #include <vector>
 
-#include "sublimit/base/read_file.h"
-#include "sublimit/pattern_evaluator.h"
-#include "sublimit/shared_array.h"
-#include "sublimit/table_file.h"
-#include "sublimit/table_tensors.h"
+#include "sublimit/base/detail/read_file.h"
+#include "sublimit/eval/pattern_evaluator.h"
+#include "sublimit/eval/shared_array.h"
+#include "sublimit/eval/table_file.h"
+#include "sublimit/eval/detail/packed_blocks.h"
+#include "sublimit/eval/detail/pattern_transpose.h"
+#include "sublimit/eval/detail/table_tensors.h"
 #include "support/temporary_directory.h"
 
 namespace sublimit::testing {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Our tables by OpenSubdiv's evaluators, and its stencils by ours.
-#include "sublimit/opensubdiv_stencils.h"
+#include "sublimit/eval/opensubdiv_stencils.h"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 #include "eval/table_samples.h"
 #include "sublimit/base/error.h"
 #include "sublimit/scheme/refine.h"
-#include "sublimit/schemes.h"
+#include "sublimit/schemes/schemes.h"
 #include "support/expect_error.h"
 #include "support/meshes.h"
 #include "support/opensubdiv_stencils_reference.h"
@@ -51,7 +51,7 @@ TEST(OpenSubdivStencils, AreEvaluatedWithDerivatives) {
 }
 
 TEST(OpenSubdivStencils, RunSchemesThatOpenSubdivLacks) {
-  const ControlMesh mesh = torus(8, 6);
+  const Mesh mesh = torus(8, 6);
   for (const char* scheme : {"doo-sabin", "kobbelt"}) {
     const SparseMatrix P = refinement_matrix(refine(find_scheme(scheme).value(), mesh, 2));
     const auto entries = size_t(P.nonZeros());
@@ -82,7 +82,7 @@ TEST(OpenSubdivStencils, BecomeRowsAgain) {
 }
 
 TEST(OpenSubdivStencils, OfFarAreRows) {
-  const ControlMesh mesh = cube();
+  const Mesh mesh = cube();
   const std::vector<double> points = random_points<double>(8);
   const FarRows far = far_rows(mesh, 3, points);
   ASSERT_EQ(far.rows.num_rows(), 386);

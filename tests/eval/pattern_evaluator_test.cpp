@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sublimit/pattern_evaluator.h"
+#include "sublimit/eval/pattern_evaluator.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
@@ -10,7 +10,7 @@
 #include <thread>
 
 #include "sublimit/base/error.h"
-#include "sublimit/kernels/apply_patches.h"
+#include "sublimit/eval/kernels/apply_patches.h"
 #include "support/expect_error.h"
 #include "support/random_tables.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sublimit/pattern_table.h"
+#include "sublimit/eval/pattern_table.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "sublimit/base/error.h"
-#include "sublimit/pattern_evaluator.h"
+#include "sublimit/eval/pattern_evaluator.h"
 #include "support/expect_error.h"
 
 namespace sublimit::testing {

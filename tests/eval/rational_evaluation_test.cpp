@@ -6,9 +6,9 @@
 #include <limits>
 
 #include "sublimit/base/error.h"
-#include "sublimit/eval_handle.h"
-#include "sublimit/kernels/apply_patches.h"
-#include "sublimit/pattern_evaluator.h"
+#include "sublimit/eval/detail/eval_handle.h"
+#include "sublimit/eval/kernels/apply_patches.h"
+#include "sublimit/eval/pattern_evaluator.h"
 #include "support/expect_error.h"
 #include "support/random_tables.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sublimit/table_file.h"
+#include "sublimit/eval/table_file.h"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -9,8 +9,8 @@
 
 #include "eval/table_samples.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/read_file.h"
-#include "sublimit/safetensors.h"
+#include "sublimit/base/detail/read_file.h"
+#include "sublimit/eval/detail/safetensors.h"
 #include "support/expect_error.h"
 #include "support/temporary_directory.h"
 

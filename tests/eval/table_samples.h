@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "sublimit/baked_table.h"
-#include "sublimit/table_file.h"
+#include "sublimit/eval/baked_table.h"
+#include "sublimit/eval/table_file.h"
 
 namespace sublimit::testing {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sublimit/verify_table.h"
+#include "sublimit/eval/detail/verify_table.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 
 #include "eval/table_samples.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/read_file.h"
-#include "sublimit/safetensors.h"
+#include "sublimit/base/detail/read_file.h"
+#include "sublimit/eval/detail/safetensors.h"
 #include "support/expect_error.h"
 #include "support/temporary_directory.h"
 

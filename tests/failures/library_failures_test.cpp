@@ -21,39 +21,39 @@
 #include <vector>
 
 #include "failures/failing_memory.h"
-#include "sublimit/bake/bake.h"
-#include "sublimit/bake/editable_table.h"
+#include "sublimit/stencils/bake/detail/bake.h"
+#include "sublimit/stencils/bake/detail/pattern_edits.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/read_file.h"
+#include "sublimit/base/detail/read_file.h"
 #include "sublimit/cad/limit_model.h"
-#include "sublimit/certificates/c1_certificate.h"
-#include "sublimit/certificates/exact_schemes.h"
-#include "sublimit/certificates/out_of_memory.h"
-#include "sublimit/curves/curve_limits.h"
+#include "sublimit/certificates/detail/c1_certificate.h"
+#include "sublimit/certificates/detail/exact_schemes.h"
+#include "sublimit/certificates/detail/out_of_memory.h"
+#include "sublimit/curves/detail/curve_limits.h"
 #include "sublimit/curves/limit_curve.h"
 #include "sublimit/curves/schemes/curve_schemes.h"
-#include "sublimit/eval.h"
-#include "sublimit/files/export_table.h"
+#include "sublimit/eval/eval.h"
+#include "sublimit/stencils/files/export_table.h"
 #include "sublimit/fit/cloud_fit.h"
-#include "sublimit/fit/interpolate.h"
+#include "sublimit/fit/detail/interpolate.h"
 #include "sublimit/fit/scattered_fit.h"
 #include "sublimit/geometric/geometric_schemes.h"
 #include "sublimit/geometric/thinning.h"
-#include "sublimit/io/obj.h"
+#include "sublimit/io/detail/obj.h"
 #include "sublimit/io/read_mesh.h"
 #include "sublimit/io/write_mesh.h"
-#include "sublimit/limit/limit_points.h"
+#include "sublimit/limit/detail/limit_points.h"
 #include "sublimit/limit/limit_surface.h"
-#include "sublimit/limit/limit_types.h"
-#include "sublimit/pattern_evaluator.h"
-#include "sublimit/patterns/pattern_file.h"
-#include "sublimit/recipes/recipe_sources.h"
-#include "sublimit/schemes.h"
+#include "sublimit/limit/detail/limit_cache.h"
+#include "sublimit/eval/pattern_evaluator.h"
+#include "sublimit/stencils/patterns/pattern_file.h"
+#include "sublimit/stencils/recipes/detail/recipe_sources.h"
+#include "sublimit/schemes/schemes.h"
 #include "sublimit/scheme/refined_mesh.h"
 #include "sublimit/search/closest_point.h"
 #include "sublimit/search/intersect.h"
 #include "sublimit/subdivide.h"
-#include "sublimit/table_file.h"
+#include "sublimit/eval/table_file.h"
 #include "sublimit/tessellation/tessellate.h"
 #include "support/full_sweep.h"
 #include "support/meshes.h"
@@ -136,19 +136,19 @@ class LackOfMemory : public ::testing::Test {
 
   tbb::global_control one_thread_{tbb::global_control::max_allowed_parallelism, 1};
   TemporaryDirectory directory_;
-  const ControlMesh quads_ = [] {
-    ControlMesh mesh = jittered(cube());
+  const Mesh quads_ = [] {
+    Mesh mesh = jittered(cube());
     add_crease(mesh, {0, 1, 3}, 1.5F);
     return mesh;
   }();
-  const ControlMesh triangles_ = jittered(octahedron());
+  const Mesh triangles_ = jittered(octahedron());
   const Scheme<double> catmull_clark_ = find_scheme("catmull-clark").value();
 };
 
 TEST_F(LackOfMemory, InFilesOfMeshesIsAnError) {
   for (const char* name : {"mesh.obj", "mesh.ply", "mesh.off"}) {
     const std::filesystem::path path = directory_ / name;
-    const MeshOutput mesh = output(quads_);
+    const Mesh mesh = quads_;
     if (path.extension() == ".off") {
       directory_.write(name, "OFF\n4 1 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n");
     } else {
@@ -166,11 +166,11 @@ TEST_F(LackOfMemory, InFilesOfMeshesIsAnError) {
 
 TEST_F(LackOfMemory, InRefinementAndLimitsIsAnErrorUnderEveryScheme) {
   for (const Scheme<double>& scheme : all_schemes<double>()) {
-    ControlMesh plain = scheme.face_size() == 3 ? triangles_ : quads_;
+    Mesh plain = scheme.face_size() == 3 ? triangles_ : quads_;
     plain.creases.clear();
-    LimitTypes kept(scheme);
+    LimitCache kept(scheme);
     expect_survives_failures("limit of " + scheme.name, [&] {
-      LimitTypes fresh(scheme);
+      LimitCache fresh(scheme);
       const std::vector<Level> levels = refine(scheme, plain, 1);
       const Points points = refinement_matrix(levels) * plain.positions;
       const auto once = limit_points(limit_matrices(levels[1], fresh), levels[1].topology(), points);
@@ -208,7 +208,7 @@ TEST_F(LackOfMemory, DoesNotMatterToALevelThatIsMoved) {
 }
 
 TEST_F(LackOfMemory, OnSurfacesIsAnError) {
-  const std::vector<Sample> places{{0, 0.25, 0.5}, {1, 0, 0}, {5, 1e-6, 1e-7}, {3, 1, 0.125}};
+  const std::vector<Place> places{{0, 0.25, 0.5}, {1, 0, 0}, {5, 1e-6, 1e-7}, {3, 1, 0.125}};
   expect_survives_failures("LimitMap", [&] {
     const LimitMap surface(catmull_clark_, quads_);
     return bits(surface.evaluate(quads_.positions, places, 2).position);
@@ -247,7 +247,7 @@ TEST_F(LackOfMemory, OnCurvesIsAnError) {
       CurveAnalysis fresh(scheme);
       const auto levels = refine(scheme, polygon, 2);
       const LimitCurve curve(scheme, polygon);
-      const std::vector<CurveSample> places = curve.grid(3);
+      const std::vector<CurvePlace> places = curve.grid(3);
       return bits(SparseMatrix(fresh.limits(levels[2]).position)) +
              bits(SparseMatrix(kept.limits(levels[2]).position)) + bits(curve.evaluate(points, places, 1).position);
     });
@@ -302,11 +302,11 @@ TEST_F(LackOfMemory, OfTablesIsAnError) {
   });
 
   Patterns patterns(catmull_clark_);
-  ControlMesh plain = quads_;
+  Mesh plain = quads_;
   plain.creases.clear();
-  EditableTable<double> editable(patterns, plain, 2);
-  expect_survives_failures("EditableTable::edit", [&] {
-    EditableTable<double> made(patterns, plain, 2);
+  PatternEdits<double> editable(patterns, plain, 2);
+  expect_survives_failures("PatternEdits::edit", [&] {
+    PatternEdits<double> made(patterns, plain, 2);
     MeshEdit sharp, smooth;
     sharp.creases = {{0, 1, 2}};
     smooth.creases = {{0, 1, 0}};
@@ -373,7 +373,7 @@ TEST_F(LackOfMemory, InRecipesIsAnError) {
   expect_survives_failures("recipes", [&] {
     const std::vector<Recipe> recipes = parse_recipes(text, "spindle.json");
     const RecipePatches patches = recipe_patches(recipes, "spindle.json");
-    const std::vector<Sample> places{{0, 0.5, 0.5}, {1, 0.25, 0.75}};
+    const std::vector<Place> places{{0, 0.5, 0.5}, {1, 0.25, 0.75}};
     return bits(patches.columns) + bits(patches.patches.evaluate(patches.columns, places, 1).position);
   });
 }

@@ -8,9 +8,9 @@
 #include <string_view>
 
 #include "sublimit/base/error.h"
-#include "sublimit/recipes/field_recipe.h"
-#include "sublimit/recipes/net_file.h"
-#include "sublimit/recipes/recipe.h"
+#include "sublimit/stencils/recipes/detail/field_recipe.h"
+#include "sublimit/stencils/recipes/detail/net_file.h"
+#include "sublimit/stencils/recipes/detail/recipe.h"
 
 namespace sublimit {
 namespace {
@@ -21,12 +21,12 @@ void require_recipe(bool holds) {
 
 void check_recipe(const Recipe& recipe) {
   if (const RecipeCurve* const curve = recipe.curve()) {
-    const CurveSample places[] = {{0, 0}, {curve->curve->num_segments() - 1, 0.7}};
+    const CurvePlace places[] = {{0, 0}, {curve->curve->num_segments() - 1, 0.7}};
     const CurveSamples at = curve->curve->evaluate(curve->columns, places, 2, curve->coordinates);
     require_recipe(at.position.rows() == 2);
   }
   if (const RecipeSurface* const surface = recipe.surface()) {
-    const Sample places[] = {{0, 0, 0}, {surface->patch->faces().size - 1, 0.25, 0.5}};
+    const Place places[] = {{0, 0, 0}, {surface->patch->faces().size - 1, 0.25, 0.5}};
     const LimitSamples at = surface->patch->evaluate(surface->columns, places, 2, surface->coordinates);
     require_recipe(at.position.rows() == 2);
   }

@@ -12,7 +12,7 @@ if(NOT TARGET)
   set(part "")
   if(NOT WHOLE)
     set(part -DSUBLIMIT_REST_OF_LIBRARY=${BUILD}/lib/libsublimit_lib.a
-        "-DSUBLIMIT_LIB_WITHOUT=/lib/sublimit/((cad|fit|primvar|curves|search|tessellation|patches|geometric|implicit)/|core/(dense_decompositions|complex_decompositions|sparse_lu)[.]cpp$)")
+        "-DSUBLIMIT_LIB_WITHOUT=/lib/sublimit/((cad|fit|primvar|curves|search|tessellation|patches|geometric|implicit)/|core/detail/(dense_decompositions|complex_decompositions|sparse_lu)[.]cpp$)")
   endif()
   run(${CMAKE_COMMAND} -S ${SOURCE} -B ${binary} -G Ninja -DCMAKE_BUILD_TYPE=Release "-DCMAKE_CXX_FLAGS_RELEASE=-O1 -g1 -DHWY_COMPILE_ONLY_STATIC"
       -DCMAKE_CXX_COMPILER=clang++-14 -DSUBLIMIT_BUILD_PROGRAM=OFF

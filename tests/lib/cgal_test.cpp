@@ -23,7 +23,7 @@
 namespace sublimit::testing {
 namespace {
 
-Matching against_cgal(const std::string& scheme, CgalScheme peer, const ControlMesh& mesh, int levels,
+Matching against_cgal(const std::string& scheme, CgalScheme peer, const Mesh& mesh, int levels,
                       Boundary boundary = Boundary::edge_only) {
   return match(our_mesh(scheme, mesh, levels, boundary), cgal_refine(mesh, peer, levels));
 }
@@ -54,9 +54,9 @@ TEST(CgalVariants, CoincideOnRegularMeshesOnly) {
   struct Variant {
     std::string scheme;
     CgalScheme sister;
-    ControlMesh same, different;
+    Mesh same, different;
   };
-  const ControlMesh quads = torus(5, 4);
+  const Mesh quads = torus(5, 4);
   for (const Variant& v : {Variant{"loop-warren", CgalScheme::loop, triangle_torus(5, 4), octahedron()},
                            Variant{"loop-warren", CgalScheme::loop, tetrahedron(), icosahedron()},
                            Variant{"averaging", CgalScheme::catmull_clark, quads, prism(5)},
@@ -70,7 +70,7 @@ TEST(CgalVariants, CoincideOnRegularMeshesOnly) {
 }
 
 TEST(CgalBorders, HaveNoCorners) {
-  const ControlMesh mesh = jittered(grid(5, 4));
+  const Mesh mesh = jittered(grid(5, 4));
   const OurMesh ours = our_mesh("catmull-clark", mesh, 1, Boundary::edge_and_corner);
   const Matching m = match(ours, cgal_refine(mesh, CgalScheme::catmull_clark, 1));
   const Topology& control = ours.levels[0].topology();
@@ -88,7 +88,7 @@ TEST(CgalBorders, HaveNoCorners) {
 }
 
 TEST(CgalBorders, OfDooSabinAreCutOff) {
-  const ControlMesh mesh = jittered(grid(5, 4));
+  const Mesh mesh = jittered(grid(5, 4));
   const OurMesh ours = our_mesh("doo-sabin", mesh, 1);
   const PeerMesh theirs = cgal_refine(mesh, CgalScheme::doo_sabin, 1);
   const Topology& control = ours.levels[0].topology();

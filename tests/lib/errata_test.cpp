@@ -9,10 +9,10 @@
 #include <numeric>
 #include <vector>
 
-#include "sublimit/core/dense_decompositions.h"
-#include "sublimit/limit/limit_points.h"
+#include "sublimit/core/detail/dense_decompositions.h"
+#include "sublimit/limit/detail/limit_points.h"
 #include "sublimit/scheme/refine.h"
-#include "sublimit/schemes.h"
+#include "sublimit/schemes/schemes.h"
 #include "support/closed_form.h"
 #include "support/expect_error.h"
 #include "support/match_meshes.h"
@@ -30,7 +30,7 @@ using namespace misread;
 LocalType vertex_of(int n) { return {.kind = Centre::Kind::vertex, .faces = n}; }
 LocalType face_of(int n) { return {.kind = Centre::Kind::face, .faces = n}; }
 Plane plane(const Scheme<double>& scheme, const LocalType& type) {
-  return lone_limit(scheme, type)->masks.sides.at(0).plane;
+  return isolated_limit(scheme, type)->masks.sides.at(0).plane;
 }
 
 // "sqrt(3) interpolates: centroids and flipped edges." Without relaxation old vertices are spikes, regular ones too:
@@ -109,7 +109,7 @@ TEST(Errata, DooSabinsMeanOfFourHasTheWeightsWithCosinesOnQuadsOnly) {
 // 1/4, 1/2, 1/4 on three corners.
 TEST(Errata, TwoMidEdgeStepsHaveTheConnectivityOfDooSabinAndNotItsPositions) {
   const Scheme<double> three_corners = doo_sabin_of_three_corners<double>();
-  for (const ControlMesh& mesh : {jittered(prism(5)), jittered(octahedron()), jittered(torus(4, 5))}) {
+  for (const Mesh& mesh : {jittered(prism(5)), jittered(octahedron()), jittered(torus(4, 5))}) {
     const OurMesh twice = our_mesh("mid-edge", mesh, 2);
     const auto compare = [&](const Scheme<double>& scheme) {
       const Level once = refine(scheme, mesh, 1)[1];
@@ -159,7 +159,7 @@ TEST(Errata, CatmullClarkWithTheMeanOfNewEdgePointsIsNoBSpline) {
 // With the midpoints of the old edges these words are our rule, at all valences and whatever the faces: F + 2 R is the
 // mean of the neighbours and of the face points, and v once more.
 TEST(Errata, CatmullClarkWithTheMeanOfOldMidpointsIsTheRule) {
-  for (const ControlMesh& mesh : {prism(5), prism(7), octahedron(), icosahedron(), fan(8)}) {
+  for (const Mesh& mesh : {prism(5), prism(7), octahedron(), icosahedron(), fan(8)}) {
     const Eigen::MatrixXd S(refine(catmull_clark_with_old_midpoints<double>(), mesh, 1)[1].S);
     const Eigen::MatrixXd T(refine(find_scheme("catmull-clark").value(), mesh, 1)[1].S);
     EXPECT_LE((S - T).cwiseAbs().maxCoeff(), rounding(16));
@@ -180,7 +180,7 @@ TEST(Errata, LoopWithBetaDividedTwiceMakesSpikes) {
 TEST(Errata, ModifiedButterflyWithItsSpecialRuleAtValenceSixIsNoButterfly) {
   const Scheme<double> wrong = modified_butterfly_with_one_formula<double>();
   const auto difference = [&](const SchemeOptions& options) {
-    const ControlMesh mesh = triangle_torus(6, 7);
+    const Mesh mesh = triangle_torus(6, 7);
     const Eigen::MatrixXd S(refine(wrong, mesh, 1)[1].S);
     const Eigen::MatrixXd T(refine(find_scheme("modified-butterfly", options).value(), mesh, 1)[1].S);
     return (S - T).cwiseAbs().maxCoeff();
@@ -226,7 +226,7 @@ TEST(Errata, KobbeltsTwoWaysDifferBetweenExtraordinaryVertices) {
 // "Three vertices and a virtual one" on borders is one of two rules. With the four-point rule the border curve does not
 // depend on the inside; with virtual vertices it does, unless border vertices are regular.
 TEST(Errata, ButterflyBordersDependOnTheInsideWithVirtualVerticesOnly) {
-  const auto reaches_inside = [](const char* rule, const ControlMesh& mesh) {
+  const auto reaches_inside = [](const char* rule, const Mesh& mesh) {
     const Scheme<double> scheme = find_scheme("modified-butterfly", {{"boundary-rule", rule}}).value();
     SubdivisionOptions options;
     options.boundary = Boundary::edge_only;
@@ -256,7 +256,7 @@ TEST(Errata, StepsMakeTheCountsOfTheirSplit) {
     std::vector<std::string> schemes;
     Index vertices, edges, faces;
   };
-  const auto check = [](const ControlMesh& mesh, const std::vector<Counts>& all) {
+  const auto check = [](const Mesh& mesh, const std::vector<Counts>& all) {
     for (const Counts& counts : all)
       for (const std::string& name : counts.schemes) {
         const Level level = refine(find_scheme(name).value(), mesh, 1)[1];
@@ -265,14 +265,14 @@ TEST(Errata, StepsMakeTheCountsOfTheirSplit) {
         EXPECT_EQ(level.topology().num_faces(), counts.faces) << name;
       }
   };
-  for (const ControlMesh& mesh : {prism(5), prism(3), octahedron(), cube(), torus(4, 3)}) {
+  for (const Mesh& mesh : {prism(5), prism(3), octahedron(), cube(), torus(4, 3)}) {
     const Topology t(view(mesh));
     const Index V = t.num_vertices(), E = t.num_edges(), F = t.num_faces();
     check(mesh, {{{"catmull-clark", "bilinear", "averaging"}, V + E + F, 4 * E, 2 * E},
                  {{"doo-sabin", "doo-sabin-averaging"}, 2 * E, 4 * E, V + E + F},
                  {{"mid-edge", "mid-edge-habib-warren"}, E, 2 * E, V + F}});
   }
-  for (const ControlMesh& mesh : {octahedron(), tetrahedron(), icosahedron(), triangle_torus(3, 4)}) {
+  for (const Mesh& mesh : {octahedron(), tetrahedron(), icosahedron(), triangle_torus(3, 4)}) {
     const Topology t(view(mesh));
     const Index V = t.num_vertices(), E = t.num_edges(), F = t.num_faces();
     check(mesh, {{{"loop", "loop-warren", "butterfly", "modified-butterfly"}, V + E, 2 * E + 3 * F, 4 * F},
@@ -283,7 +283,7 @@ TEST(Errata, StepsMakeTheCountsOfTheirSplit) {
 // "A second Doo-Sabin step is needed until the number of other polygons stays": the first is enough. A V-face joins the
 // points around an old vertex, as many as its valence.
 TEST(Errata, DooSabinHasItsPolygonsAfterOneStep) {
-  for (const ControlMesh& mesh : {prism(5), octahedron(), icosahedron(), quads_from_triangles(tetrahedron())}) {
+  for (const Mesh& mesh : {prism(5), octahedron(), icosahedron(), quads_from_triangles(tetrahedron())}) {
     const std::vector<Level> levels = refine(find_scheme("doo-sabin").value(), mesh, 3);
     const Topology& control = levels[0].topology();
     int expected = num_polygons(control);
@@ -299,10 +299,10 @@ TEST(Errata, DooSabinHasItsPolygonsAfterOneStep) {
 // "A non-singular formulation of interpolation exists" for Catmull-Clark, but not as one control point for each vertex:
 // alternating corners of a cube leave no trace in the limit.
 TEST(Errata, InterpolatingTheCubeIsSingular) {
-  const auto limits = [](const std::string& name, const ControlMesh& mesh) {
+  const auto limits = [](const std::string& name, const Mesh& mesh) {
     const Scheme<double> scheme = find_scheme(name).value();
     const Level level = control_level(scheme, mesh);
-    LimitTypes cache(scheme);
+    LimitCache cache(scheme);
     return Eigen::MatrixXd(limit_matrices(level, cache).position);
   };
   const auto smallest = [](const Eigen::MatrixXd& L) { return symmetric_eigenvalues(L); };

@@ -14,7 +14,7 @@ TEST_P(EveryRay, HitsTheSharedMeshes) {
   if (shared_meshes().empty())
     GTEST_SKIP() << "NO SHARED MESHES at " << SUBLIMIT_SHARED_MESHES << ": no rays at 122 meshes";
   for (const SharedMesh& shared : shared_meshes()) {
-    const ControlMesh mesh = read_mesh(shared.path);
+    const Mesh mesh = read_mesh(shared.path);
     if (mesh.num_faces() <= (full_sweep() ? 400 : 3)) look_at_mesh(mesh, shared.name);
   }
   EXPECT_GT(rays_, 100);

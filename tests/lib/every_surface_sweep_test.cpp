@@ -11,9 +11,9 @@
 #include "sublimit/base/error.h"
 #include "sublimit/io/read_mesh.h"
 #include "sublimit/limit/limit_map.h"
-#include "sublimit/limit/limit_types.h"
-#include "sublimit/scheme/prepare.h"
-#include "sublimit/schemes.h"
+#include "sublimit/limit/detail/limit_cache.h"
+#include "sublimit/scheme/detail/prepare.h"
+#include "sublimit/schemes/schemes.h"
 #include "support/limits_at_thirds.h"
 #include "support/shared_meshes.h"
 #include "support/tolerance.h"
@@ -48,16 +48,16 @@ std::string wrong_with(const LimitStencil& s, int order) {
 }
 
 /// Corners, middles of sides, and random places of some addresses, spread over the mesh.
-std::vector<Sample> places(const Addresses& addresses, Index most, std::mt19937& random) {
+std::vector<Place> places(const Addresses& addresses, Index most, std::mt19937& random) {
   std::uniform_real_distribution<double> unit(0, 1);
-  std::vector<Sample> result;
+  std::vector<Place> result;
   const Index stride = std::max<Index>(1, addresses.size() / most);
   for (Index f = Index(random() % std::uint32_t(stride)); f < addresses.size(); f += stride) {
     const bool triangles = addresses.triangles();
     result.insert(result.end(), {{f, 0, 0}, {f, 1, 0}, {f, 0, 1}, {f, 0.5, 0}, {f, 0, 0.5}});
-    result.push_back(triangles ? Sample{f, 0.5, 0.5} : Sample{f, 1, 1});
+    result.push_back(triangles ? Place{f, 0.5, 0.5} : Place{f, 1, 1});
     const double u = unit(random), v = unit(random);
-    result.push_back(triangles && u + v > 1 ? Sample{f, 1 - u, 1 - v} : Sample{f, u, v});
+    result.push_back(triangles && u + v > 1 ? Place{f, 1 - u, 1 - v} : Place{f, u, v});
     result.push_back({f, 1e-9 * unit(random), 1e-9 * unit(random)});
   }
   return result;
@@ -67,12 +67,12 @@ TEST_P(EverySurface, HasStencilsOnTheSharedMeshes) {
   if (shared_meshes().empty())
     GTEST_SKIP() << "NO SHARED MESHES at " << SUBLIMIT_SHARED_MESHES << ": 122 meshes have no limit surfaces";
   const Scheme<double> scheme = *find_scheme(GetParam());
-  const auto types = std::make_shared<LimitTypes>(scheme, 4096);
+  const auto types = std::make_shared<LimitCache>(scheme, 4096);
   std::mt19937 random(1);
   std::set<std::string> without_limits;
   std::int64_t stencils = 0;
   for (const SharedMesh& shared : shared_meshes()) {
-    ControlMesh mesh = read_mesh(shared.path);
+    Mesh mesh = read_mesh(shared.path);
     if (mesh.num_faces() >= 40 && !full_sweep()) continue;
     SCOPED_TRACE(scheme.name + " on " + shared.name);
     if (scheme.face_size() == 3) mesh = triangulated(mesh);
@@ -85,8 +85,8 @@ TEST_P(EverySurface, HasStencilsOnTheSharedMeshes) {
       surface = std::make_unique<LimitMap>(scheme, mesh, SubdivisionOptions{}, types);
     } catch (const AnalysisError&) {
     }
-    const std::vector<Sample> samples = places(surface->addresses(), full_sweep() ? 40 : 3, random);
-    for (const Sample& s : samples) {
+    const std::vector<Place> samples = places(surface->addresses(), full_sweep() ? 40 : 3, random);
+    for (const Place& s : samples) {
       const int order = int(random() % 3);
       const std::string where = "square " + std::to_string(s.face) + " (" + std::to_string(s.u) + ", " +
                                 std::to_string(s.v) + ") order " + std::to_string(order);
@@ -112,9 +112,9 @@ TEST(RotatingSurfaces, AreWhatRefinementMakesOnTheSharedMeshes) {
   if (shared_meshes().empty()) GTEST_SKIP() << "NO SHARED MESHES at " << SUBLIMIT_SHARED_MESHES;
   for (const char* name : {"sqrt3", "interpolatory-sqrt3"}) {
     const Scheme<double> scheme = *find_scheme(name);
-    const auto types = std::make_shared<LimitTypes>(scheme, 4096);
+    const auto types = std::make_shared<LimitCache>(scheme, 4096);
     for (const SharedMesh& shared : shared_meshes()) {
-      const ControlMesh mesh = without_creases(triangulated(read_mesh(shared.path)));
+      const Mesh mesh = without_creases(triangulated(read_mesh(shared.path)));
       if (mesh.num_faces() >= (full_sweep() ? 200 : 30)) continue;
       EXPECT_EQ(wrong_at_thirds(LimitMap(scheme, mesh, {}, types), scheme), "") << name << " on " << shared.name;
     }

@@ -10,27 +10,27 @@
 
 #include "sublimit/cad/cap_fitter.h"
 #include "sublimit/curves/curve_scheme.h"
-#include "sublimit/fit/fit_terms.h"
-#include "sublimit/io/ply_values.h"
-#include "sublimit/io/text_scanner.h"
-#include "sublimit/limit/corner_limits.h"
-#include "sublimit/limit/limit_patches.h"
-#include "sublimit/limit/limit_types.h"
-#include "sublimit/limit/shared_places.h"
+#include "sublimit/fit/detail/fit_terms.h"
+#include "sublimit/io/detail/ply_values.h"
+#include "sublimit/io/detail/text_scanner.h"
+#include "sublimit/limit/detail/corner_limits.h"
+#include "sublimit/limit/detail/limit_cache.h"
+#include "sublimit/limit/detail/limit_patches.h"
+#include "sublimit/limit/detail/shared_places.h"
 #include "sublimit/neighborhood/regular_faces.h"
 #include "sublimit/neighborhood/repeated_block.h"
-#include "sublimit/patches/bezier_pieces.h"
-#include "sublimit/patches/weighted_source.h"
-#include "sublimit/scheme/level_knots.h"
-#include "sublimit/scheme/mask_table.h"
-#include "sublimit/search/foot_point.h"
+#include "sublimit/patches/detail/bezier_pieces.h"
+#include "sublimit/patches/detail/weighted_source.h"
+#include "sublimit/scheme/detail/level_knots.h"
+#include "sublimit/scheme/detail/mask_table.h"
+#include "sublimit/search/detail/foot_point.h"
+#include "sublimit/search/detail/net_distance.h"
+#include "sublimit/search/detail/searched_patches.h"
+#include "sublimit/search/detail/searched_surface.h"
+#include "sublimit/search/detail/tracer.h"
 #include "sublimit/search/intersect.h"
-#include "sublimit/search/net_distance.h"
-#include "sublimit/search/searched_patches.h"
-#include "sublimit/search/searched_surface.h"
-#include "sublimit/search/tracer.h"
-#include "sublimit/splits/sheets.h"
-#include "sublimit/tessellation/cell_vertices.h"
+#include "sublimit/splits/detail/sheets.h"
+#include "sublimit/tessellation/detail/cell_vertices.h"
 
 namespace sublimit::testing {
 namespace {
@@ -64,8 +64,8 @@ static_assert(keeps_named_only<LimitPatches, Parts, P>);
 static_assert(keeps_second_named_only<LimitPatches, Parts&, Points>);
 static_assert(keeps_named_only<SharedPlaces, Topology, Addresses&, std::int64_t, bool>);
 static_assert(keeps_second_named_only<SharedPlaces, Topology&, Addresses, std::int64_t, bool>);
-static_assert(keeps_second_named_only<CornerLimits, LimitTypes&, Level>);
-static_assert(!std::is_constructible_v<CornerLimits, LimitTypes, Level&>);
+static_assert(keeps_second_named_only<CornerLimits, LimitCache&, Level>);
+static_assert(!std::is_constructible_v<CornerLimits, LimitCache, Level&>);
 static_assert(keeps_named_only<RegularFaces, Level, int>);
 static_assert(keeps_named_only<RepeatedBlock, PieceBlock>);
 static_assert(keeps_named_only<LevelKnots, Topology, KnotSplit&>);
@@ -90,7 +90,7 @@ static_assert(binds_named_only<WeightedSource>);
 
 // What refers to members of its own stays where it is, or its moves take them along.
 static_assert(!std::is_move_constructible_v<PieceLink>);
-static_assert(!std::is_move_constructible_v<LimitTypes>);
+static_assert(!std::is_move_constructible_v<LimitCache>);
 static_assert(!std::is_copy_constructible_v<MaskTable<double>> && std::is_move_constructible_v<MaskTable<double>>);
 static_assert(!std::is_move_constructible_v<SearchedLimit> && !std::is_move_constructible_v<SearchedPatches>);
 

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "sublimit/schemes.h"
+#include "sublimit/schemes/schemes.h"
 #include "support/averaging_blocks.h"
 #include "support/laws.h"
 #include "support/lost_normals.h"

@@ -36,7 +36,7 @@
 namespace sublimit::testing {
 namespace {
 
-Matching against_openmesh(const std::string& scheme, OpenMeshScheme peer, const ControlMesh& mesh, int levels,
+Matching against_openmesh(const std::string& scheme, OpenMeshScheme peer, const Mesh& mesh, int levels,
                           Boundary boundary = Boundary::edge_only) {
   return match(our_mesh(scheme, mesh, levels, boundary), openmesh_refine(mesh, peer, levels));
 }
@@ -68,9 +68,9 @@ TEST(OpenMeshVariants, CoincideOnRegularMeshesOnly) {
   struct Variant {
     std::string scheme;
     OpenMeshScheme sister;
-    ControlMesh same, different;
+    Mesh same, different;
   };
-  const ControlMesh triangles = triangle_torus(5, 4), quads = torus(5, 4);
+  const Mesh triangles = triangle_torus(5, 4), quads = torus(5, 4);
   for (const Variant& v : {Variant{"loop-warren", OpenMeshScheme::loop, triangles, octahedron()},
                            Variant{"loop-warren", OpenMeshScheme::loop, tetrahedron(), icosahedron()},
                            Variant{"butterfly", OpenMeshScheme::modified_butterfly, triangles, icosahedron()},
@@ -97,7 +97,7 @@ std::vector<std::vector<Index>> along_border(const Topology& t) {
 }
 
 TEST(OpenMeshBorders, HaveNoCorners) {
-  const ControlMesh mesh = jittered(triangle_grid(5, 4));
+  const Mesh mesh = jittered(triangle_grid(5, 4));
   const OurMesh ours = our_mesh("loop", mesh, 1, Boundary::edge_and_corner);
   const Matching m = match(ours, openmesh_refine(mesh, OpenMeshScheme::loop, 1));
   const Topology& control = ours.levels[0].topology();
@@ -117,7 +117,7 @@ TEST(OpenMeshBorders, HaveNoCorners) {
 }
 
 TEST(OpenMeshBorders, OfCatmullClarkAreNoBSplines) {
-  const ControlMesh mesh = jittered(grid(5, 4));
+  const Mesh mesh = jittered(grid(5, 4));
   const OurMesh ours = our_mesh("catmull-clark", mesh, 1);
   const PeerMesh theirs = openmesh_refine(mesh, OpenMeshScheme::catmull_clark, 1);
   const Matching m = match(ours, theirs);
@@ -142,7 +142,7 @@ TEST(OpenMeshBorders, OfCatmullClarkAreNoBSplines) {
 TEST(OpenMeshBorders, InterpolatorySqrt3NearBorders) {
   int inside = 0, touching = 0, at_border = 0, decided = 0;
   for (const Index n : {5, 6, 7}) {
-    const ControlMesh mesh = jittered(fan(n, 3, 3));
+    const Mesh mesh = jittered(fan(n, 3, 3));
     const Points& x = mesh.positions;
     const double tolerance = reference * diagonal(x);
     const OurMesh ours = our_mesh("interpolatory-sqrt3", mesh, 1);
@@ -193,7 +193,7 @@ TEST(OpenMeshBorders, InterpolatorySqrt3NearBorders) {
 }
 
 TEST(OpenMeshBorders, OfMidpointsAreCutOff) {
-  const ControlMesh mesh = jittered(grid(5, 4));
+  const Mesh mesh = jittered(grid(5, 4));
   const OurMesh ours = our_mesh("mid-edge", mesh, 1);
   const PeerMesh theirs = openmesh_refine(mesh, OpenMeshScheme::midpoint, 1);
   const Topology& control = ours.levels[0].topology();
@@ -212,7 +212,7 @@ TEST(OpenMeshBorders, OfMidpointsAreCutOff) {
 }
 
 TEST(OpenMeshNumbers, AreRoundedToTheTypeOfNormals) {
-  const ControlMesh mesh = jittered(icosahedron());
+  const Mesh mesh = jittered(icosahedron());
   const PeerMesh theirs = openmesh_refine(mesh, OpenMeshScheme::loop, 3, OpenMeshNormals::single);
   const Matching m = match(our_mesh("loop", mesh, 3), theirs);
   EXPECT_EQ(m.mismatch, "");

@@ -19,7 +19,7 @@ TEST(SharedMeshes, AreAll122Present) {
 class SharedMeshRefinement : public ::testing::TestWithParam<SharedMesh> {};
 
 TEST_P(SharedMeshRefinement, EqualsOpenSubdiv) {
-  const ControlMesh mesh = read_mesh(GetParam().path);
+  const Mesh mesh = read_mesh(GetParam().path);
   const int levels = full_sweep() || mesh.num_faces() < 400 ? 3 : 1;
   const Comparison c = compare_with_opensubdiv(mesh, GetParam().scheme, levels);
   EXPECT_EQ(c.mismatch, "");

@@ -6,6 +6,7 @@ import doctest
 import inspect
 import pathlib
 import re
+from collections.abc import Callable
 
 import pytest
 from conftest import shared_mesh
@@ -59,6 +60,10 @@ def test_the_example_of_the_readme_runs(cage: str, tagged: sublimit.Mesh, tmp_pa
     mesh.write(tmp_path / "cage.obj")
     monkeypatch.chdir(tmp_path)
     exec(compile(example, "README.md", "exec"), {})
+
+
+def test_the_version_is_the_programs(program: Callable[..., str]) -> None:
+    assert sublimit.version() == sublimit.__version__ == program("--version").split()[1]
 
 
 def test_lists_its_names() -> None:

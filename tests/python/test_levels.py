@@ -22,7 +22,7 @@ SURFACES = [name for name, info in sublimit.schemes().items() if info.kind == "s
 
 
 def mesh_for(scheme: str, request: pytest.FixtureRequest) -> sublimit.Mesh:
-    triangles = sublimit.schemes()[scheme].faces == "triangles"
+    triangles = sublimit.schemes()[scheme].triangles
     mesh: sublimit.Mesh = request.getfixturevalue("icosahedron" if triangles else "cube")
     return mesh
 
@@ -64,10 +64,35 @@ def test_matrices_make_the_points(scheme: str, request: pytest.FixtureRequest) -
         np.testing.assert_allclose(S.sum(axis=1), 1, rtol=0, atol=rounding)
 
 
+@pytest.mark.parametrize("scheme", SURFACES)
+def test_levels_are_steps_of_refined_meshes(scheme: str, request: pytest.FixtureRequest) -> None:
+    mesh = mesh_for(scheme, request)
+    levels = sublimit.levels(mesh, scheme, 2)
+    assert [level.number for level in levels] == [0, 1, 2] and levels[0].S.shape == (0, 0)
+    points = mesh.points
+    for level in levels:
+        fine = sublimit.refine(mesh, scheme, level.number)
+        points = level.S @ points if level.number > 0 else points
+        np.testing.assert_allclose(points, fine.points, rtol=0, atol=rounding)
+        assert all(np.array_equal(a, b) for a, b in zip(level.faces, fine.faces)) and len(level.holes) == 0
+    assert abs(levels[2].S @ levels[1].S - sublimit.subdivision_matrix(mesh, scheme, 2)).max() <= rounding
+    assert repr(levels[1]) == f"<sublimit.Level 1: {len(levels[1].faces[0])} faces>"
+
+
+def test_levels_have_holes_and_follow_rules(tagged: sublimit.Mesh) -> None:
+    assert sublimit.levels(tagged, "catmull-clark")[1].holes.tolist() == sublimit.refine(tagged, "catmull-clark").holes.tolist()
+    assert len(sublimit.levels(tagged, "catmull-clark", 0, boundary="none")[0].holes) > 1
+    plain = sublimit.levels(tagged, "catmull-clark", no_creases=True, triangulate=True, threads=1)
+    creased = sublimit.levels(tagged, "catmull-clark", triangulate=True)
+    assert set(plain[0].faces[0]) == {3} and not np.array_equal(plain[1].S.toarray(), creased[1].S.toarray())
+
+
 def test_matrices_are_not_copied(cube: sublimit.Mesh) -> None:
     S = sublimit.subdivision_matrix(cube, "catmull-clark", 2)
     assert not S.data.flags.owndata and not S.indices.flags.owndata and not S.indptr.flags.owndata
     assert S.has_sorted_indices
+    last = sublimit.levels(cube, "catmull-clark", 2)[2].S
+    assert not last.data.flags.owndata and last.has_sorted_indices
 
 
 @pytest.mark.parametrize("scheme", SURFACES)
@@ -77,7 +102,7 @@ def test_limits_are_the_programs(scheme: str, program: Program, tmp_path: pathli
     mesh.write(tmp_path / "in.obj")
     for level in (0, 2):
         program("limit", tmp_path / "in.obj", "-s", scheme, "-l", level, "-o", tmp_path / "out.obj")
-        limit = sublimit.limit(mesh, scheme, level)
+        limit = sublimit.limit(mesh, scheme, levels=level)
         # The program goes level by level, matrices all at once.
         np.testing.assert_allclose(limit.points, sublimit.read(tmp_path / "out.obj").points, rtol=0, atol=rounding)
         np.testing.assert_allclose(limit.matrix @ mesh.points, limit.points, rtol=0, atol=products)
@@ -124,17 +149,23 @@ def test_refuses_in_clear_words(cube: sublimit.Mesh) -> None:
     for refused, words in attempts:
         with pytest.raises(sublimit.InvalidOption, match=words):
             refused()
-    with pytest.raises(sublimit.InvalidParameter, match="levels is -1"):
-        sublimit.refine(cube, "catmull-clark", -1)
+    by_levels: list[Callable[..., object]] = [sublimit.levels, sublimit.limit, sublimit.refine, sublimit.subdivision_matrix]
+    for by_level in by_levels:
+        with pytest.raises(sublimit.InvalidParameter, match="-1"):
+            by_level(cube, "catmull-clark", -1)
+    for by_level in by_levels[:2]:
+        for number in (1.5, "1", None):
+            with pytest.raises(TypeError, match="integer"):
+                by_level(cube, "catmull-clark", number)
     with pytest.raises(sublimit.UnsupportedTopology, match="triangles"):
         sublimit.refine(cube, "loop")
     with pytest.raises(sublimit.ResourceError, match="memory"):
         sublimit.refine(cube, "catmull-clark", 14)
     faulty = sublimit.Mesh(cube.points, [[0, 1, 2], [0, 1, 3]])
-    functions: list[Callable[..., object]] = [sublimit.refine, sublimit.subdivision_matrix, sublimit.limit, sublimit.analyze_mesh,
+    functions: list[Callable[..., object]] = [sublimit.refine, sublimit.levels, sublimit.subdivision_matrix, sublimit.limit, sublimit.analyze_mesh,
                                               sublimit.LimitSurface]
     for function in functions:
-        with pytest.raises(sublimit.InvalidMesh, match="strict"):
+        with pytest.raises(sublimit.InvalidMesh, match="not a clean manifold"):
             function(faulty, "catmull-clark", strict=True)
     with pytest.raises(TypeError, match="mesh is a list; a sublimit.Mesh is right"):
         sublimit.refine([], "loop")  # type: ignore[arg-type]
@@ -167,15 +198,18 @@ def test_what_takes_a_mesh_and_a_scheme_warns_of_it(cube: sublimit.Mesh) -> None
     places = np.zeros(1, int), np.array([0.25]), np.array([0.5])
     more: dict[str, tuple[Any, ...]] = {"fit": ([2], cube.points[2:3]), "fit_places": (*places, cube.points[:1]), "bake": (1,),
                                         "fit_cloud": (cube.points,)}
+    options = {"tessellate": {"chord": 0.1}}
     functions = [name for name in sublimit.__all__ if {"mesh", "scheme"} <= parameters(getattr(sublimit, name))]
-    assert {"refine", "limit", "bake", "LimitSurface", "subdivision_matrix", "analyze_mesh", *more} == set(functions)
+    functions.remove("info")  # its result has all warnings and faults
+    others = {"refine", "levels", "limit", "bake", "LimitSurface", "subdivision_matrix", "analyze_mesh", "tessellate"}
+    assert others | set(more) == set(functions)
     for name in functions:
-        call = functools.partial(getattr(sublimit, name), faulty, "catmull-clark", *more.get(name, ()))
+        call = functools.partial(getattr(sublimit, name), faulty, "catmull-clark", *more.get(name, ()), **options.get(name, {}))
         with pytest.warns(sublimit.MeshWarning) as caught:
             call()
         assert [str(one.message) for one in caught] == faulty.faults(), name
         assert caught[0].filename == __file__, name
-        with pytest.raises(sublimit.InvalidMesh, match="strict"):
+        with pytest.raises(sublimit.InvalidMesh, match="not a clean manifold"):
             call(strict=True)
         with warnings.catch_warnings():
             warnings.simplefilter("error")

@@ -6,6 +6,7 @@ import gc
 import inspect
 import pathlib
 import pickle
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -17,12 +18,13 @@ SQUARE = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]
 
 
 def parts(mesh: sublimit.Mesh) -> list[Any]:
-    return [mesh.points, *mesh.faces, *mesh.creases, *mesh.corners, mesh.holes, mesh.uv, mesh.uv_faces]
+    return [mesh.points, *mesh.faces, *mesh.creases, *mesh.corners, mesh.holes, mesh.uv, mesh.uv_faces, mesh.normals, mesh.face_normals,
+            mesh.face_ids]
 
 
 def same(a: sublimit.Mesh, b: sublimit.Mesh) -> bool:
-    alike = all(x is None if y is None else np.array_equal(x, y) for x, y in zip(parts(a), parts(b)))
-    return alike and a.boundary == b.boundary
+    alike = all(x is None if y is None else x is not None and np.array_equal(x, y) for x, y in zip(parts(a), parts(b)))
+    return alike and a.boundary == b.boundary and a.face_names == b.face_names
 
 
 @pytest.mark.parametrize("dtype", [np.int8, np.uint8, np.int16, np.uint16, np.int32, np.uint32, np.int64, np.uint64])
@@ -82,10 +84,13 @@ def test_tags_in_their_forms() -> None:
 def with_every_tag() -> list[sublimit.Mesh]:
     """Meshes with all tags, some of them, and none; one tag of a kind, two, and as many as columns."""
     everything: dict[str, Any] = dict(creases={(0, 1): 2.5, (1, 2): np.inf, (2, 3): 10}, corners={3: 1.5, 0: np.inf},
-                                      holes=[1], boundary="edge-only", uv=np.arange(8).reshape(4, 2))
+                                      holes=[1], boundary="edge-only", uv=np.arange(8).reshape(4, 2), normals=np.eye(4, 3),
+                                      face_ids=[7, 5], face_names=["left", ""])
     meshes = [sublimit.Mesh(SQUARE, [[0, 1, 2], [0, 2, 3]], **everything)]
     meshes += [sublimit.Mesh(SQUARE, [[0, 1, 2, 3], [0, 1, 2]][:1], **{name: value})
-               for name, value in everything.items() if name != "holes"]
+               for name, value in everything.items() if name not in ("holes", "face_ids", "face_names")]
+    meshes += [sublimit.Mesh(SQUARE, [[0, 1, 2], [0, 2, 3]], normals=np.eye(3), face_normals=[[0, 1, 2], [2, -1, 0]]),
+               sublimit.Mesh(SQUARE, [[0, 1, 2], [0, 2, 3]], normals=np.eye(6, 3))]
     for count in range(5):
         edges = [(0, 1), (1, 2), (2, 3), (3, 0)][:count]
         meshes.append(sublimit.Mesh(SQUARE, [[0, 1, 2, 3]], creases={edge: 2 for edge in edges}, corners=dict.fromkeys(range(count), 1)))
@@ -96,16 +101,80 @@ def with_every_tag() -> list[sublimit.Mesh]:
 def test_is_made_of_its_own_attributes(mesh: sublimit.Mesh) -> None:
     """Whatever the constructor takes is an attribute, and it takes it as that."""
     names = [name for name in inspect.signature(sublimit.Mesh.__init__).parameters if name != "self"]
-    assert {"points", "faces", "creases", "corners", "holes", "boundary", "uv", "uv_faces"} == set(names)
+    assert {"points", "faces", "creases", "corners", "holes", "boundary", "uv", "uv_faces", "normals", "face_normals", "face_ids",
+            "face_names"} == set(names)
     everything: dict[str, Any] = {name: getattr(mesh, name) for name in names}
     again = sublimit.Mesh(**everything)
     assert same(again, mesh)
     if len(mesh.faces[0]) > 0 and len(set(mesh.faces[0])) == 1:
         assert same(sublimit.Mesh(**dict(everything, faces=mesh.face_array)), mesh)
-    for name in names[2:]:  # each by itself
-        if name != "uv_faces" or mesh.uv is not None:
-            one: dict[str, Any] = {name: getattr(mesh, name)} | ({"uv": mesh.uv} if name == "uv_faces" else {})
-            sublimit.Mesh(mesh.points, mesh.faces, **one)
+    with_it = {"uv_faces": "uv", "face_normals": "normals", "normals": "face_normals"}
+    for name in names[2:]:  # each by itself, or with what it is an index of
+        sublimit.Mesh(mesh.points, mesh.faces, **{one: getattr(mesh, one) for one in (name, with_it.get(name, name))})
+
+
+@pytest.mark.parametrize("made", ["refined", "read", "tessellated", "fitted"])
+def test_meshes_that_are_made_are_made_again(made: str, tagged: sublimit.Mesh, tmp_path: pathlib.Path) -> None:
+    tagged.write(tmp_path / "mesh.obj")
+    meshes: dict[str, Callable[[], sublimit.Mesh]] = {
+        "refined": lambda: sublimit.refine(tagged, "catmull-clark", 2, face_varying="boundaries"),
+        "read": lambda: sublimit.read(tmp_path / "mesh.obj"),
+        "tessellated": lambda: sublimit.tessellate(tagged, "catmull-clark", chord=0.05, normals=True),
+        "fitted": lambda: sublimit.fit(tagged, "catmull-clark", [3], tagged.points[3:4]).mesh}
+    mesh = meshes[made]()
+    names = [name for name in inspect.signature(sublimit.Mesh.__init__).parameters if name != "self"]
+    assert same(sublimit.Mesh(**{name: getattr(mesh, name) for name in names}), mesh)
+
+
+@pytest.mark.parametrize("mesh", with_every_tag())
+def test_other_points_keep_all_else(mesh: sublimit.Mesh) -> None:
+    moved = mesh.with_points(mesh.points + 1)
+    assert np.array_equal(moved.points, mesh.points + 1) and same(moved.with_points(mesh.points), mesh)
+    assert moved.points.ctypes.data != mesh.points.ctypes.data or len(mesh.points) == 0
+
+
+def test_other_points_keep_the_tags_of_files(tmp_path: pathlib.Path) -> None:
+    """Those that are no attributes, too: knot intervals, rules."""
+    (tmp_path / "mesh.obj").write_text("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\nt knotinterval 2/1/0 0 1 3\n"
+                                       "t creasemethod 0/0/1 chaikin\n")
+    mesh = sublimit.read(tmp_path / "mesh.obj")
+    mesh.with_points(mesh.points).write(tmp_path / "again.obj")
+    mesh.write(tmp_path / "first.obj")
+    text = (tmp_path / "first.obj").read_text()
+    assert text == (tmp_path / "again.obj").read_text() and "knotinterval" in text and "chaikin" in text
+
+
+@pytest.mark.parametrize("points, words", [
+    (np.zeros((3, 3)), r"points has shape \(3, 3\); \(4 vertices, 3\) is right"), (np.zeros((4, 2)), r"shape \(4, 2\)"),
+    (np.full((4, 3), np.nan), r"points\[0, 0\] is nan"), (np.full((4, 3), np.inf), "is inf"), (np.full((4, 3), "a"), "dtype <U1"),
+    ([[0, 0, 0]], r"shape \(1, 3\)"), (None, "objects")])
+def test_refuses_other_points(points: Any, words: str) -> None:
+    with pytest.raises(ValueError, match=words):
+        sublimit.Mesh(SQUARE, [[0, 1, 2, 3]]).with_points(points)
+
+
+def test_normals_in_their_forms() -> None:
+    faces = [[0, 1, 2], [0, 2, 3]]
+    of_vertices = sublimit.Mesh(SQUARE, faces, normals=np.eye(4, 3))
+    assert of_vertices.normals is not None and of_vertices.normals.shape == (4, 3) and of_vertices.face_normals is None
+    assert not of_vertices.normals.flags.writeable
+    of_corners = sublimit.Mesh(SQUARE, faces, normals=np.eye(6, 3))
+    assert of_corners.face_normals is not None and of_corners.face_normals.tolist() == [0, 1, 2, 3, 4, 5]
+    for given in ([[0, 1, 2], [2, -1, 0]], np.array([0, 1, 2, 2, -1, 0])):
+        named = sublimit.Mesh(SQUARE, faces, normals=np.eye(3), face_normals=given)
+        assert named.face_normals is not None and named.face_normals.tolist() == [0, 1, 2, 2, -1, 0]
+    plain = sublimit.Mesh(SQUARE, faces)
+    assert plain.normals is plain.face_normals is plain.face_ids is plain.face_names is None
+
+
+def test_names_of_faces(tmp_path: pathlib.Path) -> None:
+    """Of groups and objects, in whatever bytes."""
+    (tmp_path / "mesh.obj").write_bytes(b"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 1\nf 1 2 3\no M\xfcller\nf 1 2 3\n"
+                                        b"g \xc3\xbc\nf 2 4 3\n")
+    mesh = sublimit.read(tmp_path / "mesh.obj")
+    assert mesh.face_names == ["", "M\udcfcller", "\u00fc"]
+    again = sublimit.Mesh(mesh.points, mesh.faces, face_names=mesh.face_names)
+    assert again.face_names == pickle.loads(pickle.dumps(again)).face_names == mesh.face_names
 
 
 def test_two_arrays_are_tags_or_rows() -> None:
@@ -169,6 +238,16 @@ SEVERAL_COLUMNS = np.zeros((4, 4))
     (dict(uv=np.zeros((4, 2)), uv_faces=[[0, 1, 2]]), "uv_faces has 3 corners"),
     (dict(uv=np.zeros((4, 2)), uv_faces=[[0, 1, 2, 4]]), "uv_faces names value 4; uv has 4"),
     (dict(uv_faces=[[0, 1, 2, 3]]), "there is no uv"),
+    (dict(normals=np.zeros((3, 3))), "normals has 3 rows; 4 of vertices or 4 of corners"),
+    (dict(normals=np.zeros((4, 2))), r"normals has shape \(4, 2\)"),
+    (dict(normals=np.full((4, 3), np.nan)), r"normals\[0, 0\] is nan"),
+    (dict(normals=np.eye(3), face_normals=[[0, 1, 2]]), "face_normals has 3 corners"),
+    (dict(normals=np.eye(3), face_normals=[[0, 1, 2, 3]]), "face_normals names normal 3; normals has 3"),
+    (dict(normals=np.eye(3), face_normals=[[0, 1, 2, -2]]), "face_normals names normal -2"),
+    (dict(face_normals=[[0, 1, 2, 3]]), "there are no normals"),
+    (dict(face_ids=[1, 2]), r"face_ids has shape \(2,\); \(1 faces,\)"),
+    (dict(face_ids=[0.5]), "face_ids has dtype float64"),
+    (dict(face_names=["a", "b"]), "face_names has 2 names; 1 are right"),
 ])
 def test_refuses_in_clear_words(given: dict[str, Any], words: str) -> None:
     arguments: dict[str, Any] = {"points": SQUARE, "faces": [[0, 1, 2, 3]], **given}
@@ -224,6 +303,21 @@ def test_pickles_keep_every_tag_of_a_file(tmp_path: pathlib.Path) -> None:
     assert text == (tmp_path / "second.obj").read_text()
     for tag in ("crease ", "corner", "knotinterval", "creasemethod", "smoothtriangles", "interpolateboundary", "hole"):
         assert f"t {tag}" in text
+
+
+def test_pickles_keep_what_files_of_triangles_have(tagged: sublimit.Mesh, tmp_path: pathlib.Path) -> None:
+    near = sublimit.tessellate(tagged, "catmull-clark", chord=0.05, normals=True)
+    copy = pickle.loads(pickle.dumps(near))
+    assert same(copy, near) and copy.face_ids is not None and copy.normals is not None
+    near.write(tmp_path / "first.obj")
+    copy.write(tmp_path / "second.obj")
+    assert (tmp_path / "first.obj").read_bytes() == (tmp_path / "second.obj").read_bytes()
+
+
+@pytest.mark.parametrize("names, words", [("left", "face_names is one word"), ([1], r"face_names\[0\] is a int"), ([None], "NoneType")])
+def test_refuses_names_of_faces(names: Any, words: str) -> None:
+    with pytest.raises(TypeError, match=words):
+        sublimit.Mesh(SQUARE, [[0, 1, 2, 3]], face_names=names)
 
 
 def test_says_what_is_no_manifold() -> None:

@@ -23,6 +23,7 @@ def test_info_is_the_programs(tagged: sublimit.Mesh, program: Callable[..., str]
         status = 1 if scheme == "loop" else 0  # which does not take quadrilaterals
         theirs = json.loads(program("info", tmp_path / "mesh.obj", "--json", *(["-s", scheme] if scheme else []), status=status))
         ours = tagged.info(scheme)
+        assert ours == sublimit.info(tagged, scheme)
         assert theirs.pop("mesh") and ours.pop("mesh") == "mesh" and ours == theirs
 
 
@@ -35,6 +36,13 @@ def test_integrals_of_the_limit(cube: sublimit.Mesh) -> None:
     assert 0 < kobbelt["area_error"] < 1e-5 * kobbelt["area"] and 0 < kobbelt["solid"]["volume_error"] < 1e-5
     with pytest.raises(sublimit.InvalidOption, match="name one"):
         cube.info(limit=True)
+    assert sublimit.info(cube, "bilinear", limit=True)["limit"] == box
+    with pytest.raises(sublimit.InvalidOption, match="unknown scheme 'lop'"):
+        sublimit.info(cube, "lop")
+    with pytest.raises(sublimit.UnsupportedTopology, match="triangles"):
+        sublimit.info(cube, "loop", limit=True)
+    with pytest.raises(TypeError, match="mesh is a list"):
+        sublimit.info([])  # type: ignore[arg-type]
 
 
 def test_meshes_are_pictures(tagged: sublimit.Mesh) -> None:

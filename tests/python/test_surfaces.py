@@ -57,7 +57,7 @@ def test_shapes_broadcast(cube: sublimit.Mesh) -> None:
 
 @pytest.mark.parametrize("scheme", [name for name, info in sublimit.schemes().items() if info.kind == "surface" and info.linear])
 def test_stencils_make_the_points(scheme: str, request: pytest.FixtureRequest) -> None:
-    triangles = sublimit.schemes()[scheme].faces == "triangles"
+    triangles = sublimit.schemes()[scheme].triangles
     mesh = request.getfixturevalue("icosahedron" if triangles else "cube")
     surface = sublimit.LimitSurface(mesh, scheme)
     random = np.random.default_rng(1)
@@ -155,13 +155,14 @@ def test_tessellations_are_the_programs(tagged: sublimit.Mesh, program: Program,
     program("tessellate", tmp_path / "cage.obj", "-s", "catmull-clark", "--chord", "0.01", "-o", tmp_path / "out.obj", "--quiet")
     expected = sublimit.read(tmp_path / "out.obj")
     surface = sublimit.LimitSurface(tagged, "catmull-clark")
-    near = surface.tessellate(0.01)
+    near = surface.tessellate(0.01, normals=True)
+    assert near.cells > 0 and surface.tessellate(0.01).normals is None
     assert np.array_equal(near.points, expected.points) and np.array_equal(near.triangles, expected.face_array)
     assert 0 < near.bound <= 0.01 and len(near.triangle_face) == len(near.triangles)
     np.testing.assert_allclose(surface.evaluate(near.face, near.u, near.v).points, near.points, rtol=0, atol=rounding)
     at_corners = surface.evaluate(near.triangle_face[:, None], near.corners[..., 0], near.corners[..., 1], derivatives=1)
     np.testing.assert_allclose(at_corners.points, near.points[near.triangles], rtol=0, atol=rounding)
-    assert np.array_equal(at_corners.normals, near.normals)
+    assert near.normals is not None and np.array_equal(at_corners.normals, near.normals)
     table = sublimit.bake(tagged, "catmull-clark", tessellation=near, precision="double")
     np.testing.assert_allclose(table.apply(tagged.points), near.points, rtol=0, atol=rounding)
     sizes, corners = table.faces
@@ -173,6 +174,120 @@ def test_tessellations_are_the_programs(tagged: sublimit.Mesh, program: Program,
         surface.tessellate(0)
     with pytest.raises(sublimit.ResourceError, match="more than"):
         surface.tessellate(1e-6, max_triangles=100)
+
+
+def test_triangles_as_meshes_are_the_programs(tagged: sublimit.Mesh, program: Program, tmp_path: pathlib.Path) -> None:
+    tagged.write(tmp_path / "cage.obj")
+    program("tessellate", tmp_path / "cage.obj", "-s", "catmull-clark", "--chord", "0.01", "--normals", "--face-ids", "-o",
+            tmp_path / "out.obj", "--quiet")
+    near = sublimit.tessellate(tagged, "catmull-clark", chord=0.01, normals=True)
+    near.write(tmp_path / "ours.obj")
+    assert (tmp_path / "ours.obj").read_bytes() == (tmp_path / "out.obj").read_bytes()
+    assert near.uv is not None and near.face_ids is not None and near.normals is not None and near.face_normals is not None
+    surface = sublimit.LimitSurface(tagged, "catmull-clark")
+    by_surface = surface.tessellate(0.01, normals=True)
+    assert by_surface.normals is not None
+    assert np.array_equal(near.points, by_surface.points) and np.array_equal(near.face_array, by_surface.triangles)
+    np.testing.assert_array_equal(near.normals[near.face_normals], by_surface.normals.reshape(-1, 3))
+    plain = sublimit.tessellate(tagged, "catmull-clark", chord=0.01)
+    assert plain.normals is None
+    plain.write(tmp_path / "plain.ply")
+    free = sublimit.tessellate(surface, chord=0.01)
+    assert np.array_equal(free.points, near.points)
+    flat = sublimit.tessellate(tagged, "loop", chord=0.01, triangulate=True, no_creases=True, angle=0.5, threads=1)
+    assert set(flat.faces[0]) == {3} and len(flat.points) > 0
+
+
+def test_texture_coordinates_without_a_limit_are_left_out(cube: sublimit.Mesh) -> None:
+    mesh = sublimit.Mesh(cube.points, cube.faces, uv=np.zeros((24, 2)) + np.arange(24)[:, None])
+    with pytest.warns(sublimit.MeshWarning, match="texture coordinates are left out"):
+        near = sublimit.tessellate(mesh, "doo-sabin", chord=0.1)
+    assert near.uv is None and len(near.points) > 0
+    with pytest.raises(sublimit.Error):
+        sublimit.tessellate(mesh, "doo-sabin", chord=0.1, face_varying="boundaries")
+
+
+def test_rates_of_edges(cube: sublimit.Mesh, program: Program, tmp_path: pathlib.Path) -> None:
+    cube.write(tmp_path / "cube.obj")
+    (tmp_path / "rates.csv").write_text("v0,v1,rate\n0,1,5\n6,2,3\n")
+    program("tessellate", tmp_path / "cube.obj", "-s", "catmull-clark", "--chord", "0.1", "--rates", tmp_path / "rates.csv", "-o",
+            tmp_path / "out.obj", "--quiet")
+    expected = sublimit.read(tmp_path / "out.obj")
+    surface = sublimit.LimitSurface(cube, "catmull-clark")
+    assert len(surface.tessellate(0.1).triangles) < len(expected.face_array)
+    forms: list[Any] = [{(1, 0): 5, (2, 6): 3}, [(0, 1, 5), (6, 2, 3)], (np.array([[0, 1], [6, 2]]), np.array([5, 3]))]
+    for rates in forms:
+        assert np.array_equal(surface.tessellate(0.1, rates=rates).triangles, expected.face_array)
+        assert np.array_equal(sublimit.tessellate(cube, "catmull-clark", chord=0.1, rates=rates).points, expected.points)
+    for rates, words in (({(0, 6): 2}, r"no face has an edge \(0,6\)"), ({(0, 1): 0}, "the rate 0; 1 or more"),
+                         ({(0, 1): -3}, "the rate -3"), ([(0, 1, 2), (1, 0, 2)], "two rates"),
+                         ({(0, 1): 1.5}, "the rate 1.5; whole"), ({(0, 1): np.nan}, "the rate nan"),
+                         ({(0.5, 1): 2}, "vertex 0.5; whole"), ([(0, 1)], r"rates has shape \(1, 2\)")):
+        with pytest.raises(ValueError, match=words):
+            surface.tessellate(0.1, rates=rates)
+
+
+def test_refuses_tessellations(cube: sublimit.Mesh, icosahedron: sublimit.Mesh) -> None:
+    surface = sublimit.LimitSurface(cube, "catmull-clark")
+    calls: list[Callable[[float], object]] = [surface.tessellate, lambda chord: sublimit.tessellate(surface, chord=chord),
+                                              lambda chord: sublimit.tessellate(cube, "catmull-clark", chord=chord)]
+    for call in calls:
+        for chord in (0, -1, float("nan")):
+            with pytest.raises(sublimit.InvalidParameter, match="chord"):
+                call(chord)
+    with pytest.raises(sublimit.InvalidParameter, match="angle"):
+        surface.tessellate(0.1, angle=-1)
+    with pytest.raises(TypeError, match="integer"):
+        surface.tessellate(0.1, max_triangles=1e6)  # type: ignore[arg-type]
+    with pytest.raises(TypeError, match="scheme is missing"):
+        sublimit.tessellate(cube, chord=0.1)  # type: ignore[call-overload]
+    with pytest.raises(TypeError, match="a LimitSurface has its scheme"):
+        sublimit.tessellate(surface, "loop", chord=0.1)  # type: ignore[call-overload]
+    with pytest.raises(TypeError, match="mesh is a list"):
+        sublimit.tessellate([], "loop", chord=0.1)  # type: ignore[call-overload]
+    with pytest.raises(sublimit.UnsupportedTopology, match="polynomial|butterfly|limit -l"):
+        sublimit.tessellate(icosahedron, "butterfly", chord=0.1)
+    with pytest.raises(sublimit.ResourceError, match="more than"):
+        sublimit.tessellate(cube, "catmull-clark", chord=1e-6, max_triangles=100)
+
+
+def test_searches_are_functions_too(cube: sublimit.Mesh) -> None:
+    surface = sublimit.LimitSurface(cube, "catmull-clark")
+    points = np.random.default_rng(1).random((5, 3)) * 2
+    near: dict[str, Any] = dict(count=2, radius=1.5, signed=True)
+    rays: dict[str, Any] = dict(all=True, tmax=3)
+    pairs: list[tuple[Any, Any]] = [
+        (sublimit.closest(surface, points, **near), surface.closest(points, **near)),
+        (sublimit.intersect(surface, points, [0, 0, -1], **rays), surface.intersect(points, [0, 0, -1], **rays))]
+    for free, own in pairs:
+        for name, value in vars(own).items():
+            assert np.array_equal(getattr(free, name), value), name
+    calls: list[Callable[[Any], object]] = [lambda thing: sublimit.closest(thing, points),
+                                            lambda thing: sublimit.intersect(thing, points, [0, 0, 1])]
+    for call in calls:
+        for thing in (cube, None, "surface"):
+            with pytest.raises(TypeError, match=f"surface is a {type(thing).__name__}; a sublimit.LimitSurface or"):
+                call(thing)
+    wrong: list[tuple[Any, str]] = [(np.zeros((2, 2)), r"points has shape \(2, 2\)"), ([[0, 0, np.nan]], "is nan"),
+                                    ([["a", "b", "c"]], "dtype")]
+    for bad, words in wrong:
+        with pytest.raises(ValueError, match=words):
+            sublimit.closest(surface, bad)
+
+
+def test_surfaces_with_other_points(tagged: sublimit.Mesh) -> None:
+    surface = sublimit.LimitSurface(tagged, "catmull-clark")
+    assert np.array_equal(surface.points, tagged.points) and not surface.points.flags.writeable
+    moved = surface.with_points(2 * tagged.points)
+    face, u, v = [0, 3, 7], 0.25, 0.5
+    expected = sublimit.LimitSurface(tagged.with_points(2 * tagged.points), "catmull-clark").evaluate(face, u, v, derivatives=2)
+    found = moved.evaluate(face, u, v, derivatives=2)
+    assert np.array_equal(found.points, expected.points) and np.array_equal(found.duv, expected.duv)
+    assert np.array_equal(surface.points, tagged.points)  # it never changes
+    for points, words in ((tagged.points[1:], r"points has shape \(19, 3\); \(20 control points, 3\)"),
+                          (tagged.points * np.nan, "is nan"), (tagged.points[:, :2], r"shape \(20, 2\)")):
+        with pytest.raises(ValueError, match=words):
+            surface.with_points(points)
 
 
 @pytest.mark.parametrize("place, words", [

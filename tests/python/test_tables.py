@@ -52,6 +52,15 @@ def test_levels_are_those_of_refine(cube: sublimit.Mesh) -> None:
     np.testing.assert_allclose(faces(made, corners), faces(fine.points, fine.faces[1]), atol=searched)
 
 
+def test_rules_are_followed(tagged: sublimit.Mesh) -> None:
+    """As `refine` has them: those of the mesh and those that are asked for."""
+    for options in (dict(boundary="edge-only"), dict(creasing="chaikin"), dict(triangles="smooth"), dict(no_creases=True),
+                    dict(triangulate=True), dict(threads=1)):
+        table = sublimit.bake(tagged, "catmull-clark", levels=2, precision="double", **options)  # type: ignore[arg-type]
+        made, fine = table.apply(tagged.points), sublimit.refine(tagged, "catmull-clark", 2, **options)  # type: ignore[arg-type]
+        np.testing.assert_allclose(np.sort(made.round(9), axis=0), np.sort(fine.points.round(9), axis=0), atol=searched)
+
+
 def test_grids_and_places_are_samples(cube: sublimit.Mesh) -> None:
     surface = sublimit.LimitSurface(cube, "catmull-clark")
     u = np.linspace(0, 1, 4)
@@ -176,9 +185,13 @@ def test_refuses_requests(cube: sublimit.Mesh) -> None:
         (dict(), "one of levels, grid, at and tessellation"), (dict(levels=1, grid=3), "one of levels"), (dict(grid=4, limit=True), "limit is of a level"),
         (dict(levels=12), "level 12 of a table; 1 to 11"), (dict(levels=0), "level 0"), (dict(grid=1), "grid 1"),
         (dict(levels=2, derivatives=1), "a level has no derivatives"), (dict(grid=3, derivatives=3), "derivatives is 3"),
-        (dict(levels=2, precision="half"), "precision is 'half'"), (dict(at=(9, 0, 0)), "9")]
+        (dict(levels=2, precision="half"), "precision is 'half'"), (dict(at=(9, 0, 0)), "9"), (dict(at=([], [], [])), "at has no places"),
+        (dict(at=(0, np.nan, 0)), "nan|finite"), (dict(at=(0, 2, 0)), "2")]
     for asked, words in attempts:
         with pytest.raises(ValueError, match=words):
             sublimit.bake(cube, "catmull-clark", **asked)
+    for wrong in (dict(levels=1.5), dict(levels="2"), dict(grid=3.0)):
+        with pytest.raises(TypeError, match="integer"):
+            sublimit.bake(cube, "catmull-clark", **wrong)  # type: ignore[arg-type]
     with pytest.raises(TypeError, match="sublimit.bake makes tables"):
         sublimit.Table()

@@ -17,7 +17,7 @@
 #include <string_view>
 #include <vector>
 
-#include "sublimit/base/read_file.h"
+#include "sublimit/base/detail/read_file.h"
 #include "support/temporary_directory.h"
 
 namespace sublimit::testing {

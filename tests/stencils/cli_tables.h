@@ -2,7 +2,7 @@
 #pragma once
 // A mesh in a directory, and the program making tables of it.
 #include "stencils/cli_program.h"
-#include "sublimit/io/obj.h"
+#include "sublimit/io/detail/obj.h"
 #include "sublimit/io/read_mesh.h"
 #include "support/meshes.h"
 
@@ -10,7 +10,7 @@ namespace sublimit::testing {
 
 class Tables {
  public:
-  explicit Tables(const ControlMesh& control) { write_obj(mesh, output(control)); }
+  explicit Tables(const Mesh& control) { write_obj(mesh, control); }
   std::string path(std::string_view name) const { return (directory / name).string(); }
 
   Outcome bake(const std::vector<std::string>& arguments, const std::string& scheme = "catmull-clark",
@@ -31,8 +31,8 @@ class Tables {
 };
 
 /// A jittered cube with an infinite and a semi-sharp crease.
-inline ControlMesh creased_cube() {
-  ControlMesh mesh = jittered(cube());
+inline Mesh creased_cube() {
+  Mesh mesh = jittered(cube());
   mesh.creases = {{0, 1, 10}, {1, 3, 10}, {4, 5, 1.5f}};
   return mesh;
 }

@@ -13,7 +13,7 @@
 #include <string_view>
 #include <vector>
 
-#include "sublimit/core/dense_decompositions.h"
+#include "sublimit/core/detail/dense_decompositions.h"
 #include "sublimit/core/types.h"
 
 namespace sublimit::testing {

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "sublimit/base/read_file.h"
+#include "sublimit/base/detail/read_file.h"
 
 namespace sublimit::testing {
 namespace {
@@ -30,7 +30,7 @@ const Floor floors[] = {
     {"lib/sublimit",
      {"core", "mesh", "splits", "io", "scheme", "neighborhood", "limit", "tessellation", "geometric", "curves",
       "patches", "search", "cad", "schemes", "primvar", "fit", "implicit", "certificates"},
-     {"schemes.h", "subdivide.h"},
+     {"subdivide.h"},
      "schemes"},
     {"stencils/sublimit",
      {"recipes", "files", "jobs", "patterns", "bake", "shards", "picture", "fit_jobs", "distributed", "gallery",
@@ -39,8 +39,18 @@ const Floor floors[] = {
      "report"},
 };
 
-/// Where a file is, seen from the folder: the room, or the name itself where it is beside the rooms.
-std::string room_of(const fs::path& file) { return file.begin()->string(); }
+/// Where a file is, seen from the folder: the room, or the name itself where it is beside the rooms. An include of
+/// stencils/ names that library, and then the room.
+std::string room_of(const fs::path& file) {
+  auto part = file.begin();
+  if (*part == "stencils") ++part;
+  return part->string();
+}
+
+/// The way from the folder to a room.
+fs::path way_to(const fs::path& folder, const std::string& room) {
+  return fs::exists(folder / room) ? fs::path(room) : fs::path("stencils") / room;
+}
 
 TEST(House, RoomsKnowThoseBelowThem) {
   for (const Floor& floor : floors) {
@@ -67,7 +77,80 @@ TEST(House, RoomsKnowThoseBelowThem) {
     }
     EXPECT_GT(arrows, 100u);
     EXPECT_EQ(rooms.size(), floor.rooms.size() + floor.doors.size()) << floor.folder;
-    for (const std::string& room : floor.rooms) EXPECT_TRUE(fs::exists(folder / room / "README.md")) << room;
+    for (const std::string& room : floor.rooms)
+      EXPECT_TRUE(fs::exists(folder / way_to(folder, room) / "README.md")) << room;
+  }
+}
+
+/// Rooms of which nothing is installed: what is there is for us, as what is in a folder `detail`.
+bool is_own(const std::string& path) {
+  static const std::regex own(
+      "/detail/|^lib/sublimit/(cad|curves/schemes|geometric|implicit/polygonize|neighborhood|patches/(constructions|joins)"
+      "|primvar|schemes|certificates/regularity)/|^eval/sublimit/eval/kernels/"
+      "|^stencils/sublimit/(stencils/(files|fit_jobs|gallery|patterns|picture|shards)"
+      "|report/(analysis|asset|free_form|page)|distributed)/");
+  static const std::set<std::string> doors{"lib/sublimit/cad/opencascade/step.h",
+                                           "stencils/sublimit/distributed/distributed.h"};
+  return !doors.contains(path) && std::regex_search(path, own);
+}
+
+/// The library or program that a source belongs to.
+std::string product_of(const std::string& path) {
+  for (const auto& [folder, name] :
+       std::vector<std::pair<std::string, std::string>>{{"lib/sublimit/certificates/", "certificates"},
+                                                        {"lib/sublimit/cad/opencascade/", "cad"},
+                                                        {"lib/sublimit/implicit/polygonize/", "implicit_mesh"},
+                                                        {"lib/", "lib"},
+                                                        {"eval/sublimit/base/", "base"},
+                                                        {"eval/sublimit/eval/gpu/", "eval_gpu"},
+                                                        {"eval/", "eval"},
+                                                        {"stencils/sublimit/report/", "report"},
+                                                        {"stencils/sublimit/distributed/", "distributed"},
+                                                        {"stencils/cli_mpi/", "sublimit-mpi"},
+                                                        {"stencils/cli/", "sublimit"},
+                                                        {"stencils/python/", "python"}})
+    if (path.starts_with(folder)) return name;
+  return "stencils";
+}
+
+/// How many headers of others, which are for these alone, each library or program includes all the same; but those of
+/// base, which is for all of us. May only fall.
+const std::map<std::string, size_t> own_headers_of_others{
+    {"cad", 5},     {"certificates", 13}, {"distributed", 20}, {"eval_gpu", 2},  {"implicit_mesh", 1}, {"lib", 2},
+    {"python", 14}, {"report", 44},       {"stencils", 58},    {"sublimit", 80}, {"sublimit-mpi", 8}};
+
+TEST(House, WhatIsInstalledIncludesNothingElse) {
+  const fs::path root = SUBLIMIT_SOURCE;
+  const std::regex include("#include \"(sublimit/[^\"]+)\"");
+  std::map<std::string, std::set<std::string>> used;
+  size_t of_public_headers = 0;
+  for (const char* folder : {"lib", "eval", "stencils"})
+    for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
+      if (entry.path().extension() != ".h" && entry.path().extension() != ".cpp") continue;
+      const std::string file = entry.path().lexically_relative(root).string();
+      const bool is_public = entry.path().extension() == ".h" && file.find("/sublimit/") != std::string::npos &&
+                             !is_own(file) && !file.starts_with("stencils/cli") && !file.starts_with("stencils/python");
+      std::istringstream text(read_file(entry.path()));
+      for (std::string line; std::getline(text, line);) {
+        std::smatch found;
+        if (!line.starts_with("#include \"sublimit/") || !std::regex_match(line, found, include)) continue;
+        std::string header;
+        for (const char* const of : {"lib", "eval", "stencils"})
+          if (fs::exists(root / of / found[1].str())) header = std::string(of) + "/" + found[1].str();
+        if (is_public) {
+          EXPECT_FALSE(is_own(header)) << file << ": " << line;
+          ++of_public_headers;
+        }
+        const std::string product = product_of(file), other = product_of(header);
+        if (is_own(header) && other != product && other != "base") used[product].insert(header);
+      }
+    }
+  EXPECT_GT(of_public_headers, 100u);
+  for (const auto& [product, headers] : used) {
+    const auto allowed = own_headers_of_others.find(product);
+    const size_t most = allowed == own_headers_of_others.end() ? 0 : allowed->second;
+    EXPECT_LE(headers.size(), most) << product << " includes what is for others alone";
+    EXPECT_GE(headers.size(), most) << product << ": lower its number";
   }
 }
 
@@ -79,7 +162,8 @@ TEST(House, DocumentsLeadToEveryRoom) {
     const std::string page = read_file(root / folder.parent_path() / "README.md");
     for (const std::string& room : floor.rooms) {
       EXPECT_NE(house.find(" " + room + "/"), std::string::npos) << "README.md draws no " << room;
-      EXPECT_NE(page.find("(sublimit/" + room + "/README.md)"), std::string::npos)
+      const std::string way = way_to(fs::path(SUBLIMIT_SOURCE) / folder, room).string();
+      EXPECT_NE(page.find("(sublimit/" + way + "/README.md)"), std::string::npos)
           << floor.folder << " leads not to " << room;
     }
   }
@@ -101,19 +185,19 @@ TEST(House, NoRoomOfLibReadsClaims) {
 
 /// Where references to arguments are kept though a temporary would do: what is made and used in one place, by us.
 const std::set<std::string> made_in_one_place{
-    "eval/sublimit/base/parallel_for.h",              // blocks of one loop
-    "eval/sublimit/base/thread_sanitizer.h",          // while a block of it runs
-    "lib/sublimit/scheme/sites.h",                    // sites live for the call of a mask
-    "lib/sublimit/scheme/subdivision_matrix_impl.h",  // makers of rows for the assembly of one matrix
-    "stencils/sublimit/patterns/patterns.h",          // examples for one call
-    "stencils/sublimit/picture/panel.h",              // a panel for the call that draws it
+    "eval/sublimit/base/detail/parallel_for.h",              // blocks of one loop
+    "eval/sublimit/base/detail/thread_sanitizer.h",          // while a block of it runs
+    "lib/sublimit/scheme/sites.h",                           // sites live for the call of a mask
+    "lib/sublimit/scheme/detail/subdivision_matrix_impl.h",  // makers of rows for the assembly of one matrix
+    "stencils/sublimit/stencils/patterns/patterns.h",        // examples for one call
+    "stencils/sublimit/stencils/picture/panel.h",            // a panel for the call that draws it
 };
 
 /// Where what is kept is a part of the argument, which is refused.
 const std::map<std::string, std::string> part_of{
     {"lib/sublimit/neighborhood/regular_faces.h: Topology", "Level"},
-    {"lib/sublimit/limit/piece_parts.h: LimitMap::Parts", "LimitMap"},
-    {"lib/sublimit/limit/limit_patches.h: LimitMap::Parts::Pieces", "LimitMap::Parts"},
+    {"lib/sublimit/limit/detail/piece_parts.h: LimitMap::Parts", "LimitMap"},
+    {"lib/sublimit/limit/detail/limit_patches.h: LimitMap::Parts::Pieces", "LimitMap::Parts"},
 };
 
 // A reference to an argument that a header keeps, as a member or a pointer, has an overload for temporaries, deleted.

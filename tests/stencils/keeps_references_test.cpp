@@ -7,12 +7,12 @@
 #include <cstddef>
 #include <vector>
 
-#include "sublimit/bake/editable_table.h"
-#include "sublimit/files/npy.h"
-#include "sublimit/recipes/net_file.h"
-#include "sublimit/recipes/recipe_object.h"
-#include "sublimit/recipes/recipe_sources.h"
 #include "sublimit/report/asset/seam_samples.h"
+#include "sublimit/stencils/bake/detail/pattern_edits.h"
+#include "sublimit/stencils/files/npy.h"
+#include "sublimit/stencils/recipes/detail/net_file.h"
+#include "sublimit/stencils/recipes/detail/recipe_object.h"
+#include "sublimit/stencils/recipes/detail/recipe_sources.h"
 
 namespace sublimit::testing {
 namespace {
@@ -22,7 +22,7 @@ static_assert(keeps_named_only<NpyArray, Bytes, const char*>);
 static_assert(keeps_named_only<RecipeObject, JsonValue, const char*>);
 static_assert(keeps_second_named_only<asset::SeamPlaces, const Scheme<double>&, LimitMap, asset::Inventory&, bool>);
 static_assert(!std::is_constructible_v<asset::SeamPlaces, const Scheme<double>&, LimitMap&, asset::Inventory, bool>);
-static_assert(!std::is_constructible_v<EditableTable<float>, Patterns, ControlMesh, int>);
+static_assert(!std::is_constructible_v<EditableTable<float>, Patterns, Mesh, int>);
 
 using Recipes = std::vector<Recipe>;
 template <class R>

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "sublimit/base/read_file.h"
+#include "sublimit/base/detail/read_file.h"
 
 namespace sublimit::testing {
 

@@ -67,7 +67,7 @@ constexpr Example examples[] = {
     {"stencils/docs/verbs/bake.md", "cpp", 1, "consumer.lib compiles and runs it"},
     {"eval/README.md", "cpp", 2, "consumer.eval compiles and runs them"},
     {"eval/README.md", "c", 1, "consumer.eval compiles and runs it"},
-    {"eval/sublimit/gpu/README.md", "cpp", 2, "consumer.eval compiles and runs them"},
+    {"eval/sublimit/eval/gpu/README.md", "cpp", 2, "consumer.eval compiles and runs them"},
     {"stencils/python/README.md", "python", 1, "tests/python/test_docstrings.py runs it"},
     {"eval/table_format.md", "python", 1, "TableInPython.MakesTheSamePoints runs it"},
 };
@@ -121,7 +121,7 @@ void expect_readable(const Path& file) {
   ASSERT_FALSE(std::filesystem::is_empty(file));
   const std::string kind = file.extension().string();
   if (kind == ".obj" || kind == ".ply") {
-    const ControlMesh mesh = read_mesh(file);
+    const Mesh mesh = read_mesh(file);
     EXPECT_GT(mesh.num_faces(), 0);
     EXPECT_TRUE(mesh.positions.allFinite());
   } else if (kind == ".safetensors") {
@@ -198,7 +198,7 @@ void first_vertices_are_the_targets(const Path& folder) {
 
 /// The table makes the file's own vertices, in float, and has its triangles.
 void pose_has_the_triangles(const Path& folder) {
-  const ControlMesh triangles = read_mesh(folder / "triangles.ply"), pose = read_mesh(folder / "pose.ply");
+  const Mesh triangles = read_mesh(folder / "triangles.ply"), pose = read_mesh(folder / "pose.ply");
   EXPECT_EQ(pose.face_vertices, triangles.face_vertices);
   ASSERT_EQ(pose.num_vertices(), triangles.num_vertices());
   const double size = triangles.positions.cwiseAbs().maxCoeff();

@@ -8,11 +8,11 @@
 
 #include "stencils/cli_program.h"
 #include "stencils/readme_commands.h"
-#include "sublimit/files/npy.h"
-#include "sublimit/io/obj.h"
+#include "sublimit/stencils/files/npy.h"
+#include "sublimit/io/detail/obj.h"
 #include "sublimit/io/read_mesh.h"
-#include "sublimit/patterns/demo_mesh.h"
-#include "sublimit/scheme/prepare.h"
+#include "sublimit/stencils/patterns/demo_mesh.h"
+#include "sublimit/scheme/detail/prepare.h"
 #include "support/face_varying_meshes.h"
 #include "support/meshes.h"
 #include "support/tolerance.h"
@@ -44,8 +44,8 @@ inline std::vector<nlohmann::ordered_json> shown_jobs() {
 /// The demo's mesh in triangles, for every scheme, with texture coordinates: cage.obj; frames of it: animation.npy; the
 /// jobs that the text shows and their meshes.
 inline void write_cages(const std::filesystem::path& folder) {
-  const ControlMesh cage = with_channel(triangulated(demo_mesh()), {});
-  write_obj(folder / "cage.obj", output(cage));
+  const Mesh cage = with_channel(triangulated(demo_mesh()), {});
+  write_obj(folder / "cage.obj", cage);
   const std::int64_t frames = 3;
   NpyWriter animation(folder / "animation.npy", DType::F32, {frames, cage.num_vertices(), 3});
   for (std::int64_t frame = 0; frame < frames; ++frame) {
@@ -57,7 +57,7 @@ inline void write_cages(const std::filesystem::path& folder) {
   animation.commit();
   std::string manifest;
   for (const auto& job : shown_jobs()) {
-    write_obj(folder / job["mesh"].get<std::string>(), output(demo_mesh()));
+    write_obj(folder / job["mesh"].get<std::string>(), demo_mesh());
     manifest += job.dump() + "\n";
   }
   write_text(folder / "jobs.jsonl", manifest);
@@ -65,8 +65,8 @@ inline void write_cages(const std::filesystem::path& folder) {
 
 /// A cube, and at each of its corners the point itself and a normal: the picture beside the commands.
 inline void write_cube_with_normals(const std::filesystem::path& folder) {
-  const ControlMesh mesh = cube();
-  write_obj(folder / "cage.obj", output(mesh));
+  const Mesh mesh = cube();
+  write_obj(folder / "cage.obj", mesh);
   std::ostringstream targets;
   targets << "vertex,x,y,z,nx,ny,nz\n";
   for (Index v = 0; v < mesh.num_vertices(); ++v) {

@@ -22,7 +22,7 @@ std::vector<std::string> links_in(const std::string& paragraph) {
   return links;
 }
 
-/// Names of sources and documents in code: `mesh/topology.h`, `<sublimit/schemes.h>`.
+/// Names of sources and documents in code: `mesh/topology.h`, `<sublimit/schemes/schemes.h>`.
 std::vector<std::string> files_in(const std::string& paragraph) {
   static const std::regex file(R"((?:^|[\s<])([\w./]+\.(?:h|cpp|cmake|md|py))(?=[>\s]|$))");
   std::vector<std::string> files;

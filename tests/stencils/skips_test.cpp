@@ -9,7 +9,7 @@
 #include <set>
 #include <string>
 
-#include "sublimit/base/read_file.h"
+#include "sublimit/base/detail/read_file.h"
 #include "support/temporary_directory.h"
 
 namespace sublimit::testing {

@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "sublimit/certificates/algebraic.h"
-#include "sublimit/limit/limit_types.h"
-#include "sublimit/schemes.h"
+#include "sublimit/limit/detail/limit_cache.h"
+#include "sublimit/schemes/schemes.h"
 #include "support/expect_error.h"
 #include "support/meshes.h"
 #include "support/temporary_directory.h"
@@ -49,7 +49,7 @@ TEST(Verbs, AgreeWithTheMatricesUnderEveryScheme) {
     EXPECT_LE(distance(Refiner(mesh, scheme, 2).points(mesh.positions), P * mesh.positions), rounding);
     EXPECT_LE(distance(SparseMatrix(all[2].S * all[1].S) * mesh.positions, P * mesh.positions), rounding);
 
-    const Limit limit = sublimit::limit(mesh, scheme, {.level = 1});
+    const Limit limit = sublimit::limit(mesh, scheme, {.levels = 1});
     ASSERT_EQ(limit.points.rows(), all[1].topology().num_vertices());
     EXPECT_LE(distance(limit.points, limit.matrix * mesh.positions), rounding);
     EXPECT_LE(distance(limit.tangent1, limit.tangent1_matrix * mesh.positions), rounding);
@@ -60,7 +60,7 @@ TEST(Verbs, AgreeWithTheMatricesUnderEveryScheme) {
     }
 
     const LimitSurface surface(mesh, scheme);
-    const std::vector<Sample> places = surface.grid(3);
+    const std::vector<Place> places = surface.grid(3);
     const PlaceStencils stencils = surface.stencils(places);
     EXPECT_LE(distance(surface.evaluate(places).position, stencils.matrices[0] * mesh.positions), rounding);
     const Table table = bake(mesh, scheme, {.grid = 3, .in_double = true});
@@ -79,7 +79,7 @@ TEST(Verbs, FollowTheRulesOfTheMesh) {
   const AnyScheme chosen("catmull-clark", {{"triangles", "smooth"}});
   EXPECT_EQ(distance(smooth, refine(mesh, chosen, 2).positions), 0);
   EXPECT_LE(distance(limit(mesh, "catmull-clark").points, limit(mesh, chosen).points), rounding);
-  const std::vector<Sample> places{{0, 0.25, 0.5}};
+  const std::vector<Place> places{{0, 0.25, 0.5}};
   EXPECT_EQ(distance(LimitSurface(mesh, "catmull-clark").evaluate(places).position,
                      LimitSurface(mesh, chosen).evaluate(places).position),
             0);
@@ -94,7 +94,7 @@ TEST(Verbs, FollowTheRulesOfTheMesh) {
 
 TEST(Verbs, SurfacesOwnWhatTheyNeed) {
   const Mesh mesh = jittered(cube());
-  const std::vector<Sample> places{{0, 0.25, 0.5}, {5, 0, 0}, {3, 1, 1}};
+  const std::vector<Place> places{{0, 0.25, 0.5}, {5, 0, 0}, {3, 1, 1}};
   LimitSurface surface = [&] { return LimitSurface(Mesh(mesh), AnyScheme("catmull-clark")); }();
   const Points before = surface.evaluate(places).position;
   Mesh other = mesh;
@@ -212,12 +212,12 @@ TEST(Verbs, FitsMeetTheirTargets) {
   EXPECT_LE(fit.position_error.maxCoeff(), solved);
 
   const LimitSurface surface(mesh, "catmull-clark");
-  const std::vector<Sample> places = surface.grid(4);
+  const std::vector<Place> places = surface.grid(4);
   const ScatteredFit scattered =
       fit_places(surface, {.places = places, .values = 2 * surface.evaluate(places).position});
   EXPECT_LE(distance(scattered.points, 2 * mesh.positions), least_squares);
   const CloudFit cloud = fit_cloud(surface, {.points = surface.evaluate(places).position});
-  EXPECT_LE(cloud.feet.distances.cwiseAbs().maxCoeff(), least_squares);
+  EXPECT_LE(cloud.foot_points.distances.cwiseAbs().maxCoeff(), least_squares);
 }
 
 TEST(Verbs, ReportsAreTextAndPages) {
@@ -247,7 +247,7 @@ TEST(Verbs, RefuseWhatIsWrong) {
   expect_error<InvalidOption>([&] { (void)AnyScheme("catmul-clark"); }, {"catmull-clark"});
   expect_error<InvalidOption>([&] { (void)AnyScheme("kobbelt", {{"tenson", "1"}}); }, {"tension"});
   expect_error<InvalidParameter>([&] { (void)refine(good, "catmull-clark", -1); }, {"-1"});
-  expect_error<InvalidParameter>([&] { (void)limit(good, "catmull-clark", {.level = -1}); }, {"-1"});
+  expect_error<InvalidParameter>([&] { (void)limit(good, "catmull-clark", {.levels = -1}); }, {"-1"});
   Mesh broken = good;
   broken.face_vertices[5] = 8;
   for (const auto& use : std::vector<std::function<void()>>{
@@ -257,7 +257,7 @@ TEST(Verbs, RefuseWhatIsWrong) {
            [&] { (void)fit(broken, "catmull-clark", {}); }, [&] { (void)analyze(broken, "catmull-clark"); }})
     expect_error<InvalidMesh>([&] { use(); }, {"8"});
   expect_error<UnsupportedTopology>([&] { (void)refine(good, "loop", 1); }, {"4"});
-  const auto other = std::make_shared<LimitTypes>(find_scheme("bilinear").value());
+  const auto other = std::make_shared<LimitCache>(find_scheme("bilinear").value());
   expect_error<InvalidParameter>([&] { (void)limit(good, "catmull-clark", {.cache = other}); }, {"bilinear"});
   expect_error<InvalidParameter>([&] { (void)LimitSurface(good, "catmull-clark", other); }, {"bilinear"});
   expect_error<InvalidParameter>([&] { (void)bake(good, "catmull-clark", {}); }, {"one of levels, grid and places"});
@@ -268,7 +268,7 @@ TEST(Verbs, RefuseWhatIsWrong) {
   expect_error<InvalidParameter>([&] { (void)surface.with(Points::Zero(7, 3)); }, {"7 x 3"});
   expect_error<InvalidParameter>([&] { (void)surface.evaluate(surface.grid(2), 3); }, {"3"});
   EXPECT_EQ(surface.evaluate({{.face = 6, .u = 0, .v = 0}}).status[0], LimitStatus::outside);
-  expect_error<InvalidParameter>([&] { (void)surface.stencils(std::vector<Sample>{{6, 0, 0}}); }, {"6"});
+  expect_error<InvalidParameter>([&] { (void)surface.stencils(std::vector<Place>{{6, 0, 0}}); }, {"6"});
   expect_error<InvalidParameter>([&] { (void)curvature(surface.evaluate(surface.grid(2), 2), 24); }, {"24 of 24"});
   expect_error<ResourceError>([&] { (void)surface.grid(1'000'000); }, {"1000000 samples"});
   const Table table = bake(good, "catmull-clark", {.levels = 1});

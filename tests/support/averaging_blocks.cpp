@@ -12,11 +12,11 @@ namespace sublimit::testing {
 namespace {
 
 using Complex = std::complex<double>;
-using Place = std::pair<int, int>;  ///< twice (x, y): even on primal meshes, odd on dual ones
+using LatticePoint = std::pair<int, int>;  ///< twice (x, y): even on primal meshes, odd on dual ones
 
 /// Values in sector 0, linear in those of the mesh before: a row of weights each.
 struct Values {
-  std::map<Place, Eigen::RowVectorXcd> at;
+  std::map<LatticePoint, Eigen::RowVectorXcd> at;
   Complex w_k;  ///< what a turn by one sector does
 
   /// In sector 0 or beside it, where a sector beside is seen as (s; x, y) = (s + 1; y, -x).
@@ -37,8 +37,8 @@ struct Values {
 };
 
 /// Every place of a mesh in sector 0, as far as twice (x, y) is within `reach`; primal sectors own their first side.
-std::vector<Place> places(bool primal, int reach, bool centre) {
-  std::vector<Place> result;
+std::vector<LatticePoint> places(bool primal, int reach, bool centre) {
+  std::vector<LatticePoint> result;
   if (primal && centre) result.push_back({0, 0});
   for (int x = primal ? 2 : 1; x <= reach; x += 2)
     for (int y = primal ? 0 : 1; y <= reach; y += 2) result.push_back({x, y});
@@ -48,7 +48,7 @@ std::vector<Place> places(bool primal, int reach, bool centre) {
 /// The mean of all corners, over all sectors, is that of one where functions do not turn, else it is none.
 Values averaged(const Values& values, bool to_primal, int reach, bool turns) {
   Values result{{}, values.w_k};
-  for (const Place& p : places(to_primal, reach, !turns)) {
+  for (const LatticePoint& p : places(to_primal, reach, !turns)) {
     const auto [x, y] = p;
     result.at[p] =
         x == 0 && y == 0
@@ -64,7 +64,7 @@ Values averaged(const Values& values, bool to_primal, int reach, bool turns) {
 Eigen::MatrixXcd averaging_block(int degree, int n, int k) {
   const bool primal = degree % 2 == 1, turns = k % n != 0;
   const int reach = degree - 1;  // (reach + degree - 1)/2: a step asks for no more than it makes
-  const std::vector<Place> kept = places(primal, reach, !turns);
+  const std::vector<LatticePoint> kept = places(primal, reach, !turns);
   Values values{{}, std::polar(1., 2 * std::numbers::pi * k / n)};
   const Eigen::Index size = Eigen::Index(kept.size());
   for (Eigen::Index i = 0; i < size; ++i)
@@ -74,7 +74,7 @@ Eigen::MatrixXcd averaging_block(int degree, int n, int k) {
   // Bilinear: points of the finer mesh have twice the coordinates, those between are means.
   const int finer = reach + degree - 1;
   Values fine{{}, values.w_k};
-  for (const Place& p : places(true, finer, true)) {
+  for (const LatticePoint& p : places(true, finer, true)) {
     const auto [x, y] = p;  // on the old mesh x/2, y/2
     const int r = primal ? 0 : 1;
     const auto below = [&](int c) { return c / 2 - (c / 2 % 2 != r); };

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "sublimit/scheme/refine_impl.h"
+#include "sublimit/scheme/detail/refine_impl.h"
 
 namespace sublimit::testing {
 namespace {

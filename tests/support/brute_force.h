@@ -2,7 +2,7 @@
 #pragma once
 // Limits without eigenvectors: the faces around a vertex, refined again and again in 256-bit floats.
 #include "sublimit/scheme/refine.h"
-#include "sublimit/schemes.h"
+#include "sublimit/schemes/schemes.h"
 #include "support/precise_schemes.h"
 
 namespace sublimit::testing {

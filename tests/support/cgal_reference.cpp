@@ -13,11 +13,11 @@ namespace sublimit::testing {
 namespace {
 
 using Point = CGAL::Simple_cartesian<double>::Point_3;
-using Mesh = CGAL::Surface_mesh<Point>;
+using CgalMesh = CGAL::Surface_mesh<Point>;
 
-Mesh built(const ControlMesh& control) {
-  Mesh mesh;
-  std::vector<Mesh::Vertex_index> vertices, corners;
+CgalMesh built(const Mesh& control) {
+  CgalMesh mesh;
+  std::vector<CgalMesh::Vertex_index> vertices, corners;
   for (Index v = 0; v < control.num_vertices(); ++v)
     vertices.push_back(
         mesh.add_vertex(Point(control.positions(v, 0), control.positions(v, 1), control.positions(v, 2))));
@@ -25,18 +25,18 @@ Mesh built(const ControlMesh& control) {
   for (const Index size : control.face_sizes) {
     corners.clear();
     for (Index i = 0; i < size; ++i) corners.push_back(vertices[control.face_vertices[at++]]);
-    if (mesh.add_face(corners) == Mesh::null_face()) throw std::runtime_error("CGAL does not take the mesh");
+    if (mesh.add_face(corners) == CgalMesh::null_face()) throw std::runtime_error("CGAL does not take the mesh");
   }
   return mesh;
 }
 
-void refine(Mesh& mesh, CgalScheme scheme, int levels) {
+void refine(CgalMesh& mesh, CgalScheme scheme, int levels) {
   namespace method = CGAL::Subdivision_method_3;
   const auto steps = CGAL::parameters::number_of_iterations(unsigned(levels));
   switch (scheme) {
     case CgalScheme::bilinear:
       // Its constructor from a mesh alone does not compile.
-      method::PQQ(mesh, CGAL::Linear_mask_3<Mesh>(&mesh, get(CGAL::vertex_point, mesh)), steps);
+      method::PQQ(mesh, CGAL::Linear_mask_3<CgalMesh>(&mesh, get(CGAL::vertex_point, mesh)), steps);
       break;
     case CgalScheme::catmull_clark:
       method::CatmullClark_subdivision(mesh, steps);
@@ -66,8 +66,8 @@ std::optional<CgalScheme> cgal_scheme(const std::string& name) {
   return std::nullopt;
 }
 
-PeerMesh cgal_refine(const ControlMesh& control, CgalScheme scheme, int levels) {
-  Mesh mesh = built(control);
+PeerMesh cgal_refine(const Mesh& control, CgalScheme scheme, int levels) {
+  CgalMesh mesh = built(control);
   refine(mesh, scheme, levels);
   mesh.collect_garbage();  // elements that were taken away leave gaps in the numbers
   PeerMesh result;
@@ -84,8 +84,8 @@ PeerMesh cgal_refine(const ControlMesh& control, CgalScheme scheme, int levels) 
   return result;
 }
 
-std::function<std::size_t()> cgal_run(const ControlMesh& control, CgalScheme scheme, int levels) {
-  return [mesh = std::make_shared<Mesh>(built(control)), scheme, levels]() -> std::size_t {
+std::function<std::size_t()> cgal_run(const Mesh& control, CgalScheme scheme, int levels) {
+  return [mesh = std::make_shared<CgalMesh>(built(control)), scheme, levels]() -> std::size_t {
     refine(*mesh, scheme, levels);
     return mesh->number_of_vertices();
   };

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "sublimit/mesh/control_mesh.h"
+#include "sublimit/mesh/mesh.h"
 #include "support/peer_mesh.h"
 
 namespace sublimit::testing {
@@ -18,10 +18,10 @@ std::optional<CgalScheme> cgal_scheme(const std::string& name);
 
 /// The mesh after `levels` steps, all in one call: sqrt(3) counts levels from 0 in every call.
 /// @throws std::runtime_error  a face that CGAL does not take
-PeerMesh cgal_refine(const ControlMesh& mesh, CgalScheme scheme, int levels);
+PeerMesh cgal_refine(const Mesh& mesh, CgalScheme scheme, int levels);
 
 /// For benchmarks: CGAL's own mesh, built, and the call that refines it in place; to be made once. It returns the
 /// number of vertices; the mesh lives as long as the function.
-std::function<std::size_t()> cgal_run(const ControlMesh& mesh, CgalScheme scheme, int levels);
+std::function<std::size_t()> cgal_run(const Mesh& mesh, CgalScheme scheme, int levels);
 
 }  // namespace sublimit::testing

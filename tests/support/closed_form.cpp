@@ -9,8 +9,8 @@
 #include <algorithm>
 #include <numbers>
 
-#include "sublimit/core/dense_decompositions.h"
-#include "sublimit/schemes.h"
+#include "sublimit/core/detail/dense_decompositions.h"
+#include "sublimit/schemes/schemes.h"
 
 namespace sublimit::testing {
 namespace {
@@ -19,9 +19,10 @@ using std::numbers::pi;
 
 }  // namespace
 
-LoneLimit lone_centre(const std::string& name, int n, const SchemeOptions& options) {
+IsolatedLimit isolated_centre(const std::string& name, int n, const SchemeOptions& options) {
   const Scheme<double> scheme = find_scheme(name, options).value();
-  return lone_limit(scheme, {.kind = scheme.is_dual() ? Centre::Kind::face : Centre::Kind::vertex, .faces = n}).value();
+  return isolated_limit(scheme, {.kind = scheme.is_dual() ? Centre::Kind::face : Centre::Kind::vertex, .faces = n})
+      .value();
 }
 
 void expect_eigenvalues(const LocalSpectrum& spectrum, int k, std::vector<Precise> values) {
@@ -43,7 +44,7 @@ void expect_tangents(const Eigen::VectorXd& tangent1, const Eigen::VectorXd& tan
   EXPECT_GT(within.determinant(), 0);
 }
 
-void expect_first_mode(const LoneLimit& limit, int n, int first) {
+void expect_first_mode(const IsolatedLimit& limit, int n, int first) {
   const LimitMasks::Side& side = limit.masks.sides.at(0);
   Eigen::VectorXd cosines = Eigen::VectorXd::Zero(side.tangent1.size()), sines = cosines;
   ASSERT_LE(first + n, cosines.size());

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "sublimit/limit/limit_masks.h"
+#include "sublimit/limit/detail/limit_masks.h"
 #include "support/local_spectrum.h"
 
 namespace sublimit::testing {
@@ -18,8 +18,8 @@ inline constexpr double eight_cut_decimals = 1e-8, three_decimals = 5.1e-4;
 /// Half of the last of so many printed decimals, and rounding.
 inline constexpr double four_decimals = 5.1e-5, five_decimals = 5.1e-6, six_decimals = 5.1e-7;
 
-/// The limit of a lone vertex of valence n, or of a lone n-gon if the scheme is dual.
-LoneLimit lone_centre(const std::string& name, int n, const SchemeOptions& options = {});
+/// The limit of a isolated vertex of valence n, or of a isolated n-gon if the scheme is dual.
+IsolatedLimit isolated_centre(const std::string& name, int n, const SchemeOptions& options = {});
 
 /// Block k has exactly these eigenvalues with these multiplicities, by ranks.
 void expect_eigenvalues(const LocalSpectrum& spectrum, int k, std::vector<Precise> values);
@@ -28,7 +28,7 @@ void expect_eigenvalues(const LocalSpectrum& spectrum, int k, std::vector<Precis
 void expect_tangents(const Eigen::VectorXd& tangent1, const Eigen::VectorXd& tangent2, const Eigen::VectorXd& cosines,
                      const Eigen::VectorXd& sines);
 /// The same for cos and sin of 2 pi s/n on n points, the first of which is `first`, and nothing on others.
-void expect_first_mode(const LoneLimit& limit, int n, int first);
+void expect_first_mode(const IsolatedLimit& limit, int n, int first);
 
 /// lambda of valences 3, 4, ... as printed.
 void expect_table(const std::string& name, std::initializer_list<double> lambdas, const SchemeOptions& options = {});

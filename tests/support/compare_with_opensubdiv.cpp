@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "sublimit/core/sparse_product.h"
-#include "sublimit/schemes.h"
+#include "sublimit/core/detail/sparse_product.h"
+#include "sublimit/schemes/schemes.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {
@@ -42,13 +42,13 @@ std::string differences(const Level& ours, const ReferenceLevel& theirs, const s
 
 }  // namespace
 
-Scheme<double> scheme_for(const ControlMesh& mesh, const std::string& name) {
+Scheme<double> scheme_for(const Mesh& mesh, const std::string& name) {
   SchemeOptions options;
   if (name == "catmull-clark" && mesh.triangles == Triangles::smooth) options["triangles"] = "smooth";
   return find_scheme(name, options).value();
 }
 
-Comparison compare_with_opensubdiv(const ControlMesh& mesh, const std::string& scheme_name, int levels) {
+Comparison compare_with_opensubdiv(const Mesh& mesh, const std::string& scheme_name, int levels) {
   Comparison result;
   const std::vector<ReferenceLevel> expected_levels =
       reference_refine(mesh, reference_options(mesh, scheme_name, levels));

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "sublimit/mesh/control_mesh.h"
+#include "sublimit/mesh/mesh.h"
 #include "sublimit/scheme/refine.h"
 #include "support/opensubdiv_reference.h"
 
@@ -18,9 +18,9 @@ struct Comparison {
 };
 
 /// Options of the mesh's own tags; scheme "loop-warren" has no reference.
-Comparison compare_with_opensubdiv(const ControlMesh& mesh, const std::string& scheme, int levels);
+Comparison compare_with_opensubdiv(const Mesh& mesh, const std::string& scheme, int levels);
 
 /// The scheme with what the mesh's tags ask of it.
-Scheme<double> scheme_for(const ControlMesh& mesh, const std::string& scheme);
+Scheme<double> scheme_for(const Mesh& mesh, const std::string& scheme);
 
 }  // namespace sublimit::testing

@@ -69,7 +69,7 @@ struct OwnValues {
   LimitStatus status;
 };
 inline OwnValues own_values(const Patch& patch, const Points& columns, Coordinates coordinates, double u, double v) {
-  const Sample place = patch.place({u, v});
+  const Place place = patch.place({u, v});
   const LimitSamples at = patch.evaluate(columns, std::span(&place, 1), 2, coordinates);
   const auto [a, b] = patch.lengths(place.face);
   OwnValues result;

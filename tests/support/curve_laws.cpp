@@ -4,8 +4,8 @@
 #include <cmath>
 #include <random>
 
-#include "sublimit/core/dense_decompositions.h"
-#include "sublimit/curves/curve_limits.h"
+#include "sublimit/core/detail/dense_decompositions.h"
+#include "sublimit/curves/detail/curve_limits.h"
 #include "sublimit/curves/schemes/curve_schemes.h"
 #include "support/stationary.h"
 #include "support/tolerance.h"
@@ -114,7 +114,7 @@ std::string claims_about_weights_hold(const Scheme& scheme) {
     if (polygon.curves.size() > 1) continue;
     const Index unknowns = level.unknowns;
     for (Index c = 0; c < level.S.cols() && scheme.claims.interpolates; ++c) {
-      const Index row = c + c - c % unknowns;  // a derivative is per leg, and legs are half as long
+      const Index row = c + c - c % unknowns;  // a derivative is per edge, and edges are half as long
       if (level.S.row(row).nonZeros() != 1 || level.S.coeff(row, c) != (c % unknowns == 0 ? 1 : 0.5))
         return "an old point moves";
     }
@@ -130,7 +130,7 @@ std::string claims_about_weights_hold(const Scheme& scheme) {
 struct Line {
   CurveLayout layout;
   CurveOutline outline, child;
-  Eigen::VectorXd x, y;  ///< positions of parents and children in legs of the parents
+  Eigen::VectorXd x, y;  ///< positions of parents and children in edges of the parents
   explicit Line(const Scheme& scheme, Index size = 40)
       : layout(scheme), outline(layout.control(size, false)), child(layout.child(outline)), x(size), y(child.size) {
     for (Index a = 0; a < size; ++a) x[a] = double(layout.position(outline, a)) / 2;
@@ -138,13 +138,13 @@ struct Line {
   }
 };
 
-/// x^degree; of Hermite schemes with its derivatives, per leg of this length.
-Eigen::VectorXd power(const Scheme& scheme, const Eigen::VectorXd& x, int degree, double leg = 1) {
+/// x^degree; of Hermite schemes with its derivatives, per edge of this length.
+Eigen::VectorXd power(const Scheme& scheme, const Eigen::VectorXd& x, int degree, double edge = 1) {
   if (scheme.masks.unknowns() == 1) return x.array().pow(degree);
   Eigen::VectorXd both(2 * x.size());
   for (Eigen::Index i = 0; i < x.size(); ++i) {
     both[2 * i] = std::pow(x[i], degree);
-    both[2 * i + 1] = degree == 0 ? 0 : leg * degree * std::pow(x[i], degree - 1);
+    both[2 * i + 1] = degree == 0 ? 0 : edge * degree * std::pow(x[i], degree - 1);
   }
   return both;
 }
@@ -214,7 +214,7 @@ std::string ends_go_on(const Scheme& scheme) {
   const auto& masks = scheme.masks;
   const CurveSite<double> inside(0);
   const Stencil<double> mask[] = {masks.dual() ? masks.before(inside) : masks.point(inside),
-                                  masks.dual() ? masks.after(inside) : masks.leg(inside)};
+                                  masks.dual() ? masks.after(inside) : masks.edge(inside)};
   for (const int degree : degrees) {
     const Eigen::VectorXd values = curve_matrix(scheme, {line.outline}, 0) * power(scheme, line.x, degree);
     for (Index a = 1; a < 12; ++a) {

@@ -9,7 +9,7 @@
 
 namespace sublimit::testing {
 
-/// Limit and derivatives per leg of the control polygon, where they exist.
+/// Limit and derivatives per edge of the control polygon, where they exist.
 struct CurveTruth {
   Precise position, first, second;
 };
@@ -20,7 +20,7 @@ class CurveBruteForce {
   /// @param stationary  masks are the same at every level: they are made once
   CurveBruteForce(CurveScheme<Precise> scheme, Eigen::VectorXd values, bool closed, bool stationary = true);
 
-  /// @param position  in half legs from the start of the limit (CurveLayout); what has too many digits for a double
+  /// @param position  in half edges from the start of the limit (CurveLayout); what has too many digits for a double
   ///                  is the sum of two of them. Derivatives are those from behind, at the end those from before.
   CurveTruth at(double position, double more = 0);
 

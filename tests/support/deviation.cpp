@@ -123,7 +123,7 @@ std::vector<Deviation> deviations(const GeometricScheme<CurvatureMesh>& scheme, 
   return table;
 }
 
-std::vector<VertexTarget> targets_on(const ImplicitSurface& surface, const ControlMesh& mesh) {
+std::vector<VertexTarget> targets_on(const ImplicitSurface& surface, const Mesh& mesh) {
   std::vector<VertexTarget> targets;
   for (Index v = 0; v < mesh.num_vertices(); ++v) {
     const SurfacePoint p = nearest_point(surface, mesh.positions.row(v).transpose());

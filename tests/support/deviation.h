@@ -50,6 +50,6 @@ std::vector<Deviation> deviations(const GeometricScheme<CurvatureMesh>& scheme, 
                                   const ImplicitSurface& surface);
 
 /// Exact data of the surface at the points of it nearest to a mesh's vertices: targets to start from.
-std::vector<VertexTarget> targets_on(const ImplicitSurface& surface, const ControlMesh& mesh);
+std::vector<VertexTarget> targets_on(const ImplicitSurface& surface, const Mesh& mesh);
 
 }  // namespace sublimit::testing

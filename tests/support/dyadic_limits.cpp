@@ -4,8 +4,8 @@
 #include <cmath>
 #include <utility>
 
-#include "sublimit/core/sparse_product.h"
-#include "sublimit/limit/limit_points.h"
+#include "sublimit/core/detail/sparse_product.h"
+#include "sublimit/limit/detail/limit_points.h"
 
 namespace sublimit::testing {
 namespace {
@@ -35,7 +35,7 @@ Patch child(const Scheme<double>& scheme, const Patch& patch, Index number) {
 }
 
 /// (s,t) along the edges of a corner, as (u,v).
-Sample from_corner(const SquareCorner& c, double s, double t) {
+Place from_corner(const SquareCorner& c, double s, double t) {
   switch (c.corner) {
     case 0:
       return {c.address, s, t};
@@ -69,7 +69,7 @@ SquareCorner::Kind kind(const Level& level, Vertex v) {
 
 }  // namespace
 
-DyadicLimits::DyadicLimits(const Scheme<double>& scheme, const ControlMesh& mesh)
+DyadicLimits::DyadicLimits(const Scheme<double>& scheme, const Mesh& mesh)
     : scheme_(scheme),
       points_(mesh.positions),
       level_(control_level(scheme, mesh)),

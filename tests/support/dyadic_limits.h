@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "sublimit/limit/address.h"
-#include "sublimit/limit/limit_types.h"
+#include "sublimit/limit/detail/limit_cache.h"
 #include "sublimit/scheme/refine.h"
 
 namespace sublimit::testing {
@@ -23,7 +23,7 @@ struct SquareCorner {
 
 struct DyadicLimit {
   int exponent = 0;  ///< 2^-exponent is the distance to the corner, the larger one of those along u and v
-  Sample place;
+  Place place;
   Eigen::Vector3d position, normal;
   bool has_normal = false;
 };
@@ -31,7 +31,7 @@ struct DyadicLimit {
 /// Of schemes that split every face into quadrilaterals and have primal, narrow masks.
 class DyadicLimits {
  public:
-  DyadicLimits(const Scheme<double>& scheme, const ControlMesh& mesh);
+  DyadicLimits(const Scheme<double>& scheme, const Mesh& mesh);
 
   const Addresses& addresses() const { return addresses_; }
   /// All corners of all squares, but those of holes.
@@ -46,7 +46,7 @@ class DyadicLimits {
   Points points_;
   Level level_;
   Addresses addresses_;
-  LimitTypes cache_;
+  LimitCache cache_;
 };
 
 }  // namespace sublimit::testing

@@ -6,7 +6,7 @@
 #include <random>
 #include <set>
 
-#include "sublimit/core/sparse_product.h"
+#include "sublimit/core/detail/sparse_product.h"
 #include "sublimit/primvar/face_varying.h"
 #include "support/compare_with_opensubdiv.h"
 
@@ -17,7 +17,7 @@ std::pair<Index, Index> edge(Index a, Index b) { return {std::min(a, b), std::ma
 
 }  // namespace
 
-ControlMesh with_channel(ControlMesh mesh, const Seams& seams, const std::vector<Index>& joined, unsigned seed) {
+Mesh with_channel(Mesh mesh, const Seams& seams, const std::vector<Index>& joined, unsigned seed) {
   const Topology t(view(mesh));
   std::set<std::pair<Index, Index>> cut;
   for (const auto& [a, b] : seams) cut.insert(edge(a, b));
@@ -49,7 +49,7 @@ ControlMesh with_channel(ControlMesh mesh, const Seams& seams, const std::vector
       } while (exists(h) && h != start);
     }
   }
-  ControlMesh::FaceVarying channel{.name = "uv", .values = {}, .indices = {}};
+  Mesh::FaceVarying channel{.name = "uv", .values = {}, .indices = {}};
   std::vector<Index> number(root.size(), -1);
   Index count = 0;
   for (Index h = 0; h < t.num_half_edges(); ++h) {
@@ -65,7 +65,7 @@ ControlMesh with_channel(ControlMesh mesh, const Seams& seams, const std::vector
   return mesh;
 }
 
-ControlMesh with_random_channel(ControlMesh mesh, double probability, unsigned seed) {
+Mesh with_random_channel(Mesh mesh, double probability, unsigned seed) {
   const Topology t(view(mesh));
   std::mt19937 random(seed);
   const auto happens = [&](double p) { return double(random()) < p * double(std::mt19937::max()); };
@@ -78,9 +78,9 @@ ControlMesh with_random_channel(ControlMesh mesh, double probability, unsigned s
   return with_channel(std::move(mesh), seams, joined, seed);
 }
 
-ControlMesh without_turns(ControlMesh mesh) {
+Mesh without_turns(Mesh mesh) {
   const Topology t(view(mesh));
-  ControlMesh::FaceVarying& channel = mesh.face_varying.at(0);
+  Mesh::FaceVarying& channel = mesh.face_varying.at(0);
   const auto take_turns = [](const std::vector<Index>& values) {  // is there a subsequence a b a b?
     for (const Index a : values)
       for (const Index b : values) {
@@ -129,14 +129,14 @@ const char* name(FaceVaryingInterpolation interpolation) {
   return names[static_cast<int>(interpolation)];
 }
 
-ChannelComparison compare_channel_with_opensubdiv(const ControlMesh& mesh, const std::string& scheme_name,
+ChannelComparison compare_channel_with_opensubdiv(const Mesh& mesh, const std::string& scheme_name,
                                                   FaceVaryingInterpolation interpolation, int levels) {
   ReferenceOptions options = reference_options(mesh, scheme_name, levels);
   options.face_varying = interpolation;
   const std::vector<ReferenceLevel> expected = reference_refine(mesh, options);
   const Scheme<double> scheme = scheme_for(mesh, scheme_name);
   const std::vector<Level> refined = refine(scheme, mesh, levels);
-  const ControlMesh::FaceVarying& channel = mesh.face_varying.at(0);
+  const Mesh::FaceVarying& channel = mesh.face_varying.at(0);
   const std::vector<FaceVaryingLevel> ours = refine_face_varying(scheme, interpolation, channel, refined);
   const double range = (channel.values.colwise().maxCoeff() - channel.values.colwise().minCoeff()).maxCoeff();
 

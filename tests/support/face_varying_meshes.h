@@ -13,17 +13,16 @@ using Seams = std::vector<std::pair<Index, Index>>;  ///< edges, by their vertic
 
 /// The mesh with a channel that is continuous across all edges but the seams. Values are random, two columns.
 /// @param joined  vertices at which all corners have one value in spite of seams
-ControlMesh with_channel(ControlMesh mesh, const Seams& seams, const std::vector<Index>& joined = {},
-                         unsigned seed = 1);
+Mesh with_channel(Mesh mesh, const Seams& seams, const std::vector<Index>& joined = {}, unsigned seed = 1);
 
 /// The same, with every edge a seam with this probability, and some vertices joined.
-ControlMesh with_random_channel(ControlMesh mesh, double probability, unsigned seed = 1);
+Mesh with_random_channel(Mesh mesh, double probability, unsigned seed = 1);
 
 /// The mesh with other indices where two values take turns twice around a vertex (a b a b): then each run of faces has
 /// a value of its own, with the same numbers. Of such values OpenSubdiv 3.5 takes a for one value and every b for
 /// another (its search for values that it met before looks at the first of two only), so that refined values depend on
 /// the face it starts from.
-ControlMesh without_turns(ControlMesh mesh);
+Mesh without_turns(Mesh mesh);
 
 inline constexpr FaceVaryingInterpolation all_interpolations[] = {
     FaceVaryingInterpolation::none,          FaceVaryingInterpolation::corners_only,
@@ -36,7 +35,7 @@ struct ChannelComparison {
   double error = 0;      ///< largest difference of values, all levels, over their range
 };
 /// Our levels of the mesh's first channel against OpenSubdiv's, corner by corner, under the mesh's own tags.
-ChannelComparison compare_channel_with_opensubdiv(const ControlMesh& mesh, const std::string& scheme,
+ChannelComparison compare_channel_with_opensubdiv(const Mesh& mesh, const std::string& scheme,
                                                   FaceVaryingInterpolation interpolation, int levels);
 
 }  // namespace sublimit::testing

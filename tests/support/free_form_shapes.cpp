@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "sublimit/patches/finer_knots.h"
+#include "sublimit/patches/detail/finer_knots.h"
 
 namespace sublimit::testing {
 namespace {

@@ -14,8 +14,8 @@ namespace {
 unsigned seed_of(std::mt19937& random) { return unsigned(random()); }
 
 /// Faces of which `keep` is true, and the vertices that they have; untagged.
-ControlMesh kept(const ControlMesh& mesh, const std::vector<char>& keep) {
-  ControlMesh result;
+Mesh kept(const Mesh& mesh, const std::vector<char>& keep) {
+  Mesh result;
   std::vector<Index> number(size_t(mesh.num_vertices()), -1);
   std::vector<Index> vertices;
   for (size_t f = 0, at = 0; f < keep.size(); at += size_t(mesh.face_sizes[f++])) {
@@ -35,7 +35,7 @@ ControlMesh kept(const ControlMesh& mesh, const std::vector<char>& keep) {
 }
 
 /// Without the faces around some vertices, as long as the mesh stays a manifold.
-ControlMesh opened(ControlMesh mesh, int holes, std::mt19937& random) {
+Mesh opened(Mesh mesh, int holes, std::mt19937& random) {
   for (int tries = 0; holes > 0 && tries < 200; ++tries) {
     const Topology t(view(mesh));
     const Vertex v{Index(random() % std::uint32_t(t.num_vertices()))};
@@ -44,7 +44,7 @@ ControlMesh opened(ControlMesh mesh, int holes, std::mt19937& random) {
     for (Index f = 0; f < t.num_faces(); ++f)
       for (const Index w : t.vertices(Face{f}))
         if (w == index(v)) keep[size_t(f)] = 0;
-    ControlMesh candidate = kept(mesh, keep);
+    Mesh candidate = kept(mesh, keep);
     const Topology c(view(candidate));
     if (!c.is_manifold() || !c.faults().empty()) continue;
     mesh = std::move(candidate);
@@ -67,7 +67,7 @@ std::vector<Index> wander(const Topology& t, int steps, std::mt19937& random) {
   return path;
 }
 
-void add_semi_sharp(ControlMesh& mesh, std::mt19937& random) {
+void add_semi_sharp(Mesh& mesh, std::mt19937& random) {
   const Topology t(view(mesh));
   const auto sharpness = [&] {
     return random() % 6 == 0 ? infinite_sharpness : 0.3f + 5.4f * float(random() % 1000) / 999;
@@ -84,7 +84,7 @@ void add_semi_sharp(ControlMesh& mesh, std::mt19937& random) {
 }
 
 /// Infinitely sharp edges around random sets of faces: no path ends inside.
-void add_sharp(ControlMesh& mesh, std::mt19937& random) {
+void add_sharp(Mesh& mesh, std::mt19937& random) {
   const Topology t(view(mesh));
   for (int sets = 0; sets < 3; ++sets) {
     std::set<Index> region{Index(random() % std::uint32_t(t.num_faces()))};
@@ -103,7 +103,7 @@ void add_sharp(ControlMesh& mesh, std::mt19937& random) {
   }
 }
 
-ControlMesh finished(ControlMesh mesh, const Hardness& hardness, std::mt19937& random) {
+Mesh finished(Mesh mesh, const Hardness& hardness, std::mt19937& random) {
   if (hardness.open) mesh = opened(std::move(mesh), 2, random);
   mesh = jittered(std::move(mesh), 0.05, seed_of(random));
   if (hardness.sharp) add_sharp(mesh, random);
@@ -113,18 +113,18 @@ ControlMesh finished(ControlMesh mesh, const Hardness& hardness, std::mt19937& r
 
 }  // namespace
 
-ControlMesh hard_triangles(unsigned seed, const Hardness& hardness) {
+Mesh hard_triangles(unsigned seed, const Hardness& hardness) {
   std::mt19937 random(seed);
   return finished(flipped(triangle_torus(9, 8), 200, seed_of(random), 12), hardness, random);
 }
 
-ControlMesh hard_polygons(unsigned seed, const Hardness& hardness) {
+Mesh hard_polygons(unsigned seed, const Hardness& hardness) {
   std::mt19937 random(seed);
   // Half of the meshes are mostly quads, where regular places lie between irregular ones.
-  const ControlMesh triangles = flipped(triangle_torus(9, 8), 200, seed_of(random), 12);
-  const ControlMesh mesh = seed % 2 == 0 ? merged(triangles, 90, seed_of(random), 12)
-                                         : merged(quads_from_triangles(flipped(icosahedron(), 60, seed_of(random), 12)),
-                                                  12, seed_of(random), 12);
+  const Mesh triangles = flipped(triangle_torus(9, 8), 200, seed_of(random), 12);
+  const Mesh mesh = seed % 2 == 0 ? merged(triangles, 90, seed_of(random), 12)
+                                  : merged(quads_from_triangles(flipped(icosahedron(), 60, seed_of(random), 12)), 12,
+                                           seed_of(random), 12);
   return finished(mesh, hardness, random);
 }
 

@@ -14,8 +14,8 @@ struct Hardness {
 };
 
 /// Valences and corners of faces from 3 to 12 (borders: vertices of one face and more).
-ControlMesh hard_polygons(unsigned seed, const Hardness& hardness = {});
+Mesh hard_polygons(unsigned seed, const Hardness& hardness = {});
 /// Triangles, valences from 3 to 12.
-ControlMesh hard_triangles(unsigned seed, const Hardness& hardness = {});
+Mesh hard_triangles(unsigned seed, const Hardness& hardness = {});
 
 }  // namespace sublimit::testing

@@ -20,7 +20,7 @@ struct Editable {
   std::vector<Index> valence;
   std::mt19937 random;
 
-  Editable(const ControlMesh& mesh, unsigned seed) : valence(mesh.num_vertices(), 0), random(seed) {
+  Editable(const Mesh& mesh, unsigned seed) : valence(mesh.num_vertices(), 0), random(seed) {
     size_t at = 0;
     for (const Index size : mesh.face_sizes) {
       faces.emplace_back();
@@ -49,8 +49,8 @@ struct Editable {
     std::rotate(face.begin(), std::find(face.begin(), face.end(), tail), face.end());
     return face;
   }
-  ControlMesh mesh(const Points& positions) const {
-    ControlMesh result;
+  Mesh mesh(const Points& positions) const {
+    Mesh result;
     result.positions = positions;
     for (const auto& face : faces) {
       if (face.empty()) continue;
@@ -63,7 +63,7 @@ struct Editable {
 
 }  // namespace
 
-ControlMesh bipyramid(Index n) {
+Mesh bipyramid(Index n) {
   std::vector<Eigen::Vector3d> positions{{0, 0, 1}, {0, 0, -1}};
   Faces faces;
   for (Index i = 0; i < n; ++i) {
@@ -75,7 +75,7 @@ ControlMesh bipyramid(Index n) {
   return make_mesh(positions, faces);
 }
 
-ControlMesh flipped(const ControlMesh& triangles, int flips, unsigned seed, Index most) {
+Mesh flipped(const Mesh& triangles, int flips, unsigned seed, Index most) {
   Editable m(triangles, seed);
   for (int tries = 0, done = 0; done < flips && tries < 100 * flips; ++tries) {
     const auto [a, b] = m.pick();
@@ -95,7 +95,7 @@ ControlMesh flipped(const ControlMesh& triangles, int flips, unsigned seed, Inde
   return m.mesh(triangles.positions);
 }
 
-ControlMesh merged(const ControlMesh& mesh, int edges, unsigned seed, Index most) {
+Mesh merged(const Mesh& mesh, int edges, unsigned seed, Index most) {
   Editable m(mesh, seed);
   for (int tries = 0, done = 0; done < edges && tries < 100 * edges; ++tries) {
     const auto [a, b] = m.pick();
@@ -123,7 +123,7 @@ namespace {
 
 std::vector<NamedMesh> made_closed_triangle_meshes() {
   std::vector<NamedMesh> list;
-  const auto add = [&](const std::string& name, const ControlMesh& mesh, unsigned seed = 1) {
+  const auto add = [&](const std::string& name, const Mesh& mesh, unsigned seed = 1) {
     list.push_back({name, {}, jittered(mesh, 0.1, seed)});
   };
   add("tetrahedron", tetrahedron());
@@ -141,7 +141,7 @@ std::vector<NamedMesh> made_closed_triangle_meshes() {
 
 std::vector<NamedMesh> made_closed_polygon_meshes() {
   std::vector<NamedMesh> list = made_closed_triangle_meshes();
-  const auto add = [&](const std::string& name, const ControlMesh& mesh, unsigned seed = 1) {
+  const auto add = [&](const std::string& name, const Mesh& mesh, unsigned seed = 1) {
     list.push_back({name, {}, jittered(mesh, 0.05, seed)});
   };
   add("cube", cube());

@@ -10,15 +10,15 @@
 
 namespace sublimit::testing {
 
-ControlMesh bipyramid(Index n);  ///< triangles; two vertices of valence n, n of valence 4
+Mesh bipyramid(Index n);  ///< triangles; two vertices of valence n, n of valence 4
 
 /// Triangles, of which `flips` random edges have been flipped where valences stay from 3 to `most` and no edge is
 /// doubled.
-ControlMesh flipped(const ControlMesh& triangles, int flips, unsigned seed = 1, Index most = 10);
+Mesh flipped(const Mesh& triangles, int flips, unsigned seed = 1, Index most = 10);
 
 /// Up to `edges` random edges removed, their faces made one, where valences stay at least 3, faces get no more than
 /// `most` corners, and no other vertex is common to both.
-ControlMesh merged(const ControlMesh& mesh, int edges, unsigned seed = 1, Index most = 10);
+Mesh merged(const Mesh& mesh, int edges, unsigned seed = 1, Index most = 10);
 
 /// What schemes are compared with other libraries on: every vertex moved at random, valences (and faces of polygon
 /// meshes) of 3 to 10 in all combinations, one valence of 60, regular places too. The schemes' names are left empty.
@@ -30,7 +30,7 @@ std::vector<NamedMesh> open_polygon_meshes();
 
 struct SchemeOnMesh {
   std::string scheme, name;
-  ControlMesh mesh;
+  Mesh mesh;
   friend std::ostream& operator<<(std::ostream& out, const SchemeOnMesh& s) {
     return out << s.scheme << " on " << s.name;
   }

@@ -12,13 +12,13 @@
 #include <random>
 
 #include "sublimit/base/error.h"
-#include "sublimit/core/sparse_product.h"
-#include "sublimit/limit/eigen_structure.h"
-#include "sublimit/limit/limit_points.h"
-#include "sublimit/limit/limit_rows.h"
+#include "sublimit/core/detail/sparse_product.h"
+#include "sublimit/limit/detail/eigen_structure.h"
+#include "sublimit/limit/detail/limit_points.h"
+#include "sublimit/limit/detail/limit_rows.h"
 #include "sublimit/neighborhood/local_patch.h"
 #include "sublimit/scheme/refine.h"
-#include "sublimit/schemes.h"
+#include "sublimit/schemes/schemes.h"
 #include "support/local_types.h"
 #include "support/meshes.h"
 #include "support/published_values.h"
@@ -30,10 +30,10 @@ namespace {
 bool takes_quads(const Scheme<double>& scheme) { return scheme.face_size() != 3; }
 
 /// Closed, open, irregular and tagged meshes that the scheme takes.
-std::vector<ControlMesh> meshes_for(const Scheme<double>& scheme) {
+std::vector<Mesh> meshes_for(const Scheme<double>& scheme) {
   const bool semi_sharp = scheme.sharpening == Sharpening::semi_sharp;
   if (takes_quads(scheme)) {
-    ControlMesh creased = cube();
+    Mesh creased = cube();
     if (semi_sharp) {
       creased.creases = {{0, 1, 1.4f}, {1, 3, 0.7f}, {1, 5, 3}};
       creased.corners = {{6, 0.8f}};
@@ -41,13 +41,13 @@ std::vector<ControlMesh> meshes_for(const Scheme<double>& scheme) {
       creased.creases = {{0, 1, 10}, {1, 3, 10}, {3, 2, 10}, {2, 0, 10},
                          {4, 5, 10}, {5, 7, 10}, {7, 6, 10}, {6, 4, 10}};
     }
-    std::vector<ControlMesh> meshes{
+    std::vector<Mesh> meshes{
         jittered(torus(4, 5)), grid(3, 4),       creased, jittered(prism(5)), quads_from_triangles(icosahedron()),
         fan(7, 4, 2),          open_fan(3, 4, 2)};
     if (!scheme.preparation.empty()) meshes.push_back(polygon_ring({3, 5, 4}));
     return meshes;
   }
-  ControlMesh creased = octahedron();
+  Mesh creased = octahedron();
   if (semi_sharp) creased.creases = {{0, 2, 1.4f}, {0, 3, 0.7f}};
   if (scheme.sharpening == Sharpening::sharp) creased.creases = {{0, 2, 10}, {2, 1, 10}, {1, 3, 10}, {3, 0, 10}};
   return {jittered(triangle_torus(4, 5)),
@@ -65,7 +65,7 @@ std::optional<FourierBlocks> blocks_of(const Scheme<double>& scheme, int n, int 
 }
 
 std::string rows_sum_to_one(const Scheme<double>& scheme) {
-  for (const ControlMesh& mesh : meshes_for(scheme)) {
+  for (const Mesh& mesh : meshes_for(scheme)) {
     const std::vector<Level> levels = refine(scheme, mesh, 2);
     for (int k = 1; k <= 2; ++k) {
       const Eigen::VectorXd sums = levels[k].S * Eigen::VectorXd::Ones(levels[k].S.cols());
@@ -76,7 +76,7 @@ std::string rows_sum_to_one(const Scheme<double>& scheme) {
 }
 
 /// Renumbers vertices, faces and the corners faces start at, and turns every face over.
-ControlMesh relabelled(const ControlMesh& mesh, std::vector<Index>& new_vertex) {
+Mesh relabelled(const Mesh& mesh, std::vector<Index>& new_vertex) {
   std::mt19937 random(7);
   new_vertex.resize(mesh.num_vertices());
   std::iota(new_vertex.begin(), new_vertex.end(), 0);
@@ -90,7 +90,7 @@ ControlMesh relabelled(const ControlMesh& mesh, std::vector<Index>& new_vertex) 
     faces.push_back(face);
   }
   std::shuffle(faces.begin(), faces.end(), random);
-  ControlMesh result;
+  Mesh result;
   result.positions.resize(mesh.num_vertices(), 3);
   for (Index v = 0; v < mesh.num_vertices(); ++v) result.positions.row(new_vertex[v]) = mesh.positions.row(v);
   for (const auto& face : faces) {
@@ -106,10 +106,10 @@ ControlMesh relabelled(const ControlMesh& mesh, std::vector<Index>& new_vertex) 
 /// vertices they are on.
 std::string relabelling_and_mirroring_permute_rows(const Scheme<double>& scheme) {
   using Rows = std::map<std::vector<Index>, std::vector<std::vector<double>>>;  // weights by ascending columns
-  for (const ControlMesh& mesh : meshes_for(scheme)) {
+  for (const Mesh& mesh : meshes_for(scheme)) {
     std::vector<Index> new_vertex;
-    const ControlMesh other = relabelled(mesh, new_vertex);
-    const auto rows = [&](const ControlMesh& m, bool rename) {
+    const Mesh other = relabelled(mesh, new_vertex);
+    const auto rows = [&](const Mesh& m, bool rename) {
       const SparseMatrix S = refine(scheme, m, 1)[1].S;
       Rows result;
       for (Index r = 0; r < S.rows(); ++r) {
@@ -165,11 +165,11 @@ std::string symmetric_rings_give_circulant_blocks(const Scheme<double>& scheme) 
 std::string one_is_the_simple_dominant_eigenvalue(const Scheme<double>& scheme) {
   try {
     for (int n = 3; n <= 9; ++n) {
-      const auto limit = lone_limit(scheme, smooth_type(scheme, n));
+      const auto limit = isolated_limit(scheme, smooth_type(scheme, n));
       if (!limit || std::abs(limit->masks.position.sum() - 1) > eigen())
         return "no limit at valence " + std::to_string(n);
       int borders = 0;
-      for (const LocalType& type : border_types(scheme, n - 2)) borders += lone_limit(scheme, type).has_value();
+      for (const LocalType& type : border_types(scheme, n - 2)) borders += isolated_limit(scheme, type).has_value();
       if (borders == 0) return "no limit on the border";
     }
   } catch (const AnalysisError& error) {
@@ -179,7 +179,7 @@ std::string one_is_the_simple_dominant_eigenvalue(const Scheme<double>& scheme) 
 }
 
 std::string claims_about_weights_hold(const Scheme<double>& scheme) {
-  for (const ControlMesh& mesh : meshes_for(scheme)) {
+  for (const Mesh& mesh : meshes_for(scheme)) {
     const Level level = refine(scheme, mesh, 1)[1];
     if (level.steps.size() > scheme.steps.size()) continue;  // other faces were cut up first
     for (Index r = 0; r < level.S.rows(); ++r) {
@@ -200,7 +200,7 @@ std::string claims_about_weights_hold(const Scheme<double>& scheme) {
 /// approximating ones degree 1).
 std::string claimed_polynomials_are_reproduced(const Scheme<double>& scheme) {
   const Index m = 14;
-  ControlMesh mesh = takes_quads(scheme) ? grid(m, m) : triangle_grid(m, m);
+  Mesh mesh = takes_quads(scheme) ? grid(m, m) : triangle_grid(m, m);
   Points x(mesh.positions.rows(), 2);
   for (Index j = 0; j <= m; ++j)
     for (Index i = 0; i <= m; ++i) x.row(j * (m + 1) + i) << (i - 7.0) / 2, (j - 7.0) / 2;
@@ -237,7 +237,7 @@ std::string claimed_polynomials_are_reproduced(const Scheme<double>& scheme) {
 /// surface does.
 std::string borders_are_refined_evenly(const Scheme<double>& scheme) {
   const Index m = 14;
-  ControlMesh mesh = takes_quads(scheme) ? grid(m, m) : triangle_grid(m, m);
+  Mesh mesh = takes_quads(scheme) ? grid(m, m) : triangle_grid(m, m);
   Points x(mesh.positions.rows(), 4);
   for (Index j = 0; j <= m; ++j)
     for (Index i = 0; i <= m; ++i) x.row(j * (m + 1) + i) << i - 7.0, j, std::pow(i - 7.0, 2), std::pow(i - 7.0, 3);
@@ -264,7 +264,7 @@ std::string borders_are_refined_evenly(const Scheme<double>& scheme) {
 std::string lines_are_refined_alike(const Scheme<double>& scheme) {
   if (!scheme.claims.interpolates || scheme.steps[0].split == Split::sqrt3) return {};
   const Index m = 10;
-  ControlMesh mesh = takes_quads(scheme) ? grid(m, m) : triangle_grid(m, m);
+  Mesh mesh = takes_quads(scheme) ? grid(m, m) : triangle_grid(m, m);
   if (scheme.sharpening != Sharpening::boundary)
     for (Index i = 0; i < m; ++i) mesh.creases.push_back({5 * (m + 1) + i, 5 * (m + 1) + i + 1, 10});
   Points x(mesh.positions.rows(), 2);
@@ -284,10 +284,10 @@ std::string borders_depend_on_borders_alone(const Scheme<double>& scheme) {
   const auto on_border = [](const Topology& t, Index v) {
     return exists(t.outgoing(Vertex{v})) && !exists(t.twin(t.outgoing(Vertex{v})));
   };
-  std::vector<ControlMesh> meshes = meshes_for(scheme);
+  std::vector<Mesh> meshes = meshes_for(scheme);
   for (Index faces = 1; faces <= 5; ++faces) meshes.push_back(open_fan(faces, takes_quads(scheme) ? 4 : 3, 2));
   int border_points = 0, with_inside = 0;
-  for (const ControlMesh& mesh : meshes) {
+  for (const Mesh& mesh : meshes) {
     const std::vector<Level> levels = refine(scheme, mesh, 2);
     for (int k = 1; k <= 2; ++k)
       for (Index r = 0; r < levels[k].S.rows(); ++r) {
@@ -305,7 +305,7 @@ std::string borders_depend_on_borders_alone(const Scheme<double>& scheme) {
 }
 
 std::string extraordinary_vertices_do_not_multiply(const Scheme<double>& scheme) {
-  for (const ControlMesh& mesh : meshes_for(scheme)) {
+  for (const Mesh& mesh : meshes_for(scheme)) {
     const std::vector<Level> levels = refine(scheme, mesh, 3);
     const bool open = std::any_of(levels[0].sharpness.edge.begin(), levels[0].sharpness.edge.end(), is_sharp);
     if (open && scheme.period > 1) continue;  // borders take turns
@@ -339,8 +339,8 @@ std::string limits_agree_between_levels(const Scheme<double>& scheme) {
   const auto same_normal = [](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
     return (a - b).norm() <= eigen(10);
   };
-  LimitTypes cache(scheme);
-  for (const ControlMesh& mesh : meshes_for(scheme)) {
+  LimitCache cache(scheme);
+  for (const Mesh& mesh : meshes_for(scheme)) {
     const std::vector<Level> levels = refine(scheme, mesh, 2);
     Points x = mesh.positions;
     for (int k = 0; k < 2; ++k) {
@@ -444,9 +444,9 @@ std::optional<Index> faces_before(const std::vector<Level>& levels, Vertex v) {
 
 std::vector<NormalPlace> normal_places(const Scheme<double>& scheme) {
   std::vector<NormalPlace> places;
-  LimitTypes cache(scheme);
+  LimitCache cache(scheme);
   Index number = 0;
-  for (const ControlMesh& mesh : meshes_for(scheme)) {
+  for (const Mesh& mesh : meshes_for(scheme)) {
     const std::vector<Level> levels = refine(scheme, mesh, 1);
     Points x = mesh.positions;
     for (int k = 0; k < 2; ++k) {

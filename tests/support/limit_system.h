@@ -4,11 +4,11 @@
 #include <string>
 
 #include "sublimit/core/types.h"
-#include "sublimit/mesh/control_mesh.h"
+#include "sublimit/mesh/mesh.h"
 
 namespace sublimit::testing {
 
 /// L of level 0: x_inf = L x.
-SparseMatrix limit_system(const std::string& scheme, const ControlMesh& mesh);
+SparseMatrix limit_system(const std::string& scheme, const Mesh& mesh);
 
 }  // namespace sublimit::testing

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "sublimit/base/error.h"
-#include "sublimit/scheme/refine_impl.h"
+#include "sublimit/scheme/detail/refine_impl.h"
 #include "support/place_descent.h"
 #include "support/regular_patch.h"
 
@@ -18,7 +18,7 @@ struct Stage {
   Level level;
   PrecisePoints points;
   std::vector<char> strays;  // dual schemes: vertices that borders have moved off their natural place
-  Place place;
+  DescentPlace place;
 };
 
 int rings_around(const Scheme<Precise>& scheme) {
@@ -106,17 +106,19 @@ struct Guess {
 };
 Guess guess(const Stage& stage) {
   const Topology& t = stage.level.topology();
-  const Place& p = stage.place;
+  const DescentPlace& p = stage.place;
   const Precise &x = p.x, &y = p.y;
   const auto corner = [&](int k) -> Vector {
-    if (p.cell != Place::Cell::around_vertex) return stage.points.row(index(t.tail(along(t, p.frame, k)))).transpose();
+    if (p.cell != DescentPlace::Cell::around_vertex)
+      return stage.points.row(index(t.tail(along(t, p.frame, k)))).transpose();
     const Face f = t.face(turned(t, p.frame, k));
     Vector sum = Vector::Zero(stage.points.cols());
     for (const Index v : t.vertices(f)) sum += stage.points.row(v).transpose();
     return sum / Precise(t.size(f));
   };
   const Vector a = corner(0), b = corner(1), c = corner(2);
-  if (p.cell == Place::Cell::triangle) return {a + x * (b - a) + y * (c - a), p.scale * (b - a), p.scale * (c - a)};
+  if (p.cell == DescentPlace::Cell::triangle)
+    return {a + x * (b - a) + y * (c - a), p.scale * (b - a), p.scale * (c - a)};
   const Vector d = corner(3);
   const Precise x1 = 1 - x, y1 = 1 - y;
   return {y1 * (x1 * a + x * b) + y * (x1 * d + x * c), p.scale * (y1 * (b - a) + y * (c - d)),
@@ -131,22 +133,22 @@ bool is_decaying(const Level& level) {
 
 /// Not in an irregular vertex.
 bool has_regular_place(const Stage& stage) {
-  const Place& p = stage.place;
+  const DescentPlace& p = stage.place;
   if ((p.x != 0 && p.x != 1) || (p.y != 0 && p.y != 1)) return true;
   const bool right = p.x == 1, upper = p.y == 1;
   const HalfEdge corner = along(stage.level.topology(), p.frame,
-                                p.cell == Place::Cell::triangle ? (right   ? 1
-                                                                   : upper ? 2
-                                                                           : 0)
-                                                                : (upper ? 3 - right : right));
-  return is_regular_corner(stage.level, corner, p.cell == Place::Cell::triangle ? 6 : 4);
+                                p.cell == DescentPlace::Cell::triangle ? (right   ? 1
+                                                                          : upper ? 2
+                                                                                  : 0)
+                                                                       : (upper ? 3 - right : right));
+  return is_regular_corner(stage.level, corner, p.cell == DescentPlace::Cell::triangle ? 6 : 4);
 }
 
 double largest(const Vector& v) { return static_cast<double>(Precise(v.cwiseAbs().maxCoeff())); }
 
 }  // namespace
 
-TruePoint true_limit(const Scheme<Precise>& scheme, const Level& level, const Points& points, const Sample& sample,
+TruePoint true_limit(const Scheme<Precise>& scheme, const Level& level, const Points& points, const Place& sample,
                      const TruthOptions& options) {
   if (level.number % scheme.period != 0) throw InvalidParameter("the level's number must be even for " + scheme.name);
   const Spline spline = spline_of(scheme);
@@ -166,7 +168,7 @@ TruePoint true_limit(const Scheme<Precise>& scheme, const Level& level, const Po
   const double size = std::max(1e-300, static_cast<double>(Precise(stage.points.cwiseAbs().maxCoeff())));
   std::optional<Guess> before;
   for (int quiet = 0;; ++result.levels) {
-    if (scheme.is_dual() && stage.place.cell == Place::Cell::around_vertex &&
+    if (scheme.is_dual() && stage.place.cell == DescentPlace::Cell::around_vertex &&
         stage.strays[size_t(index(stage.level.topology().tail(stage.place.frame)))]) {
       result.has_position = false;
       return result;
@@ -186,7 +188,7 @@ TruePoint true_limit(const Scheme<Precise>& scheme, const Level& level, const Po
         result.has_second = found->inside;
         return result;
       }
-    if (stage.place.cell != Place::Cell::corner) {
+    if (stage.place.cell != DescentPlace::Cell::corner) {
       const Guess now = guess(stage);
       if (before) {
         result.error = largest(now.position - before->position);

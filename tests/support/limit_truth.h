@@ -43,7 +43,7 @@ struct TruthOptions {
 /// @param points  of the level
 /// @throws InvalidParameter     an address that does not exist, or a place outside it
 /// @throws UnsupportedTopology  as refinement does
-TruePoint true_limit(const Scheme<Precise>& scheme, const Level& level, const Points& points, const Sample& place,
+TruePoint true_limit(const Scheme<Precise>& scheme, const Level& level, const Points& points, const Place& place,
                      const TruthOptions& options = {});
 
 }  // namespace sublimit::testing

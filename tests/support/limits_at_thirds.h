@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <string>
 
-#include "sublimit/limit/limit_points.h"
+#include "sublimit/limit/detail/limit_points.h"
 #include "sublimit/limit/limit_map.h"
 #include "support/tolerance.h"
 
@@ -16,7 +16,7 @@ namespace sublimit::testing {
 inline std::string wrong_at_thirds(const LimitMap& surface, const Scheme<double>& scheme) {
   const Level one = next_level(scheme, surface.level()), two = next_level(scheme, one);
   const SparseMatrix P = two.S * one.S;
-  LimitTypes cache(scheme);
+  LimitCache cache(scheme);
   const SparseMatrix corners = limit_matrices(surface.level(), cache).position,
                      middles = limit_matrices(one, cache).position * one.S,
                      thirds = limit_matrices(two, cache).position * P;
@@ -32,7 +32,7 @@ inline std::string wrong_at_thirds(const LimitMap& surface, const Scheme<double>
     const auto rank = std::lower_bound(second.face_list.begin(), second.face_list.end(), index(h));
     return second.from_vertices + static_cast<Index>(rank - second.face_list.begin());
   };
-  const auto difference = [&](const Sample& s, const SparseMatrix& rows, Index row) -> std::string {
+  const auto difference = [&](const Place& s, const SparseMatrix& rows, Index row) -> std::string {
     const LimitStencil stencil = surface.stencil(s);
     Eigen::RowVectorXd x = -Eigen::RowVectorXd(rows.row(row));
     const double size = x.cwiseAbs().sum();
@@ -45,7 +45,7 @@ inline std::string wrong_at_thirds(const LimitMap& surface, const Scheme<double>
     const HalfEdge h{i}, g = t.twin(h);
     const auto from = [&](HalfEdge corner, double a) {  // a of the way along it
       const Index k = t.corner_index(corner);
-      return Sample{index(t.face(corner)), k == 0 ? a : k == 1 ? 1 - a : 0, k == 0 ? 0 : k == 1 ? a : 1 - a};
+      return Place{index(t.face(corner)), k == 0 ? a : k == 1 ? 1 - a : 0, k == 0 ? 0 : k == 1 ? a : 1 - a};
     };
     std::string wrong = difference(from(h, 0), corners, index(t.tail(h)));
     if (wrong.empty() && t.corner_index(h) == 0)

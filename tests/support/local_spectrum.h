@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "sublimit/neighborhood/local_patch.h"
-#include "sublimit/schemes.h"
+#include "sublimit/schemes/schemes.h"
 #include "support/precise_schemes.h"
 
 namespace sublimit::testing {

@@ -6,8 +6,8 @@
 #include <numeric>
 #include <optional>
 
-#include "sublimit/core/sparse_product.h"
-#include "sublimit/schemes.h"
+#include "sublimit/core/detail/sparse_product.h"
+#include "sublimit/schemes/schemes.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {
@@ -40,7 +40,7 @@ std::optional<std::vector<Index>> lay(const Topology& a, const Topology& b, Half
 
 }  // namespace
 
-OurMesh our_mesh(const std::string& scheme, const ControlMesh& mesh, int levels, Boundary boundary) {
+OurMesh our_mesh(const std::string& scheme, const Mesh& mesh, int levels, Boundary boundary) {
   SubdivisionOptions options;
   options.boundary = boundary;
   OurMesh result{refine(find_scheme(scheme).value(), mesh, levels, options), mesh.positions};

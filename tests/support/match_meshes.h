@@ -25,8 +25,7 @@ struct OurMesh {
   const Topology& topology() const { return levels.back().topology(); }
 };
 /// @param boundary  other libraries know no corners: edge_only is what they do
-OurMesh our_mesh(const std::string& scheme, const ControlMesh& mesh, int levels,
-                 Boundary boundary = Boundary::edge_only);
+OurMesh our_mesh(const std::string& scheme, const Mesh& mesh, int levels, Boundary boundary = Boundary::edge_only);
 
 /// The closest of the ways to lay the half-edges near our first one onto it. Orientation counts.
 /// @pre  both meshes are connected

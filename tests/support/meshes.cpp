@@ -28,7 +28,7 @@ Eigen::Vector3d on_circle(double radius, double turns, double height = 0) {
 
 // Around a centre lie n sectors; (x,y) of sector s is x steps along its first side and y along its second, which is
 // the first side of the next sector. Rings of quads have max(x,y), rings of triangles x+y in common.
-ControlMesh sectors(Index n, Index face_size, Index rings, bool closed) {
+Mesh sectors(Index n, Index face_size, Index rings, bool closed) {
   assert(face_size == 3 || face_size == 4);
   const bool triangles = face_size == 3;
   const double turns = closed ? 1.0 : 0.5 * std::min(1.0, 0.4 * n);
@@ -67,8 +67,8 @@ ControlMesh sectors(Index n, Index face_size, Index rings, bool closed) {
 
 }  // namespace
 
-ControlMesh make_mesh(const Positions& positions, const Faces& faces) {
-  ControlMesh mesh;
+Mesh make_mesh(const Positions& positions, const Faces& faces) {
+  Mesh mesh;
   mesh.positions.resize(static_cast<Index>(positions.size()), 3);
   for (Index v = 0; v < mesh.num_vertices(); ++v) mesh.positions.row(v) = positions[v].transpose();
   for (const std::vector<Index>& face : faces) {
@@ -78,22 +78,22 @@ ControlMesh make_mesh(const Positions& positions, const Faces& faces) {
   return mesh;
 }
 
-ControlMesh tetrahedron() {
+Mesh tetrahedron() {
   return make_mesh({{1, 1, 1}, {-1, -1, 1}, {-1, 1, -1}, {1, -1, -1}}, {{0, 1, 3}, {0, 2, 1}, {0, 3, 2}, {1, 2, 3}});
 }
 
-ControlMesh cube() {
+Mesh cube() {
   Positions positions;
   for (int i = 0; i < 8; ++i) positions.emplace_back(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);
   return make_mesh(positions, {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}});
 }
 
-ControlMesh octahedron() {
+Mesh octahedron() {
   return make_mesh({{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}},
                    {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}});
 }
 
-ControlMesh icosahedron() {
+Mesh icosahedron() {
   Positions positions;
   for (int axis = 0; axis < 3; ++axis) {
     for (const double a : {-1.0, 1.0}) {
@@ -118,7 +118,7 @@ ControlMesh icosahedron() {
   return make_mesh(positions, faces);
 }
 
-ControlMesh torus(Index m, Index n) {
+Mesh torus(Index m, Index n) {
   Positions positions;
   Faces faces;
   const auto vertex = [&](Index i, Index j) { return i % m * n + j % n; };
@@ -132,9 +132,9 @@ ControlMesh torus(Index m, Index n) {
   return make_mesh(positions, faces);
 }
 
-ControlMesh triangle_torus(Index m, Index n) { return triangulated(torus(m, n)); }
+Mesh triangle_torus(Index m, Index n) { return triangulated(torus(m, n)); }
 
-ControlMesh grid(Index m, Index n) {
+Mesh grid(Index m, Index n) {
   Positions positions;
   Faces faces;
   for (Index j = 0; j <= n; ++j) {
@@ -152,13 +152,13 @@ ControlMesh grid(Index m, Index n) {
   return make_mesh(positions, faces);
 }
 
-ControlMesh triangle_grid(Index m, Index n) { return triangulated(grid(m, n)); }
+Mesh triangle_grid(Index m, Index n) { return triangulated(grid(m, n)); }
 
-ControlMesh fan(Index n, Index face_size, Index rings) { return sectors(n, face_size, rings, true); }
+Mesh fan(Index n, Index face_size, Index rings) { return sectors(n, face_size, rings, true); }
 
-ControlMesh open_fan(Index n, Index face_size, Index rings) { return sectors(n, face_size, rings, false); }
+Mesh open_fan(Index n, Index face_size, Index rings) { return sectors(n, face_size, rings, false); }
 
-ControlMesh pole(Index n) {
+Mesh pole(Index n) {
   Positions positions{{0, 0, 1.5}, {0, 0, -1.5}};
   for (const double z : {0.7, -0.7}) {
     for (Index i = 0; i < n; ++i) positions.push_back(on_circle(1, double(i) / n, z));
@@ -173,7 +173,7 @@ ControlMesh pole(Index n) {
   return make_mesh(positions, faces);
 }
 
-ControlMesh prism(Index n) {
+Mesh prism(Index n) {
   Positions positions;
   for (const double z : {0.8, -0.8}) {
     for (Index i = 0; i < n; ++i) positions.push_back(on_circle(1, double(i) / n, z));
@@ -188,7 +188,7 @@ ControlMesh prism(Index n) {
   return make_mesh(positions, faces);
 }
 
-ControlMesh polygon_ring(const std::vector<Index>& sizes) {
+Mesh polygon_ring(const std::vector<Index>& sizes) {
   assert(sizes.back() != 3);
   const Index n = static_cast<Index>(sizes.size());
   Positions positions;
@@ -218,7 +218,7 @@ ControlMesh polygon_ring(const std::vector<Index>& sizes) {
   return make_mesh(positions, faces);
 }
 
-ControlMesh mobius_strip(Index n) {
+Mesh mobius_strip(Index n) {
   Positions positions;
   Faces faces;
   for (Index i = 0; i < n; ++i) {
@@ -232,7 +232,7 @@ ControlMesh mobius_strip(Index n) {
   return make_mesh(positions, faces);
 }
 
-ControlMesh jittered(ControlMesh mesh, double amount, unsigned seed) {
+Mesh jittered(Mesh mesh, double amount, unsigned seed) {
   std::mt19937 random(seed);
   for (Index v = 0; v < mesh.num_vertices(); ++v) {
     for (Index k = 0; k < mesh.positions.cols(); ++k) {
@@ -242,12 +242,11 @@ ControlMesh jittered(ControlMesh mesh, double amount, unsigned seed) {
   return mesh;
 }
 
-ControlMesh glued(const ControlMesh& a, const ControlMesh& b, const std::vector<Index>& a_vertices,
-                  const std::vector<Index>& b_vertices) {
+Mesh glued(const Mesh& a, const Mesh& b, const std::vector<Index>& a_vertices, const std::vector<Index>& b_vertices) {
   assert(a_vertices.size() == b_vertices.size());
   std::vector<Index> number(static_cast<std::size_t>(b.num_vertices()), -1);
   for (std::size_t i = 0; i < b_vertices.size(); ++i) number[b_vertices[i]] = a_vertices[i];
-  ControlMesh mesh = a;
+  Mesh mesh = a;
   mesh.positions.conservativeResize(a.num_vertices() + b.num_vertices() - static_cast<Index>(b_vertices.size()), 3);
   Index next = a.num_vertices();
   for (Index v = 0; v < b.num_vertices(); ++v) {
@@ -257,15 +256,15 @@ ControlMesh glued(const ControlMesh& a, const ControlMesh& b, const std::vector<
   }
   mesh.face_sizes.insert(mesh.face_sizes.end(), b.face_sizes.begin(), b.face_sizes.end());
   for (const Index v : b.face_vertices) mesh.face_vertices.push_back(number[v]);
-  for (const ControlMesh::Crease& c : b.creases) mesh.creases.push_back({number[c.tail], number[c.head], c.sharpness});
-  for (const ControlMesh::Corner& c : b.corners) mesh.corners.push_back({number[c.vertex], c.sharpness});
+  for (const Mesh::Crease& c : b.creases) mesh.creases.push_back({number[c.tail], number[c.head], c.sharpness});
+  for (const Mesh::Corner& c : b.corners) mesh.corners.push_back({number[c.vertex], c.sharpness});
   for (const Index f : b.holes) mesh.holes.push_back(a.num_faces() + f);
   return mesh;
 }
 
-ControlMesh disjoint_union(const ControlMesh& a, const ControlMesh& b) { return glued(a, b, {}, {}); }
+Mesh disjoint_union(const Mesh& a, const Mesh& b) { return glued(a, b, {}, {}); }
 
-ControlMesh quads_from_triangles(const ControlMesh& mesh) {
+Mesh quads_from_triangles(const Mesh& mesh) {
   std::map<std::pair<Index, Index>, Index> midpoints;
   std::vector<Index> midpoint;  // per corner, of the edge that starts there
   const Index first_midpoint = mesh.num_vertices() + mesh.num_faces();
@@ -279,7 +278,7 @@ ControlMesh quads_from_triangles(const ControlMesh& mesh) {
     first += size;
   }
 
-  ControlMesh result = mesh;
+  Mesh result = mesh;
   result.face_sizes.assign(mesh.face_vertices.size(), 4);
   result.face_vertices.clear();
   result.holes.clear();
@@ -303,7 +302,7 @@ ControlMesh quads_from_triangles(const ControlMesh& mesh) {
     first += size;
   }
   result.creases.clear();
-  for (const ControlMesh::Crease& c : mesh.creases) {
+  for (const Mesh::Crease& c : mesh.creases) {
     const Index m = midpoints.at(std::minmax(c.tail, c.head));
     result.creases.push_back({c.tail, m, c.sharpness});
     result.creases.push_back({m, c.head, c.sharpness});
@@ -311,12 +310,12 @@ ControlMesh quads_from_triangles(const ControlMesh& mesh) {
   return result;
 }
 
-void add_crease(ControlMesh& mesh, const Path& path, const std::vector<float>& sharpness) {
+void add_crease(Mesh& mesh, const Path& path, const std::vector<float>& sharpness) {
   assert(sharpness.size() + 1 == path.size());
   for (std::size_t i = 0; i + 1 < path.size(); ++i) mesh.creases.push_back({path[i], path[i + 1], sharpness[i]});
 }
 
-void add_crease(ControlMesh& mesh, const Path& path, float sharpness) {
+void add_crease(Mesh& mesh, const Path& path, float sharpness) {
   add_crease(mesh, path, std::vector<float>(path.size() - 1, sharpness));
 }
 
@@ -329,13 +328,13 @@ const Schemes triangle_schemes{"loop", "catmull-clark"};
 
 class Collection {
  public:
-  void add(const std::string& name, const ControlMesh& mesh, const Schemes& schemes = quad_schemes) {
+  void add(const std::string& name, const Mesh& mesh, const Schemes& schemes = quad_schemes) {
     meshes_.push_back({name, schemes, jittered(mesh, 0.08, static_cast<unsigned>(meshes_.size()) + 1)});
   }
-  void add_triangles(const std::string& name, const ControlMesh& mesh) {
+  void add_triangles(const std::string& name, const Mesh& mesh) {
     add(name + "_triangles", triangulated(mesh), triangle_schemes);
   }
-  void add_both(const std::string& name, const ControlMesh& mesh) {
+  void add_both(const std::string& name, const Mesh& mesh) {
     add(name, mesh);
     add_triangles(name, mesh);
   }
@@ -345,16 +344,14 @@ class Collection {
   std::vector<NamedMesh> meshes_;
 };
 
-ControlMesh with_options(ControlMesh mesh, Boundary boundary, Creasing creasing = Creasing::uniform,
-                         Triangles triangles = Triangles::catmark) {
+Mesh with_options(Mesh mesh, Boundary boundary, Creasing creasing = Creasing::uniform,
+                  Triangles triangles = Triangles::catmark) {
   mesh.boundary = boundary;
   mesh.creasing = creasing;
   mesh.triangles = triangles;
   return mesh;
 }
-ControlMesh chaikin(const ControlMesh& mesh) {
-  return with_options(mesh, Boundary::edge_and_corner, Creasing::chaikin);
-}
+Mesh chaikin(const Mesh& mesh) { return with_options(mesh, Boundary::edge_and_corner, Creasing::chaikin); }
 
 Index grid_vertex(Index m, Index i, Index j) { return j * (m + 1) + i; }
 Path grid_row(Index m, Index j, Index from, Index to) {
@@ -380,8 +377,8 @@ Path tube_ring(Index n, Index i) {
 }
 
 // grid(6,6) with creases of two edges each leaving its middle: east, north, west, south.
-ControlMesh star(const std::vector<float>& arms) {
-  ControlMesh mesh = grid(6, 6);
+Mesh star(const std::vector<float>& arms) {
+  Mesh mesh = grid(6, 6);
   const Index center = grid_vertex(6, 3, 3);
   const std::array<Index, 4> steps{1, 7, -1, -7};
   for (std::size_t k = 0; k < arms.size(); ++k) {
@@ -391,7 +388,7 @@ ControlMesh star(const std::vector<float>& arms) {
 }
 
 // A strip of quads that stands on a path; a path that returns to its start makes a closed one.
-ControlMesh with_fin(ControlMesh mesh, const Path& path, double lean = 0) {
+Mesh with_fin(Mesh mesh, const Path& path, double lean = 0) {
   const bool closed = path.front() == path.back();
   const Index first = mesh.num_vertices(), count = static_cast<Index>(path.size()) - closed;
   mesh.positions.conservativeResize(first + count, 3);
@@ -406,7 +403,7 @@ ControlMesh with_fin(ControlMesh mesh, const Path& path, double lean = 0) {
 }
 
 // Quads that share the edge (0,1), wound in turns.
-ControlMesh book(Index pages) {
+Mesh book(Index pages) {
   Positions positions{{0, 0, 0}, {0, 0, 1}};
   Faces faces;
   for (Index k = 0; k < pages; ++k) {
@@ -418,7 +415,7 @@ ControlMesh book(Index pages) {
   return make_mesh(positions, faces);
 }
 
-ControlMesh polygon(Index n) {
+Mesh polygon(Index n) {
   Positions positions;
   Faces faces(1);
   for (Index i = 0; i < n; ++i) {
@@ -428,14 +425,14 @@ ControlMesh polygon(Index n) {
   return make_mesh(positions, faces);
 }
 
-ControlMesh flipped(ControlMesh mesh, Index face) {
+Mesh flipped(Mesh mesh, Index face) {
   Index first = 0;
   for (Index f = 0; f < face; ++f) first += mesh.face_sizes[f];
   std::reverse(mesh.face_vertices.begin() + first, mesh.face_vertices.begin() + first + mesh.face_sizes[face]);
   return mesh;
 }
 
-ControlMesh with_face(ControlMesh mesh, Index face, const std::vector<Index>& vertices) {
+Mesh with_face(Mesh mesh, Index face, const std::vector<Index>& vertices) {
   Index first = 0;
   for (Index f = 0; f < face; ++f) first += mesh.face_sizes[f];
   const auto at = mesh.face_vertices.begin() + first;
@@ -444,12 +441,10 @@ ControlMesh with_face(ControlMesh mesh, Index face, const std::vector<Index>& ve
   return mesh;
 }
 
-ControlMesh with_points(ControlMesh mesh, const Positions& points) {
-  return disjoint_union(mesh, make_mesh(points, {}));
-}
+Mesh with_points(Mesh mesh, const Positions& points) { return disjoint_union(mesh, make_mesh(points, {})); }
 
-ControlMesh every_second_face_triangulated(const ControlMesh& mesh) {
-  ControlMesh result = mesh;
+Mesh every_second_face_triangulated(const Mesh& mesh) {
+  Mesh result = mesh;
   result.face_sizes.clear();
   result.face_vertices.clear();
   Index first = 0;
@@ -475,8 +470,8 @@ std::string digits(float sharpness) {  // 2.7 -> "2_7"
 }
 
 // Two n-gons with all vertices in common: valence 2 everywhere.
-ControlMesh pillow(Index n) {
-  const ControlMesh side = polygon(n);
+Mesh pillow(Index n) {
+  const Mesh side = polygon(n);
   return glued(side, flipped(side, 0), side.face_vertices, side.face_vertices);
 }
 
@@ -488,7 +483,7 @@ void add_smooth(Collection& meshes) {
   meshes.add_both("torus", torus(5, 4));
   meshes.add_both("split_octahedron", quads_from_triangles(octahedron()));
 
-  ControlMesh quads = fan(3, 4, 2), triangles = fan(3, 3, 2);
+  Mesh quads = fan(3, 4, 2), triangles = fan(3, 3, 2);
   for (const Index n : {5, 6, 9}) quads = disjoint_union(quads, fan(n, 4, 2));
   for (const Index n : {4, 5, 7, 9}) triangles = disjoint_union(triangles, fan(n, 3, 2));
   meshes.add("extraordinary_interior", quads);
@@ -499,7 +494,7 @@ void add_smooth(Collection& meshes) {
   meshes.add("valence_2", disjoint_union(fan(2, 4, 1), fan(2, 4, 2)));
   meshes.add("valence_2_pillows", disjoint_union(pillow(3), disjoint_union(pillow(4), pillow(5))));
   meshes.add("valence_2_triangles", fan(2, 3, 1), triangle_schemes);
-  ControlMesh creased = fan(2, 4, 2);
+  Mesh creased = fan(2, 4, 2);
   add_crease(creased, {7, 1, 0, 3}, {0.6f, 1.5f, 2.2f});  // in along one spoke, out along the other
   meshes.add("valence_2_creased", creased);
 }
@@ -514,7 +509,7 @@ void add_boundaries(Collection& meshes) {
                with_options(disjoint_union(polygon(3), disjoint_union(polygon(4), polygon(7))), mode));
     meshes.add(prefix + "_lone_triangle", with_options(polygon(3), mode), triangle_schemes);
     meshes.add_both(prefix + "_two_faces", with_options(grid(2, 1), mode));
-    ControlMesh quads = open_fan(1, 4, 2), triangles = open_fan(1, 3, 2);
+    Mesh quads = open_fan(1, 4, 2), triangles = open_fan(1, 3, 2);
     for (const Index n : {2, 3, 4, 5, 6, 7}) {
       quads = disjoint_union(quads, open_fan(n, 4, 2));
       triangles = disjoint_union(triangles, open_fan(n, 3, 2));
@@ -523,11 +518,11 @@ void add_boundaries(Collection& meshes) {
     meshes.add(prefix + "_extraordinary_triangles", with_options(triangles, mode), triangle_schemes);
   }
 
-  ControlMesh partly = with_options(grid(5, 4), Boundary::none);
+  Mesh partly = with_options(grid(5, 4), Boundary::none);
   add_crease(partly, grid_row(5, 0, 0, 5), 10);
   add_crease(partly, grid_column(5, 0, 0, 4), 5);  // sharp, not infinitely: does not save its faces from being holes
   meshes.add_both("boundary_none_partly_sharpened", partly);
-  ControlMesh all = with_options(grid(3, 3), Boundary::none);
+  Mesh all = with_options(grid(3, 3), Boundary::none);
   for (const Index k : {0, 3}) {
     add_crease(all, grid_row(3, k, 0, 3), 10);
     add_crease(all, grid_column(3, k, 0, 3), 10);
@@ -535,7 +530,7 @@ void add_boundaries(Collection& meshes) {
   all.corners = {{0, 10}, {3, 1.3f}};
   meshes.add_both("boundary_none_all_sharpened", all);
 
-  ControlMesh tagged = with_options(grid(5, 4), Boundary::edge_only);
+  Mesh tagged = with_options(grid(5, 4), Boundary::edge_only);
   add_crease(tagged, grid_row(5, 0, 0, 5), 0.5f);  // a boundary edge is infinitely sharp all the same
   add_crease(tagged, grid_row(5, 2, 0, 5), 1.4f);
   tagged.corners = {{0, 2.7f}, {2, 0.4f}, {5, 10}, {grid_vertex(5, 0, 2), 1.2f}, {grid_vertex(5, 5, 4), 0.7f}};
@@ -544,11 +539,11 @@ void add_boundaries(Collection& meshes) {
 
 void add_creases(Collection& meshes) {
   for (const float sharpness : {0.3f, 1.0f, 1.5f, 2.7f, 9.9f, 10.0f}) {
-    ControlMesh ring = torus(5, 4);
+    Mesh ring = torus(5, 4);
     add_crease(ring, torus_ring(5, 4, 1), sharpness);
     meshes.add_both("crease_ring_" + digits(sharpness), ring);
   }
-  ControlMesh crossing = torus(5, 4);
+  Mesh crossing = torus(5, 4);
   add_crease(crossing, torus_ring(5, 4, 0), 10);
   add_crease(crossing, tube_ring(4, 0), 1.6f);
   add_crease(crossing, tube_ring(4, 2), 10);
@@ -556,24 +551,24 @@ void add_creases(Collection& meshes) {
 
   // Chains across the mesh, from boundary to boundary.
   const std::vector<float> mixed{0.3f, 1, 1.5f, 2.7f, 4.2f, 9.9f, 10};
-  ControlMesh chain = grid(7, 4);
+  Mesh chain = grid(7, 4);
   add_crease(chain, grid_row(7, 2, 0, 7), mixed);
   meshes.add_both("chain_uniform", chain);
   meshes.add_both("chain_chaikin", chaikin(chain));
 
-  ControlMesh infinite = grid(6, 4);
+  Mesh infinite = grid(6, 4);
   add_crease(infinite, grid_row(6, 2, 0, 6), {2.7f, 1.5f, 10, 10, 0.6f, 3.1f});
   meshes.add_both("chain_meets_infinite_uniform", infinite);
   meshes.add_both("chain_meets_infinite_chaikin", chaikin(infinite));
 
-  ControlMesh decaying = grid(6, 5);
+  Mesh decaying = grid(6, 5);
   add_crease(decaying, grid_column(6, 3, 0, 4), {2.7f, 1.5f, 0.6f, 0.2f});  // starts at the boundary, fades out
   meshes.add_both("chain_fades_uniform", decaying);
   meshes.add_both("chain_fades_chaikin", chaikin(decaying));
 
   // Under Chaikin's rule an edge sharper than 1 can be smooth at one end after one step, or at both. OpenSubdiv then
   // blends with its sharpness as it is, a weight beyond 1.
-  ControlMesh uneven = grid(6, 6);
+  Mesh uneven = grid(6, 6);
   add_crease(uneven, grid_row(6, 2, 1, 5), {3.3f, 1.1f, 0.1f, 0.1f});
   add_crease(uneven, grid_row(6, 4, 1, 4), {0.1f, 1.2f, 0.1f});
   meshes.add_both("chain_uneven_uniform", uneven);
@@ -591,13 +586,13 @@ void add_creases(Collection& meshes) {
     meshes.add_both(std::string(name) + "_chaikin", chaikin(star(arms)));
   }
 
-  ControlMesh darts = grid(6, 6);
+  Mesh darts = grid(6, 6);
   add_crease(darts, grid_row(6, 1, 1, 3), 10);
   add_crease(darts, grid_row(6, 3, 2, 5), 1.5f);
   add_crease(darts, grid_row(6, 5, 2, 3), 10);  // both ends are darts
   add_crease(darts, grid_row(6, 5, 4, 5), 0.7f);
   meshes.add_both("darts", darts);
-  ControlMesh extraordinary_darts = disjoint_union(fan(3, 4, 2), fan(7, 4, 2));
+  Mesh extraordinary_darts = disjoint_union(fan(3, 4, 2), fan(7, 4, 2));
   add_crease(extraordinary_darts, {0, 1}, 10);
   add_crease(extraordinary_darts, {fan(3, 4, 2).num_vertices(), fan(3, 4, 2).num_vertices() + 1}, 1.8f);
   meshes.add("darts_extraordinary", extraordinary_darts);
@@ -606,10 +601,10 @@ void add_creases(Collection& meshes) {
   const std::array<std::vector<float>, 2> spokes{std::vector<float>{10, 10, 10}, {1.7f, 0.6f, 0.9f}};
   for (const Index size : {4, 3})
     for (const std::vector<float>& sharpness : spokes) {
-      ControlMesh fans;
+      Mesh fans;
       for (Index n = 3; n <= 8; ++n)
         for (Index count = 0; count <= 3; ++count) {
-          ControlMesh one = fan(n, size);
+          Mesh one = fan(n, size);
           for (Index k = 0; k < count; ++k) add_crease(one, {0, 1 + (size - 2) * (k * n / 3)}, sharpness[size_t(k)]);
           fans = disjoint_union(fans, one);
         }
@@ -618,7 +613,7 @@ void add_creases(Collection& meshes) {
                  fans, size == 3 ? triangle_schemes : quad_schemes);
     }
 
-  ControlMesh repeated = torus(5, 4);
+  Mesh repeated = torus(5, 4);
   add_crease(repeated, torus_ring(5, 4, 1), 3);
   add_crease(repeated, {9, 5, 1}, 0.4f);  // the last one counts, in whichever direction
   add_crease(repeated, {13, 9}, 0);       // and takes the crease back
@@ -628,12 +623,12 @@ void add_creases(Collection& meshes) {
 }
 
 void add_corners(Collection& meshes) {
-  ControlMesh corners = grid(8, 4);
+  Mesh corners = grid(8, 4);
   const std::vector<float> sharpness{0.3f, 1, 1.5f, 2.7f, 9.9f, 10, 25};
   for (Index i = 0; i < 7; ++i) corners.corners.push_back({grid_vertex(8, i + 1, 1 + i % 3), sharpness[i]});
   meshes.add_both("corners", corners);
 
-  ControlMesh on_crease = grid(6, 8);
+  Mesh on_crease = grid(6, 8);
   const std::array<std::array<float, 2>, 4> pairs{{{2.2f, 0.7f}, {0.7f, 2.2f}, {0.7f, 0.3f}, {10, 1.5f}}};
   for (Index k = 0; k < 4; ++k) {
     add_crease(on_crease, grid_row(6, 2 * k + 1, 0, 6), pairs[k][0]);
@@ -643,26 +638,26 @@ void add_corners(Collection& meshes) {
   meshes.add_both("corner_on_crease_chaikin", chaikin(on_crease));
 
   // The vertex and edges at it decay in the same step: one fraction from the mean of all.
-  ControlMesh together = star({0.3f, 0.9f, 0.5f});
+  Mesh together = star({0.3f, 0.9f, 0.5f});
   together.corners = {{grid_vertex(6, 3, 3), 0.4f}, {grid_vertex(6, 4, 3), 0.8f}, {grid_vertex(6, 5, 3), 1}};
   meshes.add_both("decay_together_uniform", together);
   meshes.add_both("decay_together_chaikin", chaikin(together));
-  ControlMesh on_dart = grid(5, 4);
+  Mesh on_dart = grid(5, 4);
   add_crease(on_dart, grid_row(5, 2, 1, 3), 2.6f);
   on_dart.corners = {{grid_vertex(5, 1, 2), 1.7f}, {grid_vertex(5, 3, 2), 3.4f}};
   meshes.add_both("corner_on_dart", on_dart);
 }
 
 void add_faces(Collection& meshes) {
-  ControlMesh holed = cube();
+  Mesh holed = cube();
   holed.holes = {2, 5};
   meshes.add_both("holes_in_cube", holed);
-  ControlMesh creased = grid(5, 4);
+  Mesh creased = grid(5, 4);
   creased.holes = {0, 7, 12};
   add_crease(creased, grid_row(5, 2, 0, 5), 1.7f);
   meshes.add_both("holes_and_crease", with_options(creased, Boundary::edge_only));
 
-  ControlMesh polygons = disjoint_union(polygon_ring({4, 5, 6, 7, 3, 5, 4}), prism(5));
+  Mesh polygons = disjoint_union(polygon_ring({4, 5, 6, 7, 3, 5, 4}), prism(5));
   meshes.add("n_gons", polygons);
   add_crease(polygons, {1, 2, 3, 4}, {0.6f, 1.9f, 1.2f});
   add_crease(polygons, {0, 7}, 2.4f);
@@ -671,8 +666,8 @@ void add_faces(Collection& meshes) {
   meshes.add("n_gons_tagged", chaikin(polygons));
   meshes.add("n_gon_of_300_corners", glued(polygon(300), polygon(4), {0, 299}, {0, 1}));
 
-  const ControlMesh mixed = every_second_face_triangulated(grid(5, 4));
-  ControlMesh smooth = with_options(mixed, Boundary::edge_and_corner, Creasing::uniform, Triangles::smooth);
+  const Mesh mixed = every_second_face_triangulated(grid(5, 4));
+  Mesh smooth = with_options(mixed, Boundary::edge_and_corner, Creasing::uniform, Triangles::smooth);
   meshes.add("smooth_triangles", smooth);
   add_crease(smooth, grid_row(5, 1, 0, 5), {0.3f, 0.6f, 1.4f, 0.9f, 10});
   add_crease(smooth, grid_column(5, 3, 1, 4), 0.7f);
@@ -700,7 +695,7 @@ void add_nonmanifold_surfaces(Collection& meshes) {
 
   // Fins: where they stand, two non-manifold edges meet in a vertex with more faces than edges, which is then a crease
   // unless a boundary edge comes in, as it does where the fin ends.
-  const ControlMesh ring = with_fin(torus(5, 4), torus_ring(5, 4, 1));
+  const Mesh ring = with_fin(torus(5, 4), torus_ring(5, 4, 1));
   meshes.add_both("fin_around_torus", ring);
   meshes.add_both("two_fins_around_torus", with_fin(ring, torus_ring(5, 4, 1), 0.5));
   meshes.add_both("fin_across_grid", with_fin(grid(4, 4), grid_row(4, 2, 0, 4)));
@@ -709,7 +704,7 @@ void add_nonmanifold_surfaces(Collection& meshes) {
 }
 
 void add_nonmanifold_tags(Collection& meshes) {
-  ControlMesh fin = with_fin(torus(5, 4), torus_ring(5, 4, 1));
+  Mesh fin = with_fin(torus(5, 4), torus_ring(5, 4, 1));
   add_crease(fin, {8, 9, 10}, 1.6f);  // across the fin: a corner that decays to a crease
   add_crease(fin, {4, 5}, 0.7f);
   add_crease(fin, {17, 24}, 0.5f);  // on the fin itself
@@ -718,42 +713,42 @@ void add_nonmanifold_tags(Collection& meshes) {
   meshes.add_both("fin_tagged_chaikin", chaikin(fin));
   meshes.add_both("fin_boundary_none", with_options(fin, Boundary::none));
 
-  ControlMesh tie = glued(open_fan(3, 4, 2), open_fan(4, 4, 2), {0}, {0});
+  Mesh tie = glued(open_fan(3, 4, 2), open_fan(4, 4, 2), {0}, {0});
   add_crease(tie, {0, 3}, 1.3f);
   tie.corners = {{0, 0.5f}};
   meshes.add_both("bow_tie_tagged", tie);
   meshes.add_both("bow_tie_boundary_none", with_options(tie, Boundary::none));
 
-  ControlMesh cubes = glued(cube(), cube(), {3, 7}, {0, 4});
+  Mesh cubes = glued(cube(), cube(), {3, 7}, {0, 4});
   add_crease(cubes, {1, 3, 2}, 2.7f);
   add_crease(cubes, {3, 7}, 0.4f);  // non-manifold: infinitely sharp all the same
   cubes.corners = {{7, 1.2f}, {0, 1.6f}};
   meshes.add_both("cubes_share_an_edge_tagged", chaikin(cubes));
-  ControlMesh flip = flipped(grid(4, 4), 5);
+  Mesh flip = flipped(grid(4, 4), 5);
   add_crease(flip, grid_row(4, 2, 0, 4), {1.5f, 0.8f, 2.2f, 0.3f});
   flip.holes = {10};
   meshes.add_both("flipped_face_tagged", with_options(flip, Boundary::edge_only));
 }
 
 void add_degenerate_faces(Collection& meshes) {
-  const ControlMesh base = grid(3, 3);  // vertex 5 is interior
+  const Mesh base = grid(3, 3);  // vertex 5 is interior
   meshes.add("degenerate_edge", with_face(base, 0, {0, 1, 5, 5, 4}));
   meshes.add("degenerate_edge_in_quad", with_face(base, 0, {0, 1, 5, 5}));
   meshes.add("degenerate_edge_at_boundary", with_face(base, 0, {0, 1, 1, 5, 4}));
   meshes.add("degenerate_edges_three", with_face(base, 4, {5, 6, 10, 10, 10, 10, 9}));
-  const ControlMesh more = with_points(base, {{0.4, 0.6, 0.3}, {0.7, 0.4, -0.2}});
+  const Mesh more = with_points(base, {{0.4, 0.6, 0.3}, {0.7, 0.4, -0.2}});
   meshes.add("spike_in_face", with_face(more, 0, {0, 1, 5, 16, 5, 4}));
   meshes.add("lobe_in_face", with_face(more, 0, {0, 1, 5, 16, 17, 5, 4}));
   meshes.add("flat_quad",
              make_mesh({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0.3}, {2, 0, 0.5}}, {{0, 1, 2, 3}, {1, 4, 2, 4}}));
   meshes.add("quad_visits_a_vertex_twice",
              make_mesh({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0.3}, {2, 0, 0.5}}, {{0, 1, 2, 3}, {1, 4, 1, 2}}));
-  const ControlMesh triangles = triangle_grid(3, 3), two_points = make_mesh({{0, 0, 0}, {1, 0, 0}}, {{0, 1, 1}});
+  const Mesh triangles = triangle_grid(3, 3), two_points = make_mesh({{0, 0, 0}, {1, 0, 0}}, {{0, 1, 1}});
   meshes.add("degenerate_triangle", glued(triangles, two_points, {5, 6}, {0, 1}), triangle_schemes);
   meshes.add("triangle_visits_a_vertex_twice", with_face(triangles, 8, {5, 10, 5}), triangle_schemes);
   meshes.add("triangle_at_one_vertex", with_face(triangles, 8, {5, 5, 5}), triangle_schemes);
 
-  ControlMesh isolated = disjoint_union(make_mesh({{3, 1, 4}}, {}), with_points(grid(3, 2), {{1, 5, 9}}));
+  Mesh isolated = disjoint_union(make_mesh({{3, 1, 4}}, {}), with_points(grid(3, 2), {{1, 5, 9}}));
   isolated.corners = {{0, 1.5f}};
   meshes.add_both("isolated_vertices", isolated);
 }
@@ -768,7 +763,7 @@ std::vector<NamedMesh> made_tagged_meshes() {
   add_nonmanifold_surfaces(meshes);
   add_nonmanifold_tags(meshes);
   add_degenerate_faces(meshes);
-  ControlMesh triangle_dart = fan(3, 3, 2);  // a single mode is odd there
+  Mesh triangle_dart = fan(3, 3, 2);  // a single mode is odd there
   add_crease(triangle_dart, {0, 1}, 10);
   meshes.add("dart_of_three_triangles", triangle_dart, triangle_schemes);
   return meshes.take();

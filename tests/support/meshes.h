@@ -5,57 +5,56 @@
 #include <string>
 #include <vector>
 
-#include "sublimit/mesh/control_mesh.h"
-#include "sublimit/scheme/prepare.h"
+#include "sublimit/mesh/mesh.h"
+#include "sublimit/scheme/detail/prepare.h"
 
 namespace sublimit::testing {
 
-ControlMesh make_mesh(const std::vector<Eigen::Vector3d>& positions, const std::vector<std::vector<Index>>& faces);
+Mesh make_mesh(const std::vector<Eigen::Vector3d>& positions, const std::vector<std::vector<Index>>& faces);
 
-ControlMesh tetrahedron();
-ControlMesh cube();  ///< [-1,1]^3; vertex i has the signs of the bits of i: x is bit 0, y bit 1, z bit 2
-ControlMesh octahedron();
-ControlMesh icosahedron();
+Mesh tetrahedron();
+Mesh cube();  ///< [-1,1]^3; vertex i has the signs of the bits of i: x is bit 0, y bit 1, z bit 2
+Mesh octahedron();
+Mesh icosahedron();
 /// Quads, m around the axis and n around the tube; vertex (i,j) has number i*n + j. m, n >= 3.
-ControlMesh torus(Index m, Index n);
-ControlMesh triangle_torus(Index m, Index n);  ///< its quads cut along the same diagonal: valence 6 everywhere
+Mesh torus(Index m, Index n);
+Mesh triangle_torus(Index m, Index n);  ///< its quads cut along the same diagonal: valence 6 everywhere
 /// Open, m x n quads, wavy so that no face is plane; vertex (i,j) has number j*(m+1) + i.
-ControlMesh grid(Index m, Index n);
-ControlMesh triangle_grid(Index m, Index n);
+Mesh grid(Index m, Index n);
+Mesh triangle_grid(Index m, Index n);
 /// n faces of 3 or 4 corners around the interior vertex 0, `rings` rings of faces in all. n >= 2 (triangles: 3, or 2
 /// with one ring, which is a pillow). Spoke s ends at vertex 1 + 2s, the far corner of the quad to its left is 2 + 2s;
 /// triangles: 1 + s.
-ControlMesh fan(Index n, Index face_size = 4, Index rings = 1);
+Mesh fan(Index n, Index face_size = 4, Index rings = 1);
 /// The same around the boundary vertex 0, n >= 1.
-ControlMesh open_fan(Index n, Index face_size = 4, Index rings = 1);
+Mesh open_fan(Index n, Index face_size = 4, Index rings = 1);
 /// Two vertices of valence n, each in n triangles; n quads between. Closed, n >= 3.
-ControlMesh pole(Index n);
-ControlMesh prism(Index n);  ///< two n-gons, n quads
+Mesh pole(Index n);
+Mesh prism(Index n);  ///< two n-gons, n quads
 /// An n-gon, n = sizes.size(), with a face of sizes[i] corners along each edge i; faces of neighbouring edges share an
 /// edge, so that the n inner vertices 0 .. n-1 have valence 3. The last size must not be 3.
-ControlMesh polygon_ring(const std::vector<Index>& sizes);
-ControlMesh mobius_strip(Index n);  ///< n quads; one edge between them is wound inconsistently
+Mesh polygon_ring(const std::vector<Index>& sizes);
+Mesh mobius_strip(Index n);  ///< n quads; one edge between them is wound inconsistently
 
 /// Every coordinate moved by up to `amount`, differently for every seed: no symmetry is left to hide a mistake.
-ControlMesh jittered(ControlMesh mesh, double amount = 0.1, unsigned seed = 1);
+Mesh jittered(Mesh mesh, double amount = 0.1, unsigned seed = 1);
 
 /// The second mesh beside the first, tags included; its options are those of `a`.
-ControlMesh disjoint_union(const ControlMesh& a, const ControlMesh& b);
+Mesh disjoint_union(const Mesh& a, const Mesh& b);
 /// The same, with vertex `b_vertices[i]` of b made the vertex `a_vertices[i]` of a.
-ControlMesh glued(const ControlMesh& a, const ControlMesh& b, const std::vector<Index>& a_vertices,
-                  const std::vector<Index>& b_vertices);
+Mesh glued(const Mesh& a, const Mesh& b, const std::vector<Index>& a_vertices, const std::vector<Index>& b_vertices);
 /// Every n-gon split into n quads at its centroid: from triangles, half of the vertices are extraordinary. Edge
 /// midpoints are numbered by first appearance. Creases and holes are kept.
-ControlMesh quads_from_triangles(const ControlMesh& mesh);
+Mesh quads_from_triangles(const Mesh& mesh);
 
 /// Crease along a path of vertices, one sharpness for all edges or one per edge.
-void add_crease(ControlMesh& mesh, const std::vector<Index>& path, float sharpness);
-void add_crease(ControlMesh& mesh, const std::vector<Index>& path, const std::vector<float>& sharpness);
+void add_crease(Mesh& mesh, const std::vector<Index>& path, float sharpness);
+void add_crease(Mesh& mesh, const std::vector<Index>& path, const std::vector<float>& sharpness);
 
 struct NamedMesh {
   std::string name;
   std::vector<std::string> schemes;  ///< those it is meant for: "catmull-clark", "loop", "bilinear"
-  ControlMesh mesh;
+  Mesh mesh;
   friend std::ostream& operator<<(std::ostream& out, const NamedMesh& m) { return out << m.name; }
 };
 /// Small meshes that together reach every rule of OpenSubdiv's Sdc and every kind of non-manifold place.

@@ -3,7 +3,7 @@
 // Rules of well-known schemes as they are sometimes misprinted, or as their words can be misread, each a scheme of its
 // own: what becomes of them is for tests to say (lib/errata_test.cpp). The rules in the registry are those of the
 // papers.
-#include "sublimit/schemes.h"
+#include "sublimit/schemes/schemes.h"
 
 namespace sublimit::testing::misread {
 

@@ -12,7 +12,7 @@
 #include <random>
 #include <vector>
 
-#include "sublimit/geometric/triangle_patch.h"
+#include "sublimit/geometric/normal_triangle.h"
 #include "support/precise.h"
 
 namespace sublimit::testing {

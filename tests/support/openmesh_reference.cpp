@@ -26,9 +26,9 @@ using Polygons = OpenMesh::PolyMesh_ArrayKernelT<OpenMesh::DefaultTraitsDouble>;
 using Triangles = OpenMesh::TriMesh_ArrayKernelT<OpenMesh::DefaultTraitsDouble>;
 using TrianglesSingle = OpenMesh::TriMesh_ArrayKernelT<DoublePointsOnly>;
 
-template <class Mesh>
-Mesh built(const ControlMesh& control) {
-  Mesh mesh;
+template <class PeerKernel>
+PeerKernel built(const Mesh& control) {
+  PeerKernel mesh;
   std::vector<OpenMesh::VertexHandle> corners;
   for (Index v = 0; v < control.num_vertices(); ++v)
     mesh.add_vertex({control.positions(v, 0), control.positions(v, 1), control.positions(v, 2)});
@@ -37,14 +37,14 @@ Mesh built(const ControlMesh& control) {
     corners.clear();
     for (Index i = 0; i < size; ++i) corners.emplace_back(control.face_vertices[at++]);
     // A triangle mesh would cut other faces into triangles without a word.
-    if ((Mesh::is_trimesh() && size != 3) || !mesh.add_face(corners).is_valid())
+    if ((PeerKernel::is_trimesh() && size != 3) || !mesh.add_face(corners).is_valid())
       throw std::runtime_error("OpenMesh does not take the mesh");
   }
   return mesh;
 }
 
-template <class Mesh>
-PeerMesh copied(const Mesh& mesh) {
+template <class PeerKernel>
+PeerMesh copied(const PeerKernel& mesh) {
   PeerMesh result;
   result.positions.resize(Index(mesh.n_vertices()), 3);
   for (const auto v : mesh.vertices())
@@ -59,9 +59,9 @@ PeerMesh copied(const Mesh& mesh) {
 }
 
 /// A mesh and its subdivider, ready to run.
-template <class Mesh, template <class, class> class Subdivider>
+template <class PeerKernel, template <class, class> class Subdivider>
 struct Refinable {
-  explicit Refinable(const ControlMesh& control) : mesh(built<Mesh>(control)) {
+  explicit Refinable(const Mesh& control) : mesh(built<PeerKernel>(control)) {
     if constexpr (requires { subdivide.init_weights(size_t{}); }) {
       // Tables of weights reach to a fixed valence, and most subdividers read on beyond.
       unsigned most = 0;
@@ -70,17 +70,17 @@ struct Refinable {
     }
   }
   /// In place.
-  const Mesh& refine(int levels) {
+  const PeerKernel& refine(int levels) {
     if (!subdivide(mesh, size_t(levels))) throw std::runtime_error("OpenMesh does not refine the mesh");
     return mesh;
   }
-  Mesh mesh;
-  Subdivider<Mesh, double> subdivide;
+  PeerKernel mesh;
+  Subdivider<PeerKernel, double> subdivide;
 };
 
 /// Calls `use` with a pointer to the Refinable.
 template <class Use>
-auto with_refinable(const ControlMesh& control, OpenMeshScheme scheme, const Use& use) {
+auto with_refinable(const Mesh& control, OpenMeshScheme scheme, const Use& use) {
   switch (scheme) {
     case OpenMeshScheme::loop:
       return use(std::make_shared<Refinable<Triangles, Uniform::LoopT>>(control));
@@ -110,14 +110,14 @@ std::optional<OpenMeshScheme> openmesh_scheme(const std::string& name) {
   return std::nullopt;
 }
 
-PeerMesh openmesh_refine(const ControlMesh& mesh, OpenMeshScheme scheme, int levels, OpenMeshNormals normals) {
+PeerMesh openmesh_refine(const Mesh& mesh, OpenMeshScheme scheme, int levels, OpenMeshNormals normals) {
   if (normals == OpenMeshNormals::twice)
     return with_refinable(mesh, scheme, [&](const auto& refinable) { return copied(refinable->refine(levels)); });
   if (scheme != OpenMeshScheme::loop) throw std::runtime_error("single normals are for Loop's scheme only");
   return copied(Refinable<TrianglesSingle, Uniform::LoopT>(mesh).refine(levels));
 }
 
-std::function<std::size_t()> openmesh_run(const ControlMesh& mesh, OpenMeshScheme scheme, int levels) {
+std::function<std::size_t()> openmesh_run(const Mesh& mesh, OpenMeshScheme scheme, int levels) {
   return with_refinable(mesh, scheme, [&](const auto& refinable) -> std::function<std::size_t()> {
     return [refinable, levels] { return refinable->refine(levels).n_vertices(); };
   });

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "sublimit/mesh/control_mesh.h"
+#include "sublimit/mesh/mesh.h"
 #include "support/peer_mesh.h"
 
 namespace sublimit::testing {
@@ -22,11 +22,11 @@ enum class OpenMeshNormals { twice, single };
 
 /// The mesh after `levels` steps, all in one call: the sqrt(3) subdividers count levels from 0 in every call.
 /// @throws std::runtime_error  a face that OpenMesh does not take
-PeerMesh openmesh_refine(const ControlMesh& mesh, OpenMeshScheme scheme, int levels,
+PeerMesh openmesh_refine(const Mesh& mesh, OpenMeshScheme scheme, int levels,
                          OpenMeshNormals normals = OpenMeshNormals::twice);
 
 /// For benchmarks: OpenMesh's own mesh, built, and the call that refines it in place; to be made once. It returns the
 /// number of vertices; the mesh lives as long as the function.
-std::function<std::size_t()> openmesh_run(const ControlMesh& mesh, OpenMeshScheme scheme, int levels);
+std::function<std::size_t()> openmesh_run(const Mesh& mesh, OpenMeshScheme scheme, int levels);
 
 }  // namespace sublimit::testing

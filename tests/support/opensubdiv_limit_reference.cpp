@@ -23,7 +23,7 @@ struct Point {
   void AddWithWeight(const Point& p, double weight) { x += weight * p.x; }
 };
 
-std::vector<Point> control_points(const ControlMesh& mesh) {
+std::vector<Point> control_points(const Mesh& mesh) {
   std::vector<Point> result(static_cast<size_t>(mesh.num_vertices()));
   for (Index v = 0; v < mesh.num_vertices(); ++v) result[v].x = mesh.positions.row(v).transpose();
   return result;
@@ -39,7 +39,7 @@ struct FarLimit::Parts {
   Index num_control = 0;
 };
 
-FarLimit::FarLimit(const ControlMesh& mesh, const ReferenceOptions& scheme, const Options& given)
+FarLimit::FarLimit(const Mesh& mesh, const ReferenceOptions& scheme, const Options& given)
     : parts_(std::make_unique<Parts>()) {
   Far::PatchTableFactory::Options options(static_cast<unsigned>(given.level));
   options.useInfSharpPatch = given.inf_sharp_patches;
@@ -70,7 +70,7 @@ FarLimit::FarLimit(const ControlMesh& mesh, const ReferenceOptions& scheme, cons
 FarLimit::~FarLimit() = default;
 FarLimit::FarLimit(FarLimit&&) noexcept = default;
 
-std::optional<ReferencePoint> FarLimit::at(const Sample& place) const {
+std::optional<ReferencePoint> FarLimit::at(const Place& place) const {
   const Far::PatchMap::Handle* patch = parts_->map->FindPatch(place.face, place.u, place.v);
   if (!patch) return {};
   double w[6][20];
@@ -95,10 +95,10 @@ std::optional<ReferencePoint> FarLimit::at(const Sample& place) const {
                         parameter.GetDepth()};
 }
 
-Points FarLimit::by_stencils(const std::vector<Sample>& places) const {
+Points FarLimit::by_stencils(const std::vector<Place>& places) const {
   using Factory = Far::LimitStencilTableFactoryReal<double>;
   Factory::LocationArrayVec locations;
-  for (const Sample& s : places) {
+  for (const Place& s : places) {
     Factory::LocationArray location;
     location.ptexIdx = s.face;
     location.numLocations = 1;
@@ -125,7 +125,7 @@ struct BfrLimit::Parts {
   std::vector<std::vector<double>> points;  // of each surface's patches
 };
 
-BfrLimit::BfrLimit(const ControlMesh& mesh, const ReferenceOptions& scheme, const Options& given)
+BfrLimit::BfrLimit(const Mesh& mesh, const ReferenceOptions& scheme, const Options& given)
     : parts_(new Parts{reference_refiner(mesh, scheme),
                        Addresses(Topology({.num_vertices = mesh.num_vertices(),
                                            .face_vertices = mesh.face_vertices,
@@ -159,7 +159,7 @@ std::optional<ReferencePoint> BfrLimit::at(Index face, const BfrParameter& param
   return p;
 }
 
-std::optional<ReferencePoint> BfrLimit::at(const Sample& place) const {
+std::optional<ReferencePoint> BfrLimit::at(const Place& place) const {
   const auto [face, corner] = parts_->addresses.place(place.face);
   return at(index(face), corner < 0 ? BfrParameter{place.u, place.v}
                                     : to_bfr(parts_->face_sizes[index(face)], corner, place.u, place.v));

@@ -24,16 +24,16 @@ class FarLimit {
     int level = 10;  ///< of isolation
     bool inf_sharp_patches = false;
   };
-  FarLimit(const ControlMesh& mesh, const ReferenceOptions& scheme, const Options& options);
+  FarLimit(const Mesh& mesh, const ReferenceOptions& scheme, const Options& options);
   ~FarLimit();
   FarLimit(FarLimit&&) noexcept;
 
   /// Nothing in a hole. The squares of polygons of n sides have u and v half as long as ours: derivatives are twice
   /// ours, second ones four times. The sign of its second derivatives in triangles upside down is put right.
-  std::optional<ReferencePoint> at(const Sample& place) const;
+  std::optional<ReferencePoint> at(const Place& place) const;
 
   /// Positions by limit stencils, row by row; there must be none for holes.
-  Points by_stencils(const std::vector<Sample>& places) const;
+  Points by_stencils(const std::vector<Place>& places) const;
 
  private:
   struct Parts;
@@ -46,14 +46,14 @@ class BfrLimit {
   struct Options {
     int smooth_level = 2, sharp_level = 6;  ///< its defaults; 10 at most
   };
-  BfrLimit(const ControlMesh& mesh, const ReferenceOptions& scheme, const Options& options);
+  BfrLimit(const Mesh& mesh, const ReferenceOptions& scheme, const Options& options);
   ~BfrLimit();
   BfrLimit(BfrLimit&&) noexcept;
 
   /// In Bfr's own parameters of a control face; nothing in a hole.
   std::optional<ReferencePoint> at(Index face, const BfrParameter& parameter) const;
   /// At ours; derivatives in polygons as above.
-  std::optional<ReferencePoint> at(const Sample& place) const;
+  std::optional<ReferencePoint> at(const Place& place) const;
 
  private:
   struct Parts;

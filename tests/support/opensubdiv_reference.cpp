@@ -65,7 +65,7 @@ Sdc::Options scheme_options(const ReferenceOptions& options) {
 }
 
 // The factory trusts every index and needs a face: what it does not look at is looked at here.
-void require_indices_in_range(const ControlMesh& mesh) {
+void require_indices_in_range(const Mesh& mesh) {
   const auto require = [](bool good, const char* what) {
     if (!good) throw std::runtime_error(std::string("no mesh for OpenSubdiv: ") + what);
   };
@@ -79,15 +79,15 @@ void require_indices_in_range(const ControlMesh& mesh) {
   }
   require(corners == mesh.face_vertices.size(), "face sizes do not add up");
   require(std::ranges::all_of(mesh.face_vertices, is_vertex), "a face vertex is out of range");
-  for (const ControlMesh::Crease& crease : mesh.creases) {
+  for (const Mesh::Crease& crease : mesh.creases) {
     require(is_vertex(crease.tail) && is_vertex(crease.head), "a crease vertex is out of range");
   }
-  for (const ControlMesh::Corner& corner : mesh.corners) require(is_vertex(corner.vertex), "a corner is out of range");
+  for (const Mesh::Corner& corner : mesh.corners) require(is_vertex(corner.vertex), "a corner is out of range");
   for (const Index f : mesh.holes) require(f >= 0 && f < mesh.num_faces(), "a hole is out of range");
 }
 
 // A mesh, refined in place.
-std::unique_ptr<Far::TopologyRefiner> refiner(const ControlMesh& mesh, const ReferenceOptions& options) {
+std::unique_ptr<Far::TopologyRefiner> refiner(const Mesh& mesh, const ReferenceOptions& options) {
   if (options.levels < 0 || options.levels > 15) throw std::runtime_error("OpenSubdiv refines 0 to 15 levels");
   std::unique_ptr<Far::TopologyRefiner> made = reference_refiner(mesh, options);
   Far::TopologyRefiner::UniformOptions uniform(options.levels);
@@ -218,16 +218,16 @@ void make_room_for_limit_masks(Far::TopologyRefiner& refiner) {
 // Vertices at more than one sheet, isolated ones (non-manifold to OpenSubdiv: corners
 // that stay where they are), repeated vertices and degenerate edges are all accepted by the factory. Of a repeated edge
 // in one face it makes a second, separate edge, as it does of every edge (v,v).
-std::unique_ptr<Far::TopologyRefiner> reference_refiner(const ControlMesh& mesh, const ReferenceOptions& options) {
+std::unique_ptr<Far::TopologyRefiner> reference_refiner(const Mesh& mesh, const ReferenceOptions& options) {
   require_indices_in_range(mesh);
 
   std::vector<Index> crease_vertices, corner_vertices;
   std::vector<float> crease_sharpness, corner_sharpness;
-  for (const ControlMesh::Crease& crease : mesh.creases) {
+  for (const Mesh::Crease& crease : mesh.creases) {
     crease_vertices.insert(crease_vertices.end(), {crease.tail, crease.head});
     crease_sharpness.push_back(crease.sharpness);
   }
-  for (const ControlMesh::Corner& corner : mesh.corners) {
+  for (const Mesh::Corner& corner : mesh.corners) {
     corner_vertices.push_back(corner.vertex);
     corner_sharpness.push_back(corner.sharpness);
   }
@@ -262,7 +262,7 @@ std::unique_ptr<Far::TopologyRefiner> reference_refiner(const ControlMesh& mesh,
   return made;
 }
 
-ReferenceOptions reference_options(const ControlMesh& mesh, const std::string& scheme, int levels) {
+ReferenceOptions reference_options(const Mesh& mesh, const std::string& scheme, int levels) {
   ReferenceOptions options;
   options.scheme = scheme;
   options.levels = levels;
@@ -272,7 +272,7 @@ ReferenceOptions reference_options(const ControlMesh& mesh, const std::string& s
   return options;
 }
 
-std::vector<ReferenceLevel> reference_refine(const ControlMesh& mesh, const ReferenceOptions& options) {
+std::vector<ReferenceLevel> reference_refine(const Mesh& mesh, const ReferenceOptions& options) {
   const std::unique_ptr<Far::TopologyRefiner> refined = refiner(mesh, options);
   const Far::PrimvarRefinerReal<double> primvars(*refined);
   std::vector<ReferenceLevel> levels;
@@ -302,7 +302,7 @@ std::vector<ReferenceLevel> reference_refine(const ControlMesh& mesh, const Refe
   return levels;
 }
 
-ReferenceLimit reference_limit(const ControlMesh& mesh, const ReferenceOptions& options) {
+ReferenceLimit reference_limit(const Mesh& mesh, const ReferenceOptions& options) {
   const std::unique_ptr<Far::TopologyRefiner> refined = refiner(mesh, options);
   const Far::PrimvarRefinerReal<double> primvars(*refined);
   std::vector<Point> parent = points(mesh.positions);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// The reference: OpenSubdiv, run live on a ControlMesh, in double (sharpness stays float, as it is there).
+// The reference: OpenSubdiv, run live on a Mesh, in double (sharpness stays float, as it is there).
 //
 // Edges carry no numbers here, since those of two libraries need not agree. What belongs to an edge is given per
 // corner: corner i (faces in order, corners in order) stands for the edge that starts there, as a half-edge does in
@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "sublimit/mesh/control_mesh.h"
+#include "sublimit/mesh/mesh.h"
 
 namespace sublimit::testing {
 
@@ -25,7 +25,7 @@ struct ReferenceOptions {
 };
 
 /// What the mesh itself asks for, and the defaults where it is silent.
-ReferenceOptions reference_options(const ControlMesh& mesh, const std::string& scheme, int levels);
+ReferenceOptions reference_options(const Mesh& mesh, const std::string& scheme, int levels);
 
 struct ReferenceLevel {
   std::vector<Index> face_sizes, face_vertices;
@@ -54,7 +54,7 @@ struct ReferenceLevel {
 ///         valence above 65535), and before it is asked where it would read out of bounds: no face, an index out of
 ///         range.
 /// @note  OpenSubdiv's warnings are dropped; there is one only, for a crease on vertices that share no edge.
-std::vector<ReferenceLevel> reference_refine(const ControlMesh& mesh, const ReferenceOptions& options);
+std::vector<ReferenceLevel> reference_refine(const Mesh& mesh, const ReferenceOptions& options);
 
 /// What decides whether a limit mask is exact at a vertex.
 struct ReferenceVertex {
@@ -82,6 +82,6 @@ struct ReferenceLimit {
 
 /// Limit masks of OpenSubdiv at the vertices of level `options.levels`. Where they are exact: `ReferenceVertex`.
 /// @throws std::runtime_error  as reference_refine
-ReferenceLimit reference_limit(const ControlMesh& mesh, const ReferenceOptions& options);
+ReferenceLimit reference_limit(const Mesh& mesh, const ReferenceOptions& options);
 
 }  // namespace sublimit::testing

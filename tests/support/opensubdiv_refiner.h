@@ -11,7 +11,6 @@ namespace sublimit::testing {
 
 /// `options.levels` plays no part.
 /// @throws std::runtime_error  as reference_refine
-std::unique_ptr<OpenSubdiv::Far::TopologyRefiner> reference_refiner(const ControlMesh& mesh,
-                                                                    const ReferenceOptions& options);
+std::unique_ptr<OpenSubdiv::Far::TopologyRefiner> reference_refiner(const Mesh& mesh, const ReferenceOptions& options);
 
 }  // namespace sublimit::testing

@@ -66,7 +66,7 @@ std::vector<double> far_points(const OpenSubdivStencils<double>& stencils, const
   return updated<double>(FarStencilTable<Far::StencilTableReal<double>>(stencils), points);
 }
 
-FarRows far_rows(const ControlMesh& mesh, int level, const std::vector<double>& points) {
+FarRows far_rows(const Mesh& mesh, int level, const std::vector<double>& points) {
   const auto refiner = reference_refiner(mesh, ReferenceOptions{});  // catmull-clark
   refiner->RefineUniform(Far::TopologyRefiner::UniformOptions(level));
   using Factory = Far::StencilTableFactoryReal<double>;

@@ -4,8 +4,8 @@
 #include <array>
 #include <vector>
 
-#include "sublimit/mesh/control_mesh.h"
-#include "sublimit/opensubdiv_stencils.h"
+#include "sublimit/eval/opensubdiv_stencils.h"
+#include "sublimit/mesh/mesh.h"
 
 namespace sublimit::testing {
 
@@ -24,6 +24,6 @@ struct FarRows {
   StencilTable<double> rows;
   std::vector<double> points;
 };
-FarRows far_rows(const ControlMesh& mesh, int level, const std::vector<double>& points);
+FarRows far_rows(const Mesh& mesh, int level, const std::vector<double>& points);
 
 }  // namespace sublimit::testing

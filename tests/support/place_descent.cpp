@@ -10,7 +10,7 @@ namespace sublimit::testing {
 namespace {
 
 /// Quarter of a square that contains the place; the place becomes that of the quarter.
-int take_quarter(Place& p) {
+int take_quarter(DescentPlace& p) {
   const Precise half(0.5);
   const int i = p.x >= half, j = p.y >= half;
   p.x = 2 * p.x - i;
@@ -28,19 +28,19 @@ HalfEdge triangle(const Topology& t, Index a, Index b, Index c) {
   throw std::logic_error("no triangle has these corners");
 }
 
-Place through_pqq(Place p, const TakenStep& step) {
+DescentPlace through_pqq(DescentPlace p, const TakenStep& step) {
   const Topology &t = *step.parent, &child = step.refinement->topology;
-  if (p.cell == Place::Cell::corner) {  // its children start at their own corner
+  if (p.cell == DescentPlace::Cell::corner) {  // its children start at their own corner
     p.frame = child.corner(Face{index(p.frame)}, 0);
   } else {  // those of a quad lie as their parent
     const Index origin = t.corner_index(p.frame);
     p.frame = child.corner(Face{index(along(t, p.frame, take_quarter(p)))}, origin);
   }
-  p.cell = Place::Cell::square;
+  p.cell = DescentPlace::Cell::square;
   return p;
 }
 
-Place through_ptq(Place p, const TakenStep& step) {
+DescentPlace through_ptq(DescentPlace p, const TakenStep& step) {
   const Topology &t = *step.parent, &child = step.refinement->topology;
   const Index origin = t.corner_index(p.frame), first = 4 * index(t.face(p.frame));
   const Precise x = 2 * p.x, y = 2 * p.y;
@@ -66,7 +66,7 @@ Place through_ptq(Place p, const TakenStep& step) {
 }
 
 /// Two steps cut a triangle into nine. Points are thirds of (x,y): old vertices, the centre, two on every side.
-Place through_sqrt3(Place p, const TakenStep& even, const TakenStep& odd) {
+DescentPlace through_sqrt3(DescentPlace p, const TakenStep& even, const TakenStep& odd) {
   const Topology &t = *even.parent, &middle = *odd.parent;
   const Refinement &r1 = *even.refinement, &r2 = *odd.refinement;
   const auto center = [&](HalfEdge h) { return index(r1.child(t.face(h))); };
@@ -129,26 +129,26 @@ HalfEdge dual_child(HalfEdge h, std::span<const TakenStep> steps) {
   throw std::logic_error("the point of a quad is not in the face of its corner");
 }
 
-Place through_dual(Place p, std::span<const TakenStep> steps) {
+DescentPlace through_dual(DescentPlace p, std::span<const TakenStep> steps) {
   const Topology &t = *steps[0].parent, &child = steps.back().refinement->topology;
   HalfEdge corner = p.frame;
   int seen = 2;  // corner of the new square at which the face's centre is
-  if (p.cell == Place::Cell::square) {
+  if (p.cell == DescentPlace::Cell::square) {
     const int quarter = take_quarter(p);
     corner = along(t, p.frame, quarter);
     seen = (quarter + 2) % 4;
-  } else if (p.cell == Place::Cell::around_vertex) {
+  } else if (p.cell == DescentPlace::Cell::around_vertex) {
     seen = take_quarter(p);
     corner = turned(t, p.frame, seen);
   }
   p.frame = turned(child, dual_child(corner, steps), -seen);
-  p.cell = Place::Cell::around_vertex;
+  p.cell = DescentPlace::Cell::around_vertex;
   return p;
 }
 
 }  // namespace
 
-Place place_of(const Topology& control, bool triangles, const Sample& sample) {
+DescentPlace place_of(const Topology& control, bool triangles, const Place& sample) {
   const Addresses addresses(control, triangles);
   if (sample.face < 0 || sample.face >= addresses.size())
     throw InvalidParameter("address " + std::to_string(sample.face) + " does not exist");
@@ -156,19 +156,21 @@ Place place_of(const Topology& control, bool triangles, const Sample& sample) {
   const bool inside =
       sample.u >= 0 && sample.v >= 0 && (triangles ? sample.u + sample.v <= 1 : sample.u <= 1 && sample.v <= 1);
   if (!inside) throw InvalidParameter("the place is outside its square or triangle");
-  Place p;
-  p.cell = triangles ? Place::Cell::triangle : corner < 0 ? Place::Cell::square : Place::Cell::corner;
+  DescentPlace p;
+  p.cell = triangles    ? DescentPlace::Cell::triangle
+           : corner < 0 ? DescentPlace::Cell::square
+                        : DescentPlace::Cell::corner;
   p.frame = control.corner(face, std::max<Index>(corner, 0));
   p.x = sample.u;
   p.y = sample.v;
   return p;
 }
 
-Place descend(const Place& place, std::span<const TakenStep> steps) {
+DescentPlace descend(const DescentPlace& place, std::span<const TakenStep> steps) {
   const Split last = steps.back().refinement->split;
   if (last == Split::dqq || last == Split::mid_edge || last == Split::dual) return through_dual(place, steps);
   if (last == Split::sqrt3) return through_sqrt3(place, steps[0], steps[1]);
-  Place p = place;
+  DescentPlace p = place;
   for (const TakenStep& step : steps) {
     const Split split = step.refinement->split;
     if (split == Split::quads)

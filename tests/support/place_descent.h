@@ -11,7 +11,7 @@
 namespace sublimit::testing {
 
 /// A square or triangle of some level that contains the place, and the place in it.
-struct Place {
+struct DescentPlace {
   enum class Cell {
     square,         ///< a quad; `frame` starts at (0,0) and runs to (1,0)
     corner,         ///< one corner of a polygon, as control addresses have it: `frame` starts there
@@ -28,7 +28,7 @@ struct Place {
 
 /// Where an address is.
 /// @throws InvalidParameter  no such address, or a place outside it
-Place place_of(const Topology& control, bool triangles, const Sample& sample);
+DescentPlace place_of(const Topology& control, bool triangles, const Place& sample);
 
 /// One refinement with the topology that it refined.
 struct TakenStep {
@@ -39,7 +39,7 @@ struct TakenStep {
 /// The place in the mesh after these steps: all those of a level, of two levels of the rotating schemes (sqrt3,
 /// mid-edge).
 /// @throws UnsupportedTopology  faces cut by Split::quads, where addresses have no natural meaning
-Place descend(const Place& place, std::span<const TakenStep> steps);
+DescentPlace descend(const DescentPlace& place, std::span<const TakenStep> steps);
 
 /// Half-edges of a vertex with four faces around it, counter-clockwise.
 inline HalfEdge turned(const Topology& t, HalfEdge h, int quarters) {

@@ -3,13 +3,13 @@
 // Control meshes with intervals that belong to points.
 #include <random>
 
-#include "sublimit/mesh/control_mesh.h"
+#include "sublimit/mesh/mesh.h"
 #include "sublimit/mesh/topology.h"
 
 namespace sublimit::testing {
 
 /// Whole numbers up to `most` at both ends of all edges, one at opposite ends of a vertex of four edges.
-inline ControlMesh with_point_intervals(ControlMesh mesh, unsigned seed, unsigned most = 7) {
+inline Mesh with_point_intervals(Mesh mesh, unsigned seed, unsigned most = 7) {
   std::mt19937 random(seed);
   const Topology t(view(mesh));
   for (Index i = 0; i < t.num_vertices(); ++i) {

@@ -7,10 +7,10 @@ template std::optional<Scheme<testing::Precise>> find_scheme<testing::Precise>(c
                                                                                const SchemeOptions&);
 template std::optional<CurveScheme<testing::Precise>> find_curve_scheme<testing::Precise>(const std::string&,
                                                                                           const SchemeOptions&);
-template LevelOf<testing::Precise> control_level(const Scheme<testing::Precise>&, const ControlMesh&,
+template LevelOf<testing::Precise> control_level(const Scheme<testing::Precise>&, const Mesh&,
                                                  const SubdivisionOptions&);
 template LevelOf<testing::Precise> next_level(const Scheme<testing::Precise>&, const LevelOf<testing::Precise>&);
 template std::optional<LocalPatch<testing::Precise>> local_patch(const Scheme<testing::Precise>&, LocalType, int,
-                                                                 const ControlMesh*);
+                                                                 const Mesh*);
 
 }  // namespace sublimit

@@ -4,7 +4,7 @@
 // makes them all.
 #include "sublimit/curves/schemes/curve_schemes.h"
 #include "sublimit/neighborhood/local_patch.h"
-#include "sublimit/schemes.h"
+#include "sublimit/schemes/schemes.h"
 #include "support/precise.h"
 
 namespace sublimit {
@@ -13,10 +13,10 @@ extern template std::optional<Scheme<testing::Precise>> find_scheme<testing::Pre
                                                                                       const SchemeOptions&);
 extern template std::optional<CurveScheme<testing::Precise>> find_curve_scheme<testing::Precise>(const std::string&,
                                                                                                  const SchemeOptions&);
-extern template LevelOf<testing::Precise> control_level(const Scheme<testing::Precise>&, const ControlMesh&,
+extern template LevelOf<testing::Precise> control_level(const Scheme<testing::Precise>&, const Mesh&,
                                                         const SubdivisionOptions&);
 extern template LevelOf<testing::Precise> next_level(const Scheme<testing::Precise>&, const LevelOf<testing::Precise>&);
 extern template std::optional<LocalPatch<testing::Precise>> local_patch(const Scheme<testing::Precise>&, LocalType, int,
-                                                                        const ControlMesh*);
+                                                                        const Mesh*);
 
 }  // namespace sublimit

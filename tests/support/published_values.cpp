@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "sublimit/limit/limit_masks.h"
+#include "sublimit/limit/detail/limit_masks.h"
 #include "sublimit/scheme/refine.h"
 #include "support/averaging_blocks.h"
 #include "support/local_types.h"
@@ -91,7 +91,7 @@ std::string published_values_hold(const Scheme<double>& scheme) {
       return what + " of valence " + std::to_string(n) + " is " + std::to_string(is) + ", not " +
              std::to_string(should);
     };
-    const std::optional<LoneLimit> smooth = lone_limit(scheme, smooth_type(scheme, n));
+    const std::optional<IsolatedLimit> smooth = isolated_limit(scheme, smooth_type(scheme, n));
     if (!smooth) return "no limit at valence " + std::to_string(n);
     const LimitMasks& masks = smooth->masks;
     if (differ(masks.position[0], published->centre))
@@ -103,7 +103,7 @@ std::string published_values_hold(const Scheme<double>& scheme) {
       // Where a limit is another centre's: of dual schemes at vertices, and in odd levels of sqrt3, whose border
       // vertices have other faces there.
       if ((type.kind == Centre::Kind::vertex) == scheme.is_dual() || type.phase != 0) continue;
-      const std::optional<LoneLimit> border = lone_limit(scheme, type);
+      const std::optional<IsolatedLimit> border = isolated_limit(scheme, type);
       const double should = type.corner ? 1 : published->border;
       const std::string at =
           std::string(type.corner ? "corner" : "border vertex") + " of " + std::to_string(n - 1) + " faces";

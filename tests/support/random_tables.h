@@ -7,7 +7,7 @@
 #include <set>
 #include <vector>
 
-#include "sublimit/pattern_table.h"
+#include "sublimit/eval/pattern_table.h"
 
 namespace sublimit::testing {
 

@@ -16,10 +16,10 @@
 #include <vector>
 
 #include "sublimit/base/error.h"
-#include "sublimit/limit/closed_surface.h"
-#include "sublimit/limit/limit_types.h"
-#include "sublimit/scheme/prepare.h"
-#include "sublimit/schemes.h"
+#include "sublimit/limit/detail/closed_surface.h"
+#include "sublimit/limit/detail/limit_cache.h"
+#include "sublimit/scheme/detail/prepare.h"
+#include "sublimit/schemes/schemes.h"
 #include "sublimit/search/intersect.h"
 #include "support/full_sweep.h"
 #include "support/tolerance.h"
@@ -40,15 +40,15 @@ struct LaidRays {
 };
 
 /// Corners, middles of sides and of faces, each point once.
-inline std::vector<Sample> marked_places(const LimitMap& surface, const Points& points) {
-  std::vector<Sample> all;
+inline std::vector<Place> marked_places(const LimitMap& surface, const Points& points) {
+  std::vector<Place> all;
   for (Index f = 0; f < surface.faces().size; ++f)
     for (const auto& [u, v] : std::vector<std::pair<double, double>>{
              {0, 0}, {1, 0}, {0, 1}, {0.5, 0}, {0, 0.5}, {0.5, 0.5}, {1, 1}, {1. / 3, 1. / 3}})
       if (!surface.faces().triangles || u + v <= 1) all.push_back({f, u, v});
   const LimitSamples found = surface.evaluate(points, all, 0, false);
   std::set<std::array<std::int64_t, 3>> seen;
-  std::vector<Sample> once;
+  std::vector<Place> once;
   for (size_t i = 0; i < all.size(); ++i) {
     if (found.status[i] == LimitStatus::hole) continue;
     const Eigen::Vector3d p = 1e9 * found.position.row(Eigen::Index(i)) / diagonal(points);
@@ -59,7 +59,7 @@ inline std::vector<Sample> marked_places(const LimitMap& surface, const Points& 
 
 /// @param stride  of the offsets
 inline LaidRays laid_rays(const LimitMap& surface, const Points& points, size_t stride) {
-  const std::vector<Sample> places = marked_places(surface, points);
+  const std::vector<Place> places = marked_places(surface, points);
   const LimitSamples on = surface.evaluate(points, places, 1);
   const double size = diagonal(points);
   LaidRays laid;
@@ -121,7 +121,7 @@ inline LookedAtRays look_at_rays(const LimitMap& surface, const Points& points, 
 }
 
 /// Whether a face visits a vertex twice: the limit folds there, again at every level, and rays may be given up.
-inline bool folds(const ControlMesh& mesh) {
+inline bool folds(const Mesh& mesh) {
   size_t first = 0;
   for (const Index size : mesh.face_sizes) {
     std::vector<Index> corners(mesh.face_vertices.begin() + std::ptrdiff_t(first),
@@ -136,7 +136,7 @@ inline bool folds(const ControlMesh& mesh) {
 class RayLaws : public ::testing::TestWithParam<std::string> {
  protected:
   /// As many meshes as the scheme takes; those without a limit somewhere are left out.
-  void look_at_mesh(ControlMesh mesh, const std::string& name) {
+  void look_at_mesh(Mesh mesh, const std::string& name) {
     SCOPED_TRACE(scheme_.name + " on " + name);
     if (folds(mesh)) return;
     // Without polynomials a ray through a vertex takes a hundred times as long.
@@ -163,7 +163,7 @@ class RayLaws : public ::testing::TestWithParam<std::string> {
   }
 
   const Scheme<double> scheme_ = *find_scheme(GetParam());
-  const std::shared_ptr<LimitTypes> types_ = std::make_shared<LimitTypes>(scheme_, 4096);
+  const std::shared_ptr<LimitCache> types_ = std::make_shared<LimitCache>(scheme_, 4096);
   int rays_ = 0, without_limit_ = 0;
   int given_up_ = 0;  ///< of pieces without polynomials, which the README says may happen
 };

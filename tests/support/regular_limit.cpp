@@ -9,8 +9,8 @@
 #include <map>
 #include <stdexcept>
 
-#include "sublimit/core/sparse_product.h"
-#include "sublimit/limit/limit_points.h"
+#include "sublimit/core/detail/sparse_product.h"
+#include "sublimit/limit/detail/limit_points.h"
 #include "sublimit/scheme/refine.h"
 #include "support/meshes.h"
 #include "support/tolerance.h"
@@ -23,7 +23,7 @@ Eigen::VectorXd monomial(const Points& at, int p, int q) { return at.col(0).arra
 bool takes_triangles(const Scheme<double>& scheme) { return scheme.face_size() == 3; }
 
 /// m x n quads or twice as many triangles, closed up to a torus; vertex (i, j) has number i n + j.
-ControlMesh regular_torus(Index m, Index n, bool triangles) {
+Mesh regular_torus(Index m, Index n, bool triangles) {
   std::vector<std::vector<Index>> faces;
   const auto at = [&](Index i, Index j) { return (i % m) * n + j % n; };
   for (Index i = 0; i < m; ++i)
@@ -118,7 +118,7 @@ double regular_limit_error(const Scheme<double>& scheme, const Generator& phi) {
   for (Index v = 0; v < m * n; ++v) place.row(v) << v / n, v % n;
   SparseMatrix P(m * n, m * n);
   P.setIdentity();
-  LimitTypes cache(scheme);
+  LimitCache cache(scheme);
   std::map<std::pair<double, double>, double> known;
   double worst = 0;
   for (const Level& level : levels) {
@@ -161,11 +161,11 @@ namespace {
 template <class Pass>
 int largest_degree(const Scheme<double>& scheme, const Pass& pass) {
   const Index m = 16;
-  const ControlMesh mesh = takes_triangles(scheme) ? triangle_grid(m, m) : grid(m, m);
+  const Mesh mesh = takes_triangles(scheme) ? triangle_grid(m, m) : grid(m, m);
   Points x(mesh.positions.rows(), 2);
   for (Index v = 0; v < x.rows(); ++v) x.row(v) << (v % (m + 1) - m / 2) / 4.0, (v / (m + 1) - m / 2) / 4.0;
   const std::vector<Level> levels = refine(scheme, mesh, scheme.period);
-  LimitTypes cache(scheme);
+  LimitCache cache(scheme);
   const LimitMatrices limit = limit_matrices(levels.back(), cache);
   const auto limits = [&](Points values) {
     for (size_t k = 1; k < levels.size(); ++k) values = apply(levels[k].S, values);

@@ -248,7 +248,7 @@ constexpr Offset corners[] = {{0, 0}, {1, 0}, {0, 1}};
 
 Offset sum(const Offset& a, const Offset& b, int sign = 1) { return {a[0] + sign * b[0], a[1] + sign * b[1]}; }
 
-std::optional<PieceValues> quartic_piece(const Level& level, const PrecisePoints& points, const Place& place) {
+std::optional<PieceValues> quartic_piece(const Level& level, const PrecisePoints& points, const DescentPlace& place) {
   static const BoxPiece basis = [] {
     std::set<Offset> shifts;
     for (const Offset& c : corners)
@@ -368,8 +368,8 @@ Spline spline_of(const Scheme<Precise>& scheme) {
 }
 
 std::optional<PieceValues> piece(const Spline& spline, const Level& level, const PrecisePoints& points,
-                                 const std::vector<char>& strays, const Place& place) {
-  if (spline.kind == Spline::Kind::none || place.cell == Place::Cell::corner) return std::nullopt;
+                                 const std::vector<char>& strays, const DescentPlace& place) {
+  if (spline.kind == Spline::Kind::none || place.cell == DescentPlace::Cell::corner) return std::nullopt;
   if (spline.kind == Spline::Kind::quartic) return quartic_piece(level, points, place);
   const Topology& t = level.topology();
   if (spline.degree % 2 == 1) {
@@ -380,7 +380,7 @@ std::optional<PieceValues> piece(const Spline& spline, const Level& level, const
     return result;
   }
   // Pieces lie around control points: (i,j) of the base square.
-  const bool is_square = place.cell == Place::Cell::square;
+  const bool is_square = place.cell == DescentPlace::Cell::square;
   const Precise half(0.5);
   const int i = is_square && place.x >= half, j = is_square && place.y >= half, r = spline.degree / 2;
   const HalfEdge base = is_square ? place.frame : turned(t, place.frame, 2);

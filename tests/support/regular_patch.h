@@ -40,6 +40,6 @@ struct PieceValues {
 /// the border's masks give.
 /// @param strays  vertices of dual schemes that borders have moved off their natural place; empty for none
 std::optional<PieceValues> piece(const Spline& spline, const Level& level, const PrecisePoints& points,
-                                 const std::vector<char>& strays, const Place& place);
+                                 const std::vector<char>& strays, const DescentPlace& place);
 
 }  // namespace sublimit::testing

@@ -24,7 +24,7 @@ struct Corners {
   size_t first = 0, turn = 0, size = 0;
   size_t at(size_t k) const { return first + (turn + k) % size; }
 };
-std::multimap<std::vector<Index>, Corners> faces_of(const ControlMesh& mesh, const std::vector<Index>& name) {
+std::multimap<std::vector<Index>, Corners> faces_of(const Mesh& mesh, const std::vector<Index>& name) {
   std::multimap<std::vector<Index>, Corners> faces;
   size_t first = 0;
   for (const Index size : mesh.face_sizes) {
@@ -39,16 +39,16 @@ std::multimap<std::vector<Index>, Corners> faces_of(const ControlMesh& mesh, con
   return faces;
 }
 
-std::map<std::pair<Index, Index>, float> creases_of(const ControlMesh& mesh, const std::vector<Index>& name) {
+std::map<std::pair<Index, Index>, float> creases_of(const Mesh& mesh, const std::vector<Index>& name) {
   std::map<std::pair<Index, Index>, float> creases;
-  for (const ControlMesh::Crease& c : mesh.creases)
+  for (const Mesh::Crease& c : mesh.creases)
     creases[std::minmax({name[size_t(c.tail)], name[size_t(c.head)]})] = c.sharpness;
   return creases;
 }
 
-std::map<Index, float> corners_of(const ControlMesh& mesh, const std::vector<Index>& name) {
+std::map<Index, float> corners_of(const Mesh& mesh, const std::vector<Index>& name) {
   std::map<Index, float> corners;
-  for (const ControlMesh::Corner& c : mesh.corners) corners[name[size_t(c.vertex)]] = c.sharpness;
+  for (const Mesh::Corner& c : mesh.corners) corners[name[size_t(c.vertex)]] = c.sharpness;
   return corners;
 }
 
@@ -58,7 +58,7 @@ std::string counts(const char* what, size_t a, size_t b) {
 
 }  // namespace
 
-std::string difference(const ControlMesh& a, const ControlMesh& b, double tolerance) {
+std::string difference(const Mesh& a, const Mesh& b, double tolerance) {
   if (a.num_vertices() != b.num_vertices()) return counts("points", size_t(a.num_vertices()), size_t(b.num_vertices()));
   if (a.num_faces() != b.num_faces()) return counts("faces", size_t(a.num_faces()), size_t(b.num_faces()));
   const std::vector<Index> order_a = sorted(a.positions), order_b = sorted(b.positions);

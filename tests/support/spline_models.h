@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "sublimit/core/sparse_product.h"
-#include "sublimit/patches/finer_knots.h"
+#include "sublimit/core/detail/sparse_product.h"
+#include "sublimit/patches/detail/finer_knots.h"
 #include "sublimit/patches/joins/patch_seams.h"
 
 namespace sublimit::testing {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "sublimit/schemes.h"
+#include "sublimit/schemes/schemes.h"
 #include "support/full_sweep.h"
 #include "support/hard_meshes.h"
 
@@ -70,11 +70,11 @@ inline int effort(const Scheme<double>& scheme) {
 }
 
 /// Closed, with borders, and with as much as may be sharp.
-inline std::vector<ControlMesh> hard_meshes(const Scheme<double>& scheme, unsigned seed) {
+inline std::vector<Mesh> hard_meshes(const Scheme<double>& scheme, unsigned seed) {
   std::vector<Hardness> kinds{{}, {.open = true}};
   if (scheme.sharpening != Sharpening::boundary) kinds.push_back({.open = true, .sharp = true});
   if (scheme.sharpening == Sharpening::semi_sharp) kinds.push_back({.open = true, .semi_sharp = true});
-  std::vector<ControlMesh> meshes;
+  std::vector<Mesh> meshes;
   for (const Hardness& kind : kinds)
     meshes.push_back(takes_triangles(scheme) ? hard_triangles(seed, kind) : hard_polygons(seed, kind));
   return meshes;

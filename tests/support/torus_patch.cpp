@@ -30,7 +30,8 @@ Vector3d RationalPatch::at(double s, double t) const {
   return sum / weight;
 }
 
-RationalPatch torus_patch(const TorusPiece& piece, const TorusPiece::Place& centre, double half_u, double half_v) {
+RationalPatch torus_patch(const TorusPiece& piece, const TorusPiece::Coordinates& centre, double half_u,
+                          double half_v) {
   const TorusPiece::Frame at = piece.at(centre.u, centre.v), origin = piece.at(0, centre.v);
   const Vector3d kappa = origin.k2 * origin.n + piece.geodesic() * origin.e1;
   const double k = at.k1, curvature = kappa.norm();

@@ -21,6 +21,6 @@ struct RationalPatch {
 /// The patch whose middle is `centre`, by the lengths half_u along the tube and half_v around to each side.
 /// @pre  it spans less than half of either circle: half_u |k1| < pi/2, half_v |kappa| < pi/2
 /// @param centre  w is ignored
-RationalPatch torus_patch(const TorusPiece& piece, const TorusPiece::Place& centre, double half_u, double half_v);
+RationalPatch torus_patch(const TorusPiece& piece, const TorusPiece::Coordinates& centre, double half_u, double half_v);
 
 }  // namespace sublimit::testing

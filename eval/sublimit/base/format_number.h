@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Numbers as text, both ways: written in the shortest form that reads back to the same bits, read strictly (the whole
-// token or nothing), and never touched by the locale.
+// Numbers as text, independent of the locale: written in the shortest form that reads back to the same bits, and read
+// strictly, from the whole of a text or not at all:
+//
+//   const std::string text = format_number(0.1);                 // "0.1"
+//   const Parsed<int> levels = parse_number<int>("12");
+//   if (levels) std::cout << levels.value << "\n";               // 12
+//   parse_number<float>("1e99").status;                          // ParseStatus::too_large
 #include <charconv>
 #include <concepts>
 #include <cstdint>
@@ -12,6 +17,7 @@
 
 namespace sublimit {
 
+/// Floating and integral types.
 template <class T>
 concept PlainNumber = std::floating_point<T> || std::integral<T>;
 
@@ -23,6 +29,7 @@ void append_number(std::string& out, T value) {
   out.append(digits, end.ptr);
 }
 
+/// Returns the shortest decimal form of `value` that reads back to the same bits.
 template <PlainNumber T>
 std::string format_number(T value) {
   std::string out;
@@ -30,23 +37,25 @@ std::string format_number(T value) {
   return out;
 }
 
+/// Outcome of reading a number.
 enum class ParseStatus {
-  ok,
+  ok,         ///< a number
   malformed,  ///< not a number, or a number with something behind it
-  too_large,  ///< a number beyond the largest of its type
+  too_large,  ///< a number beyond the range of its type
 };
 
+/// A number that was read, true if its status is ok.
 template <PlainNumber T>
 struct Parsed {
-  T value{};  ///< 0 unless `status` is ok
-  ParseStatus status = ParseStatus::malformed;
+  T value{};                                    ///< 0 unless `status` is ok
+  ParseStatus status = ParseStatus::malformed;  ///< outcome
   explicit operator bool() const { return status == ParseStatus::ok; }
 };
 
 namespace detail {
 
-/// Whether decimal text that is out of range is too close to zero, not too far from it: what counts is the power of ten
-/// of the first digit that is not zero.
+/// Returns true if decimal text that is out of range is too close to zero, false if it is too far from it. The power
+/// of ten of the first digit that is not zero decides.
 inline bool is_tiny(std::string_view text) {
   std::int64_t power = 0;  // of the first non-zero digit; the exponent comes on top
   bool started = false, fraction = false;
@@ -72,10 +81,10 @@ inline bool is_tiny(std::string_view text) {
 
 }  // namespace detail
 
-/// The number that the whole of `text` spells. A leading '+' is taken; blanks, hexadecimal and partial numbers are not.
-///
-/// "inf" and "nan" are numbers of a floating type: callers who want finite ones ask `std::isfinite`. What is closer to
-/// zero than the smallest number of the type is zero, as rounding has it.
+/// Returns the number that the whole of `text` spells. A leading '+' is accepted; blanks, hexadecimal and partial
+/// numbers are malformed.
+/// @note  "inf" and "nan" are numbers of a floating type; check with `std::isfinite` where these are not wanted.
+///        Numbers closer to zero than the smallest of the type are read as zero.
 template <PlainNumber T>
 Parsed<T> parse_number(std::string_view text) {
   if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);

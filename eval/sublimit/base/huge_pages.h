@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Big arrays in huge pages. Handing out memory in pages of 4 KB takes the kernel longer than we take to fill it.
+// Large arrays in huge pages of 2 MB. In pages of 4 KB the kernel takes longer to provide memory than a program takes
+// to fill it. Ask before an array is first written:
+//
+//   const std::unique_ptr<float[]> points(new float[count]);  // not yet written
+//   prefer_huge_pages(points.get(), count * sizeof(float));
 #include <sys/mman.h>
 #include <unistd.h>
 
@@ -9,8 +13,10 @@
 
 namespace sublimit {
 
-/// Asks for huge pages in the part of an array that has not been touched yet; call it before the array is filled. Small
-/// arrays are left alone, and where the system has no huge pages nothing happens.
+/// Asks the system to use huge pages for the parts of an array that have not been written yet. Does nothing for arrays
+/// below 2 MB and on systems without huge pages. May be called by any thread.
+/// @param data   start of the array
+/// @param bytes  its size
 inline void prefer_huge_pages([[maybe_unused]] void* data, [[maybe_unused]] std::size_t bytes) noexcept {
 #ifdef MADV_HUGEPAGE
   constexpr std::size_t huge_page = std::size_t{1} << 21;

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "sublimit/core/dense_decompositions.h"
-#include "sublimit/patches/blossom.h"
+#include "sublimit/core/detail/dense_decompositions.h"
+#include "sublimit/patches/detail/blossom.h"
 
 namespace sublimit {
 

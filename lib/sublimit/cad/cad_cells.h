@@ -6,11 +6,11 @@
 #include <array>
 #include <vector>
 
-#include "sublimit/limit/piece_parts.h"
+#include "sublimit/limit/detail/piece_parts.h"
 
 namespace sublimit {
 
-/// Part of the surface: a polynomial, or what is not known to be one.
+/// Part of the surface, polynomial or not.
 struct CadCell {
   Index address = 0;
   CellCorners corners;
@@ -22,16 +22,16 @@ struct CadCell {
   Points points = {};
 };
 
-/// Three or four, in its address.
+/// Returns the three or four corners of a cell, in parameters of its address.
 std::vector<std::array<double, 2>> corners_in_address(const CadCell& cell);
 /// Corners of the four-sided third of a triangle at one of its corners, counter-clockwise from there.
 std::array<std::array<double, 2>, 4> third_of_triangle(const std::vector<std::array<double, 2>>& corners, size_t k);
 
-/// Values of the Bernstein polynomials of a degree.
+/// Returns the values of the Bernstein polynomials of a degree.
 Eigen::VectorXd bernstein_values(int degree, double t);
-/// Nodes with the ends, symmetric.
+/// Returns interpolation nodes, symmetric and including both ends.
 std::vector<double> interpolation_nodes(int degree);
-/// Bernstein coefficients by values at the nodes.
+/// Returns the matrix that makes Bernstein coefficients from values at the nodes.
 Eigen::MatrixXd interpolation(int degree);
 
 }  // namespace sublimit

@@ -56,12 +56,12 @@ SeenFromCorner::SeenFromCorner(const CadCell& cell, int corner) : triangle(cell.
   sides << at[next][0] - origin[0], at[before][0] - origin[0], at[next][1] - origin[1], at[before][1] - origin[1];
 }
 
-Sample SeenFromCorner::place(Index address, double u, double v) const {
+Place SeenFromCorner::place(Index address, double u, double v) const {
   const Eigen::Vector2d at = origin + sides * Eigen::Vector2d(u, v);
   return {address, at[0], at[1]};
 }
 
-Sample SeenFromCorner::warped(const Sample& s, double exponent) const {
+Place SeenFromCorner::warped(const Place& s, double exponent) const {
   const Eigen::Vector2d own = sides.inverse() * (Eigen::Vector2d(s.u, s.v) - origin);
   const double r = triangle ? own[0] + own[1] : own[0] + own[1] - own[0] * own[1];
   if (!(r > 0) || std::abs(r - 1) < 1e-12) return s;
@@ -81,7 +81,7 @@ CapFitter::CapFitter(const LimitMap& surface, const Points& points, int degree)
       degree_(degree),
       coefficients_(interpolation(degree)) {}
 
-Sample CapFitter::inside(Sample s) const {
+Place CapFitter::inside(Place s) const {
   s.u = std::clamp(s.u, 0.0, 1.0);
   s.v = std::clamp(s.v, 0.0, triangles_ ? 1 - s.u : 1.0);
   return s;
@@ -90,7 +90,7 @@ Sample CapFitter::inside(Sample s) const {
 std::vector<double> CapFitter::exponents(const std::vector<CadCell>& cells, std::span<const int> centres,
                                          std::span<const size_t> group) const {
   constexpr double far = 0x1p-6;  // the next eigenvalues matter little there
-  std::vector<Sample> places;
+  std::vector<Place> places;
   for (size_t c = 0; c < cells.size(); ++c) {
     const SeenFromCorner seen(cells[c], std::max(centres[c], 0));
     for (int side = 0; side < 2; ++side)
@@ -119,7 +119,7 @@ std::vector<LimitQuad> CapFitter::caps(const std::vector<CadCell>& cells, std::s
   const std::vector<double> exponent = exponents(cells, centres, group);
   const std::vector<double> nodes = interpolation_nodes(degree_);
   std::vector<LimitQuad> quads;
-  std::vector<Sample> places;
+  std::vector<Place> places;
   for (size_t c = 0; c < cells.size(); ++c) {
     const CadCell& cell = cells[c];
     LimitQuad quad{cell.address, cell.corners};
@@ -148,7 +148,7 @@ std::vector<LimitQuad> CapFitter::caps(const std::vector<CadCell>& cells, std::s
 
 std::vector<double> CapFitter::deviations(const std::vector<LimitQuad>& quads) const {
   constexpr int grid = 6, rounds = 3;
-  std::vector<Sample> places;
+  std::vector<Place> places;
   std::vector<Eigen::RowVector3d> own;
   for (const LimitQuad& quad : quads)
     for (int i = 0; i < grid; ++i)

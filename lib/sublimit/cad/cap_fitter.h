@@ -24,9 +24,9 @@ struct SeenFromCorner {
   bool triangle;
 
   SeenFromCorner(const CadCell& cell, int corner);
-  Sample place(Index address, double u, double v) const;
+  Place place(Index address, double u, double v) const;
   /// The place by whose parameters a cap is fitted.
-  Sample warped(const Sample& sample, double exponent) const;
+  Place warped(const Place& sample, double exponent) const;
 };
 
 /// The corner of each cell that its only child without a polynomial is at; -1 if there is none.
@@ -48,7 +48,7 @@ class CapFitter {
   std::vector<double> deviations(const std::vector<LimitQuad>& quads) const;
 
  private:
-  Sample inside(Sample sample) const;
+  Place inside(Place sample) const;
   /// Exponents of r for the cells of each group, 0 where there is no vertex to shrink to.
   std::vector<double> exponents(const std::vector<CadCell>& cells, std::span<const int> centres,
                                 std::span<const size_t> group) const;

@@ -8,7 +8,7 @@
 
 #include "sublimit/cad/cap_fitter.h"
 #include "sublimit/cad/quad_edges.h"
-#include "sublimit/core/dense_decompositions.h"
+#include "sublimit/core/detail/dense_decompositions.h"
 
 namespace sublimit {
 namespace {
@@ -70,7 +70,7 @@ void CapFitter::join(const std::vector<CadCell>& cells, std::span<const size_t> 
   const std::vector<double> nodes = interpolation_nodes(degree_);
   const Eigen::MatrixXd values = inner_values(degree_);
   const Eigen::Index n = degree_ + 1, d = degree_, a_quad = 2 * n + 1 + n * n;
-  std::vector<Sample> places;
+  std::vector<Place> places;
   for (size_t c = 0; c < cells.size(); ++c) {
     const SeenFromCorner seen(cells[c], std::max(centres[c], 0));
     const auto add = [&](double u, double v, double warp) {

@@ -7,9 +7,9 @@
 
 #include "sublimit/base/error.h"
 #include "sublimit/cad/triangle_thirds.h"
-#include "sublimit/core/sparse_product.h"
+#include "sublimit/core/detail/sparse_product.h"
 #include "sublimit/patches/constructions/triangle_patch.h"
-#include "sublimit/patches/spline_rows.h"
+#include "sublimit/patches/detail/spline_rows.h"
 
 namespace sublimit {
 namespace {

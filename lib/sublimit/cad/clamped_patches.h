@@ -32,8 +32,8 @@ struct ClampedPatches {
   Coordinates coordinates = Coordinates::plain;  ///< homogeneous if those of one source are
 };
 
-/// Knots that are clamped already stay as they are, and points with them. Patches with jumps inside are cut there.
-/// Where weights are not positive, spans are halved until they are.
+/// Returns patches with clamped knots. Patches whose knots are clamped stay as they are; those with jumps inside are
+/// cut there. Where weights are not positive, spans are halved until they are.
 /// @throws UnsupportedTopology  a patch that is no B-spline, of degree 0, or whose denominator is not positive
 /// @throws InvalidParameter     columns of another size
 ClampedPatches clamped_patches(std::span<const NamedPatch> patches);

@@ -12,7 +12,7 @@ namespace {
 
 /// Names of quads: those of the faces of the mesh that they are in.
 std::vector<Index> names_of(const std::vector<LimitQuad>& quads, const LimitMap& surface,
-                            const ControlMesh::FaceNames& names) {
+                            const Mesh::FaceNames& names) {
   std::vector<Index> numbers;
   if (names.of_face.empty()) return numbers;
   numbers.reserve(quads.size());
@@ -21,7 +21,7 @@ std::vector<Index> names_of(const std::vector<LimitQuad>& quads, const LimitMap&
   return numbers;
 }
 
-void check_names(const ControlMesh::FaceNames& names, Index faces) {
+void check_names(const Mesh::FaceNames& names, Index faces) {
   if (names.of_face.empty()) return;
   if (std::ssize(names.of_face) != faces)
     throw InvalidParameter(std::to_string(names.of_face.size()) + " faces have names; the mesh has " +

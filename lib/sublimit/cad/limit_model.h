@@ -14,7 +14,7 @@ struct LimitModelOptions {
   double tolerance = 0;        ///< of caps: largest distance from the limit, > 0
   bool join_smoothly = false;  ///< as `LimitQuadOptions` has it
   bool pack = true;
-  ControlMesh::FaceNames face_names = {};  ///< of the mesh, to be those of faces: only faces of one name are packed
+  Mesh::FaceNames face_names = {};  ///< of the mesh, to be those of faces: only faces of one name are packed
   std::int64_t max_faces = std::int64_t{1} << 17;
   std::function<void(const std::string& what)> progress;
 };
@@ -27,7 +27,7 @@ struct LimitModel {
   QuadMeasures measures;
 };
 
-/// All of the surface but its holes. Equal input, equal result, whatever the number of threads.
+/// Makes the model of a surface without its holes. The result does not depend on the number of threads.
 /// @param points  of the level, #V x 3
 /// @throws InvalidParameter, UnsupportedTopology  as `limit_quads`
 /// @throws InvalidParameter  names that are not one for each face of the mesh

@@ -9,16 +9,16 @@
 #include <optional>
 #include <utility>
 
+#include "sublimit/base/detail/parallel_for.h"
 #include "sublimit/base/error.h"
 #include "sublimit/base/format_number.h"
-#include "sublimit/base/parallel_for.h"
 #include "sublimit/cad/cad_cells.h"
 #include "sublimit/cad/cap_fitter.h"
 #include "sublimit/cad/signed_classes.h"
 #include "sublimit/cad/triangle_thirds.h"
-#include "sublimit/core/finite_points.h"
-#include "sublimit/limit/limit_patches.h"
-#include "sublimit/limit/place_numbers.h"
+#include "sublimit/core/detail/finite_points.h"
+#include "sublimit/limit/detail/limit_patches.h"
+#include "sublimit/limit/detail/place_numbers.h"
 
 namespace sublimit {
 namespace {

@@ -8,7 +8,7 @@
 #include <functional>
 #include <vector>
 
-#include "sublimit/limit/piece_parts.h"
+#include "sublimit/limit/detail/piece_parts.h"
 
 namespace sublimit {
 
@@ -24,9 +24,9 @@ struct LimitQuad {
   bool is_exact = true;
   double volume = 0;  ///< that it adds to what a closed surface bounds, once measured
 
-  /// The address's parameters of a place of its own.
-  Sample place(double s, double t) const {
-    Sample at{address, 0, 0};
+  /// Returns the address's parameters of a place in the quad's own parameters.
+  Place place(double s, double t) const {
+    Place at{address, 0, 0};
     const std::array<double, 4> w{(1 - s) * (1 - t), s * (1 - t), s * t, (1 - s) * t};
     for (size_t k = 0; k < 4; ++k) at.u += w[k] * corners[k][0], at.v += w[k] * corners[k][1];
     return at;
@@ -47,7 +47,7 @@ struct LimitQuads {
   bool met = true;        ///< the tolerance
 };
 
-/// All of the surface but its holes.
+/// Returns the quads of a surface without its holes.
 /// @param points  of the level, #V x 3
 /// @throws InvalidParameter     points that do not fit
 /// @throws UnsupportedTopology  a scheme without polynomial pieces, pieces that are cut along a diagonal or whose

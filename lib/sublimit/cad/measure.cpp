@@ -7,9 +7,9 @@
 #include <cmath>
 #include <map>
 
-#include "sublimit/base/parallel_for.h"
-#include "sublimit/limit/quadrature.h"
-#include "sublimit/patches/blossom.h"
+#include "sublimit/base/detail/parallel_for.h"
+#include "sublimit/limit/detail/quadrature.h"
+#include "sublimit/patches/detail/blossom.h"
 
 namespace sublimit {
 namespace {

@@ -15,7 +15,7 @@ struct QuadMeasures {
   std::int64_t sharp_edges = 0, open_edges = 0;
 };
 
-/// Measures them; the gap of each edge and the volume of each quad are filled in.
+/// Measures quads and edges; the gap of each edge and the volume of each quad are filled in.
 QuadMeasures measure(std::vector<LimitQuad>& quads, QuadEdges& edges);
 
 }  // namespace sublimit

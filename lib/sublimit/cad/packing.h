@@ -9,14 +9,14 @@
 
 namespace sublimit {
 
-/// A quad, turned: its corner `turn` is the lower left one.
+/// A rotated quad: its corner `turn` is the lower left one.
 struct TurnedQuad {
   Index quad = -1;
   int turn = 0;
   bool operator==(const TurnedQuad&) const = default;
 };
 
-/// Rows from below, each from the left.
+/// Quads of the rectangle, row by row from below, each from the left.
 using QuadRectangle = std::vector<std::vector<TurnedQuad>>;
 
 /// Every quad is in one of them.

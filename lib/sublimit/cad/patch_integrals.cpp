@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <vector>
 
-#include "sublimit/core/finite_points.h"
-#include "sublimit/limit/quadrature.h"
+#include "sublimit/core/detail/finite_points.h"
+#include "sublimit/limit/detail/quadrature.h"
 
 namespace sublimit {
 
@@ -18,7 +18,7 @@ SurfaceIntegrals surface_integrals(const SplineSurface& surface, const Points& c
   // Of x . (du x dv) the degree is 3 p - 1 in each direction; quotients and roots take more.
   const std::vector<QuadraturePoint> rule = square_rule(std::max(12, 3 * degree / 2 + 1));
   SurfaceIntegrals result;
-  std::vector<Sample> places(rule.size());
+  std::vector<Place> places(rule.size());
   for (Index face = 0; face < surface.num_faces(); ++face) {
     for (size_t k = 0; k < rule.size(); ++k) places[k] = {face, rule[k].u, rule[k].v};
     const LimitSamples at = surface.evaluate(columns, places, 1, coordinates);

@@ -10,7 +10,7 @@ struct SurfaceIntegrals {
   double volume = 0;  ///< signed: positive where du x dv looks away from the apex
 };
 
-/// By Gauss's rule on each face, whose volumes are exact if the surface is not rational.
+/// Integrates by Gauss's rule on each face, whose volumes are exact if the surface is not rational.
 /// @param apex  of the cone whose volume it is; of closed surfaces it does not matter
 SurfaceIntegrals surface_integrals(const SplineSurface& surface, const Points& columns, Coordinates coordinates,
                                    const Eigen::RowVector3d& apex);

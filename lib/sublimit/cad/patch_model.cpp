@@ -13,9 +13,9 @@
 #include "sublimit/cad/patch_integrals.h"
 #include "sublimit/cad/side_cuts.h"
 #include "sublimit/cad/signed_classes.h"
-#include "sublimit/core/sparse_product.h"
+#include "sublimit/core/detail/sparse_product.h"
+#include "sublimit/patches/detail/spline_rows.h"
 #include "sublimit/patches/joins/line_samples.h"
-#include "sublimit/patches/spline_rows.h"
 
 namespace sublimit {
 namespace {
@@ -118,7 +118,7 @@ class PatchModelMaker {
   }
   Eigen::RowVector3d point_on(const PatchLine& line, double t) const {
     const PatchColumns& patch = patches_[line.patch];
-    const Sample at = line_place(patch, line, patch.along(line).place(t));
+    const Place at = line_place(patch, line, patch.along(line).place(t));
     return patch.surface->evaluate(patch.columns, {&at, 1}, 0, clamped_.coordinates).position.row(0);
   }
 

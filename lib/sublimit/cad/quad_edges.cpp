@@ -5,10 +5,10 @@
 #include <cmath>
 #include <utility>
 
-#include "sublimit/limit/limit_patches.h"
-#include "sublimit/limit/place_numbers.h"
+#include "sublimit/limit/detail/limit_patches.h"
+#include "sublimit/limit/detail/place_numbers.h"
 #include "sublimit/mesh/sharpness.h"
-#include "sublimit/patches/blossom.h"
+#include "sublimit/patches/detail/blossom.h"
 
 namespace sublimit {
 namespace {
@@ -129,7 +129,7 @@ class EdgeFinder {
   /// Whether a side lies on a sharp edge of the mesh.
   bool is_sharp(Index address, const CellCorner& a, const CellCorner& b) const {
     const Topology& t = parts_.level.topology();
-    const Addresses::Place at = parts_.addresses.place(address);
+    const Addresses::FaceCorner at = parts_.addresses.place(address);
     const bool low_u = a.i == 0 && b.i == 0, low_v = a.j == 0 && b.j == 0;
     const auto cut = [&](HalfEdge h) { return is_cut(t, parts_.level.sharpness, h); };
     if (at.corner >= 0) {

@@ -34,7 +34,7 @@ struct QuadEdges {
 
 QuadEdges quad_edges(const LimitMap& surface, const std::vector<LimitQuad>& quads);
 
-/// Row of a net by local indices of a quad that is turned so that its corner `turn` is the first one.
+/// Row of a net by local indices of a quad that is rotated so that its corner `turn` is the first one.
 inline Eigen::Index turned_row(int degree, int turn, int i, int j) {
   const int d = degree;
   switch (turn & 3) {
@@ -49,7 +49,7 @@ inline Eigen::Index turned_row(int degree, int turn, int i, int j) {
   }
 }
 
-/// A place of a quad's side in the quad.
+/// Returns the parameters in the quad of a place on its side.
 inline std::array<double, 2> on_side(int side, double along) {
   switch (side) {
     case 0:

@@ -14,13 +14,13 @@ class SignedClasses {
     while (parent_.size() < count) add();
   }
   std::size_t size() const { return parent_.size(); }
-  /// One more, alone.
+  /// Adds an element in a class of its own.
   std::size_t add() {
     parent_.push_back(parent_.size());
     turned_.push_back(false);
     return parent_.size() - 1;
   }
-  /// The least of the class, and whether i is turned over beside it.
+  /// Returns the least element of the class of i, and whether i is reversed relative to it.
   std::pair<std::size_t, bool> find(std::size_t i) {
     bool turned = false;
     while (parent_[i] != i) {

@@ -4,7 +4,7 @@
 #include <map>
 
 #include "sublimit/cad/packing.h"
-#include "sublimit/patches/blossom.h"
+#include "sublimit/patches/detail/blossom.h"
 
 namespace sublimit {
 namespace {

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "sublimit/cad/cad_cells.h"
-#include "sublimit/core/binomial.h"
-#include "sublimit/limit/triangle_blossom.h"
+#include "sublimit/core/detail/binomial.h"
+#include "sublimit/limit/detail/triangle_blossom.h"
 
 namespace sublimit {
 

@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "sublimit/base/error.h"
-#include "sublimit/certificates/cyclotomic.h"
+#include "sublimit/certificates/detail/cyclotomic.h"
 
 namespace sublimit {
 namespace {

@@ -4,6 +4,10 @@
 // 2 pi k/n), and all of the Fourier blocks of local matrices. An element is a polynomial in zeta_N of degree below
 // phi(N) over the rationals, so equality is equality of coefficients. Where elements of two fields meet, N grows to the
 // least common multiple; rationals have N = 1.
+//
+//   const Algebraic c = Number<Algebraic>::cos_2pi(1, 5);
+//   const bool exact = 4 * c * c + 2 * c == Algebraic(1);  // true: the minimal polynomial of cos(2 pi/5)
+//   std::cout << (Algebraic::ratio(5, 8) + c / 4).text();  // 5/8+1/4*cos(2pi/5)
 #include <flint/fmpq_poly.h>
 
 #include <string>
@@ -14,12 +18,14 @@
 
 namespace sublimit {
 
+/// An exact element of a cyclotomic field. A value: threads may read one together, and write to different ones.
 class Algebraic {
  public:
   Algebraic() { fmpq_poly_init(p_); }
   Algebraic(int value) : Algebraic(static_cast<long>(value)) {}  // NOLINT: masks write (n - 2)*x
   Algebraic(long value) : Algebraic() { fmpq_poly_set_si(p_, value); }
-  explicit Algebraic(double value);  ///< exact: floating numbers are fractions. Finite ones.
+  /// Makes the exact fraction that a finite floating-point number is.
+  explicit Algebraic(double value);
   explicit Algebraic(const fmpq_t value) : Algebraic() { fmpq_poly_set_fmpq(p_, value); }
   Algebraic(const Algebraic& other) : order_(other.order_) {
     fmpq_poly_init(p_);
@@ -41,25 +47,28 @@ class Algebraic {
     std::swap(order_, other.order_);
   }
 
+  /// Returns p/q, q not 0.
   static Algebraic ratio(long p, long q);
-  /// exp(2 pi i k/n), n > 0.
+  /// Returns exp(2 pi i k/n), n > 0.
   static Algebraic root_of_unity(long k, long n);
-  /// From `exact_text`, or a fraction.
-  /// @throws FormatError  it is no such text
+  /// Reads a number as `exact_text` writes it, or a fraction ("9/64").
+  /// @throws FormatError  text of another form
   static Algebraic parse(std::string_view text);
 
-  /// N; 1 for rationals, never 2 modulo 4. Not always the least one.
+  /// Returns N of the field Q(zeta_N): 1 for rationals, never 2 modulo 4. Not always the least N.
   long order() const { return order_; }
-  /// In powers of zeta_N, of degree below phi(N).
+  /// Returns the number as a polynomial in zeta_N, of degree below phi(N).
   const fmpq_poly_struct* polynomial() const { return p_; }
   bool is_zero() const { return fmpq_poly_is_zero(p_); }
   bool is_one() const { return fmpq_poly_is_one(p_); }
   bool is_rational() const { return fmpq_poly_length(p_) <= 1; }
   bool is_real() const { return is_rational() || *this == conj(); }
+  /// Returns the complex conjugate.
   Algebraic conj() const { return galois(-1); }
-  /// The automorphism zeta_N -> zeta_N^a, gcd(a, N) = 1.
+  /// Returns the image under the automorphism zeta_N -> zeta_N^a, gcd(a, N) = 1.
   Algebraic galois(long a) const;
-  /// @throws AnalysisError  of zero
+  /// Returns 1/x.
+  /// @throws AnalysisError  x is zero
   Algebraic inverse() const;
 
   Algebraic& operator+=(const Algebraic& b);
@@ -77,18 +86,19 @@ class Algebraic {
   friend Algebraic operator/(Algebraic a, const Algebraic& b) { return std::move(a /= b); }
   friend bool operator==(const Algebraic& a, const Algebraic& b);
 
-  /// Enclosures, as tight as the thread's precision (PrecisionScope) makes them.
+  /// Returns a rectangle that contains the number, as tight as the thread's precision (PrecisionScope) makes it.
   ComplexBall enclosure() const;
   /// Returns a ball that contains a real number.
-  /// @throws AnalysisError  it is not real
+  /// @throws AnalysisError  the number is not real
   Ball real_enclosure() const;
-  /// For pictures, never for proofs; the real part.
+  /// Returns the real part, rounded: for pictures, never for proofs.
   explicit operator double() const { return enclosure().re().mid(); }
 
-  /// For people: "9/64", "5/8+1/4*cos(2pi/5)" where that is short, else the polynomial in z = exp(2 pi i/N):
-  /// "1/2+z^3, z = exp(2pi i/7)".
+  /// Returns the number in readable form: "9/64", "5/8+1/4*cos(2pi/5)" where that is short, else the polynomial in
+  /// z = exp(2 pi i/N), "1/2+z^3, z = exp(2pi i/7)".
   std::string text() const;
-  /// "9/64", or N and the coefficients of 1, zeta_N, zeta_N^2 ...: "[5] 5/8 0 -1/8 -1/8".
+  /// Returns the number as `parse` reads it: "9/64", or N and the coefficients of 1, zeta_N, zeta_N^2, ..., as in
+  /// "[5] 5/8 0 -1/8 -1/8".
   std::string exact_text() const;
 
  private:
@@ -100,8 +110,10 @@ class Algebraic {
   long order_ = 1;
 };
 
+/// Returns the complex conjugate.
 inline Algebraic conj(const Algebraic& x) { return x.conj(); }
 
+/// Exact constants of masks.
 template <>
 struct Number<Algebraic> {
   static Algebraic ratio(int p, int q) { return Algebraic::ratio(p, q); }

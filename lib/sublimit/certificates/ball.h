@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Real numbers known up to a radius, rounded outwards by Arb: what these compute encloses what is meant. Comparisons
-// say yes only where it is certain. Masks can be instantiated with them; so can everything that is generic in the
-// number.
+// Ball arithmetic: real numbers as a midpoint and a radius, rounded outwards by Arb, so that every result encloses the
+// exact one. A comparison is true only if it holds for all numbers of the balls. Masks, and everything else that is
+// generic in the number type, can be instantiated with balls.
+//
+//   const PrecisionScope precision(256);  // bits, in this thread
+//   const Ball root = sqrt(Ball(2));
+//   const bool proved = certainly_less(root, Number<Ball>::ratio(3, 2));
+//   std::cout << root.text(30);
 #include <arb.h>
 
 #include <string>
@@ -14,14 +19,15 @@
 
 namespace sublimit {
 
-/// Working precision of balls in this thread while it lives, in bits; 128 without one. Other threads keep theirs, so
-/// what runs in parallel inside is enclosed too, but perhaps less tightly.
+/// Sets the working precision of balls in this thread while the object lives, in bits; it is 128 otherwise. Each thread
+/// has its own: work that other threads do meanwhile gives enclosures too, at their precision.
 class PrecisionScope {
  public:
   explicit PrecisionScope(long bits) : before_(std::exchange(bits_, bits)) {}
   ~PrecisionScope() { bits_ = before_; }
   PrecisionScope(const PrecisionScope&) = delete;
   PrecisionScope& operator=(const PrecisionScope&) = delete;
+  /// Returns the precision of this thread, in bits.
   static long bits() { return bits_; }
 
  private:
@@ -29,12 +35,14 @@ class PrecisionScope {
   long before_;
 };
 
+/// A real number up to a radius. A value: threads may read one together, and write to different ones.
 class Ball {
  public:
   Ball() { arb_init(x_); }
   Ball(int value) : Ball(static_cast<long>(value)) {}  // NOLINT: masks write (n - 2)*x
   Ball(long value) : Ball() { arb_set_si(x_, value); }
-  explicit Ball(double value) : Ball() { arb_set_d(x_, value); }  ///< exact
+  /// Makes the exact number, with radius 0.
+  explicit Ball(double value) : Ball() { arb_set_d(x_, value); }
   explicit Ball(const arb_t value) : Ball() { arb_set(x_, value); }
   Ball(const Ball& other) : Ball() { arb_set(x_, other.x_); }
   Ball(Ball&& other) noexcept : Ball() { arb_swap(x_, other.x_); }
@@ -48,19 +56,20 @@ class Ball {
   }
   ~Ball() { arb_clear(x_); }
 
-  /// All numbers of [low, high].
+  /// Returns a ball that contains all numbers of [low, high].
   static Ball hull(const Ball& low, const Ball& high);
-  /// From `exact_text`.
-  /// @throws FormatError  it is no such text
+  /// Reads a ball as `exact_text` writes it.
+  /// @throws FormatError  text of another form
   static Ball parse(std::string_view text);
 
+  /// Returns Arb's number, for calls of its functions.
   arb_srcptr get() const { return x_; }
   arb_ptr get() { return x_; }
 
   Ball& operator+=(const Ball& b) { return arb_add(x_, x_, b.x_, PrecisionScope::bits()), *this; }
   Ball& operator-=(const Ball& b) { return arb_sub(x_, x_, b.x_, PrecisionScope::bits()), *this; }
   Ball& operator*=(const Ball& b) { return arb_mul(x_, x_, b.x_, PrecisionScope::bits()), *this; }
-  /// Everything, where the divisor contains zero.
+  /// Divides; the result is the whole line (not finite) if the divisor contains zero.
   Ball& operator/=(const Ball& b) { return arb_div(x_, x_, b.x_, PrecisionScope::bits()), *this; }
   Ball operator-() const {
     Ball r;
@@ -72,43 +81,53 @@ class Ball {
   friend Ball operator*(Ball a, const Ball& b) { return std::move(a *= b); }
   friend Ball operator/(Ball a, const Ball& b) { return std::move(a /= b); }
 
-  /// Certainly equal: both are single numbers, and the same one. So != says "not known to be equal", which is what
-  /// keeps all entries of a sparse matrix that may differ from zero.
+  /// True if both have radius 0 and are the same number. So != means "not known to be equal": a sparse matrix keeps
+  /// every entry that may differ from zero.
   friend bool operator==(const Ball& a, const Ball& b) { return arb_eq(a.x_, b.x_); }
 
+  /// Returns the midpoint, rounded to nearest.
   double mid() const { return arf_get_d(arb_midref(x_), ARF_RND_NEAR); }
-  /// At least the radius.
+  /// Returns an upper bound of the radius.
   double radius() const { return mag_get_d(arb_radref(x_)); }
-  /// Nearest floating number to the midpoint: for pictures, never for proofs.
+  /// Returns the double nearest to the midpoint: for pictures, never for proofs.
   explicit operator double() const { return mid(); }
-  double lower() const;  ///< at most every number of the ball
+  /// Returns a lower bound of all numbers of the ball.
+  double lower() const;
+  /// Returns an upper bound of all numbers of the ball.
   double upper() const;
   bool is_finite() const { return arb_is_finite(x_); }
   bool contains_zero() const { return arb_contains_zero(x_); }
   bool contains(const Ball& inner) const { return arb_contains(x_, inner.x_); }
   bool overlaps(const Ball& other) const { return arb_overlaps(x_, other.x_); }
 
-  /// "[0.549988347 +/- 3.1e-39]"
+  /// Returns the ball in decimal, as "[0.549988347 +/- 3.1e-39]".
   std::string text(int digits = 15) const;
-  /// Midpoint and radius exactly, in hexadecimal; `parse` reads the same ball.
+  /// Returns midpoint and radius exactly, in hexadecimal; `parse` reads the same ball.
   std::string exact_text() const;
 
  private:
   arb_t x_;
 };
 
+/// True if every number of `a` is less than every number of `b`.
 inline bool certainly_less(const Ball& a, const Ball& b) { return arb_lt(a.get(), b.get()); }
+/// True if every number of the ball is above 0.
 inline bool certainly_positive(const Ball& a) { return arb_is_positive(a.get()); }
+/// True if every number of the ball is below 0.
 inline bool certainly_negative(const Ball& a) { return arb_is_negative(a.get()); }
+/// Returns an enclosure of |x|.
 Ball abs(const Ball& x);
-/// The greater one of two numbers, one of each ball.
+/// Returns an enclosure of max(x, y) for all x of `a` and y of `b`.
 Ball max(const Ball& a, const Ball& b);
+/// Returns an enclosure of the square root; not finite if `x` has negative numbers.
 Ball sqrt(const Ball& x);
+/// Returns an enclosure of the natural logarithm; not finite if `x` has numbers that are not positive.
 Ball log(const Ball& x);
-/// Whatever is in both. Where nothing is, one of the two was wrong.
-/// @throws AnalysisError  they do not meet
+/// Returns the intersection of two enclosures of the same number.
+/// @throws AnalysisError  disjoint enclosures: one of them is wrong
 Ball intersection(const Ball& a, const Ball& b);
 
+/// Constants of masks, enclosed at the thread's precision.
 template <>
 struct Number<Ball> {
   static Ball ratio(int p, int q);

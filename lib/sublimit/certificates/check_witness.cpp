@@ -2,8 +2,8 @@
 #include <nlohmann/json.hpp>
 
 #include "sublimit/base/error.h"
-#include "sublimit/certificates/witness.h"
-#include "sublimit/certificates/witness_parts.h"
+#include "sublimit/certificates/detail/witness.h"
+#include "sublimit/certificates/detail/witness_parts.h"
 
 namespace sublimit {
 namespace witness {

@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// What Eigen wants to know of numbers that are objects.
+// Traits by which Eigen takes number types that are objects with memory of their own, as Ball and Algebraic. For a
+// number type `MyNumber` of your program:
+//
+//   template <>
+//   struct Eigen::NumTraits<MyNumber> : sublimit::RingTraits<MyNumber> {};
 #include <Eigen/Core>
 
 namespace sublimit {
 
+/// Base of `Eigen::NumTraits` of a number type with +, -, *, / and ==. T stands for its own real type: Eigen conjugates
+/// nothing.
 template <class T>
 struct RingTraits : Eigen::GenericNumTraits<T> {
   using Real = T;
@@ -12,7 +18,7 @@ struct RingTraits : Eigen::GenericNumTraits<T> {
   using Nested = T;
   using Literal = T;
   enum {
-    IsComplex = 0,  // Eigen has nothing to conjugate: adjoints are written out
+    IsComplex = 0,  // also for complex T: adjoints are written out by the callers
     IsInteger = 0,
     IsSigned = 1,
     RequireInitialization = 1,

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Sparse matrices that are moved without memory being taken.
+// Moves Eigen's sparse matrices without taking memory, for the move constructors of classes that hold one:
+//
+//   struct Level {
+//     SparseMatrix S;
+//     Level(Level&& other) noexcept : S(moved(other.S)) {}
+//   };
 #include <Eigen/SparseCore>
 
 namespace sublimit {
 
-/// The elements of `m` in another matrix, for a move constructor: Eigen 3.4 copies where it could move, and even an
-/// empty sparse matrix takes memory, which an object that is moved must not. `m` may then be assigned to or destroyed,
-/// and nothing else.
+/// Returns a matrix that has taken over the elements of `m`. Eigen 3.4 copies where it could move, and even its empty
+/// sparse matrix takes memory, which a move constructor must not. Afterwards `m` may only be assigned to or destroyed.
 template <class Matrix>
 Matrix moved(Matrix& m) noexcept {
   Matrix result(m.markAsRValue());

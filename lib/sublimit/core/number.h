@@ -1,16 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// The constants that masks are made of, in any number type: ratios of integers and cosines of 2 pi k/n. A type with a
-// better way to make them (balls, algebraic numbers) specialises Number; masks need no change.
+// Constants of masks in any number type: ratios of integers and cosines of 2 pi k/n. A type with a better way to make
+// them (balls, algebraic numbers) specialises Number; masks need no change.
+//
+//   const double beta = Number<double>::ratio(5, 8) - Number<double>::ratio(1, 4) * Number<double>::cos_2pi(1, 5);
 #include <cmath>
 
 namespace sublimit {
 
+/// Constants of the number type T.
 template <class T>
 struct Number {
+  /// Returns p/q, q not 0.
   static T ratio(int p, int q) { return T(p) / T(q); }
 
-  /// cos(2 pi k/n), n > 0; exact where it is 0, +-1/2 or +-1.
+  /// Returns cos(2 pi k/n), n > 0; exact if it is 0, +-1/2 or +-1.
   static T cos_2pi(int k, int n) {
     k = k % n < 0 ? k % n + n : k % n;
     if (2 * k > n) k = n - k;                          // cos is even

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Vectors whose new elements are not set to zero: big arrays that a parallel loop fills anyway are then touched once,
-// by the thread that fills them, and lie in huge pages where the system has some.
+// Vectors whose new elements are not set to zero. Large arrays that a parallel loop fills are then touched once, by the
+// thread that fills them; they lie in huge pages if the system has some.
+//
+//   UninitializedVector<Index> twins(num_half_edges);  // no element has a value yet
+//   for (Index h = 0; h < num_half_edges; ++h) twins[size_t(h)] = -1;
 #include <cstdint>
 #include <memory>
 #include <new>
@@ -12,6 +15,7 @@
 
 namespace sublimit {
 
+/// Allocator of `UninitializedVector`: elements without arguments are default-initialised, numbers left as they are.
 template <class T>
 struct UninitializedAllocator : std::allocator<T> {
   template <class U>
@@ -38,10 +42,11 @@ struct UninitializedAllocator : std::allocator<T> {
   }
 };
 
+/// A vector whose new elements have no value until they are assigned.
 template <class T>
 using UninitializedVector = std::vector<T, UninitializedAllocator<T>>;
 
-/// Room for the entries of a sparse matrix, which are to be filled in.
+/// Makes room for `count` entries of a sparse matrix, whose columns and values the caller fills in.
 template <class Matrix>
 void resize_nonzeros(Matrix& matrix, std::int64_t count) {
   matrix.resizeNonZeros(count);

@@ -1,14 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Where the points of a curve lie and which point is whose child. Positions are counted in half legs of their own
-// level, so that they are whole numbers and double from level to level; 0 is where the limit of an open curve starts.
+// Layout of refined curves: where the points of a level lie, and which point of the level before each comes from.
 //
-//   primal              0   2   4   6 ..           a point and the middle of its leg have the children 2X and 2X + 2
-//   dual, kept ends     0 1   3   5 ..     2n - 4  the children of an inner point lie at 2X - 1 and 2X + 1
-//   free ends      -s  2-s 4-s ..                  the limit starts s/2 legs after the first point
-//   closed              X, X + 2, ..               modulo 2n; X = 0 for primal schemes, 2^(k+1) - 1 for dual ones,
-//   whose
-//                                                  leg a has the children 2a and 2a + 1
+//   const CurveLayout layout(curve_scheme("chaikin"));
+//   const CurveOutline control = layout.control(5, false), next = layout.child(control);  // open, 5 points
+//   const auto [parent, mask] = layout.source(control, next, 3);
+//   const double t = layout.parameter(next, 1, 3);
+//
+// Positions are counted in half edges of their own level, so that they are whole numbers and double from level to
+// level; 0 is where the limit of an open curve starts. Points of a level are at
+//
+// - primal, kept ends: 0, 2, 4, ...; a point at X and the middle of its edge have the children 2X and 2X + 2
+// - dual, kept ends: 0, 1, 3, 5, ..., 2n - 4; the children of an inner point lie at 2X - 1 and 2X + 1
+// - free ends: -s, 2 - s, 4 - s, ...; the limit starts s/2 edges after the first point
+// - closed: X, X + 2, ..., modulo 2n; X = 0 for primal schemes and 2^(k+1) - 1 for dual ones; the children of a dual
+// scheme's edge a are 2a and 2a + 1
 #include <cassert>
 #include <cstdint>
 
@@ -16,21 +22,25 @@
 
 namespace sublimit {
 
-/// Points along the curve, or their unknowns, that a mask may reach: far beyond what any scheme does.
+/// Largest number of points along the curve, or of their unknowns, that a mask may reach: far beyond any scheme.
 inline constexpr Index curve_reach = 1 << 16;
 
-/// A curve of a level without its points.
+/// A curve of a level without coordinates.
 struct CurveOutline {
-  Index size = 0;
+  Index size = 0;  ///< number of points
   bool closed = false;
   std::int64_t first = 0;  ///< position of the first point
 
   bool operator==(const CurveOutline&) const = default;
 };
 
-/// The geometry that a scheme gives to curves, found by asking its masks.
+/// Positions and children of the points of curves under a scheme, computed from its masks. It never changes: threads
+/// may share it.
 class CurveLayout {
  public:
+  /// Makes the layout of a scheme, for curves of level `level`.
+  /// @throws InvalidParameter  an incomplete scheme (`check_scheme`), masks that are not affine or reach
+  ///                           differently far
   template <class T>
   explicit CurveLayout(const CurveScheme<T>& scheme, int level = 0)
       : dual_(check_scheme(scheme).masks.dual()),
@@ -57,62 +67,67 @@ class CurveLayout {
                              "missing at free ends; give it a rule for the points beyond (ends.beyond)");
   }
 
+  /// True if each point has two children and edges have none.
   bool is_dual() const { return dual_; }
-  /// At every point.
+  /// Returns the number of unknowns at every point: 1, or 2 for a Hermite scheme.
   int unknowns() const { return unknowns_; }
-  /// Steps along the curve from a slot of a stencil.
+  /// Returns how many points along the curve a slot of a stencil is away from the site's own.
   int steps(Index slot) const { return (slot - (slot % unknowns_ + unknowns_) % unknowns_) / unknowns_; }
-  /// End points stay, and are points of the limit.
+  /// True if end points stay where they are, and are points of the limit.
   bool keeps_ends() const { return kept_; }
-  /// A child looks no further than this: |X_child - 2 X_parent| <= radius. A neighbourhood of this radius refines to
-  /// one that depends on nothing else.
+  /// Returns the radius of masks in half edges: |X_child - 2 X_parent| <= radius for all parents with weight. A
+  /// neighbourhood of this radius refines to one that depends on nothing else.
   int radius() const { return radius_; }
-  /// Where the sequence begins that masks see: positions of the points that masks may use are at least this.
+  /// Returns the least position of a point that masks may use, on an open curve.
   int begin() const { return kept_ ? (dual_ ? 1 : 0) : -start_; }
 
-  /// Least number of points of a curve.
+  /// Returns the least number of points that a curve must have.
   Index least_points(bool closed) const {
     if (closed) return 3;
     return kept_ ? std::max(end_points_, dual_ ? 3 : 2) : start_ + 2;
   }
+  /// Returns the number of points that the rule for open ends needs (`CurveEnds::points`).
   int end_points() const { return end_points_; }
 
+  /// Returns the outline of a control curve of `size` points.
   CurveOutline control(Index size, bool closed) const {
     return {size, closed, closed ? (dual_ ? 1 : 0) : kept_ ? 0 : -start_};
   }
+  /// Returns the outline of a curve after one step.
   CurveOutline child(const CurveOutline& c) const {
     if (c.closed) return {2 * c.size, true, dual_ ? 2 * c.first + 1 : 0};
     if (kept_) return {2 * c.size - (dual_ ? 2 : 1), false, 0};
     return {2 * c.size - (high_[0] - low_[0]) - (high_[1] - low_[1]), false, c.first};
   }
 
-  /// Position of point `a`.
+  /// Returns the position of point `a`.
   std::int64_t position(const CurveOutline& c, Index a) const {
     if (!c.closed && kept_ && dual_) return a == 0 ? 0 : a == c.size - 1 ? 2 * a - 2 : 2 * a - 1;
     return c.first + 2 * std::int64_t{a};
   }
-  /// The point at a position.
+  /// Returns the number of the point at a position.
   Index point(const CurveOutline& c, std::int64_t position) const {
     if (!c.closed && kept_ && dual_) return static_cast<Index>((position + 1) / 2 + (position == 2 * c.size - 4));
     const std::int64_t a = (position - c.first) / 2;
     assert(2 * a == position - c.first);
     return static_cast<Index>(c.closed ? (a % c.size + c.size) % c.size : a);
   }
-  /// Where the limit of an open curve ends.
+  /// Returns the position at which the limit of an open curve ends.
   std::int64_t end(const CurveOutline& c) const {
     return kept_ ? position(c, c.size - 1) : c.first + position(c, c.size - 1);
   }
-  /// Parameter of a point of level `number`, in legs of the control polygon.
+  /// Returns the parameter of point `a` of level `number`, in edges of the control polygon.
   ///
   /// Control point i has parameter i, and with kept ends in a dual scheme 0, 1/2, 3/2, ... A closed curve of n control
   /// points has the parameters modulo n.
   double parameter(const CurveOutline& c, int number, Index a) const;
 
-  /// The parent point and the mask (0 or 1) of child point `j`; mask -1: the parent itself.
+  /// Origin of a point of the next level.
   struct Source {
-    Index parent;
-    int mask;
+    Index parent;  ///< parent point
+    int mask;      ///< mask at the parent, 0 or 1; -1: a copy of the parent
   };
+  /// Returns parent point and mask of child point `j`.
   Source source(const CurveOutline& parent, const CurveOutline& child, Index j) const {
     if (!child.closed && kept_ && j == 0) return {0, -1};
     if (!child.closed && kept_ && j == child.size - 1) return {parent.size - 1, -1};

@@ -6,9 +6,9 @@
 #include <limits>
 #include <numeric>
 
-#include "sublimit/base/memory.h"
-#include "sublimit/core/sparse_product.h"
-#include "sublimit/scheme/check_levels.h"
+#include "sublimit/base/detail/memory.h"
+#include "sublimit/core/detail/sparse_product.h"
+#include "sublimit/scheme/detail/check_levels.h"
 
 namespace sublimit {
 

@@ -1,7 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Levels of a polygon: S_k from the masks of a curve scheme, x_{k+1} = S_k x_k. Points stand in order along the curves,
-// one curve after the other; curve_layout.h says whose child is where.
+// Refines polygons: the matrices S_k of a curve scheme, x_{k+1} = S_k x_k, filled from its masks. Points are in order
+// along the curves, one curve after the other; curve_layout.h relates points and their children.
+//
+//   const CurveScheme<double> scheme = curve_scheme("four-point");
+//   const ControlPolygon polygon = polygon_through(points, true);
+//   const std::vector<CurveLevel> levels = refine(scheme, polygon, 3);
+//   const Points fine = refinement_matrix(levels) * unknowns(scheme, polygon);
+//   const ControlPolygon refined = refined_polygon(levels.back(), fine);
 #include <algorithm>
 #include <functional>
 #include <limits>
@@ -16,19 +22,19 @@
 
 namespace sublimit {
 
-/// A row is a stencil, columns ascending.
+/// A matrix of weights: each row is a stencil, columns ascending.
 template <class T>
 using CurveMatrix = Eigen::SparseMatrix<T, Eigen::RowMajor, Index>;
 
 /// One level of refined curves.
 template <class T>
 struct CurveLevelOf {
-  int number = 0;
-  int unknowns = 1;  ///< at every point; rows and columns of a point stand together
+  int number = 0;    ///< 0 for the control polygon
+  int unknowns = 1;  ///< unknowns of every point, whose rows and columns are next to each other
   std::vector<CurveOutline> curves;
-  /// The scheme that made it, whose limits alone it has; null where a level was put together otherwise.
+  /// The scheme that made the level: limits of the level are limits of this scheme. Null for a level made otherwise.
   std::shared_ptr<const CurveScheme<T>> made_by;
-  /// x_k = S x_{k-1}; for level 0 the choice of the curves' points from those of the control polygon.
+  /// Matrix with x_k = S x_{k-1}; for level 0 the selection of the curves' points from those of the control polygon.
   CurveMatrix<T> S;
 
   Index num_points() const {
@@ -39,14 +45,14 @@ struct CurveLevelOf {
 };
 using CurveLevel = CurveLevelOf<double>;
 
-/// Rows of stencils, one after the other.
+/// Builder of a CurveMatrix, row by row. One thread at a time.
 template <class T>
 class CurveRows {
  public:
   using Term = std::pair<Index, T>;
   CurveRows(Index rows, Index columns) : S_(rows, columns) {}
 
-  /// Appends a row; terms in any order, those on one column are summed, zeros dropped.
+  /// Appends a row. Terms may be in any order; those of one column are summed, zeros are dropped.
   void append(std::vector<Term> terms) {
     std::stable_sort(terms.begin(), terms.end(), [](const Term& a, const Term& b) { return a.first < b.first; });
     S_.startVec(row_);
@@ -58,6 +64,7 @@ class CurveRows {
     }
     ++row_;
   }
+  /// Returns the matrix; the builder is empty afterwards.
   CurveMatrix<T> finish() {
     S_.finalize();
     return std::move(S_);
@@ -68,8 +75,8 @@ class CurveRows {
   Index row_ = 0;
 };
 
-/// The matrix of one step: row i has the weights of child point i over the points of the curves of level `number` (rows
-/// 2i and 2i + 1 of Hermite schemes: the point and its derivative).
+/// Returns the matrix of one step. Row i has the weights of child point i over the points of the curves of level
+/// `number`; for Hermite schemes rows 2i and 2i + 1 are those of the point and of its derivative.
 /// @throws ResourceError  more points than 32-bit indices count
 template <class T>
 CurveMatrix<T> curve_matrix(const CurveScheme<T>& scheme, const std::vector<CurveOutline>& parents, int number) {
@@ -127,9 +134,10 @@ CurveMatrix<T> curve_matrix(const CurveScheme<T>& scheme, const std::vector<Curv
   return S.finish();
 }
 
-/// Level 0.
+/// Returns level 0 of a control polygon.
+/// @throws InvalidParameter     a scheme whose masks are missing or not affine
 /// @throws InvalidMesh          no curves, an index that points nowhere
-/// @throws UnsupportedTopology  a curve of too few points
+/// @throws UnsupportedTopology  a curve of too few points for the scheme
 template <class T>
 CurveLevelOf<T> control_level(const CurveScheme<T>& scheme, const ControlPolygon& polygon) {
   const CurveLayout layout(scheme);
@@ -143,8 +151,8 @@ CurveLevelOf<T> control_level(const CurveScheme<T>& scheme, const ControlPolygon
           "curve " + std::to_string(level.curves.size()) + " has " + std::to_string(size) +
           (size == 1 ? " point; " : " points; ") + scheme.name + " needs at least " + std::to_string(least) +
           (curve.closed ? " points in a closed curve" : " points in an open curve") +
-          (layout.end_points() > 2 && !curve.closed             ? " (2 with --option ends=linear)"
-           : !layout.keeps_ends() && !curve.closed && least > 3 ? " (fewer with --option ends=interpolate)"
+          (layout.end_points() > 2 && !curve.closed             ? " (2 with the option ends=linear)"
+           : !layout.keeps_ends() && !curve.closed && least > 3 ? " (fewer with the option ends=interpolate)"
                                                                 : ""));
     level.curves.push_back(layout.control(size, curve.closed));
     count += size;
@@ -164,7 +172,7 @@ CurveLevelOf<T> control_level(const CurveScheme<T>& scheme, const ControlPolygon
   return level;
 }
 
-/// The level after `parent`.
+/// Returns the level after `parent`.
 /// @throws ResourceError  more points than 32-bit indices count
 template <class T>
 CurveLevelOf<T> next_level(const CurveScheme<T>& scheme, const CurveLevelOf<T>& parent) {
@@ -179,28 +187,33 @@ CurveLevelOf<T> next_level(const CurveScheme<T>& scheme, const CurveLevelOf<T>& 
   return level;
 }
 
-/// Levels 0 to `levels`.
+/// Returns levels 0 to `levels` of a control polygon.
 /// @param progress  called before each level with its number, if given
-/// @throws InvalidParameter  negative `levels`; and what control_level and next_level throw
+/// @throws InvalidParameter     negative `levels`; a scheme whose masks are missing or not affine
+/// @throws InvalidMesh          no curves, an index that points nowhere
+/// @throws UnsupportedTopology  a curve of too few points for the scheme
+/// @throws ResourceError        more points than 32-bit indices count
 [[nodiscard]] std::vector<CurveLevel> refine(const CurveScheme<double>& scheme, const ControlPolygon& polygon,
                                              int levels, const std::function<void(int)>& progress = {});
 
-/// Throws unless a scheme makes the rows, to the last bit, that the scheme of a level makes.
-/// @param what  takes limits by `scheme`, for the message: "the limit curve"
-/// @throws InvalidParameter  another scheme made the level
+/// Throws unless a scheme makes the same rows, to the last bit, as the scheme that made a level.
+/// @param what  name of what takes limits by `scheme`, for the message: "the limit curve"
+/// @throws InvalidParameter  a level that another scheme made
 void check_made_by(const CurveLevel& level, const CurveScheme<double>& scheme, const std::string& what);
 
-/// Level k from the control points: S_{k-1} ... S_0 and the choice of level 0.
+/// Returns the matrix that makes the last level from the control points: the product of all S.
 [[nodiscard]] SparseMatrix refinement_matrix(const std::vector<CurveLevel>& levels);
 
-/// What the columns of a scheme's matrices stand for: the points, in a Hermite scheme each followed by its derivative.
+/// Returns the vector that a scheme's matrices multiply: a row for each point; for a Hermite scheme each is followed by
+/// a row with its derivative, the polygon's tangent.
 /// @throws InvalidMesh  a Hermite scheme and a polygon without tangents
 [[nodiscard]] Points unknowns(const CurveScheme<double>& scheme, const ControlPolygon& polygon);
 
-/// The curves of a level, without points.
+/// Returns the curves of a level as a polygon without coordinates.
 ControlPolygon curve_outlines(const CurveLevel& level);
 
-/// Refined unknowns as a polygon of their own.
+/// Returns a level as a polygon, whose refinement continues that of the level.
+/// @param unknowns  a row for each row of the level's matrix: `refinement_matrix(levels) * unknowns(scheme, polygon)`
 ControlPolygon refined_polygon(const CurveLevel& level, const Points& unknowns);
 
 }  // namespace sublimit

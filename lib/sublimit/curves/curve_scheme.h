@@ -1,10 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// A curve scheme: two masks, what to do at open ends, claims. As with surfaces, everything else (refined polygons,
-// limits, derivatives) is computed from the matrices that the masks fill.
+// Curve schemes: two masks, a rule for open ends, claims. As with surfaces, everything else (refined polygons, limits,
+// derivatives) is computed from the matrices that the masks fill. Schemes of the library have names, and your own are
+// made in the same way:
 //
-// Primal schemes make a point for every point and one for every leg; dual ones two points for every point, a quarter of
-// a leg before and after it. Hermite schemes have a second unknown at every point: the derivative, per leg of the
+//   CurveScheme<double> scheme = curve_scheme("four-point", {{"tension", "3/4"}});
+//   scheme = {.name = "midpoints",
+//             .source = "here",
+//             .masks = {.point = [](const CurveSite<double>& s) { return s.point(0); },
+//                       .edge = [](const CurveSite<double>& s) { return (s.point(0) + s.point(1)) / 2; }}};
+//
+// Primal schemes make a point for every point and one for every edge; dual ones two points for every point, a quarter
+// of an edge before and after it. Hermite schemes have a second unknown at every point: the derivative, per edge of the
 // level.
 #include <functional>
 #include <string>
@@ -21,14 +28,15 @@ namespace sublimit {
 template <class T>
 class CurveSite;
 
-/// An open end of a polygon, as the rule for the points beyond it sees it.
+/// An open end of a polygon, argument of the rule for points beyond it.
 template <class T>
 class CurveEnd {
  public:
-  /// @param site  which must stay
+  /// @param site  site near the end, which the object refers to
   CurveEnd(const CurveSite<T>& site, bool left) : site_(&site), left_(left) {}
   CurveEnd(const CurveSite<T>&&, bool) = delete;
-  /// The end point (0), its neighbour (1), and so on into the polygon.
+  /// Returns the end point (0), its neighbour (1), and so on into the polygon.
+  /// @throws InvalidParameter  a point that the curve does not have
   Stencil<T> point(int i) const { return site_->from_end(i, left_); }
   static T ratio(int p, int q) { return Number<T>::ratio(p, q); }
 
@@ -37,42 +45,42 @@ class CurveEnd {
   bool left_;
 };
 
-/// What happens at open ends.
+/// Rule for open ends.
 template <class T>
 struct CurveEnds {
-  /// The point m = 1, 2, ... steps beyond the end. With this rule end points stay where they are, and in dual schemes
-  /// the first and the last leg count half: the points lie at parameters 0, 1/2, 3/2, ..., n-5/2, n-2. Empty: new
-  /// points that would need a point beyond the end are left out, and the curve is shorter than the polygon.
+  /// Virtual point m = 1, 2, ... steps beyond the end. With this rule end points stay where they are, and in dual
+  /// schemes the first and the last edge count half: the points lie at parameters 0, 1/2, 3/2, ..., n-5/2, n-2. If
+  /// empty, new points that would need a point beyond the end are left out: the curve is shorter than the polygon.
   std::function<Stencil<T>(const CurveEnd<T>& end, int m)> beyond{};
-  int points = 1;  ///< points of the polygon that `beyond` needs
+  int points = 1;  ///< least number of points of the polygon that `beyond` needs
 };
 
-/// Where a mask is applied: a point and its neighbours along the curve. Slots of stencils are steps from that point
-/// (for Hermite schemes 2 steps, and 1 more for the derivative); the neighbourhood is unfolded, so on a small closed
+/// A point and its neighbours along the curve, argument of masks. Slots of stencils are steps from that point (for
+/// Hermite schemes twice the steps, plus 1 for the derivative). The neighbourhood is unfolded: on a small closed
 /// polygon several slots may be one point.
 template <class T>
 class CurveSite {
  public:
-  /// A site away from ends.
+  /// Makes a site away from ends.
   explicit CurveSite(int level, int unknowns = 1) : level_(level), unknowns_(unknowns) {}
-  /// Point `at` of an open polygon.
-  /// @param ends  which must stay
+  /// Makes the site of point `at` of an open polygon of `size` points.
+  /// @param ends  rule for its ends, which the object refers to
   CurveSite(int level, const CurveEnds<T>& ends, bool dual, Index at, Index size)
       : level_(level), ends_(&ends), at_(at), size_(size), margin_(dual ? 1 : 0) {}
   CurveSite(int, const CurveEnds<T>&&, bool, Index, Index) = delete;
 
-  /// The point i steps further along the curve.
+  /// Returns the point i steps further along the curve; i may be negative.
   Stencil<T> point(int i) const { return ends_ ? absolute(at_ + i) : Stencil<T>(unknowns_ * i); }
-  /// The derivative there, in a Hermite scheme.
+  /// Returns the derivative at the point i steps further along the curve, in a Hermite scheme.
   /// @throws InvalidParameter  the scheme has no derivatives
   Stencil<T> derivative(int i) const {
     if (unknowns_ != 2)
       throw InvalidParameter(
           "a mask asks for a derivative, which points of Hermite schemes alone have; give the scheme "
-          "the masks point_derivative and leg_derivative");
+          "the masks point_derivative and edge_derivative");
     return Stencil<T>(unknowns_ * i + 1);
   }
-  /// Level of the parent, 0 for the control polygon.
+  /// Returns the level of the parent, 0 for the control polygon.
   int level() const { return level_; }
   static T ratio(int p, int q) { return Number<T>::ratio(p, q); }
   static T cos_2pi(int k, int n) { return Number<T>::cos_2pi(k, n); }
@@ -99,37 +107,42 @@ class CurveSite {
   Index at_ = 0, size_ = 0, margin_ = 0;
 };
 
-/// Two of these are given: `point` and `leg`, or `before` and `after`; of a Hermite scheme the first four.
+/// Masks of a curve scheme: `point` and `edge` of a primal one, `before` and `after` of a dual one, the first four of a
+/// Hermite scheme.
 template <class T>
 struct CurveMasks {
   using Mask = std::function<Stencil<T>(const CurveSite<T>&)>;
-  Mask point{};                               ///< primal: the child of point(0)
-  Mask leg{};                                 ///< primal: the child of the leg from point(0) to point(1)
-  Mask point_derivative{}, leg_derivative{};  ///< Hermite: the derivatives there, per leg of the child
-  Mask before{};                              ///< dual: the child of point(0) on its leg from point(-1)
-  Mask after{};                               ///< dual: the child of point(0) on its leg to point(1)
+  Mask point{};                                ///< primal: the child of point(0)
+  Mask edge{};                                 ///< primal: the child of the edge from point(0) to point(1)
+  Mask point_derivative{}, edge_derivative{};  ///< Hermite: the derivatives there, per edge of the child
+  Mask before{};                               ///< dual: the child of point(0) on its edge from point(-1)
+  Mask after{};                                ///< dual: the child of point(0) on its edge to point(1)
 
+  /// True if the masks are those of a dual scheme.
   bool dual() const { return static_cast<bool>(before); }
-  /// At every point: itself, and in a Hermite scheme the derivative.
-  int unknowns() const { return leg_derivative ? 2 : 1; }
-  /// The mask of unknown `component` of the two children that a point (and its leg) has.
+  /// Returns the number of unknowns at every point: 1, or 2 (point and derivative) for a Hermite scheme.
+  int unknowns() const { return edge_derivative ? 2 : 1; }
+  /// Returns the mask of a child of a point and the edge after it.
+  /// @param which      0 for the first child (`point`, `before`), 1 for the second (`edge`, `after`)
+  /// @param component  0 for the point, 1 for the derivative of a Hermite scheme
   const Mask& child(int which, int component = 0) const {
-    if (component == 1) return which == 0 ? point_derivative : leg_derivative;
-    return which == 0 ? (dual() ? before : point) : (dual() ? after : leg);
+    if (component == 1) return which == 0 ? point_derivative : edge_derivative;
+    return which == 0 ? (dual() ? before : point) : (dual() ? after : edge);
   }
 };
 
-/// What a curve scheme is said to do, each claim with its law in the tests.
+/// Properties that a curve scheme is said to have. No result depends on them; each has its law in the tests.
 struct CurveClaims {
-  int regular = 0;            ///< the limit is C^regular
-  int generates = 1;          ///< polynomials up to this degree are limits (away from ends)
-  int reproduces = 1;         ///< they are the limits of their own values at the parameters of the points
-  bool convex_hull = false;   ///< no negative weights
+  int regular = 0;           ///< the limit is C^regular
+  int generates = 1;         ///< polynomials up to this degree are limits (away from ends)
+  int reproduces = 1;        ///< polynomials up to this degree are the limits of their values at the points' parameters
+  bool convex_hull = false;  ///< no negative weights
   bool interpolates = false;  ///< old points stay
-  std::string limit;          ///< in words
+  std::string limit;          ///< the limit curve, in words
   std::string exponent;       ///< Hoelder exponent of the limit, in words
 };
 
+/// A curve scheme. Threads may share one whose masks may be called by several threads, as those of the library may.
 template <class T>
 struct CurveScheme {
   std::string name;
@@ -139,5 +152,11 @@ struct CurveScheme {
   CurveClaims claims;
   std::vector<OptionInfo> options = {};
 };
+
+/// Returns a scheme of the library by its name: `curve_scheme("chaikin")`,
+/// `curve_scheme("four-point", {{"tension", "3/4"}})`.
+/// @throws InvalidOption  no linear scheme of curves has this name: says which are nearest, or what makes it; an
+///                        unknown option, or a value outside its range
+[[nodiscard]] CurveScheme<double> curve_scheme(const std::string& name, const SchemeOptions& options = {});
 
 }  // namespace sublimit

@@ -4,9 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sublimit/base/parallel_for.h"
-#include "sublimit/curves/curve_pieces.h"
-#include "sublimit/limit/derivative_order.h"
+#include "sublimit/base/detail/parallel_for.h"
+#include "sublimit/curves/detail/curve_pieces.h"
+#include "sublimit/geometric/geometric_scheme.h"
+#include "sublimit/limit/detail/derivative_order.h"
 
 namespace sublimit {
 namespace {
@@ -14,7 +15,7 @@ namespace {
 constexpr std::int64_t places_per_block = 256;
 
 /// A place on a curve by pieces, s in [0, 1].
-struct CurvePlace {
+struct PieceOfCurve {
   Index curve = 0;
   std::int64_t piece = 0;
   double s = 0;
@@ -50,19 +51,19 @@ struct LimitCurve::Parts {
                               first_segment.begin() - 1);
   }
 
-  /// Position of the sample's point, and how many half legs there are to the next.
+  /// Position of the sample's point, and how many half edges there are to the next.
   std::pair<std::int64_t, int> ends(const CurveOutline& curve, Index segment) const {
     const std::int64_t from = pieces.layout().position(curve, segment);
     if (curve.closed) return {from, 2};
     return {from, static_cast<int>(pieces.layout().position(curve, segment + 1) - from)};
   }
 
-  CurvePlace place(const CurveSample& sample) const {
-    CurvePlace p;
+  PieceOfCurve place(const CurvePlace& sample) const {
+    PieceOfCurve p;
     p.curve = curve_of(sample.segment);
     const CurveOutline& curve = curves[p.curve];
     const auto [from, length] = ends(curve, sample.segment - first_segment[p.curve]);
-    // Position from + length t; its distance from the even number before, in legs.
+    // Position from + length t; its distance from the even number before, in edges.
     p.piece = from >= 0 ? from / 2 : -((1 - from) / 2);
     const double t = length == 2 ? sample.t : sample.t / 2;
     if (from % 2 == 0) {
@@ -82,7 +83,7 @@ struct LimitCurve::Parts {
   }
 
   /// Rows at a place, as far as wanted and existing; the place they are of in the end, and the status.
-  LimitStatus rows(CurvePlace& place, int order, CurvePieceRows& result) const {
+  LimitStatus rows(PieceOfCurve& place, int order, CurvePieceRows& result) const {
     const CurveOutline& curve = curves[place.curve];
     const Index count = pieces.num_pieces(curve);
     const auto ask = [&](bool one_sided, int derivatives) {
@@ -113,7 +114,7 @@ struct LimitCurve::Parts {
         return result.exists > 0 ? LimitStatus::crease : LimitStatus::undefined_normal;
       }
     }
-    const CurvePlace given = place;
+    const PieceOfCurve given = place;
     if (place.s == 1) place = {place.curve, curve.closed ? (place.piece + 1) % count : place.piece + 1, 0};
     ask(false, order);
     if (place.s == 0 && result.exists == 0) {  // a corner, seen from the side that was given
@@ -129,7 +130,7 @@ struct LimitCurve::Parts {
 
   /// What stencils call the unknowns of a place's window.
   template <class Body>
-  void for_each_unknown(const CurvePlace& place, const Body& body) const {
+  void for_each_unknown(const PieceOfCurve& place, const Body& body) const {
     const CurveOutline& curve = curves[place.curve];
     const PieceWindow window = pieces.window(curve, static_cast<Index>(place.piece));
     const Index* names = points.data() + first_point[place.curve];
@@ -179,7 +180,7 @@ Index LimitCurve::first_segment(Index curve) const {
   return parts_->first_segment[curve];
 }
 
-double LimitCurve::parameter(const CurveSample& sample) const {
+double LimitCurve::parameter(const CurvePlace& sample) const {
   check_sample(sample, num_segments());
   const Index curve = parts_->curve_of(sample.segment);
   const CurveOutline& outline = parts_->curves[curve];
@@ -187,10 +188,10 @@ double LimitCurve::parameter(const CurveSample& sample) const {
   return static_cast<double>(from - parts_->pieces.layout().position(outline, 0)) / 2 + length * sample.t / 2;
 }
 
-CurveStencil LimitCurve::stencil(const CurveSample& sample, int order) const {
+CurveStencil LimitCurve::stencil(const CurvePlace& sample, int order) const {
   check_sample(sample, num_segments());
   check_order(order);
-  CurvePlace place = parts_->place(sample);
+  PieceOfCurve place = parts_->place(sample);
   CurvePieceRows rows;
   CurveStencil result;
   result.status = parts_->rows(place, order, rows);
@@ -209,7 +210,7 @@ CurveStencil LimitCurve::stencil(const CurveSample& sample, int order) const {
   return result;
 }
 
-CurveSamples LimitCurve::evaluate(const Points& unknowns, std::span<const CurveSample> samples, int order) const {
+CurveSamples LimitCurve::evaluate(const Points& unknowns, std::span<const CurvePlace> samples, int order) const {
   check_order(order);
   if (unknowns.rows() != num_unknowns())
     throw InvalidParameter("there are " + std::to_string(unknowns.rows()) + " rows of points; the curves have " +
@@ -223,7 +224,7 @@ CurveSamples LimitCurve::evaluate(const Points& unknowns, std::span<const CurveS
       [&](std::int64_t, std::int64_t begin, std::int64_t end) {
         CurvePieceRows rows;
         for (std::int64_t i = begin; i < end; ++i) {
-          CurvePlace place = parts_->place(samples[i]);
+          PieceOfCurve place = parts_->place(samples[i]);
           result.status[i] = parts_->rows(place, order, rows);
           const int derivatives = std::min(order, rows.exists);
           result.order[i] = static_cast<std::int8_t>(derivatives);
@@ -247,9 +248,9 @@ CurveSamples LimitCurve::evaluate(const Points& unknowns, std::span<const CurveS
   return result;
 }
 
-std::vector<CurveSample> LimitCurve::grid(int N) const {
+std::vector<CurvePlace> LimitCurve::grid(int N) const {
   if (N < 2) throw InvalidParameter("a grid of " + std::to_string(N) + " has no two ends; it must be 2 or more");
-  std::vector<CurveSample> samples;
+  std::vector<CurvePlace> samples;
   samples.reserve(static_cast<size_t>(num_segments()) * N);
   for (Index segment = 0; segment < num_segments(); ++segment)
     for (int i = 0; i < N; ++i) samples.push_back({segment, static_cast<double>(i) / (N - 1)});
@@ -257,24 +258,24 @@ std::vector<CurveSample> LimitCurve::grid(int N) const {
 }
 
 CurveSamples evaluate(const GeometricCurveScheme& scheme, const ControlPolygon& polygon,
-                      std::span<const CurveSample> samples, int order) {
+                      std::span<const CurvePlace> samples, int order) {
   check_order(order);
   const ControlPolygon data = scheme.checked(polygon);
-  const std::vector<std::vector<LegCurve>> curves = scheme.legs(data);
-  struct Leg {
-    const LegCurve *curve, *before, *behind;  // and its neighbours, if there are any
+  const std::vector<std::vector<SegmentCurve>> curves = scheme.segments(data);
+  struct Neighbors {
+    const SegmentCurve *curve, *before, *behind;  // and its neighbours, if there are any
   };
-  std::vector<Leg> legs;
+  std::vector<Neighbors> all_segments;
   for (size_t c = 0; c < curves.size(); ++c) {
-    const std::vector<LegCurve>& all = curves[c];
+    const std::vector<SegmentCurve>& all = curves[c];
     const size_t count = all.size();
     const bool closed = data.curves[c].closed;
     for (size_t i = 0; i < count; ++i)
-      legs.push_back({&all[i], i > 0 || closed ? &all[(i + count - 1) % count] : nullptr,
-                      i + 1 < count || closed ? &all[(i + 1) % count] : nullptr});
+      all_segments.push_back({&all[i], i > 0 || closed ? &all[(i + count - 1) % count] : nullptr,
+                              i + 1 < count || closed ? &all[(i + 1) % count] : nullptr});
   }
   const auto count = static_cast<std::int64_t>(samples.size());
-  for (std::int64_t i = 0; i < count; ++i) check_sample(samples[i], static_cast<Index>(legs.size()), i);
+  for (std::int64_t i = 0; i < count; ++i) check_sample(samples[i], static_cast<Index>(all_segments.size()), i);
   const double size = (data.points.colwise().maxCoeff() - data.points.colwise().minCoeff()).norm();
   CurveSamples result(count, data.dimension(), order);
   parallel_for_blocks(
@@ -282,11 +283,11 @@ CurveSamples evaluate(const GeometricCurveScheme& scheme, const ControlPolygon& 
       [&](std::int64_t, std::int64_t begin, std::int64_t end) {
         for (std::int64_t i = begin; i < end; ++i) {
           const auto& [segment, t] = samples[i];
-          const Leg& leg = legs[segment];
+          const Neighbors& known = all_segments[segment];
           // What lies before and behind, which is the same but where arcs meet.
-          const bool open_end = (t == 0 && !leg.before) || (t == 1 && !leg.behind);
-          const LegPlace place = t == 1 && leg.behind ? (*leg.behind)(0, false) : (*leg.curve)(t, false);
-          const LegPlace other = t == 0 && leg.before ? (*leg.before)(1, true) : (*leg.curve)(t, true);
+          const bool open_end = (t == 0 && !known.before) || (t == 1 && !known.behind);
+          const SegmentPlace place = t == 1 && known.behind ? (*known.behind)(0, false) : (*known.curve)(t, false);
+          const SegmentPlace other = t == 0 && known.before ? (*known.before)(1, true) : (*known.curve)(t, true);
           const bool bends_alike = (place.curvature - other.curvature).norm() <=
                                    1e-9 * (place.curvature.norm() + other.curvature.norm() + 1 / size);
           result.position.row(i) = place.position.head(data.dimension());

@@ -1,16 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// The exact limit of curves anywhere: what limit_map.h is for surfaces.
+// Limit curves: exact points, derivatives, normals and stencils anywhere on the limit of a polygon.
 //
-//   x(i,t) = b T_m ... T_1 x_0      T_i: blocks of S on the path; b: basis of a polynomial piece, or a limit mask
+//   const Points points{{0, 0}, {1, 2}, {3, 2}, {4, 0}};
+//   const LimitCurve curve(curve_scheme("lane-riesenfeld"), polygon_through(points));
+//   const CurveSamples samples = curve.evaluate(points, curve.grid(9), 2);
+//   const CurveStencil weights = curve.stencil({.segment = 1, .t = 0.25});
 //
-// Every double t is a dyadic number, so the path ends, at a vertex of some level if not at a polynomial before: nothing
-// is cut off. Pieces are computed once a type of neighbourhood (curve_pieces.h).
+// A place on segment i is followed through the children of the points around it: x(i,t) = b T_m ... T_1 x_0, where T_j
+// are blocks of S on the path, and b is the basis of a polynomial piece, or a limit mask. Every double t is a dyadic
+// number, so the path ends at a vertex of some level, if not at a polynomial before: nothing is cut off. Pieces are
+// computed once for each type of neighbourhood.
 //
 // Addresses. Segment i of a curve goes from its point i to point i + 1; an open curve of n points has n - 1 segments, a
 // closed one n, the last from the last point to the first. Segments are numbered through all curves, in order.
-// Derivatives are per leg of the curve, the natural parameter: t, but in dual schemes with kept ends, whose first and
-// last segments are half a leg long (t = 1 is half a leg from t = 0, and derivatives by t are half of those given).
+// Derivatives are per edge of the curve, the natural parameter: t, but in dual schemes with kept ends, whose first and
+// last segments are half an edge long (t = 1 is half an edge from t = 0, and derivatives by t are half of those given).
 //
 // With free ends a limit starts inside the polygon: places before its start get the start's position and the status
 // `outside`, and so at the end.
@@ -18,20 +23,24 @@
 #include <span>
 #include <vector>
 
+#include "sublimit/curves/curve_place.h"
 #include "sublimit/curves/curve_refine.h"
-#include "sublimit/curves/curve_sample.h"
-#include "sublimit/geometric/geometric_scheme.h"
 #include "sublimit/limit/limit_status.h"
 
 namespace sublimit {
 
+template <class Data>
+struct GeometricScheme;
+using GeometricCurveScheme = GeometricScheme<ControlPolygon>;
+
 class CurvePieces;
 
-/// Weights over the unknowns of one place.
+/// The stencil of a place: weights over the unknowns of the control polygon. Plain data.
 ///
 /// Status: `regular`: position and two derivatives; `unbounded_second`: the second derivative is unbounded or not
 /// continuous, and absent; `crease`: an end of an open curve, or a corner of the curve: derivatives are one-sided, at a
-/// corner those of the segment that was given; `undefined_normal`: no derivative; `outside`: see above.
+/// corner those of the segment that was given; `undefined_normal`: no derivative; `outside`: before the start or after
+/// the end of a curve with free ends.
 struct [[nodiscard]] CurveStencil {
   LimitStatus status = LimitStatus::regular;
   std::vector<Index> unknowns;  ///< ascending; points, in Hermite schemes 2i for point i and 2i + 1 for its derivative
@@ -40,9 +49,10 @@ struct [[nodiscard]] CurveStencil {
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> weights;
 };
 
+/// The limit of the curves of a polygon, without points. It never changes: threads may share it.
 class LimitCurve {
  public:
-  /// Stencils over the points of the polygon.
+  /// Makes the limit of a polygon, with stencils over its points.
   /// @throws InvalidMesh, UnsupportedTopology, ResourceError  as refinement does
   /// @throws AnalysisError  the scheme has no limit
   LimitCurve(const CurveScheme<double>& scheme, const ControlPolygon& polygon);
@@ -52,40 +62,44 @@ class LimitCurve {
   LimitCurve(LimitCurve&&) noexcept;
   LimitCurve& operator=(LimitCurve&&) noexcept;
 
+  /// Returns the number of segments of all curves.
   Index num_segments() const;
   Index num_curves() const;
-  /// First segment of a curve; those of its other points follow.
+  /// Returns the first segment of a curve; its other segments follow.
   Index first_segment(Index curve) const;
-  /// Unknowns that stencils are over: rows of `unknowns(scheme, polygon)`.
+  /// Returns the number of unknowns that stencils have weights for: rows of `unknowns(scheme, polygon)`.
   Index num_unknowns() const;
-  /// The natural parameter of a place on its curve: i + t, and with kept ends in a dual scheme t/2, 1/2 + t, ...
-  double parameter(const CurveSample& sample) const;
+  /// Returns the natural parameter of a place on its curve: i + t, and with kept ends in a dual scheme t/2, 1/2 + t,
+  /// ...
+  double parameter(const CurvePlace& place) const;
 
-  /// Stencil of one place. Every request has an answer: what does not exist there is told by the status.
-  /// @param order  of derivatives: 0, 1 or 2
+  /// Returns the stencil of one place. The status says which derivatives do not exist there.
+  /// @param order  number of derivatives: 0, 1 or 2
   /// @throws InvalidParameter  a segment that does not exist, t outside [0, 1] or not finite, another order
-  CurveStencil stencil(const CurveSample& sample, int order = 0) const;
+  CurveStencil stencil(const CurvePlace& place, int order = 0) const;
 
-  /// Points of the curve with derivatives and normals; in parallel.
+  /// Returns points of the curve with derivatives and normals; in parallel.
   /// @param unknowns  #unknowns x dimension
-  /// @throws InvalidParameter  as `stencil`, naming the row; an array of another length
-  CurveSamples evaluate(const Points& unknowns, std::span<const CurveSample> samples, int order = 0) const;
+  /// @param order     number of derivatives: 0, 1 or 2
+  /// @throws InvalidParameter  a place as in `stencil`: names its row; an array with another number of rows
+  CurveSamples evaluate(const Points& unknowns, std::span<const CurvePlace> places, int order = 0) const;
 
-  /// N samples of every segment at equal distances of t, both ends included.
+  /// Returns N places on every segment at equal distances of t, both ends included.
   /// @throws InvalidParameter  fewer than 2
-  std::vector<CurveSample> grid(int N) const;
+  std::vector<CurvePlace> grid(int N) const;
 
  private:
   struct Parts;
   std::unique_ptr<Parts> parts_;
 };
 
-/// Evaluates limits of schemes without a matrix. t is the parameter of the scheme's closed form on a segment:
+/// Evaluates the limit of a scheme without a matrix. t is the parameter of the scheme's closed form on a segment:
 /// for hermite-incentre every arc of a segment has the same share of it, and t is the fraction of length on the arc.
-/// Derivatives are by length, so that they are the unit tangent and the vector of curvature: the limit is G^1.
-/// @throws InvalidMesh, UnsupportedTopology  what the scheme cannot take
-/// @throws InvalidParameter                  as LimitCurve
+/// Derivatives are by arc length, so they are the unit tangent and the curvature vector: the limit is G^1.
+/// @param order  number of derivatives: 0, 1 or 2
+/// @throws InvalidMesh, UnsupportedTopology  a polygon that the scheme cannot take
+/// @throws InvalidParameter                  a segment that does not exist, t outside [0, 1], another order
 CurveSamples evaluate(const GeometricCurveScheme& scheme, const ControlPolygon& polygon,
-                      std::span<const CurveSample> samples, int order = 0);
+                      std::span<const CurvePlace> places, int order = 0);
 
 }  // namespace sublimit

@@ -19,7 +19,7 @@ struct Triangle {
   double area = 0;
 };
 
-std::vector<Triangle> triangles_of(const ControlMesh& mesh) {
+std::vector<Triangle> triangles_of(const Mesh& mesh) {
   for (Eigen::Index v = 0; v < mesh.positions.rows(); ++v)
     if (!mesh.positions.row(v).allFinite())
       throw InvalidMesh("vertex " + std::to_string(v) + " has a position that is not finite");
@@ -44,7 +44,7 @@ std::vector<Triangle> triangles_of(const ControlMesh& mesh) {
 
 }  // namespace
 
-Cloud cloud_of_vertices(const ControlMesh& mesh) {
+Cloud cloud_of_vertices(const Mesh& mesh) {
   std::vector<double> share(size_t(mesh.num_vertices()), 0.0);
   std::vector<bool> used(share.size(), false);
   for (const Triangle& t : triangles_of(mesh))
@@ -62,7 +62,7 @@ Cloud cloud_of_vertices(const ControlMesh& mesh) {
   return cloud;
 }
 
-Cloud cloud_of_faces(const ControlMesh& mesh, Index count, unsigned seed) {
+Cloud cloud_of_faces(const Mesh& mesh, Index count, unsigned seed) {
   if (count < 0) throw InvalidParameter(std::to_string(count) + " points on the faces of a mesh; 0 at least");
   const std::vector<Triangle> triangles = triangles_of(mesh);
   std::vector<double> up_to;  // area

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sublimit/fit/cloud_fit.h"
-#include "sublimit/fit/for_coordinates.h"
-#include "sublimit/fit/tangent_rows.h"
+#include "sublimit/fit/detail/for_coordinates.h"
+#include "sublimit/fit/detail/tangent_rows.h"
 
 #include <algorithm>
 #include <cmath>
@@ -53,11 +53,11 @@ class Iteration {
     if (!options.fairness.empty()) H_ = fairness_energy(surface, options.fairness);
   }
 
-  CloudIteration measure(const ClosestPoints& feet, const Points& x, double factor) const {
+  CloudIteration measure(const ClosestPoints& foot_points, const Points& x, double factor) const {
     CloudIteration result;
-    const double mean = weights_.dot(feet.distances.cwiseAbs2());
+    const double mean = weights_.dot(foot_points.distances.cwiseAbs2());
     result.rms = std::sqrt(mean);
-    result.largest = feet.distances.maxCoeff();
+    result.largest = foot_points.distances.maxCoeff();
     result.fairness = factor;
     result.energy = mean;
     if (H_.rows() > 0) result.energy += factor * (x.transpose() * (H_ * x)).trace();
@@ -65,12 +65,12 @@ class Iteration {
   }
 
   /// New control points, with the projections that there are.
-  Points step(const ClosestPoints& feet, const Points& x, double factor, double tangential) const {
-    const SparseMatrix A = place_rows(surface_, feet.places);
+  Points step(const ClosestPoints& foot_points, const Points& x, double factor, double tangential) const {
+    const SparseMatrix A = place_rows(surface_, foot_points.places);
     FitProblem problem;
     const bool coupled = tangential < 1;
     if (coupled) {
-      couple(A, feet, tangential, problem);
+      couple(A, foot_points, tangential, problem);
     } else {
       problem.A = A;
       problem.b = cloud_.points;
@@ -102,10 +102,10 @@ class Iteration {
 
  private:
   /// Along borders, and where there is no plane, distances are from points.
-  void couple(const SparseMatrix& A, const ClosestPoints& feet, double tangential, FitProblem& problem) const {
-    Points normals = feet.normals;
+  void couple(const SparseMatrix& A, const ClosestPoints& foot_points, double tangential, FitProblem& problem) const {
+    Points normals = foot_points.normals;
     for (Eigen::Index i = 0; i < normals.rows(); ++i)
-      if (feet.status[size_t(i)] == LimitStatus::crease) normals.row(i).setZero();
+      if (foot_points.status[size_t(i)] == LimitStatus::crease) normals.row(i).setZero();
     add_tangent_rows(problem, A, cloud_.points, normals, weights_, tangential);
   }
 
@@ -126,7 +126,7 @@ CloudFit fit_cloud(const LimitMap& surface, const Cloud& cloud, const Points& gu
   // Pins are set, and everything else is checked, by a fit to nothing.
   fit.points = fit_places(surface, {{}, Points(0, 3)}, guess, {.pins = options.pins}).points;
   const Iteration iteration(surface, cloud, options);
-  fit.feet = closest(surface, fit.points, cloud.points, {.prove = false});
+  fit.foot_points = closest(surface, fit.points, cloud.points, {.prove = false});
   const double size = (cloud.points.colwise().maxCoeff() - cloud.points.colwise().minCoeff()).norm();
   const auto factor = [&](size_t k) {
     return options.schedule.empty() ? 1 : options.schedule[std::min(k, options.schedule.size() - 1)];
@@ -134,20 +134,20 @@ CloudFit fit_cloud(const LimitMap& surface, const Cloud& cloud, const Points& gu
   const auto tell = [&] {
     if (options.progress) options.progress(int(fit.iterations.size()) - 1, fit.iterations.back());
   };
-  fit.iterations.push_back(iteration.measure(fit.feet, fit.points, factor(0)));
+  fit.iterations.push_back(iteration.measure(fit.foot_points, fit.points, factor(0)));
   tell();
   double tangential = options.tangential;
   for (int k = 0; k < options.max_iterations && !fit.converged; ++k) {
     const double f = factor(size_t(k));
-    const double before = iteration.measure(fit.feet, fit.points, f).energy;
+    const double before = iteration.measure(fit.foot_points, fit.points, f).energy;
     const bool at_end = size_t(k) + 1 >= options.schedule.size();
     for (;;) {
-      Points x = iteration.step(fit.feet, fit.points, f, tangential);
-      ClosestPoints feet = closest(surface, x, cloud.points, {.guess = fit.feet.places, .prove = false});
-      const CloudIteration now = iteration.measure(feet, x, f);
+      Points x = iteration.step(fit.foot_points, fit.points, f, tangential);
+      ClosestPoints foot_points = closest(surface, x, cloud.points, {.guess = fit.foot_points.places, .prove = false});
+      const CloudIteration now = iteration.measure(foot_points, x, f);
       if (now.energy <= before) {
         fit.points = std::move(x);
-        fit.feet = std::move(feet);
+        fit.foot_points = std::move(foot_points);
         fit.iterations.push_back(now);
         if (options.tangential < 1) tangential = std::max(least_tangential, tangential / 4);
         tell();

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "sublimit/base/error.h"
-#include "sublimit/core/dense_decompositions.h"
-#include "sublimit/fit/spectrum_ends.h"
+#include "sublimit/core/detail/dense_decompositions.h"
+#include "sublimit/fit/detail/spectrum_ends.h"
 
 namespace sublimit {
 namespace {

@@ -1,29 +1,39 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// How well conditions determine control points: singular values of their matrix, its rank, and what is free.
+// How well linear conditions determine control points: rank and singular values of their matrix, and the directions
+// that it leaves free.
+//
+//   const SparseMatrix rows = place_rows(surface.map(), places);
+//   const Conditioning found = conditioning(rows);
+//   if (found.rank < found.columns) std::cout << found.free.cols() << " directions are free\n";
 #include "sublimit/core/types.h"
 
 namespace sublimit {
 
+/// Rank, singular values and null spaces of a matrix. Plain data.
 struct Conditioning {
   Index rows = 0, columns = 0;
-  Index rank = 0;                    ///< singular values above the tolerance
-  double largest = 0, smallest = 0;  ///< of those
-  /// The least singular values, ascending, those below the tolerance among them; of small matrices all of them. At most
+  Index rank = 0;                    ///< number of singular values above the tolerance
+  double largest = 0, smallest = 0;  ///< largest and smallest singular value above the tolerance
+  /// The least singular values, ascending, including those below the tolerance; all of them for small matrices. At most
   /// min(rows, columns).
   Eigen::VectorXd singular_values;
-  Points free;       ///< columns x (number found): directions of x that no row sees, orthonormal
-  Points dependent;  ///< rows x (number found): combinations of rows that vanish, orthonormal
+  Points free;       ///< orthonormal basis of {x: rows * x = 0}, as far as computed, in columns
+  Points dependent;  ///< orthonormal basis of the combinations of rows that vanish, as far as computed, in columns
+  /// Returns the condition number, largest / smallest; 0 for rank 0.
   double condition() const { return rank > 0 ? largest / smallest : 0; }
 };
 
-/// A dense decomposition up to 600 rows or columns. Above that the ends of the spectrum: `largest` from below, the
-/// least ones from above, to 1e-9 where they keep apart, to 1e-2 where thousands crowd (on grids of 100k); zeros are
-/// zero to rounding. Directions that are there by shape alone (free ones where there are fewer rows than columns,
-/// dependent ones where there are more) are listed by the dense decomposition only.
-/// @param tolerance  of singular values, relative to the largest one
-/// @note  Of more than `most_directions` vanishing directions only so many are found, and the rank is a bound from
-/// above. Deterministic.
+/// Returns rank, singular values and null spaces of a matrix of conditions.
+///
+/// Matrices of up to 600 rows or columns are decomposed densely. For larger ones the ends of the spectrum are iterated:
+/// `largest` is approached from below, the least ones from above, to 1e-9 where they are separated, to 1e-2 where
+/// thousands cluster (grids of 100k points); zeros are zero to rounding. Directions that exist by shape alone (free
+/// ones with fewer rows than columns, dependent ones with more) are listed by the dense decomposition only.
+/// @param tolerance        singular values below it, relative to the largest one, count as zero
+/// @param most_directions  largest number of free or dependent directions that are computed; with more of them the rank
+///                         is an upper bound
+/// @note  Deterministic.
 /// @throws InvalidParameter  weights that are not finite, a negative tolerance
 /// @throws ResourceError     factors larger than memory
 /// @throws AnalysisError     a decomposition that breaks down

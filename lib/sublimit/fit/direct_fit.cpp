@@ -11,10 +11,10 @@
 #include <cmath>
 #include <limits>
 
-#include "sublimit/core/sparse_product.h"
-#include "sublimit/fit/conjugate_residuals.h"
-#include "sublimit/fit/fit_terms.h"
-#include "sublimit/fit/sparse_factors.h"
+#include "sublimit/core/detail/sparse_product.h"
+#include "sublimit/fit/detail/conjugate_residuals.h"
+#include "sublimit/fit/detail/fit_terms.h"
+#include "sublimit/fit/detail/sparse_factors.h"
 
 namespace sublimit {
 namespace {

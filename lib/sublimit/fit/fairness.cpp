@@ -5,10 +5,10 @@
 #include <cmath>
 #include <string>
 
+#include "sublimit/base/detail/parallel_for.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/parallel_for.h"
 #include "sublimit/base/format_number.h"
-#include "sublimit/limit/quadrature.h"
+#include "sublimit/limit/detail/quadrature.h"
 
 namespace sublimit {
 namespace {
@@ -134,10 +134,10 @@ class Assembly {
 
 /// Sum of the parts, every entry in the order of the addresses.
 SparseMatrix sum(const std::vector<LocalEnergy>& parts, Index n) {
-  struct Place {
+  struct Slot {
     Index part, row;
   };
-  std::vector<std::vector<Place>> of_vertex(n);
+  std::vector<std::vector<Slot>> of_vertex(n);
   for (size_t a = 0; a < parts.size(); ++a)
     for (size_t i = 0; i < parts[a].vertices.size(); ++i)
       of_vertex[parts[a].vertices[i]].push_back({static_cast<Index>(a), static_cast<Index>(i)});
@@ -150,7 +150,7 @@ SparseMatrix sum(const std::vector<LocalEnergy>& parts, Index n) {
         std::vector<bool> met(n, false);
         for (std::int64_t v = begin; v < end; ++v) {
           columns.clear();
-          for (const Place& p : of_vertex[v]) {
+          for (const Slot& p : of_vertex[v]) {
             const LocalEnergy& part = parts[p.part];
             for (size_t j = 0; j < part.vertices.size(); ++j) {
               const Index c = part.vertices[j];

@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "sublimit/base/error.h"
-#include "sublimit/core/sparse_product.h"
 #include "sublimit/base/format_number.h"
-#include "sublimit/fit/fit_terms.h"
+#include "sublimit/core/detail/sparse_product.h"
+#include "sublimit/fit/detail/fit_terms.h"
 
 namespace sublimit {
 namespace {

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <limits>
 
-#include "sublimit/core/sparse_product.h"
-#include "sublimit/fit/conjugate_gradients.h"
-#include "sublimit/fit/fit_terms.h"
+#include "sublimit/core/detail/sparse_product.h"
+#include "sublimit/fit/detail/conjugate_gradients.h"
+#include "sublimit/fit/detail/fit_terms.h"
 
 namespace sublimit {
 namespace {

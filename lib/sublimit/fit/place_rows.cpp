@@ -4,31 +4,23 @@
 #include <limits>
 #include <string>
 
+#include "sublimit/base/detail/parallel_for.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/parallel_for.h"
 #include "sublimit/base/format_number.h"
 #include "sublimit/fit/scattered_fit.h"
+#include "sublimit/limit/detail/why_outside.h"
 
 namespace sublimit {
 namespace {
 
-void check(const FaceCount& faces, const Sample& s, size_t i) {
-  const auto error = [i](const std::string& what) {
-    throw InvalidParameter("target " + std::to_string(i) + ": " + what);
-  };
-  if (s.face < 0 || s.face >= faces.size)
-    error("face " + std::to_string(s.face) + " does not exist; there are " + std::to_string(faces.size) +
-          (faces.triangles ? " triangles" : " squares") + ", counted from 0");
-  if (!std::isfinite(s.u) || !std::isfinite(s.v)) error("its parameters u, v are not finite numbers");
-  const bool inside = s.u >= 0 && s.v >= 0 && (faces.triangles ? s.u + s.v <= 1 : s.u <= 1 && s.v <= 1);
-  if (!inside)
-    error("(" + format_number(s.u) + ", " + format_number(s.v) + ") is outside of face " + std::to_string(s.face) +
-          ", the " + (faces.triangles ? "triangle u, v >= 0, u + v <= 1" : "square 0 <= u, v <= 1"));
+void check(const FaceCount& faces, const Place& s, size_t i) {
+  if (!is_inside(faces, s))
+    throw InvalidParameter("target " + std::to_string(i) + ": " + why_outside(faces, s.face, s.u, s.v));
 }
 
 }  // namespace
 
-SparseMatrix place_rows(const LinearSource& surface, const std::vector<Sample>& places) {
+SparseMatrix place_rows(const LinearSource& surface, const std::vector<Place>& places) {
   const size_t count = places.size();
   if (count > size_t(std::numeric_limits<Index>::max()))
     throw ResourceError(std::to_string(count) + " targets; 32-bit indices count fewer");

@@ -7,7 +7,7 @@
 
 namespace sublimit {
 
-/// An end of an arc or of a leg; points of the plane have z = 0.
+/// An end of an arc or of a segment; points of the plane have z = 0.
 struct HermitePoint {
   Eigen::Vector3d position, tangent;
 };

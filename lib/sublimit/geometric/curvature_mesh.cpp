@@ -72,7 +72,7 @@ CurvatureMesh checked(CurvatureMesh mesh) {
   return mesh;
 }
 
-CurvatureMesh curvature_mesh(const ControlMesh& mesh, std::span<const VertexTarget> targets) {
+CurvatureMesh curvature_mesh(const Mesh& mesh, std::span<const VertexTarget> targets) {
   CurvatureMesh result;
   result.points.resize(mesh.num_vertices());
   std::vector<bool> found(mesh.num_vertices());
@@ -106,8 +106,8 @@ CurvatureMesh curvature_mesh(const ControlMesh& mesh, std::span<const VertexTarg
   return checked(std::move(result));
 }
 
-ControlMesh control_mesh(const CurvatureMesh& mesh) {
-  ControlMesh result;
+Mesh control_mesh(const CurvatureMesh& mesh) {
+  Mesh result;
   result.positions.resize(mesh.num_vertices(), 3);
   for (Index v = 0; v < mesh.num_vertices(); ++v) result.positions.row(v) = mesh.points[v].position;
   result.face_sizes.assign(mesh.num_faces(), 3);

@@ -8,7 +8,7 @@
 
 #include "sublimit/core/types.h"
 #include "sublimit/geometric/surface_point.h"
-#include "sublimit/mesh/control_mesh.h"
+#include "sublimit/mesh/mesh.h"
 #include "sublimit/mesh/mesh_view.h"
 #include "sublimit/mesh/vertex_target.h"
 
@@ -36,7 +36,7 @@ inline constexpr double direction_tolerance = 1e-6, unit_tolerance = 1e-6;
 ///     curvature; numbers that are not finite; a normal or direction of length zero; a direction that is not in the
 ///     tangent plane (the message tells the angle); what `checked` refuses
 /// @throws UnsupportedTopology  a face of more than four corners
-CurvatureMesh curvature_mesh(const ControlMesh& mesh, std::span<const VertexTarget> targets);
+CurvatureMesh curvature_mesh(const Mesh& mesh, std::span<const VertexTarget> targets);
 
 /// Returns the mesh with normals and directions of length 1 and at right angles; those that are so keep their bits.
 /// @throws InvalidMesh  data that are not finite, of other lengths, or not tangent, naming the vertex
@@ -44,6 +44,6 @@ CurvatureMesh curvature_mesh(const ControlMesh& mesh, std::span<const VertexTarg
 CurvatureMesh checked(CurvatureMesh mesh);
 
 /// Positions and triangles alone, to be written.
-ControlMesh control_mesh(const CurvatureMesh& mesh);
+Mesh control_mesh(const CurvatureMesh& mesh);
 
 }  // namespace sublimit

@@ -12,7 +12,7 @@
 #include <cmath>
 #include <limits>
 
-#include "sublimit/geometric/jet.h"
+#include "sublimit/geometric/parameter_jet.h"
 
 namespace sublimit {
 

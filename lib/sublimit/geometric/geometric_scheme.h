@@ -17,7 +17,7 @@
 
 namespace sublimit {
 
-/// What such a scheme is said to do, each claim with its law in the tests.
+/// Properties that a geometric scheme is said to have. No result depends on them; each has its law in the tests.
 struct GeometricClaims {
   std::optional<int> regular = {};  ///< the limit is G^regular; nothing if that is not claimed
   bool interpolates = false;        ///< old data stay, bitwise
@@ -26,14 +26,14 @@ struct GeometricClaims {
   std::string exponent;             ///< Hoelder exponent of the limit by arc length, in words
 };
 
-/// A place on the limit of a leg.
-struct LegPlace {
+/// A place on the limit of a segment.
+struct SegmentPlace {
   Eigen::Vector3d position;
   Eigen::Vector3d tangent;    ///< of length 1
   Eigen::Vector3d curvature;  ///< derivative of the tangent by length
 };
-/// The limit of a leg over t in [0, 1]; where pieces meet inside, that of the piece before or behind.
-using LegCurve = std::function<LegPlace(double t, bool before)>;
+/// The limit of a segment over t in [0, 1]; where pieces meet inside, that of the piece before or behind.
+using SegmentCurve = std::function<SegmentPlace(double t, bool before)>;
 
 class PlacedSurface;
 
@@ -48,8 +48,8 @@ struct GeometricScheme {
   std::function<Data(const Data&)> refine;
   /// Data of level `levels`, on the exact limit of checked data; empty where the limit is not known in closed form.
   std::function<Data(const Data&, int levels)> limit = {};
-  /// Curves with a known limit: the exact limit of checked data anywhere, of each curve its legs in order.
-  std::function<std::vector<std::vector<LegCurve>>(const Data&)> legs = {};
+  /// Curves with a known limit: the exact limit of checked data anywhere, of each curve its segments in order.
+  std::function<std::vector<std::vector<SegmentCurve>>(const Data&)> segments = {};
   /// Surfaces with a known limit: the exact limit of checked data anywhere.
   std::function<std::shared_ptr<const PlacedSurface>(const Data&)> surface = {};
   /// Notes worth telling about checked data: where the scheme fell back on another rule.

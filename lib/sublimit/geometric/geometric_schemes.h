@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "sublimit/core/unknown_scheme.h"
+#include "sublimit/core/detail/unknown_scheme.h"
 #include "sublimit/geometric/hermite_incentre.h"
 #include "sublimit/geometric/nielson.h"
 #include "sublimit/geometric/piper.h"
@@ -43,7 +43,7 @@ inline constexpr GeometricSchemeEntry<NormalMesh> geometric_registry<NormalMesh>
     {"piper", piper},
 };
 
-/// Every scheme for this kind of data with its default options.
+/// Returns every scheme for this kind of data with its default options.
 template <class Data = ControlPolygon>
 std::vector<GeometricScheme<Data>> all_geometric_schemes() {
   std::vector<GeometricScheme<Data>> schemes;
@@ -51,7 +51,7 @@ std::vector<GeometricScheme<Data>> all_geometric_schemes() {
   return schemes;
 }
 
-/// A scheme by name; nothing if there is none. `geometric_scheme` below throws instead.
+/// Returns a scheme by name, or nothing if there is none. `geometric_scheme` below throws instead.
 /// @throws InvalidOption  an unknown option, or a value outside its range
 template <class Data = ControlPolygon>
 [[nodiscard]] std::optional<GeometricScheme<Data>> find_geometric_scheme(const std::string& name,

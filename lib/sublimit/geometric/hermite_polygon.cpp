@@ -19,7 +19,7 @@ void set_hermite_point(ControlPolygon& polygon, Index i, const HermitePoint& p) 
   }
 }
 
-Index num_legs(const ControlPolygon::Curve& curve) {
+Index num_segments(const ControlPolygon::Curve& curve) {
   return static_cast<Index>(curve.points.size()) - (curve.closed ? 0 : 1);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Polygons of points with tangents, leg by leg.
+// Polygons of points with tangents, segment by segment.
 #include <cstdint>
 #include <limits>
 
@@ -15,22 +15,23 @@ namespace sublimit {
 HermitePoint hermite_point(const ControlPolygon& polygon, Index i);
 void set_hermite_point(ControlPolygon& polygon, Index i, const HermitePoint& p);
 
-Index num_legs(const ControlPolygon::Curve& curve);
+Index num_segments(const ControlPolygon::Curve& curve);
 
-/// Calls `body` with the ends of each leg of a curve.
+/// Calls `body` with the ends of each segment of a curve.
 template <class Body>
-void for_each_leg(const ControlPolygon& polygon, const ControlPolygon::Curve& curve, const Body& body) {
-  for (Index i = 0; i < num_legs(curve); ++i)
+void for_each_segment(const ControlPolygon& polygon, const ControlPolygon::Curve& curve, const Body& body) {
+  for (Index i = 0; i < num_segments(curve); ++i)
     body(hermite_point(polygon, curve.points[i]), hermite_point(polygon, curve.points[(i + 1) % curve.points.size()]));
 }
 
-/// A polygon with `pieces` points for each leg of `parent`, made by at(curve, leg, j), j = 0 the leg's first point.
+/// A polygon with `pieces` points for each segment of `parent`, made by at(curve, segment, j), j = 0 the segment's
+/// first point.
 /// @throws ResourceError  more points than indices
 template <class At>
-ControlPolygon with_points_on_legs(const ControlPolygon& parent, Index pieces, const At& at) {
+ControlPolygon with_points_on_segments(const ControlPolygon& parent, Index pieces, const At& at) {
   std::int64_t count = 0;
   for (const ControlPolygon::Curve& curve : parent.curves)
-    count += std::int64_t{num_legs(curve)} * pieces + (curve.closed ? 0 : 1);
+    count += std::int64_t{num_segments(curve)} * pieces + (curve.closed ? 0 : 1);
   if (count > std::numeric_limits<Index>::max())
     throw ResourceError(format_number(count) + " points are more than 32-bit indices count; use fewer levels");
   ControlPolygon child;
@@ -46,7 +47,7 @@ ControlPolygon with_points_on_legs(const ControlPolygon& parent, Index pieces, c
       set_hermite_point(child, row, p);
       refined.points.push_back(row++);
     };
-    for (Index i = 0; i < num_legs(curve); ++i)
+    for (Index i = 0; i < num_segments(curve); ++i)
       for (Index j = 0; j < pieces; ++j) add(at(c, i, j));
     if (!curve.closed) add(hermite_point(parent, curve.points.back()));
   }

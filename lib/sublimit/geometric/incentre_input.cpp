@@ -41,15 +41,15 @@ void check_curve(const ControlPolygon& polygon, size_t c) {
     throw UnsupportedTopology((curve.points.empty() ? std::string() : place(polygon, curve.points[0])) + "curve " +
                               format_number(c) + " has " + (curve.points.empty() ? "no points" : "1 point") +
                               "; hermite-incentre needs at least 2");
-  for (Index i = 0; i < num_legs(curve); ++i) {
+  for (Index i = 0; i < num_segments(curve); ++i) {
     const Index a = curve.points[i], b = curve.points[(i + 1) % curve.points.size()];
-    const double leg = (polygon.points.row(b) - polygon.points.row(a)).stableNorm();
-    if (leg == 0)
+    const double segment = (polygon.points.row(b) - polygon.points.row(a)).stableNorm();
+    if (segment == 0)
       throw InvalidMesh(
           place(polygon, b) + "points " + format_number(a) + " and " + format_number(b) +
-          " are next to each other and equal; a leg needs a length: leave one of them out" +
-          (curve.closed && i + 1 == num_legs(curve) ? " (a closed curve does not repeat its first)" : ""));
-    if (!std::isfinite(leg))
+          " are next to each other and equal; a segment needs a length: leave one of them out" +
+          (curve.closed && i + 1 == num_segments(curve) ? " (a closed curve does not repeat its first)" : ""));
+    if (!std::isfinite(segment))
       throw InvalidMesh(place(polygon, b) + "points " + format_number(a) + " and " + format_number(b) +
                         " are too far apart; scale the curve down");
   }

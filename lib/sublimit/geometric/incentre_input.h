@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 // What the Hermite incentre scheme takes: finite points in the plane or in space with tangents of length 1, in curves
-// of two points or more whose legs have a length.
+// of two points or more whose segments have a length.
 #include "sublimit/mesh/control_polygon.h"
 
 namespace sublimit {

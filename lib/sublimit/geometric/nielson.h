@@ -13,7 +13,7 @@
 // depend on the direction from which they are approached.
 #include "sublimit/geometric/geometric_scheme.h"
 #include "sublimit/geometric/normal_mesh.h"
-#include "sublimit/geometric/triangle_patch.h"
+#include "sublimit/geometric/normal_triangle.h"
 
 namespace sublimit {
 

@@ -62,12 +62,11 @@ void check_edge(const NormalMesh& mesh, Index face, Index a, Index b) {
 
 }  // namespace
 
-NormalMesh normal_mesh(const ControlMesh& mesh, const Points& normals) {
+NormalMesh normal_mesh(const Mesh& mesh, const Points& normals) {
   for (Index f = 0; f < mesh.num_faces(); ++f)
     if (mesh.face_sizes[size_t(f)] != 3)
       throw UnsupportedTopology("face " + format_number(f) + " has " + format_number(mesh.face_sizes[size_t(f)]) +
-                                " corners; patches through points and normals are of triangles: triangulate the mesh "
-                                "(--triangulate)");
+                                " corners; patches through points and normals are of triangles: triangulate the mesh");
   if (!mesh.holes.empty())
     throw InvalidMesh("face " + format_number(mesh.holes.front()) +
                       " is a hole, for which patches through points and normals have no rule; leave the face or its "

@@ -7,7 +7,7 @@
 
 #include "sublimit/core/types.h"
 #include "sublimit/geometric/geometric_scheme.h"
-#include "sublimit/mesh/control_mesh.h"
+#include "sublimit/mesh/mesh.h"
 #include "sublimit/mesh/mesh_view.h"
 
 namespace sublimit {
@@ -35,7 +35,7 @@ inline MeshView view(const NormalMesh& mesh) {
 /// @param normals  #V x 3, or no rows
 /// @throws InvalidMesh          another number of normals; a face that is a hole
 /// @throws UnsupportedTopology  a face that is not a triangle, naming the first
-NormalMesh normal_mesh(const ControlMesh& mesh, const Points& normals);
+NormalMesh normal_mesh(const Mesh& mesh, const Points& normals);
 
 /// Returns the mesh with normals of length 1; those that have it keep their bits. Any topology will do; vertices
 /// without a face are not looked at.

@@ -5,14 +5,14 @@
 #include <limits>
 #include <optional>
 
+#include "sublimit/base/detail/memory.h"
+#include "sublimit/base/detail/parallel_for.h"
 #include "sublimit/base/error.h"
 #include "sublimit/base/format_number.h"
-#include "sublimit/base/memory.h"
-#include "sublimit/base/parallel_for.h"
 #include "sublimit/geometric/nielson.h"
 #include "sublimit/geometric/piper.h"
-#include "sublimit/limit/derivative_order.h"
-#include "sublimit/scheme/check_levels.h"
+#include "sublimit/limit/detail/derivative_order.h"
+#include "sublimit/scheme/detail/check_levels.h"
 #include "sublimit/splits/split.h"
 
 namespace sublimit {
@@ -25,7 +25,7 @@ template <class Patch>
 class LastPatch {
  public:
   explicit LastPatch(const NormalMesh& mesh) : mesh_(mesh) {}
-  PatchPoint<double> at(const Sample& s, int order) {
+  PatchPoint<double> at(const Place& s, int order) {
     if (s.face != face_) patch_.emplace(mesh_.corners(mesh_.positions, s.face), mesh_.corners(mesh_.normals, s.face));
     face_ = s.face;
     return patch_->at(s.u, s.v, order);
@@ -44,7 +44,7 @@ class PatchSurface : public PlacedSurface {
 
   FaceCount faces() const override { return {mesh_.num_faces(), true}; }
 
-  void evaluate(std::span<const Sample> samples, int order, bool normals, LimitSamples& out) const override {
+  void evaluate(std::span<const Place> samples, int order, bool normals, LimitSamples& out) const override {
     check_order(order);
     const auto count = std::ssize(samples);
     Points* const targets[] = {&out.position, &out.du, &out.dv, &out.duu, &out.duv, &out.dvv};
@@ -57,7 +57,7 @@ class PatchSurface : public PlacedSurface {
         [&](std::int64_t, std::int64_t begin, std::int64_t end) {
           LastPatch<Patch> patch(mesh_);
           for (std::int64_t i = begin; i < end; ++i) {
-            const Sample& s = samples[size_t(i)];
+            const Place& s = samples[size_t(i)];
             if (s.face < 0 || s.face >= mesh_.num_faces() || !(s.u >= 0 && s.v >= 0 && s.u + s.v <= 1)) continue;
             const PatchPoint<double> point = patch.at(s, order);
             out.status[size_t(i)] = point.status;
@@ -79,25 +79,25 @@ class PatchSurface : public PlacedSurface {
 /// Where the vertices of a level are: for each the place in a face; face -1 for vertices without one.
 struct PlacedLevel {
   std::vector<Index> triangles;
-  std::vector<Sample> places;
+  std::vector<Place> places;
 };
 
 PlacedLevel placed_level(const NormalMesh& mesh, int levels) {
   Topology topology(view(mesh));
-  std::vector<Sample> corners;  // of the faces of the level, in the faces of the mesh
+  std::vector<Place> corners;  // of the faces of the level, in the faces of the mesh
   corners.reserve(mesh.triangles.size());
   for (Index f = 0; f < mesh.num_faces(); ++f)
     for (const auto& [u, v] : {std::pair(0.0, 0.0), std::pair(1.0, 0.0), std::pair(0.0, 1.0)})
       corners.push_back({f, u, v});
   for (int level = 0; level < levels; ++level) {
-    std::vector<Sample> finer(4 * corners.size());
+    std::vector<Place> finer(4 * corners.size());
     for (size_t f = 0; f < corners.size() / 3; ++f) {
-      const Sample* x = corners.data() + 3 * f;
-      Sample* y = finer.data() + 12 * f;
+      const Place* x = corners.data() + 3 * f;
+      Place* y = finer.data() + 12 * f;
       // Child i has corner i at position i, the middle one the point opposite to corner i: both are halves of sums.
       for (int child = 0; child < 4; ++child)
         for (int i = 0; i < 3; ++i) {
-          const Sample &a = child < 3 ? x[child] : x[(i + 1) % 3], &b = child < 3 ? x[i] : x[(i + 2) % 3];
+          const Place &a = child < 3 ? x[child] : x[(i + 1) % 3], &b = child < 3 ? x[i] : x[(i + 2) % 3];
           y[3 * child + i] = {x[0].face, (a.u + b.u) / 2, (a.v + b.v) / 2};
         }
     }
@@ -110,7 +110,7 @@ PlacedLevel placed_level(const NormalMesh& mesh, int levels) {
   result.places.assign(size_t(topology.num_vertices()), {-1, 0, 0});
   for (Index f = 0; f < topology.num_faces(); ++f)
     for (const Index v : topology.vertices(Face{f})) {
-      Sample& place = result.places[size_t(v)];
+      Place& place = result.places[size_t(v)];
       if (place.face < 0) place = corners[result.triangles.size()];
       result.triangles.push_back(v);
     }
@@ -142,7 +142,7 @@ NormalMesh level_of(const NormalMesh& mesh, int levels) {
       [&](std::int64_t, std::int64_t begin, std::int64_t end) {
         LastPatch<Patch> patch(mesh);
         for (std::int64_t i = begin + mesh.num_vertices(); i < end + mesh.num_vertices(); ++i) {
-          const Sample& place = level.places[size_t(i)];
+          const Place& place = level.places[size_t(i)];
           const PatchPoint<double> point = patch.at(place, 1);
           if (point.normal.isZero(0))
             throw InvalidMesh("face " + format_number(place.face) + " has no normal at (u, v) = (" +

@@ -20,7 +20,7 @@ std::shared_ptr<const PlacedSurface> patch_surface(const NormalMesh& mesh);
 template <class Patch>
 NormalMesh patch_level(const NormalMesh& mesh, int levels);
 
-/// What both schemes have in common: data checked, normals given or estimated, notes.
+/// Returns the common part of both schemes: checks of the data, normals given or estimated, notes.
 GeometricNormalScheme patch_scheme(const SchemeOptions& options);
 
 }  // namespace sublimit

@@ -17,7 +17,7 @@
 // polynomials cost.
 #include "sublimit/geometric/geometric_scheme.h"
 #include "sublimit/geometric/normal_mesh.h"
-#include "sublimit/geometric/triangle_patch.h"
+#include "sublimit/geometric/normal_triangle.h"
 
 namespace sublimit {
 
@@ -126,7 +126,7 @@ class PiperPatch {
     }
   }
 
-  /// What is left: spokes, inner points and the centre.
+  /// Sets the remaining points: spokes, inner points and the centre.
   void set_inner(const std::array<Eigen::Vector3<T>, 3>& x) {
     using Vector = Eigen::Vector3<T>;
     std::array<Vector, 3> s1, s2, s3, sum;  // by corner

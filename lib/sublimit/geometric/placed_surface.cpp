@@ -26,11 +26,11 @@ class PlacedTogether : public PlacedSurface {
 
   FaceCount faces() const override { return {first_.back(), parts_[0]->faces().triangles}; }
 
-  void evaluate(std::span<const Sample> samples, int order, bool normals, LimitSamples& out) const override {
-    std::vector<std::vector<Sample>> own(parts_.size());
+  void evaluate(std::span<const Place> samples, int order, bool normals, LimitSamples& out) const override {
+    std::vector<std::vector<Place>> own(parts_.size());
     std::vector<std::vector<Eigen::Index>> rows(parts_.size());
     for (size_t i = 0; i < samples.size(); ++i) {
-      Sample sample = samples[i];
+      Place sample = samples[i];
       // Places that are on no face go to the first or the last part, which says so.
       const auto end = std::upper_bound(first_.begin() + 1, first_.end() - 1, sample.face);
       const auto part = static_cast<size_t>(end - first_.begin()) - 1;

@@ -47,7 +47,7 @@ Matrix2d offset_shape(const TorusPiece::Frame& frame, double w) {
 std::optional<TorusCarrier> TorusCarrier::make(const TorusPiece& piece, const SurfacePoint& far, double skew) {
   TorusCarrier carrier(piece);
   carrier.skew_ = skew;
-  const TorusPiece::Place foot = piece.foot(far.position);
+  const TorusPiece::Coordinates foot = piece.foot(far.position);
   const TorusPiece::Frame near = piece.at(0, 0), frame = piece.at(foot.u, foot.v);
   carrier.chord_ = far.position - near.position;
   carrier.nearness_ = piece.nearness(foot);
@@ -80,7 +80,7 @@ std::optional<TorusCarrier> TorusCarrier::make(const TorusPiece& piece, const Su
 }
 
 std::optional<TorusCarrier::Middle> TorusCarrier::middle(const Vector3d& guess) const {
-  const TorusPiece::Place place = piece_.foot(guess);
+  const TorusPiece::Coordinates place = piece_.foot(guess);
   const TorusPiece::Frame frame = piece_.at(place.u, place.v);
   const Matrix2d xy = directions(frame, chord_, length_, skew_);
   if (xy.isZero(0) || !std::isfinite(frame.k2)) return std::nullopt;

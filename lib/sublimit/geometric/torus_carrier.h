@@ -52,7 +52,7 @@ class TorusCarrier {
   TorusPiece piece_;
   Eigen::Vector3d chord_ = Eigen::Vector3d::Zero();
   double skew_ = 0, length_ = 0, misfit2_ = 0, nearness_ = 0;
-  // Of w at the far end, by x in [0, 1] along and by y across.
+  // Value and derivatives of w at the far end, by x in [0, 1] along and by y across.
   double value_ = 0, along_ = 0, across_ = 0, along_along_ = 0, along_across_ = 0, across_across_ = 0;
 };
 

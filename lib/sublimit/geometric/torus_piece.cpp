@@ -57,7 +57,7 @@ TorusPiece::Frame TorusPiece::at(double u, double v) const {
   return frame;
 }
 
-TorusPiece::Place TorusPiece::foot(const Vector3d& x) const {
+TorusPiece::Coordinates TorusPiece::foot(const Vector3d& x) const {
   const Vector3d d = x - origin_;
   const Unrolled around = unroll(curvature_, d.dot(e2_), d.dot(towards_));
   const Vector3d turned_back = around.depth * towards_ + d.dot(axis_) * axis_;
@@ -65,7 +65,7 @@ TorusPiece::Place TorusPiece::foot(const Vector3d& x) const {
   return {tube.length, around.length, tube.depth};
 }
 
-double TorusPiece::nearness(const Place& place) const {
+double TorusPiece::nearness(const Coordinates& place) const {
   return (1 + std::cos(k1_ * place.u)) * (1 + std::cos(curvature_ * place.v)) / 4;
 }
 

@@ -26,7 +26,7 @@ class TorusPiece {
              double g);
 
   /// Along the tube by length u, and around by the motion v, which is length at the origin; w off along the normal.
-  struct Place {
+  struct Coordinates {
     double u = 0, v = 0, w = 0;
   };
   /// The principal frame at a place of the surface.
@@ -41,10 +41,10 @@ class TorusPiece {
 
   /// The place whose normal passes through x: the nearest one, if x lies on the origin's side of the axis and of the
   /// tube's centre. Closed form. |k1 u| <= pi, and v less than once around.
-  Place foot(const Eigen::Vector3d& x) const;
+  Coordinates foot(const Eigen::Vector3d& x) const;
 
   /// From 1 at the origin to 0 half way round the tube or the axis.
-  double nearness(const Place& place) const;
+  double nearness(const Coordinates& place) const;
 
   double geodesic() const { return g_; }
 

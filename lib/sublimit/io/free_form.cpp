@@ -6,16 +6,16 @@
 #include <limits>
 #include <optional>
 
+#include "sublimit/base/detail/memory.h"
+#include "sublimit/base/detail/read_file.h"
 #include "sublimit/base/error.h"
 #include "sublimit/base/format_number.h"
-#include "sublimit/base/memory.h"
-#include "sublimit/base/read_file.h"
-#include "sublimit/io/free_form_checks.h"
-#include "sublimit/io/free_form_counts.h"
-#include "sublimit/io/obj_indices.h"
-#include "sublimit/io/obj_keywords.h"
-#include "sublimit/io/obj_names.h"
-#include "sublimit/io/text_scanner.h"
+#include "sublimit/io/detail/free_form_checks.h"
+#include "sublimit/io/detail/free_form_counts.h"
+#include "sublimit/io/detail/obj_indices.h"
+#include "sublimit/io/detail/obj_keywords.h"
+#include "sublimit/io/detail/obj_names.h"
+#include "sublimit/io/detail/text_scanner.h"
 
 namespace sublimit {
 namespace {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 
+#include "sublimit/base/detail/row_writer.h"
 #include "sublimit/base/error.h"
 #include "sublimit/base/format_number.h"
-#include "sublimit/base/row_writer.h"
-#include "sublimit/io/obj.h"
-#include "sublimit/io/writer_parts.h"
+#include "sublimit/io/detail/obj.h"
+#include "sublimit/io/detail/writer_parts.h"
 
 namespace sublimit {
 namespace {
@@ -26,7 +26,7 @@ void emit_rows(const char* keyword, const Points& rows, RowWriter& out) {
 }
 
 /// @param first  corner of face `begin`
-void append_faces(const MeshOutput& mesh, std::int64_t begin, std::int64_t end, std::size_t first, std::string& out) {
+void append_faces(const Mesh& mesh, std::int64_t begin, std::int64_t end, std::size_t first, std::string& out) {
   const bool per_corner = !mesh.face_normals.empty();
   const std::vector<Index>* const values = mesh.face_varying.empty() ? nullptr : &mesh.face_varying[0].indices;
   for (std::int64_t face = begin; face < end; ++face) {
@@ -38,6 +38,13 @@ void append_faces(const MeshOutput& mesh, std::int64_t begin, std::int64_t end, 
       if (face == 0 || *id != id[-1]) {
         out += "g face_";
         append_number(out, *id);
+        out += '\n';
+      }
+    } else if (!mesh.face_names.of_face.empty()) {
+      const Index* const name = mesh.face_names.of_face.data() + face;
+      if (face == 0 ? *name >= 0 : *name != name[-1]) {
+        out += 'g';
+        if (*name >= 0) out += ' ' + mesh.face_names.names[std::size_t(*name)];
         out += '\n';
       }
     }
@@ -56,7 +63,7 @@ void append_faces(const MeshOutput& mesh, std::int64_t begin, std::int64_t end, 
   }
 }
 
-void emit_faces(const MeshOutput& mesh, RowWriter& out) {
+void emit_faces(const Mesh& mesh, RowWriter& out) {
   const std::vector<std::size_t> first = first_corners(mesh.face_sizes, obj_rows_per_block);
   out.rows(std::ssize(mesh.face_sizes), obj_rows_per_block,
            [&](std::string& text, std::int64_t begin, std::int64_t end) {
@@ -70,7 +77,7 @@ void append_sharpness(std::string& out, float sharpness) {
   out += '\n';
 }
 
-std::string format_rules(const MeshOutput& mesh) {
+std::string format_rules(const Mesh& mesh) {
   std::string out;
   if (mesh.boundary) {
     out += "t interpolateboundary 1/0/0 ";
@@ -109,21 +116,21 @@ void emit_lines(const std::vector<T>& list, RowWriter& out, const auto& append) 
   });
 }
 
-void emit_tags(const MeshOutput& mesh, RowWriter& out) {
+void emit_tags(const Mesh& mesh, RowWriter& out) {
   out.write(format_rules(mesh));
-  emit_lines(mesh.creases, out, [](std::string& text, const ControlMesh::Crease& crease) {
+  emit_lines(mesh.creases, out, [](std::string& text, const Mesh::Crease& crease) {
     text += "t crease 2/1/0 ";
     append_number(text, crease.tail);
     text += ' ';
     append_number(text, crease.head);
     append_sharpness(text, crease.sharpness);
   });
-  emit_lines(mesh.corners, out, [](std::string& text, const ControlMesh::Corner& corner) {
+  emit_lines(mesh.corners, out, [](std::string& text, const Mesh::Corner& corner) {
     text += "t corner 1/1/0 ";
     append_number(text, corner.vertex);
     append_sharpness(text, corner.sharpness);
   });
-  emit_lines(mesh.knot_intervals, out, [](std::string& text, const ControlMesh::KnotInterval& interval) {
+  emit_lines(mesh.knot_intervals, out, [](std::string& text, const Mesh::KnotInterval& interval) {
     text += "t knotinterval 2/1/0 ";
     append_number(text, interval.tail);
     text += ' ';
@@ -139,7 +146,7 @@ void emit_tags(const MeshOutput& mesh, RowWriter& out) {
   });
 }
 
-void emit_obj(const MeshOutput& mesh, RowWriter out) {
+void emit_obj(const Mesh& mesh, RowWriter out) {
   out.write(format_comments(mesh.comments, "# "));
   emit_rows("v", mesh.positions, out);
   if (!mesh.face_varying.empty()) emit_rows("vt", mesh.face_varying[0].values, out);
@@ -148,7 +155,7 @@ void emit_obj(const MeshOutput& mesh, RowWriter out) {
   emit_tags(mesh, out);
 }
 
-void check_obj(const MeshOutput& mesh, const std::string& name) {
+void check_obj(const Mesh& mesh, const std::string& name) {
   check_output(mesh, name);
   if (mesh.face_varying.empty()) return;
   const Eigen::Index columns = mesh.face_varying[0].values.cols();
@@ -159,15 +166,14 @@ void check_obj(const MeshOutput& mesh, const std::string& name) {
 
 }  // namespace
 
-std::string format_obj(const MeshOutput& mesh) {
+std::string format_obj(const Mesh& mesh) {
   check_obj(mesh, "OBJ");
   std::string text;
   emit_obj(mesh, RowWriter(text));
   return text;
 }
 
-void write_obj(const std::filesystem::path& path, const MeshOutput& mesh,
-               const std::function<void(std::int64_t)>& progress) {
+void write_obj(const std::filesystem::path& path, const Mesh& mesh, const std::function<void(std::int64_t)>& progress) {
   check_obj(mesh, path.string());
   AtomicFile file(path, progress);
   emit_obj(mesh, RowWriter(file));

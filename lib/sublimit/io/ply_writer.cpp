@@ -4,11 +4,11 @@
 #include <cstdint>
 #include <cstring>
 
+#include "sublimit/base/detail/row_writer.h"
 #include "sublimit/base/error.h"
 #include "sublimit/base/format_number.h"
-#include "sublimit/base/row_writer.h"
-#include "sublimit/io/ply.h"
-#include "sublimit/io/writer_parts.h"
+#include "sublimit/io/detail/ply.h"
+#include "sublimit/io/detail/writer_parts.h"
 
 namespace sublimit {
 namespace {
@@ -33,7 +33,7 @@ char* extend(std::string& out, std::size_t bytes) {
   return out.data() + size;
 }
 
-std::string format_header(const MeshOutput& mesh, bool wide) {
+std::string format_header(const Mesh& mesh, bool wide) {
   std::string out = "ply\nformat binary_little_endian 1.0\n" + format_comments(mesh.comments, "comment ");
   out += "element vertex " + format_number(mesh.positions.rows()) + "\n";
   for (const char* const name : {"x", "y", "z"}) out += std::string("property double ") + name + "\n";
@@ -41,7 +41,7 @@ std::string format_header(const MeshOutput& mesh, bool wide) {
     for (const char* const name : {"nx", "ny", "nz"}) out += std::string("property double ") + name + "\n";
   }
   if (mesh.texture.rows() > 0) out += "property double s\nproperty double t\n";
-  for (const VertexValues& further : mesh.vertex_values)
+  for (const Mesh::VertexValues& further : mesh.vertex_values)
     out += (further.whole ? "property int " : "property double ") + further.name + "\n";
   out += "element face " + format_number(mesh.face_sizes.size()) + "\n";
   out += wide ? "property list uint int vertex_indices\n" : "property list uchar int vertex_indices\n";
@@ -49,10 +49,10 @@ std::string format_header(const MeshOutput& mesh, bool wide) {
   return out + "end_header\n";
 }
 
-void emit_vertices(const MeshOutput& mesh, RowWriter& out) {
+void emit_vertices(const Mesh& mesh, RowWriter& out) {
   const bool normals = mesh.normals.rows() > 0, texture = mesh.texture.rows() > 0;
   std::size_t bytes_of_vertex = sizeof(double) * (3 + (normals ? 3 : 0) + (texture ? 2 : 0));
-  for (const VertexValues& further : mesh.vertex_values)
+  for (const Mesh::VertexValues& further : mesh.vertex_values)
     bytes_of_vertex += further.whole ? sizeof(Index) : sizeof(double);
   const double* const positions = mesh.positions.data();
   if (is_little_endian && bytes_of_vertex == 3 * sizeof(double))  // they lie in memory as they should in the file
@@ -63,7 +63,7 @@ void emit_vertices(const MeshOutput& mesh, RowWriter& out) {
       for (int i = 0; i < 3; ++i) put(at, positions[3 * v + i]);
       for (int i = 0; normals && i < 3; ++i) put(at, mesh.normals.data()[3 * v + i]);
       for (int i = 0; texture && i < 2; ++i) put(at, mesh.texture.data()[2 * v + i]);
-      for (const VertexValues& further : mesh.vertex_values) {
+      for (const Mesh::VertexValues& further : mesh.vertex_values) {
         const double value = further.values[std::size_t(v)];
         if (further.whole)
           put(at, static_cast<Index>(value));
@@ -75,7 +75,7 @@ void emit_vertices(const MeshOutput& mesh, RowWriter& out) {
 }
 
 template <class Size>
-void emit_faces(const MeshOutput& mesh, RowWriter& out) {
+void emit_faces(const Mesh& mesh, RowWriter& out) {
   const std::vector<std::size_t> first = first_corners(mesh.face_sizes, ply_rows_per_block);
   const std::size_t num_corners = mesh.face_vertices.size();
   const auto num_faces = std::ssize(mesh.face_sizes);
@@ -94,7 +94,7 @@ void emit_faces(const MeshOutput& mesh, RowWriter& out) {
   });
 }
 
-void emit_ply(const MeshOutput& mesh, RowWriter out) {
+void emit_ply(const Mesh& mesh, RowWriter out) {
   // Nearly all readers expect one byte for the size of a face: only faces that need more get more.
   const bool wide = std::ranges::any_of(mesh.face_sizes, [](Index size) { return size > 255; });
   out.write(format_header(mesh, wide));
@@ -106,7 +106,7 @@ void emit_ply(const MeshOutput& mesh, RowWriter out) {
   }
 }
 
-void check(const MeshOutput& mesh, const std::string& name) {
+void check(const Mesh& mesh, const std::string& name) {
   check_output(mesh, name);
   if (mesh.face_normals.empty()) return;
   throw InvalidParameter(name + ": a PLY file has one normal per vertex, these are per corner; write an .obj");
@@ -114,15 +114,14 @@ void check(const MeshOutput& mesh, const std::string& name) {
 
 }  // namespace
 
-std::string format_ply(const MeshOutput& mesh) {
+std::string format_ply(const Mesh& mesh) {
   check(mesh, "PLY");
   std::string bytes;
   emit_ply(mesh, RowWriter(bytes));
   return bytes;
 }
 
-void write_ply(const std::filesystem::path& path, const MeshOutput& mesh,
-               const std::function<void(std::int64_t)>& progress) {
+void write_ply(const std::filesystem::path& path, const Mesh& mesh, const std::function<void(std::int64_t)>& progress) {
   check(mesh, path.string());
   AtomicFile file(path, progress);
   emit_ply(mesh, RowWriter(file));

@@ -5,8 +5,8 @@
 
 #include "sublimit/base/error.h"
 #include "sublimit/base/format_number.h"
-#include "sublimit/io/polygon_files.h"
-#include "sublimit/io/text_scanner.h"
+#include "sublimit/io/detail/polygon_files.h"
+#include "sublimit/io/detail/text_scanner.h"
 
 namespace sublimit {
 namespace {

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 
-#include "sublimit/base/atomic_file.h"
+#include "sublimit/base/detail/atomic_file.h"
+#include "sublimit/base/detail/read_file.h"
 #include "sublimit/base/error.h"
 #include "sublimit/base/format_number.h"
-#include "sublimit/base/read_file.h"
-#include "sublimit/io/file_extension.h"
-#include "sublimit/io/obj_indices.h"
-#include "sublimit/io/obj_keywords.h"
-#include "sublimit/io/polygon_files.h"
-#include "sublimit/io/text_scanner.h"
+#include "sublimit/io/detail/file_extension.h"
+#include "sublimit/io/detail/obj_indices.h"
+#include "sublimit/io/detail/obj_keywords.h"
+#include "sublimit/io/detail/polygon_files.h"
+#include "sublimit/io/detail/text_scanner.h"
 
 namespace sublimit {
 namespace {

@@ -4,16 +4,16 @@
 #include <string>
 #include <system_error>
 
+#include "sublimit/base/detail/read_file.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/read_file.h"
-#include "sublimit/io/file_extension.h"
-#include "sublimit/io/obj.h"
-#include "sublimit/io/off.h"
-#include "sublimit/io/ply.h"
+#include "sublimit/io/detail/file_extension.h"
+#include "sublimit/io/detail/obj.h"
+#include "sublimit/io/detail/off.h"
+#include "sublimit/io/detail/ply.h"
 
 namespace sublimit {
 
-ControlMesh read_mesh(const std::filesystem::path& path) {
+Mesh read_mesh(const std::filesystem::path& path) {
   const std::string extension = file_extension(path);
   if (extension == ".obj") return read_obj(path);
   if (extension == ".ply") return read_ply(path);

@@ -6,12 +6,13 @@
 #include <cmath>
 #include <limits>
 
+#include "sublimit/base/detail/parallel_for.h"
 #include "sublimit/base/error.h"
 #include "sublimit/base/format_number.h"
-#include "sublimit/base/parallel_for.h"
-#include "sublimit/io/file_extension.h"
-#include "sublimit/io/obj.h"
-#include "sublimit/io/ply.h"
+#include "sublimit/io/detail/file_extension.h"
+#include "sublimit/io/detail/obj.h"
+#include "sublimit/io/detail/ply.h"
+#include "sublimit/mesh/detail/check_mesh.h"
 
 namespace sublimit {
 namespace {
@@ -60,40 +61,31 @@ bool in_range(const std::vector<Index>& ids, Index first, Eigen::Index count) {
 
 bool is_index(double x) { return x == std::floor(x) && std::abs(x) <= std::numeric_limits<Index>::max(); }
 
-void check_sharpness(float sharpness, const std::string& name) {
-  if (sharpness >= 0) return;
-  throw InvalidMesh(name + ": a sharpness is " + format_number(sharpness) + "; it should be 0 or more");
+/// Whether no face has fewer than three corners, nor one at a vertex that there is not.
+bool are_sound(const std::vector<Index>& face_sizes, const std::vector<Index>& face_vertices, Eigen::Index vertices) {
+  std::int64_t corners = 0;
+  for (const Index size : face_sizes) {
+    if (size < 3) return false;
+    corners += size;
+  }
+  return corners == std::ssize(face_vertices) && in_range(face_vertices, 0, vertices);
+}
+
+/// Runs checks that know nothing of files.
+void naming(const std::string& name, const auto& check) {
+  try {
+    check();
+  } catch (const InvalidMesh& error) {
+    throw InvalidMesh(name + ": " + error.what());
+  }
 }
 
 }  // namespace
 
-MeshOutput output(ControlMesh mesh) {
-  MeshOutput out;
-  out.positions.swap(mesh.positions);
-  out.face_sizes = std::move(mesh.face_sizes);
-  out.face_vertices = std::move(mesh.face_vertices);
-  out.face_varying = std::move(mesh.face_varying);
-  out.creases = std::move(mesh.creases);
-  out.corners = std::move(mesh.corners);
-  out.holes = std::move(mesh.holes);
-  out.knot_intervals = std::move(mesh.knot_intervals);
-  out.boundary = mesh.boundary;
-  out.creasing = mesh.creasing;
-  out.triangles = mesh.triangles;
-  out.face_varying_interpolation = mesh.face_varying_interpolation;
-  return out;
-}
-
-void check_output(const MeshOutput& mesh, const std::string& name) {
+void check_output(const Mesh& mesh, const std::string& name) {
   const Eigen::Index vertices = mesh.positions.rows();
   require(mesh.positions.cols() == 3, name, "positions should have 3 columns");
-  require(in_range(mesh.face_vertices, 0, vertices), name, "a vertex of a face is out of range");
-  std::int64_t corners = 0;
-  for (const Index size : mesh.face_sizes) {
-    require(size >= 3, name, "a face has fewer than 3 corners");
-    corners += size;
-  }
-  require(corners == std::int64_t(mesh.face_vertices.size()), name, "sizes of faces do not add up to their vertices");
+  if (!are_sound(mesh.face_sizes, mesh.face_vertices, vertices)) naming(name, [&] { check_faces(view(mesh)); });
 
   const Eigen::Index normals = mesh.normals.rows();
   require(normals == 0 || mesh.normals.cols() == 3, name, "normals should have 3 columns");
@@ -104,7 +96,7 @@ void check_output(const MeshOutput& mesh, const std::string& name) {
     require(in_range(mesh.face_normals, -1, normals), name, "a normal of a corner is out of range");
   }
 
-  for (const ControlMesh::FaceVarying& channel : mesh.face_varying) {
+  for (const Mesh::FaceVarying& channel : mesh.face_varying) {
     require(channel.indices.size() == mesh.face_vertices.size(), name,
             "there should be a face-varying value for each corner");
     require(in_range(channel.indices, 0, channel.values.rows()), name,
@@ -118,31 +110,28 @@ void check_output(const MeshOutput& mesh, const std::string& name) {
   require(mesh.face_ids.empty() || mesh.face_ids.size() == mesh.face_sizes.size(), name,
           "there should be an id for each face, or for none");
 
-  for (const VertexValues& further : mesh.vertex_values) {
+  naming(name, [&] { check_face_names(mesh); });
+  for (const std::string& text : mesh.face_names.names)
+    require(std::ranges::none_of(text, [](char c) { return c == '#' || c == '\\' || std::uint8_t(c) < ' '; }), name,
+            "a name of faces has a character that OBJ has no way to write");
+
+  for (const Mesh::VertexValues& further : mesh.vertex_values) {
     require(std::ssize(further.values) == vertices, name, "there should be a further value for each vertex");
     require(!further.whole || std::ranges::all_of(further.values, is_index), name,
             "a further value of a vertex is no whole number of 32 bits");
   }
 
-  for (const ControlMesh::Crease& crease : mesh.creases) {
-    require(in_range({crease.tail, crease.head}, 0, vertices), name, "a vertex of a crease is out of range");
-    check_sharpness(crease.sharpness, name);
-  }
-  for (const ControlMesh::KnotInterval& interval : mesh.knot_intervals) {
+  naming(name, [&] { check_tags(mesh); });
+  for (const Mesh::KnotInterval& interval : mesh.knot_intervals) {
     require(in_range({interval.tail, interval.head}, 0, vertices), name, "a vertex of a knot interval is out of range");
     if (!std::isfinite(interval.length) || interval.length < 0)
       throw InvalidMesh(name + ": a knot interval is " + format_number(interval.length) + "; it should be positive");
   }
-  for (const ControlMesh::Corner& corner : mesh.corners) {
-    require(in_range({corner.vertex}, 0, vertices), name, "the vertex of a corner is out of range");
-    check_sharpness(corner.sharpness, name);
-  }
-  require(in_range(mesh.holes, 0, Eigen::Index(mesh.face_sizes.size())), name, "the face of a hole is out of range");
   check_finite(mesh.positions, name, "vertex");
   check_finite(mesh.normals, name, "normal");
 }
 
-void write_mesh(const std::filesystem::path& path, const MeshOutput& mesh,
+void write_mesh(const std::filesystem::path& path, const Mesh& mesh,
                 const std::function<void(std::int64_t)>& progress) {
   const std::string extension = file_extension(path);
   if (extension == ".obj") return write_obj(path, mesh, progress);

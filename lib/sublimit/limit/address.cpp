@@ -5,8 +5,9 @@
 #include <cmath>
 #include <string>
 
-#include "sublimit/base/format_number.h"
 #include "sublimit/base/error.h"
+#include "sublimit/base/format_number.h"
+#include "sublimit/limit/detail/why_outside.h"
 
 namespace sublimit {
 
@@ -24,19 +25,30 @@ Addresses::Addresses(const Topology& t, bool triangles) : triangles_(triangles) 
   first_.push_back(size_);
 }
 
-Addresses::Place Addresses::place(Index address) const {
+Addresses::FaceCorner Addresses::place(Index address) const {
   if (first_.empty()) return {Face{address}, -1};
   const Index f = static_cast<Index>(std::upper_bound(first_.begin(), first_.end(), address) - first_.begin()) - 1;
   return {Face{f}, first_[f + 1] - first_[f] == 1 ? -1 : address - first_[f]};
 }
 
-void check_inside(const FaceCount& faces, const Sample& s) {
-  if (s.face < 0 || s.face >= faces.size)
-    throw InvalidParameter("face " + std::to_string(s.face) + " does not exist; there are " +
-                           std::to_string(faces.size) + (faces.triangles ? " triangles" : " squares"));
-  if (!is_inside(faces, s))
-    throw InvalidParameter("(" + format_number(s.u) + ", " + format_number(s.v) + ") is outside the " +
-                           (faces.triangles ? "triangle u, v >= 0, u + v <= 1" : "square 0 <= u, v <= 1"));
+std::string faces_in_words(const FaceCount& faces) {
+  if (faces.size == 0) return "there are no faces";
+  return "faces are 0 to " + std::to_string(faces.size - 1) +
+         (faces.triangles ? ", the triangles of the mesh" : ", a quad each or a corner of another polygon");
+}
+
+std::string why_outside(const FaceCount& faces, std::int64_t face, double u, double v) {
+  if (face < 0 || face >= faces.size)
+    return "face " + std::to_string(face) + " does not exist; " + faces_in_words(faces);
+  if (is_inside(faces, {static_cast<Index>(face), u, v})) return {};
+  const std::string place = "(u, v) = (" + format_number(u) + ", " + format_number(v) + ")";
+  if (!std::isfinite(u) || !std::isfinite(v)) return place + " is not finite; both should be numbers";
+  return place + " is outside the " +
+         (faces.triangles ? "triangle u >= 0, v >= 0, u + v <= 1" : "square 0 <= u, v <= 1");
+}
+
+void check_inside(const FaceCount& faces, const Place& s) {
+  if (!is_inside(faces, s)) throw InvalidParameter(why_outside(faces, s.face, s.u, s.v));
 }
 
 namespace {
@@ -50,7 +62,7 @@ BfrParameter to_bfr(Index corners, Index corner, double u, double v) {
   return {double(column) + u / 2, double(row) + v / 2};
 }
 
-Sample from_bfr(Index corners, const BfrParameter& p) {
+Place from_bfr(Index corners, const BfrParameter& p) {
   const Index w = squares_in_a_row(corners);
   const double column = std::floor(p.u), row = std::floor(p.v);
   const double u = 2 * (p.u - column), v = 2 * (p.v - row);

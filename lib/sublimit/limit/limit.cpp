@@ -5,18 +5,19 @@
 #include <utility>
 
 #include "sublimit/base/error.h"
-#include "sublimit/core/sparse_product.h"
-#include "sublimit/limit/limit_points.h"
-#include "sublimit/mesh/points_in_space.h"
+#include "sublimit/core/detail/sparse_product.h"
+#include "sublimit/limit/detail/limit_points.h"
+#include "sublimit/mesh/detail/points_in_space.h"
 
 namespace sublimit {
 
-Limit limit(const ControlMesh& mesh, const AnyScheme& scheme, const LimitOptions& options) {
-  if (options.level < 0) throw InvalidParameter("level is " + std::to_string(options.level) + "; 0 and more are right");
+Limit limit(const Mesh& mesh, const AnyScheme& scheme, const LimitOptions& options) {
+  if (options.levels < 0)
+    throw InvalidParameter("levels is " + std::to_string(options.levels) + "; it must be 0 or more");
   const Points positions = points_in_space(mesh);
   const AnyScheme for_mesh = scheme.for_mesh(mesh);
-  const std::vector<Level> levels = refine(*for_mesh, mesh, options.level);
-  const auto cache = options.cache ? options.cache : std::make_shared<LimitTypes>(*for_mesh);
+  const std::vector<Level> levels = refine(*for_mesh, mesh, options.levels);
+  const auto cache = options.cache ? options.cache : std::make_shared<LimitCache>(*for_mesh);
   LimitMatrices rows = limit_matrices(levels, *cache);
   const SparseMatrix P = refinement_matrix(levels);
   const Topology& topology = levels.back().topology();
@@ -40,5 +41,7 @@ Limit limit(const ControlMesh& mesh, const AnyScheme& scheme, const LimitOptions
   product(rows.tangent2, P).swap(all.tangent2_matrix);
   return all;
 }
+
+std::shared_ptr<LimitCache> limit_cache(const AnyScheme& scheme) { return std::make_shared<LimitCache>(*scheme); }
 
 }  // namespace sublimit

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Boxes around parts of the limit.
+#include "sublimit/base/detail/parallel_for.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/parallel_for.h"
-#include "sublimit/core/finite_points.h"
-#include "sublimit/limit/limit_map_parts.h"
-#include "sublimit/limit/piece_hull.h"
+#include "sublimit/core/detail/finite_points.h"
+#include "sublimit/limit/detail/limit_map_parts.h"
+#include "sublimit/limit/detail/piece_hull.h"
 
 namespace sublimit {
 namespace {
@@ -65,7 +65,7 @@ std::vector<Eigen::AlignedBox3d> LimitMap::bounding_boxes(const Points& points) 
     for (const double u : {0.25, 0.75})
       for (const double v : {0.25, 0.75}) {  // the pieces of an address
         if (parts.addresses.triangles() && u + v > 1) continue;
-        const Sample s{a, u, v};
+        const Place s{a, u, v};
         result[a].extend(of_piece[parts.number(s, parts.target(s))]);
       }
   return result;

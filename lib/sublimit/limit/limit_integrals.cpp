@@ -12,17 +12,17 @@
 #include <utility>
 #include <vector>
 
+#include "sublimit/base/detail/found_once.h"
+#include "sublimit/base/detail/parallel_for.h"
 #include "sublimit/base/error.h"
 #include "sublimit/base/format_number.h"
-#include "sublimit/base/found_once.h"
-#include "sublimit/base/parallel_for.h"
-#include "sublimit/core/dense_decompositions.h"
-#include "sublimit/core/finite_points.h"
-#include "sublimit/limit/closed_surface.h"
-#include "sublimit/limit/limit_patches.h"
-#include "sublimit/limit/piece_hull.h"
-#include "sublimit/limit/quadrature.h"
-#include "sublimit/limit/refined_sums.h"
+#include "sublimit/core/detail/dense_decompositions.h"
+#include "sublimit/core/detail/finite_points.h"
+#include "sublimit/limit/detail/closed_surface.h"
+#include "sublimit/limit/detail/limit_patches.h"
+#include "sublimit/limit/detail/piece_hull.h"
+#include "sublimit/limit/detail/quadrature.h"
+#include "sublimit/limit/detail/refined_sums.h"
 
 namespace sublimit {
 namespace {

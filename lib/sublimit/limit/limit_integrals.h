@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Integrals over the limit: area, and of a closed surface volume, centre and inertia of the solid inside.
+// Integrals over a limit surface: its area, and, if it is closed, volume, centre and inertia of the solid inside.
+//
+//   const LimitIntegrals integrals = limit_integrals(surface.map(), surface.points());
+//   std::cout << "area " << integrals.area << "\n";
+//   if (integrals.solid) std::cout << "volume " << integrals.solid->volume << "\n";
 //
 // By the divergence theorem moments of a solid are integrals over its surface, homogeneous in X = (x, y, z):
 //
@@ -9,9 +13,8 @@
 // On a polynomial piece the integrand is a polynomial, and Gauss quadrature of its degree is exact up to rounding.
 // Around extraordinary vertices a piece consists of rings that shrink by the subdominant eigenvalue lambda from level
 // to level, so their areas by lambda^2: they are summed one by one until the rest is below the rounding of the sum,
-// after 30 / log2(1/lambda) rings (35 at valence 5). The closed sum by eigenvalues has the same digits (ring_sums_test)
-// but needs n^3 numbers for n points around a piece, and there is none of areas. Limits that are not made of
-// polynomials are refined (refined_sums.h).
+// after 30 / log2(1/lambda) rings (35 at valence 5). The closed sum by eigenvalues has the same digits but needs n^3
+// numbers for n points around a piece, and areas have none. Limits without polynomial pieces are refined.
 #include <Eigen/Core>
 
 #include <optional>
@@ -21,43 +24,45 @@
 
 namespace sublimit {
 
-/// Integrals over the solid that a closed surface bounds, of density 1. Errors are estimates; 0 where only rounding is
+/// Integrals over the solid of density 1 that a closed surface bounds. Errors are estimates, 0 if only rounding is
 /// left.
 struct SolidIntegrals {
-  double volume = 0;  ///< negative where normals point inwards
+  double volume = 0;  ///< negative if normals point inwards
   double volume_error = 0;
   Eigen::Vector3d centroid;
   double centroid_error = 0;
   Eigen::Matrix3d inertia;   ///< about the centroid
-  double inertia_error = 0;  ///< of its Frobenius norm
+  double inertia_error = 0;  ///< error of `inertia` in the Frobenius norm
 };
 
+/// Integrals over a surface. Plain data.
 struct [[nodiscard]] LimitIntegrals {
   double area = 0;
   double area_error = 0;                    ///< estimated by halving squares, or by leaving levels out
-  std::optional<Eigen::Vector3d> centroid;  ///< of the surface; none without an area
+  std::optional<Eigen::Vector3d> centroid;  ///< centroid of the surface; absent if the area is 0
   double centroid_error = 0;
-  std::optional<SolidIntegrals> solid;
-  std::string why_no_solid;  ///< empty where there is one
+  std::optional<SolidIntegrals> solid;  ///< present if the surface is closed
+  std::string why_no_solid;             ///< reason if there is none, else empty
 };
 
-/// Integrals over all of the limit but its holes.
+/// Returns integrals over all of the limit but its holes.
 ///
 /// Volume and moments of polynomial pieces are exact but for rounding, about 1e-14 of area times diameter (and its
 /// powers). The area has no closed form: squares are halved until two Gauss rules differ by less than 2e-13 of the
 /// square of the extent of the points that a piece depends on. `area_error` sums these differences: below 1e-10 of the
 /// area, but for vertices of hundreds of faces, which are slivers (5e-10 at one of 360).
 ///
-/// Where a scheme has no polynomial pieces (butterfly, sqrt3, kobbelt), or not along borders (mid-edge, averaging of
-/// degrees above 3), all are extrapolated from refined meshes of up to a million faces, with the errors that this
-/// leaves: for some tens of faces 1e-9 to 1e-4 of themselves, more for those that cannot be refined as often. The solid
-/// of a surface that intersects itself counts every point by its winding number.
-/// @param points  of the level, #V x 3
+/// If a scheme has no polynomial pieces (butterfly, sqrt3, kobbelt), or none along borders (mid-edge, averaging of
+/// degrees above 3), all integrals are extrapolated from refined meshes of up to a million faces. For meshes of some
+/// tens of faces the relative errors are 1e-9 to 1e-4, more for meshes that cannot be refined as often. The solid of a
+/// surface that intersects itself counts every point by its winding number.
+/// @param points  control points of the map's level, #V x 3
 /// @return  the same bits for any number of threads
 /// @throws InvalidParameter     points that do not fit
 /// @throws InvalidMesh          points that are not finite, or so large that an integral is not
-/// @throws UnsupportedTopology  as `refined_sums`: holes
-/// @throws ResourceError        two levels of such a mesh take more memory than there is
+/// @throws UnsupportedTopology  holes, if the integrals are extrapolated and faces of a level lie on several of the
+///                              level before (sqrt3, dual schemes)
+/// @throws ResourceError        two levels of the refined mesh take more memory than there is
 LimitIntegrals limit_integrals(const LimitMap& surface, const Points& points);
 
 }  // namespace sublimit

@@ -7,15 +7,15 @@
 #include <string>
 #include <utility>
 
+#include "sublimit/base/detail/parallel_for.h"
 #include "sublimit/base/error.h"
 #include "sublimit/base/huge_pages.h"
-#include "sublimit/base/parallel_for.h"
-#include "sublimit/limit/derivative_order.h"
-#include "sublimit/limit/limit_masks.h"
-#include "sublimit/limit/limit_patches.h"
+#include "sublimit/limit/detail/derivative_order.h"
+#include "sublimit/limit/detail/limit_masks.h"
+#include "sublimit/limit/detail/limit_patches.h"
 #include "sublimit/limit/limit_surface.h"
 #include "sublimit/scheme/check_scheme.h"
-#include "sublimit/scheme/made_by.h"
+#include "sublimit/scheme/detail/made_by.h"
 
 namespace sublimit {
 namespace {
@@ -29,10 +29,10 @@ Level made_by(const Scheme<double>& scheme, Level level) {
 
 }  // namespace
 
-LimitMap::LimitMap(const Scheme<double>& scheme, const ControlMesh& mesh, const SubdivisionOptions& options,
-                   std::shared_ptr<LimitTypes> types)
+LimitMap::LimitMap(const Scheme<double>& scheme, const Mesh& mesh, const SubdivisionOptions& options,
+                   std::shared_ptr<LimitCache> types)
     : parts_(std::make_shared<const Parts>(scheme, control_level(scheme, mesh, options), std::move(types))) {}
-LimitMap::LimitMap(const Scheme<double>& scheme, Level level, std::shared_ptr<LimitTypes> types)
+LimitMap::LimitMap(const Scheme<double>& scheme, Level level, std::shared_ptr<LimitCache> types)
     : parts_(std::make_shared<const Parts>(scheme, made_by(scheme, std::move(level)), std::move(types))) {}
 
 const Addresses& LimitMap::addresses() const { return parts_->addresses; }
@@ -53,7 +53,7 @@ LimitMap::Parts::Found LimitMap::Parts::find(const Target& at, int order) const 
   }
 }
 
-LimitMap::Parts::Found LimitMap::Parts::find(const Sample& sample, int order, KnownRows* known) const {
+LimitMap::Parts::Found LimitMap::Parts::find(const Place& sample, int order, KnownRows* known) const {
   const Target at = target(sample);
   if (!known || !known->pieces) return find(at, order);
   const Pieces& all = *known->pieces;
@@ -118,10 +118,10 @@ LimitMap::Parts::Found LimitMap::Parts::find(const Target& at, int order, const 
   return found;
 }
 
-RowMatrix LimitMap::Parts::tangents_on_side(const PieceType& type, const Place& place) const {
+RowMatrix LimitMap::Parts::tangents_on_side(const PieceType& type, const PieceCoordinates& place) const {
   // Normals inside tend to the one on the side, at least like a root of the distance: as near as places are told apart.
   constexpr double near = 0x1p-50;
-  Place inside = place;
+  PieceCoordinates inside = place;
   if (type.kind() == Piece::Kind::triangle) {
     double* const parts[] = {&inside.u, &inside.v, &inside.u1};
     double& largest = **std::ranges::max_element(parts, {}, [](const double* x) { return *x; });
@@ -195,7 +195,7 @@ std::unique_ptr<BoundSource> LimitMap::bound(const Points& points) const& {
   return std::make_unique<LimitSurface>(*this, points);
 }
 
-LimitStencil LimitMap::stencil(const Sample& sample, int order) const {
+LimitStencil LimitMap::stencil(const Place& sample, int order) const {
   check_order(order);
   check_inside(addresses(), sample);
   return parts_->stencil(parts_->find(sample, order));
@@ -252,7 +252,7 @@ bool LimitMap::Parts::evaluate_plain_row(const Points& points, const Found& foun
   return true;
 }
 
-void LimitMap::Parts::evaluate_row(const Points& points, const Sample& sample, int order, bool normals,
+void LimitMap::Parts::evaluate_row(const Points& points, const Place& sample, int order, bool normals,
                                    LimitSamples& out, std::int64_t i, KnownRows* known) const {
   for (Points* m : {&out.position, &out.du, &out.dv, &out.duu, &out.duv, &out.dvv, &out.normal})
     if (m->rows() > 0) m->row(i).setZero();
@@ -277,7 +277,7 @@ void LimitMap::Parts::evaluate_row(const Points& points, const Sample& sample, i
   if (normal.isZero(0) && stencil.status != LimitStatus::hole) out.status[i] = LimitStatus::undefined_normal;
 }
 
-LimitSamples LimitMap::evaluate(const Points& points, std::span<const Sample> samples, int order, bool normals) const {
+LimitSamples LimitMap::evaluate(const Points& points, std::span<const Place> samples, int order, bool normals) const {
   check_order(order);
   check_points(parts_->level, points);
   LimitSamples out;

@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// The exact limit anywhere. A piece of the surface depends on the points around it alone; where it is a polynomial, its
-// basis is evaluated, elsewhere the place is followed through the children of the piece:
+// The map from control points to the limit surface: what LimitSurface does, for points that are given with each call.
 //
-//   x(f,u,v) = b T_m ... T_1 x_0      T_i: blocks of S on the path; b: basis of a polynomial piece, or a limit mask
+//   const LimitMap map(*AnyScheme("loop"), mesh);
+//   const LimitSamples samples = map.evaluate(mesh.positions, map.grid(5), 1);
+//   const LimitStencil weights = map.stencil({.face = 0, .u = 0.25, .v = 0.25});
+//   const LimitSurface surface(map, mesh.positions);
 //
-// Pieces are computed once a type of neighbourhood (piece_types.h).
+// A piece of the surface depends on the points around it alone. On a polynomial piece the basis is evaluated; elsewhere
+// the place is followed through the children of the piece: x(f,u,v) = b T_m ... T_1 x_0, where T_i are blocks of S on
+// the path, and b is the basis of a polynomial piece, or a limit mask. Pieces are computed once for each type of
+// neighbourhood.
 #include <Eigen/Geometry>
 
 #include <memory>
@@ -19,41 +24,47 @@
 
 namespace sublimit {
 
-class LimitTypes;
+class LimitCache;
 class LimitPatches;
 
-/// The map from control points to the limit, without points: what it knows of a mesh is connectivity and tags. Copies
-/// share it; threads may.
+/// The limit of a mesh without points: connectivity, tags and scheme. It never changes: threads may share it, and
+/// copies share all that it consists of.
 class LimitMap : public LinearSource {
  public:
   struct Parts;
-  /// @param types  shared between surfaces of the same scheme, if given
-  /// @throws InvalidMesh, UnsupportedTopology  as refinement does
-  LimitMap(const Scheme<double>& scheme, const ControlMesh& mesh, const SubdivisionOptions& options = {},
-           std::shared_ptr<LimitTypes> types = nullptr);
-  /// Makes the map from the points of a level.
-  LimitMap(const Scheme<double>& scheme, Level level, std::shared_ptr<LimitTypes> types = nullptr);
+  /// Makes the map of a mesh, whose positions are not used.
+  /// @param types  cache shared between surfaces of the same scheme, if given (`limit_cache`)
+  /// @throws InvalidMesh, UnsupportedTopology  a mesh that the scheme cannot refine: says where
+  /// @throws InvalidParameter                  a cache of another scheme
+  LimitMap(const Scheme<double>& scheme, const Mesh& mesh, const SubdivisionOptions& options = {},
+           std::shared_ptr<LimitCache> types = nullptr);
+  /// Makes the map from the points of a refined level.
+  LimitMap(const Scheme<double>& scheme, Level level, std::shared_ptr<LimitCache> types = nullptr);
   // Moving copies: a moved-from object stays valid.
   LimitMap(const LimitMap&) = default;
   LimitMap& operator=(const LimitMap&) = default;
 
+  /// Returns the numbers of the faces that places are on.
   const Addresses& addresses() const;
+  /// Returns the level whose points are the control points.
   const Level& level() const;
 
-  /// Finds the types of all pieces now, in parallel; else they are found at the first use.
+  /// Computes all pieces now, in parallel, instead of each at its first use.
   void prepare() const;
 
   Index num_points() const override;
   FaceCount faces() const override { return addresses(); }
   FaceLengths lengths(Index address) const override;
-  LimitStencil stencil(const Sample& sample, int order = 0) const override;
-  /// @param points  of the level, #V x 3
-  LimitSamples evaluate(const Points& points, std::span<const Sample> samples, int order = 0,
+  LimitStencil stencil(const Place& place, int order = 0) const override;
+  /// Returns points of the surface with derivatives and normals; in parallel.
+  /// @param points   control points, #V x 3
+  /// @param normals  compute normals too, if order >= 1
+  LimitSamples evaluate(const Points& points, std::span<const Place> places, int order = 0,
                         bool normals = true) const override;
   std::unique_ptr<BoundSource> bound(const Points& points) const& override;
 
-  /// N x N samples per address, ends included, row-major, u fastest; triangles N (N + 1) / 2. Points that squares share
-  /// have the same bits in all of them.
+  /// Evaluates the places of `grid(N)`: N x N on every square, sides included, u fastest; N (N + 1) / 2 on every
+  /// triangle. Points that faces share have the same bits in all of them.
   LimitSamples evaluate_grid(const Points& points, int N, int order = 0, bool normals = true) const;
 
   /// Returns a box for each address that contains its part of the limit: around the Bernstein coefficients of
@@ -66,7 +77,7 @@ class LimitMap : public LinearSource {
 };
 
 /// Returns pairs of rows of a grid that are the same point: a later row and the first one.
-/// @param dual  of a dual scheme, which keeps the sides of non-manifold edges and vertices apart
+/// @param dual  true for a dual scheme, which separates the sides of non-manifold edges and vertices
 std::vector<std::pair<std::int64_t, std::int64_t>> shared_grid_places(const Topology& topology,
                                                                       const Addresses& addresses, int N, bool dual);
 

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// What there is at a point of a limit surface, in one word.
+// The status of a place: which position, derivatives and normal a surface or curve has there.
+//
+//   const LimitSamples samples = surface.evaluate({{.face = 0, .u = 0, .v = 0}}, 1);
+//   if (!has_position(samples.status[0])) std::cerr << "no point: " << name(samples.status[0]) << "\n";
 
 namespace sublimit {
 
+/// The status of a place.
 enum class LimitStatus {
   regular,           ///< smooth, of the scheme's regular valence
   extraordinary,     ///< smooth otherwise, darts included: characteristic tangents instead of natural derivatives
@@ -11,13 +15,14 @@ enum class LimitStatus {
   crease,            ///< on a crease, boundary or corner: tangents and normal are one-sided
   hole,              ///< all faces of this side are holes
   undefined_normal,  ///< there is no tangent plane, or these control points make it degenerate
-  pole,              ///< no point here: of a rational surface, its denominator is 0
-  outside,           ///< the parameters are outside the domain
+  pole,              ///< no point: the denominator of a rational surface is 0
+  outside,           ///< no point: the parameters are outside the domain
 };
+/// Number of different statuses.
 constexpr int num_limit_statuses = int(LimitStatus::outside) + 1;
-/// The word of a status, as files and messages have it.
+/// Returns the name of a status in files and messages, as "unbounded-second".
 const char* name(LimitStatus status);
-/// Whether there is a point at all.
+/// True if a place of this status has a point.
 constexpr bool has_position(LimitStatus status) {
   return status != LimitStatus::outside && status != LimitStatus::pole;
 }

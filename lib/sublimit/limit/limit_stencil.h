@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// What there is at a place of a surface: weights, or, of given control points, values.
+// Results of evaluating a surface: the stencil of one place, and the values of many.
+//
+//   const LimitStencil stencil = surface.map().stencil({.face = 0, .u = 0.5, .v = 0.5}, 1);
+//   Eigen::RowVector3d position = Eigen::RowVector3d::Zero();
+//   for (size_t i = 0; i < stencil.vertices.size(); ++i)
+//     position += stencil.weights(0, Eigen::Index(i)) * surface.points().row(stencil.vertices[i]);
 #include <vector>
 
 #include "sublimit/core/types.h"
@@ -8,28 +13,28 @@
 
 namespace sublimit {
 
-/// Weights over control vertices of one place.
+/// The stencil of a place: weights over the control points. Plain data.
 struct [[nodiscard]] LimitStencil {
   LimitStatus status = LimitStatus::regular;
   std::vector<Index> vertices;  ///< ascending
-  /// Rows: position, then du, dv, then duu, duv, dvv, as far as asked for and existing; one column per vertex. Position
-  /// weights sum to 1, derivatives' to 0.
+  /// Rows for the position, then du, dv, then duu, duv, dvv, as far as asked for and existing; one column per vertex.
+  /// The weights of the position sum to 1, those of derivatives to 0.
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> weights;
-  /// Two rows along the tangent plane, their cross product along the normal: du and dv where these exist,
-  /// characteristic tangents at extraordinary vertices, followed by the next modes, for points that make them
-  /// degenerate; none where there is no plane.
+  /// Two rows that span the tangent plane, their cross product along the normal: du and dv if these exist,
+  /// characteristic tangents at extraordinary vertices, followed by the next modes, for control points that make the
+  /// first two degenerate. No rows if there is no tangent plane.
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> tangents;
 };
 
-/// What `evaluate` gives, row by row. Absent quantities are zero; `order` and `status` say what is there; a place
-/// outside the domain has the status `outside` and nothing else.
+/// Points of a surface with derivatives and normals, a row for each place. Absent quantities are zero; `order` and
+/// `status` say what is present; a place outside the domain has the status `outside` and nothing else. Plain data.
 struct [[nodiscard]] LimitSamples {
-  Points position;       ///< #samples x 3
-  Points du, dv;         ///< order >= 1
-  Points duu, duv, dvv;  ///< order 2
-  Points normal;         ///< unit length, by the winding of faces, zero where undefined; order >= 1
-  std::vector<LimitStatus> status;
-  std::vector<std::int8_t> order;  ///< derivatives that this row has: 0, 1 or 2
+  Points position;                  ///< #places x 3
+  Points du, dv;                    ///< first derivatives, if order >= 1
+  Points duu, duv, dvv;             ///< second derivatives, if order is 2
+  Points normal;                    ///< unit normals by the winding of faces, zero where undefined; if order >= 1
+  std::vector<LimitStatus> status;  ///< status of each place
+  std::vector<std::int8_t> order;   ///< derivatives that each row has: 0, 1 or 2
 };
 
 }  // namespace sublimit

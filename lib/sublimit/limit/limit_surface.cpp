@@ -3,11 +3,11 @@
 
 #include <utility>
 
-#include "sublimit/base/parallel_for.h"
-#include "sublimit/core/finite_points.h"
-#include "sublimit/limit/derivative_order.h"
-#include "sublimit/limit/limit_patches.h"
-#include "sublimit/mesh/points_in_space.h"
+#include "sublimit/base/detail/parallel_for.h"
+#include "sublimit/core/detail/finite_points.h"
+#include "sublimit/limit/detail/derivative_order.h"
+#include "sublimit/limit/detail/limit_patches.h"
+#include "sublimit/mesh/detail/points_in_space.h"
 
 namespace sublimit {
 
@@ -23,7 +23,7 @@ struct LimitSurface::Bound {
   Bound(const Bound&) = delete;
 };
 
-LimitSurface::LimitSurface(const ControlMesh& mesh, const AnyScheme& scheme, std::shared_ptr<LimitTypes> cache)
+LimitSurface::LimitSurface(const Mesh& mesh, const AnyScheme& scheme, std::shared_ptr<LimitCache> cache)
     : LimitSurface(LimitMap(*scheme.for_mesh(mesh), mesh, {}, std::move(cache)), points_in_space(mesh)) {}
 LimitSurface::LimitSurface(const LimitMap& map, Points points)
     : bound_(std::make_shared<const Bound>(map, std::move(points))) {}
@@ -36,7 +36,7 @@ LimitSurface LimitSurface::with(Points points) const {
 const LimitMap& LimitSurface::map() const { return bound_->map; }
 const Points& LimitSurface::points() const { return bound_->points; }
 
-void LimitSurface::evaluate(std::span<const Sample> places, int derivatives, bool normals, LimitSamples& out) const {
+void LimitSurface::evaluate(std::span<const Place> places, int derivatives, bool normals, LimitSamples& out) const {
   check_order(derivatives);
   resize(out, static_cast<std::int64_t>(places.size()), derivatives, normals);
   parallel_for_blocks(
@@ -47,7 +47,7 @@ void LimitSurface::evaluate(std::span<const Sample> places, int derivatives, boo
       samples_per_block);
 }
 
-LimitSamples LimitSurface::evaluate(std::span<const Sample> places, int derivatives, bool normals) const {
+LimitSamples LimitSurface::evaluate(std::span<const Place> places, int derivatives, bool normals) const {
   LimitSamples out;
   evaluate(places, derivatives, normals, out);
   return out;

@@ -3,8 +3,8 @@
 
 #include <string>
 
+#include "sublimit/base/detail/memory.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/memory.h"
 
 namespace sublimit {
 namespace {
@@ -13,7 +13,7 @@ namespace {
 class UnpreparedSource : public BoundSource {
  public:
   UnpreparedSource(const LinearSource& source, Points points) : source_(source), points_(std::move(points)) {}
-  void evaluate(std::span<const Sample> samples, int order, bool normals, LimitSamples& out) const override {
+  void evaluate(std::span<const Place> samples, int order, bool normals, LimitSamples& out) const override {
     out = source_.evaluate(points_, samples, order, normals);
   }
 
@@ -24,15 +24,15 @@ class UnpreparedSource : public BoundSource {
 
 }  // namespace
 
-std::vector<Sample> grid_places(FaceCount face_count, int N) {
+std::vector<Place> grid_places(FaceCount face_count, int N) {
   if (N < 2)
     throw InvalidParameter("a grid of " + std::to_string(N) + " samples a side; there are 2 at least, the ends");
   const bool triangles = face_count.triangles;
   const std::int64_t per_face = triangles ? std::int64_t(N) * (N + 1) / 2 : std::int64_t(N) * N;
   const Index faces = face_count.size;
-  std::vector<Sample> samples;
+  std::vector<Place> samples;
   check_memory("a grid of " + std::to_string(N) + " samples a side on " + std::to_string(faces) + " faces",
-               double(per_face) * faces * sizeof(Sample), "ask for a smaller one");
+               double(per_face) * faces * sizeof(Place), "ask for a smaller one");
   samples.reserve(per_face * faces);
   for (Index f = 0; f < faces; ++f)
     for (int j = 0; j < N; ++j)

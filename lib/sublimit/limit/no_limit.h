@@ -1,6 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// A place that has no limit, or none that is known: to be mended in the mesh, or in a scheme that diverges.
+// The error of a place that has no limit, or none that is known: to be mended in the mesh, or in a scheme that
+// diverges.
+//
+//   try {
+//     const Limit limit = sublimit::limit(mesh, "catmull-clark");
+//   } catch (const NoLimit& error) {
+//     std::cerr << error.what() << "\n";  // error.vertex, error.reason
+//   }
 #include <string>
 #include <string_view>
 
@@ -12,6 +19,7 @@ namespace sublimit {
 /// How reasons begin if powers of a local matrix do not converge: the scheme diverges around all points of that type.
 inline constexpr std::string_view local_divergence = "a local matrix has no limit";
 
+/// Error of `limit` and of surfaces: names the place, the reason, and what would help.
 struct NoLimit : AnalysisError {
   /// @param where  in words: "the middle of face 7"
   /// @param why    what is known of it
@@ -27,9 +35,9 @@ struct NoLimit : AnalysisError {
  private:
   static std::string advice(const std::string& why) {
     if (why.find(local_divergence) != std::string::npos)
-      return "; the scheme diverges around such a point, in any mesh that has one: `sublimit analyze` (in Python "
-             "`sublimit.analyze`) of the scheme shows the eigenvalues; take another scheme, or a mesh without such points";
-    return "; cut the mesh apart there (`sublimit info` lists its faults) or take another scheme";
+      return "; the scheme diverges around such a point, in any mesh that has one: `analyze` of the scheme shows the "
+             "eigenvalues; take another scheme, or a mesh without such points";
+    return "; cut the mesh apart there (`info` lists its faults) or take another scheme";
   }
 };
 

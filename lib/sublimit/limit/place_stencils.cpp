@@ -5,13 +5,13 @@
 #include <limits>
 #include <string>
 
+#include "sublimit/base/detail/parallel_for.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/parallel_for.h"
-#include "sublimit/limit/derivative_order.h"
+#include "sublimit/limit/detail/derivative_order.h"
 
 namespace sublimit {
 
-PlaceStencils place_stencils(const LinearSource& surface, std::span<const Sample> places, int derivatives) {
+PlaceStencils place_stencils(const LinearSource& surface, std::span<const Place> places, int derivatives) {
   check_order(derivatives);
   std::vector<LimitStencil> rows(places.size());
   parallel_for_blocks(

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Control polygons as a file or a caller gives them: points of any dimension and the curves that run through them.
-// Plain data.
+// Control polygons: points of any dimension and the curves that run through them.
+//
+//   ControlPolygon polygon = polygon_through(Points{{0, 0}, {1, 2}, {3, 2}, {4, 0}});
+//   polygon.curves[0].closed = true;
+//   const std::vector<CurveLevel> levels = refine(curve_scheme("chaikin"), polygon, 3);  // curves/curve_refine.h
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -10,8 +13,9 @@
 
 namespace sublimit {
 
+/// A control polygon, as a file or a caller gives it. Plain data.
 struct [[nodiscard]] ControlPolygon {
-  /// One curve: its points in order. A closed one does not repeat the first.
+  /// A curve through some of the points, in order. A closed one does not repeat the first.
   struct Curve {
     std::vector<Index> points;
     bool closed = false;
@@ -22,16 +26,17 @@ struct [[nodiscard]] ControlPolygon {
   std::vector<Curve> curves;
 
   std::vector<std::string> columns;   ///< names of the coordinates, then of the tangents; empty if the file has none
-  std::string file;                   ///< where the points come from; empty if from no file, or one without lines
-  std::vector<std::int64_t> lines;    ///< of the points in that file
-  std::vector<std::string> warnings;  ///< what the reader accepted but wants known, each with file:line
+  std::string file;                   ///< file that the points were read from; empty if none, or one without lines
+  std::vector<std::int64_t> lines;    ///< line of each point in that file
+  std::vector<std::string> warnings;  ///< reservations of the reader, each with file:line
 
   Index num_points() const { return static_cast<Index>(points.rows()); }
   int dimension() const { return static_cast<int>(points.cols()); }
   bool has_tangents() const { return tangents.rows() > 0; }
 };
 
-/// A polygon through all of `points`, in order.
+/// Returns a polygon of one curve through all points, in order.
+/// @param points  #P x dimension
 inline ControlPolygon polygon_through(const Points& points, bool closed = false) {
   ControlPolygon polygon;
   polygon.points = points;

@@ -20,10 +20,10 @@ std::string edge_name(Index a, Index b) {
 std::string edge_name(const Topology& t, Index e) { return edge_name(index(t.tail(Edge{e})), index(t.head(Edge{e}))); }
 
 /// Intervals as given, 0 where none is.
-std::vector<double> given_lengths(const Topology& t, const ControlMesh& mesh, KnotOwner owner) {
+std::vector<double> given_lengths(const Topology& t, const Mesh& mesh, KnotOwner owner) {
   const bool of_points = owner == KnotOwner::point;
   std::vector<double> length(size_t(t.num_edges()) * (of_points ? 2 : 1), 0);
-  for (const ControlMesh::KnotInterval& given : mesh.knot_intervals) {
+  for (const Mesh::KnotInterval& given : mesh.knot_intervals) {
     const auto fail = [&](const std::string& why) {
       throw InvalidMesh("knot interval of edge " + edge_name(given.tail, given.head) + ": " + why);
     };
@@ -208,7 +208,7 @@ void find_point_ends(const Topology& t, KnotIntervals& intervals) {
   });
 }
 
-KnotIntervals initial_intervals(const Topology& t, const ControlMesh& mesh, NewKnots rule, KnotOwner owner) {
+KnotIntervals initial_intervals(const Topology& t, const Mesh& mesh, NewKnots rule, KnotOwner owner) {
   KnotIntervals result;
   result.owner = owner;
   if (mesh.knot_intervals.empty() || rule == NewKnots::none) return result;

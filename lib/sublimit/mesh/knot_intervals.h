@@ -1,86 +1,96 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Knot intervals of a mesh, as non-uniform B-splines of degree 3 have them: the distance between the knots at the two
-// ends of an edge. Opposite edges of a quadrilateral have one interval; edges that are so tied to each other are a
+// Knot intervals of a mesh, for non-uniform schemes: in degree 3 the distance between the knots at the two ends of an
+// edge.
+//
+//   Mesh mesh = read_mesh("grid.obj");
+//   mesh.knot_intervals.push_back({.tail = 0, .head = 1, .length = 0.5});  // and of the edge's strip
+//   const Topology topology(view(mesh));
+//   const KnotIntervals intervals = initial_intervals(topology, mesh, NewKnots::halving, KnotOwner::edge);
+//   const KnotSplit knots = new_knots(intervals);  // of the step to level 1
+//
+// Opposite edges of a quadrilateral have one interval; edges that are so tied to each other are a
 // strip, and the points along each of its two sides a rail.
 //
-// Where new knots go decides what a level becomes. Halves leave intervals around extraordinary vertices unequal for
-// ever; levelling puts the new knots of a strip with extraordinary vertices on one of its rails so near to them that
-// all intervals there are one after two levels, and the next ring's after three.
+// Halving leaves intervals around extraordinary vertices unequal on every level. Levelling puts the new knots of a
+// strip with extraordinary vertices on one of its rails so near to them that all intervals there are equal after two
+// levels, and those of the next ring after three.
 //
 // In degree 2 an interval belongs to a point: the knots of two neighbours meet on the edge between them. Each end of an
-// edge has one, and opposite ends at a vertex of four edges are one interval; extraordinary are the faces, around which
-// levelling does the same.
+// edge has one, and opposite ends at a vertex of four edges share it. Faces are extraordinary instead of vertices, and
+// levelling makes the intervals around them equal.
 // Source: Sederberg, Zheng, Sewell, Sabin 1998, "Non-uniform recursive subdivision surfaces"; selective insertion
 // around extraordinary vertices: Cashman, Augsdoerfer, Dodgson, Sabin 2009, "NURBS with extraordinary points".
 #include <cstdint>
 #include <vector>
 
-#include "sublimit/mesh/control_mesh.h"
+#include "sublimit/mesh/mesh.h"
 #include "sublimit/mesh/topology.h"
 
 namespace sublimit {
 
-/// Where a scheme puts new knots.
+/// Where a scheme inserts new knots.
 enum class NewKnots {
-  none,       ///< it knows no intervals
+  none,       ///< the scheme does not use intervals
   halving,    ///< in the middle
   levelling,  ///< towards equal intervals around extraordinary vertices
 };
 
-/// What intervals belong to: one entry for each edge (degree 3), or two (degree 2), of its tail and of its head.
+/// Elements that intervals belong to: one entry for each edge (degree 3), or two, at its tail and its head (degree 2).
 enum class KnotOwner { edge, point };
 
-/// The entry of an edge: of degree 2 the one at this end.
+/// Returns the number of the entry of an edge; in degree 2 of the one at its tail or head.
 inline size_t knot_entry(KnotOwner owner, Edge edge, bool at_tail) {
   const auto e = static_cast<size_t>(index(edge));
   return owner == KnotOwner::edge ? e : 2 * e + (at_tail ? 0 : 1);
 }
-/// The entry of the edge of a half-edge: of degree 2 the one at its tail.
+/// Returns the number of the entry of the edge of a half-edge; in degree 2 of the one at the half-edge's tail.
 inline size_t knot_entry(KnotOwner owner, const Topology& t, HalfEdge h) {
   return knot_entry(owner, t.edge(h), t.forward(h));
 }
-/// Returns the entry at the other end of the same edge; degree 2.
+/// Returns the number of the entry at the other end of the same edge, in degree 2.
 inline size_t other_end(size_t entry) { return entry ^ 1; }
 
-/// Intervals of one level.
+/// Intervals of one level. Plain data.
 struct KnotIntervals {
   KnotOwner owner = KnotOwner::edge;
-  std::vector<double> length;  ///< per entry, > 0; empty: all are equal
-  /// Levelling, per entry. Bits, of edges: the rail at its tail, at its head has extraordinary vertices; the rail
-  /// between its halves will have them, in the tail's half, in the head's. Of points: the knot on the edge has
-  /// extraordinary faces or vertices, the knot beyond the point has them.
+  std::vector<double> length;  ///< interval of each entry, > 0; empty: all are equal
+  /// Levelling: four bits for each entry of an edge. Bit 0: the rail at its tail has extraordinary vertices; bit 1: the
+  /// rail at its head; bits 2 and 3: the rail between its halves will have them, in the half of the tail, of the head.
+  /// Two bits for each entry of a point: the knot on the edge has extraordinary faces or vertices; the knot beyond the
+  /// point has them.
   std::vector<std::uint8_t> ends;
-  double least = 0;    ///< levelling: what intervals of extraordinary vertices become, before they are halved with all
-  bool plain = false;  ///< levelling: polygons other than quadrilaterals are cut in halves first
+  double least = 0;  ///< levelling: common interval around extraordinary vertices, before it is halved with all others
+  bool plain = false;  ///< levelling: polygons other than quadrilaterals are split at the middles of their edges first
 
   bool empty() const { return length.empty(); }
 };
 
-/// The new knots of one step.
+/// New knots of one step. Plain data.
 struct KnotSplit {
   KnotOwner owner = KnotOwner::edge;
-  std::vector<double> length;  ///< interval per entry
-  /// Distance of the new knot: of edges from their tail, of points from the knot on the edge.
-  std::vector<double> distance;
+  std::vector<double> length;  ///< interval of each entry
+  std::vector<double>
+      distance;  ///< distance of its new knot from the edge's tail, in degree 2 from the knot on the edge
 };
 
-/// Intervals of level 0: the mesh's, carried along their strips; 1 where it has none.
-/// @throws InvalidMesh  naming edges and faces: an interval that is no positive number, of no edge, two of one strip,
-/// or
-///                      (of edges) polygons other than quadrilaterals with unequal ones
-KnotIntervals initial_intervals(const Topology& topology, const ControlMesh& mesh, NewKnots rule, KnotOwner owner);
+/// Returns the intervals of level 0: those of the mesh, carried along their strips, and 1 elsewhere.
+/// @throws InvalidMesh  an interval that is not a positive number or not of an edge, different ones in one strip,
+///                      or (in degree 3) polygons other than quadrilaterals with unequal ones: names edges and
+///                      faces
+KnotIntervals initial_intervals(const Topology& topology, const Mesh& mesh, NewKnots rule, KnotOwner owner);
 
-/// Fills `ends` of intervals of points, from what is extraordinary in the mesh.
+/// Fills `ends` of intervals of points, from the extraordinary faces and vertices of the mesh.
 void find_point_ends(const Topology& topology, KnotIntervals& intervals);
 
+/// Returns the new knots of the step to the next level.
 KnotSplit new_knots(const KnotIntervals& intervals);
 
-/// Empty from here on where intervals are equal and stay so.
+/// Clears intervals that are all equal and stay so.
 void simplify(KnotIntervals& intervals);
 
-/// Intervals of other edges: those of a part of a mesh, or of a channel of values on it.
-/// @param whole_half  of a half-edge of `part`: the half-edge of `whole` that it is
+/// Returns intervals in the numbering of another topology: a part of a mesh, or a channel of values on it.
+/// @param whole_half  returns the half-edge of `whole` that a half-edge of `part` is
 template <class WholeHalf>
 KnotIntervals renumbered(const KnotIntervals& intervals, const Topology& whole, const Topology& part,
                          const WholeHalf& whole_half) {

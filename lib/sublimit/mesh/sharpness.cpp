@@ -4,8 +4,9 @@
 #include <algorithm>
 #include <string>
 
-#include "sublimit/base/format_number.h"
 #include "sublimit/base/error.h"
+#include "sublimit/base/format_number.h"
+#include "sublimit/mesh/detail/check_mesh.h"
 
 namespace sublimit {
 namespace {
@@ -40,13 +41,37 @@ std::vector<float> sharpness_around(const Topology& topology, const Sharpness& s
   return edges;
 }
 
-float checked(float sharpness, const std::string& where) {
-  if (!(sharpness >= 0))
-    throw InvalidMesh(where + " has sharpness " + format_number(sharpness) + "; it must be >= 0 (>= 10 is infinite)");
-  return std::min(sharpness, infinite_sharpness);
+std::string name(const Mesh::Crease& crease) {
+  return "crease (" + std::to_string(crease.tail) + "," + std::to_string(crease.head) + ")";
+}
+std::string name(const Mesh::Corner& corner) { return "corner " + std::to_string(corner.vertex); }
+
+template <class Tag>
+float checked_sharpness(const Tag& tag) {
+  if (!(tag.sharpness >= 0))
+    throw InvalidMesh(name(tag) + " has sharpness " + format_number(tag.sharpness) +
+                      "; it must be >= 0 (>= 10 is infinite)");
+  return std::min(tag.sharpness, infinite_sharpness);
 }
 
-std::string pair_name(Index a, Index b) { return "(" + std::to_string(a) + "," + std::to_string(b) + ")"; }
+bool is_one_of(Index i, Index count) { return i >= 0 && i < count; }
+
+/// @param is_edge  whether its vertices are those of an edge
+float checked(const Mesh::Crease& crease, bool is_edge) {
+  if (!is_edge) throw InvalidMesh(name(crease) + " is not an edge of the mesh");
+  return checked_sharpness(crease);
+}
+
+float checked(const Mesh::Corner& corner, Index vertices) {
+  if (!is_one_of(corner.vertex, vertices))
+    throw InvalidMesh(name(corner) + " is not a vertex; the mesh has " + std::to_string(vertices));
+  return checked_sharpness(corner);
+}
+
+void check_hole(Index face, Index faces) {
+  if (!is_one_of(face, faces))
+    throw InvalidMesh("hole " + std::to_string(face) + " is not a face; the mesh has " + std::to_string(faces));
+}
 
 bool is_corner(const Topology& t, Vertex v, Boundary boundary) {
   if (t.is_isolated(v)) return true;
@@ -118,23 +143,24 @@ Edge find_edge(const Topology& t, Vertex a, Vertex b) {
   return found;
 }
 
-Sharpness initial_sharpness(const Topology& t, const ControlMesh& tags, Boundary boundary, Creasing creasing) {
+void check_tags(const Mesh& mesh) {
+  const Index vertices = mesh.num_vertices();
+  for (const Mesh::Crease& c : mesh.creases) checked(c, is_one_of(c.tail, vertices) && is_one_of(c.head, vertices));
+  for (const Mesh::Corner& c : mesh.corners) checked(c, vertices);
+  for (const Index f : mesh.holes) check_hole(f, mesh.num_faces());
+}
+
+Sharpness initial_sharpness(const Topology& t, const Mesh& tags, Boundary boundary, Creasing creasing) {
   Sharpness s;
   s.creasing = creasing;
   s.edge.assign(t.num_edges(), 0);
   s.vertex.assign(t.num_vertices(), 0);
-  const auto known = [&](Index v) { return v >= 0 && v < t.num_vertices(); };
-  for (const ControlMesh::Crease& c : tags.creases) {
+  const auto known = [&](Index v) { return is_one_of(v, t.num_vertices()); };
+  for (const Mesh::Crease& c : tags.creases) {
     const Edge e = known(c.tail) && known(c.head) ? find_edge(t, Vertex{c.tail}, Vertex{c.head}) : Edge{-1};
-    if (index(e) < 0) throw InvalidMesh("crease " + pair_name(c.tail, c.head) + " is not an edge of the mesh");
-    s.edge[index(e)] = checked(c.sharpness, "crease " + pair_name(c.tail, c.head));
+    s.edge[index(e)] = checked(c, index(e) >= 0);
   }
-  for (const ControlMesh::Corner& c : tags.corners) {
-    if (!known(c.vertex))
-      throw InvalidMesh("corner " + std::to_string(c.vertex) + " is not a vertex; the mesh has " +
-                        std::to_string(t.num_vertices()));
-    s.vertex[c.vertex] = checked(c.sharpness, "corner " + std::to_string(c.vertex));
-  }
+  for (const Mesh::Corner& c : tags.corners) s.vertex[c.vertex] = checked(c, t.num_vertices());
   for (Index e = 0; e < t.num_edges(); ++e)
     if (!exists(t.twin(t.half_edge(Edge{e})))) s.edge[e] = infinite_sharpness;
   for (Index v = 0; v < t.num_vertices(); ++v) {
@@ -145,16 +171,15 @@ Sharpness initial_sharpness(const Topology& t, const ControlMesh& tags, Boundary
   return s;
 }
 
-std::vector<bool> initial_holes(const Topology& t, const ControlMesh& tags, Boundary boundary) {
+std::vector<bool> initial_holes(const Topology& t, const Mesh& tags, Boundary boundary) {
   std::vector<bool> holes(t.num_faces(), false);
   for (const Index f : tags.holes) {
-    if (f < 0 || f >= t.num_faces())
-      throw InvalidMesh("hole " + std::to_string(f) + " is not a face; the mesh has " + std::to_string(t.num_faces()));
+    check_hole(f, t.num_faces());
     holes[f] = true;
   }
   if (boundary != Boundary::none) return holes;
   std::vector<bool> tagged(t.num_edges(), false), at_boundary(t.num_vertices(), false);
-  for (const ControlMesh::Crease& c : tags.creases)
+  for (const Mesh::Crease& c : tags.creases)
     tagged[index(find_edge(t, Vertex{c.tail}, Vertex{c.head}))] = is_infinite(c.sharpness);
   for (Index i = 0; i < t.num_edges(); ++i) {
     const Edge e{i};

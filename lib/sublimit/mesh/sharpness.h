@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Semi-sharp creases, once for all schemes: how sharp edges and vertices are, how sharpness decays, which rule a vertex
-// or edge takes, and how two rules blend while sharpness runs out.
+// Semi-sharp creases of all schemes: the sharpness of edges and vertices, its decay from level to level, the rule that
+// a vertex or edge takes, and the blending of two rules while sharpness decays to 0.
+//
+//   const Topology topology(view(mesh));
+//   const Sharpness sharp = initial_sharpness(topology, mesh, Boundary::edge_only, Creasing::uniform);
+//   const Rule rule = VertexSharpness(topology, sharp, Vertex{0}).rule();
 //
 // Sharpness is counted in levels and kept in float, as OpenSubdiv keeps it: double would differ from it by 1e-9.
 // Sources: Hoppe et al. 1994; DeRose, Kass, Truong 1998 (semi-sharp, Chaikin decay); the blending of rules is
@@ -10,70 +14,79 @@
 #include <utility>
 #include <vector>
 
-#include "sublimit/mesh/control_mesh.h"
+#include "sublimit/mesh/mesh.h"
 #include "sublimit/mesh/topology.h"
 
 namespace sublimit {
 
+/// Least sharpness that never decays.
 inline constexpr float infinite_sharpness = 10;
+/// True if the rule for sharp elements applies.
 constexpr bool is_sharp(float sharpness) { return sharpness > 0; }
+/// True if sharpness does not decay.
 constexpr bool is_infinite(float sharpness) { return sharpness >= infinite_sharpness; }
+/// True if an element is sharp for a finite number of levels.
 constexpr bool is_semi_sharp(float sharpness) { return is_sharp(sharpness) && !is_infinite(sharpness); }
 
-/// Sharpness of every edge and vertex of one level.
+/// Sharpness of every edge and vertex of one level, in levels. Plain data.
 struct Sharpness {
   UninitializedVector<float> edge, vertex;
   Creasing creasing = Creasing::uniform;
 };
 
+/// Rule of a vertex, by its sharp edges: none, one, two, more (or a sharp vertex).
 enum class Rule { smooth, dart, crease, corner };
 
-/// The edges at one vertex with their sharpness now and after one step, and the rules that follow.
+/// Sharpness of a vertex and its edges before and after one step, and the rules that follow. A value.
 class VertexSharpness {
  public:
+  /// Makes it from the sharpness of a vertex and of its edges.
   VertexSharpness(float vertex, std::vector<float> edges, Creasing creasing);
+  /// Makes it from the sharpness of a level; edges are in the order of `Topology::edges(v)`.
   VertexSharpness(const Topology& topology, const Sharpness& sharpness, Vertex v);
 
+  /// Returns the rule before the step.
   Rule rule() const { return rule_of(vertex, edges); }
+  /// Returns the rule after the step.
   Rule child_rule() const { return rule_of(child_vertex, child_edges); }
-  /// Weight of the parent's rule where the child's differs: the mean sharpness of everything that decays to 0 in this
-  /// step, the incident edges and the vertex itself, at most 1.
+  /// Returns the weight of the parent's rule if the child's differs: the mean sharpness of the incident edges, and of
+  /// the vertex itself, that decay to 0 in this step; at most 1.
   float parent_weight() const;
 
-  float vertex, child_vertex;
-  std::vector<float> edges, child_edges;
+  float vertex, child_vertex;             ///< sharpness of the vertex before and after the step
+  std::vector<float> edges, child_edges;  ///< sharpness of its edges before and after the step
 
+  /// Returns the rule of a vertex with a sharpness, and edges with theirs.
   static Rule rule_of(float vertex, std::span<const float> edges);
 };
 
-/// First and last sharp edge: the two ends of a crease.
+/// Returns the positions of the first and the last sharp edge in a list, the two edges of a crease.
 std::pair<Index, Index> crease_ends(std::span<const float> edges);
 
-/// Sharpness of a vertex, or of an edge under uniform creasing, one level on.
+/// Returns the sharpness after one step of a vertex, or of an edge under uniform creasing.
 float decayed(float sharpness);
 
-/// Sharpness of level 0: the tags, and what connectivity makes sharp.
+/// Returns the sharpness of level 0: that of the tags, and that of boundaries and non-manifold elements.
 ///
 /// Boundary and non-manifold edges are infinitely sharp. A vertex of a single face is a corner under edge_and_corner. A
 /// non-manifold or isolated vertex is a corner, unless it has exactly two non-manifold edges, no boundary edge and more
 /// faces than edges: then its edges make it a crease.
 /// @throws InvalidMesh  a tag that names no vertex or edge, negative or non-finite sharpness
-Sharpness initial_sharpness(const Topology& topology, const ControlMesh& tags, Boundary boundary, Creasing creasing);
+Sharpness initial_sharpness(const Topology& topology, const Mesh& tags, Boundary boundary, Creasing creasing);
 
-/// Which faces are holes: the tagged ones and, under Boundary::none, all that touch the boundary at a vertex with a
-/// boundary edge that the tags leave less than infinitely sharp. (A boundary that is sharp by its tags needs no
-/// neighbours.)
+/// Returns for each face whether it is a hole: tagged faces and, under Boundary::none, all faces that touch the
+/// boundary at a vertex with a boundary edge whose tags are less than infinitely sharp. (A boundary that is infinitely
+/// sharp by its tags needs no neighbours.)
 /// @throws InvalidMesh  a tag that names no face
-std::vector<bool> initial_holes(const Topology& topology, const ControlMesh& tags, Boundary boundary);
+std::vector<bool> initial_holes(const Topology& topology, const Mesh& tags, Boundary boundary);
 
-/// The surface has two sides at this edge, or ends: there is no face beyond, or a crease that never gets smooth. Where
-/// a vertex has a single such edge inside, they are the same side.
+/// True if the surface ends at this edge or is cut by it: there is no face beyond, or the crease is infinitely sharp.
+/// At a vertex with a single such edge, which is not on the boundary, both sides of the edge are one.
 inline bool is_cut(const Topology& t, const Sharpness& sharpness, HalfEdge h) {
   return !exists(t.twin(h)) || is_infinite(sharpness.edge[index(t.edge(h))]);
 }
 
-/// Edge between two vertices, the first one where there are several (`tail`, `head` in either order); -1 if there is
-/// none.
+/// Returns the edge between two vertices, in either direction: the first one if there are several, -1 if there is none.
 Edge find_edge(const Topology& topology, Vertex a, Vertex b);
 
 }  // namespace sublimit

@@ -4,16 +4,19 @@
 #include <algorithm>
 #include <limits>
 
+#include "sublimit/base/detail/parallel_for.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/parallel_for.h"
-#include "sublimit/mesh/topology_builder.h"
+#include "sublimit/mesh/detail/check_mesh.h"
+#include "sublimit/mesh/detail/topology_builder.h"
 
 namespace sublimit {
 namespace {
 
 std::string number(Index i) { return std::to_string(i); }
 
-void check(const MeshView& mesh) {
+}  // namespace
+
+void check_faces(const MeshView& mesh) {
   const auto total = static_cast<std::int64_t>(mesh.face_vertices.size());
   if (total > std::numeric_limits<Index>::max() / 4)
     throw ResourceError("the mesh has " + std::to_string(total) + " face corners; at most " +
@@ -40,6 +43,19 @@ void check(const MeshView& mesh) {
       throw InvalidMesh("corner " + std::to_string(i) + " names vertex " + number(mesh.face_vertices[i]) +
                         "; the mesh has vertices 0 to " + number(mesh.num_vertices - 1));
 }
+
+void check_face_names(const Mesh& mesh) {
+  const Mesh::FaceNames& names = mesh.face_names;
+  if (!names.of_face.empty() && names.of_face.size() != mesh.face_sizes.size())
+    throw InvalidMesh(std::to_string(names.of_face.size()) + " faces have names; all of the " +
+                      std::to_string(mesh.face_sizes.size()) + " should, or none");
+  for (const Index name : names.of_face)
+    if (name < -1 || name >= std::ssize(names.names))
+      throw InvalidMesh("a face has the name number " + number(name) + "; there are " +
+                        std::to_string(names.names.size()) + ", from 0, and -1 is none");
+}
+
+namespace {
 
 /// Items 0..#keys-1 sorted by key, stable: bucket b holds items[start[b]] .. items[start[b+1]-1].
 struct Buckets {
@@ -195,7 +211,7 @@ class Matcher {
 }  // namespace
 
 Topology::Topology(const MeshView& mesh) {
-  check(mesh);
+  check_faces(mesh);
   *this = std::move(Matcher(mesh).b).build();
 }
 

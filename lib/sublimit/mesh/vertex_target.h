@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// What a surface is asked to be at a vertex of a mesh. Plain data.
+// Targets at vertices: positions, normals and curvatures that the limit should have at control vertices.
+//
+//   const VertexTarget target = {.vertex = 0, .position = {0, 0, 1}, .normal = Eigen::Vector3d(0, 0, 1)};
+//   const Fit result = fit(mesh, "loop", {target});  // sublimit.h
 #include <Eigen/Core>
 
 #include <optional>
@@ -9,18 +12,18 @@
 
 namespace sublimit {
 
-/// Principal curvatures at a point with a normal; k > 0 where the surface bends towards the normal.
+/// Principal curvatures at a point with a normal; k > 0 if the surface bends towards the normal. Plain data.
 struct TargetCurvature {
-  double k1 = 0, k2 = 0;       ///< in any order; per unit of length
-  Eigen::Vector3d direction1;  ///< of k1: perpendicular to the normal, any length > 0
+  double k1 = 0, k2 = 0;       ///< principal curvatures in any order, per unit of length
+  Eigen::Vector3d direction1;  ///< principal direction of k1: perpendicular to the normal, any length > 0
 };
 
-/// The limit of a control vertex: its place, and perhaps how the surface lies and bends there.
+/// Target for the limit of a control vertex: its position, and optionally normal and curvature. Plain data.
 struct VertexTarget {
   Index vertex = 0;
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
-  std::optional<Eigen::Vector3d> normal = {};  ///< any length > 0
-  std::optional<TargetCurvature> curvature = {};
+  std::optional<Eigen::Vector3d> normal = {};     ///< direction of the normal, any length > 0
+  std::optional<TargetCurvature> curvature = {};  ///< needs a normal; for `curvature_mesh` (geometric schemes)
 };
 
 }  // namespace sublimit

@@ -6,7 +6,7 @@
 #include <bit>
 #include <map>
 
-#include "sublimit/mesh/topology_builder.h"
+#include "sublimit/mesh/detail/topology_builder.h"
 
 namespace sublimit {
 namespace {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <tuple>
 
-#include "sublimit/scheme/renumbered_level.h"
+#include "sublimit/scheme/detail/renumbered_level.h"
 
 namespace sublimit {
 

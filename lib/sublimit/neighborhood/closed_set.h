@@ -8,7 +8,7 @@
 
 namespace sublimit {
 
-/// Indices that the given rows depend on, themselves included. Ascending.
+/// Returns the indices that the given rows depend on, themselves included, ascending.
 /// @param count       of all indices
 /// @param depends_on  depends_on(i, add) calls add(j) for what row i depends on
 template <class DependsOn>

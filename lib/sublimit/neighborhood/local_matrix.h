@@ -8,8 +8,8 @@
 
 #include "sublimit/base/error.h"
 #include "sublimit/neighborhood/canonical_neighborhood.h"
-#include "sublimit/scheme/subdivision_matrix_impl.h"
-#include "sublimit/splits/child_sharpness.h"
+#include "sublimit/scheme/detail/subdivision_matrix_impl.h"
+#include "sublimit/splits/detail/child_sharpness.h"
 
 namespace sublimit {
 
@@ -23,7 +23,7 @@ struct LocalStep {
   DenseMatrix<T> matrix;
 };
 
-/// As LocalStep, by the nonzeros of the matrix.
+/// Sparse form of LocalStep.
 template <class T>
 struct SparseStep {
   CanonicalNeighborhood child;

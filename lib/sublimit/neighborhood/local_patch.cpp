@@ -29,8 +29,8 @@ LocalType local_type(const Topology& t, const Sharpness& sharpness, const Centre
   return type;
 }
 
-ControlMesh lone_fan(Index n, Index face_size, bool open) {
-  ControlMesh mesh;
+Mesh isolated_fan(Index n, Index face_size, bool open) {
+  Mesh mesh;
   const Index spokes = open ? n + 1 : n, step = face_size - 2;
   mesh.positions = Points::Zero(1 + spokes * step, 3);
   for (Index i = 0; i < n; ++i) {
@@ -42,8 +42,8 @@ ControlMesh lone_fan(Index n, Index face_size, bool open) {
   return mesh;
 }
 
-ControlMesh creased_fan(Index n, Index faces, Index face_size) {
-  ControlMesh mesh = lone_fan(n, face_size, false);
+Mesh creased_fan(Index n, Index faces, Index face_size) {
+  Mesh mesh = isolated_fan(n, face_size, false);
   for (const Index spoke : {Index{0}, faces % n})
     mesh.creases.push_back({0, 1 + spoke * (face_size - 2), infinite_sharpness});
   return mesh;
@@ -61,8 +61,7 @@ void cut_out(Level& level, Centre& centre, int rings) {
   level = std::move(around.level);
 }
 
-template std::optional<LocalPatch<double>> local_patch<double>(const Scheme<double>&, LocalType, int,
-                                                               const ControlMesh*);
+template std::optional<LocalPatch<double>> local_patch<double>(const Scheme<double>&, LocalType, int, const Mesh*);
 template std::optional<std::vector<SparsePatch<double>>> sparse_patches<double>(const Scheme<double>&, const LocalType&,
                                                                                 const LocalPatchOptions&);
 

@@ -14,12 +14,12 @@
 #include "sublimit/neighborhood/local_type.h"
 #include "sublimit/neighborhood/sector_labels.h"
 #include "sublimit/neighborhood/walk.h"
-#include "sublimit/scheme/refine_impl.h"
-#include "sublimit/scheme/subdivision_rows_impl.h"
+#include "sublimit/scheme/detail/refine_impl.h"
+#include "sublimit/scheme/detail/subdivision_rows_impl.h"
 
 namespace sublimit {
 
-/// The points around a centre that its local matrix is over.
+/// The points around a centre that its local matrix acts on.
 struct LocalPlaces {
   LocalType type;
   int depth = 0;                           ///< of the walk that makes the slots and the signature
@@ -35,7 +35,7 @@ struct LocalPatch : LocalPlaces {
   DenseMatrix<T> A;  ///< over `slots`: one period
 };
 
-/// As LocalPatch, by the nonzeros of the matrix: as many as the centre has faces, times a constant.
+/// Sparse form of LocalPatch: the matrix has O(#faces of the centre) nonzeros.
 template <class T>
 struct SparsePatch : LocalPlaces {
   SparseMatrixOf<T> A;
@@ -48,12 +48,12 @@ int rings_of_masks(const Scheme<T>& scheme) {
 }
 
 /// n faces of a scheme's regular size around a vertex, alone.
-ControlMesh lone_fan(Index n, Index face_size, bool open);
+Mesh isolated_fan(Index n, Index face_size, bool open);
 /// Returns a closed fan with sharp edges on spokes 0 and `faces`, which separate a side of `faces` faces from the rest.
 /// If `faces` is n, a single sharp edge ends at the vertex: a dart.
-ControlMesh creased_fan(Index n, Index faces, Index face_size);
+Mesh creased_fan(Index n, Index faces, Index face_size);
 
-/// Rings of faces around a point that the masks of one level look at, at most.
+/// Largest number of rings of faces around a point that the masks of one level depend on.
 template <class T>
 int reach_of_masks(const Scheme<T>& scheme, bool open) {
   // On a border the curve's masks look along two edges.
@@ -76,14 +76,14 @@ void cut_out(LevelOf<T>& level, Centre& centre, int rings) {
   level.holes = std::move(same.holes);
 }
 
-/// How local patches are found.
+/// Options of local patches.
 struct LocalPatchOptions {
-  /// Of points that the closed sets shall hold at least, ascending, a patch for each; 1 is enough for tangents (0 for
-  /// faces).
+  /// Rings of points that the closed sets must contain, ascending; a patch is made for each. 1 is enough for tangents
+  /// (0 for faces).
   std::vector<int> rings;
-  /// The mesh that the centre is in the middle of, its vertex 0; a lone fan where there is none. For one side of sharp
-  /// edges: the centre's first face is that of the edge to vertex 1.
-  const ControlMesh* around = nullptr;
+  /// The mesh that the centre is in the middle of, its vertex 0; an isolated fan if absent. For one side of
+  /// sharp edges: the centre's first face is that of the edge to vertex 1.
+  const Mesh* around = nullptr;
   bool labels = true;  ///< whether places get theirs
 };
 
@@ -99,13 +99,13 @@ std::optional<std::vector<SparsePatch<T>>> sparse_patches(const Scheme<T>& schem
 /// Local matrix of a type; nothing where a centre of this type does not have a child of its own type (a vertex in a
 /// dual scheme).
 /// @param rings  of points that the closed set shall hold at least; 1 is enough for tangents (0 for faces)
-/// @param around  the mesh that the centre is in the middle of, its vertex 0; a lone fan where there is none. For one
+/// @param around  the mesh that the centre is in the middle of, its vertex 0; an isolated fan if absent. For one
 ///                side of sharp edges: the centre's first face is that of the edge to vertex 1
 /// @throws AnalysisError  no small closed set
 /// @throws UnsupportedTopology  the scheme has no rule for what is sharp `around`
 template <class T>
 std::optional<LocalPatch<T>> local_patch(const Scheme<T>& scheme, LocalType type, int rings = -1,
-                                         const ControlMesh* around = nullptr) {
+                                         const Mesh* around = nullptr) {
   if (rings < 0) rings = type.kind == Centre::Kind::face ? 0 : 1;
   auto sparse = sparse_patches(scheme, type, {.rings = {rings}, .around = around});
   if (!sparse) return std::nullopt;
@@ -158,8 +158,8 @@ bool patches_within(const Scheme<T>& scheme, const LocalType& type, const LocalP
   const bool is_face = type.kind == Centre::Kind::face;
   const bool open = type.open || type.kind == Centre::Kind::border;
   const Index size = scheme.face_size() == 3 ? 3 : 4;
-  const ControlMesh mesh =
-      options.around ? *options.around : lone_fan(type.kind == Centre::Kind::border ? 2 : type.faces, size, open);
+  const Mesh mesh =
+      options.around ? *options.around : isolated_fan(type.kind == Centre::Kind::border ? 2 : type.faces, size, open);
   SubdivisionOptions subdivision;
   subdivision.boundary = Boundary::edge_only;
 
@@ -299,7 +299,7 @@ std::optional<std::vector<SparsePatch<T>>> sparse_patches(const Scheme<T>& schem
 }
 
 extern template std::optional<LocalPatch<double>> local_patch<double>(const Scheme<double>&, LocalType, int,
-                                                                      const ControlMesh*);
+                                                                      const Mesh*);
 extern template std::optional<std::vector<SparsePatch<double>>> sparse_patches<double>(const Scheme<double>&,
                                                                                        const LocalType&,
                                                                                        const LocalPatchOptions&);

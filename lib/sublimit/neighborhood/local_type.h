@@ -17,7 +17,7 @@ struct LocalType {
   auto operator<=>(const LocalType&) const = default;
 };
 
-/// The tail of a half-edge stays where it is: a sharp vertex, or one where more than two sharp edges meet.
+/// True if the tail of a half-edge stays where it is: a sharp vertex, or one where more than two sharp edges meet.
 bool is_corner(const Topology& topology, const Sharpness& sharpness, Vertex v);
 
 LocalType local_type(const Topology& topology, const Sharpness& sharpness, const Centre& centre, int level, int period);

@@ -15,7 +15,7 @@ class PieceBlock {
   /// Returns the rows of S for the points of the child.
   explicit PieceBlock(const SparseMatrix& B);
 
-  /// Of S, at most 0: the least of its entries.
+  /// Returns the least entry of S, or 0 if all are positive.
   double least_weight() const { return least_weight_; }
   Eigen::Index child_slots() const { return is_dense() ? D_.rows() + 1 : B_.rows(); }
   /// Slot 0 of the child less that of the parent.

@@ -39,7 +39,7 @@ struct Coordinate {
   Jet x, rest;
 };
 
-Coordinate parent_axis(const Place& p, int axis) {
+Coordinate parent_axis(const PieceCoordinates& p, int axis) {
   Jet x, rest;
   x.value = axis == 0 ? p.u : p.v;
   rest.value = axis == 0 ? p.u1 : p.v1;
@@ -79,7 +79,7 @@ Jet row_from_border(const Coordinate& c) {
 
 /// The piece of a rounded corner's triangle at a border point: `along` from the border point inwards, `fraction` of the
 /// way from the other side. (With X and Y exchanged for the other border point.)
-std::pair<Coordinate, Coordinate> wedge(const Place& p, int along) {
+std::pair<Coordinate, Coordinate> wedge(const PieceCoordinates& p, int along) {
   const Jet Y = row_from_border(parent_axis(p, along)), X = row_from_border(parent_axis(p, 1 - along));
   const Jet two = Jet::constant(2), one = Jet::constant(1), up = two - X, width = two - Y;
   const double w = width.value;
@@ -88,7 +88,7 @@ std::pair<Coordinate, Coordinate> wedge(const Place& p, int along) {
 }
 
 /// Both coordinates times (2 sqrt(r) - 1) / r, r the larger one.
-Coordinate radial_axis(const Place& p, int axis) {
+Coordinate radial_axis(const PieceCoordinates& p, int axis) {
   const Jet x = parent_axis(p, axis).x, r = parent_axis(p, p.u >= p.v ? 0 : 1).x, one = Jet::constant(1);
   if (r.value <= 0) return {Jet::constant(-1), Jet::constant(2)};
   const double value = r.value, root = std::sqrt(value);
@@ -98,7 +98,7 @@ Coordinate radial_axis(const Place& p, int axis) {
   return {moved, one - moved};
 }
 
-std::array<Coordinate, 2> mapped(const PieceMap& map, const Place& p) {
+std::array<Coordinate, 2> mapped(const PieceMap& map, const PieceCoordinates& p) {
   const Jet zero = Jet::constant(0), one = Jet::constant(1);
   if (map.axes[0].span == Span::spoke) {
     const Jet r = parent_axis(p, p.u >= p.v ? 0 : 1).x, along = r.under(4 * r.value, 4, 0);
@@ -125,7 +125,7 @@ std::array<Coordinate, 2> mapped(const PieceMap& map, const Place& p) {
 
 }  // namespace
 
-Place PieceMap::operator()(const Place& p) const {
+PieceCoordinates PieceMap::operator()(const PieceCoordinates& p) const {
   if (is_triangle) {
     const double parent[3] = {p.u1, p.u, p.v};
     double child[3] = {};
@@ -134,7 +134,7 @@ Place PieceMap::operator()(const Place& p) const {
     return {child[1], child[2], child[0], 0};
   }
   if (!radial && axes[0].span <= Span::upper && axes[1].span <= Span::upper) {  // nearly always
-    Place child;
+    PieceCoordinates child;
     for (int i = 0; i < 2; ++i) {
       double x = axes[i].from == 0 ? p.u : p.v, rest = axes[i].from == 0 ? p.u1 : p.v1;
       if (axes[i].span == Span::lower) x = axes[i].scale * x, rest = 1 - x;
@@ -149,15 +149,15 @@ Place PieceMap::operator()(const Place& p) const {
   return {child[0].x.value, child[1].x.value, child[0].rest.value, child[1].rest.value};
 }
 
-bool PieceMap::contains(const Place& p) const {
+bool PieceMap::contains(const PieceCoordinates& p) const {
   if (axes[0].span == Span::spoke && !is_triangle) return p.u <= 0.25 && p.v <= 0.25;
   if (axes[0].span == Span::fold && !is_triangle) return p.u <= 0.5 && p.v <= 0.5;
-  const Place child = (*this)(p);
+  const PieceCoordinates child = (*this)(p);
   if (is_triangle) return child.u >= 0 && child.v >= 0 && child.u1 >= 0;
   return child.u >= 0 && child.v >= 0 && child.u1 >= 0 && child.v1 >= 0;
 }
 
-PieceMap::Chain PieceMap::chain(const Place& p) const {
+PieceMap::Chain PieceMap::chain(const PieceCoordinates& p) const {
   double J[2][2], H[2][3] = {};  // derivatives of the child's parameters
   if (is_triangle) {
     for (int i = 0; i < 2; ++i)

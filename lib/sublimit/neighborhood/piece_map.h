@@ -7,15 +7,15 @@
 namespace sublimit {
 
 /// A place in a piece, by its distances from all sides: near every corner they are as exact as near (0,0).
-struct Place {
+struct PieceCoordinates {
   double u = 0, v = 0;
   /// Quadrilaterals: 1 - u and 1 - v. Triangles: u1 = 1 - u - v.
   double u1 = 1, v1 = 1;
-  bool operator==(const Place&) const = default;
+  bool operator==(const PieceCoordinates&) const = default;
 };
-inline Place quad_place(double u, double v) { return {u, v, 1 - u, 1 - v}; }
+inline PieceCoordinates quad_place(double u, double v) { return {u, v, 1 - u, 1 - v}; }
 /// A place whose u + v is 1 but for rounding, as of (2/3, 1/3), is on the third side.
-inline Place triangle_place(double u, double v) { return {u, v, u + v >= 1 ? 0 : 1 - u - v, 0}; }
+inline PieceCoordinates triangle_place(double u, double v) { return {u, v, u + v >= 1 ? 0 : 1 - u - v, 0}; }
 
 /// The corner of a square whose quarter a place is in, counter-clockwise from (0,0).
 inline int nearest_corner(double u, double v) { return v < 0.5 ? (u < 0.5 ? 0 : 1) : (u < 0.5 ? 3 : 2); }
@@ -27,7 +27,7 @@ enum class Span : std::uint8_t {
   upper,  ///< 1 - scale (1 - x)
   // Across the border x = 0 of a dual scheme. The border's points stay on it and the first ones inside come four times
   // as near, while all others come twice as near: rows of the parent's mesh lie at 0, 1, 2, ..., of the child's at 0,
-  // 1/4, 3/4, 5/4, ... Chaikin's limit, a straight leg up to 1/2 and then uniform quadratics, has this parameter: 4 t
+  // 1/4, 3/4, 5/4, ... Chaikin's limit, a straight edge up to 1/2 and then uniform quadratics, has this parameter: 4 t
   // up to 1/8, then sqrt(8 t) - 1/2. In squares, half as wide as the rows are apart:
   border,  ///< 4 x
   beside,  ///< 4 sqrt(x) - 2
@@ -58,16 +58,16 @@ struct PieceMap {
 
   /// Another child of the same level is this one as well: its parameters are no part of the parent's square.
   bool is_repeated() const { return !is_triangle && (axes[0].span == Span::spoke || axes[0].span == Span::fold); }
-  bool contains(const Place& parent) const;
-  Place operator()(const Place& parent) const;
+  bool contains(const PieceCoordinates& parent) const;
+  PieceCoordinates operator()(const PieceCoordinates& parent) const;
 
-  /// What derivatives by the parent's parameters are in those by the child's.
+  /// Factors that make derivatives by the parent's parameters from those by the child's.
   struct Chain {
     double first[2][2] = {};   ///< (u, v) from (u, v)
     double second[3][3] = {};  ///< (uu, uv, vv) from (uu, uv, vv)
     double bend[3][2] = {};    ///< (uu, uv, vv) from (u, v)
   };
-  Chain chain(const Place& parent) const;
+  Chain chain(const PieceCoordinates& parent) const;
 };
 
 }  // namespace sublimit

@@ -34,7 +34,7 @@ struct PiecePolynomial {
   std::vector<RowMatrix> coefficients;
 
   /// Rows in differences: position less slot 0, derivatives.
-  RowMatrix rows(const Place& place, int order) const {
+  RowMatrix rows(const PieceCoordinates& place, int order) const {
     const bool second = coefficients.size() > 1 && place.u < place.v;
     return basis.at(place.u, place.v, order) * coefficients[second ? 1 : 0];
   }

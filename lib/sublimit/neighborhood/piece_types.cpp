@@ -7,38 +7,38 @@
 #include <cmath>
 #include <numeric>
 
+#include "sublimit/base/detail/memory.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/memory.h"
-#include "sublimit/core/dense_decompositions.h"
-#include "sublimit/core/sparse_lu.h"
-#include "sublimit/core/sparse_product.h"
-#include "sublimit/neighborhood/polynomial_search.h"
-#include "sublimit/neighborhood/regular_smoothness.h"
+#include "sublimit/core/detail/dense_decompositions.h"
+#include "sublimit/core/detail/sparse_lu.h"
+#include "sublimit/core/detail/sparse_product.h"
 #include "sublimit/neighborhood/canonical_part.h"
 #include "sublimit/neighborhood/closed_set.h"
+#include "sublimit/neighborhood/polynomial_search.h"
+#include "sublimit/neighborhood/regular_smoothness.h"
 #include "sublimit/scheme/check_scheme.h"
-#include "sublimit/scheme/refine_impl.h"
-#include "sublimit/scheme/sheet_part.h"
-#include "sublimit/scheme/subdivision_rows.h"
+#include "sublimit/scheme/detail/refine_impl.h"
+#include "sublimit/scheme/detail/sheet_part.h"
+#include "sublimit/scheme/detail/subdivision_rows.h"
 
 namespace sublimit {
 namespace {
 
 /// Parameters of the corners of a piece, counter-clockwise.
-Place corner_place(Piece::Kind kind, int corner) {
+PieceCoordinates corner_place(Piece::Kind kind, int corner) {
   if (kind == Piece::Kind::triangle) return triangle_place(corner == 1, corner == 2);
   return quad_place(corner == 1 || corner == 2, corner >= 2);
 }
 
 /// The corner that a place is at, or -1.
-int corner_at(Piece::Kind kind, const Place& p) {
+int corner_at(Piece::Kind kind, const PieceCoordinates& p) {
   if (kind == Piece::Kind::triangle)
     return p.u == 0 && p.v == 0 ? 0 : p.v == 0 && p.u1 == 0 ? 1 : p.u == 0 && p.u1 == 0 ? 2 : -1;
   if ((p.u != 0 && p.u1 != 0) || (p.v != 0 && p.v1 != 0)) return -1;
   return p.v == 0 ? (p.u == 0 ? 0 : 1) : (p.u == 0 ? 3 : 2);
 }
 
-int nearest_corner(Piece::Kind kind, const Place& p) {
+int nearest_corner(Piece::Kind kind, const PieceCoordinates& p) {
   if (kind == Piece::Kind::triangle) return p.u1 >= p.u && p.u1 >= p.v ? 0 : p.u >= p.v ? 1 : 2;
   return sublimit::nearest_corner(p.u, p.v);
 }
@@ -48,7 +48,7 @@ double pure_scale(const PieceMap& map) {
   if (!map.is_triangle)
     for (int i = 0; i < 2; ++i)
       if (map.axes[i].from != i || map.axes[i].reversed || map.axes[i].span > Span::upper) return 0;
-  const PieceMap::Chain c = map.chain(Place{});
+  const PieceMap::Chain c = map.chain(PieceCoordinates{});
   return c.first[0][0] == c.first[1][1] && c.first[0][1] == 0 && c.first[1][0] == 0 ? c.first[0][0] : 0;
 }
 
@@ -282,7 +282,7 @@ std::deque<PieceLink> PieceType::found_children() const {
   return links;
 }
 
-const PieceLink& PieceType::child(const Place& place) const {
+const PieceLink& PieceType::child(const PieceCoordinates& place) const {
   const std::deque<PieceLink>& all = children();
   for (const PieceLink& link : all)
     if (link.map.contains(place)) return link;
@@ -290,7 +290,7 @@ const PieceLink& PieceType::child(const Place& place) const {
   const PieceLink* best = &all[0];
   double least = 1e300;
   for (const PieceLink& link : all) {
-    const Place p = link.map(place);
+    const PieceCoordinates p = link.map(place);
     const double outside = -std::min({p.u, p.v, p.u1, kind_ == Piece::Kind::triangle ? 0 : p.v1});
     if (outside < least) least = outside, best = &link;
   }
@@ -314,7 +314,7 @@ struct PieceType::CornerPath {
     const PieceType* type;
     int corner;
     const PieceLink* link;
-    Place place;
+    PieceCoordinates place;
   };
   std::vector<Visit> visits;
   size_t first = 0;  // of the cycle
@@ -328,7 +328,7 @@ struct PieceType::CornerPath {
       const bool grows = !visits.empty() && type->num_slots() > 4 * visits[0].type->num_slots() + 1000;
       if (visits.size() > 64 || grows)
         throw AnalysisError(type->types_->scheme_.name + ": a neighbourhood never comes to repeat itself");
-      const Place place = corner_place(type->kind_, corner);
+      const PieceCoordinates place = corner_place(type->kind_, corner);
       const PieceLink& link = type->child(place);
       visits.push_back({type, corner, &link, place});
       corner = nearest_corner(link.type->kind_, link.map(place));
@@ -430,17 +430,17 @@ std::optional<PieceType::Modes> PieceType::modes(int corner, const Eigen::Matrix
   const auto space = eigenspace(D, std::pow(scale, -degree), degree + 1);
   if (!space) return std::nullopt;
   const int corners = kind_ == Piece::Kind::triangle ? 3 : 4;
-  const Place here = corner_place(kind_, corner);
+  const PieceCoordinates here = corner_place(kind_, corner);
   const Eigen::RowVectorXd& origin = corner_limit(corner);
   const auto there = [&](double u, double v) { return corners == 3 ? triangle_place(u, v) : quad_place(u, v); };
-  const auto value = [&](const Place& p) -> Eigen::RowVectorXd {
+  const auto value = [&](const PieceCoordinates& p) -> Eigen::RowVectorXd {
     return (piece_rows(*this, p, 0, false).rows.row(0) - origin) * space->right;
   };
-  const auto polynomials = [&](const Place& p) { return monomials(degree, p.u - here.u, p.v - here.v); };
+  const auto polynomials = [&](const PieceCoordinates& p) { return monomials(degree, p.u - here.u, p.v - here.v); };
   // Their coefficients, by two other corners and the middle between these.
-  const Place a = corner_place(kind_, (corner + 1) % corners),
-              b = corner_place(kind_, (corner + corners - 1) % corners);
-  const Place known[] = {a, b, there((a.u + b.u) / 2, (a.v + b.v) / 2)};
+  const PieceCoordinates a = corner_place(kind_, (corner + 1) % corners),
+                         b = corner_place(kind_, (corner + corners - 1) % corners);
+  const PieceCoordinates known[] = {a, b, there((a.u + b.u) / 2, (a.v + b.v) / 2)};
   Eigen::MatrixXd places(degree + 1, degree + 1), values(degree + 1, degree + 1);
   for (int i = 0; i <= degree; ++i) {
     places.row(i) = polynomials(known[i]);
@@ -450,7 +450,7 @@ std::optional<PieceType::Modes> PieceType::modes(int corner, const Eigen::Matrix
   // They are polynomials of the parameters where the neighbourhood is regular; around an extraordinary vertex whose
   // eigenvalue happens to be the same, they are not.
   for (const auto& [u, v] : {std::pair{0.5, 0.25}, {0.25, 0.5}, {0.5, 0.5}}) {
-    const Place p = there(u, v);
+    const PieceCoordinates p = there(u, v);
     if (!((value(p) - polynomials(p) * coefficients).norm() < 1e-9 * coefficients.norm())) return std::nullopt;
   }
   return Modes{coefficients * space->left, space->right * inverse(coefficients)};
@@ -556,16 +556,16 @@ const PieceType* PieceTypes::type(const Level& level, const Piece& piece, const 
 namespace {
 
 /// So near to a corner, but not there, that more than a few digits of tangents would go.
-bool is_beside_corner(Piece::Kind kind, const Place& place) {
+bool is_beside_corner(Piece::Kind kind, const PieceCoordinates& place) {
   constexpr double near = 0x1p-12;
-  const Place c = corner_place(kind, nearest_corner(kind, place));
+  const PieceCoordinates c = corner_place(kind, nearest_corner(kind, place));
   return std::abs(place.u - c.u) <= near && std::abs(place.v - c.v) <= near && corner_at(kind, place) < 0;
 }
 
 /// Along the tangent plane of a polynomial at a place next to a corner. Where both derivatives are parallel at the
 /// corner, as beside a crease that leaves one face, all that the plane is known by is a difference of the size of the
 /// distance: the way to the corner keeps it apart.
-RowMatrix polynomial_tangents(const PieceType& type, const PiecePolynomial& polynomial, Place place) {
+RowMatrix polynomial_tangents(const PieceType& type, const PiecePolynomial& polynomial, PieceCoordinates place) {
   const PieceLink* const child = is_beside_corner(type.kind(), place) ? &type.child(place) : nullptr;
   const PiecePolynomial* const next = child ? child->type->known_polynomial() : nullptr;
   if (!next) return polynomial.rows(place, 1).middleRows(1, 2);
@@ -582,11 +582,11 @@ RowMatrix polynomial_tangents(const PieceType& type, const PiecePolynomial& poly
 
 }  // namespace
 
-PieceRows piece_rows(const PieceType& root, Place place, int order, bool search) {
+PieceRows piece_rows(const PieceType& root, PieceCoordinates place, int order, bool search) {
   struct Step {
     const PieceType* from;
     const PieceLink* link;
-    Place place;
+    PieceCoordinates place;
     int times;
   };
   // Below this many levels the rest of a cell is less than the rounding of its place.
@@ -620,7 +620,7 @@ PieceRows piece_rows(const PieceType& root, Place place, int order, bool search)
     }
     const PieceLink& link = type->child(place);
     path.push_back({type, &link, place, 1});
-    Place before = place;
+    PieceCoordinates before = place;
     place = link.map(place);
     if (link.repeats)
       while (path.back().times < 4095 && corner_at(type->kind(), place) < 0 && link.map.contains(place)) {

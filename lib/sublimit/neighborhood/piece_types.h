@@ -12,8 +12,8 @@
 #include <span>
 #include <unordered_map>
 
-#include "sublimit/base/found_once.h"
-#include "sublimit/core/signature_hash.h"
+#include "sublimit/base/detail/found_once.h"
+#include "sublimit/core/detail/signature_hash.h"
 #include "sublimit/neighborhood/piece_walk.h"
 #include "sublimit/neighborhood/repeated_block.h"
 #include "sublimit/scheme/refine.h"
@@ -27,7 +27,7 @@ struct PieceLink {
   const PieceType* type = nullptr;
   PieceMap map;
   PieceBlock block;
-  /// The child is of its parent's type, and as it lies.
+  /// True if the child has its parent's type and orientation.
   bool repeats = false;
   /// No child before it begins at the same point.
   bool begins_new = false;
@@ -40,7 +40,7 @@ class PieceType {
   const PieceTypes& types() const { return *types_; }
   /// Points that it depends on.
   Index num_slots() const { return num_slots_; }
-  /// Some finite sharpness matters: sums of it are taken in the order of the mesh that the type was met in first.
+  /// True if a finite crease sharpness is involved. Sharpness sums then follow the vertex order of the first mesh seen.
   bool decays() const { return decays_; }
   /// The piece among the points around it, the rim of which means nothing, and the vertices that are its slots.
   const Level& level() const { return surroundings().level; }
@@ -59,7 +59,7 @@ class PieceType {
   /// Returns the corners of the children as rows over the own slots; for quadrilaterals and triangles.
   ChildCorners child_corners() const;
   /// The child that a place is in.
-  const PieceLink& child(const Place& place) const;
+  const PieceLink& child(const PieceCoordinates& place) const;
   /// Null where it is no polynomial.
   const PiecePolynomial* polynomial() const;
   /// Returns the polynomial if it has been computed already, else null.
@@ -67,7 +67,7 @@ class PieceType {
     return polynomial_state_.load(std::memory_order_acquire) == 2 ? &*candidate_ : nullptr;
   }
 
-  /// What exists at a corner without any polynomial. Corners count counter-clockwise from (0,0).
+  /// Rows of the limit at a corner without polynomials. Corners count counter-clockwise from (0,0).
   struct CornerRows {
     RowMatrix rows;  ///< the position, then u and v, then uu, uv and vv, as often as the limit is differentiable
     /// Differences of points whose limits are u and v on all of the piece, by columns; none where these are not known.
@@ -169,15 +169,15 @@ class PieceTypes {
   /// `sublimit::regular_smoothness` of the scheme, found when it is first asked for.
   int regular_smoothness() const;
 
-  /// The type of a piece, made if it is new.
+  /// Returns the type of a piece, which is made if it is new.
   /// @param walk  of the piece; a walker of the calling thread may keep it, for this thread takes up no other work in
   ///              here
   const PieceType* type(const Level& level, const Piece& piece, const PieceWalk& walk);
   /// Returns the type of a piece of a shared level, which the type may keep until it looks at its surroundings.
   const PieceType* type(const std::shared_ptr<const Level>& level, const Piece& piece, const PieceWalk& walk);
-  /// The type with this signature, or null.
+  /// Returns the type with this signature, or null.
   const PieceType* find(const std::vector<std::uint32_t>& signature) const;
-  /// Bytes that the types and their blocks take, about.
+  /// Returns about how many bytes the types and their blocks take.
   double memory() const { return memory_.load(std::memory_order_relaxed); }
 
  private:
@@ -200,9 +200,9 @@ class PieceTypes {
   FoundOnce<int> smoothness_;
 };
 
-/// Whether a place is where polynomials meet: on a side of its piece, or on the line that cuts the piece in two.
+/// True if a place is where polynomials meet: on a side of its piece, or on the line that cuts the piece in two.
 /// @param dual  pieces are corners of faces, whose polynomials go on beyond the corner's own sides
-inline bool is_on_knot(const Place& p, bool triangle, bool dual, bool halves) {
+inline bool is_on_knot(const PieceCoordinates& p, bool triangle, bool dual, bool halves) {
   if (triangle) return p.u == 0 || p.v == 0 || p.u1 == 0;
   return p.u1 == 0 || p.v1 == 0 || (!dual && (p.u == 0 || p.v == 0)) || (halves && p.u == p.v);
 }
@@ -222,6 +222,6 @@ struct PieceRows {
   bool on_knot = false;    ///< where polynomials of low smoothness meet
 };
 /// @param search  whether to find out if pieces are polynomials; else only what is known is used
-PieceRows piece_rows(const PieceType& type, Place place, int order, bool search = true);
+PieceRows piece_rows(const PieceType& type, PieceCoordinates place, int order, bool search = true);
 
 }  // namespace sublimit

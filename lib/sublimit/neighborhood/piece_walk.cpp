@@ -6,7 +6,7 @@
 #include <cmath>
 #include <unordered_set>
 
-#include "sublimit/scheme/sheet_part.h"
+#include "sublimit/scheme/detail/sheet_part.h"
 
 namespace sublimit {
 

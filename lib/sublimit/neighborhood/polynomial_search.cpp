@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "sublimit/core/dense_decompositions.h"
+#include "sublimit/core/detail/dense_decompositions.h"
 #include "sublimit/neighborhood/sector_mesh.h"
 
 namespace sublimit {
@@ -28,7 +28,7 @@ constexpr int wide_degree = 6;
 using Wide = long double;
 using WideMatrix = Eigen::Matrix<Wide, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-WideMatrix wide_values(const PolynomialBasis& basis, const Place& p) {
+WideMatrix wide_values(const PolynomialBasis& basis, const PieceCoordinates& p) {
   std::vector<Wide> a{1, 2 * Wide(p.u) - 1}, b{1, 2 * Wide(p.v) - 1};
   for (std::vector<Wide>* T : {&a, &b})
     while (int(T->size()) <= basis.degree()) T->push_back(2 * (*T)[1] * T->back() - (*T)[T->size() - 2]);
@@ -39,7 +39,7 @@ WideMatrix wide_values(const PolynomialBasis& basis, const Place& p) {
 }
 
 /// Limit row of a place that comes to a known polynomial or to a corner that repeats itself.
-WideMatrix wide_row(const PieceType& type, const Place& place) {
+WideMatrix wide_row(const PieceType& type, const PieceCoordinates& place) {
   const PieceLink& link = type.child(place);
   WideMatrix row;
   if (const PiecePolynomial* p = type.known_polynomial()) {
@@ -47,7 +47,7 @@ WideMatrix wide_row(const PieceType& type, const Place& place) {
     return wide_values(p->basis, place) * p->coefficients[second ? 1 : 0].cast<Wide>();
   }
   const WideMatrix D = link.block.differences().cast<Wide>(), origin = link.block.origin().cast<Wide>();
-  const Place next = link.map(place);
+  const PieceCoordinates next = link.map(place);
   if (link.type == &type && next.u == place.u && next.v == place.v) {
     const WideMatrix I = WideMatrix::Identity(D.rows(), D.cols());
     return Eigen::PartialPivLU<WideMatrix>((I - D).transpose()).solve(origin.transpose()).transpose();
@@ -162,7 +162,7 @@ std::optional<PiecePolynomial> PolynomialSearch::interpolated(const PieceType& t
   // Weights k/64 make four steps without a rounding, ten with many; second derivatives multiply them by d^4.
   const double denominator = n <= 4 && !basis.total() && !halves ? 16 : 1024;
   for (int half = 0; half < (halves ? 2 : 1); ++half) {
-    std::vector<Place> places;
+    std::vector<PieceCoordinates> places;
     for (int i = 0; i < n; ++i)
       for (int j = 0; j < n; ++j) {
         double u = node(i, n, denominator), v = node(j, n, denominator);
@@ -205,7 +205,7 @@ bool PolynomialSearch::satisfies_refinement(const PieceType& type, const PiecePo
     for (int j = 0; j < cells; ++j) {
       const double u = (i + 0.37) / cells, v = (j + 0.61) / cells;
       if (total && u + v >= 1) continue;
-      const Place at = total ? triangle_place(u, v) : quad_place(u, v);
+      const PieceCoordinates at = total ? triangle_place(u, v) : quad_place(u, v);
       const PieceLink& link = type.child(at);
       const PiecePolynomial* fine = link.type == &type ? &p : candidate(*link.type);
       if (!fine) return false;

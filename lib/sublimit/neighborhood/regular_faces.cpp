@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "sublimit/base/parallel_for.h"
+#include "sublimit/base/detail/parallel_for.h"
 
 namespace sublimit {
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Regular faces, told from all others at a glance: most faces of a large mesh are alike, and need no walk and no
-// signature to be known.
+// Detects regular faces without walking around them or computing signatures: most faces of a large mesh are regular.
 #include <vector>
 
 #include "sublimit/scheme/refine.h"

@@ -34,7 +34,7 @@ struct LatticePoint {
   friend LatticePoint operator*(int k, LatticePoint a) { return {k * a.x2, k * a.y2}; }
 };
 
-/// Where a label of a regular centre lies: sector s is sector 0 turned s times.
+/// Where a label of a regular centre lies: sector s is sector 0 rotated s times.
 inline LatticePoint unrolled(const SectorLabel& label, bool triangular) {
   LatticePoint p{label.x2, label.y2};
   for (int s = 0; s < label.sector; ++s) p = triangular ? LatticePoint{-p.y2, p.x2 + p.y2} : LatticePoint{-p.y2, p.x2};

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "sublimit/base/error.h"
-#include "sublimit/core/dense_decompositions.h"
+#include "sublimit/core/detail/dense_decompositions.h"
 #include "sublimit/neighborhood/local_patch.h"
 
 namespace sublimit {

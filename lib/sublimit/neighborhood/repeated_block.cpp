@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "sublimit/core/dense_decompositions.h"
+#include "sublimit/core/detail/dense_decompositions.h"
 
 namespace sublimit {
 namespace {

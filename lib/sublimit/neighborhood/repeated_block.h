@@ -11,7 +11,7 @@
 #include <memory>
 #include <vector>
 
-#include "sublimit/base/found_once.h"
+#include "sublimit/base/detail/found_once.h"
 #include "sublimit/neighborhood/piece_block.h"
 
 namespace sublimit {

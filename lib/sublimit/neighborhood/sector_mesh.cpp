@@ -7,7 +7,7 @@ namespace sublimit {
 
 SectorMesh sector_mesh(Centre::Kind kind, int n, int face_size, int rings, bool open) {
   SectorMesh result;
-  ControlMesh& mesh = result.mesh;
+  Mesh& mesh = result.mesh;
   // Corner (x, y) of sector s in units of half steps; x = 0 is the spoke of the sector after.
   const auto vertex = [&](int s, int x2, int y2) {
     SectorLabel label{s, x2, y2};

@@ -3,13 +3,13 @@
 // The mesh around a centre, from labels alone: n sectors of a regular grid, `rings` of them.
 #include <map>
 
-#include "sublimit/mesh/control_mesh.h"
+#include "sublimit/mesh/mesh.h"
 #include "sublimit/neighborhood/sector_labels.h"
 
 namespace sublimit {
 
 struct SectorMesh {
-  ControlMesh mesh;                 ///< positions zero
+  Mesh mesh;                        ///< positions zero
   std::vector<SectorLabel> labels;  ///< by vertex, sector by sector within a ring of squares or triangles
   std::map<SectorLabel, Index> find;
   std::vector<int> ring;  ///< by face: 0 next to the centre (the face itself too), then outwards

@@ -22,7 +22,7 @@ VertexSides vertex_sides(const Level& level);
 /// starts.
 Centre side_of(const Level& level, HalfEdge corner);
 
-/// By vertex: it is in no face, or in holes alone.
+/// Returns for each vertex whether it is in no face, or in holes only.
 /// @param holes  per face
 std::vector<bool> vertices_without_surface(const Topology& topology, const std::vector<bool>& holes);
 

@@ -23,7 +23,7 @@ CurveSet::CurveSet(std::vector<std::shared_ptr<const LinearCurve>> curves) : cur
   }
 }
 
-CurveStencil CurveSet::stencil(const CurveSample& sample, int order) const {
+CurveStencil CurveSet::stencil(const CurvePlace& sample, int order) const {
   check_sample(sample, num_segments());
   const auto curve =
       size_t(std::upper_bound(first_segment_.begin(), first_segment_.end(), sample.segment) - first_segment_.begin()) -

@@ -1,6 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Knots of a B-spline in one variable: t_0 <= t_1 <= .. of degree p. Basis function i has the support [t_i, t_{i+p+1}];
+// Knots of a B-spline in one variable.
+//
+//   const auto knots = Knots<double>::open(3, 5, {0, 0, 0, 0, 0.5, 1, 1, 1, 1});  // cubic, 5 control points
+//   const KnotPlace<double> place = knots.place(0.75);                            // face 1, u = 0.5
+//   const std::vector<double> abscissae = knots.greville();
+//
+// Knots t_0 <= t_1 <= .. of degree p. Basis function i has the support [t_i, t_{i+p+1}];
 // the domain is [t_p, t_n], and its spans that are not empty are the faces, in order. An open spline of n control
 // points has n + p + 1 knots; a closed one of N points has the break points tau_0 .. tau_N = t_p .. t_{p+N}, which go
 // on with the period on both sides, and its basis functions i and i + N have the same control point: any N >= 1 is
@@ -17,20 +23,24 @@
 
 namespace sublimit {
 
-/// Whose piece a knot belongs to, and the ends of a face.
+/// Side of a knot: the piece that a knot as a parameter belongs to, or an end of a face.
 enum class KnotSide { left, right };
 
-/// A place in one variable: a face, and where in it, 0 to 1.
+/// A place in one variable: a face, and a parameter in it.
 template <class T>
 struct KnotPlace {
   Index face = 0;
-  T u{};
+  T u{};  ///< 0 at the start of the face, 1 at its end
 };
 
+/// Knots in numbers of type T: double, or exact ones. They never change: threads may share them.
 template <class T>
 class Knots {
  public:
-  /// @param knots  points + degree + 1 of them; two less, as openNURBS has them, get the first and the last doubled
+  /// Makes the knots of an open spline.
+  /// @param points  number of control points
+  /// @param knots   points + degree + 1 knots; if there are two less, as in openNURBS, the first and the last are
+  ///                doubled
   /// @throws InvalidParameter  naming the knot: a wrong count or degree, falling or not finite, more than degree + 1
   ///                           equal ones, a domain without length
   static Knots open(int degree, Index points, std::vector<T> knots) {
@@ -48,7 +58,9 @@ class Knots {
     result.find_faces();
     return result;
   }
-  /// @param breaks  tau_0 .. tau_N of N control points; the first piece uses the points 0 .. degree
+  /// Makes the knots of a closed spline of N control points.
+  /// @param breaks  tau_0 .. tau_N; the first piece uses the points 0 .. degree
+  /// @throws InvalidParameter  as `open`
   static Knots closed(int degree, const std::vector<T>& breaks) {
     check_degree(degree);
     check_break_count(breaks.size());
@@ -71,36 +83,40 @@ class Knots {
 
   int degree() const { return degree_; }
   bool is_closed() const { return is_closed_; }
-  /// Whether knots were given without the first and the last.
+  /// True if knots were given without the first and the last.
   bool ends_were_doubled() const { return ends_doubled_; }
-  /// Control points: n, or N of a closed spline.
+  /// Returns the number of control points: n, or N of a closed spline.
   Index num_points() const { return num_points_; }
-  /// Basis functions; of a closed spline more than control points.
+  /// Returns the number of basis functions; a closed spline has more than control points.
   Index num_functions() const { return static_cast<Index>(knots_.size()) - degree_ - 1; }
-  /// The control point of a basis function.
+  /// Returns the control point of a basis function.
   Index point(Index function) const { return is_closed_ ? function % num_points_ : function; }
-  /// A basis function of a control point that is not zero in all of the domain. (Of an open spline there may be none:
-  /// repeated knots at the start of the domain and others before it.)
+  /// Returns a basis function of a control point that is not zero on all of the domain. (An open spline may have a
+  /// control point without one, if knots at the start of the domain are repeated and others come before it.)
   Index function(Index point) const {
     return is_closed_ && !(begin() < knots_[point + degree_ + 1]) ? point + num_points_ : point;
   }
-  /// All of them, those beyond the domain included.
+  /// Returns all knots, including those beyond the domain.
   std::span<const T> all() const { return knots_; }
-  /// Break points of a closed spline, and knots of the domain of an open one.
+  /// Returns the break points of a closed spline, or the knots in the domain of an open one.
   std::span<const T> in_domain() const { return all().subspan(degree_, num_functions() - degree_ + 1); }
 
+  /// Returns the start of the domain.
   const T& begin() const { return knots_[degree_]; }
+  /// Returns the end of the domain.
   const T& end() const { return knots_[num_functions()]; }
+  /// Returns the number of spans of the domain that are not empty.
   Index num_faces() const { return static_cast<Index>(spans_.size()); }
-  /// The number k of a face's span [t_k, t_{k+1}]; its rows are over the basis functions k-p .. k.
+  /// Returns k of a face's span [t_k, t_{k+1}]; the basis functions k-p .. k are not zero there.
   Index span(Index face) const { return spans_[face]; }
+  /// Returns the length of a face's span.
   T length(Index face) const { return knots_[spans_[face] + 1] - knots_[spans_[face]]; }
 
-  /// The place of a parameter. A knot belongs to the piece on its right, at the end of the domain to the one on its
-  /// left.
-  /// @param side  left: a knot belongs to the piece on its left; of a closed spline, the start of the domain to the
-  ///              last piece
-  /// @throws InvalidParameter  outside the domain
+  /// Returns the place of a parameter. A knot belongs to the piece on its right, the end of the domain to the last
+  /// piece.
+  /// @param side  left: a knot belongs to the piece on its left, and the start of a closed spline's domain to the last
+  ///              piece
+  /// @throws InvalidParameter  a parameter outside the domain
   KnotPlace<T> place(const T& t, KnotSide side = KnotSide::right) const {
     if (!(begin() <= t && t <= end()))
       refuse_parameter(static_cast<double>(t), static_cast<double>(begin()), static_cast<double>(end()));
@@ -112,13 +128,14 @@ class Knots {
     const Index k = spans_[face];
     return {face, T((t - knots_[k]) / (knots_[k + 1] - knots_[k]))};
   }
-  /// The parameter of a place.
+  /// Returns the parameter of a place.
   T parameter(const KnotPlace<T>& place) const {
     const T &a = knots_[spans_[place.face]], &b = knots_[spans_[place.face] + 1];
     return place.u == T(1) ? b : std::min(b, T(a + place.u * (b - a)));
   }
 
-  /// k of C^k where a face meets its neighbour, -1 for a jump; nothing at the ends of an open spline.
+  /// Returns k of the continuity C^k between a face and its neighbour, -1 for a jump; nothing at the ends of an open
+  /// spline.
   std::optional<int> continuity(Index face, KnotSide end) const {
     if (end == KnotSide::right) ++face;
     if (!is_closed_ && (face == 0 || face == num_faces())) return std::nullopt;
@@ -126,7 +143,8 @@ class Knots {
     return degree_ - (k - static_cast<Index>(first_equal(k)) + 1);
   }
 
-  /// Of every basis function the mean of its inner knots: sum of g_i N_i(t) = t. At degree 0 the middle of its span.
+  /// Returns the Greville abscissae: for every basis function the mean of its inner knots, so that sum g_i N_i(t) = t;
+  /// at degree 0 the middle of its span.
   std::vector<T> greville() const {
     std::vector<T> result;
     for (Index i = 0; i < num_functions(); ++i) {
@@ -138,8 +156,8 @@ class Knots {
     return result;
   }
 
-  /// All that the rows of a face depend on: the knots around it seen from its ends, in units of its length, p - 1 on
-  /// either side. Faces of equal types have equal rows.
+  /// Returns the numbers that the rows of a face depend on: distances of the p - 1 knots on either side from its ends,
+  /// in units of its length. Faces of equal types have equal rows.
   std::vector<T> type(Index face) const {
     const Index k = spans_[face];
     const T unit = length(face);
@@ -185,7 +203,7 @@ class Knots {
   std::vector<Index> spans_;
 };
 
-/// 0 .. 0 1 .. 1: the B-spline that is a Bezier curve.
+/// Returns the knots 0 .. 0 1 .. 1, with which a B-spline is a Bezier curve.
 template <class T>
 Knots<T> bezier_knots(int degree) {
   check_degree(degree);

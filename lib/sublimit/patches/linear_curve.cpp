@@ -3,12 +3,12 @@
 
 #include <limits>
 
-#include "sublimit/base/parallel_for.h"
-#include "sublimit/limit/derivative_order.h"
+#include "sublimit/base/detail/parallel_for.h"
+#include "sublimit/limit/detail/derivative_order.h"
 
 namespace sublimit {
 
-CurveSamples CurveSource::evaluate(const Points& columns, std::span<const CurveSample> samples, int order,
+CurveSamples CurveSource::evaluate(const Points& columns, std::span<const CurvePlace> samples, int order,
                                    Coordinates coordinates) const {
   check_order(order);
   const Eigen::Index dimension = columns.cols() - (coordinates == Coordinates::homogeneous ? 1 : 0);

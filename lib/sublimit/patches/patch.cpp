@@ -7,8 +7,8 @@
 #include <limits>
 #include <utility>
 
-#include "sublimit/base/parallel_for.h"
-#include "sublimit/limit/derivative_order.h"
+#include "sublimit/base/detail/parallel_for.h"
+#include "sublimit/limit/detail/derivative_order.h"
 
 namespace sublimit {
 namespace {
@@ -25,13 +25,13 @@ Eigen::Vector3d plain_normal(const RowValues& at) {
 
 }  // namespace
 
-bool Patch::is_inside(const Sample& s) const {
+bool Patch::is_inside(const Place& s) const {
   const FaceCount all = faces();
   return s.face >= 0 && s.face < all.size && s.u >= 0 && s.v >= 0 &&
          (all.triangles ? s.u + s.v <= 1 : s.u <= 1 && s.v <= 1);
 }
 
-LimitStencil Patch::stencil(const Sample& sample, int order) const {
+LimitStencil Patch::stencil(const Place& sample, int order) const {
   check_order(order);
   const auto [size, triangles] = faces();
   const char* const shape = triangles ? "triangle" : "square";
@@ -91,7 +91,7 @@ void set_empty(Eigen::Index count, int order, LimitSamples& out) {
   out.order.assign(static_cast<size_t>(count), 0);
 }
 
-void Patch::evaluate(const Points& columns, Coordinates coordinates, const Sample& sample, int order, LimitSamples& out,
+void Patch::evaluate(const Points& columns, Coordinates coordinates, const Place& sample, int order, LimitSamples& out,
                      Eigen::Index i) const {
   if (!is_inside(sample)) return;
   WeightRows weights;
@@ -110,7 +110,7 @@ void Patch::evaluate(const Points& columns, Coordinates coordinates, const Sampl
   if (normal.isZero(0)) out.status[size_t(i)] = LimitStatus::undefined_normal;
 }
 
-LimitSamples Patch::evaluate(const Points& columns, std::span<const Sample> samples, int order,
+LimitSamples Patch::evaluate(const Points& columns, std::span<const Place> samples, int order,
                              Coordinates coordinates) const {
   check_order(order);
   check_columns(columns, num_points(), coordinates);

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// One classical patch as a linear source: what LimitMap is for schemes. A kind of patch says which control points
-// the rows of a face are over, and what these rows are; stencils, samples with normals and poles, and tables by types
-// of faces follow here.
+// Interface of classical patches that are linear in their control points, as LimitMap is for schemes. A kind of patch
+// defines, for each face, the control points that it depends on (slots) and their weights (rows); stencils, evaluation
+// with normals and poles, and tables are here: x(f,u,v) = rows(f,u,v) * (columns of the slots of f).
 //
-//   x(f,u,v) = rows(f,u,v) * (columns of the control points that f is over)
+//   const SplineSurface spline(bezier_knots<double>(2), bezier_knots<double>(3));
+//   const Patch& patch = spline;
+//   const Points control = Points::Random(patch.num_points(), 3);
+//   const LimitSamples samples = patch.evaluate(control, std::vector<Place>{{.face = 0, .u = 0.5, .v = 0.5}}, 1);
 //
-// Columns are points, or, of rational patches, homogeneous (w x, w): rows do not know which.
+// Columns are points, or homogeneous (w x, w) for rational patches: rows are the same for both.
 #include <memory>
 #include <optional>
 #include <span>
@@ -20,88 +23,92 @@
 
 namespace sublimit {
 
+/// A patch without control points. It never changes: threads may share it.
 class Patch {
  public:
   virtual ~Patch() = default;
 
+  /// Returns the number of control points.
   virtual Index num_points() const = 0;
   virtual FaceCount faces() const = 0;
 
-  /// Control points that the rows of a face are over: its slots. A point may have several, as closed patches have where
-  /// they are short; its weights are then summed.
+  /// Returns the slots of a face: the control points that its rows have weights for. A point may have several slots, as
+  /// in short closed patches; its weights are then summed.
   virtual std::vector<Index> slots(Index face) const = 0;
 
-  /// Weights over the slots of the face: position, then du, dv, then duu, duv, dvv, per unit of the face; of the face's
-  /// side where sides differ. Rows of a derivative that does not exist are left out.
-  /// @param sample   inside its face
+  /// Computes weights over the slots of the face: position, then du, dv, then duu, duv, dvv, per unit of the face. At a
+  /// border with another face they are one-sided. Rows of a derivative that does not exist are left out.
+  /// @param place    inside its face
   /// @param weights  gets rows x slots
-  /// @return  `regular`; `crease` where rows of another face differ there; `unbounded_second`
-  virtual LimitStatus rows(const Sample& sample, int order, WeightRows& weights) const = 0;
+  /// @return  `regular`; `crease` if rows of another face differ there; `unbounded_second`
+  virtual LimitStatus rows(const Place& place, int order, WeightRows& weights) const = 0;
 
-  /// What the rows of a face depend on, as bytes: faces of patches of any kind with equal types have equal rows, over
-  /// slots in the same order.
+  /// Returns what the rows of a face depend on, as bytes: faces of equal types, in patches of any kind, have equal
+  /// rows, over slots in the same order.
   virtual std::string type(Index face) const = 0;
-  /// What statuses depend on besides: how smoothly the face meets those beside it.
+  /// Returns what statuses depend on besides the type: the continuity between the face and its neighbours.
   virtual std::string ends(Index) const { return {}; }
 
-  /// Whether all control points are points: rows of a position sum to 1 then, those of a derivative to 0. Coefficients
-  /// of powers and tangents are vectors.
+  /// True if all control points are points: weights of a position sum to 1, those of a derivative to 0. False if some
+  /// are vectors, as coefficients of powers, or tangents.
   virtual bool is_affine() const { return true; }
 
-  /// Parameters of its own, the second way to name a place. At a knot the side says whose piece is meant.
+  /// A place in the patch's own parameters. At a knot the sides select the piece.
   struct Parameters {
     double u = 0, v = 0;
     KnotSide u_side = KnotSide::right, v_side = KnotSide::right;
   };
-  /// @throws InvalidParameter  outside the domain
-  virtual Sample place(const Parameters& parameters) const = 0;
-  virtual Parameters parameters(const Sample& place) const = 0;
+  /// Returns the place of parameters.
+  /// @throws InvalidParameter  parameters outside the domain
+  virtual Place place(const Parameters& parameters) const = 0;
+  /// Returns the parameters of a place.
+  virtual Parameters parameters(const Place& place) const = 0;
   using Lengths = FaceLengths;
-  /// In these parameters.
+  /// Returns the lengths of a face's sides in the patch's own parameters.
   virtual Lengths lengths(Index face) const = 0;
 
-  /// A face as one polynomial: its Bernstein coefficients as rows over the slots, u fastest; of triangles in the order
-  /// of TrianglePatch, both degrees being that of the whole.
+  /// A face as one polynomial: its Bernstein coefficients as rows over the slots, u fastest. For triangles they are in
+  /// the order of TrianglePatch, and both degrees are the total degree.
   struct BezierRows {
     int degree_u = 0, degree_v = 0;
     WeightRows rows;
   };
-  /// Nothing of faces that are no polynomials.
+  /// Returns a face as one polynomial, or nothing if it is not polynomial.
   virtual std::optional<BezierRows> bezier(Index) const { return std::nullopt; }
 
-  /// Returns the patch with a finer net, and S, #its points x #points: the natural next level. Null of patches that
-  /// have no finer net of their kind.
+  /// A patch with a finer net, and the matrix that makes its control points.
   struct Refined {
-    std::shared_ptr<const Patch> patch;
-    SparseMatrix S;
+    std::shared_ptr<const Patch> patch;  ///< null if there is no finer net of this kind
+    SparseMatrix S;                      ///< #points of `patch` x #points
   };
+  /// Returns the natural next level of the patch.
   virtual Refined refined() const { return {}; }
 
-  /// The control points as a mesh, and where on the patch each of them tends to as the net is refined. Empty of patches
-  /// that have no net.
+  /// The control points as a mesh, and the parameters that each of them tends to as the net is refined.
   struct Net {
-    std::vector<Parameters> places;      ///< of each control point
+    std::vector<Parameters> places;      ///< parameters of each control point
     std::vector<Index> sizes, vertices;  ///< polygons, in the order of u and v
   };
+  /// Returns the control net, which is empty for patches without one.
   virtual Net net() const { return {}; }
 
-  /// Rows over the control points, ascending, those without weight left out.
+  /// Returns the weights of a place over the control points, ascending, those without weight left out.
   /// @throws InvalidParameter  a face that does not exist, parameters outside the face or not finite, another order
-  LimitStencil stencil(const Sample& sample, int order = 0) const;
+  LimitStencil stencil(const Place& place, int order = 0) const;
 
-  /// Points with derivatives and normals; in parallel. A place where w = 0 has the status `pole`, one outside its face
-  /// `outside`, and nothing else.
+  /// Returns points with derivatives and normals; in parallel. A place where w = 0 has the status `pole`, one outside
+  /// its face `outside`, and nothing else.
   ///
-  /// Normals are du x dv, by the order of u and v. Where both derivatives are parallel there may be a limit of normals,
-  /// see `limit_normal`; elsewhere the status is `undefined-normal`.
-  /// @param columns  #points x 3, or x 4 if they are homogeneous
+  /// Normals are du x dv, by the order of u and v. If both derivatives are parallel there may be a limit of normals,
+  /// see `limit_normal`; otherwise the status is `undefined-normal`.
+  /// @param columns  control points, #points x 3, or x 4 if they are homogeneous
+  /// @param order    number of derivatives: 0, 1 or 2
   /// @throws InvalidParameter  an array of another size, another order
-  LimitSamples evaluate(const Points& columns, std::span<const Sample> samples, int order = 0,
+  LimitSamples evaluate(const Points& columns, std::span<const Place> places, int order = 0,
                         Coordinates coordinates = Coordinates::plain) const;
 
-  /// A row of `evaluate`, into arrays that have it.
-  /// @param at  number of the row
-  void evaluate(const Points& columns, Coordinates coordinates, const Sample& sample, int order, LimitSamples& out,
+  /// Evaluates one place into row `at` of arrays that have room for it.
+  void evaluate(const Points& columns, Coordinates coordinates, const Place& place, int order, LimitSamples& out,
                 Eigen::Index at) const;
 
  protected:
@@ -111,25 +118,27 @@ class Patch {
   Patch& operator=(const Patch&) = default;
   Patch& operator=(Patch&&) = default;
 
-  /// Where derivatives are parallel: the limit of the normals around, unit, or zero if there is none.
-  virtual Eigen::Vector3d limit_normal(const Points&, Coordinates, const Sample&) const {
+  /// Returns the limit of the unit normals around a place whose derivatives are parallel; zero if there is none.
+  virtual Eigen::Vector3d limit_normal(const Points&, Coordinates, const Place&) const {
     return Eigen::Vector3d::Zero();
   }
 
  private:
-  bool is_inside(const Sample& s) const;
+  bool is_inside(const Place& s) const;
 };
 
-/// Rows of a tensor product from those of its two directions, the first one's points fastest.
-/// @param u, v  (order + 1) x m and x n weights
+/// Computes the rows of a tensor product from those of its two directions, points of u fastest.
+/// @param u, v     (order + 1) x m and (order + 1) x n weights, row by row
+/// @param weights  gets 1, 3 or 6 rows of m * n weights
 void product_rows(std::span<const double> u, Eigen::Index m, std::span<const double> v, Eigen::Index n, int order,
                   WeightRows& weights);
 
-/// Blocks of v times the entries of u: columns and rows of u fastest.
+/// Returns the Kronecker product of v and u: rows and columns of u fastest.
 WeightRows outer_product(const WeightRows& v, const WeightRows& u);
 
-/// Arrays for so many samples, all of them `outside`; memory that is there is kept.
+/// Resizes arrays to `count` places, all of status `outside`; their memory is reused.
 void set_empty(Eigen::Index count, int order, LimitSamples& out);
+/// Returns arrays for `count` places, all of status `outside`.
 LimitSamples empty_samples(Eigen::Index count, int order);
 
 }  // namespace sublimit

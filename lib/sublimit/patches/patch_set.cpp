@@ -6,13 +6,13 @@
 #include <numeric>
 #include <string>
 
+#include "sublimit/base/detail/memory.h"
+#include "sublimit/base/detail/parallel_for.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/memory.h"
-#include "sublimit/base/parallel_for.h"
-#include "sublimit/core/signature_hash.h"
-#include "sublimit/core/sparse_rows.h"
-#include "sublimit/limit/derivative_order.h"
-#include "sublimit/patches/bezier_pieces.h"
+#include "sublimit/core/detail/signature_hash.h"
+#include "sublimit/core/detail/sparse_rows.h"
+#include "sublimit/limit/detail/derivative_order.h"
+#include "sublimit/patches/detail/bezier_pieces.h"
 
 namespace sublimit {
 namespace {
@@ -99,7 +99,7 @@ FaceLengths PatchSet::lengths(Index face) const {
   return members_[p].patch->lengths(face - first_face_[p]);
 }
 
-LimitStencil PatchSet::stencil(const Sample& sample, int order) const {
+LimitStencil PatchSet::stencil(const Place& sample, int order) const {
   if (sample.face < 0 || sample.face >= faces().size)
     throw InvalidParameter("face " + std::to_string(sample.face) + " does not exist; there are " +
                            std::to_string(faces().size));
@@ -121,11 +121,11 @@ LimitStencil PatchSet::stencil(const Sample& sample, int order) const {
   return result;
 }
 
-LimitSamples PatchSet::evaluate(const Points& columns, std::span<const Sample> samples, int order, bool) const {
+LimitSamples PatchSet::evaluate(const Points& columns, std::span<const Place> samples, int order, bool) const {
   check_order(order);
   check_columns(columns, num_points_, coordinates_);
   std::vector<char> is_used(members_.size());
-  for (const Sample& sample : samples)
+  for (const Place& sample : samples)
     if (sample.face >= 0 && sample.face < faces().size) is_used[patch_of(sample.face)] = 1;
   std::vector<Points> own(members_.size());
   parallel_for(std::ssize(members_), [&](std::int64_t p) {
@@ -136,7 +136,7 @@ LimitSamples PatchSet::evaluate(const Points& columns, std::span<const Sample> s
       std::ssize(samples),
       [&](std::int64_t, std::int64_t begin, std::int64_t end) {
         for (std::int64_t i = begin; i < end; ++i) {
-          const Sample& sample = samples[size_t(i)];
+          const Place& sample = samples[size_t(i)];
           if (sample.face < 0 || sample.face >= faces().size) continue;
           const size_t p = patch_of(sample.face);
           members_[p].patch->evaluate(own[p], coordinates_, {sample.face - first_face_[p], sample.u, sample.v}, order,
@@ -163,7 +163,7 @@ PatchSet::Net PatchSet::net() const {
     if (own.places.empty())
       throw UnsupportedTopology("patch " + std::to_string(p) + ": there are rows for its points, but no net");
     for (size_t i = 0; i < points.size(); ++i) {
-      Sample at = patch->place(own.places[i]);
+      Place at = patch->place(own.places[i]);
       at.face += first_face_[p];
       net.places[size_t(points[i])] = at;
     }

@@ -1,43 +1,55 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Rational curves and surfaces: the same rows on homogeneous columns (w x, w), and one division at the end. Derivatives
-// follow the quotient rule; knots, splits and degrees act on the columns and leave the set as it is.
+// Rational curves and surfaces: the weights of polynomial ones applied to homogeneous columns (w x, w), and one
+// division at the end. Derivatives follow the quotient rule; changes of knots and degrees act on the columns.
+//
+//   const Points corners{{1, 0}, {1, 1}, {0, 1}};
+//   const Points columns = homogeneous(corners, Eigen::Vector3d(1, std::sqrt(0.5), 1));  // a quarter of a circle
+//   const SplineCurve arc(bezier_knots<double>(2));
+//   const std::vector<CurvePlace> middle = {{.segment = 0, .t = 0.5}};
+//   const CurveSamples samples = arc.evaluate(columns, middle, 2, Coordinates::homogeneous);
 #include <Eigen/Core>
 
 #include "sublimit/core/types.h"
 
 namespace sublimit {
 
-/// What the columns of control points are.
+/// Kind of the columns of control points.
 enum class Coordinates {
   plain,        ///< x, y, ..
   homogeneous,  ///< w x, w y, .., w
 };
 
-/// Columns (w x, w) of points with weights. Weights may be negative; a point of weight 0 is a direction ("control
-/// vector") and stays (x, 0).
+/// Returns the columns (w x, w) of points with weights. Weights may be negative; a point of weight 0 is a direction
+/// ("control vector") and becomes (x, 0).
+/// @param points   #points x dimension
+/// @param weights  #points
 /// @throws InvalidParameter  another number of weights, weights that are not finite or all 0
 Points homogeneous(const Points& points, const Eigen::VectorXd& weights);
-/// Weights that are not positive: the convex hull property is lost, and there may be poles.
+/// Returns how many weights are not positive. If there are any, the convex hull property is lost, and there may be
+/// poles.
 Index num_weights_not_positive(const Points& homogeneous);
 
-/// @throws InvalidParameter  not #points x 3, or x 4 if they are homogeneous
+/// Throws unless columns are those of control points of a surface.
+/// @throws InvalidParameter  columns that are not #points x 3, or x 4 if they are homogeneous
 void check_columns(const Points& columns, Index num_points, Coordinates coordinates);
 
+/// Weights row by row: position, then derivatives.
 using WeightRows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// What rows give for control columns.
+/// Position and derivatives at a place.
 struct RowValues {
   bool is_pole = false;   ///< w = 0 up to rounding; nothing else is filled
-  Points values;          ///< a row for each row
-  Eigen::VectorXd sizes;  ///< of each row but the first: what it would be if no terms cancelled
+  Points values;          ///< position or derivative for each row of weights
+  Eigen::VectorXd sizes;  ///< for each derivative: its size if no terms cancelled, a scale of rounding errors
 };
 
-/// @param rows       position; of a curve first, second derivative; of a surface du, dv, duu, duv, dvv: as far as
-/// wanted
-/// @param variables  1 of a curve, 2 of a surface
-/// @param columns    as many as rows are wide
-/// @param affine     rows of points sum to 1, of derivatives to 0: control points are points, none of them vectors
+/// Returns position and derivatives from weights and control columns.
+/// @param rows       weights of the position, then first and second derivative of a curve, or du, dv, duu, duv, dvv
+///                   of a surface, as far as wanted
+/// @param variables  1 for a curve, 2 for a surface
+/// @param columns    control columns, one for each column of `rows`
+/// @param affine     true if all control points are points: weights of positions sum to 1, those of derivatives to 0
 RowValues row_values(const WeightRows& rows, int variables, Points columns, Coordinates coordinates,
                      bool affine = true);
 

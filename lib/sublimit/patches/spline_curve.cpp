@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sublimit/patches/spline_curve.h"
 
-#include "sublimit/limit/derivative_order.h"
-#include "sublimit/patches/spline_rows.h"
+#include "sublimit/limit/detail/derivative_order.h"
+#include "sublimit/patches/detail/spline_rows.h"
 
 namespace sublimit {
 
-CurveSample SplineCurve::place(double t, KnotSide side) const {
+CurvePlace SplineCurve::place(double t, KnotSide side) const {
   const KnotPlace<double> place = knots_.place(t, side);
   return {place.face, place.u};
 }
 
-CurveStencil SplineCurve::stencil(const CurveSample& sample, int order) const {
+CurveStencil SplineCurve::stencil(const CurvePlace& sample, int order) const {
   check_order(order);
   check_sample(sample, num_segments());
   PointRows rows = point_rows(knots_, {sample.segment, sample.t}, order);

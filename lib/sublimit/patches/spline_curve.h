@@ -1,28 +1,36 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// A B-spline curve as a linear source: what LimitCurve is for curve schemes. Segments are the spans of its knots that
-// are not empty; derivatives are per unit of a segment's t.
+// B-spline curves. Segments are the spans of the knots that are not empty; derivatives are per unit of a segment's t.
+//
+//   const SplineCurve curve(Knots<double>::open(2, 4, {0, 0, 0, 1, 3, 3, 3}));
+//   const Points control{{0, 0}, {1, 2}, {3, 2}, {4, 0}};
+//   const std::vector<CurvePlace> places = {curve.place(0.5), curve.place(2)};
+//   const CurveSamples samples = curve.evaluate(control, places, 1);
 #include "sublimit/patches/knots.h"
 #include "sublimit/patches/linear_curve.h"
 
 namespace sublimit {
 
+/// A B-spline curve without control points. It never changes: threads may share it.
 class SplineCurve : public LinearCurve {
  public:
+  /// Makes the curve of some knots.
   explicit SplineCurve(Knots<double> knots) : knots_(std::move(knots)) {}
 
   const Knots<double>& knots() const { return knots_; }
   Index num_segments() const override { return knots_.num_faces(); }
   Index num_points() const override { return knots_.num_points(); }
 
-  /// The place of a parameter of the knots, and the parameter of a place: see Knots.
-  CurveSample place(double t, KnotSide side = KnotSide::right) const override;
-  double parameter(const CurveSample& place) const { return knots_.parameter({place.segment, place.t}); }
+  /// Returns the place of a parameter of the knots.
+  /// @throws InvalidParameter  a parameter outside the domain
+  CurvePlace place(double t, KnotSide side = KnotSide::right) const override;
+  /// Returns the parameter of a place.
+  double parameter(const CurvePlace& place) const { return knots_.parameter({place.segment, place.t}); }
 
   double length(Index segment) const override { return knots_.length(segment); }
 
-  /// Of the segment's side at knots.
-  CurveStencil stencil(const CurveSample& sample, int order = 0) const override;
+  /// Returns the stencil of a place; at knots it is that of the segment's side.
+  CurveStencil stencil(const CurvePlace& place, int order = 0) const override;
 
  private:
   Knots<double> knots_;

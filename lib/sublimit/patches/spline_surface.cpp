@@ -7,13 +7,13 @@
 #include <limits>
 #include <utility>
 
+#include "sublimit/base/detail/parallel_for.h"
 #include "sublimit/base/error.h"
 #include "sublimit/base/format_number.h"
-#include "sublimit/base/parallel_for.h"
 #include "sublimit/core/uninitialized.h"
-#include "sublimit/patches/collapsed_side.h"
-#include "sublimit/patches/finer_knots.h"
-#include "sublimit/patches/spline_rows.h"
+#include "sublimit/patches/detail/collapsed_side.h"
+#include "sublimit/patches/detail/finer_knots.h"
+#include "sublimit/patches/detail/spline_rows.h"
 
 namespace sublimit {
 namespace {
@@ -49,12 +49,12 @@ SplineSurface::SplineSurface(Knots<double> u, Knots<double> v) : u_(std::move(u)
                         " control points are more than 32-bit indices count");
 }
 
-Sample SplineSurface::place(const Parameters& parameters) const {
+Place SplineSurface::place(const Parameters& parameters) const {
   const KnotPlace<double> u = u_.place(parameters.u, parameters.u_side), v = v_.place(parameters.v, parameters.v_side);
   return {.face = u.face + u_.num_faces() * v.face, .u = u.u, .v = v.u};
 }
 
-Patch::Parameters SplineSurface::parameters(const Sample& place) const {
+Patch::Parameters SplineSurface::parameters(const Place& place) const {
   const auto side = [](double t) { return t == 1 ? KnotSide::left : KnotSide::right; };
   return {.u = u_.parameter(u_place(place)),
           .v = v_.parameter(v_place(place)),
@@ -76,7 +76,7 @@ std::vector<Index> SplineSurface::slots(Index face) const {
   return points;
 }
 
-LimitStatus SplineSurface::rows(const Sample& sample, int order, WeightRows& weights) const {
+LimitStatus SplineSurface::rows(const Place& sample, int order, WeightRows& weights) const {
   const KnotPlace<double> at_u = u_place(sample), at_v = v_place(sample);
   const Eigen::Index m = u_.degree() + 1, n = v_.degree() + 1;
   std::array<double, 3 * (max_degree + 1)> in_u, in_v;
@@ -132,8 +132,7 @@ Patch::Net SplineSurface::net() const {
   return net;
 }
 
-Eigen::Vector3d SplineSurface::limit_normal(const Points& columns, Coordinates coordinates,
-                                            const Sample& sample) const {
+Eigen::Vector3d SplineSurface::limit_normal(const Points& columns, Coordinates coordinates, const Place& sample) const {
   return collapsed_side_normal(*this, columns, coordinates, sample);
 }
 

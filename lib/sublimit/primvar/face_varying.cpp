@@ -5,20 +5,20 @@
 #include <numeric>
 #include <string>
 
+#include "sublimit/base/detail/rule_words.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/rule_words.h"
-#include "sublimit/core/sparse_product.h"
-#include "sublimit/mesh/topology_builder.h"
+#include "sublimit/core/detail/sparse_product.h"
+#include "sublimit/mesh/detail/topology_builder.h"
 #include "sublimit/primvar/linear_scheme.h"
 #include "sublimit/primvar/value_rules.h"
-#include "sublimit/splits/child_sharpness.h"
+#include "sublimit/splits/detail/child_sharpness.h"
 
 namespace sublimit {
 namespace {
 
 const char* name(FaceVaryingInterpolation interpolation) { return face_varying_words[size_t(interpolation)]; }
 
-void check(const ControlMesh::FaceVarying& channel, const Topology& t) {
+void check(const Mesh::FaceVarying& channel, const Topology& t) {
   const std::string what = "face-varying channel '" + channel.name + "': ";
   if (std::ssize(channel.indices) != t.num_half_edges())
     throw InvalidMesh(what + std::to_string(channel.indices.size()) + " indices, but the faces have " +
@@ -32,7 +32,7 @@ void check(const ControlMesh::FaceVarying& channel, const Topology& t) {
 /// The values of a channel and its faces over them.
 class ValueFaces {
  public:
-  ValueFaces(const Topology& t, const ControlMesh::FaceVarying& channel) : t_(t), is_cut(t.num_half_edges(), false) {
+  ValueFaces(const Topology& t, const Mesh::FaceVarying& channel) : t_(t), is_cut(t.num_half_edges(), false) {
     number_values(channel.indices);
     find_seams();
   }
@@ -131,7 +131,7 @@ Scheme<double> face_varying_scheme(const Scheme<double>& scheme, FaceVaryingInte
 }
 
 FaceVaryingLevel control_face_varying(const Scheme<double>& scheme, FaceVaryingInterpolation interpolation,
-                                      const ControlMesh::FaceVarying& channel, const Level& control) {
+                                      const Mesh::FaceVarying& channel, const Level& control) {
   static_cast<void>(face_varying_scheme(scheme, interpolation));  // whether it exists
   const Topology& t = control.topology();
   check(channel, t);
@@ -218,8 +218,7 @@ FaceVaryingLevel next_face_varying(const Scheme<double>& scheme, FaceVaryingInte
 }
 
 std::vector<FaceVaryingLevel> refine_face_varying(const Scheme<double>& scheme, FaceVaryingInterpolation interpolation,
-                                                  const ControlMesh::FaceVarying& channel,
-                                                  std::span<const Level> mesh) {
+                                                  const Mesh::FaceVarying& channel, std::span<const Level> mesh) {
   if (mesh.empty()) throw InvalidParameter("no levels; a refinement has at least level 0");
   std::vector<FaceVaryingLevel> levels{control_face_varying(scheme, interpolation, channel, mesh[0])};
   for (size_t k = 1; k < mesh.size(); ++k)

@@ -16,7 +16,7 @@
 
 namespace sublimit {
 
-/// What decides how sharp a value is.
+/// Rule that determines the sharpness of a value.
 enum class ValueRule : std::uint8_t {
   vertex,     ///< its vertex: all faces there have this value, and no seam ends there
   border,     ///< that of a boundary vertex, sharper while its vertex or an edge between its own faces is
@@ -25,11 +25,10 @@ enum class ValueRule : std::uint8_t {
 };
 
 /// A channel at one level of a mesh.
-/// @note  Sharpness of `level` decays as that of the mesh does, with two exceptions, which concern only what refines
-/// `level` by
-///        itself, limits among them: under Chaikin creasing a semi-sharp edge that meets a seam decays with the edges
-///        on its own side alone; and the sharpness of a dependent value, where several edges of the other side get
-///        smooth in the same level, is a mean rounded to float.
+/// @note  Sharpness of `level` decays as that of the mesh does, with two exceptions, which concern only what
+///        refines `level` by itself, limits among them: under Chaikin creasing a semi-sharp edge that meets a seam
+///        decays with the edges on its own side alone; and the sharpness of a dependent value, where several edges
+///        of the other side get smooth in the same level, is a mean rounded to float.
 struct FaceVaryingLevel {
   /// Corner h of its topology is corner h of the mesh's level, its vertices are the values. S is over the values of the
   /// level before. Its limit surface is the channel's, at the same (face, u, v).
@@ -53,7 +52,7 @@ Scheme<double> face_varying_scheme(const Scheme<double>& scheme, FaceVaryingInte
 /// @throws UnsupportedTopology  a seam, where the split does not keep vertices and edges
 /// @note  At non-manifold vertices values stay, unless all faces around them agree.
 FaceVaryingLevel control_face_varying(const Scheme<double>& scheme, FaceVaryingInterpolation interpolation,
-                                      const ControlMesh::FaceVarying& channel, const Level& control);
+                                      const Mesh::FaceVarying& channel, const Level& control);
 
 /// The level after `parent`, beside the mesh's own levels.
 /// @param mesh_parent, mesh_child  levels of the mesh that `parent` and the result belong to
@@ -64,7 +63,7 @@ FaceVaryingLevel next_face_varying(const Scheme<double>& scheme, FaceVaryingInte
 /// @param mesh  levels 0 to k under `scheme`
 /// @throws InvalidParameter  no levels; and what control_face_varying throws
 std::vector<FaceVaryingLevel> refine_face_varying(const Scheme<double>& scheme, FaceVaryingInterpolation interpolation,
-                                                  const ControlMesh::FaceVarying& channel, std::span<const Level> mesh);
+                                                  const Mesh::FaceVarying& channel, std::span<const Level> mesh);
 
 /// Values of the last level from the values given: #values_k x `num_given`. Rows sum to 1, but those of isolated
 /// vertices to 0.

@@ -6,7 +6,7 @@
 
 namespace sublimit {
 
-/// Whether vertices and edges survive, so that something can be linear along them.
+/// True if vertices and edges survive, so that something can be linear along them.
 constexpr bool keeps_elements(Split split) { return is_primal(split) || split == Split::keep; }
 
 template <class T>

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "sublimit/base/parallel_for.h"
+#include "sublimit/base/detail/parallel_for.h"
 
 namespace sublimit {
 namespace {

@@ -4,7 +4,7 @@
 #include <numeric>
 
 #include "sublimit/base/error.h"
-#include "sublimit/core/sparse_product.h"
+#include "sublimit/core/detail/sparse_product.h"
 #include "sublimit/primvar/linear_scheme.h"
 
 namespace sublimit {

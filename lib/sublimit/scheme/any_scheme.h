@@ -1,22 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// A scheme as an argument: `refine(mesh, "loop", 2)`, `refine(mesh, {"kobbelt", {{"tension", "3/4"}}}, 2)`,
-// `refine(mesh, my_scheme, 2)`.
+// A scheme as the argument of a function: a name, a name with options, or a scheme of your own.
+//
+//   const LimitSurface by_name(mesh, "loop");
+//   const LimitSurface with_options(mesh, {"kobbelt", {{"tension", "3/4"}}});
+//   const LimitSurface your_own(mesh, my_scheme);  // a Scheme<double>, see scheme.h
 #include <memory>
 #include <string>
 
-#include "sublimit/mesh/control_mesh.h"
+#include "sublimit/mesh/mesh.h"
 #include "sublimit/scheme/scheme.h"
 
 namespace sublimit {
 
-/// A scheme by its name, with its options, or one of your own. Copies share it.
+/// A scheme, given by its name with options, or as an object. It never changes: threads may share it, and copies share
+/// the scheme.
 class AnyScheme {
  public:
+  /// Makes a scheme of the library.
   /// @throws InvalidOption  no scheme of surfaces has this name: says which are nearest; an unknown option, or a value
   ///                        outside its range
   AnyScheme(const std::string& name, const SchemeOptions& options = {});
   AnyScheme(const char* name) : AnyScheme(std::string(name ? name : "")) {}
+  /// Takes a scheme of your own. It is checked when it is used.
   AnyScheme(Scheme<double> scheme);
   // Moving copies: a moved-from object stays valid.
   AnyScheme(const AnyScheme&) = default;
@@ -25,9 +31,9 @@ class AnyScheme {
   const Scheme<double>& operator*() const { return *scheme_; }
   const Scheme<double>* operator->() const { return scheme_.get(); }
 
-  /// Returns the scheme that refines a mesh: the rule for triangles that the mesh names (`ControlMesh::triangles`) is
-  /// taken if the scheme has one by this name, and none was chosen.
-  AnyScheme for_mesh(const ControlMesh& mesh) const;
+  /// Returns the scheme with the rule for triangles that a mesh names (`Mesh::triangles`), if the scheme has such an
+  /// option and no value was chosen; else the scheme itself.
+  AnyScheme for_mesh(const Mesh& mesh) const;
 
  private:
   std::shared_ptr<const Scheme<double>> scheme_;

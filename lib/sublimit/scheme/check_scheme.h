@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// What a scheme must have before anything is computed with it, built in or your own: steps, the masks that their splits
-// ask for, and masks whose answers are affine combinations of points of their site.
+// Checks a scheme before anything is computed with it, built in or your own: it has steps, the masks that their splits
+// need, and masks that return affine combinations of points of their site. All functions that take a scheme call it.
+//
+//   Scheme<double> mine = *AnyScheme("loop");
+//   mine.steps[0].masks.edge = {};
+//   check_scheme(mine);  // throws InvalidParameter: the step lacks the mask edge
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -14,20 +18,20 @@
 
 namespace sublimit {
 
-/// Masks that a step has, those along creases included.
+/// True for each mask that a step has, those along creases included.
 struct MasksThere {
   bool vertex, edge, face, corner, wide_edge, wide_face, crease_vertex, crease_edge;
 };
 
-/// The crease masks of a step: its own, or those of the scheme.
+/// Returns the crease masks of a step: its own, or else those of the scheme.
 template <class T>
 const CreaseMasks<T>& creases_of(const Scheme<T>& scheme, const Step<T>& step) {
   return step.creases.edge ? step.creases : scheme.creases;
 }
 
 /// Throws unless a step has the masks that its split needs.
-/// @param list, i  where the step is, for the message: "steps", 0
-/// @throws InvalidParameter  naming scheme, step, mask and what it is needed for
+/// @param list, i  list and number of the step, for the message: "steps", 0
+/// @throws InvalidParameter  a missing mask: names scheme, step, mask and what it is needed for
 void check_masks(const std::string& scheme, const char* list, size_t i, Split split, const MasksThere& masks);
 
 /// Throws unless the numbers and lists of a scheme fit together.
@@ -55,14 +59,14 @@ const Scheme<T>& check_scheme(const Scheme<T>& scheme) {
   return scheme;
 }
 
-/// How far the sum of the weights of a mask of doubles may be from what it should be, relative to the largest sums:
-/// what arithmetic may lose of 16 digits, and a wrong weight does not.
+/// Tolerance of the sum of the weights of a mask, relative to the sum of their absolute values: above the rounding of
+/// doubles, below the effect of a wrong weight.
 inline constexpr double affine_rounding = 1e-9;
-/// Numbers that are rounded: not rational or algebraic ones.
+/// True for number types that are rounded, as double; false for rational and algebraic numbers and balls.
 template <class T>
 inline constexpr bool is_rounded = std::numeric_limits<T>::is_specialized && !std::numeric_limits<T>::is_exact;
 
-/// Whether `sum` is `expected`, a whole number, but for rounding.
+/// True if `sum` is the integer `expected`, up to rounding.
 /// @param size  sum of the absolute weights
 template <class T>
 bool is_sum(const T& sum, int expected, const T& size) {
@@ -74,7 +78,7 @@ bool is_sum(const T& sum, int expected, const T& size) {
   }
 }
 
-/// A weight as messages show it.
+/// Returns a weight as messages show it.
 template <class T>
 std::string weight_text(const T& x) {
   if constexpr (PlainNumber<T>)
@@ -85,7 +89,7 @@ std::string weight_text(const T& x) {
     return format_number(static_cast<double>(x));
 }
 
-/// Throws unless a mask returned points of its site alone.
+/// Throws unless a mask returned points of its own site only.
 /// @param mask   name of the mask, as `vertex`
 /// @param slots  points of the site
 /// @throws InvalidParameter  slots of another site
@@ -115,8 +119,9 @@ void check_mask(const std::string& scheme, const char* mask, const Stencil<T>& s
                            "; masks are affine, with a sum of 1");
 }
 
-/// What matrices check of a mask: in exact numbers the points alone, as there weights that do not add up to 1 are for
-/// proofs to find, which say so in their verdict.
+/// Checks the stencil of a mask when a matrix is filled: points and weights as `check_mask`; in exact numbers the
+/// points only, since proofs report weights that do not add up to 1 in their verdict.
+/// @throws InvalidParameter  as `check_mask` or `check_slots`
 template <class T>
 void check_weights(const std::string& scheme, const char* mask, const Stencil<T>& stencil, Index slots) {
   if constexpr (is_rounded<T>)

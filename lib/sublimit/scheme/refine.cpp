@@ -7,12 +7,12 @@
 #include <string>
 #include <unordered_set>
 
+#include "sublimit/base/detail/memory.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/memory.h"
-#include "sublimit/scheme/check_levels.h"
-#include "sublimit/scheme/refine_impl.h"
-#include "sublimit/scheme/renumbered_level.h"
-#include "sublimit/scheme/sheet_part.h"
+#include "sublimit/scheme/detail/check_levels.h"
+#include "sublimit/scheme/detail/refine_impl.h"
+#include "sublimit/scheme/detail/renumbered_level.h"
+#include "sublimit/scheme/detail/sheet_part.h"
 
 namespace sublimit {
 namespace {
@@ -214,14 +214,14 @@ void check_levels(const Scheme<double>& scheme, const Topology& t, int levels, L
 }
 
 void check_sharpness(const std::string& scheme, Sharpening sharpening, bool is_dual, const Topology& t,
-                     const Sharpness& sharpness, const ControlMesh& tags) {
+                     const Sharpness& sharpness, const Mesh& tags) {
   if (sharpening == Sharpening::semi_sharp) return;
   const auto refuse = [&](const std::string& what, bool is_dart = false) {
     const bool some = sharpening == Sharpening::sharp && !is_dart;
     throw UnsupportedTopology(
         what + ": " + scheme +
         (some ? " has rules for infinite sharpness (>= 10) only; make it 10, " : " has no rule for it; ") +
-        "remove the tag (--no-creases), or use a scheme with semi-sharp creases: catmull-clark or loop");
+        "remove the tag, or use a scheme with semi-sharp creases: catmull-clark or loop");
   };
   for (Index i = 0; i < t.num_edges(); ++i) {
     const Edge e{i};
@@ -234,7 +234,7 @@ void check_sharpness(const std::string& scheme, Sharpening sharpening, bool is_d
   for (Index v = 0; v < t.num_vertices() && sharpening == Sharpening::sharp; ++v)
     if (VertexSharpness(t, sharpness, Vertex{v}).rule() == Rule::dart)
       refuse("sharp edges that end inside, at vertex " + std::to_string(v) + " (a dart)", true);
-  for (const ControlMesh::Corner& corner : tags.corners) {
+  for (const Mesh::Corner& corner : tags.corners) {
     const Vertex v{corner.vertex};
     const bool interior = exists(t.outgoing(v)) && exists(t.twin(t.outgoing(v)));
     if (!is_sharp(corner.sharpness)) continue;
@@ -255,11 +255,11 @@ void check_wide_faces(const std::string& scheme, int corners, const Topology& t,
                             " here: begin at level 0 with the scheme's own preparation, or cut the faces before");
 }
 
-template LevelOf<double> control_level(const Scheme<double>&, const ControlMesh&, const SubdivisionOptions&);
+template LevelOf<double> control_level(const Scheme<double>&, const Mesh&, const SubdivisionOptions&);
 template LevelOf<double> next_level<double>(const Scheme<double>&, const LevelOf<double>&);
 
-std::vector<Level> refine(const Scheme<double>& scheme, const ControlMesh& mesh, int levels,
-                          const SubdivisionOptions& options, const std::function<void(int)>& progress) {
+std::vector<Level> refine(const Scheme<double>& scheme, const Mesh& mesh, int levels, const SubdivisionOptions& options,
+                          const std::function<void(int)>& progress) {
   return refine(scheme, control_level(scheme, mesh, options), levels, progress);
 }
 

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Levels: a control mesh, refined step by step, with the matrix of every level.
+// Refines a control mesh level by level, with connectivity and subdivision matrix of every level.
+//
+//   const AnyScheme scheme("catmull-clark");
+//   const std::vector<Level> levels = refine(*scheme, mesh, 3);
+//   const Points fine = refinement_matrix(levels) * mesh.positions;
+//   std::cout << levels.back().topology().num_faces() << " faces\n";
 #include <functional>
 #include <memory>
 #include <optional>
@@ -9,33 +14,33 @@
 #include <vector>
 
 #include "sublimit/core/moved_sparse.h"
-#include "sublimit/mesh/control_mesh.h"
+#include "sublimit/mesh/mesh.h"
 #include "sublimit/scheme/subdivision_matrix.h"
 
 namespace sublimit {
 
-/// Rules for boundaries and creases; what is absent follows the mesh's tags, else edge_and_corner and uniform.
+/// Rules for boundaries and creases. An absent rule is that of the mesh, or else edge_and_corner and uniform.
 struct SubdivisionOptions {
   std::optional<Boundary> boundary;
   std::optional<Creasing> creasing;
 };
 
-/// One level of a refined mesh.
+/// One level of a refined mesh. Plain data: threads may read it together.
 template <class T>
 struct LevelOf {
-  int number = 0;
-  /// The refinements that led here from the level before, one per step of the scheme; for level 0 a topology without
-  /// provenance.
+  int number = 0;  ///< 0 for the control mesh
+  /// Refinements from the level before to this one, one for each step of the scheme; for level 0 the topology alone.
   std::vector<Refinement> steps;
   Sharpness sharpness;
-  KnotIntervals intervals;  ///< empty where all are equal
-  std::vector<bool> holes;  ///< per face
-  /// The scheme that made it, which a dictionary of limits must be of; null where a level was put together otherwise.
+  KnotIntervals intervals;  ///< empty if all are equal
+  std::vector<bool> holes;  ///< true for each face that is a hole
+  /// The scheme that made the level: limits of the level are limits of this scheme. Null for a level made otherwise.
   std::shared_ptr<const Scheme<T>> made_by;
   SparseMatrixOf<T> S;  ///< from the level before (empty for level 0): x_k = S * x_{k-1}
 
+  /// Returns the connectivity of the level.
   const Topology& topology() const { return steps.back().topology; }
-  /// New knots of the step to the next level; none where all intervals are equal.
+  /// Returns the new knots of the step to the next level, or nothing if all intervals are equal.
   std::optional<KnotSplit> knots() const {
     return intervals.empty() ? std::nullopt : std::optional(new_knots(intervals));
   }
@@ -66,9 +71,10 @@ using Level = LevelOf<double>;
 
 /// Returns level 0 of a control mesh.
 /// @throws InvalidMesh           bad connectivity, a tag that points nowhere, knot intervals that contradict each other
+/// @throws InvalidParameter      an incomplete scheme (`check_scheme`)
 /// @note  Boundary::none makes no holes for a scheme whose faces need no neighbours (bilinear).
 template <class T>
-LevelOf<T> control_level(const Scheme<T>& scheme, const ControlMesh& mesh, const SubdivisionOptions& options = {});
+LevelOf<T> control_level(const Scheme<T>& scheme, const Mesh& mesh, const SubdivisionOptions& options = {});
 
 /// Returns the level after `parent`.
 /// @throws UnsupportedTopology  a face that the scheme cannot take
@@ -79,49 +85,55 @@ LevelOf<T> next_level(const Scheme<T>& scheme, const LevelOf<T>& parent);
 /// @param progress  called before each level with its number, if given
 /// @throws InvalidParameter     negative `levels`
 /// @throws UnsupportedTopology  a face that the scheme cannot take
-/// @throws ResourceError     more elements than 32-bit indices, or more memory than the machine has; predicted before
-///                           memory is taken
-[[nodiscard]] std::vector<Level> refine(const Scheme<double>& scheme, const ControlMesh& mesh, int levels,
+/// @throws InvalidMesh          bad connectivity, a tag that points nowhere
+/// @throws ResourceError        more elements than 32-bit indices, or more memory than the machine has; predicted
+///                              before memory is taken
+[[nodiscard]] std::vector<Level> refine(const Scheme<double>& scheme, const Mesh& mesh, int levels,
                                         const SubdivisionOptions& options = {},
                                         const std::function<void(int)>& progress = {});
-/// Returns levels 0 to `levels`, from a level 0 that was made before.
+/// Returns levels 0 to `levels`, starting from a given level 0.
+/// @param control   level 0, as `control_level` makes it
+/// @param progress  called before each level with its number, if given
+/// @throws as the overload for a mesh
 [[nodiscard]] std::vector<Level> refine(const Scheme<double>& scheme, Level control, int levels,
                                         const std::function<void(int)>& progress = {});
 
-/// Returns P_k = S_{k-1} ... S_0, which makes the points of level k from the control points. The identity for k = 0.
+/// Returns P_k = S_{k-1} ... S_0, which makes the points of the last level k from the control points; the identity for
+/// k = 0.
 [[nodiscard]] SparseMatrix refinement_matrix(const std::vector<Level>& levels);
 
-/// Returns the number of vertices of a level; exact but for dual steps across borders.
+/// Returns the number of vertices of a level without refining; exact except for dual steps across borders.
 double predicted_vertices(const Scheme<double>& scheme, const Topology& control, int level);
 
-/// Returns how many bytes `levels` levels take, matrices included; an estimate.
+/// Returns an estimate of the bytes that `levels` levels take, matrices included.
 double predicted_bytes(const Scheme<double>& scheme, const Topology& control, int levels);
 
-/// Some faces of a level as a level of their own. Its rim is treated as a boundary: points near it are not those of the
-/// mesh.
+/// Some faces of a level as a level of their own. Its border is treated as a boundary: refined points near it differ
+/// from those of the mesh.
 struct Part {
-  Level level;                                 ///< without a matrix
-  std::vector<Index> faces, vertices, halves;  ///< their numbers in the whole, ascending
+  Level level;                                 ///< the part, without a matrix
+  std::vector<Index> faces, vertices, halves;  ///< numbers of its elements in the whole, ascending
 };
-/// Returns some faces with `rings` rings of faces around them.
+/// Returns some faces of a level with `rings` rings of faces around them.
 Part part(const Level& whole, std::span<const Index> faces, int rings);
 
-/// A part of a mesh: chosen faces with as many rings of faces around them as their next refinement needs.
+/// A part of a mesh: selected faces with as many rings of faces around them as their next refinement needs.
 struct Subset {
-  Level level;  ///< the part, numbered on its own; S has a row per vertex, over those of where it came from
-  std::vector<Index> faces;    ///< the chosen faces, in the part's numbers
-  std::vector<Index> parents;  ///< of every face of the part: its number in the whole, ascending
+  Level level;                 ///< the part with its own numbers; S has a row for each vertex, over those of the origin
+  std::vector<Index> faces;    ///< selected faces, in the part's numbers
+  std::vector<Index> parents;  ///< number in the whole of each face of the part, ascending
 };
 
 /// Returns a part of a level. `level.S` of the result selects vertices of the whole.
-/// @param rings  of faces around them; `rings_for_refinement` says how many the scheme needs, 1 is enough for narrow
-/// primal ones
+/// @param rings  rings of faces around the selected ones: as many as `rings_for_refinement` returns, 1 for primal
+///               schemes without wide masks
 /// @throws InvalidParameter  a face that does not exist
 Subset subset(const Level& level, std::span<const Index> faces, int rings = 1);
+/// Returns the number of rings that a subset needs for one refinement.
 int rings_for_refinement(const Scheme<double>& scheme);
 
-/// Refines the chosen faces without the rest of the mesh; all their children are chosen again. Rows of `level.S` are
-/// those that refining the whole mesh would give, over the vertices of `part`.
+/// Refines the selected faces without the rest of the mesh; all their children are selected in the result. Rows of
+/// `level.S` are those that refining the whole mesh would give, over the vertices of `part`.
 [[nodiscard]] Subset refine(const Scheme<double>& scheme, const Subset& part);
 
 }  // namespace sublimit

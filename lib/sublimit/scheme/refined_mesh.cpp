@@ -7,11 +7,11 @@
 #include <utility>
 #include <vector>
 
+#include "sublimit/base/detail/memory.h"
+#include "sublimit/base/detail/parallel_for.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/memory.h"
-#include "sublimit/base/parallel_for.h"
-#include "sublimit/scheme/check_levels.h"
-#include "sublimit/scheme/refine_impl.h"
+#include "sublimit/scheme/detail/check_levels.h"
+#include "sublimit/scheme/detail/refine_impl.h"
 
 namespace sublimit {
 namespace {
@@ -107,16 +107,16 @@ std::vector<Index> hole_list(const std::vector<bool>& holes) {
   return list;
 }
 
-Boundary later_boundary(const ControlMesh& control, const SubdivisionOptions& options) {
+Boundary later_boundary(const Mesh& control, const SubdivisionOptions& options) {
   const Boundary rule = options.boundary.value_or(control.boundary.value_or(Boundary::edge_and_corner));
   return rule == Boundary::none ? Boundary::edge_only : rule;
 }
 
 /// The faces and tags of the level after `before`, from its numbering alone.
-ControlMesh simple_mesh(const Level& before, const Refinement& numbering, const ControlMesh& control,
-                        const SubdivisionOptions& options) {
+Mesh simple_mesh(const Level& before, const Refinement& numbering, const Mesh& control,
+                 const SubdivisionOptions& options) {
   const Topology& t = before.topology();
-  ControlMesh mesh;
+  Mesh mesh;
   mesh.face_vertices = child_corners(t, numbering);
   const Index size = numbering.split == Split::ptq ? 3 : 4;
   mesh.face_sizes.assign(mesh.face_vertices.size() / size_t(size), size);
@@ -235,14 +235,20 @@ Points Refiner::Stage::points(const Points& coarse) const {
 
 namespace {
 
-/// Levels one after the other; the last one's faces and tags come back.
+/// Levels one after the other; the last one's faces and tags come back, and what keeps level 0 from being a manifold as
+/// warnings.
 /// @param on_step  called for each step, with what is there then
 template <class OnStep>
-ControlMesh refine_steps(const Scheme<double>& scheme, const ControlMesh& mesh, int levels,
-                         const SubdivisionOptions& options, const std::function<void(int)>& progress,
-                         const OnStep& on_step) {
+Mesh refine_steps(const Scheme<double>& scheme, const Mesh& mesh, int levels, const SubdivisionOptions& options,
+                  const std::function<void(int)>& progress, const OnStep& on_step) {
   Level level = control_level(scheme, mesh, options);
   check_levels(scheme, level.topology(), levels, is_simple(scheme, level) ? LevelMemory::mesh : LevelMemory::points);
+  std::vector<std::string> warnings;
+  for (const Topology::Fault& fault : level.topology().faults()) warnings.push_back(fault.message);
+  const auto with_warnings = [&](Mesh refined) {
+    refined.warnings = std::move(warnings);
+    return refined;
+  };
   for (int k = 1; k <= levels; ++k) {
     if (progress) progress(k);
     if (k == levels && is_simple(scheme, level)) {
@@ -252,7 +258,7 @@ ControlMesh refine_steps(const Scheme<double>& scheme, const ControlMesh& mesh, 
         check_wide_faces(scheme.name, scheme.corners, level.topology(), level.number);
       const Sharpness none;
       on_step(StepView{scheme, step, level.topology(), numbers, level.sharpness, none, level.number, nullptr});
-      return simple_mesh(level, numbers, mesh, options);
+      return with_warnings(simple_mesh(level, numbers, mesh, options));
     }
     level = next_topology(
         scheme, level,
@@ -261,21 +267,21 @@ ControlMesh refine_steps(const Scheme<double>& scheme, const ControlMesh& mesh, 
           on_step(StepView{scheme, step, topology, refinement, sharpness, child_sharpness, level.number, knots});
         });
   }
-  return level_mesh(level, {}, mesh, options);
+  return with_warnings(level_mesh(level, {}, mesh, options));
 }
 
 }  // namespace
 
-ControlMesh refined_mesh(const Scheme<double>& scheme, const ControlMesh& mesh, int levels,
-                         const SubdivisionOptions& options, const std::function<void(int)>& progress) {
+Mesh refined_mesh(const Scheme<double>& scheme, const Mesh& mesh, int levels, const SubdivisionOptions& options,
+                  const std::function<void(int)>& progress) {
   Points points = mesh.positions;
-  ControlMesh refined = refine_steps(scheme, mesh, levels, options, progress,
-                                     [&](const StepView& step) { points = step_points(step, points); });
+  Mesh refined = refine_steps(scheme, mesh, levels, options, progress,
+                              [&](const StepView& step) { points = step_points(step, points); });
   refined.positions.swap(points);
   return refined;
 }
 
-Refiner::Refiner(const Scheme<double>& scheme, const ControlMesh& mesh, int levels, const SubdivisionOptions& options,
+Refiner::Refiner(const Scheme<double>& scheme, const Mesh& mesh, int levels, const SubdivisionOptions& options,
                  const std::function<void(int)>& progress)
     : num_control_points_(mesh.num_vertices()) {
   mesh_ = refine_steps(scheme, mesh, levels, options, progress,
@@ -300,7 +306,7 @@ Points Refiner::points(const Points& control) const {
   return points;
 }
 
-RemainingTags remaining_tags(const Level& level, const ControlMesh& control, const SubdivisionOptions& options) {
+RemainingTags remaining_tags(const Level& level, const Mesh& control, const SubdivisionOptions& options) {
   const Topology& t = level.topology();
   RemainingTags left;
   left.boundary = later_boundary(control, options);
@@ -312,10 +318,9 @@ RemainingTags remaining_tags(const Level& level, const ControlMesh& control, con
   return left;
 }
 
-ControlMesh level_mesh(const Level& level, Points points, const ControlMesh& control,
-                       const SubdivisionOptions& options) {
+Mesh level_mesh(const Level& level, Points points, const Mesh& control, const SubdivisionOptions& options) {
   const Topology& t = level.topology();
-  ControlMesh mesh;
+  Mesh mesh;
   mesh.positions.swap(points);
   mesh.face_sizes.reserve(size_t(t.num_faces()));
   mesh.face_vertices.reserve(size_t(t.num_half_edges()));

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Fast refinement to points and faces: no matrix is made, and the last level has no connectivity but the corners of its
-// faces.
+// Fast refinement to points and faces: no matrix is made, and no half-edges of the last level.
+//
+//   const Refiner refiner(mesh, "catmull-clark", 3);
+//   const Points fine = refiner.points(mesh.positions);  // again for each frame
+//   write_mesh("fine.obj", refiner.mesh().with_points(fine));
 #include <memory>
 
 #include "sublimit/scheme/any_scheme.h"
@@ -9,37 +12,41 @@
 
 namespace sublimit {
 
-/// Returns the last of `levels` levels as a mesh: points and faces in the order of `refine`, with the tags that are
-/// left, so that refining it goes on where this stopped (`level_mesh`). Points are those of the matrices, to rounding,
-/// and have the same bits for any number of threads.
+/// Returns level `levels` as a mesh: points and faces in the order of `refine`, with the tags that remain, so that
+/// refining the result continues the refinement (see `level_mesh`). Points agree with those of the matrices up to
+/// rounding, and have the same bits for any number of threads.
 /// @param progress  called before each level with its number, if given
 /// @throws InvalidParameter     negative `levels`
+/// @throws InvalidMesh          bad connectivity, a tag that points nowhere
 /// @throws UnsupportedTopology  a face that the scheme cannot take
 /// @throws ResourceError        more elements than 32-bit indices, or more memory than the machine has; predicted
 ///                              before memory is taken
-/// @note  Face-varying channels are left out (primvar/face_varying.h).
-ControlMesh refined_mesh(const Scheme<double>& scheme, const ControlMesh& mesh, int levels,
-                         const SubdivisionOptions& options = {}, const std::function<void(int)>& progress = {});
+/// @note  Face-varying channels are left out (primvar/face_varying.h). Warnings of the result say what keeps the mesh
+///        from being a manifold.
+Mesh refined_mesh(const Scheme<double>& scheme, const Mesh& mesh, int levels, const SubdivisionOptions& options = {},
+                  const std::function<void(int)>& progress = {});
 
-/// Refines one connectivity for many sets of points: what does not depend on them is made once.
+/// Refines one connectivity for many sets of points. It never changes: threads may share it.
 class Refiner {
  public:
+  /// Prepares refinement to level `levels`.
+  /// @param progress  called before each level with its number, if given
   /// @throws as `refined_mesh`
-  Refiner(const Scheme<double>& scheme, const ControlMesh& mesh, int levels, const SubdivisionOptions& options = {},
+  Refiner(const Scheme<double>& scheme, const Mesh& mesh, int levels, const SubdivisionOptions& options = {},
           const std::function<void(int)>& progress = {});
-  /// Uses the rules of the mesh.
+  /// Prepares refinement by the rules of the mesh.
   /// @throws as `refined_mesh`
-  Refiner(const ControlMesh& mesh, const AnyScheme& scheme, int levels)
-      : Refiner(*scheme.for_mesh(mesh), mesh, levels) {}
+  Refiner(const Mesh& mesh, const AnyScheme& scheme, int levels) : Refiner(*scheme.for_mesh(mesh), mesh, levels) {}
   ~Refiner();
   Refiner(Refiner&&) noexcept;
   Refiner& operator=(Refiner&&) noexcept;
 
   /// Returns faces and tags of the last level, without positions.
-  const ControlMesh& mesh() const { return mesh_; }
+  const Mesh& mesh() const { return mesh_; }
   Index num_control_points() const;
+  /// Returns the number of points of the last level.
   Index num_points() const;
-  /// Returns the points of the last level, num_points() x columns; with the same bits as `refined_mesh`.
+  /// Returns the points of the last level, num_points() x columns, with the same bits as `refined_mesh`.
   /// @param control  a row for each control point, any number of columns
   /// @throws InvalidParameter  another number of rows
   Points points(const Points& control) const;
@@ -48,26 +55,27 @@ class Refiner {
   struct Stage;
   std::vector<std::unique_ptr<const Stage>> stages_;
   Index num_control_points_ = 0;
-  ControlMesh mesh_;
+  Mesh mesh_;
 };
 
-/// Returns a level as a mesh, whose refinement continues that of the level. Sharpness and holes are told where
-/// connectivity and the rule for borders do not imply them; Boundary::none becomes edge-only with the holes that it
-/// made.
+/// Returns a level as a mesh, whose refinement continues that of the level. The mesh has tags for the sharpness and the
+/// holes that connectivity and the rule for boundaries do not imply; Boundary::none becomes edge_only with the holes
+/// that it made.
 /// @param points   a row for each vertex; moved into the mesh
-/// @param control  the mesh of level 0, for its options
-/// @note  The middle of a non-manifold edge of two faces wound alike is a crease here and a corner to a reader, which
-///        cannot know better. Nor can it tell apart two edges that join the same two vertices: children of such meshes
-///        (a pillow of two triangles, a degenerate edge) are joined otherwise when read back.
-ControlMesh level_mesh(const Level& level, Points points, const ControlMesh& control,
-                       const SubdivisionOptions& options = {});
+/// @param control  the mesh of level 0, for its rules
+/// @note  Two things are lost in a mesh. The middle of a non-manifold edge of two faces with the same winding is a
+///        crease in the level and becomes a corner. Edges that join the same two vertices (a pillow of two
+///        triangles, a degenerate edge) become one edge.
+Mesh level_mesh(const Level& level, Points points, const Mesh& control, const SubdivisionOptions& options = {});
 
-/// Sharp edges and vertices of a level that do not follow from its connectivity and the rule for borders.
+/// Sharp edges and vertices of a level that do not follow from its connectivity and the rule for boundaries.
 struct RemainingTags {
   std::vector<Edge> creases;
   std::vector<Vertex> corners;
-  Boundary boundary = Boundary::edge_only;  ///< never none: what that made are holes
+  Boundary boundary = Boundary::edge_only;  ///< never `none`, whose effect is in the holes
 };
-RemainingTags remaining_tags(const Level& level, const ControlMesh& control, const SubdivisionOptions& options);
+/// Returns the tags that a mesh of a level needs.
+/// @param control  the mesh of level 0, for its rules
+RemainingTags remaining_tags(const Level& level, const Mesh& control, const SubdivisionOptions& options);
 
 }  // namespace sublimit

@@ -1,8 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Sites: where a mask is applied, as the mask sees it. A site numbers the points of its neighbourhood (slots, in the
-// order in which `visit_site` of mask_table.h visits their vertices); the neighbourhood is unfolded, so points that
-// coincide on a small mesh are different slots here. A mask therefore depends on the type of the neighbourhood alone.
+// Sites: the arguments of masks. A site is a vertex, edge or face with the points around it, and a mask is a function
+// from a site to the stencil of the new point:
+//
+//   const Mask<double, EdgeSite<double>> edge = [](const EdgeSite<double>& e) {
+//     return (3 * (e.tail() + e.head()) + e.left_face().corner(2) + e.right_face().corner(2)) / 8;  // Loop's
+//   };
+//
+// A site numbers the points of its neighbourhood (slots). The neighbourhood is unfolded: points that coincide on a
+// small mesh are different slots. A mask therefore depends on the type of the neighbourhood alone.
 #include <algorithm>
 #include <compare>
 #include <functional>
@@ -19,33 +25,36 @@ namespace sublimit {
 template <class T>
 struct Masks;
 
-/// Knots along an edge, seen from one of its ends, for schemes that know them: intervals and the new knot of the step.
-/// Where intervals belong to points (`PointKnots`), length and split are the near end's, after and before the far
-/// one's.
+/// Knots along an edge, seen from one of its ends, for schemes with knot intervals: intervals and the new knot of the
+/// step. If intervals belong to points (`PointKnots`), `length` and `split` are those of the near end, `after` and
+/// `before` those of the far one.
 template <class T>
 struct EdgeKnots {
-  T length = T(1);                   ///< of the edge
-  T split = Number<T>::ratio(1, 2);  ///< from this end to the new knot
-  T before = T(1), after = T(1);  ///< intervals beyond this end and beyond the other: means where several edges go on
+  T length = T(1);                   ///< interval of the edge
+  T split = Number<T>::ratio(1, 2);  ///< distance of the new knot from this end
+  T before = T(1), after = T(1);  ///< intervals beyond this end and beyond the other: means if several edges continue
+  /// Returns the distance of the new knot from this end.
   const T& near() const { return split; }
+  /// Returns the distance of the new knot from the other end.
   T far() const { return length - split; }
+  /// Returns the knots seen from the other end.
   EdgeKnots reversed() const { return {length, far(), after, before}; }
 };
 
 /// Knots of a point along one of its edges, in degree 2, where the knot between two points is on the edge.
 template <class T>
 struct PointKnots {
-  T length = T(1);                   ///< the point's interval
-  T split = Number<T>::ratio(1, 2);  ///< from the knot on the edge to the new one in the interval
+  T length = T(1);                   ///< interval of the point
+  T split = Number<T>::ratio(1, 2);  ///< distance of the new knot from the knot on the edge
   PointKnots() = default;
   PointKnots(T own_length, T own_split) : length(std::move(own_length)), split(std::move(own_split)) {}
-  /// How far the child towards this edge lies from the point that would be on the knot, seen from there.
+  /// Returns the distance of the new knot from the knot on the edge, as a fraction of the interval.
   T part() const { return split / length; }
 };
 
-/// Position of element `i` among `count` that are counted from 0, or from the end on: -1 is the last one.
+/// Returns the position of element `i` of `count`; negative numbers count from the end, -1 is the last one.
 /// @param element, owner  words of the message, as in "corner 3 of a face"
-/// @throws InvalidParameter  there is none
+/// @throws InvalidParameter  an element that does not exist
 inline int site_position(int i, int count, const char* element, const char* owner) {
   if (i >= -count && i < count) return i < 0 ? i + count : i;
   throw InvalidParameter("a mask asks for " + std::string(element) + " " + std::to_string(i) + " of " + owner + " of " +
@@ -53,12 +62,13 @@ inline int site_position(int i, int count, const char* element, const char* owne
                          " exist, -1 is the last one and -" + std::to_string(count) + " the first");
 }
 
-/// What every site knows: the level of the parent (0 for the control mesh), constants in the number type, and the masks
-/// of the step, for child points that are already made.
+/// Common part of all sites: the level of the parent (0 for the control mesh), constants in the number type, and the
+/// masks of the step, for new points that a mask uses. Sites are read by one thread at a time, or by several.
 template <class T>
 class Site {
  public:
   Site(const Masks<T>& masks, int level) : masks_(&masks), level_(level) {}
+  /// Returns the level of the parent, 0 for the control mesh.
   int level() const { return level_; }
   static T ratio(int p, int q) { return Number<T>::ratio(p, q); }
   static T cos_2pi(int k, int n) { return Number<T>::cos_2pi(k, n); }
@@ -68,25 +78,27 @@ class Site {
   int level_;
 };
 
-/// A face, seen from a given corner on. Corners and edges count from 0; -1 is the last one.
+/// A face, starting at a given corner. Corners and edges count from 0; -1 is the last one.
 template <class T>
 class FaceSite : public Site<T> {
  public:
   FaceSite(const Masks<T>& masks, int level, std::vector<Index> slots, std::vector<EdgeKnots<T>> knots = {})
       : Site<T>(masks, level), slots_(std::move(slots)), knots_(std::move(knots)) {}
+  /// Returns the number of corners.
   int size() const { return static_cast<int>(slots_.size()); }
-  /// Knots of the edge from corner i to the next one, seen from corner i.
+  /// Returns the knots of the edge from corner i to the next one, seen from corner i.
   EdgeKnots<T> knots(int i) const {
     const int at = position(i);
     return knots_.empty() ? EdgeKnots<T>{} : knots_[at];
   }
-  /// Degree 2: of corner i, along the edge to the next corner and along that to the one before.
+  /// Returns the knots of corner i along the edge to the next corner, in degree 2.
   PointKnots<T> knots_to_next(int i) const {
     const int at = position(i);
     if (knots_.empty()) return {};
     const EdgeKnots<T>& k = knots_[at];
     return {k.length, k.split};
   }
+  /// Returns the knots of corner i along the edge to the corner before, in degree 2.
   PointKnots<T> knots_to_previous(int i) const {
     const int at = position(i);
     if (knots_.empty()) return {};
@@ -94,12 +106,13 @@ class FaceSite : public Site<T> {
     return {k.after, k.before};
   }
   Stencil<T> corner(int i) const { return Stencil<T>(slots_[position(i)]); }
+  /// Returns the mean of the corners.
   Stencil<T> centroid() const {
     Stencil<T> sum;
     for (const Index slot : slots_) sum += Stencil<T>(slot);
     return std::move(sum) / T(size());
   }
-  /// The child point that the step makes for this face.
+  /// Returns the new point that the step makes for this face.
   /// @throws InvalidParameter  the step has no mask of faces
   Stencil<T> point() const {
     if (!this->masks_->face)
@@ -114,7 +127,7 @@ class FaceSite : public Site<T> {
   std::vector<EdgeKnots<T>> knots_;  // none: all are equal
 };
 
-/// An interior edge with its two faces. The left one starts with (tail, head), the right one with (head, tail).
+/// An interior edge with its two faces. The left one starts at the tail, the right one at the head.
 /// Slots: 0 tail, 1 head, the other corners of the left face, those of the right face.
 template <class T>
 class EdgeSite : public Site<T> {
@@ -132,7 +145,7 @@ class EdgeSite : public Site<T> {
   Stencil<T> head() const { return Stencil<T>(1); }
   FaceSite<T> left_face() const { return {*this->masks_, this->level_, left_, left_knots_}; }
   FaceSite<T> right_face() const { return {*this->masks_, this->level_, right_, right_knots_}; }
-  /// Knots of the edge, seen from the tail.
+  /// Returns the knots of the edge, seen from the tail.
   EdgeKnots<T> knots() const { return left_face().knots(0); }
 
  private:
@@ -148,7 +161,8 @@ class EdgeSite : public Site<T> {
 template <class T>
 class Ring : public Site<T> {
  public:
-  /// @param knots  of each face, from the vertex on; none: all are equal
+  /// Makes a closed ring.
+  /// @param knots  for each face, from the vertex on; empty: all are equal
   Ring(const Masks<T>& masks, int level, std::span<const Index> face_sizes,
        std::vector<std::vector<EdgeKnots<T>>> knots = {})
       : Site<T>(masks, level), knots_(std::move(knots)) {
@@ -159,28 +173,37 @@ class Ring : public Site<T> {
     }
     for (size_t i = 0; i < faces_.size(); ++i) faces_[i].push_back(faces_[(i + 1) % faces_.size()][1]);
   }
-  /// Faces by the slots of their corners, from the vertex on; `start` is the position of the site's own edge.
+  /// Makes the ring of a wide site.
+  /// @param faces  slots of the corners of each face, from the vertex on
+  /// @param start  position of the site's own edge
   Ring(const Masks<T>& masks, int level, std::vector<std::vector<Index>> faces, bool closed, int start)
       : Site<T>(masks, level), faces_(std::move(faces)), closed_(closed), start_(start) {}
 
+  /// True if faces go all around the vertex; false at a boundary or sharp edge.
   bool is_closed() const { return closed_; }
-  /// Edges of a closed ring.
+  /// Returns the number of faces; in a closed ring that of edges too.
   int valence() const { return static_cast<int>(faces_.size()); }
+  /// Returns the vertex itself.
   Stencil<T> center() const { return Stencil<T>(faces_[0][0]); }
-  /// The vertex at the other end of edge i; face i lies between edges i and i+1.
+  /// Returns the vertex at the other end of edge i; face i lies between edges i and i + 1.
+  /// @throws InvalidParameter  an edge that an open ring does not have
   Stencil<T> neighbor(int i) const {
     if (!has_neighbor(i)) refuse("edge", i, valence());
     const int n = valence(), at = closed_ ? position(i) : start_ + i;
     return Stencil<T>(at == n ? faces_[n - 1].back() : faces_[at][1]);
   }
+  /// True if edge i exists.
   bool has_neighbor(int i) const { return closed_ || (start_ + i >= 0 && start_ + i <= valence()); }
+  /// Returns face i, starting at the vertex.
+  /// @throws InvalidParameter  a face that an open ring does not have
   FaceSite<T> face(int i) const {
     const int at = position(i);
     return {*this->masks_, this->level_, faces_[at], knots_.empty() ? std::vector<EdgeKnots<T>>{} : knots_[at]};
   }
-  /// Knots of edge i of a closed ring, seen from the vertex.
+  /// Returns the knots of edge i of a closed ring, seen from the vertex.
   EdgeKnots<T> knots(int i) const { return knots_.empty() ? EdgeKnots<T>{} : knots_[position(i)][0]; }
-  /// The corner of the quadrilateral face i that is opposite to the vertex.
+  /// Returns the corner of the quadrilateral face i that is opposite to the vertex.
+  /// @throws InvalidParameter  a face that is not a quadrilateral
   Stencil<T> diagonal(int i) const {
     const std::vector<Index>& corners = faces_[position(i)];
     if (corners.size() != 4)
@@ -190,8 +213,9 @@ class Ring : public Site<T> {
     return Stencil<T>(corners[2]);
   }
 
-  /// Triangles only: neighbor(i) of a ring that is closed by two virtual points, one beyond each border edge, so that
-  /// the triangle there is half of a parallelogram; the regular border vertex then has valence 6.
+  /// Returns neighbor(i) of a ring of triangles that is closed by two virtual points, one beyond each border edge, so
+  /// that the triangle there is half of a parallelogram; the regular border vertex then has valence 6.
+  /// @throws InvalidParameter  faces that are not triangles
   Stencil<T> continued(int i) const {
     if (faces_[0].size() != 3)
       throw InvalidParameter("a mask asks for a ring of faces of " + std::to_string(faces_[0].size()) +
@@ -203,24 +227,31 @@ class Ring : public Site<T> {
     return at == n + 1 ? center() + end(n) - end(n - 1) : center() + end(0) - end(1);
   }
 
+  /// Returns the mean of the neighbours in a closed ring.
+  /// @throws InvalidParameter  an open ring
   Stencil<T> neighbor_mean() const {
     return mean([&](int i) { return neighbor(i); });
   }
+  /// Returns the mean of the centroids of the faces in a closed ring.
+  /// @throws InvalidParameter  an open ring
   Stencil<T> face_centroid_mean() const {
     return mean([&](int i) { return face(i).centroid(); });
   }
+  /// Returns the mean of the new points of the faces in a closed ring.
+  /// @throws InvalidParameter  an open ring, or a step without a mask of faces
   Stencil<T> face_point_mean() const {
     return mean([&](int i) { return face(i).point(); });
   }
 
  private:
-  /// Site of face i, between edges i and i + 1.
+  /// Returns the position in `faces_` of face i, between edges i and i + 1.
   int position(int i) const {
     const int n = valence();
     if (closed_) return ((start_ + i) % n + n) % n;
     if (start_ + i < 0 || start_ + i >= n) refuse("face", i, n - 1);
     return start_ + i;
   }
+  /// Reports an element that an open ring does not have.
   /// @param last  position of the last one that exists
   [[noreturn]] void refuse(const char* element, int i, int last) const {
     throw InvalidParameter("a mask asks for " + std::string(element) + " " + std::to_string(i) +
@@ -243,19 +274,20 @@ class Ring : public Site<T> {
   int start_ = 0;
 };
 
-/// How the faces around a vertex lie, seen from one of its edges: all around, or in a row of `faces` in which the edge
-/// comes at `start`.
+/// Arrangement of the faces around a vertex, seen from one of its edges: all around, or in an open row in which the
+/// edge is at position `start`.
 struct FanShape {
-  Index faces = 0;
+  Index faces = 0;   ///< number of faces
   Index start = -1;  ///< -1: closed
   bool is_closed() const { return start < 0; }
-  /// Faces from the edge on, counter-clockwise and clockwise, without going around twice.
+  /// Returns the number of faces from the edge on, counter-clockwise; all of a closed ring.
   Index left() const { return is_closed() ? faces : faces - start; }
+  /// Returns the number of faces from the edge on, clockwise; 0 in a closed ring.
   Index right() const { return is_closed() ? 0 : start; }
   auto operator<=>(const FanShape&) const = default;
 };
 
-/// An edge with the rings of both its ends; faces all of one size.
+/// An edge with the rings of both its ends; all faces have the same size.
 /// Slots: 0 tail, 1 head, other corners of the left face, then of the right one (from the head, from the tail), then
 /// the rest of the tail's ring, counter-clockwise from the left face and clockwise from the right one, then the rest of
 /// the head's.
@@ -273,6 +305,7 @@ class WideEdgeSite : public Site<T> {
   Index num_slots() const { return slots_; }
   Stencil<T> tail() const { return Stencil<T>(0); }
   Stencil<T> head() const { return Stencil<T>(1); }
+  /// True if there is no face on one side of the edge.
   bool is_border() const { return !left_ || !right_; }
   const Ring<T>& tail_ring() const { return tail_; }
   const Ring<T>& head_ring() const { return head_; }
@@ -317,9 +350,9 @@ class WideEdgeSite : public Site<T> {
   Ring<T> tail_, head_;
 };
 
-/// A face with the rings of its corners, and the points that the step makes on edges; faces all of one size.
+/// A face with the rings of its corners, and the points that the step makes on edges; all faces have the same size.
 /// Ring i starts with the edge from corner i to corner i + 1, so its face 0 is this face.
-/// Slots: the corners; the other corners of the faces across edge 0, 1, ... (where there is one); for each corner the
+/// Slots: the corners; the other corners of the faces across edge 0, 1, ... (if there is one); for each corner the
 /// rest of its ring, counter-clockwise from the face across the edge before, clockwise from the face across its own
 /// edge; then the points of the face's edges, and of the edges beyond (of quadrilaterals: opposite in the face across).
 template <class T>
@@ -376,9 +409,12 @@ class WideFaceSite : public Site<T> {
   Index num_slots() const { return slots_; }
   Stencil<T> corner(int i) const { return Stencil<T>(position(i)); }
   const Ring<T>& ring(int i) const { return rings_[position(i)]; }
+  /// True if there is a face across edge i.
   bool has_across(int i) const { return has_across_[position(i)]; }
-  /// The child point on edge i, and on the opposite edge of the quadrilateral across it.
+  /// Returns the new point on edge i.
   Stencil<T> edge_point(int i) const { return Stencil<T>(slots_ + position(i)); }
+  /// Returns the new point on the edge opposite to edge i in the quadrilateral across it.
+  /// @throws InvalidParameter  no face across, or faces that are not quadrilaterals
   Stencil<T> edge_point_beyond(int i) const {
     const int at = position(i);
     if (!has_across_[at])
@@ -406,7 +442,7 @@ class CreaseSite : public Site<T> {
   Stencil<T> center() const { return Stencil<T>(0); }
   Stencil<T> before() const { return Stencil<T>(1); }
   Stencil<T> after() const { return Stencil<T>(2); }
-  /// Knots of the edges to these neighbours, seen from the vertex.
+  /// Returns the knots of the edge to the neighbour before or after, seen from the vertex.
   const EdgeKnots<T>& knots_before() const { return knots_before_; }
   const EdgeKnots<T>& knots_after() const { return knots_after_; }
 
@@ -414,8 +450,8 @@ class CreaseSite : public Site<T> {
   EdgeKnots<T> knots_before_, knots_after_;
 };
 
-/// A sharp or boundary edge, and the curve that it is part of. Where a step makes several points on it, each sees the
-/// edge from its nearer end. Slots: 0 tail, 1 head, 2 and 3 the points before and after them on the curve.
+/// A sharp or boundary edge, and the curve that it is part of. If a step makes several points on it, the tail is the
+/// end that is nearer to the point. Slots: 0 tail, 1 head, 2 and 3 the points before and after them on the curve.
 template <class T>
 class CreaseEdgeSite : public Site<T> {
  public:
@@ -424,10 +460,11 @@ class CreaseEdgeSite : public Site<T> {
       : Site<T>(masks, level), has_before_(has_before), has_after_(has_after), knots_(std::move(knots)) {}
   Stencil<T> tail() const { return Stencil<T>(0); }
   Stencil<T> head() const { return Stencil<T>(1); }
-  /// Where the curve ends in a corner, the next point is a virtual one, so that the end is the middle.
+  /// Returns the point before or after the edge; if the curve ends in a corner there, a virtual point that has the
+  /// corner in the middle.
   Stencil<T> before() const { return has_before_ ? Stencil<T>(2) : T(2) * tail() - head(); }
   Stencil<T> after() const { return has_after_ ? Stencil<T>(3) : T(2) * head() - tail(); }
-  /// Knots of the edge, seen from the tail.
+  /// Returns the knots of the edge, seen from the tail.
   const EdgeKnots<T>& knots() const { return knots_; }
 
  private:
@@ -435,30 +472,29 @@ class CreaseEdgeSite : public Site<T> {
   EdgeKnots<T> knots_;
 };
 
-/// A mask: from the site to the stencil of the new point.
+/// A mask: a function from a site to the stencil of the new point. It may be called by several threads.
 template <class T, class Site>
 using Mask = std::function<Stencil<T>(const Site&)>;
 
-/// The masks of one step; a group that the step's split does not make stays empty.
+/// The masks of one step. Masks of points that the step's split does not make stay empty.
 template <class T>
 struct Masks {
-  Mask<T, Ring<T>> vertex{};
-  Mask<T, EdgeSite<T>> edge{};
-  Mask<T, FaceSite<T>> face{};
-  /// Mask of a dual split, for the point at corner 0 of the face.
+  Mask<T, Ring<T>> vertex{};    ///< new position of a vertex
+  Mask<T, EdgeSite<T>> edge{};  ///< point of an interior edge
+  Mask<T, FaceSite<T>> face{};  ///< point of a face
+  /// Point at corner 0 of a face, in a dual split.
   Mask<T, FaceSite<T>> corner{};
-  /// Instead of `edge` and `face`, where these need more of the mesh. A wide edge mask makes border points too, if
-  /// `wide_borders`; else the crease masks do.
+  /// Point of an edge, instead of `edge`, if it depends on more of the mesh.
   Mask<T, WideEdgeSite<T>> wide_edge{};
-  Mask<T, WideFaceSite<T>> wide_face{};
-  bool wide_borders = false;
+  Mask<T, WideFaceSite<T>> wide_face{};  ///< point of a face, instead of `face`, if it depends on more of the mesh
+  bool wide_borders = false;             ///< border points by `wide_edge`; else by the crease masks
 };
 
 /// The masks along sharp edges and boundaries. A corner stays where it is.
 template <class T>
 struct CreaseMasks {
-  Mask<T, CreaseSite<T>> vertex{};
-  Mask<T, CreaseEdgeSite<T>> edge{};
+  Mask<T, CreaseSite<T>> vertex{};    ///< new position of a vertex on a crease
+  Mask<T, CreaseEdgeSite<T>> edge{};  ///< point of a crease edge
 };
 
 }  // namespace sublimit

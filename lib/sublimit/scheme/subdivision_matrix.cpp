@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sublimit/scheme/subdivision_matrix_impl.h"
+#include "sublimit/scheme/detail/subdivision_matrix_impl.h"
 
 namespace sublimit {
 

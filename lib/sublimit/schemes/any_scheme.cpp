@@ -2,18 +2,22 @@
 #include "sublimit/scheme/any_scheme.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
-#include "sublimit/base/rule_words.h"
-#include "sublimit/schemes.h"
+#include "sublimit/base/detail/rule_words.h"
+#include "sublimit/schemes/schemes.h"
 
 namespace sublimit {
 
 AnyScheme::AnyScheme(const std::string& name, const SchemeOptions& options)
-    : AnyScheme(sublimit::scheme(name, options)) {}
+    : AnyScheme([&] {
+        if (std::optional<Scheme<double>> found = find_scheme(name, options)) return *std::move(found);
+        throw_no_surface_scheme(name);
+      }()) {}
 AnyScheme::AnyScheme(Scheme<double> scheme) : scheme_(std::make_shared<const Scheme<double>>(std::move(scheme))) {}
 
-AnyScheme AnyScheme::for_mesh(const ControlMesh& mesh) const {
+AnyScheme AnyScheme::for_mesh(const Mesh& mesh) const {
   const Scheme<double>& scheme = *scheme_;
   const auto rule = std::find_if(scheme.options.begin(), scheme.options.end(),
                                  [](const OptionInfo& info) { return info.name == "triangles"; });

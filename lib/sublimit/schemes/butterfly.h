@@ -8,7 +8,7 @@
 
 namespace sublimit {
 
-/// What the butterfly and its modification share: steps, border, claims.
+/// Returns the common part of the butterfly scheme and its modification: steps, border, claims.
 template <class T, class Edge>
 Scheme<T> butterfly_with(const char* name, const char* source, const SchemeOptions& options,
                          std::vector<OptionInfo> infos, const Ratio& g, const Edge& edge) {

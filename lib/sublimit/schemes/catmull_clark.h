@@ -3,8 +3,8 @@
 // Catmull, Clark 1978, "Recursively generated B-spline surfaces on arbitrary topological meshes".
 // Option triangles=smooth: edge points next to triangles of the control mesh lean towards the faces, so that triangles
 // ripple less (weight 0.470 of OpenSubdiv's TRI_SUB_SMOOTH).
+#include "sublimit/scheme/cubic_bspline_creases.h"
 #include "sublimit/scheme/scheme.h"
-#include "sublimit/schemes/cubic_bspline_creases.h"
 
 namespace sublimit {
 

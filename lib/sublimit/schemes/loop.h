@@ -2,8 +2,8 @@
 #pragma once
 // Loop 1987, "Smooth subdivision surfaces based on triangles" (MSc thesis, Utah).
 // Warren 1995, "Subdivision methods for geometric design" (notes): weights 3/16 and 3/(8n) without cosines.
+#include "sublimit/scheme/cubic_bspline_creases.h"
 #include "sublimit/scheme/scheme.h"
-#include "sublimit/schemes/cubic_bspline_creases.h"
 
 namespace sublimit {
 

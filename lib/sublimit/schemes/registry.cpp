@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sublimit/schemes.h"
+#include "sublimit/schemes/schemes.h"
 
 #include <algorithm>
 #include <iterator>
 #include <utility>
 
 #include "sublimit/base/error.h"
-#include "sublimit/core/nearest_names.h"
+#include "sublimit/core/detail/nearest_names.h"
 #include "sublimit/curves/schemes/curve_schemes.h"
 #include "sublimit/geometric/geometric_schemes.h"
 
@@ -60,9 +60,31 @@ void throw_unknown_scheme(const std::string& name, SchemeKind wanted) {
     if (std::ranges::find(other.names, name) != other.names.end())
       throw InvalidOption("'" + name + "' is a scheme of " + other.refines + ", which " + other.function + "(\"" +
                           name + "\") makes; " + asked.function + " makes those of " + asked.refines);
-  std::string offers;
-  for (const std::string& near : nearest_names(name, asked.names)) offers += (offers.empty() ? "" : ", ") + near;
-  throw InvalidOption("unknown scheme '" + name + "' of " + asked.refines + "; the nearest are " + offers);
+  throw InvalidOption("unknown scheme '" + name + "' of " + asked.refines + "; " + nearest_in_words(name, asked.names));
+}
+
+void throw_no_surface_scheme(const std::string& name) {
+  std::vector<std::string> names;
+  for (const NamedRegistry& one : registries()) {
+    names.insert(names.end(), one.names.begin(), one.names.end());
+    if (std::ranges::find(one.names, name) == one.names.end()) continue;
+    switch (one.kind) {
+      case SchemeKind::curve:
+      case SchemeKind::polygon:
+        throw InvalidOption(name + " refines curves; a scheme of surfaces is needed here (`schemes` lists all)");
+      case SchemeKind::curvature_mesh:
+        throw InvalidOption(name + " refines points with normals and curvatures; it is for `sublimit fit`");
+      case SchemeKind::normal_mesh:
+        throw InvalidOption(name +
+                            " makes surfaces through points with normals and has no matrix; it is for "
+                            "`sublimit sample`, `refine`, `limit` and `info`");
+      default:
+        break;
+    }
+  }
+  const std::vector<std::string> near = nearest_names(name, names);
+  throw InvalidOption("unknown scheme '" + name + "'; " +
+                      (near.empty() ? "`schemes` lists all" : nearest_in_words(name, near) + " (`schemes` lists all)"));
 }
 
 }  // namespace sublimit

@@ -2,9 +2,9 @@
 #include "sublimit/subdivide.h"
 
 #include "sublimit/base/error.h"
-#include "sublimit/core/sparse_product.h"
-#include "sublimit/scheme/check_levels.h"
-#include "sublimit/schemes.h"
+#include "sublimit/core/detail/sparse_product.h"
+#include "sublimit/scheme/detail/check_levels.h"
+#include "sublimit/schemes/schemes.h"
 
 namespace sublimit {
 

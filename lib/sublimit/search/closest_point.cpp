@@ -7,16 +7,18 @@
 #include <optional>
 #include <string>
 
+#include "sublimit/base/detail/parallel_for.h"
 #include "sublimit/base/error.h"
 #include "sublimit/base/format_number.h"
-#include "sublimit/base/parallel_for.h"
-#include "sublimit/core/finite_points.h"
-#include "sublimit/limit/limit_cells.h"
-#include "sublimit/search/box_tree.h"
-#include "sublimit/search/distance_bound.h"
-#include "sublimit/search/foot_point.h"
-#include "sublimit/search/searched_surface.h"
-#include "sublimit/search/winding.h"
+#include "sublimit/core/detail/finite_points.h"
+#include "sublimit/limit/detail/limit_cells.h"
+#include "sublimit/patches/patches.h"
+#include "sublimit/search/detail/box_tree.h"
+#include "sublimit/search/detail/distance_bound.h"
+#include "sublimit/search/detail/foot_point.h"
+#include "sublimit/search/detail/searched_patches.h"
+#include "sublimit/search/detail/searched_surface.h"
+#include "sublimit/search/detail/winding.h"
 
 namespace sublimit {
 namespace {
@@ -47,30 +49,30 @@ class NearestFaces {
  public:
   /// @param limit  square of a distance: what is farther does not count
   NearestFaces(size_t count, double limit) : count_(count), limit_(limit) {}
-  const std::vector<Foot>& feet() const { return feet_; }
-  bool is_full() const { return feet_.size() == count_; }
+  const std::vector<Foot>& foot_points() const { return foot_points_; }
+  bool is_full() const { return foot_points_.size() == count_; }
   /// Square of the distance that another face has to be below.
-  double limit() const { return is_full() ? feet_.back().squared_distance : limit_; }
+  double limit() const { return is_full() ? foot_points_.back().squared_distance : limit_; }
   /// @return  where it came to be; -1 if it is no nearer than what there is
   std::ptrdiff_t insert(const Foot& foot) {
     if (!(foot.squared_distance <= limit_)) return -1;
-    const auto same = std::ranges::find(feet_, foot.place.face, [](const Foot& f) { return f.place.face; });
-    if (same != feet_.end()) {
+    const auto same = std::ranges::find(foot_points_, foot.place.face, [](const Foot& f) { return f.place.face; });
+    if (same != foot_points_.end()) {
       if (same->squared_distance <= foot.squared_distance) return -1;
-      feet_.erase(same);
+      foot_points_.erase(same);
     }
-    const auto at = std::ranges::upper_bound(feet_, foot.squared_distance, {}, &Foot::squared_distance);
-    if (at == feet_.end() && is_full()) return -1;
-    const std::ptrdiff_t place = at - feet_.begin();
-    feet_.insert(at, foot);
-    if (feet_.size() > count_) feet_.pop_back();
+    const auto at = std::ranges::upper_bound(foot_points_, foot.squared_distance, {}, &Foot::squared_distance);
+    if (at == foot_points_.end() && is_full()) return -1;
+    const std::ptrdiff_t place = at - foot_points_.begin();
+    foot_points_.insert(at, foot);
+    if (foot_points_.size() > count_) foot_points_.pop_back();
     return place;
   }
 
  private:
   size_t count_;
   double limit_;
-  std::vector<Foot> feet_;
+  std::vector<Foot> foot_points_;
 };
 
 struct Search {
@@ -80,7 +82,7 @@ struct Search {
   std::int64_t most_cells;
   bool triangles;
 
-  void operator()(const Eigen::Vector3d& query, const Sample* guess, FootSearch& foot_search, int& order,
+  void operator()(const Eigen::Vector3d& query, const Place* guess, FootSearch& foot_search, int& order,
                   std::vector<Candidate>& heap, NearestFaces& best) const {
     const SearchDomain whole(triangles);
     if (guess) best.insert(foot_search(query, *guess, whole, order, infinity));
@@ -106,7 +108,7 @@ struct Search {
       if (nearest.is_cell) {
         if (++searched > most_cells) break;
         const LimitCell& cell = cells[size_t(node.item)];
-        // Only there, else the search would leave it for its neighbours' feet.
+        // Only there, else the search would leave it for its neighbours' foot points.
         const Foot foot =
             foot_search(query, cell.start, SearchDomain(triangles, cell.start, cell.radius), order, best.limit());
         if (best.insert(foot) >= 0) limit = near_enough();
@@ -118,7 +120,7 @@ struct Search {
           push({tree.nodes()[size_t(child)].box.squaredExteriorDistance(query), child, false});
       }
     }
-    const std::vector<Foot> found = best.feet();
+    const std::vector<Foot> found = best.foot_points();
     for (const Foot& foot : found) best.insert(foot_search(query, foot.place, whole, order, infinity));
   }
 };
@@ -135,9 +137,9 @@ struct Proof {
     std::vector<double> lower;
     std::vector<Index> before;
     for (int tries = 0; lower.size() < count;) {
-      const bool found = lower.size() < best.feet().size();
+      const bool found = lower.size() < best.foot_points().size();
       if (!found && std::isinf(radius)) break;
-      const double distance = found ? std::sqrt(best.feet()[lower.size()].squared_distance) : radius;
+      const double distance = found ? std::sqrt(best.foot_points()[lower.size()].squared_distance) : radius;
       const ProvedDistance proved = bound(query, distance, most_cells, cutter, before);
       if (proved.closer && ++tries < 8) {
         const Foot foot = foot_search(query, *proved.closer, SearchDomain(triangles), order, infinity);
@@ -149,7 +151,7 @@ struct Proof {
         }
       }
       if (!found) break;
-      before.push_back(best.feet()[lower.size()].place.face);
+      before.push_back(best.foot_points()[lower.size()].place.face);
       lower.push_back(proved.lower);
       tries = 0;
     }
@@ -158,7 +160,7 @@ struct Proof {
 };
 
 void check(const SearchedSurface& surface, const Points& queries, const ClosestPointOptions& options) {
-  const std::span<const Sample> guess = options.guess;
+  const std::span<const Place> guess = options.guess;
   if (options.count < 1)
     throw InvalidParameter(std::to_string(options.count) + " nearest faces were asked for; 1 or more are right");
   if (!(options.radius >= 0)) throw InvalidParameter("a radius is not below 0, and a number");
@@ -168,7 +170,7 @@ void check(const SearchedSurface& surface, const Points& queries, const ClosestP
   if (!guess.empty() && guess.size() != size_t(queries.rows()))
     throw InvalidParameter(std::to_string(guess.size()) + " places to begin with for " +
                            std::to_string(queries.rows()) + " points; one each, or none");
-  for (const Sample& s : guess)
+  for (const Place& s : guess)
     if (!is_inside(surface.faces(), s))
       throw InvalidParameter("a place to begin with is on no face: face " + std::to_string(s.face) + " (" +
                              format_number(s.u) + ", " + format_number(s.v) + ")");
@@ -179,6 +181,18 @@ void check(const SearchedSurface& surface, const Points& queries, const ClosestP
 ClosestPoints closest(const LimitSurface& surface, const Points& queries, const ClosestPointOptions& options) {
   return closest(SearchedLimit(surface), queries, options);
 }
+ClosestPoints LimitSurface::closest(const Points& queries, const ClosestPointOptions& options) const {
+  return sublimit::closest(*this, queries, options);
+}
+ClosestPoints LimitSurface::closest(const Points& queries) const { return sublimit::closest(*this, queries); }
+
+ClosestPoints closest(const Patches& patches, const Points& queries, const ClosestPointOptions& options) {
+  return closest(SearchedPatches(patches.set(), patches.points()), queries, options);
+}
+ClosestPoints Patches::closest(const Points& queries, const ClosestPointOptions& options) const {
+  return sublimit::closest(*this, queries, options);
+}
+ClosestPoints Patches::closest(const Points& queries) const { return sublimit::closest(*this, queries); }
 
 ClosestPoints closest(const LimitMap& surface, const Points& control, const Points& queries,
                       const ClosestPointOptions& options) {
@@ -200,7 +214,7 @@ ClosestPoints closest(const SearchedSurface& surface, const Points& queries, con
 
   const Eigen::Index count = queries.rows();
   struct Found {
-    std::vector<Sample> places;
+    std::vector<Place> places;
     std::vector<double> lower;
   };
   std::vector<Found> found(static_cast<size_t>(count));
@@ -218,7 +232,7 @@ ClosestPoints closest(const SearchedSurface& surface, const Points& queries, con
           if (bound_of)
             found[size_t(i)].lower = Proof{*bound_of, options.radius, options.most_cells, triangles}(
                 query, most, foot_search, order, cutter, best);
-          for (const Foot& foot : best.feet()) found[size_t(i)].places.push_back(foot.place);
+          for (const Foot& foot : best.foot_points()) found[size_t(i)].places.push_back(foot.place);
         }
       },
       64);

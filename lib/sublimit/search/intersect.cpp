@@ -9,14 +9,16 @@
 #include <string>
 #include <utility>
 
+#include "sublimit/base/detail/parallel_for.h"
 #include "sublimit/base/error.h"
 #include "sublimit/base/format_number.h"
-#include "sublimit/base/parallel_for.h"
-#include "sublimit/core/finite_points.h"
+#include "sublimit/core/detail/finite_points.h"
+#include "sublimit/patches/patches.h"
 #include "sublimit/search/closest_point.h"
-#include "sublimit/search/searched_surface.h"
-#include "sublimit/search/surface_parts.h"
-#include "sublimit/search/tracer.h"
+#include "sublimit/search/detail/searched_patches.h"
+#include "sublimit/search/detail/searched_surface.h"
+#include "sublimit/search/detail/surface_parts.h"
+#include "sublimit/search/detail/tracer.h"
 
 namespace sublimit {
 namespace {
@@ -103,6 +105,18 @@ const char* RayHits::word(std::int64_t hit) const {
 RayHits intersect(const LimitSurface& surface, const std::vector<Ray>& rays, const RayOptions& options) {
   return intersect(SearchedLimit(surface), rays, options);
 }
+RayHits LimitSurface::intersect(const std::vector<Ray>& rays, const RayOptions& options) const {
+  return sublimit::intersect(*this, rays, options);
+}
+RayHits LimitSurface::intersect(const std::vector<Ray>& rays) const { return sublimit::intersect(*this, rays); }
+
+RayHits intersect(const Patches& patches, const std::vector<Ray>& rays, const RayOptions& options) {
+  return intersect(SearchedPatches(patches.set(), patches.points()), rays, options);
+}
+RayHits Patches::intersect(const std::vector<Ray>& rays, const RayOptions& options) const {
+  return sublimit::intersect(*this, rays, options);
+}
+RayHits Patches::intersect(const std::vector<Ray>& rays) const { return sublimit::intersect(*this, rays); }
 
 RayHits intersect(const LimitMap& surface, const Points& points, const std::vector<Ray>& rays,
                   const RayOptions& options) {

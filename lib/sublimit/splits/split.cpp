@@ -5,11 +5,11 @@
 #include <limits>
 #include <string>
 
+#include "sublimit/base/detail/interruption.h"
 #include "sublimit/base/error.h"
 #include "sublimit/base/huge_pages.h"
-#include "sublimit/base/interruption.h"
-#include "sublimit/splits/primal.h"
-#include "sublimit/splits/sheets.h"
+#include "sublimit/splits/detail/primal.h"
+#include "sublimit/splits/detail/sheets.h"
 
 namespace sublimit {
 
@@ -58,8 +58,8 @@ void check_triangles(const Topology& t) {
   Index f = 0;
   while (t.size(Face{f}) == 3) ++f;
   throw UnsupportedTopology("face " + std::to_string(f) + " has " + std::to_string(t.size(Face{f})) +
-                            " corners; this scheme takes triangles only: triangulate the mesh (--triangulate) or use a "
-                            "scheme for polygons, catmull-clark for one");
+                            " corners; this scheme takes triangles only: triangulate the mesh or use a scheme for "
+                            "polygons, catmull-clark for one");
 }
 
 namespace {

@@ -8,10 +8,10 @@
 
 #include "sublimit/base/error.h"
 #include "sublimit/base/format_number.h"
-#include "sublimit/limit/limit_patches.h"
-#include "sublimit/tessellation/cell_polygon.h"
-#include "sublimit/tessellation/cell_vertices.h"
-#include "sublimit/tessellation/flat_cells.h"
+#include "sublimit/limit/detail/limit_patches.h"
+#include "sublimit/tessellation/detail/cell_polygon.h"
+#include "sublimit/tessellation/detail/cell_vertices.h"
+#include "sublimit/tessellation/detail/flat_cells.h"
 
 namespace sublimit {
 namespace {
@@ -70,7 +70,17 @@ Tessellation tessellate(const LimitMap& surface, const Points& control, const Te
       throw ResourceError("more than " + std::to_string(options.max_triangles) +
                           " triangles are needed; allow a larger distance or more triangles");
   }
+  if (!options.normals) return made;
+  std::vector<Place> corners_of;  // in the faces of their triangles
+  corners_of.reserve(3 * made.triangles.size());
+  for (const Tessellation::Triangle& triangle : made.triangles)
+    for (const auto& [u, v] : triangle.uv) corners_of.push_back({triangle.face, u, v});
+  made.normals = surface.evaluate(control, corners_of, 1).normal;
   return made;
+}
+
+Tessellation LimitSurface::tessellate(const TessellationOptions& options) const {
+  return sublimit::tessellate(*this, options);
 }
 
 }  // namespace sublimit

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Triangles near a limit surface: by no more than a distance that is proved, not estimated, without cracks, and as few
-// as its cells (flat_cells.h) allow. Points are places of the limit: a list of them makes a table that follows a moving
-// control mesh (`bake --tessellation`).
+// Tessellates limit surfaces: triangles within a proved distance of the surface, without cracks.
 //
-// Where cells of different sizes meet, in a face or across an edge, the larger one takes the smaller ones' points into
-// its sides: there are no T-junctions. Points that faces share are one point, known by connectivity, not by rounding.
+//   const LimitSurface surface(read_mesh("torus.obj"), "catmull-clark");
+//   const Tessellation flat = tessellate(surface, {.chord = 1e-3});
+//   for (const Tessellation::Triangle& t : flat.triangles) std::cout << flat.points.row(t.vertices[0]) << "\n";
+//   const Points moved = place_stencils(surface.map(), flat.places).matrices[0] * surface.points();
+//
+// Points are places of the limit, so that the stencils of `places` move the triangles with the control mesh. Where
+// cells of different sizes meet, in a face or across an edge, the larger one takes the smaller ones' points into its
+// sides: there are no T-junctions. Points that faces share are one point, by connectivity, not by rounding.
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -14,38 +18,44 @@
 
 namespace sublimit {
 
+/// Options of `tessellate`.
 struct TessellationOptions {
   /// Largest distance between a point of a triangle and the point of the surface with the same parameters, > 0.
   double chord = 0;
-  /// Largest angle between two normals of a cell, in radians; 0: any. Not around extraordinary vertices.
+  /// Largest angle between two normals of a cell, in radians; 0: any. It is not enforced around extraordinary vertices.
   double angle = 0;
-  std::int64_t max_triangles = std::int64_t{1} << 24;
-  /// For each edge of the surface's level, >= 1: into how many segments it is cut at least; none: as the chord asks.
+  std::int64_t max_triangles = std::int64_t{1} << 24;  ///< limit of the number of triangles
+  /// Least number of segments for each edge of the surface's level, >= 1; empty: as many as the chord needs.
   std::vector<Index> rates = {};
+  bool normals = false;  ///< compute normals at the corners of triangles
 };
 
+/// Triangles near a surface. Plain data.
 struct [[nodiscard]] Tessellation {
   struct Triangle {
-    Index face = 0;                           ///< square or triangle of the surface, as in `Sample`
-    std::array<Index, 3> vertices;            ///< counter-clockwise
-    std::array<std::array<double, 2>, 3> uv;  ///< their places in it
+    Index face = 0;                           ///< square or triangle of the surface, as in `Place`
+    std::array<Index, 3> vertices;            ///< rows of `points`, counter-clockwise
+    std::array<std::array<double, 2>, 3> uv;  ///< parameters of the vertices in `face`
   };
-  std::vector<Sample> places;  ///< of the vertices; one of them, where several faces have it
-  Points points;               ///< #places x 3
+  std::vector<Place> places;  ///< place of each vertex, on one of the faces that share it
+  Points points;              ///< #places x 3
   std::vector<Triangle> triangles;
-  double bound = 0;  ///< proved for the chord: at most what was asked for, but where cells cannot be cut further
-  std::int64_t cells = 0;
+  /// If asked for: normal of corner k of triangle t in row 3 t + k, on that triangle's side of sharp edges.
+  Points normals;
+  double bound = 0;        ///< proved bound of the distance; above `chord` only if cells could not be cut further
+  std::int64_t cells = 0;  ///< number of cells that were triangulated
 };
 
 /// Returns triangles of the whole surface without its holes. The result does not depend on the number of threads.
-/// @param control  points of the map's level, #V x 3
-/// @throws InvalidParameter     points that do not fit; a chord that is not positive, an angle below 0;
-///                              rates as of `tessellate_by_rates`
-/// @throws UnsupportedTopology  as `flat_cells`
-/// @throws ResourceError        more triangles than allowed: before most of them are made
+/// @param control  control points of the map's level, #V x 3
+/// @throws InvalidParameter     points that do not fit; a chord or angle that is negative or below rounding; rates
+///                              that are not one for each edge, or below 1
+/// @throws UnsupportedTopology  a scheme whose distances to triangles cannot be proved (without polynomial pieces, or
+///                              with negative weights at extraordinary vertices)
+/// @throws ResourceError        more triangles than allowed: thrown before most of them are made
 Tessellation tessellate(const LimitMap& map, const Points& control, const TessellationOptions& options);
 /// Returns triangles of a limit surface.
-/// @throws as above
+/// @throws as for a map
 inline Tessellation tessellate(const LimitSurface& surface, const TessellationOptions& options) {
   return tessellate(surface.map(), surface.points(), options);
 }

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "../table_applier.h"
-#include "sublimit/gpu/gpu_device.h"
+#include "sublimit/eval/gpu/gpu_device.h"
 
 namespace sublimit::cli {
 

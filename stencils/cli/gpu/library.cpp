@@ -5,7 +5,7 @@
 #include "../part_version.h"
 #include "entry.h"
 #include "sublimit/base/error.h"
-#include "sublimit/gpu/gpu_evaluator.h"
+#include "sublimit/eval/gpu/gpu_evaluator.h"
 
 extern "C" void sublimit_gpu_devices(std::vector<sublimit::cli::DescribedGpu>& devices, std::string& why_none) {
   for (const sublimit::GpuInfo& info : sublimit::gpu_devices(&why_none))

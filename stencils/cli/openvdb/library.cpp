@@ -5,7 +5,7 @@
 #include "entry.h"
 #include "sublimit/implicit/polygonize/polygonize.h"
 
-extern "C" void sublimit_polygonize(const sublimit::FieldGrid& grid, sublimit::ControlMesh& mesh) {
+extern "C" void sublimit_polygonize(const sublimit::FieldGrid& grid, sublimit::Mesh& mesh) {
   mesh = sublimit::polygonize(grid);
 }
 

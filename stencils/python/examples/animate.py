@@ -34,7 +34,7 @@ seconds = time.perf_counter() - begin
 print(f"{table}: {len(frames)} frames in {1e3 * seconds:.1f} ms, {1e9 * seconds / points[..., 0].size:.1f} ns a point")
 
 # The same frame without a table.
-exact = sublimit.limit(sublimit.Mesh(cage(0), faces), "catmull-clark", level=3)
+exact = sublimit.limit(sublimit.Mesh(cage(0), faces), "catmull-clark", levels=3)
 assert len(exact.points) == points.shape[1]
 assert abs(np.sort(exact.points, axis=0) - np.sort(points[0].astype(float), axis=0)).max() < 1e-5
 

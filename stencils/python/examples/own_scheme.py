@@ -43,7 +43,7 @@ mesh = sublimit.Mesh(points, faces)
 for pull in (Fraction(1, 4), Fraction(1), Fraction(5, 4)):
     own = PulledLoop(pull)
     report = sublimit.analyze(own, valences=[3, 5, 6, 8])
-    limit = sublimit.limit(mesh, own, level=2)
+    limit = sublimit.limit(mesh, own, levels=2)
     radius = np.linalg.norm(limit.points, axis=1)
     summary = report["summary"][0]
     print(f"{own}: {summary['notes'] or 'C^1 everywhere'}; the icosahedron's limit has radii {radius.min():.3f} to {radius.max():.3f}")

@@ -8,7 +8,7 @@
 #include <chrono>
 #include <optional>
 
-#include "sublimit/base/interruption.h"
+#include "sublimit/base/detail/interruption.h"
 
 namespace sublimit::python {
 

@@ -10,7 +10,7 @@
 #include "arrays.h"
 #include "calls.h"
 #include "module.h"
-#include "sublimit/jobs/mesh_job.h"
+#include "sublimit/stencils/jobs/detail/mesh_job.h"
 #include "sublimit/sublimit.h"
 
 namespace sublimit::python {
@@ -25,7 +25,7 @@ py::array_t<double> column(const Eigen::VectorXd& values) {
 std::vector<double> weights(const Vectors& given) { return given ? vector(*given) : std::vector<double>(); }
 
 /// @param normals  rows of not-a-number where there is none
-py::dict fit_vertices(const ControlMesh& mesh, const MeshRequest& request, const Array<Index>& vertices,
+py::dict fit_vertices(const Mesh& mesh, const MeshRequest& request, const Array<Index>& vertices,
                       const Array<double>& positions, const Vectors& normals, const Fairness& fairness,
                       std::pair<int, int> refinements, int threads) {
   std::vector<VertexTarget> targets;
@@ -43,7 +43,7 @@ py::dict fit_vertices(const ControlMesh& mesh, const MeshRequest& request, const
                {.fairness = fairness, .least_refinements = refinements.first, .most_refinements = refinements.second});
   });
   py::dict all;
-  all["mesh"] = std::make_shared<ControlMesh>(std::move(found.mesh));
+  all["mesh"] = std::make_shared<Mesh>(std::move(found.mesh));
   all["solved"] = found.solved;
   all["why_not"] = found.why_not;
   all["refinements"] = found.refinements;
@@ -52,9 +52,9 @@ py::dict fit_vertices(const ControlMesh& mesh, const MeshRequest& request, const
   return all;
 }
 
-py::dict fit_to_places(const ControlMesh& mesh, const MeshRequest& request, const Array<Index>& faces,
-                       const Array<double>& u, const Array<double>& v, const Array<double>& values,
-                       const Vectors& weight, const Fairness& fairness, const Array<Index>& pins, int threads) {
+py::dict fit_to_places(const Mesh& mesh, const MeshRequest& request, const Array<Index>& faces, const Array<double>& u,
+                       const Array<double>& v, const Array<double>& values, const Vectors& weight,
+                       const Fairness& fairness, const Array<Index>& pins, int threads) {
   PlaceTargets targets;
   for (py::ssize_t i = 0; i < faces.size(); ++i) targets.places.push_back({faces.at(i), u.at(i), v.at(i)});
   targets.values = points(values);
@@ -74,9 +74,9 @@ py::dict fit_to_places(const ControlMesh& mesh, const MeshRequest& request, cons
   return all;
 }
 
-py::dict fit_to_cloud(const ControlMesh& mesh, const MeshRequest& request, const Array<double>& cloud,
-                      const Vectors& weight, const Fairness& fairness, const std::vector<double>& schedule,
-                      const Array<Index>& pins, int iterations, double tolerance, int threads) {
+py::dict fit_to_cloud(const Mesh& mesh, const MeshRequest& request, const Array<double>& cloud, const Vectors& weight,
+                      const Fairness& fairness, const std::vector<double>& schedule, const Array<Index>& pins,
+                      int iterations, double tolerance, int threads) {
   CloudFitOptions options{
       .fairness = fairness, .schedule = schedule, .max_iterations = iterations, .tolerance = tolerance};
   options.pins.vertices = vector(pins);
@@ -90,7 +90,7 @@ py::dict fit_to_cloud(const ControlMesh& mesh, const MeshRequest& request, const
   for (const CloudIteration& one : found.iterations) rms.push_back(one.rms);
   py::dict all;
   all["points"] = array(std::move(found.points));
-  all["residuals"] = column(found.feet.distances);
+  all["residuals"] = column(found.foot_points.distances);
   all["rms"] = rms.back();
   all["largest"] = found.iterations.back().largest;
   all["iterations"] = array(std::move(rms));

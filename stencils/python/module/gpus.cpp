@@ -8,7 +8,7 @@
 #include "module.h"
 #include "optional_parts.h"
 #ifdef SUBLIMIT_GPU
-#include "sublimit/gpu/gpu_evaluator.h"
+#include "sublimit/eval/gpu/gpu_evaluator.h"
 #endif
 
 namespace sublimit::python {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Refined meshes, their matrices, and the limits of their vertices.
+// Refined meshes, their levels and matrices, and the limits of their vertices.
 #include <pybind11/stl.h>
 
 #include <memory>
@@ -7,31 +7,54 @@
 #include "arrays.h"
 #include "calls.h"
 #include "module.h"
-#include "sublimit/base/error.h"
-#include "sublimit/jobs/refined_job.h"
 #include "sublimit/limit/limit.h"
+#include "sublimit/stencils/jobs/detail/refined_job.h"
+#include "sublimit/sublimit.h"
 
 namespace sublimit::python {
 namespace {
 
-std::shared_ptr<ControlMesh> refine(const ControlMesh& mesh, const MeshRequest& request, int levels, bool tags,
-                                    int threads) {
+std::shared_ptr<Mesh> refine(const Mesh& mesh, const MeshRequest& request, int levels, bool tags, int threads) {
   const Threads held(threads);
   MeshJob job = mesh_job(request, mesh, "mesh");
-  ControlMesh refined = refined_mesh(job, levels);
-  return std::make_shared<ControlMesh>(tags ? std::move(refined) : without_tags(std::move(refined)));
+  Mesh refined = refined_mesh(job, levels);
+  return std::make_shared<Mesh>(tags ? std::move(refined) : without_tags(std::move(refined)));
 }
 
-SparseMatrix matrix(const ControlMesh& mesh, const MeshRequest& request, int levels, int threads) {
+std::vector<Level> levels_of(const Mesh& mesh, const MeshRequest& request, int levels, int threads) {
   const Threads held(threads);
   const MeshJob job = mesh_job(request, mesh, "mesh");
-  return refinement_matrix(sublimit::refine(*job.scheme, job.mesh, levels, job.rules));
+  return sublimit::levels(job.mesh, *job.scheme, levels);
 }
 
-Limit limit(const ControlMesh& mesh, const MeshRequest& request, int level, int threads) {
+SparseMatrix matrix(const Mesh& mesh, const MeshRequest& request, int levels, int threads) {
   const Threads held(threads);
   const MeshJob job = mesh_job(request, mesh, "mesh");
-  return sublimit::limit(job.mesh, *job.scheme, {.level = level});
+  return sublimit::subdivision_matrix(job.mesh, *job.scheme, levels);
+}
+
+Limit limit(const Mesh& mesh, const MeshRequest& request, int levels, int threads) {
+  const Threads held(threads);
+  const MeshJob job = mesh_job(request, mesh, "mesh");
+  return sublimit::limit(job.mesh, *job.scheme, {.levels = levels});
+}
+
+py::dict arrays(Level&& level) {
+  const Topology& topology = level.topology();
+  std::vector<Index> sizes, corners, holes;
+  for (Index f = 0; f < topology.num_faces(); ++f) {
+    sizes.push_back(topology.size(Face{f}));
+    const auto vertices = topology.vertices(Face{f});
+    corners.insert(corners.end(), vertices.begin(), vertices.end());
+    if (size_t(f) < level.holes.size() && level.holes[size_t(f)]) holes.push_back(f);
+  }
+  py::dict all;
+  all["number"] = level.number;
+  all["S"] = csr(std::move(level.S));
+  all["sizes"] = array(std::move(sizes));
+  all["corners"] = array(std::move(corners));
+  all["holes"] = array(std::move(holes));
+  return all;
 }
 
 py::dict arrays(Limit limit) {
@@ -61,17 +84,26 @@ void add_levels(py::module_& m) {
   m.def("refine", &refine, py::arg("mesh"), py::arg("request"), py::arg("levels"), py::arg("tags"), py::arg("threads"),
         py::call_guard<LongCall>());
   m.def(
+      "levels",
+      [](const Mesh& mesh, const MeshRequest& request, int levels, int threads) {
+        py::list all;
+        for (Level& level : without_gil([&] { return levels_of(mesh, request, levels, threads); }))
+          all.append(arrays(std::move(level)));
+        return all;
+      },
+      py::arg("mesh"), py::arg("request"), py::arg("levels"), py::arg("threads"));
+  m.def(
       "subdivision_matrix",
-      [](const ControlMesh& mesh, const MeshRequest& request, int levels, int threads) {
+      [](const Mesh& mesh, const MeshRequest& request, int levels, int threads) {
         return csr(without_gil([&] { return matrix(mesh, request, levels, threads); }));
       },
       py::arg("mesh"), py::arg("request"), py::arg("levels"), py::arg("threads"));
   m.def(
       "limit",
-      [](const ControlMesh& mesh, const MeshRequest& request, int level, int threads) {
-        return arrays(without_gil([&] { return limit(mesh, request, level, threads); }));
+      [](const Mesh& mesh, const MeshRequest& request, int levels, int threads) {
+        return arrays(without_gil([&] { return limit(mesh, request, levels, threads); }));
       },
-      py::arg("mesh"), py::arg("request"), py::arg("level"), py::arg("threads"));
+      py::arg("mesh"), py::arg("request"), py::arg("levels"), py::arg("threads"));
 }
 
 }  // namespace sublimit::python

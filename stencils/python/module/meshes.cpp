@@ -6,25 +6,29 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "arrays.h"
 #include "calls.h"
+#include "face_names.h"
 #include "module.h"
 #include "sublimit/base/error.h"
-#include "sublimit/files/rule_words.h"
-#include "sublimit/files/sidecar.h"
 #include "sublimit/io/read_mesh.h"
 #include "sublimit/io/write_mesh.h"
-#include "sublimit/jobs/mesh_info_json.h"
-#include "sublimit/jobs/mesh_job.h"
 #include "sublimit/mesh/sharpness.h"
+#include "sublimit/stencils/files/rule_of_word.h"
+#include "sublimit/stencils/files/sidecar.h"
+#include "sublimit/stencils/jobs/detail/mesh_info_json.h"
+#include "sublimit/stencils/jobs/detail/mesh_job.h"
 
 namespace sublimit::python {
 namespace {
 
 /// What every scheme would refuse.
 /// @throws InvalidMesh  faces or tags that name what there is not
-void check(const ControlMesh& mesh) {
+void check(const Mesh& mesh) {
   const Topology topology(view(mesh));
   initial_sharpness(topology, mesh, Boundary::edge_and_corner, Creasing::uniform);
   initial_holes(topology, mesh, Boundary::edge_and_corner);
@@ -33,11 +37,14 @@ void check(const ControlMesh& mesh) {
 /// Edges or vertices with their sharpness.
 using Tags = std::pair<Array<Index>, Array<float>>;
 
-ControlMesh made(const Array<double>& positions, const Array<Index>& sizes, const Array<Index>& corners,
-                 const Tags& creases, const Tags& sharp_vertices, const Array<Index>& holes,
-                 const std::optional<std::string>& boundary,
-                 const std::optional<std::pair<Array<double>, Array<Index>>>& uv) {
-  ControlMesh mesh;
+/// Values, and which of them each corner has; of normals -1 for none, and no indices if they are of vertices.
+using Channel = std::optional<std::pair<Array<double>, Array<Index>>>;
+
+Mesh made(const Array<double>& positions, const Array<Index>& sizes, const Array<Index>& corners, const Tags& creases,
+          const Tags& sharp_vertices, const Array<Index>& holes, const std::optional<std::string>& boundary,
+          const Channel& uv, const Channel& normals, const Array<Index>& face_ids,
+          const std::vector<std::string>& names) {
+  Mesh mesh;
   mesh.positions = points(positions);
   mesh.face_sizes = vector(sizes);
   mesh.face_vertices = vector(corners);
@@ -52,12 +59,18 @@ ControlMesh made(const Array<double>& positions, const Array<Index>& sizes, cons
       throw InvalidOption("boundary '" + *boundary + "' is no rule; there are none, edge-only, edge-and-corner");
   }
   if (uv) mesh.face_varying.push_back({"uv", points(uv->first), vector(uv->second)});
+  if (normals) {
+    mesh.normals = points(normals->first);
+    mesh.face_normals = vector(normals->second);
+  }
+  mesh.face_ids = vector(face_ids);
+  mesh.face_names = face_names(names);
   const LongCall scope;
   check(mesh);
   return mesh;
 }
 
-py::tuple tags(const std::vector<ControlMesh::Crease>& creases) {
+py::tuple tags(const std::vector<Mesh::Crease>& creases) {
   std::vector<float> sharpness;
   Array<Index> edges({py::ssize_t(creases.size()), py::ssize_t(2)});
   for (py::ssize_t i = 0; i < edges.shape(0); ++i) {
@@ -67,10 +80,10 @@ py::tuple tags(const std::vector<ControlMesh::Crease>& creases) {
   }
   return py::make_tuple(edges, array(std::move(sharpness)));
 }
-py::tuple tags(const std::vector<ControlMesh::Corner>& corners) {
+py::tuple tags(const std::vector<Mesh::Corner>& corners) {
   std::vector<Index> vertices;
   std::vector<float> sharpness;
-  for (const ControlMesh::Corner& corner : corners) {
+  for (const Mesh::Corner& corner : corners) {
     vertices.push_back(corner.vertex);
     sharpness.push_back(corner.sharpness);
   }
@@ -80,7 +93,7 @@ py::tuple tags(const std::vector<ControlMesh::Corner>& corners) {
 /// Name, values, and the value of every corner of every channel.
 py::list channels(const py::object& self) {
   py::list all;
-  for (const ControlMesh::FaceVarying& channel : self.cast<const ControlMesh&>().face_varying)
+  for (const Mesh::FaceVarying& channel : self.cast<const Mesh&>().face_varying)
     all.append(py::make_tuple(channel.name, view(channel.values, self), view(channel.indices, self)));
   return all;
 }
@@ -95,44 +108,71 @@ std::optional<Rule> rule(const py::handle& number) {
 }
 
 /// All that a mesh has, for pickles.
-py::tuple state(const ControlMesh& mesh) {
-  py::list values, knots;
-  for (const ControlMesh::FaceVarying& channel : mesh.face_varying)
-    values.append(
+py::tuple state(const Mesh& mesh) {
+  py::list channels, knots, vertex_values, comments;
+  for (const Mesh::FaceVarying& channel : mesh.face_varying)
+    channels.append(
         py::make_tuple(channel.name, array(Points(channel.values)), array(std::vector<Index>(channel.indices))));
-  for (const ControlMesh::KnotInterval& knot : mesh.knot_intervals)
+  for (const Mesh::KnotInterval& knot : mesh.knot_intervals)
     knots.append(py::make_tuple(knot.tail, knot.head, knot.length));
-  return py::make_tuple(array(Points(mesh.positions)), array(std::vector<Index>(mesh.face_sizes)),
-                        array(std::vector<Index>(mesh.face_vertices)), tags(mesh.creases), tags(mesh.corners),
-                        array(std::vector<Index>(mesh.holes)), values, knots,
-                        py::make_tuple(number(mesh.boundary), number(mesh.creasing), number(mesh.triangles),
-                                       number(mesh.face_varying_interpolation)),
-                        mesh.warnings);
+  for (const Mesh::VertexValues& one : mesh.vertex_values)
+    vertex_values.append(py::make_tuple(py::bytes(one.name), array(std::vector<double>(one.values)), one.whole));
+  for (const std::string& comment : mesh.comments) comments.append(py::bytes(comment));
+  py::dict all;
+  all["points"] = array(Points(mesh.positions));
+  all["sizes"] = array(std::vector<Index>(mesh.face_sizes));
+  all["corners"] = array(std::vector<Index>(mesh.face_vertices));
+  all["creases"] = tags(mesh.creases);
+  all["sharp_vertices"] = tags(mesh.corners);
+  all["holes"] = array(std::vector<Index>(mesh.holes));
+  all["channels"] = channels;
+  all["knots"] = knots;
+  all["rules"] = py::make_tuple(number(mesh.boundary), number(mesh.creasing), number(mesh.triangles),
+                                number(mesh.face_varying_interpolation));
+  all["normals"] = py::make_tuple(array(Points(mesh.normals)), array(std::vector<Index>(mesh.face_normals)));
+  all["texture"] = array(Points(mesh.texture));
+  all["face_ids"] = array(std::vector<Index>(mesh.face_ids));
+  all["face_names"] = names_by_face(mesh.face_names);
+  all["vertex_values"] = vertex_values;
+  all["comments"] = comments;
+  all["warnings"] = mesh.warnings;
+  return py::make_tuple(all);
 }
-ControlMesh from_state(const py::tuple& state) {
-  ControlMesh mesh = made(state[0].cast<Array<double>>(), state[1].cast<Array<Index>>(), state[2].cast<Array<Index>>(),
-                          state[3].cast<Tags>(), state[4].cast<Tags>(), state[5].cast<Array<Index>>(), {}, {});
-  for (const py::handle one : state[6].cast<py::list>()) {
+Mesh from_state(const py::tuple& state) {
+  const auto all = state[0].cast<py::dict>();
+  const auto whole_numbers = [&](const char* name) { return all[name].cast<Array<Index>>(); };
+  Mesh mesh = made(all["points"].cast<Array<double>>(), whole_numbers("sizes"), whole_numbers("corners"),
+                   all["creases"].cast<Tags>(), all["sharp_vertices"].cast<Tags>(), whole_numbers("holes"), {}, {},
+                   all["normals"].cast<Channel>(), whole_numbers("face_ids"),
+                   all["face_names"].cast<std::vector<std::string>>());
+  for (const py::handle one : all["channels"].cast<py::list>()) {
     const auto channel = one.cast<py::tuple>();
     mesh.face_varying.push_back({channel[0].cast<std::string>(), points(channel[1].cast<Array<double>>()),
                                  vector(channel[2].cast<Array<Index>>())});
   }
-  for (const py::handle one : state[7].cast<py::list>()) {
+  for (const py::handle one : all["knots"].cast<py::list>()) {
     const auto knot = one.cast<py::tuple>();
     mesh.knot_intervals.push_back({knot[0].cast<Index>(), knot[1].cast<Index>(), knot[2].cast<double>()});
   }
-  const auto rules = state[8].cast<py::tuple>();
+  const auto rules = all["rules"].cast<py::tuple>();
   mesh.boundary = rule<Boundary>(rules[0]);
   mesh.creasing = rule<Creasing>(rules[1]);
   mesh.triangles = rule<Triangles>(rules[2]);
   mesh.face_varying_interpolation = rule<FaceVaryingInterpolation>(rules[3]);
-  mesh.warnings = state[9].cast<std::vector<std::string>>();
+  mesh.texture = points(all["texture"].cast<Array<double>>());
+  for (const py::handle one : all["vertex_values"].cast<py::list>()) {
+    const auto values = one.cast<py::tuple>();
+    mesh.vertex_values.push_back(
+        {values[0].cast<std::string>(), vector(values[1].cast<Array<double>>()), values[2].cast<bool>()});
+  }
+  mesh.comments = all["comments"].cast<std::vector<std::string>>();
+  mesh.warnings = all["warnings"].cast<std::vector<std::string>>();
   return mesh;
 }
 
 /// What a scheme accepts of a mesh but its user should know: of its file, tags that the scheme ignores, what is no
 /// manifold.
-std::vector<std::string> warnings(const ControlMesh& mesh, const MeshRequest& request) {
+std::vector<std::string> warnings(const Mesh& mesh, const MeshRequest& request) {
   const MeshJob job = mesh_job(request, mesh, "mesh");
   std::vector<std::string> all = job.mesh.warnings;
   for (std::string& fault : faults(job.mesh)) all.push_back(std::move(fault));
@@ -140,8 +180,8 @@ std::vector<std::string> warnings(const ControlMesh& mesh, const MeshRequest& re
 }
 
 /// The file with the tags that lie beside it.
-ControlMesh read(const std::filesystem::path& path) {
-  ControlMesh mesh = read_mesh(path);
+Mesh read(const std::filesystem::path& path) {
+  Mesh mesh = read_mesh(path);
   if (const auto sidecar = find_sidecar(path)) apply_sidecar(mesh, *sidecar);
   return mesh;
 }
@@ -150,33 +190,46 @@ ControlMesh read(const std::filesystem::path& path) {
 
 void add_meshes(py::module_& m) {
   const py::call_guard<LongCall> long_call;
-  py::class_<ControlMesh, std::shared_ptr<ControlMesh>>(m, "ControlMesh")
+  py::class_<Mesh, std::shared_ptr<Mesh>>(m, "Mesh")
       .def(py::init(&made), py::arg("points"), py::arg("sizes"), py::arg("corners"), py::arg("creases"),
-           py::arg("sharp_vertices"), py::arg("holes"), py::arg("boundary"), py::arg("uv"))
-      .def_property_readonly(
-          "points", [](const py::object& self) { return view(self.cast<const ControlMesh&>().positions, self); })
-      .def_property_readonly(
-          "sizes", [](const py::object& self) { return view(self.cast<const ControlMesh&>().face_sizes, self); })
-      .def_property_readonly(
-          "corners", [](const py::object& self) { return view(self.cast<const ControlMesh&>().face_vertices, self); })
-      .def_property_readonly("holes",
-                             [](const py::object& self) { return view(self.cast<const ControlMesh&>().holes, self); })
-      .def_property_readonly("creases", [](const ControlMesh& mesh) { return tags(mesh.creases); })
-      .def_property_readonly("sharp_vertices", [](const ControlMesh& mesh) { return tags(mesh.corners); })
+           py::arg("sharp_vertices"), py::arg("holes"), py::arg("boundary"), py::arg("uv"), py::arg("normals"),
+           py::arg("face_ids"), py::arg("face_names"))
+      .def_property_readonly("points",
+                             [](const py::object& self) { return view(self.cast<const Mesh&>().positions, self); })
+      .def_property_readonly("sizes",
+                             [](const py::object& self) { return view(self.cast<const Mesh&>().face_sizes, self); })
+      .def_property_readonly("corners",
+                             [](const py::object& self) { return view(self.cast<const Mesh&>().face_vertices, self); })
+      .def_property_readonly("holes", [](const py::object& self) { return view(self.cast<const Mesh&>().holes, self); })
+      .def_property_readonly("creases", [](const Mesh& mesh) { return tags(mesh.creases); })
+      .def_property_readonly("sharp_vertices", [](const Mesh& mesh) { return tags(mesh.corners); })
       .def_property_readonly("boundary",
-                             [](const ControlMesh& mesh) {
+                             [](const Mesh& mesh) {
                                return mesh.boundary ? std::optional<std::string>(word(*mesh.boundary)) : std::nullopt;
                              })
       .def_property_readonly("channels", &channels)
-      .def_property_readonly("warnings", [](const ControlMesh& mesh) { return mesh.warnings; })
+      .def_property_readonly("normals",
+                             [](const py::object& self) { return view(self.cast<const Mesh&>().normals, self); })
+      .def_property_readonly("face_normals",
+                             [](const py::object& self) { return view(self.cast<const Mesh&>().face_normals, self); })
+      .def_property_readonly("face_ids",
+                             [](const py::object& self) { return view(self.cast<const Mesh&>().face_ids, self); })
+      .def_property_readonly("face_names", [](const Mesh& mesh) { return names_by_face(mesh.face_names); })
+      .def_property_readonly("warnings", [](const Mesh& mesh) { return mesh.warnings; })
       .def(py::pickle(&state, &from_state))
+      .def(
+          "with_points",
+          [](const Mesh& mesh, const Array<double>& given) {
+            return std::make_shared<Mesh>(mesh.with_points(points(given)));
+          },
+          py::arg("points"))
       .def("faults", &faults, long_call)
       .def(
-          "write", [](const ControlMesh& mesh, const std::filesystem::path& path) { write_mesh(path, output(mesh)); },
-          py::arg("path"), long_call);
+          "write", [](const Mesh& mesh, const std::filesystem::path& path) { write_mesh(path, mesh); }, py::arg("path"),
+          long_call);
   m.def(
       "info",
-      [](const ControlMesh& mesh, const MeshRequest& request, const std::string& name, bool limit) {
+      [](const Mesh& mesh, const MeshRequest& request, const std::string& name, bool limit) {
         const MeshJob job = mesh_job(request, mesh, name);
         MeshInfo found = mesh_info(job);
         if (limit) found.limit = limit_integrals(job);

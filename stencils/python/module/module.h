@@ -15,8 +15,10 @@ void add_levels(pybind11::module_& m);
 void add_surfaces(pybind11::module_& m);
 void add_gpus(pybind11::module_& m);
 void add_tables(pybind11::module_& m);
+void add_constructions(pybind11::module_& m);
 void add_curves(pybind11::module_& m);
 void add_reports(pybind11::module_& m);
 void add_fits(pybind11::module_& m);
+void add_parts(pybind11::module_& m);
 
 }  // namespace sublimit::python

@@ -17,8 +17,8 @@
 #include "own_stencils.h"
 #include "sublimit/report/analysis/scheme_report.h"
 #include "sublimit/scheme/check_scheme.h"
-#include "sublimit/schemes.h"
-#include "sublimit/schemes/cubic_bspline_creases.h"
+#include "sublimit/scheme/cubic_bspline_creases.h"
+#include "sublimit/schemes/schemes.h"
 
 namespace sublimit::python {
 namespace {

@@ -11,12 +11,12 @@
 #include "calls.h"
 #include "module.h"
 #include "own_schemes.h"
-#include "sublimit/base/atomic_file.h"
-#include "sublimit/jobs/mesh_job.h"
+#include "sublimit/base/detail/atomic_file.h"
 #include "sublimit/report/analysis/claims_json.h"
 #include "sublimit/report/analysis/scheme_report.h"
 #include "sublimit/report/asset/asset_json.h"
 #include "sublimit/report/page/page.h"
+#include "sublimit/stencils/jobs/detail/mesh_job.h"
 
 namespace sublimit::python {
 namespace {
@@ -38,7 +38,7 @@ std::string scheme_report(const std::string& name, const SchemeOptions& options,
   return report::report_text(report::schemes_report(surfaces, wanted));
 }
 
-std::string mesh_report(const ControlMesh& mesh, const MeshRequest& request, const std::vector<std::string>& tolerances,
+std::string mesh_report(const Mesh& mesh, const MeshRequest& request, const std::vector<std::string>& tolerances,
                         const std::string& name, int threads) {
   const Threads held(threads);
   AssetOptions wanted;

@@ -6,8 +6,9 @@
 #include "own_schemes.h"
 #include "sublimit/curves/schemes/curve_schemes.h"
 #include "sublimit/geometric/geometric_schemes.h"
-#include "sublimit/jobs/mesh_job.h"
-#include "sublimit/schemes.h"
+#include "sublimit/scheme/scheme_info.h"
+#include "sublimit/schemes/schemes.h"
+#include "sublimit/stencils/jobs/detail/mesh_job.h"
 
 namespace sublimit::python {
 namespace {
@@ -22,43 +23,25 @@ py::dict options(const std::vector<OptionInfo>& known) {
   return all;
 }
 
-template <class Scheme>
-py::dict described(const Scheme& scheme, const char* kind, bool linear) {
-  py::dict all;
-  all["name"] = scheme.name;
-  all["kind"] = kind;
-  all["linear"] = linear;
-  all["source"] = scheme.source;
-  all["limit"] = scheme.claims.limit;
-  all["interpolates"] = scheme.claims.interpolates;
-  all["options"] = options(scheme.options);
-  return all;
-}
-
-/// All schemes, in the order of the program's list.
-py::list all_of_them() {
+py::list described_schemes() {
   py::list all;
-  for (const Scheme<double>& scheme : all_schemes()) {
-    py::dict one = described(scheme, "surface", true);
-    one["faces"] = scheme.face_size() == 3 ? "triangles" : "any";
-    one["continuity"] = scheme.claims.regular;
-    one["extraordinary_continuity"] = scheme.claims.extraordinary;
-    one["generates_degree"] = scheme.claims.generates;
-    one["reproduces_degree"] = scheme.claims.reproduces;
-    one["convex_hull"] = scheme.claims.convex_hull;
+  for (const SchemeInfo& scheme : schemes()) {
+    py::dict one;
+    one["name"] = scheme.name;
+    one["kind"] = scheme.kind == SchemeInfo::Kind::surface ? "surface" : "curve";
+    one["linear"] = scheme.linear;
+    one["source"] = scheme.source;
+    one["limit"] = scheme.limit;
+    one["interpolates"] = scheme.interpolates;
+    one["triangles"] = scheme.triangles;
+    one["continuity"] = scheme.continuity;
+    one["extraordinary_continuity"] = scheme.extraordinary_continuity;
+    one["generates_degree"] = scheme.generates_degree;
+    one["reproduces_degree"] = scheme.reproduces_degree;
+    one["convex_hull"] = scheme.convex_hull;
+    one["options"] = options(scheme.options);
     all.append(one);
   }
-  for (const CurveScheme<double>& scheme : all_curve_schemes()) {
-    py::dict one = described(scheme, "curve", true);
-    one["continuity"] = scheme.claims.regular;
-    one["generates_degree"] = scheme.claims.generates;
-    one["reproduces_degree"] = scheme.claims.reproduces;
-    one["convex_hull"] = scheme.claims.convex_hull;
-    all.append(one);
-  }
-  for (const auto& scheme : all_geometric_schemes()) all.append(described(scheme, "curve", false));
-  for (const auto& scheme : all_geometric_schemes<CurvatureMesh>()) all.append(described(scheme, "surface", false));
-  for (const auto& scheme : all_geometric_schemes<NormalMesh>()) all.append(described(scheme, "surface", false));
   return all;
 }
 
@@ -72,7 +55,7 @@ void check(const std::string& name, const SchemeOptions& options) {
 }  // namespace
 
 void add_schemes(py::module_& m) {
-  m.def("schemes", &all_of_them);
+  m.def("schemes", &described_schemes);
   m.def("check_scheme", &check, py::arg("name"), py::arg("options"));
   py::class_<MeshRequest>(m, "MeshRequest")
       .def(py::init<>())

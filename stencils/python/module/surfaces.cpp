@@ -1,27 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
 // Limit surfaces: points with derivatives and stencils anywhere, closest points, rays, triangles.
 #include <pybind11/stl.h>
-#include <pybind11/stl/filesystem.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cstddef>
+#include <map>
 #include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "arrays.h"
 #include "calls.h"
 #include "module.h"
 #include "sources.h"
+#include "sublimit/base/detail/parallel_for.h"
 #include "sublimit/base/error.h"
 #include "sublimit/base/format_number.h"
-#include "sublimit/base/parallel_for.h"
 #include "sublimit/core/uninitialized.h"
 #include "sublimit/limit/curvature.h"
 #include "sublimit/limit/place_stencils.h"
 #include "sublimit/search/closest_point.h"
 #include "sublimit/search/intersect.h"
-#include "sublimit/tessellation/tessellate.h"
+#include "sublimit/sublimit.h"
 
 namespace sublimit::python {
 namespace {
@@ -32,8 +35,8 @@ class Places {
   /// Needs no GIL.
   /// @throws InvalidParameter  the first one that is on no face
   Places(const FaceCount& on, const Array<Index>& faces, const Array<double>& u, const Array<double>& v)
-      : size_(size_t(faces.size())), memory_(size_ * sizeof(Sample)) {
-    auto* const samples = reinterpret_cast<Sample*>(memory_.data());
+      : size_(size_t(faces.size())), memory_(size_ * sizeof(Place)) {
+    auto* const samples = reinterpret_cast<Place*>(memory_.data());
     const Index* const face = faces.data();
     const double *const at_u = u.data(), *const at_v = v.data();
     std::atomic<bool> all_inside = true;
@@ -44,11 +47,11 @@ class Places {
       if (!inside) all_inside = false;
     });
     if (all_inside) return;
-    for (const Sample& sample : all()) check_inside(on, sample);
+    for (const Place& sample : all()) check_inside(on, sample);
   }
   size_t size() const { return size_; }
-  std::span<const Sample> all() const { return {reinterpret_cast<const Sample*>(memory_.data()), size_}; }
-  const Sample& operator[](size_t i) const { return all()[i]; }
+  std::span<const Place> all() const { return {reinterpret_cast<const Place*>(memory_.data()), size_}; }
+  const Place& operator[](size_t i) const { return all()[i]; }
 
  private:
   size_t size_;
@@ -80,7 +83,7 @@ py::dict arrays(LimitSamples&& samples) {
 void check_finite(const LimitSamples& found, const Places& at) {
   const auto row = first_infinite_row({&found.position, &found.du, &found.dv, &found.duu, &found.duv, &found.dvv});
   if (!row) return;
-  const Sample& place = at[size_t(*row)];
+  const Place& place = at[size_t(*row)];
   throw InvalidMesh(
       "face " + std::to_string(place.face) + ", u " + format_number(place.u) + ", v " + format_number(place.v) +
       ": the position or a derivative there is larger than numbers are (1.8e308); give control points in another "
@@ -114,10 +117,10 @@ py::array_t<double> column(const Eigen::VectorXd& values) {
 }
 
 /// As three arrays.
-void add_places(py::dict& all, const std::vector<Sample>& places) {
+void add_places(py::dict& all, const std::vector<Place>& places) {
   std::vector<Index> faces;
   std::vector<double> u, v;
-  for (const Sample& place : places) {
+  for (const Place& place : places) {
     faces.push_back(place.face);
     u.push_back(place.u);
     v.push_back(place.v);
@@ -132,7 +135,7 @@ py::dict closest(const Source& surface, const Array<double>& queries, int count,
   const Points from = points(queries);
   ClosestPoints found = without_gil([&] {
     const Threads held(threads);
-    return sublimit::closest(*surface.searched(), from, {.count = count, .radius = radius, .is_signed = is_signed});
+    return surface.closest(from, {.count = count, .radius = radius, .is_signed = is_signed});
   });
   py::dict all;
   add_places(all, found.places);
@@ -153,7 +156,7 @@ py::dict intersect(const Source& surface, const Array<double>& origins, const Ar
     std::vector<Ray> rays;
     for (Eigen::Index i = 0; i < from.rows(); ++i)
       rays.push_back({from.row(i).transpose(), along.row(i).transpose(), tmin.data()[i], tmax.data()[i]});
-    return sublimit::intersect(*surface.searched(), rays, {.all = all_hits, .most_parts = most_parts});
+    return surface.intersect(rays, {.all = all_hits, .most_parts = most_parts});
   });
   py::dict all;
   add_places(all, hits.places);
@@ -169,24 +172,47 @@ py::dict intersect(const Source& surface, const Array<double>& origins, const Ar
   return all;
 }
 
-py::dict tessellate(const Surface& surface, double chord, double angle, std::int64_t most, int threads) {
+/// Edges, rows of two vertices, and into how many segments each is cut.
+using Rates = std::pair<Array<Index>, Array<Index>>;
+
+/// For each edge; none if there are no rates.
+/// @throws InvalidParameter  no edge of the surface, an edge twice
+std::vector<Index> rates_of_edges(const Topology& topology, const Rates& given) {
+  const auto& [ends, rates] = given;
+  if (rates.size() == 0) return {};
+  std::map<std::pair<Index, Index>, Index> edges;
+  for (Index e = 0; e < topology.num_edges(); ++e)
+    edges[std::minmax({index(topology.tail(Edge{e})), index(topology.head(Edge{e}))})] = e;
+  std::vector<Index> all(size_t(topology.num_edges()), 0);
+  for (py::ssize_t i = 0; i < rates.size(); ++i) {
+    const Index a = ends.at(i, 0), b = ends.at(i, 1);
+    const auto edge = edges.find(std::minmax({a, b}));
+    const std::string name = "(" + std::to_string(a) + "," + std::to_string(b) + ")";
+    if (edge == edges.end()) throw InvalidParameter("rates: no face has an edge " + name);
+    if (all[size_t(edge->second)] != 0) throw InvalidParameter("rates: edge " + name + " has two rates; leave one out");
+    if (rates.at(i) < 1)
+      throw InvalidParameter("rates: edge " + name + " has the rate " + std::to_string(rates.at(i)) +
+                             "; 1 or more is right");
+    all[size_t(edge->second)] = rates.at(i);
+  }
+  std::ranges::replace(all, Index{0}, Index{1});
+  return all;
+}
+
+py::dict tessellate_surface(const Surface& surface, double chord, double angle, std::int64_t most, const Rates& rates,
+                            bool normals, int threads) {
   std::vector<Index> triangles, face_of;
   std::vector<double> corners;
-  Points normals;
+  TessellationOptions options{.chord = chord, .angle = angle, .max_triangles = most, .normals = normals};
+  options.rates = rates_of_edges(surface.surface().level().topology(), rates);
   Tessellation made = without_gil([&] {
     const Threads held(threads);
-    Tessellation found = sublimit::tessellate(surface.surface(), surface.points(),
-                                              {.chord = chord, .angle = angle, .max_triangles = most});
-    std::vector<Sample> sides;  // corners in the faces of their triangles
+    Tessellation found = tessellate(surface.limit_surface(), options);
     for (const Tessellation::Triangle& triangle : found.triangles) {
       triangles.insert(triangles.end(), triangle.vertices.begin(), triangle.vertices.end());
       face_of.push_back(triangle.face);
-      for (const auto& [u, v] : triangle.uv) {
-        corners.insert(corners.end(), {u, v});
-        sides.push_back({triangle.face, u, v});
-      }
+      for (const auto& [u, v] : triangle.uv) corners.insert(corners.end(), {u, v});
     }
-    normals = surface.surface().evaluate(surface.points(), sides, 1).normal;
     return found;
   });
   const auto count = py::ssize_t(made.triangles.size()), three = py::ssize_t(3);
@@ -196,9 +222,37 @@ py::dict tessellate(const Surface& surface, double chord, double angle, std::int
   all["triangles"] = array(std::move(triangles)).reshape({count, three});
   all["triangle_face"] = array(std::move(face_of));
   all["corners"] = array(std::move(corners)).reshape({count, three, py::ssize_t(2)});
-  all["normals"] = array(std::move(normals)).reshape({count, three, three});
+  all["normals"] = py::none();
+  if (normals) all["normals"] = array(std::move(made.normals)).reshape({count, three, three});
   all["bound"] = made.bound;
+  all["cells"] = made.cells;
   return all;
+}
+
+/// With texture coordinates; they are left out with a warning if the scheme has no limit of them and they were not
+/// asked for, as the program does.
+std::shared_ptr<Mesh> tessellate_mesh(const Mesh& mesh, const MeshRequest& request, double chord, double angle,
+                                      std::int64_t most, const Rates& rates, bool normals, int threads) {
+  TessellationOptions options{.chord = chord, .angle = angle, .max_triangles = most, .normals = normals};
+  return without_gil([&] {
+    const Threads held(threads);
+    MeshJob job = mesh_job(request, mesh, "mesh");
+    if (rates.second.size() > 0)
+      options.rates = rates_of_edges(LimitSurface(job.mesh, *job.scheme).map().level().topology(), rates);
+    job.mesh.face_varying_interpolation = job.face_varying;
+    std::string why;
+    try {
+      return std::make_shared<Mesh>(tessellate(job.mesh, *job.scheme, options));
+    } catch (const Error& error) {
+      const bool unable = error.code() == ErrorCode::unsupported_topology || error.code() == ErrorCode::invalid_option;
+      if (!unable || job.face_varying_asked || job.mesh.face_varying.empty()) throw;
+      why = error.what();
+    }
+    job.mesh.face_varying.clear();
+    auto made = std::make_shared<Mesh>(tessellate(job.mesh, *job.scheme, options));
+    made->warnings.push_back("texture coordinates are left out: " + why);
+    return made;
+  });
 }
 
 /// Gauss, mean, k1, k2 and the directions of these: 10 columns; not a number where there is no curvature.
@@ -235,17 +289,35 @@ void add_surfaces(py::module_& m) {
       .def("intersect", &intersect, py::arg("origins"), py::arg("directions"), py::arg("tmin"), py::arg("tmax"),
            py::arg("all"), py::arg("most_parts"), py::arg("threads"));
   py::class_<Surface, Source, std::shared_ptr<Surface>>(m, "Surface")
-      .def(py::init<const ControlMesh&, const MeshRequest&>(), py::arg("mesh"), py::arg("request"), long_call)
-      .def("tessellate", &tessellate, py::arg("chord"), py::arg("angle"), py::arg("most"), py::arg("threads"));
-  py::class_<Patches, Source, std::shared_ptr<Patches>>(m, "PatchSet")
-      .def(py::init<const std::filesystem::path&>(), py::arg("path"), long_call)
-      .def_property_readonly("columns",
-                             [](const py::object& self) { return view(self.cast<const Patches&>().points(), self); })
-      .def_property_readonly("first_faces", [](const Patches& p) {
-        std::vector<Index> first;
-        for (size_t i = 0; i <= p.surface().members().size(); ++i) first.push_back(p.surface().first_face(i));
-        return array(std::move(first));
-      });
+      .def(py::init<const Mesh&, const MeshRequest&>(), py::arg("mesh"), py::arg("request"), long_call)
+      .def_property_readonly("points",
+                             [](const py::object& self) { return view(self.cast<const Surface&>().points(), self); })
+      .def(
+          "with_points",
+          [](const Surface& s, const Array<double>& given) {
+            return std::make_shared<Surface>(s.limit_surface().with(points(given)));
+          },
+          py::arg("points"))
+      .def("tessellate", &tessellate_surface, py::arg("chord"), py::arg("angle"), py::arg("most"), py::arg("rates"),
+           py::arg("normals"), py::arg("threads"));
+  py::class_<PatchSurfaces, Source, std::shared_ptr<PatchSurfaces>>(m, "Patches")
+      .def_property_readonly(
+          "columns", [](const py::object& self) { return view(self.cast<const PatchSurfaces&>().points(), self); })
+      .def_property_readonly("first_faces",
+                             [](const PatchSurfaces& p) {
+                               std::vector<Index> first;
+                               for (Index i = 0; i <= p.patches().num_patches(); ++i)
+                                 first.push_back(p.patches().first_face(i));
+                               return array(std::move(first));
+                             })
+      .def(
+          "with_points",
+          [](const PatchSurfaces& p, const Array<double>& columns) {
+            return std::make_shared<PatchSurfaces>(p.patches().with(points(columns)));
+          },
+          py::arg("columns"));
+  m.def("tessellate", &tessellate_mesh, py::arg("mesh"), py::arg("request"), py::arg("chord"), py::arg("angle"),
+        py::arg("most"), py::arg("rates"), py::arg("normals"), py::arg("threads"));
   m.def("curvatures", &curvatures, py::arg("du"), py::arg("dv"), py::arg("duu"), py::arg("duv"), py::arg("dvv"),
         py::arg("normals"), py::arg("status"), py::arg("order"));
 }

@@ -3,52 +3,59 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <filesystem>
 #include <memory>
-#include <string>
+#include <optional>
+#include <span>
+#include <tuple>
+#include <utility>
 #include <variant>
+#include <vector>
 
 #include "arrays.h"
 #include "calls.h"
 #include "gpus.h"
 #include "module.h"
 #include "sources.h"
-#include "sublimit/bake/bake.h"
-#include "sublimit/base/error.h"
-#include "sublimit/jobs/mesh_job.h"
-#include "sublimit/pattern_evaluator.h"
-#include "sublimit/table_file.h"
+#include "sublimit/limit/address.h"
+#include "sublimit/stencils/jobs/detail/mesh_job.h"
+#include "sublimit/sublimit.h"
 
 namespace sublimit::python {
 namespace {
 
+/// A table in its precision, with what applies it on GPUs.
 template <class Real>
-class Table {
+class TableOf {
  public:
-  explicit Table(BakedTable<Real> table) : table_(std::move(table)), evaluator_(table_.table), gpus_(table_.table) {}
-  Table(const Table&) = delete;
+  /// @param all  whose weights are of this precision
+  explicit TableOf(Table all) : all_(std::move(all)), gpus_(table()) {}
+  TableOf(const TableOf&) = delete;
 
-  const BakedTable<Real>& baked() const { return table_; }
-  const PatternTable<Real>& table() const { return table_.table; }
+  const Table& all() const { return all_; }
+  const TableInfo& info() const { return all_.info(); }
+  const BakedTable<Real>& baked() const { return std::get<BakedTable<Real>>(all_.baked()); }
+  const PatternTable<Real>& table() const { return baked().table; }
 
   /// @param gpu  its number; without one the CPU
   void apply(const Evaluation<Real>& evaluation, std::optional<int> gpu) const {
-    gpu ? gpus_.apply(evaluation, *gpu) : evaluator_.apply(evaluation);
+    gpu ? gpus_.apply(evaluation, *gpu) : all_.evaluator<Real>().apply(evaluation);
   }
   void apply_transpose(std::span<const Real> values, int channels, std::span<Real> result,
                        std::optional<int> gpu) const {
-    gpu ? gpus_.apply_transpose(values, channels, result, *gpu) : evaluator_.apply_transpose(values, channels, result);
+    gpu ? gpus_.apply_transpose(values, channels, result, *gpu)
+        : all_.evaluator<Real>().apply_transpose(values, channels, result);
   }
 
  private:
-  BakedTable<Real> table_;
-  PatternEvaluator<Real> evaluator_;
+  Table all_;
   TableOnGpus<Real> gpus_;
 };
 
 /// Points of some frames, (frames, points, channels) numbers, to (frames, quantities, points, channels).
 /// @param divided  by the weight, the last channel, if the table is rational
 template <class Real>
-void apply(const Table<Real>& table, const Array<Real>& points, Array<Real>& result, int threads,
+void apply(const TableOf<Real>& table, const Array<Real>& points, Array<Real>& result, int threads,
            std::optional<int> gpu, bool divided) {
   const std::int64_t channels = points.shape(2), frames = points.shape(0);
   const std::span<const Real> in = span(points);
@@ -59,7 +66,7 @@ void apply(const Table<Real>& table, const Array<Real>& points, Array<Real>& res
   asked.channels = static_cast<int>(channels);
   asked.frames = static_cast<int>(frames);
   asked.points = in;
-  asked.rational = divided && table.baked().info.rational;
+  asked.rational = divided && table.info().rational;
   const std::int64_t made = table.table().num_points() * asked.result_channels(), q = table.table().quantities();
   asked.result_layout.frame = q * made;
   for (std::int64_t k = 0; k < q && frames > 0; ++k)
@@ -69,7 +76,7 @@ void apply(const Table<Real>& table, const Array<Real>& points, Array<Real>& res
 }
 
 template <class Real>
-void apply_transpose(const Table<Real>& table, const Array<Real>& values, Array<Real>& result, int threads,
+void apply_transpose(const TableOf<Real>& table, const Array<Real>& values, Array<Real>& result, int threads,
                      std::optional<int> gpu) {
   const auto channels = static_cast<int>(values.shape(2));
   const std::span<const Real> in = span(values);
@@ -81,7 +88,7 @@ void apply_transpose(const Table<Real>& table, const Array<Real>& values, Array<
 
 /// (weights, columns, starts of rows, (rows, columns)); offsets of 64 bits.
 template <class Real>
-py::tuple matrix(const Table<Real>& table) {
+py::tuple matrix(const TableOf<Real>& table) {
   auto rows = std::make_unique<StencilTable<Real>>(without_gil([&] { return table.table().expanded(); }));
   const StencilTable<Real>& all = *rows;
   const py::capsule owner(rows.release(), [](void* memory) { delete static_cast<StencilTable<Real>*>(memory); });
@@ -93,23 +100,22 @@ py::tuple matrix(const Table<Real>& table) {
 }
 
 template <class Real>
-py::tuple faces(const Table<Real>& table) {
-  const FaceList found = without_gil([&] { return faces_of(table.baked()); });
+py::tuple faces(const TableOf<Real>& table) {
+  const FaceList found = without_gil([&] { return table.all().faces(); });
   return py::make_tuple(array(std::vector<Index>(found.sizes.begin(), found.sizes.end())),
                         array(std::vector<Index>(found.corners.begin(), found.corners.end())));
 }
 
 /// (face, (u, v)) of each point of a list of places or a grid.
 template <class Real>
-py::object addresses(const Table<Real>& table) {
-  const TableInfo& info = table.baked().info;
+py::object addresses(const TableOf<Real>& table) {
+  const TableInfo& info = table.info();
   const SampleAddresses& known = table.baked().addresses;
   std::vector<Index> faces(known.faces.begin(), known.faces.end());
   std::vector<double> parameters(known.parameters.begin(), known.parameters.end());
   if (info.rows == TableRows::grid) {
     const std::int64_t n = info.grid, of_a_face = info.triangles ? n * (n + 1) / 2 : n * n;
-    for (const Sample& place :
-         grid_places({Index(table.table().num_points() / of_a_face), info.triangles}, info.grid)) {
+    for (const Place& place : grid_places({Index(table.table().num_points() / of_a_face), info.triangles}, info.grid)) {
       faces.push_back(place.face);
       parameters.insert(parameters.end(), {place.u, place.v});
     }
@@ -135,14 +141,15 @@ py::dict info(const TableInfo& info) {
 
 template <class Real>
 void add_table(py::module_& m, const char* name) {
-  py::class_<Table<Real>, std::shared_ptr<Table<Real>>>(m, name)
-      .def_property_readonly("num_points", [](const Table<Real>& t) { return t.table().num_points(); })
-      .def_property_readonly("num_control_points", [](const Table<Real>& t) { return t.table().num_control_points(); })
-      .def_property_readonly("quantities", [](const Table<Real>& t) { return t.table().quantities(); })
-      .def_property_readonly("num_bytes", [](const Table<Real>& t) { return t.table().num_bytes(); })
-      .def_property_readonly("info", [](const Table<Real>& t) { return info(t.baked().info); })
-      .def_property_readonly("statuses", [](const Table<Real>& t) { return array(statuses_of(t.baked())); })
-      .def_property_readonly("status_words", [](const Table<Real>& t) { return t.baked().info.statuses; })
+  using Of = TableOf<Real>;
+  py::class_<Of, std::shared_ptr<Of>>(m, name)
+      .def_property_readonly("num_points", [](const Of& t) { return t.all().num_points(); })
+      .def_property_readonly("num_control_points", [](const Of& t) { return t.all().num_control_points(); })
+      .def_property_readonly("quantities", [](const Of& t) { return t.all().quantities(); })
+      .def_property_readonly("num_bytes", [](const Of& t) { return t.table().num_bytes(); })
+      .def_property_readonly("info", [](const Of& t) { return info(t.info()); })
+      .def_property_readonly("statuses", [](const Of& t) { return array(statuses_of(t.baked())); })
+      .def_property_readonly("status_words", [](const Of& t) { return t.info().statuses; })
       .def("faces", &faces<Real>)
       .def("addresses", &addresses<Real>)
       .def("apply", &apply<Real>, py::arg("points"), py::arg("result"), py::arg("threads"), py::arg("gpu"),
@@ -151,69 +158,47 @@ void add_table(py::module_& m, const char* name) {
            py::arg("gpu"))
       .def("matrix", &matrix<Real>)
       .def(
-          "save", [](const Table<Real>& t, const std::filesystem::path& path) { save_table(path, t.baked()); },
-          py::arg("path"), py::call_guard<LongCall>());
+          "save", [](const Of& t, const std::filesystem::path& path) { t.all().save(path); }, py::arg("path"),
+          py::call_guard<LongCall>());
 }
 
-using AnyOfThem = std::variant<std::shared_ptr<Table<float>>, std::shared_ptr<Table<double>>>;
-
-struct Asked {
-  std::string rows = "level";
-  int level = 0, grid = 0, derivatives = 0;
-  bool in_float = true;
-};
-
-using Places = std::optional<std::tuple<Array<Index>, Array<double>, Array<double>>>;
-
-BakeRequest request_of(const Asked& asked, const Places& at) {
-  BakeRequest wanted;
-  wanted.rows = table_rows(asked.rows).value();
-  wanted.level = asked.level;
-  wanted.grid = asked.grid;
-  wanted.derivatives = asked.derivatives;
-  if (at) {
-    const auto& [face, u, v] = *at;
-    wanted.samples.resize(size_t(face.size()));
-    for (size_t i = 0; i < wanted.samples.size(); ++i) wanted.samples[i] = {face.data()[i], u.data()[i], v.data()[i]};
-  }
-  return wanted;
+/// In the precision of its weights.
+using AnyOfThem = std::variant<std::shared_ptr<TableOf<float>>, std::shared_ptr<TableOf<double>>>;
+AnyOfThem any_of_them(Table table) {
+  if (table.is_double()) return std::make_shared<TableOf<double>>(std::move(table));
+  return std::make_shared<TableOf<float>>(std::move(table));
 }
 
-AnyOfThem table_of(Baked&& baked, const Asked& asked) {
-  if (asked.in_float) return std::make_shared<Table<float>>(in_float(baked.table));
-  return std::make_shared<Table<double>>(std::move(baked.table));
+using Places = std::tuple<Array<Index>, Array<double>, Array<double>>;
+
+void set_places(BakeOptions& options, const Places& at) {
+  const auto& [face, u, v] = at;
+  options.places.resize(size_t(face.size()));
+  for (size_t i = 0; i < options.places.size(); ++i) options.places[i] = {face.data()[i], u.data()[i], v.data()[i]};
 }
 
-/// @param triangles  between places, three corners each
-AnyOfThem bake_mesh(const ControlMesh& mesh, const MeshRequest& request, const Asked& asked, const Places& at,
-                    const std::optional<Array<Index>>& triangles, int threads) {
-  BakeRequest wanted = request_of(asked, at);
-  if (triangles) {
-    wanted.face_vertices = vector(*triangles);
-    wanted.face_sizes.assign(wanted.face_vertices.size() / 3, 3);
-  }
+/// @param corners  of triangles between the places, three each
+void set_triangles(BakeOptions& options, const Array<Index>& corners) {
+  options.face_vertices = vector(corners);
+  options.face_sizes.assign(options.face_vertices.size() / 3, 3);
+}
+
+AnyOfThem bake_mesh(const Mesh& mesh, const MeshRequest& request, const BakeOptions& options, int threads) {
   const LongCall scope;
   const Threads held(threads);
   const MeshJob job = mesh_job(request, mesh, "mesh");
-  Patterns patterns(*job.scheme);
-  return table_of(bake(patterns, job.mesh, wanted, job.rules), asked);
+  return any_of_them(bake(job.mesh, *job.scheme, options));
 }
 
-AnyOfThem bake_patches(const Patches& patches, const Asked& asked, const Places& at, int threads) {
-  const BakeRequest wanted = request_of(asked, at);
+AnyOfThem bake_patches(const PatchSurfaces& patches, const BakeOptions& options, int threads) {
   const LongCall scope;
   const Threads held(threads);
-  return table_of(bake(patches.surface(), wanted), asked);
+  return any_of_them(bake(patches.patches(), options));
 }
 
-AnyOfThem load(const std::filesystem::path& path, bool checksums) {
+AnyOfThem load_table_of(const std::filesystem::path& path, bool checksums) {
   const LongCall scope;
-  return std::visit(
-      [](auto&& table) -> AnyOfThem {
-        using Real = std::decay_t<decltype(table.table.arrays().weights[0])>;
-        return std::make_shared<Table<Real>>(std::move(table));
-      },
-      load_table(path, {.checksums = checksums}));
+  return any_of_them(load(path, {.checksums = checksums}));
 }
 
 }  // namespace
@@ -221,17 +206,18 @@ AnyOfThem load(const std::filesystem::path& path, bool checksums) {
 void add_tables(py::module_& m) {
   add_table<float>(m, "FloatTable");
   add_table<double>(m, "DoubleTable");
-  py::class_<Asked>(m, "TableRequest")
+  py::class_<BakeOptions>(m, "BakeOptions")
       .def(py::init<>())
-      .def_readwrite("rows", &Asked::rows)
-      .def_readwrite("level", &Asked::level)
-      .def_readwrite("grid", &Asked::grid)
-      .def_readwrite("derivatives", &Asked::derivatives)
-      .def_readwrite("in_float", &Asked::in_float);
-  m.def("bake", &bake_mesh, py::arg("mesh"), py::arg("request"), py::arg("table"), py::arg("at"), py::arg("triangles"),
-        py::arg("threads"));
-  m.def("bake_patches", &bake_patches, py::arg("patches"), py::arg("table"), py::arg("at"), py::arg("threads"));
-  m.def("load", &load, py::arg("path"), py::arg("checksums"));
+      .def_readwrite("levels", &BakeOptions::levels)
+      .def_readwrite("limit", &BakeOptions::limit)
+      .def_readwrite("grid", &BakeOptions::grid)
+      .def_readwrite("derivatives", &BakeOptions::derivatives)
+      .def_readwrite("in_double", &BakeOptions::in_double)
+      .def("set_places", &set_places, py::arg("at"))
+      .def("set_triangles", &set_triangles, py::arg("corners"));
+  m.def("bake", &bake_mesh, py::arg("mesh"), py::arg("request"), py::arg("options"), py::arg("threads"));
+  m.def("bake_patches", &bake_patches, py::arg("patches"), py::arg("options"), py::arg("threads"));
+  m.def("load", &load_table_of, py::arg("path"), py::arg("checksums"));
 }
 
 }  // namespace sublimit::python

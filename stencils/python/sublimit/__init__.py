@@ -27,6 +27,10 @@ if TYPE_CHECKING:
     from ._sublimit import WideEdgeSite as WideEdgeSite
     from ._sublimit import WideFaceSite as WideFaceSite
     from ._sublimit import __version__ as __version__
+    from ._sublimit import version as version
+    from ._constructions import Construction as Construction
+    from ._constructions import construct as construct
+    from ._curves import Curves as Curves
     from ._curves import CurveSamples as CurveSamples
     from ._curves import LimitCurve as LimitCurve
     from ._curves import refine_curve as refine_curve
@@ -47,12 +51,19 @@ if TYPE_CHECKING:
     from ._fits import fit_places as fit_places
     from ._gpus import GpuInfo as GpuInfo
     from ._gpus import gpu_devices as gpu_devices
+    from ._levels import Level as Level
     from ._levels import Limit as Limit
+    from ._levels import levels as levels
     from ._levels import limit as limit
     from ._levels import refine as refine
     from ._levels import subdivision_matrix as subdivision_matrix
     from ._meshes import Mesh as Mesh
+    from ._meshes import info as info
     from ._meshes import read as read
+    from ._parts import ImplicitMesh as ImplicitMesh
+    from ._parts import StepFile as StepFile
+    from ._parts import implicit as implicit
+    from ._parts import step as step
     from ._patches import Patches as Patches
     from ._reports import Report as Report
     from ._reports import analyze as analyze
@@ -69,6 +80,9 @@ if TYPE_CHECKING:
     from ._surfaces import Samples as Samples
     from ._surfaces import Source as Source
     from ._surfaces import Tessellation as Tessellation
+    from ._surfaces import closest as closest
+    from ._surfaces import intersect as intersect
+    from ._surfaces import tessellate as tessellate
     from ._tables import Table as Table
     from ._tables import bake as bake
     from ._tables import load as load
@@ -76,18 +90,21 @@ if TYPE_CHECKING:
 # Where each name is. Parts are loaded when they are first asked for: NumPy alone takes longer to load than all of this.
 _PARTS = {
     "_sublimit": ("__version__", "CreaseEdgeSite", "CreaseSite", "EdgeSite", "FaceSite", "Ring", "Stencil", "WideEdgeSite",
-                  "WideFaceSite"),
-    "_curves": ("CurveSamples", "LimitCurve", "refine_curve"),
+                  "WideFaceSite", "version"),
+    "_constructions": ("Construction", "construct"),
+    "_curves": ("CurveSamples", "Curves", "LimitCurve", "refine_curve"),
     "_errors": ("AnalysisError", "Error", "FormatError", "InvalidMesh", "InvalidOption", "InvalidParameter", "IoError",
                 "MeshWarning", "ResourceError", "UnsupportedTopology"),
     "_fits": ("Fit", "FittedPoints", "fit", "fit_cloud", "fit_places"),
     "_gpus": ("GpuInfo", "gpu_devices"),
-    "_levels": ("Limit", "limit", "refine", "subdivision_matrix"),
-    "_meshes": ("Mesh", "read"),
+    "_levels": ("Level", "Limit", "levels", "limit", "refine", "subdivision_matrix"),
+    "_meshes": ("Mesh", "info", "read"),
+    "_parts": ("ImplicitMesh", "StepFile", "implicit", "step"),
     "_patches": ("Patches",),
     "_reports": ("Report", "analyze", "analyze_mesh"),
     "_schemes": ("OptionInfo", "Scheme", "SchemeInfo", "scheme", "schemes"),
-    "_surfaces": ("ClosestPoints", "Curvature", "LimitSurface", "RayHits", "Samples", "Source", "Tessellation"),
+    "_surfaces": ("ClosestPoints", "Curvature", "LimitSurface", "RayHits", "Samples", "Source", "Tessellation", "closest",
+                  "intersect", "tessellate"),
     "_tables": ("Table", "bake", "load"),
 }
 _PLACE = {name: part for part, names in _PARTS.items() for name in names}

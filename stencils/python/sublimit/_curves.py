@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Limit curves."""
+"""Limit curves, and classical curves."""
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, NoReturn
@@ -23,7 +23,8 @@ class CurveSamples(SampledParts):
     Attributes
     ----------
     points : (..., dimension)
-    first, second : (..., dimension), derivatives per leg of the control polygon; AttributeError if they were not asked for
+    first, second : (..., dimension), derivatives per edge of the control polygon, of classical curves by t; AttributeError if
+        they were not asked for
     normals : (..., dimension), of length one: in the plane to the left, in space towards the centre of curvature
     status : (...), numbers; ``statuses[number]`` is the word
     order : (...), derivatives that there are
@@ -81,7 +82,7 @@ class LimitCurve:
 
     @property
     def num_segments(self) -> int:
-        """Legs of the polygon."""
+        """Segments of the curve: edges of the polygon."""
         return self._core.num_segments
 
     def evaluate(self, segment: npt.ArrayLike, t: npt.ArrayLike, derivatives: int = 0, *, threads: int = 0) -> CurveSamples:
@@ -108,6 +109,86 @@ class LimitCurve:
 
     def __repr__(self) -> str:
         return f"<sublimit.LimitCurve: {self.num_segments} segments>"
+
+
+class Curves:
+    """Classical curves as one: the segments (spans of knots) of one curve after the other. They never change.
+
+    `Construction.curves` makes them. Places are (segment, t), with t in [0, 1] from one knot to the next; derivatives are by
+    this t.
+
+    Examples
+    --------
+    >>> import sublimit
+    >>> line = sublimit.construct({"kind": "bezier_curve", "degree": 2, "points": [[0, 0, 0], [1, 2, 0], [3, 0, 0]]}).curves()
+    >>> line.evaluate(0, 0.5, derivatives=1).first
+    array([3., 0., 0.])
+    """
+
+    __module__ = "sublimit"
+    __slots__ = ("_core", "__weakref__")
+    _core: _sublimit.Curves
+
+    def __init__(self) -> None:
+        raise TypeError("sublimit.construct(recipe).curves() makes curves")
+
+    @classmethod
+    def _of(cls, core: _sublimit.Curves) -> Curves:
+        curves = cls.__new__(cls)
+        curves._core = core
+        return curves
+
+    @property
+    def points(self) -> arrays.Floats:
+        """(control points, dimension); of rational curves a column more, homogeneous: (w x, ..., w). Read-only."""
+        return self._core.columns
+
+    @property
+    def weights(self) -> arrays.Floats | None:
+        """(control points,): the weights of rational curves, the last column of `points`; None of others."""
+        return self._core.columns[:, -1] if self._core.rational else None
+
+    @property
+    def rational(self) -> bool:
+        """Whether points are homogeneous."""
+        return self._core.rational
+
+    @property
+    def num_curves(self) -> int:
+        """Curves."""
+        return self._core.num_curves
+
+    @property
+    def num_segments(self) -> int:
+        """Segments of all curves."""
+        return self._core.num_segments
+
+    def evaluate(self, segment: npt.ArrayLike, t: npt.ArrayLike, derivatives: int = 0, *, threads: int = 0) -> CurveSamples:
+        """Points of the curves, exact to rounding.
+
+        Parameters
+        ----------
+        segment, t : arrays that broadcast to one shape
+        derivatives : 0, 1 or 2
+
+        Returns
+        -------
+        CurveSamples, of the broadcast shape
+            A place where the weight is 0 has the status ``pole`` and nothing else.
+
+        Raises
+        ------
+        InvalidParameter
+            A segment that there is not, t outside [0, 1] or not finite.
+        """
+        segments, at, shape = _places(segment, t)
+        return CurveSamples(self._core.evaluate(segments, at, order(derivatives), threads), shape)
+
+    def __reduce__(self) -> NoReturn:
+        raise TypeError("Curves do not pickle; construct them again")
+
+    def __repr__(self) -> str:
+        return f"<sublimit.Curves: {self.num_curves} curves, {self.num_segments} segments, {len(self.points)} control points>"
 
 
 def refine_curve(points: npt.ArrayLike, scheme: Scheme | str, levels: int = 1, *, closed: bool = False) -> arrays.Floats:

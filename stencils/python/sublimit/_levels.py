@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Refined meshes, their matrices, and the limits of their vertices."""
+"""Refined meshes, their levels and matrices, and the limits of their vertices."""
 from __future__ import annotations
 
+import operator
 import warnings
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -57,6 +59,53 @@ def refine(mesh: Mesh, scheme: Scheme | str, levels: int = 1, *, boundary: str |
     if not quiet:
         warn_of(mesh, asked, fine.warnings)
     return fine
+
+
+@dataclass(frozen=True)
+class Level:
+    """A level of a refined mesh: its connectivity, and the matrix that makes its points.
+
+    Attributes
+    ----------
+    number : 0 of the control mesh, then 1, 2, ...
+    S : scipy.sparse.csr_array, (vertices of the level, vertices of the level before): points = S @ points of that one. (0, 0)
+        of level 0. Its arrays are the library's, not copies
+    faces : ``(sizes, corners)``
+    holes : faces that are no part of the surface
+    """
+
+    __module__ = "sublimit"
+    number: int
+    S: csr_array
+    faces: tuple[arrays.Ints, arrays.Ints]
+    holes: arrays.Ints
+
+    def __repr__(self) -> str:
+        return f"<sublimit.Level {self.number}: {len(self.faces[0])} faces>"
+
+
+def levels(mesh: Mesh, scheme: Scheme | str, levels: int = 1, *, boundary: str | None = None, creasing: str | None = None,
+           triangles: str | None = None, option: Mapping[str, OptionValue] | None = None, triangulate: bool = False,
+           no_creases: bool = False, strict: bool = False, threads: int = 0) -> list[Level]:
+    """Levels 0 to `levels` of a mesh, each with the matrix that makes its points from those of the level before.
+
+    The parameters are those of `refine`, and so are the errors. `subdivision_matrix` is the product of the matrices.
+
+    Examples
+    --------
+    >>> import sublimit
+    >>> square = sublimit.Mesh([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], [[0, 1, 2, 3]])
+    >>> points = square.points
+    >>> for level in sublimit.levels(square, "catmull-clark", 2)[1:]:
+    ...     points = level.S @ points
+    >>> points.shape
+    (25, 3)
+    """
+    asked = request(scheme, boundary=boundary, creasing=creasing, triangles=triangles, option=option, triangulate=triangulate,
+                    no_creases=no_creases, strict=strict)
+    made = _sublimit.levels(core_of(mesh), asked, operator.index(levels), threads)
+    warn_of(mesh, asked)
+    return [Level(parts["number"], csr(parts["S"]), (parts["sizes"], parts["corners"]), parts["holes"]) for parts in made]
 
 
 def subdivision_matrix(mesh: Mesh, scheme: Scheme | str, levels: int = 1, *, boundary: str | None = None,
@@ -124,10 +173,14 @@ class Limit:
         return f"<sublimit.Limit of {len(self.points)} vertices, {len(self.normals)} sides>"
 
 
-def limit(mesh: Mesh, scheme: Scheme | str, level: int = 0, *, boundary: str | None = None, creasing: str | None = None,
+def limit(mesh: Mesh, scheme: Scheme | str, levels: int = 0, *, boundary: str | None = None, creasing: str | None = None,
           triangles: str | None = None, option: Mapping[str, OptionValue] | None = None, triangulate: bool = False,
           no_creases: bool = False, strict: bool = False, threads: int = 0) -> Limit:
     """Exact limits, tangents and normals of the vertices of a level. The parameters are those of `refine`.
+
+    Parameters
+    ----------
+    levels : refinements whose vertices are meant, 0 or more: 0 is the mesh itself
 
     Raises
     ------
@@ -136,7 +189,7 @@ def limit(mesh: Mesh, scheme: Scheme | str, level: int = 0, *, boundary: str | N
     """
     asked = request(scheme, boundary=boundary, creasing=creasing, triangles=triangles, option=option, triangulate=triangulate,
                     no_creases=no_creases, strict=strict)
-    made = _sublimit.limit(core_of(mesh), asked, level, threads)
+    made = _sublimit.limit(core_of(mesh), asked, operator.index(levels), threads)
     warn_of(mesh, asked)
     return Limit(made)
 
@@ -156,7 +209,7 @@ def warn_of(mesh: Mesh, asked: _sublimit.MeshRequest, further: Sequence[str] = (
         warnings.warn(message, MeshWarning, stacklevel=3)
 
 
-def core_of(mesh: Mesh) -> _sublimit.ControlMesh:
+def core_of(mesh: Mesh) -> _sublimit.Mesh:
     if not isinstance(mesh, Mesh):
         raise TypeError(f"mesh is a {type(mesh).__name__}; a sublimit.Mesh is right")
     return mesh._core

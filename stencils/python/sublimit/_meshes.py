@@ -35,8 +35,15 @@ class Mesh:
     uv : (values, 1 to 3), optional
         Texture coordinates: of vertices, of corners, or those that `uv_faces` names
     uv_faces : the value of every corner, in the form of `faces` or one after the other, optional
+    normals : (normals, 3), optional
+        Of vertices, of corners, or those that `face_normals` names. Files have them; schemes do not read them
+    face_normals : the normal of every corner, as `uv_faces`, -1 for none, optional
+    face_ids : (faces,), a number for each, optional
+    face_names : a name for each face, empty for none, optional
+        Groups of an .obj, names of faces in a STEP file
 
-    All of these are attributes of a mesh as well, which another one can be made of as they are.
+    All of these are attributes of a mesh as well, which another one can be made of as they are. `with_points` keeps all else
+    that a mesh has.
 
     Raises
     ------
@@ -59,22 +66,30 @@ class Mesh:
 
     __module__ = "sublimit"
     __slots__ = ("_core", "__weakref__")
-    _core: _sublimit.ControlMesh
+    _core: _sublimit.Mesh
 
     def __init__(self, points: Points, faces: Any, *, creases: Mapping[tuple[int, int], float] | Iterable[Any] | None = None,
                  corners: Mapping[int, float] | Iterable[Any] | None = None, holes: npt.ArrayLike | None = None,
-                 boundary: str | None = None, uv: npt.ArrayLike | None = None, uv_faces: Any = None) -> None:
+                 boundary: str | None = None, uv: npt.ArrayLike | None = None, uv_faces: Any = None,
+                 normals: npt.ArrayLike | None = None, face_normals: Any = None, face_ids: npt.ArrayLike | None = None,
+                 face_names: Iterable[str] | None = None) -> None:
         positions = arrays.floats(points, "points", (None, 3), "(vertices, 3)")
         sizes, vertices = arrays.faces(faces)
-        self._core = _sublimit.ControlMesh(
-            positions, sizes, vertices, _creases(creases), _corners(corners),
-            arrays.ints([] if holes is None else holes, "holes", (None,), "(holes,)"), boundary,
-            None if uv is None else _channel(uv, uv_faces, sizes, vertices, len(positions)))
         if uv is None and uv_faces is not None:
             raise ValueError("uv_faces says which values corners have, but there is no uv")
+        if normals is None and face_normals is not None:
+            raise ValueError("face_normals says which normals corners have, but there are no normals")
+        self._core = _sublimit.Mesh(
+            positions, sizes, vertices, _creases(creases), _corners(corners),
+            arrays.ints([] if holes is None else holes, "holes", (None,), "(holes,)"), boundary,
+            None if uv is None else _channel(uv, uv_faces, sizes, vertices, len(positions)),
+            None if normals is None else _normals(normals, face_normals, sizes, vertices, len(positions)),
+            arrays.ints([] if face_ids is None else face_ids, "face_ids", (None if face_ids is None else len(sizes),),
+                        f"({len(sizes)} faces,)"),
+            names_of(face_names, len(sizes)))
 
     @classmethod
-    def _of(cls, core: _sublimit.ControlMesh) -> Mesh:
+    def _of(cls, core: _sublimit.Mesh) -> Mesh:
         mesh = cls.__new__(cls)
         mesh._core = core
         return mesh
@@ -134,20 +149,70 @@ class Mesh:
         return self._core.channels[0][2] if self._core.channels else None
 
     @property
+    def normals(self) -> arrays.Floats | None:
+        """Normals (normals, 3), if there are any, read-only."""
+        return self._core.normals if len(self._core.normals) else None
+
+    @property
+    def face_normals(self) -> arrays.Ints | None:
+        """The normal of every corner, -1 for none; None if normals are of vertices, or if there are none."""
+        return self._core.face_normals if len(self._core.face_normals) else None
+
+    @property
+    def face_ids(self) -> arrays.Ints | None:
+        """A number for each face, if they have some: of what `tessellate` makes the face that a triangle lies on."""
+        return self._core.face_ids if len(self._core.face_ids) else None
+
+    @property
+    def face_names(self) -> list[str] | None:
+        """A name for each face, empty for none, if there are any: its group in an .obj, else its object."""
+        names = self._core.face_names
+        return [name.decode("utf-8", "surrogateescape") for name in names] if names else None
+
+    @property
     def warnings(self) -> list[str]:
         """What a reader accepted but wants known."""
         return self._core.warnings
+
+    def with_points(self, points: Points) -> Mesh:
+        """The mesh with other points, as in another frame. It keeps all else that it has.
+
+        Parameters
+        ----------
+        points : (vertices, 3)
+
+        Raises
+        ------
+        ValueError
+            An array of another shape or type; NaN and infinite points.
+
+        Examples
+        --------
+        >>> import sublimit
+        >>> triangle = sublimit.Mesh([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]], corners={0: 10})
+        >>> triangle.with_points(2 * triangle.points).corners[1]
+        array([10.], dtype=float32)
+        """
+        count = len(self._core.points)
+        return Mesh._of(self._core.with_points(arrays.floats(points, "points", (count, 3), f"({count} vertices, 3)")))
 
     def info(self, scheme: Scheme | str | None = None, *, limit: bool = False) -> dict[str, Any]:
         """Counts, valences, borders, tags, rules and faults, as ``sublimit info --json`` has them.
 
         Parameters
         ----------
-        scheme : whether it takes the mesh, and what levels would take, is told too
+        scheme : whether it takes the mesh, and the memory of its levels, too
         limit : area, volume, centroid and inertia of its limit too, with errors where more than rounding is left
+
+        Raises
+        ------
+        InvalidOption
+            A scheme that there is not; `limit` without a scheme.
+        UnsupportedTopology
+            As `LimitSurface`, if the limit is asked for.
         """
         asked = _sublimit.MeshRequest() if scheme is None else request(scheme)
-        found: dict[str, Any] = json.loads(_sublimit.info(self._core, asked, "mesh", limit))
+        found: dict[str, Any] = json.loads(_sublimit.info(self._core, asked, "mesh", bool(limit)))
         return found
 
     @classmethod
@@ -223,6 +288,31 @@ class Mesh:
         return Mesh._of, (self._core,)
 
 
+def info(mesh: Mesh, scheme: Scheme | str | None = None, *, limit: bool = False) -> dict[str, Any]:
+    """Counts, valences, borders, tags, rules and faults of a mesh, as ``sublimit info --json`` has them: `Mesh.info`.
+
+    Parameters
+    ----------
+    scheme : whether it takes the mesh, and the memory of its levels, too
+    limit : area, volume, centroid and inertia of its limit too
+
+    Raises
+    ------
+    InvalidOption, UnsupportedTopology
+        As `Mesh.info`.
+
+    Examples
+    --------
+    >>> import sublimit
+    >>> triangle = sublimit.Mesh([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
+    >>> sublimit.info(triangle, "loop")["scheme"]["takes_mesh"]
+    'yes'
+    """
+    if not isinstance(mesh, Mesh):
+        raise TypeError(f"mesh is a {type(mesh).__name__}; a sublimit.Mesh is right")
+    return mesh.info(scheme, limit=limit)
+
+
 def read(path: str | os.PathLike[str]) -> Mesh:
     """Reads .obj (with tags), .ply or .off; tags in PATH.json beside it override those of the file.
 
@@ -238,15 +328,21 @@ def read(path: str | os.PathLike[str]) -> Mesh:
     return Mesh._of(_sublimit.read(os.fspath(path)))
 
 
-def _rows(values: Any, name: str, columns: int, words: str) -> arrays.Floats:
-    """Rows of whole numbers and a sharpness, from a mapping, from rows, or from what `Mesh` has of them: two arrays."""
+def tag_rows(values: Any, name: str, columns: int, words: str) -> arrays.Floats:
+    """Rows of whole numbers and a last one, a sharpness or a rate: from a mapping, from rows, or from two arrays, as `Mesh` has
+    them.
+    """
     if isinstance(values, Mapping):
         values = [(*(key if columns == 3 else (key,)), sharpness) for key, sharpness in values.items()]
     elif isinstance(values, tuple) and len(values) == 2 and all(isinstance(part, np.ndarray) for part in values):
         values = _joined(values[0], values[1], name, columns)
     elif values is not None and not isinstance(values, np.ndarray):
         values = [tuple(row) for row in values]
-    rows = arrays.floats([] if values is None else values, name, (None, columns), words, finite=False)
+    return arrays.floats([] if values is None else values, name, (None, columns), words, finite=False)
+
+
+def _sharp_rows(values: Any, name: str, columns: int, words: str) -> arrays.Floats:
+    rows = tag_rows(values, name, columns, words)
     if np.isnan(rows[:, -1]).any():
         row = int(np.argmax(np.isnan(rows[:, -1])))
         raise ValueError(f"{name}[{row}] has sharpness nan; 0 to infinity is right")
@@ -264,21 +360,21 @@ def _joined(first: npt.NDArray[Any], second: npt.NDArray[Any], name: str, column
     return np.column_stack([first, second]) if is_pair else [first, second]
 
 
-def _whole(column: arrays.Floats, name: str) -> arrays.Ints:
+def whole(column: arrays.Floats, name: str, what: str = "vertex") -> arrays.Ints:
     wrong = ~(column == np.floor(column)) | (np.abs(column) > 2**31 - 1)
     if wrong.any():
-        raise ValueError(f"{name} names vertex {column[wrong][0]:.17g}; whole numbers are right")
+        raise ValueError(f"{name} names {what} {column[wrong][0]:.17g}; whole numbers are right")
     return np.ascontiguousarray(column, dtype=np.int32)
 
 
 def _creases(values: Any) -> tuple[arrays.Ints, arrays.Floats32]:
-    rows = _rows(values, "creases", 3, "{(tail, head): sharpness}, rows (tail, head, sharpness) or (edges, sharpness)")
-    return _whole(rows[:, :2], "creases"), np.ascontiguousarray(rows[:, 2], dtype=np.float32)
+    rows = _sharp_rows(values, "creases", 3, "{(tail, head): sharpness}, rows (tail, head, sharpness) or (edges, sharpness)")
+    return whole(rows[:, :2], "creases"), np.ascontiguousarray(rows[:, 2], dtype=np.float32)
 
 
 def _corners(values: Any) -> tuple[arrays.Ints, arrays.Floats32]:
-    rows = _rows(values, "corners", 2, "{vertex: sharpness}, rows (vertex, sharpness) or (vertices, sharpness)")
-    return _whole(rows[:, 0], "corners"), np.ascontiguousarray(rows[:, 1], dtype=np.float32)
+    rows = _sharp_rows(values, "corners", 2, "{vertex: sharpness}, rows (vertex, sharpness) or (vertices, sharpness)")
+    return whole(rows[:, 0], "corners"), np.ascontiguousarray(rows[:, 1], dtype=np.float32)
 
 
 def _channel(uv: Any, uv_faces: Any, sizes: arrays.Ints, vertices: arrays.Ints,
@@ -293,13 +389,51 @@ def _channel(uv: Any, uv_faces: Any, sizes: arrays.Ints, vertices: arrays.Ints,
             return values, vertices
         raise ValueError(f"uv has {len(values)} values; {num_points} of vertices or {len(vertices)} of corners are right, "
                          "or uv_faces to say which corner has which")
-    array = np.asarray(uv_faces) if isinstance(uv_faces, np.ndarray) else None
-    if array is not None and array.ndim == 1 and array.dtype != object:
-        indices = arrays.ints(array, "uv_faces", (None,), "(corners,)")
-    else:
-        indices = arrays.faces(uv_faces, "uv_faces")[1]
-    if len(indices) != len(vertices):
-        raise ValueError(f"uv_faces has {len(indices)} corners; the {len(sizes)} faces have {len(vertices)}")
+    indices = _of_corners(uv_faces, "uv_faces", sizes, vertices)
     if len(indices) and not 0 <= indices.min() <= indices.max() < len(values):
         raise ValueError(f"uv_faces names value {indices.max() if indices.min() >= 0 else indices.min()}; uv has {len(values)}")
     return values, indices
+
+
+def _normals(normals: Any, face_normals: Any, sizes: arrays.Ints, vertices: arrays.Ints,
+             num_points: int) -> tuple[arrays.Floats, arrays.Ints]:
+    values = arrays.floats(normals, "normals", (None, 3), "(normals, 3)")
+    if face_normals is None:
+        if len(values) == num_points:
+            return values, np.zeros(0, np.int32)
+        if len(values) == len(vertices):
+            return values, np.arange(len(vertices), dtype=np.int32)
+        raise ValueError(f"normals has {len(values)} rows; {num_points} of vertices or {len(vertices)} of corners are right, or "
+                         "face_normals to say which corner has which")
+    indices = _of_corners(face_normals, "face_normals", sizes, vertices)
+    if len(indices) and not -1 <= indices.min() <= indices.max() < len(values):
+        raise ValueError(f"face_normals names normal {indices.max() if indices.min() >= -1 else indices.min()}; normals has "
+                         f"{len(values)}, and -1 is none")
+    return values, indices
+
+
+def _of_corners(values: Any, name: str, sizes: arrays.Ints, vertices: arrays.Ints) -> arrays.Ints:
+    """A number for each corner of all faces, in the form of faces or one after the other."""
+    array = np.asarray(values) if isinstance(values, np.ndarray) else None
+    if array is not None and array.ndim == 1 and array.dtype != object:
+        indices = arrays.ints(array, name, (None,), "(corners,)")
+    else:
+        indices = arrays.faces(values, name)[1]
+    if len(indices) != len(vertices):
+        raise ValueError(f"{name} has {len(indices)} corners; the {len(sizes)} faces have {len(vertices)}")
+    return indices
+
+
+def names_of(names: Iterable[str] | None, num_faces: int | None = None) -> list[bytes]:
+    """Names of faces as the compiled part takes them. None: how many there should be is looked at there."""
+    if names is None:
+        return []
+    if isinstance(names, (str, bytes)):
+        raise TypeError("face_names is one word; a list with a name for each face is right")
+    all_of_them = list(names)
+    for i, name in enumerate(all_of_them):
+        if not isinstance(name, str):
+            raise TypeError(f"face_names[{i}] is a {type(name).__name__}; a str is right, empty for none")
+    if num_faces is not None and len(all_of_them) != num_faces:
+        raise ValueError(f"face_names has {len(all_of_them)} names; {num_faces} are right, one for each face")
+    return [name.encode("utf-8", "surrogateescape") for name in all_of_them]

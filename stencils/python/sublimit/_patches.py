@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Classical surfaces: Bezier, B-spline, NURBS and the rest of free-form OBJ files, and those of recipes."""
+"""Classical surfaces: Bezier, B-spline, NURBS and the rest of free-form .obj files, and those of recipes."""
 from __future__ import annotations
 
 import os
@@ -9,43 +9,64 @@ import numpy.typing as npt
 
 from . import _arrays as arrays
 from . import _sublimit
-from ._surfaces import Source, order, places_of
-from ._tables import Table
+from ._surfaces import Source
+from ._tables import Table, bake_options
 
 
 class Patches(Source):
     """Free-form surfaces as one: the faces (spans of knots) of one patch after the other. They never change.
 
-    ``Patches.read`` makes them. Places are (face, u, v) with u, v in [0, 1] from one knot to the next; derivatives are by
-    the patch's own parameters.
+    `Construction.surfaces` makes them, and ``Patches.read``. Places are (face, u, v) with u, v in [0, 1] from one knot to the
+    next; derivatives are by the patch's own parameters.
     """
 
     __module__ = "sublimit"
     __slots__ = ()
-    _core: _sublimit.PatchSet
+    _core: _sublimit.Patches
 
     def __init__(self) -> None:
-        raise TypeError("sublimit.Patches.read(path) reads patches")
+        raise TypeError("sublimit.Patches.read(path) reads patches, sublimit.construct(recipe).surfaces() makes them")
+
+    @classmethod
+    def _of(cls, core: _sublimit.Patches) -> Patches:
+        patches = cls.__new__(cls)
+        patches._core = core
+        return patches
 
     @classmethod
     def read(cls, path: str | os.PathLike[str]) -> Patches:
-        """Surfaces of a free-form .obj, or of recipes (.json). Curves are left out, and trimming loops.
+        """Surfaces of a free-form .obj, or of recipes (.json): ``construct(path).surfaces()``. Curves are left out, and trimming
+        loops.
 
         Raises
         ------
         InvalidMesh, UnsupportedTopology
             The file has no surfaces.
         FormatError, IoError
-            As `read` does.
+            As `construct` does.
         """
-        patches = cls.__new__(cls)
-        patches._core = _sublimit.PatchSet(os.fspath(path))
-        return patches
+        return cls._of(_sublimit.Construction(os.fsencode(path)).surfaces())
 
     @property
     def points(self) -> arrays.Floats:
         """(control points, 3); of rational surfaces (control points, 4), homogeneous: (w x, w y, w z, w). Read-only."""
         return self._core.columns
+
+    def with_points(self, points: npt.ArrayLike) -> Patches:
+        """The surfaces with other control points, as in another frame.
+
+        Parameters
+        ----------
+        points : of the shape of `points`
+
+        Raises
+        ------
+        ValueError
+            An array of another shape or type; NaN and infinite points.
+        """
+        shape = self._core.columns.shape
+        columns = arrays.floats(points, "points", shape, f"{shape} as Patches.points")
+        return Patches._of(self._core.with_points(columns))
 
     @property
     def weights(self) -> arrays.Floats | None:
@@ -68,18 +89,8 @@ class Patches(Source):
         ----------
         levels, grid, at, derivatives, precision : as in `bake`
         """
-        if precision not in ("float", "double"):
-            raise ValueError(f"precision is {precision!r}; 'float' or 'double' are right")
-        if sum(choice is not None for choice in (levels, grid, at)) != 1:
-            raise ValueError("a table is of one of levels, grid and at")
-        asked = _sublimit.TableRequest()
-        asked.rows = "samples" if at is not None else "grid" if grid is not None else "level"
-        asked.level = levels or 0
-        asked.grid = grid or 0
-        asked.derivatives = order(derivatives)
-        asked.in_float = precision == "float"
-        where = None if at is None else places_of(at)
-        return Table._of(_sublimit.bake_patches(self._core, asked, where, threads))
+        options = bake_options(levels, False, grid, at, derivatives, precision, "levels, grid and at")
+        return Table._of(_sublimit.bake_patches(self._core, options, threads))
 
     def __reduce__(self) -> NoReturn:
         raise TypeError("Patches do not pickle; read their file again")

@@ -31,12 +31,16 @@ class SchemeInfo:
     ----------
     kind : ``"surface"`` or ``"curve"``
     linear : whether it has matrices
-    faces : ``"any"`` or ``"triangles"``; empty for curves
+    source : author, year, title
+    limit : what it is, in words
+    interpolates : whether control points stay
+    triangles : whether it takes triangles only
     continuity : C^k on regular meshes; None where nothing is claimed
     extraordinary_continuity : at extraordinary points
     generates_degree : polynomials up to this degree are limits
     reproduces_degree : they are the limits of their own values
-    source : author, year, title
+    convex_hull : whether no weight is negative
+    options : by name, as `scheme` takes them
     """
 
     __module__ = "sublimit"
@@ -47,7 +51,7 @@ class SchemeInfo:
     limit: str
     interpolates: bool
     options: Mapping[str, OptionInfo]
-    faces: str = ""
+    triangles: bool = False
     continuity: int | None = None
     extraordinary_continuity: int | None = None
     generates_degree: int | None = None
@@ -70,8 +74,8 @@ def schemes() -> dict[str, SchemeInfo]:
     Examples
     --------
     >>> import sublimit
-    >>> sublimit.schemes()["loop"].faces
-    'triangles'
+    >>> sublimit.schemes()["loop"].triangles
+    True
     >>> [name for name, info in sublimit.schemes().items() if info.kind == "surface" and info.interpolates]
     ['bilinear', 'butterfly', 'modified-butterfly', 'interpolatory-sqrt3', 'kobbelt', 'torus-pieces', 'nielson', 'piper']
     """

@@ -6,7 +6,7 @@ import math
 import operator
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, ClassVar, NoReturn
+from typing import TYPE_CHECKING, Any, ClassVar, NoReturn, TypeVar, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -14,7 +14,7 @@ import numpy.typing as npt
 from . import _arrays as arrays
 from . import _sublimit
 from ._levels import core_of, csr, warn_of
-from ._meshes import Mesh
+from ._meshes import Mesh, tag_rows, whole
 from ._schemes import OptionValue, Scheme, request
 
 if TYPE_CHECKING:
@@ -200,9 +200,11 @@ class Tessellation:
     triangles : (m, 3), their corners, counter-clockwise
     triangle_face : (m,), the face of the surface that each is on
     corners : (m, 3, 2), (u, v) of its corners there
-    normals : (m, 3, 3), of the surface at the corners, of this face's side at creases; zero where there is none
+    normals : (m, 3, 3), of the surface at the corners, of this face's side at creases; zero where there is none. None if they
+        were not asked for
     face, u, v : (n,), places of the points: ``bake(mesh, scheme, tessellation=it)`` makes a table that follows a moving mesh
     bound : no point of a triangle is farther from that of the surface with the same parameters
+    cells : of triangles, that the bound was proved for
     """
 
     __module__ = "sublimit"
@@ -210,11 +212,12 @@ class Tessellation:
     triangles: arrays.Ints
     triangle_face: arrays.Ints
     corners: arrays.Floats
-    normals: arrays.Floats
+    normals: arrays.Floats | None
     face: arrays.Ints
     u: arrays.Floats
     v: arrays.Floats
     bound: float
+    cells: int
 
 
 class Source:
@@ -374,7 +377,30 @@ class LimitSurface(Source):
         self._core = _sublimit.Surface(core_of(mesh), asked)
         warn_of(mesh, asked)
 
-    def tessellate(self, chord: float, *, angle: float = 0, max_triangles: int = 1 << 24, threads: int = 0) -> Tessellation:
+    @property
+    def points(self) -> arrays.Floats:
+        """(control points, 3): those of the mesh, read-only."""
+        return self._core.points
+
+    def with_points(self, points: npt.ArrayLike) -> LimitSurface:
+        """The surface with other control points, as in another frame: what depends on connectivity is shared, not made again.
+
+        Parameters
+        ----------
+        points : (control points, 3)
+
+        Raises
+        ------
+        ValueError
+            An array of another shape or type; NaN and infinite points.
+        """
+        shape = self._core.points.shape
+        surface = LimitSurface.__new__(LimitSurface)
+        surface._core = self._core.with_points(arrays.floats(points, "points", shape, f"({shape[0]} control points, 3)"))
+        return surface
+
+    def tessellate(self, chord: float, *, angle: float = 0, max_triangles: int = 1 << 24, rates: Any = None,
+                   normals: bool = False, threads: int = 0) -> Tessellation:
         """As few triangles as a proved bound on their distance from the surface allows.
 
         Parameters
@@ -383,6 +409,18 @@ class LimitSurface(Source):
         angle : largest angle between two normals in the cell of a triangle, in radians, but not at extraordinary vertices;
             0: any
         max_triangles : ResourceError if more are needed
+        rates : {(tail, head): segments}, rows (tail, head, segments) or ``(edges, segments)``, two arrays, optional
+            Into how many segments an edge of the mesh is cut at least; 1 where there is none
+        normals : whether corners of triangles have normals
+
+        Raises
+        ------
+        InvalidParameter
+            A chord that is not positive, a negative angle; rates of what is no edge, below 1, or two of an edge.
+        UnsupportedTopology
+            A scheme without polynomials: nothing is proved there.
+        ResourceError
+            More triangles than allowed.
 
         Examples
         --------
@@ -392,10 +430,158 @@ class LimitSurface(Source):
         >>> bool(near.bound <= 0.01)
         True
         """
-        return Tessellation(**self._core.tessellate(float(chord), float(angle), int(max_triangles), threads))
+        return Tessellation(**self._core.tessellate(float(chord), float(angle), operator.index(max_triangles), _rates(rates),
+                                                    bool(normals), threads))
 
     def __reduce__(self) -> NoReturn:
         raise TypeError("a LimitSurface does not pickle: it is made of its mesh faster than it is read; pickle the Mesh")
+
+
+def closest(surface: Source, points: npt.ArrayLike, *, count: int = 1, radius: float = math.inf, signed: bool = False,
+            threads: int = 0) -> ClosestPoints:
+    """Nearest points of a `LimitSurface` or of `Patches`: their method `closest`.
+
+    Parameters
+    ----------
+    surface : a `LimitSurface` or `Patches`
+    points : (n, 3)
+    count : nearest faces of each point, with the nearest place on each
+    radius : what is farther is left out, a length
+    signed : distances of points inside are below 0
+
+    Raises
+    ------
+    TypeError
+        Another surface, such as a `Mesh`, which has one under a scheme.
+    ValueError
+        Points of another shape or type; NaN and infinite ones.
+    InvalidParameter
+        A count below 1, a radius below 0.
+    InvalidMesh
+        No face that is not a hole.
+    UnsupportedTopology
+        Signed distances from a surface that is not closed.
+
+    Examples
+    --------
+    >>> import sublimit
+    >>> sheet = sublimit.Mesh([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], [[0, 1, 2, 3]])
+    >>> sublimit.closest(sublimit.LimitSurface(sheet, "bilinear"), [[0.25, 0.5, 2]]).distance
+    array([2.])
+    """
+    return surface_of(surface, Source).closest(points, count=count, radius=radius, signed=signed, threads=threads)
+
+
+def intersect(surface: Source, origins: npt.ArrayLike, directions: npt.ArrayLike, *, tmin: npt.ArrayLike = 0,
+              tmax: npt.ArrayLike = math.inf, all: bool = False, most_parts: int = 8000, threads: int = 0) -> RayHits:
+    """Where rays meet a `LimitSurface` or `Patches`: their method `intersect`.
+
+    Parameters
+    ----------
+    surface : a `LimitSurface` or `Patches`
+    origins, directions : (n, 3) or (3,); directions of any length
+    tmin, tmax : (n,) or numbers, of ``origin + t * direction``
+    all : all hits, not the nearest alone
+    most_parts : to look at within one part of the surface, before a ray is given up
+
+    Raises
+    ------
+    TypeError
+        Another surface, such as a `Mesh`, which has one under a scheme.
+    ValueError
+        Rays of other shapes or types, or that do not fit together; NaN and infinite ones.
+    InvalidParameter
+        A direction of 0, a ray that ends before it begins.
+    UnsupportedTopology
+        Patches that are neither polynomials nor quotients of them, or have poles.
+
+    Examples
+    --------
+    >>> import sublimit
+    >>> sheet = sublimit.Mesh([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], [[0, 1, 2, 3]])
+    >>> sublimit.intersect(sublimit.LimitSurface(sheet, "bilinear"), [0.25, 0.5, 2], [0, 0, -1]).t
+    array([2.])
+    """
+    return surface_of(surface, Source).intersect(origins, directions, tmin=tmin, tmax=tmax, all=all, most_parts=most_parts,
+                                                 threads=threads)
+
+
+@overload
+def tessellate(mesh: LimitSurface, scheme: None = None, *, chord: float, angle: float = 0, max_triangles: int = 1 << 24,
+               rates: Any = None, normals: bool = False, threads: int = 0) -> Tessellation: ...
+@overload
+def tessellate(mesh: Mesh, scheme: Scheme | str, *, chord: float, angle: float = 0, max_triangles: int = 1 << 24,
+               rates: Any = None, normals: bool = False, boundary: str | None = None, creasing: str | None = None,
+               triangles: str | None = None, face_varying: str | None = None, option: Mapping[str, OptionValue] | None = None,
+               triangulate: bool = False, no_creases: bool = False, strict: bool = False, threads: int = 0) -> Mesh: ...
+
+
+def tessellate(mesh: Mesh | LimitSurface, scheme: Scheme | str | None = None, *, chord: float, angle: float = 0,
+               max_triangles: int = 1 << 24, rates: Any = None, normals: bool = False, boundary: str | None = None,
+               creasing: str | None = None, triangles: str | None = None, face_varying: str | None = None,
+               option: Mapping[str, OptionValue] | None = None, triangulate: bool = False, no_creases: bool = False,
+               strict: bool = False, threads: int = 0) -> Mesh | Tessellation:
+    """Triangles near the limit of a mesh, as a mesh; or those of a `LimitSurface`, which is its method `tessellate`.
+
+    Parameters
+    ----------
+    mesh : a `Mesh`, with the scheme and rules as in `refine`; or a `LimitSurface`, without
+    chord, angle, max_triangles, rates, normals : as in `LimitSurface.tessellate`
+
+    Returns
+    -------
+    Mesh or Tessellation
+        The mesh has its texture coordinates, normals of corners, if they are wanted, and in `Mesh.face_ids` the face of the
+        control mesh that each triangle lies on. Holes are left out.
+
+    Raises
+    ------
+    InvalidParameter, UnsupportedTopology, ResourceError
+        As `LimitSurface.tessellate`.
+
+    Notes
+    -----
+    Texture coordinates that the scheme has no limit of are left out with a `MeshWarning`; if `face_varying` is given they are
+    an error.
+
+    Examples
+    --------
+    >>> import sublimit
+    >>> roof = sublimit.Mesh([[0, 0, 0], [1, 0, 0], [1, 1, 1], [0, 1, 0]], [[0, 1, 2, 3]])
+    >>> near = sublimit.tessellate(roof, "catmull-clark", chord=0.01, normals=True)
+    >>> bool((near.faces[0] == 3).all()), len(near.normals) == len(near.faces[1])
+    (True, True)
+    """
+    if isinstance(mesh, LimitSurface):
+        if scheme is not None:
+            raise TypeError("a LimitSurface has its scheme; leave scheme out, or give a Mesh")
+        return mesh.tessellate(chord, angle=angle, max_triangles=max_triangles, rates=rates, normals=normals, threads=threads)
+    core = core_of(mesh)
+    if scheme is None:
+        raise TypeError("scheme is missing; a mesh has a limit under a scheme")
+    asked = request(scheme, boundary=boundary, creasing=creasing, triangles=triangles, face_varying=face_varying, option=option,
+                    triangulate=triangulate, no_creases=no_creases, strict=strict)
+    near = Mesh._of(_sublimit.tessellate(core, asked, float(chord), float(angle), operator.index(max_triangles), _rates(rates),
+                                         bool(normals), threads))
+    warn_of(mesh, asked, near.warnings)
+    return near
+
+
+_AnySource = TypeVar("_AnySource", bound=Source)
+
+
+def surface_of(surface: Any, kind: type[_AnySource]) -> _AnySource:
+    """What a function is to be given."""
+    if not isinstance(surface, kind):
+        raise TypeError(f"surface is a {type(surface).__name__}; a sublimit.LimitSurface or sublimit.Patches is right")
+    return surface
+
+
+def _rates(rates: Any) -> tuple[arrays.Ints, arrays.Ints]:
+    """Edges and their rates, as the compiled part takes them."""
+    rows = tag_rows(rates, "rates", 3, "{(tail, head): segments}, rows (tail, head, segments) or (edges, segments)")
+    edges = whole(rows[:, :2], "rates", "vertex")
+    return edges, whole(rows[:, 2], "rates", "the rate")
 
 
 def order(derivatives: int) -> int:

@@ -2,6 +2,7 @@
 """Tables: what a topology makes of any points, baked once, applied every frame."""
 from __future__ import annotations
 
+import operator
 import os
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
@@ -314,33 +315,61 @@ def bake(mesh: Mesh, scheme: Scheme | str, levels: int | None = None, *, limit: 
     derivatives : 0, 1 or 2, of the limit
     precision : of the weights, ``"float"`` or ``"double"``
 
+    Raises
+    ------
+    ValueError
+        None of levels, grid, at and tessellation, or several of them; no places.
+    InvalidParameter
+        Numbers outside their range, derivatives of levels, places on no face.
+    UnsupportedTopology, ResourceError
+        As `refine`.
+
     Notes
     -----
     Points of levels stand in an order of the table's own, which `Table.faces` knows; those of grids stand face by face,
     u fastest; places as they are given.
     """
-    if precision not in ("float", "double"):
-        raise ValueError(f"precision is {precision!r}; 'float' or 'double' are right")
-    if sum(choice is not None for choice in (levels, grid, at, tessellation)) != 1:
-        raise ValueError("a table is of one of levels, grid, at and tessellation")
-    if limit and levels is None:
-        raise ValueError("limit is of a level; all others are of the limit anyway")
-    triangles_between = None
+    choices = "levels, grid, at and tessellation"
     if tessellation is not None:
+        if at is not None:
+            raise ValueError(f"a table is of one of {choices}")
         at = tessellation.face, tessellation.u, tessellation.v
-        triangles_between = tessellation.triangles
+    options = bake_options(levels, limit, grid, at, derivatives, precision, choices)
+    if tessellation is not None:
+        options.set_triangles(tessellation.triangles)
     asked = request(scheme, boundary=boundary, creasing=creasing, triangles=triangles, option=option, triangulate=triangulate,
                     no_creases=no_creases, strict=strict)
-    table = _sublimit.TableRequest()
-    table.rows = "samples" if at is not None else "grid" if grid is not None else "limit" if limit else "level"
-    table.level = levels or 0
-    table.grid = grid or 0
-    table.derivatives = order(derivatives)
-    table.in_float = precision == "float"
-    where = None if at is None else places_of(at)
-    baked = Table._of(_sublimit.bake(core_of(mesh), asked, table, where, triangles_between, threads))
+    baked = Table._of(_sublimit.bake(core_of(mesh), asked, options, threads))
     warn_of(mesh, asked)
     return baked
+
+
+def bake_options(levels: int | None, limit: bool, grid: int | None, at: tuple[npt.ArrayLike, ...] | None, derivatives: int,
+                 precision: str, choices: str) -> _sublimit.BakeOptions:
+    """Options of tables, for the compiled part.
+
+    Parameters
+    ----------
+    choices : what a table may be of, for errors
+    """
+    if precision not in ("float", "double"):
+        raise ValueError(f"precision is {precision!r}; 'float' or 'double' are right")
+    if sum(choice is not None for choice in (levels, grid, at)) != 1:
+        raise ValueError(f"a table is of one of {choices}")
+    if limit and levels is None:
+        raise ValueError("limit is of a level; all others are of the limit anyway")
+    options = _sublimit.BakeOptions()
+    options.levels = None if levels is None else operator.index(levels)
+    options.limit = bool(limit)
+    options.grid = None if grid is None else operator.index(grid)
+    options.derivatives = order(derivatives)
+    options.in_double = precision == "double"
+    if at is not None:
+        where = places_of(at)
+        if len(where[0]) == 0:
+            raise ValueError("at has no places; a table has one or more")
+        options.set_places(where)
+    return options
 
 
 def load(path: str | os.PathLike[str], *, checksums: bool = False) -> Table:

@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <cstring>
 
+#include "sublimit/base/detail/mapped_file.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/mapped_file.h"
 #include "sublimit/distributed/shared_file.h"
-#include "sublimit/safetensors.h"
+#include "sublimit/eval/detail/safetensors.h"
 
 namespace sublimit {
 

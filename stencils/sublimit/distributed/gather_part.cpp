@@ -93,7 +93,7 @@ void fetch_channel(const Ranks& ranks, const SpreadMesh& spread, MeshPart& part)
     for (Eigen::Index c = 0; c < columns; ++c) row[size_t(c)] = channel.values(i - first, c);
     return row;
   });
-  ControlMesh::FaceVarying own{channel.name, Points(Eigen::Index(rows.size()), columns), {}};
+  Mesh::FaceVarying own{channel.name, Points(Eigen::Index(rows.size()), columns), {}};
   for (size_t i = 0; i < rows.size(); ++i)
     for (Eigen::Index c = 0; c < columns; ++c) own.values(Eigen::Index(i), c) = rows[i][size_t(c)];
   for (const Int i : corners.items) own.indices.push_back(position(numbers, i));
@@ -105,7 +105,7 @@ float sharpness(Int bits) { return std::bit_cast<float>(static_cast<std::int32_t
 
 void fetch_tags(const Ranks& ranks, const SpreadMesh& spread, const Incidence& incidence, MeshPart& part) {
   const Int first = spread.vertices.begin(ranks.rank());
-  ControlMesh& mesh = part.mesh;
+  Mesh& mesh = part.mesh;
   if (incidence.has_creases) {
     const Lists creases =
         fetch_lists(ranks, spread.vertices, part.vertices, [&](Int v) { return incidence.creases[v - first]; });
@@ -143,7 +143,7 @@ void fetch_tags(const Ranks& ranks, const SpreadMesh& spread, const Incidence& i
 }  // namespace
 
 MeshPart gather_part(const Ranks& ranks, const SpreadMesh& spread, const Incidence& incidence,
-                     std::span<const Int> owned, int rings, bool lone) {
+                     std::span<const Int> owned, int rings, bool isolated) {
   GrowingPart growing(ranks, spread);
   growing.add_faces({owned.begin(), owned.end()});
   const Int first = spread.vertices.begin(ranks.rank());
@@ -154,15 +154,15 @@ MeshPart gather_part(const Ranks& ranks, const SpreadMesh& spread, const Inciden
     growing.add_faces(without(faces.items, growing.all_faces));
   }
   std::vector<std::vector<Int>> to(size_t(ranks.size()));
-  const std::vector<Int> takes = ranks.each(lone);
+  const std::vector<Int> takes = ranks.each(isolated);
   for (size_t r = 0; r < to.size(); ++r)
-    if (takes[r]) to[r] = incidence.lone;
+    if (takes[r]) to[r] = incidence.isolated;
   for (const std::vector<Int>& from : exchange(ranks, std::move(to)))
     growing.all_vertices = together_sorted(growing.all_vertices, from);
 
   MeshPart part;
   part.vertices = std::move(growing.all_vertices), part.faces = std::move(growing.all_faces);
-  ControlMesh& mesh = part.mesh;
+  Mesh& mesh = part.mesh;
   mesh.boundary = spread.about.boundary, mesh.creasing = spread.about.creasing, mesh.triangles = spread.about.triangles;
   ranks.together([&] {
     constexpr Int most = std::numeric_limits<Index>::max();

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "sublimit/base/found_once.h"
+#include "sublimit/base/detail/found_once.h"
 
 namespace sublimit {
 namespace {

@@ -75,7 +75,7 @@ void find_faces(const Ranks& ranks, const SpreadMesh& mesh, Incidence& result) {
   const Int first = mesh.vertices.begin(ranks.rank()), count = mesh.vertices.size(ranks.rank());
   result.faces = lists_of(exchange(ranks, std::move(to)), first, count);
   for (Int v = 0; v < count; ++v)
-    if (result.faces[v].empty()) result.lone.push_back(first + v);
+    if (result.faces[v].empty()) result.isolated.push_back(first + v);
 }
 
 /// An edge of a face, at its lower end.

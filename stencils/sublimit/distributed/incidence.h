@@ -14,7 +14,7 @@ struct Incidence {
   Lists creases;  ///< at the lower end of their edges: head, sharpness as bits, head, ... in the order of the file
   Lists corners;  ///< at their vertex: sharpness as bits, in the order of the file
   std::vector<char> is_hole;
-  std::vector<std::int64_t> lone;                                    ///< vertices of the own run that are in no face
+  std::vector<std::int64_t> isolated;                                ///< vertices of the own run that are in no face
   bool has_creases = false, has_corners = false, has_holes = false;  ///< of the whole
 };
 

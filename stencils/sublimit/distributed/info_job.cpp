@@ -7,8 +7,8 @@
 #include <numeric>
 
 #include "sublimit/base/error.h"
-#include "sublimit/files/rule_words.h"
-#include "sublimit/jobs/mesh_info_json.h"
+#include "sublimit/stencils/files/rule_of_word.h"
+#include "sublimit/stencils/jobs/detail/mesh_info_json.h"
 
 namespace sublimit {
 namespace {
@@ -251,7 +251,7 @@ SpreadInfo spread_info(const Ranks& ranks, const MeshRequest& request, SpreadMes
   info.vertices = job.mesh.vertices.size(), info.faces = job.mesh.faces.size();
   info.edges = ranks.sum(std::accumulate(job.incidence.own_sides.begin(), job.incidence.own_sides.end(), Int{0}));
   info.euler_characteristic = info.vertices - info.edges + info.faces;
-  info.isolated_vertices = ranks.sum(std::ssize(job.incidence.lone));
+  info.isolated_vertices = ranks.sum(std::ssize(job.incidence.isolated));
   count_vertices_and_edges(ranks, part, t, own, info);
   info.components = num_components(ranks, job.mesh.vertices, part, t, own);
   info.boundary_loops = num_boundary_loops(ranks, job.mesh, part, t);
@@ -260,7 +260,7 @@ SpreadInfo spread_info(const Ranks& ranks, const MeshRequest& request, SpreadMes
   info.creases = ranks.sum(std::ssize(job.mesh.creases));
   info.corners = ranks.sum(std::ssize(job.mesh.corners));
   info.holes = ranks.sum(std::ssize(job.mesh.holes));
-  const ControlMesh& about = job.mesh.about;
+  const Mesh& about = job.mesh.about;
   info.boundary = word(job.rules.boundary.value_or(about.boundary.value_or(Boundary::edge_and_corner)));
   info.creasing = word(job.creasing);
   info.smooth_triangles = word(about.triangles.value_or(Triangles::catmark));

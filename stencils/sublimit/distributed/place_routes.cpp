@@ -6,7 +6,7 @@
 
 #include "sublimit/base/error.h"
 #include "sublimit/base/format_number.h"
-#include "sublimit/files/sample_files.h"
+#include "sublimit/stencils/files/sample_files.h"
 
 namespace sublimit {
 namespace {
@@ -30,7 +30,7 @@ PlaceRoutes::PlaceRoutes(const Ranks& ranks, const SpreadJob& job, const std::ve
   local_ = first_addresses(own.mesh.face_sizes, whole_);
 }
 
-void PlaceRoutes::check(const Place& place, const std::string& where, const std::string& hint) const {
+void PlaceRoutes::check(const WidePlace& place, const std::string& where, const std::string& hint) const {
   if (place.address < 0 || place.address >= num_addresses())
     throw FormatError(where + "face " + format_number(place.address) + " does not exist; faces are 0 to " +
                       format_number(num_addresses() - 1) +
@@ -38,14 +38,14 @@ void PlaceRoutes::check(const Place& place, const std::string& where, const std:
   check_place({1, triangles()}, 0, place.u, place.v, where, hint);
 }
 
-PlaceRoutes::Routed PlaceRoutes::route(std::span<const Place> places) const {
+PlaceRoutes::Routed PlaceRoutes::route(std::span<const WidePlace> places) const {
   struct Asked {
     std::int64_t rank = 0, number = 0, face = 0, corner = 0;  // face: at first the address
     double u = 0, v = 0;
   };
   std::vector<std::vector<Asked>> to(size_t(ranks_.size()));
   for (size_t i = 0; i < places.size(); ++i) {
-    const Place& p = places[i];
+    const WidePlace& p = places[i];
     to[size_t(addresses_.rank_of(p.address))].push_back({ranks_.rank(), std::int64_t(i), p.address, 0, p.u, p.v});
   }
   to = exchange(ranks_, std::move(to));
@@ -76,7 +76,8 @@ PlaceRoutes::Routed PlaceRoutes::route(std::span<const Place> places) const {
   return routed;
 }
 
-std::vector<std::optional<PlaceRoutes::Place>> PlaceRoutes::at_vertices(std::span<const std::int64_t> vertices) const {
+std::vector<std::optional<PlaceRoutes::WidePlace>> PlaceRoutes::at_vertices(
+    std::span<const std::int64_t> vertices) const {
   const Lists faces = [&] {
     std::vector<std::int64_t> sorted(vertices.begin(), vertices.end());
     sort_unique(sorted);
@@ -112,7 +113,7 @@ std::vector<std::optional<PlaceRoutes::Place>> PlaceRoutes::at_vertices(std::spa
   asked = exchange(ranks_, std::move(asked));
   std::vector<std::int64_t> corners{0};  // where those of each face of the own run begin
   for (const std::int32_t size : job_.mesh.face_sizes) corners.push_back(corners.back() + size);
-  std::vector<std::vector<Place>> answers(asked.size());
+  std::vector<std::vector<WidePlace>> answers(asked.size());
   for (size_t r = 0; r < asked.size(); ++r)
     for (const Corner& at : asked[r]) {
       const auto f = size_t(at.face - first_face());
@@ -125,7 +126,7 @@ std::vector<std::optional<PlaceRoutes::Place>> PlaceRoutes::at_vertices(std::spa
     }
   answers = exchange(ranks_, std::move(answers));
   std::vector<size_t> next(answers.size(), 0);
-  std::vector<std::optional<Place>> places(vertices.size());
+  std::vector<std::optional<WidePlace>> places(vertices.size());
   for (size_t i = 0; i < vertices.size(); ++i)
     if (rank_of[i] >= 0) places[i] = answers[size_t(rank_of[i])][next[size_t(rank_of[i])]++];
   return places;

@@ -11,14 +11,14 @@ namespace sublimit {
 
 class PlaceRoutes {
  public:
-  /// As `Sample`, of the whole.
-  struct Place {
+  /// As `Place`, of the whole.
+  struct WidePlace {
     std::int64_t address = 0;
     double u = 0, v = 0;
   };
   /// Places on faces of this rank, those of the first rank first, in its order.
   struct Routed {
-    std::vector<Sample> samples;                        ///< by addresses of the part
+    std::vector<Place> samples;                         ///< by addresses of the part
     std::vector<std::array<std::int64_t, 2>> asked_by;  ///< of each: the rank, and its number there
   };
 
@@ -36,16 +36,16 @@ class PlaceRoutes {
 
   /// @param where, hint  what the message begins and ends with
   /// @throws FormatError  an address that does not exist, parameters outside its square or triangle
-  void check(const Place& place, const std::string& where, const std::string& hint = "") const;
+  void check(const WidePlace& place, const std::string& where, const std::string& hint = "") const;
 
   /// All ranks call.
   /// @param places  that `check` accepts
-  Routed route(std::span<const Place> places) const;
+  Routed route(std::span<const WidePlace> places) const;
 
   /// Where the limits of vertices are: at a corner of the first face there that is no hole; none: no surface is there.
   /// All ranks call.
   /// @param vertices  of the whole, that there are
-  std::vector<std::optional<Place>> at_vertices(std::span<const std::int64_t> vertices) const;
+  std::vector<std::optional<WidePlace>> at_vertices(std::span<const std::int64_t> vertices) const;
 
  private:
   std::int64_t first_face() const { return job_.mesh.faces.begin(ranks_.rank()); }

@@ -4,7 +4,7 @@
 #include <fmt/core.h>
 
 #include "sublimit/base/error.h"
-#include "sublimit/io/file_extension.h"
+#include "sublimit/io/detail/file_extension.h"
 
 namespace sublimit {
 
@@ -23,9 +23,9 @@ std::string ply_header(std::int64_t num_points, std::optional<std::int64_t> num_
   return header + "end_header\n";
 }
 
-std::vector<PointRun> runs_of(std::span<const std::array<std::int64_t, 2>> items, std::int64_t lone) {
+std::vector<PointRun> runs_of(std::span<const std::array<std::int64_t, 2>> items, std::int64_t isolated) {
   std::vector<PointRun> runs;
-  if (lone > 0) runs.push_back({0, lone});
+  if (isolated > 0) runs.push_back({0, isolated});
   for (const auto& [first, count] : items)
     if (!runs.empty() && runs.back().first + runs.back().count == first)
       runs.back().count += count;

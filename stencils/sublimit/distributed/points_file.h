@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "sublimit/distributed/shared_file.h"
-#include "sublimit/shards/shard.h"
+#include "sublimit/stencils/shards/shard.h"
 
 namespace sublimit {
 
@@ -22,8 +22,8 @@ std::string ply_header(std::int64_t num_points, std::optional<std::int64_t> num_
 
 /// Consecutive ones become one run.
 /// @param items  of each face: the first one, how many
-/// @param lone   more of them, that stand before all
-std::vector<PointRun> runs_of(std::span<const std::array<std::int64_t, 2>> items, std::int64_t lone = 0);
+/// @param isolated   more of them, that stand before all
+std::vector<PointRun> runs_of(std::span<const std::array<std::int64_t, 2>> items, std::int64_t isolated = 0);
 
 /// Items, run after run, to where each run stands.
 /// @param begin  of the first item of the whole in the file

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Processes of one job, by MPI: what they tell each other, and how they fail together.
+// Processes of one job, by MPI: what they tell each other, and how they fail together. distributed.h is for programs of
+// your own; of this header they need `Ranks`.
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -13,10 +14,13 @@
 
 namespace sublimit {
 
+/// All processes of the job, the ranks 0 to size - 1. One object a process; all else that uses MPI or PETSc goes before
+/// it. Each rank calls its functions from one thread.
 class Ranks {
  public:
-  /// Once a process: begins MPI and PETSc.
+  /// Begins MPI and PETSc, which must not have begun. MPI takes its arguments out of the command line.
   Ranks(int& argc, char**& argv);
+  /// Ends MPI and PETSc.
   ~Ranks();
   Ranks(const Ranks&) = delete;
   Ranks& operator=(const Ranks&) = delete;
@@ -26,7 +30,8 @@ class Ranks {
   bool is_first() const { return rank_ == 0; }
   int on_this_machine() const { return on_this_machine_; }  ///< ranks that share its memory
 
-  // Of all ranks together; all must call.
+  // Of all ranks together; all must call, in the same order. Sums of doubles depend on the number of ranks, in the last
+  // bits.
   std::int64_t sum(std::int64_t own) const;
   double sum(double own) const;
   std::int64_t sum_before(std::int64_t own) const;  ///< of the ranks before
@@ -42,12 +47,14 @@ class Ranks {
       std::array<std::int64_t, 2> begin,
       const std::function<std::array<std::int64_t, 2>(std::array<std::int64_t, 2>)>& own) const;
 
-  /// A step that each rank does by itself, and that may fail on some: then it fails on all, with the first one's error.
+  /// Runs a step that each rank does by itself, without calls of all ranks inside, and that may fail on some: then it
+  /// fails on all. All ranks call.
+  /// @throws Error  on all ranks, with code and message of the first rank that failed
   void together(const std::function<void()>& step) const;
 
-  /// A job of all ranks.
-  /// @return  the exit status, the same on all; the first rank tells the error in one line on stderr. An error outside
-  ///          `together`, which the others cannot know of, ends them all at once.
+  /// Runs a job of all ranks.
+  /// @return  the exit status, the same on all; the first rank writes the error in one line to stderr. An error outside
+  ///          `together`, which the others cannot know of, ends all ranks at once.
   int run(const std::function<void()>& job) const;
 
  private:

@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <limits>
 
+#include "sublimit/base/detail/mapped_file.h"
+#include "sublimit/base/detail/memory.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/mapped_file.h"
-#include "sublimit/base/memory.h"
 #include "sublimit/distributed/spread_readers.h"
-#include "sublimit/files/sidecar.h"
-#include "sublimit/io/file_extension.h"
+#include "sublimit/io/detail/file_extension.h"
+#include "sublimit/stencils/files/sidecar.h"
 
 namespace sublimit {
 namespace {
@@ -24,7 +24,7 @@ void read_sidecar(const Ranks& ranks, const std::filesystem::path& path, SpreadM
   const std::optional<std::filesystem::path> sidecar = find_sidecar(path);
   const bool is_there = !ranks.all(!sidecar);
   if (!is_there) return;
-  ControlMesh tags;  // marked, to see what the sidecar leaves alone
+  Mesh tags;  // marked, to see what the sidecar leaves alone
   tags.creases = {{-1, -1, 0}}, tags.corners = {{-1, 0}}, tags.holes = {-1};
   ranks.together([&] {
     if (!sidecar) throw IoError(path.string() + ": a sidecar that other ranks see is missing here");
@@ -68,7 +68,7 @@ void check_room(const Ranks& ranks, double faces, const std::string& name) {
                bytes_of_face * faces / ranks.size() * ranks.on_this_machine(), "use more machines");
 }
 
-void take_tags(const Ranks& ranks, const ControlMesh& from, SpreadMesh& mesh) {
+void take_tags(const Ranks& ranks, const Mesh& from, SpreadMesh& mesh) {
   std::int64_t number = ranks.sum_before(std::ssize(from.creases) + std::ssize(from.corners));
   for (const auto& [tail, head, sharpness] : from.creases) mesh.creases.push_back({tail, head, sharpness, number++});
   for (const auto& [vertex, sharpness] : from.corners) mesh.corners.push_back({vertex, sharpness, number++});
@@ -96,7 +96,7 @@ SpreadMesh read_spread_mesh(const Ranks& ranks, const std::filesystem::path& pat
   return mesh;
 }
 
-SpreadMesh spread(const Ranks& ranks, const ControlMesh& whole) {
+SpreadMesh spread(const Ranks& ranks, const Mesh& whole) {
   SpreadMesh mesh;
   const bool first = ranks.is_first();
   mesh.vertices = Runs(ranks, first ? whole.num_vertices() : 0);
@@ -107,7 +107,7 @@ SpreadMesh spread(const Ranks& ranks, const ControlMesh& whole) {
     mesh.face_sizes = whole.face_sizes;
     mesh.face_vertices.assign(whole.face_vertices.begin(), whole.face_vertices.end());
   }
-  take_tags(ranks, first ? whole : ControlMesh{}, mesh);
+  take_tags(ranks, first ? whole : Mesh{}, mesh);
   return mesh;
 }
 

@@ -10,8 +10,8 @@
 
 #include "sublimit/base/error.h"
 #include "sublimit/distributed/points_file.h"
-#include "sublimit/files/npy.h"
-#include "sublimit/io/file_extension.h"
+#include "sublimit/io/detail/file_extension.h"
+#include "sublimit/stencils/files/npy.h"
 
 namespace sublimit {
 namespace {

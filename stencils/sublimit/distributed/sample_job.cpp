@@ -7,12 +7,12 @@
 #include <limits>
 #include <string_view>
 
+#include "sublimit/base/detail/memory.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/memory.h"
 #include "sublimit/distributed/place_routes.h"
 #include "sublimit/distributed/shared_file.h"
-#include "sublimit/files/csv_fields.h"
-#include "sublimit/files/random_samples.h"
+#include "sublimit/stencils/files/csv_fields.h"
+#include "sublimit/stencils/files/random_samples.h"
 
 namespace sublimit {
 namespace {
@@ -35,13 +35,13 @@ SampleSource places_of(const SampleRequest& request, FaceCount faces, SampleRead
   if (request.num_random) {
     check_size(double(*request.num_random));
     return [samples = RandomSamples(faces, *request.num_random, request.seed)](
-               std::vector<Sample>& batch, size_t most) mutable { samples.read(batch, most); };
+               std::vector<Place>& batch, size_t most) mutable { samples.read(batch, most); };
   }
-  if (!request.grid) return [=](std::vector<Sample>& batch, size_t most) { reader->read(batch, most, faces); };
-  std::vector<Sample> one = grid_places({1, faces.triangles}, *request.grid);
+  if (!request.grid) return [=](std::vector<Place>& batch, size_t most) { reader->read(batch, most, faces); };
+  std::vector<Place> one = grid_places({1, faces.triangles}, *request.grid);
   const std::int64_t count = std::ssize(one) * faces.size;
   check_size(double(count));
-  return [one = std::move(one), count, next = std::int64_t{0}](std::vector<Sample>& batch, size_t most) mutable {
+  return [one = std::move(one), count, next = std::int64_t{0}](std::vector<Place>& batch, size_t most) mutable {
     batch.clear();
     for (; batch.size() < most && next < count; ++next) {
       batch.push_back(one[size_t(next % std::ssize(one))]);
@@ -68,12 +68,12 @@ class OwnSurface {
 
   /// @param each  called with what was found, row by row: (text, status)
   template <class Each>
-  void evaluate(std::span<const Sample> samples, const Each& each) {
+  void evaluate(std::span<const Place> samples, const Each& each) {
     // So few that the surface does not make patches for them by itself.
     const size_t most = bound_ || !surface_ ? samples.size() : size_t(surface_->faces().size);
     std::string text;
     for (; !samples.empty(); samples = samples.subspan(std::min(most, samples.size()))) {
-      const std::span<const Sample> some = samples.first(std::min(most, samples.size()));
+      const std::span<const Place> some = samples.first(std::min(most, samples.size()));
       if (bound_)
         bound_->evaluate(some, columns_.order(), true, found_);
       else
@@ -95,8 +95,8 @@ class OwnSurface {
 };
 
 /// The first rank deals out what it has, in order.
-std::vector<PlaceRoutes::Place> dealt(const Ranks& ranks, std::span<const Sample> batch) {
-  std::vector<std::vector<PlaceRoutes::Place>> to(size_t(ranks.size()));
+std::vector<PlaceRoutes::WidePlace> dealt(const Ranks& ranks, std::span<const Place> batch) {
+  std::vector<std::vector<PlaceRoutes::WidePlace>> to(size_t(ranks.size()));
   const Runs runs = Runs::equal(std::ssize(batch), ranks.size());
   for (int r = 0; r < ranks.size(); ++r)
     for (std::int64_t i = runs.begin(r); i < runs.begin(r) + runs.size(r); ++i)
@@ -107,7 +107,7 @@ std::vector<PlaceRoutes::Place> dealt(const Ranks& ranks, std::span<const Sample
 /// Rows of the places that this rank was dealt, in their order.
 /// @param by_status  counts what this rank finds
 std::string rows_of(const Ranks& ranks, const PlaceRoutes& routes, OwnSurface& surface,
-                    std::span<const PlaceRoutes::Place> places,
+                    std::span<const PlaceRoutes::WidePlace> places,
                     std::array<std::int64_t, num_limit_statuses>& by_status) {
   const PlaceRoutes::Routed routed = routes.route(places);
   struct Row {
@@ -179,7 +179,7 @@ SamplesMade write_samples(const Ranks& ranks, const SpreadJob& job, const Sample
   SamplesMade made;
   std::int64_t offset = std::ssize(header);
   std::optional<OwnSurface> surface;
-  std::vector<Sample> batch;
+  std::vector<Place> batch;
   const std::int64_t most = samples_per_batch * ranks.size();
   for (std::int64_t count = most; count == most;) {
     ranks.together([&] {
@@ -191,7 +191,7 @@ SamplesMade write_samples(const Ranks& ranks, const SpreadJob& job, const Sample
       told("preparing");
       ranks.together([&] { surface.emplace(job, part, request.columns, by_patches); });
     }
-    const std::vector<PlaceRoutes::Place> places = dealt(ranks, batch);
+    const std::vector<PlaceRoutes::WidePlace> places = dealt(ranks, batch);
     const std::string text = rows_of(ranks, routes, *surface, places, made.summary.by_status);
     const std::int64_t before = ranks.sum_before(std::ssize(text));
     ranks.together([&] { file.write(offset + before, text); });

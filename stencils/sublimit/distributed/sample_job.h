@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "sublimit/distributed/shard_jobs.h"
-#include "sublimit/files/sample_files.h"
+#include "sublimit/stencils/files/sample_files.h"
 
 namespace sublimit {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 // Faces between the points of a shard: points on their sides may be those of other shards.
-#include "sublimit/bake/bake_patterns.h"
-#include "sublimit/shards/mesh_part.h"
+#include "sublimit/stencils/bake/detail/bake_patterns.h"
+#include "sublimit/stencils/shards/mesh_part.h"
 
 namespace sublimit {
 

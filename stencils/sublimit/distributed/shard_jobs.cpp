@@ -11,9 +11,9 @@
 #include "sublimit/distributed/points_file.h"
 #include "sublimit/distributed/shard_faces.h"
 #include "sublimit/distributed/spread_frames.h"
-#include "sublimit/files/npy.h"
-#include "sublimit/files/rule_words.h"
-#include "sublimit/io/file_extension.h"
+#include "sublimit/io/detail/file_extension.h"
+#include "sublimit/stencils/files/npy.h"
+#include "sublimit/stencils/files/rule_of_word.h"
 
 namespace sublimit {
 namespace {
@@ -90,9 +90,9 @@ SpreadShards divide(const Ranks& ranks, const SpreadJob& job, Patterns& patterns
     shards.points.push_back({sum, num_points(job.scheme, request, shards.method, face)});
     sum += shards.points.back()[1];
   }
-  const std::int64_t before = ranks.sum_before(sum) + ranks.sum(std::ssize(job.incidence.lone));
+  const std::int64_t before = ranks.sum_before(sum) + ranks.sum(std::ssize(job.incidence.isolated));
   for (auto& [first, count] : shards.points) first += before;
-  shards.num_points = ranks.sum(sum + std::ssize(job.incidence.lone));
+  shards.num_points = ranks.sum(sum + std::ssize(job.incidence.isolated));
   return shards;
 }
 
@@ -101,15 +101,15 @@ Shard made_shard(const Ranks& ranks, const SpreadJob& job, Patterns& patterns, c
   static const std::vector<std::int64_t> none;
   const bool is_there = needed && size_t(number) < shards.owned.size();
   const std::vector<std::int64_t>& owned = is_there ? shards.owned[size_t(number)] : none;
-  const bool lone = is_there && shards.first_part + number == 0;
-  const MeshPart part = gather_part(ranks, job.mesh, job.incidence, owned, shards.rings, lone);
+  const bool isolated = is_there && shards.first_part + number == 0;
+  const MeshPart part = gather_part(ranks, job.mesh, job.incidence, owned, shards.rings, isolated);
   const auto points_of = [&](const std::vector<std::int64_t>& numbers) {
     return fetch<std::array<std::int64_t, 2>>(ranks, job.mesh.faces, numbers, [&](std::int64_t f) {
       return shards.points[size_t(f - job.mesh.faces.begin(ranks.rank()))];
     });
   };
   const auto points = points_of(owned), around = faces ? points_of(part.faces) : points;
-  const std::int64_t num_lone = ranks.sum(std::ssize(job.incidence.lone));
+  const std::int64_t num_isolated = ranks.sum(std::ssize(job.incidence.isolated));
   if (faces) *faces = {};
   Shard shard;
   ranks.together([&] {
@@ -121,7 +121,7 @@ Shard made_shard(const Ranks& ranks, const SpreadJob& job, Patterns& patterns, c
       throw Error(error.code(), fmt::format("{}: part {} of {}, by its own numbers of vertices and faces: {}", job.name,
                                             shards.first_part + number, shards.parts, error.what()));
     }
-    shard.runs = runs_of(points, lone ? num_lone : 0);
+    shard.runs = runs_of(points, isolated ? num_isolated : 0);
     std::int64_t count = 0;
     for (const PointRun& run : shard.runs) count += run.count;
     if (count != shard.table.table.num_points())

@@ -11,9 +11,9 @@
 #include <cstdio>
 #include <cstring>
 
+#include "sublimit/base/detail/file_error.h"
+#include "sublimit/base/detail/followed_links.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/file_error.h"
-#include "sublimit/base/followed_links.h"
 
 namespace sublimit {
 namespace {

@@ -10,14 +10,14 @@
 #include <memory>
 
 #include "sublimit/base/error.h"
-#include "sublimit/core/sparse_product.h"
+#include "sublimit/core/detail/sparse_product.h"
 #include "sublimit/distributed/points_file.h"
 #include "sublimit/distributed/spread_rows.h"
-#include "sublimit/files/npy.h"
 #include "sublimit/fit/scattered_fit.h"
-#include "sublimit/io/file_extension.h"
+#include "sublimit/io/detail/file_extension.h"
 #include "sublimit/limit/limit_map.h"
-#include "sublimit/patterns/patterns.h"
+#include "sublimit/stencils/files/npy.h"
+#include "sublimit/stencils/patterns/patterns.h"
 
 namespace sublimit {
 namespace {
@@ -27,7 +27,7 @@ constexpr double exact_position = 1e-12;  // of the box, as `interpolate` has it
 
 /// The same faces, those of others as holes: each face has its energy once.
 SparseMatrix energy_of_owned(const SpreadJob& job, const MeshPart& part, const Fairness& fairness) {
-  ControlMesh mesh = part.mesh;
+  Mesh mesh = part.mesh;
   std::vector<bool> hole(part.faces.size());
   for (size_t f = 0; f < hole.size(); ++f) hole[f] = !part.is_owned[f];
   for (const Index f : mesh.holes) hole[size_t(f)] = true;
@@ -45,7 +45,7 @@ struct Terms {
   Vector weights, root_weights;
 };
 
-Terms own_terms(const SpreadJob& job, const MeshPart& part, const std::vector<Sample>& samples,
+Terms own_terms(const SpreadJob& job, const MeshPart& part, const std::vector<Place>& samples,
                 const std::vector<SpreadTarget>& targets, const SpreadTargets& file, const Fairness& fairness) {
   const auto n = static_cast<Index>(part.vertices.size());
   Terms terms;
@@ -269,7 +269,7 @@ SpreadFit fit(const Ranks& ranks, const SpreadJob& job, SpreadTargets& file, con
   Terms terms;
   {
     const std::vector<SpreadTarget> read = file.read(routes, job.mesh.vertices);
-    std::vector<PlaceRoutes::Place> places;
+    std::vector<PlaceRoutes::WidePlace> places;
     for (const SpreadTarget& target : read) places.push_back(target.place);
     const PlaceRoutes::Routed routed = routes.route(places);
     const Runs numbers(ranks, std::ssize(read));

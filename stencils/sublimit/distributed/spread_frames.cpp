@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "sublimit/base/error.h"
-#include "sublimit/io/file_extension.h"
+#include "sublimit/io/detail/file_extension.h"
 
 namespace sublimit {
 

@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "sublimit/distributed/spread_mesh.h"
-#include "sublimit/files/npy.h"
+#include "sublimit/stencils/files/npy.h"
 
 namespace sublimit {
 

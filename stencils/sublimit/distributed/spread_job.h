@@ -3,7 +3,7 @@
 // A spread mesh with the scheme that is to refine it, and its parts.
 #include "sublimit/distributed/gather_part.h"
 #include "sublimit/distributed/partition.h"
-#include "sublimit/jobs/mesh_job.h"
+#include "sublimit/stencils/jobs/detail/mesh_job.h"
 
 namespace sublimit {
 

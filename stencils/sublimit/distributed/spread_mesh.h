@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "sublimit/distributed/ranks.h"
-#include "sublimit/mesh/control_mesh.h"
+#include "sublimit/mesh/mesh.h"
 
 namespace sublimit {
 
@@ -34,7 +34,7 @@ struct SpreadMesh {
   std::vector<std::int64_t> holes;
 
   /// Rules and warnings of the file: of no vertices and no faces.
-  ControlMesh about;
+  Mesh about;
 
   /// Values per corner, if the file has them.
   struct FaceVarying {
@@ -52,7 +52,7 @@ struct SpreadMesh {
 SpreadMesh read_spread_mesh(const Ranks& ranks, const std::filesystem::path& path);
 
 /// A mesh that one process has, spread; of the others what it says is not looked at.
-SpreadMesh spread(const Ranks& ranks, const ControlMesh& mesh);
+SpreadMesh spread(const Ranks& ranks, const Mesh& mesh);
 
 /// Every face cut into a fan from its first corner, as `triangulated` (prepare.h) cuts them.
 void triangulate(const Ranks& ranks, SpreadMesh& mesh);

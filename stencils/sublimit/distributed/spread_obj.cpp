@@ -5,7 +5,7 @@
 
 #include "sublimit/base/error.h"
 #include "sublimit/distributed/spread_readers.h"
-#include "sublimit/io/obj.h"
+#include "sublimit/io/detail/obj.h"
 
 namespace sublimit {
 namespace {
@@ -19,8 +19,8 @@ void agree(const Ranks& ranks, std::optional<Rule>& rule) {
 }
 
 /// Texture coordinates, where every corner of every face has one.
-void take_channel(const Ranks& ranks, ControlMesh& read, SpreadMesh& mesh, const std::string& name) {
-  const std::vector<ControlMesh::FaceVarying>& channels = read.face_varying;
+void take_channel(const Ranks& ranks, Mesh& read, SpreadMesh& mesh, const std::string& name) {
+  const std::vector<Mesh::FaceVarying>& channels = read.face_varying;
   const bool has_all = !channels.empty() && channels[0].indices.size() == read.face_vertices.size();
   if (!ranks.all(has_all || read.face_vertices.empty())) return;
   SpreadMesh::FaceVarying channel;
@@ -74,7 +74,7 @@ SpreadMesh read_obj_parts(const Ranks& ranks, std::string_view text, const std::
   });
   const ObjCounts before{ranks.sum_before(own.lines), ranks.sum_before(own.vertices),
                          ranks.sum_before(own.texture_coordinates), ranks.sum_before(own.faces)};
-  ControlMesh read;
+  Mesh read;
   ranks.together([&] { read = parse_obj_part(part, name, before); });
   SpreadMesh mesh;
   mesh.vertices = Runs(ranks, read.num_vertices());

@@ -7,8 +7,8 @@
 
 #include "sublimit/base/error.h"
 #include "sublimit/distributed/spread_readers.h"
-#include "sublimit/io/ply_header.h"
-#include "sublimit/io/ply_values.h"
+#include "sublimit/io/detail/ply_header.h"
+#include "sublimit/io/detail/ply_values.h"
 
 namespace sublimit {
 namespace {

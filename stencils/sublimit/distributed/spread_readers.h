@@ -29,6 +29,6 @@ SpreadMesh read_tensor_parts(const Ranks& ranks, std::span<const std::byte> byte
 void check_room(const Ranks& ranks, double faces, const std::string& name);
 
 /// A part's tags, their numbers after those of the ranks before.
-void take_tags(const Ranks& ranks, const ControlMesh& from, SpreadMesh& mesh);
+void take_tags(const Ranks& ranks, const Mesh& from, SpreadMesh& mesh);
 
 }  // namespace sublimit

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "sublimit/core/sparse_product.h"
+#include "sublimit/core/detail/sparse_product.h"
 
 namespace sublimit {
 namespace {

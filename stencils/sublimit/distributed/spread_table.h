@@ -4,8 +4,8 @@
 #include <memory>
 
 #include "sublimit/distributed/halo.h"
-#include "sublimit/pattern_evaluator.h"
-#include "sublimit/shards/shard_file.h"
+#include "sublimit/eval/pattern_evaluator.h"
+#include "sublimit/stencils/shards/shard_file.h"
 
 namespace sublimit {
 

@@ -85,7 +85,7 @@ void SpreadTargets::place_vertices(const PlaceRoutes& routes, const Runs& vertic
   for (const std::vector<Seen>& from : exchange(ranks_, std::move(to)))
     seen.insert(seen.end(), from.begin(), from.end());
   std::ranges::sort(seen);
-  const std::vector<std::optional<PlaceRoutes::Place>> places = routes.at_vertices(numbers);
+  const std::vector<std::optional<PlaceRoutes::WidePlace>> places = routes.at_vertices(numbers);
   ranks_.together([&] {
     for (size_t i = 1; i < seen.size(); ++i)
       if (seen[i][0] == seen[i - 1][0])

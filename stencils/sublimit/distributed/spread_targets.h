@@ -6,13 +6,13 @@
 #include <memory>
 
 #include "sublimit/distributed/place_routes.h"
-#include "sublimit/files/csv_rows.h"
+#include "sublimit/stencils/files/csv_rows.h"
 
 namespace sublimit {
 
 /// Where the limit should be at a place.
 struct SpreadTarget {
-  PlaceRoutes::Place place;
+  PlaceRoutes::WidePlace place;
   std::array<double, 3> value{};
   double weight = 1;      ///< of the squared distance
   std::int64_t line = 0;  ///< of the file

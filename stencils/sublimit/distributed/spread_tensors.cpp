@@ -5,7 +5,7 @@
 
 #include "sublimit/base/error.h"
 #include "sublimit/distributed/spread_readers.h"
-#include "sublimit/safetensors.h"
+#include "sublimit/eval/detail/safetensors.h"
 
 namespace sublimit {
 namespace {

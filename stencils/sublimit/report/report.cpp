@@ -4,14 +4,14 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "sublimit/base/atomic_file.h"
+#include "sublimit/base/detail/atomic_file.h"
 #include "sublimit/base/error.h"
 #include "sublimit/report/analysis/claims_json.h"
 #include "sublimit/report/analysis/scheme_report.h"
 #include "sublimit/report/asset/asset_json.h"
 #include "sublimit/report/page/page.h"
 #include "sublimit/scheme/check_scheme.h"
-#include "sublimit/schemes.h"
+#include "sublimit/schemes/schemes.h"
 
 namespace sublimit {
 namespace {
@@ -60,7 +60,7 @@ Report analyze(const Scheme<double>& scheme, const Scheme<Algebraic>& exact, con
   return scheme_report({scheme, exact, scheme.chosen}, options);
 }
 
-Report analyze(const ControlMesh& mesh, const AnyScheme& scheme, const AnalyzeMeshOptions& options) {
+Report analyze(const Mesh& mesh, const AnyScheme& scheme, const AnalyzeMeshOptions& options) {
   AssetOptions wanted;
   for (const std::string& tolerance : options.tolerance) read_tolerance(tolerance, wanted.tolerance);
   nlohmann::ordered_json all = report::report_head("mesh");

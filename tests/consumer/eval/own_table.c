@@ -1,5 +1,5 @@
 #include <string.h>
-#include <sublimit/eval.h>
+#include <sublimit/eval/eval.h>
 
 int use_from_c(void);
 

@@ -1,5 +1,5 @@
 // A table applied by threads of one's own. Needs sublimit::eval alone.
-#include <sublimit/table.h>
+#include <sublimit/eval/table.h>
 
 #include <thread>
 

@@ -1,6 +1,6 @@
 /* The same table, in C. */
 #include <stdio.h>
-#include <sublimit/eval.h>
+#include <sublimit/eval/eval.h>
 
 int main(void) {
   static float points[3 * 8], result[3 * 4096];

@@ -1,38 +1,36 @@
 // SPDX-License-Identifier: Apache-2.0
 // A program for many processes, of the user's own: a mesh made in runs, a table of it in parts, applied.
+#include <sublimit/distributed/distributed.h>
+
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
-
-#include "sublimit/distributed/shard_jobs.h"
+#include <stdexcept>
 
 int main(int argc, char** argv) {
   const sublimit::Ranks ranks(argc, argv);
   return ranks.run([&] {
-    sublimit::ControlMesh torus;
-    constexpr int n = 8;
-    torus.positions.resize(n * n, 3);
-    for (int i = 0; i < n; ++i)
-      for (int j = 0; j < n; ++j) {
-        const double a = 2 * M_PI * i / n, b = 2 * M_PI * j / n;
-        torus.positions.row(i * n + j) << (2 + std::cos(b)) * std::cos(a), (2 + std::cos(b)) * std::sin(a), std::sin(b);
-        torus.face_sizes.push_back(4);
+    constexpr int n = 8;  // vertex n i + j of a torus, and the face on its far side
+    const int begin = n * ranks.rank() / ranks.size(), end = n * (ranks.rank() + 1) / ranks.size();
+    sublimit::MeshRun torus;
+    torus.positions.setZero((end - begin) * n, 3);  // weights depend on faces alone
+    torus.face_sizes.assign(size_t((end - begin) * n), 4);
+    for (int i = begin; i < end; ++i)
+      for (int j = 0; j < n; ++j)
         for (const auto& [p, q] : {std::pair(0, 0), {1, 0}, {1, 1}, {0, 1}})
           torus.face_vertices.push_back((i + p) % n * n + (j + q) % n);
-      }
-    const auto job = sublimit::spread_job(ranks, {.scheme = "catmull-clark"}, sublimit::spread(ranks, torus), "torus");
-    const sublimit::BakeRequest request{.rows = sublimit::TableRows::level, .level = 2};
-    sublimit::Patterns patterns(job.scheme);
-    const auto parts = sublimit::divide(ranks, job, patterns, request, {});
-    auto shard = sublimit::made_shard(ranks, job, patterns, request, parts, 0, true);
-    std::vector<sublimit::LoadedShard> own;
-    own.push_back({std::move(shard.table), std::move(shard.inputs), std::move(shard.runs), {}});
-    const sublimit::SpreadTable table(ranks, std::move(own), job.mesh.vertices);
-    std::vector<double> points(size_t(3 * table.num_points()));
-    table.apply({job.mesh.positions.data(), size_t(job.mesh.positions.size())}, 3, points);
-    double sum = 0;
-    for (const double x : points) sum += std::abs(x);
-    const double all = ranks.sum(sum);
-    if (ranks.is_first()) std::printf("%lld points\n", static_cast<long long>(parts.num_points));
-    if (parts.num_points != 16 * n * n || !(all > 0)) throw std::runtime_error("a torus of 64 faces has 1024 points");
+    const sublimit::DistributedTable table = sublimit::bake(ranks, torus, "catmull-clark", {.levels = 2});
+
+    // Weights of a point sum to 1; those of a control point sum to 4 a level, as all of a torus are alike.
+    std::vector<double> own(size_t(table.num_control_points()), 1), points(table.num_results(1));
+    const auto are_all = [](const std::vector<double>& values, double value) {
+      return std::all_of(values.begin(), values.end(), [&](double x) { return std::abs(x - value) < 1e-13; });
+    };
+    table.apply(own, 1, points);
+    const bool stay = are_all(points, 1);
+    table.apply_transpose(points, 1, own);
+    if (table.all_points() != 16 * n * n || ranks.sum(table.num_points()) != 16 * n * n || !stay || !are_all(own, 16))
+      throw std::runtime_error("a torus of 64 faces has 1024 points, and each control point a weight of 16");
+    if (ranks.is_first()) std::printf("%lld points\n", static_cast<long long>(table.all_points()));
   });
 }

@@ -1,8 +1,8 @@
 // A scheme that the library does not have, in a program that only links it: Catmull-Clark's topology, tensor-product
 // masks with weights 9/16, 3/8, 1/16 at every valence. It gets matrices and limits like any other.
-#include <sublimit/limit/limit_points.h>
+#include <sublimit/limit/limit.h>
+#include <sublimit/scheme/cubic_bspline_creases.h>
 #include <sublimit/scheme/refine.h>
-#include <sublimit/schemes/cubic_bspline_creases.h>
 
 #include <cmath>
 #include <cstdio>
@@ -27,16 +27,15 @@ Scheme<T> my_averaging() {
 }
 
 int main() {
-  ControlMesh cube;
+  Mesh cube;
   cube.positions.resize(8, 3);
   for (Index i = 0; i < 8; ++i) cube.positions.row(i) << (i & 1 ? 1 : -1), (i & 2 ? 1 : -1), (i & 4 ? 1 : -1);
   cube.face_sizes = {4, 4, 4, 4, 4, 4};
   cube.face_vertices = {0, 2, 3, 1, 4, 5, 7, 6, 0, 1, 5, 4, 2, 6, 7, 3, 0, 4, 6, 2, 1, 3, 7, 5};
   const Scheme<double> scheme = my_averaging<double>();
   const std::vector<Level> levels = refine(scheme, cube, 2);
-  LimitTypes cache(scheme);
-  const LimitPoints limit = limit_points(limit_matrices(levels[0], cache), levels[0].topology(), cube.positions);
-  const Eigen::RowVector3d corner = limit.position.row(7), normal = limit.normal.row(0);
+  const Limit limit = sublimit::limit(cube, scheme);
+  const Eigen::RowVector3d corner = limit.points.row(7), normal = limit.normals.row(0);
   std::printf("%td points on level 2; the corner's limit is (%g, %g, %g)\n", levels[2].S.rows(), corner[0], corner[1],
               corner[2]);
   const bool symmetric = std::abs(corner[0] - corner[1]) < 1e-12 && std::abs(corner[0] - corner[2]) < 1e-12;

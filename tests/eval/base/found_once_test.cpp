@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sublimit/base/found_once.h"
+#include "sublimit/base/detail/found_once.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
@@ -16,7 +16,7 @@
 #include <thread>
 #include <vector>
 
-#include "sublimit/base/parallel_for.h"
+#include "sublimit/base/detail/parallel_for.h"
 
 namespace sublimit {
 namespace {

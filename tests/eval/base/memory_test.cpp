@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What jobs may take: the machine's memory, less where a control group or an option says so.
-#include "sublimit/base/memory.h"
+#include "sublimit/base/detail/memory.h"
 
 #include <gtest/gtest.h>
 

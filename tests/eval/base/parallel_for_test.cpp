@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sublimit/base/parallel_for.h"
+#include "sublimit/base/detail/parallel_for.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>

@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <thread>
 
-#include "sublimit/base/parallel_for.h"
+#include "sublimit/base/detail/parallel_for.h"
 
 int main() {
   const tbb::global_control several(tbb::global_control::max_allowed_parallelism, 4);

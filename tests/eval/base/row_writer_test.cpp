@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sublimit/base/row_writer.h"
+#include "sublimit/base/detail/row_writer.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
@@ -7,7 +7,7 @@
 #include <string>
 
 #include "sublimit/base/format_number.h"
-#include "sublimit/base/read_file.h"
+#include "sublimit/base/detail/read_file.h"
 #include "support/expect_error.h"
 #include "support/random_doubles.h"
 #include "support/temporary_directory.h"

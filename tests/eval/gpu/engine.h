@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "sublimit/gpu/gpu_device.h"
-#include "sublimit/gpu/vulkan_functions.h"
+#include "sublimit/eval/gpu/detail/vulkan_functions.h"
+#include "sublimit/eval/gpu/gpu_device.h"
 
 namespace sublimit::testing {
 

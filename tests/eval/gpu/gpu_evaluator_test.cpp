@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sublimit/gpu/gpu_evaluator.h"
+#include "sublimit/eval/gpu/gpu_evaluator.h"
 
 #include <gtest/gtest.h>
 
@@ -15,8 +15,8 @@
 #include "eval/gpu/made_tables.h"
 #include "eval/gpu/test_device.h"
 #include "sublimit/base/error.h"
-#include "sublimit/gpu/packed_table.h"
-#include "sublimit/pattern_evaluator.h"
+#include "sublimit/eval/gpu/detail/packed_table.h"
+#include "sublimit/eval/pattern_evaluator.h"
 #include "support/keeps_references.h"
 
 namespace sublimit::testing {

@@ -4,8 +4,8 @@
 #include <cstdlib>
 #include <span>
 
-#include "sublimit/gpu/gpu_device.h"
-#include "sublimit/pattern_evaluator.h"
+#include "sublimit/eval/gpu/gpu_device.h"
+#include "sublimit/eval/pattern_evaluator.h"
 
 namespace sublimit::testing {
 

@@ -28,7 +28,7 @@ Points random_columns(std::mt19937& random, Index count) {
 
 Eigen::RowVector3d point(const Patch& patch, const Points& columns, double u, double v,
                          Coordinates coordinates = Coordinates::plain) {
-  const Sample at = patch.place({.u = u, .v = v});
+  const Place at = patch.place({.u = u, .v = v});
   return patch.evaluate(columns, {&at, 1}, 0, coordinates).position.row(0);
 }
 

@@ -7,7 +7,7 @@
 
 #include "sublimit/base/error.h"
 #include "sublimit/limit/limit_integrals.h"
-#include "sublimit/schemes.h"
+#include "sublimit/schemes/schemes.h"
 #include "support/meshes.h"
 #include "support/tolerance.h"
 
@@ -22,7 +22,7 @@ struct Made {
   double size;
 };
 
-Made made_of(const ControlMesh& mesh, const std::string& scheme, double tolerance = 1e-4, bool pack = true) {
+Made made_of(const Mesh& mesh, const std::string& scheme, double tolerance = 1e-4, bool pack = true) {
   const LimitMap surface(find_scheme(scheme).value(), mesh);
   const double size = testing::diagonal(mesh.positions);
   LimitModelOptions options;
@@ -57,13 +57,12 @@ TEST(LimitModel, OfRegularToriIsFewExactFaces) {
 }
 
 TEST(LimitModel, OfClosedMeshesHasEachEdgeTwice) {
-  for (const auto& [scheme, mesh] :
-       std::vector<std::pair<std::string, ControlMesh>>{{"catmull-clark", testing::cube()},
-                                                        {"catmull-clark", testing::tetrahedron()},
-                                                        {"catmull-clark", testing::pole(7)},
-                                                        {"doo-sabin", testing::cube()},
-                                                        {"loop", testing::icosahedron()},
-                                                        {"bilinear", testing::cube()}}) {
+  for (const auto& [scheme, mesh] : std::vector<std::pair<std::string, Mesh>>{{"catmull-clark", testing::cube()},
+                                                                              {"catmull-clark", testing::tetrahedron()},
+                                                                              {"catmull-clark", testing::pole(7)},
+                                                                              {"doo-sabin", testing::cube()},
+                                                                              {"loop", testing::icosahedron()},
+                                                                              {"bilinear", testing::cube()}}) {
     const Made made = made_of(mesh, scheme);
     expect_closed(made.model.boundary);
     EXPECT_TRUE(made.model.met) << scheme;
@@ -85,7 +84,7 @@ TEST(LimitModel, IsNearerWithMoreRings) {
 }
 
 TEST(LimitModel, JoinsCapsWithCommonTangentPlanes) {
-  for (const auto& [scheme, mesh] : std::vector<std::pair<std::string, ControlMesh>>{
+  for (const auto& [scheme, mesh] : std::vector<std::pair<std::string, Mesh>>{
            {"catmull-clark", testing::jittered(testing::cube())}, {"doo-sabin", testing::jittered(testing::pole(5))}}) {
     const LimitMap surface(find_scheme(scheme).value(), mesh);
     LimitModelOptions options;
@@ -101,7 +100,7 @@ TEST(LimitModel, JoinsCapsWithCommonTangentPlanes) {
 }
 
 TEST(LimitModel, KeepsCreasesAsEdges) {
-  ControlMesh mesh = testing::torus(8, 6);
+  Mesh mesh = testing::torus(8, 6);
   std::vector<Index> path;
   for (Index i = 0; i <= 8; ++i) path.push_back(i % 8 * 6);
   testing::add_crease(mesh, path, INFINITY);
@@ -113,8 +112,7 @@ TEST(LimitModel, KeepsCreasesAsEdges) {
   EXPECT_GE(sharp, 2);
 }
 
-LimitModel named_model(const ControlMesh& mesh, const std::string& scheme, const ControlMesh::FaceNames& names,
-                       bool pack = true) {
+LimitModel named_model(const Mesh& mesh, const std::string& scheme, const Mesh::FaceNames& names, bool pack = true) {
   const LimitMap surface(find_scheme(scheme).value(), mesh);
   LimitModelOptions options;
   options.tolerance = 1e-4 * testing::diagonal(mesh.positions);
@@ -123,7 +121,7 @@ LimitModel named_model(const ControlMesh& mesh, const std::string& scheme, const
   return limit_model(surface, mesh.positions, options);
 }
 
-Eigen::RowVector3d middle_of_face(const ControlMesh& mesh, Index face) {
+Eigen::RowVector3d middle_of_face(const Mesh& mesh, Index face) {
   Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
   const Index size = mesh.face_sizes[size_t(face)];  // faces of equal sizes
   for (Index i = 0; i < size; ++i) sum += mesh.positions.row(mesh.face_vertices[size_t(face * size + i)]);
@@ -139,8 +137,8 @@ std::string axis_of(const Eigen::RowVector3d& x) {
 
 // The sides of a cube are 6 parts of its limit, each around its axis.
 TEST(LimitModel, FacesHaveTheNameOfTheirControlFace) {
-  const ControlMesh mesh = testing::cube();
-  ControlMesh::FaceNames names;
+  const Mesh mesh = testing::cube();
+  Mesh::FaceNames names;
   for (Index f = 0; f < 6; ++f) {
     names.names.push_back(axis_of(middle_of_face(mesh, f)));
     names.of_face.push_back(f);
@@ -155,10 +153,10 @@ TEST(LimitModel, FacesHaveTheNameOfTheirControlFace) {
 
 // Of both halves of a torus, which mirror each other; the plane of the mirror has edges of the mesh.
 TEST(LimitModel, PacksFacesOfOneNameAlone) {
-  const ControlMesh mesh = testing::torus(8, 6);
+  const Mesh mesh = testing::torus(8, 6);
   const Index faces = mesh.num_faces();
   const size_t without = named_model(mesh, "catmull-clark", {}).boundary.faces.size();
-  ControlMesh::FaceNames halves{{"left", "right"}, {}}, one{{"all"}, std::vector<Index>(size_t(faces), 0)}, each, some;
+  Mesh::FaceNames halves{{"left", "right"}, {}}, one{{"all"}, std::vector<Index>(size_t(faces), 0)}, each, some;
   for (Index f = 0; f < faces; ++f) {
     halves.of_face.push_back(middle_of_face(mesh, f)[1] < 0 ? 0 : 1);
     some.of_face.push_back(halves.of_face.back() - 1);
@@ -184,7 +182,7 @@ TEST(LimitModel, PacksFacesOfOneNameAlone) {
 }
 
 TEST(LimitModel, RefusesNamesOfOtherMeshes) {
-  const ControlMesh mesh = testing::torus(8, 6);
+  const Mesh mesh = testing::torus(8, 6);
   std::vector<Index> all(size_t(mesh.num_faces()), 0);
   EXPECT_THROW(named_model(mesh, "catmull-clark", {{"a"}, {0}}), InvalidParameter);
   for (const Index other : {-2, 1}) {
@@ -194,7 +192,7 @@ TEST(LimitModel, RefusesNamesOfOtherMeshes) {
 }
 
 TEST(LimitModel, RefusesWhatIsNoPolynomial) {
-  const ControlMesh mesh = testing::icosahedron();
+  const Mesh mesh = testing::icosahedron();
   const LimitMap surface(find_scheme("butterfly").value(), mesh);
   LimitModelOptions options;
   options.tolerance = 1e-3;
@@ -204,7 +202,7 @@ TEST(LimitModel, RefusesWhatIsNoPolynomial) {
 }
 
 TEST(LimitModel, StopsBeforeThereAreTooManyFaces) {
-  const ControlMesh mesh = testing::cube();
+  const Mesh mesh = testing::cube();
   const LimitMap surface(find_scheme("catmull-clark").value(), mesh);
   LimitModelOptions options;
   options.tolerance = 1e-3;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sublimit/certificates/exact_schemes.h"
-#include "sublimit/certificates/all_valences.h"
+#include "sublimit/certificates/detail/all_valences.h"
+#include "sublimit/certificates/detail/exact_schemes.h"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "sublimit/base/error.h"
-#include "sublimit/certificates/turned_map.h"
-#include "sublimit/certificates/valence_family.h"
+#include "sublimit/certificates/detail/turned_map.h"
+#include "sublimit/certificates/detail/valence_family.h"
 #include "sublimit/schemes/doo_sabin.h"
 
 namespace sublimit {

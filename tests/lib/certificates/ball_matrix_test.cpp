@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sublimit/certificates/ball_matrix.h"
+#include "sublimit/certificates/detail/ball_matrix.h"
 
 #include <gtest/gtest.h>
 

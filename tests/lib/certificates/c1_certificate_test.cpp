@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sublimit/certificates/exact_schemes.h"
-#include "sublimit/certificates/c1_certificate.h"
+#include "sublimit/certificates/detail/c1_certificate.h"
+#include "sublimit/certificates/detail/exact_schemes.h"
 
 #include <gtest/gtest.h>
 

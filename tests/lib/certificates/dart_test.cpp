@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sublimit/certificates/dart.h"
+#include "sublimit/certificates/detail/dart.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
 #include "lib/certificates/exact_analyses.h"
-#include "sublimit/certificates/spectral_verdicts.h"
-#include "sublimit/limit/limit_masks.h"
+#include "sublimit/certificates/detail/spectral_verdicts.h"
+#include "sublimit/limit/detail/limit_masks.h"
 #include "support/tolerance.h"
 
 namespace sublimit {
@@ -37,7 +37,7 @@ struct MasksOfFan {
   LimitMasks masks;
   std::vector<Index> vertices;
 };
-MasksOfFan masks_of(const Scheme<double>& scheme, const ControlMesh& fan) {
+MasksOfFan masks_of(const Scheme<double>& scheme, const Mesh& fan) {
   SubdivisionOptions options;
   options.boundary = Boundary::edge_only;
   const Level level = control_level(scheme, fan, options);
@@ -131,7 +131,7 @@ TEST(Crease, MasksOfASideAreThoseOfTheBorder) {
       const Scheme<double> scheme = find_scheme<double>(name).value();
       const Index size = scheme.face_size() == 3 ? 3 : 4, step = size - 2;
       const auto [masks, vertices] = masks_of(scheme, creased_fan(faces + 4, faces, size));
-      const LoneLimit border = lone_limit(scheme, {.faces = faces, .open = true}).value();
+      const IsolatedLimit border = isolated_limit(scheme, {.faces = faces, .open = true}).value();
       const LocalPatch<double> patch = local_patch(scheme, {.faces = faces, .open = true}).value();
       ASSERT_EQ(masks.sides.size(), 2u);
       const LimitMasks::Side& side = masks.sides[masks.sides[0].num_corners == faces ? 0 : 1];

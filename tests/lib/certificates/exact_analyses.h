@@ -4,8 +4,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "sublimit/certificates/exact_schemes.h"
-#include "sublimit/certificates/exact_analysis.h"
+#include "sublimit/certificates/detail/exact_analysis.h"
+#include "sublimit/certificates/detail/exact_schemes.h"
 
 namespace sublimit::testing {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Joins of the doubles as they are: what rounding hides, and what it does not touch.
-#include "sublimit/certificates/exact_joins.h"
+#include "sublimit/certificates/detail/exact_joins.h"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sublimit/certificates/exact_masks.h"
-#include "sublimit/certificates/exact_schemes.h"
+#include "sublimit/certificates/detail/exact_masks.h"
+#include "sublimit/certificates/detail/exact_schemes.h"
 
 #include <gtest/gtest.h>
 
-#include "sublimit/limit/limit_masks.h"
+#include "sublimit/limit/detail/limit_masks.h"
 #include "support/tolerance.h"
 
 namespace sublimit {
@@ -47,7 +47,7 @@ TEST(ExactMasks, AreThoseThatSurfacesAreEvaluatedWith) {
       if (type.open && doubles[k].is_dual()) continue;
       LocalType own = type;
       if (doubles[k].is_dual()) own.kind = Centre::Kind::face;
-      const auto limit = lone_limit(doubles[k], own);
+      const auto limit = isolated_limit(doubles[k], own);
       const auto patch = local_patch(exacts[k], own);
       ASSERT_TRUE(limit && patch) << doubles[k].name;
       ASSERT_EQ(limit->slots, patch->slots) << doubles[k].name;

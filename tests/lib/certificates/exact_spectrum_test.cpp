@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Exact spectra against closed forms and against 256-bit floats.
-#include "sublimit/certificates/exact_spectrum.h"
+#include "sublimit/certificates/detail/exact_spectrum.h"
 
 #include <gtest/gtest.h>
 

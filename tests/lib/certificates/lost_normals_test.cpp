@@ -8,9 +8,9 @@
 #include <algorithm>
 
 #include "lib/certificates/exact_analyses.h"
-#include "sublimit/certificates/spectral_verdicts.h"
-#include "sublimit/limit/limit_masks.h"
-#include "sublimit/schemes.h"
+#include "sublimit/certificates/detail/spectral_verdicts.h"
+#include "sublimit/limit/detail/limit_masks.h"
+#include "sublimit/schemes/schemes.h"
 
 namespace sublimit::testing {
 namespace {
@@ -58,7 +58,7 @@ TEST(LostNormals, AreToldAlikeByMasksAndByExactVerdictsOnBorders) {
   for (const std::string name : {"catmull-clark", "loop", "butterfly", "modified-butterfly", "kobbelt"})
     for (const Index faces : {2, 3, 4, 5}) {
       const LocalType border{.faces = faces, .open = true};
-      const std::optional<LoneLimit> limit = lone_limit(*find_scheme(name), border);
+      const std::optional<IsolatedLimit> limit = isolated_limit(*find_scheme(name), border);
       const Verdict verdict = tangent_plane(analyzed(find_scheme<Algebraic>(name).value(), border, 1));
       ASSERT_TRUE(limit);
       const bool by_masks = limit->masks.sides[0].plane == LimitMasks::Plane::no;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sublimit/certificates/mirror.h"
+#include "sublimit/certificates/detail/mirror.h"
 
 #include <gtest/gtest.h>
 
 #include "lib/certificates/exact_analyses.h"
-#include "sublimit/certificates/dart.h"
+#include "sublimit/certificates/detail/dart.h"
 
 namespace sublimit {
 namespace {

@@ -2,8 +2,8 @@
 // C^1 of schemes whose limits are no polynomials.
 #include <gtest/gtest.h>
 
-#include "sublimit/certificates/exact_schemes.h"
-#include "sublimit/certificates/c1_certificate.h"
+#include "sublimit/certificates/detail/c1_certificate.h"
+#include "sublimit/certificates/detail/exact_schemes.h"
 
 namespace sublimit {
 namespace {

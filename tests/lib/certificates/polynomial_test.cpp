@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sublimit/certificates/polynomial.h"
+#include "sublimit/certificates/detail/polynomial.h"
 
 #include <gtest/gtest.h>
 
 #include "sublimit/base/error.h"
-#include "sublimit/certificates/algebraic_root.h"
+#include "sublimit/certificates/detail/algebraic_root.h"
 
 namespace sublimit {
 namespace {

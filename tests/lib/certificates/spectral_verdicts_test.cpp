@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sublimit/certificates/spectral_verdicts.h"
+#include "sublimit/certificates/detail/spectral_verdicts.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sublimit/certificates/exact_schemes.h"
-#include "sublimit/certificates/witness.h"
+#include "sublimit/certificates/detail/exact_schemes.h"
+#include "sublimit/certificates/detail/witness.h"
 
 #include <gtest/gtest.h>
 

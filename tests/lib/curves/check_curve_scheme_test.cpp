@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "sublimit/curves/curve_limits.h"
+#include "sublimit/curves/detail/curve_limits.h"
 #include "sublimit/curves/limit_curve.h"
 #include "sublimit/curves/schemes/curve_ends.h"
 #include "sublimit/curves/schemes/curve_schemes.h"
@@ -17,7 +17,7 @@ CurveScheme<double> own() {
   return {.name = "own",
           .source = "here",
           .masks = {.point = [](const CurveSite<double>& p) { return (p.point(-1) + 6 * p.point(0) + p.point(1)) / 8; },
-                    .leg = [](const CurveSite<double>& p) { return (p.point(0) + p.point(1)) / 2; }},
+                    .edge = [](const CurveSite<double>& p) { return (p.point(0) + p.point(1)) / 2; }},
           .ends = reflected_ends<double>(),
           .claims = {}};
 }
@@ -47,42 +47,42 @@ TEST(CheckedCurveSchemes, HaveTheirMasks) {
   scheme.masks.point = {};
   expect_refused(scheme, {"own lacks the mask point"});
   scheme = own();
-  scheme.masks.leg = {};
-  expect_refused(scheme, {"own lacks the mask leg"});
+  scheme.masks.edge = {};
+  expect_refused(scheme, {"own lacks the mask edge"});
   scheme = own();
   scheme.masks.before = scheme.masks.point;
   expect_refused(scheme, {"own lacks the mask after"});
   scheme.masks.after = scheme.masks.point;
   expect_refused(scheme, {"own has masks of a dual scheme (before, after) and of a primal one"});
   scheme = own();
-  scheme.masks.leg_derivative = scheme.masks.leg;
+  scheme.masks.edge_derivative = scheme.masks.edge;
   expect_refused(scheme, {"own lacks the mask point_derivative"});
 }
 
 TEST(CheckedCurveSchemes, HaveAffineMasks) {
   CurveScheme<double> scheme = own();
-  scheme.masks.leg = [](const CurveSite<double>& p) { return p.point(0) + p.point(1) / 10; };
-  expect_refused(scheme, {"own.leg: the weights of points add up to 1.1"});
-  scheme.masks.leg = [](const CurveSite<double>&) { return Stencil<double>(); };
-  expect_refused(scheme, {"own.leg returns no points"});
-  scheme.masks.leg = [](const CurveSite<double>& p) { return p.derivative(0); };
+  scheme.masks.edge = [](const CurveSite<double>& p) { return p.point(0) + p.point(1) / 10; };
+  expect_refused(scheme, {"own.edge: the weights of points add up to 1.1"});
+  scheme.masks.edge = [](const CurveSite<double>&) { return Stencil<double>(); };
+  expect_refused(scheme, {"own.edge returns no points"});
+  scheme.masks.edge = [](const CurveSite<double>& p) { return p.derivative(0); };
   expect_refused(scheme, {"derivative", "Hermite"});
   CurveScheme<double> hermite = *find_curve_scheme("hermite-merrien");
-  hermite.masks.leg_derivative = hermite.masks.leg;
+  hermite.masks.edge_derivative = hermite.masks.edge;
   expect_error<InvalidParameter>([&] { CurveLayout layout(hermite); },
-                                 {"hermite-merrien.leg_derivative", "those of a derivative to 0"});
+                                 {"hermite-merrien.edge_derivative", "those of a derivative to 0"});
 }
 
 TEST(CheckedCurveSchemes, HaveEndsThatUseTheCurvesPoints) {
   CurveScheme<double> scheme = own();
-  scheme.masks.leg = [](const CurveSite<double>& p) {  // looks beyond the ends
+  scheme.masks.edge = [](const CurveSite<double>& p) {  // looks beyond the ends
     return (9 * (p.point(0) + p.point(1)) - p.point(-1) - p.point(2)) / 16;
   };
   EXPECT_NO_THROW(refine(scheme, polygon(false), 1));
   scheme.ends.beyond = [](const CurveEnd<double>& end, int) { return end.point(-1); };
   expect_error<InvalidParameter>([&] { refine(scheme, polygon(false), 1); }, {"point -1", "0 to 4 exist"});
   scheme.ends.beyond = [](const CurveEnd<double>& end, int) { return end.point(0) + end.point(1); };
-  expect_error<InvalidParameter>([&] { refine(scheme, polygon(false), 1); }, {"own.leg", "add up to"});
+  expect_error<InvalidParameter>([&] { refine(scheme, polygon(false), 1); }, {"own.edge", "add up to"});
 }
 
 TEST(CurveLevels, HaveTheLimitsOfTheirSchemeAlone) {

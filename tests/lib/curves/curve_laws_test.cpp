@@ -73,15 +73,16 @@ TEST(CurveMutants, EveryOneIsKilledByALaw) {
         }
     };
     check(&CurveMasks<double>::point, "point");
-    check(&CurveMasks<double>::leg, "leg");
+    check(&CurveMasks<double>::edge, "edge");
     check(&CurveMasks<double>::point_derivative, "point_derivative");
-    check(&CurveMasks<double>::leg_derivative, "leg_derivative");
+    check(&CurveMasks<double>::edge_derivative, "edge_derivative");
     check(&CurveMasks<double>::before, "before");
     check(&CurveMasks<double>::after, "after");
     if (!scheme.ends.beyond) continue;
     // Ends matter where a mask reaches beyond them.
     const CurveMasks<double>& masks = scheme.masks;
-    const bool used = scheme.claims.regular > 0 && (masks.dual() || masks.leg(CurveSite<double>(0)).terms().size() > 2);
+    const bool used =
+        scheme.claims.regular > 0 && (masks.dual() || masks.edge(CurveSite<double>(0)).terms().size() > 2);
     for (int m = 0; used && m < scheme.ends.points; ++m) {
       CurveScheme<double> changed = scheme;
       changed.ends.beyond = [&, m](const CurveEnd<double>& end, int i) {

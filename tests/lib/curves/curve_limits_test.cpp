@@ -4,8 +4,8 @@
 
 #include <random>
 
-#include "sublimit/core/dense_decompositions.h"
-#include "sublimit/curves/curve_limits.h"
+#include "sublimit/core/detail/dense_decompositions.h"
+#include "sublimit/curves/detail/curve_limits.h"
 #include "sublimit/curves/schemes/curve_schemes.h"
 #include "support/curve_laws.h"
 #include "support/precise_schemes.h"
@@ -75,7 +75,7 @@ TEST(CurveLimits, FourPointDerivative) {
 }
 
 TEST(CurveLimits, ChaikinEnds) {
-  // Free: the limit starts in the middle of the first leg, along it. Kept: a triple knot, Bezier points v0, v1, (v1 +
+  // Free: the limit starts in the middle of the first edge, along it. Kept: a triple knot, Bezier points v0, v1, (v1 +
   // v2)/2.
   for (const bool kept : {false, true}) {
     const auto scheme = *find_curve_scheme("chaikin", {{"ends", kept ? "interpolate" : "free"}});
@@ -254,7 +254,7 @@ TEST(CurveLimits, EqualBruteForceIn256Bits) {
             else if (at_end)
               cut[i] = fine[child.size - window + i];
             else {
-              // Inside, the window's middle point or leg is at the same place of the child.
+              // Inside, the window's middle point or edge is at the same place of the child.
               const std::int64_t p = layout.position(piece, centre) + (layout.is_dual() ? 1 : 0);
               cut[i] =
                   fine[(layout.is_dual() ? layout.point(child, 2 * p - 1) : layout.point(child, 2 * p)) - reach + i];
@@ -265,7 +265,7 @@ TEST(CurveLimits, EqualBruteForceIn256Bits) {
         limit += scale * (between ? Precise((cut[at] + cut[at + 1]) / 2) : cut[at]);
         const double value = (L.position * points)(a, 0);
         EXPECT_NEAR(double(limit - Precise(value)), 0, eigen()) << "limit at point " << a;
-        // Derivative: the difference of neighbours, 2^depth times their distance in legs.
+        // Derivative: the difference of neighbours, 2^depth times their distance in edges.
         if (L.order[a] > 0) {
           const Index i = at_start ? (layout.keeps_ends() && layout.is_dual() ? 1 : 0)
                           : at_end ? window - 2 - (layout.keeps_ends() && layout.is_dual() ? 1 : 0)

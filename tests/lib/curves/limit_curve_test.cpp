@@ -91,12 +91,12 @@ double value(const CurveStencil& stencil, const Points& x, int derivative, Index
 int order_of(const CurveStencil& stencil) { return static_cast<int>(stencil.weights.rows()) - 1; }
 
 /// Position of a sample in half legs: of its point, and from there.
-struct HalfLegs {
+struct HalfSegments {
   std::int64_t point;
   double rest;
   double sum() const { return static_cast<double>(point) + rest; }
 };
-HalfLegs half_legs(const CurveLayout& layout, const CurveOutline& curve, const CurveSample& sample) {
+HalfSegments half_segments(const CurveLayout& layout, const CurveOutline& curve, const CurvePlace& sample) {
   const std::int64_t from = layout.position(curve, sample.segment);
   const double length = curve.closed ? 2 : static_cast<double>(layout.position(curve, sample.segment + 1) - from);
   return {from, length * sample.t};
@@ -117,7 +117,7 @@ std::vector<long double> cardinal(int degree, long double fraction) {
 /// Cox and de Boor's recurrence: the uniform B-spline of a degree whose basis functions are centred at every second
 /// half leg, the point at X being x(X).
 template <class PointAt>
-long double spline(int degree, const HalfLegs& at, bool before, int derivative, const PointAt& x) {
+long double spline(int degree, const HalfSegments& at, bool before, int derivative, const PointAt& x) {
   // Differences of the points, with the degree lowered: centres lie between.
   const auto difference = [&](auto&& self, int k, std::int64_t X) -> long double {
     return k == 0 ? x(X) : self(self, k - 1, X + 1) - self(self, k - 1, X - 1);
@@ -161,7 +161,7 @@ TEST(LimitCurve, LaneRiesenfeldIsTheBSplineOfCoxAndDeBoor) {
         for (const double t : parameters()) {
           const CurveStencil stencil = limit.stencil({segment, t}, 2);
           if (stencil.status == LimitStatus::outside) continue;
-          const HalfLegs at = half_legs(layout, curve, {segment, t});
+          const HalfSegments at = half_segments(layout, curve, {segment, t});
           const auto end = static_cast<double>(layout.end(curve));
           const bool at_end = !closed && at.sum() == end;  // the piece before
           const double expected = double(spline(degree, at, at_end, 0, x));
@@ -217,7 +217,7 @@ void expect_truth(const CurveScheme<double>& scheme, const CurveScheme<Precise>&
     for (const double t : some) {
       if (t > 0 && t < 1e-100) continue;  // deeper than the truth goes
       const CurveStencil stencil = limit.stencil({segment, t}, 2);
-      const HalfLegs at = half_legs(layout, curve, {segment, t});
+      const HalfSegments at = half_segments(layout, curve, {segment, t});
       if (!closed && (at.sum() < 0 || at.sum() > static_cast<double>(layout.end(curve)))) {
         EXPECT_EQ(stencil.status, LimitStatus::outside);
         continue;
@@ -318,7 +318,7 @@ TEST(LimitCurve, IsTheSameFromTheNextLevel) {
       const CurveOutline &parent = levels[0].curves[0], &child = levels[1].curves[0];
       for (Index segment = 0; segment < from_coarse.num_segments(); ++segment)
         for (const double t : parameters()) {
-          const HalfLegs at = half_legs(layout, parent, {segment, t});
+          const HalfSegments at = half_segments(layout, parent, {segment, t});
           // The child segment that this place lies on.
           const double place = 2 * at.sum(), all = 2.0 * child.size;
           Index on = -1;
@@ -416,7 +416,7 @@ TEST(LimitCurve, TrigonometricCubicMakesCirclesEverywhere) {
     for (Index i = 0; i < sides; ++i) points.row(i) << std::cos(turn * i), std::sin(turn * i);
     const LimitCurve limit(*find_curve_scheme("trigonometric-cubic", {{"sides", std::to_string(sides)}}),
                            polygon_through(points, true));
-    std::vector<CurveSample> samples;
+    std::vector<CurvePlace> samples;
     for (Index i = 0; i < sides; ++i)
       for (const double t : parameters()) samples.push_back({i, t});
     const CurveSamples result = limit.evaluate(points, samples, 2);
@@ -483,7 +483,7 @@ TEST(LimitCurve, OfHermiteSchemesPassesThroughRefinedPoints) {
 }
 
 TEST(LimitCurve, TellsWhatThereIs) {
-  const auto status = [](const std::string& name, const SchemeOptions& options, CurveSample sample,
+  const auto status = [](const std::string& name, const SchemeOptions& options, CurvePlace sample,
                          bool closed = false) {
     const CurveStencil stencil =
         LimitCurve(*find_curve_scheme(name, options), random_polygon(9, closed)).stencil(sample, 2);
@@ -529,7 +529,7 @@ TEST(LimitCurve, NumbersSegmentsThroughAllCurves) {
   EXPECT_EQ(limit.num_unknowns(), 20);
   EXPECT_EQ(limit.stencil({0, 0}).unknowns.size(), 6u);
   const auto at = [&](Index segment, double t) {
-    const std::vector<CurveSample> samples{{segment, t}};
+    const std::vector<CurvePlace> samples{{segment, t}};
     return Points(limit.evaluate(polygon.points, samples).position);
   };
   EXPECT_EQ(at(0, 0), polygon.points.row(3));
@@ -555,7 +555,7 @@ TEST(LimitCurve, EvaluatesWhatItsStencilsSay) {
       const ControlPolygon polygon = random_polygon(11, closed, 3);
       const LimitCurve limit(scheme, polygon);
       const Points x = unknowns(scheme, polygon);
-      std::vector<CurveSample> samples;
+      std::vector<CurvePlace> samples;
       for (int repeat = 0; repeat < 3; ++repeat)
         for (Index segment = 0; segment < limit.num_segments(); ++segment)
           for (const double t : parameters()) samples.push_back({segment, t});
@@ -587,7 +587,7 @@ TEST(LimitCurve, EvaluatesWhatItsStencilsSay) {
 
 TEST(LimitCurve, OfEqualPointsHasNoNormal) {
   const Points points = Points::Ones(8, 2);
-  const std::vector<CurveSample> samples{{3, 0.3}, {0, 0.7}};
+  const std::vector<CurvePlace> samples{{3, 0.3}, {0, 0.7}};
   const CurveSamples result =
       LimitCurve(*find_curve_scheme("six-point"), polygon_through(points)).evaluate(points, samples, 1);
   for (const LimitStatus status : result.status) EXPECT_EQ(status, LimitStatus::undefined_normal);
@@ -607,7 +607,7 @@ TEST(LimitCurve, RefusesPlacesThatDoNotExist) {
   expect_error<InvalidParameter>([&] { limit.stencil({3, 0.5}, 3); }, {"order 3"});
   expect_error<InvalidParameter>([&] { limit.grid(1); }, {"2 or more"});
   expect_error<InvalidParameter>([&] { limit.first_segment(1); }, {"curve 1"});
-  const std::vector<CurveSample> samples{{0, 0}, {3, 0.5}, {3, nan}};
+  const std::vector<CurvePlace> samples{{0, 0}, {3, 0.5}, {3, nan}};
   expect_error<InvalidParameter>([&] { limit.evaluate(points, samples); }, {"sample 2", "t is nan"});
   expect_error<InvalidParameter>([&] { limit.evaluate(Points::Zero(7, 2), samples); }, {"7 rows", "8"});
   expect_error<UnsupportedTopology>([&] { LimitCurve(*find_curve_scheme("six-point"), random_polygon(2, false)); },
@@ -639,7 +639,7 @@ ControlPolygon circle(bool closed) {
 TEST(GeometricLimitCurve, OfACircleIsTheCircle) {
   const GeometricCurveScheme scheme = *find_geometric_scheme("hermite-incentre");
   for (const bool closed : {false, true}) {
-    std::vector<CurveSample> samples;
+    std::vector<CurvePlace> samples;
     for (Index i = 0; i < (closed ? 4 : 3); ++i)
       for (const double t : parameters()) samples.push_back({i, t});
     const CurveSamples result = evaluate(scheme, circle(closed), samples, 2);
@@ -663,7 +663,7 @@ TEST(GeometricLimitCurve, PassesThroughRefinedPoints) {
       ControlPolygon polygon = polygon_through(random_points(7, dimension), closed);
       polygon.tangents = random_points(7, dimension, 8).rowwise().normalized();
       const ControlPolygon fine = refine(scheme, polygon, 6);
-      std::vector<CurveSample> samples;
+      std::vector<CurvePlace> samples;
       const Index legs = closed ? 7 : 6;
       for (Index i = 0; i < legs * 64; ++i) samples.push_back({i / 64, (i % 64) / 64.0});
       const CurveSamples result = evaluate(scheme, polygon, samples, 2);
@@ -677,7 +677,7 @@ TEST(GeometricLimitCurve, PassesThroughRefinedPoints) {
       EXPECT_EQ(result.order[64], 1);
       // The vector of curvature is the difference of tangents by length.
       const double h = difference_step;
-      const std::vector<CurveSample> three{{1, 0.2 - h}, {1, 0.2}, {1, 0.2 + h}};
+      const std::vector<CurvePlace> three{{1, 0.2 - h}, {1, 0.2}, {1, 0.2 + h}};
       const CurveSamples near = evaluate(scheme, polygon, three, 2);
       const double length = (near.position.row(2) - near.position.row(0)).norm();
       EXPECT_LT(((near.first.row(2) - near.first.row(0)) / length - near.second.row(1)).norm(),
@@ -687,8 +687,8 @@ TEST(GeometricLimitCurve, PassesThroughRefinedPoints) {
 
 TEST(GeometricLimitCurve, RefusesPlacesThatDoNotExist) {
   const GeometricCurveScheme scheme = *find_geometric_scheme("hermite-incentre");
-  const auto at = [&](CurveSample sample) {
-    const std::vector<CurveSample> samples{{0, 0}, sample};
+  const auto at = [&](CurvePlace sample) {
+    const std::vector<CurvePlace> samples{{0, 0}, sample};
     evaluate(scheme, circle(false), samples, 1);
   };
   expect_error<InvalidParameter>([&] { at({3, 0}); }, {"sample 1", "segment 3", "0 to 2"});

@@ -24,7 +24,7 @@ struct Known {
 
 Known known(const char* name, double amount, double noise = 0) {
   const Scheme<double> scheme = *find_scheme<double>(name);
-  const ControlMesh mesh = takes_triangles(scheme) ? icosahedron() : torus(6, 5);
+  const Mesh mesh = takes_triangles(scheme) ? icosahedron() : torus(6, 5);
   Known k{LimitMap(scheme, mesh), mesh.positions, jittered(mesh, amount).positions, {}};
   k.cloud.points = k.surface.evaluate(k.truth, random_places(k.surface.addresses(), 600, 2)).position;
   std::mt19937 random(5);
@@ -54,7 +54,7 @@ TEST(CloudFit, FindsTheSurfaceThatItsPointsAreFrom) {
     EXPECT_LE(fit.iterations.back().largest, found_again * size);
     EXPECT_LE((fit.points - k.truth).rowwise().norm().maxCoeff(), found_control_points * size);
     expect_downhill(fit);
-    EXPECT_EQ(fit.feet.distances.maxCoeff(), fit.iterations.back().largest);
+    EXPECT_EQ(fit.foot_points.distances.maxCoeff(), fit.iterations.back().largest);
   }
 }
 
@@ -76,11 +76,11 @@ TEST(CloudFit, GoesDownhillFromFarOffToo) {
 }
 
 TEST(CloudFit, StretchesToTheBorderOfTheCloud) {
-  const ControlMesh mesh = grid(4, 3);
+  const Mesh mesh = grid(4, 3);
   const LimitMap surface(*find_scheme<double>("catmull-clark"), mesh);
   Points truth = mesh.positions;
   truth.leftCols(2) *= 1.2;
-  std::vector<Sample> places = random_places(surface.addresses(), 300, 4);
+  std::vector<Place> places = random_places(surface.addresses(), 300, 4);
   for (double s = 0; s <= 1; s += 0.125) {
     places.push_back({0, s, 0});
     places.push_back({11, s, 1});
@@ -109,7 +109,7 @@ TEST(CloudFit, FairnessAndItsScheduleAndPinsHold) {
   EXPECT_NEAR(fit.iterations.back().rms, 0.02, by_chance);
   // Energy is what it says.
   const SparseMatrix H = fairness_energy(k.surface, options.fairness);
-  const double mean = (fit.feet.distances.squaredNorm() - std::pow(fit.feet.distances[3], 2)) / 599;
+  const double mean = (fit.foot_points.distances.squaredNorm() - std::pow(fit.foot_points.distances[3], 2)) / 599;
   EXPECT_NEAR(fit.iterations.back().energy, mean + (fit.points.transpose() * (H * fit.points)).trace(),
               other_route * fit.iterations.back().energy);
   // More of it, a fairer surface farther away.
@@ -123,7 +123,7 @@ TEST(CloudFit, FairnessAndItsScheduleAndPinsHold) {
 
 TEST(CloudFit, LeavesAloneWhatNoPointSees) {
   Known k = known("loop", 0.02);
-  std::vector<Sample> places(40);
+  std::vector<Place> places(40);
   for (size_t i = 0; i < places.size(); ++i) places[i] = {0, 0.1 + 0.01 * double(i), 0.3};
   k.cloud.points = k.surface.evaluate(k.truth, places).position;
   const CloudFit fit = fit_cloud(k.surface, k.cloud, k.guess);
@@ -140,7 +140,7 @@ TEST(CloudFit, LeavesAloneWhatNoPointSees) {
 }
 
 TEST(Cloud, HasThePointsOfAMesh) {
-  ControlMesh mesh = cube();
+  Mesh mesh = cube();
   const Cloud vertices = cloud_of_vertices(mesh);
   ASSERT_EQ(vertices.points.rows(), 8);
   double area = 0;
@@ -187,7 +187,7 @@ TEST(CloudFit, SaysWhatIsWrong) {
   fails([](C&, Points&, O& o) { o.pins.vertices = {40}; }, {"control point 40"});
   fails([](C&, Points& x, O&) { x = Points::Zero(3, 3); }, {"3 x 3"});
   fails([](C&, Points& x, O&) { x = Points::Zero(30, 2); }, {"2 columns"});
-  ControlMesh flat = cube();
+  Mesh flat = cube();
   flat.positions.setZero();
   expect_error<InvalidMesh>([&] { cloud_of_faces(flat, 1); }, {"no area"});
   flat.positions(3, 0) = nan;

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "sublimit/base/error.h"
-#include "sublimit/core/dense_decompositions.h"
+#include "sublimit/core/detail/dense_decompositions.h"
 #include "support/limit_system.h"
 #include "support/meshes.h"
 #include "support/tolerance.h"
@@ -85,7 +85,7 @@ TEST(Conditioning, LargeMatricesByIteration) {
 
 TEST(Conditioning, ZerosOfLargeMatricesAreZero) {
   // Two cubes, and a torus that couples with neither: two alternating directions.
-  ControlMesh mesh = testing::disjoint_union(testing::cube(), testing::jittered(testing::torus(30, 26)));
+  Mesh mesh = testing::disjoint_union(testing::cube(), testing::jittered(testing::torus(30, 26)));
   mesh = testing::disjoint_union(mesh, testing::cube());
   const SparseMatrix L = limit_system("catmull-clark", mesh);
   const Conditioning c = conditioning(L);

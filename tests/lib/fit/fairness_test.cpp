@@ -9,8 +9,8 @@
 #include <cmath>
 #include <random>
 
-#include "sublimit/core/dense_decompositions.h"
-#include "sublimit/limit/quadrature.h"
+#include "sublimit/core/detail/dense_decompositions.h"
+#include "sublimit/limit/detail/quadrature.h"
 #include "support/expect_error.h"
 #include "support/tested_schemes.h"
 #include "support/tolerance.h"
@@ -66,7 +66,7 @@ TEST(Fairness, IsSymmetricSemidefiniteAndFreeForConstants) {
 
 /// A grid whose two outer rings of faces are holes, and the places of its vertices in the natural plane.
 struct Plane {
-  ControlMesh mesh;
+  Mesh mesh;
   Points xy;
   double area = 0;
 };
@@ -123,11 +123,11 @@ TEST(Fairness, IsTheSumOverItsQuadraturePoints) {
   // Two points a side, as every table has them.
   const double a = 0.5 - std::sqrt(1.0 / 12), nodes[] = {a, 1 - a};
   const Scheme<double> scheme = *find_scheme<double>("catmull-clark");
-  ControlMesh mesh = hard_polygons(3, {.open = true, .sharp = true});
+  Mesh mesh = hard_polygons(3, {.open = true, .sharp = true});
   mesh.holes.push_back(2);
   const LimitMap surface(scheme, mesh);
   double expected = 0;
-  std::vector<Sample> places;
+  std::vector<Place> places;
   for (Index f = 0; f < surface.addresses().size(); ++f)
     for (const double u : nodes)
       for (const double v : nodes) places.push_back({f, u, v});
@@ -147,7 +147,7 @@ TEST(Fairness, IsTheSumOverItsQuadraturePoints) {
 }
 
 TEST(Fairness, DoesNotDependOnTheCornerThatComesFirst) {
-  ControlMesh mesh = triangle_torus(5, 4);
+  Mesh mesh = triangle_torus(5, 4);
   const Scheme<double> scheme = *find_scheme<double>("loop");
   const Fairness fairness{.thin_plate = 1, .membrane = 1};
   const Eigen::MatrixXd H(fairness_energy(LimitMap(scheme, mesh), fairness));
@@ -160,11 +160,11 @@ TEST(Fairness, DoesNotDependOnTheCornerThatComesFirst) {
 
 TEST(Fairness, IsTheSameSurfaceAfterAStep) {
   // Of the dual ones too, whose pieces meet in the middle of squares, and on their diagonals.
-  const std::pair<const char*, ControlMesh> cases[] = {{"catmull-clark", torus(5, 4)},
-                                                       {"loop", triangle_torus(5, 4)},
-                                                       {"doo-sabin", torus(4, 5)},
-                                                       {"mid-edge", torus(4, 5)},
-                                                       {"bilinear", prism(5)}};
+  const std::pair<const char*, Mesh> cases[] = {{"catmull-clark", torus(5, 4)},
+                                                {"loop", triangle_torus(5, 4)},
+                                                {"doo-sabin", torus(4, 5)},
+                                                {"mid-edge", torus(4, 5)},
+                                                {"bilinear", prism(5)}};
   for (const auto& [name, mesh] : cases) {
     SCOPED_TRACE(name);
     const Scheme<double> scheme = *find_scheme<double>(name);

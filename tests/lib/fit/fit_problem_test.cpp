@@ -9,7 +9,7 @@
 #include <random>
 
 #include "sublimit/base/error.h"
-#include "sublimit/core/dense_decompositions.h"
+#include "sublimit/core/detail/dense_decompositions.h"
 #include "support/limit_system.h"
 #include "support/meshes.h"
 #include "support/tolerance.h"
@@ -139,7 +139,7 @@ TEST(FitProblem, TheNearestOfAllThatMeetConditionsIsFoundByEveryMethod) {
 }
 
 TEST(FitProblem, LimitPointsOfATorusAreMetToRounding) {
-  const ControlMesh mesh = testing::jittered(testing::torus(31, 40));
+  const Mesh mesh = testing::jittered(testing::torus(31, 40));
   FitProblem p;
   p.C = limit_system("catmull-clark", mesh);
   p.x0 = p.d = mesh.positions;
@@ -176,7 +176,7 @@ TEST(FitProblem, ConditionsOfTenThousandAreMetToRounding) {
 }
 
 TEST(FitProblem, ACubeIsSolvedWhereItsDataAgree) {
-  const ControlMesh cube = testing::cube();
+  const Mesh cube = testing::cube();
   FitProblem p;
   p.C = limit_system("catmull-clark", cube);
   p.x0 = cube.positions;
@@ -193,7 +193,7 @@ TEST(FitProblem, ACubeIsSolvedWhereItsDataAgree) {
 }
 
 TEST(FitProblem, PinsHoldAndTheRestIsLeastSquares) {
-  const ControlMesh mesh = testing::torus(12, 10);
+  const Mesh mesh = testing::torus(12, 10);
   FitProblem p;
   p.A = limit_system("catmull-clark", mesh);
   p.b = p.x0 = mesh.positions;
@@ -212,7 +212,7 @@ TEST(FitProblem, PinsHoldAndTheRestIsLeastSquares) {
 }
 
 TEST(FitProblem, AbsentMatricesNeedNoShape) {
-  const ControlMesh mesh = testing::torus(6, 5);
+  const Mesh mesh = testing::torus(6, 5);
   FitProblem p;
   p.A = limit_system("catmull-clark", mesh);
   p.b = p.A * mesh.positions;
@@ -225,7 +225,7 @@ TEST(FitProblem, AbsentMatricesNeedNoShape) {
 }
 
 TEST(FitProblem, TheSameBitsOnAnyNumberOfThreads) {
-  const ControlMesh mesh = testing::jittered(testing::torus(91, 90));
+  const Mesh mesh = testing::jittered(testing::torus(91, 90));
   FitProblem p;
   p.C = limit_system("catmull-clark", mesh);
   p.x0 = p.d = mesh.positions;
@@ -237,7 +237,7 @@ TEST(FitProblem, TheSameBitsOnAnyNumberOfThreads) {
 }
 
 TEST(FitProblem, ManyUnknownsAreIteratedWhileThatConverges) {
-  const ControlMesh mesh = testing::jittered(testing::torus(101, 100));
+  const Mesh mesh = testing::jittered(testing::torus(101, 100));
   FitProblem p;
   p.C = limit_system("catmull-clark", mesh);
   p.x0 = p.d = mesh.positions;

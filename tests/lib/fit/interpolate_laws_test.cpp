@@ -9,9 +9,9 @@
 #include <numeric>
 #include <random>
 
-#include "sublimit/fit/interpolate.h"
+#include "sublimit/fit/detail/interpolate.h"
 #include "sublimit/limit/limit_map.h"
-#include "sublimit/limit/limit_types.h"
+#include "sublimit/limit/detail/limit_cache.h"
 #include "sublimit/neighborhood/centre.h"
 #include "support/expect_error.h"
 #include "support/places.h"
@@ -36,7 +36,7 @@ std::vector<NamedMesh> meshes(const Scheme<double>& scheme) {
   list.push_back({"open", {}, jittered(triangles ? triangle_grid(4, 3) : grid(4, 3), 0.05)});
   if (!triangles) list.push_back({"strip", {}, jittered(mobius_strip(6), 0.05)});  // two sheets at an edge
   if (scheme.sharpening == Sharpening::boundary) return list;
-  ControlMesh creased = jittered(triangles ? triangle_torus(5, 4) : torus(5, 4), 0.05);
+  Mesh creased = jittered(triangles ? triangle_torus(5, 4) : torus(5, 4), 0.05);
   const float sharp = 10;
   add_crease(creased, {1, 5, 9, 13, 17, 1}, sharp);
   add_crease(creased, {4, 5, 6, 7, 4}, sharp);  // vertex 5 is a corner of four sides
@@ -55,14 +55,14 @@ Vector3d random_vector(std::mt19937& random) {
 class InterpolationLaws : public ::testing::TestWithParam<TestedScheme> {
  protected:
   const Scheme<double> scheme_ = GetParam().scheme();
-  const std::shared_ptr<LimitTypes> types_ = std::make_shared<LimitTypes>(scheme_);
+  const std::shared_ptr<LimitCache> types_ = std::make_shared<LimitCache>(scheme_);
 
   /// The places of a vertex on a level: corners of its faces, or the middle of the face (border edge) that it becomes.
   struct Limit {
     std::vector<Vector3d> position, normal;
   };
   Limit limit_of(const std::vector<Level>& levels, const LimitMap& surface, const Points& points, Index v) const {
-    std::vector<Sample> places;
+    std::vector<Place> places;
     const Topology& last = levels.back().topology();
     for (const HalfEdge start : levels[0].topology().fans(Vertex{v})) {
       Centre centre{Centre::Kind::vertex, start};
@@ -76,7 +76,7 @@ class InterpolationLaws : public ::testing::TestWithParam<TestedScheme> {
       const Face face = last.face(centre.start);
       const Index first = surface.addresses().first(face);
       if (centre.kind == Centre::Kind::face) {
-        places.push_back(last.size(face) == 4 ? Sample{first, 0.5, 0.5} : Sample{first, 1, 1});
+        places.push_back(last.size(face) == 4 ? Place{first, 0.5, 0.5} : Place{first, 1, 1});
       } else if (centre.kind == Centre::Kind::border) {
         places.push_back(on_edge(last, surface.addresses(), centre.start, 0.5));
       } else {
@@ -99,9 +99,9 @@ class InterpolationLaws : public ::testing::TestWithParam<TestedScheme> {
   }
 
   /// The points as the control mesh that they are, for meshes without creases.
-  static ControlMesh control_mesh(const Interpolation& found) {
+  static Mesh control_mesh(const Interpolation& found) {
     const Topology& t = found.level.topology();
-    ControlMesh mesh;
+    Mesh mesh;
     mesh.positions = found.points;
     for (Index f = 0; f < t.num_faces(); ++f) {
       mesh.face_sizes.push_back(t.size(Face{f}));
@@ -110,10 +110,10 @@ class InterpolationLaws : public ::testing::TestWithParam<TestedScheme> {
     return mesh;
   }
 
-  std::vector<Level> levels(const ControlMesh& mesh, int count) const { return refine(scheme_, mesh, count); }
+  std::vector<Level> levels(const Mesh& mesh, int count) const { return refine(scheme_, mesh, count); }
 
   /// All vertices moved; every second one with a normal up to a right angle off.
-  std::vector<VertexTarget> targets(const ControlMesh& mesh, bool normals, unsigned seed = 1) const {
+  std::vector<VertexTarget> targets(const Mesh& mesh, bool normals, unsigned seed = 1) const {
     std::mt19937 random(seed);
     const std::vector<Level> control = levels(mesh, 0);
     const LimitMap surface(scheme_, control[0], types_);
@@ -128,8 +128,7 @@ class InterpolationLaws : public ::testing::TestWithParam<TestedScheme> {
     return result;
   }
 
-  void expect_on_targets(const ControlMesh& mesh, const Interpolation& found,
-                         const std::vector<VertexTarget>& targets) const {
+  void expect_on_targets(const Mesh& mesh, const Interpolation& found, const std::vector<VertexTarget>& targets) const {
     EXPECT_TRUE(found.solved()) << why_unsolved(found.attempts.back());
     ASSERT_EQ(found.level.number % scheme_.period, 0);
     const std::vector<Level> all = levels(mesh, found.level.number);
@@ -172,7 +171,7 @@ TEST_P(InterpolationLaws, ControlPointsComeBackFromTheirLimits) {
     std::vector<VertexTarget> own;
     for (Index v = 0; v < named.mesh.num_vertices(); ++v)
       own.push_back({v, limit_of(control, surface, named.mesh.positions, v).position[0]});
-    const ControlMesh elsewhere = jittered(named.mesh, 0.3, 7);  // another first guess
+    const Mesh elsewhere = jittered(named.mesh, 0.3, 7);  // another first guess
     const Interpolation found = interpolate(scheme_, elsewhere, own, {.most_refinements = 0});
     EXPECT_TRUE(found.solved()) << why_unsolved(found.attempts.back());
     const Conditioning& C = found.attempts.back().conditioning;
@@ -190,7 +189,7 @@ TEST_P(InterpolationLaws, MoveTurnAndScaleWithTheTargets) {
   for (const NamedMesh& named : meshes(scheme_)) {
     SCOPED_TRACE(named.name);
     const auto wanted = targets(named.mesh, true);
-    ControlMesh turned = named.mesh;
+    Mesh turned = named.mesh;
     turned.positions = ((scale * named.mesh.positions * R.transpose()).rowwise() + shift.transpose()).eval();
     std::vector<VertexTarget> turned_targets(wanted.rbegin(), wanted.rend());  // in another order, too
     for (VertexTarget& target : turned_targets) {
@@ -207,7 +206,7 @@ TEST_P(InterpolationLaws, MoveTurnAndScaleWithTheTargets) {
 
 TEST_P(InterpolationLaws, SidesOfACornerTurnTogether) {
   if (scheme_.sharpening == Sharpening::boundary) return;
-  const ControlMesh mesh = meshes(scheme_).back().mesh;
+  const Mesh mesh = meshes(scheme_).back().mesh;
   std::vector<VertexTarget> wanted = targets(mesh, false);
   const std::vector<Level> control = levels(mesh, 0);
   const Limit own = limit_of(control, LimitMap(scheme_, control[0], types_), mesh.positions, 5);
@@ -232,7 +231,7 @@ TEST_P(InterpolationLaws, KeepTheGuessWhereNothingIsAsked) {
 }
 
 TEST_P(InterpolationLaws, AddControlPointsByWholePeriods) {
-  const ControlMesh mesh = meshes(scheme_)[0].mesh;
+  const Mesh mesh = meshes(scheme_)[0].mesh;
   const int period = scheme_.period;
   const auto with = [&](int least, int most) {
     return interpolate(scheme_, mesh, {}, {.least_refinements = least, .most_refinements = most}).level.number;

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sublimit/fit/interpolate.h"
+#include "sublimit/fit/detail/interpolate.h"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
 
-#include "sublimit/core/sparse_product.h"
-#include "sublimit/limit/limit_points.h"
+#include "sublimit/core/detail/sparse_product.h"
+#include "sublimit/limit/detail/limit_points.h"
 #include "sublimit/limit/limit_map.h"
-#include "sublimit/schemes.h"
+#include "sublimit/schemes/schemes.h"
 #include "support/expect_error.h"
 #include "support/meshes.h"
 #include "support/tolerance.h"
@@ -21,14 +21,14 @@ constexpr double on_target = 1e-12, along_target = 1e-10;
 /// Of values that texts print with four.
 constexpr double four_digits = 5e-5;
 
-std::vector<VertexTarget> at_vertices(const ControlMesh& mesh) {
+std::vector<VertexTarget> at_vertices(const Mesh& mesh) {
   std::vector<VertexTarget> targets;
   for (Index v = 0; v < mesh.num_vertices(); ++v) targets.push_back({.vertex = v, .position = mesh.positions.row(v)});
   return targets;
 }
 
 /// The same with normals away from the middle of the mesh.
-std::vector<VertexTarget> with_normals(const ControlMesh& mesh) {
+std::vector<VertexTarget> with_normals(const Mesh& mesh) {
   std::vector<VertexTarget> targets = at_vertices(mesh);
   const Eigen::RowVector3d middle = mesh.positions.colwise().mean();
   for (VertexTarget& target : targets) target.normal = 2 * (target.position - middle.transpose());
@@ -37,7 +37,7 @@ std::vector<VertexTarget> with_normals(const ControlMesh& mesh) {
 
 /// Points and normals of the limit of what was found, by the way that knows nothing of fitting: vertices of one side.
 LimitPoints limits_of(const Scheme<double>& scheme, const Interpolation& found) {
-  LimitTypes cache(scheme);
+  LimitCache cache(scheme);
   return limit_points(limit_matrices(found.level, cache), found.level.topology(), found.points);
 }
 
@@ -58,7 +58,7 @@ void expect_through(const Scheme<double>& scheme, const Interpolation& found, co
 /// 2)^2/36.
 TEST(Interpolation, TorusGridIsSquareAndItsLeastSingularValueIsOneNinth) {
   const auto scheme = *find_scheme<double>("catmull-clark");
-  const ControlMesh mesh = jittered(torus(12, 8));
+  const Mesh mesh = jittered(torus(12, 8));
   const auto targets = at_vertices(mesh);
   const Interpolation found = interpolate(scheme, mesh, targets);
   expect_through(scheme, found, targets, diagonal(mesh.positions));
@@ -70,7 +70,7 @@ TEST(Interpolation, TorusGridIsSquareAndItsLeastSingularValueIsOneNinth) {
 
 TEST(Interpolation, SubdividedCubeIsSquare) {
   const auto scheme = *find_scheme<double>("catmull-clark");
-  const ControlMesh mesh = quads_from_triangles(quads_from_triangles(cube()));
+  const Mesh mesh = quads_from_triangles(quads_from_triangles(cube()));
   const auto targets = at_vertices(jittered(mesh));
   const Interpolation found = interpolate(scheme, mesh, targets);
   expect_through(scheme, found, targets, diagonal(mesh.positions));
@@ -119,7 +119,7 @@ TEST(Interpolation, LoopSolidsHaveTheSmallestSingularValuesOfTheirGraphs) {
 
 TEST(Interpolation, PointsAndNormalsNeedOneRefinement) {
   const auto scheme = *find_scheme<double>("catmull-clark");
-  for (const ControlMesh& mesh : {cube(), pole(5), prism(7), quads_from_triangles(icosahedron())}) {
+  for (const Mesh& mesh : {cube(), pole(5), prism(7), quads_from_triangles(icosahedron())}) {
     const auto targets = with_normals(jittered(mesh));
     const Interpolation found = interpolate(scheme, mesh, targets);
     expect_through(scheme, found, targets, diagonal(mesh.positions));
@@ -146,7 +146,7 @@ TEST(Interpolation, TooManyRefinementsAreRefusedBeforeTheyAreMade) {
 
 TEST(Interpolation, VerticesInHolesAloneHaveNoLimit) {
   const auto scheme = *find_scheme<double>("catmull-clark");
-  ControlMesh mesh = grid(4, 4);
+  Mesh mesh = grid(4, 4);
   mesh.boundary = Boundary::none;  // faces at the border are holes
   expect_error<InvalidParameter>([&] { interpolate(scheme, mesh, {{.vertex = 0}}); }, {"vertex 0", "in holes alone"});
   EXPECT_TRUE(interpolate(scheme, mesh, {{.vertex = 12, .position = mesh.positions.row(12)}}).solved());
@@ -170,7 +170,7 @@ TEST(Interpolation, FairnessChoosesAmongThem) {
 
 TEST(Interpolation, InterpolatorySchemesMoveNoVertex) {
   const auto scheme = *find_scheme<double>("butterfly");
-  const ControlMesh mesh = icosahedron();
+  const Mesh mesh = icosahedron();
   const auto targets = with_normals(mesh);
   const Interpolation found = interpolate(scheme, mesh, targets);
   expect_through(scheme, found, targets, diagonal(mesh.positions));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sublimit/fit/plane_polygon.h"
+#include "sublimit/fit/detail/plane_polygon.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Points and normals by polygons: what the construction says is checked by limits that know nothing of it.
-#include "sublimit/fit/point_normal_polygons.h"
+#include "sublimit/fit/detail/point_normal_polygons.h"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,8 @@
 #include <random>
 
 #include "sublimit/limit/limit_map.h"
-#include "sublimit/limit/limit_types.h"
-#include "sublimit/schemes.h"
+#include "sublimit/limit/detail/limit_cache.h"
+#include "sublimit/schemes/schemes.h"
 #include "support/expect_error.h"
 #include "support/irregular_meshes.h"
 #include "support/places.h"
@@ -36,7 +36,7 @@ Vector3d random_vector(std::mt19937& random) {
 }
 
 /// Every vertex moved, with a normal up to a right angle away from the mesh's own.
-std::vector<VertexTarget> random_targets(const ControlMesh& mesh, unsigned seed, double amount = 0.1) {
+std::vector<VertexTarget> random_targets(const Mesh& mesh, unsigned seed, double amount = 0.1) {
   std::mt19937 random(seed);
   std::vector<Vector3d> own(mesh.num_vertices(), Vector3d::Zero());
   size_t first = 0;
@@ -57,19 +57,19 @@ std::vector<VertexTarget> random_targets(const ControlMesh& mesh, unsigned seed,
 }
 
 /// The middle of a face, or of its border edge.
-Sample place_of(const LimitMap& surface, Face face) {
+Place place_of(const LimitMap& surface, Face face) {
   const Topology& t = surface.level().topology();
   for (Index i = 0; i < t.size(face); ++i)
     if (!exists(t.twin(t.corner(face, i)))) return on_edge(t, surface.addresses(), t.corner(face, i), 0.5);
   const Index first = surface.addresses().first(face);
-  return t.size(face) == 4 ? Sample{first, 0.5, 0.5} : Sample{first, 1, 1};
+  return t.size(face) == 4 ? Place{first, 0.5, 0.5} : Place{first, 1, 1};
 }
 
 double angle(const Vector3d& a, const Vector3d& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
 
 /// The points as the control mesh of their own that they are.
-ControlMesh control_mesh(const Topology& t, const Points& points) {
-  ControlMesh mesh;
+Mesh control_mesh(const Topology& t, const Points& points) {
+  Mesh mesh;
   mesh.positions = points;
   for (Index f = 0; f < t.num_faces(); ++f) {
     mesh.face_sizes.push_back(t.size(Face{f}));
@@ -83,7 +83,7 @@ struct Deviation {
   double position = 0, normal = 0;
 };
 Deviation deviation(const LimitMap& surface, const PointNormalMesh& fit, const std::vector<VertexTarget>& targets) {
-  std::vector<Sample> places;
+  std::vector<Place> places;
   for (const Index face : fit.faces) places.push_back(place_of(surface, Face{face}));
   const LimitSamples limit = surface.evaluate(fit.points, places, 1);
   Deviation most;
@@ -108,10 +108,10 @@ class PointNormalPolygons : public ::testing::TestWithParam<std::string> {
  protected:
   const Scheme<double> scheme_ = *find_scheme(GetParam());
   LimitMap surface(const Level& level) const { return {scheme_, level, types_}; }
-  LimitMap surface(const ControlMesh& mesh) const { return {scheme_, mesh, {}, types_}; }
+  LimitMap surface(const Mesh& mesh) const { return {scheme_, mesh, {}, types_}; }
 
  private:
-  const std::shared_ptr<LimitTypes> types_ = std::make_shared<LimitTypes>(scheme_);
+  const std::shared_ptr<LimitCache> types_ = std::make_shared<LimitCache>(scheme_);
 };
 INSTANTIATE_TEST_SUITE_P(All, PointNormalPolygons,
                          ::testing::Values("doo-sabin", "doo-sabin-averaging", "mid-edge", "mid-edge-habib-warren"),
@@ -139,7 +139,7 @@ TEST_P(PointNormalPolygons, TheLimitHasTheirPointsAndNormals) {
 }
 
 TEST_P(PointNormalPolygons, StayInTheirPlanesLevelByLevel) {
-  const ControlMesh mesh = jittered(merged(flipped(triangle_torus(6, 5), 60), 25), 0.02);
+  const Mesh mesh = jittered(merged(flipped(triangle_torus(6, 5), 60), 25), 0.02);
   const std::vector<VertexTarget> targets = random_targets(mesh, 2);
   const PointNormalMesh fit = point_normal_mesh(scheme_, mesh, targets);
   Level level = fit.level;
@@ -168,8 +168,7 @@ TEST_P(PointNormalPolygons, StayInTheirPlanesLevelByLevel) {
 
 TEST_P(PointNormalPolygons, BordersHaveTheirPointsInTheMiddleOfTheirEdge) {
   const bool has_plane = scheme_.name.starts_with("doo-sabin");  // mid-edge has none at borders of many faces
-  for (const ControlMesh& mesh :
-       {grid(3, 2), open_fan(1), open_fan(5, 4, 2), fan(5, 3, 2), polygon_ring({3, 5, 4, 7, 6})}) {
+  for (const Mesh& mesh : {grid(3, 2), open_fan(1), open_fan(5, 4, 2), fan(5, 3, 2), polygon_ring({3, 5, 4, 7, 6})}) {
     std::vector<VertexTarget> targets = random_targets(mesh, 3);
     const Topology t(view(mesh));
     Index border = -1;
@@ -195,7 +194,7 @@ TEST_P(PointNormalPolygons, BordersHaveTheirPointsInTheMiddleOfTheirEdge) {
 }
 
 TEST_P(PointNormalPolygons, OfARegularPlaneGridAreItsOwnChild) {
-  ControlMesh mesh = grid(4, 4);
+  Mesh mesh = grid(4, 4);
   for (Index v = 0; v < 25; ++v) mesh.positions.row(v) << v % 5, v / 5, 0;
   std::vector<VertexTarget> targets;
   for (Index j = 1; j < 4; ++j)
@@ -212,7 +211,7 @@ TEST_P(PointNormalPolygons, OfARegularPlaneGridAreItsOwnChild) {
 }
 
 TEST_P(PointNormalPolygons, LeaveAMeshWhoseLimitHasThemAlready) {
-  const ControlMesh mesh = jittered(prism(6));
+  const Mesh mesh = jittered(prism(6));
   const PointNormalMesh none = point_normal_mesh(scheme_, mesh, {});
   EXPECT_EQ(none.points, refinement_matrix(refine(scheme_, mesh, scheme_.period)) * mesh.positions);
   std::vector<VertexTarget> targets;  // points of its limit, without normals
@@ -221,14 +220,14 @@ TEST_P(PointNormalPolygons, LeaveAMeshWhoseLimitHasThemAlready) {
   EXPECT_GT((moved.points - none.points).norm(), 0.1);
   const LimitMap limit = surface(none.level);
   for (size_t i = 0; i < targets.size(); ++i) {
-    const std::vector<Sample> place{place_of(limit, Face{moved.faces[i]})};
+    const std::vector<Place> place{place_of(limit, Face{moved.faces[i]})};
     targets[i].position = limit.evaluate(none.points, place, 0).position.row(0);
   }
   EXPECT_LE((point_normal_mesh(scheme_, mesh, targets).points - none.points).cwiseAbs().maxCoeff(), rounding(64, 2));
 }
 
 TEST_P(PointNormalPolygons, AreAsLargeAsTheDataAreApart) {
-  const ControlMesh mesh = torus(6, 5);
+  const Mesh mesh = torus(6, 5);
   std::vector<VertexTarget> targets = random_targets(mesh, 6, 0);
   for (VertexTarget& target : targets) target.position *= 10;
   const PointNormalMesh fit = point_normal_mesh(scheme_, mesh, targets);
@@ -241,12 +240,12 @@ TEST_P(PointNormalPolygons, AreAsLargeAsTheDataAreApart) {
 }
 
 TEST_P(PointNormalPolygons, MoveWithTheirData) {
-  const ControlMesh mesh = jittered(prism(5));
+  const Mesh mesh = jittered(prism(5));
   const std::vector<VertexTarget> targets = random_targets(mesh, 4);
   const Eigen::Matrix3d R = Eigen::AngleAxisd(1.1, Vector3d(1, 2, 3).normalized()).toRotationMatrix();
   const Vector3d shift(3, -1, 2);
   const double scale = 2.5;
-  ControlMesh turned = mesh;
+  Mesh turned = mesh;
   turned.positions = ((scale * mesh.positions * R.transpose()).rowwise() + shift.transpose()).eval();
   std::vector<VertexTarget> turned_targets(targets.rbegin(), targets.rend());  // in another order
   for (VertexTarget& target : turned_targets) {
@@ -260,7 +259,7 @@ TEST_P(PointNormalPolygons, MoveWithTheirData) {
 }
 
 TEST_P(PointNormalPolygons, PassThroughVerticesWhereSheetsMeet) {
-  const ControlMesh mesh = glued(cube(), prism(5), {7}, {0});
+  const Mesh mesh = glued(cube(), prism(5), {7}, {0});
   const std::vector<VertexTarget> targets = random_targets(mesh, 5);
   const PointNormalMesh fit = point_normal_mesh(scheme_, mesh, targets);
   EXPECT_LE(fit.position_residual.maxCoeff(), fitted_position * diagonal(fit.points));
@@ -271,7 +270,7 @@ TEST_P(PointNormalPolygons, PassThroughVerticesWhereSheetsMeet) {
 }
 
 TEST_P(PointNormalPolygons, ReportNormalsAgainstTheWinding) {
-  const ControlMesh mesh = cube();
+  const Mesh mesh = cube();
   std::vector<VertexTarget> targets;
   for (Index v = 0; v < 8; ++v) {
     const Vector3d p = mesh.positions.row(v);
@@ -298,7 +297,7 @@ TEST(PointNormalPolygonsInput, IsRefusedNamingTheVertex) {
   expect_error<InvalidParameter>(with({{3, p, n, TargetCurvature{1, 1, Vector3d::UnitX()}}}),
                                  {"vertex 3", "curvatures"});
   for (const double size : {0.0, 1.0, nan}) expect_error<InvalidParameter>(with({{3, p, n}}, size), {"size"});
-  ControlMesh isolated = cube();
+  Mesh isolated = cube();
   isolated.positions.conservativeResize(9, 3);
   isolated.positions.row(8).setZero();
   expect_error<InvalidParameter>([&] { point_normal_mesh(scheme, isolated, {{8, p, n}}); }, {"vertex 8", "isolated"});

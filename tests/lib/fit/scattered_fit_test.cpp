@@ -36,16 +36,16 @@ class RoundTrip : public ::testing::TestWithParam<TestedScheme> {};
 TEST_P(RoundTrip, GivesTheControlPointsBack) {
   const Scheme<double> scheme = GetParam().scheme();
   // Odd tori: on even ones alternating control points of mid-edge have the limit zero.
-  std::vector<ControlMesh> meshes{takes_triangles(scheme) ? triangle_torus(5, 5) : torus(5, 5)};
+  std::vector<Mesh> meshes{takes_triangles(scheme) ? triangle_torus(5, 5) : torus(5, 5)};
   // Types of pieces take their time where these are no polynomials, or rotate.
   const bool is_quick = has_polynomials(scheme) && scheme.period == 1;
   if (is_quick || full_sweep()) meshes.push_back(hard_meshes(scheme, 1)[1]);
-  for (const ControlMesh& mesh : meshes) {
+  for (const Mesh& mesh : meshes) {
     const Index n = mesh.num_vertices();
     const LimitMap surface(scheme, mesh);
     PlaceTargets targets;
     targets.places = random_places(surface.addresses(), 4 * n, 5);
-    std::erase_if(targets.places, [&](const Sample& s) { return surface.stencil(s).status == LimitStatus::hole; });
+    std::erase_if(targets.places, [&](const Place& s) { return surface.stencil(s).status == LimitStatus::hole; });
     const Points x = jittered(mesh, 0.3).positions;
     targets.values = place_rows(surface, targets.places) * x;
     const ScatteredFit fit = fit_places(surface, targets, Points::Zero(n, 3), {.conditioning = true});
@@ -71,7 +71,7 @@ struct Case {
 };
 
 Case some_case(int count, Index channels) {
-  const ControlMesh mesh = hard_polygons(6, {.open = true});
+  const Mesh mesh = hard_polygons(6, {.open = true});
   Case c{LimitMap(*find_scheme<double>("catmull-clark"), mesh), {}, {}, {}};
   c.targets.places = random_places(c.surface.addresses(), count, 3);
   c.targets.values = random_points(count, channels, 4);
@@ -153,7 +153,7 @@ TEST(ScatteredFit, StaysNearTheGuessWhereTargetsAreFew) {
 
 TEST(ScatteredFit, SaysWhatIsWrongAndWhere) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  ControlMesh mesh = torus(5, 4);
+  Mesh mesh = torus(5, 4);
   mesh.holes = {3};
   const LimitMap surface(*find_scheme<double>("catmull-clark"), mesh);
   PlaceTargets good{.places = {{0, 0.5, 0.5}, {1, 0, 1}}, .values = Points::Zero(2, 3)};
@@ -166,7 +166,7 @@ TEST(ScatteredFit, SaysWhatIsWrongAndWhere) {
   };
   using T = PlaceTargets;
   using O = ScatteredFitOptions;
-  fails([](T& t, Points&, O&) { t.places[1].face = 20; }, {"target 1", "face 20", "20 squares"});
+  fails([](T& t, Points&, O&) { t.places[1].face = 20; }, {"target 1", "face 20", "faces are 0 to 19"});
   fails([](T& t, Points&, O&) { t.places[1].face = -1; }, {"target 1", "face -1"});
   fails([](T& t, Points&, O&) { t.places[0].u = 1.5; }, {"target 0", "1.5", "outside", "square 0 <= u, v <= 1"});
   fails([&](T& t, Points&, O&) { t.places[0].v = nan; }, {"target 0", "finite"});
@@ -187,7 +187,7 @@ TEST(ScatteredFit, SaysWhatIsWrongAndWhere) {
       [&] {
         place_rows(triangles, {{2, 0.7, 0.4}});
       },
-      {"target 0", "face 2", "triangle u, v >= 0, u + v <= 1"});
+      {"target 0", "(0.7, 0.4)", "triangle u >= 0, v >= 0, u + v <= 1"});
 }
 
 }  // namespace

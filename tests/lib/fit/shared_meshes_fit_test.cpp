@@ -4,11 +4,11 @@
 
 #include <Eigen/Geometry>
 
-#include "sublimit/fit/interpolate.h"
+#include "sublimit/fit/detail/interpolate.h"
 #include "sublimit/io/read_mesh.h"
-#include "sublimit/limit/limit_points.h"
+#include "sublimit/limit/detail/limit_points.h"
 #include "sublimit/neighborhood/vertex_sides.h"
-#include "sublimit/schemes.h"
+#include "sublimit/schemes/schemes.h"
 #include "support/shared_meshes.h"
 #include "support/tolerance.h"
 
@@ -18,7 +18,7 @@ namespace {
 constexpr double on_target = 1e-12, along_target = 1e-10;  // of the box, radians
 
 /// Normals by the areas of the faces, where a vertex has one side.
-std::vector<VertexTarget> vertices_of(const ControlMesh& mesh, const Level& level, bool normals) {
+std::vector<VertexTarget> vertices_of(const Mesh& mesh, const Level& level, bool normals) {
   Points N = Points::Zero(mesh.num_vertices(), 3);
   Index first = 0;
   for (const Index size : mesh.face_sizes) {
@@ -49,7 +49,7 @@ TEST(SharedMeshInterpolation, PassesThroughPointsAndNormals) {
     GTEST_SKIP() << "NO SHARED MESHES at " << SUBLIMIT_SHARED_MESHES << ": no surface is laid through their vertices";
   int tried = 0;
   for (const SharedMesh& shared : meshes) {
-    const ControlMesh mesh = read_mesh(shared.path);
+    const Mesh mesh = read_mesh(shared.path);
     if (shared.scheme == "bilinear" || (mesh.num_vertices() > 500 && !full_sweep())) continue;
     SCOPED_TRACE(shared.name);
     ++tried;
@@ -59,7 +59,7 @@ TEST(SharedMeshInterpolation, PassesThroughPointsAndNormals) {
       const Interpolation found = interpolate(scheme, mesh, targets, {.conditioning = false});
       EXPECT_TRUE(found.solved()) << why_unsolved(found.attempts.back());
       // By the way that knows nothing of fitting.
-      LimitTypes cache(scheme);
+      LimitCache cache(scheme);
       const LimitMatrices L = limit_matrices(found.level, cache);
       const LimitPoints limits = limit_points(L, found.level.topology(), found.points);
       std::vector<Index> side(found.level.topology().num_vertices(), -1);

@@ -5,10 +5,10 @@
 #include <Eigen/Geometry>
 
 #include "sublimit/base/error.h"
-#include "sublimit/fit/point_normal_polygons.h"
+#include "sublimit/fit/detail/point_normal_polygons.h"
 #include "sublimit/io/read_mesh.h"
-#include "sublimit/scheme/prepare.h"
-#include "sublimit/schemes.h"
+#include "sublimit/scheme/detail/prepare.h"
+#include "sublimit/schemes/schemes.h"
 #include "support/shared_meshes.h"
 #include "support/tolerance.h"
 
@@ -18,7 +18,7 @@ namespace {
 constexpr double on_target = 1e-13, along_target = 1e-12;  // of the box, radians
 
 /// Vertices with normals by the areas of their faces; nothing where faces cancel, and on borders as the scheme has it.
-std::vector<VertexTarget> vertices_of(const ControlMesh& mesh, bool border_normals) {
+std::vector<VertexTarget> vertices_of(const Mesh& mesh, bool border_normals) {
   const Topology t(view(mesh));
   Points N = Points::Zero(mesh.num_vertices(), 3);
   for (Index h = 0; h < t.num_half_edges(); ++h) {
@@ -45,7 +45,7 @@ TEST(SharedMeshPolygons, PassThroughPointsAndNormals) {
     const Scheme<double> scheme = *find_scheme<double>(name);
     int met = 0, refused = 0;
     for (const SharedMesh& shared : meshes) {
-      const ControlMesh mesh = without_creases(read_mesh(shared.path));
+      const Mesh mesh = without_creases(read_mesh(shared.path));
       if (mesh.num_vertices() > 40 && !full_sweep()) continue;
       SCOPED_TRACE(scheme.name + " on " + shared.name);
       const auto targets = vertices_of(mesh, scheme.name.starts_with("doo-sabin"));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sublimit/fit/sparse_factors.h"
+#include "sublimit/fit/detail/sparse_factors.h"
 
 #include <gtest/gtest.h>
 

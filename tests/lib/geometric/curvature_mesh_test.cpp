@@ -18,7 +18,7 @@ namespace {
 using Eigen::Vector3d;
 
 /// Exact data of the unit sphere.
-std::vector<VertexTarget> sphere_targets(const ControlMesh& mesh) {
+std::vector<VertexTarget> sphere_targets(const Mesh& mesh) {
   std::vector<VertexTarget> targets;
   for (Index v = 0; v < mesh.num_vertices(); ++v) {
     const Vector3d normal = Vector3d(mesh.positions.row(v)).normalized();
@@ -29,7 +29,7 @@ std::vector<VertexTarget> sphere_targets(const ControlMesh& mesh) {
 
 template <class Expected, class Change>
 void expect_refused(const Change& change, std::initializer_list<std::string_view> parts) {
-  const ControlMesh mesh = octahedron();
+  const Mesh mesh = octahedron();
   std::vector<VertexTarget> targets = sphere_targets(mesh);
   change(targets);
   expect_error<Expected>([&] { curvature_mesh(mesh, targets); }, parts);
@@ -56,7 +56,7 @@ TEST(CurvatureMesh, RefusesBadTargetsAndSaysWhere) {
 }
 
 TEST(CurvatureMesh, MakesLengthsAndAnglesExact) {
-  const ControlMesh mesh = octahedron();
+  const Mesh mesh = octahedron();
   std::vector<VertexTarget> targets = sphere_targets(mesh);
   targets[0].normal = *targets[0].normal * 1e-200;
   targets[1].curvature->direction1 += 1e-7 * *targets[1].normal;
@@ -75,10 +75,10 @@ TEST(CurvatureMesh, MakesLengthsAndAnglesExact) {
 }
 
 TEST(CurvatureMesh, CutsQuadsAlongTheirShorterDiagonal) {
-  ControlMesh mesh = cube();
+  Mesh mesh = cube();
   std::vector<VertexTarget> targets = sphere_targets(mesh);
   EXPECT_EQ(curvature_mesh(mesh, targets).num_faces(), 12);
-  const ControlMesh quad = make_mesh({{0, 0, 0}, {1, 0, 0}, {3, 3, 0}, {0, 1, 0}}, {{0, 1, 2, 3}});
+  const Mesh quad = make_mesh({{0, 0, 0}, {1, 0, 0}, {3, 3, 0}, {0, 1, 0}}, {{0, 1, 2, 3}});
   targets.resize(4);
   for (Index v = 0; v < 4; ++v)
     targets[v] = {v, quad.positions.row(v).transpose(), Vector3d::UnitZ(), TargetCurvature{0, 0, Vector3d::UnitX()}};
@@ -91,7 +91,7 @@ TEST(CurvatureMesh, RefusesWhatIsNoTriangulatedSurface) {
   const auto with = [](const std::vector<std::vector<Index>>& faces, Index n = 5) {
     std::vector<Vector3d> positions;
     for (Index i = 0; i < n; ++i) positions.emplace_back(i, i * i, 1);
-    const ControlMesh mesh = make_mesh(positions, faces);
+    const Mesh mesh = make_mesh(positions, faces);
     return [mesh] { curvature_mesh(mesh, sphere_targets(mesh)); };
   };
   expect_error<UnsupportedTopology>(with({{0, 1, 2}, {0, 1, 3}, {1, 0, 4}}), {"0,1", "manifold"});

@@ -30,7 +30,7 @@ const ImplicitSurface saddle{[](const Vector3d& x) {
   return jet;
 }};
 CurvatureMesh saddle_data(Index n) {
-  ControlMesh mesh = triangle_grid(n, n);
+  Mesh mesh = triangle_grid(n, n);
   for (Index v = 0; v < mesh.num_vertices(); ++v) {
     const double x = 2.0 * (v % (n + 1)) / n - 1, y = 2.0 * (v / (n + 1)) / n - 1;
     mesh.positions.row(v) << x, y, x * y;
@@ -53,7 +53,7 @@ TEST(Deviation, NearestPointsOfAnEllipsoid) {
 }
 
 TEST(Deviation, IsZeroWhereTheSchemeIsExact) {
-  ControlMesh mesh = icosahedron();
+  Mesh mesh = icosahedron();
   const ImplicitSurface sphere = ellipsoid({1, 1, 1});
   for (const Deviation& row : deviations(torus_pieces({}), curvature_mesh(mesh, targets_on(sphere, mesh)), 5, sphere)) {
     // Rounding does not grow from level to level.

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "sublimit/geometric/jet.h"
+#include "sublimit/geometric/parameter_jet.h"
 #include "support/normal_triangles.h"
 #include "support/tolerance.h"
 

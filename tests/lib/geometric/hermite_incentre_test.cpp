@@ -7,7 +7,7 @@
 #include <numbers>
 #include <random>
 
-#include "sublimit/core/dense_decompositions.h"
+#include "sublimit/core/detail/dense_decompositions.h"
 #include "support/expect_error.h"
 #include "support/tolerance.h"
 
@@ -25,8 +25,8 @@ constexpr double curve_tolerance = 1e-14;
 constexpr double moved_points = 1e-12, moved_tangents = 10 * moved_points;
 /// Of lengths that were divided by themselves.
 const double unit_length = rounding(1);
-/// Of angles of legs 2^-15 long, whose direction is a difference of points.
-constexpr double short_leg_angle = 0x1p15 * 2 * eps;
+/// Of angles of segments 2^-15 long, whose direction is a difference of points.
+constexpr double short_segment_angle = 0x1p15 * 2 * eps;
 /// Of differences over h: half the curvature times h, at most 6 of them.
 constexpr double difference_step = 1e-4, difference_error = difference_step / 100;
 
@@ -42,8 +42,8 @@ ControlPolygon plane_curve(const std::vector<std::array<double, 3>>& rows, bool 
   return polygon;
 }
 
-/// One leg of length 1 whose tangents have these signed angles with it.
-ControlPolygon leg(double sigma, double tau) { return plane_curve({{0, 0, sigma}, {1, 0, tau}}); }
+/// One segment of length 1 whose tangents have these signed angles with it.
+ControlPolygon segment(double sigma, double tau) { return plane_curve({{0, 0, sigma}, {1, 0, tau}}); }
 
 /// Seeded curves of every kind: gentle and wild, plane and space, far from the origin.
 std::vector<ControlPolygon> random_curves() {
@@ -71,7 +71,7 @@ ControlPolygon convex_curve(int size, unsigned seed) {
     const double p = 2 * pi * (i + 0.4 * share(random)) / size;
     rows.push_back({3 * std::cos(p), std::sin(p), 0});
   }
-  for (int i = 0; i < size; ++i) {  // a tangent between the legs before and after
+  for (int i = 0; i < size; ++i) {  // a tangent between the segments before and after
     const auto angle = [&](int a, int b) {
       return std::atan2(rows[b % size][1] - rows[a % size][1], rows[b % size][0] - rows[a % size][0]);
     };
@@ -94,7 +94,7 @@ TEST(HermiteIncentre, NewPointIsTheIncentre) {
   const double alpha = 2 * pi / 9, beta = pi / 3, b = std::sin(beta) / std::sin(alpha + beta),
                a = std::sin(alpha) / std::sin(alpha + beta);
   const Vector3d C = b * direction(alpha), N = (a * Vector3d::Zero() + b * Vector3d::UnitX() + C) / (a + b + 1);
-  const ControlPolygon child = scheme.refine(leg(alpha, -beta));
+  const ControlPolygon child = scheme.refine(segment(alpha, -beta));
   EXPECT_LE((child.points.row(1) - N.head<2>().transpose()).norm(), rounding(4));
   EXPECT_EQ(child.tangents.row(1), Eigen::RowVector2d(1, 0));
 }
@@ -112,7 +112,8 @@ TEST(HermiteIncentre, LimitIsThoseArcsToTheLastDigits) {
 }
 
 TEST(HermiteIncentre, CirclesStay) {
-  for (const double turn : {1e-7, 0.1, 1.0, pi, 5.0, 6.0})  // one leg: less than half, half, more than half a circle
+  for (const double turn :
+       {1e-7, 0.1, 1.0, pi, 5.0, 6.0})  // one segment: less than half, half, more than half a circle
     for (const double x0 : {0.0, 100.0}) {
       SCOPED_TRACE(turn);
       const auto at = [&](double p) { return std::array{x0 + std::sin(p), -std::cos(p), p}; };
@@ -145,14 +146,14 @@ TEST(HermiteIncentre, AnglesHalveOnConvexCurves) {
   ControlPolygon curve = start;
   for (int k = 1; k <= 10; ++k) {
     curve = scheme.refine(curve);
-    EXPECT_NEAR(largest_angle(curve), std::ldexp(first, -k), short_leg_angle);
+    EXPECT_NEAR(largest_angle(curve), std::ldexp(first, -k), short_segment_angle);
   }
 }
 
 TEST(HermiteIncentre, LimitIsGeometricallySmooth) {
   for (const ControlPolygon& polygon : random_curves())
-    for (const std::vector<LegLimit>& legs : incentre_limit(polygon))
-      for (const LegLimit& limit : legs)
+    for (const std::vector<SegmentLimit>& segments : incentre_limit(polygon))
+      for (const SegmentLimit& limit : segments)
         for (size_t i = 0; i < limit.arcs.size(); ++i) {
           const CircularArc& arc = limit.arcs[i];
           if (i > 0) {
@@ -179,39 +180,40 @@ TEST(HermiteIncentre, CurvatureIsThatOfTheCircle) {
   // Counter-clockwise quarter of radius 2, then clockwise; two arcs through the incentre otherwise.
   EXPECT_NEAR(incentre_limit(plane_curve({{2, 0, pi / 2}, {0, 2, pi}}))[0][0].curvature(0.3), 0.5, rounding(4));
   EXPECT_NEAR(incentre_limit(plane_curve({{0, 2, 0}, {2, 0, -pi / 2}}))[0][0].curvature(0.3), -0.5, rounding(4));
-  const LegLimit limit = incentre_limit(leg(0.4, -0.9))[0][0];
+  const SegmentLimit limit = incentre_limit(segment(0.4, -0.9))[0][0];
   ASSERT_EQ(limit.arcs.size(), 2u);
-  EXPECT_EQ(limit.kind, LegKind::convex);
+  EXPECT_EQ(limit.kind, SegmentKind::convex);
   EXPECT_EQ(limit.curvature(0.1), limit.curvature(0.4));
   EXPECT_EQ(limit.curvature(0.6), limit.curvature(1));
   EXPECT_NE(limit.curvature(0.1), limit.curvature(0.6));
-  EXPECT_TRUE(incentre_limit(leg(0, 0))[0][0].arcs[0].straight());
-  EXPECT_EQ(incentre_limit(leg(0, 0))[0][0].at(0.25).position, Vector3d(0.25, 0, 0));
+  EXPECT_TRUE(incentre_limit(segment(0, 0))[0][0].arcs[0].straight());
+  EXPECT_EQ(incentre_limit(segment(0, 0))[0][0].at(0.25).position, Vector3d(0.25, 0, 0));
 }
 
 TEST(HermiteIncentre, FallbackIsTheBiarcOfEqualChords) {
   struct Case {
     double sigma, tau;
-    LegKind kind;
+    SegmentKind kind;
   };
   for (const auto& [sigma, tau, kind] :
-       {Case{0.7, 0.3, LegKind::inflection}, Case{0.5, 0.5, LegKind::inflection}, Case{-2.5, -3, LegKind::inflection},
-        Case{0.8, 0, LegKind::inflection}, Case{0, -0.8, LegKind::inflection}, Case{0.6, -1e-9, LegKind::inflection}}) {
+       {Case{0.7, 0.3, SegmentKind::inflection}, Case{0.5, 0.5, SegmentKind::inflection},
+        Case{-2.5, -3, SegmentKind::inflection}, Case{0.8, 0, SegmentKind::inflection},
+        Case{0, -0.8, SegmentKind::inflection}, Case{0.6, -1e-9, SegmentKind::inflection}}) {
     SCOPED_TRACE(std::to_string(sigma) + " " + std::to_string(tau));
-    const LegStep step = incentre_step({{0, 0, 0}, direction(sigma)}, {{1, 0, 0}, direction(tau)}, 1);
+    const SegmentStep step = incentre_step({{0, 0, 0}, direction(sigma)}, {{1, 0, 0}, direction(tau)}, 1);
     EXPECT_EQ(step.kind, kind);
     const Vector3d expected(0.5, std::tan((sigma - tau) / 4) / 2, 0);
     EXPECT_LE((step.point.position - expected).norm(), rounding(4));
     EXPECT_LE((step.point.tangent - direction(-(sigma + tau) / 2)).norm(), rounding(4));
   }
-  EXPECT_EQ(incentre_limit(leg(pi, -pi))[0][0].kind, LegKind::back);
-  EXPECT_EQ(incentre_limit(leg(pi, -pi))[0][0].arcs.size(), 4u);
-  EXPECT_EQ(incentre_limit(leg(pi, 0))[0][0].arcs.size(), 2u);
-  const LegStep twisted =
+  EXPECT_EQ(incentre_limit(segment(pi, -pi))[0][0].kind, SegmentKind::back);
+  EXPECT_EQ(incentre_limit(segment(pi, -pi))[0][0].arcs.size(), 4u);
+  EXPECT_EQ(incentre_limit(segment(pi, 0))[0][0].arcs.size(), 2u);
+  const SegmentStep twisted =
       incentre_step({{0, 0, 0}, Vector3d(1, 1, 0).normalized()}, {{1, 0, 0}, Vector3d(1, 0, 1).normalized()}, 1);
-  EXPECT_EQ(twisted.kind, LegKind::twisted);
-  EXPECT_EQ(scheme.notes(leg(0.4, -0.9)).size(), 0u);
-  EXPECT_NE(scheme.notes(leg(0.4, 0.9)).at(0).find("1 of 1 legs"), std::string::npos);
+  EXPECT_EQ(twisted.kind, SegmentKind::twisted);
+  EXPECT_EQ(scheme.notes(segment(0.4, -0.9)).size(), 0u);
+  EXPECT_NE(scheme.notes(segment(0.4, 0.9)).at(0).find("1 of 1 segments"), std::string::npos);
 }
 
 TEST(HermiteIncentre, SimilaritiesAndReversalCommute) {
@@ -240,7 +242,7 @@ TEST(HermiteIncentre, SimilaritiesAndReversalCommute) {
     ControlPolygon limit = scheme.limit(back, 4);
     limit.tangents = -limit.tangents;
     const ControlPolygon forward = scheme.limit(polygon, 4);
-    // Closed curves begin at the other end: their last leg comes last both ways, from the first point backwards.
+    // Closed curves begin at the other end: their last segment comes last both ways, from the first point backwards.
     const Index n = forward.num_points(), last = polygon.curves[0].closed ? n - 16 : n - 1;
     for (Index i = 0; i < n; ++i) {
       const Index j = ((last - i) % n + n) % n;
@@ -312,9 +314,9 @@ TEST(HermiteIncentre, RefusesWhatItCannotTake) {
   polygon.tangents.resize(0, 0);
   refused(polygon, {"without tangents", "x,y,tx,ty"});
   expect_error<UnsupportedTopology>([] { refine(scheme, plane_curve({{0, 0, 0}}), 1); }, {"1 point", "at least 2"});
-  expect_error<InvalidParameter>([] { refine(scheme, leg(1, -1), -1); }, {"-1"});
+  expect_error<InvalidParameter>([] { refine(scheme, segment(1, -1), -1); }, {"-1"});
   // Almost units are made units.
-  polygon = leg(1, -1);
+  polygon = segment(1, -1);
   polygon.tangents *= 1 + 1e-7;
   EXPECT_NEAR(scheme.checked(polygon).tangents.row(0).norm(), 1, unit_length);
 }

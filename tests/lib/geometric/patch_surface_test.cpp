@@ -23,7 +23,7 @@ using Eigen::Vector3d;
 constexpr double patch_tolerance = 1e-13;
 
 /// A mesh around the origin, with normals away from it.
-NormalMesh around_origin(const ControlMesh& mesh) {
+NormalMesh around_origin(const Mesh& mesh) {
   Points normals = mesh.positions;
   normals.rowwise().normalize();
   return normal_mesh(mesh, normals);
@@ -34,7 +34,7 @@ const std::vector<GeometricNormalScheme>& schemes() {
   return all;
 }
 
-LimitSamples evaluated(const GeometricNormalScheme& scheme, const NormalMesh& mesh, const std::vector<Sample>& places,
+LimitSamples evaluated(const GeometricNormalScheme& scheme, const NormalMesh& mesh, const std::vector<Place>& places,
                        int order) {
   LimitSamples found;
   scheme.surface(mesh)->evaluate(places, order, true, found);
@@ -49,7 +49,7 @@ TEST(PatchSurface, EveryPlaceHasAnAnswer) {
     const auto surface = scheme.surface(mesh);
     EXPECT_EQ(surface->faces().size, 20);
     EXPECT_TRUE(surface->faces().triangles);
-    const std::vector<Sample> places = grid_places(surface->faces(), 5);
+    const std::vector<Place> places = grid_places(surface->faces(), 5);
     ASSERT_EQ(places.size(), 20u * 15);
     const LimitSamples found = evaluated(scheme, mesh, places, 2);
     for (size_t i = 0; i < places.size(); ++i) {
@@ -81,9 +81,9 @@ TEST(PatchSurface, IsG1AcrossAllEdges) {
   const auto place = [&](HalfEdge h, double s) {
     const auto& a = corner[size_t(topology.corner_index(h))];
     const auto& b = corner[size_t(topology.corner_index(topology.next(h)))];
-    return Sample{index(topology.face(h)), (1 - s) * a[0] + s * b[0], (1 - s) * a[1] + s * b[1]};
+    return Place{index(topology.face(h)), (1 - s) * a[0] + s * b[0], (1 - s) * a[1] + s * b[1]};
   };
-  std::vector<Sample> places;
+  std::vector<Place> places;
   for (Index e = 0; e < topology.num_edges(); ++e)
     for (const double s : {0.0, 0.125, 0.5, 0.75}) {
       const HalfEdge h = topology.half_edge(Edge{e});
@@ -118,7 +118,7 @@ TEST(PatchSurface, LevelsAreOnIt) {
     // Level 1 in level 2, and every face where its parent has it: corner i of child c of child d.
     const NormalMesh once = scheme.limit(mesh, 1);
     EXPECT_EQ(level.positions.topRows(once.num_vertices()), once.positions);
-    std::vector<Sample> places;
+    std::vector<Place> places;
     for (Index f = 0; f < mesh.num_faces(); ++f) places.push_back({f, 0.25, 0.5});
     const LimitSamples found = evaluated(scheme, mesh, places, 1);
     for (Index f = 0; f < mesh.num_faces(); ++f) {
@@ -153,7 +153,7 @@ TEST(PatchSurface, NormalsStayOnTheirSide) {
 
 TEST(PatchSurface, TakesAnyTopology) {
   // Two triangles on the same side of an edge, a vertex without a face, a border.
-  ControlMesh mesh = make_mesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 1, 1}, {9, 9, 9}}, {{0, 1, 2}, {0, 1, 3}});
+  Mesh mesh = make_mesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 1, 1}, {9, 9, 9}}, {{0, 1, 2}, {0, 1, 3}});
   Points normals = Points::Zero(5, 3);
   normals.topRows(4) << -0.2, 0, 1, 0.3, 0, 1, 0, 0.1, 1, 0, -1, 1;
   for (const GeometricNormalScheme& scheme : schemes()) {
@@ -165,7 +165,7 @@ TEST(PatchSurface, TakesAnyTopology) {
 
 TEST(PatchSurface, EstimatesNormals) {
   // By angles: of a cube's corner the mean of three faces, however they are cut.
-  const ControlMesh box = triangulated(cube());
+  const Mesh box = triangulated(cube());
   const Points normals = estimated_normals(normal_mesh(box, {}));
   for (Index v = 0; v < 8; ++v)
     EXPECT_LE((normals.row(v) - box.positions.row(v).normalized()).norm(), rounding(8)) << v;
@@ -187,7 +187,7 @@ TEST(PatchSurface, EstimatesNormals) {
 
 TEST(PatchSurface, RefusesDataThatHaveNoSurface) {
   const double nan = std::nan(""), infinity = std::numeric_limits<double>::infinity();
-  const ControlMesh mesh = make_mesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}, {{0, 1, 2}, {2, 1, 3}});
+  const Mesh mesh = make_mesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}, {{0, 1, 2}, {2, 1, 3}});
   Points up = Points::Zero(4, 3);
   up.col(2).setOnes();
   const auto refused = [&](Index v, const Vector3d& normal, std::initializer_list<std::string_view> parts) {
@@ -219,8 +219,8 @@ TEST(PatchSurface, RefusesDataThatHaveNoSurface) {
   expect_error<InvalidMesh>([&] { checked(NormalMesh{{0, 1, 4}, mesh.positions, up}); }, {"vertex 4", "0 to 3"});
   expect_error<InvalidMesh>([&] { checked(NormalMesh{{0, 1, 2}, mesh.positions, up.topRows(3)}); }, {"3 normals"});
   expect_error<InvalidMesh>([&] { normal_mesh(mesh, up.topRows(2)); }, {"2 normals for 4 vertices"});
-  expect_error<UnsupportedTopology>([&] { normal_mesh(cube(), {}); }, {"face 0 has 4 corners", "--triangulate"});
-  ControlMesh holed = mesh;
+  expect_error<UnsupportedTopology>([&] { normal_mesh(cube(), {}); }, {"face 0 has 4 corners", "triangulate the mesh"});
+  Mesh holed = mesh;
   holed.holes = {1};
   expect_error<InvalidMesh>([&] { normal_mesh(holed, up); }, {"face 1 is a hole"});
 
@@ -242,13 +242,13 @@ TEST(PatchSurface, SeveralAreOne) {
   const auto both = placed_together({first, second});
   EXPECT_EQ(both->faces().size, 12);
   EXPECT_TRUE(both->faces().triangles);
-  std::vector<Sample> places = grid_places(both->faces(), 4), of_second;
+  std::vector<Place> places = grid_places(both->faces(), 4), of_second;
   std::reverse(places.begin(), places.end());
   for (const int order : {0, 2}) {
     LimitSamples found, alone;
     both->evaluate(places, order, true, found);
     for (size_t i = 0; i < places.size(); ++i) {
-      Sample own = places[i];
+      Place own = places[i];
       const bool is_first = own.face < 4;
       if (!is_first) own.face -= 4;
       (is_first ? first : second)->evaluate({&own, 1}, order, true, alone);

@@ -25,7 +25,7 @@ const ImplicitSurface oblate{[](const Vector3d& x) {
   return ImplicitSurface::Jet{x.dot(a.cwiseProduct(x)) - 1, 2 * a.cwiseProduct(x), 2 * a.asDiagonal().toDenseMatrix()};
 }};
 CurvatureMesh fine() {
-  ControlMesh mesh = icosahedron();
+  Mesh mesh = icosahedron();
   mesh.positions.rowwise().normalize();
   mesh.positions.col(0) *= 2;
   return refine(torus_pieces({}), curvature_mesh(mesh, targets_on(oblate, mesh)), 3);
@@ -61,7 +61,7 @@ TEST(Thinning, KeepsGivenPointsAndBorders) {
   EXPECT_EQ(thinned(given, 0).triangles, mesh.triangles);
   expect_error<InvalidParameter>([&] { thinned(mesh, -1); }, {"-1"});
 
-  ControlMesh grid = triangle_grid(3, 3);
+  Mesh grid = triangle_grid(3, 3);
   grid.positions.col(2).setZero();
   std::vector<VertexTarget> targets;
   for (Index v = 0; v < grid.num_vertices(); ++v)

@@ -63,7 +63,7 @@ TEST(TorusPiece, FootFindsThePlaceAgain) {
       for (const double v : {-0.6, 0.0, 0.5})
         for (const double w : {-0.2, 0.0, 0.1}) {
           const TorusPiece::Frame at = surface.at(u, v);
-          const TorusPiece::Place place = surface.foot(at.position + w * at.n);
+          const TorusPiece::Coordinates place = surface.foot(at.position + w * at.n);
           EXPECT_NEAR(place.u, u, arcs) << name;
           EXPECT_NEAR(place.v, v, 2 * arcs) << name;
           EXPECT_NEAR(place.w, w, arcs) << name;
@@ -77,7 +77,7 @@ TEST(TorusPiece, DoesNotJumpWhereCurvaturesVanish) {
     const TorusPiece near(at.position, at.direction1, at.normal, at.k1 + tiny, at.k2 - tiny, surface.geodesic() + tiny);
     const TorusPiece::Frame a = surface.at(0.7, -0.6), b = near.at(0.7, -0.6);
     EXPECT_LT((a.position - b.position).norm() + (a.n - b.n).norm() + (a.e1 - b.e1).norm(), 10 * tiny) << name;
-    const TorusPiece::Place p = surface.foot(a.position), q = near.foot(a.position);
+    const TorusPiece::Coordinates p = surface.foot(a.position), q = near.foot(a.position);
     EXPECT_LT(std::abs(p.u - q.u) + std::abs(p.v - q.v) + std::abs(p.w - q.w), 10 * tiny) << name;
   }
 }
@@ -98,14 +98,14 @@ TEST(TorusPiece, IsTheTorusAtAnyLatitude) {
 
 TEST(TorusPatch, LiesOnThePieceAndHasItsMiddle) {
   for (const auto& [name, surface] : all_kinds()) {
-    const TorusPiece::Place centre{0.2, -0.3, 0};
+    const TorusPiece::Coordinates centre{0.2, -0.3, 0};
     const double half_u = 0.5, half_v = 0.4;
     const RationalPatch patch = torus_patch(surface, centre, half_u, half_v);
     EXPECT_LT((patch.at(0.5, 0.5) - surface.at(0.2, -0.3).position).norm(), arcs) << name;
     EXPECT_LT((patch.at(0, 1) - surface.at(0.2 - half_u, -0.3 + half_v).position).norm(), arcs) << name;
     for (const double s : {0.0, 0.3, 0.9})
       for (const double t : {0.1, 0.5, 1.0}) {
-        const TorusPiece::Place place = surface.foot(patch.at(s, t));
+        const TorusPiece::Coordinates place = surface.foot(patch.at(s, t));
         EXPECT_NEAR(place.w, 0, arcs) << name;
         EXPECT_LE(std::abs(place.u - centre.u), half_u + arcs) << name;
         EXPECT_LE(std::abs(place.v - centre.v), half_v + arcs) << name;

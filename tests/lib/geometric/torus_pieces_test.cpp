@@ -51,7 +51,7 @@ SurfacePoint on_cylinder_near(double r, const Vector3d& x) {
 using Surface = std::function<SurfacePoint(const Vector3d&)>;
 
 /// The mesh with its vertices moved to the surface; some directions exchanged or reversed, as data have them.
-CurvatureMesh data_on(const Surface& surface, const ControlMesh& mesh) {
+CurvatureMesh data_on(const Surface& surface, const Mesh& mesh) {
   CurvatureMesh result;
   result.triangles = mesh.face_vertices;
   for (Index v = 0; v < mesh.num_vertices(); ++v) {
@@ -314,7 +314,7 @@ TEST(TorusPieces, CutAlongTheDiagonalOfEqualPerimeters) {
 TEST(TorusPieces, DoNotAmplifySecondDerivativesOnLattices) {
   for (const Vector3d& shear : {Vector3d(0, 1, 0), Vector3d(-0.5, 0.9, 0), Vector3d(-0.3, 0.5, 0)}) {
     const Index n = 2;
-    const ControlMesh lattice = triangle_grid(n, n);
+    const Mesh lattice = triangle_grid(n, n);
     CurvatureMesh data{.triangles = lattice.face_vertices, .points = {}};
     for (Index v = 0; v < lattice.num_vertices(); ++v)
       data.points.push_back({.position = (v % (n + 1)) * Vector3d::UnitX() + (v / (n + 1)) * shear});

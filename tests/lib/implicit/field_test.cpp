@@ -6,7 +6,7 @@
 #include <limits>
 #include <random>
 
-#include "sublimit/implicit/combinations.h"
+#include "sublimit/implicit/detail/combinations.h"
 #include "support/expect_error.h"
 #include "support/tolerance.h"
 

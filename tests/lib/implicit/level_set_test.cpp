@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <limits>
 
-#include "sublimit/implicit/combinations.h"
-#include "sublimit/implicit/level_set_mesh.h"
+#include "sublimit/implicit/detail/combinations.h"
+#include "sublimit/implicit/detail/level_set_mesh.h"
 #include "sublimit/implicit/polygonize/polygonize.h"
-#include "sublimit/schemes.h"
+#include "sublimit/schemes/schemes.h"
 #include "support/expect_error.h"
 #include "support/tolerance.h"
 
@@ -97,7 +97,7 @@ TEST(LevelSetMesh, PartHasCreasesAroundItsHole) {
     // Creases are closed curves, but for those that end at corners: 12 edges of the box and both rims of the hole.
     std::vector<int> ends(size_t(mesh.cage.num_vertices()), 0);
     double length = 0;
-    for (const ControlMesh::Crease& crease : mesh.cage.creases) {
+    for (const Mesh::Crease& crease : mesh.cage.creases) {
       ++ends[size_t(crease.tail)], ++ends[size_t(crease.head)];
       length += (mesh.cage.positions.row(crease.tail) - mesh.cage.positions.row(crease.head)).norm();
     }
@@ -171,7 +171,7 @@ TEST(Polygonize, HasTheRightEulerCharacteristic) {
     const auto counts = [&](const FieldPointer& field) {
       const FieldGrid grid =
           sample_field(*field, field == quartic ? box_of_tangle() : padded_extent(*field, cells), cells);
-      ControlMesh mesh = polygonize(grid);
+      Mesh mesh = polygonize(grid);
       EXPECT_EQ(split_pinches(mesh), 0);
       double volume = 0;  // positive: faces are wound counter-clockwise from outside
       for (Index f = 0; f < mesh.num_faces(); ++f)
@@ -192,7 +192,7 @@ TEST(Polygonize, HasTheRightEulerCharacteristic) {
 }
 
 TEST(ClosedMesh, SplitsPinchesAndRefusesTheRest) {
-  ControlMesh two;  // tetrahedra with a corner in common
+  Mesh two;  // tetrahedra with a corner in common
   two.positions = Points::Random(7, 3);
   two.face_vertices = {0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2, 0, 5, 4, 0, 4, 6, 4, 5, 6, 0, 6, 5};
   two.face_sizes.assign(8, 3);

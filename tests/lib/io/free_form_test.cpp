@@ -14,9 +14,9 @@
 #include <vector>
 
 #include "sublimit/base/format_number.h"
-#include "sublimit/io/free_form_counts.h"
-#include "sublimit/io/obj.h"
-#include "sublimit/io/polygon_files.h"
+#include "sublimit/io/detail/free_form_counts.h"
+#include "sublimit/io/detail/obj.h"
+#include "sublimit/io/detail/polygon_files.h"
 #include "support/expect_error.h"
 #include "support/temporary_directory.h"
 
@@ -352,7 +352,7 @@ TEST(FreeForm, MeshAndCurvesOfOneFileAreBothRead) {
                            "vn 0 0 1\ng a\nf 1 2 3\nl 1 2 3\ncstype bezier\ndeg 1 1\ncurv 0 1 1 2\nparm u 0 1\nend\n"
                            "usemtl steel\nsurf 0 1 0 1 1//1 2//1 3//1 4//1\nparm u 0 1\nparm v 0 1\nend\nf 2 3 4\n"
                            "t crease 2/1/0 1 2 3\nsurf 0 1 0 1 1 2 3 4\nparm u 0 1\nparm v 0 1\nend\n";
-  const ControlMesh mesh = parse_obj(text, "a.obj");
+  const Mesh mesh = parse_obj(text, "a.obj");
   EXPECT_EQ(mesh.num_faces(), 2);
   ASSERT_EQ(mesh.warnings.size(), 1u);
   EXPECT_EQ(

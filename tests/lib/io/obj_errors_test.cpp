@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "sublimit/base/error.h"
-#include "sublimit/io/obj.h"
+#include "sublimit/io/detail/obj.h"
 #include "support/expect_error.h"
 #include "support/temporary_directory.h"
 

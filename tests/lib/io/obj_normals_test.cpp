@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sublimit/io/obj_normals.h"
+#include "sublimit/io/detail/obj_normals.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sublimit/io/obj.h"
+#include "sublimit/io/detail/obj.h"
 
 #include <gtest/gtest.h>
 
@@ -23,7 +23,7 @@ TEST(Obj, ReadsPositionsAndFacesOfAnySize) {
   for (int i = 1; i < 300; ++i) text += "v " + format_number(i) + " 0 1\n";
   text += "f 1 2 3\nf";
   for (int i = 1; i <= 300; ++i) text += " " + format_number(i);
-  const ControlMesh mesh = parse_obj(text, "a.obj");
+  const Mesh mesh = parse_obj(text, "a.obj");
   EXPECT_EQ(mesh.num_vertices(), 300);
   EXPECT_EQ(mesh.positions.row(0), Eigen::RowVector3d(0.1, -2000, 0.5));
   EXPECT_EQ(mesh.positions(299, 0), 299);
@@ -40,13 +40,12 @@ TEST(Obj, CornersMayHaveTextureCoordinatesAndNormals) {
 }
 
 TEST(Obj, NegativeIndicesCountBackFromTheLastVertexSoFar) {
-  const ControlMesh mesh = parse_obj("v 0 0 0\nv 1 0 0\nv 1 1 0\nf -3 -2 -1\nv 0 1 0\nf -4/-1 -2 -1\n", "a.obj");
+  const Mesh mesh = parse_obj("v 0 0 0\nv 1 0 0\nv 1 1 0\nf -3 -2 -1\nv 0 1 0\nf -4/-1 -2 -1\n", "a.obj");
   EXPECT_EQ(mesh.face_vertices, (Ids{0, 1, 2, 0, 2, 3}));
 }
 
 TEST(Obj, FacesAndTagsMayComeBeforeVertices) {
-  const ControlMesh mesh =
-      parse_obj("t crease 2/1/0 2 0 3\nt hole 1/0/0 0\nf 1 2 3\nv 0 0 0\nv 1 0 0\nv 1 1 0\n", "a.obj");
+  const Mesh mesh = parse_obj("t crease 2/1/0 2 0 3\nt hole 1/0/0 0\nf 1 2 3\nv 0 0 0\nv 1 0 0\nv 1 1 0\n", "a.obj");
   EXPECT_EQ(mesh.face_vertices, (Ids{0, 1, 2}));
   ASSERT_EQ(mesh.creases.size(), 1u);
   EXPECT_EQ(mesh.creases[0].tail, 2);
@@ -54,7 +53,7 @@ TEST(Obj, FacesAndTagsMayComeBeforeVertices) {
 }
 
 TEST(Obj, LinesMayBeContinuedAndEndInAnyWay) {
-  const ControlMesh plain = parse_obj(square, "a.obj");
+  const Mesh plain = parse_obj(square, "a.obj");
   for (const std::string text : {
            "v 0 0 \\\n0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2\\\n 3 \\\n 4",
            "v 0 0 0\r\nv 1 0 0\r\nv 1 1 0\r\nv 0 1 0\r\nf 1 2 \\\r\n3 4\r\n",
@@ -62,7 +61,7 @@ TEST(Obj, LinesMayBeContinuedAndEndInAnyWay) {
            "\xEF\xBB\xBFv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4 \\",
            "# a comment \\\n\n\tv\t0 0 0# here too\nv 1 0 0 #\n  v 1 1 0\n #\nv 0 1 0 \nf 1 2 3 4#",
        }) {
-    const ControlMesh mesh = parse_obj(text, "a.obj");
+    const Mesh mesh = parse_obj(text, "a.obj");
     EXPECT_EQ(mesh.positions, plain.positions) << text;
     EXPECT_EQ(mesh.face_vertices, plain.face_vertices) << text;
     EXPECT_TRUE(mesh.warnings.empty()) << text;
@@ -70,20 +69,20 @@ TEST(Obj, LinesMayBeContinuedAndEndInAnyWay) {
 }
 
 TEST(Obj, WeightsAndColoursAreDropped) {
-  const ControlMesh mesh = parse_obj("v 1 2 3 0.5\nv 4 5 6 0.1 0.2 0.3\nv 7 8 9 1 1 1 1\nf 1 2 3\n", "a.obj");
+  const Mesh mesh = parse_obj("v 1 2 3 0.5\nv 4 5 6 0.1 0.2 0.3\nv 7 8 9 1 1 1 1\nf 1 2 3\n", "a.obj");
   EXPECT_EQ(mesh.positions.row(1), Eigen::RowVector3d(4, 5, 6));
   EXPECT_EQ(mesh.positions.row(2), Eigen::RowVector3d(7, 8, 9));
 }
 
 TEST(Obj, StatementsThatAreNoMeshAreSkippedInSilence) {
-  const ControlMesh mesh = parse_obj(
+  const Mesh mesh = parse_obj(
       "mtllib a b.mtl\no x\ng a b\ns off\nvt 0 0\nvn 0 0 1\nvp 1\nusemtl steel\nl 1 2\np 1\n" + square, "a.obj");
   EXPECT_EQ(mesh.num_faces(), 1);
   EXPECT_TRUE(mesh.warnings.empty());
 }
 
 std::vector<std::string> names_of_faces(const std::string& faces) {
-  const ControlMesh mesh = parse_obj(square + faces, "a.obj");
+  const Mesh mesh = parse_obj(square + faces, "a.obj");
   std::vector<std::string> names;
   for (const Index name : mesh.face_names.of_face)
     names.push_back(name < 0 ? std::string() : mesh.face_names.names[size_t(name)]);
@@ -103,13 +102,13 @@ TEST(Obj, GroupsNameFacesAndObjectsThoseWithoutGroup) {
 }
 
 TEST(Obj, NamesOfFacesAreThereOnce) {
-  const ControlMesh mesh = parse_obj("g a\n" + square + "o b\nf 1 2 3\ng\nf 1 2 3\ng a\nf 1 2 3\n", "a.obj");
+  const Mesh mesh = parse_obj("g a\n" + square + "o b\nf 1 2 3\ng\nf 1 2 3\ng a\nf 1 2 3\n", "a.obj");
   EXPECT_EQ(mesh.face_names.names, (std::vector<std::string>{"a", "b"}));
   EXPECT_EQ(mesh.face_names.of_face, (Ids{0, 0, 1, 0}));
 }
 
 TEST(Obj, UnknownKeywordsAreWarnedAboutOnceEach) {
-  const ControlMesh mesh = parse_obj("bzp 1 2\n" + square + "bzp 0 2\nfoo\n", "a.obj");
+  const Mesh mesh = parse_obj("bzp 1 2\n" + square + "bzp 0 2\nfoo\n", "a.obj");
   ASSERT_EQ(mesh.warnings.size(), 2u);
   EXPECT_EQ(mesh.warnings[0], "a.obj:1: unknown keyword 'bzp' ignored");
   EXPECT_EQ(mesh.warnings[1], "a.obj:8: unknown keyword 'foo' ignored");
@@ -122,19 +121,19 @@ TEST(Obj, WarningsDoNotGrowWithTheFile) {
 }
 
 TEST(Obj, ReadsEveryTag) {
-  const ControlMesh mesh = parse_obj(square +
-                                         "t crease 2/1/0 0 1 2.5\n"
-                                         "t crease 4/1/0 1 2 3 2 inf\n"
-                                         "t crease 4/2/0 0 3 1 0 0.5 12\n"
-                                         "t corner 1/1/0 3 0.1\n"
-                                         "t corner 2/2/0 0 1 10 3\n"
-                                         "t hole 1/0/0 0\n"
-                                         "t interpolateboundary 1/0/0 2\n"
-                                         "t creasemethod 0/0/1 chaikin\n"
-                                         "t smoothtriangles 0/0/1 smooth\n"
-                                         "t facevaryinginterpolateboundary 1/0/0 5\n"
-                                         "t facevaryingpropagatecorners 1/0/0 1\n",
-                                     "a.obj");
+  const Mesh mesh = parse_obj(square +
+                                  "t crease 2/1/0 0 1 2.5\n"
+                                  "t crease 4/1/0 1 2 3 2 inf\n"
+                                  "t crease 4/2/0 0 3 1 0 0.5 12\n"
+                                  "t corner 1/1/0 3 0.1\n"
+                                  "t corner 2/2/0 0 1 10 3\n"
+                                  "t hole 1/0/0 0\n"
+                                  "t interpolateboundary 1/0/0 2\n"
+                                  "t creasemethod 0/0/1 chaikin\n"
+                                  "t smoothtriangles 0/0/1 smooth\n"
+                                  "t facevaryinginterpolateboundary 1/0/0 5\n"
+                                  "t facevaryingpropagatecorners 1/0/0 1\n",
+                              "a.obj");
   ASSERT_EQ(mesh.creases.size(), 5u);
   EXPECT_EQ(mesh.creases[0].head, 1);
   EXPECT_EQ(mesh.creases[0].sharpness, 2.5f);
@@ -160,14 +159,14 @@ TEST(Obj, TheTagNamesEveryFaceVaryingInterpolation) {
   for (const FaceVaryingInterpolation interpolation :
        {none, corners_only, corners_plus1, corners_plus2, boundaries, all}) {
     const std::string tag = "t facevaryinginterpolateboundary 1/0/0 " + format_number(number++) + "\n";
-    const ControlMesh mesh = parse_obj(square + tag, "a.obj");
+    const Mesh mesh = parse_obj(square + tag, "a.obj");
     EXPECT_EQ(mesh.face_varying_interpolation, interpolation);
-    EXPECT_NE(format_obj(output(mesh)).find(tag), std::string::npos);
+    EXPECT_NE(format_obj(mesh).find(tag), std::string::npos);
   }
 }
 
 TEST(Obj, TextureCoordinatesAreAChannel) {
-  const ControlMesh mesh = parse_obj(
+  const Mesh mesh = parse_obj(
       "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0.5\nvt 1 2\nf 1/2 2/1 3/-1\nf 1/3/1 3/1/1 4/-2/1\n"
       "vt 0.1 0.2 0.3 4\n",
       "a.obj");
@@ -179,7 +178,7 @@ TEST(Obj, TextureCoordinatesAreAChannel) {
   EXPECT_EQ(mesh.face_varying[0].indices, (Ids{1, 0, 1, 2, 0, 0}));
   EXPECT_TRUE(mesh.warnings.empty());
 
-  const ControlMesh again = parse_obj(format_obj(output(mesh)), "a.obj");
+  const Mesh again = parse_obj(format_obj(mesh), "a.obj");
   EXPECT_EQ(again.face_varying[0].values, values);
   EXPECT_EQ(again.face_varying[0].indices, mesh.face_varying[0].indices);
 }
@@ -187,7 +186,7 @@ TEST(Obj, TextureCoordinatesAreAChannel) {
 TEST(Obj, TextureCoordinatesOfSomeCornersAreDropped) {
   for (const char* const faces : {"f 1 2 3\nf 1/1 3/1 4/1\n", "f 1/1 2/1 3/1\nf 1 3/1 4/1\n", "f 1/1 2/1 3\nf 1 3 4\n",
                                   "f 1/1 2/1 3//1\nf 1/1 3/1 4/1\n"}) {
-    const ControlMesh mesh = parse_obj("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\n" + std::string(faces), "a.obj");
+    const Mesh mesh = parse_obj("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\n" + std::string(faces), "a.obj");
     EXPECT_EQ(mesh.num_faces(), 2);
     EXPECT_TRUE(mesh.face_varying.empty());
     ASSERT_EQ(mesh.warnings.size(), 1u) << faces;
@@ -200,26 +199,26 @@ TEST(Obj, TextureCoordinatesOfSomeCornersAreDropped) {
 }
 
 TEST(Obj, OptionsAreAbsentWhereTheFileSaysNothing) {
-  const ControlMesh mesh = parse_obj(square, "a.obj");
+  const Mesh mesh = parse_obj(square, "a.obj");
   EXPECT_FALSE(mesh.boundary || mesh.creasing || mesh.triangles);
 }
 
 TEST(Obj, LaterOptionsWin) {
-  const ControlMesh mesh = parse_obj(square +
-                                         "t interpolateboundary 1/0/0 0\nt interpolateboundary 1/0/0 1\n"
-                                         "t creasemethod 0/0/1 chaikin\nt creasemethod 0/0/1 normal\n"
-                                         "t smoothtriangles 0/0/1 smooth\nt smoothtriangles 0/0/1 catmark\n",
-                                     "a.obj");
+  const Mesh mesh = parse_obj(square +
+                                  "t interpolateboundary 1/0/0 0\nt interpolateboundary 1/0/0 1\n"
+                                  "t creasemethod 0/0/1 chaikin\nt creasemethod 0/0/1 normal\n"
+                                  "t smoothtriangles 0/0/1 smooth\nt smoothtriangles 0/0/1 catmark\n",
+                              "a.obj");
   EXPECT_EQ(mesh.boundary, Boundary::edge_and_corner);
   EXPECT_EQ(mesh.creasing, Creasing::uniform);
   EXPECT_EQ(mesh.triangles, Triangles::catmark);
 }
 
 TEST(Obj, HierarchicalEditsAndUnknownTagsAreWarnedAboutOnceEach) {
-  const ControlMesh mesh = parse_obj(square +
-                                         "t vertexedit 4/3/3 3 0 1 0 0 0 1 add P value\nt vertexedit\n"
-                                         "t edgeedit 1/0/0 1\nt faceedit x\nt glitter 0/0/1 much\n",
-                                     "a.obj");
+  const Mesh mesh = parse_obj(square +
+                                  "t vertexedit 4/3/3 3 0 1 0 0 0 1 add P value\nt vertexedit\n"
+                                  "t edgeedit 1/0/0 1\nt faceedit x\nt glitter 0/0/1 much\n",
+                              "a.obj");
   ASSERT_EQ(mesh.warnings.size(), 4u);
   EXPECT_EQ(mesh.warnings[0], "a.obj:6: tag 'vertexedit' ignored: hierarchical edits are not supported");
   EXPECT_EQ(mesh.warnings[3], "a.obj:10: tag 'glitter' ignored: unknown tag");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sublimit/io/off.h"
+#include "sublimit/io/detail/off.h"
 
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ const std::string square = "OFF\n4 1 4\n" + points + "4 0 1 2 3\n";
 using Ids = std::vector<Index>;
 
 TEST(Off, ReadsPositionsAndFaces) {
-  const ControlMesh mesh = parse_off("OFF\n4 2 5\n0.1 0 0\n1 0 0\n1 1 -2e-3\n0 1 0\n3 0 1 2\n4 0 1 2 3\n", "a.off");
+  const Mesh mesh = parse_off("OFF\n4 2 5\n0.1 0 0\n1 0 0\n1 1 -2e-3\n0 1 0\n3 0 1 2\n4 0 1 2 3\n", "a.off");
   EXPECT_EQ(mesh.num_vertices(), 4);
   EXPECT_EQ(mesh.positions.row(2), Eigen::RowVector3d(1, 1, -0.002));
   EXPECT_EQ(mesh.face_sizes, (Ids{3, 4}));
@@ -33,7 +33,7 @@ TEST(Off, HeadersComeInManyForms) {
            "# made by hand\n\nOFF # yes\n# counts\n4 1 4\n\n" + points + "\n# face\n4 0 1 2 3 # square\n\n",
            "OFF\r\n4 1 4\r\n0 0 0\r\n1 0 0\r\n1 1 0\r\n0 1 0\r\n4 0 1 2 3\r\n",
        }) {
-    const ControlMesh mesh = parse_off(text, "a.off");
+    const Mesh mesh = parse_off(text, "a.off");
     EXPECT_EQ(mesh.positions, parse_off(square, "a.off").positions) << text;
     EXPECT_EQ(mesh.face_vertices, (Ids{0, 1, 2, 3})) << text;
     EXPECT_TRUE(mesh.warnings.empty()) << text;
@@ -42,7 +42,7 @@ TEST(Off, HeadersComeInManyForms) {
 
 TEST(Off, ColoursNormalsAndTextureCoordinatesAreDropped) {
   for (const char* const keyword : {"COFF", "NOFF", "CNOFF", "STOFF", "STCNOFF"}) {
-    const ControlMesh mesh = parse_off(
+    const Mesh mesh = parse_off(
         std::string(keyword) + "\n3 1 0\n0 0 0 1 0 0 1\n1 0 0 255 0 0 255\n0 1 0 .5 .5\n" + "3 0 1 2 0.1 0.2 0.3\n",
         "a.off");
     EXPECT_EQ(mesh.positions.row(1), Eigen::RowVector3d(1, 0, 0));
@@ -51,7 +51,7 @@ TEST(Off, ColoursNormalsAndTextureCoordinatesAreDropped) {
 }
 
 TEST(Off, LinesBehindTheLastFaceAreWarnedAbout) {
-  const ControlMesh mesh = parse_off(square + "3 0 1 2\n", "a.off");
+  const Mesh mesh = parse_off(square + "3 0 1 2\n", "a.off");
   ASSERT_EQ(mesh.warnings.size(), 1u);
   EXPECT_EQ(mesh.warnings[0], "a.off:8: lines behind the last face ignored");
 }

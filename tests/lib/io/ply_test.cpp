@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sublimit/io/ply.h"
+#include "sublimit/io/detail/ply.h"
 
 #include <gtest/gtest.h>
 
@@ -49,14 +49,14 @@ class Bytes {
 
 // Further numbers of vertices, which other readers skip.
 TEST(Ply, KeepsFurtherValuesOfVertices) {
-  MeshOutput mesh = output(parse_ply(square, "square.ply"));
+  Mesh mesh = parse_ply(square, "square.ply");
   mesh.vertex_values = {{"tag", {3, -1, 0, 2147483647}, true}, {"heat", {0.1, -0.0, 1e300, 0.5}}};
   const std::string bytes = format_ply(mesh);
   EXPECT_NE(bytes.find("property int tag\nproperty double heat\n"), std::string::npos);
   const std::vector<std::string> names{"heat", "none", "tag", "vertex_indices"};
-  const PlyMesh read = parse_ply(bytes, "values.ply", names);
-  EXPECT_EQ(read.mesh.positions, mesh.positions);
-  EXPECT_EQ(read.mesh.face_vertices, mesh.face_vertices);
+  const Mesh read = parse_ply(bytes, "values.ply", names);
+  EXPECT_EQ(read.positions, mesh.positions);
+  EXPECT_EQ(read.face_vertices, mesh.face_vertices);
   ASSERT_EQ(read.vertex_values.size(), 2u);
   for (size_t i = 0; i < 2; ++i) {
     EXPECT_EQ(read.vertex_values[i].name, mesh.vertex_values[1 - i].name);
@@ -71,17 +71,17 @@ TEST(Ply, KeepsFurtherValuesOfVertices) {
 }
 
 TEST(Ply, ReadsText) {
-  const ControlMesh mesh = parse_ply(header("ascii",
-                                            "obj_info any\nelement camera 1\nproperty list uchar float view\n"
-                                            "element vertex 4\nproperty uchar red\nproperty double z\n"
-                                            "property double x\nproperty double y\nproperty list int int other\n"
-                                            "element face 2\nproperty uchar flag\n"
-                                            "property list uchar uint vertex_index\nproperty float last\n"
-                                            "element empty 100000000000000\n") +
-                                         "2 0.5 1e9\n"
-                                         "255 3 0.1 -2e3 0\n\n255 3 1 0 2 7 8\n255 3 1 1 0\n255 3 0 1 0\n"
-                                         "0 3 0 1 2 nan\n1 4 0 1 2 3 5\n",
-                                     "a.ply");
+  const Mesh mesh = parse_ply(header("ascii",
+                                     "obj_info any\nelement camera 1\nproperty list uchar float view\n"
+                                     "element vertex 4\nproperty uchar red\nproperty double z\n"
+                                     "property double x\nproperty double y\nproperty list int int other\n"
+                                     "element face 2\nproperty uchar flag\n"
+                                     "property list uchar uint vertex_index\nproperty float last\n"
+                                     "element empty 100000000000000\n") +
+                                  "2 0.5 1e9\n"
+                                  "255 3 0.1 -2e3 0\n\n255 3 1 0 2 7 8\n255 3 1 1 0\n255 3 0 1 0\n"
+                                  "0 3 0 1 2 nan\n1 4 0 1 2 3 5\n",
+                              "a.ply");
   EXPECT_EQ(mesh.positions.row(0), Eigen::RowVector3d(0.1, -2000, 3));
   EXPECT_EQ(mesh.face_sizes, (Ids{3, 4}));
   EXPECT_EQ(mesh.face_vertices, (Ids{0, 1, 2, 0, 1, 2, 3}));
@@ -97,14 +97,14 @@ TEST(Ply, ReadsBinaryOfEitherByteOrderAndAnyTypes) {
     data << std::int8_t{127} << 1.0f << std::numeric_limits<double>::denorm_min() << std::uint8_t{0};  // vertex 1
     data << std::int8_t{0} << 0.0f << -0.0 << std::uint8_t{1} << 3.0;                                  // vertex 2
     data << std::uint32_t{7} << std::uint32_t{3} << std::uint16_t{2} << std::uint16_t{1} << std::uint16_t{0};
-    const ControlMesh mesh = parse_ply(header(big ? "binary_big_endian" : "binary_little_endian",
-                                              "element strip 1\nproperty list ushort short data\n"
-                                              "element vertex 3\nproperty char x\nproperty float y\nproperty double z\n"
-                                              "property list uchar double skipped\n"
-                                              "element face 1\nproperty uint32 id\n"
-                                              "property list uint ushort vertex_indices\n") +
-                                           data.text,
-                                       "a.ply");
+    const Mesh mesh = parse_ply(header(big ? "binary_big_endian" : "binary_little_endian",
+                                       "element strip 1\nproperty list ushort short data\n"
+                                       "element vertex 3\nproperty char x\nproperty float y\nproperty double z\n"
+                                       "property list uchar double skipped\n"
+                                       "element face 1\nproperty uint32 id\n"
+                                       "property list uint ushort vertex_indices\n") +
+                                    data.text,
+                                "a.ply");
     EXPECT_EQ(mesh.positions.row(0), Eigen::RowVector3d(-5, tenth, 0.1));
     EXPECT_EQ(mesh.positions.row(1), Eigen::RowVector3d(127, 1, std::numeric_limits<double>::denorm_min()));
     EXPECT_TRUE(std::signbit(mesh.positions(2, 2)));
@@ -114,11 +114,11 @@ TEST(Ply, ReadsBinaryOfEitherByteOrderAndAnyTypes) {
 }
 
 TEST(Ply, FacesMayComeBeforeVertices) {
-  const ControlMesh mesh = parse_ply(header("ascii",
-                                            "element face 1\nproperty list uchar int vertex_indices\n"
-                                            "element vertex 3\nproperty int x\nproperty int y\nproperty int z\n") +
-                                         "3 0 1 2\n0 0 0\n1 0 0\n0 1 0\n",
-                                     "a.ply");
+  const Mesh mesh = parse_ply(header("ascii",
+                                     "element face 1\nproperty list uchar int vertex_indices\n"
+                                     "element vertex 3\nproperty int x\nproperty int y\nproperty int z\n") +
+                                  "3 0 1 2\n0 0 0\n1 0 0\n0 1 0\n",
+                              "a.ply");
   EXPECT_EQ(mesh.face_vertices, (Ids{0, 1, 2}));
 }
 
@@ -139,7 +139,7 @@ TEST(Ply, BinaryMayStartWithALineFeed) {
 }
 
 TEST(Ply, DataBehindTheLastElementIsWarnedAbout) {
-  const ControlMesh mesh = parse_ply(square + "0 0 0\n", "a.ply");
+  const Mesh mesh = parse_ply(square + "0 0 0\n", "a.ply");
   ASSERT_EQ(mesh.warnings.size(), 1u);
   EXPECT_EQ(mesh.warnings[0], "a.ply:16: data behind the last element ignored");
 }

@@ -2,7 +2,7 @@
 // Polygons from text and back.
 #include <gtest/gtest.h>
 
-#include "sublimit/io/polygon_files.h"
+#include "sublimit/io/detail/polygon_files.h"
 #include "support/expect_error.h"
 #include "support/temporary_directory.h"
 

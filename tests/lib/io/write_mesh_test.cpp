@@ -17,10 +17,12 @@
 #include <string>
 
 #include "sublimit/base/format_number.h"
-#include "sublimit/base/read_file.h"
-#include "sublimit/io/obj.h"
-#include "sublimit/io/ply.h"
+#include "sublimit/base/detail/read_file.h"
+#include "sublimit/io/detail/obj.h"
+#include "sublimit/io/detail/ply.h"
 #include "sublimit/io/read_mesh.h"
+#include "sublimit/scheme/refine.h"
+#include "sublimit/schemes/schemes.h"
 #include "support/expect_error.h"
 #include "support/random_doubles.h"
 #include "support/temporary_directory.h"
@@ -29,9 +31,9 @@ namespace sublimit::testing {
 namespace {
 
 /// Faces of 3 to 9 corners with vertices anywhere; coordinates of all bit patterns, subnormals and -0 among them.
-MeshOutput random_output(std::uint64_t seed, Index vertices, Index faces) {
+Mesh random_output(std::uint64_t seed, Index vertices, Index faces) {
   std::mt19937_64 random(seed);
-  MeshOutput mesh;
+  Mesh mesh;
   mesh.positions = Eigen::Map<const Points>(random_doubles(seed, std::size_t(3 * vertices)).data(), vertices, 3);
   mesh.positions(0, 0) = -0.0;
   mesh.positions(0, 1) = std::numeric_limits<double>::max();
@@ -42,7 +44,7 @@ MeshOutput random_output(std::uint64_t seed, Index vertices, Index faces) {
   return mesh;
 }
 
-void add_tags(MeshOutput& mesh) {
+void add_tags(Mesh& mesh) {
   std::mt19937 random(7);
   for (std::size_t i = 0; i + 1 < 3; ++i) {
     mesh.creases.push_back(
@@ -63,7 +65,7 @@ void expect_same_bits(const Points& a, const Points& b) {
   }
 }
 
-void expect_same_tags(const ControlMesh& a, const MeshOutput& b) {
+void expect_same_tags(const Mesh& a, const Mesh& b) {
   ASSERT_EQ(a.creases.size(), b.creases.size());
   for (std::size_t i = 0; i < a.creases.size(); ++i) {
     EXPECT_EQ(a.creases[i].tail, b.creases[i].tail);
@@ -82,7 +84,7 @@ void expect_same_tags(const ControlMesh& a, const MeshOutput& b) {
 }
 
 /// A writer of one thread that knows nothing of blocks.
-std::string plain_obj(const MeshOutput& mesh) {
+std::string plain_obj(const Mesh& mesh) {
   std::string text;
   const auto rows = [&](const char* keyword, const Points& points) {
     for (Eigen::Index i = 0; i < points.rows(); ++i) {
@@ -105,13 +107,13 @@ std::string plain_obj(const MeshOutput& mesh) {
     }
     text += '\n';
   }
-  for (const ControlMesh::Crease& crease : mesh.creases)
+  for (const Mesh::Crease& crease : mesh.creases)
     text += "t crease 2/1/0 " + std::to_string(crease.tail) + " " + std::to_string(crease.head) + " " +
             format_number(crease.sharpness) + "\n";
   return text;
 }
 
-std::string plain_ply(const MeshOutput& mesh) {
+std::string plain_ply(const Mesh& mesh) {
   std::string bytes = "ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(mesh.positions.rows()) +
                       "\nproperty double x\nproperty double y\nproperty double z\n";
   if (mesh.normals.rows() > 0) bytes += "property double nx\nproperty double ny\nproperty double nz\n";
@@ -135,7 +137,7 @@ TEST(WriteMesh, BytesAreThoseOfAPlainWriterForAnyNumberOfThreads) {
   const TemporaryDirectory directory;
   // Vertices and faces at the ends of blocks of 2048 and 4096 rows, and of several.
   for (const Index rows : {1, 2047, 2048, 2049, 4095, 4096, 4097, 50001}) {
-    MeshOutput mesh = random_output(std::uint64_t(rows), rows, rows);
+    Mesh mesh = random_output(std::uint64_t(rows), rows, rows);
     for (int parts = 0; parts < 3; ++parts) {
       if (parts == 1) mesh.normals = random_output(std::uint64_t(rows) + 1, rows, 1).positions;
       if (parts == 2) {
@@ -162,11 +164,11 @@ TEST(WriteMesh, BytesAreThoseOfAPlainWriterForAnyNumberOfThreads) {
 
 TEST(WriteMesh, ObjReadsBackToTheSameBitsAndTags) {
   const TemporaryDirectory directory;
-  MeshOutput mesh = random_output(1, 30000, 20000);  // several chunks
+  Mesh mesh = random_output(1, 30000, 20000);  // several chunks
   add_tags(mesh);
   mesh.comments = {"made by a test", "two\nlines # t crease"};
   write_mesh(directory / "a.OBJ", mesh);
-  const ControlMesh read = read_mesh(directory / "a.OBJ");
+  const Mesh read = read_mesh(directory / "a.OBJ");
   expect_same_bits(read.positions, mesh.positions);
   EXPECT_EQ(read.face_sizes, mesh.face_sizes);
   EXPECT_EQ(read.face_vertices, mesh.face_vertices);
@@ -177,7 +179,7 @@ TEST(WriteMesh, ObjReadsBackToTheSameBitsAndTags) {
 }
 
 TEST(WriteMesh, EveryOptionReadsBack) {
-  MeshOutput mesh = random_output(2, 10, 4);
+  Mesh mesh = random_output(2, 10, 4);
   for (const Boundary boundary : {Boundary::none, Boundary::edge_only, Boundary::edge_and_corner}) {
     for (const Creasing creasing : {Creasing::uniform, Creasing::chaikin}) {
       for (const Triangles triangles : {Triangles::catmark, Triangles::smooth}) {
@@ -191,13 +193,13 @@ TEST(WriteMesh, EveryOptionReadsBack) {
 }
 
 TEST(WriteMesh, InfiniteSharpnessIsWrittenAsTen) {
-  MeshOutput mesh = random_output(3, 10, 4);
+  Mesh mesh = random_output(3, 10, 4);
   mesh.corners = {{.vertex = 4, .sharpness = std::numeric_limits<float>::infinity()}};
   EXPECT_EQ(parse_obj(format_obj(mesh), "a.obj").corners[0].sharpness, 10.0f);
 }
 
 TEST(WriteMesh, ObjIsWhatTheManualSays) {
-  MeshOutput mesh;
+  Mesh mesh;
   mesh.positions = (Points(3, 3) << 0, 0, 0, 0.1, 0, 0, 0, -1e300, 0).finished();
   mesh.face_sizes = {3, 3, 3};
   mesh.face_vertices = {0, 1, 2, 2, 1, 0, 0, 1, 2};
@@ -217,10 +219,10 @@ TEST(WriteMesh, ObjIsWhatTheManualSays) {
 
 TEST(WriteMesh, PlyReadsBackToTheSameBits) {
   const TemporaryDirectory directory;
-  MeshOutput mesh = random_output(4, 30000, 20000);
+  Mesh mesh = random_output(4, 30000, 20000);
   mesh.comments = {"made by a test", "two\nlines"};
   write_mesh(directory / "a.ply", mesh);
-  ControlMesh read = read_mesh(directory / "a.ply");
+  Mesh read = read_mesh(directory / "a.ply");
   expect_same_bits(read.positions, mesh.positions);
   EXPECT_EQ(read.face_sizes, mesh.face_sizes);
   EXPECT_EQ(read.face_vertices, mesh.face_vertices);
@@ -234,7 +236,7 @@ TEST(WriteMesh, PlyReadsBackToTheSameBits) {
 }
 
 TEST(WriteMesh, TextureAndFaceIdsAreWhereReadersLook) {
-  MeshOutput mesh;
+  Mesh mesh;
   mesh.positions = (Points(3, 3) << 0, 0, 0, 1, 0, 0, 0, 1, 0).finished();
   mesh.face_sizes = {3, 3, 3};
   mesh.face_vertices = {0, 1, 2, 2, 1, 0, 0, 1, 2};
@@ -258,7 +260,7 @@ TEST(WriteMesh, TextureAndFaceIdsAreWhereReadersLook) {
 }
 
 TEST(WriteMesh, FacesOfAnySizeReadBack) {
-  MeshOutput mesh = random_output(6, 400, 3);
+  Mesh mesh = random_output(6, 400, 3);
   for (const Index size : {255, 256, 70000}) {
     mesh.face_sizes.push_back(size);
     for (Index i = 0; i < size; ++i) mesh.face_vertices.push_back(i % 400);
@@ -268,15 +270,15 @@ TEST(WriteMesh, FacesOfAnySizeReadBack) {
 }
 
 TEST(WriteMesh, ControlMeshIsWrittenWithItsTags) {
-  const ControlMesh mesh = parse_obj(
+  const Mesh mesh = parse_obj(
       "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nt crease 2/1/0 0 1 3\nt corner 1/1/0 2 1\nt hole 1/0/0 0\n"
       "t creasemethod 0/0/1 chaikin\n",
       "a.obj");
-  expect_same_tags(parse_obj(format_obj(output(mesh)), "b.obj"), output(mesh));
+  expect_same_tags(parse_obj(format_obj(mesh), "b.obj"), mesh);
 }
 
 TEST(WriteMesh, ObjHasRoomForOneChannelOfThreeColumns) {
-  MeshOutput mesh = random_output(9, 10, 4);
+  Mesh mesh = random_output(9, 10, 4);
   const std::vector<Index> indices(mesh.face_vertices.size(), 0);
   mesh.face_varying = {{"uv", Points::Zero(1, 4), indices}};
   expect_error<InvalidParameter>([&] { format_obj(mesh); }, {"1 to 3 columns"});
@@ -288,40 +290,52 @@ TEST(WriteMesh, ObjHasRoomForOneChannelOfThreeColumns) {
 }
 
 TEST(WriteMesh, ArraysThatDoNotFitAreRefused) {
-  const MeshOutput good = random_output(8, 10, 4);
-  const auto expect = [&](const char* part, const std::function<void(MeshOutput&)>& spoil) {
-    MeshOutput mesh = good;
+  const Mesh good = random_output(8, 10, 4);
+  const auto expect = [&](const char* part, const std::function<void(Mesh&)>& spoil) {
+    Mesh mesh = good;
     spoil(mesh);
     expect_error<InvalidParameter>([&] { format_obj(mesh); }, {part});
     expect_error<InvalidParameter>([&] { format_ply(mesh); }, {part});
   };
-  expect("3 columns", [](MeshOutput& mesh) { mesh.positions.conservativeResize(10, 2); });
-  expect("a vertex of a face is out of range", [](MeshOutput& mesh) { mesh.face_vertices[3] = 10; });
-  const auto with_channel = [](MeshOutput& mesh, Index columns) {
+  expect("3 columns", [](Mesh& mesh) { mesh.positions.conservativeResize(10, 2); });
+  const auto with_channel = [](Mesh& mesh, Index columns) {
     mesh.face_varying.push_back({"uv", Points::Zero(1, columns), std::vector<Index>(mesh.face_vertices.size(), 0)});
   };
-  expect("a face-varying value of a corner is out of range", [&](MeshOutput& mesh) {
+  expect("a face-varying value of a corner is out of range", [&](Mesh& mesh) {
     with_channel(mesh, 2);
     mesh.face_varying[0].indices[1] = 1;
   });
-  expect("there should be a face-varying value for each corner", [&](MeshOutput& mesh) {
+  expect("there should be a face-varying value for each corner", [&](Mesh& mesh) {
     with_channel(mesh, 2);
     mesh.face_varying[0].indices.pop_back();
   });
-  expect("a vertex of a face is out of range", [](MeshOutput& mesh) { mesh.face_vertices[3] = -1; });
-  expect("add up", [](MeshOutput& mesh) { mesh.face_vertices.pop_back(); });
-  expect("fewer than 3", [](MeshOutput& mesh) { mesh.face_sizes[0] = 2; });
-  expect("a normal for each vertex", [](MeshOutput& mesh) { mesh.normals = Points::Ones(9, 3); });
-  expect("a normal for each corner", [](MeshOutput& mesh) { mesh.face_normals = {0}; });
-  expect("a normal of a corner", [](MeshOutput& mesh) { mesh.face_normals.resize(mesh.face_vertices.size(), 0); });
-  expect("a vertex of a crease", [](MeshOutput& mesh) { mesh.creases = {{.tail = 0, .head = 10, .sharpness = 1}}; });
-  expect("the vertex of a corner", [](MeshOutput& mesh) { mesh.corners = {{.vertex = -1, .sharpness = 1}}; });
-  expect("the face of a hole", [](MeshOutput& mesh) { mesh.holes = {4}; });
+  expect("a normal for each vertex", [](Mesh& mesh) { mesh.normals = Points::Ones(9, 3); });
+  expect("a normal for each corner", [](Mesh& mesh) { mesh.face_normals = {0}; });
+  expect("a normal of a corner", [](Mesh& mesh) { mesh.face_normals.resize(mesh.face_vertices.size(), 0); });
+}
+
+TEST(WriteMesh, FacesAndTagsThatNoSchemeTakesAreRefusedInTheSameWords) {
+  const Mesh good = random_output(8, 10, 4);
+  const auto expect = [&](const char* part, const std::function<void(Mesh&)>& spoil) {
+    Mesh mesh = good;
+    spoil(mesh);
+    expect_error<InvalidMesh>([&] { format_obj(mesh); }, {part});
+    expect_error<InvalidMesh>([&] { format_ply(mesh); }, {part});
+    expect_error<InvalidMesh>([&] { refine(scheme("catmull-clark"), mesh, 1); }, {part});
+  };
+  expect("corner 3 names vertex 10; the mesh has vertices 0 to 9", [](Mesh& mesh) { mesh.face_vertices[3] = 10; });
+  expect("corner 3 names vertex -1", [](Mesh& mesh) { mesh.face_vertices[3] = -1; });
+  expect("add up", [](Mesh& mesh) { mesh.face_vertices.pop_back(); });
+  expect("face 0 has 2 corners", [](Mesh& mesh) { mesh.face_sizes[0] = 2; });
+  expect("crease (0,10)", [](Mesh& mesh) { mesh.creases = {{.tail = 0, .head = 10, .sharpness = 1}}; });
+  expect("corner -1 is not a vertex", [](Mesh& mesh) { mesh.corners = {{.vertex = -1, .sharpness = 1}}; });
+  expect("corner 0 has sharpness -1", [](Mesh& mesh) { mesh.corners = {{.vertex = 0, .sharpness = -1}}; });
+  expect("hole 4 is not a face", [](Mesh& mesh) { mesh.holes = {4}; });
 }
 
 TEST(WriteMesh, WhatNoReaderTakesBackIsNotWritten) {
   const TemporaryDirectory directory;
-  MeshOutput mesh = random_output(9, 10, 4);
+  Mesh mesh = random_output(9, 10, 4);
   mesh.positions(7, 1) = std::numeric_limits<double>::infinity();
   expect_error<InvalidMesh>([&] { write_mesh(directory / "a.obj", mesh); }, {"a.obj: vertex 7", "nothing is written"});
   expect_error<InvalidMesh>([&] { write_mesh(directory / "a.ply", mesh); }, {"a.ply: vertex 7"});
@@ -330,12 +344,12 @@ TEST(WriteMesh, WhatNoReaderTakesBackIsNotWritten) {
   expect_error<InvalidMesh>([&] { write_mesh(directory / "a.obj", mesh); }, {"a.obj: normal 0"});
   mesh.normals.resize(0, 3);
   mesh.corners = {{.vertex = 0, .sharpness = -1}};
-  expect_error<InvalidMesh>([&] { write_mesh(directory / "a.obj", mesh); }, {"a.obj: a sharpness is -1"});
+  expect_error<InvalidMesh>([&] { write_mesh(directory / "a.obj", mesh); }, {"a.obj: corner 0 has sharpness -1"});
   EXPECT_EQ(directory.num_files(), 0);
 }
 
 TEST(WriteMesh, PlyHasNoNormalsPerCorner) {
-  MeshOutput mesh = random_output(10, 10, 4);
+  Mesh mesh = random_output(10, 10, 4);
   mesh.normals = Points::Ones(1, 3);
   mesh.face_normals.resize(mesh.face_vertices.size(), 0);
   expect_error<InvalidParameter>([&] { format_ply(mesh); }, {"one normal per vertex", "write an .obj"});
@@ -344,7 +358,7 @@ TEST(WriteMesh, PlyHasNoNormalsPerCorner) {
 TEST(WriteMesh, PlacesThatCannotBeWrittenAreNamed) {
   const TemporaryDirectory directory;
   directory.write("file", "");
-  const MeshOutput mesh = random_output(11, 10, 4);
+  const Mesh mesh = random_output(11, 10, 4);
   for (const char* const name : {"a.stl", "a", "a.off"}) {
     expect_error<InvalidOption>([&] { write_mesh(directory / name, mesh); }, {name, "as .obj or .ply"});
   }
@@ -355,7 +369,7 @@ TEST(WriteMesh, PlacesThatCannotBeWrittenAreNamed) {
 }
 
 // Runs in a process of its own, with which the limit goes away.
-[[noreturn]] void write_beyond_limit(const std::filesystem::path& target, const MeshOutput& mesh) {
+[[noreturn]] void write_beyond_limit(const std::filesystem::path& target, const Mesh& mesh) {
   std::signal(SIGXFSZ, SIG_IGN);
   const ::rlimit limit{.rlim_cur = 100000, .rlim_max = 100000};
   ::setrlimit(RLIMIT_FSIZE, &limit);
@@ -371,7 +385,7 @@ TEST(WriteMesh, PlacesThatCannotBeWrittenAreNamed) {
 
 TEST(WriteMeshDeathTest, FullDiskLeavesNoFile) {
   const TemporaryDirectory directory;
-  const MeshOutput mesh = random_output(12, 30000, 20000);
+  const Mesh mesh = random_output(12, 30000, 20000);
   for (const char* const name : {"a.obj", "a.ply"}) {
     EXPECT_EXIT(write_beyond_limit(directory / name, mesh), ::testing::ExitedWithCode(4), "File too large");
   }

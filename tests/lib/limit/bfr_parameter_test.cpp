@@ -33,7 +33,7 @@ TEST(BfrParameter, SquaresOfPolygonsLieWhereBfrHasThem) {
           const BfrParameter p = to_bfr(n, i, u, v);
           EXPECT_EQ(p.u, expected[0]) << "square " << i << " of " << n;
           EXPECT_EQ(p.v, expected[1]) << "square " << i << " of " << n;
-          const Sample ours = from_bfr(n, p);
+          const Place ours = from_bfr(n, p);
           EXPECT_EQ(ours.face, theirs.ConvertCoordToNormalizedSubFace(expected, back));
           EXPECT_EQ(ours.face, i);
           EXPECT_EQ(ours.u, back[0]);
@@ -79,7 +79,7 @@ Eigen::Vector3d derivative(const auto& f, double x, double h) {
 // (u,v) of a square of ours has twice the size of Bfr's and of Far's, so that d/du of theirs is twice ours, where ours
 // is that of the position as a function of our own (u,v).
 TEST(BfrParameter, DerivativesOnSquaresOfPolygonsAreTwiceOurs) {
-  const ControlMesh mesh = jittered(polygon_ring({4, 5, 4, 6, 5}));
+  const Mesh mesh = jittered(polygon_ring({4, 5, 4, 6, 5}));
   const ReferenceOptions scheme = reference_options(mesh, "catmull-clark", 0);
   const FarLimit far(mesh, scheme, {});
   const BfrLimit bfr(mesh, scheme, {});
@@ -92,7 +92,7 @@ TEST(BfrParameter, DerivativesOnSquaresOfPolygonsAreTwiceOurs) {
   for (Index a = 0; a < addresses.size(); ++a) {
     const double factor = addresses.place(a).corner < 0 ? 1 : 2;
     squares += factor == 2;
-    const Sample place{a, 0.625, 0.375};  // inside one piece of level 1, away from extraordinary corners
+    const Place place{a, 0.625, 0.375};  // inside one piece of level 1, away from extraordinary corners
     const auto compare = [&](const auto& limit, const char* who) {
       const ReferencePoint p = limit.at(place).value();
       const auto x = [&](double u, double v) { return limit.at({a, u, v}).value().position; };

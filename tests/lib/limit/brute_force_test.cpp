@@ -7,8 +7,8 @@
 
 #include <map>
 
-#include "sublimit/core/sparse_product.h"
-#include "sublimit/limit/limit_points.h"
+#include "sublimit/core/detail/sparse_product.h"
+#include "sublimit/limit/detail/limit_points.h"
 #include "support/brute_force.h"
 #include "support/meshes.h"
 #include "support/tolerance.h"
@@ -62,7 +62,7 @@ void compare(const NamedMesh& tested, const std::string& scheme_name, Worst& wor
   const Scheme<Precise> precise = find_scheme<Precise>(scheme_name, options).value();
   const Level level = control_level(scheme, tested.mesh);
   const Topology& t = level.topology();
-  LimitTypes cache(scheme);
+  LimitCache cache(scheme);
   const LimitMatrices limit = limit_matrices(level, cache);
   const LimitPoints ours = limit_points(limit, t, tested.mesh.positions);
   const double size = diagonal(tested.mesh.positions);

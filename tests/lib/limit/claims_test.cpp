@@ -36,9 +36,9 @@ TEST(RegularSmoothness, DoesNotNeedPolynomialsNorClaims) {
   EXPECT_EQ(regular_smoothness(scheme), 0);
 }
 
-std::vector<Sample> places_on(const LimitMap& surface) {
+std::vector<Place> places_on(const LimitMap& surface) {
   const Topology& t = surface.level().topology();
-  std::vector<Sample> places = random_places(surface.addresses(), 40, 5);
+  std::vector<Place> places = random_places(surface.addresses(), 40, 5);
   for (Index h = 0; h < t.num_half_edges(); h += 3) {
     places.push_back(from_corner(t, surface.addresses(), HalfEdge{h}, 0, 0));
     for (const double s : {0.25, 0.5, 0.71}) places.push_back(on_edge(t, surface.addresses(), HalfEdge{h}, s));
@@ -66,9 +66,9 @@ TEST_P(ErasedClaims, SteerNothing) {
   for (const Claims& claims : {Claims{}, wrong}) {
     Scheme<double> other = scheme;
     other.claims = claims;
-    const ControlMesh mesh = hard_meshes(scheme, 11).back();
+    const Mesh mesh = hard_meshes(scheme, 11).back();
     const LimitMap surface(scheme, mesh), same(other, mesh);
-    const std::vector<Sample> places = places_on(surface);
+    const std::vector<Place> places = places_on(surface);
     expect_same(surface.evaluate(mesh.positions, places, 2), same.evaluate(mesh.positions, places, 2));
     const auto boxes = surface.bounding_boxes(mesh.positions), same_boxes = same.bounding_boxes(mesh.positions);
     for (size_t i = 0; i < boxes.size(); ++i)

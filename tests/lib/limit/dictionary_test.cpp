@@ -2,20 +2,20 @@
 // A dictionary of types is of one scheme: with levels or surfaces of another it is refused, whatever the schemes claim.
 #include <gtest/gtest.h>
 
-#include "sublimit/limit/limit_points.h"
-#include "sublimit/limit/limit_rows.h"
+#include "sublimit/limit/detail/limit_points.h"
+#include "sublimit/limit/detail/limit_rows.h"
 #include "sublimit/limit/limit_map.h"
-#include "sublimit/limit/limit_types.h"
-#include "sublimit/schemes.h"
+#include "sublimit/limit/detail/limit_cache.h"
+#include "sublimit/schemes/schemes.h"
 #include "support/expect_error.h"
 #include "support/meshes.h"
 
 namespace sublimit::testing {
 namespace {
 
-void expect_refused(const Scheme<double>& scheme, const Scheme<double>& other, const ControlMesh& mesh,
+void expect_refused(const Scheme<double>& scheme, const Scheme<double>& other, const Mesh& mesh,
                     std::initializer_list<std::string_view> parts) {
-  const auto types = std::make_shared<LimitTypes>(other);
+  const auto types = std::make_shared<LimitCache>(other);
   expect_error<InvalidParameter>([&] { LimitMap(scheme, mesh, {}, types); }, parts);
   const std::vector<Level> levels = refine(scheme, mesh, 2);
   for (const Level& level : levels) expect_error<InvalidParameter>([&] { limit_matrices(level, *types); }, parts);
@@ -47,8 +47,8 @@ TEST(LimitDictionary, OfOtherMasksUnderTheSameNameIsRefused) {
 
 TEST(LimitDictionary, OfTheSameSchemeMadeAgainIsTaken) {
   for (const Scheme<double>& scheme : all_schemes()) {
-    const ControlMesh mesh = scheme.face_size() == 3 ? icosahedron() : prism(5);
-    const auto types = std::make_shared<LimitTypes>(*find_scheme(scheme.name));
+    const Mesh mesh = scheme.face_size() == 3 ? icosahedron() : prism(5);
+    const auto types = std::make_shared<LimitCache>(*find_scheme(scheme.name));
     const std::vector<Level> levels = refine(scheme, mesh, 2);
     EXPECT_NO_THROW(limit_matrices(levels, *types)) << scheme.name;
     EXPECT_NO_THROW(LimitMap(scheme, mesh, {}, types)) << scheme.name;
@@ -60,7 +60,7 @@ TEST(LimitDictionary, OfALevelThatTwoSchemesMadeIsOfTheLast) {
   const Scheme<double> first = *find_scheme("bilinear"), last = *find_scheme("catmull-clark");
   std::vector<Level> levels = refine(first, cube(), 1);
   levels = refine(last, levels[1], 1);
-  LimitTypes of_first(first), of_last(last);
+  LimitCache of_first(first), of_last(last);
   EXPECT_NO_THROW(limit_matrices(levels[1], of_last));
   expect_error<InvalidParameter>([&] { limit_matrices(levels[1], of_first); }, {"'bilinear'", "'catmull-clark'"});
 }

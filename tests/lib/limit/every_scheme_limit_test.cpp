@@ -5,10 +5,10 @@
 
 #include <Eigen/Geometry>
 
-#include "sublimit/core/sparse_product.h"
-#include "sublimit/limit/limit_points.h"
-#include "sublimit/limit/limit_rows.h"
-#include "sublimit/schemes.h"
+#include "sublimit/core/detail/sparse_product.h"
+#include "sublimit/limit/detail/limit_points.h"
+#include "sublimit/limit/detail/limit_rows.h"
+#include "sublimit/schemes/schemes.h"
 #include "support/laws.h"
 #include "support/meshes.h"
 
@@ -68,14 +68,14 @@ Seen refined(const Scheme<double>& scheme, Level level, Points x, Centre centre,
   return seen;
 }
 
-std::vector<ControlMesh> meshes_for(const Scheme<double>& scheme) {
+std::vector<Mesh> meshes_for(const Scheme<double>& scheme) {
   if (scheme.face_size() == 3) {
-    ControlMesh sharp = jittered(octahedron());
+    Mesh sharp = jittered(octahedron());
     if (scheme.sharpening != Sharpening::boundary) sharp.creases = {{0, 2, 10}, {2, 1, 10}, {1, 3, 10}, {3, 0, 10}};
     return {jittered(icosahedron()), jittered(tetrahedron()),    jittered(triangle_grid(3, 3)), sharp,
             jittered(fan(7, 3, 2)),  jittered(open_fan(4, 3, 2))};
   }
-  ControlMesh sharp = jittered(cube());
+  Mesh sharp = jittered(cube());
   if (scheme.sharpening != Sharpening::boundary) sharp.creases = {{0, 1, 10}, {1, 3, 10}, {3, 2, 10}, {2, 0, 10}};
   return {jittered(prism(5)),         sharp, jittered(grid(3, 3)), jittered(octahedron()), jittered(fan(7, 4, 2)),
           jittered(open_fan(3, 4, 2))};
@@ -140,10 +140,10 @@ TEST_P(EverySchemeLimit, IsWhereRefinementGoes) {
   int undefined = 0, elsewhere = 0;
   // Enough to converge, and not so many that the faces drown in rounding.
   const int levels = (scheme.name == "kobbelt" ? 16 : 12) * scheme.period;
-  for (const ControlMesh& mesh : meshes_for(scheme)) {
+  for (const Mesh& mesh : meshes_for(scheme)) {
     const Level level = control_level(scheme, mesh);
     const Topology& t = level.topology();
-    LimitTypes cache(scheme);
+    LimitCache cache(scheme);
     const LimitMatrices limit = limit_matrices(level, cache);
     const LimitPoints points = limit_points(limit, t, mesh.positions);
     for (Index s = 0; s < std::ssize(limit.side_vertex); ++s) {

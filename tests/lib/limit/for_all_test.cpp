@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Statements about all elements of a set: of none nothing is proved.
-#include "sublimit/limit/for_all.h"
+#include "sublimit/limit/detail/for_all.h"
 
 #include <gtest/gtest.h>
 
 #include <vector>
 
-#include "sublimit/limit/verdict.h"
+#include "sublimit/limit/detail/verdict.h"
 
 namespace sublimit {
 namespace {

@@ -11,7 +11,7 @@
 
 #include "sublimit/limit/curvature.h"
 #include "sublimit/limit/limit_map.h"
-#include "sublimit/limit/quadrature.h"
+#include "sublimit/limit/detail/quadrature.h"
 #include "support/places.h"
 #include "support/tested_schemes.h"
 
@@ -59,7 +59,7 @@ std::vector<QuadraturePoint> rules_towards_corners(bool triangles) {
 }
 
 double total_curvature(const LimitMap& surface, const Points& points) {
-  std::vector<Sample> samples;
+  std::vector<Place> samples;
   std::vector<double> weights;
   for (Index f = 0; f < surface.addresses().size(); ++f)
     for (const QuadraturePoint& p : rules_towards_corners(surface.addresses().triangles())) {
@@ -81,8 +81,8 @@ TEST(GaussBonnet, TotalCurvatureOfClosedLimitsIsTwoPiChi) {
     SCOPED_TRACE(name);
     const Scheme<double> scheme = *find_scheme<double>(name);
     const bool triangles = takes_triangles(scheme);
-    const ControlMesh ball = jittered(triangles ? octahedron() : cube(), 0.2);
-    const ControlMesh ring = jittered(triangles ? triangle_torus(6, 5) : torus(6, 5), 0.1);
+    const Mesh ball = jittered(triangles ? octahedron() : cube(), 0.2);
+    const Mesh ring = jittered(triangles ? triangle_torus(6, 5) : torus(6, 5), 0.1);
     for (const auto& [mesh, chi] : {std::pair{ball, 2}, std::pair{ring, 0}})
       EXPECT_NEAR(total_curvature(LimitMap(scheme, mesh), mesh.positions), 2 * std::numbers::pi * chi,
                   curvature_tolerance);
@@ -92,13 +92,13 @@ TEST(GaussBonnet, TotalCurvatureOfClosedLimitsIsTwoPiChi) {
 TEST(GaussBonnet, TotalCurvatureAroundExtraordinaryVerticesIsTwoPiChi) {
   struct Case {
     const char* scheme;
-    ControlMesh mesh;
+    Mesh mesh;
     double tolerance;
   };
   for (const Case& c :
        {Case{"catmull-clark", prism(5), curvature_tolerance}, Case{"loop", icosahedron(), curvature_tolerance},
         Case{"catmull-clark", pole(8), tolerance_at_eight}}) {
-    const ControlMesh mesh = jittered(c.mesh, 0.1);
+    const Mesh mesh = jittered(c.mesh, 0.1);
     EXPECT_NEAR(total_curvature(LimitMap(*find_scheme<double>(c.scheme), mesh), mesh.positions), 4 * std::numbers::pi,
                 c.tolerance)
         << c.scheme;
@@ -112,10 +112,10 @@ double turning_of_border(const LimitMap& surface, const Points& points) {
     Eigen::Vector3d T, along_T, normal;  ///< first and second derivative along the edge
   };
   const auto frame = [&](HalfEdge h, double s) -> Frame {
-    const Sample at = on_edge(t, surface.addresses(), h, s), begin = on_edge(t, surface.addresses(), h, 0),
-                 end = on_edge(t, surface.addresses(), h, 1);
+    const Place at = on_edge(t, surface.addresses(), h, s), begin = on_edge(t, surface.addresses(), h, 0),
+                end = on_edge(t, surface.addresses(), h, 1);
     const double u = end.u - begin.u, v = end.v - begin.v;
-    const LimitSamples x = surface.evaluate(points, std::vector<Sample>{at}, 2);
+    const LimitSamples x = surface.evaluate(points, std::vector<Place>{at}, 2);
     return {u * x.du.row(0) + v * x.dv.row(0), u * u * x.duu.row(0) + 2 * u * v * x.duv.row(0) + v * v * x.dvv.row(0),
             x.normal.row(0)};
   };
@@ -137,7 +137,7 @@ double turning_of_border(const LimitMap& surface, const Points& points) {
 
 TEST(GaussBonnet, BordersAndCornersTurnByWhatCurvatureLeaves) {
   const Scheme<double> scheme = *find_scheme<double>("catmull-clark");
-  for (const ControlMesh& mesh : {jittered(grid(3, 2), 0.2), jittered(fan(5, 4, 2), 0.1)}) {
+  for (const Mesh& mesh : {jittered(grid(3, 2), 0.2), jittered(fan(5, 4, 2), 0.1)}) {
     const LimitMap surface(scheme, mesh);
     const double curvature = total_curvature(surface, mesh.positions);
     EXPECT_NEAR(curvature + turning_of_border(surface, mesh.positions), 2 * std::numbers::pi, curvature_tolerance);

@@ -7,12 +7,12 @@
 
 #include <random>
 
-#include "sublimit/limit/limit_points.h"
+#include "sublimit/limit/detail/limit_points.h"
 #include "sublimit/limit/limit_map.h"
-#include "sublimit/patches/interval_mesh.h"
+#include "sublimit/patches/detail/interval_mesh.h"
 #include "sublimit/patches/patch_set.h"
 #include "sublimit/patches/spline_surface.h"
-#include "sublimit/schemes.h"
+#include "sublimit/schemes/schemes.h"
 #include "support/expect_error.h"
 #include "support/knot_breaks.h"
 #include "support/meshes.h"
@@ -32,7 +32,7 @@ std::vector<double> random_lengths(std::mt19937& random, Index count) {
 }
 
 /// Intervals of a mesh whose vertex (i,j) has number i * n + j: a[i] from row i on, b[j] from column j on.
-void set_intervals(ControlMesh& mesh, Index n, const std::vector<double>& a, const std::vector<double>& b) {
+void set_intervals(Mesh& mesh, Index n, const std::vector<double>& a, const std::vector<double>& b) {
   for (size_t i = 0; i < a.size(); ++i)
     mesh.knot_intervals.push_back({Index(i) * n, Index((i + 1) * n) % mesh.num_vertices(), a[i]});
   for (size_t j = 0; j < b.size(); ++j) mesh.knot_intervals.push_back({Index(j), Index(j + 1) % n, b[j]});
@@ -40,7 +40,7 @@ void set_intervals(ControlMesh& mesh, Index n, const std::vector<double>& a, con
 
 /// A mesh as a spline: the face of the spline and the place in it of a place on the mesh.
 struct Twin {
-  ControlMesh mesh;
+  Mesh mesh;
   SplineSurface spline;
   Points points;                  ///< of the spline
   Index n, m;                     ///< columns (along v of the torus, u of the spline), rows of vertices
@@ -52,7 +52,7 @@ void expect_same_surface(const Scheme<double>& scheme, const Twin& twin, unsigne
   const Topology& t = surface.level().topology();
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> inside(0, 1);
-  std::vector<Sample> samples, others;
+  std::vector<Place> samples, others;
   std::vector<std::array<double, 4>> turns;  // (u, v) of the mesh's face by those of the spline: rows of the Jacobian
   const Index columns = twin.spline.u().num_faces(), rows = twin.spline.v().num_faces();
   for (int k = 0; k < 400; ++k) {
@@ -111,7 +111,7 @@ void expect_same_surface(const Scheme<double>& scheme, const Twin& twin, unsigne
 
 Twin torus_twin(std::mt19937& random, Index m, Index n) {
   const std::vector<double> a = random_lengths(random, m), b = random_lengths(random, n);
-  ControlMesh mesh = jittered(torus(m, n), 0.2, unsigned(random()));
+  Mesh mesh = jittered(torus(m, n), 0.2, unsigned(random()));
   set_intervals(mesh, n, a, b);
   using K = Knots<double>;
   SplineSurface spline(K::closed(3, breaks_of(b)), K::closed(3, breaks_of(a)));
@@ -134,14 +134,14 @@ TEST(KnotIntervalLimits, OfATorusAreTheBSplineOfItsKnots) {
 TEST(KnotIntervalLimits, OfVerticesHaveNormals) {
   std::mt19937 random(17);
   const Twin twin = torus_twin(random, 5, 6);
-  LimitTypes types(levelled);
+  LimitCache types(levelled);
   const Level control = control_level(levelled, twin.mesh);
   const Topology& t = control.topology();
   const LimitPoints limit = limit_points(limit_matrices(control, types), t, twin.mesh.positions);
   const LimitMap surface(levelled, control);
   ASSERT_EQ(limit.normal.rows(), t.num_vertices());
   for (Index f = 0; f < t.num_faces(); ++f) {
-    const Sample corner{f, 0, 0};
+    const Place corner{f, 0, 0};
     const LimitSamples there = surface.evaluate(twin.mesh.positions, std::span(&corner, 1), 1);
     const Index v = t.vertices(Face{f})[0];
     EXPECT_EQ(limit.status[size_t(v)], LimitStatus::regular) << v;
@@ -154,8 +154,8 @@ TEST(KnotIntervalLimits, OfVerticesHaveNormals) {
 /// Points of a level-0 place from the surface of the control mesh, and from that of level 1, which is read as a mesh.
 TEST(KnotIntervalLimits, AreTheSameFromTheNextLevel) {
   std::mt19937 random(9);
-  for (ControlMesh mesh : {jittered(cube(), 0.2), jittered(quads_from_triangles(octahedron()), 0.1),
-                           jittered(fan(5, 4, 3), 0.2), jittered(prism(5), 0.1), jittered(grid(3, 3), 0.1)}) {
+  for (Mesh mesh : {jittered(cube(), 0.2), jittered(quads_from_triangles(octahedron()), 0.1),
+                    jittered(fan(5, 4, 3), 0.2), jittered(prism(5), 0.1), jittered(grid(3, 3), 0.1)}) {
     const Topology t(view(mesh));
     std::vector<std::uint8_t> known(t.num_edges(), 0);
     for (Index e = 0; e < t.num_edges(); ++e) {
@@ -209,7 +209,7 @@ TEST(KnotIntervalLimits, AreTheSameFromTheNextLevel) {
       EXPECT_LE((value(a, points, 2) * lv - value(b, fine_points, 2)).norm(), other_route);
     }
     // Vertices too: their limits are those of their children.
-    LimitTypes types(levelled);
+    LimitCache types(levelled);
     const LimitPoints own = limit_points(limit_matrices(control, types), t, points),
                       child = limit_points(limit_matrices(next, types), next.topology(), fine_points);
     for (Index v = 0; v < t.num_vertices(); ++v)
@@ -222,7 +222,7 @@ TEST(KnotIntervalLimits, OfAnOpenGridAreTheBSplineWithPhantomPoints) {
   std::mt19937 random(31);
   constexpr Index m = 5, n = 4;
   const std::vector<double> a = random_lengths(random, m), b = random_lengths(random, n);
-  ControlMesh mesh = jittered(grid(m, n), 0.2);
+  Mesh mesh = jittered(grid(m, n), 0.2);
   for (Index i = 0; i < m; ++i) mesh.knot_intervals.push_back({i, i + 1, a[i]});
   for (Index j = 0; j < n; ++j) mesh.knot_intervals.push_back({j * (m + 1), (j + 1) * (m + 1), b[j]});
   const auto knots = [](const std::vector<double>& lengths) {
@@ -265,7 +265,7 @@ TEST(KnotIntervalLimits, OfAnOpenGridAreTheBSplineWithPhantomPoints) {
         i = std::min(i, vertex % (m + 1));
         j = std::min(j, vertex / (m + 1));
       }
-      const Sample own{f, u, v}, other{j * m + i, x - double(i), y - double(j)};
+      const Place own{f, u, v}, other{j * m + i, x - double(i), y - double(j)};
       const Points p = surface.evaluate(mesh.positions, std::span(&own, 1)).position,
                    q = patches.evaluate(columns, std::span(&other, 1)).position;
       EXPECT_LE((p - q).norm(), reference) << f << ' ' << u << ' ' << v;
@@ -298,7 +298,7 @@ TEST(KnotIntervalLimits, OfAnImportedSurfaceAreTheSurface) {
     const PatchSet patches({std::make_shared<SplineSurface>(surface)}, Coordinates::homogeneous);
     for (int k = 0; k < 100; ++k) {
       const Index face = static_cast<Index>(random() % surface.num_faces());
-      const Sample at{face, random() % 5 == 0 ? double(random() % 2) : inside(random), inside(random)};
+      const Place at{face, random() % 5 == 0 ? double(random() % 2) : inside(random), inside(random)};
       const LimitStencil stencil = limit.stencil({imported.faces[face], at.u, at.v}, 0);
       Eigen::RowVector4d sum = Eigen::RowVector4d::Zero();
       for (size_t i = 0; i < stencil.vertices.size(); ++i)

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Spectra between unequal knot intervals: known ones of equal intervals, tensor products, and tables made elsewhere.
-#include "sublimit/limit/knot_spectrum.h"
+#include "sublimit/limit/detail/knot_spectrum.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "sublimit/schemes.h"
+#include "sublimit/schemes/schemes.h"
 #include "support/expect_error.h"
 #include "support/tolerance.h"
 

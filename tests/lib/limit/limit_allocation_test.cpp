@@ -6,7 +6,7 @@
 #include <random>
 
 #include "sublimit/limit/limit_surface.h"
-#include "sublimit/schemes.h"
+#include "sublimit/schemes/schemes.h"
 #include "support/allocations.h"
 #include "support/meshes.h"
 
@@ -15,13 +15,13 @@ namespace {
 
 struct Surface {
   std::string scheme;
-  ControlMesh mesh;
+  Mesh mesh;
 };
 
 /// Surfaces of polynomial pieces: regular, with extraordinary vertices, with polygons, with creases of all kinds,
 /// triangles, dual.
 std::vector<Surface> surfaces() {
-  ControlMesh creased = cube();
+  Mesh creased = cube();
   add_crease(creased, {0, 1, 3}, 2.5f);
   add_crease(creased, {4, 5, 7}, 10);
   return {{"catmull-clark", torus(8, 6)}, {"catmull-clark", cube()}, {"catmull-clark", prism(5)},
@@ -29,12 +29,12 @@ std::vector<Surface> surfaces() {
           {"doo-sabin", cube()}};
 }
 
-std::vector<Sample> random_samples(FaceCount faces, size_t count) {
+std::vector<Place> random_samples(FaceCount faces, size_t count) {
   std::mt19937 random(1);
   std::uniform_real_distribution<> inside(0.01, 0.99);
-  std::vector<Sample> samples;
+  std::vector<Place> samples;
   while (samples.size() < count) {
-    const Sample s{static_cast<Index>(random() % unsigned(faces.size)), inside(random), inside(random)};
+    const Place s{static_cast<Index>(random() % unsigned(faces.size)), inside(random), inside(random)};
     if (!faces.triangles || s.u + s.v < 0.99) samples.push_back(s);
   }
   return samples;
@@ -47,7 +47,7 @@ TEST(LimitMap, SamplesOnceBoundWithoutMemoryFromTheSystem) {
   for (const Surface& s : surfaces()) {
     const LimitMap surface(find_scheme(s.scheme).value(), s.mesh);
     const LimitSurface bound(surface, s.mesh.positions);
-    const std::vector<Sample> samples = random_samples(surface.faces(), 5000);
+    const std::vector<Place> samples = random_samples(surface.faces(), 5000);
     for (const int order : {0, 1, 2}) {
       SCOPED_TRACE(s.scheme + " of " + std::to_string(s.mesh.num_faces()) + " faces, order " + std::to_string(order));
       LimitSamples out;

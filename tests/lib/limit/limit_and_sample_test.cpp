@@ -5,9 +5,9 @@
 
 #include <Eigen/Geometry>
 
-#include "sublimit/limit/limit_points.h"
+#include "sublimit/limit/detail/limit_points.h"
 #include "sublimit/limit/limit_map.h"
-#include "sublimit/limit/limit_types.h"
+#include "sublimit/limit/detail/limit_cache.h"
 #include "support/laws.h"
 #include "support/limit_truth.h"
 #include "support/places.h"
@@ -37,16 +37,16 @@ std::vector<Variant> quick_variants() {
 
 /// Borders of 1 to 5 faces, corners, an extraordinary vertex; creases, darts and sharp vertices, where the scheme has
 /// them.
-std::vector<ControlMesh> meshes_to_sample(const Scheme<double>& scheme) {
+std::vector<Mesh> meshes_to_sample(const Scheme<double>& scheme) {
   const Index size = scheme.face_size() == 3 ? 3 : 4, step = size == 3 ? 1 : 2;
-  std::vector<ControlMesh> meshes{jittered(open_fan(1, size, 1)), jittered(fan(5, size, 2)),
-                                  jittered(size == 3 ? triangle_grid(3, 3) : grid(3, 3))};
+  std::vector<Mesh> meshes{jittered(open_fan(1, size, 1)), jittered(fan(5, size, 2)),
+                           jittered(size == 3 ? triangle_grid(3, 3) : grid(3, 3))};
   for (const Index n : {2, 3, 4, 5}) meshes.push_back(jittered(open_fan(n, size, 1)));
   if (scheme.preparation.empty() && size == 4) meshes.push_back(jittered(polygon_ring({3, 5, 4})));
   if (scheme.sharpening != Sharpening::semi_sharp) return meshes;
   for (const Index width : {1, 2, 5}) {  // faces on one side of a crease; one edge is a dart
     for (const bool corner : {false, true}) {
-      ControlMesh mesh = jittered(fan(7, size, 2));
+      Mesh mesh = jittered(fan(7, size, 2));
       add_crease(mesh, width == 5 ? std::vector<Index>{1, 0} : std::vector<Index>{1, 0, 1 + width * step}, 10);
       if (corner) mesh.corners = {{0, 10}};
       meshes.push_back(std::move(mesh));
@@ -61,10 +61,10 @@ class LimitAndSample : public ::testing::TestWithParam<Variant> {};
 
 TEST_P(LimitAndSample, SayTheSameOfVertices) {
   const Scheme<double> scheme = find_scheme(GetParam().first, GetParam().second).value();
-  LimitTypes cache(scheme);
-  const auto types = std::make_shared<LimitTypes>(scheme);
+  LimitCache cache(scheme);
+  const auto types = std::make_shared<LimitCache>(scheme);
   int compared = 0;
-  for (const ControlMesh& mesh : meshes_to_sample(scheme)) {
+  for (const Mesh& mesh : meshes_to_sample(scheme)) {
     if (!scheme.preparation.empty() && GetParam().second.contains("quads") &&
         control_level(scheme, mesh).topology().uniform_face_size() != scheme.corners)
       continue;  // limits are known at its vertices only
@@ -74,7 +74,7 @@ TEST_P(LimitAndSample, SayTheSameOfVertices) {
     const LimitPoints limit = limit_points(matrices, t, mesh.positions);
     std::vector<Index> faces_of(matrices.side_vertex.size(), 0);
     for (const Index side : matrices.corner_side) ++faces_of[side];
-    std::vector<Sample> corners;
+    std::vector<Place> corners;
     for (Index i = 0; i < t.num_half_edges(); ++i)
       corners.push_back(from_corner(t, surface.addresses(), HalfEdge{i}, 0, 0));
     const LimitSamples samples = surface.evaluate(mesh.positions, corners, 1);
@@ -108,22 +108,22 @@ INSTANTIATE_TEST_SUITE_P(Registry, LimitAndSample, ::testing::ValuesIn(quick_var
 });
 
 struct Border {
-  ControlMesh mesh;
+  Mesh mesh;
   LimitMap surface;
   HalfEdge edge = no_half_edge;  ///< of its border
 
-  Border(const Scheme<double>& scheme, ControlMesh m, Index tail) : mesh(std::move(m)), surface(scheme, mesh) {
+  Border(const Scheme<double>& scheme, Mesh m, Index tail) : mesh(std::move(m)), surface(scheme, mesh) {
     const Topology& t = surface.level().topology();
     for (Index i = 0; i < t.num_half_edges(); ++i)
       if (!exists(t.twin(HalfEdge{i})) && index(t.tail(HalfEdge{i})) == tail) edge = HalfEdge{i};
   }
-  Sample place(double s, double inwards) const {
+  Place place(double s, double inwards) const {
     const Topology& t = surface.level().topology();
     return s <= 0.5 ? from_corner(t, surface.addresses(), edge, s, inwards)
                     : from_corner(t, surface.addresses(), t.next(edge), inwards, 1 - s);
   }
   LimitSamples at(double s, double inwards) const {
-    return surface.evaluate(mesh.positions, std::vector<Sample>{place(s, inwards)}, 1);
+    return surface.evaluate(mesh.positions, std::vector<Place>{place(s, inwards)}, 1);
   }
   Vector3d normal(double s, double inwards) const { return at(s, inwards).normal.row(0); }
 };
@@ -200,14 +200,14 @@ TEST(NormalsOnBorders, ExistAtVerticesOfMidEdgeWithFewFaces) {
   for (const char* name : {"mid-edge", "mid-edge-habib-warren"})
     for (const Index faces : {1, 2, 3, 4}) {
       SCOPED_TRACE(std::string(name) + ", " + std::to_string(faces) + " faces");
-      const ControlMesh mesh = jittered(open_fan(faces, 4, 2));
+      const Mesh mesh = jittered(open_fan(faces, 4, 2));
       const LimitMap surface(find_scheme(name).value(), mesh);
       const Topology& t = surface.level().topology();
       std::vector<Vector3d> around;
       Vector3d own = Vector3d::Zero();
       HalfEdge h = t.outgoing(Vertex{0});
       for (Index k = 0; k < faces; ++k, h = t.ccw(h)) {
-        std::vector<Sample> places;
+        std::vector<Place> places;
         for (const auto& [a, b] : {std::pair{0.0, 0.0}, {near, 1e-13}, {near, near}, {1e-13, near}})
           places.push_back(from_corner(t, surface.addresses(), h, a, b));
         const LimitSamples samples = surface.evaluate(mesh.positions, places, 1);
@@ -230,9 +230,9 @@ TEST(NormalsOnBorders, ExistAtVerticesOfMidEdgeWithFewFaces) {
 TEST(LimitStatus, BilinearSidesOfSeveralFacesHaveNoNormal) {
   const Scheme<double> scheme = find_scheme("bilinear").value();
   for (const Boundary boundary : {Boundary::edge_only, Boundary::edge_and_corner}) {
-    const ControlMesh mesh = jittered(grid(3, 3));
+    const Mesh mesh = jittered(grid(3, 3));
     const Level level = control_level(scheme, mesh, {.boundary = boundary, .creasing = {}});
-    LimitTypes cache(scheme);
+    LimitCache cache(scheme);
     const LimitMatrices matrices = limit_matrices(level, cache);
     const LimitPoints points = limit_points(matrices, level.topology(), mesh.positions);
     for (Index s = 0; s < std::ssize(matrices.side_vertex); ++s) {

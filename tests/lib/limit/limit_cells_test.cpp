@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Cells hold the surface.
-#include "sublimit/limit/limit_cells.h"
+#include "sublimit/limit/detail/limit_cells.h"
 
 #include <gtest/gtest.h>
 
@@ -16,11 +16,11 @@ TEST(LimitCells, HoldAllOfTheSurface) {
     SCOPED_TRACE(name);
     const Scheme<double> scheme = *find_scheme<double>(name);
     const bool quick = name != std::string("mid-edge") && name != std::string("butterfly");
-    const ControlMesh mesh = quick ? hard_meshes(scheme, 3)[1] : takes_triangles(scheme) ? octahedron() : grid(3, 2);
+    const Mesh mesh = quick ? hard_meshes(scheme, 3)[1] : takes_triangles(scheme) ? octahedron() : grid(3, 2);
     const LimitMap surface(scheme, mesh);
     const double size = diagonal(mesh.positions);
     const std::vector<LimitCell> cells = limit_cells(surface, mesh.positions);
-    const std::vector<Sample> places = random_places(surface.addresses(), quick ? 1000 : 60, 4);
+    const std::vector<Place> places = random_places(surface.addresses(), quick ? 1000 : 60, 4);
     const LimitSamples samples = surface.evaluate(mesh.positions, places);
     for (size_t i = 0; i < places.size(); ++i) {
       const Eigen::Vector3d x = samples.position.row(Eigen::Index(i));

@@ -7,7 +7,7 @@
 
 #include "sublimit/base/error.h"
 #include "sublimit/limit/limit_map.h"
-#include "sublimit/schemes.h"
+#include "sublimit/schemes/schemes.h"
 #include "support/hard_meshes.h"
 #include "support/meshes.h"
 #include "support/tolerance.h"
@@ -18,7 +18,7 @@ namespace {
 TEST(LimitGrid, HasRowsInOrder) {
   const LimitMap squares(*find_scheme("catmull-clark"), prism(5));  // 5 quads and two pentagons
   EXPECT_EQ(squares.addresses().size(), 15);
-  const std::vector<Sample> grid = squares.grid(3);
+  const std::vector<Place> grid = squares.grid(3);
   ASSERT_EQ(grid.size(), 15u * 9);
   EXPECT_EQ(grid[10].face, 1);
   EXPECT_EQ(grid[10].u, 0.5);
@@ -32,10 +32,10 @@ TEST(LimitGrid, SharedPointsHaveTheSameBits) {
     SCOPED_TRACE(name);
     const Scheme<double> scheme = *find_scheme(name);
     const bool triangles = scheme.face_size() == 3;
-    const ControlMesh mesh = triangles ? hard_triangles(3, {.open = true}) : hard_polygons(3, {.open = true});
+    const Mesh mesh = triangles ? hard_triangles(3, {.open = true}) : hard_polygons(3, {.open = true});
     const LimitMap surface(scheme, mesh);
     constexpr int N = 5;
-    const std::vector<Sample> places = surface.grid(N);
+    const std::vector<Place> places = surface.grid(N);
     const LimitSamples grid = surface.evaluate_grid(mesh.positions, N, 1),
                        alone = surface.evaluate(mesh.positions, places, 1);
     ASSERT_EQ(grid.position.rows(), Index(places.size()));
@@ -62,7 +62,7 @@ TEST(LimitGrid, SharedPointsHaveTheSameBits) {
 }
 
 TEST(LimitGrid, SidesOfNonmanifoldEdgesAreApartUnderDualSchemes) {
-  ControlMesh mesh = grid(2, 2);  // a third face at the edge between two of them
+  Mesh mesh = grid(2, 2);  // a third face at the edge between two of them
   const auto v = mesh.positions.rows();
   mesh.positions.conservativeResize(v + 2, Eigen::NoChange);
   mesh.positions.bottomRows(2) << 0, 1, 2, 1, 1, 2;
@@ -84,11 +84,11 @@ TEST(LimitBoxes, HoldTheirPartOfTheLimit) {
   for (const Scheme<double>& scheme : all_schemes()) {
     SCOPED_TRACE(scheme.name);
     const bool triangles = scheme.face_size() == 3;
-    const ControlMesh mesh = jittered(triangles ? triangle_grid(4, 3) : grid(4, 3), 0.3);
+    const Mesh mesh = jittered(triangles ? triangle_grid(4, 3) : grid(4, 3), 0.3);
     const LimitMap surface(scheme, mesh);
     const std::vector<Eigen::AlignedBox3d> boxes = surface.bounding_boxes(mesh.positions);
     ASSERT_EQ(Index(boxes.size()), surface.addresses().size());
-    std::vector<Sample> samples;
+    std::vector<Place> samples;
     for (Index f = 0; f < surface.addresses().size(); ++f)
       for (int i = 0; i < 40; ++i) {
         double u = uniform(numbers), v = uniform(numbers);

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "sublimit/base/error.h"
-#include "sublimit/limit/quadrature.h"
+#include "sublimit/limit/detail/quadrature.h"
 #include "support/expect_error.h"
 #include "support/tested_schemes.h"
 #include "support/tolerance.h"
@@ -23,15 +23,13 @@ constexpr double moment_tolerance = 1e-13;
 /// What levels of a million faces leave open, at least, where there are no polynomials.
 constexpr double refined_tolerance = 1e-4;
 
-LimitIntegrals integrals(const Scheme<double>& scheme, const ControlMesh& mesh) {
+LimitIntegrals integrals(const Scheme<double>& scheme, const Mesh& mesh) {
   return limit_integrals(LimitMap(scheme, mesh), mesh.positions);
 }
-LimitIntegrals integrals(const char* scheme, const ControlMesh& mesh) {
-  return integrals(*find_scheme<double>(scheme), mesh);
-}
+LimitIntegrals integrals(const char* scheme, const Mesh& mesh) { return integrals(*find_scheme<double>(scheme), mesh); }
 
 /// The same from the next level, or the one after of schemes that turn.
-LimitIntegrals refined_integrals(const Scheme<double>& scheme, const ControlMesh& mesh) {
+LimitIntegrals refined_integrals(const Scheme<double>& scheme, const Mesh& mesh) {
   std::vector<Level> levels = refine(scheme, mesh, scheme.period);
   const Points points = refinement_matrix(levels) * mesh.positions;
   return limit_integrals(LimitMap(scheme, std::move(levels.back())), points);
@@ -58,7 +56,7 @@ const std::vector<TestedScheme> with_polynomials{
 const std::vector<TestedScheme> without_polynomials{
     {"butterfly", {}}, {"sqrt3", {}}, {"interpolatory-sqrt3", {}}, {"kobbelt", {}}};
 
-ControlMesh closed_mesh(const Scheme<double>& scheme) {
+Mesh closed_mesh(const Scheme<double>& scheme) {
   return jittered(takes_triangles(scheme) ? octahedron() : cube(), 0.2);
 }
 
@@ -82,7 +80,7 @@ void expect_equal(const LimitIntegrals& a, const LimitIntegrals& b, double size)
 }
 
 TEST(LimitIntegrals, OfACubeAreThoseOfACube) {
-  ControlMesh creased = cube();
+  Mesh creased = cube();
   for (const auto& path : {std::vector<Index>{0, 1, 3, 2, 0}, {4, 5, 7, 6, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}})
     add_crease(creased, path, 10);
   for (Index v = 0; v < 8; ++v) creased.corners.push_back({v, 10});
@@ -101,7 +99,7 @@ TEST(LimitIntegrals, OfACubeAreThoseOfACube) {
 /// weighted by derivatives of the B-spline of degree 7 at integers: (245, 56, 1) / 720 for j - i = 1, 2, 3. The square
 /// of side 2 has products 2, 0, -2, so 4 (245 * 2 - 2) / 720.
 TEST(LimitIntegrals, OfACylinderOverASplineAreThoseOfItsCurve) {
-  ControlMesh mesh = cube();
+  Mesh mesh = cube();
   add_crease(mesh, {0, 1, 3, 2, 0}, 10);
   add_crease(mesh, {4, 5, 7, 6, 4}, 10);
   const LimitIntegrals found = integrals("catmull-clark", mesh);
@@ -116,9 +114,9 @@ TEST(LimitIntegrals, OfACylinderOverASplineAreThoseOfItsCurve) {
 /// fields along z alone, which the library does not use.
 TEST(LimitIntegrals, OfARegularTorusAreThoseOfItsSamples) {
   const Scheme<double> scheme = *find_scheme<double>("catmull-clark");
-  const ControlMesh mesh = jittered(torus(6, 5), 0.5);
+  const Mesh mesh = jittered(torus(6, 5), 0.5);
   const LimitMap surface(scheme, mesh);
-  std::vector<Sample> samples;
+  std::vector<Place> samples;
   std::vector<double> weights;
   for (Index f = 0; f < surface.addresses().size(); ++f)
     for (const QuadraturePoint& p : square_rule(10)) {
@@ -149,7 +147,7 @@ class Integrals : public ::testing::TestWithParam<TestedScheme> {};
 
 TEST_P(Integrals, AreTheSameFromTheNextLevel) {
   const Scheme<double> scheme = GetParam().scheme();
-  const ControlMesh mesh = closed_mesh(scheme);
+  const Mesh mesh = closed_mesh(scheme);
   const LimitIntegrals found = integrals(scheme, mesh);
   EXPECT_LE(found.area_error, (has_polynomials(scheme) ? area_tolerance : refined_tolerance) * found.area);
   EXPECT_LE(found.solid->volume_error, (has_polynomials(scheme) ? 0 : refined_tolerance) * found.solid->volume);
@@ -159,7 +157,7 @@ TEST_P(Integrals, AreTheSameFromTheNextLevel) {
 TEST_P(Integrals, OfOpenMeshesHaveAnAreaAlone) {
   const Scheme<double> scheme = GetParam().scheme();
   const Index size = takes_triangles(scheme) ? 3 : 4;
-  for (const ControlMesh& mesh :
+  for (const Mesh& mesh :
        {jittered(fan(5, size, 2), 0.1), jittered(open_fan(4, size, 2), 0.1), jittered(open_fan(3, size), 0.1)}) {
     const LimitIntegrals found = integrals(scheme, mesh);
     EXPECT_FALSE(found.solid);
@@ -173,7 +171,7 @@ TEST_P(Integrals, OfOpenMeshesHaveAnAreaAlone) {
 
 TEST_P(Integrals, MoveTurnAndScaleWithTheirPoints) {
   const Scheme<double> scheme = GetParam().scheme();
-  const ControlMesh mesh = closed_mesh(scheme);
+  const Mesh mesh = closed_mesh(scheme);
   const LimitMap surface(scheme, mesh);
   const LimitIntegrals a = limit_integrals(surface, mesh.positions);
   const Eigen::Matrix3d R = Eigen::AngleAxisd(1, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
@@ -203,7 +201,7 @@ TEST_P(Integrals, MoveTurnAndScaleWithTheirPoints) {
 /// edges become a third as long, by a ninth.
 TEST_P(Integrals, AreWhatRefinedMeshesTendTo) {
   const Scheme<double> scheme = GetParam().scheme();
-  const ControlMesh mesh = closed_mesh(scheme);
+  const Mesh mesh = closed_mesh(scheme);
   const LimitIntegrals found = integrals(scheme, mesh);
   const std::vector<Level> levels = refine(scheme, mesh, 5 * scheme.period);
   Points x = mesh.positions;
@@ -224,7 +222,7 @@ INSTANTIATE_TEST_SUITE_P(Polynomials, Integrals, ::testing::ValuesIn(with_polyno
 INSTANTIATE_TEST_SUITE_P(Refined, Integrals, ::testing::ValuesIn(without_polynomials), test_name);
 
 TEST(LimitIntegrals, LeaveHolesOut) {
-  ControlMesh mesh = cube();
+  Mesh mesh = cube();
   mesh.holes = {2};
   const LimitIntegrals found = integrals("bilinear", mesh);
   EXPECT_NEAR(found.area, 20, area_tolerance * 20);
@@ -238,10 +236,10 @@ TEST(LimitIntegrals, LeaveHolesOut) {
 }
 
 TEST(LimitIntegrals, OfSheetsThatMeetAtAnEdgeAreTheSumOfBoth) {
-  ControlMesh other = cube();
+  Mesh other = cube();
   other.positions.col(0).array() += 2;
   other.positions.col(1).array() += 2;
-  const ControlMesh mesh = glued(cube(), other, {3, 7}, {0, 4});
+  const Mesh mesh = glued(cube(), other, {3, 7}, {0, 4});
   const LimitIntegrals found = integrals("bilinear", mesh);
   ASSERT_TRUE(found.solid) << found.why_no_solid;
   EXPECT_NEAR(found.solid->volume, 16, moment_tolerance * 16);
@@ -251,12 +249,12 @@ TEST(LimitIntegrals, OfSheetsThatMeetAtAnEdgeAreTheSumOfBoth) {
 
 TEST(LimitIntegrals, SaysWhyThereIsNoSolid) {
   EXPECT_TRUE(integrals("bilinear", mobius_strip(5)).why_no_solid.starts_with("the surface is not closed at edge ("));
-  ControlMesh flat = cube();
+  Mesh flat = cube();
   flat.positions.col(2).setZero();
   const LimitIntegrals found = integrals("catmull-clark", flat);
   EXPECT_EQ(found.why_no_solid, "the surface encloses no volume");
   EXPECT_GT(found.area, 0);
-  ControlMesh point = cube();
+  Mesh point = cube();
   point.positions.setConstant(3);
   const LimitIntegrals nothing = integrals("catmull-clark", point);
   EXPECT_EQ(nothing.area, 0);
@@ -267,14 +265,14 @@ TEST(LimitIntegrals, SaysWhyThereIsNoSolid) {
 /// quarters come near to.
 TEST(LimitIntegrals, OfAFoldedSheetHaveAnErrorThatHolds) {
   constexpr Index n = 6;
-  ControlMesh sheet = grid(n, n);
+  Mesh sheet = grid(n, n);
   const double x[] = {0, 1, 2, 1.7, 0.4, -1, -2.2};
   for (Index v = 0; v < sheet.num_vertices(); ++v) sheet.positions.row(v) << x[v % (n + 1)], v / (n + 1), 0;
   const LimitMap surface(*find_scheme<double>("catmull-clark"), sheet);
   const LimitIntegrals found = limit_integrals(surface, sheet.positions);
   // x depends on one parameter, y on the other: the area is the way that x goes there and back, times that of y.
   constexpr int steps = 1 << 12;
-  std::vector<Sample> places;
+  std::vector<Place> places;
   for (Index face = 0; face < n; ++face)
     for (int i = 0; i <= steps; ++i) places.push_back({face, double(i) / steps, 0});
   const Points at = surface.evaluate(sheet.positions, places).position;

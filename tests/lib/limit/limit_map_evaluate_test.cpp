@@ -10,7 +10,7 @@
 #include <thread>
 
 #include "sublimit/limit/limit_surface.h"
-#include "sublimit/limit/limit_types.h"
+#include "sublimit/limit/detail/limit_cache.h"
 #include "support/expect_error.h"
 #include "support/places.h"
 #include "support/tested_schemes.h"
@@ -26,14 +26,14 @@ constexpr Points LimitSamples::*quantities[] = {&LimitSamples::position, &LimitS
                                                 &LimitSamples::duu,      &LimitSamples::duv, &LimitSamples::dvv};
 
 /// Inside, on edges, at corners and near them.
-std::vector<Sample> some_places(const LimitMap& surface, int count, unsigned seed) {
+std::vector<Place> some_places(const LimitMap& surface, int count, unsigned seed) {
   const Topology& t = surface.level().topology();
-  std::vector<Sample> result;
+  std::vector<Place> result;
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> unit(0, 1);
   while (int(result.size()) < count) {
     const HalfEdge h{Index(random() % std::uint32_t(t.num_half_edges()))};
-    Sample s{Index(random() % std::uint32_t(surface.addresses().size())), unit(random), unit(random)};
+    Place s{Index(random() % std::uint32_t(surface.addresses().size())), unit(random), unit(random)};
     if (surface.addresses().triangles() && s.u + s.v > 1) s.u = 1 - s.u, s.v = 1 - s.v;
     const double d = std::ldexp(1.0, -int(random() % 20));
     switch (random() % 8) {
@@ -78,9 +78,9 @@ class LimitSurfaceEvaluation : public ::testing::TestWithParam<TestedScheme> {
     while (many_.size() < enough) many_.insert(many_.end(), few_.begin(), few_.end());
   }
   Scheme<double> scheme_;
-  ControlMesh mesh_;
+  Mesh mesh_;
   std::unique_ptr<LimitMap> surface_;
-  std::vector<Sample> few_, many_;
+  std::vector<Place> few_, many_;
 };
 
 TEST_P(LimitSurfaceEvaluation, IsStencilsTimesPointsByBothPaths) {
@@ -91,7 +91,7 @@ TEST_P(LimitSurfaceEvaluation, IsStencilsTimesPointsByBothPaths) {
     ASSERT_EQ(few.status.size(), few_.size());
     ASSERT_EQ(many.status.size(), many_.size());
     for (Index i = 0; i < Index(few_.size()); ++i) {
-      const Sample& s = few_[size_t(i)];
+      const Place& s = few_[size_t(i)];
       SCOPED_TRACE("square " + std::to_string(s.face) + " (" + std::to_string(s.u) + ", " + std::to_string(s.v) +
                    ") order " + std::to_string(order));
       const LimitStencil stencil = surface_->stencil(s, order);
@@ -160,7 +160,7 @@ TEST_P(LimitSurfaceEvaluation, BoundPointsGiveTheSame) {
 }
 
 TEST_P(LimitSurfaceEvaluation, TypesAreSharedBetweenSurfacesAndThreads) {
-  const auto types = std::make_shared<LimitTypes>(scheme_);
+  const auto types = std::make_shared<LimitCache>(scheme_);
   const LimitSamples expected = surface_->evaluate(mesh_.positions, few_, 2);
   std::vector<LimitSamples> found(3);
   std::vector<std::thread> threads;
@@ -183,10 +183,10 @@ INSTANTIATE_TEST_SUITE_P(Schemes, LimitSurfaceEvaluation, ::testing::ValuesIn(sc
 
 TEST(PieceTypes, ThatAreFullLeaveASurfaceToItself) {
   const Scheme<double> scheme = find_scheme("catmull-clark").value();
-  const ControlMesh mesh = hard_polygons(1);
-  const auto small = std::make_shared<LimitTypes>(scheme, 5);
+  const Mesh mesh = hard_polygons(1);
+  const auto small = std::make_shared<LimitCache>(scheme, 5);
   const LimitMap own(scheme, mesh), first(scheme, mesh, {}, small);
-  const std::vector<Sample> places = some_places(own, 100, 3);
+  const std::vector<Place> places = some_places(own, 100, 3);
   const LimitSamples expected = own.evaluate(mesh.positions, places, 2);
   EXPECT_TRUE(same_bits(first.evaluate(mesh.positions, places, 2), expected));
   EXPECT_TRUE(small->pieces().is_full());
@@ -197,11 +197,11 @@ TEST(PieceTypes, ThatAreFullLeaveASurfaceToItself) {
 }
 
 TEST(LimitMap, PlacesOutsideAreRowsOfTheirOwn) {
-  const ControlMesh mesh = cube();
+  const Mesh mesh = cube();
   const LimitMap surface(find_scheme("catmull-clark").value(), mesh);
   const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
-  std::vector<Sample> samples{{0, 0.5, 0.5}, {-1, 0, 0},  {6, 0, 0},   {0, -1e-300, 0}, {0, 1 + eps, 0},
-                              {0, nan, 0.5}, {0, 0, nan}, {0, inf, 0}, {5, 1, 1}};
+  std::vector<Place> samples{{0, 0.5, 0.5}, {-1, 0, 0},  {6, 0, 0},   {0, -1e-300, 0}, {0, 1 + eps, 0},
+                             {0, nan, 0.5}, {0, 0, nan}, {0, inf, 0}, {5, 1, 1}};
   for (const bool bound : {false, true}) {
     if (bound) samples.resize(100, samples[1]);
     const LimitSamples out = surface.evaluate(mesh.positions, samples, 1);
@@ -222,17 +222,17 @@ TEST(LimitMap, NoSamplesAreNoRows) {
 }
 
 TEST(LimitMap, BadRequestsAreErrors) {
-  const ControlMesh mesh = cube();
+  const Mesh mesh = cube();
   const LimitMap surface(find_scheme("catmull-clark").value(), mesh);
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  expect_error<InvalidParameter>([&] { surface.stencil({6, 0, 0}); }, {"face 6", "there are 6"});
+  expect_error<InvalidParameter>([&] { surface.stencil({6, 0, 0}); }, {"face 6", "faces are 0 to 5"});
   expect_error<InvalidParameter>([&] { surface.stencil({-1, 0, 0}); }, {"face -1"});
   expect_error<InvalidParameter>([&] { surface.stencil({0, 1.5, 0}); }, {"1.5", "outside the square"});
   expect_error<InvalidParameter>([&] { surface.stencil({0, 0, -0.25}); }, {"-0.25", "outside"});
   expect_error<InvalidParameter>([&] { surface.stencil({0, nan, 0}); }, {"nan"});
   expect_error<InvalidParameter>([&] { surface.stencil({0, 0, 0}, 3); }, {"order 3"});
   expect_error<InvalidParameter>([&] { surface.stencil({0, 0, 0}, -1); }, {"order -1"});
-  const std::vector<Sample> one{{0, 0, 0}};
+  const std::vector<Place> one{{0, 0, 0}};
   expect_error<InvalidParameter>([&] { surface.evaluate(mesh.positions, one, 3); }, {"order 3"});
   expect_error<InvalidParameter>([&] { surface.evaluate(Points::Zero(7, 3), one); }, {"7 x 3", "8 x 3"});
   expect_error<InvalidParameter>([&] { LimitSurface(surface, Points::Zero(9, 3)); }, {"9 x 3", "8 x 3"});
@@ -240,7 +240,7 @@ TEST(LimitMap, BadRequestsAreErrors) {
   expect_error<InvalidParameter>([&] { surface.grid(1); }, {"grid of 1"});
   const LimitMap triangles(find_scheme("loop").value(), octahedron());
   expect_error<InvalidParameter>([&] { triangles.stencil({0, 0.75, 0.5}); }, {"outside the triangle"});
-  expect_error<InvalidParameter>([&] { triangles.stencil({8, 0, 0}); }, {"8 triangles"});
+  expect_error<InvalidParameter>([&] { triangles.stencil({8, 0, 0}); }, {"face 8", "the triangles"});
 }
 
 TEST(LimitMap, RotatingSchemesBeginWithEvenLevels) {
@@ -263,7 +263,7 @@ TEST(LimitMap, PolygonsThatAreCutAtEdgesAreRefused) {
 TEST(LimitMap, GridsHaveAllEndsAndOrder) {
   const LimitMap quads(find_scheme("catmull-clark").value(), cube()),
       triangles(find_scheme("loop").value(), octahedron());
-  const std::vector<Sample> q = quads.grid(4), t = triangles.grid(4);
+  const std::vector<Place> q = quads.grid(4), t = triangles.grid(4);
   ASSERT_EQ(q.size(), 6u * 16);
   ASSERT_EQ(t.size(), 8u * 10);
   EXPECT_EQ(q[17].face, 1);
@@ -274,9 +274,9 @@ TEST(LimitMap, GridsHaveAllEndsAndOrder) {
   EXPECT_EQ(t[3].u, 1);
   EXPECT_EQ(t[4].v, 1.0 / 3);
   EXPECT_EQ(t[9].v, 1);
-  for (const Sample& s : t) EXPECT_NO_THROW(triangles.stencil(s));
+  for (const Place& s : t) EXPECT_NO_THROW(triangles.stencil(s));
   for (const int N : {2, 3, 7, 50, 100})
-    for (const Sample& s : triangles.grid(N)) EXPECT_TRUE(s.u >= 0 && s.v >= 0 && s.u + s.v <= 1) << N;
+    for (const Place& s : triangles.grid(N)) EXPECT_TRUE(s.u >= 0 && s.v >= 0 && s.u + s.v <= 1) << N;
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ struct InPlane {
 };
 
 /// Of a grid whose vertex (i,j) has number j (side + 1) + i and stands at (i,j).
-InPlane in_plane(const LimitMap& surface, const Sample& s) {
+InPlane in_plane(const LimitMap& surface, const Place& s) {
   const Topology& t = surface.level().topology();
   const auto corners = t.vertices(surface.addresses().place(s.face).face);
   const auto place = [](Index v) { return Eigen::Vector2d(v % (side + 1), v / (side + 1)); };
@@ -33,8 +33,8 @@ InPlane in_plane(const LimitMap& surface, const Sample& s) {
   return {origin + s.u * u + s.v * v, u, v};
 }
 
-ControlMesh net(bool triangles, const std::function<Eigen::Vector3d(double, double)>& point) {
-  ControlMesh mesh = triangles ? triangle_grid(side, side) : grid(side, side);
+Mesh net(bool triangles, const std::function<Eigen::Vector3d(double, double)>& point) {
+  Mesh mesh = triangles ? triangle_grid(side, side) : grid(side, side);
   for (Index v = 0; v < mesh.num_vertices(); ++v)
     mesh.positions.row(v) = point(v % (side + 1), v / (side + 1)).transpose();
   return mesh;
@@ -47,7 +47,7 @@ class RegularNets : public ::testing::TestWithParam<TestedScheme> {};
 TEST_P(RegularNets, LinearFunctionsOfTheParameterAreReproduced) {
   const Scheme<double> scheme = GetParam().scheme();
   const Eigen::Vector3d a(1, -0.25, 2), b(0.5, 1, 1), c(3, 2, 1);
-  const ControlMesh mesh =
+  const Mesh mesh =
       net(takes_triangles(scheme), [&](double i, double j) { return Eigen::Vector3d(c + i * a + j * b); });
   const LimitMap surface(scheme, mesh);
   const double depth = scheme.name == "bilinear" || scheme.name == "catmull-clark" || scheme.name == "loop" ||
@@ -58,7 +58,7 @@ TEST_P(RegularNets, LinearFunctionsOfTheParameterAreReproduced) {
   std::uniform_real_distribution<double> unit(0, 1);
   int compared = 0;
   for (int i = 0; i < 6000 && compared < 150 / effort(scheme); ++i) {
-    Sample s{Index(random() % std::uint32_t(surface.addresses().size())), unit(random), unit(random)};
+    Place s{Index(random() % std::uint32_t(surface.addresses().size())), unit(random), unit(random)};
     if (random() % 4 == 0) s.u = double(random() % 9) / 8;
     if (random() % 4 == 0) s.v = double(random() % 9) / 8;
     if (surface.addresses().triangles() && s.u + s.v > 1) s.u = 1 - s.u, s.v = 1 - s.v;
@@ -99,7 +99,7 @@ TEST(LimitSurfaceCurvature, IsThatOfQuadrics) {
   const double shear = 0.375;  // x = i + shear j, y = j
   const double half = side / 2;
   for (const Quadratic& q : {Quadratic{0.5, 0, 0.5}, {0.5, 0, -0.5}, {0.5, 0, 0}, {0.25, 0.125, -0.75}, {0, 0, 0}}) {
-    const ControlMesh mesh = net(false, [&](double i, double j) {
+    const Mesh mesh = net(false, [&](double i, double j) {
       const double x = i - half + shear * (j - half), y = j - half;
       // Squares of x and y and their product, less a third of what they are of unit steps in i and j.
       const double less = (q.height(1, 0) + q.height(shear, 1)) / 3;
@@ -108,9 +108,9 @@ TEST(LimitSurfaceCurvature, IsThatOfQuadrics) {
     const LimitMap surface(scheme, mesh);
     std::mt19937 random(5);
     std::uniform_real_distribution<double> unit(0, 1);
-    std::vector<Sample> samples;
+    std::vector<Place> samples;
     while (samples.size() < 1000) {
-      const Sample s{Index(random() % std::uint32_t(surface.addresses().size())), unit(random), unit(random)};
+      const Place s{Index(random() % std::uint32_t(surface.addresses().size())), unit(random), unit(random)};
       const InPlane p = in_plane(surface, s);
       if (p.at.minCoeff() > 1 && p.at.maxCoeff() < side - 1) samples.push_back(s);
     }
@@ -147,14 +147,14 @@ TEST(LimitSurfaceCurvature, IsThatOfQuadrics) {
 
 TEST(LimitSurfaceCurvature, IsAbsentWithoutSecondDerivatives) {
   const LimitMap surface(find_scheme("catmull-clark").value(), cube());
-  const LimitSamples samples = surface.evaluate(cube().positions, std::vector<Sample>{{0, 0, 0}, {0, 0.25, 0.25}}, 2);
+  const LimitSamples samples = surface.evaluate(cube().positions, std::vector<Place>{{0, 0, 0}, {0, 0.25, 0.25}}, 2);
   EXPECT_FALSE(curvature(samples, 0));  // extraordinary
   EXPECT_TRUE(curvature(samples, 1));
-  EXPECT_FALSE(curvature(surface.evaluate(cube().positions, std::vector<Sample>{{0, 0.25, 0.25}}, 1), 0));
-  ControlMesh line = grid(4, 4);
+  EXPECT_FALSE(curvature(surface.evaluate(cube().positions, std::vector<Place>{{0, 0.25, 0.25}}, 1), 0));
+  Mesh line = grid(4, 4);
   line.positions.rightCols(2).setZero();
   const LimitMap degenerate(find_scheme("catmull-clark").value(), line);
-  EXPECT_FALSE(curvature(degenerate.evaluate(line.positions, std::vector<Sample>{{5, 0.25, 0.25}}, 2), 0));
+  EXPECT_FALSE(curvature(degenerate.evaluate(line.positions, std::vector<Place>{{5, 0.25, 0.25}}, 2), 0));
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 #include <Eigen/Geometry>
 
 #include "sublimit/limit/limit_map.h"
-#include "sublimit/schemes.h"
+#include "sublimit/schemes/schemes.h"
 #include "support/meshes.h"
 #include "support/places.h"
 #include "support/tolerance.h"
@@ -25,17 +25,17 @@ struct Answer {
 
 class Surface {
  public:
-  Surface(const char* scheme, ControlMesh mesh, const SubdivisionOptions& options = {})
+  Surface(const char* scheme, Mesh mesh, const SubdivisionOptions& options = {})
       : mesh_(std::move(mesh)), surface_(find_scheme(scheme).value(), mesh_, options) {}
   const LimitMap& operator*() const { return surface_; }
   const Topology& topology() const { return surface_.level().topology(); }
 
   /// Of a place and of evaluation, which must say the same by both ways that it has.
-  Answer at(const Sample& s, int order = 2) const {
+  Answer at(const Place& s, int order = 2) const {
     const LimitStencil stencil = surface_.stencil(s, order);
     const Index rows = Index(stencil.weights.rows());
-    const std::vector<Sample> one{s}, many(4 * size_t(topology().num_half_edges()) + 4, s);
-    for (const std::vector<Sample>& samples : {one, many}) {
+    const std::vector<Place> one{s}, many(4 * size_t(topology().num_half_edges()) + 4, s);
+    for (const std::vector<Place>& samples : {one, many}) {
       const LimitSamples found = surface_.evaluate(mesh_.positions, samples, order);
       EXPECT_EQ(found.status.back(), stencil.status) << name(found.status.back()) << ", " << name(stencil.status);
       EXPECT_EQ(int(found.order.back()), rows == 6 ? 2 : rows == 3 ? 1 : 0);
@@ -46,8 +46,8 @@ class Surface {
   Answer near(Index vertex, double a, double b, int order = 2) const {
     return at(from_corner(topology(), surface_.addresses(), topology().outgoing(Vertex{vertex}), a, b), order);
   }
-  /// Sample at s of the way from one vertex to another, in the face on the left.
-  Sample between(Index from, Index to, double s) const {
+  /// Place at s of the way from one vertex to another, in the face on the left.
+  Place between(Index from, Index to, double s) const {
     for (Index i = 0; i < topology().num_half_edges(); ++i) {
       const HalfEdge h{i};
       if (index(topology().tail(h)) == from && index(topology().head(h)) == to)
@@ -58,7 +58,7 @@ class Surface {
   }
 
  private:
-  ControlMesh mesh_;
+  Mesh mesh_;
   LimitMap surface_;
 };
 
@@ -93,7 +93,7 @@ TEST(LimitSurfaceStatus, BordersAreCreases) {
 }
 
 TEST(LimitSurfaceStatus, CreasesBelongToBothSides) {
-  ControlMesh mesh = grid(6, 6);  // vertex (i,j): 7 j + i
+  Mesh mesh = grid(6, 6);  // vertex (i,j): 7 j + i
   add_crease(mesh, {21, 22, 23, 24, 25, 26, 27}, infinite_sharpness);
   const Surface surface("catmull-clark", mesh);
   expect(surface.at(surface.between(23, 24, 0.3)), Status::crease, 2);
@@ -101,7 +101,7 @@ TEST(LimitSurfaceStatus, CreasesBelongToBothSides) {
   expect(surface.at(surface.between(23, 24, 0)), Status::crease, 2);
   expect(surface.at(surface.between(23, 30, 0.3)), Status::regular, 2);
   // The normals of the two sides differ; derivatives along the crease do not.
-  const Sample left = surface.between(23, 24, 0.25), right = surface.between(24, 23, 0.75);
+  const Place left = surface.between(23, 24, 0.25), right = surface.between(24, 23, 0.75);
   const LimitSamples sides = (*surface).evaluate(mesh.positions, std::vector{left, right}, 1);
   EXPECT_GT((sides.normal.row(0) - sides.normal.row(1)).norm(), clear_angle);
   EXPECT_LE((sides.position.row(0) - sides.position.row(1)).norm(), rounding(64, 7));
@@ -109,7 +109,7 @@ TEST(LimitSurfaceStatus, CreasesBelongToBothSides) {
 }
 
 TEST(LimitSurfaceStatus, SharpnessThatDecaysIsSmooth) {
-  ControlMesh mesh = grid(6, 6);
+  Mesh mesh = grid(6, 6);
   add_crease(mesh, {21, 22, 23, 24, 25, 26, 27}, 2.5f);
   const Surface surface("catmull-clark", mesh);
   expect(surface.at(surface.between(23, 24, 0.3)), Status::regular, 2);
@@ -128,7 +128,7 @@ TEST(LimitSurfaceStatus, ExtraordinaryVerticesHaveTangentsOnly) {
 }
 
 TEST(LimitSurfaceStatus, DartsAreExtraordinary) {
-  ControlMesh mesh = grid(6, 6);
+  Mesh mesh = grid(6, 6);
   add_crease(mesh, {21, 22, 23, 24}, infinite_sharpness);
   const Surface surface("catmull-clark", mesh);
   expect(surface.near(24, 0, 0), Status::extraordinary, 0);
@@ -137,7 +137,7 @@ TEST(LimitSurfaceStatus, DartsAreExtraordinary) {
 }
 
 TEST(LimitSurfaceStatus, SharpVerticesAreCorners) {
-  ControlMesh mesh = grid(6, 6);
+  Mesh mesh = grid(6, 6);
   mesh.corners = {{24, infinite_sharpness}};
   const Surface surface("catmull-clark", mesh);
   EXPECT_NE(surface.near(24, 0, 0).status, Status::regular);
@@ -145,7 +145,7 @@ TEST(LimitSurfaceStatus, SharpVerticesAreCorners) {
 }
 
 TEST(LimitSurfaceStatus, HolesAreHoles) {
-  ControlMesh mesh = grid(4, 4);
+  Mesh mesh = grid(4, 4);
   mesh.holes = {5};
   const Surface surface("catmull-clark", mesh);
   EXPECT_EQ(surface.at({5, 0.5, 0.25}).status, Status::hole);
@@ -169,11 +169,11 @@ TEST(LimitSurfaceStatus, SecondDerivativesThatJumpAreNamed) {
 }
 
 TEST(LimitSurfaceStatus, PointsThatCoincideHaveNoNormal) {
-  ControlMesh mesh = grid(4, 4);
+  Mesh mesh = grid(4, 4);
   mesh.positions.rowwise() = Eigen::RowVector3d(1, 2, 3);
   const LimitMap surface(find_scheme("catmull-clark").value(), mesh);
   for (const size_t count : {size_t(1), size_t(200)}) {
-    const LimitSamples samples = surface.evaluate(mesh.positions, std::vector<Sample>(count, Sample{5, 0.25, 0.25}), 1);
+    const LimitSamples samples = surface.evaluate(mesh.positions, std::vector<Place>(count, Place{5, 0.25, 0.25}), 1);
     EXPECT_EQ(samples.status.back(), Status::undefined_normal);
     EXPECT_TRUE(samples.normal.bottomRows(1).isZero(0));
     EXPECT_LE((samples.position.bottomRows(1) - Eigen::RowVector3d(1, 2, 3)).norm(), rounding(16, 4));
@@ -181,25 +181,25 @@ TEST(LimitSurfaceStatus, PointsThatCoincideHaveNoNormal) {
 }
 
 TEST(LimitSurfaceStatus, PointsOnALineHaveNoNormal) {
-  ControlMesh mesh = grid(4, 4);
+  Mesh mesh = grid(4, 4);
   mesh.positions.rightCols(2).setZero();
   const LimitMap surface(find_scheme("catmull-clark").value(), mesh);
   for (const size_t count : {size_t(1), size_t(200)})
-    EXPECT_EQ(surface.evaluate(mesh.positions, std::vector<Sample>(count, Sample{5, 0.25, 0.25}), 1).status.back(),
+    EXPECT_EQ(surface.evaluate(mesh.positions, std::vector<Place>(count, Place{5, 0.25, 0.25}), 1).status.back(),
               Status::undefined_normal);
 }
 
 /// A grid folded to a wedge: du vanishes in the fold, second derivatives tell the normal of neither side.
 TEST(LimitSurfaceStatus, NormalsSurviveAVanishingDerivative) {
   // x = u^3 has du = 0 at u = 0, the surface is a plane all the same.
-  ControlMesh mesh = grid(8, 8);
+  Mesh mesh = grid(8, 8);
   for (Index v = 0; v < mesh.num_vertices(); ++v) {
     const double i = v % 9 - 4, j = v / 9 - 4;
     mesh.positions.row(v) << i * i * i - i, j, 0;  // the cubic B-spline with these is u^3
   }
   const LimitMap surface(find_scheme("catmull-clark").value(), mesh);
   // Face (4,4) begins at vertex (4,4), which is u = 0.
-  const LimitSamples samples = surface.evaluate(mesh.positions, std::vector<Sample>{{36, 0, 0.25}, {36, 0.5, 0.25}}, 2);
+  const LimitSamples samples = surface.evaluate(mesh.positions, std::vector<Place>{{36, 0, 0.25}, {36, 0.5, 0.25}}, 2);
   EXPECT_LE(samples.du.row(0).norm(), rounding(64, 60));
   EXPECT_LE((samples.normal.row(1) - Eigen::RowVector3d(0, 0, 1)).norm(), reference_angle);
   EXPECT_NEAR(samples.position(1, 0), 0.125, rounding(64, 60));

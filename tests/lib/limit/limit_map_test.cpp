@@ -10,8 +10,8 @@
 #include <cmath>
 #include <random>
 
-#include "sublimit/limit/limit_points.h"
-#include "sublimit/limit/limit_types.h"
+#include "sublimit/limit/detail/limit_points.h"
+#include "sublimit/limit/detail/limit_cache.h"
 #include "support/places.h"
 #include "support/tested_schemes.h"
 #include "support/tolerance.h"
@@ -34,7 +34,7 @@ RowMatrix dense(const LimitMap& surface, const LimitStencil& s) {
 
 double norm1(const RowMatrix& row) { return row.cwiseAbs().sum(); }
 
-std::string words(const Sample& s) {
+std::string words(const Place& s) {
   return "square " + std::to_string(s.face) + " (" + std::to_string(s.u) + ", " + std::to_string(s.v) + ")";
 }
 
@@ -42,20 +42,20 @@ class LimitSurfaceLaws : public ::testing::TestWithParam<TestedScheme> {
  protected:
   void SetUp() override {
     scheme_ = GetParam().scheme();
-    types_ = std::make_shared<LimitTypes>(scheme_);
+    types_ = std::make_shared<LimitCache>(scheme_);
   }
   template <class Law>
   void on_hard_meshes(const Law& law) const {
     int kind = 0;
-    for (const ControlMesh& mesh : hard_meshes(scheme_, 2)) {
+    for (const Mesh& mesh : hard_meshes(scheme_, 2)) {
       SCOPED_TRACE("hard mesh " + std::to_string(kind++));
       law(LimitMap(scheme_, mesh, {}, types_), mesh);
     }
   }
   /// Places of all kinds: inside, on edges, at corners, near them.
-  std::vector<Sample> places(const LimitMap& surface, int count, unsigned seed) const {
+  std::vector<Place> places(const LimitMap& surface, int count, unsigned seed) const {
     const Topology& t = surface.level().topology();
-    std::vector<Sample> result = random_places(surface.addresses(), count, seed);
+    std::vector<Place> result = random_places(surface.addresses(), count, seed);
     std::mt19937 random(seed);
     for (int i = 0; i < count; ++i) {
       const HalfEdge h{Index(random() % std::uint32_t(t.num_half_edges()))};
@@ -73,12 +73,12 @@ class LimitSurfaceLaws : public ::testing::TestWithParam<TestedScheme> {
   double rounded() const { return eigen(scheme_.claims.regular < 7 ? 10 : 100); }
 
   Scheme<double> scheme_;
-  std::shared_ptr<LimitTypes> types_;  // shared by all surfaces of a test
+  std::shared_ptr<LimitCache> types_;  // shared by all surfaces of a test
 };
 
 TEST_P(LimitSurfaceLaws, PositionsSumToOneAndDerivativesToZero) {
-  on_hard_meshes([&](const LimitMap& surface, const ControlMesh&) {
-    for (const Sample& s : places(surface, count(20), 1)) {
+  on_hard_meshes([&](const LimitMap& surface, const Mesh&) {
+    for (const Place& s : places(surface, count(20), 1)) {
       const LimitStencil stencil = surface.stencil(s, 2);
       ASSERT_GE(stencil.weights.rows(), 1) << words(s);
       ASSERT_TRUE(stencil.weights.allFinite() && stencil.tangents.allFinite()) << words(s);
@@ -98,8 +98,8 @@ TEST_P(LimitSurfaceLaws, PositionsSumToOneAndDerivativesToZero) {
 }
 
 TEST_P(LimitSurfaceLaws, LowerOrdersAreTheSameRows) {
-  on_hard_meshes([&](const LimitMap& surface, const ControlMesh&) {
-    for (const Sample& s : places(surface, count(6), 4)) {
+  on_hard_meshes([&](const LimitMap& surface, const Mesh&) {
+    for (const Place& s : places(surface, count(6), 4)) {
       const RowMatrix both = dense(surface, surface.stencil(s, 2));
       for (int order = 0; order < 2; ++order) {
         const RowMatrix rows = dense(surface, surface.stencil(s, order));
@@ -113,11 +113,11 @@ TEST_P(LimitSurfaceLaws, LowerOrdersAreTheSameRows) {
 
 /// Positions from both sides, and derivatives along the edge: differences of places along it say what these are.
 TEST_P(LimitSurfaceLaws, IsOneSurfaceAcrossEdges) {
-  on_hard_meshes([&](const LimitMap& surface, const ControlMesh&) {
+  on_hard_meshes([&](const LimitMap& surface, const Mesh&) {
     const Topology& t = surface.level().topology();
     const Addresses& addresses = surface.addresses();
     struct Side {
-      Sample at;
+      Place at;
       double du, dv;  // of the place along the edge
     };
     const auto expect_same = [&](const Side& a, const Side& b) {
@@ -131,7 +131,7 @@ TEST_P(LimitSurfaceLaws, IsOneSurfaceAcrossEdges) {
     };
     const auto along = [&](HalfEdge h, double s, double sign) {
       const double d = 1.0 / 64;
-      const Sample at = on_edge(t, addresses, h, s), to = on_edge(t, addresses, h, s + sign * d);
+      const Place at = on_edge(t, addresses, h, s), to = on_edge(t, addresses, h, s + sign * d);
       return Side{at, (to.u - at.u) / d, (to.v - at.v) / d};
     };
     // Dual schemes have no parameter of their own along edges that come to a border between others.
@@ -158,12 +158,12 @@ TEST_P(LimitSurfaceLaws, IsOneSurfaceAcrossEdges) {
 
 /// Where children of pieces meet, a place beside another has nearly the same stencil.
 TEST_P(LimitSurfaceLaws, IsContinuousWherePiecesAreCut) {
-  on_hard_meshes([&](const LimitMap& surface, const ControlMesh&) {
-    for (const Sample& s : random_places(surface.addresses(), count(12), 6))
+  on_hard_meshes([&](const LimitMap& surface, const Mesh&) {
+    for (const Place& s : random_places(surface.addresses(), count(12), 6))
       for (const double cut : {0.5, 0.25, 1.0 / 3}) {
         const double v = triangles() ? s.v * (1 - cut) : s.v;
         for (const bool turned : {false, true}) {
-          const auto at = [&](double x) { return turned ? Sample{s.face, v, x} : Sample{s.face, x, v}; };
+          const auto at = [&](double x) { return turned ? Place{s.face, v, x} : Place{s.face, x, v}; };
           const RowMatrix x = dense(surface, surface.stencil(at(cut), 0)),
                           y = dense(surface, surface.stencil(at(std::nextafter(cut, 0.0)), 0)),
                           z = dense(surface, surface.stencil(at(std::nextafter(cut, 1.0)), 0));
@@ -177,12 +177,12 @@ TEST_P(LimitSurfaceLaws, IsContinuousWherePiecesAreCut) {
 /// Away from what is dyadic.
 TEST_P(LimitSurfaceLaws, DerivativesAreDifferences) {
   const double h = std::ldexp(1.0, -17);
-  on_hard_meshes([&](const LimitMap& surface, const ControlMesh&) {
+  on_hard_meshes([&](const LimitMap& surface, const Mesh&) {
     std::mt19937 random(8);
     std::uniform_real_distribution<double> inside(0.01, 0.49);
     int compared = 0;
     for (int i = 0; i < count(15); ++i) {
-      const Sample s{Index(random() % std::uint32_t(surface.addresses().size())), inside(random), inside(random)};
+      const Place s{Index(random() % std::uint32_t(surface.addresses().size())), inside(random), inside(random)};
       const RowMatrix x = dense(surface, surface.stencil(s, 2));
       if (x.rows() < 3) continue;
       const auto at = [&](double u, double v) {
@@ -211,17 +211,17 @@ TEST_P(LimitSurfaceLaws, DerivativesAreDifferences) {
 
 /// Corners of squares are where limits of vertices are known, with normals on each side.
 TEST_P(LimitSurfaceLaws, CornersAreTheLimitsOfVertices) {
-  on_hard_meshes([&](const LimitMap& surface, const ControlMesh& mesh) {
+  on_hard_meshes([&](const LimitMap& surface, const Mesh& mesh) {
     const Topology& t = surface.level().topology();
     const bool prepared = !scheme_.preparation.empty();
-    LimitTypes cache(scheme_);
+    LimitCache cache(scheme_);
     const Level level = prepared ? next_level(scheme_, surface.level()) : surface.level();
     const LimitMatrices L = limit_matrices(level, cache);
     const SparseMatrix position = prepared ? SparseMatrix(L.position * level.S) : L.position;
     const LimitPoints limits =
         limit_points(L, level.topology(), prepared ? Points(level.S * mesh.positions) : mesh.positions);
     const Index stride = 3 * effort(scheme_);
-    std::vector<Sample> corners;
+    std::vector<Place> corners;
     for (Index i = 0; i < t.num_half_edges(); i += stride)
       corners.push_back(from_corner(t, surface.addresses(), HalfEdge{i}, 0, 0));
     const LimitSamples samples = surface.evaluate(mesh.positions, corners, 1);
@@ -265,7 +265,7 @@ class LimitSurfaceLawsOfSquares : public LimitSurfaceLaws {
 
 /// Stencils over level 1 times S are those over level 0.
 TEST_P(LimitSurfaceLawsOfSquares, IsTheSameFromTheNextLevel) {
-  on_hard_meshes([&](const LimitMap& surface, const ControlMesh&) {
+  on_hard_meshes([&](const LimitMap& surface, const Mesh&) {
     const Level next = next_level(scheme_, surface.level());
     const LimitMap later(scheme_, next, types_);
     const Topology &t = surface.level().topology(), &fine = next.topology();
@@ -275,9 +275,9 @@ TEST_P(LimitSurfaceLawsOfSquares, IsTheSameFromTheNextLevel) {
       const HalfEdge corner{Index(random() % std::uint32_t(t.num_half_edges()))};
       const double d = i % 2 ? std::ldexp(1.0, -int(random() % 40)) : 1;
       const double a = d * std::round(1024 * unit(random)) / 1024, b = d * std::round(1024 * unit(random)) / 1024;
-      const Sample here = from_corner(t, surface.addresses(), corner, a, b);
+      const Place here = from_corner(t, surface.addresses(), corner, a, b);
       const auto [child, place] = child_place(t, next.steps[0], corner, a, b);
-      const Sample there = from_corner(fine, later.addresses(), child, place[0], place[1]);
+      const Place there = from_corner(fine, later.addresses(), child, place[0], place[1]);
       const RowMatrix x = dense(surface, surface.stencil(here, 0)).row(0),
                       y = dense(later, later.stencil(there, 0)).row(0) * next.S;
       EXPECT_LE(norm1(x - y), rounded() * norm1(x)) << words(here) << ", then " << words(there);

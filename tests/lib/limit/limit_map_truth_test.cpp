@@ -33,7 +33,7 @@ using Three = Eigen::Matrix<Precise, 3, 1>;
 /// A surface beside the truth. What was compared is counted, so that no test passes by comparing nothing.
 class Beside {
  public:
-  Beside(const Scheme<double>& scheme, const Scheme<Precise>& precise, const ControlMesh& mesh)
+  Beside(const Scheme<double>& scheme, const Scheme<Precise>& precise, const Mesh& mesh)
       : precise_(precise),
         surface_(scheme, mesh),
         points_(mesh.positions),
@@ -42,7 +42,7 @@ class Beside {
   const LimitMap& surface() const { return surface_; }
   const Topology& topology() const { return surface_.level().topology(); }
 
-  void compare(const Sample& s) {
+  void compare(const Place& s) {
     const LimitStencil stencil = surface_.stencil(s, 2);
     if (stencil.status == LimitStatus::hole) return;
     std::ostringstream where;
@@ -126,7 +126,7 @@ class LimitSurfaceTruth : public ::testing::TestWithParam<TestedScheme> {
   int count(int quick_ones, int slow_ones) const {
     return std::max(1, (quick() ? quick_ones : slow_ones) * (full_sweep() ? 10 : 1) / effort(scheme_));
   }
-  std::vector<ControlMesh> meshes() const { return hard_meshes(scheme_, 1); }
+  std::vector<Mesh> meshes() const { return hard_meshes(scheme_, 1); }
 
   Scheme<double> scheme_;
   Scheme<Precise> precise_;
@@ -134,9 +134,9 @@ class LimitSurfaceTruth : public ::testing::TestWithParam<TestedScheme> {
 
 TEST_P(LimitSurfaceTruth, AtRandomPlaces) {
   int second = 0;
-  for (const ControlMesh& mesh : meshes()) {
+  for (const Mesh& mesh : meshes()) {
     Beside beside(scheme_, precise_, mesh);
-    for (const Sample& s : random_places(beside.surface().addresses(), count(25, 2), 7)) beside.compare(s);
+    for (const Place& s : random_places(beside.surface().addresses(), count(25, 2), 7)) beside.compare(s);
     EXPECT_GE(beside.first, count(12, 1) / 4);
     second += beside.second;
   }
@@ -144,7 +144,7 @@ TEST_P(LimitSurfaceTruth, AtRandomPlaces) {
 }
 
 TEST_P(LimitSurfaceTruth, OnEdges) {
-  for (const ControlMesh& mesh : meshes()) {
+  for (const Mesh& mesh : meshes()) {
     Beside beside(scheme_, precise_, mesh);
     std::mt19937 random(3);
     for (int i = 0; i < count(16, 2); ++i) {
@@ -157,7 +157,7 @@ TEST_P(LimitSurfaceTruth, OnEdges) {
 
 /// Every vertex is irregular somehow but for those of valence 4 (6) without anything sharp around.
 TEST_P(LimitSurfaceTruth, TowardsVertices) {
-  for (const ControlMesh& mesh : meshes()) {
+  for (const Mesh& mesh : meshes()) {
     Beside beside(scheme_, precise_, mesh);
     const Topology& t = beside.topology();
     std::mt19937 random(5);
@@ -179,7 +179,7 @@ TEST_P(LimitSurfaceTruth, TowardsVertices) {
 class LimitSurfaceOfPolygonsTruth : public LimitSurfaceTruth {};
 
 TEST_P(LimitSurfaceOfPolygonsTruth, TowardsCentresOfFaces) {
-  for (const ControlMesh& mesh : meshes()) {
+  for (const Mesh& mesh : meshes()) {
     Beside beside(scheme_, precise_, mesh);
     const Topology& t = beside.topology();
     std::mt19937 random(9);
@@ -204,10 +204,10 @@ INSTANTIATE_TEST_SUITE_P(Schemes, LimitSurfaceOfPolygonsTruth,
 class SharedMeshSurface : public ::testing::TestWithParam<SharedMesh> {};
 
 TEST_P(SharedMeshSurface, IsTheTruth) {
-  const ControlMesh mesh = read_mesh(GetParam().path);
+  const Mesh mesh = read_mesh(GetParam().path);
   if (mesh.num_faces() >= 400 && !full_sweep()) GTEST_SKIP() << "in the full sweep";
   Beside beside(find_scheme(GetParam().scheme).value(), find_scheme<Precise>(GetParam().scheme).value(), mesh);
-  for (const Sample& s : random_places(beside.surface().addresses(), full_sweep() ? 40 : 4, 1)) beside.compare(s);
+  for (const Place& s : random_places(beside.surface().addresses(), full_sweep() ? 40 : 4, 1)) beside.compare(s);
 }
 
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(SharedMeshSurface);

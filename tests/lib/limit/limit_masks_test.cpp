@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Closed forms from the literature, checked against the eigenvectors: they live here, never in the library.
-#include "sublimit/limit/limit_types.h"
+#include "sublimit/limit/detail/limit_cache.h"
 
 #include <gtest/gtest.h>
 
@@ -8,10 +8,10 @@
 
 #include <numbers>
 
-#include "sublimit/core/dense_decompositions.h"
-#include "sublimit/limit/eigen_structure.h"
+#include "sublimit/core/detail/dense_decompositions.h"
+#include "sublimit/limit/detail/eigen_structure.h"
 #include "sublimit/neighborhood/local_matrix.h"
-#include "sublimit/schemes.h"
+#include "sublimit/schemes/schemes.h"
 #include "support/meshes.h"
 #include "support/tolerance.h"
 
@@ -249,7 +249,7 @@ TEST(LimitMasks, PlanesAtBoundariesAndCornersAreAsAnalysed) {
 }
 
 TEST(LimitMasks, AreComputedOncePerType) {
-  LimitTypes cache(find_scheme("catmull-clark").value());
+  LimitCache cache(find_scheme("catmull-clark").value());
   const LimitMasks* first = &cache.masks(smooth_type(5, 4));
   EXPECT_EQ(first, &cache.masks(smooth_type(5, 4)));
   EXPECT_NE(first, &cache.masks(smooth_type(6, 4)));
@@ -262,7 +262,7 @@ TEST(CanonicalNeighborhood, SignatureDoesNotDependOnNumbering) {
   const std::vector<Index> sizes{3, 5, 4, 4, 6};
   std::vector<std::uint32_t> signature;
   for (int shift = 0; shift < 5; ++shift) {
-    ControlMesh mesh;
+    Mesh mesh;
     std::vector<Index> starts;
     Index next = 1;
     std::vector<std::vector<Index>> faces(5);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sublimit/limit/limit_patches.h"
+#include "sublimit/limit/detail/limit_patches.h"
 
 #include <gtest/gtest.h>
 
 #include "sublimit/limit/limit_map.h"
-#include "sublimit/schemes.h"
+#include "sublimit/schemes/schemes.h"
 #include "support/meshes.h"
 #include "support/places.h"
 
@@ -12,10 +12,10 @@ namespace sublimit::testing {
 namespace {
 
 TEST(LimitPatches, RowsOfAlikePlacesAreMadeOnce) {
-  const ControlMesh mesh = jittered(fan(12, 4, 2));
+  const Mesh mesh = jittered(fan(12, 4, 2));
   const LimitMap surface(find_scheme("catmull-clark").value(), mesh);
   const Topology& t = surface.level().topology();
-  std::vector<Sample> samples;
+  std::vector<Place> samples;
   for (const double distance : {0x1p-30, 0x1p-31}) {
     HalfEdge h = t.outgoing(Vertex{0});
     do {

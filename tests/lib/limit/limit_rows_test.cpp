@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 // Limits at places that never come to be alone among regular points, and what is said where there is none: sheets that
 // meet along edges that end inside them, faces back to back, vertices of two faces.
-#include "sublimit/limit/limit_rows.h"
+#include "sublimit/limit/detail/limit_rows.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <set>
 
-#include "sublimit/core/sparse_product.h"
-#include "sublimit/fit/vertex_limits.h"
-#include "sublimit/limit/limit_points.h"
+#include "sublimit/core/detail/sparse_product.h"
+#include "sublimit/fit/detail/vertex_limits.h"
+#include "sublimit/limit/detail/limit_points.h"
 #include "sublimit/limit/limit_map.h"
 #include "sublimit/neighborhood/control_place.h"
 #include "sublimit/neighborhood/vertex_sides.h"
-#include "sublimit/scheme/prepare.h"
-#include "sublimit/schemes.h"
+#include "sublimit/scheme/detail/prepare.h"
+#include "sublimit/schemes/schemes.h"
 #include "support/expect_error.h"
 #include "support/meshes.h"
 #include "support/tolerance.h"
@@ -24,7 +24,7 @@ namespace sublimit::testing {
 namespace {
 
 /// Points in general position.
-ControlMesh sheets(Index num_vertices, const std::vector<std::vector<Index>>& faces) {
+Mesh sheets(Index num_vertices, const std::vector<std::vector<Index>>& faces) {
   std::vector<Eigen::Vector3d> points;
   for (Index i = 0; i < num_vertices; ++i)
     points.push_back({std::cos(2.0 * i), std::sin(3.0 * i), std::cos(1.0 + 5.0 * i)});
@@ -33,7 +33,7 @@ ControlMesh sheets(Index num_vertices, const std::vector<std::vector<Index>>& fa
 
 struct NamedSheets {
   std::string name;
-  ControlMesh mesh;
+  Mesh mesh;
 };
 
 std::vector<NamedSheets> odd_meshes() {
@@ -69,7 +69,7 @@ Eigen::RowVector3d position(const LimitRows& rows, const Points& x) {
 class EverySchemesRows : public ::testing::TestWithParam<std::pair<std::string, SchemeOptions>> {
  protected:
   const Scheme<double> scheme = find_scheme(GetParam().first, GetParam().second).value();
-  ControlMesh taken(const ControlMesh& mesh) const { return scheme.face_size() == 3 ? triangulated(mesh) : mesh; }
+  Mesh taken(const Mesh& mesh) const { return scheme.face_size() == 3 ? triangulated(mesh) : mesh; }
 };
 
 TEST_P(EverySchemesRows, AreWhereRefinementGoes) {
@@ -77,12 +77,12 @@ TEST_P(EverySchemesRows, AreWhereRefinementGoes) {
   constexpr int before = 2, after = 6;
   const double shrinking = std::pow(0.5, (after - before) / scheme.period - 1);
   for (const NamedSheets& named : odd_meshes()) {
-    const ControlMesh mesh = taken(named.mesh);
+    const Mesh mesh = taken(named.mesh);
     const double size = diagonal(mesh.positions);
     const std::vector<Level> levels = refine(scheme, mesh, after);
     std::vector<Points> x{mesh.positions};
     for (int k = 1; k <= after; ++k) x.push_back(apply(levels[k].S, x.back()));
-    LimitTypes cache(scheme);
+    LimitCache cache(scheme);
     const VertexSides sides = vertex_sides(levels[0]);
     std::vector<LimitRows> rows;
     ASSERT_NO_THROW(rows = limit_rows(levels[0], cache, sides.centres)) << named.name;
@@ -100,14 +100,14 @@ TEST_P(EverySchemesRows, AreWhereRefinementGoes) {
 // The one answer of limits at vertices and limits at places: the corners of faces.
 TEST_P(EverySchemesRows, AreThoseOfTheSurface) {
   for (const NamedSheets& named : odd_meshes()) {
-    const ControlMesh mesh = taken(named.mesh);
+    const Mesh mesh = taken(named.mesh);
     const LimitMap surface(scheme, mesh);
     const Topology& t = surface.level().topology();
-    LimitTypes cache(scheme);
+    LimitCache cache(scheme);
     const VertexSides sides = vertex_sides(surface.level());
     const std::vector<LimitRows> rows = limit_rows(surface.level(), cache, sides.centres);
     for (Index a = 0; a < surface.addresses().size(); ++a) {
-      const Addresses::Place place = surface.addresses().place(a);
+      const Addresses::FaceCorner place = surface.addresses().place(a);
       const HalfEdge corner = t.corner(place.face, std::max<Index>(place.corner, 0));
       // Left to do: at a vertex of two faces the parameters of mid-edge surfaces lead to the middle of the face
       // opposite.
@@ -141,13 +141,13 @@ INSTANTIATE_TEST_SUITE_P(All, EverySchemesRows, ::testing::ValuesIn([] {
 // Which faces are cut before the first level depends on the whole mesh: L_0 = L_1 S_0, also far from the triangle.
 TEST(LimitRows, KnowThatThePreparationComesFirst) {
   const Scheme<double> scheme = find_scheme("kobbelt").value();
-  ControlMesh mesh = jittered(grid(9, 9));
+  Mesh mesh = jittered(grid(9, 9));
   const Index corner = mesh.face_vertices[0];  // of the first face: it loses one of its corners
   ASSERT_EQ(corner, 0);
   mesh.face_vertices.erase(mesh.face_vertices.begin());
   mesh.face_sizes[0] = 3;
   const std::vector<Level> levels = refine(scheme, mesh, 1);
-  LimitTypes cache(scheme);
+  LimitCache cache(scheme);
   const LimitMatrices coarse = limit_matrices(levels[0], cache), fine = limit_matrices(levels[1], cache);
   const Points x = apply(levels[1].S, mesh.positions);
   const LimitPoints at_0 = limit_points(coarse, levels[0].topology(), mesh.positions);
@@ -170,9 +170,9 @@ TEST(LimitRows, NameTheFirstVertexThatHasNoLimit) {
     step.masks.vertex = [=](const Ring<double>& v) {
       return v.valence() == 5 ? 3 * v.center() - 2 * v.neighbor_mean() : vertex(v);
     };
-    const ControlMesh mesh = disjoint_union(cube(), fan(5, 4, 2));
+    const Mesh mesh = disjoint_union(cube(), fan(5, 4, 2));
     const std::vector<Level> levels = refine(scheme, mesh, 1);
-    LimitTypes cache(scheme);
+    LimitCache cache(scheme);
     expect_error<NoLimit>([&] { limit_matrices(levels[0], cache); }, {"no limit at vertex 8:", "eigenvalue 1"});
     expect_error<NoLimit>([&] { limit_matrices(levels, cache); }, {"no limit at vertex 8:", "eigenvalue 1"});
     expect_error<NoLimit>([&] { limit_matrices(levels[1], cache); }, {"no limit at vertex 8 of level 1:"});

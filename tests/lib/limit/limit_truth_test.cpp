@@ -11,7 +11,7 @@
 #include <cmath>
 #include <limits>
 
-#include "sublimit/limit/limit_points.h"
+#include "sublimit/limit/detail/limit_points.h"
 #include "support/full_sweep.h"
 #include "support/hard_meshes.h"
 #include "support/places.h"
@@ -62,10 +62,10 @@ std::vector<Tested> schemes(bool polynomial_only = false, int largest_degree = 5
   return result;
 }
 
-Level level_of(const Tested& t, const ControlMesh& mesh) { return control_level(t.scheme, mesh, SubdivisionOptions{}); }
+Level level_of(const Tested& t, const Mesh& mesh) { return control_level(t.scheme, mesh, SubdivisionOptions{}); }
 
 /// With all that the scheme takes; even seeds with borders.
-ControlMesh hard_mesh(const Tested& t, unsigned seed) {
+Mesh hard_mesh(const Tested& t, unsigned seed) {
   const Hardness hardness{.open = seed % 2 == 0,
                           .sharp = t.scheme.sharpening == Sharpening::sharp,
                           .semi_sharp = t.scheme.sharpening == Sharpening::semi_sharp};
@@ -87,7 +87,7 @@ void expect_same(const TruePoint& a, const TruePoint& b, const std::string& wher
   if (a.has_second && b.has_second) relative(a.duu, b.duu), relative(a.duv, b.duv), relative(a.dvv, b.dvv);
 }
 
-std::string words(const Tested& t, const Sample& s) {
+std::string words(const Tested& t, const Place& s) {
   return t.name + " at " + std::to_string(s.face) + ": " + std::to_string(s.u) + ", " + std::to_string(s.v);
 }
 
@@ -97,7 +97,7 @@ TEST(LimitTruth, IsASplineOnRegularMeshes) {
   const Index m = 12, n = 11;
   for (const Tested& t : schemes(true, 9)) {
     const bool triangles = t.triangles();
-    const ControlMesh mesh = jittered(triangles ? triangle_torus(m, n) : torus(m, n), 0.3);
+    const Mesh mesh = jittered(triangles ? triangle_torus(m, n) : torus(m, n), 0.3);
     const Level level = level_of(t, mesh);
     const int degree = t.scheme.name == "bilinear" ? 1 : t.scheme.claims.regular + 1;
     const auto phi = [&](double x, double y) {
@@ -106,7 +106,7 @@ TEST(LimitTruth, IsASplineOnRegularMeshes) {
       return cardinal_bspline(degree, x) * cardinal_bspline(degree, y);
     };
     const auto wrapped = [](double x, double period) { return x - period * std::round(x / period); };
-    for (const Sample& s : random_places(Addresses(level.topology(), triangles), 6, 3)) {
+    for (const Place& s : random_places(Addresses(level.topology(), triangles), 6, 3)) {
       // Vertex (i,j) has number i n + j; corners of faces tell where the place is.
       const auto corners = level.topology().vertices(Face{s.face});
       const Index a = corners[0], b = corners[1], c = corners[triangles ? 2 : 3];
@@ -138,9 +138,9 @@ TEST(LimitTruth, IsTheSameFromLaterLevelsAndWiderParts) {
   for (const Tested& t : schemes(false, 9)) {
     const bool triangles = t.triangles();
     for (const unsigned seed : seeds_in_turn(1, number++)) {
-      const ControlMesh mesh = hard_mesh(t, seed);
+      const Mesh mesh = hard_mesh(t, seed);
       const Level level = level_of(t, mesh);
-      for (const Sample& s : random_places(Addresses(level.topology(), triangles), t.is_polynomial() ? 8 : 2, seed)) {
+      for (const Place& s : random_places(Addresses(level.topology(), triangles), t.is_polynomial() ? 8 : 2, seed)) {
         const TruePoint truth = true_limit(t.precise, level, mesh.positions, s);
         expect_same(
             truth, true_limit(t.precise, level, mesh.positions, s, {.least_levels = truth.levels + 2, .more_rings = 1}),
@@ -155,9 +155,9 @@ TEST(LimitTruth, DerivativesAreLimitsOfDifferences) {
   const double h = std::ldexp(1.0, -30);
   const Precise step(h);
   for (const Tested& t : schemes(true)) {
-    const ControlMesh mesh = hard_mesh(t, 3);
+    const Mesh mesh = hard_mesh(t, 3);
     const Level level = level_of(t, mesh);
-    for (const Sample& s : random_places(Addresses(level.topology(), t.triangles()), 5, 7)) {
+    for (const Place& s : random_places(Addresses(level.topology(), t.triangles()), 5, 7)) {
       const auto at = [&](double u, double v) {
         return true_limit(t.precise, level, mesh.positions, {s.face, s.u + u, s.v + v}).position;
       };
@@ -186,11 +186,11 @@ TEST(LimitTruth, EndsInTheLimitsAndNormalsOfVertices) {
   size_t number = 0;
   for (const Tested& t : schemes())
     for (const unsigned seed : seeds_in_turn(5, number++)) {
-      const ControlMesh mesh = hard_mesh(t, seed);
+      const Mesh mesh = hard_mesh(t, seed);
       const Level level = level_of(t, mesh);
       const Topology& topology = level.topology();
       const Addresses addresses(topology, t.triangles());
-      LimitTypes cache(t.scheme);
+      LimitCache cache(t.scheme);
       // Masks of a level whose faces need no preparation.
       const bool is_prepared = t.scheme.preparation.empty();
       Level first = is_prepared ? level : next_level(t.scheme, level);
@@ -223,7 +223,7 @@ TEST(LimitTruth, EndsInTheLimitsAndNormalsOfVertices) {
 TEST(LimitTruth, IsOneSurfaceAcrossEdges) {
   for (const Tested& t : schemes())
     for (const unsigned seed : {3u, 4u}) {
-      const ControlMesh mesh = hard_mesh(t, seed);
+      const Mesh mesh = hard_mesh(t, seed);
       const Level level = level_of(t, mesh);
       const Topology& topology = level.topology();
       const Addresses addresses(topology, t.triangles());
@@ -244,7 +244,7 @@ TEST(LimitTruth, IsOneSurfaceAcrossEdges) {
 /// Down to 2^-40 from an extraordinary vertex: positions come to its limit like the modulus of the next eigenvalue.
 TEST(LimitTruth, ComesToExtraordinaryVertices) {
   for (const Tested& t : schemes(true)) {
-    const ControlMesh mesh = hard_mesh(t, 7);
+    const Mesh mesh = hard_mesh(t, 7);
     const Level level = level_of(t, mesh);
     const Topology& topology = level.topology();
     const Addresses addresses(topology, t.triangles());
@@ -274,9 +274,9 @@ TEST(LimitTruth, ComesToExtraordinaryVertices) {
 TEST(LimitTruth, DualSurfacesStartInTheBorderRow) {
   for (const char* name : {"doo-sabin", "doo-sabin-averaging"}) {
     const Tested t{find_scheme(name).value(), find_scheme<Precise>(name).value(), name};
-    const ControlMesh mesh = grid(5, 4);
+    const Mesh mesh = grid(5, 4);
     const Level level = level_of(t, mesh), first = next_level(t.scheme, level);
-    LimitTypes cache(t.scheme);
+    LimitCache cache(t.scheme);
     const Points limits =
         limit_points(limit_matrices(first, cache), first.topology(), first.S * mesh.positions).position;
     const HalfEdge corner = level.topology().corner(Face{2}, 0);  // beside the border from corner 0 to 1

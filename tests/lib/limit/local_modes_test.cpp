@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sublimit/limit/local_modes.h"
+#include "sublimit/limit/detail/local_modes.h"
 
 #include <gtest/gtest.h>
 
 #include <numbers>
 
 #include "sublimit/limit/limit_map.h"
-#include "sublimit/schemes.h"
+#include "sublimit/schemes/schemes.h"
 #include "support/tolerance.h"
 
 namespace sublimit {
@@ -41,15 +41,15 @@ TEST(LocalModes, ShrinkByTheirEigenvalueFromLevelToLevel) {
       const auto modes = local_modes(scheme, around(scheme, n));
       ASSERT_TRUE(modes) << scheme.name;
       if (modes->leading.block != 1 || (scheme.name == "mid-edge" && n == 3)) continue;  // a Jordan block
-      ControlMesh mesh = modes->net.mesh;
+      Mesh mesh = modes->net.mesh;
       mesh.positions.col(0) = modes->leading.net.real();
       mesh.positions.col(1) = modes->leading.net.imag();
       const LimitMap surface(scheme, mesh, {.boundary = Boundary::edge_only, .creasing = {}});
       const double d = modes->dilation;
       const auto place = [&](double u, double v) {  // of the first face; (1, 1) is the middle of a polygon
-        return scheme.is_dual() ? Sample{0, 1 - u, 1 - v} : Sample{0, u, v};
+        return scheme.is_dual() ? Place{0, 1 - u, 1 - v} : Place{0, u, v};
       };
-      const std::vector<Sample> places{place(.5, .25), place(.5 / d, .25 / d)};
+      const std::vector<Place> places{place(.5, .25), place(.5 / d, .25 / d)};
       const LimitSamples at = surface.evaluate(mesh.positions, places);
       const Eigen::Vector3d far = at.position.row(0), near = at.position.row(1);
       EXPECT_GT(far.norm(), .01) << scheme.name;

@@ -19,7 +19,7 @@ namespace {
 /// Radians: where rounding alone may turn a normal further, there is nothing to compare.
 constexpr double most_noise = 1e-3;
 
-void expect_equal(const ControlMesh& mesh, int last = 8) {
+void expect_equal(const Mesh& mesh, int last = 8) {
   DyadicLimits truth(scheme_for(mesh, "catmull-clark"), mesh);
   const FarLimit far(mesh, reference_options(mesh, "catmull-clark", 0), {.inf_sharp_patches = true});
   const double size = diagonal(mesh.positions);
@@ -57,7 +57,7 @@ TEST(DyadicLimits, EqualFarOnCreasedMeshes) {
     SCOPED_TRACE(shared.name);
     expect_equal(read_mesh(shared.path), 4);
   }
-  ControlMesh cube_ = jittered(cube());
+  Mesh cube_ = jittered(cube());
   add_crease(cube_, {0, 1, 3}, std::vector<float>{10, 2.5f});
   expect_equal(cube_);
 }

@@ -17,10 +17,10 @@
 namespace sublimit::testing {
 namespace {
 
-std::vector<Sample> random_places(const Addresses& addresses, int per_address, unsigned seed) {
+std::vector<Place> random_places(const Addresses& addresses, int per_address, unsigned seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> coordinate(0, 1);
-  std::vector<Sample> places;
+  std::vector<Place> places;
   for (Index a = 0; a < addresses.size(); ++a)
     for (int i = 0; i < per_address; ++i) {
       double u = coordinate(random), v = coordinate(random);
@@ -36,10 +36,10 @@ struct Differences {
   int compared = 0, end_caps = 0, missing = 0;
 };
 
-Differences compare(const ControlMesh& mesh, const std::string& scheme, int per_address) {
+Differences compare(const Mesh& mesh, const std::string& scheme, int per_address) {
   const LimitMap surface(scheme_for(mesh, scheme), mesh);
   const FarLimit far(mesh, reference_options(mesh, scheme, 0), {.inf_sharp_patches = true});
-  const std::vector<Sample> places = random_places(surface.addresses(), per_address, 1);
+  const std::vector<Place> places = random_places(surface.addresses(), per_address, 1);
   const LimitSamples ours = surface.evaluate(mesh.positions, places, 2);
   const double size = diagonal(mesh.positions);
   Differences d;
@@ -73,7 +73,7 @@ Differences compare(const ControlMesh& mesh, const std::string& scheme, int per_
   return d;
 }
 
-void expect_equal(const ControlMesh& mesh, const std::string& scheme, int per_address) {
+void expect_equal(const Mesh& mesh, const std::string& scheme, int per_address) {
   SCOPED_TRACE(scheme);
   const Differences d = compare(mesh, scheme, per_address);
   EXPECT_LE(d.position, reference);
@@ -85,9 +85,9 @@ void expect_equal(const ControlMesh& mesh, const std::string& scheme, int per_ad
 }
 
 TEST(OpenSubdivLimitPoints, LimitStencilsAreItsPatches) {
-  const ControlMesh mesh = jittered(polygon_ring({4, 5, 4, 6, 5}));
+  const Mesh mesh = jittered(polygon_ring({4, 5, 4, 6, 5}));
   const FarLimit far(mesh, reference_options(mesh, "catmull-clark", 0), {.level = 4, .inf_sharp_patches = true});
-  const std::vector<Sample> places = random_places(
+  const std::vector<Place> places = random_places(
       {Topology(
            {.num_vertices = mesh.num_vertices(), .face_vertices = mesh.face_vertices, .face_sizes = mesh.face_sizes}),
        false},

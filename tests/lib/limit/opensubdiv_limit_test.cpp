@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <set>
 
-#include "sublimit/core/sparse_product.h"
+#include "sublimit/core/detail/sparse_product.h"
 #include "sublimit/io/read_mesh.h"
-#include "sublimit/limit/limit_points.h"
+#include "sublimit/limit/detail/limit_points.h"
 #include "support/compare_with_opensubdiv.h"
 #include "support/meshes.h"
 #include "support/shared_meshes.h"
@@ -39,7 +39,7 @@ struct LimitDifferences {
   int positions = 0, normals = 0;
 };
 
-LimitDifferences compare_limits(const ControlMesh& mesh, const std::string& name, int levels) {
+LimitDifferences compare_limits(const Mesh& mesh, const std::string& name, int levels) {
   LimitDifferences d;
   const Comparison c = compare_with_opensubdiv(mesh, name, levels);
   EXPECT_EQ(c.mismatch, "");
@@ -47,7 +47,7 @@ LimitDifferences compare_limits(const ControlMesh& mesh, const std::string& name
   const std::vector<Level> refined = refine(scheme, mesh, levels);
   Points x = mesh.positions;
   for (int k = 1; k <= levels; ++k) x = apply(refined[k].S, x);
-  LimitTypes cache(scheme);
+  LimitCache cache(scheme);
   const Level& level = refined.back();
   const LimitMatrices limit = limit_matrices(level, cache);
   const LimitPoints ours = limit_points(limit, level.topology(), x);
@@ -150,7 +150,7 @@ class SharedMeshLimit : public ::testing::TestWithParam<SharedMesh> {};
 
 TEST_P(SharedMeshLimit, EqualsOpenSubdiv) {
   if (GetParam().scheme == "bilinear") return;
-  const ControlMesh mesh = read_mesh(GetParam().path);
+  const Mesh mesh = read_mesh(GetParam().path);
   const LimitDifferences d = compare_limits(mesh, GetParam().scheme, full_sweep() ? 2 : 1);
   EXPECT_LE(d.position, reference);
   EXPECT_LE(d.normal, reference_angle);

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <random>
 
-#include "sublimit/limit/limit_points.h"
+#include "sublimit/limit/detail/limit_points.h"
 #include "sublimit/limit/limit_map.h"
-#include "sublimit/limit/limit_types.h"
-#include "sublimit/schemes/cubic_bspline_creases.h"
-#include "sublimit/schemes.h"
+#include "sublimit/limit/detail/limit_cache.h"
+#include "sublimit/scheme/cubic_bspline_creases.h"
+#include "sublimit/schemes/schemes.h"
 #include "support/hard_meshes.h"
 #include "support/limits_at_thirds.h"
 #include "support/meshes.h"
@@ -43,7 +43,7 @@ Scheme<double> leaning(double center) {
           .claims = {.regular = 1, .extraordinary = 1, .limit = "whatever it is"}};
 }
 
-RowMatrix dense(const LimitMap& surface, const Sample& s, int order = 0) {
+RowMatrix dense(const LimitMap& surface, const Place& s, int order = 0) {
   const LimitStencil stencil = surface.stencil(s, order);
   RowMatrix rows = RowMatrix::Zero(stencil.weights.rows(), surface.level().topology().num_vertices());
   for (size_t j = 0; j < stencil.vertices.size(); ++j) rows.col(stencil.vertices[j]) = stencil.weights.col(Index(j));
@@ -53,10 +53,10 @@ RowMatrix dense(const LimitMap& surface, const Sample& s, int order = 0) {
 double norm1(const RowMatrix& row) { return row.cwiseAbs().sum(); }
 
 /// L_k P_k at the vertices of level k that lie at multiples of 2^-k in a square, against stencils there.
-void expect_dyadic_limits(const Scheme<double>& scheme, const ControlMesh& mesh, int k, int stride) {
+void expect_dyadic_limits(const Scheme<double>& scheme, const Mesh& mesh, int k, int stride) {
   const LimitMap surface(scheme, mesh);
   const std::vector<Level> levels = refine(scheme, mesh, k);
-  LimitTypes cache(scheme);
+  LimitCache cache(scheme);
   const SparseMatrix limits = limit_matrices(levels[size_t(k)], cache).position * refinement_matrix(levels);
   const Topology& t = surface.level().topology();
   const bool triangles = surface.addresses().triangles();
@@ -82,9 +82,9 @@ void expect_dyadic_limits(const Scheme<double>& scheme, const ControlMesh& mesh,
 }
 
 TEST(OwnScheme, WithPolynomialsIsCatmullClarkOnRegularMeshes) {
-  const ControlMesh mesh = torus(7, 6);
+  const Mesh mesh = torus(7, 6);
   const LimitMap own(leaning(9.0 / 16), mesh), known(find_scheme("catmull-clark").value(), mesh);
-  for (const Sample& s : random_places(own.addresses(), 30, 1)) {
+  for (const Place& s : random_places(own.addresses(), 30, 1)) {
     const RowMatrix x = dense(own, s, 2), y = dense(known, s, 2);
     ASSERT_EQ(x.rows(), 6);
     for (int k = 0; k < 6; ++k) EXPECT_LE(norm1(x.row(k) - y.row(k)), eigen(10) * norm1(y.row(k)));
@@ -93,7 +93,7 @@ TEST(OwnScheme, WithPolynomialsIsCatmullClarkOnRegularMeshes) {
 
 TEST(OwnScheme, WithoutPolynomialsEqualsRefinementAndLimitMasks) {
   for (const double center : {0.5, 0.55, 0.6}) {
-    const auto types = std::make_shared<LimitTypes>(leaning(center));
+    const auto types = std::make_shared<LimitCache>(leaning(center));
     const LimitMap surface(leaning(center), torus(7, 6), {}, types);
     surface.stencil({0, 0.25, 0.375}, 1);
     EXPECT_TRUE(types->pieces().has_no_polynomials());
@@ -106,9 +106,9 @@ TEST(OwnScheme, OfManyStepsIsTheRegisteredOneOfTheSameMasks) {
   Scheme<double> quintic = find_scheme("averaging", {{"degree", "5"}}).value();
   quintic.name = "my-quintic";
   quintic.claims = {};
-  const ControlMesh mesh = hard_polygons(1, {.open = true});
+  const Mesh mesh = hard_polygons(1, {.open = true});
   const LimitMap own(quintic, mesh), known(find_scheme("averaging", {{"degree", "5"}}).value(), mesh);
-  for (const Sample& s : random_places(own.addresses(), 12, 1)) {
+  for (const Place& s : random_places(own.addresses(), 12, 1)) {
     const RowMatrix x = dense(own, s), y = dense(known, s);
     EXPECT_LE(norm1(x - y), eigen(10) * norm1(y));
   }
@@ -118,13 +118,13 @@ TEST(NonPolynomialLimits, AtDyadicPlacesEqualRefinementAndLimitMasks) {
   for (const char* name : {"butterfly", "modified-butterfly"})
     for (const bool open : {false, true})
       expect_dyadic_limits(find_scheme(name).value(), hard_triangles(1, {.open = open}), 3, 17);
-  ControlMesh quads = quads_from_triangles(hard_triangles(1));
+  Mesh quads = quads_from_triangles(hard_triangles(1));
   expect_dyadic_limits(find_scheme("kobbelt").value(), quads, 3, 17);
 }
 
 /// Of dyadic places ever nearer to a place the limits come to that of the place.
 TEST(NonPolynomialLimits, ConvergeAtRandomPlaces) {
-  std::vector<std::pair<Scheme<double>, ControlMesh>> cases;
+  std::vector<std::pair<Scheme<double>, Mesh>> cases;
   for (const char* name : {"butterfly", "modified-butterfly", "sqrt3", "interpolatory-sqrt3"})
     cases.emplace_back(find_scheme(name).value(), hard_triangles(1));
   cases.emplace_back(find_scheme("kobbelt").value(), hard_polygons(1));
@@ -134,7 +134,7 @@ TEST(NonPolynomialLimits, ConvergeAtRandomPlaces) {
     std::mt19937 random(3);
     std::uniform_real_distribution<double> unit(0.05, 0.45);
     for (int i = 0; i < 5; ++i) {
-      const Sample s{Index(random() % std::uint32_t(surface.addresses().size())), unit(random), unit(random)};
+      const Place s{Index(random() % std::uint32_t(surface.addresses().size())), unit(random), unit(random)};
       const RowMatrix x = dense(surface, s);
       for (const int k : {6, 12, 24, 48}) {
         const double steps = std::ldexp(1.0, k);
@@ -153,16 +153,16 @@ TEST(NonPolynomialLimits, AtTriadicPlacesEqualRefinementAndLimitMasks) {
     for (Eigen::Vector3d& x : points) x = {unit(random), unit(random), unit(random)};
     return make_mesh(points, triangles);
   };
-  const ControlMesh meshes[] = {hard_triangles(1),
-                                hard_triangles(2, {.open = true}),
-                                of_triangles({{0, 1, 2}}),                         // borders all around
-                                of_triangles({{0, 1, 2}, {2, 1, 3}}),              // two each
-                                of_triangles({{0, 1, 2}, {2, 1, 0}}),              // one neighbour, three times
-                                of_triangles({{0, 1, 2}, {1, 0, 2}, {2, 1, 3}}),   // and twice
-                                of_triangles({{0, 1, 0}, {0, 0, 2}}),              // glued to itself
-                                of_triangles({{0, 1, 2}, {1, 0, 3}, {0, 1, 4}}),   // three at an edge
-                                of_triangles({{0, 1, 2}, {0, 3, 4}, {1, 0, 3}}),   // two fans at a vertex
-                                of_triangles({{0, 1, 2}, {0, 2, 1}, {1, 2, 3}})};  // wound against each other
+  const Mesh meshes[] = {hard_triangles(1),
+                         hard_triangles(2, {.open = true}),
+                         of_triangles({{0, 1, 2}}),                         // borders all around
+                         of_triangles({{0, 1, 2}, {2, 1, 3}}),              // two each
+                         of_triangles({{0, 1, 2}, {2, 1, 0}}),              // one neighbour, three times
+                         of_triangles({{0, 1, 2}, {1, 0, 2}, {2, 1, 3}}),   // and twice
+                         of_triangles({{0, 1, 0}, {0, 0, 2}}),              // glued to itself
+                         of_triangles({{0, 1, 2}, {1, 0, 3}, {0, 1, 4}}),   // three at an edge
+                         of_triangles({{0, 1, 2}, {0, 3, 4}, {1, 0, 3}}),   // two fans at a vertex
+                         of_triangles({{0, 1, 2}, {0, 2, 1}, {1, 2, 3}})};  // wound against each other
   for (const char* name : {"sqrt3", "interpolatory-sqrt3"})
     for (size_t i = 0; i < std::size(meshes); ++i) {
       const Scheme<double> scheme = find_scheme(name).value();

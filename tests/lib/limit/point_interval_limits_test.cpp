@@ -5,11 +5,11 @@
 
 #include <random>
 
-#include "sublimit/limit/limit_points.h"
+#include "sublimit/limit/detail/limit_points.h"
 #include "sublimit/limit/limit_map.h"
 #include "sublimit/patches/patch_set.h"
 #include "sublimit/patches/spline_surface.h"
-#include "sublimit/schemes.h"
+#include "sublimit/schemes/schemes.h"
 #include "support/expect_error.h"
 #include "support/knot_breaks.h"
 #include "support/meshes.h"
@@ -52,7 +52,7 @@ TEST(PointIntervalLimits, OfATorusAreTheBSplineOfItsKnots) {
   std::uniform_real_distribution<double> positive(0.2, 3), inside(0, 1);
   for (int run = 0; run < 2; ++run) {
     const Index m = 4 + run, n = 6 - run;
-    ControlMesh mesh = jittered(torus(m, n), 0.2, unsigned(run) + 1);
+    Mesh mesh = jittered(torus(m, n), 0.2, unsigned(run) + 1);
     const Topology t(view(mesh));
     std::vector<double> a(m), b(n);  // of rows and columns of points
     for (double& d : a) d = positive(random);
@@ -89,7 +89,7 @@ TEST(PointIntervalLimits, OfATorusAreTheBSplineOfItsKnots) {
                                  : (toward(v / n, other / n, m, 1) > 0.5 ? 1 : -1),
                    sc = u_is_row ? (toward(v % n, other % n, n, 1) > 0.5 ? 1 : -1)
                                  : (toward(v % n, next % n, n, 1) > 0.5 ? 1 : -1);
-      const Sample at{v, column, row};
+      const Place at{v, column, row};
       const LimitSamples truth = patches.evaluate(points, std::span(&at, 1), 1);
       const LimitStencil own = surface.stencil({f, place.u, place.v}, 1);
       ASSERT_EQ(own.weights.rows() >= 3, true);
@@ -110,9 +110,9 @@ TEST(PointIntervalLimits, AreTheSameFromTheNextLevel) {
   std::mt19937 random(9);
   std::uniform_real_distribution<double> inside(0, 1);
   unsigned seed = 2;
-  for (const ControlMesh& plain : {jittered(octahedron(), 0.1), jittered(quads_from_triangles(octahedron()), 0.1),
-                                   jittered(quads_from_triangles(icosahedron()), 0.05)}) {
-    const ControlMesh mesh = with_point_intervals(plain, ++seed, 4);
+  for (const Mesh& plain : {jittered(octahedron(), 0.1), jittered(quads_from_triangles(octahedron()), 0.1),
+                            jittered(quads_from_triangles(icosahedron()), 0.05)}) {
+    const Mesh mesh = with_point_intervals(plain, ++seed, 4);
     const Level control = control_level(of_points, mesh), next = next_level(of_points, control);
     ASSERT_FALSE(next.intervals.empty());
     const Topology &t = control.topology(), &fine = next.topology();
@@ -148,7 +148,7 @@ TEST(PointIntervalLimits, AreTheSameFromTheNextLevel) {
 
 /// Refined far, a point comes as near to its limit as its level's own points come together.
 TEST(PointIntervalLimits, AreWhatRefinementTendsTo) {
-  const ControlMesh mesh = with_point_intervals(jittered(quads_from_triangles(tetrahedron()), 0.1), 4, 4);
+  const Mesh mesh = with_point_intervals(jittered(quads_from_triangles(tetrahedron()), 0.1), 4, 4);
   const std::vector<Level> levels = refine(of_points, mesh, 6);
   Points points = mesh.positions;
   for (size_t k = 1; k < levels.size(); ++k) points = levels[k].S * points;
@@ -169,7 +169,7 @@ TEST(PointIntervalLimits, AreWhatRefinementTendsTo) {
 }
 
 TEST(PointIntervalLimits, NextToBordersIntervalsAreEqual) {
-  ControlMesh mesh = jittered(grid(5, 5), 0.1);
+  Mesh mesh = jittered(grid(5, 5), 0.1);
   for (Index i = 0; i < 36; ++i)
     if (i % 6 < 5)
       mesh.knot_intervals.insert(mesh.knot_intervals.end(), {{i, i + 1, 1.0 + i % 6}, {i + 1, i, 2.0 + i % 6}});

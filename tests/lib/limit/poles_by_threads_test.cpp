@@ -12,9 +12,9 @@
 #include <thread>
 #include <vector>
 
-#include "sublimit/limit/limit_points.h"
+#include "sublimit/limit/detail/limit_points.h"
 #include "sublimit/limit/limit_map.h"
-#include "sublimit/schemes.h"
+#include "sublimit/schemes/schemes.h"
 #include "support/full_sweep.h"
 #include "support/meshes.h"
 
@@ -30,9 +30,9 @@ struct Size {
 };
 Size size() { return full_sweep() ? Size{60, 300, 1400, 200, 20} : Size{4, 20, 60, 10, 3}; }
 
-ControlMesh poles_beside_a_grid(Index face_size) {
+Mesh poles_beside_a_grid(Index face_size) {
   const Size s = size();
-  ControlMesh mesh = face_size == 3 ? triangle_grid(s.cells, s.cells / 2) : grid(s.cells, s.cells);
+  Mesh mesh = face_size == 3 ? triangle_grid(s.cells, s.cells / 2) : grid(s.cells, s.cells);
   for (Index k = 0; k < s.poles; ++k)
     mesh = disjoint_union(mesh, fan(s.least + k * (s.most - s.least) / (s.poles - 1), face_size));
   return mesh;
@@ -40,8 +40,8 @@ ControlMesh poles_beside_a_grid(Index face_size) {
 
 /// Inside of a face of some poles, and of some of the grid. Not of schemes whose pieces are large, a minute of work
 /// each.
-std::vector<Sample> places(const Level& level, const Scheme<double>& scheme) {
-  std::vector<Sample> all;
+std::vector<Place> places(const Level& level, const Scheme<double>& scheme) {
+  std::vector<Place> all;
   if (scheme.name == "kobbelt" || scheme.name == "interpolatory-sqrt3") return all;
   const Topology& t = level.topology();
   for (Index f = 0; f < t.num_faces(); f += 1 + t.num_faces() / 20) all.push_back({f, 0.25, 0.25});
@@ -78,14 +78,14 @@ class PolesByThreads : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(PolesByThreads, HaveTheSameBitsFromOneDictionary) {
   const Scheme<double> scheme = find_scheme(GetParam()).value();
-  const ControlMesh mesh = poles_beside_a_grid(scheme.face_size() == 3 ? 3 : 4);
+  const Mesh mesh = poles_beside_a_grid(scheme.face_size() == 3 ? 3 : 4);
   const Level level = control_level(scheme, mesh);
-  const std::vector<Sample> all = places(level, scheme);
-  const auto find = [&](const std::shared_ptr<LimitTypes>& types, size_t first) {
+  const std::vector<Place> all = places(level, scheme);
+  const auto find = [&](const std::shared_ptr<LimitCache>& types, size_t first) {
     Found found;
     const auto sample = [&] {  // each thread begins with others
       if (all.empty()) return;
-      std::vector<Sample> turned(all);
+      std::vector<Place> turned(all);
       std::rotate(turned.begin(), turned.begin() + std::ptrdiff_t(first * all.size() / num_threads), turned.end());
       const LimitMap surface(scheme, level, types);
       surface.evaluate(mesh.positions, turned, 1);
@@ -102,12 +102,12 @@ TEST_P(PolesByThreads, HaveTheSameBitsFromOneDictionary) {
   Found expected;
   {
     const Limit one(Limit::max_allowed_parallelism, 1);
-    expected = find(std::make_shared<LimitTypes>(scheme), 0);
+    expected = find(std::make_shared<LimitCache>(scheme), 0);
   }
   for (int round = 0; round < size().rounds; ++round) {
     constexpr size_t allowed[] = {2, 8, 1};
     const Limit limit(Limit::max_allowed_parallelism, allowed[round % 3]);
-    const auto types = std::make_shared<LimitTypes>(scheme);
+    const auto types = std::make_shared<LimitCache>(scheme);
     std::vector<Found> found(num_threads);
     std::vector<std::exception_ptr> failed(num_threads);
     std::vector<std::thread> threads;

@@ -9,17 +9,17 @@
 #include <memory>
 #include <numbers>
 
-#include "sublimit/base/memory.h"
-#include "sublimit/core/dense_decompositions.h"
-#include "sublimit/core/sparse_product.h"
-#include "sublimit/core/submatrix.h"
-#include "sublimit/limit/limit_points.h"
+#include "sublimit/base/detail/memory.h"
+#include "sublimit/core/detail/dense_decompositions.h"
+#include "sublimit/core/detail/sparse_product.h"
+#include "sublimit/core/detail/submatrix.h"
+#include "sublimit/limit/detail/limit_points.h"
 #include "sublimit/limit/limit_map.h"
-#include "sublimit/limit/sparse_spectrum.h"
-#include "sublimit/limit/tangents.h"
+#include "sublimit/limit/detail/sparse_spectrum.h"
+#include "sublimit/limit/detail/tangents.h"
 #include "sublimit/neighborhood/closed_set.h"
 #include "sublimit/neighborhood/local_patch.h"
-#include "sublimit/schemes.h"
+#include "sublimit/schemes/schemes.h"
 #include "support/allocations.h"
 #include "support/local_types.h"
 #include "support/meshes.h"
@@ -60,7 +60,7 @@ TEST(Poles, MasksBySectorsAreThoseOfDenseMatrices) {
   for (const Scheme<double>& scheme : all_schemes())
     for (int n = 3; n <= 40; n += n < 12 ? 1 : 7) {
       const SparsePatch<double> patch = closed_patch(scheme, n);
-      const auto limit = lone_limit(scheme, smooth_type(scheme, n));
+      const auto limit = isolated_limit(scheme, smooth_type(scheme, n));
       ASSERT_TRUE(limit.has_value()) << scheme.name << n;
       Slots centre(static_cast<size_t>(patch.places.ring_end[0]));
       for (size_t i = 0; i < centre.size(); ++i) centre[i] = static_cast<Index>(i);
@@ -76,7 +76,7 @@ TEST(Poles, HighValencesAreEigenvectorsToo) {
   for (const Scheme<double>& scheme : all_schemes())
     for (const int n : {150, 300}) {
       const SparsePatch<double> patch = closed_patch(scheme, n);
-      const auto limit = lone_limit(scheme, smooth_type(scheme, n));
+      const auto limit = isolated_limit(scheme, smooth_type(scheme, n));
       ASSERT_TRUE(limit.has_value()) << scheme.name << n;
       const Eigen::VectorXd& l = limit->masks.position;
       EXPECT_NEAR(l.sum(), 1, by_two_routes) << scheme.name << n;
@@ -124,18 +124,18 @@ TEST(Poles, AreSampledWhereTheirLimitsAre) {
   for (const Scheme<double>& scheme : all_schemes())
     for (const int n : {27, 60, 100}) {
       if (n > 60 && scheme.name == "kobbelt") continue;  // a second for each type
-      ControlMesh mesh = fan(n, scheme.face_size() == 3 ? 3 : 4, 2);
+      Mesh mesh = fan(n, scheme.face_size() == 3 ? 3 : 4, 2);
       mesh.positions(0, 2) = 1;
       const LimitMap surface(scheme, mesh);
       const Topology& t = surface.level().topology();
       const auto corners = t.vertices(Face{0});
       const auto corner = std::find(corners.begin(), corners.end(), 0) - corners.begin();
-      const Sample pole = scheme.face_size() == 3 ? Sample{0, double(corner == 1), double(corner == 2)}
-                                                  : Sample{0, double(corner == 1 || corner == 2), double(corner > 1)};
-      const LimitSamples found = surface.evaluate(mesh.positions, std::vector<Sample>{pole}, 0);
+      const Place pole = scheme.face_size() == 3 ? Place{0, double(corner == 1), double(corner == 2)}
+                                                 : Place{0, double(corner == 1 || corner == 2), double(corner > 1)};
+      const LimitSamples found = surface.evaluate(mesh.positions, std::vector<Place>{pole}, 0);
       EXPECT_LE(found.position.row(0).head(2).norm(), by_two_routes) << scheme.name << n << ": off the axis";
       if (scheme.is_dual()) continue;  // a vertex is a face one level on
-      LimitTypes types(scheme);
+      LimitCache types(scheme);
       const Level level = control_level(scheme, mesh);
       const LimitPoints limits = limit_points(limit_matrices(level, types), level.topology(), mesh.positions);
       EXPECT_LE((found.position.row(0) - limits.position.row(0)).norm(), by_two_routes) << scheme.name << n;
@@ -160,13 +160,13 @@ TEST(Poles, TakeNoMoreMemoryThanTheyAreAllowed) {
   } at_the_end;
   const Scheme<double> scheme =
       find_scheme("interpolatory-sqrt3").value();  // rows have as many weights as the pole edges
-  const ControlMesh mesh = fan(300, 3, 3);
-  const auto types = std::make_shared<LimitTypes>(scheme);
+  const Mesh mesh = fan(300, 3, 3);
+  const auto types = std::make_shared<LimitCache>(scheme);
   const LimitMap surface(scheme, mesh, {}, types);
   const double before = bytes_in_use();
   ASSERT_GT(before, 0) << "nothing would be measured";
   limit_memory(allowed);
-  std::vector<Sample> places;
+  std::vector<Place> places;
   for (int i = 0; i < 40; ++i) places.push_back({i, 0.013 * i, 0.3});
   EXPECT_THROW(surface.evaluate(mesh.positions, places, 1), ResourceError);
   const double taken = bytes_in_use() - before;
@@ -177,8 +177,8 @@ TEST(Poles, TakeNoMoreMemoryThanTheyAreAllowed) {
 TEST(Poles, OneMoreStepChangesNoLimit) {
   for (const Scheme<double>& scheme : all_schemes()) {
     if (scheme.is_dual()) continue;  // a vertex is a face one level on
-    const ControlMesh mesh = jittered(fan(60, scheme.face_size() == 3 ? 3 : 4, 2));
-    LimitTypes cache(scheme);
+    const Mesh mesh = jittered(fan(60, scheme.face_size() == 3 ? 3 : 4, 2));
+    LimitCache cache(scheme);
     const std::vector<Level> levels = refine(scheme, mesh, 1);
     Vertex pole{0};
     for (const Refinement& step : levels[1].steps) pole = step.child(pole);
@@ -199,7 +199,7 @@ TEST(Poles, SectorsOfManyFacesHaveTheirLimit) {
         const auto patches = sparse_patches(scheme, type, {.rings = {1}, .labels = false});
         if (!patches) continue;
         const SparseMatrix& A = patches->front().A;
-        const LoneLimit limit = lone_limit(scheme, type).value();
+        const IsolatedLimit limit = isolated_limit(scheme, type).value();
         const Eigen::VectorXd& l = limit.masks.position;
         EXPECT_NEAR(l.sum(), 1, by_two_routes) << scheme.name << n;
         EXPECT_LE((A.transpose() * l - l).norm(), by_two_routes) << scheme.name << n;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Sums that are extrapolated from refined meshes, against exact ones.
-#include "sublimit/limit/refined_sums.h"
+#include "sublimit/limit/detail/refined_sums.h"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,8 @@
 
 #include "sublimit/base/error.h"
 #include "sublimit/limit/limit_integrals.h"
-#include "sublimit/limit/quadrature.h"
-#include "sublimit/limit/sequence_limit.h"
+#include "sublimit/limit/detail/quadrature.h"
+#include "sublimit/limit/detail/sequence_limit.h"
 #include "support/expect_error.h"
 #include "support/tested_schemes.h"
 #include "support/tolerance.h"
@@ -41,7 +41,7 @@ TEST(SequenceLimit, OfNoDifferencesIsTheLastNumber) {
 }
 
 /// Sums of this mesh as if its scheme had no polynomials, on levels of up to so many faces.
-EstimatedSums refined(const Scheme<double>& scheme, const ControlMesh& mesh, std::int64_t most_faces) {
+EstimatedSums refined(const Scheme<double>& scheme, const Mesh& mesh, std::int64_t most_faces) {
   return refined_sums(control_level(scheme, mesh), mesh.positions, scheme, {.most_faces = most_faces});
 }
 
@@ -54,12 +54,12 @@ TEST(RefinedSums, AreThoseOfPolynomialsWithinTheirErrors) {
     const Scheme<double> scheme = *find_scheme<double>(name);
     const bool triangles = takes_triangles(scheme);
     const Index size = triangles ? 3 : 4;
-    std::vector<ControlMesh> meshes{jittered(triangles ? octahedron() : cube(), 0.2),
-                                    jittered(triangles ? triangle_torus(6, 5) : torus(6, 5), 0.1)};
+    std::vector<Mesh> meshes{jittered(triangles ? octahedron() : cube(), 0.2),
+                             jittered(triangles ? triangle_torus(6, 5) : torus(6, 5), 0.1)};
     if (!triangles) meshes.push_back(jittered(pole(8), 0.1));
     if (scheme.name != "mid-edge")
       for (const Index n : {3, 5, 9}) meshes.push_back(jittered(fan(n, size, 2), 0.1));
-    for (const ControlMesh& mesh : meshes) {
+    for (const Mesh& mesh : meshes) {
       const LimitIntegrals exact = limit_integrals(LimitMap(scheme, mesh), mesh.positions);
       for (const std::int64_t most_faces : {1 << 10, 1 << 14, 1 << 17}) {
         SCOPED_TRACE(std::string(name) + ", " + std::to_string(mesh.positions.rows()) + " vertices, " +
@@ -96,7 +96,7 @@ TEST(RefinedSums, OfAParaboloidAreItsArea) {
   for (const char* name : {"butterfly", "kobbelt"}) {
     const Scheme<double> scheme = *find_scheme<double>(name);
     SCOPED_TRACE(name);
-    ControlMesh mesh = takes_triangles(scheme) ? triangle_grid(side, side) : grid(side, side);
+    Mesh mesh = takes_triangles(scheme) ? triangle_grid(side, side) : grid(side, side);
     const Index faces_a_square = takes_triangles(scheme) ? 2 : 1;
     for (Index j = 0; j <= side; ++j)
       for (Index i = 0; i <= side; ++i) {
@@ -132,7 +132,7 @@ TEST(RefinedSums, OfAParaboloidAreItsArea) {
 TEST(RefinedSums, RefuseHolesThatAreNoFacesOfLevels) {
   for (const char* name : {"sqrt3", "interpolatory-sqrt3"}) {
     const Scheme<double> scheme = *find_scheme<double>(name);
-    ControlMesh mesh = triangle_torus(6, 5);
+    Mesh mesh = triangle_torus(6, 5);
     mesh.holes = {0, 1};
     expect_error<UnsupportedTopology>([&] { limit_integrals(LimitMap(scheme, mesh), mesh.positions); },
                                       {name, "holes"});

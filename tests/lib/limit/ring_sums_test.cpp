@@ -14,9 +14,9 @@
 #include <vector>
 
 #include "sublimit/limit/limit_integrals.h"
-#include "sublimit/limit/limit_patches.h"
-#include "sublimit/limit/piece_hull.h"
-#include "sublimit/limit/quadrature.h"
+#include "sublimit/limit/detail/limit_patches.h"
+#include "sublimit/limit/detail/piece_hull.h"
+#include "sublimit/limit/detail/quadrature.h"
 #include "support/tested_schemes.h"
 #include "support/tolerance.h"
 
@@ -126,10 +126,10 @@ std::pair<double, int> closed_sum(const LimitMap& surface, const Points& points)
 
 /// Valences 3, 4, 5 and 8; creases that pass extraordinary vertices or end there.
 TEST(RingSums, AreThoseOfAllRings) {
-  ControlMesh creased = cube(), dart = cube();
+  Mesh creased = cube(), dart = cube();
   add_crease(creased, {0, 1, 3, 2, 0}, 10);
   add_crease(dart, {0, 1, 3}, 10);
-  const std::vector<std::pair<const char*, ControlMesh>> cases{
+  const std::vector<std::pair<const char*, Mesh>> cases{
       {"catmull-clark", cube()}, {"catmull-clark", prism(5)}, {"catmull-clark", pole(8)}, {"catmull-clark", creased},
       {"catmull-clark", dart},   {"loop", octahedron()},      {"loop", icosahedron()},
   };

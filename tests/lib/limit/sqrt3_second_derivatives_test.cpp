@@ -12,9 +12,9 @@
 #include <random>
 
 #include "sublimit/limit/limit_map.h"
-#include "sublimit/limit/limit_types.h"
-#include "sublimit/scheme/refine_impl.h"
-#include "sublimit/schemes.h"
+#include "sublimit/limit/detail/limit_cache.h"
+#include "sublimit/scheme/detail/refine_impl.h"
+#include "sublimit/schemes/schemes.h"
 #include "support/hard_meshes.h"
 #include "support/meshes.h"
 #include "support/places.h"
@@ -27,7 +27,7 @@ namespace {
 /// Second derivatives over 35 steps back, each of which keeps quadratics up to rounding.
 constexpr double second_rounding = 1e-9;
 
-RowMatrix dense(const LimitMap& surface, const Sample& s, int order = 2) {
+RowMatrix dense(const LimitMap& surface, const Place& s, int order = 2) {
   const LimitStencil stencil = surface.stencil(s, order);
   RowMatrix rows = RowMatrix::Zero(stencil.weights.rows(), surface.level().topology().num_vertices());
   for (size_t j = 0; j < stencil.vertices.size(); ++j) rows.col(stencil.vertices[j]) = stencil.weights.col(Index(j));
@@ -38,17 +38,17 @@ double norm1(const RowMatrix& row) { return row.cwiseAbs().sum(); }
 
 Scheme<double> sqrt3() { return find_scheme("sqrt3").value(); }
 
-std::string words(const Sample& s) {
+std::string words(const Place& s) {
   return "triangle " + std::to_string(s.face) + " (" + std::to_string(s.u) + ", " + std::to_string(s.v) + ")";
 }
 
 /// Inside, on sides, and towards corners down to 2^-50.
-std::vector<Sample> places(const Addresses& addresses, int count, unsigned seed) {
+std::vector<Place> places(const Addresses& addresses, int count, unsigned seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> unit(0, 1);
-  std::vector<Sample> result;
+  std::vector<Place> result;
   for (int i = 0; i < count; ++i) {
-    Sample s{Index(random() % std::uint32_t(addresses.size())), unit(random), unit(random)};
+    Place s{Index(random() % std::uint32_t(addresses.size())), unit(random), unit(random)};
     if (s.u + s.v > 1) s.u = 1 - s.u, s.v = 1 - s.v;
     if (i % 4 == 1) s.v = 0;
     if (i % 4 == 2) s.v = 1 - s.u;
@@ -90,7 +90,7 @@ RowMatrix second_differences(const Topology& t, HalfEdge h) {
 /// Vertices of level 2 k that children of children of random triangles begin with.
 TEST(SecondDerivativesOfSqrt3, AreSecondDifferencesAtRegularVertices) {
   for (const bool open : {false, true}) {
-    const ControlMesh mesh = hard_triangles(open ? 2 : 1, {.open = open});
+    const Mesh mesh = hard_triangles(open ? 2 : 1, {.open = open});
     const LimitMap surface(sqrt3(), mesh);
     const std::vector<Level> levels = refine(sqrt3(), mesh, 4);
     std::mt19937 random(4);
@@ -117,7 +117,7 @@ TEST(SecondDerivativesOfSqrt3, AreSecondDifferencesAtRegularVertices) {
           piece = child.piece;
         }
         if (!is_regular(fine, fine.tail(piece.start))) continue;
-        const Sample s{face, std::max(0.0, corners(1, 0)), std::max(0.0, corners(2, 0))};
+        const Place s{face, std::max(0.0, corners(1, 0)), std::max(0.0, corners(2, 0))};
         const RowMatrix ours = dense(surface, s);
         ASSERT_EQ(ours.rows(), 6) << words(s);
         const RowMatrix truth = std::pow(9, periods) * second_differences(fine, piece.start) * P;
@@ -172,7 +172,7 @@ struct Surroundings {
 TEST(SecondDerivativesOfSqrt3, AreSecondDifferencesTowardsExtraordinaryVertices) {
   const Scheme<Precise> precise = find_scheme<Precise>("sqrt3").value();
   for (const Index n : {3, 4, 5, 7, 8, 12}) {
-    const ControlMesh mesh = jittered(fan(n, 3, 3), 0.2, 3);
+    const Mesh mesh = jittered(fan(n, 3, 3), 0.2, 3);
     const LimitMap surface(sqrt3(), mesh);
     const Topology& t = surface.level().topology();
     const HalfEdge corner = t.outgoing(Vertex{0});
@@ -188,14 +188,14 @@ TEST(SecondDerivativesOfSqrt3, AreSecondDifferencesTowardsExtraordinaryVertices)
       h = fine.next(fine.twin(h));           // along u
       const Eigen::Matrix<Precise, 3, 3> truth =
           second_differences(fine, h).cast<Precise>() * around.points * pow(Precise(9), k);
-      const Sample s = from_corner(t, surface.addresses(), corner, std::pow(3.0, -k), 0);
+      const Place s = from_corner(t, surface.addresses(), corner, std::pow(3.0, -k), 0);
       const RowMatrix rows = dense(surface, s);
       ASSERT_EQ(rows.rows(), 6) << words(s);
       // By the parameters from the corner.
-      const Sample a = from_corner(t, surface.addresses(), corner, 1, 0),
-                   b = from_corner(t, surface.addresses(), corner, 0, 1),
-                   o = from_corner(t, surface.addresses(), corner, 0, 0);
-      const auto second = [&](const Sample& p, const Sample& q) {
+      const Place a = from_corner(t, surface.addresses(), corner, 1, 0),
+                  b = from_corner(t, surface.addresses(), corner, 0, 1),
+                  o = from_corner(t, surface.addresses(), corner, 0, 0);
+      const auto second = [&](const Place& p, const Place& q) {
         const double pu = p.u - o.u, pv = p.v - o.v, qu = q.u - o.u, qv = q.v - o.v;
         return RowMatrix(pu * qu * rows.row(3) + (pu * qv + pv * qu) * rows.row(4) + pv * qv * rows.row(5));
       };
@@ -212,7 +212,7 @@ TEST(SecondDerivativesOfSqrt3, ReproduceQuadratics) {
   const Index n = 10;
   const LimitMap surface(sqrt3(), triangle_torus(n, n));
   const Topology& t = surface.level().topology();
-  for (const Sample& s : places(surface.addresses(), 300, 1)) {
+  for (const Place& s : places(surface.addresses(), 300, 1)) {
     // Lattice coordinates of all vertices by the triangle's corners, cut where the torus is closed.
     const auto corners = t.vertices(Face{s.face});
     const auto from_first = [&](Index v) {
@@ -239,13 +239,13 @@ TEST(SecondDerivativesOfSqrt3, ReproduceQuadratics) {
 
 /// Across the edges of hard meshes, where the parameters of both sides go on in each other.
 TEST(SecondDerivativesOfSqrt3, AgreeAcrossEdges) {
-  const ControlMesh mesh = hard_triangles(3);
+  const Mesh mesh = hard_triangles(3);
   const LimitMap surface(sqrt3(), mesh);
   const Topology& t = surface.level().topology();
   // From derivatives by u and v to those by a along a half-edge, b along the one before, of its triangle.
   const auto turned = [&](HalfEdge h, const RowMatrix& rows) {
-    const Sample a = from_corner(t, surface.addresses(), h, 1, 0), b = from_corner(t, surface.addresses(), h, 0, 1),
-                 o = from_corner(t, surface.addresses(), h, 0, 0);
+    const Place a = from_corner(t, surface.addresses(), h, 1, 0), b = from_corner(t, surface.addresses(), h, 0, 1),
+                o = from_corner(t, surface.addresses(), h, 0, 0);
     const Eigen::Vector2d along(a.u - o.u, a.v - o.v), up(b.u - o.u, b.v - o.v);
     const auto second = [&](const Eigen::Vector2d& x, const Eigen::Vector2d& y) {
       return RowMatrix(x[0] * y[0] * rows.row(3) + (x[0] * y[1] + x[1] * y[0]) * rows.row(4) +
@@ -278,9 +278,9 @@ TEST(SecondDerivativesOfSqrt3, AgreeAcrossEdges) {
 /// but for rounding is on the border, not 2^-54 inside, where second derivatives are 1e14 and their rounding 1e-2.
 TEST(SecondDerivativesOfSqrt3, DoNotExistWhereSumsRoundToABorder) {
   for (const char* name : {"sqrt3", "interpolatory-sqrt3"}) {
-    const auto types = std::make_shared<LimitTypes>(find_scheme(name).value());
+    const auto types = std::make_shared<LimitCache>(find_scheme(name).value());
     for (const Index faces : {1, 2, 4, 5}) {
-      const ControlMesh mesh = jittered(open_fan(faces, 3, 1));
+      const Mesh mesh = jittered(open_fan(faces, 3, 1));
       const LimitMap surface(types->pieces().scheme(), mesh, {}, types);
       const Topology& t = surface.level().topology();
       int borders = 0;
@@ -294,7 +294,7 @@ TEST(SecondDerivativesOfSqrt3, DoNotExistWhereSumsRoundToABorder) {
           EXPECT_EQ(stencil.status, LimitStatus::crease) << name << ", " << faces << " faces";
           EXPECT_EQ(stencil.weights.rows(), 1);
           EXPECT_EQ(stencil.tangents.rows(), 2);
-          const LimitSamples sample = surface.evaluate(mesh.positions, std::vector<Sample>{{face, u, v}}, 2);
+          const LimitSamples sample = surface.evaluate(mesh.positions, std::vector<Place>{{face, u, v}}, 2);
           EXPECT_EQ(sample.status[0], LimitStatus::crease);
           EXPECT_EQ(sample.order[0], 0);
         }
@@ -307,14 +307,14 @@ TEST(SecondDerivativesOfSqrt3, DoNotExistWhereSumsRoundToABorder) {
 /// Beside it they are large, and what a table multiplies is what is sampled: to the digits of their own size.
 TEST(SecondDerivativesOfSqrt3, AreTheSameBySampleAndByStencilBesideBorders) {
   for (const Index faces : {1, 2, 3, 4, 5}) {
-    const ControlMesh mesh = jittered(open_fan(faces, 3, 1));
+    const Mesh mesh = jittered(open_fan(faces, 3, 1));
     const LimitMap surface(sqrt3(), mesh);
     for (Index face = 0; face < surface.addresses().size(); ++face)
       for (const auto& [u, v] : {std::pair{2.0 / 3, 1.0 / 3}, {1.0 / 3, 2.0 / 3}, {1.0 / 3, 1.0 / 3}})
         for (const double d : {1e-3, 1e-6, 1e-9, 1e-12}) {
-          const Sample s{face, u - d, v};
+          const Place s{face, u - d, v};
           const LimitStencil stencil = surface.stencil(s, 2);
-          const LimitSamples sample = surface.evaluate(mesh.positions, std::vector<Sample>{s}, 2);
+          const LimitSamples sample = surface.evaluate(mesh.positions, std::vector<Place>{s}, 2);
           ASSERT_EQ(stencil.weights.rows(), 6) << words(s);
           ASSERT_EQ(sample.order[0], 2) << words(s);
           Points local(std::ssize(stencil.vertices), 3);
@@ -334,7 +334,7 @@ TEST(SecondDerivativesOfSqrt3, ExistBesideExtraordinaryVertices) {
   const LimitMap surface(sqrt3(), icosahedron());
   EXPECT_EQ(surface.stencil({3, 0, 0}, 2).status, LimitStatus::extraordinary);
   EXPECT_EQ(surface.stencil({3, 0, 0}, 2).weights.rows(), 1);
-  for (const Sample& s : places(surface.addresses(), 60, 2)) {
+  for (const Place& s : places(surface.addresses(), 60, 2)) {
     if ((s.u == 0 && s.v == 0) || s.u == 1 || s.v == 1) continue;
     EXPECT_EQ(surface.stencil(s, 2).status, LimitStatus::regular) << words(s);
     EXPECT_EQ(surface.stencil(s, 2).weights.rows(), 6) << words(s);

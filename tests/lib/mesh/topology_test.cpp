@@ -31,15 +31,15 @@ TEST(Topology, IsConsistentOnEveryTestMeshAndItsRefinements) {
 // faces sum to 4 (V - E + F), and of triangles the 6 - valence to 6 (V - E + F). A net without extraordinary places is
 // therefore a torus (or open): on a sphere they sum to that of eight vertices of valence 3, or twelve of valence 5.
 TEST(Topology, ExtraordinaryPlacesOfClosedMeshesSumToTheEulerCharacteristic) {
-  const std::pair<ControlMesh, Index> closed[] = {{cube(), 2},
-                                                  {prism(5), 2},
-                                                  {pole(5), 2},
-                                                  {quads_from_triangles(icosahedron()), 2},
-                                                  {tetrahedron(), 2},
-                                                  {octahedron(), 2},
-                                                  {icosahedron(), 2},
-                                                  {torus(4, 5), 0},
-                                                  {triangle_torus(4, 5), 0}};
+  const std::pair<Mesh, Index> closed[] = {{cube(), 2},
+                                           {prism(5), 2},
+                                           {pole(5), 2},
+                                           {quads_from_triangles(icosahedron()), 2},
+                                           {tetrahedron(), 2},
+                                           {octahedron(), 2},
+                                           {icosahedron(), 2},
+                                           {torus(4, 5), 0},
+                                           {triangle_torus(4, 5), 0}};
   for (const auto& [mesh, euler] : closed) {
     const Topology t(view(mesh));
     SCOPED_TRACE("V = " + std::to_string(t.num_vertices()) + ", F = " + std::to_string(t.num_faces()));
@@ -75,7 +75,7 @@ TEST(Split, CountsAreTheSplits) {
 
 // Built from the children's faces alone, a manifold mesh has the connectivity that the split made by arithmetic.
 TEST(Split, AgreesWithTopologyBuiltFromFaces) {
-  for (const ControlMesh& mesh : {torus(4, 5), grid(3, 4), prism(7), icosahedron(), triangle_grid(4, 3)}) {
+  for (const Mesh& mesh : {torus(4, 5), grid(3, 4), prism(7), icosahedron(), triangle_grid(4, 3)}) {
     const Topology t(view(mesh));
     for (const Split split : {Split::pqq, Split::ptq}) {
       if (split == Split::ptq && t.uniform_face_size() != 3) continue;
@@ -126,7 +126,7 @@ TEST(Topology, RejectsWhatNoSchemeCouldTake) {
 
 TEST(Sharpness, TagsThatPointNowhereAreErrors) {
   const Topology t(view(cube()));
-  ControlMesh tags;
+  Mesh tags;
   tags.creases = {{0, 7, 1}};
   EXPECT_THROW(initial_sharpness(t, tags, Boundary::edge_only, Creasing::uniform), InvalidMesh);
   tags.creases = {{0, 1, -1}};

@@ -6,7 +6,7 @@
 #include <random>
 
 #include "sublimit/neighborhood/piece_types.h"
-#include "sublimit/schemes.h"
+#include "sublimit/schemes/schemes.h"
 #include "support/meshes.h"
 #include "support/tolerance.h"
 

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "sublimit/schemes.h"
+#include "sublimit/schemes/schemes.h"
 #include "support/hard_meshes.h"
 
 namespace sublimit::testing {
@@ -11,7 +11,7 @@ namespace {
 
 /// Calls visit(type) for faces of level 1, where all of them are of one kind.
 template <class Visit>
-void visit_types(const std::string& name, const ControlMesh& mesh, Creasing creasing, const Visit& visit) {
+void visit_types(const std::string& name, const Mesh& mesh, Creasing creasing, const Visit& visit) {
   const Scheme<double> scheme = find_scheme(name).value();
   const Level level = next_level(scheme, control_level(scheme, mesh, {.boundary = {}, .creasing = creasing}));
   const Topology& t = level.topology();
@@ -30,7 +30,7 @@ TEST_P(ChildCorners, AreThoseOfTheBlocksToTheBit) {
   const bool triangles = GetParam() == "loop";
   for (const Creasing creasing : {Creasing::uniform, Creasing::chaikin}) {
     const Hardness hardness{.open = true, .sharp = false, .semi_sharp = true};
-    const ControlMesh mesh = triangles ? hard_triangles(5, hardness) : hard_polygons(5, hardness);
+    const Mesh mesh = triangles ? hard_triangles(5, hardness) : hard_polygons(5, hardness);
     visit_types(GetParam(), mesh, creasing, [&](const PieceType& type) {
       const PieceType::ChildCorners corners = type.child_corners();
       const auto& links = type.children();
@@ -45,7 +45,7 @@ TEST_P(ChildCorners, AreThoseOfTheBlocksToTheBit) {
         const RowMatrix D = block.differences();
         for (Eigen::Index k = 1; k < sides; ++k)
           EXPECT_EQ(RowMatrix(own.row(k) - own.row(0)), RowMatrix(D.row(k - 1))) << "child " << c << " corner " << k;
-        for (const Place place : {triangles ? triangle_place(0.25, 0.125) : quad_place(0.25, 0.125)})
+        for (const PieceCoordinates place : {triangles ? triangle_place(0.25, 0.125) : quad_place(0.25, 0.125)})
           EXPECT_EQ(corners.maps[c].contains(place), links[c].map.contains(place));
       }
     });

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "sublimit/schemes.h"
+#include "sublimit/schemes/schemes.h"
 #include "support/meshes.h"
 #include "support/tolerance.h"
 
@@ -24,7 +24,7 @@ TEST(RegularMask, IsThatOfTheMatrixOnATorus) {
   for (const Scheme<double>& scheme : all_schemes()) {
     const RegularMask<double> mask = regular_mask(scheme);
     constexpr int m = 20, reach = 8, near = 3;  // nothing is seen from both sides
-    const ControlMesh mesh = mask.triangular ? testing::triangle_torus(m, m) : testing::torus(m, m);
+    const Mesh mesh = mask.triangular ? testing::triangle_torus(m, m) : testing::torus(m, m);
     const std::vector<Level> levels = refine(scheme, mesh, scheme.period);
     const SparseMatrix P = refinement_matrix(levels);
     const Topology* before = &levels[0].topology();

@@ -6,7 +6,7 @@
 #include <set>
 
 #include "sublimit/neighborhood/local_patch.h"
-#include "sublimit/schemes.h"
+#include "sublimit/schemes/schemes.h"
 
 namespace sublimit {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "sublimit/limit/limit_map.h"
 #include "sublimit/neighborhood/piece_types.h"
-#include "sublimit/schemes.h"
+#include "sublimit/schemes/schemes.h"
 #include "support/meshes.h"
 #include "support/tolerance.h"
 
@@ -18,7 +18,7 @@ constexpr Index page_size = 4;  // quads along the spine and away from it
 
 /// The pages of a book, each a bent square of quads or of triangles; all share one side, the spine: vertices
 /// 0 .. page_size. The first page has the same points in all books.
-ControlMesh book(Index pages, bool triangles) {
+Mesh book(Index pages, bool triangles) {
   std::vector<Eigen::Vector3d> positions;
   for (Index j = 0; j <= page_size; ++j) positions.push_back({0.2 * j * j, 1.0 * j, 0.1 * j});
   std::vector<std::vector<Index>> faces;
@@ -39,14 +39,14 @@ ControlMesh book(Index pages, bool triangles) {
           faces.push_back({a, b, c, d});
       }
   }
-  ControlMesh mesh = make_mesh(positions, faces);
+  Mesh mesh = make_mesh(positions, faces);
   // Ends of a spine stay where they are; that of a single page would not, if two triangles are there.
   if (triangles) mesh.corners = {{0, infinite_sharpness}, {page_size, infinite_sharpness}};
   return mesh;
 }
 
 /// Triangles (i, i + 1, 0) around a pole, with one more (i, 0, 0) at each of them: the edge (0, 0) has as many sheets.
-ControlMesh folded_pole(Index sheets) {
+Mesh folded_pole(Index sheets) {
   std::vector<Eigen::Vector3d> positions{{0, 0, 1}};
   std::vector<std::vector<Index>> faces;
   for (Index i = 0; i < sheets; ++i) {
@@ -64,7 +64,7 @@ struct Count {
 };
 
 /// Types of pieces of level 1 and of two generations of their children.
-Count count_types(const std::string& name, const ControlMesh& mesh) {
+Count count_types(const std::string& name, const Mesh& mesh) {
   const Scheme<double> scheme = find_scheme(name).value();
   const Level level = next_level(scheme, control_level(scheme, mesh));
   const Topology& t = level.topology();
@@ -100,10 +100,10 @@ TEST_P(SheetTypes, AreThoseOfOnePageHoweverManyThereAre) {
 }
 
 TEST_P(SheetTypes, LimitsOfAPageAreThoseOfThePageAlone) {
-  const ControlMesh one = book(1, triangles()), many = book(5, triangles());
+  const Mesh one = book(1, triangles()), many = book(5, triangles());
   const Scheme<double> scheme = find_scheme(GetParam()).value();
   const LimitMap alone(scheme, control_level(scheme, one)), shared(scheme, control_level(scheme, many));
-  std::vector<Sample> samples;
+  std::vector<Place> samples;
   for (Index f = 0; f < static_cast<Index>(one.face_sizes.size()); ++f)
     for (const auto& [u, v] : {std::pair{0.0, 0.0}, {0.25, 0.125}, {0.0, 0.5}, {0.5, 0.0}, {0.625, 0.25}})
       samples.push_back({f, u, v});

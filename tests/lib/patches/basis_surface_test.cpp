@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Bases of segments against their formulas, parts of patches, and what types of faces promise.
-#include "sublimit/patches/basis_surface.h"
+#include "sublimit/patches/detail/basis_surface.h"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,9 @@
 #include <random>
 #include <tuple>
 
-#include "sublimit/patches/cut_patch.h"
-#include "sublimit/patches/finer_knots.h"
-#include "sublimit/patches/free_form_patches.h"
+#include "sublimit/patches/detail/cut_patch.h"
+#include "sublimit/patches/detail/finer_knots.h"
+#include "sublimit/patches/detail/free_form_patches.h"
 #include "sublimit/patches/patch_set.h"
 #include "sublimit/patches/spline_surface.h"
 #include "support/expect_error.h"
@@ -25,9 +25,9 @@ Points random_columns(Index rows, std::mt19937& random) {
   return columns;
 }
 
-std::vector<Sample> random_places(const Patch& patch, std::mt19937& random, int count = 40) {
+std::vector<Place> random_places(const Patch& patch, std::mt19937& random, int count = 40) {
   std::uniform_real_distribution<> parameter(0, 1);
-  std::vector<Sample> places;
+  std::vector<Place> places;
   for (int i = 0; i < count; ++i) {
     const auto face = static_cast<Index>(random() % unsigned(patch.faces().size));
     places.push_back({face, i % 5 == 0 ? 0 : i % 5 == 1 ? 1 : parameter(random), i % 7 == 2 ? 0 : parameter(random)});
@@ -37,10 +37,10 @@ std::vector<Sample> random_places(const Patch& patch, std::mt19937& random, int 
 
 /// Equal points and derivatives at equal parameters, per unit of the patches' own.
 void expect_same_surface(const Patch& a, const Points& columns_a, const Patch& b, const Points& columns_b,
-                         const std::vector<Sample>& places_of_a, double tolerance) {
-  for (const Sample& at : places_of_a) {
+                         const std::vector<Place>& places_of_a, double tolerance) {
+  for (const Place& at : places_of_a) {
     const Patch::Parameters parameters = a.parameters(at);
-    const Sample other = b.place(parameters);
+    const Place other = b.place(parameters);
     const LimitSamples x = a.evaluate(columns_a, std::vector{at}, 2), y = b.evaluate(columns_b, std::vector{other}, 2);
     const Patch::Lengths h = a.lengths(at.face), k = b.lengths(other.face);
     const auto expect = [&](const Points& p, const Points& q, double of_p, double of_q) {
@@ -103,7 +103,7 @@ TEST(BasisSurface, WithTheMatrixOfUniformBsplinesIsOne) {
   const Points columns = random_columns(surface.num_points(), random);
   expect_same_surface(surface, columns, spline, columns, random_places(surface, random), 1e-14);
   // C^2 joints are found from the matrix.
-  for (const Sample& at : random_places(surface, random)) {
+  for (const Place& at : random_places(surface, random)) {
     WeightRows weights;
     EXPECT_EQ(surface.rows(at, 2, weights), LimitStatus::regular);
   }
@@ -118,7 +118,7 @@ TEST(BasisSurface, BezierPiecesAreTheSameSurface) {
     const Points columns = random_columns(surface.num_points(), random);
     const Patch::Refined pieces = surface.refined();
     const Patch::Refined finer = pieces.patch->refined();
-    const std::vector<Sample> places = random_places(surface, random);
+    const std::vector<Place> places = random_places(surface, random);
     expect_same_surface(surface, columns, *pieces.patch, pieces.S * columns, places, 1e-13);
     expect_same_surface(surface, columns, *finer.patch, finer.S * (pieces.S * columns), places, 1e-13);
   }
@@ -142,8 +142,8 @@ TEST(CutPatch, IsThePartInside) {
   const CutPatch part(whole, {0.5, 0.25}, {3, 1});
   EXPECT_EQ(part.faces().size, 2);  // [0.5, 1] and [1, 3] times [0.25, 1]
   expect_same_surface(part, columns, *whole, columns, random_places(part, random), 1e-13);
-  for (const Sample& at : random_places(part, random)) {
-    const Sample back = part.place(part.parameters(at));
+  for (const Place& at : random_places(part, random)) {
+    const Place back = part.place(part.parameters(at));
     EXPECT_EQ(back.face, at.face);
     EXPECT_NEAR(back.u, at.u, rounding(8));
     EXPECT_NEAR(back.v, at.v, rounding(8));
@@ -154,7 +154,7 @@ TEST(CutPatch, IsThePartInside) {
   expect_error<InvalidParameter>([&] { CutPatch(whole, {1, 0}, {1, 1}); }, {"no area"});
   expect_error<InvalidParameter>([&] { part.place({.u = 0.2, .v = 0.5}); }, {"outside the part"});
   // Its end u = 3 is a knot: the piece behind it is another part's.
-  const Sample end = part.place({.u = 3, .v = 0.25});
+  const Place end = part.place({.u = 3, .v = 0.25});
   EXPECT_EQ(end.face, 1);
   EXPECT_EQ(end.u, 1);
   // Finer nets are the part's own.
@@ -165,7 +165,7 @@ TEST(CutPatch, IsThePartInside) {
   expect_same_surface(*fine.patch, net, *whole, columns, random_places(*fine.patch, random), 1e-12);
   const CutPatch middle(whole, {1, 1}, {3, 2});
   EXPECT_EQ(middle.faces().size, 1);
-  const Sample begin = middle.place({.u = 1, .v = 1, .u_side = KnotSide::left, .v_side = KnotSide::left});
+  const Place begin = middle.place({.u = 1, .v = 1, .u_side = KnotSide::left, .v_side = KnotSide::left});
   EXPECT_EQ(begin.face, 0);
   EXPECT_EQ(begin.u, 0);
   EXPECT_EQ(begin.v, 0);
@@ -228,19 +228,19 @@ TEST(FreeFormPatches, HaveEveryBasisAndThePartThatIsMeant) {
     return free_form_patches(parse_free_form(points + text, "s.obj"), "s.obj");
   };
   const FreeFormPatches cardinal = read("cstype cardinal\ndeg 3 3\nsurf 0 1 0 1" + list);
-  EXPECT_LE((cardinal.patches.evaluate(cardinal.columns, std::vector<Sample>{{0, 0, 1}}).position -
+  EXPECT_LE((cardinal.patches.evaluate(cardinal.columns, std::vector<Place>{{0, 0, 1}}).position -
              Eigen::RowVector3d(1, 2, 0))
                 .norm(),
             rounding(8));
   const FreeFormPatches taylor = read("cstype taylor\ndeg 3 3\nsurf 0 1 0 1" + list);
-  EXPECT_LE((taylor.patches.evaluate(taylor.columns, std::vector<Sample>{{0, 0, 0}}).position).norm(), rounding(8));
+  EXPECT_LE((taylor.patches.evaluate(taylor.columns, std::vector<Place>{{0, 0, 0}}).position).norm(), rounding(8));
   // Beside a rational surface the same polynomial, though its coefficients are no points.
   const FreeFormPatches beside =
       read("cstype taylor\ndeg 3 3\nsurf 0 1 0 1" + list +
            "cstype rat bezier\ndeg 1 1\nv 0 0 0 2\nsurf 0 1 0 1 1 2 -1 3\nparm u 0 1\nparm v 0 "
            "1\nend\n");
   constexpr double quotient_rule = 1e-12;  // derivatives of quotients with coefficients that are no points
-  for (const Sample& at : {Sample{0, 0, 0}, Sample{0, 0.3, 0.8}, Sample{0, 1, 1}})
+  for (const Place& at : {Place{0, 0, 0}, Place{0, 0.3, 0.8}, Place{0, 1, 1}})
     EXPECT_LE((beside.patches.evaluate(beside.columns, std::vector{at}, 1).du -
                taylor.patches.evaluate(taylor.columns, std::vector{at}, 1).du)
                   .norm(),
@@ -254,8 +254,8 @@ TEST(FreeFormPatches, HaveEveryBasisAndThePartThatIsMeant) {
   expect_same_surface(*matrix.patches.members()[0].patch, matrix.columns, *bezier.patches.members()[0].patch,
                       bezier.columns, random_places(*matrix.patches.members()[0].patch, random), 1e-13);
   const FreeFormPatches part = read("cstype bezier\ndeg 3 3\nsurf 0.25 1 0 0.5" + list);
-  EXPECT_LE((part.patches.evaluate(part.columns, std::vector<Sample>{{0, 0, 1}}).position -
-             bezier.patches.evaluate(bezier.columns, std::vector<Sample>{{0, 0.25, 0.5}}).position)
+  EXPECT_LE((part.patches.evaluate(part.columns, std::vector<Place>{{0, 0, 1}}).position -
+             bezier.patches.evaluate(bezier.columns, std::vector<Place>{{0, 0.25, 0.5}}).position)
                 .norm(),
             rounding(8));
 }
@@ -281,9 +281,9 @@ TEST(FreeFormCurves, AreThePartThatIsMeant) {
       EXPECT_EQ(part.curves.curve(0).place(from, KnotSide::right).segment, 0);
       for (const double t : {from, from + (to - from) / 3, to})
         for (const KnotSide side : {KnotSide::left, KnotSide::right}) {
-          const CurveSample of_part = part.curves.curve(0).place(t, side);
+          const CurvePlace of_part = part.curves.curve(0).place(t, side);
           const KnotSide same = t == from ? KnotSide::right : t == to ? KnotSide::left : side;
-          const CurveSample of_whole = whole.curves.curve(0).place(t, same);
+          const CurvePlace of_whole = whole.curves.curve(0).place(t, same);
           const CurveSamples x = part.curves.evaluate(part.columns, {&of_part, 1}, 1),
                              y = whole.curves.evaluate(whole.columns, {&of_whole, 1}, 1);
           EXPECT_LE((x.position - y.position).norm(), rounding(16, 6)) << t;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Patches bound to their points say what the patches say.
-#include "sublimit/patches/bezier_pieces.h"
+#include "sublimit/patches/detail/bezier_pieces.h"
 
 #include <gtest/gtest.h>
 
@@ -25,9 +25,9 @@ Knots<double> random_knots_of(std::mt19937& random, int degree) {
   return Knots<double>::open(degree, static_cast<Index>(knots.size()) - degree - 1, knots);
 }
 
-std::vector<Sample> places_with_ends(const PatchSet& set, std::mt19937& random) {
+std::vector<Place> places_with_ends(const PatchSet& set, std::mt19937& random) {
   std::uniform_real_distribution<> parameter(0, 1);
-  std::vector<Sample> places;
+  std::vector<Place> places;
   for (Index face = 0; face < set.faces().size; ++face)
     for (int i = 0; i < 6; ++i)
       places.push_back({face,
@@ -43,7 +43,7 @@ std::vector<Sample> places_with_ends(const PatchSet& set, std::mt19937& random) 
   return places;
 }
 
-void expect_the_same(const PatchSet& set, const Points& columns, const std::vector<Sample>& places, double tolerance) {
+void expect_the_same(const PatchSet& set, const Points& columns, const std::vector<Place>& places, double tolerance) {
   const auto bound = set.bound(columns);
   ASSERT_NE(dynamic_cast<const BezierPieces*>(bound.get()), nullptr);
   for (int order = 0; order <= 2; ++order) {
@@ -101,7 +101,7 @@ TEST(BezierPieces, KnowPolesAndCollapsedSides) {
 TEST(BezierPieces, FarFromTheOriginLoseNothingOfDerivatives) {
   RationalShape shape = torus();
   const PatchSet set({std::make_shared<const SplineSurface>(shape.surface)}, Coordinates::homogeneous);
-  const std::vector<Sample> places{{0, 0.3, 0.4}, {5, 0.7, 0.1}};
+  const std::vector<Place> places{{0, 0.3, 0.4}, {5, 0.7, 0.1}};
   LimitSamples here, there;
   set.bound(shape.columns)->evaluate(places, 2, true, here);
   shape.columns.col(0) += 1e6 * shape.columns.col(3);

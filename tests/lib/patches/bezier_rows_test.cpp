@@ -6,12 +6,12 @@
 #include <functional>
 #include <random>
 
-#include "sublimit/core/binomial.h"
-#include "sublimit/patches/basis_surface.h"
+#include "sublimit/core/detail/binomial.h"
+#include "sublimit/patches/detail/basis_surface.h"
 #include "sublimit/patches/constructions/lagrange_surface.h"
 #include "sublimit/patches/constructions/screw_surface.h"
 #include "sublimit/patches/constructions/triangle_patch.h"
-#include "sublimit/patches/cut_patch.h"
+#include "sublimit/patches/detail/cut_patch.h"
 #include "sublimit/patches/spline_surface.h"
 #include "support/tolerance.h"
 

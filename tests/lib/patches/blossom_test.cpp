@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The blossom in exact fractions: what defines it, and the classical algorithms that follow from it.
-#include "sublimit/patches/blossom.h"
+#include "sublimit/patches/detail/blossom.h"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Other nets of the same curve: in exact fractions row_fine(t) S = row_coarse(t), and S is what the classical
 // algorithms give.
-#include "sublimit/patches/finer_knots.h"
+#include "sublimit/patches/detail/finer_knots.h"
 
 #include <gtest/gtest.h>
 
-#include "sublimit/core/sparse_product.h"
-#include "sublimit/patches/spline_rows.h"
+#include "sublimit/core/detail/sparse_product.h"
+#include "sublimit/patches/detail/spline_rows.h"
 #include "support/classical_splines.h"
 #include "support/expect_error.h"
 #include "support/fraction.h"

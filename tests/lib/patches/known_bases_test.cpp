@@ -8,11 +8,11 @@
 #include "sublimit/limit/limit_map.h"
 #include "sublimit/patches/constructions/lagrange_basis.h"
 #include "sublimit/patches/constructions/polynomial_curves.h"
-#include "sublimit/patches/finer_knots.h"
-#include "sublimit/patches/segment_basis.h"
-#include "sublimit/patches/spline_rows.h"
+#include "sublimit/patches/detail/finer_knots.h"
+#include "sublimit/patches/detail/segment_basis.h"
+#include "sublimit/patches/detail/spline_rows.h"
 #include "sublimit/patches/spline_surface.h"
-#include "sublimit/schemes.h"
+#include "sublimit/schemes/schemes.h"
 #include "support/classical_splines.h"
 #include "support/fraction.h"
 #include "support/tolerance.h"
@@ -125,7 +125,7 @@ TEST(KnownBases, OpenGridsUnderCatmullClarkAreBsplinesOverPhantomPoints) {
   std::mt19937 random(43);
   std::uniform_real_distribution<double> inside(0, 1);
   for (const auto& [m, n] : {std::pair<Index, Index>(2, 2), {5, 4}, {3, 7}}) {
-    ControlMesh mesh;
+    Mesh mesh;
     mesh.positions = random_points(random, m * n, 3);
     for (Index j = 0; j + 1 < n; ++j)
       for (Index i = 0; i + 1 < m; ++i) {
@@ -144,13 +144,13 @@ TEST(KnownBases, OpenGridsUnderCatmullClarkAreBsplinesOverPhantomPoints) {
     ASSERT_EQ(spline.num_faces(), Index(mesh.face_sizes.size()));
     for (int k = 0; k < 100; ++k) {
       const auto parameter = [&] { return k % 5 == 0 ? double(random() % 2) : inside(random); };
-      const Sample s{static_cast<Index>(random() % unsigned(spline.num_faces())), parameter(), parameter()};
+      const Place s{static_cast<Index>(random() % unsigned(spline.num_faces())), parameter(), parameter()};
       const LimitSamples a = spline.evaluate(columns, {&s, 1}, 1), b = limit.evaluate(mesh.positions, {&s, 1}, 1);
       EXPECT_LE((a.position - b.position).norm(), reference) << m << " x " << n << " " << s.face;
       EXPECT_LE((a.du - b.du).norm() + (a.dv - b.dv).norm(), first_derivative * (1 + a.du.norm() + a.dv.norm()));
     }
     // Corners are interpolated, and across its sides the surface does not bend.
-    const Sample corner{0, 0, 0}, side{0, 0, 0.4};
+    const Place corner{0, 0, 0}, side{0, 0, 0.4};
     EXPECT_LE((spline.evaluate(columns, {&corner, 1}).position - mesh.positions.row(0)).norm(), rounding(16));
     EXPECT_LE(spline.evaluate(columns, {&side, 1}, 2).duu.norm(), rounding(16, 8));
   }

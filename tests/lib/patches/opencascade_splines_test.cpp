@@ -5,7 +5,7 @@
 #include <random>
 
 #include "sublimit/patches/spline_curve.h"
-#include "sublimit/patches/spline_rows.h"
+#include "sublimit/patches/detail/spline_rows.h"
 #include "sublimit/patches/spline_surface.h"
 #include "support/opencascade_reference.h"
 #include "support/precise.h"
@@ -50,7 +50,7 @@ double inside(std::mt19937& random, const Knots<double>& knots) {
 }
 
 /// Point and two derivatives of a rational curve in 256 bits.
-CurveDerivatives precise_derivatives(const Knots<double>& knots, const Points& columns, const CurveSample& place,
+CurveDerivatives precise_derivatives(const Knots<double>& knots, const Points& columns, const CurvePlace& place,
                                      double t) {
   const int degree = knots.degree();
   const auto precise = Knots<Precise>::open(degree, knots.num_functions(), {knots.all().begin(), knots.all().end()});
@@ -90,7 +90,7 @@ TEST(OpenCascade, CurvesAreOurs) {
     const SplineCurve curve(random_knots(random, 1 + trial % 9));
     const Points columns = random_columns(random, curve.num_points());
     std::vector<double> parameters;
-    std::vector<CurveSample> places;
+    std::vector<CurvePlace> places;
     for (int i = 0; i < 20; ++i) {
       parameters.push_back(inside(random, curve.knots()));
       places.push_back(curve.place(parameters.back()));
@@ -114,7 +114,7 @@ TEST(OpenCascade, SurfacesAreOurs) {
     const SplineSurface surface(random_knots(random, 1 + trial % 5), random_knots(random, 1 + int(random() % 5)));
     const Points columns = random_columns(random, surface.num_points());
     std::vector<Patch::Parameters> parameters;
-    std::vector<Sample> places;
+    std::vector<Place> places;
     for (int i = 0; i < 20; ++i) {
       parameters.push_back({.u = inside(random, surface.u()), .v = inside(random, surface.v())});
       places.push_back(surface.place(parameters.back()));

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Sizes of levels, told before they are made.
-#include "sublimit/patches/patch_levels.h"
+#include "sublimit/patches/detail/patch_levels.h"
 
 #include <gtest/gtest.h>
 
-#include "sublimit/base/memory.h"
+#include "sublimit/base/detail/memory.h"
 #include "sublimit/patches/constructions/triangle_patch.h"
 #include "sublimit/patches/spline_surface.h"
 #include "support/expect_error.h"

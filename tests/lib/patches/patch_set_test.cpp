@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-#include "sublimit/patches/free_form_patches.h"
+#include "sublimit/patches/detail/free_form_patches.h"
 #include "support/expect_error.h"
 #include "support/free_form_shapes.h"
 #include "support/tolerance.h"
@@ -24,7 +24,7 @@ TEST(PatchSet, SphereAndTorusOfAFile) {
   ASSERT_EQ(set.num_points(), 9 * 5 + 9 * 9);
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> parameter(0, 1);
-  std::vector<Sample> samples;
+  std::vector<Place> samples;
   for (Index f = 0; f < set.faces().size; ++f)
     for (int i = 0; i < 20; ++i) samples.push_back({f, parameter(random), parameter(random)});
   const LimitSamples at = set.evaluate(found.columns, samples, 2);
@@ -48,7 +48,7 @@ TEST(PatchSet, SphereAndTorusOfAFile) {
 TEST(PatchSet, RefusesWhatIsNoFace) {
   const FreeFormPatches found = free_form_patches(free_form_of({unit_sphere()}), "s.obj");
   expect_error<InvalidParameter>([&] { found.patches.stencil({8, 0, 0}); }, {"face 8 does not exist", "there are 8"});
-  EXPECT_EQ(found.patches.evaluate(found.columns, std::vector<Sample>{{8, 0, 0}}).status[0], LimitStatus::outside);
+  EXPECT_EQ(found.patches.evaluate(found.columns, std::vector<Place>{{8, 0, 0}}).status[0], LimitStatus::outside);
 }
 
 }  // namespace

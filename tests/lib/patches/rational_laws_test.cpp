@@ -6,7 +6,7 @@
 #include <random>
 
 #include "sublimit/patches/spline_curve.h"
-#include "sublimit/patches/spline_rows.h"
+#include "sublimit/patches/detail/spline_rows.h"
 #include "sublimit/patches/spline_surface.h"
 #include "support/classical_splines.h"
 #include "support/fraction.h"
@@ -82,7 +82,7 @@ TEST(RationalCurves, AgreeWith256Bits) {
           const PreciseVector x = sums[0].A() / w, first = (sums[1].A() - sums[1].w() * x) / w,
                               second = (sums[2].A() - 2 * sums[1].w() * first - sums[2].w() * x) / w;
           const double over = 1 / std::abs(static_cast<double>(w));
-          const CurveSample sample{face, u};
+          const CurvePlace sample{face, u};
           const CurveSamples at = curve.evaluate(columns, {&sample, 1}, 2, Coordinates::homogeneous);
           EXPECT_LE(distance(x, at.position.row(0)), 4 * eps * over * (sums[0].points + sums[0].weights * length(x)))
               << degree;
@@ -108,8 +108,8 @@ TEST(RationalSurfaces, AgreeWith256Bits) {
     const Points columns = random_rational_columns(random, surface.num_points());
     for (int k = 0; k < 12; ++k) {
       const double ends[] = {0, 1e-12, 1 - 1e-12, 1, inside(random), inside(random)};
-      const Sample sample{static_cast<Index>(random() % unsigned(surface.num_faces())), ends[random() % 6],
-                          ends[random() % 6]};
+      const Place sample{static_cast<Index>(random() % unsigned(surface.num_faces())), ends[random() % 6],
+                         ends[random() % 6]};
       const PreciseRows u(in_u, sample.face % in_u.num_faces(), sample.u),
           v(in_v, sample.face / in_u.num_faces(), sample.v);
       PreciseSum sums[6];
@@ -150,7 +150,7 @@ TEST(RationalSurfaces, MapsOfColumnsAreProjectiveMapsOfTheSurface) {
     Points columns = random_rational_columns(random, surface.num_points());
     // Perspective, and near enough to the identity to keep all weights positive: |x| is less than 2.
     const Eigen::Matrix4d map = Eigen::Matrix4d::Identity() + 0.1 * Eigen::Matrix4d(random_points(random, 4, 4));
-    const Sample sample{static_cast<Index>(random() % unsigned(surface.num_faces())), 0.3, 0.8};
+    const Place sample{static_cast<Index>(random() % unsigned(surface.num_faces())), 0.3, 0.8};
     const LimitSamples at = surface.evaluate(columns, {&sample, 1}, 1, Coordinates::homogeneous),
                        mapped = surface.evaluate(columns * map.transpose(), {&sample, 1}, 1, Coordinates::homogeneous);
     const auto column = [&](const Points& v, double w) { return Eigen::Vector4d(v(0, 0), v(0, 1), v(0, 2), w); };

@@ -7,8 +7,8 @@
 #include <limits>
 #include <random>
 
-#include "sublimit/patches/finer_knots.h"
-#include "sublimit/patches/spline_rows.h"
+#include "sublimit/patches/detail/finer_knots.h"
+#include "sublimit/patches/detail/spline_rows.h"
 #include "support/classical_splines.h"
 #include "support/expect_error.h"
 #include "support/fraction.h"
@@ -59,7 +59,7 @@ TEST(SplineCurve, DerivativesOfAQuarterOfACircleAreThoseOfItsQuotients) {
   const SplineCurve curve(bezier_knots<double>(2));
   const Points columns = homogeneous(points_of({{1, 0}, {1, 1}, {0, 1}}), Eigen::Vector3d(1, 1, 2));
   for (const double t : {0.0, 1e-12, 0.25, 0.6, 1.0}) {
-    const CurveSample sample{0, t};
+    const CurvePlace sample{0, t};
     const CurveSamples at = curve.evaluate(columns, {&sample, 1}, 2, Coordinates::homogeneous);
     const double w = 1 + t * t;
     const Eigen::RowVector2d x((1 - t * t) / w, 2 * t / w), first(-4 * t / (w * w), 2 * (1 - t * t) / (w * w)),
@@ -75,12 +75,12 @@ TEST(SplineCurve, TheNinePointCircleIsRoundAndC1) {
   const SplineCurve circle = nine_point_circle();
   const Points columns = nine_points();
   for (int k = 0; k <= 400; ++k) {
-    const CurveSample sample = circle.place(k / 100.0);
+    const CurvePlace sample = circle.place(k / 100.0);
     const CurveSamples at = circle.evaluate(columns, {&sample, 1}, 0, Coordinates::homogeneous);
     EXPECT_NEAR(at.position.row(0).norm(), 1, rounding(3));
   }
   for (int joint = 1; joint <= 3; ++joint) {
-    const CurveSample samples[] = {circle.place(joint, KnotSide::left), circle.place(joint)};
+    const CurvePlace samples[] = {circle.place(joint, KnotSide::left), circle.place(joint)};
     const CurveSamples at = circle.evaluate(columns, samples, 2, Coordinates::homogeneous);
     EXPECT_EQ(samples[0].segment + 1, samples[1].segment);
     EXPECT_LE((at.position.row(0) - at.position.row(1)).norm(), rounding(3));
@@ -102,7 +102,7 @@ TEST(SplineCurve, MapsOfColumnsAreProjectiveMapsOfTheCurve) {
     const Eigen::VectorXd weights = Eigen::VectorXd::NullaryExpr(curve.num_points(), [&] { return weight(random); });
     const Points columns = homogeneous(random_points(random, curve.num_points(), 3), weights);
     Eigen::Matrix4d map = Eigen::Matrix4d::Identity() + 0.1 * Eigen::Matrix4d(random_points(random, 4, 4));
-    const std::vector<CurveSample> samples = {{0, 0}, {0, 0.3}, {curve.num_segments() - 1, 1}};
+    const std::vector<CurvePlace> samples = {{0, 0}, {0, 0.3}, {curve.num_segments() - 1, 1}};
     const CurveSamples at = curve.evaluate(columns, samples, 1, Coordinates::homogeneous);
     const CurveSamples mapped = curve.evaluate(columns * map.transpose(), samples, 1, Coordinates::homogeneous);
     for (Eigen::Index i = 0; i < 3; ++i) {
@@ -126,7 +126,7 @@ TEST(SplineCurve, WeightsThatGrowGeometricallyAreAMoebiusMapOfTheParameter) {
     const double c = 1.7, t = 0.3;
     const Eigen::VectorXd weights =
         Eigen::VectorXd::NullaryExpr(degree + 1, [&](Eigen::Index i) { return std::pow(c, double(i)); });
-    const CurveSample at{0, t}, image{0, c * t / (1 - t + c * t)};
+    const CurvePlace at{0, t}, image{0, c * t / (1 - t + c * t)};
     EXPECT_LE((curve.evaluate(homogeneous(points, weights), {&at, 1}, 0, Coordinates::homogeneous).position -
                curve.evaluate(points, {&image, 1}).position)
                   .norm(),
@@ -140,7 +140,7 @@ TEST(SplineCurve, AGrowingWeightDrawsTheCurveToItsPoint) {
   const Points points = random_points(random, 6, 2);
   Eigen::VectorXd weights = Eigen::VectorXd::Ones(6);
   weights[2] = 1e14;
-  const CurveSample sample = curve.place(1.5);
+  const CurvePlace sample = curve.place(1.5);
   const CurveSamples at = curve.evaluate(homogeneous(points, weights), {&sample, 1}, 0, Coordinates::homogeneous);
   constexpr double share_of_others = 1e-13;  // 1/weight, and its share at this place
   EXPECT_LE((at.position.row(0) - points.row(2)).norm(), share_of_others);
@@ -151,7 +151,7 @@ TEST(SplineCurve, OfEqualWeightsIsThePlainOne) {
   for (int degree = 1; degree <= 9; ++degree) {
     const SplineCurve curve(random_knots<double>(random, degree));
     const Points points = random_points(random, curve.num_points(), 3);
-    const std::vector<CurveSample> samples = {{0, 0}, {0, 0.7}, {curve.num_segments() - 1, 1}};
+    const std::vector<CurvePlace> samples = {{0, 0}, {0, 0.7}, {curve.num_segments() - 1, 1}};
     const CurveSamples plain = curve.evaluate(points, samples, 2);
     const CurveSamples rational =
         curve.evaluate(homogeneous(points, Eigen::VectorXd::Ones(points.rows())), samples, 2, Coordinates::homogeneous);
@@ -165,7 +165,7 @@ TEST(SplineCurve, FarFromTheOriginKeepsTheDigitsOfItsDerivatives) {
   const SplineCurve curve(Knots<double>::open(3, 5, {0, 0, 0, 0, 0.3, 1, 1, 1, 1}));
   const Points points = points_of({{0, 0}, {1, 2}, {3, 1}, {4, 4}, {6, 5}});
   const Points far = points.rowwise() + Eigen::RowVector2d(0x1p40, -0x1p40);  // still whole numbers
-  const std::vector<CurveSample> samples = {{0, 0.2}, {1, 0.9}};
+  const std::vector<CurvePlace> samples = {{0, 0.2}, {1, 0.9}};
   const CurveSamples near = curve.evaluate(points, samples, 2), at = curve.evaluate(far, samples, 2);
   EXPECT_LE((near.first - at.first).norm(), rounding(4, 16));
   EXPECT_LE((near.second - at.second).norm(), rounding(4, 64));
@@ -179,7 +179,7 @@ TEST(SplineCurve, ClosedOnesMeetWithTheirDerivatives) {
       for (Index i = 0; i < points; ++i) breaks.push_back(breaks.back() + 1 + double(random() % 4) / 2);
       const SplineCurve curve(Knots<double>::closed(degree, breaks));
       const Points x = random_points(random, points, 3);
-      const CurveSample samples[] = {curve.place(0), curve.place(0, KnotSide::left)};
+      const CurvePlace samples[] = {curve.place(0), curve.place(0, KnotSide::left)};
       const CurveSamples at = curve.evaluate(x, samples, 2);
       const double h0 = curve.knots().length(0), h1 = curve.knots().length(curve.num_segments() - 1);
       EXPECT_LE((at.position.row(0) - at.position.row(1)).norm(), rounding(degree));
@@ -213,7 +213,7 @@ TEST(SplineCurve, APoleHasNoPoint) {
   // w = (1 - 2t)^2
   const Points columns = homogeneous(points_of({{0, 0}, {1, 1}, {2, 0}}), Eigen::Vector3d(1, -1, 1));
   EXPECT_EQ(num_weights_not_positive(columns), 1);
-  const CurveSample samples[] = {{0, 0.5}, {0, 0.25}};
+  const CurvePlace samples[] = {{0, 0.5}, {0, 0.25}};
   const CurveSamples at = curve.evaluate(columns, samples, 2, Coordinates::homogeneous);
   EXPECT_EQ(at.status[0], LimitStatus::pole);
   EXPECT_EQ(at.order[0], 0);
@@ -226,7 +226,7 @@ TEST(SplineCurve, APoleHasNoPoint) {
 TEST(SplineCurve, WithoutSpeedHasNoTangent) {
   const SplineCurve curve(bezier_knots<double>(3));
   const Points points = points_of({{0.1, 0.7}, {0.1, 0.7}, {1, 1}, {2, 0}});
-  const CurveSample samples[] = {{0, 0}, {0, 0.5}};
+  const CurvePlace samples[] = {{0, 0}, {0, 0.5}};
   const CurveSamples at = curve.evaluate(points, samples, 2);
   EXPECT_EQ(at.status[0], LimitStatus::undefined_normal);
   EXPECT_EQ(at.position.row(0), points.row(0));
@@ -239,7 +239,7 @@ TEST(SplineCurve, PlacesAndParametersAreTheSame) {
   const SplineCurve curve(random_knots<double>(random, 4));
   for (Index segment = 0; segment < curve.num_segments(); ++segment)
     for (const double t : {0.0, 0.25, 0.75}) {
-      const CurveSample place = curve.place(curve.parameter({segment, t}));
+      const CurvePlace place = curve.place(curve.parameter({segment, t}));
       EXPECT_EQ(place.segment, segment);
       EXPECT_NEAR(place.t, t, rounding(4, 16));  // parameters up to 16 times as large as the span
     }
@@ -252,7 +252,7 @@ TEST(SplineCurve, RefusesWhatIsNotThere) {
   expect_error<InvalidParameter>([&] { curve.stencil({0, 1.5}); }, {"t is 1.5"});
   expect_error<InvalidParameter>([&] { curve.stencil({0, nan}); }, {"t is nan"});
   expect_error<InvalidParameter>([&] { curve.stencil({0, 0}, 3); }, {"order 3"});
-  const CurveSample outside[] = {{0, 0}, {0, -1}};
+  const CurvePlace outside[] = {{0, 0}, {0, -1}};
   expect_error<InvalidParameter>([&] { curve.evaluate(Points::Zero(4, 2), outside); }, {"sample 1", "t is -1"});
   expect_error<InvalidParameter>([&] { curve.evaluate(Points::Zero(3, 2), {}); }, {"3 x 2", "4 control points"});
   expect_error<InvalidParameter>([&] { curve.evaluate(Points::Zero(4, 1), {}, 0, Coordinates::homogeneous); },

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rows of points and derivatives: laws in exact fractions, and doubles against 256-bit truth.
-#include "sublimit/patches/spline_rows.h"
+#include "sublimit/patches/detail/spline_rows.h"
 
 #include <gtest/gtest.h>
 

@@ -9,12 +9,12 @@
 #include <numbers>
 #include <random>
 
-#include "sublimit/core/sparse_product.h"
+#include "sublimit/core/detail/sparse_product.h"
 #include "sublimit/limit/curvature.h"
-#include "sublimit/patches/finer_knots.h"
+#include "sublimit/patches/detail/finer_knots.h"
 #include "sublimit/patches/spline_curve.h"
 #include "sublimit/limit/limit_map.h"
-#include "sublimit/schemes.h"
+#include "sublimit/schemes/schemes.h"
 #include "support/classical_splines.h"
 #include "support/expect_error.h"
 #include "support/meshes.h"
@@ -28,7 +28,7 @@ SplineSurface random_surface(std::mt19937& random, int degree_u, int degree_v) {
   return {random_knots<double>(random, degree_u, u_closed), random_knots<double>(random, degree_v, v_closed)};
 }
 
-Sample random_place(std::mt19937& random, const SplineSurface& surface) {
+Place random_place(std::mt19937& random, const SplineSurface& surface) {
   std::uniform_real_distribution<double> inside(0, 1);
   const auto parameter = [&] { return random() % 4 == 0 ? double(random() % 2) : inside(random); };
   return {static_cast<Index>(random() % surface.num_faces()), parameter(), parameter()};
@@ -59,8 +59,8 @@ Points sphere_columns() {
   return revolved(profile);
 }
 
-std::vector<Sample> grid(const SplineSurface& surface, int N) {
-  std::vector<Sample> samples;
+std::vector<Place> grid(const SplineSurface& surface, int N) {
+  std::vector<Place> samples;
   for (Index face = 0; face < surface.num_faces(); ++face)
     for (int j = 0; j < N; ++j)
       for (int i = 0; i < N; ++i) samples.push_back({face, i / (N - 1.0), j / (N - 1.0)});
@@ -73,7 +73,7 @@ TEST(SplineSurface, RowsAreProductsOfTheRowsOfCurves) {
   for (int repeat = 0; repeat < 60; ++repeat) {
     const SplineSurface surface = random_surface(random, 1 + repeat % 9, 1 + int(random() % 9));
     const SplineCurve in_u(surface.u()), in_v(surface.v());
-    const Sample sample = random_place(random, surface);
+    const Place sample = random_place(random, surface);
     const LimitStencil stencil = surface.stencil(sample, 2);
     const CurveStencil u = in_u.stencil({sample.face % in_u.num_segments(), sample.u}, 2);
     const CurveStencil v = in_v.stencil({sample.face / in_u.num_segments(), sample.v}, 2);
@@ -105,9 +105,9 @@ TEST(SplineSurface, TransposedIsTheSame) {
     Points y(nu * nv, 3);
     for (Index j = 0; j < nv; ++j)
       for (Index i = 0; i < nu; ++i) y.row(j + nv * i) = x.row(i + nu * j);
-    const Sample s = random_place(random, surface);
+    const Place s = random_place(random, surface);
     const Index fu = s.face % surface.u().num_faces(), fv = s.face / surface.u().num_faces();
-    const Sample t{.face = fv + surface.v().num_faces() * fu, .u = s.v, .v = s.u};
+    const Place t{.face = fv + surface.v().num_faces() * fu, .u = s.v, .v = s.u};
     const LimitSamples a = surface.evaluate(x, {&s, 1}, 2), b = turned.evaluate(y, {&t, 1}, 2);
     EXPECT_LE((a.position - b.position).norm(), rounding(20));
     EXPECT_LE((a.du - b.dv).norm(), other_route * (1 + a.du.norm()));
@@ -128,7 +128,7 @@ TEST(SplineSurface, FinerKnotsLeaveItAsItIs) {
     for (const SplineSurface& fine : both) {
       const Points net = apply(refinement_matrix(surface, fine), x);
       for (int k = 0; k < 8; ++k) {
-        const Sample s = random_place(random, fine), coarse = surface.place(fine.parameters(s));
+        const Place s = random_place(random, fine), coarse = surface.place(fine.parameters(s));
         EXPECT_LE((fine.evaluate(net, {&s, 1}).position - surface.evaluate(x, {&coarse, 1}).position).norm(),
                   reference);
       }
@@ -147,7 +147,7 @@ TEST(SplineSurface, FinerKnotsLeaveItAsItIs) {
 TEST(SplineSurface, SphereIsRoundWithItsNormalsAndCurvatureAndPoles) {
   const SplineSurface sphere = unit_sphere();
   const Points columns = sphere_columns();
-  const std::vector<Sample> samples = grid(sphere, 9);
+  const std::vector<Place> samples = grid(sphere, 9);
   const LimitSamples at = sphere.evaluate(columns, samples, 2, Coordinates::homogeneous);
   double radius = 0, turn = 0;
   for (Index i = 0; i < std::ssize(samples); ++i) {
@@ -174,7 +174,7 @@ TEST(SplineSurface, SphereIsRoundWithItsNormalsAndCurvatureAndPoles) {
   RecordProperty("radius", std::to_string(radius / eps));
   // Near the poles too.
   for (const double v : {1e-3, 1e-6, 1e-9, 1e-12, 1e-15}) {
-    const Sample near[] = {{1, 0.3, v}, {6, 0.3, 1 - v}};
+    const Place near[] = {{1, 0.3, v}, {6, 0.3, 1 - v}};
     const LimitSamples there = sphere.evaluate(columns, near, 1, Coordinates::homogeneous);
     EXPECT_LE((there.normal - there.position).norm(), reference_angle) << v;
   }
@@ -190,7 +190,7 @@ TEST(SplineSurface, TorusIsTheClosedForm) {
   }
   const SplineSurface torus(circle_knots(), circle_knots());
   const Points columns = revolved(profile);
-  const std::vector<Sample> samples = grid(torus, 7);
+  const std::vector<Place> samples = grid(torus, 7);
   const LimitSamples at = torus.evaluate(columns, samples, 2, Coordinates::homogeneous);
   for (Index i = 0; i < std::ssize(samples); ++i) {
     const double x = at.position(i, 0), y = at.position(i, 1), z = at.position(i, 2), r = std::hypot(x, y);
@@ -203,7 +203,7 @@ TEST(SplineSurface, TorusIsTheClosedForm) {
   }
   // Equal angles at half parameters.
   for (int m = 0; m < 8; ++m) {
-    const Sample place = torus.place({.u = m / 2.0, .v = 0});
+    const Place place = torus.place({.u = m / 2.0, .v = 0});
     const LimitSamples there = torus.evaluate(columns, {&place, 1}, 0, Coordinates::homogeneous);
     EXPECT_NEAR(there.position(0, 0), 4 * std::cos(m * std::numbers::pi / 4), rounding(8, 4));
     EXPECT_NEAR(there.position(0, 1), 4 * std::sin(m * std::numbers::pi / 4), rounding(8, 4));
@@ -213,8 +213,8 @@ TEST(SplineSurface, TorusIsTheClosedForm) {
 TEST(SplineSurface, RationalFinerKnotsLeaveTheSphereAsItIs) {
   const SplineSurface sphere = unit_sphere(), fine = halved(halved(sphere));
   const Points columns = apply(refinement_matrix(sphere, fine), sphere_columns());
-  for (const Sample& s : grid(fine, 3)) {
-    const Sample coarse = sphere.place(fine.parameters(s));
+  for (const Place& s : grid(fine, 3)) {
+    const Place coarse = sphere.place(fine.parameters(s));
     EXPECT_LE((fine.evaluate(columns, {&s, 1}, 0, Coordinates::homogeneous).position -
                sphere.evaluate(sphere_columns(), {&coarse, 1}, 0, Coordinates::homogeneous).position)
                   .norm(),
@@ -234,7 +234,7 @@ TEST(SplineSurface, CollapsedSidesHaveANormalWhereThereIsAPlane) {
     return points;
   };
   const auto at = [&](const Points& points, double u, double v) {
-    const Sample s{0, u, v};
+    const Place s{0, u, v};
     return bezier.evaluate(points, {&s, 1}, 1);
   };
   // Transposed, or the other way round, the collapsed side is another one; the normal stays that of du x dv.
@@ -278,8 +278,8 @@ TEST(SplineSurface, SaysWhereThereIsAPoleOrNoPlace) {
   Eigen::VectorXd weights(6);
   weights << 1, -1, 1, 1, 1, 1;  // (1 - 2u)^2 along v = 0
   const Points columns = homogeneous(random_points(random, 6, 3), weights);
-  const Sample samples[] = {{0, 0.5, 0}, {0, 0.5, 0.25}, {0, 1.5, 0},
-                            {1, 0, 0},   {-1, 0, 0},     {0, std::numeric_limits<double>::quiet_NaN(), 0}};
+  const Place samples[] = {{0, 0.5, 0}, {0, 0.5, 0.25}, {0, 1.5, 0},
+                           {1, 0, 0},   {-1, 0, 0},     {0, std::numeric_limits<double>::quiet_NaN(), 0}};
   const LimitSamples at = surface.evaluate(columns, samples, 2, Coordinates::homogeneous);
   EXPECT_EQ(at.status[0], LimitStatus::pole);
   EXPECT_EQ(at.status[1], LimitStatus::regular);
@@ -294,7 +294,7 @@ TEST(SplineSurface, SaysWhereThereIsAPoleOrNoPlace) {
 
 TEST(SplineSurface, PlacesAndParametersAreTheSame) {
   const SplineSurface surface(Knots<double>::open(2, 5, {0, 0, 0, 1, 3, 4, 4, 4}), Knots<double>::closed(3, {0, 1, 2}));
-  const Sample s = surface.place({.u = 2, .v = 1.25});
+  const Place s = surface.place({.u = 2, .v = 1.25});
   EXPECT_EQ(s.face, 1 + 3 * 1);
   EXPECT_EQ(s.u, 0.5);
   EXPECT_EQ(s.v, 0.25);
@@ -329,18 +329,18 @@ TEST(SplineSurface, UniformClosedOnesAreLimitsOfCatmullClarkAndDooSabin) {
     return Knots<double>::closed(degree, breaks);
   };
   const Points x = random_points(random, n * m, 3);
-  ControlMesh mesh = torus(n, m);  // its vertex and its face (i, j) are number m i + j, u along i
+  Mesh mesh = torus(n, m);  // its vertex and its face (i, j) are number m i + j, u along i
   for (Index j = 0; j < m; ++j)
     for (Index i = 0; i < n; ++i) mesh.positions.row(m * i + j) = x.row(i + n * j);
   for (const int degree : {3, 2}) {
     const SplineSurface surface(uniform(degree, n), uniform(degree, m));
     const LimitMap limit(find_scheme(degree == 3 ? "catmull-clark" : "doo-sabin").value(), mesh);
     for (int k = 0; k < 60; ++k) {
-      const Sample s = {static_cast<Index>(random() % (n * m)), double(random() % 64) / 64, double(random() % 64) / 64};
+      const Place s = {static_cast<Index>(random() % (n * m)), double(random() % 64) / 64, double(random() % 64) / 64};
       // Control point i has the parameter of its Greville abscissa: i - 1, and i - 1/2 for quadratics.
       const double shift = degree == 3 ? -1 : -0.5;
       const double u = s.face / m + s.u + shift + n, v = s.face % m + s.v + shift + m;
-      const Sample place = surface.place({.u = u - n * std::floor(u / n), .v = v - m * std::floor(v / m)});
+      const Place place = surface.place({.u = u - n * std::floor(u / n), .v = v - m * std::floor(v / m)});
       const LimitSamples a = surface.evaluate(x, {&place, 1}, 1), b = limit.evaluate(mesh.positions, {&s, 1}, 1);
       EXPECT_LE((a.position - b.position).norm(), reference);
       EXPECT_LE((a.du - b.du).norm() + (a.dv - b.dv).norm(), first_derivative * (1 + a.du.norm() + a.dv.norm()));

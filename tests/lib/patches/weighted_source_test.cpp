@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rational surfaces with weights that stay: rows, fits and energies of any linear source.
-#include "sublimit/patches/weighted_source.h"
+#include "sublimit/patches/detail/weighted_source.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
 #include "sublimit/fit/scattered_fit.h"
-#include "sublimit/patches/free_form_patches.h"
+#include "sublimit/patches/detail/free_form_patches.h"
 #include "support/expect_error.h"
 #include "support/free_form_shapes.h"
 #include "support/tolerance.h"
@@ -21,10 +21,10 @@ struct WeightedShapes {
   Eigen::VectorXd weights = found.columns.col(3);
   Points points = found.columns.leftCols(3).array().colwise() / weights.array();
   WeightedSource source{found.patches, weights};
-  std::vector<Sample> places(int per_face) const {
+  std::vector<Place> places(int per_face) const {
     std::mt19937_64 random(7);
     std::uniform_real_distribution<double> parameter(0, 1);
-    std::vector<Sample> samples;
+    std::vector<Place> samples;
     for (Index f = 0; f < source.faces().size; ++f)
       for (int i = 0; i < per_face; ++i) samples.push_back({f, parameter(random), parameter(random)});
     return samples;
@@ -33,7 +33,7 @@ struct WeightedShapes {
 
 TEST(WeightedSource, RowsOfPointsAreTheSurface) {
   const WeightedShapes shapes;
-  const std::vector<Sample> places = shapes.places(10);
+  const std::vector<Place> places = shapes.places(10);
   const LimitSamples at = shapes.source.evaluate(shapes.points, places, 2);
   const Points* const expected[] = {&at.position, &at.du, &at.dv, &at.duu, &at.duv, &at.dvv};
   for (size_t i = 0; i < places.size(); ++i) {

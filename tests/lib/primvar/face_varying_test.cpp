@@ -3,11 +3,11 @@
 
 #include <gtest/gtest.h>
 
-#include "sublimit/core/sparse_product.h"
-#include "sublimit/limit/limit_points.h"
+#include "sublimit/core/detail/sparse_product.h"
+#include "sublimit/limit/detail/limit_points.h"
 #include "sublimit/primvar/linear_scheme.h"
 #include "sublimit/primvar/varying.h"
-#include "sublimit/schemes.h"
+#include "sublimit/schemes/schemes.h"
 #include "support/expect_error.h"
 #include "support/face_varying_meshes.h"
 #include "support/irregular_meshes.h"
@@ -27,45 +27,44 @@ std::vector<Scheme<double>> schemes() {
 bool keeps_edges(const Scheme<double>& scheme) { return keeps_elements(scheme.steps); }
 
 /// Meshes without tags for a scheme, closed and open.
-std::vector<ControlMesh> closed_meshes(const Scheme<double>& scheme) {
+std::vector<Mesh> closed_meshes(const Scheme<double>& scheme) {
   if (scheme.face_size() == 3) return {jittered(icosahedron()), jittered(triangle_torus(5, 4))};
   if (scheme.face_size() == 4) return {jittered(cube()), jittered(torus(5, 4))};
   return {jittered(cube()), jittered(torus(5, 4)), jittered(prism(5))};
 }
-std::vector<ControlMesh> open_meshes(const Scheme<double>& scheme) {
+std::vector<Mesh> open_meshes(const Scheme<double>& scheme) {
   if (scheme.face_size() == 3) return {jittered(triangle_grid(4, 3)), jittered(open_fan(4, 3, 2))};
   if (scheme.face_size() == 4) return {jittered(grid(4, 3)), jittered(open_fan(3, 4, 2))};
   return {jittered(grid(4, 3)), jittered(polygon_ring({5, 4, 3, 6, 4}))};
 }
-std::vector<ControlMesh> plain_meshes(const Scheme<double>& scheme) {
-  std::vector<ControlMesh> all = closed_meshes(scheme);
-  for (ControlMesh& mesh : open_meshes(scheme)) all.push_back(std::move(mesh));
+std::vector<Mesh> plain_meshes(const Scheme<double>& scheme) {
+  std::vector<Mesh> all = closed_meshes(scheme);
+  for (Mesh& mesh : open_meshes(scheme)) all.push_back(std::move(mesh));
   return all;
 }
 
 /// A channel whose values are the vertices, in another order.
-ControlMesh with_vertices_as_values(ControlMesh mesh) {
-  ControlMesh::FaceVarying channel{
-      .name = "p", .values = mesh.positions.colwise().reverse(), .indices = mesh.face_vertices};
+Mesh with_vertices_as_values(Mesh mesh) {
+  Mesh::FaceVarying channel{.name = "p", .values = mesh.positions.colwise().reverse(), .indices = mesh.face_vertices};
   for (Index& i : channel.indices) i = mesh.num_vertices() - 1 - i;
   mesh.face_varying = {channel};
   return mesh;
 }
 
-Points values_of_last(const std::vector<FaceVaryingLevel>& levels, const ControlMesh& mesh) {
+Points values_of_last(const std::vector<FaceVaryingLevel>& levels, const Mesh& mesh) {
   return apply(refinement_matrix(levels, static_cast<Index>(mesh.face_varying[0].values.rows())),
                mesh.face_varying[0].values);
 }
 
-double size(const ControlMesh& mesh) { return mesh.positions.cwiseAbs().maxCoeff(); }
+double size(const Mesh& mesh) { return mesh.positions.cwiseAbs().maxCoeff(); }
 
 TEST(FaceVarying, RowsSumToOne) {
   for (const Scheme<double>& scheme : schemes()) {
     if (!keeps_edges(scheme)) continue;
-    for (const ControlMesh& plain : plain_meshes(scheme))
+    for (const Mesh& plain : plain_meshes(scheme))
       for (const FaceVaryingInterpolation interpolation : all_interpolations) {
         SCOPED_TRACE(scheme.name + ", " + name(interpolation));
-        const ControlMesh mesh = with_random_channel(plain, 0.3);
+        const Mesh mesh = with_random_channel(plain, 0.3);
         const auto levels = refine_face_varying(scheme, interpolation, mesh.face_varying[0], refine(scheme, mesh, 2));
         for (size_t k = 1; k < levels.size(); ++k) {
           const SparseMatrix& S = levels[k].level.S;
@@ -77,7 +76,7 @@ TEST(FaceVarying, RowsSumToOne) {
 }
 
 TEST(FaceVarying, ValuesAreThoseOfTheMatrix) {
-  const ControlMesh mesh = with_random_channel(jittered(cube()), 0.3);
+  const Mesh mesh = with_random_channel(jittered(cube()), 0.3);
   const Scheme<double> scheme = find_scheme("catmull-clark").value();
   const auto levels = refine_face_varying(scheme, corners_plus1, mesh.face_varying[0], refine(scheme, mesh, 3));
   const Points difference = values_of_last(levels, mesh) - refined_values(levels, mesh.face_varying[0].values);
@@ -86,9 +85,9 @@ TEST(FaceVarying, ValuesAreThoseOfTheMatrix) {
 
 TEST(FaceVarying, WithoutSeamsValuesMoveAsVertices) {
   for (const Scheme<double>& scheme : schemes()) {
-    const auto expect_same = [&](const ControlMesh& plain, FaceVaryingInterpolation interpolation) {
+    const auto expect_same = [&](const Mesh& plain, FaceVaryingInterpolation interpolation) {
       SCOPED_TRACE(scheme.name + ", " + name(interpolation));
-      const ControlMesh mesh = with_vertices_as_values(plain);
+      const Mesh mesh = with_vertices_as_values(plain);
       const std::vector<Level> levels = refine(scheme, mesh, 2);
       const auto channel = refine_face_varying(scheme, interpolation, mesh.face_varying[0], levels);
       const Points values = values_of_last(channel, mesh), points = apply(refinement_matrix(levels), mesh.positions);
@@ -100,11 +99,11 @@ TEST(FaceVarying, WithoutSeamsValuesMoveAsVertices) {
         EXPECT_LE(difference.cwiseAbs().maxCoeff(), rounding(100, size(mesh)));
       }
     };
-    for (const ControlMesh& mesh : closed_meshes(scheme))
+    for (const Mesh& mesh : closed_meshes(scheme))
       for (const FaceVaryingInterpolation interpolation :
            {none, corners_only, corners_plus1, corners_plus2, boundaries})
         if (interpolation != boundaries || keeps_edges(scheme)) expect_same(mesh, interpolation);
-    for (const ControlMesh& mesh : open_meshes(scheme))  // edge-and-corner: single faces are corners of the mesh too
+    for (const Mesh& mesh : open_meshes(scheme))  // edge-and-corner: single faces are corners of the mesh too
       for (const FaceVaryingInterpolation interpolation : {none, corners_only, corners_plus1, corners_plus2})
         expect_same(mesh, interpolation);
   }
@@ -115,15 +114,15 @@ TEST(FaceVarying, WithoutSeamsValuesMoveAsVertices) {
 TEST(FaceVarying, IsTheMeshOfItsValues) {
   for (const Scheme<double>& scheme : schemes()) {
     if (!keeps_edges(scheme)) continue;
-    for (const ControlMesh& plain : plain_meshes(scheme))
+    for (const Mesh& plain : plain_meshes(scheme))
       for (const double seams : {0.1, 0.3, 0.6})
         for (const bool sharp : {false, true}) {
           SCOPED_TRACE(scheme.name + ", seams " + std::to_string(seams) + (sharp ? ", corners" : ""));
-          ControlMesh mesh = with_random_channel(plain, seams);
+          Mesh mesh = with_random_channel(plain, seams);
           mesh.boundary = sharp ? Boundary::edge_and_corner : Boundary::edge_only;
           const auto channel =
               refine_face_varying(scheme, sharp ? corners_only : none, mesh.face_varying[0], refine(scheme, mesh, 2));
-          ControlMesh cut = mesh;
+          Mesh cut = mesh;
           cut.positions = mesh.face_varying[0].values.leftCols<2>() * Eigen::Matrix<double, 2, 3>::Ones();
           cut.face_vertices = mesh.face_varying[0].indices;
           const std::vector<Level> levels = refine(scheme, cut, 2);
@@ -138,9 +137,9 @@ TEST(FaceVarying, IsTheMeshOfItsValues) {
 TEST(FaceVarying, AllIsVaryingWithoutSeams) {
   for (const Scheme<double>& scheme : schemes()) {
     if (!keeps_edges(scheme)) continue;
-    for (const ControlMesh& plain : plain_meshes(scheme)) {
+    for (const Mesh& plain : plain_meshes(scheme)) {
       SCOPED_TRACE(scheme.name);
-      const ControlMesh mesh = with_vertices_as_values(plain);
+      const Mesh mesh = with_vertices_as_values(plain);
       const std::vector<Level> levels = refine(scheme, mesh, 2);
       const auto channel = refine_face_varying(scheme, all, mesh.face_varying[0], levels);
       const Points values = values_of_last(channel, mesh),
@@ -153,7 +152,7 @@ TEST(FaceVarying, AllIsVaryingWithoutSeams) {
 
 // Two quadrilaterals side by side, a seam between them: each side is a square of its own.
 TEST(FaceVarying, ValuesOfOneFaceStayOrMoveAlongItsEdges) {
-  const ControlMesh mesh = with_channel(grid(2, 1), {{1, 4}});
+  const Mesh mesh = with_channel(grid(2, 1), {{1, 4}});
   const Scheme<double> scheme = find_scheme("catmull-clark").value();
   const std::vector<Level> levels = refine(scheme, mesh, 1, {.boundary = Boundary::edge_only, .creasing = {}});
   const auto rows = [&](FaceVaryingInterpolation interpolation) {
@@ -171,7 +170,7 @@ TEST(FaceVarying, ValuesOfOneFaceStayOrMoveAlongItsEdges) {
 
 // The end of a seam inside: 3/4 and twice 1/8, both along the seam, or it stays.
 TEST(FaceVarying, TheEndOfASeam) {
-  const ControlMesh mesh = with_channel(grid(2, 2), {{1, 4}});
+  const Mesh mesh = with_channel(grid(2, 2), {{1, 4}});
   const Scheme<double> scheme = find_scheme("catmull-clark").value();
   const std::vector<Level> levels = refine(scheme, mesh, 1);
   for (const FaceVaryingInterpolation interpolation : all_interpolations) {
@@ -194,7 +193,7 @@ TEST(FaceVarying, TheEndOfASeam) {
 // A semi-sharp crease that ends at a seam sharpens the values of its side, and under plus1 those of the other side as
 // well.
 TEST(FaceVarying, CreasesThatMeetASeam) {
-  ControlMesh mesh = with_channel(grid(4, 4), {{2, 7}, {7, 12}, {12, 17}, {17, 22}});
+  Mesh mesh = with_channel(grid(4, 4), {{2, 7}, {7, 12}, {12, 17}, {17, 22}});
   add_crease(mesh, {12, 13, 14}, 1.5f);
   const Scheme<double> scheme = find_scheme("catmull-clark").value();
   const std::vector<Level> levels = refine(scheme, mesh, 3);
@@ -216,9 +215,9 @@ TEST(FaceVarying, CreasesThatMeetASeam) {
 
 // At a vertex of several sheets each has its own values.
 TEST(FaceVarying, SheetsHaveValuesOfTheirOwn) {
-  const ControlMesh mesh = glued(grid(2, 2), grid(2, 2), {8}, {0});
+  const Mesh mesh = glued(grid(2, 2), grid(2, 2), {8}, {0});
   ASSERT_TRUE(Topology(view(mesh)).is_nonmanifold(Vertex{8}));
-  ControlMesh apart = with_channel(mesh, {});
+  Mesh apart = with_channel(mesh, {});
   const Scheme<double> scheme = find_scheme("catmull-clark").value();
   const std::vector<Level> levels = refine(scheme, apart, 2);
   for (const FaceVaryingInterpolation interpolation : all_interpolations) {
@@ -233,7 +232,7 @@ TEST(FaceVarying, LimitsAreTheSameFromEveryLevel) {
   for (const char* scheme_name :
        {"catmull-clark", "loop", "loop-warren", "bilinear", "butterfly", "modified-butterfly", "kobbelt"}) {
     const Scheme<double> scheme = find_scheme(scheme_name).value();
-    for (ControlMesh plain : plain_meshes(scheme))
+    for (Mesh plain : plain_meshes(scheme))
       for (const FaceVaryingInterpolation interpolation : all_interpolations) {
         if (scheme.sharpening == Sharpening::semi_sharp) {
           const Topology t(view(plain));
@@ -246,10 +245,10 @@ TEST(FaceVarying, LimitsAreTheSameFromEveryLevel) {
           plain.corners.push_back({plain.num_vertices() - 1, 1.25f});
         }
         SCOPED_TRACE(scheme.name + ", " + name(interpolation));
-        const ControlMesh mesh = with_random_channel(plain, 0.3);
+        const Mesh mesh = with_random_channel(plain, 0.3);
         const std::vector<Level> levels = refine(scheme, mesh, 2);
         const auto channel = refine_face_varying(scheme, interpolation, mesh.face_varying[0], levels);
-        LimitTypes cache(face_varying_scheme(scheme, interpolation));
+        LimitCache cache(face_varying_scheme(scheme, interpolation));
         const Points given = control_values(channel[0], mesh.face_varying[0].values);
         const Points one = apply(channel[1].level.S, given), two = apply(channel[2].level.S, one);
         const Points from_0 = apply(limit_matrices(channel[0].level, cache).position, given);
@@ -266,11 +265,11 @@ TEST(FaceVarying, LimitsAreTheSameFromEveryLevel) {
 }
 
 TEST(FaceVarying, SchemesThatCutEdgesTakeNoSeams) {
-  const ControlMesh seam = with_channel(grid(2, 2), {{1, 4}}), triangles = with_channel(triangle_grid(2, 2), {{1, 4}});
+  const Mesh seam = with_channel(grid(2, 2), {{1, 4}}), triangles = with_channel(triangle_grid(2, 2), {{1, 4}});
   for (const Scheme<double>& scheme : schemes()) {
     if (keeps_edges(scheme)) continue;
     SCOPED_TRACE(scheme.name);
-    const ControlMesh& mesh = scheme.face_size() == 3 ? triangles : seam;
+    const Mesh& mesh = scheme.face_size() == 3 ? triangles : seam;
     const Level control = control_level(scheme, mesh);
     const auto channel = [&](FaceVaryingInterpolation interpolation) {
       control_face_varying(scheme, interpolation, mesh.face_varying[0], control);
@@ -284,9 +283,9 @@ TEST(FaceVarying, SchemesThatCutEdgesTakeNoSeams) {
 
 TEST(FaceVarying, IndicesAreChecked) {
   const Scheme<double> scheme = find_scheme("catmull-clark").value();
-  const ControlMesh mesh = with_channel(grid(2, 2), {});
+  const Mesh mesh = with_channel(grid(2, 2), {});
   const Level control = control_level(scheme, mesh);
-  ControlMesh::FaceVarying channel = mesh.face_varying[0];
+  Mesh::FaceVarying channel = mesh.face_varying[0];
   const auto try_it = [&] { control_face_varying(scheme, none, channel, control); };
   channel.indices[3] = 9;
   expect_error<InvalidMesh>(try_it, {"'uv'", "corner 3 has value 9", "has 9"});

@@ -34,7 +34,7 @@ class ChannelOfTaggedMesh : public ::testing::TestWithParam<NamedMesh> {};
 TEST_P(ChannelOfTaggedMesh, RefinesAsOpenSubdiv) {
   const auto& [mesh_name, schemes, mesh] = GetParam();
   for (const double seams : {0.0, 0.15, 0.5, 1.0}) {
-    const ControlMesh with_values = without_turns(with_random_channel(mesh, seams));
+    const Mesh with_values = without_turns(with_random_channel(mesh, seams));
     for (const std::string& scheme : schemes)
       for (const FaceVaryingInterpolation interpolation : all_interpolations) {
         SCOPED_TRACE(scheme + ", " + name(interpolation) + ", seams with probability " + std::to_string(seams));
@@ -58,7 +58,7 @@ INSTANTIATE_TEST_SUITE_P(OpenSubdiv, ChannelOfTaggedMesh, ::testing::ValuesIn(ta
 class ChannelOfSharedMesh : public ::testing::TestWithParam<SharedMesh> {};
 
 TEST_P(ChannelOfSharedMesh, RefinesAsOpenSubdiv) {
-  const ControlMesh mesh = read_mesh(GetParam().path);
+  const Mesh mesh = read_mesh(GetParam().path);
   if (mesh.face_varying.empty()) GTEST_SKIP() << "no texture coordinates";
   for (const FaceVaryingInterpolation interpolation : all_interpolations) {
     SCOPED_TRACE(name(interpolation));
@@ -72,7 +72,7 @@ TEST_P(ChannelOfSharedMesh, RefinesAsOpenSubdiv) {
 TEST(ChannelOfOpenSubdiv, TakesEveryOtherOfTurningValuesForANewOne) {
   // Values a b a b around the middle of 2 x 2 quads: two corners that meet in a point each, for us. Far has a, b and b
   // again, so that smooth corners (none) move; which ones depends on the face that it starts from.
-  ControlMesh mesh = with_channel(grid(2, 2), {{1, 4}, {3, 4}, {4, 5}, {4, 7}});
+  Mesh mesh = with_channel(grid(2, 2), {{1, 4}, {3, 4}, {4, 5}, {4, 7}});
   Index value[2] = {-1, -1};
   for (const size_t corner : {2, 7, 12, 9}) {  // counter-clockwise
     ASSERT_EQ(mesh.face_vertices[corner], 4);

@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "sublimit/core/sparse_product.h"
-#include "sublimit/schemes.h"
+#include "sublimit/core/detail/sparse_product.h"
+#include "sublimit/schemes/schemes.h"
 #include "support/expect_error.h"
 #include "support/meshes.h"
 #include "support/tolerance.h"
@@ -13,7 +13,7 @@ namespace sublimit::testing {
 namespace {
 
 TEST(Varying, IsBilinearUnderCatmullClark) {
-  ControlMesh mesh = jittered(polygon_ring({5, 4, 3, 6, 4}));
+  Mesh mesh = jittered(polygon_ring({5, 4, 3, 6, 4}));
   add_crease(mesh, {0, 1}, 2);
   const Scheme<double> scheme = find_scheme("catmull-clark").value(), bilinear = find_scheme("bilinear").value();
   const SparseMatrix P = varying_matrix(scheme, refine(scheme, mesh, 3)),
@@ -23,7 +23,7 @@ TEST(Varying, IsBilinearUnderCatmullClark) {
 
 TEST(Varying, LiesOnTheTrianglesUnderSchemesForTriangles) {
   for (const char* name : {"loop", "butterfly"}) {
-    ControlMesh mesh = triangle_grid(3, 2);
+    Mesh mesh = triangle_grid(3, 2);
     mesh.positions.col(2) = 2 * mesh.positions.col(0) - mesh.positions.col(1);  // a plane is reproduced
     const Scheme<double> scheme = find_scheme(name).value();
     const std::vector<Level> levels = refine(scheme, mesh, 2);
@@ -42,7 +42,7 @@ TEST(Varying, NeedsASplitThatKeepsEdges) {
 }
 
 TEST(Uniform, ChildrenInherit) {
-  const ControlMesh mesh = polygon_ring({5, 4, 3, 6, 4});
+  const Mesh mesh = polygon_ring({5, 4, 3, 6, 4});
   const Scheme<double> scheme = find_scheme("catmull-clark").value();
   const std::vector<Level> levels = refine(scheme, mesh, 2);
   std::vector<Index> children(mesh.num_faces(), 0);
@@ -55,7 +55,7 @@ TEST(Uniform, ChildrenInherit) {
 
 TEST(Uniform, EverySchemeHasIt) {
   for (const Scheme<double>& scheme : all_schemes()) {
-    const ControlMesh mesh = scheme.face_size() == 3 ? icosahedron() : cube();
+    const Mesh mesh = scheme.face_size() == 3 ? icosahedron() : cube();
     const std::vector<Level> levels = refine(scheme, mesh, 2);
     const std::vector<Index> parents = uniform_parents(levels);
     EXPECT_EQ(std::ssize(parents), levels[2].topology().num_faces());

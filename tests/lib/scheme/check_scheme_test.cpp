@@ -6,9 +6,9 @@
 #include <gtest/gtest.h>
 
 #include "sublimit/limit/limit_map.h"
-#include "sublimit/limit/limit_types.h"
+#include "sublimit/limit/detail/limit_cache.h"
 #include "sublimit/scheme/refined_mesh.h"
-#include "sublimit/schemes.h"
+#include "sublimit/schemes/schemes.h"
 #include "support/expect_error.h"
 #include "support/meshes.h"
 
@@ -34,15 +34,14 @@ Scheme<double> own() {
 }
 
 /// Expects the same error at every door that takes a scheme and a mesh.
-void expect_refused(const Scheme<double>& scheme, const ControlMesh& mesh,
-                    std::initializer_list<std::string_view> parts) {
+void expect_refused(const Scheme<double>& scheme, const Mesh& mesh, std::initializer_list<std::string_view> parts) {
   expect_error<InvalidParameter>([&] { refine(scheme, mesh, 2); }, parts);
   expect_error<InvalidParameter>([&] { refined_mesh(scheme, mesh, 2); }, parts);
   expect_error<InvalidParameter>(
       [&] {
         const LimitMap surface(scheme, mesh);
         surface.prepare();
-        surface.evaluate(mesh.positions, std::vector<Sample>{{0, 0.3, 0.4}, {0, 0, 0}});
+        surface.evaluate(mesh.positions, std::vector<Place>{{0, 0.3, 0.4}, {0, 0, 0}});
       },
       parts);
 }
@@ -57,7 +56,7 @@ TEST(CheckedSchemes, HaveSteps) {
   Scheme<double> scheme = own();
   scheme.steps.clear();
   expect_refused(scheme, cube(), {"own has no steps"});
-  expect_error<InvalidParameter>([&] { LimitTypes types(scheme); }, {"own has no steps"});
+  expect_error<InvalidParameter>([&] { LimitCache types(scheme); }, {"own has no steps"});
   expect_error<InvalidParameter>([&] { PieceTypes types(scheme); }, {"own has no steps"});
 }
 
@@ -68,7 +67,7 @@ TEST(CheckedSchemes, HaveTheMasksOfTheirSplit) {
     return scheme;
   };
   using S = Scheme<double>;
-  const ControlMesh open = grid(3, 3);
+  const Mesh open = grid(3, 3);
   expect_refused(without([](S& s) { s.steps[0].masks.vertex = {}; }), open,
                  {"own lacks the mask vertex", "split pqq", "points of vertices", "steps[0]"});
   expect_refused(without([](S& s) { s.steps[0].masks.edge = {}; }), open, {"own lacks the mask edge or wide_edge"});

@@ -42,7 +42,7 @@ void add_vertex(Kinds& kinds, const Level& level, Vertex v) {
   if (rule != sharpness.child_rule()) kinds.insert(std::string(word(rule)) + " to " + word(sharpness.child_rule()));
 }
 
-Kinds kinds_of(const ControlMesh& mesh, const Scheme<double>& scheme) {
+Kinds kinds_of(const Mesh& mesh, const Scheme<double>& scheme) {
   const Level level = control_level(scheme, mesh);
   const Topology& t = level.topology();
   Kinds kinds;
@@ -59,7 +59,7 @@ Kinds kinds_of(const ControlMesh& mesh, const Scheme<double>& scheme) {
     else if (is_infinite(s) && !t.is_boundary(Edge{e}))
       kinds.insert("infinitely sharp edge");
   }
-  for (const ControlMesh::Corner& c : mesh.corners)
+  for (const Mesh::Corner& c : mesh.corners)
     if (is_sharp(c.sharpness)) kinds.insert(is_infinite(c.sharpness) ? "infinitely sharp vertex" : "semi-sharp vertex");
   for (Index f = 0; f < t.num_faces(); ++f) kinds.insert("face of " + std::to_string(t.size(Face{f})) + " corners");
   if (!mesh.holes.empty()) kinds.insert("hole");

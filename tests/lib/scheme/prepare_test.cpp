@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sublimit/scheme/prepare.h"
+#include "sublimit/scheme/detail/prepare.h"
 
 #include <gtest/gtest.h>
 
@@ -11,14 +11,14 @@ namespace sublimit::testing {
 namespace {
 
 TEST(Prepare, TriangulatedIsAFanFromTheFirstCorner) {
-  ControlMesh mesh =
+  Mesh mesh =
       make_mesh({{0, 0, 0}, {2, 0, 0}, {3, 1, 0}, {2, 2, 0}, {0, 2, 0}, {1, 4, 0}}, {{1, 2, 3, 4, 0}, {4, 3, 5}});
   mesh.holes = {0};
   mesh.creases = {{3, 4, 2}};
   mesh.corners = {{5, 10}};
   mesh.boundary = Boundary::edge_only;
   mesh.face_names = {{"a", "b"}, {1, 0}};
-  const ControlMesh cut = triangulated(mesh);
+  const Mesh cut = triangulated(mesh);
   EXPECT_EQ(cut.face_sizes, (std::vector<Index>{3, 3, 3, 3}));
   EXPECT_EQ(cut.face_vertices, (std::vector<Index>{1, 2, 3, 1, 3, 4, 1, 4, 0, 4, 3, 5}));
   EXPECT_EQ(cut.holes, (std::vector<Index>{0, 1, 2}));
@@ -33,7 +33,7 @@ TEST(Prepare, TriangulatedIsAFanFromTheFirstCorner) {
 
 // An n-gon becomes n - 2 triangles with n - 3 new edges: the Euler characteristic stays. Triangles stay as they are.
 TEST(Prepare, TriangulatedKeepsTheSurface) {
-  for (const ControlMesh& mesh : {cube(), torus(4, 5), prism(7), grid(3, 2), icosahedron()}) {
+  for (const Mesh& mesh : {cube(), torus(4, 5), prism(7), grid(3, 2), icosahedron()}) {
     const Topology t(view(mesh)), cut(view(triangulated(mesh)));
     EXPECT_EQ(cut.uniform_face_size(), 3);
     EXPECT_EQ(cut.num_vertices(), t.num_vertices());
@@ -45,9 +45,9 @@ TEST(Prepare, TriangulatedKeepsTheSurface) {
 }
 
 TEST(Prepare, TriangulatedKeepsSharpEdgesSharp) {
-  ControlMesh mesh = cube();
+  Mesh mesh = cube();
   add_crease(mesh, {0, 1, 3, 2, 0}, 3);
-  const ControlMesh cut = triangulated(mesh);
+  const Mesh cut = triangulated(mesh);
   const Topology t(view(cut));
   const Sharpness s = initial_sharpness(t, cut, Boundary::edge_and_corner, Creasing::uniform);
   int sharp = 0;
@@ -56,15 +56,14 @@ TEST(Prepare, TriangulatedKeepsSharpEdgesSharp) {
 }
 
 TEST(Prepare, TriangulatedKeepsValuesAtTheirCorners) {
-  ControlMesh mesh = polygon_ring({5, 4, 3, 6, 4});
-  ControlMesh::FaceVarying channel{
-      .name = "uv", .values = Points::Zero(Index(mesh.face_vertices.size()), 2), .indices = {}};
+  Mesh mesh = polygon_ring({5, 4, 3, 6, 4});
+  Mesh::FaceVarying channel{.name = "uv", .values = Points::Zero(Index(mesh.face_vertices.size()), 2), .indices = {}};
   for (Index i = 0; i < channel.values.rows(); ++i) {  // every corner its own value, which says where it is
     channel.values(i, 0) = mesh.face_vertices[i];
     channel.indices.push_back(i);
   }
   mesh.face_varying = {channel};
-  const ControlMesh cut = triangulated(mesh);
+  const Mesh cut = triangulated(mesh);
   ASSERT_EQ(cut.face_varying[0].indices.size(), cut.face_vertices.size());
   for (size_t i = 0; i < cut.face_vertices.size(); ++i)
     EXPECT_EQ(cut.face_varying[0].values(cut.face_varying[0].indices[i], 0), cut.face_vertices[i]);
@@ -73,7 +72,7 @@ TEST(Prepare, TriangulatedKeepsValuesAtTheirCorners) {
 }
 
 TEST(Prepare, TriangulatedRejectsWhatIsNoMesh) {
-  ControlMesh mesh = cube();
+  Mesh mesh = cube();
   mesh.holes = {6};
   EXPECT_THROW(triangulated(mesh), InvalidMesh);
   mesh = cube();
@@ -88,12 +87,12 @@ TEST(Prepare, TriangulatedRejectsWhatIsNoMesh) {
 }
 
 TEST(Prepare, WithoutCreasesKeepsTheRest) {
-  ControlMesh mesh = grid(2, 2);
+  Mesh mesh = grid(2, 2);
   add_crease(mesh, {1, 4, 7}, 3);
   mesh.corners = {{4, 2}};
   mesh.holes = {1};
   mesh.boundary = Boundary::none;
-  const ControlMesh plain = without_creases(mesh);
+  const Mesh plain = without_creases(mesh);
   EXPECT_TRUE(plain.creases.empty());
   EXPECT_TRUE(plain.corners.empty());
   EXPECT_EQ(plain.holes, mesh.holes);

@@ -7,9 +7,9 @@
 #include <algorithm>
 
 #include "sublimit/base/error.h"
-#include "sublimit/core/sparse_product.h"
-#include "sublimit/limit/limit_points.h"
-#include "sublimit/schemes.h"
+#include "sublimit/core/detail/sparse_product.h"
+#include "sublimit/limit/detail/limit_points.h"
+#include "sublimit/schemes/schemes.h"
 #include "sublimit/subdivide.h"
 #include "support/expect_error.h"
 #include "support/meshes.h"
@@ -113,7 +113,7 @@ TEST(Refine, RefusesFacesThatAPreparationShouldHaveCut) {
   const Scheme<double> whole = find_scheme("kobbelt").value();
   Scheme<double> cleared = whole;
   cleared.preparation.clear();
-  for (const ControlMesh& mesh : {polygon_ring({4, 3, 5}), prism(5), octahedron()}) {
+  for (const Mesh& mesh : {polygon_ring({4, 3, 5}), prism(5), octahedron()}) {
     Index other = 0;  // the first face that is no quadrilateral
     while (mesh.face_sizes[other] == 4) ++other;
     const std::string face = "face " + std::to_string(other) + " of level ";
@@ -137,7 +137,7 @@ TEST(Refine, RefusesFacesThatAPreparationShouldHaveCut) {
 }
 
 TEST(Refine, HasTheSameBitsForAnyNumberOfThreads) {
-  const ControlMesh mesh = quads_from_triangles(jittered(triangle_torus(40, 30)));
+  const Mesh mesh = quads_from_triangles(jittered(triangle_torus(40, 30)));
   const auto run = [&](int threads) {
     tbb::global_control limit(tbb::global_control::max_allowed_parallelism, size_t(threads));
     const SparseMatrix P = refinement_matrix(refine(catmull_clark_scheme, mesh, 2));
@@ -149,7 +149,7 @@ TEST(Refine, HasTheSameBitsForAnyNumberOfThreads) {
 }
 
 TEST(Subdivide, TakesAndGivesEigenMatrices) {
-  const ControlMesh mesh = icosahedron();
+  const Mesh mesh = icosahedron();
   FaceMatrix F(20, 3);
   for (Index i = 0; i < 60; ++i) F(i / 3, i % 3) = mesh.face_vertices[i];
   const auto [S, F1] = subdivide("loop", 12, F, 2);
@@ -171,8 +171,8 @@ TEST(Schemes, AreFoundByNameAndOffered) {
 // Warped smoothly or not, degenerate control points are told apart: a cone's axis has no normal; a fold has one by its
 // next modes only if these span a plane.
 TEST(LimitPoints, DegenerateTangentsHaveAStatus) {
-  ControlMesh mesh = fan(6, 4);
-  LimitTypes cache(catmull_clark_scheme);
+  Mesh mesh = fan(6, 4);
+  LimitCache cache(catmull_clark_scheme);
   const Level level = control_level(catmull_clark_scheme, mesh);
   const LimitMatrices limit = limit_matrices(level, cache);
   const auto side =

@@ -9,8 +9,8 @@
 #include <optional>
 
 #include "sublimit/base/error.h"
-#include "sublimit/core/sparse_product.h"
-#include "sublimit/schemes.h"
+#include "sublimit/core/detail/sparse_product.h"
+#include "sublimit/schemes/schemes.h"
 #include "support/expect_error.h"
 #include "support/meshes.h"
 #include "support/point_intervals.h"
@@ -20,8 +20,8 @@ namespace sublimit::testing {
 namespace {
 
 /// What matrices make, or nothing where the scheme cannot take the mesh.
-std::optional<ControlMesh> by_matrices(const Scheme<double>& scheme, const ControlMesh& mesh, int levels,
-                                       const SubdivisionOptions& options) {
+std::optional<Mesh> by_matrices(const Scheme<double>& scheme, const Mesh& mesh, int levels,
+                                const SubdivisionOptions& options) {
   try {
     const std::vector<Level> all = refine(scheme, mesh, levels, options);
     Points points = mesh.positions;
@@ -33,18 +33,18 @@ std::optional<ControlMesh> by_matrices(const Scheme<double>& scheme, const Contr
 }
 
 /// Sharpness by the ends of the edges, however these are ordered.
-std::map<std::pair<Index, Index>, float> creases(const ControlMesh& mesh) {
+std::map<std::pair<Index, Index>, float> creases(const Mesh& mesh) {
   std::map<std::pair<Index, Index>, float> sharpness;
-  for (const ControlMesh::Crease& c : mesh.creases) sharpness[std::minmax({c.tail, c.head})] = c.sharpness;
+  for (const Mesh::Crease& c : mesh.creases) sharpness[std::minmax({c.tail, c.head})] = c.sharpness;
   return sharpness;
 }
-std::map<Index, float> corners(const ControlMesh& mesh) {
+std::map<Index, float> corners(const Mesh& mesh) {
   std::map<Index, float> sharpness;
-  for (const ControlMesh::Corner& c : mesh.corners) sharpness[c.vertex] = c.sharpness;
+  for (const Mesh::Corner& c : mesh.corners) sharpness[c.vertex] = c.sharpness;
   return sharpness;
 }
 
-void expect_same_faces_and_tags(const ControlMesh& own, const ControlMesh& other) {
+void expect_same_faces_and_tags(const Mesh& own, const Mesh& other) {
   EXPECT_EQ(own.face_sizes, other.face_sizes);
   EXPECT_EQ(own.face_vertices, other.face_vertices);
   EXPECT_EQ(creases(own), creases(other));
@@ -56,19 +56,19 @@ void expect_same_faces_and_tags(const ControlMesh& own, const ControlMesh& other
   EXPECT_EQ(own.knot_intervals.size(), other.knot_intervals.size());
 }
 
-std::vector<ControlMesh> meshes_of_all_kinds() {
-  ControlMesh creased = cube();
+std::vector<Mesh> meshes_of_all_kinds() {
+  Mesh creased = cube();
   creased.creases = {{0, 1, 2.5f}, {1, 3, 10.f}, {3, 2, 1.f}};
   creased.corners = {{5, 1.5f}};
-  ControlMesh chaikin = creased;
+  Mesh chaikin = creased;
   chaikin.creasing = Creasing::chaikin;
-  ControlMesh holed = grid(4, 3);
+  Mesh holed = grid(4, 3);
   holed.holes = {5};
-  ControlMesh no_border = jittered(triangle_grid(4, 4));
+  Mesh no_border = jittered(triangle_grid(4, 4));
   no_border.boundary = Boundary::none;
-  const ControlMesh book =
+  const Mesh book =
       jittered(make_mesh({{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {0, 1, 0}, {-1, -1, 0}}, {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}}));
-  ControlMesh box = cube();
+  Mesh box = cube();
   box.knot_intervals = {{0, 1, 1}, {0, 2, 2.5}, {0, 4, 4}};
   return {jittered(cube()),
           jittered(octahedron()),
@@ -88,7 +88,7 @@ std::vector<ControlMesh> meshes_of_all_kinds() {
 }
 
 TEST(RefinedMesh, IsThatOfTheMatricesForEveryScheme) {
-  const std::vector<ControlMesh> meshes = meshes_of_all_kinds();
+  const std::vector<Mesh> meshes = meshes_of_all_kinds();
   int compared = 0, refused = 0;
   for (const Scheme<double>& scheme : all_schemes())
     for (size_t i = 0; i < meshes.size(); ++i)
@@ -96,14 +96,14 @@ TEST(RefinedMesh, IsThatOfTheMatricesForEveryScheme) {
         SCOPED_TRACE(scheme.name + ", mesh " + std::to_string(i) + ", level " + std::to_string(levels));
         SubdivisionOptions options;
         if (levels == 1) options.boundary = Boundary::edge_only;
-        const std::optional<ControlMesh> expected = by_matrices(scheme, meshes[i], levels, options);
+        const std::optional<Mesh> expected = by_matrices(scheme, meshes[i], levels, options);
         if (!expected) {
           EXPECT_THROW(refined_mesh(scheme, meshes[i], levels, options), Error);
           EXPECT_THROW(Refiner(scheme, meshes[i], levels, options), Error);
           ++refused;
           continue;
         }
-        const ControlMesh own = refined_mesh(scheme, meshes[i], levels, options);
+        const Mesh own = refined_mesh(scheme, meshes[i], levels, options);
         expect_same_faces_and_tags(own, *expected);
         ASSERT_EQ(own.positions.rows(), expected->positions.rows());
         // Rows are summed in another order than that of columns, and steps one after the other.
@@ -121,12 +121,12 @@ TEST(RefinedMesh, IsThatOfTheMatricesForEveryScheme) {
 TEST(RefinedMesh, GoesOnWhereItStopped) {
   for (const char* name : {"catmull-clark", "loop"}) {
     const Scheme<double> scheme = *find_scheme(name);
-    ControlMesh mesh = name == std::string("loop") ? jittered(octahedron()) : jittered(cube());
+    Mesh mesh = name == std::string("loop") ? jittered(octahedron()) : jittered(cube());
     mesh.creases = {{0, 2, 2.5f}, {2, 1, 10.f}};
     mesh.corners = {{1, 1.5f}};
     if (name != std::string("loop")) mesh.creases = {{0, 1, 2.5f}, {1, 3, 10.f}};
-    const ControlMesh once = refined_mesh(scheme, mesh, 3);
-    const ControlMesh twice = refined_mesh(scheme, refined_mesh(scheme, mesh, 1), 2);
+    const Mesh once = refined_mesh(scheme, mesh, 3);
+    const Mesh twice = refined_mesh(scheme, refined_mesh(scheme, mesh, 1), 2);
     expect_same_faces_and_tags(twice, once);
     EXPECT_LE((twice.positions - once.positions).cwiseAbs().maxCoeff(), rounding(64)) << name;
   }
@@ -134,7 +134,7 @@ TEST(RefinedMesh, GoesOnWhereItStopped) {
 
 TEST(RefinedMesh, DoesNotDependOnThreadsAndRefinersTakeAnyColumns) {
   const Scheme<double> scheme = *find_scheme("catmull-clark");
-  const ControlMesh mesh = jittered(torus(30, 20));
+  const Mesh mesh = jittered(torus(30, 20));
   const Points many = refined_mesh(scheme, mesh, 2).positions;
   {
     const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);

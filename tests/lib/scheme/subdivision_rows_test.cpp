@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sublimit/scheme/subdivision_rows.h"
+#include "sublimit/scheme/detail/subdivision_rows.h"
 
 #include <gtest/gtest.h>
 
 #include "sublimit/scheme/refine.h"
-#include "sublimit/schemes.h"
+#include "sublimit/schemes/schemes.h"
 #include "support/hard_meshes.h"
 #include "support/meshes.h"
 
@@ -15,7 +15,7 @@ TEST(SubdivisionRows, HaveTheBitsOfTheMatrix) {
   for (const Scheme<double>& scheme : all_schemes()) {
     if (scheme.steps.size() > 1 || !scheme.preparation.empty()) continue;
     SCOPED_TRACE(scheme.name);
-    const ControlMesh mesh = scheme.face_size() == 3 ? jittered(triangle_grid(4, 3)) : jittered(grid(4, 3));
+    const Mesh mesh = scheme.face_size() == 3 ? jittered(triangle_grid(4, 3)) : jittered(grid(4, 3));
     const Level parent = control_level(scheme, mesh), child = next_level(scheme, parent);
     for (const Index every : {1, 3}) {
       std::vector<Index> rows;

@@ -12,7 +12,7 @@
 #include <stdexcept>
 
 #include "sublimit/scheme/refine.h"
-#include "sublimit/schemes.h"
+#include "sublimit/schemes/schemes.h"
 #include "support/closed_form.h"
 #include "support/meshes.h"
 #include "support/regular_limit.h"
@@ -24,7 +24,7 @@ namespace {
 SchemeOptions degree(int d) { return {{"degree", std::to_string(d)}}; }
 
 TEST(Averaging, OfDegreeTwoIsDooSabinWithItsWeights) {
-  for (const ControlMesh& mesh : {prism(5), jittered(octahedron()), quads_from_triangles(icosahedron())}) {
+  for (const Mesh& mesh : {prism(5), jittered(octahedron()), quads_from_triangles(icosahedron())}) {
     const Level twice = refine(find_scheme("averaging", degree(2)).value(), mesh, 1)[1];
     const Level once = refine(find_scheme("doo-sabin-averaging").value(), mesh, 1)[1];
     EXPECT_LE((Eigen::MatrixXd(twice.S) - Eigen::MatrixXd(once.S)).cwiseAbs().maxCoeff(), rounding(16));
@@ -72,8 +72,8 @@ TEST(Averaging, BlockZeroIsTheRegularOneAtEveryValence) {
   }
 }
 
-/// Block k != 0 of a lone place, from the averages themselves: places are labelled (sector; x, y) in quarters of the
-/// old mesh's unit, x along the sector's edge, and a label beyond an axis is one of the sector there.
+/// Block k != 0 of a isolated place, from the averages themselves: places are labelled (sector; x, y) in quarters of
+/// the old mesh's unit, x along the sector's edge, and a label beyond an axis is one of the sector there.
 class AveragedBlock {
  public:
   AveragedBlock(int degree, int n, int k, int points) : dual_(degree % 2 == 0), n_(n), k_(k), points_(points) {
@@ -155,7 +155,7 @@ TEST(Averaging, LimitMasksAreTheBSplineSharedOutBetweenSectors) {
       for (double x = start; 2 * x < d + 1; ++x)
         for (double y = start - (d % 2); 2 * y < d + 1; ++y)
           for (int s = 0; s < n; ++s) expected.push_back(4.0 / n * cardinal_bspline(d, x) * cardinal_bspline(d, y));
-      const Eigen::VectorXd mask = lone_centre("averaging", n, degree(d)).masks.position;
+      const Eigen::VectorXd mask = isolated_centre("averaging", n, degree(d)).masks.position;
       std::vector<double> ours(mask.begin(), mask.end());
       expected.resize(std::max(expected.size(), ours.size()), 0.0);
       ours.resize(expected.size(), 0.0);
@@ -180,7 +180,7 @@ TEST(Averaging, LambdaIsAsTabulated) {
 TEST(Averaging, TangentPlanesExistAtEveryDegreeAndValence) {
   for (int d = 2; d <= 9; ++d)
     for (int n = 3; n <= 12; ++n)
-      EXPECT_EQ(lone_centre("averaging", n, degree(d)).masks.sides.at(0).plane, LimitMasks::Plane::yes)
+      EXPECT_EQ(isolated_centre("averaging", n, degree(d)).masks.sides.at(0).plane, LimitMasks::Plane::yes)
           << d << " " << n;
 }
 

@@ -6,8 +6,8 @@
 
 #include <numbers>
 
-#include "sublimit/limit/limit_points.h"
-#include "sublimit/schemes.h"
+#include "sublimit/limit/detail/limit_points.h"
+#include "sublimit/schemes/schemes.h"
 #include "support/closed_form.h"
 #include "support/meshes.h"
 
@@ -62,7 +62,7 @@ TEST(Butterfly, ThreeTrianglesMakeASpike) {
   EXPECT_EQ(rings.staircase(0, ratio(1, 4)), (std::vector<int>{1, 2, 3}));
   EXPECT_EQ(rings.staircase(1, ratio(1, 4)), (std::vector<int>{1, 2}));
   EXPECT_EQ(rings.staircase(2, ratio(1, 4)), (std::vector<int>{1, 2}));
-  EXPECT_EQ(lone_centre("butterfly", 3).masks.sides.at(0).plane, LimitMasks::Plane::no);
+  EXPECT_EQ(isolated_centre("butterfly", 3).masks.sides.at(0).plane, LimitMasks::Plane::no);
 }
 
 // At a regular vertex too 1/4 is defective: size 3 in block 0, 2 in blocks 2 and 4, hence derivatives that are
@@ -85,7 +85,7 @@ TEST(Butterfly, FailsFromValenceEightOn) {
         if (k != 1) others = std::max(others, rings.leading(k));
       const bool smooth = n <= 7;
       EXPECT_EQ(rings.leading(1) > others, smooth) << n;
-      EXPECT_EQ(lone_centre("butterfly", n, {{"tension", tension}}).masks.sides.at(0).plane,
+      EXPECT_EQ(isolated_centre("butterfly", n, {{"tension", tension}}).masks.sides.at(0).plane,
                 smooth ? LimitMasks::Plane::yes : LimitMasks::Plane::no)
           << n;
     }
@@ -110,7 +110,7 @@ TEST(Butterfly, RegularTangentsMatchTheClosedForm) {
   const Scheme<double> scheme = find_scheme("butterfly").value();
   const int m_columns = 10, width = m_columns + 1, centre = 5 * width + 5;
   const Level level = control_level(scheme, triangle_grid(m_columns, m_columns));
-  LimitTypes cache(scheme);
+  LimitCache cache(scheme);
   const LimitMatrices limit = limit_matrices(level, cache);
   // Neighbours in the grid, counter-clockwise: the diagonal goes from (i, j) to (i + 1, j + 1).
   const int steps[] = {1, width + 1, width, -1, -width - 1, -width};

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "sublimit/scheme/refine.h"
-#include "sublimit/schemes.h"
+#include "sublimit/schemes/schemes.h"
 #include "support/closed_form.h"
 #include "support/meshes.h"
 #include "support/tolerance.h"

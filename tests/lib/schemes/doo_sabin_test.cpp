@@ -6,9 +6,9 @@
 
 #include <numbers>
 
-#include "sublimit/limit/limit_points.h"
+#include "sublimit/limit/detail/limit_points.h"
 #include "sublimit/scheme/refine.h"
-#include "sublimit/schemes.h"
+#include "sublimit/schemes/schemes.h"
 #include "support/closed_form.h"
 #include "support/meshes.h"
 #include "support/tolerance.h"
@@ -102,7 +102,7 @@ TEST(DooSabin, AveragingHasTheTabulatedCurvatureRatios) {
 TEST(DooSabin, LimitMasksAreCentroidAndFirstMode) {
   for (const std::string name : {"doo-sabin", "doo-sabin-averaging"}) {
     for (int n = 3; n <= 20; ++n) {
-      const LoneLimit limit = lone_centre(name, n);
+      const IsolatedLimit limit = isolated_centre(name, n);
       const LimitMasks::Side& side = limit.masks.sides.at(0);
       ASSERT_EQ(limit.masks.position.size(), n);
       EXPECT_LE((limit.masks.position - Eigen::VectorXd::Constant(n, 1.0 / n)).norm(), closed_form) << n;
@@ -119,7 +119,7 @@ TEST(DooSabin, CubeCornersTendToTwoThirds) {
   for (const std::string name : {"doo-sabin", "doo-sabin-averaging"}) {
     const Scheme<double> scheme = find_scheme(name).value();
     const Level level = control_level(scheme, cube());
-    LimitTypes cache(scheme);
+    LimitCache cache(scheme);
     const LimitPoints limit = limit_points(limit_matrices(level, cache), level.topology(), cube().positions);
     EXPECT_LE((limit.position - cube().positions * (2.0 / 3)).norm(), eigen()) << name;
     for (Index v = 0; v < 8; ++v)

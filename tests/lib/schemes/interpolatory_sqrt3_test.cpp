@@ -6,7 +6,7 @@
 
 #include <numbers>
 
-#include "sublimit/schemes.h"
+#include "sublimit/schemes/schemes.h"
 #include "support/closed_form.h"
 
 namespace sublimit::testing {
@@ -36,7 +36,7 @@ TEST(InterpolatorySqrt3, LambdaIsAsTabulated) {
 
 TEST(InterpolatorySqrt3, LimitIsTheVertexAndTangentsAreTheFirstMode) {
   for (int n = 3; n <= 20; ++n) {
-    const LoneLimit limit = lone_centre("interpolatory-sqrt3", n);
+    const IsolatedLimit limit = isolated_centre("interpolatory-sqrt3", n);
     Eigen::VectorXd vertex = Eigen::VectorXd::Unit(limit.masks.position.size(), 0);
     EXPECT_LE((limit.masks.position - vertex).norm(), closed_form) << n;
     if (n != 6) expect_first_mode(limit, n, 1);

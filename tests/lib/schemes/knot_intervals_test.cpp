@@ -10,12 +10,12 @@
 #include <random>
 #include <set>
 
-#include "sublimit/patches/finer_knots.h"
+#include "sublimit/patches/detail/finer_knots.h"
 #include "sublimit/patches/spline_surface.h"
-#include "sublimit/schemes.h"
+#include "sublimit/schemes/schemes.h"
 #include "sublimit/scheme/refine.h"
-#include "sublimit/splits/child_intervals.h"
-#include "sublimit/splits/child_sharpness.h"
+#include "sublimit/splits/detail/child_intervals.h"
+#include "sublimit/splits/detail/child_sharpness.h"
 #include "support/expect_error.h"
 #include "support/fraction.h"
 #include "support/knot_breaks.h"
@@ -148,7 +148,7 @@ struct HandMesh {
 };
 
 /// Intervals of whole numbers, one for each strip, and for all strips that meet other polygons there.
-ControlMesh with_intervals(ControlMesh mesh, unsigned seed, int most = 7) {
+Mesh with_intervals(Mesh mesh, unsigned seed, int most = 7) {
   std::mt19937 random(seed);
   const Topology t(view(mesh));
   std::vector<bool> known(t.num_edges(), false);
@@ -178,7 +178,7 @@ Eigen::MatrixXd dense(const SparseMatrix& S) { return Eigen::MatrixXd(S); }
 constexpr double last_bits = 4e-16;
 
 /// Three levels by the library and by hand.
-void expect_hand_rules(const Scheme<double>& scheme, const ControlMesh& mesh, bool levelling) {
+void expect_hand_rules(const Scheme<double>& scheme, const Mesh& mesh, bool levelling) {
   Level level = control_level(scheme, mesh);
   HandMesh hand(level.topology());
   const Topology& t0 = level.topology();
@@ -231,14 +231,14 @@ void expect_hand_rules(const Scheme<double>& scheme, const ControlMesh& mesh, bo
 
 TEST(KnotIntervals, RulesOfTheCubeEqualThoseComputedByHand) {
   for (unsigned seed = 1; seed <= 3; ++seed) {
-    const ControlMesh mesh = with_intervals(cube(), seed);
+    const Mesh mesh = with_intervals(cube(), seed);
     expect_hand_rules(levelled, mesh, true);
     expect_hand_rules(halved_knots, mesh, false);
   }
 }
 
 TEST(KnotIntervals, RulesOfHigherValencesEqualThoseComputedByHand) {
-  for (const ControlMesh& mesh :
+  for (const Mesh& mesh :
        {quads_from_triangles(octahedron()), quads_from_triangles(icosahedron()), quads_from_triangles(tetrahedron())})
     expect_hand_rules(levelled, with_intervals(mesh, 5), true);
 }
@@ -249,7 +249,7 @@ TEST(KnotIntervals, AnyNewKnotsOfATorusAreKnotInsertion) {
   std::uniform_real_distribution<double> positive(0.2, 3), part(0.1, 0.9);
   for (int run = 0; run < 4; ++run) {
     const Index m = 4 + run, n = 7 - run;
-    const ControlMesh mesh = torus(m, n);
+    const Mesh mesh = torus(m, n);
     const Topology t(view(mesh));
     std::vector<double> a(m), b(n), at_a(m), at_b(n);
     for (Index i = 0; i < m; ++i) a[i] = positive(random), at_a[i] = part(random) * a[i];
@@ -306,7 +306,7 @@ constexpr double same_weights = 1e-15;
 
 /// Children of the elements around an extraordinary vertex of level 3 have Catmull-Clark's rows; of level 4 those of
 /// the vertices next to it too.
-void expect_uniform_rows(const ControlMesh& mesh, const std::string& name, int number) {
+void expect_uniform_rows(const Mesh& mesh, const std::string& name, int number) {
   SCOPED_TRACE(name);
   const std::vector<Level> levels = refine(levelled, mesh, number);
   const Level& level = levels.back();
@@ -345,7 +345,7 @@ void expect_uniform_rows(const ControlMesh& mesh, const std::string& name, int n
 }
 
 TEST(KnotIntervals, LevellingLeavesCatmullClarksRowsAfterThreeLevels) {
-  const auto both = [](const ControlMesh& mesh, const std::string& name) {
+  const auto both = [](const Mesh& mesh, const std::string& name) {
     for (const int number : {3, 4}) expect_uniform_rows(mesh, name, number);
   };
   for (const Index n : {3, 5, 6, 7, 8})
@@ -361,8 +361,8 @@ TEST(KnotIntervals, LevellingLeavesCatmullClarksRowsAfterThreeLevels) {
 }
 
 TEST(KnotIntervals, EqualOnesAreCatmullClark) {
-  for (const ControlMesh& plain : {cube(), quads_from_triangles(tetrahedron()), prism(5), grid(3, 4), tetrahedron()}) {
-    ControlMesh mesh = plain;
+  for (const Mesh& plain : {cube(), quads_from_triangles(tetrahedron()), prism(5), grid(3, 4), tetrahedron()}) {
+    Mesh mesh = plain;
     const Topology t(view(mesh));
     for (Index e = 0; e < t.num_edges(); ++e)
       mesh.knot_intervals.push_back({index(t.tail(Edge{e})), index(t.head(Edge{e})), 3.25});
@@ -374,19 +374,19 @@ TEST(KnotIntervals, EqualOnesAreCatmullClark) {
 
 /// Rows depend on ratios alone: the same bits for intervals times a power of two.
 TEST(KnotIntervals, ScalesByPowersOfTwoDoNotMatter) {
-  const ControlMesh mesh = with_intervals(quads_from_triangles(octahedron()), 3);
-  ControlMesh scaled = mesh;
-  for (ControlMesh::KnotInterval& interval : scaled.knot_intervals) interval.length *= 0x1p-20;
+  const Mesh mesh = with_intervals(quads_from_triangles(octahedron()), 3);
+  Mesh scaled = mesh;
+  for (Mesh::KnotInterval& interval : scaled.knot_intervals) interval.length *= 0x1p-20;
   const std::vector<Level> a = refine(levelled, mesh, 3), b = refine(levelled, scaled, 3);
   for (size_t k = 1; k <= 3; ++k) EXPECT_EQ((dense(a[k].S) - dense(b[k].S)).norm(), 0);
 }
 
 TEST(KnotIntervals, RefusesWhatContradicts) {
-  const auto with = [](ControlMesh mesh, std::vector<ControlMesh::KnotInterval> intervals) {
+  const auto with = [](Mesh mesh, std::vector<Mesh::KnotInterval> intervals) {
     mesh.knot_intervals = std::move(intervals);
     return mesh;
   };
-  const auto refuses = [&](const ControlMesh& mesh, std::initializer_list<std::string_view> words) {
+  const auto refuses = [&](const Mesh& mesh, std::initializer_list<std::string_view> words) {
     expect_error<InvalidMesh>([&] { control_level(levelled, mesh); }, words);
   };
   // Of the cube's face 0 -> 1 -> ... the edge (0,1) is opposite to one of its neighbours.
@@ -405,7 +405,7 @@ TEST(KnotIntervals, RefusesWhatContradicts) {
 }
 
 TEST(KnotIntervals, OtherSchemesIgnoreThem) {
-  const ControlMesh mesh = with_intervals(cube(), 2);
+  const Mesh mesh = with_intervals(cube(), 2);
   EXPECT_TRUE(control_level(uniform, mesh).intervals.empty());
 }
 

@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "sublimit/limit/limit_points.h"
-#include "sublimit/schemes.h"
+#include "sublimit/limit/detail/limit_points.h"
+#include "sublimit/schemes/schemes.h"
 #include "support/closed_form.h"
 #include "support/meshes.h"
 
@@ -85,7 +85,7 @@ TEST(Kobbelt, CurvatureRatiosAreAsTabulated) {
 
 TEST(Kobbelt, LimitIsTheVertexWithATangentPlane) {
   for (int n = 3; n <= 20; ++n) {
-    const LimitMasks masks = lone_centre("kobbelt", n).masks;
+    const LimitMasks masks = isolated_centre("kobbelt", n).masks;
     EXPECT_LE((masks.position - Eigen::VectorXd::Unit(masks.position.size(), 0)).norm(), closed_form) << n;
     EXPECT_NEAR(masks.sides.at(0).lambda1, LocalSpectrum("kobbelt", n).leading(1), closed_form) << n;
     EXPECT_EQ(masks.sides.at(0).plane, LimitMasks::Plane::yes) << n;
@@ -98,7 +98,7 @@ TEST(Kobbelt, RegularTangentsAreTheFourPointDerivative) {
   for (const auto& [text, g] : {std::pair{"1", 1.0}, std::pair{"1/2", 0.5}}) {
     const Scheme<double> scheme = find_scheme("kobbelt", {{"tension", text}}).value();
     const Level level = control_level(scheme, grid(width - 1, width - 1));
-    LimitTypes cache(scheme);
+    LimitCache cache(scheme);
     const LimitMatrices limit = limit_matrices(level, cache);
     Eigen::VectorXd along = Eigen::VectorXd::Zero(width * width), across = along;
     for (const int sign : {-1, 1}) {

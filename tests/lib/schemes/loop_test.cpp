@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "sublimit/scheme/refine.h"
-#include "sublimit/schemes.h"
+#include "sublimit/schemes/schemes.h"
 #include "support/closed_form.h"
 #include "support/meshes.h"
 #include "support/tolerance.h"

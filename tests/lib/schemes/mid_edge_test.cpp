@@ -8,7 +8,7 @@
 
 #include "sublimit/neighborhood/local_patch.h"
 #include "sublimit/scheme/refine.h"
-#include "sublimit/schemes.h"
+#include "sublimit/schemes/schemes.h"
 #include "support/closed_form.h"
 #include "support/meshes.h"
 #include "support/tolerance.h"
@@ -18,7 +18,7 @@ namespace {
 
 using std::numbers::pi;
 
-/// Weights of the corners of a lone n-gon in the first corner of its child, two steps later.
+/// Weights of the corners of a isolated n-gon in the first corner of its child, two steps later.
 Eigen::RowVectorXd two_steps(const std::string& name, int n) {
   return local_patch(find_scheme(name).value(), {.kind = Centre::Kind::face, .faces = n})->A.row(0);
 }
@@ -98,7 +98,7 @@ TEST(MidEdge, TriangleIsTheJordanCase) {
   EXPECT_EQ(rings.staircase(0, ratio(1, 4)), std::vector<int>{2});
   EXPECT_EQ(rings.staircase(1, ratio(1, 4)), (std::vector<int>{2, 3}));
   EXPECT_EQ(rings.staircase(2, ratio(1, 4)), (std::vector<int>{2, 3}));
-  EXPECT_EQ(lone_centre("mid-edge", 3).masks.sides.at(0).plane, LimitMasks::Plane::slow);
+  EXPECT_EQ(isolated_centre("mid-edge", 3).masks.sides.at(0).plane, LimitMasks::Plane::slow);
 }
 
 TEST(MidEdge, PolygonsBeyondTheTriangleHaveASimplePair) {
@@ -111,7 +111,7 @@ TEST(MidEdge, PolygonsBeyondTheTriangleHaveASimplePair) {
       if (k != 1 && k != n - 1) {
         EXPECT_LT(rings.leading(k), lambda) << n << " " << k;
       }
-    EXPECT_EQ(lone_centre("mid-edge", n).masks.sides.at(0).plane, LimitMasks::Plane::yes) << n;
+    EXPECT_EQ(isolated_centre("mid-edge", n).masks.sides.at(0).plane, LimitMasks::Plane::yes) << n;
   }
 }
 
@@ -145,7 +145,7 @@ TEST(MidEdge, HabibAndWarrenHaveBoundedCurvatureUpToALogarithm) {
 TEST(MidEdge, LimitMasksAreCentroidAndFirstMode) {
   for (const std::string name : {"mid-edge", "mid-edge-habib-warren"})
     for (int n = 3; n <= 20; ++n) {
-      const LoneLimit limit = lone_centre(name, n);
+      const IsolatedLimit limit = isolated_centre(name, n);
       EXPECT_LE((limit.masks.position - Eigen::VectorXd::Constant(n, 1.0 / n)).norm(), closed_form) << n;
       expect_first_mode(limit, n, 0);
     }

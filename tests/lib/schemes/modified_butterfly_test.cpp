@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "sublimit/schemes.h"
+#include "sublimit/schemes/schemes.h"
 #include "support/closed_form.h"
 
 namespace sublimit::testing {
@@ -44,7 +44,7 @@ TEST(ModifiedButterfly, QuarterIsNextAndSemisimple) {
 
 TEST(ModifiedButterfly, LimitIsTheVertexAndTangentsAreTheFirstMode) {
   for (int n = 3; n <= 20; ++n) {
-    const LoneLimit limit = lone_centre("modified-butterfly", n);
+    const IsolatedLimit limit = isolated_centre("modified-butterfly", n);
     const Eigen::VectorXd vertex = Eigen::VectorXd::Unit(limit.masks.position.size(), 0);
     EXPECT_LE((limit.masks.position - vertex).norm(), closed_form) << n;
     if (n != 6) expect_first_mode(limit, n, 1);

@@ -10,11 +10,11 @@
 #include <random>
 
 #include "sublimit/mesh/knot_intervals.h"
-#include "sublimit/patches/finer_knots.h"
+#include "sublimit/patches/detail/finer_knots.h"
 #include "sublimit/patches/spline_surface.h"
-#include "sublimit/schemes.h"
+#include "sublimit/schemes/schemes.h"
 #include "sublimit/scheme/refine.h"
-#include "sublimit/splits/child_sharpness.h"
+#include "sublimit/splits/detail/child_sharpness.h"
 #include "support/expect_error.h"
 #include "support/fraction.h"
 #include "support/knot_breaks.h"
@@ -74,7 +74,7 @@ bool has_odd(const Topology& t, HalfEdge h) {
   return is_odd(t, t.face(h)) || is_odd(t, t.face(t.twin(h))) || is_odd(t, t.tail(h));
 }
 
-void expect_hand_children(const Scheme<double>& scheme, const ControlMesh& mesh, bool levelling) {
+void expect_hand_children(const Scheme<double>& scheme, const Mesh& mesh, bool levelling) {
   Level level = control_level(scheme, mesh);
   ASSERT_FALSE(level.intervals.empty());
   Fraction least = 0;
@@ -129,7 +129,7 @@ void expect_hand_children(const Scheme<double>& scheme, const ControlMesh& mesh,
 
 TEST(PointIntervals, RulesEqualThoseComputedByHand) {
   unsigned seed = 1;
-  for (const ControlMesh& mesh : {cube(), octahedron(), prism(5), quads_from_triangles(tetrahedron())}) {
+  for (const Mesh& mesh : {cube(), octahedron(), prism(5), quads_from_triangles(tetrahedron())}) {
     expect_hand_children(point_levelled, with_point_intervals(mesh, ++seed), true);
     expect_hand_children(point_halved, with_point_intervals(mesh, ++seed), false);
   }
@@ -140,7 +140,7 @@ TEST(PointIntervals, AnyNewKnotsOfATorusAreKnotInsertion) {
   std::uniform_real_distribution<double> positive(0.2, 3), part(0.1, 0.9);
   for (int run = 0; run < 4; ++run) {
     const Index m = 4 + run, n = 7 - run;
-    const ControlMesh mesh = torus(m, n);
+    const Mesh mesh = torus(m, n);
     const Topology t(view(mesh));
     std::vector<double> a(m), b(n), at_a(m), at_b(n);  // of rows and of columns; new knots from where they begin
     for (Index i = 0; i < m; ++i) a[i] = positive(random), at_a[i] = part(random) * a[i];
@@ -189,7 +189,7 @@ TEST(PointIntervals, AnyNewKnotsOfATorusAreKnotInsertion) {
 
 /// Rows at corners of extraordinary faces of level 3 are those of equal intervals, of level 4 those of the faces next
 /// to them too.
-void expect_levelled_rows(const ControlMesh& mesh, const std::string& name) {
+void expect_levelled_rows(const Mesh& mesh, const std::string& name) {
   SCOPED_TRACE(name);
   for (const int number : {3, 4}) {
     const Level level = refine(point_levelled, mesh, number).back();
@@ -234,8 +234,8 @@ TEST(PointIntervals, LevellingLeavesRowsOfEqualIntervalsAfterThreeLevels) {
 }
 
 TEST(PointIntervals, EqualOnesAreDooSabinByAveraging) {
-  for (const ControlMesh& plain : {cube(), octahedron(), prism(5), grid(3, 4), tetrahedron()}) {
-    ControlMesh mesh = plain;
+  for (const Mesh& plain : {cube(), octahedron(), prism(5), grid(3, 4), tetrahedron()}) {
+    Mesh mesh = plain;
     const Topology t(view(mesh));
     for (Index e = 0; e < t.num_edges(); ++e) {
       const Index a = index(t.tail(Edge{e})), b = index(t.head(Edge{e}));
@@ -249,9 +249,9 @@ TEST(PointIntervals, EqualOnesAreDooSabinByAveraging) {
 
 /// Without levelling a face keeps the ratios of its intervals: patches.md section 10.3 has these eigenvalues.
 TEST(PointIntervals, HalvesMaySpiral) {
-  const auto spectrum = [](const ControlMesh& plain, Face f, const std::vector<double>& to_next,
+  const auto spectrum = [](const Mesh& plain, Face f, const std::vector<double>& to_next,
                            const std::vector<double>& to_previous) {
-    ControlMesh mesh = plain;
+    Mesh mesh = plain;
     const Topology t(view(mesh));
     for (Index i = 0; i < t.size(f); ++i) {
       const HalfEdge h = t.corner(f, i), before = t.prev(h);
@@ -279,7 +279,7 @@ TEST(PointIntervals, HalvesMaySpiral) {
   // Three faces at each vertex of a tetrahedron: no ends are opposite.
   expect_pair(spectrum(tetrahedron(), Face{0}, {1, 2, 4}, {1, 1, 1}), 0.375, 0.0559);
   // A hexagon of a prism.
-  const ControlMesh six = prism(6);
+  const Mesh six = prism(6);
   const Topology t(view(six));
   Index hexagon = 0;
   while (t.size(Face{hexagon}) != 6) ++hexagon;
@@ -287,9 +287,9 @@ TEST(PointIntervals, HalvesMaySpiral) {
 }
 
 TEST(PointIntervals, RefusesWhatContradicts) {
-  const auto refuses = [&](const ControlMesh& plain, std::vector<ControlMesh::KnotInterval> intervals,
+  const auto refuses = [&](const Mesh& plain, std::vector<Mesh::KnotInterval> intervals,
                            std::initializer_list<std::string_view> words) {
-    ControlMesh mesh = plain;
+    Mesh mesh = plain;
     mesh.knot_intervals = std::move(intervals);
     expect_error<InvalidMesh>([&] { control_level(point_levelled, mesh); }, words);
   };
@@ -306,7 +306,7 @@ TEST(PointIntervals, RefusesWhatContradicts) {
   refuses(cube(), {{0, 7, 1}}, {"(0,7)", "no face has this edge"});
   refuses(cube(), {{0, 8, 1}}, {"vertex 8 does not exist"});
   // The two ends of an edge are two points'.
-  ControlMesh two = cube();
+  Mesh two = cube();
   two.knot_intervals = {{0, 1, 2}, {1, 0, 3}};
   EXPECT_FALSE(control_level(point_levelled, two).intervals.empty());
 }

@@ -3,7 +3,7 @@
 // that their limit is said to be.
 #include <gtest/gtest.h>
 
-#include "sublimit/schemes.h"
+#include "sublimit/schemes/schemes.h"
 #include "support/laws.h"
 #include "support/regular_limit.h"
 #include "support/tolerance.h"

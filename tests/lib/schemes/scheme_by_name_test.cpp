@@ -5,7 +5,7 @@
 #include "sublimit/base/error.h"
 #include "sublimit/curves/schemes/curve_schemes.h"
 #include "sublimit/geometric/geometric_schemes.h"
-#include "sublimit/schemes.h"
+#include "sublimit/schemes/schemes.h"
 #include "support/expect_error.h"
 
 namespace sublimit::testing {
@@ -30,7 +30,7 @@ TEST(SchemeByName, TakesOptionsAsFindSchemeDoes) {
 TEST(SchemeByName, OfAnUnknownOneTheNearestAreNamed) {
   expect_error<InvalidOption>([] { scheme("catmul-clark"); },
                               {"unknown scheme 'catmul-clark' of surfaces", "the nearest are catmull-clark"});
-  expect_error<InvalidOption>([] { scheme(""); }, {"unknown scheme ''", "the nearest are "});
+  expect_error<InvalidOption>([] { scheme(""); }, {"unknown scheme ''", "there are bilinear, catmull-clark"});
   expect_error<InvalidOption>([] { curve_scheme("chaikn"); }, {"unknown scheme 'chaikn' of curves", "are chaikin"});
   expect_error<InvalidOption>([] { geometric_scheme("hermite"); }, {"unknown scheme 'hermite'", "hermite-incentre"});
   expect_error<InvalidOption>([] { geometric_scheme<NormalMesh>("pipr"); }, {"unknown scheme 'pipr'", "piper"});

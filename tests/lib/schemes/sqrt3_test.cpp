@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "sublimit/scheme/refine.h"
-#include "sublimit/schemes.h"
+#include "sublimit/schemes/schemes.h"
 #include "support/closed_form.h"
 #include "support/meshes.h"
 #include "support/tolerance.h"
@@ -47,7 +47,7 @@ TEST(Sqrt3, LambdaIsAsTabulated) {
 // Limit: centre 1/(1 + 3 a), neighbours 3 a/(n (1 + 3 a)); tangents are the first mode of the ring.
 TEST(Sqrt3, LimitMasksMatchTheClosedForm) {
   for (int n = 3; n <= 20; ++n) {
-    const LoneLimit limit = lone_centre("sqrt3", n);
+    const IsolatedLimit limit = isolated_centre("sqrt3", n);
     const double a = (4 - 2 * std::cos(2 * pi / n)) / 9;
     ASSERT_EQ(limit.masks.position.size(), n + 1);
     EXPECT_NEAR(limit.masks.position[0], 1 / (1 + 3 * a), closed_form) << n;
@@ -55,7 +55,7 @@ TEST(Sqrt3, LimitMasksMatchTheClosedForm) {
     expect_first_mode(limit, n, 1);
     EXPECT_EQ(limit.masks.sides.at(0).plane, LimitMasks::Plane::yes) << n;
   }
-  const LoneLimit regular = lone_centre("sqrt3", 6);
+  const IsolatedLimit regular = isolated_centre("sqrt3", 6);
   EXPECT_NEAR(regular.masks.position[0], 1.0 / 2, closed_form);
   EXPECT_NEAR(regular.masks.position[1], 1.0 / 12, closed_form);
 }

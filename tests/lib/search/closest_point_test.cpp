@@ -48,12 +48,12 @@ class BruteForce {
 
  private:
   static constexpr int a_side = 13;
-  double refined(const Eigen::RowVector3d& query, double best, Sample at) const {
+  double refined(const Eigen::RowVector3d& query, double best, Place at) const {
     for (double h = 1.0 / (a_side - 1); h > finest_;) {
-      std::vector<Sample> net;
+      std::vector<Place> net;
       for (int i = -2; i <= 2; ++i)
         for (int j = -2; j <= 2; ++j) {
-          Sample s{at.face, std::clamp(at.u + h * i / 2, 0.0, 1.0), std::clamp(at.v + h * j / 2, 0.0, 1.0)};
+          Place s{at.face, std::clamp(at.u + h * i / 2, 0.0, 1.0), std::clamp(at.v + h * j / 2, 0.0, 1.0)};
           if (triangles_ && s.u + s.v > 1) s.v = 1 - s.u;
           net.push_back(s);
         }
@@ -72,7 +72,7 @@ class BruteForce {
   double finest_;
   LimitSurface bound_;
   bool triangles_;
-  std::vector<Sample> places_;
+  std::vector<Place> places_;
   LimitSamples samples_;
 };
 
@@ -90,7 +90,7 @@ Points queries(const LimitSamples& samples, double size, int count, unsigned see
   return q;
 }
 
-void expect_nearest(const Scheme<double>& scheme, const ControlMesh& mesh, int count) {
+void expect_nearest(const Scheme<double>& scheme, const Mesh& mesh, int count) {
   const LimitMap surface(scheme, mesh);
   // Places of surfaces without polynomials cost a level a digit.
   const BruteForce brute(surface, mesh.positions, has_polynomials(scheme) ? 1e-7 : 1e-3);
@@ -115,7 +115,7 @@ void expect_nearest(const Scheme<double>& scheme, const ControlMesh& mesh, int c
 TEST(ClosestPoints, AreAsNearAsBruteForceFindsThem) {
   for (const char* name : {"bilinear", "catmull-clark", "loop", "doo-sabin"}) {
     const Scheme<double> scheme = *find_scheme<double>(name);
-    const std::vector<ControlMesh> hard = hard_meshes(scheme, 4);
+    const std::vector<Mesh> hard = hard_meshes(scheme, 4);
     expect_nearest(scheme, hard[0], 8);
     expect_nearest(scheme, hard.back(), 8);
     expect_nearest(scheme, takes_triangles(scheme) ? octahedron() : cube(), 12);
@@ -130,20 +130,20 @@ TEST(ClosestPoints, AreAsNearAsBruteForceFindsThem) {
 TEST(ClosestPoints, AreAsNearForEveryScheme) {
   for (const TestedScheme& tested : schemes_and_degrees(5)) {
     const Scheme<double> scheme = tested.scheme();
-    std::vector<ControlMesh> meshes = hard_meshes(scheme, 9);
+    std::vector<Mesh> meshes = hard_meshes(scheme, 9);
     // Of sqrt3's surfaces the derivatives oscillate towards borders.
     if (!full_sweep() || scheme.name.find("sqrt3") != std::string::npos) meshes.resize(1);
     const int count = full_sweep() ? (has_polynomials(scheme) ? 60 : 8) : (has_polynomials(scheme) ? 2 : 1);
-    for (const ControlMesh& mesh : meshes) expect_nearest(scheme, mesh, count);
+    for (const Mesh& mesh : meshes) expect_nearest(scheme, mesh, count);
   }
 }
 
 TEST(ClosestPoints, OfPointsOfTheSurfaceAreTheyThemselves) {
   for (const char* name : {"catmull-clark", "loop"}) {
     const Scheme<double> scheme = *find_scheme<double>(name);
-    const ControlMesh mesh = hard_meshes(scheme, 5)[2];
+    const Mesh mesh = hard_meshes(scheme, 5)[2];
     const LimitMap surface(scheme, mesh);
-    std::vector<Sample> places = random_places(surface.addresses(), 200, 2);
+    std::vector<Place> places = random_places(surface.addresses(), 200, 2);
     const Topology& t = surface.level().topology();
     for (Index h = 0; h < t.num_half_edges(); h += 5) {
       places.push_back(from_corner(t, surface.addresses(), HalfEdge{h}, 0, 0));
@@ -156,7 +156,7 @@ TEST(ClosestPoints, OfPointsOfTheSurfaceAreTheyThemselves) {
 
 TEST(ClosestPoints, FromTheMiddleOfASymmetricSurfaceEndIt) {
   const Scheme<double> scheme = *find_scheme<double>("loop");
-  const ControlMesh mesh = icosahedron();
+  const Mesh mesh = icosahedron();
   const LimitMap surface(scheme, mesh);
   const double least = surface.evaluate_grid(mesh.positions, 65).position.rowwise().norm().minCoeff();
   const Points middle = Points::Zero(3, 3);
@@ -171,11 +171,10 @@ TEST(ClosestPoints, FromTheMiddleOfASymmetricSurfaceEndIt) {
 }
 
 /// Of each face by itself: all others are holes.
-std::vector<double> distances_by_face(const Scheme<double>& scheme, const ControlMesh& mesh,
-                                      const Eigen::RowVector3d& q) {
+std::vector<double> distances_by_face(const Scheme<double>& scheme, const Mesh& mesh, const Eigen::RowVector3d& q) {
   std::vector<double> all;
   for (Index f = 0; f < Index(mesh.face_sizes.size()); ++f) {
-    ControlMesh one = mesh;
+    Mesh one = mesh;
     for (Index g = 0; g < Index(mesh.face_sizes.size()); ++g)
       if (g != f) one.holes.push_back(g);
     all.push_back(closest(LimitMap(scheme, one), one.positions, q).distances[0]);
@@ -187,7 +186,7 @@ std::vector<double> distances_by_face(const Scheme<double>& scheme, const Contro
 TEST(ClosestPoints, NearestFacesAreInTurn) {
   for (const char* name : {"catmull-clark", "loop"}) {
     const Scheme<double> scheme = *find_scheme<double>(name);
-    const ControlMesh mesh = jittered(takes_triangles(scheme) ? octahedron() : cube());
+    const Mesh mesh = jittered(takes_triangles(scheme) ? octahedron() : cube());
     const LimitMap surface(scheme, mesh);
     const double size = diagonal(mesh.positions);
     const Points q = queries(surface.evaluate_grid(mesh.positions, 5), size, 20, 3);
@@ -215,7 +214,7 @@ TEST(ClosestPoints, NearestFacesAreInTurn) {
 }
 
 TEST(ClosestPoints, AllFacesAreFoundWhereAllAreAskedFor) {
-  const ControlMesh mesh = torus(12, 9);
+  const Mesh mesh = torus(12, 9);
   const LimitMap surface(*find_scheme<double>("catmull-clark"), mesh);
   const Points q = Eigen::RowVector3d(0.3, -2, 0.4);
   const ClosestPoints found = closest(surface, mesh.positions, q, {.prove = false, .count = 1000});
@@ -225,7 +224,7 @@ TEST(ClosestPoints, AllFacesAreFoundWhereAllAreAskedFor) {
 
 TEST(ClosestPoints, OutsideARadiusAreNone) {
   const Scheme<double> scheme = *find_scheme<double>("bilinear");
-  const ControlMesh mesh = cube();  // [-1, 1]^3
+  const Mesh mesh = cube();  // [-1, 1]^3
   const LimitMap surface(scheme, mesh);
   Points q(3, 3);
   q << 0, 0, 3, 0, 0, 1.5, 9, 9, 9;
@@ -236,7 +235,7 @@ TEST(ClosestPoints, OutsideARadiusAreNone) {
 
 TEST(ClosestPoints, InsideHaveSignedDistances) {
   const Scheme<double> bilinear = *find_scheme<double>("bilinear");
-  ControlMesh box = cube();
+  Mesh box = cube();
   Points q(6, 3);
   // Towards a face, an edge, a corner; from outside the same; next to a corner, where one face's normal would not do.
   q << 0, 0, 0.5, 0.9, 0.9, 0, 0.8, 0.8, 0.8, 0, 0, 2, 2, 2, 0, 1.1, 1.2, 0.9;
@@ -254,7 +253,7 @@ TEST(ClosestPoints, InsideHaveSignedDistances) {
   // Along the normal to either side, at corners and on edges too.
   for (const char* name : {"catmull-clark", "loop", "doo-sabin"}) {
     const Scheme<double> scheme = *find_scheme<double>(name);
-    const ControlMesh mesh = takes_triangles(scheme) ? jittered(octahedron()) : jittered(prism(5));
+    const Mesh mesh = takes_triangles(scheme) ? jittered(octahedron()) : jittered(prism(5));
     const LimitMap surface(scheme, mesh);
     const double size = diagonal(mesh.positions), step = 1e-3 * size;
     const LimitSamples on = surface.evaluate_grid(mesh.positions, 5, 1);
@@ -265,24 +264,24 @@ TEST(ClosestPoints, InsideHaveSignedDistances) {
       EXPECT_NEAR(out.distances[i], step, distance_accuracy * size) << name << " " << i;
     }
   }
-  const ControlMesh open = grid(2, 2);
+  const Mesh open = grid(2, 2);
   expect_error<UnsupportedTopology>([&] { closest(LimitMap(bilinear, open), open.positions, q, {.is_signed = true}); },
                                     {"closed", "edge ("});
 }
 
 TEST(ClosestPoints, LeaveHolesOut) {
-  ControlMesh mesh = torus(6, 5);
+  Mesh mesh = torus(6, 5);
   mesh.holes = {0, 1, 2, 3, 4};
   const LimitMap surface(*find_scheme<double>("catmull-clark"), mesh);
-  const std::vector<Sample> in_holes{{0, 0.5, 0.5}, {3, 0.4, 0.6}};
+  const std::vector<Place> in_holes{{0, 0.5, 0.5}, {3, 0.4, 0.6}};
   const ClosestPoints found = closest(surface, mesh.positions, surface.evaluate(mesh.positions, in_holes).position);
-  for (const Sample& s : found.places) EXPECT_GE(s.face, 5);
+  for (const Place& s : found.places) EXPECT_GE(s.face, 5);
   EXPECT_GT(found.distances.minCoeff(), 0.01);
 }
 
 TEST(ClosestPoints, AreTheSameForAnyGuessAndAnyThreads) {
   const Scheme<double> scheme = *find_scheme<double>("catmull-clark");
-  const ControlMesh mesh = hard_polygons(8, {.open = true});
+  const Mesh mesh = hard_polygons(8, {.open = true});
   const LimitMap surface(scheme, mesh);
   const Points q = queries(surface.evaluate_grid(mesh.positions, 3), diagonal(mesh.positions), 200, 1);
   const ClosestPoints once = closest(surface, mesh.positions, q);
@@ -293,14 +292,14 @@ TEST(ClosestPoints, AreTheSameForAnyGuessAndAnyThreads) {
     const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
     EXPECT_TRUE(same(closest(surface, mesh.positions, q)));
   }
-  const std::vector<Sample> guess = random_places(surface.addresses(), 200, 3);
+  const std::vector<Place> guess = random_places(surface.addresses(), 200, 3);
   const ClosestPoints guessed = closest(surface, mesh.positions, q, {.guess = guess});
   EXPECT_LE((once.distances - guessed.distances).cwiseAbs().maxCoeff(), distance_accuracy * diagonal(mesh.positions));
 }
 
 TEST(ClosestPoints, SayWhatIsWrong) {
   const Scheme<double> scheme = *find_scheme<double>("catmull-clark");
-  ControlMesh mesh = cube();
+  Mesh mesh = cube();
   const LimitMap surface(scheme, mesh);
   Points q = Points::Zero(4, 3);
   EXPECT_EQ(closest(surface, mesh.positions, Points(0, 3)).places.size(), 0u);
@@ -310,7 +309,7 @@ TEST(ClosestPoints, SayWhatIsWrong) {
   expect_error<InvalidParameter>([&] { closest(surface, mesh.positions, q); }, {"point 2", "1e150"});
   expect_error<InvalidParameter>([&] { closest(surface, mesh.positions, Points::Zero(1, 2)); }, {"2", "3"});
   expect_error<InvalidParameter>([&] { closest(surface, Points::Zero(7, 3), Points::Zero(1, 3)); }, {"vertex"});
-  const std::vector<Sample> guess{{0, 0, 2}};
+  const std::vector<Place> guess{{0, 0, 2}};
   expect_error<InvalidParameter>([&] { closest(surface, mesh.positions, Points::Zero(1, 3), {.guess = guess}); },
                                  {"face 0", "no face"});
   expect_error<InvalidParameter>([&] { closest(surface, mesh.positions, Points::Zero(2, 3), {.guess = guess}); },

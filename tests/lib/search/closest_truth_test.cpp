@@ -22,7 +22,7 @@ using Vector = Eigen::Matrix<Precise, 3, 1>;
 
 class TrueSurface {
  public:
-  TrueSurface(const char* scheme, const ControlMesh& mesh)
+  TrueSurface(const char* scheme, const Mesh& mesh)
       : scheme_(*find_scheme<Precise>(scheme)),
         level_(control_level(*find_scheme<double>(scheme), mesh)),
         points_(mesh.positions),
@@ -34,8 +34,8 @@ class TrueSurface {
           grids_[size_t(f)][size_t(i)][size_t(j)] = at({f, place(i), place(j)}).position.cast<double>();
   }
 
-  TruePoint at(const Sample& place) const { return true_limit(scheme_, level_, points_, place); }
-  Precise distance(const Sample& place, const Eigen::Vector3d& query) const {
+  TruePoint at(const Place& place) const { return true_limit(scheme_, level_, points_, place); }
+  Precise distance(const Place& place, const Eigen::Vector3d& query) const {
     return Vector(at(place).position - query.cast<Precise>()).norm();
   }
 
@@ -44,7 +44,7 @@ class TrueSurface {
   Precise nearest(const Eigen::Vector3d& query) const {
     struct Start {
       double distance, step;
-      Sample place;
+      Place place;
     };
     std::vector<Start> starts;
     for (Index f = 0; f < addresses_.size(); ++f)
@@ -65,7 +65,7 @@ class TrueSurface {
     Precise least = best;
     for (const Start& start : starts)
       if (start.distance <= best + start.step)
-        for (const Sample& place : around(start.place)) least = std::min(least, descended(place, query));
+        for (const Place& place : around(start.place)) least = std::min(least, descended(place, query));
     return least;
   }
 
@@ -82,18 +82,18 @@ class TrueSurface {
   const Eigen::Vector3d& grid(Index f, int i, int j) const { return grids_[size_t(f)][size_t(i)][size_t(j)]; }
 
   /// A place and, as there may be no derivatives at vertices, those half a step from it.
-  std::vector<Sample> around(const Sample& s) const {
-    std::vector<Sample> places{s};
+  std::vector<Place> around(const Place& s) const {
+    std::vector<Place> places{s};
     for (const double u : {-0.5, 0.5})
       for (const double v : {-0.5, 0.5}) {
-        const Sample beside = on_face({s.face, s.u + u / a_side, s.v + v / a_side});
+        const Place beside = on_face({s.face, s.u + u / a_side, s.v + v / a_side});
         if (beside.u != s.u || beside.v != s.v) places.push_back(beside);
       }
     return places;
   }
 
   /// Back to the face along u and v, of triangles on u + v = 1 by halves.
-  Sample on_face(Sample s) const {
+  Place on_face(Place s) const {
     s.u = std::clamp(s.u, 0.0, 1.0);
     s.v = std::clamp(s.v, 0.0, 1.0);
     if (const double over = s.u + s.v - 1; addresses_.triangles() && over > 0) {
@@ -104,7 +104,7 @@ class TrueSurface {
   }
 
   /// Step that leads to the least distance, along the sides that hold it there.
-  Eigen::Vector2d step(const TruePoint& x, const Vector& r, const Sample& s) const {
+  Eigen::Vector2d step(const TruePoint& x, const Vector& r, const Place& s) const {
     Eigen::Matrix<double, 2, 1> g(double(Precise(r.dot(x.du))), double(Precise(r.dot(x.dv))));
     Eigen::Matrix2d G, H;
     G << double(Precise(x.du.dot(x.du))), double(Precise(x.du.dot(x.dv))), 0, double(Precise(x.dv.dot(x.dv)));
@@ -131,7 +131,7 @@ class TrueSurface {
   }
 
   /// Places are doubles: the distance, which does not change there, is right to the square of their rounding.
-  Precise descended(Sample s, const Eigen::Vector3d& query) const {
+  Precise descended(Place s, const Eigen::Vector3d& query) const {
     TruePoint x = at(s);
     Precise least = Vector(x.position - query.cast<Precise>()).norm();
     for (int k = 0; k < 40; ++k) {
@@ -139,7 +139,7 @@ class TrueSurface {
       const Eigen::Vector2d d = step(x, x.position - query.cast<Precise>(), s);
       bool is_nearer = false;
       for (double part = 1; part > 1e-9 && !is_nearer; part /= 4) {
-        const Sample next = on_face({s.face, s.u + part * d[0], s.v + part * d[1]});
+        const Place next = on_face({s.face, s.u + part * d[0], s.v + part * d[1]});
         if (next.u == s.u && next.v == s.v) break;
         const TruePoint there = at(next);
         const Precise distance = Vector(there.position - query.cast<Precise>()).norm();
@@ -161,7 +161,7 @@ class TrueSurface {
   std::vector<std::array<std::array<Eigen::Vector3d, a_side + 1>, a_side + 1>> grids_;
 };
 
-void expect_truth(const char* scheme, const ControlMesh& mesh, std::vector<Eigen::Vector3d> queries) {
+void expect_truth(const char* scheme, const Mesh& mesh, std::vector<Eigen::Vector3d> queries) {
   const TrueSurface truth(scheme, mesh);
   const double size = diagonal(mesh.positions);
   std::mt19937 random(5);
@@ -190,7 +190,7 @@ std::vector<Eigen::Vector3d> on_medial_axis() {
 }
 
 TEST(ClosestPoints, AreThoseOfTheTruthAtCreases) {
-  ControlMesh mesh = cube();
+  Mesh mesh = cube();
   add_crease(mesh, {0, 1, 3, 2, 0}, 10);
   add_crease(mesh, {4, 5, 7}, 1.5);
   mesh.corners.push_back({0, 10});
@@ -209,7 +209,7 @@ TEST(ClosestPoints, AreThoseOfTheTruthAtBorders) {
 }
 
 TEST(ClosestPoints, AreThoseOfTheTruthAtNonManifoldEdges) {
-  ControlMesh other = cube();
+  Mesh other = cube();
   other.positions.col(0).array() += 2;
   other.positions.col(1).array() += 2;
   expect_truth("catmull-clark", glued(cube(), other, {3, 7}, {0, 4}), {{1, 1, 0}, {0, 0, 0}, {1, 1, 3}, {2, 0, 0}});

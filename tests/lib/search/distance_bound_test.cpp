@@ -1,24 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sublimit/search/distance_bound.h"
+#include "sublimit/search/detail/distance_bound.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "sublimit/schemes.h"
+#include "sublimit/schemes/schemes.h"
 #include "sublimit/search/closest_point.h"
-#include "sublimit/search/net_distance.h"
+#include "sublimit/search/detail/net_distance.h"
 #include "support/hard_meshes.h"
 #include "support/meshes.h"
 #include "support/tolerance.h"
-#include "sublimit/search/searched_surface.h"
+#include "sublimit/search/detail/searched_surface.h"
 
 namespace sublimit {
 namespace {
 
 using namespace testing;
 
-Points random_points(const ControlMesh& mesh, int count, unsigned seed) {
+Points random_points(const Mesh& mesh, int count, unsigned seed) {
   std::mt19937 random(seed);
   std::normal_distribution<double> normal;
   const Eigen::RowVector3d middle = mesh.positions.colwise().mean();
@@ -34,7 +34,7 @@ Points random_points(const ControlMesh& mesh, int count, unsigned seed) {
 TEST(DistanceBound, IsNeverAboveTheDistance) {
   for (const char* name : {"bilinear", "catmull-clark", "loop", "doo-sabin", "averaging"}) {
     const Scheme<double> scheme = *find_scheme<double>(name);
-    for (const ControlMesh& mesh : hard_meshes(scheme, 3)) {
+    for (const Mesh& mesh : hard_meshes(scheme, 3)) {
       const LimitMap surface(scheme, mesh);
       const DistanceBound bound(SearchedLimit(surface, mesh.positions));
       const Points q = random_points(mesh, 20, 3);
@@ -58,10 +58,10 @@ TEST(DistanceBound, IsNeverAboveTheDistance) {
 
 // Far from the origin coordinates have fewer digits than the surface needs: bounds give way by as much, and no more.
 TEST(DistanceBound, HoldsFarFromTheOrigin) {
-  const ControlMesh mesh = cube();
+  const Mesh mesh = cube();
   const Scheme<double> scheme = *find_scheme<double>("catmull-clark");
   for (const double offset : {0.0, 1e2, 1e4, 1e6, 1e8}) {
-    ControlMesh moved = mesh;
+    Mesh moved = mesh;
     moved.positions.array() += offset;
     const Points q = random_points(mesh, 500, 6).array() + offset;
     const ClosestPoints found = closest(LimitMap(scheme, moved), moved.positions, q);
@@ -78,7 +78,7 @@ TEST(DistanceBound, HoldsFarFromTheOrigin) {
 
 // Where hulls are estimated nothing is proved.
 TEST(DistanceBound, ProvesNothingByEstimates) {
-  const ControlMesh mesh = octahedron();
+  const Mesh mesh = octahedron();
   const LimitMap surface(*find_scheme<double>("butterfly"), mesh);
   const ClosestPoints found = closest(surface, mesh.positions, random_points(mesh, 3, 7));
   EXPECT_EQ(found.lower.maxCoeff(), 0);
@@ -86,7 +86,7 @@ TEST(DistanceBound, ProvesNothingByEstimates) {
 
 TEST(DistanceBound, FindsWhatIsNearer) {
   const Scheme<double> scheme = *find_scheme<double>("catmull-clark");
-  const ControlMesh mesh = torus(7, 5);
+  const Mesh mesh = torus(7, 5);
   const LimitMap surface(scheme, mesh);
   const DistanceBound bound(SearchedLimit(surface, mesh.positions));
   PieceParts cutter;

@@ -15,9 +15,9 @@
 #include <memory>
 #include <random>
 
-#include "sublimit/base/parallel_for.h"
+#include "sublimit/base/detail/parallel_for.h"
 #include "sublimit/limit/limit_map.h"
-#include "sublimit/schemes.h"
+#include "sublimit/schemes/schemes.h"
 #include "sublimit/search/intersect.h"
 #include "support/meshes.h"
 #include "support/tolerance.h"
@@ -126,7 +126,7 @@ class LimitGeometry {
 };
 
 /// From outside through a mesh; numbers are floats, so that Embree's rays are the same.
-std::vector<Ray> camera(const ControlMesh& mesh, int count) {
+std::vector<Ray> camera(const Mesh& mesh, int count) {
   std::mt19937 random(7);
   std::normal_distribution<double> normal;
   const Eigen::Vector3d middle = mesh.positions.colwise().mean();
@@ -144,15 +144,15 @@ std::vector<Ray> camera(const ControlMesh& mesh, int count) {
 TEST(EmbreeUserGeometry, HasTheHitsOfIntersect) {
   const std::unique_ptr<RTCDeviceTy, decltype(&rtcReleaseDevice)> device(rtcNewDevice(nullptr), rtcReleaseDevice);
   ASSERT_NE(device, nullptr);
-  ControlMesh creased = jittered(cube());
+  Mesh creased = jittered(cube());
   add_crease(creased, {0, 1, 3}, 10);
-  ControlMesh holed = jittered(grid(6, 5));
+  Mesh holed = jittered(grid(6, 5));
   holed.holes = {7};
-  const std::vector<std::pair<const char*, ControlMesh>> scenes{{"catmull-clark", creased},
-                                                                {"catmull-clark", jittered(torus(12, 8))},
-                                                                {"catmull-clark", holed},
-                                                                {"loop", jittered(icosahedron())},
-                                                                {"doo-sabin", jittered(prism(5))}};
+  const std::vector<std::pair<const char*, Mesh>> scenes{{"catmull-clark", creased},
+                                                         {"catmull-clark", jittered(torus(12, 8))},
+                                                         {"catmull-clark", holed},
+                                                         {"loop", jittered(icosahedron())},
+                                                         {"doo-sabin", jittered(prism(5))}};
   for (const auto& [scheme, mesh] : scenes) {
     SCOPED_TRACE(scheme);
     const LimitMap surface(find_scheme(scheme).value(), mesh);
@@ -167,7 +167,7 @@ TEST(EmbreeUserGeometry, HasTheHitsOfIntersect) {
     });
 
     const RayHits truth = intersect(surface, mesh.positions, rays);
-    std::vector<Sample> places;
+    std::vector<Place> places;
     std::vector<Eigen::Vector3d> on_rays;
     for (size_t i = 0; i < rays.size(); ++i) {
       const bool hits = truth.first[i + 1] > truth.first[i];

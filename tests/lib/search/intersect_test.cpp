@@ -9,9 +9,9 @@
 #include <random>
 
 #include "sublimit/base/error.h"
-#include "sublimit/scheme/prepare.h"
-#include "sublimit/schemes.h"
-#include "sublimit/search/tracer.h"
+#include "sublimit/scheme/detail/prepare.h"
+#include "sublimit/schemes/schemes.h"
+#include "sublimit/search/detail/tracer.h"
 #include "sublimit/tessellation/tessellate.h"
 #include "support/meshes.h"
 #include "support/places.h"
@@ -22,10 +22,10 @@ namespace {
 
 using namespace testing;
 
-double diagonal(const ControlMesh& mesh) { return testing::diagonal(mesh.positions); }
+double diagonal(const Mesh& mesh) { return testing::diagonal(mesh.positions); }
 
 /// Through the box, from outside.
-std::vector<Ray> random_rays(const ControlMesh& mesh, int count, unsigned seed) {
+std::vector<Ray> random_rays(const Mesh& mesh, int count, unsigned seed) {
   std::mt19937 random(seed);
   std::normal_distribution<double> normal;
   const Eigen::Vector3d middle = mesh.positions.colwise().mean();
@@ -41,10 +41,10 @@ std::vector<Ray> random_rays(const ControlMesh& mesh, int count, unsigned seed) 
 
 struct Case {
   const char* scheme;
-  ControlMesh mesh;
+  Mesh mesh;
 };
 std::vector<Case> closed_cases() {
-  ControlMesh creased = cube();
+  Mesh creased = cube();
   add_crease(creased, {0, 1, 3}, {10, 1.5f});
   return {{"bilinear", jittered(cube())},
           {"catmull-clark", jittered(creased)},
@@ -102,7 +102,7 @@ TEST(Intersect, RaysEnterAndLeaveClosedSurfaces) {
 
 // Triangles within a proved distance are hit where the surface is, but for rays that graze.
 TEST(Intersect, AreNearThoseOfTriangles) {
-  const ControlMesh mesh = jittered(prism(5));
+  const Mesh mesh = jittered(prism(5));
   const LimitMap surface(find_scheme("catmull-clark").value(), mesh);
   const Tessellation t = tessellate(surface, mesh.positions, {.chord = 1e-4 * diagonal(mesh)});
   const std::vector<Ray> rays = random_rays(mesh, 100, 3);
@@ -130,7 +130,7 @@ TEST(Intersect, AreNearThoseOfTriangles) {
 TEST(Intersect, RaysThroughEdgesAndVerticesHitOnce) {
   for (const Case& c : closed_cases()) {
     const LimitMap surface(find_scheme(c.scheme).value(), c.mesh);
-    std::vector<Sample> at;
+    std::vector<Place> at;
     const bool triangles = surface.faces().triangles;
     for (Index f = 0; f < surface.faces().size; ++f)
       for (const auto& [u, v] : std::vector<std::pair<double, double>>{{0, 0}, {0.5, 0}, {0.3, 0}, {0, 0.7}, {1, 0}})
@@ -156,7 +156,7 @@ TEST(Intersect, RaysThroughEdgesAndVerticesHitOnce) {
 // Far from the origin as near it: in and out in turn, and through edges once.
 TEST(Intersect, MissesNothingFarFromTheOrigin) {
   for (const double offset : {1e3, 1e6}) {
-    ControlMesh mesh = jittered(prism(5));
+    Mesh mesh = jittered(prism(5));
     std::vector<Ray> rays = random_rays(mesh, 300, 8);
     mesh.positions.array() += offset;
     for (Ray& ray : rays) ray.origin.array() += offset;
@@ -164,7 +164,7 @@ TEST(Intersect, MissesNothingFarFromTheOrigin) {
     const RayHits hits = intersect(surface, mesh.positions, rays, {.all = true});
     for (size_t i = 0; i < rays.size(); ++i)
       EXPECT_EQ((hits.first[i + 1] - hits.first[i]) % 2, 0) << offset << " " << i;
-    std::vector<Sample> at;
+    std::vector<Place> at;
     for (Index f = 0; f < surface.faces().size; ++f)
       for (const auto& [u, v] : std::vector<std::pair<double, double>>{{0, 0}, {0.5, 0}, {0.3, 0}, {0, 0.7}, {1, 1}})
         at.push_back({f, u, v});
@@ -178,7 +178,7 @@ TEST(Intersect, MissesNothingFarFromTheOrigin) {
 }
 
 TEST(Intersect, NearestIsTheFirstOfAll) {
-  const ControlMesh mesh = torus(7, 5);
+  const Mesh mesh = torus(7, 5);
   const LimitMap surface(find_scheme("catmull-clark").value(), mesh);
   std::vector<Ray> rays = random_rays(mesh, 300, 4);
   const RayHits all = intersect(surface, mesh.positions, rays, {.all = true}),
@@ -227,7 +227,7 @@ TEST(RayTracer, FindsWhatIntersectFinds) {
 }
 
 TEST(RayTracer, RefusesInClearWords) {
-  const ControlMesh mesh = cube();
+  const Mesh mesh = cube();
   const LimitMap surface(find_scheme("catmull-clark").value(), mesh);
   const RayTracer tracer(surface, mesh.positions);
   EXPECT_THROW(tracer.trace({{0, 0, 0}, {0, 0, 0}}), InvalidParameter);
@@ -236,7 +236,7 @@ TEST(RayTracer, RefusesInClearWords) {
 }
 
 TEST(Intersect, AxesOfABoxAreExact) {
-  const ControlMesh box = cube();  // [-1,1]^3
+  const Mesh box = cube();  // [-1,1]^3
   const LimitMap surface(find_scheme("bilinear").value(), box);
   const std::vector<Ray> rays{
       {{0.25, 0.5, -3}, {0, 0, 2}}, {{0, 0, 0}, {1, 0, 0}}, {{5, 5, 5}, {1, 1, 1}}, {{0.1, 0.2, 5}, {0, 0, -1}, 0, 1}};
@@ -248,7 +248,7 @@ TEST(Intersect, AxesOfABoxAreExact) {
 }
 
 TEST(Intersect, LeavesHolesOutAndTakesOpenSurfaces) {
-  ControlMesh holed = cube();
+  Mesh holed = cube();
   const LimitMap whole(find_scheme("bilinear").value(), holed);
   const Ray up{{0.25, 0.5, -3}, {0, 0, 1}};
   EXPECT_EQ(intersect(whole, holed.positions, {up}, {.all = true}).t.size(), 2u);
@@ -256,7 +256,7 @@ TEST(Intersect, LeavesHolesOutAndTakesOpenSurfaces) {
   holed.holes = {face};
   const LimitMap with_hole(find_scheme("bilinear").value(), holed);
   EXPECT_EQ(intersect(with_hole, holed.positions, {up}, {.all = true}).t.size(), 1u);
-  const ControlMesh open = grid(3, 2);
+  const Mesh open = grid(3, 2);
   const LimitMap sheet(find_scheme("catmull-clark").value(), open);
   EXPECT_EQ(intersect(sheet, open.positions, {{{1.3, 0.8, 9}, {0, 0, -1}}}, {.all = true}).t.size(), 1u);
 }
@@ -264,7 +264,7 @@ TEST(Intersect, LeavesHolesOutAndTakesOpenSurfaces) {
 // Also next to the borders of dual schemes, whose pieces there have no place in an address.
 TEST(Intersect, PlacesOfOpenSurfacesAreOnTheRay) {
   for (const char* scheme : {"catmull-clark", "doo-sabin", "mid-edge", "averaging"}) {
-    const ControlMesh open = jittered(grid(4, 4));
+    const Mesh open = jittered(grid(4, 4));
     const LimitMap surface(find_scheme(scheme).value(), open);
     std::mt19937 random(9);
     std::uniform_real_distribution<double> across(0, 4);
@@ -283,9 +283,9 @@ TEST(Intersect, PlacesOfOpenSurfacesAreOnTheRay) {
 
 // A ray that touches has one hit, which says that it is not decided; a little off it has none, or two.
 TEST(Intersect, TangentRaysHitOnceOrTwiceOrNot) {
-  const ControlMesh mesh = cube();  // its limit is convex
+  const Mesh mesh = cube();  // its limit is convex
   const LimitMap surface(find_scheme("catmull-clark").value(), mesh);
-  const std::vector<Sample> at = random_places(surface.addresses(), 60, 3);
+  const std::vector<Place> at = random_places(surface.addresses(), 60, 3);
   const LimitSamples on = surface.evaluate(mesh.positions, at, 1);
   const double size = diagonal(mesh);
   const auto tangents = [&](double off) {
@@ -316,7 +316,7 @@ TEST(Intersect, TangentRaysHitOnceOrTwiceOrNot) {
 
 // In a face or along an edge a ray has no end of hits: the first one is told, and that there is more.
 TEST(Intersect, RaysInTheSurfaceTellWhereTheyEnterIt) {
-  const ControlMesh box = cube();  // [-1, 1]^3
+  const Mesh box = cube();  // [-1, 1]^3
   const LimitMap surface(find_scheme("bilinear").value(), box);
   const std::vector<Ray> rays{{{-3, 1, 1}, {1, 0, 0}}, {{-3, 0.3, 1}, {1, 0, 0}}, {{-3, -3, 1}, {1, 1, 0}}};
   const RayHits hits = intersect(surface, box.positions, rays);
@@ -328,7 +328,7 @@ TEST(Intersect, RaysInTheSurfaceTellWhereTheyEnterIt) {
 }
 
 /// A pyramid over a regular n-gon, its apex (0, 0, 1) a sharp corner.
-ControlMesh sharp_pyramid(Index n) {
+Mesh sharp_pyramid(Index n) {
   std::vector<Eigen::Vector3d> x{{0, 0, 1}};
   std::vector<std::vector<Index>> faces;
   std::vector<Index> base;
@@ -339,7 +339,7 @@ ControlMesh sharp_pyramid(Index n) {
     base.insert(base.begin(), 1 + i);
   }
   faces.push_back(base);
-  ControlMesh mesh = make_mesh(x, faces);
+  Mesh mesh = make_mesh(x, faces);
   mesh.corners.push_back({0, 10});
   return mesh;
 }
@@ -349,7 +349,7 @@ ControlMesh sharp_pyramid(Index n) {
 TEST(Intersect, RaysThroughSharpApexesHitTheVertex) {
   for (const char* scheme : {"catmull-clark", "loop"})
     for (Index n = 3; n <= 8; ++n) {
-      ControlMesh mesh = sharp_pyramid(n);
+      Mesh mesh = sharp_pyramid(n);
       if (std::string(scheme) == "loop") mesh = triangulated(mesh);
       const LimitMap surface(find_scheme(scheme).value(), mesh);
       std::vector<Ray> rays;
@@ -368,7 +368,7 @@ TEST(Intersect, RaysThroughSharpApexesHitTheVertex) {
 
 // The plane x + y + z = 1 at angles down to some 0.005 degrees, after few parts.
 TEST(Intersect, GrazingRaysHitATriangle) {
-  const ControlMesh triangle = make_mesh({{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 1, 2}});
+  const Mesh triangle = make_mesh({{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 1, 2}});
   const Eigen::Vector3d normal = Eigen::Vector3d::Ones().normalized(), middle = Eigen::Vector3d::Constant(1. / 3);
   for (const char* scheme : {"bilinear", "catmull-clark", "loop"}) {
     const LimitMap surface(find_scheme(scheme).value(), triangle);
@@ -396,7 +396,7 @@ TEST(Intersect, GrazingRaysHitATriangle) {
 
 // A ray that is given up says so, where it stopped, and keeps what was found.
 TEST(Intersect, RaysThatAreGivenUpSaySo) {
-  const ControlMesh mesh = jittered(cube());
+  const Mesh mesh = jittered(cube());
   const LimitMap surface(find_scheme("kobbelt").value(), mesh);
   const std::vector<Ray> rays = random_rays(mesh, 40, 23);
   const RayHits all = intersect(surface, mesh.positions, rays, {.all = true}),
@@ -424,7 +424,7 @@ TEST(Intersect, RaysThatAreGivenUpSaySo) {
 }
 
 TEST(Intersect, HasTheSameBitsForAnyNumberOfThreads) {
-  const ControlMesh mesh = jittered(prism(5));
+  const Mesh mesh = jittered(prism(5));
   const LimitMap surface(find_scheme("catmull-clark").value(), mesh);
   const std::vector<Ray> rays = random_rays(mesh, 300, 5);
   const RayHits a = intersect(surface, mesh.positions, rays, {.all = true});
@@ -435,7 +435,7 @@ TEST(Intersect, HasTheSameBitsForAnyNumberOfThreads) {
 }
 
 TEST(Intersect, RefusesInClearWords) {
-  const ControlMesh mesh = cube();
+  const Mesh mesh = cube();
   const LimitMap surface(find_scheme("catmull-clark").value(), mesh);
   EXPECT_THROW(intersect(surface, mesh.positions, {{{0, 0, 0}, {0, 0, 0}}}), InvalidParameter);
   EXPECT_THROW(intersect(surface, mesh.positions, {{{0, 0, std::nan("")}, {0, 0, 1}}}), InvalidParameter);
@@ -444,7 +444,7 @@ TEST(Intersect, RefusesInClearWords) {
   EXPECT_THROW(intersect(surface, mesh.positions, {{{0, 0, 1e155}, {0, 0, 1}}}), InvalidParameter);
   EXPECT_THROW(intersect(surface, mesh.positions, {}, {.most_parts = 0}), InvalidParameter);
   EXPECT_TRUE(intersect(surface, mesh.positions, {}).t.empty());
-  ControlMesh nothing;
+  Mesh nothing;
   nothing.positions = Points::Zero(0, 3);
   EXPECT_TRUE(
       intersect(LimitMap(find_scheme("loop").value(), nothing), nothing.positions, {{{0, 0, 0}, {0, 0, 1}}}).t.empty());

@@ -9,18 +9,18 @@
 #include <vector>
 
 #include "sublimit/cad/limit_quads.h"
-#include "sublimit/limit/limit_cells.h"
+#include "sublimit/limit/detail/limit_cells.h"
 #include "sublimit/limit/limit_integrals.h"
 #include "sublimit/limit/limit_map.h"
-#include "sublimit/schemes.h"
+#include "sublimit/schemes/schemes.h"
 #include "sublimit/search/closest_point.h"
 #include "sublimit/search/intersect.h"
-#include "sublimit/search/winding.h"
-#include "sublimit/tessellation/bezier_cells.h"
+#include "sublimit/search/detail/winding.h"
+#include "sublimit/tessellation/detail/bezier_cells.h"
 #include "sublimit/tessellation/tessellate.h"
 #include "support/expect_error.h"
 #include "support/meshes.h"
-#include "sublimit/search/searched_surface.h"
+#include "sublimit/search/detail/searched_surface.h"
 
 namespace sublimit::testing {
 namespace {
@@ -29,7 +29,7 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std:
 
 class ControlPoints : public ::testing::TestWithParam<const char*> {
  protected:
-  const ControlMesh mesh_ = GetParam() == std::string("loop") ? octahedron() : cube();
+  const Mesh mesh_ = GetParam() == std::string("loop") ? octahedron() : cube();
   const LimitMap surface_{*find_scheme(GetParam()), mesh_};
 
   Points with(double x) const {
@@ -83,7 +83,7 @@ INSTANTIATE_TEST_SUITE_P(Schemes, ControlPoints, ::testing::Values("catmull-clar
                          });
 
 TEST(Queries, AreFinite) {
-  const ControlMesh mesh = cube();
+  const Mesh mesh = cube();
   const LimitMap surface(*find_scheme("catmull-clark"), mesh);
   Points queries = Points::Zero(3, 3);
   for (const double x : {nan, infinity, 1e200}) {

@@ -9,7 +9,7 @@ namespace sublimit::testing {
 namespace {
 
 TEST_P(RayLaws, HoldOnClosedMeshes) {
-  ControlMesh creased = jittered(cube());
+  Mesh creased = jittered(cube());
   add_crease(creased, {0, 1, 3}, {10, 1.5f});
   look_at_mesh(jittered(cube()), "cube");
   look_at_mesh(creased, "creased cube");

@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 // Nearest points and rays of patches: against spheres, tori and cylinders as equations, and against limit surfaces that
 // are the same B-splines.
-#include "sublimit/search/searched_patches.h"
+#include "sublimit/search/detail/searched_patches.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
-#include "sublimit/patches/basis_surface.h"
+#include "sublimit/patches/detail/basis_surface.h"
 #include "sublimit/patches/constructions/revolution.h"
 #include "sublimit/patches/constructions/ruled.h"
 #include "sublimit/patches/constructions/screw_surface.h"
 #include "sublimit/patches/constructions/triangle_patch.h"
-#include "sublimit/patches/cut_patch.h"
-#include "sublimit/schemes.h"
+#include "sublimit/patches/detail/cut_patch.h"
+#include "sublimit/schemes/schemes.h"
 #include "sublimit/search/closest_point.h"
 #include "sublimit/search/intersect.h"
-#include "sublimit/search/winding.h"
+#include "sublimit/search/detail/winding.h"
 #include "support/construction_data.h"
 #include "support/expect_error.h"
 #include "support/tolerance.h"
@@ -163,7 +163,7 @@ TEST(SearchedPatches, RaysThroughTheApexOfAConeHitIt) {
 /// A closed uniform bicubic B-spline, and the limit of catmull-clark over its net.
 struct SameSurface {
   Searched patches;
-  ControlMesh mesh;
+  Mesh mesh;
 };
 SameSurface bicubic_torus() {
   const Knots<double> u = Knots<double>::closed(3, {0, 1, 2, 3, 4, 5}), v = Knots<double>::closed(3, {0, 1, 2, 3, 4});

@@ -3,10 +3,10 @@
 // quads of the split that only Kobbelt's option quads=edges uses.
 #include <gtest/gtest.h>
 
-#include "sublimit/core/sparse_product.h"
-#include "sublimit/scheme/prepare.h"
+#include "sublimit/core/detail/sparse_product.h"
+#include "sublimit/scheme/detail/prepare.h"
 #include "sublimit/scheme/refine.h"
-#include "sublimit/schemes.h"
+#include "sublimit/schemes/schemes.h"
 #include "support/broken_topology.h"
 #include "support/meshes.h"
 #include "support/tolerance.h"
@@ -14,22 +14,22 @@
 namespace sublimit::testing {
 namespace {
 
-const std::vector<ControlMesh>& meshes() {
-  static const std::vector<ControlMesh> all{cube(),
-                                            prism(5),
-                                            torus(4, 5),
-                                            pole(5),
-                                            grid(3, 4),
-                                            fan(5, 4, 2),
-                                            open_fan(1),
-                                            open_fan(3, 4, 2),
-                                            octahedron(),
-                                            icosahedron(),
-                                            triangle_grid(3, 3),
-                                            fan(7, 3, 2),
-                                            open_fan(4, 3, 2),
-                                            polygon_ring({3, 5, 4, 6}),
-                                            triangle_torus(4, 5)};
+const std::vector<Mesh>& meshes() {
+  static const std::vector<Mesh> all{cube(),
+                                     prism(5),
+                                     torus(4, 5),
+                                     pole(5),
+                                     grid(3, 4),
+                                     fan(5, 4, 2),
+                                     open_fan(1),
+                                     open_fan(3, 4, 2),
+                                     octahedron(),
+                                     icosahedron(),
+                                     triangle_grid(3, 3),
+                                     fan(7, 3, 2),
+                                     open_fan(4, 3, 2),
+                                     polygon_ring({3, 5, 4, 6}),
+                                     triangle_torus(4, 5)};
   return all;
 }
 
@@ -39,7 +39,7 @@ bool on_border(const Topology& t, Index v) {
 }
 
 TEST(Splits, MakeTheCountsOfTheirKind) {
-  for (const ControlMesh& mesh : meshes()) {
+  for (const Mesh& mesh : meshes()) {
     const Topology t{view(mesh)};
     const Index V = t.num_vertices(), E = t.num_edges(), F = t.num_faces(), H = t.num_half_edges(), B = 2 * E - H;
     Index tips = 0, cut = 0;  // border vertices of a single face; faces with a single border edge
@@ -83,7 +83,7 @@ TEST(Splits, MakeTheCountsOfTheirKind) {
 // New vertices on edges are regular, so extraordinary vertices come apart and get no more. On the border that is
 // valence 3 among quads and 4 among triangles; only old vertices have others, as corners of a single face have 2.
 TEST(Splits, VerticesOnEdgesAreRegular) {
-  for (const ControlMesh& mesh : meshes()) {
+  for (const Mesh& mesh : meshes()) {
     const Topology t{view(mesh)};
     for (const Split split : {Split::pqq, Split::ptq}) {
       if (split == Split::ptq && t.uniform_face_size() != 3) continue;
@@ -101,7 +101,7 @@ TEST(Splits, VerticesOnEdgesAreRegular) {
 
 // So that sums around vertices have the same bits whether a level is refined or written, read and refined.
 TEST(Splits, PrimalFansStartWhereThoseOfTheSameFacesReadAgainDo) {
-  for (const ControlMesh& mesh : meshes())
+  for (const Mesh& mesh : meshes())
     for (const Split split : {Split::pqq, Split::ptq}) {
       Topology t{view(mesh)};
       if (split == Split::ptq && t.uniform_face_size() != 3) continue;
@@ -121,7 +121,7 @@ TEST(Splits, PrimalFansStartWhereThoseOfTheSameFacesReadAgainDo) {
 // A quad for each edge (a, b): a, the right face's point, b, the left face's; a border has its midpoint for the face
 // that is missing.
 TEST(Splits, QuadsStandOnEdges) {
-  for (const ControlMesh& mesh : meshes()) {
+  for (const Mesh& mesh : meshes()) {
     const Topology t{view(mesh)};
     const Refinement r = refine(t, Split::quads);
     EXPECT_EQ(r.topology.uniform_face_size(), 4);
@@ -147,7 +147,7 @@ TEST(Splits, QuadsStandOnEdges) {
 // Kobbelt's preparation by this split: vertices stay, faces get their centroids, border edges their midpoints.
 TEST(Splits, KobbeltCutsByEdgesAtCentroidsAndMidpoints) {
   const Scheme<double> scheme = *find_scheme("kobbelt", {{"quads", "edges"}});
-  const ControlMesh mesh = jittered(polygon_ring({3, 5, 4, 6}));
+  const Mesh mesh = jittered(polygon_ring({3, 5, 4, 6}));
   const Level level = refine(scheme, mesh, 1)[1];
   ASSERT_EQ(level.steps.size(), 2u);
   EXPECT_EQ(level.steps[0].split, Split::quads);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sublimit/tessellation/bezier_cells.h"
+#include "sublimit/tessellation/detail/bezier_cells.h"
 
 #include <gtest/gtest.h>
 
 #include "sublimit/base/error.h"
-#include "sublimit/limit/net_derivatives.h"
-#include "sublimit/schemes.h"
+#include "sublimit/limit/detail/net_derivatives.h"
+#include "sublimit/schemes/schemes.h"
 #include "support/meshes.h"
 #include "support/tolerance.h"
 
@@ -16,12 +16,12 @@ using testing::other_route;
 
 struct Job {
   const char* scheme;
-  ControlMesh mesh;
+  Mesh mesh;
   int degree;  ///< of exact cells
 };
 
 std::vector<Job> jobs() {
-  ControlMesh creased = testing::jittered(testing::cube());
+  Mesh creased = testing::jittered(testing::cube());
   testing::add_crease(creased, {0, 1, 3}, 1.5);
   return {{"catmull-clark", testing::jittered(testing::torus(7, 5)), 3},
           {"catmull-clark", testing::jittered(testing::prism(5)), 3},
@@ -45,7 +45,7 @@ TEST(BezierCells, AreTheLimitInside) {
     const BezierCells made = bezier_cells(surface, job.mesh.positions, chord);
     EXPECT_LE(made.bound, chord);
     EXPECT_GT(made.exact, 0);
-    std::vector<Sample> at;
+    std::vector<Place> at;
     std::vector<Eigen::RowVector3d> own;
     std::vector<bool> exact;
     for (const BezierCell& cell : made.cells) {
@@ -85,7 +85,7 @@ TEST(BezierCells, CoverEveryFaceOnce) {
 }
 
 TEST(BezierCells, AreOneAFaceWhereAllIsRegular) {
-  const ControlMesh torus = testing::torus(8, 6);
+  const Mesh torus = testing::torus(8, 6);
   const LimitMap surface(find_scheme("catmull-clark").value(), torus);
   const BezierCells made = bezier_cells(surface, torus.positions, 1e-9);
   EXPECT_EQ(made.cells.size(), 48u);
@@ -94,11 +94,11 @@ TEST(BezierCells, AreOneAFaceWhereAllIsRegular) {
 }
 
 TEST(BezierCells, RefuseInClearWords) {
-  const ControlMesh cube = testing::cube();
+  const Mesh cube = testing::cube();
   const LimitMap surface(find_scheme("catmull-clark").value(), cube);
   EXPECT_THROW(bezier_cells(surface, cube.positions, 0), InvalidParameter);
   EXPECT_THROW(bezier_cells(surface, cube.positions, 1e-6, 100), ResourceError);
-  const ControlMesh triangles = testing::icosahedron();
+  const Mesh triangles = testing::icosahedron();
   const LimitMap butterfly(find_scheme("modified-butterfly").value(), triangles);
   EXPECT_THROW(bezier_cells(butterfly, triangles.positions, 0.1), UnsupportedTopology);
 }

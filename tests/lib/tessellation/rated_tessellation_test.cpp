@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sublimit/tessellation/rated_tessellation.h"
+#include "sublimit/tessellation/detail/rated_tessellation.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <set>
 
 #include "sublimit/base/error.h"
-#include "sublimit/schemes.h"
+#include "sublimit/schemes/schemes.h"
 #include "support/meshes.h"
 #include "support/tolerance.h"
 
@@ -17,7 +17,7 @@ namespace {
 
 struct Shape {
   const char* scheme;
-  ControlMesh mesh;
+  Mesh mesh;
 };
 
 std::vector<Shape> closed_shapes() {
@@ -68,26 +68,25 @@ TEST(RatedTessellation, IsClosedForAnyRates) {
 
 TEST(RatedTessellation, HasAsManySegmentsAsAsked) {
   // A square of rates 3, 5, 2, 1; a pentagon whose odd rates become even.
-  const ControlMesh square = testing::grid(1, 1);
+  const Mesh square = testing::grid(1, 1);
   const LimitMap surface(find_scheme("catmull-clark").value(), square);
   std::vector<Index> rates{3, 5, 2, 1};
   const Tessellation made = tessellate_by_rates(surface, square.positions, rates);
   std::array<int, 4> on{};
-  for (const Sample& s : made.places) {
+  for (const Place& s : made.places) {
     on[0] += s.v == 0, on[1] += s.u == 1, on[2] += s.v == 1, on[3] += s.u == 0;
   }
   EXPECT_EQ(on, (std::array<int, 4>{4, 6, 3, 2}));
-  const ControlMesh pentagon =
-      testing::make_mesh({{0, 0, 0}, {2, 0, 0}, {3, 1, 0}, {1, 2, 0}, {-1, 1, 0}}, {{0, 1, 2, 3, 4}});
+  const Mesh pentagon = testing::make_mesh({{0, 0, 0}, {2, 0, 0}, {3, 1, 0}, {1, 2, 0}, {-1, 1, 0}}, {{0, 1, 2, 3, 4}});
   const LimitMap polygon(find_scheme("catmull-clark").value(), pentagon);
   rates = {1, 2, 3, 4, 5};
   int border = 0;
-  for (const Sample& s : tessellate_by_rates(polygon, pentagon.positions, rates).places) border += s.u == 0 || s.v == 0;
+  for (const Place& s : tessellate_by_rates(polygon, pentagon.positions, rates).places) border += s.u == 0 || s.v == 0;
   EXPECT_EQ(border, 2 + 2 + 4 + 4 + 6);
 }
 
 TEST(RatedTessellation, RefusesInClearWords) {
-  const ControlMesh cube = testing::cube();
+  const Mesh cube = testing::cube();
   const LimitMap surface(find_scheme("catmull-clark").value(), cube);
   std::vector<Index> rates(12, 1);
   EXPECT_EQ(tessellate_by_rates(surface, cube.positions, rates).triangles.size(), 12u);

@@ -12,8 +12,8 @@
 
 #include "sublimit/base/error.h"
 #include "sublimit/limit/limit_integrals.h"
-#include "sublimit/schemes.h"
-#include "sublimit/tessellation/edge_rates.h"
+#include "sublimit/schemes/schemes.h"
+#include "sublimit/tessellation/detail/edge_rates.h"
 #include "support/meshes.h"
 #include "support/tolerance.h"
 
@@ -22,18 +22,18 @@ namespace {
 
 using testing::NamedMesh, testing::other_route, testing::rounding;
 
-double diagonal(const ControlMesh& mesh) { return testing::diagonal(mesh.positions); }
+double diagonal(const Mesh& mesh) { return testing::diagonal(mesh.positions); }
 
 /// How far triangles are from the limit, at the same parameters, on a grid in each.
 double largest_distance(const Tessellation& t, const LimitMap& surface, const Points& control) {
   constexpr int steps = 4;
-  std::vector<Sample> at;
+  std::vector<Place> at;
   std::vector<Eigen::RowVector3d> flat;
   for (const Tessellation::Triangle& triangle : t.triangles)
     for (int i = 0; i <= steps; ++i)
       for (int j = 0; i + j <= steps; ++j) {
         const std::array<double, 3> w{1 - double(i + j) / steps, double(i) / steps, double(j) / steps};
-        Sample s{triangle.face, 0, 0};
+        Place s{triangle.face, 0, 0};
         Eigen::RowVector3d x = Eigen::RowVector3d::Zero();
         for (size_t k = 0; k < 3; ++k) {
           s.u += w[k] * triangle.uv[k][0];
@@ -80,7 +80,7 @@ struct Edges {
 
 std::vector<NamedMesh> closed_meshes() {
   std::vector<NamedMesh> all;
-  const auto add = [&](const char* name, std::vector<std::string> schemes, ControlMesh mesh) {
+  const auto add = [&](const char* name, std::vector<std::string> schemes, Mesh mesh) {
     all.push_back({name, std::move(schemes), testing::jittered(std::move(mesh))});
   };
   add("cube", {"catmull-clark", "bilinear", "doo-sabin", "averaging"}, testing::cube());
@@ -89,7 +89,7 @@ std::vector<NamedMesh> closed_meshes() {
   add("tetrahedron", {"catmull-clark", "loop"}, testing::tetrahedron());
   add("icosahedron", {"loop", "loop-warren"}, testing::icosahedron());
   add("triangle_torus", {"loop"}, testing::triangle_torus(6, 5));
-  ControlMesh creased = testing::cube();
+  Mesh creased = testing::cube();
   testing::add_crease(creased, {0, 1, 3}, 10);
   testing::add_crease(creased, {4, 5, 7, 6, 4}, 1.5);
   add("creased", {"catmull-clark", "bilinear"}, creased);
@@ -151,7 +151,7 @@ TEST(Tessellate, CutsEdgesAsOftenAsTheirRatesAtLeast) {
         }
       }
     }
-  const ControlMesh cube = testing::cube();
+  const Mesh cube = testing::cube();
   const LimitMap flat(find_scheme("bilinear").value(), cube);
   EXPECT_EQ(tessellate(flat, cube.positions, {.chord = 1, .rates = std::vector<Index>(12, 1)}).triangles.size(), 12u);
   EXPECT_EQ(tessellate(flat, cube.positions, {.chord = 1, .rates = std::vector<Index>(12, 3)}).triangles.size(),
@@ -162,7 +162,7 @@ TEST(Tessellate, CutsEdgesAsOftenAsTheirRatesAtLeast) {
 
 // What lies between triangles and the limit has at most the area times the distance.
 TEST(Tessellate, HasTheVolumeOfTheLimit) {
-  const ControlMesh mesh = testing::jittered(testing::cube());
+  const Mesh mesh = testing::jittered(testing::cube());
   const LimitMap surface(find_scheme("catmull-clark").value(), mesh);
   const LimitIntegrals exact = limit_integrals(surface, mesh.positions);
   for (const double chord : {1e-2, 1e-3}) {
@@ -177,7 +177,7 @@ TEST(Tessellate, HasTheVolumeOfTheLimit) {
 }
 
 TEST(Tessellate, OpensAtBordersAndHolesAlone) {
-  ControlMesh grid = testing::grid(4, 3);
+  Mesh grid = testing::grid(4, 3);
   const LimitMap surface(find_scheme("catmull-clark").value(), grid);
   const Tessellation t = tessellate(surface, grid.positions, {.chord = 1e-3});
   const Edges edges(t);
@@ -187,7 +187,7 @@ TEST(Tessellate, OpensAtBordersAndHolesAlone) {
     if (edges.directed.contains({edge.second, edge.first})) continue;
     // Both ends are on the border of their faces: u or v is 0 or 1.
     for (const Index v : {edge.first, edge.second}) {
-      const Sample& s = t.places[size_t(v)];
+      const Place& s = t.places[size_t(v)];
       EXPECT_TRUE(s.u == 0 || s.u == 1 || s.v == 0 || s.v == 1);
     }
   }
@@ -200,7 +200,7 @@ TEST(Tessellate, OpensAtBordersAndHolesAlone) {
 
 TEST(Tessellate, SharesPointsOfNonManifoldEdges) {
   // Three squares at an edge.
-  const ControlMesh book = testing::make_mesh(
+  const Mesh book = testing::make_mesh(
       {{0, 0, 0}, {0, 1, 0}, {1, 0, 0.2}, {1, 1, 0}, {-1, 0, 1}, {-1, 1, 0.5}, {-1, 0, -1}, {-1, 1, -1}},
       {{0, 2, 3, 1}, {1, 5, 4, 0}, {0, 6, 7, 1}});
   const LimitMap surface(find_scheme("catmull-clark").value(), book);
@@ -212,7 +212,7 @@ TEST(Tessellate, SharesPointsOfNonManifoldEdges) {
 }
 
 TEST(Tessellate, TakesTwoTrianglesForAPlaneFace) {
-  const ControlMesh cube = testing::cube();
+  const Mesh cube = testing::cube();
   const LimitMap surface(find_scheme("bilinear").value(), cube);
   const Tessellation t = tessellate(surface, cube.positions, {.chord = 1e-9});
   EXPECT_EQ(t.triangles.size(), 12u);
@@ -223,7 +223,7 @@ TEST(Tessellate, TakesTwoTrianglesForAPlaneFace) {
 TEST(Tessellate, HalvesTheDistanceForTwiceTheTriangles) {
   // Of a smooth surface the distance goes with the square of a cell's size: 16 times the triangles for 1/16, but for
   // steps of four and what extraordinary vertices add.
-  const ControlMesh torus = testing::torus(12, 9);
+  const Mesh torus = testing::torus(12, 9);
   const LimitMap surface(find_scheme("catmull-clark").value(), torus);
   const auto count = [&](double chord) {
     return double(tessellate(surface, torus.positions, {.chord = chord}).triangles.size());
@@ -233,12 +233,12 @@ TEST(Tessellate, HalvesTheDistanceForTwiceTheTriangles) {
 }
 
 TEST(Tessellate, KeepsNormalsOfACellTogether) {
-  const ControlMesh torus = testing::torus(6, 5);
+  const Mesh torus = testing::torus(6, 5);
   const LimitMap surface(find_scheme("catmull-clark").value(), torus);
   const double angle = 10 * std::numbers::pi / 180;
   const Tessellation t = tessellate(surface, torus.positions, {.chord = 10, .angle = angle});
   EXPECT_GT(t.triangles.size(), 60u);
-  std::vector<Sample> at;
+  std::vector<Place> at;
   for (const Tessellation::Triangle& triangle : t.triangles)
     for (const auto& [u, v] : triangle.uv) at.push_back({triangle.face, u, v});
   const Points normals = surface.evaluate(torus.positions, at, 1).normal;
@@ -248,7 +248,7 @@ TEST(Tessellate, KeepsNormalsOfACellTogether) {
 }
 
 TEST(Tessellate, TakesAsManyTrianglesFarFromTheOrigin) {
-  const ControlMesh near = testing::jittered(testing::prism(5));
+  const Mesh near = testing::jittered(testing::prism(5));
   const LimitMap surface(find_scheme("catmull-clark").value(), near);
   const TessellationOptions options{.chord = 1e-3 * diagonal(near)};
   Points far = near.positions;
@@ -259,7 +259,7 @@ TEST(Tessellate, TakesAsManyTrianglesFarFromTheOrigin) {
 }
 
 TEST(Tessellate, HasTheSameBitsForAnyNumberOfThreads) {
-  const ControlMesh mesh = testing::quads_from_triangles(testing::triangle_torus(8, 6));
+  const Mesh mesh = testing::quads_from_triangles(testing::triangle_torus(8, 6));
   const LimitMap surface(find_scheme("catmull-clark").value(), mesh);
   const Tessellation a = tessellate(surface, mesh.positions, {.chord = 1e-3});
   tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
@@ -270,20 +270,20 @@ TEST(Tessellate, HasTheSameBitsForAnyNumberOfThreads) {
 }
 
 TEST(Tessellate, RefusesInClearWords) {
-  const ControlMesh cube = testing::cube();
+  const Mesh cube = testing::cube();
   const LimitMap surface(find_scheme("catmull-clark").value(), cube);
   for (const double chord : {0.0, -1.0, std::nan(""), HUGE_VAL})
     EXPECT_THROW(tessellate(surface, cube.positions, {.chord = chord}), InvalidParameter);
   EXPECT_THROW(tessellate(surface, cube.positions, {.chord = 1, .angle = -1}), InvalidParameter);
   EXPECT_THROW(tessellate(surface, Points::Zero(3, 3), {.chord = 1}), InvalidParameter);
   EXPECT_THROW(tessellate(surface, cube.positions, {.chord = 1e-6, .max_triangles = 1000}), ResourceError);
-  const ControlMesh triangles = testing::icosahedron();
+  const Mesh triangles = testing::icosahedron();
   const LimitMap butterfly(find_scheme("modified-butterfly").value(), triangles);
   EXPECT_THROW(tessellate(butterfly, triangles.positions, {.chord = 0.1}), UnsupportedTopology);
   // Polynomials, but hulls with negative weights around them.
   const LimitMap habib_warren(find_scheme("mid-edge-habib-warren").value(), cube);
   EXPECT_THROW(tessellate(habib_warren, cube.positions, {.chord = 0.1}), UnsupportedTopology);
-  ControlMesh nothing;
+  Mesh nothing;
   nothing.positions = Points::Zero(0, 3);
   EXPECT_TRUE(tessellate(LimitMap(find_scheme("catmull-clark").value(), nothing), nothing.positions, {.chord = 1})
                   .triangles.empty());

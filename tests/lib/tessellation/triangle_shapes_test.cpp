@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sublimit/tessellation/triangle_shapes.h"
+#include "sublimit/tessellation/detail/triangle_shapes.h"
 
 #include <gtest/gtest.h>
 

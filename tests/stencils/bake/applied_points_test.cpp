@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // Addresses of points are where they are: the limit there is the point. Normals are those of the limit.
-#include "sublimit/bake/applied_points.h"
+#include "sublimit/stencils/bake/detail/applied_points.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
-#include "sublimit/bake/bake.h"
+#include "sublimit/stencils/bake/detail/bake.h"
 #include "sublimit/base/format_number.h"
-#include "sublimit/base/read_file.h"
+#include "sublimit/base/detail/read_file.h"
 #include "sublimit/limit/limit_map.h"
-#include "sublimit/point_addresses.h"
-#include "sublimit/schemes.h"
+#include "sublimit/eval/detail/point_addresses.h"
+#include "sublimit/schemes/schemes.h"
 #include "support/meshes.h"
 #include "support/random_doubles.h"
 #include "support/temporary_directory.h"
@@ -20,7 +20,7 @@ namespace sublimit::testing {
 namespace {
 
 /// A limit table of a mesh, and what the surface says at its addresses.
-void expect_at_addresses(const std::string& name, const ControlMesh& mesh, const BakeRequest& request) {
+void expect_at_addresses(const std::string& name, const Mesh& mesh, const BakeRequest& request) {
   SCOPED_TRACE(name + ", rows " + sublimit::name(request.rows));
   Patterns patterns(find_scheme(name).value());
   const BakedTable<double> table = bake(patterns, mesh, request).table;
@@ -30,7 +30,7 @@ void expect_at_addresses(const std::string& name, const ControlMesh& mesh, const
   const SampleAddresses at = addresses_of(table);
   ASSERT_EQ(at.faces.size(), n);
   const LimitMap surface(patterns.scheme(), mesh);
-  std::vector<Sample> samples;
+  std::vector<Place> samples;
   for (size_t i = 0; i < n; ++i) samples.push_back({at.faces[i], at.parameters[2 * i], at.parameters[2 * i + 1]});
   const LimitSamples found = surface.evaluate(mesh.positions, samples, std::max(request.derivatives, 1));
   const Points normals = AppliedPoints(table).normals<double>(values);
@@ -49,7 +49,7 @@ void expect_at_addresses(const std::string& name, const ControlMesh& mesh, const
 }
 
 TEST(AppliedPoints, AddressesAndNormalsAreThoseOfTheLimit) {
-  ControlMesh creased = jittered(cube());
+  Mesh creased = jittered(cube());
   creased.creases = {{0, 1, 10}, {1, 3, 10}, {3, 2, 10}, {2, 0, 10}};
   const BakeRequest level{.rows = TableRows::limit, .level = 2},
       grid{.rows = TableRows::grid, .grid = 4, .derivatives = 1},

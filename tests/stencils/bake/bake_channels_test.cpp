@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tables with texture coordinates and tags are the refined mesh, in another order of points and faces.
-#include "sublimit/bake/bake_channels.h"
+#include "sublimit/stencils/bake/detail/bake_channels.h"
 
 #include <gtest/gtest.h>
 
-#include "sublimit/bake/applied_points.h"
-#include "sublimit/bake/table_mesh.h"
-#include "sublimit/check_table.h"
-#include "sublimit/core/sparse_product.h"
-#include "sublimit/files/refined_mesh.h"
-#include "sublimit/io/obj.h"
-#include "sublimit/limit/limit_points.h"
+#include "sublimit/stencils/bake/detail/applied_points.h"
+#include "sublimit/stencils/bake/detail/table_mesh.h"
+#include "sublimit/eval/detail/check_table.h"
+#include "sublimit/core/detail/sparse_product.h"
+#include "sublimit/stencils/files/level_files.h"
+#include "sublimit/io/detail/obj.h"
+#include "sublimit/limit/detail/limit_points.h"
 #include "support/expect_error.h"
 #include "support/face_varying_meshes.h"
 #include "support/same_mesh.h"
@@ -21,23 +21,22 @@ namespace sublimit::testing {
 namespace {
 
 /// What `apply` writes, read back.
-ControlMesh applied(const BakedTable<double>& table, const ControlMesh& mesh) {
+Mesh applied(const BakedTable<double>& table, const Mesh& mesh) {
   std::vector<double> values(size_t(table.table.quantities() * table.table.num_points()) * 3);
   table.table.apply({mesh.positions.data(), size_t(mesh.positions.size())}, 3, values);
-  MeshOutput out = AppliedPoints(table).mesh(faces_of(table), std::span<const double>(values));
+  Mesh out = AppliedPoints(table).mesh(faces_of(table), std::span<const double>(values));
   add_channels(out, table);
   return parse_obj(format_obj(out), "applied");
 }
 
 /// What `refine` writes, read back.
-ControlMesh refined(const Scheme<double>& scheme, const ControlMesh& mesh, int levels,
-                    const SubdivisionOptions& options = {}) {
+Mesh refined(const Scheme<double>& scheme, const Mesh& mesh, int levels, const SubdivisionOptions& options = {}) {
   const FaceVaryingInterpolation interpolation =
       mesh.face_varying_interpolation.value_or(FaceVaryingInterpolation::all);
   const std::vector<Level> all = refine(scheme, mesh, levels, options);
   Points points = mesh.positions;
   for (int k = 1; k <= levels; ++k) points = apply(all[k].S, points);
-  MeshOutput out = level_output(all.back(), points, mesh, options, true);
+  Mesh out = level_output(all.back(), points, mesh, options, true);
   if (!mesh.face_varying.empty()) {
     const auto channel = refine_face_varying(scheme, interpolation, mesh.face_varying[0], all);
     add_channel(out, channel.back(), "uv", refined_values(channel, mesh.face_varying[0].values));
@@ -51,7 +50,7 @@ BakeRequest request_of(int levels, BakeMethod method) {
 }
 
 /// Points of 2 and 3 levels: sums of up to 100 terms each, some in differences.
-double tolerance(const ControlMesh& mesh) { return rounding(40, mesh.positions.cwiseAbs().maxCoeff()); }
+double tolerance(const Mesh& mesh) { return rounding(40, mesh.positions.cwiseAbs().maxCoeff()); }
 
 class BakedChannels : public ::testing::TestWithParam<TestedScheme> {};
 
@@ -59,14 +58,14 @@ TEST_P(BakedChannels, AreThoseOfRefinement) {
   const Scheme<double> scheme = GetParam().scheme();
   Patterns patterns(scheme);
   int count = 0;
-  for (const ControlMesh& hard : hard_meshes(scheme, 4))
+  for (const Mesh& hard : hard_meshes(scheme, 4))
     for (const FaceVaryingInterpolation interpolation : all_interpolations) {
-      ControlMesh mesh = with_random_channel(hard, 0.2);
+      Mesh mesh = with_random_channel(hard, 0.2);
       mesh.face_varying_interpolation = interpolation;
       for (const BakeMethod method : {BakeMethod::automatic, BakeMethod::rows_then_patterns, BakeMethod::rows}) {
         SCOPED_TRACE(std::string(testing::name(interpolation)) + ", " + sublimit::name(method));
         const BakedTable<double> table = bake(patterns, mesh, request_of(2, method)).table;
-        const ControlMesh made = applied(table, mesh);
+        const Mesh made = applied(table, mesh);
         EXPECT_EQ(difference(made, refined(scheme, mesh, 2), tolerance(mesh)), "");
         // Refined values themselves, and refining goes on as if nothing had been written.
         EXPECT_EQ(difference(refined(scheme, made, 1), refined(scheme, mesh, 3), tolerance(mesh)), "");
@@ -85,8 +84,8 @@ std::vector<TestedScheme> schemes_of_channels() {
 
 INSTANTIATE_TEST_SUITE_P(Schemes, BakedChannels, ::testing::ValuesIn(schemes_of_channels()), test_name);
 
-ControlMesh crease_and_channel() {
-  ControlMesh mesh = with_random_channel(jittered(torus(6, 5)), 0.2);
+Mesh crease_and_channel() {
+  Mesh mesh = with_random_channel(jittered(torus(6, 5)), 0.2);
   mesh.creases = {{0, 1, 2.5f}, {1, 2, 10}};
   mesh.corners = {{7, 1.5f}};
   return mesh;
@@ -95,13 +94,13 @@ ControlMesh crease_and_channel() {
 TEST(BakedChannel, LeavesOutFacesOfHoles) {
   Patterns patterns(find_scheme("catmull-clark").value());
   for (const BakeMethod method : {BakeMethod::patterns, BakeMethod::rows}) {
-    ControlMesh mesh = crease_and_channel();
+    Mesh mesh = crease_and_channel();
     mesh.face_varying_interpolation = FaceVaryingInterpolation::none;
     // Between two holes there is nothing to tag.
     const Topology t(view(mesh));
     const HalfEdge between = t.first(Face{3});
     mesh.creases.push_back({index(t.tail(between)), index(t.head(between)), 10});
-    ControlMesh right = refined(patterns.scheme(), mesh, 1);
+    Mesh right = refined(patterns.scheme(), mesh, 1);
     mesh.holes = {3, index(t.face(t.twin(between)))};
     const BakedTable<double> table = bake(patterns, mesh, request_of(1, method)).table;
     EXPECT_EQ(num_corners(table), 28 * 4 * 4);
@@ -122,9 +121,9 @@ TEST(BakedChannel, LeavesOutFacesOfHoles) {
     right.face_vertices = vertices;
     right.face_varying[0].indices = indices;
     check_table(table);
-    const ControlMesh made = applied(table, mesh);
+    const Mesh made = applied(table, mesh);
     EXPECT_LT(made.creases.size(), right.creases.size());
-    std::erase_if(right.creases, [&](const ControlMesh::Crease& c) {
+    std::erase_if(right.creases, [&](const Mesh::Crease& c) {
       for (size_t i = 0; i < vertices.size(); ++i) {
         const Index a = vertices[i], b = vertices[i - i % 4 + (i + 1) % 4];
         if ((a == c.tail && b == c.head) || (a == c.head && b == c.tail)) return false;
@@ -138,19 +137,18 @@ TEST(BakedChannel, LeavesOutFacesOfHoles) {
 TEST(BakedChannel, OfTheLimitIsAtItsLimit) {
   const Scheme<double> scheme = find_scheme("catmull-clark").value();
   Patterns patterns(scheme);
-  const ControlMesh mesh = with_random_channel(jittered(cube()), 0.3);
+  const Mesh mesh = with_random_channel(jittered(cube()), 0.3);
   for (const int levels : {0, 2})
     for (const BakeMethod method : {BakeMethod::patterns, BakeMethod::rows}) {
       BakeRequest request = request_of(levels, method);
       request.rows = TableRows::limit;
       request.face_varying_interpolation = FaceVaryingInterpolation::boundaries;
-      const ControlMesh made = applied(bake(patterns, mesh, request).table, mesh);
+      const Mesh made = applied(bake(patterns, mesh, request).table, mesh);
       const std::vector<Level> all = refine(scheme, mesh, levels);
-      LimitTypes cache(scheme);
+      LimitCache cache(scheme);
       Points points = mesh.positions;
       for (int k = 1; k <= levels; ++k) points = apply(all[k].S, points);
-      MeshOutput out =
-          level_output(all.back(), apply(limit_matrices(all.back(), cache).position, points), mesh, {}, true);
+      Mesh out = level_output(all.back(), apply(limit_matrices(all.back(), cache).position, points), mesh, {}, true);
       const auto channel = refine_face_varying(scheme, FaceVaryingInterpolation::boundaries, mesh.face_varying[0], all);
       add_channel(out, channel.back(), "uv",
                   apply(limit_matrices(channel.back().level, cache).position,
@@ -161,7 +159,7 @@ TEST(BakedChannel, OfTheLimitIsAtItsLimit) {
 
 TEST(BakedChannel, ComesOnlyWhenAsked) {
   Patterns patterns(find_scheme("catmull-clark").value());
-  const ControlMesh mesh = crease_and_channel();
+  const Mesh mesh = crease_and_channel();
   const BakedTable<double> plain = bake(patterns, mesh, {.level = 1}).table;
   EXPECT_TRUE(plain.channels.list.empty());
   EXPECT_FALSE(plain.tags.has_value());
@@ -195,7 +193,7 @@ TEST(BakedChannel, IsOfLevelsAlone) {
 
 TEST(BakedChannel, IsPlanned) {
   Patterns patterns(find_scheme("catmull-clark").value());
-  const ControlMesh mesh = with_random_channel(torus(20, 20), 0.1);
+  const Mesh mesh = with_random_channel(torus(20, 20), 0.1);
   const BakeRequest request = request_of(3, BakeMethod::automatic);
   const BakePlan plain = bake_plan(patterns, mesh, {.level = 3}), with = bake_plan(patterns, mesh, request);
   const BakeStatistics made = bake(patterns, mesh, request).statistics;

@@ -8,11 +8,11 @@
 #include <map>
 #include <random>
 
-#include "sublimit/bake/bake.h"
-#include "sublimit/limit/limit_masks.h"
-#include "sublimit/limit/limit_points.h"
+#include "sublimit/stencils/bake/detail/bake.h"
+#include "sublimit/limit/detail/limit_masks.h"
+#include "sublimit/limit/detail/limit_points.h"
 #include "sublimit/limit/limit_map.h"
-#include "sublimit/scheme/prepare.h"
+#include "sublimit/scheme/detail/prepare.h"
 #include "support/expect_error.h"
 #include "support/shared_meshes.h"
 #include "support/tested_schemes.h"
@@ -65,7 +65,7 @@ double off_plane(const std::map<Index, double>& t1, const std::map<Index, double
   return (own - other * C).norm() / own.norm();
 }
 
-void expect_the_limit(const Baked& baked, const LimitMap& surface, std::span<const Sample> samples, int derivatives,
+void expect_the_limit(const Baked& baked, const LimitMap& surface, std::span<const Place> samples, int derivatives,
                       bool copied) {
   const StencilTable<double> expanded = baked.table.table.expanded();
   const TableRowsOf rows{expanded, baked.table.table.num_points()};
@@ -93,8 +93,8 @@ void expect_the_limit(const Baked& baked, const LimitMap& surface, std::span<con
 }
 
 /// Types of wide supports are large: only the last mesh, which has most in it.
-std::vector<ControlMesh> few_hard_meshes(const Scheme<double>& scheme, unsigned seed) {
-  std::vector<ControlMesh> meshes = hard_meshes(scheme, seed);
+std::vector<Mesh> few_hard_meshes(const Scheme<double>& scheme, unsigned seed) {
+  std::vector<Mesh> meshes = hard_meshes(scheme, seed);
   if (!scheme.has_one_ring_limits()) meshes.erase(meshes.begin(), meshes.end() - 1);
   return meshes;
 }
@@ -108,7 +108,7 @@ TEST_P(BakedLimits, OfGridsAreTheSurface) {
   Patterns patterns(scheme_);
   // Thirds; but not on the third side of triangles, where they are rounded, and sqrt3's vertices are beside them.
   const int N = takes_triangles(scheme_) ? 5 : 4;
-  for (const ControlMesh& mesh : few_hard_meshes(scheme_, 4))
+  for (const Mesh& mesh : few_hard_meshes(scheme_, 4))
     for (const int derivatives : {0, 2}) {
       SCOPED_TRACE(std::to_string(derivatives) + " derivatives");
       BakeRequest request;
@@ -123,7 +123,7 @@ TEST_P(BakedLimits, OfGridsAreTheSurface) {
 
 TEST_P(BakedLimits, OfPlacesAreTheSurface) {
   Patterns patterns(scheme_);
-  for (const ControlMesh& mesh : few_hard_meshes(scheme_, 3)) {
+  for (const Mesh& mesh : few_hard_meshes(scheme_, 3)) {
     const LimitMap surface(scheme_, mesh, {}, patterns.types());
     BakeRequest request;
     request.rows = TableRows::samples;
@@ -147,7 +147,7 @@ TEST(BakedPlaces, StandAsTheyWereAskedFor) {
   for (const char* name : {"catmull-clark", "loop", "doo-sabin"}) {
     SCOPED_TRACE(name);
     const Scheme<double> scheme = find_scheme(name).value();
-    const ControlMesh mesh = hard_meshes(scheme, 5)[1];
+    const Mesh mesh = hard_meshes(scheme, 5)[1];
     Patterns patterns(scheme);
     const LimitMap surface(scheme, mesh, {}, patterns.types());
     BakeRequest request{.rows = TableRows::samples, .derivatives = 1, .method = BakeMethod::patterns};
@@ -172,7 +172,7 @@ TEST(BakedPlaces, StandAsTheyWereAskedFor) {
 TEST(BakedPlaces, AreBlocksWhereTheyComeAgain) {
   const Scheme<double> scheme = find_scheme("catmull-clark").value();
   Patterns patterns(scheme);
-  const ControlMesh mesh = torus(20, 20);
+  const Mesh mesh = torus(20, 20);
   BakeRequest again{.rows = TableRows::samples}, apart = again;
   std::mt19937 random(3);
   for (Index f = 0; f < mesh.num_faces(); ++f)
@@ -193,7 +193,7 @@ TEST(BakedPlaces, AreBlocksWhereTheyComeAgain) {
 TEST(BakedPlaces, OutsideTheirAddressesAreErrors) {
   Patterns patterns(find_scheme("catmull-clark").value());
   BakeRequest request{.rows = TableRows::samples, .samples = {{6, 0, 0}}};
-  expect_error<InvalidParameter>([&] { bake(patterns, cube(), request); }, {"face 6", "6 squares"});
+  expect_error<InvalidParameter>([&] { bake(patterns, cube(), request); }, {"face 6", "faces are 0 to 5"});
   request.samples = {{0, 0.5, 1.5}};
   expect_error<InvalidParameter>([&] { bake(patterns, cube(), request); }, {"outside the square"});
 }
@@ -201,7 +201,7 @@ TEST(BakedPlaces, OutsideTheirAddressesAreErrors) {
 /// By rows and by patterns the same points, in some order: images of random points agree when they are sorted.
 TEST_P(BakedLimits, OfLevelsAreThoseOfTheirVertices) {
   Patterns patterns(scheme_);
-  for (const ControlMesh& mesh : hard_meshes(scheme_, 3))
+  for (const Mesh& mesh : hard_meshes(scheme_, 3))
     for (int level = 0; level <= 2; ++level) {
       SCOPED_TRACE("level " + std::to_string(level));
       BakeRequest request;

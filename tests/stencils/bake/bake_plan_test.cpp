@@ -2,16 +2,16 @@
 // A plan counts what the bake makes, to the byte, of wide masks at most; tables by rows it estimates.
 #include <gtest/gtest.h>
 
-#include "sublimit/bake/bake.h"
+#include "sublimit/stencils/bake/detail/bake.h"
 #include "sublimit/base/error.h"
-#include "sublimit/schemes.h"
+#include "sublimit/schemes/schemes.h"
 #include "support/expect_error.h"
 #include "support/meshes.h"
 
 namespace sublimit::testing {
 namespace {
 
-void expect_counted(const std::string& name, const ControlMesh& mesh, const BakeRequest& request) {
+void expect_counted(const std::string& name, const Mesh& mesh, const BakeRequest& request) {
   SCOPED_TRACE(name + ", rows " + sublimit::name(request.rows) + ", level " + std::to_string(request.level));
   Patterns patterns(find_scheme(name).value()), fresh(find_scheme(name).value());
   const BakeStatistics planned = bake_plan(patterns, mesh, request).statistics;
@@ -32,23 +32,23 @@ void expect_counted(const std::string& name, const ControlMesh& mesh, const Bake
 }
 
 TEST(BakePlan, CountsTablesByPatterns) {
-  ControlMesh mixed = jittered(disjoint_union(prism(5), grid(4, 3)));
+  Mesh mixed = jittered(disjoint_union(prism(5), grid(4, 3)));
   mixed.creases = {{0, 1, 2}};
   mixed.holes = {1};
-  ControlMesh alone = torus(8, 6);
+  Mesh alone = torus(8, 6);
   alone.positions.conservativeResize(alone.positions.rows() + 2, 3);
   alone.positions.bottomRows(2).setZero();
-  for (const ControlMesh& mesh : {cube(), mixed, alone}) {
+  for (const Mesh& mesh : {cube(), mixed, alone}) {
     for (const int level : {2, 3}) expect_counted("catmull-clark", mesh, {.level = level});
     for (const int derivatives : {0, 1, 2})
       expect_counted("catmull-clark", mesh, {.rows = TableRows::limit, .level = 2, .derivatives = derivatives});
     expect_counted("catmull-clark", mesh, {.rows = TableRows::grid, .grid = 4, .derivatives = 1});
   }
-  for (const ControlMesh& mesh : {cube(), alone}) expect_counted("catmull-clark", mesh, {.level = 1});
+  for (const Mesh& mesh : {cube(), alone}) expect_counted("catmull-clark", mesh, {.level = 1});
   expect_counted("loop", icosahedron(), {.level = 3});
   expect_counted("butterfly", triangle_torus(6, 7), {.level = 2});
   expect_counted("sqrt3", icosahedron(), {.level = 4});
-  for (const ControlMesh& mesh : {cube(), jittered(grid(4, 3))}) {
+  for (const Mesh& mesh : {cube(), jittered(grid(4, 3))}) {
     expect_counted("doo-sabin", mesh, {.level = 3});
     expect_counted("mid-edge", mesh, {.rows = TableRows::limit, .level = 2});
     expect_counted("doo-sabin", mesh, {.rows = TableRows::grid, .grid = 5, .derivatives = 1});
@@ -57,7 +57,7 @@ TEST(BakePlan, CountsTablesByPatterns) {
 
 TEST(BakePlan, EstimatesTablesByRows) {
   Patterns patterns(find_scheme("sqrt3").value());
-  const ControlMesh mesh = triangle_torus(20, 20);
+  const Mesh mesh = triangle_torus(20, 20);
   for (const BakeRequest& request : {BakeRequest{.level = 3}, {.rows = TableRows::samples, .samples = {{}}}}) {
     const BakeStatistics planned = bake_plan(patterns, mesh, request).statistics,
                          made = bake(patterns, mesh, request).statistics;
@@ -70,7 +70,7 @@ TEST(BakePlan, EstimatesTablesByRows) {
 
 TEST(BakePlan, RefusesWhatIsOverALimit) {
   Patterns patterns(find_scheme("catmull-clark").value());
-  const ControlMesh mesh = torus(30, 30);
+  const Mesh mesh = torus(30, 30);
   const BakeRequest request{.level = 4};
   const double needed = bake_plan(patterns, mesh, request).memory;
   EXPECT_NO_THROW(bake_plan(patterns, mesh, request, {}, needed));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tables by patterns are P_k, row by row, and every point of level k is in them once.
-#include "sublimit/bake/bake.h"
+#include "sublimit/stencils/bake/detail/bake.h"
 
 #include <gtest/gtest.h>
 
@@ -13,11 +13,11 @@
 #include <set>
 
 #include "sublimit/io/read_mesh.h"
-#include "sublimit/kernels/apply_patches.h"
+#include "sublimit/eval/kernels/apply_patches.h"
 #include "sublimit/limit/address.h"
-#include "sublimit/limit/limit_masks.h"
-#include "sublimit/pattern_evaluator.h"
-#include "sublimit/scheme/prepare.h"
+#include "sublimit/limit/detail/limit_masks.h"
+#include "sublimit/eval/pattern_evaluator.h"
+#include "sublimit/scheme/detail/prepare.h"
 #include "support/expect_error.h"
 #include "support/shared_meshes.h"
 #include "support/tested_schemes.h"
@@ -59,7 +59,7 @@ void for_each_corner(const std::vector<Level>& levels, size_t from, size_t perio
   const std::vector<LevelStep> steps = steps_after(levels, from, period);
   for (const PieceChild& child : children(piece, levels[from].topology(), steps)) {
     const auto image = [&](double u, double v) {
-      const Place p = child.map(triangle ? triangle_place(u, v) : quad_place(u, v));
+      const PieceCoordinates p = child.map(triangle ? triangle_place(u, v) : quad_place(u, v));
       return Eigen::Vector2d(p.u, p.v);
     };
     Eigen::Matrix2d M;
@@ -80,7 +80,7 @@ std::map<std::array<Index, 3>, Index> vertices_by_place(const std::vector<Level>
   const Topology& t = levels[0].topology();
   const Addresses addresses(t, triangles);
   for (Index a = 0; a < addresses.size(); ++a) {
-    const Addresses::Place at = addresses.place(a);
+    const Addresses::FaceCorner at = addresses.place(a);
     const Piece piece = at.corner >= 0 ? Piece{Piece::Kind::cut, t.corner(at.face, at.corner)}
                                        : Piece{triangles ? Piece::Kind::triangle : Piece::Kind::quad, t.first(at.face)};
     for_each_corner(levels, 0, period, piece, {{0, 0}, {n, 0}, {0, n}}, [&](Vertex v, const Eigen::Vector2d& p) {
@@ -118,8 +118,7 @@ struct Difference {
   bool one_to_one = true;
 };
 
-Difference compare_with_refinement(const Baked& baked, const Scheme<double>& scheme, const ControlMesh& mesh,
-                                   int levels) {
+Difference compare_with_refinement(const Baked& baked, const Scheme<double>& scheme, const Mesh& mesh, int levels) {
   Difference d;
   const std::vector<Level> refined = refine(scheme, mesh, levels);
   const SparseMatrix P = refinement_matrix(refined);
@@ -172,7 +171,7 @@ std::vector<TestedScheme> pattern_schemes() {
 }
 
 /// By patterns, from level 0 or 1 on, even where types are shared so little that rows would be made sooner.
-Baked bake_level_by_patterns(Patterns& patterns, const ControlMesh& mesh, int levels) {
+Baked bake_level_by_patterns(Patterns& patterns, const Mesh& mesh, int levels) {
   BakeRequest request{.level = levels, .method = BakeMethod::patterns};
   try {
     return bake(patterns, mesh, request);
@@ -184,7 +183,7 @@ Baked bake_level_by_patterns(Patterns& patterns, const ControlMesh& mesh, int le
 
 class BakedLevels : public ::testing::TestWithParam<TestedScheme> {
  protected:
-  void expect_refinement(Patterns& patterns, const ControlMesh& mesh, int levels) {
+  void expect_refinement(Patterns& patterns, const Mesh& mesh, int levels) {
     const Baked baked = bake_level_by_patterns(patterns, mesh, levels);
     const Difference d = compare_with_refinement(baked, scheme_, mesh, levels);
     EXPECT_TRUE(d.one_to_one);
@@ -201,7 +200,7 @@ class BakedLevels : public ::testing::TestWithParam<TestedScheme> {
 
 TEST_P(BakedLevels, AreRefinementOnHardMeshes) {
   Patterns patterns(scheme_);
-  for (const ControlMesh& mesh : hard_meshes(scheme_, 4))
+  for (const Mesh& mesh : hard_meshes(scheme_, 4))
     for (int levels = 1; levels <= 3; ++levels) {
       if (levels % scheme_.period != 0) continue;
       SCOPED_TRACE("level " + std::to_string(levels));
@@ -213,7 +212,7 @@ TEST_P(BakedLevels, AreRefinementOnTheSharedMeshes) {
   if (shared_meshes().empty()) GTEST_SKIP() << "NO SHARED MESHES at " << SUBLIMIT_SHARED_MESHES;
   Patterns patterns(scheme_);
   for (const SharedMesh& shared : shared_meshes()) {
-    ControlMesh mesh = read_mesh(shared.path);
+    Mesh mesh = read_mesh(shared.path);
     if (takes_triangles(scheme_)) mesh = triangulated(mesh);
     if (scheme_.sharpening != Sharpening::semi_sharp) mesh = without_creases(mesh);
     // Types of wide supports are large.
@@ -232,7 +231,7 @@ TEST_P(BakedLevels, AreRefinementOnTheSharedMeshes) {
 TEST_P(BakedLevels, AreRefinementOnThinTubes) {
   Patterns patterns(scheme_);
   for (const Index around : {3, 4}) {
-    ControlMesh mesh = disjoint_union(torus(9, 8), torus(9, around));
+    Mesh mesh = disjoint_union(torus(9, 8), torus(9, around));
     if (takes_triangles(scheme_)) mesh = triangulated(mesh);
     expect_refinement(patterns, mesh, 2);
   }
@@ -243,7 +242,7 @@ INSTANTIATE_TEST_SUITE_P(Schemes, BakedLevels, ::testing::ValuesIn(pattern_schem
 /// Dual schemes: faces of the table are those of level k, and so say which vertex each point is.
 class BakedCorners : public ::testing::TestWithParam<TestedScheme> {
  protected:
-  void expect_refinement(Patterns& patterns, const ControlMesh& mesh, int levels) {
+  void expect_refinement(Patterns& patterns, const Mesh& mesh, int levels) {
     const Baked baked =
         bake(patterns, mesh, {.rows = TableRows::level, .level = levels, .method = BakeMethod::patterns});
     const std::vector<Level> refined = refine(scheme_, mesh, levels);
@@ -272,9 +271,9 @@ class BakedCorners : public ::testing::TestWithParam<TestedScheme> {
 
 TEST_P(BakedCorners, AreRefinement) {
   Patterns patterns(scheme_);
-  std::vector<ControlMesh> meshes = hard_meshes(scheme_, 4);
+  std::vector<Mesh> meshes = hard_meshes(scheme_, 4);
   meshes.push_back(disjoint_union(torus(9, 8), torus(9, 3)));
-  for (const ControlMesh& mesh : meshes)
+  for (const Mesh& mesh : meshes)
     for (int levels = scheme_.period; levels <= 4 / effort(scheme_); levels += scheme_.period) {
       SCOPED_TRACE("level " + std::to_string(levels));
       expect_refinement(patterns, mesh, levels);
@@ -289,11 +288,11 @@ INSTANTIATE_TEST_SUITE_P(Schemes, BakedCorners, ::testing::ValuesIn(schemes_and_
 /// A fan of triangles around a vertex of a hundred edges, no two of them alike: types would take a hundred times as
 /// long.
 TEST(BakedLevel, BeginsWithRowsWhereTypesOfManyPointsAreSharedByFewFaces) {
-  const auto method = [](const ControlMesh& mesh) {
+  const auto method = [](const Mesh& mesh) {
     Patterns patterns(find_scheme("loop").value());
     return bake(patterns, mesh, {.level = 2}).statistics.method;
   };
-  ControlMesh alike = fan(100, 3, 2), unlike = alike;
+  Mesh alike = fan(100, 3, 2), unlike = alike;
   EXPECT_EQ(method(alike), BakeMethod::patterns);
   for (Index v = 1; v <= 100; ++v) unlike.creases.push_back({0, v, 0.03f * float(v)});
   EXPECT_NE(method(unlike), BakeMethod::patterns);
@@ -302,7 +301,7 @@ TEST(BakedLevel, BeginsWithRowsWhereTypesOfManyPointsAreSharedByFewFaces) {
 TEST(BakedLevel, AppliesWhatItExpandsTo) {
   const Scheme<double> scheme = find_scheme("catmull-clark").value();
   Patterns patterns(scheme);
-  for (const ControlMesh& mesh : {torus(5, 7), hard_polygons(2, {.open = true, .semi_sharp = true})}) {
+  for (const Mesh& mesh : {torus(5, 7), hard_polygons(2, {.open = true, .semi_sharp = true})}) {
     const Baked baked = bake_level(patterns, mesh, 2);
     const StencilTable<double> rows = baked.table.table.expanded();
     const auto channels = 3;
@@ -352,7 +351,7 @@ TEST(PatternEvaluator, AppliesTheTable) {
   for (const char* name : {"catmull-clark", "loop"}) {
     const Scheme<double> scheme = find_scheme(name).value();
     Patterns patterns(scheme);
-    for (const ControlMesh& mesh : hard_meshes(scheme, 3))
+    for (const Mesh& mesh : hard_meshes(scheme, 3))
       for (int levels = 1; levels <= 3; ++levels) {
         SCOPED_TRACE(std::string(name) + ", level " + std::to_string(levels));
         const Baked baked = bake_level(patterns, mesh, levels);
@@ -392,8 +391,8 @@ TEST(BakedLevel, OfARegularMeshIsOneBlock) {
 
 /// Without channels and tags a bake gives the control level away before the table is complete.
 TEST(BakedLevel, IsTheSameWhetherConnectivityIsKept) {
-  const std::vector<ControlMesh> meshes{torus(12, 9), cube(), prism(5), hard_polygons(1, {.open = true, .sharp = true}),
-                                        hard_polygons(2, {.open = true, .sharp = true})};
+  const std::vector<Mesh> meshes{torus(12, 9), cube(), prism(5), hard_polygons(1, {.open = true, .sharp = true}),
+                                 hard_polygons(2, {.open = true, .sharp = true})};
   for (size_t i = 0; i < meshes.size(); ++i)
     for (const TableRows rows : {TableRows::level, TableRows::limit}) {
       SCOPED_TRACE("mesh " + std::to_string(i) + ", " + name(rows));
@@ -421,7 +420,7 @@ TEST(BakedLevel, IsTheSameWhetherConnectivityIsKept) {
 /// whose sums keep the order of the mesh that was first.
 TEST(BakedLevel, ThreadsShareADictionary) {
   const Scheme<double> scheme = find_scheme("catmull-clark").value();
-  std::vector<ControlMesh> meshes;
+  std::vector<Mesh> meshes;
   for (unsigned seed = 1; seed <= 4; ++seed) {
     meshes.push_back(hard_polygons(seed, {.open = true, .sharp = true}));
     meshes.push_back(torus(5 + Index(seed), 6));

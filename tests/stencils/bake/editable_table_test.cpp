@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // After any edits a table makes what a new table of the edited mesh makes.
-#include "sublimit/bake/editable_table.h"
+#include "sublimit/stencils/bake/editable_table.h"
 
 #include <gtest/gtest.h>
 
@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "sublimit/stencils/bake/detail/bake.h"
 #include "support/expect_error.h"
 #include "support/meshes.h"
 #include "support/tested_schemes.h"
@@ -59,8 +60,9 @@ Made made_by(const Baked& baked) {
   return made;
 }
 
-void expect_a_new_table(const EditableTable<double>& table, Patterns& patterns) {
+void expect_a_new_table(const EditableTable<double>& table, Patterns& patterns, bool limit = false) {
   BakeRequest request;
+  if (limit) request.rows = TableRows::limit;
   request.level = level;
   request.method = BakeMethod::patterns;
   const Made expected = made_by(bake(patterns, table.mesh(), request)), found = made_by(table);
@@ -76,7 +78,7 @@ void expect_a_new_table(const EditableTable<double>& table, Patterns& patterns) 
 
 /// A face pushed out: its place is taken by a new one, with walls around.
 MeshEdit extrusion(const EditableTable<double>& table, Index face) {
-  const ControlMesh mesh = table.mesh();
+  const Mesh mesh = table.mesh();
   Index number = 0;
   for (Index f = 0; f < face; ++f) number += !table.is_removed(f);
   const size_t sides = size_t(mesh.face_sizes[0]);
@@ -104,7 +106,7 @@ MeshEdit extrusion(const EditableTable<double>& table, Index face) {
 class EditableTables : public ::testing::TestWithParam<TestedScheme> {
  protected:
   const Scheme<double> scheme_ = GetParam().scheme();
-  ControlMesh mesh() const {
+  Mesh mesh() const {
     const Hardness hard{.open = true, .sharp = scheme_.sharpening != Sharpening::boundary};
     if (takes_triangles(scheme_)) return hard_triangles(5, hard);
     return torus(7, 6);
@@ -112,28 +114,31 @@ class EditableTables : public ::testing::TestWithParam<TestedScheme> {
 };
 
 TEST_P(EditableTables, FollowExtrusionsRemovalsAndTags) {
-  Patterns patterns(scheme_);
-  EditableTable<double> table(patterns, mesh(), level);
-  std::mt19937 random(3);
-  for (int step = 0; step < 8; ++step) {
-    SCOPED_TRACE("step " + std::to_string(step));
-    Index face = 0;
-    do face = static_cast<Index>(random() % unsigned(table.num_faces()));
-    while (table.is_removed(face));
-    MeshEdit edit = extrusion(table, face);
-    if (step % 4 == 1) {
-      edit = {};
-      edit.removed_faces = {face};
+  for (const bool limit : {false, true}) {
+    SCOPED_TRACE(limit ? "limits" : "points");
+    Patterns patterns(scheme_);
+    EditableTable<double> table(mesh(), patterns.scheme(), {.levels = level, .limit = limit});
+    std::mt19937 random(3);
+    for (int step = 0; step < 8; ++step) {
+      SCOPED_TRACE("step " + std::to_string(step));
+      Index face = 0;
+      do face = static_cast<Index>(random() % unsigned(table.num_faces()));
+      while (table.is_removed(face));
+      MeshEdit edit = extrusion(table, face);
+      if (step % 4 == 1) {
+        edit = {};
+        edit.removed_faces = {face};
+      }
+      if (step % 4 == 2 && scheme_.sharpening != Sharpening::boundary) {
+        const Mesh now = table.mesh();
+        edit = {};
+        edit.creases = {{now.face_vertices[0], now.face_vertices[1], 10}};
+        edit.corners = {{now.face_vertices[2], 10}};
+      }
+      const auto change = table.edit(edit);
+      EXPECT_FALSE(change.faces.empty());
+      expect_a_new_table(table, patterns, limit);
     }
-    if (step % 4 == 2 && scheme_.sharpening != Sharpening::boundary) {
-      const ControlMesh now = table.mesh();
-      edit = {};
-      edit.creases = {{now.face_vertices[0], now.face_vertices[1], 10}};
-      edit.corners = {{now.face_vertices[2], 10}};
-    }
-    const auto change = table.edit(edit);
-    EXPECT_FALSE(change.faces.empty());
-    expect_a_new_table(table, patterns);
   }
 }
 
@@ -141,7 +146,7 @@ TEST_P(EditableTables, MoveWithWhatTheyReferTo) {
   Patterns patterns(scheme_);
   std::vector<EditableTable<double>> tables;
   for (int i = 0; i < 5; ++i) {  // moved as the vector grows, with and without edits
-    tables.emplace_back(patterns, mesh(), level);
+    tables.emplace_back(mesh(), scheme_, EditableTableOptions{.levels = level});
     if (i % 2 == 0) tables.back().edit(extrusion(tables.back(), i));
   }
   for (const EditableTable<double>& table : tables) expect_a_new_table(table, patterns);
@@ -157,7 +162,7 @@ TEST_P(EditableTables, MoveWithWhatTheyReferTo) {
 
 TEST_P(EditableTables, AreEditedApartFromTheirCopies) {
   Patterns patterns(scheme_);
-  EditableTable<double> table(patterns, mesh(), level);
+  EditableTable<double> table(mesh(), patterns.scheme(), {.levels = level});
   table.edit(extrusion(table, 2));
   EditableTable<double> copy = table;
   const Made before = made_by(copy);
@@ -172,9 +177,9 @@ class EditableCreases : public EditableTables {};
 
 TEST_P(EditableCreases, CanBeTakenAway) {
   Patterns patterns(scheme_);
-  EditableTable<double> table(patterns, mesh(), level);
+  EditableTable<double> table(mesh(), patterns.scheme(), {.levels = level});
   const Made before = made_by(table);
-  const ControlMesh now = table.mesh();
+  const Mesh now = table.mesh();
   const Index a = now.face_vertices[0], b = now.face_vertices[1];
   float was = 0;
   for (const auto& crease : now.creases)
@@ -201,8 +206,8 @@ INSTANTIATE_TEST_SUITE_P(Schemes, EditableCreases,
 TEST(EditableTable, FollowsFlippedEdges) {
   const Scheme<double> scheme = find_scheme("loop").value();
   Patterns patterns(scheme);
-  EditableTable<double> table(patterns, triangle_torus(8, 7), level);
-  const ControlMesh mesh = table.mesh();
+  EditableTable<double> table(triangle_torus(8, 7), patterns.scheme(), {.levels = level});
+  const Mesh mesh = table.mesh();
   // Faces f and g on both sides of an edge (a, b).
   const auto corners = [&](Index f) {
     return std::vector<Index>(mesh.face_vertices.begin() + 3 * f, mesh.face_vertices.begin() + 3 * f + 3);
@@ -229,7 +234,7 @@ TEST(EditableTable, FollowsFlippedEdges) {
 TEST(EditableTable, BadEditsAreErrorsAndChangeNothing) {
   const Scheme<double> scheme = find_scheme("catmull-clark").value();
   Patterns patterns(scheme);
-  EditableTable<double> table(patterns, torus(5, 5), level);
+  EditableTable<double> table(torus(5, 5), patterns.scheme(), {.levels = level});
   const Made before = made_by(table);
   const auto refused = [&](auto change, std::initializer_list<std::string_view> words) {
     MeshEdit edit;

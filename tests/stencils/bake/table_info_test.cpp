@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // What decides the points of a table is in what it says of itself; what does not is not.
-#include "sublimit/bake/table_info.h"
+#include "sublimit/stencils/bake/detail/table_info.h"
 
 #include <gtest/gtest.h>
 
-#include "sublimit/schemes.h"
+#include "sublimit/schemes/schemes.h"
 #include "support/meshes.h"
 
 namespace sublimit::testing {
@@ -13,7 +13,7 @@ namespace {
 struct Job {
   std::string scheme = "catmull-clark";
   SchemeOptions options = {};
-  ControlMesh mesh = cube();
+  Mesh mesh = cube();
   BakeRequest request{.level = 2};
   SubdivisionOptions rules = {};
   TableInfo info() const { return table_info(find_scheme(scheme, options).value(), mesh, request, rules); }

@@ -5,7 +5,7 @@
 #include <fstream>
 
 #include "stencils/cli_program.h"
-#include "sublimit/io/obj.h"
+#include "sublimit/io/detail/obj.h"
 #include "support/meshes.h"
 
 namespace sublimit::testing {
@@ -32,7 +32,7 @@ void expect_analysis_refused(std::vector<std::string> arguments, int status, Par
 
 TEST(CliAnalyzeErrors, TagsBesideTheMeshAreNotOverwritten) {
   const TemporaryDirectory directory;
-  MeshOutput cage;
+  Mesh cage;
   cage.positions = cube().positions;
   cage.face_sizes = cube().face_sizes;
   cage.face_vertices = cube().face_vertices;
@@ -109,7 +109,7 @@ TEST(CliAnalyzeErrors, JobsThatDoNotGoTogether) {
 
 TEST(CliAnalyzeErrors, MeshesAndCurves) {
   const TemporaryDirectory directory;
-  write_obj(directory / "cube.obj", output(cube()));
+  write_obj(directory / "cube.obj", cube());
   const std::string mesh = (directory / "cube.obj").string();
   expect_analysis_refused({mesh, "-s", "loop"}, 3, {"cube.obj", "loop", "face 0", "4 corners", "triangles"});
   expect_analysis_refused({(directory / "none.obj").string(), "-s", "loop"}, 3, {"none.obj", "No such file"});

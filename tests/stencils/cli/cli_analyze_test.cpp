@@ -9,7 +9,7 @@
 #include "stencils/cli_program.h"
 #include "stencils/summary_rows.h"
 #include "sublimit/certificates/algebraic.h"
-#include "sublimit/io/obj.h"
+#include "sublimit/io/detail/obj.h"
 #include "support/meshes.h"
 
 namespace sublimit::testing {
@@ -219,7 +219,7 @@ TEST(CliAnalyze, CurvesOfPieces) {
 
 TEST(CliAnalyze, SeamsOfMeshesAreJudgedByTolerances) {
   const TemporaryDirectory directory;
-  write_obj(directory / "mesh.obj", output(cube()));
+  write_obj(directory / "mesh.obj", cube());
   const std::string mesh = (directory / "mesh.obj").string();
   const Json report = analyzed({mesh, "-s", "catmull-clark", "--tolerance", "g1=0.1deg"});
   EXPECT_EQ(report["mesh"]["file"], "mesh.obj");

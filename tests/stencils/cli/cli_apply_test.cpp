@@ -8,14 +8,14 @@
 #include <random>
 
 #include "stencils/cli_tables.h"
-#include "sublimit/files/npy.h"
+#include "sublimit/stencils/files/npy.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {
 namespace {
 
 /// Positions sorted, so that meshes of other orders of vertices can be compared.
-std::vector<std::array<double, 3>> sorted(const ControlMesh& mesh) {
+std::vector<std::array<double, 3>> sorted(const Mesh& mesh) {
   std::vector<std::array<double, 3>> all;
   for (Eigen::Index i = 0; i < mesh.positions.rows(); ++i)
     all.push_back({mesh.positions(i, 0), mesh.positions(i, 1), mesh.positions(i, 2)});
@@ -26,7 +26,7 @@ std::vector<std::array<double, 3>> sorted(const ControlMesh& mesh) {
   return all;
 }
 
-void expect_same_points(const ControlMesh& a, const ControlMesh& b, double tolerance) {
+void expect_same_points(const Mesh& a, const Mesh& b, double tolerance) {
   ASSERT_EQ(a.num_vertices(), b.num_vertices());
   ASSERT_EQ(a.num_faces(), b.num_faces());
   const auto own = sorted(a), other = sorted(b);
@@ -40,7 +40,7 @@ void write_npy(const std::filesystem::path& path, const std::vector<double>& num
   writer.commit();
 }
 
-std::vector<double> positions_of(const ControlMesh& mesh) {
+std::vector<double> positions_of(const Mesh& mesh) {
   return {mesh.positions.data(), mesh.positions.data() + mesh.positions.size()};
 }
 
@@ -51,9 +51,9 @@ std::vector<double> numbers_of(const NpyArray& array) {
 }
 
 TEST(CliApply, MeshesAreThoseOfRefine) {
-  ControlMesh holed = jittered(grid(4, 3));
+  Mesh holed = jittered(grid(4, 3));
   holed.holes = {5};
-  for (const ControlMesh& mesh : {creased_cube(), jittered(prism(5)), holed})
+  for (const Mesh& mesh : {creased_cube(), jittered(prism(5)), holed})
     for (const char* scheme : {"catmull-clark", "bilinear"})
       for (const bool is_float : {false, true}) {
         const Tables on(mesh);
@@ -63,10 +63,10 @@ TEST(CliApply, MeshesAreThoseOfRefine) {
         expect_done(sublimit({"limit", on.mesh, "-s", scheme, "-l", "2", "-o", refined}));
         const Index faces = read_mesh(refined).num_faces();
         expect_done(sublimit({"refine", on.mesh, "-s", scheme, "-l", "2", "--no-tags", "-o", refined}));
-        ControlMesh right = read_mesh(refined);
+        Mesh right = read_mesh(refined);
         for (const char* name : {"out.obj", "out.ply"}) {
           expect_done(on.apply(on.mesh, on.path(name)));
-          const ControlMesh made = read_mesh(on.path(name));
+          const Mesh made = read_mesh(on.path(name));
           EXPECT_EQ(made.num_faces(), faces);
           right.face_sizes.resize(size_t(faces));  // only the number matters below
           expect_same_points(made, right, is_float ? float_reference : reference);
@@ -80,7 +80,7 @@ TEST(CliApply, FacesOfDualSchemesAreThoseOfRefine) {
     expect_done(on.bake({"-l", "2", "--precision", "double"}, scheme));
     expect_done(sublimit({"refine", on.mesh, "-s", scheme, "-l", "2", "--no-tags", "-o", on.path("refined.obj")}));
     expect_done(on.apply(on.mesh, on.path("out.obj")));
-    const ControlMesh made = read_mesh(on.path("out.obj")), right = read_mesh(on.path("refined.obj"));
+    const Mesh made = read_mesh(on.path("out.obj")), right = read_mesh(on.path("refined.obj"));
     EXPECT_EQ(made.num_vertices(), right.num_vertices());
     EXPECT_EQ(made.face_sizes, right.face_sizes);
     ASSERT_EQ(made.face_vertices.size(), right.face_vertices.size());
@@ -214,11 +214,11 @@ TEST(CliApply, RefusesOtherPoints) {
     expect_failure(on.apply(points, output), status, parts);
     EXPECT_FALSE(std::filesystem::exists(output));
   };
-  write_obj(on.directory / "prism.obj", output(prism(5)));
+  write_obj(on.directory / "prism.obj", prism(5));
   refused(on.path("prism.obj"), out, 3, {"prism.obj: 10 points", "table.safetensors", "8 points"});
-  ControlMesh turned = creased_cube();
+  Mesh turned = creased_cube();
   std::rotate(turned.face_vertices.begin(), turned.face_vertices.begin() + 4, turned.face_vertices.end());
-  write_obj(on.directory / "turned.obj", output(turned));
+  write_obj(on.directory / "turned.obj", turned);
   refused(on.path("turned.obj"), out, 3, {"turned.obj", "table.safetensors", "--any-cage"});
   expect_done(on.apply(on.path("turned.obj"), out, {"--any-cage"}));
   std::filesystem::remove(out);

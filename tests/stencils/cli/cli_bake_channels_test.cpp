@@ -11,14 +11,14 @@ namespace sublimit::testing {
 namespace {
 
 /// Sharp and semi-sharp, with seams.
-ControlMesh tagged() {
-  ControlMesh mesh = with_channel(creased_cube(), {{0, 2}, {2, 3}, {1, 3}, {4, 5}});
+Mesh tagged() {
+  Mesh mesh = with_channel(creased_cube(), {{0, 2}, {2, 3}, {1, 3}, {4, 5}});
   mesh.corners = {{6, 1.5f}};
   return mesh;
 }
 
-ControlMesh open_polygons() {
-  ControlMesh mesh = with_random_channel(jittered(disjoint_union(prism(5), grid(4, 3))), 0.3);
+Mesh open_polygons() {
+  Mesh mesh = with_random_channel(jittered(disjoint_union(prism(5), grid(4, 3))), 0.3);
   // They would lie on each other.
   mesh.positions.bottomRows(20).array() += 7;
   mesh.creases = {{0, 1, 3.5f}};
@@ -27,17 +27,17 @@ ControlMesh open_polygons() {
   return mesh;
 }
 
-double tolerance(const ControlMesh& mesh) { return rounding(40, mesh.positions.cwiseAbs().maxCoeff()); }
+double tolerance(const Mesh& mesh) { return rounding(40, mesh.positions.cwiseAbs().maxCoeff()); }
 
 TEST(CliBakeChannels, WhatApplyWritesIsWhatRefineWrites) {
-  for (const ControlMesh& mesh : {tagged(), open_polygons()})
+  for (const Mesh& mesh : {tagged(), open_polygons()})
     for (const char* mode : {"all", "corners-plus1"}) {
       const Tables on(mesh);
       expect_done(on.bake({"-l", "2", "--face-varying", mode, "--tags", "--precision", "double"}));
       expect_done(on.apply(on.mesh, on.path("applied.obj")));
       expect_done(sublimit(
           {"refine", on.mesh, "-s", "catmull-clark", "-l", "2", "--face-varying", mode, "-o", on.path("refined.obj")}));
-      const ControlMesh made = read_mesh(on.path("applied.obj")), right = read_mesh(on.path("refined.obj"));
+      const Mesh made = read_mesh(on.path("applied.obj")), right = read_mesh(on.path("refined.obj"));
       ASSERT_EQ(made.face_varying.size(), 1u);
       EXPECT_EQ(difference(made, right, tolerance(mesh)), "");
       EXPECT_EQ(made.boundary, right.boundary);
@@ -53,7 +53,7 @@ TEST(CliBakeChannels, WhatApplyWritesIsWhatRefineWrites) {
 }
 
 TEST(CliBakeChannels, OfTrianglesAndOfDualSchemes) {
-  const ControlMesh mesh = with_channel(jittered(icosahedron()), {{0, 1}});
+  const Mesh mesh = with_channel(jittered(icosahedron()), {{0, 1}});
   for (const char* scheme : {"loop", "doo-sabin"}) {
     const Tables on(scheme == std::string("loop") ? mesh : with_channel(jittered(prism(5)), {}));
     expect_done(on.bake({"-l", "2", "--face-varying", "none", "--tags", "--precision", "double"}, scheme));

@@ -6,17 +6,17 @@
 #include <csignal>
 
 #include "stencils/cli_tables.h"
-#include "sublimit/bake/bake.h"
-#include "sublimit/bake/table_info.h"
-#include "sublimit/schemes.h"
-#include "sublimit/table_file.h"
+#include "sublimit/eval/table_file.h"
+#include "sublimit/schemes/schemes.h"
+#include "sublimit/stencils/bake/detail/bake.h"
+#include "sublimit/stencils/bake/detail/table_info.h"
 
 namespace sublimit::testing {
 namespace {
 
 TEST(CliBake, WritesWhatTheLibraryMakes) {
   const Tables on(creased_cube());
-  const ControlMesh read = read_mesh(on.mesh);
+  const Mesh read = read_mesh(on.mesh);
   const auto expect_table = [&](std::vector<std::string> arguments, const BakeRequest& request) {
     SCOPED_TRACE(arguments[0] + arguments[1]);
     Patterns patterns(find_scheme("catmull-clark").value());

@@ -8,9 +8,9 @@
 #include <sstream>
 
 #include "stencils/cli_program.h"
-#include "sublimit/io/obj.h"
+#include "sublimit/io/detail/obj.h"
 #include "sublimit/io/read_mesh.h"
-#include "sublimit/schemes.h"
+#include "sublimit/schemes/schemes.h"
 #include "support/meshes.h"
 #include "support/tolerance.h"
 
@@ -19,8 +19,8 @@ namespace {
 
 using Json = nlohmann::json;
 
-std::string write(const TemporaryDirectory& directory, const char* name, const ControlMesh& mesh) {
-  write_obj(directory / name, output(mesh));
+std::string write(const TemporaryDirectory& directory, const char* name, const Mesh& mesh) {
+  write_obj(directory / name, mesh);
   return (directory / name).string();
 }
 
@@ -111,7 +111,7 @@ TEST(CliInfo, IntegralsOfTheLimit) {
 
 TEST(CliInfo, BoundariesTagsAndComponents) {
   const TemporaryDirectory directory;
-  ControlMesh mesh = disjoint_union(grid(3, 3), grid(2, 2));
+  Mesh mesh = disjoint_union(grid(3, 3), grid(2, 2));
   add_crease(mesh, {5, 6}, 2);
   mesh.corners.push_back({5, 1});
   mesh.holes.push_back(4);
@@ -130,7 +130,7 @@ TEST(CliInfo, BoundariesTagsAndComponents) {
 }
 
 TEST(CliInfo, ListsTwentyFaultsAndAllAsJson) {
-  ControlMesh mesh = cube();
+  Mesh mesh = cube();
   mesh.positions.conservativeResize(8 + 30, 3);
   mesh.positions.bottomRows(30).setZero();
   const TemporaryDirectory directory;
@@ -143,15 +143,15 @@ TEST(CliInfo, ListsTwentyFaultsAndAllAsJson) {
 
 struct Accepted {
   const char* name;
-  ControlMesh mesh;
+  Mesh mesh;
   const char* says;
 };
 
 TEST(CliWarnings, AcceptsWhatStrictRejectsNamingEachPlace) {
-  ControlMesh isolated = cube();
+  Mesh isolated = cube();
   isolated.positions.conservativeResize(10, 3);
   isolated.positions.bottomRows(2).setZero();
-  ControlMesh repeated = cube();
+  Mesh repeated = cube();
   repeated.face_sizes.push_back(4);
   repeated.face_vertices.insert(repeated.face_vertices.end(), {0, 1, 0, 2});
   for (const Accepted& accepted : {Accepted{"isolated", isolated, "vertex 8"}, Accepted{"repeated", repeated, "face 6"},
@@ -179,7 +179,7 @@ TEST(CliWarnings, AcceptsWhatStrictRejectsNamingEachPlace) {
 
 TEST(CliWarnings, AreAtMostFiveAndACount) {
   const TemporaryDirectory directory;
-  std::string text = format_obj(output(cube()));
+  std::string text = format_obj(cube());
   for (int i = 0; i < 9; ++i) text += "what" + std::string(size_t(i) + 1, 'x') + " 1 2 3\n";
   const std::string mesh = directory.write("mesh.obj", text).string();
   const Outcome outcome =
@@ -210,7 +210,7 @@ TEST(CliLimit, Cube) {
 }
 
 TEST(CliLimit, CreasesHaveANormalForEachSide) {
-  ControlMesh mesh = cube();
+  Mesh mesh = cube();
   add_crease(mesh, {4, 5, 7, 6, 4}, 10);  // around the top
   const TemporaryDirectory directory;
   const std::string path = write(directory, "mesh.obj", mesh);
@@ -224,7 +224,7 @@ TEST(CliLimit, CreasesHaveANormalForEachSide) {
 }
 
 TEST(CliLimit, LeavesHolesOut) {
-  ControlMesh mesh = grid(4, 4);
+  Mesh mesh = grid(4, 4);
   mesh.holes = {5};
   const TemporaryDirectory directory;
   const std::filesystem::path out = directory / "limit.obj";
@@ -237,7 +237,7 @@ TEST(CliLimit, LeavesHolesOut) {
 
 TEST(CliRefine, MatrixTimesControlPointsIsTheMesh) {
   const TemporaryDirectory directory;
-  const ControlMesh mesh = jittered(polygon_ring({5, 4, 3, 6, 4}));
+  const Mesh mesh = jittered(polygon_ring({5, 4, 3, 6, 4}));
   const std::filesystem::path out = directory / "out.obj", mtx = directory / "out.mtx";
   expect_done(sublimit({"refine", write(directory, "mesh.obj", mesh), "-s", "catmull-clark", "-l", "2", "-o",
                         out.string(), "--matrix", mtx.string()}));
@@ -261,7 +261,7 @@ TEST(CliRefine, MatrixTimesControlPointsIsTheMesh) {
 }
 
 TEST(CliRefine, TagsAreWrittenUnlessNotWanted) {
-  ControlMesh mesh = cube();
+  Mesh mesh = cube();
   add_crease(mesh, {0, 1}, 2.5f);
   const TemporaryDirectory directory;
   const std::string path = write(directory, "mesh.obj", mesh);
@@ -275,7 +275,7 @@ TEST(CliRefine, TagsAreWrittenUnlessNotWanted) {
 }
 
 TEST(CliOptions, FollowTheFileUnlessGiven) {
-  ControlMesh mesh = grid(3, 3);
+  Mesh mesh = grid(3, 3);
   mesh.boundary = Boundary::edge_only;
   const TemporaryDirectory directory;
   const std::string path = write(directory, "mesh.obj", mesh);
@@ -294,7 +294,7 @@ TEST(CliOptions, FollowTheFileUnlessGiven) {
 }
 
 TEST(CliOptions, TrianglesAsTagAndAsOption) {
-  ControlMesh mesh = octahedron();
+  Mesh mesh = octahedron();
   const TemporaryDirectory directory;
   const std::filesystem::path out = directory / "out.obj";
   const auto refined = [&](const char* scheme, const std::vector<std::string>& options) {

@@ -6,7 +6,7 @@
 
 #include "stencils/cli_program.h"
 #include "sublimit/curves/schemes/curve_schemes.h"
-#include "sublimit/io/polygon_files.h"
+#include "sublimit/io/detail/polygon_files.h"
 #include "support/stationary.h"
 #include "support/tolerance.h"
 
@@ -54,7 +54,7 @@ TEST(CliCurves, LimitsWithTangents) {
   const Outcome outcome = expect_done(sublimit({"limit", in, "-s", "chaikin", "-l", "2", "--normals", "-o", out}));
   expect_parts(outcome.out, {"22 limit points of level 2", "0 without a tangent"});
   const ControlPolygon curve = read_polygon(out, true);
-  EXPECT_EQ(curve.points.row(0), Eigen::RowVector2d(0.5, 1));  // the middle of the first leg
+  EXPECT_EQ(curve.points.row(0), Eigen::RowVector2d(0.5, 1));  // the middle of the first segment
   for (Index i = 0; i < curve.num_points(); ++i) EXPECT_NEAR(curve.tangents.row(i).norm(), 1, rounding(1));
   expect_done(sublimit({"limit", in, "-s", "four-point", "--option", "tension=0", "--normals", "-o", out, "--quiet"}));
   EXPECT_EQ(count_of(read_file(out), ",,\n"), 5u);  // a polygon has tangents at its ends alone

@@ -13,7 +13,7 @@
 #include <linux/capability.h>
 
 #include "stencils/cli_program.h"
-#include "sublimit/io/obj.h"
+#include "sublimit/io/detail/obj.h"
 #include "support/meshes.h"
 
 namespace sublimit::testing {
@@ -193,7 +193,7 @@ TEST(CliResources, FullDiskLeavesNothing) {
   for (const char* command : {"refine", "limit"})
     for (const char* name : {"out.obj", "out.ply"}) {
       const TemporaryDirectory directory;
-      write_obj(directory / "mesh.obj", output(torus(16, 16)));
+      write_obj(directory / "mesh.obj", torus(16, 16));
       expect_failure(sublimit({command, (directory / "mesh.obj").string(), "-s", "catmull-clark", "-l", "1", "-o",
                                (directory / name).string()},
                               fill_disk),
@@ -201,7 +201,7 @@ TEST(CliResources, FullDiskLeavesNothing) {
       EXPECT_EQ(directory.num_files(), 1);
     }
   const TemporaryDirectory directory;
-  write_obj(directory / "mesh.obj", output(torus(16, 16)));
+  write_obj(directory / "mesh.obj", torus(16, 16));
   directory.write("out.obj", "what was there");
   expect_failure(sublimit({"refine", (directory / "mesh.obj").string(), "-s", "catmull-clark", "-l", "1", "-o",
                            (directory / "out.obj").string(), "--matrix", (directory / "out.mtx").string()},
@@ -217,7 +217,7 @@ TEST(CliResources, TooLittleMemory) {
   GTEST_SKIP() << "the sanitizers need the address space that this takes away";
 #endif
   const TemporaryDirectory directory;
-  write_obj(directory / "mesh.obj", output(torus(64, 64)));
+  write_obj(directory / "mesh.obj", torus(64, 64));
   const auto starve = [] {
     const rlimit limit{rlim_t{200} << 20, rlim_t{200} << 20};
     ::setrlimit(RLIMIT_AS, &limit);
@@ -231,7 +231,7 @@ TEST(CliResources, TooLittleMemory) {
 
 TEST(CliOutput, PipeThatItsReaderClosesIsAnError) {
   const TemporaryDirectory directory;
-  write_obj(directory / "mesh.obj", output(torus(64, 64)));
+  write_obj(directory / "mesh.obj", torus(64, 64));
   for (const char* const name : {"pipe.obj", "pipe.ply"}) {
     const std::string pipe = (directory / name).string();
     ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);

@@ -3,23 +3,23 @@
 #include <gtest/gtest.h>
 
 #include "stencils/cli_program.h"
-#include "sublimit/core/sparse_product.h"
-#include "sublimit/files/refined_mesh.h"
-#include "sublimit/io/obj.h"
-#include "sublimit/schemes.h"
+#include "sublimit/core/detail/sparse_product.h"
+#include "sublimit/stencils/files/level_files.h"
+#include "sublimit/io/detail/obj.h"
+#include "sublimit/schemes/schemes.h"
 #include "support/face_varying_meshes.h"
 
 namespace sublimit::testing {
 namespace {
 
 /// What the program writes for `levels` levels.
-std::string refined(const Scheme<double>& scheme, const ControlMesh& mesh, int levels) {
+std::string refined(const Scheme<double>& scheme, const Mesh& mesh, int levels) {
   const FaceVaryingInterpolation interpolation = *mesh.face_varying_interpolation;
   const std::vector<Level> all = refine(scheme, mesh, levels);
   Points points = mesh.positions;
   for (int k = 1; k <= levels; ++k) points = apply(all[k].S, points);
   const auto channel = refine_face_varying(scheme, interpolation, mesh.face_varying[0], all);
-  MeshOutput out = level_output(all.back(), points, mesh, {}, true);
+  Mesh out = level_output(all.back(), points, mesh, {}, true);
   add_channel(out, channel.back(), "uv", refined_values(channel, mesh.face_varying[0].values));
   out.face_varying_interpolation = interpolation;
   return format_obj(out);
@@ -35,9 +35,9 @@ TEST(RefinedChannel, TwiceByOneIsOnceByTwo) {
       for (const double seams : {0.2, 1.0})
         for (const FaceVaryingInterpolation interpolation : all_interpolations) {
           const Scheme<double> scheme = find_scheme(name).value();
-          ControlMesh mesh = with_random_channel(named.mesh, seams);
+          Mesh mesh = with_random_channel(named.mesh, seams);
           mesh.face_varying_interpolation = interpolation;
-          const ControlMesh first = parse_obj(refined(scheme, mesh, 1), named.name);
+          const Mesh first = parse_obj(refined(scheme, mesh, 1), named.name);
           EXPECT_EQ(first.face_varying_interpolation, interpolation);
           const bool same = refined(scheme, first, 1) == refined(scheme, mesh, 2);
           EXPECT_TRUE(same) << named.name << ", " << name << ", " << testing::name(interpolation) << ", seams "
@@ -75,7 +75,7 @@ TEST(CliFaceVarying, WordsAndTagsSayTheSame) {
       const std::string by_word = run("plain.obj", "a.obj", {"--face-varying", words[i]});
       EXPECT_EQ(by_word, run("tagged.obj", "b.obj", {}));
       EXPECT_EQ(by_word.find(tag) != std::string::npos, std::string_view(command) == "refine");
-      const ControlMesh mesh = parse_obj(by_word, "a.obj");
+      const Mesh mesh = parse_obj(by_word, "a.obj");
       ASSERT_EQ(mesh.face_varying.size(), 1u);
       EXPECT_EQ(mesh.face_varying[0].values.rows(), 18);  // nine values a side
       const bool corner_stays =
@@ -96,7 +96,7 @@ TEST(CliFaceVarying, LimitValuesStandBesideNormals) {
   const std::string mesh = (directory / "mesh.obj").string(), out = (directory / "out.obj").string();
   expect_done(sublimit({"limit", mesh, "-s", "catmull-clark", "--normals", "-o", out}));
   EXPECT_NE(read_file(out).find("f 1/1/"), std::string::npos);
-  const ControlMesh limit = parse_obj(read_file(out), "out.obj");
+  const Mesh limit = parse_obj(read_file(out), "out.obj");
   ASSERT_EQ(limit.face_varying.size(), 1u);
   EXPECT_EQ(limit.face_varying[0].values, parse_obj(two_quads, "mesh.obj").face_varying[0].values);  // all: they stay
   expect_done(sublimit({"limit", mesh, "-s", "catmull-clark", "-o", (directory / "out.ply").string()}));

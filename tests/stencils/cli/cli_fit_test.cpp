@@ -12,9 +12,9 @@
 #include "stencils/drawn_panels.h"
 #include "stencils/markup.h"
 #include "sublimit/base/format_number.h"
-#include "sublimit/io/obj.h"
+#include "sublimit/io/detail/obj.h"
 #include "sublimit/io/read_mesh.h"
-#include "sublimit/schemes.h"
+#include "sublimit/schemes/schemes.h"
 #include "support/meshes.h"
 #include "support/tolerance.h"
 
@@ -33,8 +33,8 @@ struct Job {
   std::string mesh = (directory / "cage.obj").string(), targets = (directory / "in.csv").string(),
               output = (directory / "out.obj").string();
 
-  Job(const ControlMesh& control, const std::string& csv) {
-    write_obj(mesh, sublimit::output(control));
+  Job(const Mesh& control, const std::string& csv) {
+    write_obj(mesh, control);
     directory.write("in.csv", csv);
   }
   std::string path(const char* name) const { return (directory / name).string(); }
@@ -146,7 +146,7 @@ TEST(CliFit, MeetsNormalsAndLeavesOthersFree) {
   }
   expect_done(sublimit({"limit", job.output, "-s", "kobbelt", "--normals", "-o", job.path("n.obj"), "--quiet"}));
   // The first normals of the file belong to the first vertices.
-  const ControlMesh limit = read_mesh(job.path("n.obj"));
+  const Mesh limit = read_mesh(job.path("n.obj"));
   const std::string text = read_file(job.path("n.obj"));
   const size_t at = text.find("vn ");
   ASSERT_NE(at, std::string::npos);
@@ -156,12 +156,12 @@ TEST(CliFit, MeetsNormalsAndLeavesOthersFree) {
 }
 
 TEST(CliFit, KeepsTagsAndTextureCoordinates) {
-  ControlMesh mesh = grid(3, 3);
+  Mesh mesh = grid(3, 3);
   add_crease(mesh, {5, 6, 10}, 2.5f);
   mesh.face_varying = {{"st", mesh.positions.leftCols(2), mesh.face_vertices}};
   const Job job(mesh, points_csv(jittered(mesh).positions));
   expect_done(job.fit({"-s", "catmull-clark", "--refine", "1"}));
-  const ControlMesh fitted = read_mesh(job.output);
+  const Mesh fitted = read_mesh(job.output);
   EXPECT_EQ(fitted.creases.size(), 4u);
   EXPECT_EQ(fitted.creases[0].sharpness, 1.5f);
   ASSERT_EQ(fitted.face_varying.size(), 1u);
@@ -235,15 +235,15 @@ TEST(CliFit, DrawsTargetsAndTheirNormalsWhereTheyAreInThreePanels) {
 }
 
 TEST(CliFit, FindsTheControlPointsOfSampledPlaces) {
-  const ControlMesh mesh = jittered(octahedron(), .2, 5);
+  const Mesh mesh = jittered(octahedron(), .2, 5);
   const Job job(mesh, "");
   expect_done(sublimit({"sample", job.mesh, "-s", "loop", "--grid", "4", "-o", job.path("s.csv"), "--quiet"}));
   std::string csv = "face,u,v,x,y,z\n";  // columns face,u,v,status,x,y,z,nx,ny,nz
   for (const std::vector<std::string>& fields : rows_of(job.path("s.csv")))
     csv += fields[0] + "," + fields[1] + "," + fields[2] + "," + fields[4] + "," + fields[5] + "," + fields[6] + "\n";
-  ControlMesh guess = octahedron();
+  Mesh guess = octahedron();
   guess.positions.row(3) = mesh.positions.row(3);
-  write_obj(job.mesh, sublimit::output(guess));
+  write_obj(job.mesh, guess);
   job.directory.write("in.csv", csv);
   const Outcome outcome = expect_done(job.fit({"-s", "loop", "--report", job.path("fit.json")}));
   expect_parts(outcome.out, {"6 control points", "is near 80 points", "80 conditions on 6 control points: rank 6"});
@@ -260,14 +260,14 @@ TEST(CliFit, FindsTheControlPointsOfSampledPlaces) {
 }
 
 TEST(CliFit, FindsTheSurfaceOfACloud) {
-  const ControlMesh mesh = jittered(octahedron(), .1, 5);
+  const Mesh mesh = jittered(octahedron(), .1, 5);
   const Job job(mesh, "");
   expect_done(sublimit({"sample", job.mesh, "-s", "loop", "--random", "300", "-o", job.path("s.csv"), "--quiet"}));
   std::string csv = "x,y,z\n";  // columns face,u,v,status,x,y,z,nx,ny,nz
   for (const std::vector<std::string>& fields : rows_of(job.path("s.csv")))
     csv += fields[4] + "," + fields[5] + "," + fields[6] + "\n";
   job.directory.write("cloud.csv", csv);
-  write_obj(job.mesh, sublimit::output(octahedron()));
+  write_obj(job.mesh, octahedron());
   const Outcome outcome = expect_done(sublimit({"fit", job.mesh, "--cloud", job.path("cloud.csv"), "-s", "loop", "-o",
                                                 job.output, "--report", job.path("fit.json")}));
   expect_parts(outcome.out, {"is near 300 points", "iterations: from "});
@@ -310,7 +310,7 @@ TEST(CliFit, ConstructsPolygonsOfDualSchemes) {
   EXPECT_EQ(report["kind"], "construction");
   EXPECT_LE(report["normal_error"]["largest"].get<double>(), exact_normal);
   // The first target is the centroid of its face, and of a plane one.
-  const ControlMesh fitted = read_mesh(job.output);
+  const Mesh fitted = read_mesh(job.output);
   const Topology topology(view(fitted));
   Eigen::RowVector3d centre = Eigen::RowVector3d::Zero();
   const Face face{report["targets"]["carried_by"][0].get<Index>()};

@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "stencils/cli_tables.h"
-#include "sublimit/scheme/prepare.h"
+#include "sublimit/scheme/detail/prepare.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {
@@ -30,7 +30,7 @@ std::vector<Found> found() {
 }
 
 /// Points in general position.
-ControlMesh sheets(Index num_vertices, const std::vector<std::vector<Index>>& faces) {
+Mesh sheets(Index num_vertices, const std::vector<std::vector<Index>>& faces) {
   std::vector<Eigen::Vector3d> points;
   for (Index i = 0; i < num_vertices; ++i)
     points.push_back({std::cos(2.0 * i), std::sin(3.0 * i), std::cos(1.0 + 5.0 * i)});
@@ -39,7 +39,7 @@ ControlMesh sheets(Index num_vertices, const std::vector<std::vector<Index>>& fa
 
 struct Small {
   std::string name;
-  ControlMesh mesh;
+  Mesh mesh;
   std::vector<Found> commands;
 };
 
@@ -123,7 +123,7 @@ TEST(CliFoundLimits, OfSmallMeshes) {
   for (const Small& one : small()) {
     SCOPED_TRACE(one.name);
     const std::string mesh = (directory / "mesh.obj").string();
-    write_obj(mesh, output(one.mesh));
+    write_obj(mesh, one.mesh);
     for (const Found& command : one.commands) {
       for (const int level : {0, 2}) expect_one_answer(mesh, command, level, directory);
       expect_places(mesh, command, directory);
@@ -147,7 +147,7 @@ TEST(CliFoundLimits, FitsToVerticesOfFoundMeshes) {
   // Targets at two vertices, of which one has an edge that ends inside its sheet.
   const TemporaryDirectory directory;
   const std::string mesh = (directory / "mesh.obj").string();
-  write_obj(mesh, output(small()[0].mesh));
+  write_obj(mesh, small()[0].mesh);
   directory.write("targets.csv", "vertex,x,y,z\n0,1,0.5,0.25\n2,0,1,-0.5\n");
   expect_done(sublimit({"fit", mesh, "--targets", (directory / "targets.csv").string(), "-s", "averaging", "--boundary",
                         "edge-only", "--method", "iterative", "-o", (directory / "fitted.obj").string(), "--quiet"}));

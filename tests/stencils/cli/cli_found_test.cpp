@@ -6,7 +6,7 @@
 #include <fstream>
 
 #include "stencils/cli_program.h"
-#include "sublimit/io/obj.h"
+#include "sublimit/io/detail/obj.h"
 #include "sublimit/io/read_mesh.h"
 #include "support/meshes.h"
 
@@ -106,8 +106,8 @@ TEST(FoundMesh, OfWidePolesIsRefusedWhereMemoryIsShort) {
 
 class MemoryLimit : public ::testing::Test {
  protected:
-  std::string mesh(const ControlMesh& control) const {
-    write_obj(directory / "mesh.obj", output(control));
+  std::string mesh(const Mesh& control) const {
+    write_obj(directory / "mesh.obj", control);
     return (directory / "mesh.obj").string();
   }
   std::string out(const char* name) const { return (directory / name).string(); }
@@ -129,7 +129,7 @@ TEST_F(MemoryLimit, OfSamplesIsObeyed) {
 }
 
 TEST_F(MemoryLimit, OfAnalysesAndFitsIsObeyed) {
-  const ControlMesh control = jittered(torus(12, 8));
+  const Mesh control = jittered(torus(12, 8));
   const std::string torus_mesh = mesh(control);
   std::ofstream(directory / "in.csv") << "face,u,v,x,y,z\n0,0.5,0.5,0,0,0\n";
   const std::vector<std::string> analyze{"analyze", torus_mesh, "-s", "catmull-clark", "--json", out("r.json")};

@@ -7,7 +7,7 @@
 #include "stencils/cli_program.h"
 #include "stencils/csv_fields.h"
 #include "sublimit/base/format_number.h"
-#include "sublimit/files/npy.h"
+#include "sublimit/stencils/files/npy.h"
 #include "sublimit/io/read_mesh.h"
 #include "support/free_form_shapes.h"
 #include "support/tolerance.h"

@@ -9,7 +9,7 @@
 
 #include "stencils/cli_tables.h"
 #include "sublimit/base/format_number.h"
-#include "sublimit/files/npy.h"
+#include "sublimit/stencils/files/npy.h"
 #include "support/free_form_shapes.h"
 #include "support/tolerance.h"
 
@@ -72,7 +72,7 @@ void expect_near_files(const std::string& made, const std::string& right) {
   } else if (made.ends_with(".ply")) {
     const std::string a = read_file(made), b = read_file(right);
     EXPECT_EQ(a.substr(0, a.find("end_header")), b.substr(0, b.find("end_header")));
-    const ControlMesh own = read_mesh(made), other = read_mesh(right);
+    const Mesh own = read_mesh(made), other = read_mesh(right);
     EXPECT_EQ(own.face_vertices, other.face_vertices);
     ASSERT_EQ(own.num_vertices(), other.num_vertices());
     EXPECT_LE((own.positions - other.positions).cwiseAbs().maxCoeff(), in_float);

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "stencils/subcommands.h"
-#include "sublimit/io/obj.h"
+#include "sublimit/io/detail/obj.h"
 #include "support/meshes.h"
 
 namespace sublimit::testing {
@@ -93,7 +93,7 @@ TEST(CliHelp, SaysWhichValueIsWrong) {
 
 TEST(CliHelp, OptionsStandBeforeAndBehindArguments) {
   const TemporaryDirectory directory;
-  write_obj(directory / "mesh.obj", output(cube()));
+  write_obj(directory / "mesh.obj", cube());
   const std::string mesh = (directory / "mesh.obj").string(), out = (directory / "out.obj").string();
   expect_done(sublimit({"refine", mesh, "-s", "loop", "--triangulate", "-l", "1", "-o", out}));
   const std::string expected = read_file(out);
@@ -109,7 +109,7 @@ TEST(CliHelp, OptionsStandBeforeAndBehindArguments) {
 // Numbers in files have points whatever the user's language has.
 TEST(CliHelp, LanguagesOfTheUserChangeNothing) {
   const TemporaryDirectory directory;
-  write_obj(directory / "mesh.obj", output(cube()));
+  write_obj(directory / "mesh.obj", cube());
   const std::string mesh = (directory / "mesh.obj").string(), out = (directory / "out.csv").string();
   const Words words{"sample", mesh, "-s", "catmull-clark", "--random", "3", "-o", out};
   expect_done(sublimit(words));

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "stencils/cli_program.h"
-#include "sublimit/io/polygon_files.h"
+#include "sublimit/io/detail/polygon_files.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {
@@ -31,7 +31,7 @@ TEST(CliHermiteIncentre, RefinesAndGoesOn) {
     all.insert(all.end(), more.begin(), more.end());
     return expect_done(sublimit(all), more.empty());
   };
-  expect_parts(run("refine", in, "1", "a.csv", {}).err, {"note", "p.csv", "1 of 2 legs have no incentre"});
+  expect_parts(run("refine", in, "1", "a.csv", {}).err, {"note", "p.csv", "1 of 2 segments have no incentre"});
   run("refine", path("a.csv"), "2", "b.csv");
   run("refine", in, "3", "c.csv");
   EXPECT_EQ(read_file(path("b.csv")), read_file(path("c.csv")));

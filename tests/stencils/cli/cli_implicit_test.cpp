@@ -140,7 +140,7 @@ TEST(CliImplicit, APartHasCreases) {
                     out = (directory / "cage.obj").string();
   const Outcome outcome = expect_done(sublimit({"implicit", in, "-o", out}));
   expect_parts(outcome.out, {"8 corners", "Euler characteristic 0, 1 components", ": met"});
-  const ControlMesh cage = read_mesh(out);
+  const Mesh cage = read_mesh(out);
   EXPECT_GT(cage.creases.size(), 20u);
   EXPECT_EQ(cage.corners.size(), 8u);
 }

@@ -8,8 +8,8 @@
 #include <map>
 
 #include "stencils/cli_program.h"
-#include "sublimit/io/obj.h"
-#include "sublimit/io/ply.h"
+#include "sublimit/io/detail/obj.h"
+#include "sublimit/io/detail/ply.h"
 #include "support/meshes.h"
 
 namespace sublimit::testing {
@@ -21,8 +21,8 @@ using Words = std::vector<std::string>;
 class Samples {
  public:
   Samples() {
-    write_obj(path("mesh.obj"), output(cube()));
-    write_ply(path("mesh.ply"), output(cube()));
+    write_obj(path("mesh.obj"), cube());
+    write_ply(path("mesh.ply"), cube());
     expect_done(
         sublimit({"bake", path("mesh.obj"), "-s", "catmull-clark", "-l", "1", "-o", path("table.safetensors")}));
     expect_done(sublimit({"export", path("table.safetensors"), "-o", path("table.npz")}));
@@ -152,7 +152,7 @@ TEST(CliInputFiles, PipesAreReadOnce) {
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
   Program program({"info", pipe, "-s", "catmull-clark", "--json"});
   const int writer = ::open(pipe.c_str(), O_WRONLY);
-  const std::string text = format_obj(output(cube()));
+  const std::string text = format_obj(cube());
   EXPECT_EQ(::write(writer, text.data(), text.size()), ssize_t(text.size()));
   ::close(writer);
   expect_parts(expect_done(program.wait()).out, {"\"vertices\": 8"});

@@ -11,7 +11,7 @@
 #include <thread>
 
 #include "stencils/cli_program.h"
-#include "sublimit/io/obj.h"
+#include "sublimit/io/detail/obj.h"
 #include "support/meshes.h"
 
 namespace sublimit::testing {
@@ -28,8 +28,8 @@ class SlowMesh {
   ~SlowMesh() { close(); }
   /// Waits for the program to open it.
   void open() { file_ = ::open(path.c_str(), O_WRONLY); }
-  void send(const ControlMesh& mesh) {
-    const std::string text = format_obj(output(mesh));
+  void send(const Mesh& mesh) {
+    const std::string text = format_obj(mesh);
     EXPECT_EQ(::write(file_, text.data(), text.size()), ssize_t(text.size()));
     close();
   }
@@ -116,7 +116,7 @@ TEST(CliInterrupt, EndsAReader) {
 
 TEST(CliInterrupt, LeavesNoPartialOutput) {
   const TemporaryDirectory directory;
-  write_obj(directory / "mesh.obj", output(torus(48, 48)));
+  write_obj(directory / "mesh.obj", torus(48, 48));
   const auto begun = [&] {
     for (const auto& entry : std::filesystem::directory_iterator(directory.path()))
       if (entry.path().extension() == ".tmp") return true;

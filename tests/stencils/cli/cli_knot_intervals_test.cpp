@@ -5,7 +5,7 @@
 #include "stencils/cli_program.h"
 #include "sublimit/io/read_mesh.h"
 #include "sublimit/io/write_mesh.h"
-#include "sublimit/schemes.h"
+#include "sublimit/schemes/schemes.h"
 #include "sublimit/scheme/refine.h"
 #include "support/meshes.h"
 #include "support/point_intervals.h"
@@ -17,14 +17,14 @@ namespace {
 const std::string scheme_name = "catmull-clark-intervals";
 
 /// The cube with three intervals, one for each direction.
-ControlMesh box() {
-  ControlMesh mesh = cube();
+Mesh box() {
+  Mesh mesh = cube();
   mesh.knot_intervals = {{0, 1, 1}, {0, 2, 2.5}, {0, 4, 4}};
   return mesh;
 }
 
-std::string mesh_file(const TemporaryDirectory& directory, const std::string& name, const ControlMesh& mesh) {
-  write_mesh(directory / name, output(mesh));
+std::string mesh_file(const TemporaryDirectory& directory, const std::string& name, const Mesh& mesh) {
+  write_mesh(directory / name, mesh);
   return (directory / name).string();
 }
 
@@ -35,8 +35,8 @@ TEST(CliKnotIntervals, AreRefinedAndWrittenBack) {
   expect_done(sublimit({"refine", mesh, "-s", scheme_name, "-l", "3", "-o", path("three.obj")}));
   expect_done(sublimit({"refine", mesh, "-s", scheme_name, "-l", "1", "-o", path("one.obj")}));
   expect_done(sublimit({"refine", path("one.obj"), "-s", scheme_name, "-l", "2", "-o", path("again.obj")}));
-  const ControlMesh three = read_mesh(path("three.obj")), one = read_mesh(path("one.obj")),
-                    again = read_mesh(path("again.obj"));
+  const Mesh three = read_mesh(path("three.obj")), one = read_mesh(path("one.obj")),
+             again = read_mesh(path("again.obj"));
   EXPECT_EQ(one.knot_intervals.size(), 48u);
   ASSERT_EQ(three.positions.rows(), again.positions.rows());
   EXPECT_LE((three.positions - again.positions).norm(), rounding(12));
@@ -91,8 +91,8 @@ TEST(CliKnotIntervals, OfPointsAreWrittenBackAndBaked) {
     expect_done(sublimit({"refine", from, "-s", scheme, "-l", levels, "-o", path(to)}));
     return read_mesh(path(to));
   };
-  const ControlMesh three = refined(mesh, "3", "three.obj"), one = refined(mesh, "1", "one.obj"),
-                    again = refined(path("one.obj"), "2", "again.obj");
+  const Mesh three = refined(mesh, "3", "three.obj"), one = refined(mesh, "1", "one.obj"),
+             again = refined(path("one.obj"), "2", "again.obj");
   EXPECT_EQ(one.knot_intervals.size(), 2 * 48u);  // both ends of the edges
   ASSERT_EQ(three.positions.rows(), again.positions.rows());
   EXPECT_LE((three.positions - again.positions).norm(), rounding(24));

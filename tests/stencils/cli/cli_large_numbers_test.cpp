@@ -6,7 +6,7 @@
 #include <regex>
 
 #include "stencils/cli_program.h"
-#include "sublimit/io/obj.h"
+#include "sublimit/io/detail/obj.h"
 #include "support/meshes.h"
 
 namespace sublimit::testing {
@@ -20,9 +20,9 @@ class LargeNumbers {
   }
   /// A cube whose coordinates are this in size.
   std::string cube_of(double size) const {
-    ControlMesh mesh = cube();
+    Mesh mesh = cube();
     mesh.positions *= size;
-    write_obj(path("cube.obj"), output(mesh));
+    write_obj(path("cube.obj"), mesh);
     return path("cube.obj");
   }
 
@@ -81,12 +81,12 @@ TEST(CliLargeNumbers, OfDerivativesAreRefusedNamingThePlace) {
   const LargeNumbers here;
   const std::string table = here.path("table.safetensors"), out = here.path("out.csv");
   const std::string grid = here.path("grid.obj");
-  write_obj(grid, output(torus(4, 4)));
+  write_obj(grid, torus(4, 4));
   expect_done(sublimit({"bake", grid, "-s", "catmull-clark", "--grid", "2", "--derivatives", "2", "--precision",
                         "double", "-o", table}));
-  ControlMesh large = torus(4, 4);
+  Mesh large = torus(4, 4);
   large.positions *= 1.7e308 / large.positions.cwiseAbs().maxCoeff();
-  write_obj(grid, output(large));
+  write_obj(grid, large);
   expect_failure(sublimit({"apply", table, grid, "-o", out}), 3, {"a derivative of point", "another unit"});
   expect_failure(sublimit({"sample", grid, "-s", "catmull-clark", "--grid", "2", "--derivatives", "2", "-o", out}), 3,
                  {"place ", "another unit of length"});

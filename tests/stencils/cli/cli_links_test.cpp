@@ -8,7 +8,7 @@
 #include <sys/stat.h>
 
 #include "stencils/cli_program.h"
-#include "sublimit/io/obj.h"
+#include "sublimit/io/detail/obj.h"
 #include "support/meshes.h"
 
 namespace sublimit::testing {
@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 class CliLinks : public ::testing::Test {
  protected:
   CliLinks() {
-    write_obj(mesh, output(cube()));
+    write_obj(mesh, cube());
     fs::create_directory(directory / "there");
     fs::create_directory(directory / "empty");
   }

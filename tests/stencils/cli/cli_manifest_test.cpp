@@ -16,8 +16,8 @@ using Json = nlohmann::json;
 class Farm {
  public:
   Farm() {
-    write_obj(directory / "cube.obj", output(creased_cube()));
-    write_obj(directory / "ring.obj", output(jittered(torus(8, 6))));
+    write_obj(directory / "cube.obj", creased_cube());
+    write_obj(directory / "ring.obj", jittered(torus(8, 6)));
   }
   std::string path(std::string_view name) const { return (directory / name).string(); }
   void write(const std::vector<std::string>& lines) const {
@@ -101,11 +101,11 @@ TEST(CliManifest, SkipsWhatIsThereAndSound) {
               job("cube.obj", "b.safetensors", R"("levels": 2, "no-creases": true)")});
   EXPECT_EQ(statuses(), "done done ");
   // Points that move are no other job; faces and tags are.
-  write_obj(farm.directory / "cube.obj", output(jittered(creased_cube(), 0.1, 5)));
+  write_obj(farm.directory / "cube.obj", jittered(creased_cube(), 0.1, 5));
   EXPECT_EQ(statuses(), "skipped skipped ");
-  ControlMesh sharper = creased_cube();
+  Mesh sharper = creased_cube();
   sharper.creases.back().sharpness = 2;
-  write_obj(farm.directory / "cube.obj", output(sharper));
+  write_obj(farm.directory / "cube.obj", sharper);
   EXPECT_EQ(statuses(), "done skipped ");  // the second drops creases
 }
 

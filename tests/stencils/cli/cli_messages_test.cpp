@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "stencils/cli_program.h"
-#include "sublimit/io/obj.h"
+#include "sublimit/io/detail/obj.h"
 #include "support/meshes.h"
 
 namespace sublimit::testing {
@@ -12,7 +12,7 @@ namespace {
 TEST(CliMessages, NumbersHaveTheirShortestForm) {
   const TemporaryDirectory directory;
   const auto file = [&](const char* name, const std::string& text) { return directory.write(name, text).string(); };
-  write_obj(directory / "cube.obj", output(cube()));
+  write_obj(directory / "cube.obj", cube());
   const std::string mesh = (directory / "cube.obj").string(), text = read_file(mesh), scheme = "catmull-clark";
   const std::string csv = (directory / "out.csv").string(), obj = (directory / "out.obj").string();
   const std::string places = file("places.csv", "face,u,v\n0,1.000000001,0.5\n");

@@ -7,8 +7,8 @@
 
 #include "stencils/cli_program.h"
 #include "stencils/csv_fields.h"
-#include "sublimit/files/npy.h"
-#include "sublimit/io/obj.h"
+#include "sublimit/stencils/files/npy.h"
+#include "sublimit/io/detail/obj.h"
 #include "sublimit/io/read_mesh.h"
 #include "support/meshes.h"
 #include "support/tolerance.h"
@@ -17,7 +17,7 @@ namespace sublimit::testing {
 namespace {
 
 std::string write_cube(const TemporaryDirectory& directory) {
-  write_obj(directory / "cube.obj", output(cube()));
+  write_obj(directory / "cube.obj", cube());
   return (directory / "cube.obj").string();
 }
 
@@ -73,9 +73,9 @@ TEST(CliClosest, TakesPointsFromEveryKindOfFile) {
   for (Eigen::Index i = 0; i < q.rows(); ++i)
     csv += std::to_string(q(i, 0)) + "," + std::to_string(q(i, 1)) + "," + std::to_string(q(i, 2)) + "\n";
   directory.write("q.csv", csv);
-  ControlMesh large = cube();
+  Mesh large = cube();
   large.positions = q;
-  write_obj(directory / "q.obj", output(large));
+  write_obj(directory / "q.obj", large);
   NpyWriter npy(directory / "q.npy", DType::F64, {q.rows(), 3});
   npy.write(std::span<const double>(q.data(), size_t(q.size())));
   npy.commit();
@@ -109,7 +109,7 @@ TEST(CliClosest, RefusesInClearWords) {
                    {option + " " + value});
   };
   wrong("--nearest", "0"), wrong("--nearest", "few"), wrong("--radius", "-1"), wrong("--radius", "nan");
-  write_obj(directory / "open.obj", output(grid(2, 2)));
+  write_obj(directory / "open.obj", grid(2, 2));
   expect_failure(sublimit({"closest", (directory / "open.obj").string(), "-s", "catmull-clark", "--points", good, "-o",
                            out, "--signed"}),
                  3, {"open.obj", "not closed at edge"});

@@ -6,7 +6,7 @@
 
 #include "stencils/cli_program.h"
 #include "stencils/recipes/recipe_samples.h"
-#include "sublimit/io/obj.h"
+#include "sublimit/io/detail/obj.h"
 
 namespace sublimit::testing {
 namespace {

@@ -8,8 +8,8 @@
 #include <sstream>
 
 #include "stencils/cli_program.h"
-#include "sublimit/io/obj.h"
-#include "sublimit/io/obj_normals.h"
+#include "sublimit/io/detail/obj.h"
+#include "sublimit/io/detail/obj_normals.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {
@@ -89,7 +89,7 @@ TEST(CliNormalSurfaces, AreWrittenAsPointsWithNormals) {
   const TemporaryDirectory directory;
   const std::string in = directory.write("o.obj", octahedron).string(), out = (directory / "level.obj").string();
   expect_done(sublimit({"refine", in, "-s", "nielson", "-l", "3", "-o", out}));
-  const ControlMesh level = read_obj(out);
+  const Mesh level = read_obj(out);
   EXPECT_EQ(level.num_faces(), 8 * 64);
   const Points normals = read_obj_normals(out);
   ASSERT_EQ(normals.rows(), level.num_vertices());

@@ -6,7 +6,7 @@
 
 #include "optional_parts.h"
 #include "stencils/cli_program.h"
-#include "sublimit/io/obj.h"
+#include "sublimit/io/detail/obj.h"
 #include "support/meshes.h"
 
 namespace sublimit::testing {
@@ -23,7 +23,7 @@ Outcome alone(const TemporaryDirectory& directory, const std::vector<std::string
 
 TEST(CliParts, MissingLibrariesAreNamedWithTheirPackagesAndHowToBuildThem) {
   const TemporaryDirectory directory;
-  write_obj(directory / "cube.obj", output(cube()));
+  write_obj(directory / "cube.obj", cube());
   const std::string mesh = (directory / "cube.obj").string(), solid = (directory / "cube.step").string(),
                     cage = (directory / "cage.obj").string();
   const std::string field =
@@ -55,7 +55,7 @@ TEST(CliParts, LibrariesOfAnotherVersionAreRefused) {
   ASSERT_NE(at, std::string::npos);
   library.replace(at + 1, other.size(), other);
   const TemporaryDirectory directory;
-  write_obj(directory / "cube.obj", output(cube()));
+  write_obj(directory / "cube.obj", cube());
   directory.write(opencascade_library, library);
   expect_failure(alone(directory, {"step", (directory / "cube.obj").string(), "-s", "catmull-clark", "-o",
                                    (directory / "cube.step").string()}),
@@ -64,7 +64,7 @@ TEST(CliParts, LibrariesOfAnotherVersionAreRefused) {
 
 TEST(CliParts, LibrariesThatCannotBeLoadedAreAnErrorOfTheirOwn) {
   const TemporaryDirectory directory;
-  write_obj(directory / "cube.obj", output(cube()));
+  write_obj(directory / "cube.obj", cube());
   directory.write("libsublimit_opencascade.so", "no library");
   expect_failure(alone(directory, {"step", (directory / "cube.obj").string(), "-s", "catmull-clark", "-o",
                                    (directory / "cube.step").string()}),

@@ -14,11 +14,11 @@
 #include "stencils/cli_program.h"
 #include "stencils/csv_fields.h"
 #include "sublimit/base/format_number.h"
-#include "sublimit/files/random_samples.h"
-#include "sublimit/io/obj.h"
+#include "sublimit/stencils/files/random_samples.h"
+#include "sublimit/io/detail/obj.h"
 #include "sublimit/limit/curvature.h"
 #include "sublimit/limit/limit_map.h"
-#include "sublimit/schemes.h"
+#include "sublimit/schemes/schemes.h"
 #include "support/meshes.h"
 #include "support/tolerance.h"
 
@@ -27,7 +27,7 @@ namespace {
 
 using Parts = std::initializer_list<std::string_view>;
 
-Sample sample_of(const CsvRow& row) { return {Index(csv_number(row[0])), csv_number(row[1]), csv_number(row[2])}; }
+Place sample_of(const CsvRow& row) { return {Index(csv_number(row[0])), csv_number(row[1]), csv_number(row[2])}; }
 
 /// Three fields from `column` on; nothing if they are empty. Some but not all empty is a failure.
 std::optional<Eigen::Vector3d> vector_of(const CsvRow& row, size_t column) {
@@ -40,9 +40,7 @@ std::optional<Eigen::Vector3d> vector_of(const CsvRow& row, size_t column) {
 /// A mesh in a directory, and the program on it.
 class Sampling {
  public:
-  explicit Sampling(const ControlMesh& mesh) : mesh_((directory / "mesh.obj").string()) {
-    write_obj(mesh_, output(mesh));
-  }
+  explicit Sampling(const Mesh& mesh) : mesh_((directory / "mesh.obj").string()) { write_obj(mesh_, mesh); }
   Outcome run(const std::vector<std::string>& arguments, const std::string& scheme = "catmull-clark",
               const std::function<void()>& prepare = {}) const {
     std::vector<std::string> all{"sample", mesh_, "-s", scheme, "-o", out};
@@ -67,8 +65,8 @@ class Sampling {
 };
 
 /// Cube with a crease around a face, a dart, a hole and a semi-sharp edge.
-ControlMesh tagged_cube() {
-  ControlMesh mesh = jittered(cube());
+Mesh tagged_cube() {
+  Mesh mesh = jittered(cube());
   add_crease(mesh, {0, 1, 3, 2, 0}, std::numeric_limits<float>::infinity());
   add_crease(mesh, {4, 5}, 1.5f);
   mesh.holes = {5};
@@ -95,18 +93,18 @@ TEST(CliSample, FirstLineSaysTheColumns) {
 
 /// Every row against the stencil of its place, and what is there against `evaluate`.
 TEST(CliSample, RowsAreTheStencilsOfTheirPlaces) {
-  ControlMesh mesh = tagged_cube();
-  for (const ControlMesh& control : {mesh, jittered(prism(5)), jittered(open_fan(5, 4, 2)), jittered(pole(3))}) {
+  Mesh mesh = tagged_cube();
+  for (const Mesh& control : {mesh, jittered(prism(5)), jittered(open_fan(5, 4, 2)), jittered(pole(3))}) {
     const Sampling on(control);
     const Scheme<double> scheme = find_scheme("catmull-clark").value();
-    const ControlMesh read = read_obj(on.directory / "mesh.obj");
+    const Mesh read = read_obj(on.directory / "mesh.obj");
     const LimitMap surface(scheme, read);
-    std::vector<Sample> samples, random;
+    std::vector<Place> samples, random;
     RandomSamples(surface.addresses(), 200, 4).read(random, 200);
     samples = surface.grid(3);
     samples.insert(samples.end(), random.begin(), random.end());
     std::string text = "face,u,v\n";
-    for (const Sample& s : samples)
+    for (const Place& s : samples)
       text += format_number(s.face) + "," + format_number(s.u) + "," + format_number(s.v) + "\n";
     const std::vector<CsvRow> rows = on.rows({"--at", on.at(text), "--derivatives", "2", "--curvature"});
     ASSERT_EQ(rows.size(), samples.size() + 1);
@@ -115,7 +113,7 @@ TEST(CliSample, RowsAreTheStencilsOfTheirPlaces) {
       const CsvRow& row = rows[i + 1];
       SCOPED_TRACE(row[0] + "," + row[1] + "," + row[2] + " " + row[3]);
       ASSERT_EQ(row.size(), 29u);
-      const Sample s = sample_of(row);
+      const Place s = sample_of(row);
       EXPECT_TRUE(s.face == samples[i].face && s.u == samples[i].u && s.v == samples[i].v);
       const LimitStencil stencil = surface.stencil(s, 2);
       Points local(stencil.vertices.size(), 3);
@@ -144,7 +142,7 @@ TEST(CliSample, RowsAreTheStencilsOfTheirPlaces) {
 
 /// Cubic B-splines of control values i^2 are x^2 + 1/3: a parabolic cylinder, whose curvature is known.
 TEST(CliSample, CurvatureOfAParabolicCylinder) {
-  ControlMesh mesh = grid(5, 5);
+  Mesh mesh = grid(5, 5);
   for (Index i = 0; i < 36; ++i) {
     const double x = i % 6 - 2.0;
     mesh.positions.row(i) << x, i / 6, x * x;
@@ -170,22 +168,22 @@ TEST(CliSample, GridsAreRowMajorWithUFastest) {
     const std::string scheme = whole ? "loop" : "catmull-clark";
     const std::vector<CsvRow> rows = on.rows({"--grid", "4"}, scheme);
     EXPECT_EQ(rows.size(), 1u + (whole ? 20 * 10 : 15 * 16));
-    const std::vector<Sample> grid = LimitMap(find_scheme(scheme).value(), whole ? icosahedron() : prism(5)).grid(4);
+    const std::vector<Place> grid = LimitMap(find_scheme(scheme).value(), whole ? icosahedron() : prism(5)).grid(4);
     ASSERT_EQ(rows.size(), grid.size() + 1);
     for (size_t i = 0; i < grid.size(); ++i) {
-      const Sample s = sample_of(rows[i + 1]);
+      const Place s = sample_of(rows[i + 1]);
       EXPECT_TRUE(s.face == grid[i].face && s.u == grid[i].u && s.v == grid[i].v) << i;
     }
     EXPECT_EQ(rows[2][1], "0.3333333333333333");
     EXPECT_EQ(rows[2][2], "0");
   }
   // More than one batch.
-  const std::vector<Sample> grid = LimitMap(find_scheme("catmull-clark").value(), prism(5)).grid(70);
+  const std::vector<Place> grid = LimitMap(find_scheme("catmull-clark").value(), prism(5)).grid(70);
   ASSERT_GT(grid.size(), 70'000u);
   const std::vector<CsvRow> rows = squares.rows({"--grid", "70"});
   ASSERT_EQ(rows.size(), grid.size() + 1);
   for (size_t i = 0; i < grid.size(); ++i) {
-    const Sample s = sample_of(rows[i + 1]);
+    const Place s = sample_of(rows[i + 1]);
     ASSERT_TRUE(s.face == grid[i].face && s.u == grid[i].u && s.v == grid[i].v) << i;
   }
 }
@@ -244,7 +242,7 @@ TEST(CliSample, ThreadsChangeNoBit) {
 }
 
 TEST(CliSample, StatusesAndWhatIsEmptyThere) {
-  const auto row = [](const ControlMesh& mesh, const std::string& place, const std::string& scheme = "catmull-clark") {
+  const auto row = [](const Mesh& mesh, const std::string& place, const std::string& scheme = "catmull-clark") {
     const Sampling on(mesh);
     const std::vector<CsvRow> rows =
         on.rows({"--at", on.at("face,u,v\n" + place + "\n"), "--derivatives", "2"}, scheme);
@@ -265,7 +263,7 @@ TEST(CliSample, StatusesAndWhatIsEmptyThere) {
   r = row(grid(3, 3), "0,0.5,0");
   EXPECT_EQ(r[3], "crease");
   EXPECT_EQ(present(r), "1111111");
-  ControlMesh mesh = torus(5, 5);
+  Mesh mesh = torus(5, 5);
   mesh.holes = {3};
   EXPECT_EQ(row(mesh, "3,0.5,0.5")[3], "hole");
   EXPECT_EQ(row(mesh, "4,0.5,0.5")[3], "regular");

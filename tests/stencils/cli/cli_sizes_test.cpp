@@ -17,7 +17,7 @@ constexpr double at_once = 3;
 class Refusals {
  public:
   Refusals() {
-    write_obj(path("mesh.obj"), output(cube()));
+    write_obj(path("mesh.obj"), cube());
     directory.write("line.csv", "0,0\n1,0\n1,1\n0,2\n");
     directory.write("targets.csv", "vertex,x,y,z\n0,1,1,1\n");
     std::filesystem::create_directory(path("folder"));
@@ -132,7 +132,7 @@ TEST(CliOutput, ThatIsAFolder) {
 TEST(CliOutput, ThatIsTheInputIsReplacedWhole) {
   const TemporaryDirectory directory;
   const std::string mesh = (directory / "mesh.obj").string();
-  write_obj(mesh, output(cube()));
+  write_obj(mesh, cube());
   expect_done(sublimit({"refine", mesh, "-s", "catmull-clark", "-l", "1", "-o", mesh}));
   EXPECT_EQ(read_mesh(mesh).num_faces(), 24);
   expect_done(sublimit({"limit", mesh, "-s", "catmull-clark", "-o", mesh, "--quiet"}));

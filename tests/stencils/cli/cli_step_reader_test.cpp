@@ -6,7 +6,7 @@
 #include "stencils/cli/python_with_scipy.h"
 #include "stencils/cli_program.h"
 #include "stencils/csv_fields.h"
-#include "sublimit/io/obj.h"
+#include "sublimit/io/detail/obj.h"
 #include "support/free_form_shapes.h"
 #include "support/meshes.h"
 #include "support/tolerance.h"
@@ -44,16 +44,16 @@ Read read_again(const TemporaryDirectory& directory, const std::string& shape, c
 
 TEST(CliStepReader, ExactFacesAreTheLimit) {
   SUBLIMIT_NEEDS_SCIPY;
-  ControlMesh creased = torus(6, 4);
+  Mesh creased = torus(6, 4);
   add_crease(creased, {0, 4, 8, 12, 16, 20, 0}, {10, 10, 10, 10, 10, 10});
-  const std::vector<std::pair<std::string, ControlMesh>> cases{{"catmull-clark", torus(7, 5)},
-                                                               {"catmull-clark", creased},
-                                                               {"doo-sabin", torus(5, 4)},
-                                                               {"loop", triangle_torus(4, 3)},
-                                                               {"bilinear", cube()}};
+  const std::vector<std::pair<std::string, Mesh>> cases{{"catmull-clark", torus(7, 5)},
+                                                        {"catmull-clark", creased},
+                                                        {"doo-sabin", torus(5, 4)},
+                                                        {"loop", triangle_torus(4, 3)},
+                                                        {"bilinear", cube()}};
   for (const auto& [scheme, mesh] : cases) {
     const TemporaryDirectory directory;
-    write_obj(directory / "m.obj", output(mesh));
+    write_obj(directory / "m.obj", mesh);
     const Read read = read_again(directory, (directory / "m.obj").string(), {"-s", scheme});
     EXPECT_LE(read.farthest, cad_exact * diagonal(mesh.positions)) << scheme;
     expect_parts(read.said, {"other 0\n", "closed 1\n"});
@@ -63,7 +63,7 @@ TEST(CliStepReader, ExactFacesAreTheLimit) {
 TEST(CliStepReader, CapsAreWithinTheTolerance) {
   SUBLIMIT_NEEDS_SCIPY;
   const TemporaryDirectory directory;
-  write_obj(directory / "m.obj", output(cube()));
+  write_obj(directory / "m.obj", cube());
   const Read read = read_again(directory, (directory / "m.obj").string(), {"-s", "catmull-clark"});
   EXPECT_LE(read.farthest, default_tolerance * diagonal(cube().positions));
   EXPECT_GT(read.farthest, cad_exact);  // there are caps

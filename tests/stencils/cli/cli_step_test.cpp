@@ -6,22 +6,22 @@
 #include <sstream>
 
 #include "stencils/cli_program.h"
-#include "sublimit/io/obj.h"
+#include "sublimit/io/detail/obj.h"
 #include "support/meshes.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {
 namespace {
 
-std::string write(const TemporaryDirectory& directory, const ControlMesh& mesh) {
-  write_obj(directory / "m.obj", output(mesh));
+std::string write(const TemporaryDirectory& directory, const Mesh& mesh) {
+  write_obj(directory / "m.obj", mesh);
   return (directory / "m.obj").string();
 }
 
 TEST(CliStep, WritesClosedMeshesAsValidSolids) {
   const TemporaryDirectory directory;
   const std::string out = (directory / "o.step").string(), report = (directory / "r.json").string();
-  for (const auto& [scheme, mesh] : std::vector<std::pair<std::string, ControlMesh>>{
+  for (const auto& [scheme, mesh] : std::vector<std::pair<std::string, Mesh>>{
            {"catmull-clark", cube()}, {"doo-sabin", cube()}, {"loop", icosahedron()}, {"bilinear", cube()}}) {
     expect_done(sublimit(
         {"step", write(directory, mesh), "-s", scheme, "--tolerance", "0.01%", "-o", out, "--report", report}));
@@ -55,7 +55,7 @@ TEST(CliStep, WritesOpenMeshesAsShellsAndBrepToo) {
 // Half of a grid is a group, and its triangles have its name too; all of it is an object.
 TEST(CliStep, NamesOfGroupsAndObjectsAreThoseOfFaces) {
   const TemporaryDirectory directory;
-  std::istringstream lines(format_obj(output(grid(4, 2))));
+  std::istringstream lines(format_obj(grid(4, 2)));
   std::string text = "o sheet\n";
   int faces = 0;
   for (std::string line; std::getline(lines, line); text += line + "\n")

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "stencils/cli_program.h"
-#include "sublimit/io/obj.h"
+#include "sublimit/io/detail/obj.h"
 #include "support/meshes.h"
 
 namespace sublimit::testing {
@@ -27,7 +27,7 @@ void fill(int descriptor) { ::dup2(::open("/dev/full", O_WRONLY), descriptor); }
 struct Files {
   TemporaryDirectory directory;
   std::string mesh = (directory / "mesh.obj").string(), out = (directory / "out.obj").string();
-  Files() { write_obj(mesh, output(cube())); }
+  Files() { write_obj(mesh, cube()); }
 };
 
 TEST(CliStreams, ClosedPipeIsAQuietEnd) {

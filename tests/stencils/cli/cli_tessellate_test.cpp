@@ -10,7 +10,7 @@
 
 #include "stencils/cli_program.h"
 #include "stencils/csv_fields.h"
-#include "sublimit/io/obj.h"
+#include "sublimit/io/detail/obj.h"
 #include "sublimit/io/read_mesh.h"
 #include "support/meshes.h"
 #include "support/skip.h"
@@ -20,25 +20,25 @@ namespace sublimit::testing {
 namespace {
 
 std::string write_plain_cube(const TemporaryDirectory& directory) {
-  write_obj(directory / "cube.obj", output(cube()));
+  write_obj(directory / "cube.obj", cube());
   return (directory / "cube.obj").string();
 }
 
 /// A cube whose faces each have the whole of [0, 1]^2: every edge is a seam.
 std::string write_textured_cube(const TemporaryDirectory& directory) {
-  ControlMesh mesh = cube();
-  ControlMesh::FaceVarying uv{"uv", (Points(4, 2) << 0, 0, 1, 0, 1, 1, 0, 1).finished(), {}};
+  Mesh mesh = cube();
+  Mesh::FaceVarying uv{"uv", (Points(4, 2) << 0, 0, 1, 0, 1, 1, 0, 1).finished(), {}};
   for (int f = 0; f < 6; ++f) uv.indices.insert(uv.indices.end(), {0, 1, 2, 3});
   mesh.face_varying.push_back(uv);
-  write_obj(directory / "textured.obj", output(mesh));
+  write_obj(directory / "textured.obj", mesh);
   return (directory / "textured.obj").string();
 }
 
 TEST(CliTessellate, WritesTrianglesNormalsAndPlaces) {
   const TemporaryDirectory directory;
-  ControlMesh creased = cube();
+  Mesh creased = cube();
   add_crease(creased, {0, 1, 3, 2, 0}, 10);
-  write_obj(directory / "cube.obj", output(creased));
+  write_obj(directory / "cube.obj", creased);
   const std::string mesh = (directory / "cube.obj").string(), obj = (directory / "o.obj").string(),
                     ply = (directory / "o.ply").string(), places = (directory / "places.csv").string(),
                     samples = (directory / "samples.csv").string();
@@ -46,7 +46,7 @@ TEST(CliTessellate, WritesTrianglesNormalsAndPlaces) {
       {"tessellate", mesh, "-s", "catmull-clark", "--chord", "1%", "--normals", "--places", places, "-o", obj}));
   expect_parts(done.out, {"triangles", "from the limit"});
   expect_done(sublimit({"tessellate", mesh, "-s", "catmull-clark", "--chord", "1%", "-o", ply, "--quiet"}));
-  const ControlMesh triangles = read_mesh(obj);
+  const Mesh triangles = read_mesh(obj);
   EXPECT_EQ(triangles.positions, read_mesh(ply).positions);
   EXPECT_TRUE(std::ranges::all_of(triangles.face_sizes, [](Index n) { return n == 3; }));
   expect_parts(read_file(obj), {"\nvn ", "//"});
@@ -105,9 +105,9 @@ TEST(CliTessellate, CarriesTextureCoordinates) {
   for (const std::string& out : {obj, ply})
     expect_done(sublimit(
         {"tessellate", mesh, "-s", "catmull-clark", "--chord", "1%", "--places", places, "-o", out, "--quiet"}));
-  const ControlMesh triangles = read_mesh(obj);
+  const Mesh triangles = read_mesh(obj);
   ASSERT_EQ(triangles.face_varying.size(), 1u);
-  const ControlMesh::FaceVarying& uv = triangles.face_varying[0];
+  const Mesh::FaceVarying& uv = triangles.face_varying[0];
   // Linear on each face: u and v of the place themselves. Each face has its own values, each of them once.
   std::map<std::pair<Index, Index>, int> pairs;
   for (size_t c = 0; c < uv.indices.size(); ++c) ++pairs[{triangles.face_vertices[c], uv.indices[c]}];
@@ -116,7 +116,7 @@ TEST(CliTessellate, CarriesTextureCoordinates) {
   EXPECT_EQ(uv.values.minCoeff(), 0);
   EXPECT_EQ(uv.values.maxCoeff(), 1);
   // The PLY has a vertex for each value, and a place for each vertex.
-  const ControlMesh split = read_mesh(ply);
+  const Mesh split = read_mesh(ply);
   EXPECT_EQ(split.positions.rows(), uv.values.rows());
   EXPECT_EQ(std::ssize(csv_rows(places)), split.positions.rows() + 1);
   expect_parts(read_file(ply), {"property double s\nproperty double t\n"});
@@ -178,20 +178,20 @@ TEST(CliTessellate, CellsAreTheLimitInVtk) {
   SUBLIMIT_NEEDS_PROGRAM(std::system((python + " -c 'import vtkmodules.vtkIOXML' 2>/dev/null").c_str()) == 0,
                          "python3-vtk9");
   const TemporaryDirectory directory;
-  ControlMesh creased = jittered(cube());
+  Mesh creased = jittered(cube());
   add_crease(creased, {0, 1, 3}, 1.5);
-  const std::vector<std::pair<std::string, ControlMesh>> jobs{{"catmull-clark", jittered(torus(7, 5))},
-                                                              {"catmull-clark", jittered(prism(5))},
-                                                              {"catmull-clark", creased},
-                                                              {"loop", jittered(icosahedron())},
-                                                              {"loop", jittered(triangle_torus(6, 5))},
-                                                              {"doo-sabin", jittered(prism(5))},
-                                                              {"mid-edge", jittered(torus(7, 5))}};
+  const std::vector<std::pair<std::string, Mesh>> jobs{{"catmull-clark", jittered(torus(7, 5))},
+                                                       {"catmull-clark", jittered(prism(5))},
+                                                       {"catmull-clark", creased},
+                                                       {"loop", jittered(icosahedron())},
+                                                       {"loop", jittered(triangle_torus(6, 5))},
+                                                       {"doo-sabin", jittered(prism(5))},
+                                                       {"mid-edge", jittered(torus(7, 5))}};
   for (size_t k = 0; k < jobs.size(); ++k) {
     const auto& [scheme, mesh] = jobs[k];
     SCOPED_TRACE(scheme + " " + std::to_string(k));
     const auto file = [&](const char* name) { return (directory / (std::to_string(k) + name)).string(); };
-    write_obj(file(".obj"), output(mesh));
+    write_obj(file(".obj"), mesh);
     const double chord = 1e-3;
     expect_parts(expect_done(sublimit({"tessellate", file(".obj"), "-s", scheme, "--chord", std::to_string(chord), "-o",
                                        file(".vtu")}))

@@ -10,10 +10,10 @@
 #include <map>
 
 #include "stencils/cli_tables.h"
-#include "sublimit/files/place_files.h"
-#include "sublimit/io/ply.h"
+#include "sublimit/stencils/files/place_files.h"
+#include "sublimit/io/detail/ply.h"
 #include "sublimit/limit/limit_map.h"
-#include "sublimit/schemes.h"
+#include "sublimit/schemes/schemes.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {
@@ -21,7 +21,7 @@ namespace {
 
 /// Of a mesh, with the table that the tessellation makes.
 struct Tessellated : Tables {
-  Tessellated(const ControlMesh& control, const std::string& scheme, const std::vector<std::string>& more = {},
+  Tessellated(const Mesh& control, const std::string& scheme, const std::vector<std::string>& more = {},
               const std::vector<std::string>& of_table = {})
       : Tables(control) {
     std::vector<std::string> all{"tessellate", mesh, "-s", scheme, "--chord", "1%", "-o", triangles, "--quiet"};
@@ -35,35 +35,35 @@ struct Tessellated : Tables {
 };
 
 /// The same mesh in another pose.
-ControlMesh moved(ControlMesh mesh) {
+Mesh moved(Mesh mesh) {
   for (Index v = 0; v < mesh.num_vertices(); ++v)
     mesh.positions.row(v) += 0.1 * Eigen::RowVector3d(std::sin(3 * v), std::cos(5 * v), std::sin(7 * v));
   return mesh;
 }
 
 TEST(CliTessellationTables, MovePointsAndKeepTriangles) {
-  ControlMesh holed = jittered(grid(4, 3));
+  Mesh holed = jittered(grid(4, 3));
   holed.holes = {5};
-  const std::vector<std::pair<std::string, ControlMesh>> jobs{{"catmull-clark", creased_cube()},
-                                                              {"catmull-clark", jittered(prism(5))},
-                                                              {"catmull-clark", holed},
-                                                              {"loop", jittered(icosahedron())},
-                                                              {"doo-sabin", jittered(prism(5))}};
+  const std::vector<std::pair<std::string, Mesh>> jobs{{"catmull-clark", creased_cube()},
+                                                       {"catmull-clark", jittered(prism(5))},
+                                                       {"catmull-clark", holed},
+                                                       {"loop", jittered(icosahedron())},
+                                                       {"doo-sabin", jittered(prism(5))}};
   for (const auto& [scheme, mesh] : jobs) {
     SCOPED_TRACE(scheme);
     const Tessellated on(mesh, scheme);
     expect_done(on.apply(on.mesh, on.out));
-    const ControlMesh first = read_mesh(on.triangles), again = read_mesh(on.out);
+    const Mesh first = read_mesh(on.triangles), again = read_mesh(on.out);
     ASSERT_GT(first.num_faces(), 10);
     EXPECT_EQ(again.face_sizes, first.face_sizes);
     EXPECT_EQ(again.face_vertices, first.face_vertices);
     ASSERT_EQ(again.num_vertices(), first.num_vertices());
     EXPECT_LE((again.positions - first.positions).cwiseAbs().maxCoeff(), other_route);
 
-    const ControlMesh pose = moved(mesh);
-    write_obj(on.path("pose.obj"), output(pose));
+    const Mesh pose = moved(mesh);
+    write_obj(on.path("pose.obj"), pose);
     expect_done(on.apply(on.path("pose.obj"), on.out));
-    const ControlMesh there = read_mesh(on.out);
+    const Mesh there = read_mesh(on.out);
     EXPECT_EQ(there.face_vertices, first.face_vertices);
     const LimitMap surface(find_scheme(scheme).value(), pose);
     const Points limit = surface.evaluate(pose.positions, read_placed_faces(on.triangles).places).position;
@@ -76,14 +76,14 @@ const std::vector<std::string> normal_names{"nx", "ny", "nz"};
 
 // Vertices on creases stand there once for each side, with the normal and the place of that side.
 TEST(CliTessellationTables, HaveNormalsOfEachSide) {
-  ControlMesh mesh = jittered(cube());
+  Mesh mesh = jittered(cube());
   add_crease(mesh, {0, 1, 3, 2, 0}, 10);
   const Tessellated on(mesh, "catmull-clark", {"--normals"}, {"--derivatives", "1"});
   expect_done(on.apply(on.mesh, on.out));
-  const PlyMesh file = read_ply(on.triangles, normal_names), applied = read_ply(on.out, normal_names);
+  const Mesh file = read_ply(on.triangles, normal_names), applied = read_ply(on.out, normal_names);
   ASSERT_EQ(file.vertex_values.size(), 3u);
   ASSERT_EQ(applied.vertex_values.size(), 3u);
-  EXPECT_LE((applied.mesh.positions - file.mesh.positions).cwiseAbs().maxCoeff(), other_route);
+  EXPECT_LE((applied.positions - file.positions).cwiseAbs().maxCoeff(), other_route);
   for (size_t k = 0; k < 3; ++k)
     for (size_t i = 0; i < file.vertex_values[k].values.size(); ++i)
       EXPECT_NEAR(applied.vertex_values[k].values[i], file.vertex_values[k].values[i], reference_angle) << i;
@@ -92,17 +92,17 @@ TEST(CliTessellationTables, HaveNormalsOfEachSide) {
   expect_done(sublimit({"tessellate", on.mesh, "-s", "catmull-clark", "--chord", "1%", "-o", on.out, "--quiet"}));
   std::map<std::array<double, 3>, int> copies;
   const auto key = [](const Points& p, Index i) { return std::array{p(i, 0), p(i, 1), p(i, 2)}; };
-  const Points& points = file.mesh.positions;
+  const Points& points = file.positions;
   for (Index i = 0; i < points.rows(); ++i) ++copies[key(points, i)];
   EXPECT_EQ(std::ssize(copies), read_mesh(on.out).num_vertices());
   EXPECT_TRUE(std::ranges::all_of(copies, [](const auto& c) { return c.second <= 2; }));
   EXPECT_GT(std::ranges::count_if(copies, [](const auto& c) { return c.second == 2; }), 8);
   // Each is the normal of the triangles around: of a side, but for how the surface bends in a triangle.
-  for (size_t c = 0; c < file.mesh.face_vertices.size(); c += 3) {
-    const auto at = [&](size_t k) { return Eigen::Vector3d(points.row(file.mesh.face_vertices[c + k])); };
+  for (size_t c = 0; c < file.face_vertices.size(); c += 3) {
+    const auto at = [&](size_t k) { return Eigen::Vector3d(points.row(file.face_vertices[c + k])); };
     const Eigen::Vector3d flat = (at(1) - at(0)).cross(at(2) - at(0)).normalized();
     for (size_t k = 0; k < 3; ++k) {
-      const auto v = size_t(file.mesh.face_vertices[c + k]);
+      const auto v = size_t(file.face_vertices[c + k]);
       Eigen::Vector3d normal;
       for (size_t i = 0; i < 3; ++i) normal[Eigen::Index(i)] = file.vertex_values[i].values[v];
       EXPECT_GT(normal.dot(flat), std::cos(0.5)) << c;
@@ -119,8 +119,8 @@ TEST(CliTessellationTables, ComeOfManifestsToo) {
   EXPECT_EQ(read_file(on.path("made.safetensors")), table);
   expect_parts(expect_done(sublimit({"bake", "--manifest", jobs})).out, {"1 skipped"});
   // The same places with other triangles are another table.
-  ControlMesh one = read_mesh(on.triangles);
-  MeshOutput turned = output(one);
+  Mesh one = read_mesh(on.triangles);
+  Mesh turned = one;
   std::rotate(turned.face_vertices.begin(), turned.face_vertices.begin() + 1, turned.face_vertices.begin() + 3);
   add_places(turned, read_placed_faces(on.triangles).places);
   write_ply(on.triangles, turned);
@@ -139,12 +139,12 @@ TEST(CliTessellationTables, AreRefusedInClearWords) {
   refused({"--tessellation", on.path("none.ply")}, 3, {"none.ply"});
   refused({"--tessellation", on.triangles, "-l", "2"}, 2, {"more than one", "--tessellation"});
   refused({"--tessellation", on.triangles, "--tags"}, 2, {"--tags"});
-  MeshOutput plain = output(read_mesh(on.triangles));
+  Mesh plain = read_mesh(on.triangles);
   write_ply(on.path("plain.ply"), plain);
   refused({"--tessellation", on.path("plain.ply")}, 3, {"plain.ply", "place_face", "sublimit tessellate"});
-  std::vector<Sample> places = read_placed_faces(on.triangles).places;
+  std::vector<Place> places = read_placed_faces(on.triangles).places;
   const auto refused_places = [&](std::initializer_list<std::string_view> parts) {
-    MeshOutput mesh = plain;
+    Mesh mesh = plain;
     add_places(mesh, places);
     write_ply(on.path("off.ply"), mesh);
     refused({"--tessellation", on.path("off.ply")}, 3, parts);

@@ -12,7 +12,7 @@
 
 #include "sublimit/io/read_mesh.h"
 #include "sublimit/io/write_mesh.h"
-#include "sublimit/schemes.h"
+#include "sublimit/schemes/schemes.h"
 #include "support/meshes.h"
 #include "support/temporary_directory.h"
 #include "support/tolerance.h"
@@ -132,7 +132,7 @@ TEST(Program, RefusesFilesThatAreNotThere) {
 TEST(Program, LeavesNothingOnAFullDisk) {
   const TemporaryDirectory directory;
   const auto mesh = directory / "mesh.obj";
-  write_mesh(mesh, output(torus(20, 20)));
+  write_mesh(mesh, torus(20, 20));
   const Ending outcome =
       run({"refine", mesh.string(), "-s", "catmull-clark", "-l", "3", "-o", (directory / "out.obj").string()}, 100000);
   EXPECT_EQ(outcome.status, 4) << outcome.text;
@@ -171,7 +171,7 @@ TEST(Program, RefiningTwiceByOneIsRefiningOnceByTwo) {
     if (!wanted) continue;
     const TemporaryDirectory directory;
     const auto path = [&](const char* file) { return (directory / file).string(); };
-    write_mesh(path("mesh.obj"), output(named.mesh));
+    write_mesh(path("mesh.obj"), named.mesh);
     const auto refine_by = [&](const char* from, const char* levels, const char* to) {
       const Ending outcome =
           run({"refine", path(from), "-s", "catmull-clark", "-l", levels, "-o", path(to), "--quiet"});
@@ -189,8 +189,8 @@ TEST(Program, RefiningTwiceByOneIsRefiningOnceByTwo) {
 TEST(Program, WritesMatricesThatMakeItsMeshes) {
   const TemporaryDirectory directory;
   const auto path = [&](const char* file) { return (directory / file).string(); };
-  const ControlMesh mesh = jittered(torus(4, 5));
-  write_mesh(path("mesh.obj"), output(mesh));
+  const Mesh mesh = jittered(torus(4, 5));
+  write_mesh(path("mesh.obj"), mesh);
   ASSERT_EQ(run({"refine", path("mesh.obj"), "-s", "catmull-clark", "-l", "2", "-o", path("out.obj"), "--matrix",
                  path("P.mtx")})
                 .status,
@@ -209,7 +209,7 @@ TEST(Program, WritesMatricesThatMakeItsMeshes) {
     x.row(r - 1) += w * mesh.positions.row(c - 1);
   }
   EXPECT_TRUE(file.good());
-  const ControlMesh refined = read_mesh(path("out.obj"));
+  const Mesh refined = read_mesh(path("out.obj"));
   ASSERT_EQ(refined.num_vertices(), rows);
   EXPECT_LE((refined.positions - x).cwiseAbs().maxCoeff(), rounding(32, 9));  // sums in another order
 }
@@ -217,12 +217,12 @@ TEST(Program, WritesMatricesThatMakeItsMeshes) {
 TEST(Program, MovesVerticesToTheLimitWithNormals) {
   const TemporaryDirectory directory;
   const auto path = [&](const char* file) { return (directory / file).string(); };
-  write_mesh(path("cube.obj"), output(cube()));
+  write_mesh(path("cube.obj"), cube());
   const Ending outcome = run({"limit", path("cube.obj"), "-s", "catmull-clark", "--normals", "-o", path("limit.obj")});
   EXPECT_EQ(outcome.status, 0) << outcome.text;
   // Halstead 1993 at n = 3: (9 v + 4 sum e + sum f) / 24; a cube's corner (1,1,1): (9 + 4 + (-1)(...)) -> (9 + 4 - 1
   // ...)/24. Per coordinate: v = 1; e: 1, 1, -1; f: 1, -1, -1: (9 + 4 - 1) / 24 = 1/2.
-  const ControlMesh limit = read_mesh(path("limit.obj"));
+  const Mesh limit = read_mesh(path("limit.obj"));
   EXPECT_LE((limit.positions.cwiseAbs().array() - 0.5).abs().maxCoeff(), rounding(18));
   EXPECT_NE(contents(path("limit.obj")).find("vn "), std::string::npos);
   EXPECT_EQ(
@@ -236,7 +236,7 @@ TEST(Program, DescribesSchemesAndMeshes) {
   ASSERT_GE(schemes.size(), all_schemes().size());
   EXPECT_EQ(schemes[1]["name"], "catmull-clark");
   const TemporaryDirectory directory;
-  write_mesh(directory / "cube.obj", output(cube()));
+  write_mesh(directory / "cube.obj", cube());
   const Ending asked = run({"info", (directory / "cube.obj").string(), "-s", "loop", "--json"});
   EXPECT_EQ(asked.status, 1) << "Loop does not take quadrilaterals";
   const auto info = nlohmann::json::parse(asked.text);

@@ -5,24 +5,24 @@
 #include <set>
 
 #include "stencils/cli_program.h"
-#include "sublimit/core/sparse_product.h"
-#include "sublimit/files/refined_mesh.h"
-#include "sublimit/io/obj.h"
-#include "sublimit/schemes.h"
+#include "sublimit/core/detail/sparse_product.h"
+#include "sublimit/stencils/files/level_files.h"
+#include "sublimit/io/detail/obj.h"
+#include "sublimit/schemes/schemes.h"
 #include "support/meshes.h"
 
 namespace sublimit::testing {
 namespace {
 
 /// What the program writes for `levels` levels.
-std::string refined(const Scheme<double>& scheme, const ControlMesh& mesh, int levels) {
+std::string refined(const Scheme<double>& scheme, const Mesh& mesh, int levels) {
   const std::vector<Level> all = refine(scheme, mesh, levels);
   Points points = mesh.positions;
   for (int k = 1; k <= levels; ++k) points = apply(all[k].S, points);
   return format_obj(level_output(all.back(), points, mesh, {}, true));
 }
 
-ControlMesh with_rules(ControlMesh mesh, Boundary boundary, Creasing creasing) {
+Mesh with_rules(Mesh mesh, Boundary boundary, Creasing creasing) {
   mesh.boundary = boundary;
   mesh.creasing = creasing;
   return mesh;
@@ -64,8 +64,8 @@ TEST(RefinedMesh, TwiceByOneIsOnceByTwo) {
       for (const Boundary boundary : {Boundary::none, Boundary::edge_only, Boundary::edge_and_corner})
         for (const Creasing creasing : {Creasing::uniform, Creasing::chaikin}) {
           const Scheme<double> scheme = find_scheme(name).value();
-          const ControlMesh mesh = with_rules(named.mesh, boundary, creasing);
-          const ControlMesh first = parse_obj(refined(scheme, mesh, 1), named.name);
+          const Mesh mesh = with_rules(named.mesh, boundary, creasing);
+          const Mesh first = parse_obj(refined(scheme, mesh, 1), named.name);
           const Level level = refine(scheme, mesh, 1)[1];
           if (joined_otherwise.contains(named.name) && !joined_alike(Topology(view(first)), level.topology())) continue;
           if (looks_sharper.contains(named.name) && implied_sharper(level, first.boundary.value())) continue;
@@ -82,8 +82,8 @@ TEST(RefinedMesh, LevelZeroIsTheMeshAgain) {
   for (const NamedMesh& named : tagged_meshes()) {
     const Scheme<double> scheme = find_scheme(named.schemes[0]).value();
     for (const Boundary boundary : {Boundary::none, Boundary::edge_only, Boundary::edge_and_corner}) {
-      const ControlMesh mesh = with_rules(named.mesh, boundary, Creasing::chaikin);
-      const ControlMesh again = parse_obj(refined(scheme, mesh, 0), named.name);
+      const Mesh mesh = with_rules(named.mesh, boundary, Creasing::chaikin);
+      const Mesh again = parse_obj(refined(scheme, mesh, 0), named.name);
       EXPECT_TRUE(refined(scheme, again, 2) == refined(scheme, mesh, 2))
           << named.name << ", boundary " << int(boundary);
     }
@@ -92,9 +92,9 @@ TEST(RefinedMesh, LevelZeroIsTheMeshAgain) {
 
 TEST(RefinedMesh, BoundaryNoneWritesItsHoles) {
   const Scheme<double> scheme = find_scheme("catmull-clark").value();
-  const ControlMesh mesh = with_rules(grid(4, 4), Boundary::none, Creasing::uniform);
+  const Mesh mesh = with_rules(grid(4, 4), Boundary::none, Creasing::uniform);
   const std::vector<Level> levels = refine(scheme, mesh, 1);
-  const ControlMesh again = parse_obj(refined(scheme, mesh, 1), "grid.obj");
+  const Mesh again = parse_obj(refined(scheme, mesh, 1), "grid.obj");
   EXPECT_EQ(again.holes.size(), 4u * (16 - 4));  // the faces at the rim, refined
   const Level level = control_level(scheme, again);
   EXPECT_EQ(level.holes, levels[1].holes);
@@ -102,31 +102,31 @@ TEST(RefinedMesh, BoundaryNoneWritesItsHoles) {
 
 TEST(RefinedMesh, WritesOnlyWhatConnectivityDoesNotImply) {
   const Scheme<double> scheme = find_scheme("catmull-clark").value();
-  const ControlMesh open = parse_obj(refined(scheme, grid(3, 2), 1), "grid.obj");
+  const Mesh open = parse_obj(refined(scheme, grid(3, 2), 1), "grid.obj");
   EXPECT_TRUE(open.creases.empty() && open.corners.empty() && open.holes.empty());
-  ControlMesh creased = grid(3, 2);
+  Mesh creased = grid(3, 2);
   add_crease(creased, {1, 5, 9}, 1.5f);  // across, from rim to rim
-  const ControlMesh child = parse_obj(refined(scheme, creased, 1), "grid.obj");
+  const Mesh child = parse_obj(refined(scheme, creased, 1), "grid.obj");
   ASSERT_EQ(child.creases.size(), 4u);
-  for (const ControlMesh::Crease& crease : child.creases) EXPECT_EQ(crease.sharpness, 0.5f);
+  for (const Mesh::Crease& crease : child.creases) EXPECT_EQ(crease.sharpness, 0.5f);
 }
 
 // The same through files and processes, with options on the command line instead of tags.
 TEST(CliRefine, TwiceByOneIsOnceByTwo) {
-  ControlMesh tagged = jittered(grid(4, 3));
+  Mesh tagged = jittered(grid(4, 3));
   add_crease(tagged, {6, 7, 8}, {2.25f, 1.5f});
   tagged.corners.push_back({12, 1.75f});
   tagged.holes.push_back(2);
-  ControlMesh mixed = jittered(polygon_ring({5, 4, 3, 6, 4}));
+  Mesh mixed = jittered(polygon_ring({5, 4, 3, 6, 4}));
   mixed.triangles = Triangles::smooth;
   const TemporaryDirectory directory;
   const auto path = [&](const char* name) { return (directory / name).string(); };
   int number = 0;
-  for (const ControlMesh& mesh : {tagged, mixed, fan(5)})
+  for (const Mesh& mesh : {tagged, mixed, fan(5)})
     for (const char* boundary : {"", "none", "edge-only", "edge-and-corner"})
       for (const char* creasing : {"uniform", "chaikin"}) {
         SCOPED_TRACE(std::to_string(number++) + " " + boundary + " " + creasing);
-        write_obj(directory / "mesh.obj", output(mesh));
+        write_obj(directory / "mesh.obj", mesh);
         std::vector<std::string> options{"-s", "catmull-clark", "--creasing", creasing};
         if (*boundary) options.insert(options.end(), {"--boundary", boundary});
         const auto run = [&](const char* from, const char* levels, const char* to, bool with_options) {

@@ -9,8 +9,8 @@
 #include <thread>
 
 #include "stencils/distributed/run_ranks.h"
-#include "sublimit/io/obj.h"
-#include "sublimit/shards/shard_file.h"
+#include "sublimit/io/detail/obj.h"
+#include "sublimit/stencils/shards/shard_file.h"
 #include "support/meshes.h"
 
 namespace sublimit::testing {
@@ -40,8 +40,8 @@ struct BakedFiles {
   TemporaryDirectory directory;
   std::string obj = (directory / "m.obj").string(), shards = (directory / "shards").string(),
               npy = (directory / "o.npy").string();
-  explicit BakedFiles(const ControlMesh& mesh = torus(6, 5), bool now = true) {
-    write_obj(obj, output(mesh));
+  explicit BakedFiles(const Mesh& mesh = torus(6, 5), bool now = true) {
+    write_obj(obj, mesh);
     if (!now) return;
     EXPECT_EQ(run_ranks(2, "bake " + obj + " -s catmull-clark -l 2 -o " + shards).status, 0);
   }
@@ -131,9 +131,9 @@ TEST(RankFailures, AnotherMeshThanTheOneBakedIsRefused) {
   const BakedFiles baked;
   const std::string before = read_file(fs::path(baked.shards) / shard_name(0, 2));
   const std::string other = (baked.directory / "other.obj").string();
-  ControlMesh turned = torus(6, 5);
+  Mesh turned = torus(6, 5);
   std::rotate(turned.face_vertices.begin(), turned.face_vertices.begin() + 1, turned.face_vertices.begin() + 4);
-  write_obj(other, output(turned));
+  write_obj(other, turned);
   expect_one_line(run_ranks(2, "apply " + baked.shards + " " + other + " -o " + baked.npy), 3, {"faces are others"});
   EXPECT_EQ(run_ranks(2, "apply " + baked.shards + " " + other + " --any-cage -o " + baked.npy).status, 0);
   const std::string bake = " -s catmull-clark -l 2 -o " + baked.shards;

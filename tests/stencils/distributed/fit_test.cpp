@@ -9,12 +9,12 @@
 #include <sstream>
 
 #include "stencils/distributed/run_ranks.h"
-#include "sublimit/files/npy.h"
+#include "sublimit/stencils/files/npy.h"
 #include "sublimit/fit/scattered_fit.h"
-#include "sublimit/io/obj.h"
-#include "sublimit/io/ply.h"
+#include "sublimit/io/detail/obj.h"
+#include "sublimit/io/detail/ply.h"
 #include "sublimit/limit/limit_map.h"
-#include "sublimit/schemes.h"
+#include "sublimit/schemes/schemes.h"
 #include "support/meshes.h"
 
 namespace sublimit::testing {
@@ -38,7 +38,7 @@ PlaceTargets random_targets(const LimitMap& surface, const Points& points, Index
   std::uniform_real_distribution<double> unit(0, 1);
   PlaceTargets targets;
   for (Index i = 0; i < count; ++i) {
-    Sample s{std::uniform_int_distribution<Index>(0, addresses - 1)(random), unit(random), unit(random)};
+    Place s{std::uniform_int_distribution<Index>(0, addresses - 1)(random), unit(random), unit(random)};
     if (surface.addresses().triangles() && s.u + s.v > 1) s = {s.face, 1 - s.u, 1 - s.v};
     targets.places.push_back(s);
     if (weighted) targets.weights.push_back(3 * unit(random));
@@ -64,14 +64,14 @@ std::string csv_of(const PlaceTargets& targets) {
 void write(const std::string& path, const std::string& text) { std::ofstream(path) << text; }
 
 /// Of 1 to 3 ranks, beside `fit_places`.
-void expect_same(const std::string& scheme, const ControlMesh& mesh, const PlaceTargets& targets,
+void expect_same(const std::string& scheme, const Mesh& mesh, const PlaceTargets& targets,
                  const Fairness& fairness = {}, const std::string& more = "") {
   const TemporaryDirectory directory;
   const std::string obj = (directory / "m.obj").string(), in = (directory / "in.csv").string(),
                     out = (directory / "o.npy").string();
-  write_obj(obj, output(mesh));
+  write_obj(obj, mesh);
   write(in, csv_of(targets));
-  const ControlMesh read = read_obj(obj);
+  const Mesh read = read_obj(obj);
   const ScatteredFit alone =
       fit_places(LimitMap(*find_scheme<double>(scheme), read), targets, read.positions, {.fairness = fairness});
   ASSERT_TRUE(alone.solution.converged);
@@ -87,13 +87,13 @@ void expect_same(const std::string& scheme, const ControlMesh& mesh, const Place
   }
 }
 
-PlaceTargets random_targets(const std::string& scheme, const ControlMesh& mesh, Index count, bool weighted = false) {
+PlaceTargets random_targets(const std::string& scheme, const Mesh& mesh, Index count, bool weighted = false) {
   const LimitMap surface(*find_scheme<double>(scheme), mesh);
   return random_targets(surface, mesh.positions, count, surface.addresses().size(), weighted);
 }
 
 TEST(SpreadFit, IsTheFitOfOneProcess) {
-  const ControlMesh mesh = jittered(torus(9, 6)), triangles = jittered(triangle_torus(7, 5));
+  const Mesh mesh = jittered(torus(9, 6)), triangles = jittered(triangle_torus(7, 5));
   expect_same("catmull-clark", mesh, random_targets("catmull-clark", mesh, 600));
   expect_same("catmull-clark", mesh, random_targets("catmull-clark", mesh, 600, true));
   expect_same("doo-sabin", mesh, random_targets("doo-sabin", mesh, 600));
@@ -101,15 +101,15 @@ TEST(SpreadFit, IsTheFitOfOneProcess) {
 }
 
 TEST(SpreadFit, HoldsAtExtraordinaryVerticesCreasesAndPolygons) {
-  ControlMesh polygons = jittered(polygon_ring({5, 4, 3, 6, 4}));
+  Mesh polygons = jittered(polygon_ring({5, 4, 3, 6, 4}));
   expect_same("catmull-clark", polygons, random_targets("catmull-clark", polygons, 700));
-  ControlMesh creased = jittered(fan(7, 4, 3));
+  Mesh creased = jittered(fan(7, 4, 3));
   add_crease(creased, {1, 0, 5}, {10, 1.5f});
   expect_same("catmull-clark", creased, random_targets("catmull-clark", creased, 1500));
 }
 
 TEST(SpreadFit, FairnessCountsEachFaceOnce) {
-  const ControlMesh mesh = jittered(disjoint_union(torus(9, 6), prism(5))), triangles = jittered(triangle_torus(7, 5));
+  const Mesh mesh = jittered(disjoint_union(torus(9, 6), prism(5))), triangles = jittered(triangle_torus(7, 5));
   for (const auto& fairness : {Fairness{.thin_plate = 1e-3}, Fairness{.thin_plate = 1e-2, .membrane = 1e-2}}) {
     expect_same("catmull-clark", mesh, random_targets("catmull-clark", mesh, 400, true), fairness);
     expect_same("loop", triangles, random_targets("loop", triangles, 100), fairness, "--petsc '-pc_type jacobi'");
@@ -117,7 +117,7 @@ TEST(SpreadFit, FairnessCountsEachFaceOnce) {
 }
 
 TEST(SpreadFit, WithoutEnoughTargetsIsTheNearest) {
-  const ControlMesh mesh = jittered(torus(9, 6));
+  const Mesh mesh = jittered(torus(9, 6));
   const LimitMap surface(*find_scheme<double>("catmull-clark"), mesh);
   PlaceTargets targets = random_targets(surface, mesh.positions, 12, 20, false);
   for (size_t i = 0; i < targets.places.size(); ++i) targets.places[i].face = Index(2 * i);
@@ -125,7 +125,7 @@ TEST(SpreadFit, WithoutEnoughTargetsIsTheNearest) {
 }
 
 TEST(SpreadFit, RanksWithoutFacesTakePart) {
-  const ControlMesh face = jittered(grid(1, 1));
+  const Mesh face = jittered(grid(1, 1));
   const PlaceTargets targets = random_targets("catmull-clark", face, 20);
   expect_same("catmull-clark", face, targets);
   expect_same("catmull-clark", face, targets, {.thin_plate = 1e-2});
@@ -135,7 +135,7 @@ TEST(SpreadFit, FairnessMayLeaveSomethingFree) {  // affine maps of a plane have
   const TemporaryDirectory directory;
   const std::string obj = (directory / "m.obj").string(), in = (directory / "in.csv").string(),
                     out = (directory / "o.npy").string();
-  write_obj(obj, output(grid(1, 1)));
+  write_obj(obj, grid(1, 1));
   const LimitMap surface(*find_scheme<double>("catmull-clark"), read_obj(obj));
   const PlaceTargets targets = random_targets("catmull-clark", grid(1, 1), 2);
   write(in, csv_of(targets));
@@ -153,8 +153,8 @@ TEST(SpreadFit, MeetsVertices) {
   const TemporaryDirectory directory;
   const std::string obj = (directory / "m.obj").string(), in = (directory / "in.csv").string(),
                     out = (directory / "o.npy").string(), alone = (directory / "alone.obj").string();
-  const ControlMesh mesh = jittered(torus(9, 6)), targets = jittered(mesh, 0.05, 2);
-  write_obj(obj, output(mesh));
+  const Mesh mesh = jittered(torus(9, 6)), targets = jittered(mesh, 0.05, 2);
+  write_obj(obj, mesh);
   std::ostringstream text;
   text.precision(17);
   text << "vertex,x,y,z\n";
@@ -170,7 +170,7 @@ TEST(SpreadFit, MeetsVertices) {
   }
   const std::string ply = (directory / "o.ply").string();
   ASSERT_EQ(run_ranks(3, "fit " + obj + " --targets " + in + " -s catmull-clark -o " + ply).status, 0);
-  const ControlMesh fitted = read_ply(ply);
+  const Mesh fitted = read_ply(ply);
   EXPECT_EQ(fitted.face_vertices, mesh.face_vertices);
   EXPECT_LT((fitted.positions - expected).cwiseAbs().maxCoeff(), fit_tolerance * box(mesh.positions));
 }
@@ -179,7 +179,7 @@ TEST(SpreadFit, TargetsOfAVertexThatCannotBeMetAreAnError) {  // the limits of a
   const TemporaryDirectory directory;
   const std::string obj = (directory / "m.obj").string(), in = (directory / "in.csv").string(),
                     out = (directory / "o.npy").string();
-  write_obj(obj, output(cube()));
+  write_obj(obj, cube());
   std::string text = "vertex,x,y,z\n";
   for (int v = 0; v < 8; ++v) text += fmt::format("{},{},{},{}\n", v, v * v, v % 3, v / 2);
   write(in, text);
@@ -197,9 +197,9 @@ TEST(SpreadFit, BadInputIsOneLine) {
   const TemporaryDirectory directory;
   const std::string obj = (directory / "m.obj").string(), in = (directory / "in.csv").string(),
                     out = (directory / "o.npy").string();
-  ControlMesh mesh = jittered(torus(5, 4));
+  Mesh mesh = jittered(torus(5, 4));
   mesh.holes = {3};
-  write_obj(obj, output(mesh));
+  write_obj(obj, mesh);
   struct Case {
     std::string text, message;  ///< after the name of the file
   };
@@ -232,8 +232,8 @@ TEST(SpreadFit, WhatDoesNotConvergeIsAnError) {
   const TemporaryDirectory directory;
   const std::string obj = (directory / "m.obj").string(), in = (directory / "in.csv").string(),
                     out = (directory / "o.npy").string();
-  const ControlMesh mesh = jittered(torus(9, 6));
-  write_obj(obj, output(mesh));
+  const Mesh mesh = jittered(torus(9, 6));
+  write_obj(obj, mesh);
   write(in, csv_of(random_targets("catmull-clark", mesh, 600)));
   const std::string arguments = "fit " + obj + " --targets " + in + " -s catmull-clark -o " + out;
   const RanksRun run = run_ranks(2, arguments + " --max-iterations 3");

@@ -4,11 +4,11 @@
 
 #include "stencils/distributed/run_ranks.h"
 #include "stencils/distributed/tagged_unions.h"
-#include "sublimit/io/obj.h"
+#include "sublimit/io/detail/obj.h"
 #include "sublimit/io/read_mesh.h"
-#include "sublimit/jobs/mesh_info_json.h"
+#include "sublimit/stencils/jobs/detail/mesh_info_json.h"
 #include "support/meshes.h"
-#include "sublimit/jobs/mesh_job.h"
+#include "sublimit/stencils/jobs/detail/mesh_job.h"
 
 namespace sublimit::testing {
 namespace {
@@ -54,7 +54,7 @@ void expect_counts(const std::string& path, const std::string& scheme, std::init
 TEST(Info, CountsAsOneProcess) {
   const TemporaryDirectory directory;
   const std::string path = (directory / "m.obj").string();
-  ControlMesh holes = torus(9, 8);
+  Mesh holes = torus(9, 8);
   holes.face_sizes.clear();  // tubes with ends, and a patch of four faces beside them that only a vertex joins
   std::vector<Index> corners;
   for (Index f = 0; f < 72; ++f)
@@ -63,23 +63,22 @@ TEST(Info, CountsAsOneProcess) {
       holes.face_sizes.push_back(4);
     }
   holes.face_vertices = corners;
-  ControlMesh many =
-      disjoint_union(disjoint_union(prism(5), mobius_strip(7)), glued(grid(3, 3), grid(2, 2), {15}, {0}));
+  Mesh many = disjoint_union(disjoint_union(prism(5), mobius_strip(7)), glued(grid(3, 3), grid(2, 2), {15}, {0}));
   add_crease(many, {0, 1, 2}, 1.5f);
   many.corners.push_back({3, 10});
   many.holes = {2};
   many.boundary = Boundary::none;
-  for (const ControlMesh& mesh : {holes, many, cube()}) {
-    write_obj(path, output(mesh));
+  for (const Mesh& mesh : {holes, many, cube()}) {
+    write_obj(path, mesh);
     expect_counts(path, "catmull-clark", {1, 2, 3, 4});
   }
-  write_obj(path, output(many));
+  write_obj(path, many);
   expect_counts(path, "", {3});
   expect_counts(path, "loop", {2});
   expect_counts(path, "doo-sabin", {2});  // which has no rule for the crease
-  write_obj(path, output(triangle_torus(6, 5)));
+  write_obj(path, triangle_torus(6, 5));
   expect_counts(path, "loop", {3});
-  write_obj(path, output(cube()));
+  write_obj(path, cube());
   expect_counts(path, "catmull-clark", {8});  // more ranks than faces
 }
 
@@ -87,7 +86,7 @@ TEST(Info, CountsWhatIsNoManifoldAsOneProcess) {
   const TemporaryDirectory directory;
   const std::string path = (directory / "m.obj").string();
   for (const NamedMesh& mesh : tagged_unions()) {
-    write_obj(path, output(mesh.mesh));
+    write_obj(path, mesh.mesh);
     expect_counts(path, mesh.schemes.front(), {2, 3});
   }
 }

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "stencils/distributed/run_ranks.h"
-#include "sublimit/io/obj.h"
+#include "sublimit/io/detail/obj.h"
 #include "support/meshes.h"
 
 namespace sublimit::testing {
@@ -12,8 +12,8 @@ TEST(SpreadMatrix, IsAdjointToItsTransposeAndGoodForASolver) {
   const TemporaryDirectory directory;
   const std::string obj = (directory / "m.obj").string();
   int number = 0;
-  for (const ControlMesh& mesh : {jittered(torus(9, 8)), disjoint_union(prism(5), cube())}) {
-    write_obj(obj, output(mesh));
+  for (const Mesh& mesh : {jittered(torus(9, 8)), disjoint_union(prism(5), cube())}) {
+    write_obj(obj, mesh);
     const std::string shards = (directory / std::to_string(number++)).string();
     ASSERT_EQ(run_ranks(2, "bake " + obj + " -s catmull-clark -l 2 --shards 3 -o " + shards).status, 0);
     for (const int ranks : {1, 2, 3, 4}) {

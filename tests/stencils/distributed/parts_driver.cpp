@@ -3,7 +3,7 @@
 #include "sublimit/base/error.h"
 #include "sublimit/distributed/gather_part.h"
 #include "sublimit/distributed/partition.h"
-#include "sublimit/io/obj.h"
+#include "sublimit/io/detail/obj.h"
 
 namespace {
 
@@ -14,19 +14,19 @@ void require(bool condition, const char* what) {
 }
 
 /// Values of all corners.
-Points at_corners(const ControlMesh& mesh) {
-  const ControlMesh::FaceVarying& channel = mesh.face_varying.at(0);
+Points at_corners(const Mesh& mesh) {
+  const Mesh::FaceVarying& channel = mesh.face_varying.at(0);
   return channel.values(channel.indices, Eigen::all);
 }
 
-void compare(const MeshPart& part, const MeshPart& right, const ControlMesh& whole) {
-  const ControlMesh &a = part.mesh, &b = right.mesh;
+void compare(const MeshPart& part, const MeshPart& right, const Mesh& whole) {
+  const Mesh &a = part.mesh, &b = right.mesh;
   require(part.vertices == right.vertices && part.faces == right.faces && part.is_owned == right.is_owned, "numbers");
   require(a.positions == b.positions, "positions");
   require(a.face_sizes == b.face_sizes && a.face_vertices == b.face_vertices, "faces");
   require(a.holes == b.holes && a.corners.size() == b.corners.size(), "holes or corners");
   // Of an edge with several tags the last one counts, whatever order those of other edges have.
-  const auto creases = [](const ControlMesh& mesh) {
+  const auto creases = [](const Mesh& mesh) {
     std::vector<std::pair<std::pair<Index, Index>, float>> all;
     for (const auto& c : mesh.creases) all.emplace_back(std::minmax(c.tail, c.head), c.sharpness);
     std::ranges::stable_sort(all, {}, [](const auto& tag) { return tag.first; });
@@ -48,7 +48,7 @@ void compare(const MeshPart& part, const MeshPart& right, const ControlMesh& who
 void check_parts(const Ranks& ranks, const std::filesystem::path& path) {
   const SpreadMesh mesh = read_spread_mesh(ranks, path);
   const Incidence around = incidence(ranks, mesh, path.string());
-  const ControlMesh whole = read_obj(path);
+  const Mesh whole = read_obj(path);
   const Topology topology(view(whole));
   for (const bool runs : {false, true}) {
     const std::vector<int> part =

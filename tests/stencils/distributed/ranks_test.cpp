@@ -8,11 +8,11 @@
 #include <random>
 
 #include "stencils/distributed/run_ranks.h"
-#include "sublimit/io/obj.h"
-#include "sublimit/io/ply.h"
+#include "sublimit/io/detail/obj.h"
+#include "sublimit/io/detail/ply.h"
 #include "sublimit/io/write_mesh.h"
-#include "sublimit/files/npy.h"
-#include "sublimit/safetensors.h"
+#include "sublimit/stencils/files/npy.h"
+#include "sublimit/eval/detail/safetensors.h"
 #include "support/meshes.h"
 #include "support/shared_meshes.h"
 
@@ -20,7 +20,7 @@ namespace sublimit::testing {
 namespace {
 
 /// The same mesh with vertices and faces in another order, faces beginning with other corners.
-ControlMesh shuffled(const ControlMesh& mesh, unsigned seed) {
+Mesh shuffled(const Mesh& mesh, unsigned seed) {
   std::mt19937 random(seed);
   std::vector<Index> vertex(size_t(mesh.num_vertices())), face(size_t(mesh.num_faces())), first{0};
   std::iota(vertex.begin(), vertex.end(), 0);
@@ -28,7 +28,7 @@ ControlMesh shuffled(const ControlMesh& mesh, unsigned seed) {
   std::ranges::shuffle(vertex, random);
   std::ranges::shuffle(face, random);
   for (const Index size : mesh.face_sizes) first.push_back(first.back() + size);
-  ControlMesh result = mesh;
+  Mesh result = mesh;
   for (Index v = 0; v < mesh.num_vertices(); ++v) result.positions.row(vertex[size_t(v)]) = mesh.positions.row(v);
   result.face_sizes.clear(), result.face_vertices.clear(), result.holes.clear();
   for (size_t i = 0; i < face.size(); ++i) {
@@ -47,18 +47,18 @@ ControlMesh shuffled(const ControlMesh& mesh, unsigned seed) {
 
 struct RanksCase {
   const char *name, *options;
-  ControlMesh mesh;
+  Mesh mesh;
 };
 std::vector<RanksCase> ranks_cases() {
-  ControlMesh tagged = torus(9, 7);
+  Mesh tagged = torus(9, 7);
   add_crease(tagged, {0, 7, 14, 21}, {10, 2.5f, 1.5f});
   add_crease(tagged, {3, 10, 17}, {0.5f, 0.5f});
   tagged.corners = {{5, 10}, {12, 1.5f}};
   tagged.holes = {30};
-  ControlMesh apart = disjoint_union(jittered(grid(4, 3)), disjoint_union(cube(), pole(7)));
+  Mesh apart = disjoint_union(jittered(grid(4, 3)), disjoint_union(cube(), pole(7)));
   apart.positions.conservativeResize(apart.num_vertices() + 2, 3);
   apart.positions.bottomRows(2).setConstant(0.125);  // of no face
-  ControlMesh chaikin = tagged;
+  Mesh chaikin = tagged;
   chaikin.creasing = Creasing::chaikin;
   return {{"tags in random order", "-s catmull-clark -l 2", shuffled(tagged, 5)},
           {"chaikin", "-s catmull-clark -l 3", shuffled(chaikin, 6)},
@@ -75,7 +75,7 @@ TEST(Ranks, AnyNumberOfThemMakesTheSameBits) {
   for (const RanksCase& c : ranks_cases()) {
     const TemporaryDirectory directory;
     const std::string obj = (directory / "m.obj").string(), npy = (directory / "o.npy").string();
-    write_obj(obj, output(c.mesh));
+    write_obj(obj, c.mesh);
     std::string one;
     for (const int ranks : {1, 2, 3, 4}) {
       const std::string shards = (directory / ("d" + std::to_string(ranks))).string();
@@ -98,7 +98,7 @@ TEST(Ranks, AnyNumberOfThemMakesTheSameBits) {
 TEST(Ranks, MayBeMoreThanFacesAndShardsOtherThanRanks) {
   const TemporaryDirectory directory;
   const std::string obj = (directory / "m.obj").string();
-  write_obj(obj, output(cube()));
+  write_obj(obj, cube());
   std::vector<std::string> points;
   int number = 0;
   for (const char* how : {"1", "8", "2 --shards 5", "3 --shards 11 --partition runs", "2 --rings 9"}) {
@@ -113,7 +113,7 @@ TEST(Ranks, MayBeMoreThanFacesAndShardsOtherThanRanks) {
 }
 
 /// The mesh as `read_spread_mesh` takes it in tensors.
-void write_tensors(const std::filesystem::path& path, const ControlMesh& mesh) {
+void write_tensors(const std::filesystem::path& path, const Mesh& mesh) {
   Safetensors file;
   std::vector<std::int32_t> creases;
   std::vector<float> sharpness;
@@ -129,13 +129,13 @@ void write_tensors(const std::filesystem::path& path, const ControlMesh& mesh) {
 
 TEST(Ranks, ReadTheirBytesOfEveryKindOfFile) {
   const TemporaryDirectory directory;
-  ControlMesh mesh = shuffled(disjoint_union(torus(6, 5), prism(5)), 3);
+  Mesh mesh = shuffled(disjoint_union(torus(6, 5), prism(5)), 3);
   const Index a = mesh.face_vertices[0], b = mesh.face_vertices[1];
   mesh.creases = {{a, b, 1.5f}};
-  write_obj(directory / "m.obj", output(mesh));
+  write_obj(directory / "m.obj", mesh);
   write_tensors(directory / "m.safetensors", mesh);
   std::filesystem::create_directory(directory / "p");
-  write_mesh(directory / "p/m.ply", output(mesh));  // without tags, which lie beside it
+  write_mesh(directory / "p/m.ply", mesh);  // without tags, which lie beside it
   std::ofstream(directory / "p/m.json") << "{\"creaseIndices\": [" << a << ", " << b
                                         << "], \"creaseLengths\": [2], \"creaseSharpnesses\": [1.5]}";
   std::string one;

@@ -6,11 +6,11 @@
 #include <numeric>
 
 #include "stencils/distributed/run_ranks.h"
-#include "sublimit/bake/bake_patterns.h"
-#include "sublimit/io/obj.h"
+#include "sublimit/stencils/bake/detail/bake_patterns.h"
+#include "sublimit/io/detail/obj.h"
 #include "sublimit/io/read_mesh.h"
-#include "sublimit/pattern_evaluator.h"
-#include "sublimit/schemes.h"
+#include "sublimit/eval/pattern_evaluator.h"
+#include "sublimit/schemes/schemes.h"
 #include "support/meshes.h"
 
 namespace sublimit::testing {
@@ -19,29 +19,29 @@ namespace {
 struct Case {
   const char* name;
   const char* scheme;
-  ControlMesh mesh;
+  Mesh mesh;
   TableRows rows = TableRows::level;
   int level = 2;
   BakeMethod method = BakeMethod::patterns;
 };
 
 std::vector<Case> cases() {
-  ControlMesh creased = jittered(torus(7, 5));
+  Mesh creased = jittered(torus(7, 5));
   add_crease(creased, {0, 5, 10}, {10, 2.5f});
-  ControlMesh open = jittered(grid(7, 6));
+  Mesh open = jittered(grid(7, 6));
   open.holes = {5};
-  ControlMesh none = open;
+  Mesh none = open;
   none.boundary = Boundary::none;
-  ControlMesh mixed = disjoint_union(jittered(prism(5)), jittered(polygon_ring({4, 5, 4, 6})));
+  Mesh mixed = disjoint_union(jittered(prism(5)), jittered(polygon_ring({4, 5, 4, 6})));
   mixed.positions.conservativeResize(mixed.positions.rows() + 2, 3);  // vertices of no face
   mixed.positions.bottomRows(2).setConstant(0.1);
   // A strip: neighbourhoods that half a turn takes to themselves, and faces that begin at any corner.
-  ControlMesh strip = jittered(grid(25, 1));
+  Mesh strip = jittered(grid(25, 1));
   for (Index f = 0; f < strip.num_faces(); ++f)
     std::rotate(strip.face_vertices.begin() + 4 * f, strip.face_vertices.begin() + 4 * f + f % 4,
                 strip.face_vertices.begin() + 4 * f + 4);
   // Of the second, faces around come to a point twice, which no face of the first does.
-  const ControlMesh wrapped = disjoint_union(jittered(torus(8, 6)), jittered(torus(3, 5)));
+  const Mesh wrapped = disjoint_union(jittered(torus(8, 6)), jittered(torus(3, 5)));
   return {{"creased", "catmull-clark", creased},
           {"wrapped", "catmull-clark", wrapped},
           {"creased limit", "catmull-clark", creased, TableRows::limit, 1},
@@ -86,7 +86,7 @@ TEST(Refine, HasThePointsOfShardsAndTheFacesOfOneProcess) {
   for (const Case& c : cases()) {
     const TemporaryDirectory directory;
     const auto path = [&](const char* name) { return (directory / name).string(); };
-    write_obj(path("m.obj"), output(c.mesh));
+    write_obj(path("m.obj"), c.mesh);
     ASSERT_EQ(run_ranks(2, "bake " + path("m.obj") + words(c) + " -o " + path("shards")).status, 0) << c.name;
     ASSERT_EQ(run_ranks(1, "apply " + path("shards") + " " + path("m.obj") + " -o " + path("s.npy")).status, 0);
     const std::vector<std::array<double, 3>> expected = corners_of_one_process(c);
@@ -98,7 +98,7 @@ TEST(Refine, HasThePointsOfShardsAndTheFacesOfOneProcess) {
       const std::string bytes = read_file(path("o.ply"));
       if (one.empty()) one = bytes;
       EXPECT_EQ(bytes == one, true) << c.name << " by " << ranks;
-      const ControlMesh mesh = read_mesh(path("o.ply"));
+      const Mesh mesh = read_mesh(path("o.ply"));
       EXPECT_EQ(corners({mesh.face_sizes, mesh.face_vertices},
                         {mesh.positions.data(), size_t(mesh.positions.size())}) == expected,
                 true)
@@ -114,7 +114,7 @@ TEST(Refine, HasThePointsOfShardsAndTheFacesOfOneProcess) {
 TEST(Refine, NamesWhatItCannotWrite) {
   const TemporaryDirectory directory;
   const std::string obj = (directory / "m.obj").string();
-  write_obj(obj, output(cube()));
+  write_obj(obj, cube());
   for (const auto& [levels, name, error] :
        {std::tuple("2", "o.obj", ": unknown kind of output '.obj'; .npy and .ply can be written\n"),
         std::tuple("0", "o.ply", "level 0 of a table; 1 to 11 are right\n")}) {
@@ -124,7 +124,7 @@ TEST(Refine, NamesWhatItCannotWrite) {
     EXPECT_NE(run.error().find(error), std::string::npos) << run.error();
     EXPECT_FALSE(std::filesystem::exists(directory / name));
   }
-  write_obj(obj, output(torus(27, 19)));
+  write_obj(obj, torus(27, 19));
   const RanksRun run = run_ranks(2, "refine " + obj + " -s catmull-clark -l 11 -o " + (directory / "o.ply").string());
   EXPECT_EQ(run.status, 2);
   EXPECT_NE(run.error().find("o.ply: 2151677952 points, and the faces of a .ply count them by 32 bits"),

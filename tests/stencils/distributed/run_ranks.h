@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <string>
 
-#include "sublimit/base/read_file.h"
+#include "sublimit/base/detail/read_file.h"
 #include "support/temporary_directory.h"
 
 namespace sublimit::testing {

@@ -6,7 +6,7 @@
 
 #include "stencils/distributed/run_ranks.h"
 #include "stencils/distributed/tagged_unions.h"
-#include "sublimit/io/obj.h"
+#include "sublimit/io/detail/obj.h"
 #include "support/meshes.h"
 
 namespace sublimit::testing {
@@ -27,18 +27,18 @@ void expect_bytes(const std::string& what, const std::string& mesh, const std::s
 }
 
 TEST(Sample, WritesTheBytesOfOneProcess) {
-  ControlMesh creased = jittered(torus(7, 5));
+  Mesh creased = jittered(torus(7, 5));
   add_crease(creased, {0, 5, 10}, {10, 2.5f});
   add_crease(creased, {10, 11, 12}, {0.7f, 1.3f});
-  ControlMesh open = jittered(grid(6, 5));
+  Mesh open = jittered(grid(6, 5));
   open.holes = {5};
   open.corners = {{0, 1.5f}};
-  const ControlMesh mixed = disjoint_union(jittered(prism(5)), jittered(polygon_ring({4, 5, 4, 6})));
-  const ControlMesh wrapped = disjoint_union(jittered(torus(8, 6)), jittered(torus(3, 5)));
+  const Mesh mixed = disjoint_union(jittered(prism(5)), jittered(polygon_ring({4, 5, 4, 6})));
+  const Mesh wrapped = disjoint_union(jittered(torus(8, 6)), jittered(torus(3, 5)));
   struct Case {
     const char* name;
     const char* scheme;
-    ControlMesh mesh;
+    Mesh mesh;
   };
   for (const Case& c : std::initializer_list<Case>{{"creased", "catmull-clark", creased},
                                                    {"extraordinary", "catmull-clark", jittered(fan(5, 4, 3))},
@@ -49,7 +49,7 @@ TEST(Sample, WritesTheBytesOfOneProcess) {
                                                    {"triangles", "loop", jittered(icosahedron())}}) {
     const TemporaryDirectory directory;
     const std::string obj = (directory / "m.obj").string(), scheme = std::string(" -s ") + c.scheme;
-    write_obj(obj, output(c.mesh));
+    write_obj(obj, c.mesh);
     expect_bytes(c.name, obj, scheme + " --random 50 --derivatives 2 --curvature", {1, 2, 3, 4});
     expect_bytes(c.name, obj, scheme + " --random 3000 --seed 7 --derivatives 2 --curvature", {1, 2, 3, 4});
     expect_bytes(c.name, obj, scheme + " --grid 3 --derivatives 1", {3});
@@ -59,7 +59,7 @@ TEST(Sample, WritesTheBytesOfOneProcess) {
 TEST(Sample, WritesTheBytesOfOneProcessBatchByBatch) {
   const TemporaryDirectory directory;
   const std::string obj = (directory / "m.obj").string(), csv = (directory / "p.csv").string();
-  write_obj(obj, output(jittered(torus(8, 6))));
+  write_obj(obj, jittered(torus(8, 6)));
   expect_bytes("torus", obj, " -s catmull-clark --random 150001", {2, 3});
   expect_bytes("torus", obj, " -s catmull-clark --random 65536", {1, 2});
   expect_bytes("torus", obj, " -s catmull-clark --random 0", {2});
@@ -67,7 +67,7 @@ TEST(Sample, WritesTheBytesOfOneProcessBatchByBatch) {
   expect_bytes("torus", obj, " -s catmull-clark --clamp --derivatives 1 --at " + csv, {1, 2, 3, 4});
   std::ofstream(csv) << "face,u,v\n";
   expect_bytes("torus", obj, " -s catmull-clark --at " + csv, {3});
-  write_obj(obj, output(cube()));
+  write_obj(obj, cube());
   expect_bytes("cube", obj, " -s catmull-clark --grid 5 --derivatives 2", {8});  // ranks without faces
 }
 
@@ -75,7 +75,7 @@ TEST(Sample, WritesTheBytesOfOneProcessOfTaggedMeshes) {
   const TemporaryDirectory directory;
   const std::string obj = (directory / "m.obj").string();
   for (const NamedMesh& mesh : tagged_unions()) {
-    write_obj(obj, output(mesh.mesh));
+    write_obj(obj, mesh.mesh);
     expect_bytes(mesh.name, obj, " -s " + mesh.schemes.front() + " --random 20000 --derivatives 2", {2, 3});
   }
 }
@@ -84,7 +84,7 @@ TEST(Sample, NamesARowThatIsNoPlaceOnce) {
   const TemporaryDirectory directory;
   const std::string obj = (directory / "m.obj").string(), csv = (directory / "p.csv").string(),
                     out = (directory / "o.csv").string();
-  write_obj(obj, output(cube()));
+  write_obj(obj, cube());
   const auto error = [&](const std::string& arguments, int status) {
     const RanksRun run = run_ranks(3, "sample " + obj + " -s catmull-clark " + arguments + " -o " + out);
     EXPECT_EQ(run.status, status) << arguments;

@@ -15,7 +15,7 @@ inline std::vector<NamedMesh> tagged_unions() {
       unions;
   for (const NamedMesh& tagged : tagged_meshes()) {
     const std::string scheme = tagged.schemes.front();
-    const ControlMesh& mesh = tagged.mesh;
+    const Mesh& mesh = tagged.mesh;
     const auto [at, is_new] = unions.try_emplace({scheme, mesh.boundary, mesh.creasing, mesh.triangles},
                                                  NamedMesh{tagged.name, {scheme}, mesh});
     if (is_new) continue;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sublimit/files/export_table.h"
+#include "sublimit/stencils/files/export_table.h"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -9,16 +9,16 @@
 #include <random>
 
 #include "eval/table_samples.h"
-#include "sublimit/bake/bake.h"
+#include "sublimit/stencils/bake/detail/bake.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/read_file.h"
-#include "sublimit/files/npy.h"
-#include "sublimit/files/npz.h"
-#include "sublimit/pattern_evaluator.h"
-#include "sublimit/patterns/demo_mesh.h"
-#include "sublimit/scheme/prepare.h"
-#include "sublimit/schemes.h"
-#include "sublimit/table_file.h"
+#include "sublimit/base/detail/read_file.h"
+#include "sublimit/stencils/files/npy.h"
+#include "sublimit/stencils/files/npz.h"
+#include "sublimit/eval/pattern_evaluator.h"
+#include "sublimit/stencils/patterns/demo_mesh.h"
+#include "sublimit/scheme/detail/prepare.h"
+#include "sublimit/schemes/schemes.h"
+#include "sublimit/eval/table_file.h"
 #include "support/expect_error.h"
 #include "support/free_form_shapes.h"
 #include "support/skip.h"
@@ -142,7 +142,7 @@ TEST(TableInPython, MakesTheSamePoints) {
   PythonFiles files;
   files.add("parts_double", everything<double>());
   files.add("parts_float", everything<float>());
-  const auto bake_one = [](const char* scheme, const ControlMesh& mesh, const BakeRequest& request) {
+  const auto bake_one = [](const char* scheme, const Mesh& mesh, const BakeRequest& request) {
     Patterns patterns(find_scheme(scheme).value());
     return bake(patterns, mesh, request).table;
   };
@@ -150,7 +150,7 @@ TEST(TableInPython, MakesTheSamePoints) {
   level.level = 2;
   limit.rows = TableRows::limit, limit.level = 1, limit.derivatives = 1;
   grid.rows = TableRows::grid, grid.grid = 3, grid.derivatives = 2;
-  const ControlMesh mesh = demo_mesh();
+  const Mesh mesh = demo_mesh();
   files.add("level", in_float(bake_one("catmull-clark", mesh, level)));
   files.add("limit", bake_one("loop", triangulated(mesh), limit));
   files.add("grid", bake_one("catmull-clark", mesh, grid));

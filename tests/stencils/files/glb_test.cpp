@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sublimit/files/glb.h"
+#include "sublimit/stencils/files/glb.h"
 
 #include <gtest/gtest.h>
 #include <tiny_gltf.h>
@@ -7,8 +7,8 @@
 #include <cstring>
 
 #include "sublimit/base/error.h"
-#include "sublimit/base/read_file.h"
-#include "sublimit/files/split_mesh.h"
+#include "sublimit/base/detail/read_file.h"
+#include "sublimit/stencils/files/split_mesh.h"
 #include "support/meshes.h"
 #include "support/temporary_directory.h"
 #include "support/tolerance.h"
@@ -17,8 +17,8 @@ namespace sublimit::testing {
 namespace {
 
 /// Two triangles with their normals and texture coordinates.
-MeshOutput square() {
-  MeshOutput mesh;
+Mesh square() {
+  Mesh mesh;
   mesh.positions = (Points(4, 3) << 0, 0, 0.1, 1, 0, 0, 1, 1, -0.3, 0, 1, 0).finished();
   mesh.normals = (Points(4, 3) << 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1).finished();
   mesh.texture = (Points(4, 2) << 0, 0, 1, 0, 1, 0.75, 0, 1).finished();
@@ -50,7 +50,7 @@ std::vector<float> floats(const Points& rows) { return {rows.data(), rows.data()
 
 TEST(Glb, KeepsItsDigitsFarFromTheOrigin) {
   const TemporaryDirectory directory;
-  MeshOutput mesh = square();
+  Mesh mesh = square();
   mesh.positions.rowwise() += Eigen::RowVector3d(1e7, -2e7, 1e7);
   write_glb(directory / "far.glb", mesh);
   const tinygltf::Model model = read_back(directory / "far.glb");
@@ -64,7 +64,7 @@ TEST(Glb, KeepsItsDigitsFarFromTheOrigin) {
 
 TEST(Glb, ReadsBackInTinyGltf) {
   const TemporaryDirectory directory;
-  const MeshOutput mesh = square();
+  const Mesh mesh = square();
   write_glb(directory / "square.glb", mesh);
   const tinygltf::Model model = read_back(directory / "square.glb");
   ASSERT_EQ(model.nodes.size(), 1u);
@@ -85,7 +85,7 @@ TEST(Glb, ReadsBackInTinyGltf) {
 
 TEST(Glb, HasNoMeshWithoutTriangles) {
   const TemporaryDirectory directory;
-  MeshOutput nothing;
+  Mesh nothing;
   nothing.positions = nothing.normals = Points::Zero(0, 3);
   write_glb(directory / "nothing.glb", nothing);
   EXPECT_TRUE(read_back(directory / "nothing.glb").meshes.empty());
@@ -94,7 +94,7 @@ TEST(Glb, HasNoMeshWithoutTriangles) {
 TEST(Glb, RefusesWhatTheFormatHasNot) {
   const TemporaryDirectory directory;
   const auto path = directory / "a.glb";
-  MeshOutput large = square(), polygon = square(), corners = square(), infinite = square();
+  Mesh large = square(), polygon = square(), corners = square(), infinite = square();
   large.positions(0, 0) = 1e39;
   EXPECT_THROW(write_glb(path, large), InvalidMesh);
   infinite.positions(0, 0) = HUGE_VAL;
@@ -107,7 +107,7 @@ TEST(Glb, RefusesWhatTheFormatHasNot) {
 }
 
 TEST(SplitMesh, CutsWhereValuesOrNormalsDiffer) {
-  MeshOutput mesh = square();
+  Mesh mesh = square();
   mesh.texture.resize(0, 2);
   const SplitMesh whole = split_mesh(mesh);
   EXPECT_EQ(whole.sources, (std::vector<Index>{0, 1, 2, 3}));

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sublimit/files/npy.h"
+#include "sublimit/stencils/files/npy.h"
 
 #include <gtest/gtest.h>
 
 #include <cstring>
 
 #include "sublimit/base/error.h"
-#include "sublimit/base/read_file.h"
+#include "sublimit/base/detail/read_file.h"
 #include "support/expect_error.h"
 #include "support/temporary_directory.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Samples from and to files: what is read is what was written, to the bit, and what is wrong is told with its line.
-#include "sublimit/files/sample_files.h"
+#include "sublimit/stencils/files/sample_files.h"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,9 @@
 #include <cmath>
 
 #include "sublimit/base/format_number.h"
-#include "sublimit/base/read_file.h"
-#include "sublimit/files/random_samples.h"
-#include "sublimit/schemes.h"
+#include "sublimit/base/detail/read_file.h"
+#include "sublimit/stencils/files/random_samples.h"
+#include "sublimit/schemes/schemes.h"
 #include "support/expect_error.h"
 #include "support/meshes.h"
 #include "support/temporary_directory.h"
@@ -25,9 +25,9 @@ const Addresses& cube_addresses() {
   return addresses;
 }
 
-std::vector<Sample> read_all(const std::filesystem::path& path, size_t most, bool clamp = false) {
+std::vector<Place> read_all(const std::filesystem::path& path, size_t most, bool clamp = false) {
   SampleReader reader(path, clamp);
-  std::vector<Sample> all, batch;
+  std::vector<Place> all, batch;
   do {
     reader.read(batch, most, cube_addresses());
     all.insert(all.end(), batch.begin(), batch.end());
@@ -45,7 +45,7 @@ TEST(SampleReader, TakesLineEndsBlanksAndByteOrderMarks) {
         "face,u,v\n5,0.25,1\n0,0,0.5\n\n \r\n\n",
         "face, u, v\n 5 ,\t0.25, 1\n+0,0.0,5e-1\n"}) {
     SCOPED_TRACE(text);
-    const std::vector<Sample> samples = read_all(directory.write("in.csv", text), 7);
+    const std::vector<Place> samples = read_all(directory.write("in.csv", text), 7);
     ASSERT_EQ(samples.size(), 2u);
     EXPECT_EQ(samples[0].face, 5);
     EXPECT_EQ(samples[0].u, 0.25);
@@ -61,15 +61,15 @@ TEST(SampleReader, TakesLineEndsBlanksAndByteOrderMarks) {
 TEST(SampleReader, LosesNothingBetweenBlocksAndBatches) {
   const TemporaryDirectory directory;
   RandomSamples random(cube_addresses(), 60'000, 3);
-  std::vector<Sample> expected;
+  std::vector<Place> expected;
   random.read(expected, 60'000);
   std::string text = "face,u,v\n";
-  for (const Sample& s : expected)
+  for (const Place& s : expected)
     text += format_number(s.face) + "," + format_number(s.u) + "," + format_number(s.v) + "\n";
   ASSERT_GT(text.size(), size_t{2} << 20);
   const std::filesystem::path path = directory.write("in.csv", text);
   for (const size_t most : {size_t{1}, size_t{59'999}, size_t{60'000}, size_t{1'000'000}}) {
-    const std::vector<Sample> samples = read_all(path, most);
+    const std::vector<Place> samples = read_all(path, most);
     ASSERT_EQ(samples.size(), expected.size());
     for (size_t i = 0; i < samples.size(); ++i)
       ASSERT_TRUE(samples[i].face == expected[i].face && same_bits(samples[i].u, expected[i].u) &&
@@ -131,7 +131,7 @@ TEST(SampleReader, TakesAnyBytes) {
       }
     }
     try {
-      for (const Sample& s : read_all(directory.write("in.csv", text), 2)) {
+      for (const Place& s : read_all(directory.write("in.csv", text), 2)) {
         ASSERT_TRUE(s.face >= 0 && s.face < 6 && s.u >= 0 && s.u <= 1 && s.v >= 0 && s.v <= 1) << text;
         ++read;
       }
@@ -147,7 +147,7 @@ TEST(SampleReader, ClampsToTheNearestPlaceOfTheRim) {
   const auto coordinate = [&] { return double(random() % 4001) / 1000 - 1.5; };
   for (const bool triangle : {false, true})
     for (int i = 0; i < 2000; ++i) {
-      const Sample s{0, coordinate(), coordinate()}, c = clamped(s, triangle);
+      const Place s{0, coordinate(), coordinate()}, c = clamped(s, triangle);
       const auto distance = [&](double u, double v) { return std::hypot(u - s.u, v - s.v); };
       ASSERT_TRUE(c.u >= 0 && c.v >= 0 && (triangle ? c.u + c.v <= 1 : c.u <= 1 && c.v <= 1)) << s.u << " " << s.v;
       for (int k = 0; k <= 20; ++k) {  // no place of the rim is nearer
@@ -161,7 +161,7 @@ TEST(SampleReader, ClampsToTheNearestPlaceOfTheRim) {
     }
   const TemporaryDirectory directory;
   SampleReader reader(directory.write("in.csv", "face,u,v\n1,-3,0.5\n1,0.5,0.5\n1,1e300,-1e300\n"), true);
-  std::vector<Sample> batch;
+  std::vector<Place> batch;
   reader.read(batch, 10, cube_addresses());
   ASSERT_EQ(batch.size(), 3u);
   EXPECT_EQ(batch[0].u, 0);
@@ -175,7 +175,7 @@ TEST(SampleReader, ClampsToTheNearestPlaceOfTheRim) {
 TEST(RandomSamples, AreTheSameOnEveryPlatform) {
   const std::uint64_t numbers[] = {2947667278772165694u, 18301848765998365067u, 729919693006235833u};
   RandomSamples random(cube_addresses(), 10, 0);
-  std::vector<Sample> one, rest, all;
+  std::vector<Place> one, rest, all;
   random.read(one, 1);
   EXPECT_EQ(one[0].face, Index(numbers[0] % 6));
   EXPECT_EQ(one[0].u, double(numbers[1] >> 11) / 9007199254740992.0);
@@ -192,10 +192,10 @@ TEST(RandomSamples, AreUniform) {
   const Topology topology(view(octahedron()));
   const Addresses triangles(topology, true);
   RandomSamples random(triangles, 80'000, 11);
-  std::vector<Sample> samples;
+  std::vector<Place> samples;
   random.read(samples, 80'000);
   std::vector<int> quarter(32);  // of each triangle, as one step of refinement cuts it
-  for (const Sample& s : samples) {
+  for (const Place& s : samples) {
     ASSERT_TRUE(s.u >= 0 && s.v >= 0 && s.u + s.v <= 1);
     ++quarter[4 * s.face + (s.u >= 0.5 ? 0 : s.v >= 0.5 ? 1 : s.u + s.v < 0.5 ? 2 : 3)];
   }
@@ -209,7 +209,7 @@ TEST(SampleWriter, NumbersReadBackToTheSameBits) {
   const double values[] = {0.1,   -0.0,     5e-324, 1.7976931348623157e308, 1.0 / 3, 2.2250738585072014e-308,
                            -1e22, 123456789};
   const size_t count = 5000;  // more than one block of text
-  std::vector<Sample> samples(count);
+  std::vector<Place> samples(count);
   LimitSamples found;
   found.position = found.normal = Points::Zero(count, 3);
   for (Points* m : {&found.du, &found.dv, &found.duu, &found.duv, &found.dvv}) *m = Points::Zero(count, 3);
@@ -252,21 +252,21 @@ TEST(SampleWriter, NumbersReadBackToTheSameBits) {
 
 TEST(WriteSamples, CountsStatusesAndLeavesNothingAfterAnError) {
   const TemporaryDirectory directory;
-  const ControlMesh mesh = cube();
+  const Mesh mesh = cube();
   const LimitMap surface(find_scheme("catmull-clark").value(), mesh);
   int calls = 0;
-  const SampleSource corners = [&](std::vector<Sample>& batch, size_t most) {
+  const SampleSource corners = [&](std::vector<Place>& batch, size_t most) {
     EXPECT_GT(most, 2u);
-    batch.assign(calls++ == 0 ? 2 : 0, Sample{});
+    batch.assign(calls++ == 0 ? 2 : 0, Place{});
     if (!batch.empty()) batch[1].u = 0.5;
   };
   const SampleSummary summary = write_samples(directory / "out.csv", surface, mesh.positions, corners, {});
   EXPECT_EQ(summary.num_samples, 2);
   EXPECT_EQ(summary.text(), "1 regular, 1 extraordinary");
   EXPECT_EQ(calls, 1);  // a short batch is the last one
-  const SampleSource failing = [&](std::vector<Sample>& batch, size_t most) {
+  const SampleSource failing = [&](std::vector<Place>& batch, size_t most) {
     if (++calls == 4) throw FormatError("row");
-    batch.assign(most, Sample{0, 0.5, 0.5});
+    batch.assign(most, Place{0, 0.5, 0.5});
   };
   EXPECT_THROW(write_samples(directory / "other.csv", surface, mesh.positions, failing, {}), FormatError);
   EXPECT_EQ(calls, 4);

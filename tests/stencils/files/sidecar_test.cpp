@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sublimit/files/sidecar.h"
+#include "sublimit/stencils/files/sidecar.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "sublimit/io/obj.h"
+#include "sublimit/io/detail/obj.h"
 #include "support/expect_error.h"
 #include "support/temporary_directory.h"
 
@@ -17,7 +17,7 @@ namespace {
 using Ids = std::vector<Index>;
 
 /// Two quads side by side, tagged in every way.
-ControlMesh strip() {
+Mesh strip() {
   return parse_obj(
       "v 0 0 0\nv 1 0 0\nv 2 0 0\nv 0 1 0\nv 1 1 0\nv 2 1 0\nf 1 2 5 4\nf 2 3 6 5\n"
       "t crease 2/1/0 1 4 9\nt corner 1/1/0 5 9\nt hole 1/0/0 1\n"
@@ -25,14 +25,14 @@ ControlMesh strip() {
       "strip.obj");
 }
 
-ControlMesh with(const std::string& text) {
-  ControlMesh mesh = strip();
+Mesh with(const std::string& text) {
+  Mesh mesh = strip();
   apply_sidecar_text(mesh, text, "strip.json");
   return mesh;
 }
 
 TEST(Sidecar, ReplacesEveryTag) {
-  const ControlMesh mesh = with(R"({
+  const Mesh mesh = with(R"({
     "creaseIndices": [0, 1, 2, 4, 5], "creaseLengths": [3, 2], "creaseSharpnesses": [2.5, 1e300],
     "cornerIndices": [0, 3], "cornerSharpnesses": [0.1, 10],
     "holeIndices": [0],
@@ -58,7 +58,7 @@ TEST(Sidecar, ReplacesEveryTag) {
 }
 
 TEST(Sidecar, WhatItLeavesOutStays) {
-  const ControlMesh mesh = with("{}");
+  const Mesh mesh = with("{}");
   EXPECT_EQ(mesh.creases.size(), 1u);
   EXPECT_EQ(mesh.corners.size(), 1u);
   EXPECT_EQ(mesh.holes, (Ids{1}));
@@ -68,7 +68,7 @@ TEST(Sidecar, WhatItLeavesOutStays) {
 }
 
 TEST(Sidecar, EmptyListsRemoveTags) {
-  const ControlMesh mesh = with(R"({"creaseIndices": [], "creaseLengths": [], "creaseSharpnesses": [],
+  const Mesh mesh = with(R"({"creaseIndices": [], "creaseLengths": [], "creaseSharpnesses": [],
                                     "cornerIndices": [], "cornerSharpnesses": [], "holeIndices": []})");
   EXPECT_TRUE(mesh.creases.empty());
   EXPECT_TRUE(mesh.corners.empty());
@@ -76,7 +76,7 @@ TEST(Sidecar, EmptyListsRemoveTags) {
 }
 
 TEST(Sidecar, SharpnessesMayBePerEdge) {
-  const ControlMesh mesh =
+  const Mesh mesh =
       with(R"({"creaseIndices": [0, 1, 2, 4, 5], "creaseLengths": [3, 2], "creaseSharpnesses": [1, 2, 3]})");
   ASSERT_EQ(mesh.creases.size(), 3u);
   EXPECT_EQ(mesh.creases[0].sharpness, 1);
@@ -92,7 +92,7 @@ TEST(Sidecar, EveryBoundaryHasAName) {
 }
 
 TEST(Sidecar, UnknownKeysAreWarnedAbout) {
-  const ControlMesh mesh = with(R"({"subdivisionScheme": "loop", "deep": {"creaseIndices": 3}})");
+  const Mesh mesh = with(R"({"subdivisionScheme": "loop", "deep": {"creaseIndices": 3}})");
   ASSERT_EQ(mesh.warnings.size(), 2u);
   EXPECT_EQ(mesh.warnings[0], "strip.json: unknown key \"deep\" ignored");
   EXPECT_EQ(mesh.warnings[1], "strip.json: unknown key \"subdivisionScheme\" ignored");
@@ -169,7 +169,7 @@ TEST(Sidecar, SaysWhereItMakesNoSense) {
 }
 
 TEST(Sidecar, LeavesTheMeshAsItWasWhenItFails) {
-  ControlMesh mesh = strip();
+  Mesh mesh = strip();
   expect_error<FormatError>(
       [&] {
         apply_sidecar_text(mesh,
@@ -198,7 +198,7 @@ TEST(Sidecar, IsFoundNextToTheMesh) {
   EXPECT_EQ(find_sidecar(directory / "strip.ply"), path);
   EXPECT_FALSE(find_sidecar(directory / "other.obj"));
   EXPECT_FALSE(find_sidecar(path));
-  ControlMesh mesh = strip();
+  Mesh mesh = strip();
   apply_sidecar(mesh, path);
   EXPECT_EQ(mesh.holes, (Ids{0}));
   expect_error<IoError>([&] { apply_sidecar(mesh, directory / "no.json"); }, {"no.json: cannot read"});

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Targets of fits from a CSV: what is read, and what is refused with its line.
-#include "sublimit/fit_jobs/fit_targets.h"
+#include "sublimit/stencils/fit_jobs/fit_targets.h"
 
 #include <gtest/gtest.h>
 
@@ -92,7 +92,7 @@ TEST(FitTargets, RefuseNormalsAndCurvaturesThatAreNone) {
 }
 
 TEST(FitTargets, RefuseWhatTheMeshDoesNotHave) {
-  ControlMesh mesh = cube();
+  Mesh mesh = cube();
   mesh.positions.conservativeResize(9, 3);
   mesh.positions.row(8).setZero();
   const Topology topology(view(mesh));

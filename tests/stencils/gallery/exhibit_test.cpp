@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the gallery's numbers say of the schemes, and why.
-#include "sublimit/gallery/exhibit.h"
+#include "sublimit/stencils/gallery/exhibit.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <map>
 
-#include "sublimit/schemes.h"
+#include "sublimit/schemes/schemes.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {
@@ -19,11 +19,11 @@ bool takes(const Scheme<double>& scheme, const std::string& cage) { return schem
 
 /// Each is measured once.
 const Measured& measured(const std::string& scheme, const std::string& cage) {
-  static std::map<std::string, LimitTypes> caches;
+  static std::map<std::string, LimitCache> caches;
   static std::map<std::pair<std::string, std::string>, Measured> all;
   const auto [found, fresh] = all.try_emplace({scheme, cage});
   if (fresh) {
-    LimitTypes& cache = caches.try_emplace(scheme, find_scheme(scheme).value()).first->second;
+    LimitCache& cache = caches.try_emplace(scheme, find_scheme(scheme).value()).first->second;
     for (const Cage& one : cages())
       if (one.name == cage) found->second = exhibit(one, cache, {.levels = 0, .faces = 1000}).measured;
   }

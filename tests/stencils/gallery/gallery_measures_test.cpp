@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sublimit/gallery/measures.h"
+#include "sublimit/stencils/gallery/measures.h"
 
 #include <gtest/gtest.h>
 
@@ -7,9 +7,9 @@
 #include <numbers>
 #include <random>
 
-#include "sublimit/gallery/cages.h"
+#include "sublimit/stencils/gallery/cages.h"
 #include "sublimit/scheme/refine.h"
-#include "sublimit/schemes.h"
+#include "sublimit/schemes/schemes.h"
 #include "support/meshes.h"
 
 namespace sublimit::testing {
@@ -20,11 +20,11 @@ using Eigen::Vector3d;
 
 constexpr double few = 1e-13;  // sums of some hundred terms of size 1
 
-Topology topology(const ControlMesh& mesh) { return Topology(view(mesh)); }
+Topology topology(const Mesh& mesh) { return Topology(view(mesh)); }
 
 /// An icosahedron cut four ways `times` times, every point moved to the sphere.
-ControlMesh sphere(int times, double radius) {
-  ControlMesh mesh = icosahedron();
+Mesh sphere(int times, double radius) {
+  Mesh mesh = icosahedron();
   const std::vector<Level> levels =
       refine(find_scheme("butterfly", {{"tension", "0"}}).value(), mesh, times);  // midpoints
   const Topology& t = levels.back().topology();
@@ -67,7 +67,7 @@ TEST(GalleryMeasures, VolumesOfSolids) {
     const double expected = cage.name == "tetrahedron" ? 8 / 3. : 8;  // every other corner of a cube like it
     EXPECT_NEAR(volume(topology(cage.mesh), cage.mesh.positions), expected, 8 * few) << cage.name;
   }
-  ControlMesh moved = cube();
+  Mesh moved = cube();
   moved.positions.rowwise() += Eigen::RowVector3d(5, -3, 1);  // the volume does not depend on where the origin is
   EXPECT_NEAR(volume(topology(moved), moved.positions), 8, 100 * few);
 }
@@ -80,14 +80,14 @@ TEST(GalleryMeasures, BendingEnergyOfASphereIsOneAtAnySize) {
     EXPECT_TRUE(times == 2 || off < last / 3) << off << " after " << last;  // of second order
     last = off;
   }
-  const ControlMesh ball = sphere(2, 1), large = sphere(2, 1000);
+  const Mesh ball = sphere(2, 1), large = sphere(2, 1000);
   EXPECT_NEAR(bending_energy(topology(ball), ball.positions), bending_energy(topology(large), large.positions), few);
 }
 
 TEST(GalleryMeasures, BendingEnergyOfATorusIsItsClosedForm) {
   // Radii R = 2 and r = 1: integral of H^2 is pi^2 c^2 / sqrt(c^2 - 1), c = R/r (Willmore 1965).
   const Index m = 96, n = 48;
-  ControlMesh mesh = torus(m, n);
+  Mesh mesh = torus(m, n);
   for (Index i = 0; i < m; ++i)
     for (Index j = 0; j < n; ++j) {
       const double u = 2 * std::numbers::pi * i / m, v = 2 * std::numbers::pi * j / n, r = 2 + std::cos(v);
@@ -107,7 +107,7 @@ TEST(GalleryMeasures, BendingEnergyOfACubeGrowsWithTheLevel) {
 }
 
 TEST(GalleryMeasures, DistancesToASurface) {
-  const ControlMesh outer = cube();
+  const Mesh outer = cube();
   const SurfaceDistance to_cube(topology(outer), outer.positions);
   EXPECT_NEAR(to_cube({0, 0, 0}), 1, few);
   EXPECT_NEAR(to_cube({2, 0.3, -0.2}), 1, few);              // over a face
@@ -115,7 +115,7 @@ TEST(GalleryMeasures, DistancesToASurface) {
   EXPECT_NEAR(to_cube({-3, 3, 3}), 2 * std::sqrt(3.), few);  // over a corner
   EXPECT_NEAR(to_cube({0.25, 0.5, -0.5}), 0.5, few);
   EXPECT_LE(to_cube({2, 0, 0}, 1.5), 1.5);
-  ControlMesh inner = cube();
+  Mesh inner = cube();
   inner.positions *= .75;
   const Distances d = distances(topology(inner), inner.positions, to_cube);
   EXPECT_NEAR(d.mean, .25, few);
@@ -123,7 +123,7 @@ TEST(GalleryMeasures, DistancesToASurface) {
 }
 
 TEST(GalleryMeasures, TheTreeFindsWhatASearchOfAllTrianglesFinds) {
-  const ControlMesh mesh = sphere(2, 1);
+  const Mesh mesh = sphere(2, 1);
   const Topology all = topology(mesh);
   const SurfaceDistance tree(all, mesh.positions);
   std::mt19937 random(1);
@@ -132,7 +132,7 @@ TEST(GalleryMeasures, TheTreeFindsWhatASearchOfAllTrianglesFinds) {
     const Vector3d p(coordinate(random), coordinate(random), coordinate(random));
     double least = 10;
     for (Index f = 0; f < all.num_faces(); ++f) {
-      ControlMesh one;
+      Mesh one;
       one.positions = mesh.positions;
       one.face_sizes = {3};
       const auto corners = all.vertices(Face{f});
@@ -144,7 +144,7 @@ TEST(GalleryMeasures, TheTreeFindsWhatASearchOfAllTrianglesFinds) {
 }
 
 TEST(GalleryMeasures, SymmetryDefectIsTheDistanceOfAPointThatIsMoved) {
-  ControlMesh mesh = cube();
+  Mesh mesh = cube();
   const std::vector<Eigen::Matrix3d> maps = symmetries(mesh.positions);
   EXPECT_LT(symmetry_defect(topology(mesh), mesh.positions, maps), few);
   mesh.positions.row(7) *= 1.1;

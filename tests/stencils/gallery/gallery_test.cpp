@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sublimit/gallery/gallery.h"
+#include "sublimit/stencils/gallery/gallery.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include "stencils/cli_program.h"
 #include "sublimit/curves/schemes/curve_schemes.h"
 #include "sublimit/geometric/geometric_schemes.h"
-#include "sublimit/schemes.h"
+#include "sublimit/schemes/schemes.h"
 #include "support/expect_error.h"
 
 namespace sublimit::testing {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Classical surfaces in the gallery: one panel or more for every kind, nets where they are exact, data on the surfaces,
 // and documents that say the same.
-#include "sublimit/gallery/patch_pictures.h"
+#include "sublimit/stencils/gallery/patch_pictures.h"
 
 #include <gtest/gtest.h>
 
@@ -14,11 +14,11 @@
 
 #include "stencils/drawn_panels.h"
 #include "stencils/markup.h"
-#include "sublimit/base/read_file.h"
-#include "sublimit/gallery/patch_exhibits.h"
-#include "sublimit/gallery/patch_recipes.h"
+#include "sublimit/base/detail/read_file.h"
+#include "sublimit/stencils/gallery/patch_exhibits.h"
+#include "sublimit/stencils/gallery/patch_recipes.h"
 #include "sublimit/limit/linear_source.h"
-#include "sublimit/recipes/recipe.h"
+#include "sublimit/stencils/recipes/detail/recipe.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {

@@ -14,12 +14,12 @@
 #include "eval/gpu/comparisons.h"
 #include "eval/gpu/made_tables.h"
 #include "eval/gpu/test_device.h"
-#include "sublimit/bake/bake.h"
+#include "sublimit/stencils/bake/detail/bake.h"
 #include "sublimit/base/error.h"
-#include "sublimit/gpu/gpu_evaluator.h"
+#include "sublimit/eval/gpu/gpu_evaluator.h"
 #include "sublimit/io/read_mesh.h"
 #include "sublimit/limit/limit_map.h"
-#include "sublimit/pattern_evaluator.h"
+#include "sublimit/eval/pattern_evaluator.h"
 #include "support/face_varying_meshes.h"
 #include "support/free_form_shapes.h"
 #include "support/shared_meshes.h"
@@ -74,7 +74,7 @@ constexpr BakeMethod all_methods[] = {BakeMethod::automatic, BakeMethod::pattern
                                       BakeMethod::rows};
 
 /// By each method that is possible.
-void compare_all_methods(Patterns& patterns, const ControlMesh& mesh, BakeRequest request, Compared& compared) {
+void compare_all_methods(Patterns& patterns, const Mesh& mesh, BakeRequest request, Compared& compared) {
   int possible = 0;
   for (const BakeMethod method : all_methods) {
     request.method = method;
@@ -94,8 +94,8 @@ void compare_all_methods(Patterns& patterns, const ControlMesh& mesh, BakeReques
 }
 
 /// Closed, and with all that a mesh may have: borders, sharp edges and vertices, a hole.
-std::vector<ControlMesh> few_meshes(const Scheme<double>& scheme) {
-  std::vector<ControlMesh> meshes = hard_meshes(scheme, 4);
+std::vector<Mesh> few_meshes(const Scheme<double>& scheme) {
+  std::vector<Mesh> meshes = hard_meshes(scheme, 4);
   meshes.erase(meshes.begin() + 1, meshes.end() - 1);
   return meshes;
 }
@@ -112,7 +112,7 @@ TEST_P(GpuLevels, AreWhatTheScalarKernelMakes) {
   const Scheme<double> scheme = GetParam().scheme();
   Patterns patterns(scheme);
   Compared compared;
-  for (const ControlMesh& mesh : few_meshes(scheme))
+  for (const Mesh& mesh : few_meshes(scheme))
     for (int level = scheme.period; level <= std::max(scheme.period, effort(scheme) == 1 ? 3 : 1);
          level += scheme.period) {
       SCOPED_TRACE("level " + std::to_string(level));
@@ -132,9 +132,9 @@ TEST_P(GpuLimits, AreWhatTheScalarKernelMakes) {
   const Scheme<double> scheme = GetParam().scheme();
   Patterns patterns(scheme);
   Compared compared;
-  std::vector<ControlMesh> meshes = few_meshes(scheme);
+  std::vector<Mesh> meshes = few_meshes(scheme);
   if (!scheme.has_one_ring_limits()) meshes.erase(meshes.begin(), meshes.end() - 1);
-  for (const ControlMesh& mesh : meshes)
+  for (const Mesh& mesh : meshes)
     for (const int derivatives : {0, 1, 2}) {
       SCOPED_TRACE(std::to_string(derivatives) + " derivatives");
       compare_all_methods(patterns, mesh, {.rows = TableRows::grid, .grid = 4, .derivatives = derivatives}, compared);
@@ -167,7 +167,7 @@ TEST(GpuTables, AreOfEverySchemeAndHaveEveryPart) {
 
   Patterns patterns(find_scheme("catmull-clark").value());
   Compared compared;
-  ControlMesh mesh = with_random_channel(hard_polygons(4, {.open = true, .semi_sharp = true}), 0.2);
+  Mesh mesh = with_random_channel(hard_polygons(4, {.open = true, .semi_sharp = true}), 0.2);
   mesh.holes = {3, 7};
   for (const TableRows rows : {TableRows::level, TableRows::limit})
     compare_all_methods(patterns, mesh, {.rows = rows, .level = 2, .face_varying = true, .tags = true}, compared);
@@ -188,7 +188,7 @@ TEST(GpuTables, OfTheSharedMeshes) {
   Compared compared;
   Patterns catmull_clark(find_scheme("catmull-clark").value()), loop(find_scheme("loop").value());
   for (const SharedMesh& shared : shared_meshes()) {
-    const ControlMesh mesh = read_mesh(shared.path);
+    const Mesh mesh = read_mesh(shared.path);
     if (mesh.num_faces() > (full_sweep() ? 100'000 : 3000)) continue;
     SCOPED_TRACE(shared.name);
     Patterns& patterns = shared.scheme == "loop" ? loop : catmull_clark;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sublimit/patterns/demo_mesh.h"
+#include "sublimit/stencils/patterns/demo_mesh.h"
 
 #include <gtest/gtest.h>
 
@@ -25,7 +25,7 @@ struct Census {
   std::vector<std::map<Index, Index>> next_around;  // per vertex: from the head of one edge to that of the next
   bool edge_used_twice = false;                     // in the same direction
 
-  explicit Census(const ControlMesh& mesh) : next_around(mesh.num_vertices()) {
+  explicit Census(const Mesh& mesh) : next_around(mesh.num_vertices()) {
     auto corner = mesh.face_vertices.begin();
     for (const Index size : mesh.face_sizes) {
       faces.emplace_back(corner, corner + size);
@@ -56,16 +56,16 @@ struct Census {
   }
 };
 
-Vector3d position(const ControlMesh& mesh, Index vertex) { return mesh.positions.row(vertex); }
+Vector3d position(const Mesh& mesh, Index vertex) { return mesh.positions.row(vertex); }
 
-std::map<Index, int> creases_at(const ControlMesh& mesh) {
+std::map<Index, int> creases_at(const Mesh& mesh) {
   std::map<Index, int> count;
-  for (const ControlMesh::Crease& crease : mesh.creases) ++count[crease.tail], ++count[crease.head];
+  for (const Mesh::Crease& crease : mesh.creases) ++count[crease.tail], ++count[crease.head];
   return count;
 }
 
 TEST(DemoMesh, IsAnOrientedManifold) {
-  const ControlMesh mesh = demo_mesh();
+  const Mesh mesh = demo_mesh();
   const Census census(mesh);
   EXPECT_FALSE(census.edge_used_twice);
   for (Index v = 0; v < mesh.num_vertices(); ++v) {
@@ -87,7 +87,7 @@ TEST(DemoMesh, IsAnOrientedManifold) {
 }
 
 TEST(DemoMesh, HasOneHandleAndOneBoundaryLoop) {
-  const ControlMesh mesh = demo_mesh();
+  const Mesh mesh = demo_mesh();
   const Census census(mesh);
   const int euler = mesh.num_vertices() - static_cast<int>(census.edges().size()) + mesh.num_faces();
   EXPECT_EQ(euler, 2 - 2 * 1 - 1);
@@ -103,7 +103,7 @@ TEST(DemoMesh, HasOneHandleAndOneBoundaryLoop) {
 }
 
 TEST(DemoMesh, HasExtraordinaryVerticesOfThreeKinds) {
-  const ControlMesh mesh = demo_mesh();
+  const Mesh mesh = demo_mesh();
   const Census census(mesh);
   std::map<int, int> count;
   for (Index v = 0; v < mesh.num_vertices(); ++v) ++count[census.valence(v)];
@@ -114,7 +114,7 @@ TEST(DemoMesh, HasExtraordinaryVerticesOfThreeKinds) {
 }
 
 TEST(DemoMesh, HasTrianglesQuadsPentagonsAndAHexagon) {
-  const ControlMesh mesh = demo_mesh();
+  const Mesh mesh = demo_mesh();
   EXPECT_GE(mesh.num_faces(), 150);
   EXPECT_LE(mesh.num_faces(), 500);
   for (const Index size : {3, 4, 5, 6}) {
@@ -124,11 +124,11 @@ TEST(DemoMesh, HasTrianglesQuadsPentagonsAndAHexagon) {
 }
 
 TEST(DemoMesh, HasSharpSemiSharpAndEndingCreasesAndACorner) {
-  const ControlMesh mesh = demo_mesh();
+  const Mesh mesh = demo_mesh();
   const std::set<DirectedEdge> edges = Census(mesh).edges();
   std::set<DirectedEdge> creased;
   std::set<float> sharpness;
-  for (const ControlMesh::Crease& crease : mesh.creases) {
+  for (const Mesh::Crease& crease : mesh.creases) {
     const DirectedEdge edge = std::minmax(crease.tail, crease.head);
     EXPECT_TRUE(edges.contains(edge)) << crease.tail << " " << crease.head;
     EXPECT_TRUE(creased.insert(edge).second) << "twice: " << crease.tail << " " << crease.head;
@@ -144,7 +144,7 @@ TEST(DemoMesh, HasSharpSemiSharpAndEndingCreasesAndACorner) {
 }
 
 TEST(DemoMesh, HasNoDegenerateOrFoldedFace) {
-  const ControlMesh mesh = demo_mesh();
+  const Mesh mesh = demo_mesh();
   double volume = 0;
   for (const std::vector<Index>& face : Census(mesh).faces) {
     const Index size = static_cast<Index>(face.size());
@@ -164,14 +164,14 @@ TEST(DemoMesh, HasNoDegenerateOrFoldedFace) {
 }
 
 TEST(DemoMesh, HasNoTwoVerticesAtOnePlace) {
-  const ControlMesh mesh = demo_mesh();
+  const Mesh mesh = demo_mesh();
   for (Index v = 0; v < mesh.num_vertices(); ++v) {
     for (Index w = 0; w < v; ++w) EXPECT_GT((position(mesh, v) - position(mesh, w)).norm(), .01) << v << " " << w;
   }
 }
 
 TEST(DemoMesh, IsItsOwnMirrorImageAndStandsOnTheGround) {
-  const ControlMesh mesh = demo_mesh();
+  const Mesh mesh = demo_mesh();
   const auto key = [](double x, double y, double z) {
     const auto ticks = [](double value) { return std::lround(1e4 * value); };  // its own resolution
     return std::vector<long>{ticks(x), ticks(y), ticks(z)};
@@ -189,7 +189,7 @@ TEST(DemoMesh, IsItsOwnMirrorImageAndStandsOnTheGround) {
 }
 
 TEST(DemoMesh, IsTheSameEveryTime) {
-  const ControlMesh a = demo_mesh(), b = demo_mesh();
+  const Mesh a = demo_mesh(), b = demo_mesh();
   EXPECT_TRUE((a.positions.array() == b.positions.array()).all());
   EXPECT_EQ(a.face_vertices, b.face_vertices);
 }

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Dictionaries of patterns in files: what they have need not be made again, and it is the same.
-#include "sublimit/patterns/pattern_file.h"
+#include "sublimit/stencils/patterns/pattern_file.h"
 
 #include <gtest/gtest.h>
 
 #include <fstream>
 #include <set>
 
-#include "sublimit/bake/bake.h"
-#include "sublimit/limit/limit_masks.h"
+#include "sublimit/stencils/bake/detail/bake.h"
+#include "sublimit/limit/detail/limit_masks.h"
 #include "support/expect_error.h"
 #include "support/temporary_directory.h"
 #include "support/tested_schemes.h"
@@ -29,8 +29,8 @@ void expect_equal(const Baked& a, const Baked& b) {
 }
 
 /// Types of wide supports are large: only the last mesh, which has most in it.
-std::vector<ControlMesh> few_meshes(const Scheme<double>& scheme) {
-  std::vector<ControlMesh> meshes = hard_meshes(scheme, 3);
+std::vector<Mesh> few_meshes(const Scheme<double>& scheme) {
+  std::vector<Mesh> meshes = hard_meshes(scheme, 3);
   if (!scheme.has_one_ring_limits()) meshes.erase(meshes.begin(), meshes.end() - 1);
   return meshes;
 }
@@ -55,14 +55,14 @@ TEST_P(PatternFile, KeepsWhatBakingTaught) {
   const auto path = directory.path() / "dictionary.safetensors", again = directory.path() / "again.safetensors";
   Patterns first(scheme);
   std::vector<Baked> fresh;
-  for (const ControlMesh& mesh : few_meshes(scheme))
+  for (const Mesh& mesh : few_meshes(scheme))
     for (const BakeRequest& request : requests(scheme)) fresh.push_back(bake(first, mesh, request));
   save_patterns(path, first);
   Patterns second(scheme);
   load_patterns(path, second);
   EXPECT_EQ(second.num_types(), first.num_types());
   size_t next = 0;
-  for (const ControlMesh& mesh : few_meshes(scheme))
+  for (const Mesh& mesh : few_meshes(scheme))
     for (const BakeRequest& request : requests(scheme)) expect_equal(bake(second, mesh, request), fresh[next++]);
   EXPECT_EQ(second.num_types(), first.num_types());
   if (scheme.face_size() == 3 || scheme.preparation.empty()) {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // A dictionary of patterns is of one scheme: levels of another are refused.
-#include "sublimit/patterns/patterns.h"
+#include "sublimit/stencils/patterns/patterns.h"
 
 #include <gtest/gtest.h>
 
 #include "sublimit/scheme/refine.h"
-#include "sublimit/schemes.h"
+#include "sublimit/schemes/schemes.h"
 #include "support/expect_error.h"
 #include "support/meshes.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sublimit/picture/picture.h"
+#include "sublimit/stencils/picture/picture.h"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "sublimit/base/error.h"
-#include "sublimit/patterns/demo_mesh.h"
+#include "sublimit/stencils/patterns/demo_mesh.h"
 #include "support/expect_error.h"
 
 namespace sublimit::testing {
@@ -20,7 +20,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-PictureMesh picture_of(const ControlMesh& mesh) {
+PictureMesh picture_of(const Mesh& mesh) {
   PictureMesh picture;
   picture.positions = mesh.positions;
   picture.face_sizes = mesh.face_sizes;
@@ -115,10 +115,10 @@ std::size_t count(std::string_view text, std::string_view part) {
 }
 
 TEST(Picture, IsWellFormed) {
-  const ControlMesh mesh = demo_mesh();
+  const Mesh mesh = demo_mesh();
   PictureMesh wire = picture_of(mesh);
   wire.wireframe = true;
-  for (const ControlMesh::Crease& crease : mesh.creases) wire.creases.push_back({crease.tail, crease.head, .5});
+  for (const Mesh::Crease& crease : mesh.creases) wire.creases.push_back({crease.tail, crease.head, .5});
   wire.dots = {0, 1, 2};
   const std::string svg = svg_picture({{{wire}, "a < b & \"c\"", "x > y"}, {{ball(12)}, "", ""}});
   EXPECT_TRUE(well_formed(svg));

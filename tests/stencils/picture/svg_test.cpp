@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sublimit/picture/svg.h"
+#include "sublimit/stencils/picture/svg.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "stencils/cli_program.h"
-#include "sublimit/base/read_file.h"
+#include "sublimit/base/detail/read_file.h"
 #include "sublimit/report/page/mask_diagram.h"
 #include "sublimit/report/page/plane.h"
 
@@ -37,10 +37,10 @@ TEST(Svg, StepsBetweenAnySpotsAreInts) {
 }
 
 TEST(Svg, OnePointIsDrawnInTheMiddle) {
-  const page::Point lone(.25, -3);
-  const page::Fit fit = page::fit_points({lone}, 380, 330, 36);
-  EXPECT_EQ(fit.x(lone), 190);
-  EXPECT_EQ(fit.y(lone), 36);
+  const page::Point isolated(.25, -3);
+  const page::Fit fit = page::fit_points({isolated}, 380, 330, 36);
+  EXPECT_EQ(fit.x(isolated), 190);
+  EXPECT_EQ(fit.y(isolated), 36);
   EXPECT_EQ(fit.height, 72);
   const auto mask = page::Json::parse(R"([{"label": [0, 0, 0], "weight": 1, "exact": "1"}])");
   const std::string drawn = page::neighborhood_masks({{"n", 4}, {"masks", {{"position", mask}}}}, "interpolatory");

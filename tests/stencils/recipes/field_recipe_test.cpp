@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Documents of fields: every kind, and what becomes of documents that are spoilt.
-#include "sublimit/recipes/field_recipe.h"
+#include "sublimit/stencils/recipes/detail/field_recipe.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 
 #include "stencils/recipes/field_samples.h"
 #include "sublimit/base/error.h"
-#include "sublimit/implicit/field_grid.h"
+#include "sublimit/implicit/detail/field_grid.h"
 
 namespace sublimit::testing {
 namespace {

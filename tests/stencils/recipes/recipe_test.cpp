@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Recipes of every kind are read; what is wrong is named by file, recipe and field.
-#include "sublimit/recipes/recipe.h"
+#include "sublimit/stencils/recipes/detail/recipe.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "stencils/recipes/recipe_samples.h"
-#include "sublimit/recipes/net_file.h"
-#include "sublimit/recipes/recipe_sources.h"
+#include "sublimit/stencils/recipes/detail/net_file.h"
+#include "sublimit/stencils/recipes/detail/recipe_sources.h"
 #include "support/construction_data.h"
 #include "support/expect_error.h"
 
@@ -88,7 +88,7 @@ TEST(Recipes, SeveralInOneFile) {
   EXPECT_EQ(curves.curves.num_curves(), 2);
   EXPECT_EQ(curves.curves.num_segments(), 3);
   EXPECT_EQ(curves.columns.cols(), 4);  // of the plane and of space, one of them rational
-  const std::vector<CurveSample> places{{0, 0.5}, {2, 1}};
+  const std::vector<CurvePlace> places{{0, 0.5}, {2, 1}};
   const CurveSamples at = curves.curves.evaluate(curves.columns, places, 2, curves.coordinates);
   EXPECT_NEAR(at.position.row(0).norm(), 1, sums);  // a quarter of the unit circle
   expect_near(at.position.row(1), Eigen::RowVector3d(2, 0, 1), sums);

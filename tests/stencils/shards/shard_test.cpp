@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tables in parts make each point of the whole once, with the same bits.
-#include "sublimit/shards/shard.h"
+#include "sublimit/stencils/shards/shard.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
 #include "sublimit/base/error.h"
-#include "sublimit/schemes.h"
+#include "sublimit/schemes/schemes.h"
 #include "support/expect_error.h"
 #include "support/meshes.h"
 
@@ -16,12 +16,12 @@ namespace {
 
 struct Case {
   const char* scheme;
-  ControlMesh mesh;
+  Mesh mesh;
 };
 std::vector<Case> cases() {
-  ControlMesh creased = torus(8, 6);
+  Mesh creased = torus(8, 6);
   add_crease(creased, {0, 6, 12, 18}, {10, 2.5f, 1.5f});
-  ControlMesh open = jittered(grid(7, 6));
+  Mesh open = jittered(grid(7, 6));
   open.holes = {5};
   return {{"catmull-clark", torus(9, 7)}, {"catmull-clark", creased},        {"catmull-clark", open},
           {"loop", triangle_torus(7, 6)}, {"loop", jittered(icosahedron())}, {"butterfly", triangle_torus(7, 6)}};
@@ -32,7 +32,7 @@ struct Whole {
   Baked baked;
   std::vector<double> points;
 };
-Whole whole_of(const Scheme<double>& scheme, const ControlMesh& mesh, const BakeRequest& request) {
+Whole whole_of(const Scheme<double>& scheme, const Mesh& mesh, const BakeRequest& request) {
   Patterns patterns(scheme);
   std::optional<Baked> baked =
       bake_by_patterns(patterns, control_level(scheme, mesh, {}), request, {.owners = OwnerRule::first});
@@ -95,7 +95,7 @@ TEST(Shards, MakeEachPointOnceWithTheBitsOfTheWhole) {
 
 TEST(Shards, RefuseWhatTheyWouldDivideWrongly) {
   const std::vector<int> owner(30, 0);
-  ControlMesh mesh = torus(6, 5);
+  Mesh mesh = torus(6, 5);
   for (const char* name : {"doo-sabin", "mid-edge"}) {
     Patterns patterns(find_scheme(name).value());
     expect_error<InvalidParameter>([&] { shard_method(patterns, {.rows = TableRows::level, .level = 2}, true); },
@@ -107,7 +107,7 @@ TEST(Shards, RefuseWhatTheyWouldDivideWrongly) {
 
 TEST(Shards, MayHaveNoFaces) {
   const Scheme<double> scheme = find_scheme("catmull-clark").value();
-  ControlMesh mesh = cube();
+  Mesh mesh = cube();
   mesh.positions.conservativeResize(10, 3);
   mesh.positions.bottomRows(2).setConstant(5);
   const std::vector<int> owner(6, 1);

@@ -27,8 +27,8 @@
 #include <sstream>
 #include <string_view>
 
+#include "sublimit/base/detail/terminate_as_bad_alloc.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/terminate_as_bad_alloc.h"
 #include "sublimit/cad/opencascade/shape.h"
 
 namespace sublimit {

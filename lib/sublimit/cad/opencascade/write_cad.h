@@ -1,22 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Boundary models as files of CAD programs: .step (ISO 10303-214) and .brep (OpenCASCADE's own).
+// Formats a boundary model as a file that CAD programs read: .step (ISO 10303-214) or .brep (OpenCASCADE's own). Link
+// sublimit::cad. With `model` a BoundaryModel:
+//
+//   const CadFile made = cad_file(model, "bracket", true);
+//   std::ofstream("bracket.step", std::ios::binary) << made.bytes;
 #include <string>
 
 #include "sublimit/cad/boundary_model.h"
 
 namespace sublimit {
 
+/// The content of a CAD file and statistics of it.
 struct CadFile {
-  std::string bytes;
-  int solids = 0, shells = 0;  ///< closed and open
-  double volume = 0;           ///< of all solids, by that of their faces
-  bool is_valid = false;       ///< as OpenCASCADE's own check has it
+  std::string bytes;           ///< content of the file
+  int solids = 0, shells = 0;  ///< closed and open parts
+  double volume = 0;           ///< total volume of the solids, from the volumes of their faces
+  bool is_valid = false;       ///< result of OpenCASCADE's own check
 };
 
-/// @param name  of the product
-/// @throws InvalidMesh     what OpenCASCADE refuses
-/// @throws std::bad_alloc  it has no memory
+/// Returns a model as the content of a file.
+/// @param name  name of the product in the file
+/// @param step  true for STEP, false for BREP
+/// @throws InvalidMesh     a model that OpenCASCADE refuses
+/// @throws std::bad_alloc  OpenCASCADE is out of memory
 CadFile cad_file(const BoundaryModel& model, const std::string& name, bool step);
 
 }  // namespace sublimit

@@ -9,7 +9,7 @@
 
 #include "sublimit/base/error.h"
 #include "sublimit/certificates/regularity/rational_schemes.h"
-#include "sublimit/limit/for_all.h"
+#include "sublimit/limit/detail/for_all.h"
 
 namespace sublimit {
 namespace {
@@ -199,7 +199,7 @@ CurveRegularity curve_regularity(const Symbol& symbol, const JointSpectralRadius
     int count = 0;
     for (int j = a.first; j <= a.last(); ++j) count += (j % 2 != 0) == (which == 1) && !a.at(j).is_zero();
     const bool dual = !a.shift.is_zero();
-    r.costs.push_back({which == 0 ? (dual ? "before" : "point") : (dual ? "after" : "leg"), count});
+    r.costs.push_back({which == 0 ? (dual ? "before" : "point") : (dual ? "after" : "edge"), count});
   }
   r.interpolates = is_interpolatory(a);
   r.positive = holds_for_all(a.coefficients, [](const Rational& c) { return c >= Rational(0); }) == true;

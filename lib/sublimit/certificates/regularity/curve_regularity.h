@@ -48,7 +48,8 @@ struct [[nodiscard]] CurveRegularity {
 /// @param a  exact; its two masks should sum to 1, else that is what is reported
 CurveRegularity curve_regularity(const Symbol& a, const JointSpectralRadiusOptions& options = {});
 
-/// Whether the child of every point is the point itself, by the mask; in a Hermite scheme whatever its derivative is.
+/// Returns whether the child of every point is the point itself, by the mask; in a Hermite scheme whatever its
+/// derivative is.
 /// @return  nothing where masks depend on the level, and some levels keep points and others do not
 std::optional<bool> keeps_points(const CurveScheme<double>& scheme);
 
@@ -66,7 +67,7 @@ DifferenceTransitions curve_transitions(const Symbol& a, int m);
 /// Norms of the scheme of differences of order `order`, up to the number of steps where it falls below 1.
 DifferenceNorm difference_norm(const Symbol& a, int order, int most_steps = 10);
 
-/// @param levels  2^levels samples per leg
+/// @param levels  2^levels samples per edge
 BasisSamples basis_samples(const Symbol& a, int levels = 5);
 
 }  // namespace sublimit

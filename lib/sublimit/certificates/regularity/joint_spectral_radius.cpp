@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "sublimit/certificates/regularity/absolute_hull.h"
-#include "sublimit/core/dense_decompositions.h"
+#include "sublimit/core/detail/dense_decompositions.h"
 
 namespace sublimit {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "sublimit/certificates/regularity/rational.h"
+#include "sublimit/certificates/regularity/rational_number.h"
 
 namespace sublimit {
 

@@ -7,7 +7,7 @@ template std::vector<Scheme<Rational>> all_schemes<Rational>();
 template std::optional<Scheme<Rational>> find_scheme<Rational>(const std::string&, const SchemeOptions&);
 template std::optional<CurveScheme<Rational>> find_curve_scheme<Rational>(const std::string&, const SchemeOptions&);
 template std::optional<LocalPatch<Rational>> local_patch<Rational>(const Scheme<Rational>&, LocalType, int,
-                                                                   const ControlMesh*);
+                                                                   const Mesh*);
 
 std::optional<RegularMask<Rational>> rational_mask(const RegularMask<Algebraic>& mask) {
   RegularMask<Rational> result{.triangular = mask.triangular, .dual = mask.dual, .dilation = mask.dilation};

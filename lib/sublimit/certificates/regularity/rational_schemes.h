@@ -3,10 +3,10 @@
 // The registries' schemes and local matrices in ratios, made once: else every file that uses them makes them all. And
 // regular masks of schemes that are there in algebraic numbers.
 #include "sublimit/certificates/algebraic.h"
-#include "sublimit/certificates/regularity/rational.h"
+#include "sublimit/certificates/regularity/rational_number.h"
 #include "sublimit/curves/schemes/curve_schemes.h"
 #include "sublimit/neighborhood/regular_mask.h"
-#include "sublimit/schemes.h"
+#include "sublimit/schemes/schemes.h"
 
 namespace sublimit {
 
@@ -15,7 +15,7 @@ extern template std::optional<Scheme<Rational>> find_scheme<Rational>(const std:
 extern template std::optional<CurveScheme<Rational>> find_curve_scheme<Rational>(const std::string&,
                                                                                  const SchemeOptions&);
 extern template std::optional<LocalPatch<Rational>> local_patch<Rational>(const Scheme<Rational>&, LocalType, int,
-                                                                          const ControlMesh*);
+                                                                          const Mesh*);
 
 /// Returns the mask in rational numbers; nothing if a weight is irrational.
 std::optional<RegularMask<Rational>> rational_mask(const RegularMask<Algebraic>& mask);

@@ -9,7 +9,7 @@
 
 #include "sublimit/certificates/regularity/joint_spectral_radius.h"
 #include "sublimit/certificates/regularity/rational_matrix.h"
-#include "sublimit/limit/verdict.h"
+#include "sublimit/limit/detail/verdict.h"
 
 namespace sublimit {
 
@@ -18,7 +18,7 @@ struct DifferenceTransitions {
   int order = 1;
   int dilation = 2;
   std::vector<RationalMatrix> matrices = {};
-  /// What differences of points do, differences of the limit do: conditions are necessary.
+  /// The conditions are necessary: differences of the limit grow as those of the points.
   bool necessary = false;
   bool stable = true;                  ///< and where the limit is C^k, polynomials of degree k are generated
   std::string necessary_because = {};  ///< in words, as a hypothesis: "integer shifts are linearly independent"
@@ -47,8 +47,8 @@ struct Smoothness {
 /// Bounds of the exponent, and C^k proved and disproved.
 /// @param norms      those of curves, or none
 /// @param sum_rules  polynomials of degree below this are generated; their differences vanish
-/// @param of_limits  the same for differences of the limit at the points' places: necessary conditions come from these,
-/// if given
+/// @param of_limits  the same for differences of the limit at the points' places: necessary conditions come from
+///                   these, if given
 Smoothness smoothness(const DifferenceTransitions& transitions, const std::vector<DifferenceNorm>& norms, int sum_rules,
                       const JointSpectralRadiusOptions& options = {}, const DifferenceTransitions* of_limits = nullptr);
 

@@ -25,7 +25,7 @@ struct [[nodiscard]] SurfaceRegularity {
 SurfaceRegularity surface_regularity(const RegularMask<Rational>& mask, const JointSpectralRadiusOptions& options);
 SurfaceRegularity surface_regularity(const RegularMask<Rational>& mask);
 
-/// Whether the child of every old vertex of a regular mesh is the vertex itself.
+/// True if the child of every old vertex of a regular mesh is the vertex itself.
 bool keeps_vertices(const RegularMask<Rational>& mask);
 
 /// The curve masks whose product a mask is; nothing if it is none.

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "sublimit/certificates/regularity/rational.h"
+#include "sublimit/certificates/regularity/rational_number.h"
 #include "sublimit/curves/curve_scheme.h"
 
 namespace sublimit {
@@ -20,17 +20,17 @@ struct Symbol {
   Rational at(int power) const { return power < first || power > last() ? Rational(0) : coefficients[power - first]; }
 };
 
-/// The symbol without zeros at its ends.
+/// Returns the symbol without zero coefficients at its ends.
 Symbol trimmed(Symbol a);
 
 /// Symbol of a scheme's masks away from ends, at one level.
 /// @throws AnalysisError  weights that are not ratios, or a Hermite scheme: its masks are matrices
 Symbol symbol(const CurveScheme<Rational>& scheme, int level = 0);
 
-/// a(z)/(1+z), if 1 + z divides it.
+/// Returns a(z)/(1+z), or nothing if 1 + z does not divide a.
 std::optional<Symbol> over_one_plus_z(const Symbol& a);
 
-/// How often 1 + z divides a symbol.
+/// Returns the multiplicity of the factor 1 + z of a symbol.
 int smoothing_factors(const Symbol& a);
 
 /// a(z)/(1+z)^m: takes differences of order m of the old points to those of the new ones.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 // Chaikin 1974, "An algorithm for high-speed curve generation": corners are cut at a quarter and three quarters of
-// every leg. Riesenfeld 1975, "On Chaikin's algorithm": the limit is the uniform quadratic B-spline.
+// every edge. Riesenfeld 1975, "On Chaikin's algorithm": the limit is the uniform quadratic B-spline.
 #include "sublimit/curves/schemes/curve_ends.h"
 
 namespace sublimit {
@@ -10,7 +10,7 @@ template <class T>
 CurveScheme<T> chaikin(const SchemeOptions& options) {
   const OptionInfo ends{.name = "ends",
                         .values = {"free", "interpolate"},
-                        .meaning = "free starts in the middle of the first leg, interpolate in the first point"};
+                        .meaning = "free starts in the middle of the first edge, interpolate in the first point"};
   return {.name = "chaikin",
           .source = "Chaikin 1974, An algorithm for high-speed curve generation",
           .masks = {.before = [](const CurveSite<T>& p) { return (p.point(-1) + 3 * p.point(0)) / 4; },

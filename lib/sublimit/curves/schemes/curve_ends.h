@@ -8,7 +8,7 @@ namespace sublimit {
 
 /// Beyond the end lies the point reflection of the polygon in its end point. Refinement by a symmetric mask keeps that
 /// symmetry, so the refined polygon ends like the coarse one and the limit starts in the end point, along the first
-/// leg, with curvature zero (the natural end of splines). Dual schemes of degree 2 give the quadratic B-spline with a
+/// edge, with curvature zero (the natural end of splines). Dual schemes of degree 2 give the quadratic B-spline with a
 /// triple end knot.
 template <class T>
 CurveEnds<T> reflected_ends() {

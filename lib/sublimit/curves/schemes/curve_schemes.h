@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "sublimit/core/unknown_scheme.h"
+#include "sublimit/core/detail/unknown_scheme.h"
 #include "sublimit/curves/schemes/chaikin.h"
 #include "sublimit/curves/schemes/four_point.h"
 #include "sublimit/curves/schemes/hermite_merrien.h"
@@ -32,7 +32,7 @@ inline constexpr CurveSchemeEntry<T> curve_registry[] = {
     {"hermite-merrien", hermite_merrien<T>},
 };
 
-/// Every curve scheme with its default options.
+/// Returns every curve scheme with its default options.
 template <class T = double>
 [[nodiscard]] std::vector<CurveScheme<T>> all_curve_schemes() {
   std::vector<CurveScheme<T>> schemes;
@@ -40,7 +40,7 @@ template <class T = double>
   return schemes;
 }
 
-/// A curve scheme by name; nothing if there is none. `curve_scheme` below throws instead.
+/// Returns a curve scheme by name, or nothing if there is none. `curve_scheme` below throws instead.
 /// @throws InvalidOption  an unknown option, or a value outside its range
 template <class T = double>
 [[nodiscard]] std::optional<CurveScheme<T>> find_curve_scheme(const std::string& name,
@@ -55,8 +55,7 @@ template <class T = double>
 
 /// A curve scheme by name: `curve_scheme("chaikin")`, `curve_scheme("four-point", {{"tension", "3/4"}})`.
 /// @throws InvalidOption  no linear scheme of curves has this name: says which are nearest, or what makes it; an
-/// unknown
-///                        option, or a value outside its range
+///                        unknown option, or a value outside its range
 template <class T = double>
 [[nodiscard]] CurveScheme<T> curve_scheme(const std::string& name, const SchemeOptions& options = {}) {
   if (std::optional<CurveScheme<T>> found = find_curve_scheme<T>(name, options)) return *std::move(found);

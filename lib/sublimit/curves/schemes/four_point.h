@@ -37,7 +37,7 @@ CurveScheme<T> four_point(const SchemeOptions& options) {
   return {.name = "four-point",
           .source = "Dyn, Levin, Gregory 1987, A 4-point interpolatory subdivision scheme for curve design",
           .masks = {.point = [](const CurveSite<T>& p) { return p.point(0); },
-                    .leg =
+                    .edge =
                         [g](const CurveSite<T>& p) {
                           const T w = p.ratio(g.p, g.q) / 16;
                           return (p.ratio(1, 2) + w) * (p.point(0) + p.point(1)) - w * (p.point(-1) + p.point(2));

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 // Merrien 1992, "A family of Hermite interpolants by bisection algorithms": unknowns are points and derivatives, and a
-// leg's middle gets both from the two at its ends,
+// edge's middle gets both from the two at its ends,
 //
 //   f(m)  = (f(a) + f(b))/2 + alpha h (f'(b) - f'(a))
 //   f'(m) = (1 - beta) (f(b) - f(a))/h + beta (f'(a) + f'(b))/2.
 //
 // alpha = -1/8 with beta = -1/2 is the cubic Hermite interpolant, with beta = -1 the C^1 quadratic one with a knot in
-// the middle. Derivatives are kept per leg of their level (h = 1), so that the rules are the same at every level.
+// the middle. Derivatives are kept per edge of their level (h = 1), so that the rules are the same at every level.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -17,9 +17,9 @@
 
 namespace sublimit {
 
-/// Whether the limits of Merrien's scheme are C^1, proved by norms.
+/// True if the limits of Merrien's scheme are C^1, proved by norms.
 ///
-/// On a leg let u, v be the derivatives at its ends less the slope of its chord. Bisection maps (u, v) linearly to
+/// On an edge let u, v be the derivatives at its ends less the slope of its chord. Bisection maps (u, v) linearly to
 /// those of either half, and the limit is C^1 if products of these two maps shrink: if all products of some length have
 /// maximum norms below one.
 inline bool merrien_is_smooth(double alpha, double beta) {
@@ -66,14 +66,14 @@ CurveScheme<T> hermite_merrien(const SchemeOptions& options) {
   return {.name = "hermite-merrien",
           .source = "Merrien 1992, A family of Hermite interpolants by bisection algorithms",
           .masks = {.point = [](const CurveSite<T>& p) { return p.point(0); },
-                    .leg =
+                    .edge =
                         [a](const CurveSite<T>& p) {
                           return (p.point(0) + p.point(1)) / 2 +
                                  p.ratio(a.p, a.q) * (p.derivative(1) - p.derivative(0));
                         },
                     .point_derivative = [](const CurveSite<T>& p) { return p.derivative(0) / 2; },
-                    .leg_derivative =
-                        [b](const CurveSite<T>& p) {  // per leg of the child, which is half as long
+                    .edge_derivative =
+                        [b](const CurveSite<T>& p) {  // per edge of the child, which is half as long
                           const T share = p.ratio(b.p, b.q);
                           return (1 - share) / 2 * (p.point(1) - p.point(0)) +
                                  share / 4 * (p.derivative(0) + p.derivative(1));

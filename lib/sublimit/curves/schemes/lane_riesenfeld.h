@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 // Lane, Riesenfeld 1980, "A theoretical development for the computer generation and display of piecewise polynomial
-// surfaces": every point doubled, then `degree` times the midpoints of all legs. The mask has the binomial coefficients
-// of degree + 1, the limit is the uniform B-spline of that degree.
+// surfaces": every point doubled, then `degree` times the midpoints of all edges. The mask has the binomial
+// coefficients of degree + 1, the limit is the uniform B-spline of that degree.
 #include "sublimit/curves/schemes/curve_ends.h"
 
 namespace sublimit {
@@ -15,7 +15,7 @@ CurveScheme<T> lane_riesenfeld(const SchemeOptions& options) {
                         .range = OptionRange{{1, 1}, {15, 1}, true}};
   const OptionInfo ends{.name = "ends",
                         .values = {"free", "interpolate"},
-                        .meaning = "free starts (degree - 1)/2 legs after the first point, interpolate in that point"};
+                        .meaning = "free starts (degree - 1)/2 edges after the first point, interpolate in that point"};
   const int degree = whole_option(options, info);
   std::vector<int> binomial(degree + 2, 1);
   for (int i = 1; i <= degree + 1; ++i) binomial[i] = binomial[i - 1] * (degree + 2 - i) / i;
@@ -32,7 +32,7 @@ CurveScheme<T> lane_riesenfeld(const SchemeOptions& options) {
   CurveMasks<T> masks;
   if (degree % 2 == 1) {
     masks.point = mask(middle);
-    masks.leg = mask(middle + 1);
+    masks.edge = mask(middle + 1);
   } else {
     masks.before = mask(middle);
     masks.after = mask(middle + 1);

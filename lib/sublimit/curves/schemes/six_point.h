@@ -15,7 +15,7 @@ CurveScheme<T> six_point(const SchemeOptions& options) {
   return {.name = "six-point",
           .source = "Deslauriers, Dubuc 1989, Symmetric iterative interpolation processes",
           .masks = {.point = [](const CurveSite<T>& p) { return p.point(0); },
-                    .leg =
+                    .edge =
                         [](const CurveSite<T>& p) {
                           return (150 * (p.point(0) + p.point(1)) - 25 * (p.point(-1) + p.point(2)) +
                                   3 * (p.point(-2) + p.point(3))) /

@@ -21,7 +21,7 @@ CurveScheme<T> trigonometric_cubic(const SchemeOptions& options) {
                          .range = OptionRange{{3, 1}, {100000, 1}, true}};
   const OptionInfo ends{.name = "ends",
                         .values = {"free", "interpolate"},
-                        .meaning = "free starts a leg after the first point, interpolate in that point"};
+                        .meaning = "free starts an edge after the first point, interpolate in that point"};
   const int n = whole_option(options, sides);
   const auto cosine = [n](const CurveSite<T>& p) {  // of half an angle of the level
     using std::sqrt;
@@ -36,7 +36,7 @@ CurveScheme<T> trigonometric_cubic(const SchemeOptions& options) {
                           const T c = cosine(p);
                           return (p.point(-1) + (2 + 4 * c) * p.point(0) + p.point(1)) / (4 + 4 * c);
                         },
-                    .leg = [](const CurveSite<T>& p) { return (p.point(0) + p.point(1)) / 2; }},
+                    .edge = [](const CurveSite<T>& p) { return (p.point(0) + p.point(1)) / 2; }},
           .ends = spline_ends<T>(options, ends),
           .claims = {.regular = 2,
                      .generates = 1,

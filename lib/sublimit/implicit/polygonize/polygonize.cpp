@@ -12,7 +12,7 @@
 
 namespace sublimit {
 
-ControlMesh polygonize(const FieldGrid& field) {
+Mesh polygonize(const FieldGrid& field) {
   [[maybe_unused]] static const bool started = (openvdb::initialize(), true);
   const openvdb::CoordBBox box({0, 0, 0}, {field.size[0] - 1, field.size[1] - 1, field.size[2] - 1});
   // It only reads, but has no type that says so.
@@ -24,7 +24,7 @@ ControlMesh polygonize(const FieldGrid& field) {
   openvdb::tools::volumeToMesh(*grid, points, quads, 0.);  // in units of cells, where floats are finest
   if (4. * double(quads.size()) > std::numeric_limits<Index>::max())
     throw ResourceError("the surface has more quads than 32-bit indices count; take fewer cells");
-  ControlMesh mesh;
+  Mesh mesh;
   mesh.positions.resize(Eigen::Index(points.size()), 3);
   for (size_t i = 0; i < points.size(); ++i)
     mesh.positions.row(Eigen::Index(i)) =

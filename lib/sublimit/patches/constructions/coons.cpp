@@ -7,12 +7,12 @@
 
 #include "sublimit/base/error.h"
 #include "sublimit/base/format_number.h"
-#include "sublimit/core/sparse_rows.h"
+#include "sublimit/core/detail/sparse_rows.h"
 #include "sublimit/patches/constructions/boolean_sum.h"
 #include "sublimit/patches/constructions/common_space.h"
 #include "sublimit/patches/constructions/interpolation.h"
 #include "sublimit/patches/constructions/power_coefficients.h"
-#include "sublimit/patches/finer_knots.h"
+#include "sublimit/patches/detail/finer_knots.h"
 
 namespace sublimit {
 namespace {

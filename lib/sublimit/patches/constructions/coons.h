@@ -38,12 +38,12 @@ NetBuilder coons_builder(const std::array<Knots<double>, 4>& knots, CoonsBlendin
 /// twists S_uv at (0,0), (1,0), (0,1), (1,1).
 NetBuilder general_coons_builder(const std::array<Knots<double>, 8>& knots);
 
-/// How far ends of curves are apart at a corner.
+/// Distance of the ends of curves at a corner.
 struct CornerGap {
   double distance = 0;
   std::string corner{}, curves{};
 };
-/// The largest one. Of rational curves columns are compared: weights have to agree too.
+/// Returns the largest gap. Rational curves are compared by their columns: weights have to agree too.
 CornerGap boundary_gap(const CoonsBoundary& curves);
 
 /// Distances up to this one are taken as rounding: corners are then averaged. By default 1e-9 of the size of the data.
@@ -60,13 +60,12 @@ SplineNet coons(const CoonsBoundary& curves, CoonsBlending blending, double tole
 /// @param tolerance  for corners, ends of fields and twists; < 0: default_gap
 /// @throws InvalidParameter  as above; rational curves
 /// @throws InvalidMesh       as above; cross derivatives that do not end in the derivatives of the side curves, or
-/// whose
-///                           own derivatives are not the twists, naming the corner and the gap (fields that disagree
-///                           are for gregory.h)
+///                           whose own derivatives are not the twists, naming the corner and the gap (fields that
+///                           disagree are for gregory.h)
 SplineNet general_coons(const CoonsBoundary& curves, const CoonsFields& fields, const Points& twists,
                         double tolerance = -1);
 
-/// What general_coons and gregory_patch share: the data, checked but for the twists.
+/// Data that general_coons and gregory_patch share, checked except for the twists.
 struct CheckedCoons {
   std::array<CurveNet, 8> curves;  ///< ends interpolated, corners the same
   /// Derivatives of the fields at the corners, by coons_corners: d/du of xv and d/dv of xu.

@@ -7,7 +7,7 @@
 
 #include "sublimit/base/error.h"
 #include "sublimit/base/format_number.h"
-#include "sublimit/core/sparse_product.h"
+#include "sublimit/core/detail/sparse_product.h"
 #include "sublimit/patches/constructions/boolean_sum.h"
 #include "sublimit/patches/constructions/common_space.h"
 #include "sublimit/patches/constructions/interpolation.h"

@@ -15,7 +15,7 @@ enum class GordonBlending {
   lagrange,  ///< polynomials of degree #curves - 1: for few curves
   spline,    ///< interpolating splines, cubic where there are 4 curves or more, knots by averaging
 };
-/// The word of a blending, as files have it.
+/// Names of the blendings in files.
 inline constexpr const char* gordon_blending_words[] = {"lagrange", "spline"};
 
 struct GordonNetwork {
@@ -25,7 +25,7 @@ struct GordonNetwork {
   std::vector<double> parameters_v;
 };
 
-/// How far curves are apart where they should meet, the largest.
+/// Returns the largest distance of curves that should meet.
 double network_gap(const GordonNetwork& network);
 
 /// @param tolerance  where curves meet; < 0: 1e-9 of the size of the data

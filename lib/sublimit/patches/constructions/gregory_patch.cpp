@@ -52,7 +52,7 @@ std::vector<Index> GregoryPatch::slots(Index face) const {
   return points;
 }
 
-LimitStatus GregoryPatch::rows(const Sample& sample, int order, WeightRows& weights) const {
+LimitStatus GregoryPatch::rows(const Place& sample, int order, WeightRows& weights) const {
   const Parameters at = net_.parameters(sample);
   const bool at_corner = (at.u == 0 || at.u == 1) && (at.v == 0 || at.v == 1);
   const bool unbounded = order == 2 && at_corner && blended_[size_t(at.u) + 2 * size_t(at.v)];

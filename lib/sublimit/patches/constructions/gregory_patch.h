@@ -27,10 +27,10 @@ class GregoryPatch : public Patch {
   Index num_points() const override { return net_.num_points() + 8; }
   FaceCount faces() const override { return net_.faces(); }
   std::vector<Index> slots(Index face) const override;
-  LimitStatus rows(const Sample& sample, int order, WeightRows& weights) const override;
+  LimitStatus rows(const Place& sample, int order, WeightRows& weights) const override;
   std::string type(Index face) const override;
-  Sample place(const Parameters& parameters) const override { return net_.place(parameters); }
-  Parameters parameters(const Sample& place) const override { return net_.parameters(place); }
+  Place place(const Parameters& parameters) const override { return net_.place(parameters); }
+  Parameters parameters(const Place& place) const override { return net_.parameters(place); }
   Lengths lengths(Index face) const override { return net_.lengths(face); }
 
  private:

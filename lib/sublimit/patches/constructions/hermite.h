@@ -15,7 +15,7 @@ enum class HermiteVectors {
   sixteen,  ///< twists are given
   adini,    ///< twists are those of the bilinear Coons patch of the four boundary curves
 };
-/// The word of it, as files have it.
+/// Names of the kinds of vectors in files, by HermiteVectors.
 inline constexpr const char* hermite_vectors_words[] = {"12", "16", "adini"};
 
 /// The net over p, p_u, p_v, and with sixteen vectors p_uv, four rows each, at (0,0), (1,0), (0,1), (1,1). Weights of p

@@ -9,9 +9,9 @@
 
 #include "sublimit/base/error.h"
 #include "sublimit/base/format_number.h"
-#include "sublimit/core/sparse_lu.h"
-#include "sublimit/core/sparse_rows.h"
-#include "sublimit/patches/spline_rows.h"
+#include "sublimit/core/detail/sparse_lu.h"
+#include "sublimit/core/detail/sparse_rows.h"
+#include "sublimit/patches/detail/spline_rows.h"
 
 namespace sublimit {
 namespace {

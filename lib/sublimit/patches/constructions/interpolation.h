@@ -19,7 +19,7 @@ struct SplineCondition {
   int order = 0;  ///< 0 to 2
 };
 
-/// Rows of conditions over the control points.
+/// Returns conditions as rows over the control points.
 SparseMatrix condition_rows(const Knots<double>& knots, std::span<const SplineCondition> conditions);
 
 /// Control points that meet as many conditions as there are of them.
@@ -40,7 +40,7 @@ Knots<double> averaged_knots(int degree, std::span<const double> parameters, dou
 Points interpolating_points(const Knots<double>& knots, std::span<const double> parameters, const Points& values);
 
 enum class CubicEnds { natural, clamped, periodic };
-/// The word of an end condition, as files have it.
+/// Names of the end conditions in files.
 inline constexpr const char* cubic_ends_words[] = {"natural", "clamped", "periodic"};
 
 /// The cubic spline through points, C^2 with a knot at every parameter.

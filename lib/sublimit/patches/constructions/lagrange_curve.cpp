@@ -8,18 +8,18 @@
 #include <utility>
 #include <vector>
 
-#include "sublimit/limit/derivative_order.h"
+#include "sublimit/limit/detail/derivative_order.h"
 #include "sublimit/patches/constructions/polynomial_curves.h"
-#include "sublimit/patches/spline_rows.h"
+#include "sublimit/patches/detail/spline_rows.h"
 
 namespace sublimit {
 
-CurveSample LagrangeCurve::place(double t, KnotSide) const {
+CurvePlace LagrangeCurve::place(double t, KnotSide) const {
   basis_.check_inside(t);
   return {.segment = 0, .t = std::clamp(basis_.unit(t), 0., 1.)};  // the last node may be one rounding beyond
 }
 
-CurveStencil LagrangeCurve::stencil(const CurveSample& sample, int order) const {
+CurveStencil LagrangeCurve::stencil(const CurvePlace& sample, int order) const {
   check_order(order);
   check_sample(sample, 1);
   CurveStencil result{.status = LimitStatus::regular, .unknowns = {}, .weights = basis_.rows(sample.t, order)};

@@ -16,15 +16,15 @@ class LagrangeCurve : public LinearCurve {
   const LagrangeBasis& basis() const { return basis_; }
   Index num_segments() const override { return 1; }
   Index num_points() const override { return basis_.size(); }
-  CurveSample place(double t, KnotSide side = KnotSide::right) const override;
+  CurvePlace place(double t, KnotSide side = KnotSide::right) const override;
   double length(Index) const override { return basis_.length(); }
-  CurveStencil stencil(const CurveSample& sample, int order = 0) const override;
+  CurveStencil stencil(const CurvePlace& sample, int order = 0) const override;
 
  private:
   LagrangeBasis basis_;
 };
 
-/// What conversions to Bezier form lose at most, relative to the size of the points.
+/// Largest error of conversions to Bezier form, relative to the size of the points.
 inline constexpr double lagrange_net_accuracy = 1e-12;
 
 /// The polynomials of a basis in Bezier form: Bezier points x nodes. Nothing where they lose more than

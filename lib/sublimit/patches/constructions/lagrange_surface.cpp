@@ -24,7 +24,7 @@ std::vector<Index> LagrangeSurface::slots(Index) const {
   return points;
 }
 
-LimitStatus LagrangeSurface::rows(const Sample& sample, int order, WeightRows& weights) const {
+LimitStatus LagrangeSurface::rows(const Place& sample, int order, WeightRows& weights) const {
   tensor_rows(u_.rows(sample.u, order), v_.rows(sample.v, order), order, weights);
   return LimitStatus::regular;
 }
@@ -36,13 +36,13 @@ std::string LagrangeSurface::type(Index) const {
   return bytes;
 }
 
-Sample LagrangeSurface::place(const Parameters& parameters) const {
+Place LagrangeSurface::place(const Parameters& parameters) const {
   u_.check_inside(parameters.u);
   v_.check_inside(parameters.v);
   return {.face = 0, .u = u_.unit(parameters.u), .v = v_.unit(parameters.v)};
 }
 
-Patch::Parameters LagrangeSurface::parameters(const Sample& place) const {
+Patch::Parameters LagrangeSurface::parameters(const Place& place) const {
   return {.u = u_.begin() + place.u * u_.length(), .v = v_.begin() + place.v * v_.length()};
 }
 

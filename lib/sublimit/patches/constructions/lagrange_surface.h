@@ -15,12 +15,12 @@ class LagrangeSurface : public Patch {
   Index num_points() const override { return u_.size() * v_.size(); }
   FaceCount faces() const override { return {1, false}; }
   std::vector<Index> slots(Index face) const override;
-  LimitStatus rows(const Sample& sample, int order, WeightRows& weights) const override;
+  LimitStatus rows(const Place& sample, int order, WeightRows& weights) const override;
   std::string type(Index face) const override;
 
   /// Parameters of the nodes.
-  Sample place(const Parameters& parameters) const override;
-  Parameters parameters(const Sample& place) const override;
+  Place place(const Parameters& parameters) const override;
+  Parameters parameters(const Place& place) const override;
   Lengths lengths(Index) const override { return {u_.length(), v_.length()}; }
   /// If `lagrange_to_bezier` has both directions.
   std::optional<BezierRows> bezier(Index face) const override;

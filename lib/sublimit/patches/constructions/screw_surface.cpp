@@ -10,7 +10,7 @@
 #include "sublimit/base/error.h"
 #include "sublimit/base/format_number.h"
 #include "sublimit/patches/constructions/tensor_rows.h"
-#include "sublimit/patches/spline_rows.h"
+#include "sublimit/patches/detail/spline_rows.h"
 
 namespace sublimit {
 namespace {
@@ -78,7 +78,7 @@ double ScrewSurface::angle(Index arc, double u) const {
   return from_ + (to_ - from_) * ((arc + u) / arcs_);
 }
 
-LimitStatus ScrewSurface::rows(const Sample& sample, int order, WeightRows& weights) const {
+LimitStatus ScrewSurface::rows(const Place& sample, int order, WeightRows& weights) const {
   const Index arc = sample.face % arcs_;
   const KnotPlace<double> in_v{sample.face / arcs_, sample.v};
   tensor_rows(angle_rows(angle(arc, sample.u), (to_ - from_) / arcs_, order), function_rows(v_, in_v, order), order,
@@ -95,7 +95,7 @@ std::string ScrewSurface::type(Index face) const {
   return bytes;
 }
 
-Sample ScrewSurface::place(const Parameters& parameters) const {
+Place ScrewSurface::place(const Parameters& parameters) const {
   if (!(parameters.u >= from_ && parameters.u <= to_)) refuse_parameter(parameters.u, from_, to_);
   const KnotPlace<double> in_v = v_.place(parameters.v, parameters.v_side);
   const double all = (parameters.u - from_) / (to_ - from_) * arcs_;
@@ -104,7 +104,7 @@ Sample ScrewSurface::place(const Parameters& parameters) const {
   return {.face = arc + arcs_ * in_v.face, .u = std::min(1.0, all - arc), .v = in_v.u};
 }
 
-Patch::Parameters ScrewSurface::parameters(const Sample& place) const {
+Patch::Parameters ScrewSurface::parameters(const Place& place) const {
   return {.u = angle(place.face % arcs_, place.u), .v = v_.parameter({place.face / arcs_, place.v})};
 }
 

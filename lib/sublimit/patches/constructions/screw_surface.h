@@ -27,12 +27,12 @@ class ScrewSurface : public Patch {
   Index num_points() const override { return 4 * v_.num_points(); }
   FaceCount faces() const override { return {arcs_ * v_.num_faces(), false}; }
   std::vector<Index> slots(Index face) const override;
-  LimitStatus rows(const Sample& sample, int order, WeightRows& weights) const override;
+  LimitStatus rows(const Place& sample, int order, WeightRows& weights) const override;
   std::string type(Index face) const override;
 
   /// Radians, and the parameter of the curve.
-  Sample place(const Parameters& parameters) const override;
-  Parameters parameters(const Sample& place) const override;
+  Place place(const Parameters& parameters) const override;
+  Parameters parameters(const Place& place) const override;
   Lengths lengths(Index face) const override;
 
  private:

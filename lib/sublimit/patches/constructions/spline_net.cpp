@@ -7,8 +7,8 @@
 
 #include "sublimit/base/error.h"
 #include "sublimit/base/format_number.h"
-#include "sublimit/core/sparse_product.h"
-#include "sublimit/patches/spline_rows.h"
+#include "sublimit/core/detail/sparse_product.h"
+#include "sublimit/patches/detail/spline_rows.h"
 
 namespace sublimit {
 

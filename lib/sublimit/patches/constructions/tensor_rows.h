@@ -10,7 +10,7 @@
 
 namespace sublimit {
 
-/// Numbers, and how many they are.
+/// Numbers and their count.
 inline void append_bytes(std::string& bytes, std::span<const double> values) {
   const auto count = static_cast<double>(values.size());
   char item[sizeof(double)];

@@ -8,8 +8,8 @@
 
 #include "sublimit/base/error.h"
 #include "sublimit/base/format_number.h"
-#include "sublimit/core/sparse_rows.h"
-#include "sublimit/limit/triangle_blossom.h"
+#include "sublimit/core/detail/sparse_rows.h"
+#include "sublimit/limit/detail/triangle_blossom.h"
 
 namespace sublimit {
 namespace {
@@ -52,7 +52,7 @@ std::vector<Index> TrianglePatch::slots(Index face) const {
   return points;
 }
 
-LimitStatus TrianglePatch::rows(const Sample& sample, int order, WeightRows& weights) const {
+LimitStatus TrianglePatch::rows(const Place& sample, int order, WeightRows& weights) const {
   // Barycentric coordinates that are 0 stay so: an edge is over its own control points.
   const Barycentric at{std::max(0.0, (1 - sample.u) - sample.v), sample.u, sample.v};
   constexpr std::array<std::array<const Barycentric*, 2>, 6> directions{{{nullptr, nullptr},
@@ -79,7 +79,7 @@ LimitStatus TrianglePatch::rows(const Sample& sample, int order, WeightRows& wei
 
 std::string TrianglePatch::type(Index) const { return "triangle" + format_number(degree_); }
 
-Sample TrianglePatch::place(const Parameters& parameters) const {
+Place TrianglePatch::place(const Parameters& parameters) const {
   double u = parameters.u, v = parameters.v;
   if (!(u >= 0 && v >= 0 && u + v <= 1))
     throw InvalidParameter("(" + format_number(u) + ", " + format_number(v) +
@@ -96,7 +96,7 @@ Sample TrianglePatch::place(const Parameters& parameters) const {
   return {face, u, v};
 }
 
-Patch::Parameters TrianglePatch::parameters(const Sample& place) const {
+Patch::Parameters TrianglePatch::parameters(const Place& place) const {
   const Corner at = corner(place.face);
   const double unit = std::ldexp(1.0, -level_);
   return {.u = double(at.j) / side_ + at.step * unit * place.u, .v = double(at.k) / side_ + at.step * unit * place.v};

@@ -24,12 +24,12 @@ class TrianglePatch : public Patch {
   FaceCount faces() const override { return {num_faces_, true}; }
 
   std::vector<Index> slots(Index face) const override;
-  LimitStatus rows(const Sample& sample, int order, WeightRows& weights) const override;
+  LimitStatus rows(const Place& sample, int order, WeightRows& weights) const override;
   std::string type(Index face) const override;
 
   /// Parameters (u,v) of the whole patch; on edges between quarters the first of them, unless a side is asked for.
-  Sample place(const Parameters& parameters) const override;
-  Parameters parameters(const Sample& place) const override;
+  Place place(const Parameters& parameters) const override;
+  Parameters parameters(const Place& place) const override;
   /// Negative for quarters that are upside down.
   Lengths lengths(Index face) const override;
   std::optional<BezierRows> bezier(Index face) const override;

@@ -5,9 +5,9 @@
 #include <cstddef>
 #include <vector>
 
+#include "sublimit/patches/detail/spline_rows.h"
 #include "sublimit/patches/joins/line_polynomial.h"
 #include "sublimit/patches/rational.h"
-#include "sublimit/patches/spline_rows.h"
 
 namespace sublimit {
 

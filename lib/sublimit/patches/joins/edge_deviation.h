@@ -44,7 +44,7 @@ struct EdgeDeviation {
 /// @param samples  2 at least
 EdgeDeviation measured_deviation(const EdgeSide& left, const EdgeSide& right, int samples);
 
-/// What deviations say of orders.
+/// Returns the orders of a join from deviations of derivatives.
 /// @param c     of C^k, as derivatives say; -1 for a gap
 /// @param size  of the two pieces
 JoinOrders measured_orders(const EdgeDeviation& deviation, int c, bool is_same, double size,

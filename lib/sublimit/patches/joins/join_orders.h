@@ -40,7 +40,7 @@ std::string g_words(const JoinOrders& orders);
 /// "C^1, G^2 (curvature)", "a gap", "a pole".
 std::string words_of(const JoinOrders& orders);
 
-/// What holds on all of an edge, of its parts.
+/// Returns the orders that hold on a whole edge, from those of two of its parts.
 constexpr JoinOrders worst(const JoinOrders& a, const JoinOrders& b) {
   JoinOrders result = b.g < a.g ? b : a;
   result.c = b.c < a.c ? b.c : a.c;
@@ -48,7 +48,7 @@ constexpr JoinOrders worst(const JoinOrders& a, const JoinOrders& b) {
   return result;
 }
 
-/// What counts as equal where numbers are rounded.
+/// Tolerances of comparisons of rounded numbers.
 struct JoinTolerance {
   double distance = 1e-9;   ///< relative to the size of the two pieces; derivatives: to what their terms are then
   double angle = 1e-8;      ///< radians

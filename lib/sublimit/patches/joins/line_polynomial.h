@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "sublimit/patches/blossom.h"
+#include "sublimit/patches/detail/blossom.h"
 
 namespace sublimit {
 
@@ -28,7 +28,7 @@ class LinePolynomial {
   LinePolynomial() = default;
   explicit LinePolynomial(std::vector<T> coefficients) : c_(std::move(coefficients)) {}
 
-  /// As it is written, -1 of nothing.
+  /// Returns the degree in which the polynomial is written; -1 for the empty one.
   int degree() const { return static_cast<int>(c_.size()) - 1; }
   const std::vector<T>& coefficients() const { return c_; }
   bool is_zero() const {
@@ -39,7 +39,7 @@ class LinePolynomial {
     for (int i = 0; i < degree(); ++i) d.push_back(T(degree()) * (c_[i + 1] - c_[i]));
     return LinePolynomial(std::move(d));
   }
-  /// The same, written with a higher degree.
+  /// Returns the polynomial written in a higher degree.
   LinePolynomial elevated(int degree) const {
     if (c_.empty() || degree <= this->degree()) return *this;
     return *this * LinePolynomial(std::vector<T>(static_cast<size_t>(degree - this->degree()) + 1, T(1)));
@@ -78,7 +78,7 @@ class LinePolynomial {
   std::vector<T> c_;
 };
 
-/// What signs a polynomial has in 0 < t < 1.
+/// Signs of a polynomial in 0 < t < 1.
 enum class LineSign {
   zero,      ///< it vanishes
   positive,  ///< but for single zeros, perhaps

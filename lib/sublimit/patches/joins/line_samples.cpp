@@ -17,7 +17,7 @@ bool boxes_meet(const SideCurve& a, const SideCurve& b, double same) {
 
 }  // namespace
 
-Sample line_place(const PatchColumns& patch, const PatchLine& line, const KnotPlace<double>& along) {
+Place line_place(const PatchColumns& patch, const PatchLine& line, const KnotPlace<double>& along) {
   const KnotPlace<double> across{.face = line.face, .u = line.end == KnotSide::right ? 1.0 : 0.0};
   const KnotPlace<double>&u = line.along_v ? across : along, &v = line.along_v ? along : across;
   return {.face = u.face + patch.surface->u().num_faces() * v.face, .u = u.u, .v = v.u};
@@ -26,7 +26,7 @@ Sample line_place(const PatchColumns& patch, const PatchLine& line, const KnotPl
 LimitSamples line_samples(const PatchColumns& patch, Coordinates coordinates, const PatchLine& line,
                           std::span<const double> s, int order) {
   const Knots<double>& along = patch.along(line);
-  std::vector<Sample> places;
+  std::vector<Place> places;
   for (const double x : s) {
     const double t = x == 1 ? along.end() : along.begin() + x * (along.end() - along.begin());
     places.push_back(line_place(patch, line, along.place(std::clamp(t, along.begin(), along.end()))));

@@ -13,7 +13,7 @@ namespace sublimit {
 
 /// The place of a patch on a line.
 /// @param along  face and place in it of the knots along the line
-Sample line_place(const PatchColumns& patch, const PatchLine& line, const KnotPlace<double>& along);
+Place line_place(const PatchColumns& patch, const PatchLine& line, const KnotPlace<double>& along);
 
 /// Points at 0 <= s <= 1, the domain of the knots along the line.
 LimitSamples line_samples(const PatchColumns& patch, Coordinates coordinates, const PatchLine& line,
@@ -34,7 +34,7 @@ struct SideCurve {
 /// The sides of all patches that are not closed there, in order.
 std::vector<SideCurve> side_curves(std::span<const PatchColumns> patches, Coordinates coordinates, double same);
 
-/// Whether two sides are one curve in one parameter.
+/// Returns whether two sides are one curve in one parameter.
 /// @return  whether the second one is reversed
 std::optional<bool> same_curve(const SideCurve& a, const SideCurve& b, double same);
 

@@ -140,7 +140,7 @@ class SeamFinder {
     const double from = std::clamp((part.from - start) / length, 0.0, 1.0),
                  to = std::clamp((part.to - start) / length, 0.0, 1.0);
     const auto evaluate = [this, &patch, line, from, to, face = part.face](std::span<const double> s) {
-      std::vector<Sample> places;
+      std::vector<Place> places;
       for (const double x : s) places.push_back(line_place(patch, line, {face, x == 1 ? to : from + x * (to - from)}));
       return patch.surface->evaluate(patch.columns, places, 2, coordinates_);
     };

@@ -37,17 +37,17 @@ struct PatchSeam {
   SeamKind kind = SeamKind::knot;
   std::vector<PatchLine> lines{};  ///< left and right; of others one, or all of them
   double knot = 0;                 ///< of the first line, across it
-  /// Whether a line runs against the first one, in its own parameter.
+  /// True for each line whose own parameter runs against that of the first one.
   std::vector<bool> reversed{};
-  /// Whether the patches' own normals du x dv are on one side of the surface; false: one of them is turned over.
+  /// True if the patches' own normals du x dv are on the same side of the surface; false if one must be reversed.
   bool same_orientation = true;
-  /// On all of the seam, measured. Nothing of kinds that are not compared.
+  /// Measured orders on the whole seam; absent for kinds that are not compared.
   std::optional<JoinOrders> measured{};
   std::optional<SeamMaximum> gap{}, angle{}, curvature_jump{};
   double greatest_curvature = 0;  ///< of either patch across the seam: what a jump is a part of
-  /// Of `partial`: the part of the first line, in its own parameter.
+  /// For `partial`: the part of the first line, in its own parameter.
   std::optional<std::array<double, 2>> part{};
-  /// Of `collapsed`: whether the surface has a normal there.
+  /// For `collapsed`: true if the surface has a normal there.
   bool has_plane = false;
   /// The columns' C^k as their knots' multiplicities have it; of `knot` and `period`.
   std::optional<int> columns_c{};

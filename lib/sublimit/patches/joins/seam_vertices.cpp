@@ -48,10 +48,10 @@ struct CornerJet {
 
 CornerJet corner_jet(const PatchColumns& patch, Coordinates coordinates, const PatchCorner& corner) {
   const SplineSurface& surface = *patch.surface;
-  const Sample place{.face = (corner.u_end ? surface.u().num_faces() - 1 : 0) +
-                             surface.u().num_faces() * (corner.v_end ? surface.v().num_faces() - 1 : 0),
-                     .u = corner.u_end ? 1.0 : 0.0,
-                     .v = corner.v_end ? 1.0 : 0.0};
+  const Place place{.face = (corner.u_end ? surface.u().num_faces() - 1 : 0) +
+                            surface.u().num_faces() * (corner.v_end ? surface.v().num_faces() - 1 : 0),
+                    .u = corner.u_end ? 1.0 : 0.0,
+                    .v = corner.v_end ? 1.0 : 0.0};
   const LimitSamples at = surface.evaluate(patch.columns, {&place, 1}, 2, coordinates);
   CornerJet jet;
   if (!has_position(at.status[0])) return jet;

@@ -92,7 +92,7 @@ SurfaceJoin surface_join(const BezierPatch<double>& left, const BezierPatch<doub
     const Points columns = Eigen::Map<const Points>(patch.columns.data(), std::ssize(patch.columns) / width, width);
     const SplineSurface surface(bezier_knots<double>(patch.degree_u), bezier_knots<double>(patch.degree_v));
     return EdgeSide{.evaluate = [=, coordinates = patch.coordinates](std::span<const double> s) {
-      std::vector<Sample> places;
+      std::vector<Place> places;
       for (const double v : s) places.push_back({.face = 0, .u = u, .v = v});
       return surface.evaluate(columns, places, 2, coordinates);
     }};

@@ -174,7 +174,7 @@ struct SurfaceJoin {
 SurfaceJoin surface_join(const BezierPatch<double>& left, const BezierPatch<double>& right,
                          const JoinTolerance& tolerance = {});
 
-/// The same of numbers that are exact: fractions.
+/// Returns the join of two patches with exact numbers (fractions) as coefficients.
 template <class T>
 SurfaceJoin surface_join(const BezierPatch<T>& left, const BezierPatch<T>& right, const JoinTolerance& tolerance = {}) {
   static_assert(!std::is_floating_point_v<T>);

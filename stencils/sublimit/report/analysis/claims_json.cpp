@@ -10,7 +10,7 @@
 #include <tuple>
 #include <vector>
 
-#include "sublimit/limit/for_all.h"
+#include "sublimit/limit/detail/for_all.h"
 
 namespace sublimit::report {
 namespace {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// What becomes of a scheme's claims, and its row in the summary: both read from what was found, as a reader of the
-// report would.
+// Verdicts on a scheme's claims, and its row in the summary. Both are derived from the results in the report.
 #include <optional>
 #include <string>
 
@@ -9,18 +8,18 @@
 
 namespace sublimit::report {
 
-/// What is found of a property of a scheme, nothing where it is not decided, and why.
+/// Result on a property of a scheme: true, false, or absent if undecided; and the reason.
 struct Finding {
   std::optional<bool> holds;
   std::string because;
 };
-/// Whether old vertices inside stay, by the rows of those in the list: the type of a scheme. Those of a dual scheme
-/// have no children.
-/// @param neighborhoods  of SCHEME
+/// Returns whether interior vertices keep their positions, by the rows of the neighbourhoods: whether the scheme is
+/// interpolatory. Vertices of a dual scheme have no children.
+/// @param neighborhoods  neighbourhoods of SCHEME
 Finding interpolation_inside(const Json& neighborhoods);
-/// The same of all vertices, those of borders and sharp edges too: what a claim says.
+/// Returns whether all vertices keep their positions, those of boundaries and sharp edges too, as a claim says.
 Finding interpolation(const Json& neighborhoods);
-/// Whether new points are convex combinations of old ones, by the rows of all neighbourhoods in the list.
+/// Returns whether new points are convex combinations of old ones, by the rows of all neighbourhoods in the list.
 Finding convexity(const Json& neighborhoods);
 
 /// The least k of which C^k is disproved, if there is one: exponents alone do not tell C^(k-1,1) from C^k.

@@ -3,9 +3,9 @@
 
 #include <fmt/core.h>
 
-#include "sublimit/base/atomic_file.h"
+#include "sublimit/base/detail/atomic_file.h"
 #include "sublimit/io/write_mesh.h"
-#include "sublimit/limit/local_modes.h"
+#include "sublimit/limit/detail/local_modes.h"
 #include "sublimit/report/analysis/neighborhood.h"
 
 namespace sublimit::report {
@@ -41,10 +41,10 @@ void write_exports(const std::filesystem::path& directory, const std::vector<Rep
       if (type.open) continue;
       const auto modes = local_modes(scheme.scheme, type);
       if (!modes || modes->leading.block == 0) continue;
-      ControlMesh mesh = modes->net.mesh;
+      Mesh mesh = modes->net.mesh;
       mesh.positions.col(0) = modes->leading.net.real();
       mesh.positions.col(1) = modes->leading.net.imag();
-      write_mesh(directory / (name + ".map.obj"), output(mesh));
+      write_mesh(directory / (name + ".map.obj"), mesh);
     }
 }
 

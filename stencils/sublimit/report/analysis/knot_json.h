@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// What unequal knot intervals do at extraordinary vertices.
-#include "sublimit/files/numbers.h"
+// The effect of unequal knot intervals at extraordinary vertices.
 #include "sublimit/scheme/scheme.h"
+#include "sublimit/stencils/files/numbers.h"
 
 namespace sublimit::report {
 

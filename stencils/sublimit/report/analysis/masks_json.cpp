@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sublimit/limit/eigen_structure.h"
-#include "sublimit/limit/limit_rows.h"
+#include "sublimit/limit/detail/eigen_structure.h"
+#include "sublimit/limit/detail/limit_rows.h"
 #include "sublimit/neighborhood/vertex_sides.h"
 
 namespace sublimit::report {
@@ -63,10 +63,10 @@ Json second_order_masks(const Scheme<double>& scheme, const LocalType& type) {
 
 Json masks_json(const Scheme<double>& scheme, const LocalPatch<Algebraic>* exact, const LocalType& type,
                 const std::optional<Algebraic>& lambda, std::string& why) {
-  std::optional<LoneLimit> limit;
+  std::optional<IsolatedLimit> limit;
   std::optional<LocalPatch<double>> patch;
   try {
-    limit = lone_limit(scheme, type);
+    limit = isolated_limit(scheme, type);
     patch = local_patch(scheme, type);
   } catch (const AnalysisError& error) {
     why = error.what();
@@ -93,7 +93,7 @@ Json dart_masks_json(const Scheme<double>& scheme, const LocalPatch<Algebraic>& 
   SubdivisionOptions options;
   options.boundary = Boundary::edge_only;
   const Level level = control_level(scheme, creased_fan(n, n, size), options);
-  LimitTypes cache(scheme);
+  LimitCache cache(scheme);
   const LimitRows rows = limit_rows(level, cache, side_of(level, level.topology().outgoing(Vertex{0})));
   if (rows.tangent1().empty()) return nullptr;
   // Points of the fan, by the labels of the patch.

@@ -2,8 +2,8 @@
 #pragma once
 // `masks` of a neighbourhood: decimals from the limit that surfaces are evaluated with, and the exact numbers beside
 // them.
-#include "sublimit/certificates/exact_masks.h"
-#include "sublimit/files/numbers.h"
+#include "sublimit/certificates/detail/exact_masks.h"
+#include "sublimit/stencils/files/numbers.h"
 
 namespace sublimit::report {
 
@@ -12,8 +12,8 @@ namespace sublimit::report {
 Json masks_json(const Scheme<double>& scheme, const LocalPatch<Algebraic>* exact, const LocalType& type,
                 const std::optional<Algebraic>& lambda, std::string& why);
 
-/// The same of a dart, whose tangents have no exact form in general; its even tangent first.
-/// @param exact  its patch, of one ring
+/// Returns the masks of a dart, whose tangents have no exact form in general; the even tangent first.
+/// @param exact  local patch of the dart, of one ring
 Json dart_masks_json(const Scheme<double>& scheme, const LocalPatch<Algebraic>& exact, std::string& why);
 
 }  // namespace sublimit::report

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "sublimit/limit/curvature.h"
-#include "sublimit/limit/limit_types.h"
+#include "sublimit/limit/detail/limit_cache.h"
 
 namespace sublimit::report {
 namespace {
@@ -55,12 +55,12 @@ bool has_triangles(const Scheme<double>& scheme) { return scheme.face_size() == 
 
 }  // namespace
 
-Json characteristic_map_json(const std::shared_ptr<LimitTypes>& pieces, const LocalModes& modes) {
+Json characteristic_map_json(const std::shared_ptr<LimitCache>& pieces, const LocalModes& modes) {
   const Scheme<double>& scheme = pieces->pieces().scheme();
   const LocalMode& mode = modes.leading;
   if (mode.block == 0 || std::abs(mode.value.imag()) > 1e-9 * std::abs(mode.value)) return nullptr;
   const bool triangles = has_triangles(scheme);
-  ControlMesh mesh = modes.net.mesh;
+  Mesh mesh = modes.net.mesh;
   mesh.positions.col(0) = mode.net.real();
   mesh.positions.col(1) = mode.net.imag();
   Json json{{"net", Json::array()}, {"faces", Json::array()}, {"lines", Json::array()}};
@@ -81,7 +81,7 @@ Json characteristic_map_json(const std::shared_ptr<LimitTypes>& pieces, const Lo
   const int steps = thirds ? 3 : 4;
   const std::vector<double> at_values =
       thirds ? std::vector<double>{0, 1 / 3.0, 2 / 3.0, 1} : std::vector<double>{0, .5, 1};
-  std::vector<Sample> samples;
+  std::vector<Place> samples;
   std::vector<int> lengths;
   for (const FaceRange& face : faces_within(modes.net, drawn_rings))
     for (const Index address : addresses_of(surface.addresses(), face))
@@ -91,7 +91,7 @@ Json characteristic_map_json(const std::shared_ptr<LimitTypes>& pieces, const Lo
           if (end == 0) continue;
           for (int i = 0; i <= steps; ++i) {
             const double t = end * i / steps;
-            samples.push_back(along_u ? Sample{address, t, fixed} : Sample{address, fixed, t});
+            samples.push_back(along_u ? Place{address, t, fixed} : Place{address, fixed, t});
           }
           lengths.push_back(steps + 1);
         }
@@ -130,7 +130,7 @@ Json eigenfunctions_json(const LocalModes& modes) {
   return json;
 }
 
-SampleSurface sample_surface(const std::shared_ptr<LimitTypes>& pieces, const LocalType& type, bool is_drawn,
+SampleSurface sample_surface(const std::shared_ptr<LimitCache>& pieces, const LocalType& type, bool is_drawn,
                              bool is_dart) {
   const Scheme<double>& scheme = pieces->pieces().scheme();
   constexpr int rings = 5;
@@ -157,7 +157,7 @@ SampleSurface sample_surface(const std::shared_ptr<LimitTypes>& pieces, const Lo
 
   // Normals of places on circles of 2^-step (3^-step) edges around the centre. Places are those of some level: where
   // limits are no polynomials, these are at hand and others are not.
-  std::vector<Sample> samples;
+  std::vector<Place> samples;
   const int base = scheme.dilation(), circles = base == 3 ? 7 : 11, on_circle = base == 3 ? 4 : 5;
   int places = 0;
   for (int step = 0; step < circles; ++step) {

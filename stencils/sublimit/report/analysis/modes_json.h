@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// What is drawn of a neighbourhood: the characteristic map with the images of parameter lines, eigenfunctions, a limit
-// surface of generic data and how its normals come together.
+// Data for drawings of a neighbourhood: the characteristic map with images of parameter lines, eigenfunctions, a limit
+// surface of generic data and the convergence of its normals.
 #include <memory>
 
-#include "sublimit/files/numbers.h"
+#include "sublimit/limit/detail/local_modes.h"
 #include "sublimit/limit/limit_map.h"
-#include "sublimit/limit/local_modes.h"
+#include "sublimit/stencils/files/numbers.h"
 
 namespace sublimit::report {
 
 /// `characteristic_map` of a neighbourhood; null where the leading mode is not one of block 1.
 /// @param pieces  types of the scheme's surfaces, shared between calls
-Json characteristic_map_json(const std::shared_ptr<LimitTypes>& pieces, const LocalModes& modes);
+Json characteristic_map_json(const std::shared_ptr<LimitCache>& pieces, const LocalModes& modes);
 Json eigenfunctions_json(const LocalModes& modes);
 
 /// `surface` and `normals` of a neighbourhood of n sectors, alone.
@@ -21,7 +21,7 @@ struct SampleSurface {
 };
 /// @param drawn  whether to make `surface`, which is large
 /// @param dart   a closed fan around whose first spoke is sharp, whatever `type.open` says
-SampleSurface sample_surface(const std::shared_ptr<LimitTypes>& pieces, const LocalType& type, bool drawn,
+SampleSurface sample_surface(const std::shared_ptr<LimitCache>& pieces, const LocalType& type, bool drawn,
                              bool dart = false);
 
 }  // namespace sublimit::report

@@ -8,12 +8,12 @@
 
 #include "sublimit/base/error.h"
 #include "sublimit/base/format_number.h"
-#include "sublimit/certificates/dart.h"
-#include "sublimit/certificates/spectral_verdicts.h"
-#include "sublimit/certificates/witness.h"
-#include "sublimit/limit/eigen_structure.h"
-#include "sublimit/limit/for_all.h"
-#include "sublimit/limit/limit_types.h"
+#include "sublimit/certificates/detail/dart.h"
+#include "sublimit/certificates/detail/spectral_verdicts.h"
+#include "sublimit/certificates/detail/witness.h"
+#include "sublimit/limit/detail/eigen_structure.h"
+#include "sublimit/limit/detail/for_all.h"
+#include "sublimit/limit/detail/limit_cache.h"
 #include "sublimit/report/analysis/masks_json.h"
 #include "sublimit/report/analysis/modes_json.h"
 #include "sublimit/report/analysis/spectrum_json.h"
@@ -223,7 +223,7 @@ SharedAnalysis shared_analysis(const ReportedScheme& scheme) {
     shared.prover.emplace(scheme.exact);
   } catch (const AnalysisError&) {  // no mask of regular meshes: evidence is all there is
   }
-  shared.types = std::make_shared<LimitTypes>(scheme.scheme);
+  shared.types = std::make_shared<LimitCache>(scheme.scheme);
   return shared;
 }
 

@@ -5,11 +5,11 @@
 #include <optional>
 #include <vector>
 
-#include "sublimit/certificates/c1_certificate.h"
-#include "sublimit/files/numbers.h"
+#include "sublimit/certificates/detail/c1_certificate.h"
+#include "sublimit/limit/detail/verdict.h"
 #include "sublimit/limit/limit_map.h"
-#include "sublimit/limit/verdict.h"
 #include "sublimit/report/analysis/scheme_report.h"
+#include "sublimit/stencils/files/numbers.h"
 
 namespace sublimit::report {
 
@@ -21,19 +21,19 @@ struct NeighborhoodKind {
   std::string name() const;
 };
 
-/// Those that a scheme has: of each valence the interior ones (and darts), of 1 to some faces the open ones. A side of
-/// a crease comes after the border of as many faces.
+/// Returns the neighbourhoods of a scheme: interior ones (and darts) of each valence, and open ones of 1 to some faces.
+/// A side of a crease follows the boundary with as many faces.
 std::vector<NeighborhoodKind> neighborhoods(const Scheme<double>& scheme, const std::vector<int>& valences);
 
 /// The centre of such a neighbourhood, alone; that of a dart is open from its sharp edge to that edge.
 LocalType local_type(const NeighborhoodKind& kind);
-/// Its exact local matrix; nothing where the scheme has no such place.
+/// Returns the exact local matrix of a neighbourhood; absent if the scheme has no such neighbourhood.
 std::optional<LocalPatch<Algebraic>> local_patch(const Scheme<Algebraic>& scheme, const NeighborhoodKind& kind);
 
-/// What the neighbourhoods of one scheme share.
+/// Data that the neighbourhoods of one scheme share.
 struct SharedAnalysis {
   std::optional<C1Prover> prover;     ///< none where the rules on regular meshes are not one mask
-  std::shared_ptr<LimitTypes> types;  ///< of its limit surfaces
+  std::shared_ptr<LimitCache> types;  ///< cache of its limit surfaces
 };
 SharedAnalysis shared_analysis(const ReportedScheme& scheme);
 
@@ -58,7 +58,7 @@ Json rows_json(const LocalPatch<Algebraic>& patch);
 /// @note  A side of a crease whose matrix is a border's is this one word, `same_as`: see crease_json.
 Json neighborhood(const ReportedScheme& scheme, const SharedAnalysis& shared, const NeighborhoodKind& kind, bool drawn);
 
-/// What a side of a crease has, where its matrix is that of the border.
+/// Returns the results for a side of a crease whose matrix is that of the boundary.
 Json crease_json(const Json& border);
 
 }  // namespace sublimit::report

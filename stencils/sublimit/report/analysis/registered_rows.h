@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// What the checker of witnesses cannot see: whether their rows and their mask are those of the scheme's file.
+// Comparison of the rows and masks of witnesses with those of the scheme's file, which the checker of witnesses does
+// not know.
 #include <nlohmann/json.hpp>
 
 #include <optional>
@@ -21,8 +22,8 @@ struct ExactScheme {
 /// The registry's scheme of this name; nothing if there is none, or none with these options or one mask.
 std::optional<ExactScheme> registered_scheme(const std::string& name, const SchemeOptions& options);
 
-/// What of a witness of C^1 (certificates/witness.h), which the checker has accepted, is not the scheme's; "" if all
-/// is.
+/// Returns what differs between a witness of C^1 (certificates/detail/witness.h), which the checker has accepted, and
+/// the scheme; "" if nothing does.
 std::string differs_from(const ExactScheme& exact, const nlohmann::ordered_json& witness);
 
 }  // namespace sublimit::report

@@ -6,7 +6,7 @@
 #include "sublimit/certificates/regularity/surface_regularity.h"
 #include "sublimit/certificates/regularity/sweep.h"
 #include "sublimit/certificates/regularity/typed_mask.h"
-#include "sublimit/files/numbers.h"
+#include "sublimit/stencils/files/numbers.h"
 
 namespace sublimit::report {
 
@@ -21,7 +21,7 @@ Json curve_json(const BezierCurve& curve, double tolerance = 1e-9);
 /// @throws InvalidOption  as find_scheme; no scheme of that name
 Json regular_json(const std::string& scheme, const SchemeOptions& options = {});
 
-/// The same of a scheme that need not be in the registry; null where its regular mask has irrational weights.
+/// Returns the results for a scheme that need not be registered; null if its regular mask has irrational weights.
 Json regular_json(const Scheme<Algebraic>& scheme);
 
 /// A whole SCHEME of kind curve, with its claims held against what was found.

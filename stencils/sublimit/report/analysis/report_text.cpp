@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 
-#include "sublimit/files/numbers.h"
+#include "sublimit/base/version.h"
+#include "sublimit/stencils/files/numbers.h"
 
 namespace sublimit::report {
 namespace {

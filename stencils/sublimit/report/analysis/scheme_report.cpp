@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sublimit/certificates/exact_schemes.h"
+#include "sublimit/certificates/detail/exact_schemes.h"
 #include "sublimit/report/analysis/scheme_report.h"
 
 #include <fmt/core.h>
@@ -9,14 +9,14 @@
 #include <map>
 #include <mutex>
 
+#include "sublimit/base/detail/parallel_for.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/parallel_for.h"
-#include "sublimit/certificates/all_valences.h"
-#include "sublimit/jobs/mesh_job.h"
+#include "sublimit/certificates/detail/all_valences.h"
 #include "sublimit/report/analysis/claims_json.h"
 #include "sublimit/report/analysis/knot_json.h"
 #include "sublimit/report/analysis/neighborhood.h"
 #include "sublimit/report/analysis/regular_json.h"
+#include "sublimit/stencils/jobs/detail/mesh_job.h"
 
 namespace sublimit::report {
 namespace {
@@ -138,19 +138,19 @@ void set_claim(Claims& claims, const std::string& text) {
     int number = -1;
     const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), number);
     if (error != std::errc() || end != value.data() + value.size() || number < 0 || number > 20)
-      throw InvalidOption(fmt::format("--claim {}: {} takes a whole number from 0 to 20", text, name));
+      throw InvalidOption(fmt::format("claim {}: {} takes a whole number from 0 to 20", text, name));
     *degree = number;
     return;
   }
   for (const auto& [own, flag] :
        {std::pair{"convex-hull", &claims.convex_hull}, {"interpolates", &claims.interpolates}}) {
     if (name != own) continue;
-    if (value != "yes" && value != "no") throw InvalidOption(fmt::format("--claim {}: {} takes yes or no", text, name));
+    if (value != "yes" && value != "no") throw InvalidOption(fmt::format("claim {}: {} takes yes or no", text, name));
     *flag = value == "yes";
     return;
   }
   throw InvalidOption(
-      fmt::format("--claim {}: no such claim; there are regular=N, extraordinary=N, generates=N, reproduces=N, "
+      fmt::format("claim {}: no such claim; there are regular=N, extraordinary=N, generates=N, reproduces=N, "
                   "convex-hull=yes|no and "
                   "interpolates=yes|no",
                   text));

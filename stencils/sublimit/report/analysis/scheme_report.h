@@ -53,7 +53,7 @@ nlohmann::ordered_json schemes_report(const std::vector<ReportedScheme>& schemes
 /// @throws InvalidOption  no such claim or value
 void set_claim(Claims& claims, const std::string& text);
 
-/// How many claims of its schemes the report contradicts.
+/// Returns the number of claims of schemes that the report contradicts.
 int contradicted_claims(const nlohmann::ordered_json& report);
 
 }  // namespace sublimit::report

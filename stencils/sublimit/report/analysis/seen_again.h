@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// What a report says of a scheme, computed once more from masks: those of the scheme's own file where the registry has
-// it, those that the report itself writes down where it does not.
+// Verification of reports on schemes by computing results again from masks: those of a registered scheme's file, else
+// those in the report.
 #include <string>
 #include <vector>
 
-#include "sublimit/report/analysis/regular_json.h"
 #include "sublimit/report/analysis/registered_rows.h"
+#include "sublimit/report/analysis/regular_json.h"
 
 namespace sublimit::report {
 
-/// What is wrong with `regular` of a SCHEME: its verdicts, degrees and continuity against those of its mask, and its
-/// mask against that of the scheme's file.
+/// Returns the errors in `regular` of a SCHEME: its verdicts, degrees and continuity are compared with those of its
+/// mask, and its mask with that of the scheme's file.
 /// @param exact     the registered scheme, or null
-/// @param analysed  whether the mask of a surface is analysed, which takes a second or two; else it is only compared
+/// @param analysed  true: analyse the mask of a surface, which takes a second or two; false: only compare it
 /// @throws nlohmann::json::exception, FormatError  no REGULAR
 std::vector<std::string> regular_differs(const Json& scheme, const ExactScheme* exact, bool analysed = true);
 
@@ -27,12 +27,12 @@ Json rows_again(const Json& neighborhood, const ExactScheme& exact);
 /// @throws FormatError  no such kind of neighbourhood
 std::vector<std::string> spectrum_differs(const Json& neighborhood, const ExactScheme& exact);
 
-/// What is wrong with the words of a SCHEME that follow from its neighbourhoods and its regular part: whether it
-/// interpolates, and what becomes of its claims.
-/// @param scheme  with rows that were seen again
+/// Returns the errors in the words of a SCHEME that follow from its neighbourhoods and regular part: whether it
+/// interpolates, and the verdicts on its claims.
+/// @param scheme  SCHEME with verified rows
 std::vector<std::string> conclusions_differ(const Json& scheme);
 
-/// What is wrong with the joints of CURVE.
+/// Returns the errors in the joints of CURVE.
 std::vector<std::string> curve_differs(const Json& curve);
 
 }  // namespace sublimit::report

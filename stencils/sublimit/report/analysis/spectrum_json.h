@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 // `spectrum` and what follows from it: lambda, mu, their ratio, and the blocks that have mu.
-#include "sublimit/certificates/exact_spectrum.h"
-#include "sublimit/files/numbers.h"
+#include "sublimit/certificates/detail/exact_spectrum.h"
+#include "sublimit/stencils/files/numbers.h"
 
 namespace sublimit::report {
 

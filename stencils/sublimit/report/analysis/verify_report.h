@@ -9,14 +9,14 @@
 namespace sublimit::report {
 
 struct ReportVerification {
-  std::string kind;                   ///< of the report: "schemes", "mesh", "curve", "sweep"
-  int verdicts = 0;                   ///< of all neighbourhoods and regular parts
+  std::string kind;                   ///< kind of the report: "schemes", "mesh", "curve", "sweep"
+  int verdicts = 0;                   ///< number of verdicts on neighbourhoods and regular parts
   int seen_again = 0;                 ///< proved by a witness that the checker accepts
-  int seen_with_scheme = 0;           ///< of these, those whose rows are the registered scheme's too
+  int seen_with_scheme = 0;           ///< number of those whose rows equal the registered scheme's
   int masks_again = 0;                ///< regular parts and neighbourhoods whose masks were looked at again
   int by_nets = 0;                    ///< C^1 proved by refined nets, of which there are no witnesses
   int decided = 0;                    ///< other verdicts that say proved or disproved, and carry no witness
-  std::vector<std::string> findings;  ///< what is wrong and where, in the order of the report; empty: nothing
+  std::vector<std::string> findings;  ///< errors and where they are, in the order of the report
 };
 
 struct ReportVerificationOptions {

@@ -4,9 +4,10 @@
 #include <algorithm>
 
 #include "sublimit/base/error.h"
-#include "sublimit/core/finite_points.h"
+#include "sublimit/core/detail/finite_points.h"
+#include "sublimit/limit/detail/limit_cache.h"
 #include "sublimit/limit/limit_surface.h"
-#include "sublimit/limit/limit_types.h"
+#include "sublimit/mesh/detail/points_in_space.h"
 #include "sublimit/report/asset/curvature_statistics.h"
 #include "sublimit/report/asset/display_surface.h"
 #include "sublimit/report/asset/seams.h"
@@ -36,7 +37,7 @@ std::vector<AssetPlace> worst_places(const AssetReport& report) {
 
 }  // namespace
 
-AssetReport asset_report(const Scheme<double>& scheme, const ControlMesh& mesh, const SubdivisionOptions& subdivision,
+AssetReport asset_report(const Scheme<double>& scheme, const Mesh& mesh, const SubdivisionOptions& subdivision,
                          const AssetOptions& options, const std::function<void(int, int)>& progress) {
   check(options);
   constexpr int parts = 1000;
@@ -45,9 +46,9 @@ AssetReport asset_report(const Scheme<double>& scheme, const ControlMesh& mesh, 
       if (progress) progress(int(parts * (from + done * (to - from))), parts);
     };
   };
-  const auto types = std::make_shared<LimitTypes>(scheme);
+  const auto types = std::make_shared<LimitCache>(scheme);
   const LimitMap surface(scheme, mesh, subdivision, types);
-  check_measurable_control(mesh.positions);
+  check_measurable_control(points_in_space(mesh));
   const Topology& t = surface.level().topology();
 
   AssetReport report;

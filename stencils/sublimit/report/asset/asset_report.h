@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// How smooth the limit of one mesh is, where, and why: what its points are and what the scheme does at such points,
-// how well its patches meet, how much it bends, and what a modeller could change. Deviations are measured on exact
-// limits, in floating numbers; verdicts on points come from the scheme's own matrices, in floating numbers too: nothing
-// here is a proof.
+// The report on the smoothness of the limit of one mesh: kinds of points and the scheme's behaviour there, how well
+// patches meet, curvature, and changes that a modeller could make. Deviations are measured on exact limits, and
+// verdicts on points come from the scheme's matrices. Both are computed in floating point: nothing here is a proof.
 #include <array>
 #include <cstdint>
 #include <functional>
@@ -15,7 +14,7 @@
 
 namespace sublimit {
 
-/// What is allowed across seams. Only what is given is judged.
+/// Tolerances across seams. There are no verdicts on absent ones.
 struct SeamTolerance {
   std::optional<double> g0;          ///< distance, in units of the mesh, or of its box
   bool g0_of_box = false;            ///< `g0` is a part of the diagonal of the control points' box
@@ -31,12 +30,12 @@ void read_tolerance(const std::string& text, SeamTolerance& tolerance);
 struct AssetOptions {
   SeamTolerance tolerance = {};
   std::int64_t curvature_samples = 400'000;  ///< at most about so many, but one a face
-  Index surface_faces = 8000;                ///< of the surface for pictures, at most, but one a face
-  int levels = 4;                            ///< of refinement that a viewer makes: sharper creases than that stay
-  Index listed = 20;                         ///< worst seams, and examples of each kind
+  Index surface_faces = 8000;                ///< most faces of the surface in pictures, but at least one per face
+  int levels = 4;     ///< levels of refinement of viewers: sharper creases are not resolved by them
+  Index listed = 20;  ///< worst seams, and examples of each kind
 };
 
-/// What a scheme does at a point, by its local matrix.
+/// Whether there is a tangent plane at a point, by its local matrix.
 enum class PlaneVerdict { yes, slow, no, unknown };
 enum class CurvatureVerdict { flat, bounded, logarithmic, divergent, unknown };
 struct PointVerdict {
@@ -80,13 +79,13 @@ struct AssetSeams {
   SeamDeviation across_creases;            ///< expected; g1 is the sharpest crease
   SeamDeviation around_points;             ///< at 2^-10 from extraordinary points, between the faces around them
   std::optional<bool> within_tolerance{};  ///< nothing where none is asked for, or nothing could be compared with it
-  std::vector<SeamExcess> beyond;          ///< of the tolerance, the worst of each what, descending
+  std::vector<SeamExcess> beyond;          ///< seams beyond the tolerance, the worst of each kind, descending
   std::vector<SeamExcess> worst;           ///< for every what and kind of seam the worst one, whatever is allowed
 };
 
 struct CurvatureRange {
   double min = 0, max = 0, mean = 0;  ///< mean: weighted by area
-  std::array<double, 7> quantiles{};  ///< of the area: 0.01, 0.05, 0.25, 0.5, 0.75, 0.95, 0.99
+  std::array<double, 7> quantiles{};  ///< quantiles by area: 0.01, 0.05, 0.25, 0.5, 0.75, 0.95, 0.99
 };
 struct AssetPlace {
   std::string what;
@@ -117,14 +116,15 @@ struct AssetWarning {
   std::string says, advice;
   std::vector<Index> vertices = {};  ///< the first ones
   std::vector<Index> faces = {};
-  std::int64_t count = 1;  ///< of places like this
+  std::int64_t count = 1;  ///< number of similar places
   std::optional<Eigen::Vector3d> place = {};
 };
 
 struct [[nodiscard]] AssetReport {
   std::string scheme;
   Index vertices = 0, faces = 0, edges = 0;
-  Eigen::Vector3d box_min = Eigen::Vector3d::Zero(), box_max = Eigen::Vector3d::Zero();  ///< of the control points
+  Eigen::Vector3d box_min = Eigen::Vector3d::Zero(),
+                  box_max = Eigen::Vector3d::Zero();  ///< bounding box of the control points
   SeamTolerance tolerance = {};
   std::vector<AssetKind> inventory;
   AssetSeams seams;
@@ -138,8 +138,7 @@ struct [[nodiscard]] AssetReport {
 /// @throws InvalidMesh, UnsupportedTopology  a mesh that the scheme cannot take, or coordinates above 1e150 in size
 /// @throws InvalidOption                     a negative tolerance or an option below 1
 /// @note  Deterministic: same build and input, same report, for any number of threads.
-AssetReport asset_report(const Scheme<double>& scheme, const ControlMesh& mesh,
-                         const SubdivisionOptions& subdivision = {}, const AssetOptions& options = {},
-                         const std::function<void(int, int)>& progress = {});
+AssetReport asset_report(const Scheme<double>& scheme, const Mesh& mesh, const SubdivisionOptions& subdivision = {},
+                         const AssetOptions& options = {}, const std::function<void(int, int)>& progress = {});
 
 }  // namespace sublimit

@@ -43,7 +43,7 @@ CurvatureRange range(std::vector<Weighted>& samples) {
 
 }  // namespace
 
-Sample CellMiddles::operator()(std::int64_t number) const {
+Place CellMiddles::operator()(std::int64_t number) const {
   const std::int64_t face = number / per_face(), own = number % per_face();
   if (!triangles) {
     const double u = (double(own % side) + middle) / side, v = (double(own / side) + middle) / side;
@@ -73,7 +73,7 @@ AssetCurvature curvature_statistics(const LimitMap& surface, const LimitSurface&
                         {"largest mean curvature", 0},
                         {"least mean curvature", 0}};
   double total = 0;
-  std::vector<Sample> places;
+  std::vector<Place> places;
   LimitSamples s;
   const std::int64_t count = faces * cells.per_face();
   for (std::int64_t begin = 0; begin < count; begin += batch) {
@@ -95,7 +95,7 @@ AssetCurvature curvature_statistics(const LimitMap& surface, const LimitSurface&
       const double values[] = {c->gauss, c->gauss, c->mean, c->mean};
       for (int k = 0; k < 4; ++k)
         if (gauss.empty() || (k % 2 == 0 ? values[k] > most[k].value : values[k] < most[k].value)) {
-          const Sample& at = places[size_t(i)];
+          const Place& at = places[size_t(i)];
           most[k] = {most[k].what, values[k], at.face, at.u, at.v, s.position.row(i)};
         }
       gauss.push_back({c->gauss, area});

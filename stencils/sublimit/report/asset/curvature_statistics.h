@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// How much a limit bends: statistics over its area, by samples in the middle of equal cells of every face.
+// Statistics of the curvature of a limit over its area, from samples in the middle of equal cells of every face.
 #include "sublimit/limit/limit_surface.h"
 #include "sublimit/report/asset/asset_report.h"
 
 namespace sublimit::asset {
 
-/// How a scheme's limits are known.
+/// Properties of a scheme's limits.
 struct LimitTraits {
   bool polynomial = true;  ///< by pieces: any place costs little, and has all derivatives
   bool dual = false;       ///< pieces end at halves of faces
@@ -18,13 +18,13 @@ struct LimitTraits {
 AssetCurvature curvature_statistics(const LimitMap& surface, const LimitSurface& bound, std::int64_t samples,
                                     const LimitTraits& traits, const std::function<void(double)>& tick);
 
-/// The same places on every square or triangle, counted from the first address on.
+/// Places at the same parameters of every square or triangle, in the order of addresses.
 struct CellMiddles {
   bool triangles = false;
   int side = 1;                        ///< cells
-  double middle = .5, third = 1. / 3;  ///< of squares, and of triangles
+  double middle = .5, third = 1. / 3;  ///< parameters in squares and in triangles
   std::int64_t per_face() const { return std::int64_t(side) * side; }
-  Sample operator()(std::int64_t number) const;
+  Place operator()(std::int64_t number) const;
 };
 
 }  // namespace sublimit::asset

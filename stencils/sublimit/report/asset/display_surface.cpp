@@ -18,7 +18,7 @@ Value value(const LimitSamples& s, Index row) {
 }
 
 /// A little way into the face, to where no seam is: these have few binary digits.
-Sample moved_in(const Sample& s, bool triangles) {
+Place moved_in(const Place& s, bool triangles) {
   const double middle_u = triangles ? 1. / 3 : .53, middle_v = triangles ? 1. / 3 : .5625, part = .0473;
   return {s.face, s.u + part * (middle_u - s.u), s.v + part * (middle_v - s.v)};
 }
@@ -35,7 +35,7 @@ AssetSurface display_surface(const LimitMap& surface, const LimitSurface& bound,
     return traits.polynomial ? N + 1 : (traits.thirds ? 3 : 2) * (N - 1) + 1;  // others are known at such places
   };
   while (N < 65 && std::int64_t(addresses) * (finer() - 1) * (finer() - 1) <= faces) N = finer();
-  const std::vector<Sample> grid = surface.grid(N);
+  const std::vector<Place> grid = surface.grid(N);
   // Sides that a crease divides keep their own normals.
   const LimitSamples s = bound.evaluate(grid, 2, true);
 
@@ -46,7 +46,7 @@ AssetSurface display_surface(const LimitMap& surface, const LimitSurface& bound,
     if ((s.normal.row(row) - s.normal.row(owner)).norm() < 1e-3) first[row] = owner;
 
   std::vector<Value> values(rows);
-  std::vector<Sample> beside;
+  std::vector<Place> beside;
   std::vector<std::int64_t> beside_of;
   std::vector<bool> used(rows, false);
   for (std::int64_t i = 0; i < rows; ++i) {

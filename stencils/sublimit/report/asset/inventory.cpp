@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <map>
 
-#include "sublimit/base/parallel_for.h"
+#include "sublimit/base/detail/parallel_for.h"
 
 namespace sublimit::asset {
 namespace {

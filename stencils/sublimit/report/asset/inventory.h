@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// What the points of a mesh are once all finite sharpness is gone, counted by kind.
+// Kinds of the points of a mesh after all finite sharpness has decayed, with their counts.
 #include "sublimit/report/asset/point_verdicts.h"
 
 namespace sublimit::asset {

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "sublimit/base/error.h"
-#include "sublimit/limit/eigen_structure.h"
-#include "sublimit/limit/limit_rows.h"
+#include "sublimit/limit/detail/eigen_structure.h"
+#include "sublimit/limit/detail/limit_rows.h"
 #include "sublimit/neighborhood/local_patch.h"
 #include "sublimit/neighborhood/vertex_sides.h"
 
@@ -33,7 +33,7 @@ std::optional<LocalType> lasting_type(const Scheme<double>& scheme, const LocalT
   if (type.corner) return std::nullopt;
   SubdivisionOptions options;
   options.boundary = Boundary::edge_only;
-  Level level = control_level(scheme, lone_fan(type.faces, 4, type.open), options);
+  Level level = control_level(scheme, isolated_fan(type.faces, 4, type.open), options);
   Centre centre{Centre::Kind::vertex, level.topology().outgoing(Vertex{0})};
   for (int k = 0; k < 2 * scheme.period; ++k) {
     Level next = next_level(scheme, level);
@@ -98,7 +98,7 @@ const PointVerdict& PointVerdicts::of(const LocalType& type) {
   PointVerdict& verdict = at->second;
   try {
     const std::optional<LocalType> lasting = lasting_type(cache_.scheme(), type);
-    const LoneLimit* limit = lasting ? cache_.lone(*lasting) : nullptr;
+    const IsolatedLimit* limit = lasting ? cache_.isolated(*lasting) : nullptr;
     if (!limit) return verdict;
     verdict.plane = plane_verdict(limit->masks.sides.at(0).plane);
     // The masks know of no plane at any border of mid-edge, regular ones included, while normals next to it agree in

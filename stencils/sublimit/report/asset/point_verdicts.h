@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// What a scheme does at a point of some type, alone among regular points: whether there is a tangent plane, and what
-// becomes of curvature. By the local matrix that the masks fill, in floating numbers.
+// The behaviour of a scheme at a point of some type that is isolated among regular points: existence of a tangent
+// plane, and of curvature. Computed from the local matrix of the masks, in floating point.
 #include <map>
 #include <tuple>
 
-#include "sublimit/limit/limit_types.h"
+#include "sublimit/limit/detail/limit_cache.h"
 #include "sublimit/report/asset/asset_report.h"
 
 namespace sublimit::asset {
@@ -24,7 +24,7 @@ class PointVerdicts {
 
  private:
   const PointVerdict& of(const LocalType& type);
-  LimitTypes cache_;
+  LimitCache cache_;
   std::map<LocalType, PointVerdict> known_;
   std::map<Index, PointVerdict> darts_;
 };

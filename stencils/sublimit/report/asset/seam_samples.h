@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Where patches meet, and the places on both sides that are compared.
+// Seams between patches, and pairs of places on both sides that are compared.
 #include "sublimit/report/asset/inventory.h"
 #include "sublimit/report/asset/surface_places.h"
 
@@ -9,7 +9,7 @@ namespace sublimit::asset {
 struct Seam {
   enum class What : std::uint8_t { inside, crease, patch, point } what = What::inside;
   HalfEdge half = no_half_edge;  ///< the edge, the face, or the vertex at its tail
-  bool has_plane = true;         ///< of a point
+  bool has_plane = true;         ///< true if the point has a tangent plane
 };
 /// Seams with their samples: pairs on both sides, or, around a point, one in each face.
 struct SeamSamples {
@@ -18,14 +18,15 @@ struct SeamSamples {
     std::int64_t first = 0, count = 0;
   };
   std::vector<Group> groups;
-  std::vector<Sample> samples;
+  std::vector<Place> samples;
   void clear() { groups.clear(), samples.clear(); }
 };
 
 class SeamPlaces {
  public:
-  /// @param surface, inventory  which must stay
-  /// @param polynomial  pieces are polynomials, which can be told apart next to a seam; else no patch has an inside
+  /// @param surface, inventory  must outlive this
+  /// @param polynomial  true if pieces are polynomials, which are distinguished next to a seam; else patches have no
+  ///                    inside
   SeamPlaces(const Scheme<double>& scheme, const LimitMap& surface, const Inventory& inventory, bool polynomial);
   SeamPlaces(const Scheme<double>&, const LimitMap&&, const Inventory&, bool) = delete;
   SeamPlaces(const Scheme<double>&, const LimitMap&, const Inventory&&, bool) = delete;
@@ -51,7 +52,7 @@ class SeamPlaces {
   std::int64_t creases_ = 0, borders_ = 0, smooth_ = 0;
 };
 
-/// How far from extraordinary points their faces are compared.
+/// Distance from extraordinary points at which their faces are compared.
 inline constexpr double near_point = 0x1p-10;
 
 }  // namespace sublimit::asset

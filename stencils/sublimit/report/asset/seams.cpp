@@ -7,8 +7,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "sublimit/base/parallel_for.h"
-#include "sublimit/limit/for_all.h"
+#include "sublimit/base/detail/parallel_for.h"
+#include "sublimit/limit/detail/for_all.h"
 
 namespace sublimit::asset {
 namespace {
@@ -100,7 +100,7 @@ class Collector {
  private:
   ForAll within_;
   static constexpr double limits_none = std::numeric_limits<double>::infinity();
-  SeamExcess excess(const Seam& seam, const char* what, const Peak& peak, const Sample& sample,
+  SeamExcess excess(const Seam& seam, const char* what, const Peak& peak, const Place& sample,
                     const LimitSamples& samples) const {
     SeamExcess e;
     e.what = what;

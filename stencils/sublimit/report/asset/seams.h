@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// How well patches meet.
+// Deviations of patches where they meet.
 #include "sublimit/limit/limit_surface.h"
 #include "sublimit/report/asset/seam_samples.h"
 

@@ -6,14 +6,14 @@
 
 namespace sublimit::asset {
 
-Sample place_at(const Addresses& addresses, const Topology& t, HalfEdge h, double a, double b) {
+Place place_at(const Addresses& addresses, const Topology& t, HalfEdge h, double a, double b) {
   const Face f = t.face(h);
   const Index corner = t.corner_index(h);
   if (is_cut(addresses, t, f)) return {addresses.first(f) + corner, a, b};
   const Index address = addresses.first(f);
   if (addresses.triangles()) {
     const double c = 1 - a - b;
-    return corner == 0 ? Sample{address, a, b} : corner == 1 ? Sample{address, c, a} : Sample{address, b, c};
+    return corner == 0 ? Place{address, a, b} : corner == 1 ? Place{address, c, a} : Place{address, b, c};
   }
   switch (corner) {
     case 0:
@@ -27,7 +27,7 @@ Sample place_at(const Addresses& addresses, const Topology& t, HalfEdge h, doubl
   }
 }
 
-Sample place_on(const Addresses& addresses, const Topology& t, HalfEdge h, double along) {
+Place place_on(const Addresses& addresses, const Topology& t, HalfEdge h, double along) {
   if (!is_cut(addresses, t, t.face(h))) return place_at(addresses, t, h, along, 0);
   if (along <= 0.5) return place_at(addresses, t, h, 2 * along, 0);
   return place_at(addresses, t, t.next(h), 0, 2 * (1 - along));

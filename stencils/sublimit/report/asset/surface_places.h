@@ -8,12 +8,12 @@ namespace sublimit::asset {
 
 /// (a, b) in the square (triangle) of a corner: (0, 0) at the tail of h, a along h, b along the half-edge before it,
 /// backwards. Squares of polygons end in the middle of edges, all others at the next corners.
-Sample place_at(const Addresses& addresses, const Topology& topology, HalfEdge h, double a, double b);
+Place place_at(const Addresses& addresses, const Topology& topology, HalfEdge h, double a, double b);
 
 /// The place t on the way from the tail of h to its head, in the face of h.
-Sample place_on(const Addresses& addresses, const Topology& topology, HalfEdge h, double t);
+Place place_on(const Addresses& addresses, const Topology& topology, HalfEdge h, double t);
 
-/// Whether a face has a square for each corner.
+/// Returns true if a face has a square for each corner.
 inline bool is_cut(const Addresses& addresses, const Topology& topology, Face f) {
   return !addresses.triangles() && topology.size(f) != 4;
 }

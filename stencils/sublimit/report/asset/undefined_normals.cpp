@@ -17,7 +17,7 @@ std::vector<AssetWarning> undefined_normals(const LimitMap& surface, const Limit
               "the limit has no normal at this vertex: its faces give it no tangent plane, or a degenerate one",
               "make the mesh a manifold there, or move the points around it apart");
   constexpr std::int64_t batch = 1 << 16;
-  std::vector<Sample> samples;
+  std::vector<Place> samples;
   std::vector<Index> vertices;
   LimitSamples s;
   Index last = -1;

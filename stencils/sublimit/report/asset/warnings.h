@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// What a modeller should know, and can act on.
+// Warnings for modellers.
 #include <algorithm>
 
 #include "sublimit/report/asset/inventory.h"

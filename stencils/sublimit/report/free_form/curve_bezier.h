@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "sublimit/certificates/regularity/rational.h"
+#include "sublimit/certificates/regularity/rational_number.h"
 #include "sublimit/io/free_form.h"
 #include "sublimit/patches/joins/seam_strips.h"
 
@@ -13,8 +13,8 @@ namespace sublimit {
 struct CurveBezier {
   std::vector<BezierPiece<double>> pieces;  ///< at least one
   std::vector<double> breaks;               ///< parameters of their ends, one more
-  /// The same without rounding, of exactly the file's doubles; empty of other bases than Bezier and B-spline, whose
-  /// pieces are computed.
+  /// Pieces without rounding, of the doubles in the file; empty for bases other than Bezier and B-spline, whose pieces
+  /// are computed.
   std::vector<BezierPiece<Rational>> exact;
 };
 
@@ -49,7 +49,7 @@ std::vector<BezierPiece<T>> bezier_pieces_of(const Knots<T>& knots, const std::v
   return pieces;
 }
 
-/// The same piece, run through backwards.
+/// Returns a piece in the opposite direction.
 template <class T>
 BezierPiece<T> reversed(const BezierPiece<T>& piece) {
   BezierPiece<T> result = piece;

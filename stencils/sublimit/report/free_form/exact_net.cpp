@@ -7,8 +7,8 @@
 #include <string_view>
 #include <utility>
 
-#include "sublimit/patches/finer_knots.h"
-#include "sublimit/patches/spline_rows.h"
+#include "sublimit/patches/detail/finer_knots.h"
+#include "sublimit/patches/detail/spline_rows.h"
 #include "sublimit/report/free_form/curve_bezier.h"
 
 namespace sublimit {

@@ -5,9 +5,9 @@
 #include <optional>
 #include <vector>
 
-#include "sublimit/certificates/regularity/rational.h"
+#include "sublimit/certificates/regularity/rational_number.h"
 #include "sublimit/patches/joins/seam_strips.h"
-#include "sublimit/recipes/recipe.h"
+#include "sublimit/stencils/recipes/detail/recipe.h"
 
 namespace sublimit {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "sublimit/certificates/exact_joins.h"
+#include "sublimit/certificates/detail/exact_joins.h"
 
 namespace sublimit {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Where the curves of a file meet: at the knots between the pieces of one, and end to end.
+// Joints of the curves of a file: at knots between pieces of a curve, and at ends of curves that meet.
 #include <Eigen/Core>
 
 #include <cstddef>
@@ -22,13 +22,13 @@ struct FreeFormJoint {
   std::size_t left = 0, right = 0;                 ///< curves
   bool left_reversed = false;                      ///< the left one ends here with its start
   bool right_reversed = false;                     ///< the right one begins here with its end
-  double left_parameter = 0, right_parameter = 0;  ///< of the curves' own
+  double left_parameter = 0, right_parameter = 0;  ///< parameters of the curves
   CurveJoin measured;
   std::optional<JoinOrders> exact{};
   /// The greater curvature of both, 1/length; what a jump is a part of.
   double greatest_curvature = 0;
   Eigen::Vector3d place = Eigen::Vector3d::Zero();
-  std::string recipe{};  ///< that asks for it, if one does
+  std::string recipe{};  ///< recipe that requires it; empty: none
 };
 const char* name(FreeFormJoint::Kind kind);
 

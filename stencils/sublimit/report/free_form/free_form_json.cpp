@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "sublimit/io/free_form_counts.h"
+#include "sublimit/io/detail/free_form_counts.h"
 #include "sublimit/report/asset/asset_json.h"
 
 namespace sublimit {

@@ -29,7 +29,7 @@ class SurfaceGrids {
 
  private:
   void add(const PatchColumns& patch) {
-    std::vector<Sample> places;
+    std::vector<Place> places;
     for (Index f = 0; f < patch.surface->num_faces(); ++f)
       for (int j = 0; j <= n_; ++j)
         for (int i = 0; i <= n_; ++i) places.push_back({.face = f, .u = double(i) / n_, .v = double(j) / n_});
@@ -121,7 +121,7 @@ CurvePicture curve_picture(const CurveBezier& curve) {
     const Eigen::Index width = rational ? 4 : 3;
     const Points columns = Eigen::Map<const Points>(piece.columns.data(), piece.degree + 1, width);
     const int count = piece.degree == 1 && !rational ? 1 : 24;
-    std::vector<CurveSample> places;
+    std::vector<CurvePlace> places;
     for (int i = 0; i <= count; ++i) places.push_back({0, double(i) / count});
     const CurveSamples at =
         SplineCurve(bezier_knots<double>(piece.degree)).evaluate(columns, places, 2, piece.coordinates);

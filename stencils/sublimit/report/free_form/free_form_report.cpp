@@ -9,9 +9,9 @@
 
 #include "sublimit/base/error.h"
 #include "sublimit/base/format_number.h"
-#include "sublimit/certificates/exact_joins.h"
-#include "sublimit/core/finite_points.h"
-#include "sublimit/limit/for_all.h"
+#include "sublimit/certificates/detail/exact_joins.h"
+#include "sublimit/core/detail/finite_points.h"
+#include "sublimit/limit/detail/for_all.h"
 #include "sublimit/patches/joins/line_samples.h"
 
 namespace sublimit {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// How smooth the free-form curves and surfaces of a file are, as they are: how their patches and pieces meet, measured
-// and, where numbers are the file's own, decided without rounding; what happens at vertices; what is degenerate.
+// The report on the smoothness of the free-form curves and surfaces of a file: how patches and pieces meet, measured
+// and, if numbers are those of the file, decided without rounding; vertices; degeneracies.
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -17,12 +17,12 @@
 namespace sublimit {
 
 struct FreeFormReportOptions {
-  /// Of gaps, angles of normals or tangents, and jumps of curvature; g2 is a part of the greatest curvature of both
-  /// sides, or of that of a sphere in the box, if it is larger.
+  /// Tolerances of gaps, angles of normals or tangents, and jumps of curvature. g2 is relative to the largest curvature
+  /// of both sides, or of a sphere in the bounding box if that is larger.
   SeamTolerance tolerance = {};
-  std::size_t exact_seams = 2000;  ///< of so many seams, at most, exact verdicts are computed
-  Index surface_faces = 12'000;    ///< of the surface for pictures, at most
-  Index listed = 20;               ///< what is beyond the tolerance, and examples in warnings
+  std::size_t exact_seams = 2000;  ///< most seams with exact verdicts
+  Index surface_faces = 12'000;    ///< most faces of the surface in pictures
+  Index listed = 20;               ///< most entries of lists: beyond the tolerance, examples in warnings
   /// Sides and ends that no other one meets, and that are as near as that, relative to the diagonal of all control
   /// points: a gap, measured.
   double near = 1e-3;
@@ -55,7 +55,7 @@ struct ReportedSeam {
   /// The sides are farther apart than sides that are one: found as near ones.
   bool is_gap = false;
   std::vector<Eigen::Vector3d> line{};  ///< points of the first line, or of its part
-  std::string recipe{};                 ///< that asks for this join, if one does
+  std::string recipe{};                 ///< recipe that requires this join; empty: none
 };
 
 /// Largest deviations of all that was compared.
@@ -65,7 +65,7 @@ struct JoinDeviation {
 };
 
 struct JoinExcess {
-  bool is_joint = false;  ///< of curves, else a seam
+  bool is_joint = false;  ///< true: a joint of curves; false: a seam of patches
   std::size_t number = 0;
   const char* what = "g0";
   double value = 0;
@@ -74,7 +74,7 @@ struct JoinExcess {
 
 /// "G^1 everywhere but 4 seams: ..."
 struct JoinVerdict {
-  int g = -1;  ///< of most seams, or joints; no meaning where none was compared
+  int g = -1;  ///< continuity of most seams or joints; undefined if none was compared
   std::size_t compared = 0, exceptions = 0;
   std::string says;
 };
@@ -103,22 +103,23 @@ struct FreeFormPicture {
 };
 
 struct [[nodiscard]] FreeFormReport {
-  FreeForm shapes;  ///< what the report is about
+  FreeForm shapes;  ///< curves and surfaces of the report
   SplinePatches patches;
   std::vector<CurveBezier> curves;
-  std::vector<std::string> surface_recipes, curve_recipes;  ///< that they are of; empty if the file has lines instead
-  Eigen::Vector3d box_min = Eigen::Vector3d::Zero(), box_max = Eigen::Vector3d::Zero();  ///< of the control points
+  std::vector<std::string> surface_recipes, curve_recipes;  ///< recipe of each; empty if the file has lines instead
+  Eigen::Vector3d box_min = Eigen::Vector3d::Zero(),
+                  box_max = Eigen::Vector3d::Zero();  ///< bounding box of the control points
   SeamTolerance tolerance = {};
 
   std::vector<ReportedSeam> seams;  ///< compared ones first, the worst first; then by kinds
   Index smooth_lines = 0;           ///< knot lines that are C^2 by their knots: not looked at
-  std::size_t boundary_loops = 0;   ///< that sides without a partner make up
+  std::size_t boundary_loops = 0;   ///< loops of sides without a partner
   std::vector<SeamVertex> vertices;
   FreeFormJoints joints;  ///< the worst first
   JoinDeviation seam_deviation, joint_deviation;
   std::optional<JoinVerdict> seam_verdict, joint_verdict;  ///< nothing without surfaces, without curves
   std::optional<bool> within_tolerance{};  ///< nothing where none is asked for, or nothing could be compared with it
-  std::vector<JoinExcess> beyond;          ///< of the tolerance, the worst of each what, descending
+  std::vector<JoinExcess> beyond;          ///< joins beyond the tolerance, the worst of each kind, descending
   std::vector<FreeFormWarning> warnings;
   FreeFormPicture picture;
 

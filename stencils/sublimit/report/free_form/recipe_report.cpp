@@ -5,9 +5,9 @@
 #include <utility>
 
 #include "sublimit/base/error.h"
-#include "sublimit/certificates/exact_joins.h"
-#include "sublimit/recipes/net_file.h"
+#include "sublimit/certificates/detail/exact_joins.h"
 #include "sublimit/report/free_form/exact_net.h"
+#include "sublimit/stencils/recipes/detail/net_file.h"
 
 namespace sublimit {
 namespace {

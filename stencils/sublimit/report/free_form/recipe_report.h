@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// How the curves and surfaces of recipes join: their exact nets as free-form shapes, and the joins that recipes of kind
-// `curve_join` and `surface_join` ask for, without rounding.
-#include "sublimit/recipes/recipe.h"
+// The report on how curves and surfaces of recipes join: their exact nets as free-form shapes, and the joins that
+// recipes of kind `curve_join` and `surface_join` require, without rounding.
 #include "sublimit/report/free_form/free_form_report.h"
+#include "sublimit/stencils/recipes/detail/recipe.h"
 
 namespace sublimit {
 

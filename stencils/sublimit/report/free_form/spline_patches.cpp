@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sublimit/report/free_form/spline_patches.h"
 
-#include "sublimit/io/free_form_counts.h"
-#include "sublimit/patches/free_form_patches.h"
-#include "sublimit/patches/spline_rows.h"
+#include "sublimit/io/detail/free_form_counts.h"
+#include "sublimit/patches/detail/free_form_patches.h"
+#include "sublimit/patches/detail/spline_rows.h"
 
 namespace sublimit {
 namespace {

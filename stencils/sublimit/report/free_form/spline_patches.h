@@ -15,8 +15,7 @@ struct SplinePatches {
   std::vector<std::shared_ptr<const SplineSurface>> surfaces;
   std::vector<PatchColumns> patches;  ///< one for each surface of the file, in its order; they refer to `surfaces`
   Coordinates coordinates = Coordinates::plain;
-  /// Of each patch: its net is not the file's but computed from it, so that exact verdicts would be about rounded
-  /// numbers.
+  /// True for each patch whose net is computed from that of the file: exact verdicts would be on rounded numbers.
   std::vector<bool> is_converted;
 };
 

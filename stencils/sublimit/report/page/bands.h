@@ -3,8 +3,8 @@
 // A surface cut along the level lines of a value, so that what lies between two lines can have a colour of its own.
 #include <vector>
 
-#include "sublimit/picture/picture.h"
 #include "sublimit/report/page/json.h"
+#include "sublimit/stencils/picture/picture.h"
 
 namespace sublimit::page {
 

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <vector>
 
-#include "sublimit/picture/picture.h"
 #include "sublimit/report/page/bands.h"
 #include "sublimit/report/page/drawing.h"
+#include "sublimit/stencils/picture/picture.h"
 
 namespace sublimit::page {
 namespace {

@@ -4,8 +4,8 @@
 #include <array>
 #include <vector>
 
-#include "sublimit/picture/picture.h"
 #include "sublimit/report/page/plane.h"
+#include "sublimit/stencils/picture/picture.h"
 
 namespace sublimit::page {
 

@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-#include "sublimit/report/page/characteristic_map.h"
+#include "sublimit/report/page/characteristic_figures.h"
 #include "sublimit/report/page/drawing.h"
 #include "sublimit/report/page/mask_diagram.h"
 #include "sublimit/report/page/plot.h"

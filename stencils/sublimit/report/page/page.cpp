@@ -3,8 +3,8 @@
 
 #include <set>
 
+#include "sublimit/base/detail/parallel_for.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/parallel_for.h"
 #include "sublimit/report/page/sections.h"
 #include "sublimit/report/page/style.h"
 #include "sublimit/report/page/text.h"

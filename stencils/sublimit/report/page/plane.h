@@ -20,7 +20,7 @@ std::string grid_of(const Json& regular);
 /// A point of such a grid; triangles are equilateral.
 Point on_grid(const std::string& grid, double u, double v);
 
-/// Where a label [sector, x, y] of a neighbourhood is drawn: on even spokes, `turn` (radians) from one to the next.
+/// Returns the position of a label [sector, x, y] of a neighbourhood, on spokes at angles of `turn` radians.
 Point at_label(const Json& label, double turn);
 
 /// Pixels of points: as large as fits, y upwards, the drawing no higher than it needs.

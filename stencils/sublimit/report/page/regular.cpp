@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sublimit/picture/picture.h"
 #include "sublimit/report/page/bands.h"
 #include "sublimit/report/page/drawing.h"
 #include "sublimit/report/page/map_net.h"
@@ -11,6 +10,7 @@
 #include "sublimit/report/page/plot.h"
 #include "sublimit/report/page/sections.h"
 #include "sublimit/report/page/verdicts.h"
+#include "sublimit/stencils/picture/picture.h"
 
 namespace sublimit::page {
 namespace {

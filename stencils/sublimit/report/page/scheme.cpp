@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <set>
 
-#include "sublimit/base/parallel_for.h"
+#include "sublimit/base/detail/parallel_for.h"
 #include "sublimit/report/page/sections.h"
 #include "sublimit/report/page/text.h"
 #include "sublimit/report/page/verdicts.h"

@@ -21,7 +21,7 @@ std::string regular_part(const Json& regular, const std::string& scheme);
 std::string over_valences(const Json& neighborhoods, const std::string& kind, const std::string& scheme,
                           const std::string& id);
 
-/// How much of a neighbourhood is drawn: tables alone; also its map and masks; also surfaces, in small or not.
+/// Level of detail of a neighbourhood: tables; with map and masks; with small or large surfaces.
 enum class Detail { numbers, diagrams, small_pictures, pictures };
 
 /// One neighbourhood, folded.
@@ -32,7 +32,7 @@ std::string neighborhood_details(const Json& neighborhood, const std::string& sc
 std::string edge_neighborhoods(const Json& neighborhoods, const std::string& scheme, const std::string& id,
                                Detail detail);
 
-/// What a modeller should know: of meshes and of free-form shapes.
+/// Returns the section of warnings, for meshes and free-form shapes.
 std::string warnings_section(const Json& list);
 /// A point of the report: "(1, 0, 2.5)".
 std::string place(const Json& at);

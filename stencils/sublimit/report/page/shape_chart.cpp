@@ -9,8 +9,8 @@
 #include <numbers>
 #include <set>
 
-#include "sublimit/core/dense_decompositions.h"
-#include "sublimit/report/page/characteristic_map.h"
+#include "sublimit/core/detail/dense_decompositions.h"
+#include "sublimit/report/page/characteristic_figures.h"
 #include "sublimit/report/page/drawing.h"
 #include "sublimit/report/page/map_net.h"
 
@@ -58,11 +58,11 @@ class Hessians {
   bool empty() const { return points_.empty(); }
 
  private:
-  struct Place {
+  struct ChartPoint {
     std::vector<int> near;
     Eigen::MatrixXd weights;
   };
-  std::vector<Place> points_;
+  std::vector<ChartPoint> points_;
 };
 
 /// Heights scaled to curvature of size one, so that the disc shows all shapes.

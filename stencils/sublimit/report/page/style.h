@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// How the page looks: on wide and narrow screens, light and dark, on paper.
+// The style sheet of the page: for wide and narrow screens, light and dark, and for print.
 
 namespace sublimit::page {
 

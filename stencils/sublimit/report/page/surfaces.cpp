@@ -7,10 +7,10 @@
 #include <array>
 #include <cmath>
 
-#include "sublimit/picture/camera.h"
-#include "sublimit/picture/picture.h"
 #include "sublimit/report/page/bands.h"
 #include "sublimit/report/page/drawing.h"
+#include "sublimit/stencils/picture/camera.h"
+#include "sublimit/stencils/picture/picture.h"
 
 namespace sublimit::page {
 namespace {
@@ -227,16 +227,16 @@ std::string asset_figure(const Json& asset) {
   const picture::Frame frame = picture::frame_of({panel}, options);
   picture::Camera camera(options);
   fit(camera, {panel}, frame, options);
-  struct Place {
+  struct Label {
     double x, y;
     std::string words;
     int count;
   };
-  std::vector<Place> labels;  // one for several places that lie together
+  std::vector<Label> labels;  // one for several places that lie together
   for (std::size_t i = 0; i < count; ++i) {
     const Vector3d p = places.positions.row(static_cast<Eigen::Index>(i)).transpose();
     const picture::Projected at = camera.project(camera.seen(frame.local(p)));
-    const auto near = std::find_if(labels.begin(), labels.end(), [&](const Place& l) {
+    const auto near = std::find_if(labels.begin(), labels.end(), [&](const Label& l) {
       return std::abs(l.x - at.x) < 64 && std::abs(l.y - at.y) < 21;
     });
     const std::string word = std::to_string(i + 1);
@@ -249,7 +249,7 @@ std::string asset_figure(const Json& asset) {
     }
   }
   std::string numbers = "<g transform=\"translate(14 14)\">";
-  for (const Place& l : labels) {
+  for (const Label& l : labels) {
     const double half = std::max(10., 5 + 3.7 * static_cast<double>(l.words.size()));
     numbers += "<rect x=\"" + svg::pixels(l.x - half) + "\" y=\"" + svg::pixels(l.y - 10) + "\" width=\"" +
                svg::pixels(2 * half) +

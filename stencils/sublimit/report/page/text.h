@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "sublimit/picture/svg.h"
 #include "sublimit/report/page/json.h"
+#include "sublimit/stencils/picture/svg.h"
 
 namespace sublimit::page {
 
@@ -18,7 +18,7 @@ inline constexpr const char* dash = "<span class=\"none\" title=\"does not exist
 /// A number with a true minus, to so many digits, as plain text: "0.54999", "−2.5", "1.2e−5".
 std::string digits(double value, int count = 5);
 
-/// The same as HTML, powers of ten raised; a dash if there is none.
+/// Returns a number as HTML, with raised powers of ten; a dash if absent.
 std::string shown(std::optional<double> value, int count = 5);
 std::string shown(const Json& value, int count = 5);
 inline std::string shown(double value, int count = 5) { return shown(std::optional(value), count); }
@@ -28,7 +28,7 @@ std::string prose(std::string_view text);
 std::string prose(const Json& value);
 inline std::string prose(const std::string& text) { return prose(std::string_view(text)); }
 
-/// The same for where there is no markup, the text of drawings: C².
+/// Returns the text without markup, for drawings: C².
 std::string plain(std::string_view text);
 
 /// An exact number as reports write it, "(11+sqrt(5))/24", "1/2*cos(2pi/5)", in signs; a dash if there is none.

@@ -7,13 +7,13 @@
 
 namespace sublimit::page {
 
-/// All verdicts of a list, one after the other.
+/// Returns all verdicts of a list as HTML.
 std::string verdicts(const Json& list);
 
-/// What a scheme's file claims and what was found, as a table; empty without claims.
+/// Returns a table of a scheme's claims and the results on them; empty without claims.
 std::string claims(const Json& list);
 
-/// How many verdicts of each kind a report has, all its schemes and neighbourhoods together.
+/// Returns the number of verdicts of each kind in a report, over all schemes and neighbourhoods.
 std::string verdict_counts(const Json& report);
 
 }  // namespace sublimit::page

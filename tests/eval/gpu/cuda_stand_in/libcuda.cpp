@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "words.h"
-#include "sublimit/gpu/kernel_arguments.h"
+#include "sublimit/eval/gpu/detail/kernel_arguments.h"
 
 StandInPlace stand_in_place;
 

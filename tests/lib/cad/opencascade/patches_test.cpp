@@ -20,10 +20,10 @@
 #include "sublimit/base/error.h"
 #include "sublimit/cad/opencascade/write_cad.h"
 #include "sublimit/cad/patch_model.h"
-#include "sublimit/patches/basis_surface.h"
+#include "sublimit/patches/detail/basis_surface.h"
 #include "sublimit/patches/constructions/triangle_patch.h"
-#include "sublimit/patches/cut_patch.h"
-#include "sublimit/patches/free_form_patches.h"
+#include "sublimit/patches/detail/cut_patch.h"
+#include "sublimit/patches/detail/free_form_patches.h"
 #include "support/free_form_shapes.h"
 #include "support/spline_models.h"
 #include "support/temporary_directory.h"
@@ -89,7 +89,7 @@ double volume_of(const TopoDS_Shape& shape) {
 double distance(const Geom_BSplineSurface& face, const NamedPatch& patch) {
   double u0, u1, v0, v1;
   face.Bounds(u0, u1, v0, v1);
-  std::vector<Sample> places;
+  std::vector<Place> places;
   std::vector<Eigen::RowVector3d> found;
   constexpr int steps = 23;
   for (int i = 0; i <= steps; ++i)

@@ -24,7 +24,7 @@
 
 #include "sublimit/cad/limit_model.h"
 #include "sublimit/cad/opencascade/write_cad.h"
-#include "sublimit/schemes.h"
+#include "sublimit/schemes/schemes.h"
 #include "sublimit/search/closest_point.h"
 #include "support/meshes.h"
 #include "support/temporary_directory.h"
@@ -39,7 +39,7 @@ struct ReadBack {
   double size;
 };
 
-ReadBack read_back(const ControlMesh& mesh, const std::string& scheme, bool step) {
+ReadBack read_back(const Mesh& mesh, const std::string& scheme, bool step) {
   const LimitMap surface(find_scheme(scheme).value(), mesh);
   ReadBack read;
   read.size = testing::diagonal(mesh.positions);
@@ -70,12 +70,11 @@ int count(const TopoDS_Shape& shape, TopAbs_ShapeEnum kind) {
 
 TEST(ReadBack, ClosedMeshesAreValidSolidsWithEveryEdgeTwice) {
   for (const bool step : {true, false})
-    for (const auto& [scheme, mesh] :
-         std::vector<std::pair<std::string, ControlMesh>>{{"catmull-clark", testing::cube()},
-                                                          {"catmull-clark", testing::torus(8, 6)},
-                                                          {"doo-sabin", testing::cube()},
-                                                          {"loop", testing::icosahedron()},
-                                                          {"bilinear", testing::cube()}}) {
+    for (const auto& [scheme, mesh] : std::vector<std::pair<std::string, Mesh>>{{"catmull-clark", testing::cube()},
+                                                                                {"catmull-clark", testing::torus(8, 6)},
+                                                                                {"doo-sabin", testing::cube()},
+                                                                                {"loop", testing::icosahedron()},
+                                                                                {"bilinear", testing::cube()}}) {
       const ReadBack read = read_back(mesh, scheme, step);
       EXPECT_EQ(count(read.shape, TopAbs_SOLID), 1) << scheme;
       EXPECT_EQ(count(read.shape, TopAbs_FACE), int(read.model.boundary.faces.size())) << scheme;
@@ -96,7 +95,7 @@ TEST(ReadBack, OpenMeshesAreShells) {
 
 // Both halves of a torus, left and right of a plane with edges of the mesh.
 TEST(ReadBack, FacesHaveTheirNames) {
-  const ControlMesh mesh = testing::torus(8, 6);
+  const Mesh mesh = testing::torus(8, 6);
   LimitModelOptions options;
   options.tolerance = 1e-4 * testing::diagonal(mesh.positions);
   options.face_names.names = {"left 'side'", "right"};
@@ -130,9 +129,9 @@ TEST(ReadBack, FacesHaveTheirNames) {
 
 TEST(ReadBack, ExactFacesAreOnTheLimit) {
   for (const auto& [scheme, mesh] :
-       std::vector<std::pair<std::string, ControlMesh>>{{"catmull-clark", testing::jittered(testing::torus(8, 6))},
-                                                        {"doo-sabin", testing::jittered(testing::torus(8, 6))},
-                                                        {"loop", testing::jittered(testing::triangle_torus(6, 5))}}) {
+       std::vector<std::pair<std::string, Mesh>>{{"catmull-clark", testing::jittered(testing::torus(8, 6))},
+                                                 {"doo-sabin", testing::jittered(testing::torus(8, 6))},
+                                                 {"loop", testing::jittered(testing::triangle_torus(6, 5))}}) {
     const ReadBack read = read_back(mesh, scheme, true);
     EXPECT_EQ(read.model.caps, 0) << scheme;
     std::vector<Eigen::RowVector3d> found;

@@ -148,13 +148,13 @@ TEST(CurveRegularity, MasksThatDependOnTheLevelAreEvidence) {
 }
 
 TEST(CurveRegularity, DependentShiftsAreSeen) {
-  // (1 + z)(1 + z^2)/2, twice the pace: the box function of two legs; its shifts satisfy sum (-1)^i phi(x - i) = 0.
+  // (1 + z)(1 + z^2)/2, twice the pace: the box function of two edges; its shifts satisfy sum (-1)^i phi(x - i) = 0.
   Symbol a;
   a.coefficients = {Rational(1) / 2, Rational(1) / 2, Rational(1) / 2, Rational(1) / 2};
   EXPECT_FALSE(has_independent_shifts(a));
   EXPECT_TRUE(has_independent_shifts(four_point_symbol(1, 16)));
   // (1 + z + z^2) of order 3 has common zeros with nothing, but 1 - z + z^2 (order 6) divides this one:
-  Symbol cyclotomic;  // (1 + z)(1 - z + z^2) = 1 + z^3: the box function of three legs
+  Symbol cyclotomic;  // (1 + z)(1 - z + z^2) = 1 + z^3: the box function of three edges
   cyclotomic.coefficients = {1, 0, 0, 1};
   EXPECT_FALSE(has_independent_shifts(cyclotomic));
 }
@@ -168,7 +168,7 @@ TEST(CurveRegularity, SamplesOfTheBasisFunctionAreItsLimits) {
   EXPECT_NEAR(cubic.derivative[16], 0.5, testing::other_route);
   const BasisSamples six = basis_samples(named("six-point").mask, 2);
   EXPECT_NEAR(six.value[six.value.size() / 2], 1, testing::other_route);
-  EXPECT_NEAR(six.derivative[4 * 4], 272.0 / 365, testing::first_derivative);  // one leg before the point
+  EXPECT_NEAR(six.derivative[4 * 4], 272.0 / 365, testing::first_derivative);  // one edge before the point
 }
 
 }  // namespace

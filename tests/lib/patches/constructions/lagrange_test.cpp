@@ -117,7 +117,7 @@ TEST(LagrangeCurve, IsABezierCurveUpToSomeDegree) {
     if (!net) continue;
     const LagrangeCurve curve(basis);
     for (const double u : {0.0, 0.013, 0.4, 0.99, 1.0}) {
-      const CurveSample place{0, u};
+      const CurvePlace place{0, u};
       expect_near(curve.evaluate(points, std::span(&place, 1)).position, truth(*net, u * n),
                   10 * lagrange_net_accuracy);
     }

@@ -62,7 +62,7 @@ TEST(Revolution, KeepsRadiusAndHeight) {
 TEST(Revolution, CirclesAreOnceDifferentiableAtJoints) {
   const SplineNet net = revolution(line(1, 0, 1, 1));
   const auto at = [&](KnotSide side) {
-    const Sample place = net.surface->place({1, 0.5, side, KnotSide::right});
+    const Place place = net.surface->place({1, 0.5, side, KnotSide::right});
     return net.surface->evaluate(net.columns, std::span(&place, 1), 2, net.coordinates);
   };
   const LimitSamples before = at(KnotSide::left), after = at(KnotSide::right);

@@ -66,7 +66,7 @@ TEST(TrianglePatch, QuartersAreTheSamePatch) {
         if (u + v > 1) u = 1 - u, v = 1 - v;
         expect_near(own_values(*patch, columns, Coordinates::plain, u, v).x,
                     own_values(*coarse, control, Coordinates::plain, u, v).x, 1000 * derivative_sums);
-        const Sample place = patch->place({u, v});
+        const Place place = patch->place({u, v});
         const Patch::Parameters back = patch->parameters(place);
         EXPECT_NEAR(back.u, u, sums);
         EXPECT_NEAR(back.v, v, sums);

@@ -8,7 +8,7 @@
 #include <numbers>
 #include <random>
 
-#include "sublimit/patches/finer_knots.h"
+#include "sublimit/patches/detail/finer_knots.h"
 #include "sublimit/patches/joins/seam_vertices.h"
 #include "support/classical_splines.h"
 #include "support/expect_error.h"

@@ -8,7 +8,7 @@
 #include "sublimit/report/analysis/regular_json.h"
 #include "sublimit/report/analysis/scheme_report.h"
 #include "sublimit/scheme/refine.h"
-#include "sublimit/schemes.h"
+#include "sublimit/schemes/schemes.h"
 #include "support/meshes.h"
 
 namespace sublimit {
@@ -46,10 +46,10 @@ Weights weights_of(const Scheme<double>& scheme) {
   Weights found;
   const bool triangles = scheme.face_size() == 3;
   // With borders, and with vertices and faces of five.
-  const std::vector<ControlMesh> meshes =
+  const std::vector<Mesh> meshes =
       triangles ? std::vector{testing::octahedron(), testing::triangle_grid(3, 3), testing::fan(5, 3, 2)}
                 : std::vector{testing::cube(), testing::grid(3, 3), testing::prism(5), testing::fan(5, 4, 2)};
-  for (const ControlMesh& mesh : meshes) {
+  for (const Mesh& mesh : meshes) {
     const std::vector<Level> levels = refine(scheme, mesh, 1);
     const SparseMatrix& S = levels[1].S;
     for (Index i = 0; i < S.rows(); ++i)

@@ -6,7 +6,7 @@
 
 #include "stencils/summary_rows.h"
 #include "sublimit/report/analysis/regular_json.h"
-#include "sublimit/schemes.h"
+#include "sublimit/schemes/schemes.h"
 
 namespace sublimit {
 namespace {

@@ -5,7 +5,7 @@
 #include "stencils/cli_program.h"
 #include "sublimit/base/error.h"
 #include "sublimit/certificates/regularity/sweep.h"
-#include "sublimit/files/numbers.h"
+#include "sublimit/stencils/files/numbers.h"
 #include "sublimit/report/analysis/scheme_report.h"
 #include "sublimit/report/analysis/verify_report.h"
 #include "support/expect_error.h"

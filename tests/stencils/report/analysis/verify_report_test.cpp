@@ -8,10 +8,10 @@
 
 #include "stencils/cli_program.h"
 #include "sublimit/base/error.h"
-#include "sublimit/files/numbers.h"
 #include "sublimit/report/analysis/claims_json.h"
 #include "sublimit/report/analysis/regular_json.h"
 #include "sublimit/report/analysis/scheme_report.h"
+#include "sublimit/stencils/files/numbers.h"
 
 namespace sublimit::testing {
 namespace {

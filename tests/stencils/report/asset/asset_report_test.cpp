@@ -10,7 +10,7 @@
 #include "sublimit/report/asset/asset_json.h"
 #include "sublimit/report/asset/curvature_statistics.h"
 #include "sublimit/report/asset/surface_places.h"
-#include "sublimit/schemes.h"
+#include "sublimit/schemes/schemes.h"
 #include "support/expect_error.h"
 #include "support/meshes.h"
 #include "support/tolerance.h"
@@ -41,7 +41,7 @@ constexpr double of_four_decimals = 5e-5, of_three_decimals = 5e-4;
 /// Cells of 1/16 and 1/32 of a face on the meshes here.
 constexpr std::int64_t curvature_samples = 20'000;
 
-AssetReport report(const std::string& scheme, const ControlMesh& mesh, AssetOptions options = {}) {
+AssetReport report(const std::string& scheme, const Mesh& mesh, AssetOptions options = {}) {
   options.curvature_samples = std::min<std::int64_t>(options.curvature_samples, curvature_samples);
   options.surface_faces = std::min(options.surface_faces, 500);
   return asset_report(find_scheme(scheme).value(), mesh, {}, options);
@@ -55,7 +55,7 @@ const AssetOptions few = {.curvature_samples = 500, .surface_faces = 20};
 constexpr double extrapolated = .1;
 
 /// Gauss, Bonnet: closed surfaces that are C^1, and C^2 but for points, bend by 2 pi chi in all.
-void expect_gauss_bonnet(const AssetReport& r, const ControlMesh& mesh, int characteristic, bool dual = false) {
+void expect_gauss_bonnet(const AssetReport& r, const Mesh& mesh, int characteristic, bool dual = false) {
   const LimitMap surface(find_scheme(r.scheme).value(), mesh);
   const LimitSurface bound(surface, mesh.positions);
   const AssetCurvature coarse = asset::curvature_statistics(surface, bound, curvature_samples / 4, {.dual = dual}, {});
@@ -114,8 +114,8 @@ TEST(AssetReport, BilinearShowsTheAnglesOfTheMesh) {
 }
 
 /// Two plane wings of 2 x 3 squares that meet in a ridge at an angle between their normals.
-ControlMesh roof(double degrees) {
-  ControlMesh mesh;
+Mesh roof(double degrees) {
+  Mesh mesh;
   mesh.positions.resize(20, 3);
   const double a = degrees * pi / 360;
   for (Index j = 0; j < 4; ++j)
@@ -133,7 +133,7 @@ ControlMesh roof(double degrees) {
 }
 
 TEST(AssetReport, CreaseShowsItsAngleAndIsNotJudged) {
-  ControlMesh mesh = roof(50);
+  Mesh mesh = roof(50);
   add_crease(mesh, {2, 7, 12, 17}, infinite_sharpness);
   AssetOptions options;
   read_tolerance("g1=0.1deg", options.tolerance);
@@ -263,14 +263,14 @@ TEST(AssetReport, KnowsExtraordinaryFacesAndTriangles) {
 }
 
 TEST(AssetReport, DoesNotDependOnTheUnit) {
-  ControlMesh mesh = torus(8, 8);
+  Mesh mesh = torus(8, 8);
   mesh.positions *= 1000;  // what is relative stays
   const AssetReport large = report("catmull-clark", mesh), small = report("catmull-clark", torus(8, 8));
   EXPECT_NEAR(large.curvature.gauss->max * 1e6, small.curvature.gauss->max, of_another_unit);
   EXPECT_NEAR(large.curvature.mean->min * 1e3, small.curvature.mean->min, of_another_unit);
   EXPECT_LT(large.seams.inside.g2.value(), same_curvature);
   // Curvature that jumps does so by the same part.
-  ControlMesh wavy = jittered(torus(5, 4), 0.2);
+  Mesh wavy = jittered(torus(5, 4), 0.2);
   const double jump = report("doo-sabin", wavy).seams.inside.g2.value();
   wavy.positions *= 1000;
   EXPECT_NEAR(report("doo-sabin", wavy).seams.inside.g2.value(), jump, of_another_unit);
@@ -305,7 +305,7 @@ TEST(AssetReport, WarnsOfWhatAModellerCanChange) {
   EXPECT_EQ(high->count, 2);
   EXPECT_EQ(poles.curvature.unbounded_at, 2);
 
-  ControlMesh mesh = grid(4, 4);
+  Mesh mesh = grid(4, 4);
   add_crease(mesh, {6, 7, 8}, infinite_sharpness);
   mesh.positions.row(24) = mesh.positions.row(19);  // of the last face two corners coincide,
   mesh.positions.row(23) = mesh.positions.row(18);  // in pairs
@@ -327,7 +327,7 @@ TEST(AssetReport, WarnsOfWhatAModellerCanChange) {
 }
 
 TEST(AssetReport, LeavesHolesOut) {
-  ControlMesh mesh = cube();
+  Mesh mesh = cube();
   mesh.holes = {2};
   const AssetReport whole = report("catmull-clark", cube()), r = report("catmull-clark", mesh);
   EXPECT_NEAR(r.curvature.area / whole.curvature.area, 5. / 6, of_integrals);
@@ -348,7 +348,7 @@ TEST(AssetReport, RefusesWhatTheSchemeCannotTakeAndBadOptions) {
 }
 
 TEST(AssetReport, IsTheSameForAnyNumberOfThreadsAndTellsProgress) {
-  const ControlMesh mesh = quads_from_triangles(jittered(triangle_torus(12, 10)));
+  const Mesh mesh = quads_from_triangles(jittered(triangle_torus(12, 10)));
   AssetOptions options;
   read_tolerance("g2=1e-12", options.tolerance);
   int last = 0, calls = 0;
@@ -381,7 +381,7 @@ TEST(AssetJson, HasTheFormatsKeysAndNoNaN) {
   for (const auto& [key, value] : j.items()) keys += key + " ";
   EXPECT_EQ(keys, "file scheme counts box inventory seams curvature surface worst warnings ");
   EXPECT_EQ(j["counts"]["faces"], 6);
-  const ControlMesh fan = open_fan(6);
+  const Mesh fan = open_fan(6);
   EXPECT_DOUBLE_EQ(j["seams"]["tolerance"]["g0"], 0.01 * diagonal(fan.positions));
   EXPECT_TRUE(j["seams"]["tolerance"]["g2"].is_null());
   EXPECT_TRUE(j["seams"]["across_creases"]["g1_degrees"].is_null());

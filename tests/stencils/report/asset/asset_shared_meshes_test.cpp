@@ -4,7 +4,7 @@
 
 #include "sublimit/io/read_mesh.h"
 #include "sublimit/report/asset/asset_json.h"
-#include "sublimit/schemes.h"
+#include "sublimit/schemes/schemes.h"
 #include "support/shared_meshes.h"
 #include "support/tolerance.h"
 
@@ -22,7 +22,7 @@ TEST(AssetSharedMeshes, SidesOfSeamsAreTheSamePlace) {
     if (!chosen && !full_sweep()) continue;
     SCOPED_TRACE(shared.name);
     ++some;
-    const ControlMesh mesh = read_mesh(shared.path);
+    const Mesh mesh = read_mesh(shared.path);
     AssetOptions options;
     options.curvature_samples = 2000;
     options.surface_faces = 2000;

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "sublimit/patches/free_form_patches.h"
+#include "sublimit/patches/detail/free_form_patches.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {
@@ -40,7 +40,7 @@ void expect_same(const std::string& text, bool converted) {
     for (int j = 0; j <= 10; ++j) {
       const Patch::Parameters at{.u = s.u.first + (s.u.last - s.u.first) * i / 10,
                                  .v = s.v.first + (s.v.last - s.v.first) * j / 10};
-      const Sample a = own.patches.members()[0].patch->place(at), b = spline.surfaces[0]->place(at);
+      const Place a = own.patches.members()[0].patch->place(at), b = spline.surfaces[0]->place(at);
       const Points x =
           own.patches.members()[0]
               .patch->evaluate(own.patches.columns_of(0, own.columns), {&a, 1}, 0, own.patches.coordinates())

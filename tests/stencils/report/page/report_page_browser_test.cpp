@@ -7,7 +7,7 @@
 #include <string>
 
 #include "stencils/report_sample.h"
-#include "sublimit/base/read_file.h"
+#include "sublimit/base/detail/read_file.h"
 #include "sublimit/report/page/page.h"
 #include "support/skip.h"
 #include "support/temporary_directory.h"

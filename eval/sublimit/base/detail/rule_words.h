@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// The words that files, tables and options have for rules, each list in the order of the enumerators of
+// mesh/mesh.h. Those of face-varying channels are OpenSubdiv's.
+#include <array>
+
+namespace sublimit {
+
+inline constexpr std::array boundary_words{"none", "edge-only", "edge-and-corner"};
+inline constexpr std::array creasing_words{"uniform", "chaikin"};
+inline constexpr std::array triangles_words{"catmark", "smooth"};
+inline constexpr std::array face_varying_words{"none",          "corners-only", "corners-plus1",
+                                               "corners-plus2", "boundaries",   "all"};
+
+}  // namespace sublimit

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sublimit/cad/step_file.h"
+
+#include <Eigen/Geometry>
+
+#include <cmath>
+#include <vector>
+
+#include "sublimit/base/detail/atomic_file.h"
+#include "sublimit/base/error.h"
+#include "sublimit/base/format_number.h"
+#include "sublimit/cad/limit_model.h"
+#include "sublimit/cad/patch_model.h"
+#include "sublimit/io/detail/file_extension.h"
+
+namespace sublimit {
+namespace {
+
+/// @param columns  x 3, or x 4 and homogeneous: points at infinity are left out
+double diagonal_of(const Points& columns) {
+  Eigen::AlignedBox3d box;
+  for (Eigen::Index i = 0; i < columns.rows(); ++i) {
+    const double w = columns.cols() == 4 ? columns(i, 3) : 1;
+    if (w != 0) box.extend(Eigen::Vector3d(columns.row(i).head(3) / w));
+  }
+  return box.isEmpty() ? 0 : box.diagonal().norm();
+}
+
+/// Errors about the scheme name it.
+LimitModel model_of(const LimitSurface& surface, const LimitModelOptions& options) {
+  try {
+    return limit_model(surface.map(), surface.points(), options);
+  } catch (const UnsupportedTopology& error) {
+    const auto& scheme = surface.map().level().made_by;
+    if (!scheme) throw;
+    throw UnsupportedTopology(scheme->name + ": " + error.what());
+  }
+}
+
+StepFile write_model(const BoundaryModel& model, const std::filesystem::path& path, const CadFileMaker& make) {
+  if (model.faces.empty()) throw InvalidMesh("no faces to write");
+  const CadFile made = make(model, path.stem().string(), file_extension(path) != ".brep");
+  AtomicFile file(path);
+  file.write(made.bytes);
+  file.commit();
+  return {.solids = made.solids,
+          .shells = made.shells,
+          .faces = std::int64_t(model.faces.size()),
+          .is_valid = made.is_valid};
+}
+
+}  // namespace
+
+void check_step(const std::filesystem::path& path, const StepOptions& options) {
+  const std::string extension = file_extension(path);
+  if (extension != ".step" && extension != ".stp" && extension != ".brep")
+    throw InvalidOption(path.string() + ": CAD files are .step, .stp or .brep, not '" + extension + "'");
+  if (options.tolerance && !(*options.tolerance > 0 && std::isfinite(*options.tolerance)))
+    throw InvalidParameter("tolerance is " + format_number(*options.tolerance) +
+                           "; it should be a length, more than 0");
+}
+
+StepFile write_step(const LimitSurface& surface, const std::filesystem::path& path, const StepOptions& options,
+                    const CadFileMaker& make) {
+  check_step(path, options);
+  LimitModelOptions wanted;
+  wanted.tolerance = options.tolerance.value_or(1e-5 * diagonal_of(surface.points()));
+  if (!(wanted.tolerance > 0))
+    throw InvalidMesh("the control points have no extent that a tolerance could be a part of");
+  wanted.join_smoothly = options.join_smoothly;
+  wanted.pack = options.pack;
+  wanted.face_names = options.face_names;
+  const LimitModel model = model_of(surface, wanted);
+  StepFile file = write_model(model.boundary, path, make);
+  file.caps = model.caps;
+  file.deviation = model.deviation;
+  file.met = model.met;
+  return file;
+}
+
+StepFile write_step(const Patches& patches, const std::filesystem::path& path, const StepOptions& options,
+                    const CadFileMaker& make) {
+  check_step(path, options);
+  std::vector<NamedPatch> named;
+  for (Index i = 0; i < patches.num_patches(); ++i)
+    named.push_back({.patch = patches.set().members()[size_t(i)].patch,
+                     .columns = patches.set().columns_of(size_t(i), patches.points()),
+                     .coordinates = patches.set().coordinates(),
+                     .place = "patch " + std::to_string(i)});
+  PatchModelOptions wanted;
+  const double diagonal = diagonal_of(patches.points());
+  if (options.tolerance && diagonal > 0) wanted.same = *options.tolerance / diagonal;
+  return write_model(patch_model(named, wanted).boundary, path, make);
+}
+
+}  // namespace sublimit

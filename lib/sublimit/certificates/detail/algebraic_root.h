@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// Roots of polynomials over cyclotomic fields: eigenvalues. A root is its polynomial and an enclosure that holds no
+// other root of it. Inequalities are decided by enclosures at growing precision, equalities by common factors, exactly:
+// so both always come to an end.
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "sublimit/certificates/detail/polynomial.h"
+
+namespace sublimit {
+
+class AlgebraicRoot {
+ public:
+  AlgebraicRoot() : AlgebraicRoot(Algebraic(0)) {}
+  /// An element of the field.
+  explicit AlgebraicRoot(Algebraic value);
+  /// All roots of a squarefree polynomial. Rational ones, and those of linear factors, are elements of the field.
+  static std::vector<AlgebraicRoot> all(const Polynomial& squarefree);
+  /// Makes the root that is the only one in an enclosure.
+  /// @throws AnalysisError  there is none, or it takes more digits to tell
+  static AlgebraicRoot nearest(const Polynomial& squarefree, const ComplexBall& enclosure);
+
+  /// Squarefree and monic; not always the minimal one.
+  const Polynomial& polynomial() const { return *polynomial_; }
+  /// Returns the value, if the root is known to lie in the field.
+  const std::optional<Algebraic>& exact() const { return exact_; }
+  /// Returns an enclosure, computed at 128 bits.
+  const ComplexBall& enclosure() const { return enclosure_; }
+  ComplexBall enclosure(long bits) const;
+  /// Returns a ball that contains a real root.
+  Ball real_enclosure(long bits = 128) const { return enclosure(bits).re(); }
+  bool is_real() const;
+
+  /// A factor of the polynomial, or one that has it as a factor, vanishes here.
+  bool is_root_of(const Polynomial& p) const;
+
+  AlgebraicRoot conj() const;
+  AlgebraicRoot negated() const;
+  AlgebraicRoot squared() const;
+  friend AlgebraicRoot operator*(const AlgebraicRoot& a, const AlgebraicRoot& b);
+
+  /// "1/4", "21/64+sqrt(185/4096)", or the decimals and the polynomial.
+  std::string text() const;
+
+ private:
+  std::shared_ptr<const Polynomial> polynomial_;
+  ComplexBall enclosure_;
+  std::optional<Algebraic> exact_;
+};
+
+bool operator==(const AlgebraicRoot& a, const AlgebraicRoot& b);
+
+/// Returns the exact sign of |a| - |b|.
+int compare_moduli(const AlgebraicRoot& a, const AlgebraicRoot& b);
+/// Returns the exact sign of a - b, for real numbers.
+int compare(const AlgebraicRoot& a, const AlgebraicRoot& b);
+
+}  // namespace sublimit

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// Eigenvalues of local matrices with their multiplicities and Jordan blocks, Fourier block by Fourier block, exactly,
+// and their order by modulus, decided.
+#include <optional>
+#include <vector>
+
+#include "sublimit/certificates/detail/algebraic_root.h"
+#include "sublimit/certificates/detail/fourier_blocks.h"
+
+namespace sublimit {
+
+/// One eigenvalue of one Fourier block.
+struct ExactEigenvalue {
+  AlgebraicRoot value = {};
+  int block = 0;   ///< k = 0 ... n/2; block n - k has the conjugate. By a mirror: 0 even, 1 odd. -1 without symmetry
+  int copies = 1;  ///< 2 where block n - k is another one: the multiplicities below count once in each
+  int multiplicity = 1;     ///< algebraic, in the block
+  std::vector<int> jordan;  ///< sizes of its Jordan blocks, descending
+  int rank = 0;             ///< equal moduli have equal ranks; 0 is the largest modulus
+  int geometric() const { return static_cast<int>(jordan.size()); }
+  int largest_jordan() const { return jordan.empty() ? 0 : jordan[0]; }
+};
+
+struct ExactSpectrum {
+  ExactBlocks blocks = {};
+  std::vector<ExactEigenvalue> values = {};  ///< by rank, then by block
+  int num_ranks() const { return values.empty() ? 0 : values.back().rank + 1; }
+  /// Returns all eigenvalues of one rank.
+  std::vector<ExactEigenvalue> of_rank(int rank) const;
+};
+
+ExactSpectrum exact_spectrum(const LocalPatch<Algebraic>& patch);
+ExactSpectrum exact_spectrum(ExactBlocks blocks);
+/// Returns the eigenvalues of a real matrix without symmetry, ranked by modulus.
+std::vector<ExactEigenvalue> exact_eigenvalues(const DenseMatrix<Algebraic>& A);
+
+}  // namespace sublimit

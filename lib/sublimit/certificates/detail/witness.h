@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// What a proof of C^1 rests on, as JSON, and a checker that sees it again. The checker takes nothing from the prover
+// but arithmetic: it interpolates where the prover multiplies Bernstein polynomials, and encloses the eigenvector by a
+// Newton step of its own.
+//
+//   {"format": "sublimit-witness", "version": 1, "kind": "c1", "scheme": name, "n": valence,
+//    "grid": "square" | "triangular", "dual": whether points lie around a face,
+//    "mask": [[x, y, weight] ...],                   of regular meshes; x, y in half edges; numbers as exact_text
+//    "partition": "squares" | "triangles" | "quarter-squares", "degree": of the pieces,
+//    "pieces": [{"controls": [[x, y] ...], "functions": [[Bernstein coefficient ...] ...]} ...],    by control
+//    "rows": [{"at": [x, y], "weights": [[sector, x, y, weight] ...]} ...],      of the local matrix: centre, sector 0
+//    "lambda": ball, "net": [[x, y, complex ball] ...],                          of sector 0, where the rows are
+//    "ring": r, "leaves": [[piece, x, y, path, least] ...]}                      cells, quarters of quarters, bounds
+//
+// What it cannot see is whether the rows are those of the scheme, that rules far from the centre are the mask, and that
+// the mask converges.
+#include <string>
+#include <vector>
+
+#include "sublimit/certificates/detail/c1_certificate.h"
+
+namespace sublimit {
+
+/// @param certificate  proved
+std::string c1_witness(const std::string& scheme, const C1Certificate& certificate, const RegularPieces& pieces);
+
+/// Returns the errors of a witness; none if it proves its statement.
+std::vector<std::string> check_witness(const std::string& json);
+
+}  // namespace sublimit

@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sublimit/io/detail/obj.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "sublimit/base/detail/read_file.h"
+#include "sublimit/base/error.h"
+#include "sublimit/base/format_number.h"
+#include "sublimit/io/detail/obj_indices.h"
+#include "sublimit/io/detail/obj_keywords.h"
+#include "sublimit/io/detail/obj_names.h"
+#include "sublimit/io/detail/obj_tags.h"
+#include "sublimit/io/detail/text_scanner.h"
+
+namespace sublimit {
+namespace {
+
+class ObjReader {
+ public:
+  explicit ObjReader(std::string_view text, std::string_view name, const ObjCounts& before = {})
+      : scanner_(text, name, TextScanner::Continuation::backslash, before.lines + 1),
+        num_vertices_(before.vertices),
+        faces_before_(before.faces) {
+    texture_.count = before.texture_coordinates;
+  }
+
+  Mesh read() {
+    read_lines();
+    finish();
+    return std::move(mesh_);
+  }
+
+  Mesh read_part() {
+    read_lines();
+    mesh_.positions = Eigen::Map<const Points>(coordinates_.data(), Eigen::Index(coordinates_.size() / 3), 3);
+    if (!texture_.values.empty() || (!texture_.corners.empty() && texture_.line_without < 0)) add_channel();
+    return std::move(mesh_);
+  }
+
+ private:
+  void read_lines() {
+    while (scanner_.next_line()) {
+      const std::string_view keyword = scanner_.token();
+      if (keyword == "v") {
+        read_vertex();
+      } else if (keyword == "vt") {
+        read_texture_coordinates();
+      } else if (keyword == "f") {
+        read_face();
+      } else if (keyword == "t") {
+        tags_.read(scanner_, mesh_);
+      } else if (keyword == "g" || keyword == "o") {
+        (keyword == "g" ? group_ : object_) = names_.read(scanner_, mesh_.face_names.names);
+      } else if (keyword == "vn" || keyword == "vp" || is_attribute_keyword(keyword)) {
+        continue;
+      } else if (!keyword.empty() && !elements_.count(scanner_, keyword) && !is_free_form_keyword(keyword)) {
+        unknown_.warn(scanner_, keyword, mesh_.warnings);
+      }
+    }
+  }
+
+  void read_vertex() {
+    for (const char* const what : {"coordinate x", "coordinate y", "coordinate z"}) {
+      coordinates_.push_back(scanner_.finite(scanner_.token(), what));
+    }
+    for (std::string_view token; !(token = scanner_.token()).empty();) scanner_.real(token, "number behind a vertex");
+    ++num_vertices_;
+  }
+
+  void read_texture_coordinates() {
+    std::size_t count = 0;
+    for (std::string_view token; count < 3 && !(token = scanner_.token()).empty(); ++count)
+      texture_.values.push_back(scanner_.finite(token, "texture coordinate"));
+    if (count == 0) scanner_.finite("", "texture coordinate");
+    for (std::string_view token; !(token = scanner_.token()).empty();)
+      scanner_.real(token, "number behind a texture coordinate");
+    texture_.values.resize(texture_.values.size() + 3 - count, 0);  // OBJ: absent ones are 0
+    texture_.columns = std::max(texture_.columns, count);
+    ++texture_.count;
+  }
+
+  void read_face() {
+    const std::int64_t line = scanner_.line();
+    std::int64_t size = 0;
+    for (std::string_view token; !(token = scanner_.token()).empty(); ++size) read_corner(token);
+    if (size < 3) {
+      throw InvalidMesh(scanner_.place(line) + "face " + format_number(faces_before_ + mesh_.num_faces()) + " has " +
+                        format_number(size) + " corners; it should have at least 3");
+    }
+    checked_index(std::int64_t(mesh_.face_vertices.size()), scanner_.name(), "corners of faces");
+    const Index name = group_ >= 0 ? group_ : object_;
+    std::vector<Index>& names = mesh_.face_names.of_face;
+    if (name >= 0 || !names.empty()) {
+      names.resize(mesh_.face_sizes.size(), -1);  // those before the first that has one
+      names.push_back(name);
+    }
+    mesh_.face_sizes.push_back(static_cast<Index>(size));
+  }
+
+  // One corner: its vertex, then perhaps a texture coordinate and a normal, which is checked for form only.
+  void read_corner(std::string_view token) {
+    std::size_t slash = token.find('/');
+    mesh_.face_vertices.push_back(indices_.read(scanner_, token.substr(0, slash), num_vertices_));
+    std::int64_t value = 0;  // none
+    for (int part = 0; slash != std::string_view::npos; ++part) {
+      const std::size_t first = slash + 1;
+      slash = token.find('/', first);
+      const std::string_view index = token.substr(first, slash - first);
+      if (part == 2) {
+        throw FormatError(scanner_.place() + "corner " + in_quotes(token) +
+                          " has more than 3 indices; it should be 'a', 'a/b', 'a//c' or 'a/b/c'");
+      }
+      if (index.empty()) continue;
+      const std::int64_t number = scanner_.integer(index, "index");
+      if (number == 0) reject_index_zero(scanner_);
+      if (part == 0) value = number;
+    }
+    if (value != 0 || !texture_.corners.empty()) add_texture_corner(value);
+    if (value == 0 && texture_.line_without < 0) texture_.line_without = scanner_.line();
+  }
+
+  // The texture coordinate of the corner that was read last, 0 for none.
+  void add_texture_corner(std::int64_t number) {
+    texture_.corners.resize(mesh_.face_vertices.size() - 1, -1);  // those before the first that has one
+    texture_.corners.push_back(-1);
+    if (number == 0) return;
+    const std::int64_t index = number > 0 ? number - 1 : texture_.count + number;
+    if (number > texture_.most.index) texture_.most = {.index = number, .line = scanner_.line()};
+    if (index < 0 && texture_.beyond.line < 0) texture_.beyond = {.index = number, .line = scanner_.line()};
+    texture_.corners.back() = static_cast<Index>(std::clamp<std::int64_t>(index, 0, std::numeric_limits<Index>::max()));
+  }
+
+  void finish() {
+    const std::string& name = scanner_.name();
+    if (mesh_.face_sizes.empty() && elements_.has_free_form())
+      throw InvalidMesh(scanner_.place(elements_.first_free_form) + "the file holds " + elements_.free_form() +
+                        ", which are free-form statements, and no mesh; a mesh has lines 'f a b c ...'");
+    if (num_vertices_ == 0) throw InvalidMesh(name + ": no vertices; an OBJ mesh has lines 'v x y z'");
+    if (mesh_.face_sizes.empty()) throw InvalidMesh(name + ": no faces; an OBJ mesh has lines 'f a b c ...'");
+    const Index vertices = checked_index(num_vertices_, name, "vertices");
+    indices_.check(scanner_, vertices);
+    mesh_.positions = Eigen::Map<const Points>(coordinates_.data(), vertices, 3);
+    tags_.check(scanner_, mesh_);
+    finish_texture_coordinates();
+    if (elements_.has_free_form())
+      mesh_.warnings.push_back(scanner_.place(elements_.first_free_form) + "the file also holds " +
+                               elements_.free_form() + " (free-form statements), which are no part of the mesh");
+  }
+
+  void finish_texture_coordinates() {
+    if (texture_.count == 0 || texture_.corners.empty()) return;
+    const auto count = [&] { return format_number(texture_.count) + " texture coordinates"; };
+    if (texture_.most.index > texture_.count)
+      throw InvalidMesh(scanner_.place(texture_.most.line) + "texture coordinate " +
+                        format_number(texture_.most.index) + " is out of range; the file has " + count() + ", 1 to " +
+                        format_number(texture_.count));
+    if (texture_.beyond.line >= 0)
+      throw InvalidMesh(scanner_.place(texture_.beyond.line) + "texture coordinate " +
+                        format_number(texture_.beyond.index) +
+                        " counts back beyond the first so far; relative indices start at -1, the last one");
+    if (texture_.line_without >= 0) {
+      mesh_.warnings.push_back(
+          scanner_.place(texture_.line_without) +
+          "corners without texture coordinate, which others have; texture coordinates are dropped");
+      return;
+    }
+    add_channel();
+  }
+
+  void add_channel() {
+    const Index rows = checked_index(std::int64_t(texture_.values.size() / 3), scanner_.name(), "texture coordinates");
+    mesh_.face_varying.push_back({.name = "uv",
+                                  .values = Eigen::Map<const Points>(texture_.values.data(), rows, 3)
+                                                .leftCols(static_cast<Eigen::Index>(texture_.columns)),
+                                  .indices = std::move(texture_.corners)});
+  }
+
+  struct Forward {
+    std::int64_t index, line;
+  };
+  struct Texture {
+    std::vector<double> values;  // three each
+    std::int64_t count = 0;
+    std::size_t columns = 0;             // that some line has
+    std::vector<Index> corners;          // -1 for none; empty before the first
+    Forward most{0, -1}, beyond{0, -1};  // the largest index, and the first that counts back too far
+    std::int64_t line_without = -1;
+  };
+
+  TextScanner scanner_;
+  Mesh mesh_;
+  ObjTags tags_;
+  std::vector<double> coordinates_;
+  std::int64_t num_vertices_, faces_before_;
+  ObjIndices indices_{"vertices"};
+  Texture texture_;
+  ObjNames names_;
+  Index group_ = -1, object_ = -1;
+  ObjElements elements_;
+  UnknownKeywords unknown_;
+};
+
+}  // namespace
+
+Mesh read_obj(const std::filesystem::path& path) { return parse_obj(read_file(path), path.string()); }
+
+ObjCounts count_obj(std::string_view part) {
+  TextScanner scanner(part, "", TextScanner::Continuation::backslash);
+  ObjCounts counts;
+  while (scanner.next_line()) {
+    const std::string_view keyword = scanner.token();
+    counts.vertices += keyword == "v";
+    counts.texture_coordinates += keyword == "vt";
+    counts.faces += keyword == "f";
+  }
+  counts.lines = scanner.line() - 1;
+  return counts;
+}
+
+Mesh parse_obj_part(std::string_view part, std::string_view name, const ObjCounts& before) {
+  return ObjReader(part, name, before).read_part();
+}
+
+Mesh parse_obj(std::string_view text, std::string_view name) {
+  require_text(text, name, "OBJ");
+  return ObjReader(text, name).read();
+}
+
+}  // namespace sublimit

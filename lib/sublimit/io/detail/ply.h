@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// Polygon File Format (Stanford): text or binary of either byte order, numbers of any type.
+//
+// Read: `x`, `y`, `z` of the element `vertex` and the list `vertex_index` or `vertex_indices` of the element `face`;
+// all else is skipped, but for properties of vertices that are asked for. Written: binary little-endian, doubles, one
+// normal per vertex. Tags have no place in it.
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sublimit/io/write_mesh.h"
+#include "sublimit/mesh/mesh.h"
+
+namespace sublimit {
+
+/// Reads the mesh of a file; PLY has no tags.
+/// @throws FormatError  not PLY, a header that makes no sense, counts that the file is too short for;
+///                      the place is file:line in text, file: byte in binary data
+/// @throws InvalidMesh  indices out of range, faces of fewer than 3 corners, infinite coordinates
+/// @throws IoError      missing, unreadable;  ResourceError  more than memory or 32-bit indices hold
+Mesh read_ply(const std::filesystem::path& path);
+/// Reads a mesh from the bytes of a PLY file.
+/// @param name  name of the file, with which messages start
+/// @throws as `read_ply`, but for IoError
+Mesh parse_ply(std::string_view bytes, std::string_view name);
+
+/// The mesh, with the properties of these names as its `vertex_values`, but for those that the file does not have.
+Mesh read_ply(const std::filesystem::path& path, std::span<const std::string> names);
+Mesh parse_ply(std::string_view bytes, std::string_view name, std::span<const std::string> names);
+
+/// Returns a mesh as the bytes of a file.
+/// @throws InvalidParameter  normals per corner, arrays that do not fit together
+/// @throws InvalidMesh       coordinates that are not finite
+std::string format_ply(const Mesh& mesh);
+/// Writes a mesh to a file, which appears whole or not at all.
+void write_ply(const std::filesystem::path& path, const Mesh& mesh,
+               const std::function<void(std::int64_t)>& progress = {});
+
+}  // namespace sublimit

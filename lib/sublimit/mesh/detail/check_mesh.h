@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// What every reader of a mesh refuses, and every writer, in the same words.
+#include "sublimit/mesh/mesh.h"
+#include "sublimit/mesh/mesh_view.h"
+
+namespace sublimit {
+
+/// Checks that faces have three corners or more, each at a vertex of the mesh.
+/// @throws InvalidMesh    names the face or corner;  ResourceError  more corners than 32-bit indices count
+void check_faces(const MeshView& mesh);
+
+/// Checks that creases, corners and holes name vertices and faces of the mesh, and that no sharpness is negative.
+/// Whether creases run along edges, `initial_sharpness` finds.
+/// @throws InvalidMesh  names the tag
+void check_tags(const Mesh& mesh);
+
+/// Checks that all faces have a name or none, each of the mesh's list.
+/// @throws InvalidMesh  says how many have
+void check_face_names(const Mesh& mesh);
+
+}  // namespace sublimit

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sublimit/search/detail/searched_surface.h"
+
+#include "sublimit/core/detail/finite_points.h"
+#include "sublimit/limit/detail/closed_surface.h"
+
+namespace sublimit {
+namespace {
+
+/// Deeper parts are made when they are asked for, for each query anew; all of them would not fit in memory.
+int levels_of(const AddressPieces& pieces, Index addresses) {
+  constexpr Index many = 20'000;
+  return pieces.has_no_polynomials() ? 1 : addresses < many ? 5 : 2;
+}
+
+const LimitSurface& measurable(const LimitSurface& surface) {
+  check_measurable_control(surface.points());
+  return surface;
+}
+
+}  // namespace
+
+SearchedLimit::SearchedLimit(const LimitSurface& surface)
+    : surface_(measurable(surface)),
+      pieces_(surface_.map(), surface_.points()),
+      levels_(levels_of(pieces_, surface_.faces().size)) {}
+
+void SearchedLimit::find_parts(Index face, PieceParts& cutter, std::vector<PiecePart>& out) const {
+  pieces_.visit(face, [&](const PieceType& type, const Points& local, const CellCorners& corners) {
+    cutter.find(type, local, corners, levels_, out);
+  });
+}
+
+std::string SearchedLimit::why_not_closed() const { return sublimit::why_not_closed(surface_.map()); }
+
+}  // namespace sublimit

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// Sparse matrices as Matrix Market text (coordinate real general, 1-based), read by SciPy, MATLAB, Julia.
+#include <filesystem>
+
+#include "sublimit/core/types.h"
+#include "sublimit/eval/stencil_table.h"
+
+namespace sublimit {
+
+/// Numbers are the shortest that read back to the same bits, of floats as floats.
+/// @throws IoError  unwritable;  ResourceError  a full disk
+void write_matrix_market(const std::filesystem::path& path, const SparseMatrix& matrix);
+template <class Real>
+void write_matrix_market(const std::filesystem::path& path, const StencilTable<Real>& table);
+
+}  // namespace sublimit

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// MESH.json next to MESH.obj: subdivision tags in the names of USD, for meshes from formats that have no tags, or to
+// override those of the file.
+//
+// clang-format off
+//     {"creaseIndices": [0, 1, 2, 4, 5],        chains of vertices, one after the other
+//      "creaseLengths": [3, 2],                 vertices in each chain, 2 or more
+//      "creaseSharpnesses": [2.5, 10],          one for each chain, or one for each edge
+//      "cornerIndices": [7], "cornerSharpnesses": [10],
+//      "holeIndices": [3],
+//      "interpolateBoundary": "none" | "edgeOnly" | "edgeAndCorner",
+//      "creaseMethod": "uniform" | "chaikin",
+//      "triangleSubdivisionRule": "catmullClark" | "smooth",
+//      "faceVaryingLinearInterpolation": "none" | "cornersOnly" | "cornersPlus1" | "cornersPlus2" | "boundaries" | "all"}
+// clang-format on
+//
+// Every key may be left out; one that is there replaces all tags of its kind.
+#include <filesystem>
+#include <optional>
+#include <string_view>
+
+#include "sublimit/mesh/mesh.h"
+
+namespace sublimit {
+
+/// The sidecar of a mesh file, if there is one: the same path with the extension .json, unless that is a report of this
+/// program (`"format": "sublimit-..."` comes first).
+std::optional<std::filesystem::path> find_sidecar(const std::filesystem::path& mesh);
+
+/// Replaces tags of `mesh` by those in a file. Unknown keys become warnings of the mesh.
+/// @throws FormatError  not JSON, wrong types or lengths, ids out of range, creases where no face has an edge; with
+///                      the file, the key and the position. The mesh is then as it was.
+/// @throws IoError      missing, unreadable
+void apply_sidecar(Mesh& mesh, const std::filesystem::path& path);
+
+/// Numbers of elements of a mesh that is not at hand.
+struct MeshCounts {
+  Index vertices = 0, faces = 0;
+};
+
+/// Applies the text of a sidecar; messages start with `name`.
+/// @param elsewhere  if given, `mesh` gets only the tags of a mesh of this size; creases are not checked to be edges
+void apply_sidecar_text(Mesh& mesh, std::string_view text, std::string_view name,
+                        const std::optional<MeshCounts>& elsewhere = {});
+
+}  // namespace sublimit

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// Output meshes of tessellations.
+#include <vector>
+
+#include "sublimit/io/write_mesh.h"
+#include "sublimit/primvar/face_varying.h"
+#include "sublimit/stencils/files/split_mesh.h"
+#include "sublimit/tessellation/tessellate.h"
+
+namespace sublimit {
+
+/// Returns the mesh of points and triangles; vertex i is place i. `face_ids` are faces of the control mesh.
+Mesh tessellation_mesh(const Tessellation& made, const LimitMap& surface, bool face_ids);
+
+/// Adds limit normals at the corners of faces, of the face's side of sharp edges.
+/// @param complete  give corners without a normal that of their triangle
+void add_normals(Mesh& out, const Tessellation& made, const LimitMap& surface, const Points& control, bool complete);
+
+/// Returns the places of the vertices of a split mesh: those of the tessellation, but on creases the place of each side
+/// in the face of its normal.
+std::vector<Place> places_of(const SplitMesh& split, const Tessellation& made);
+
+/// Adds the values of a channel at the corners: the limit of the channel at their places.
+/// @param scheme  scheme of the mesh
+void add_channel(Mesh& out, const Tessellation& made, const Scheme<double>& scheme,
+                 FaceVaryingInterpolation interpolation, const Mesh::FaceVarying& given, const Level& control);
+
+}  // namespace sublimit

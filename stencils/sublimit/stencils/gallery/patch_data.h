@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// The curves and points of a recipe that a surface of the gallery was made from, and their places on the surface.
+#include <vector>
+
+#include "sublimit/core/types.h"
+#include "sublimit/stencils/recipes/detail/json_value.h"
+
+namespace sublimit::gallery {
+
+struct PatchData {
+  std::vector<Points> curves;  ///< each as points along it
+  Points points;               ///< through which the surface goes, #x3
+  Points normals;              ///< normals of these points; no rows: there are none
+};
+
+/// @param recipe  one of the gallery's (patch_recipes.h): profiles lie in the plane of x and z, paths end in their
+///                first and last control points, curves that are translated begin at the origin
+/// @throws FormatError  as the readers of recipes
+PatchData patch_data(const JsonValue& recipe);
+
+}  // namespace sublimit::gallery

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// The gallery's classical surfaces as a section of its page.
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "sublimit/stencils/gallery/gallery_page.h"
+
+namespace sublimit::gallery {
+
+struct PatchPictures {
+  PageSection section;
+  std::vector<std::pair<std::string, std::string>> files;  ///< "patches.svg", and "patches.json" that it is made from
+};
+
+PatchPictures patch_pictures();
+
+}  // namespace sublimit::gallery

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// Two B-spline surfaces with unequal knots, stitched into one mesh with knot intervals around a vertex of valence 3.
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "sublimit/mesh/mesh.h"
+#include "sublimit/stencils/gallery/gallery_page.h"
+
+namespace sublimit::gallery {
+
+/// The scheme that the mesh is for.
+inline constexpr const char* stitched_scheme = "catmull-clark-intervals";
+
+/// A lid, and a wall along two of its sides.
+Mesh stitched_mesh();
+
+struct StitchedPictures {
+  PageSection section;
+  std::vector<std::pair<std::string, std::string>> files;  ///< "stitched.svg", "stitched.obj", "stitched.html"
+};
+/// @param report  makes the page of a mesh and a scheme's name; none: there is no page
+StitchedPictures stitched_pictures(const std::function<std::string(const Mesh&, const std::string&)>& report);
+
+}  // namespace sublimit::gallery

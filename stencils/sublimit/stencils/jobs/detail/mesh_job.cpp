@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sublimit/stencils/jobs/detail/mesh_job.h"
+
+#include <algorithm>
+#include <span>
+
+#include "sublimit/base/detail/rule_words.h"
+#include "sublimit/base/error.h"
+#include "sublimit/scheme/any_scheme.h"
+#include "sublimit/scheme/detail/prepare.h"
+#include "sublimit/stencils/files/rule_of_word.h"
+
+namespace sublimit {
+namespace {
+
+/// The rule of a word; nothing of an empty one.
+template <class Rule>
+std::optional<Rule> rule(const char* what, const std::string& word, std::span<const char* const> words) {
+  const std::optional<Rule> found = rule_of<Rule>(word);
+  if (found || word.empty()) return found;
+  std::string all;
+  for (const char* other : words) all += (all.empty() ? "" : ", ") + std::string(other);
+  throw InvalidOption(std::string(what) + " '" + word + "' is no rule; there are " + all);
+}
+
+}  // namespace
+
+Scheme<double> scheme_or_throw(const std::string& name, const SchemeOptions& options) {
+  if (std::optional<Scheme<double>> scheme = find_scheme(name, options)) return *std::move(scheme);
+  throw_no_surface_scheme(name);
+}
+
+MeshJob scheme_job(const MeshRequest& request) {
+  MeshJob job;
+  job.rules.boundary = rule<Boundary>("boundary", request.boundary, boundary_words);
+  job.rules.creasing = rule<Creasing>("creasing", request.creasing, creasing_words);
+  const auto triangles = rule<Triangles>("triangles", request.triangles, triangles_words);
+  const auto face_varying = rule<FaceVaryingInterpolation>("face-varying", request.face_varying, face_varying_words);
+  job.face_varying_asked = face_varying.has_value();
+  job.face_varying = face_varying.value_or(FaceVaryingInterpolation::all);
+  job.options = request.options;
+  if (triangles) job.options["triangles"] = request.triangles;
+  if (request.own_scheme) {
+    job.scheme = *request.own_scheme;
+    check_options(job.scheme->name, job.scheme->options, job.options);
+  } else if (!request.scheme.empty()) {
+    job.scheme = scheme_or_throw(request.scheme, job.options);
+  }
+  return job;
+}
+
+MeshJob mesh_job(const MeshRequest& request, Mesh mesh, const std::string& name) {
+  MeshJob job = scheme_job(request);
+  if (request.triangulate) mesh = triangulated(mesh);
+  if (request.no_creases) mesh = without_creases(std::move(mesh));
+  if (const auto asked = job.options.find("triangles"); asked != job.options.end()) {
+    mesh.triangles = rule_of<Triangles>(asked->second);
+  } else if (job.scheme && !request.own_scheme) {
+    job.scheme = *AnyScheme(*std::move(job.scheme)).for_mesh(mesh);
+    job.options = job.scheme->chosen;
+  }
+  if (job.rules.boundary) mesh.boundary = job.rules.boundary;
+  if (job.rules.creasing) mesh.creasing = job.rules.creasing;
+  if (!mesh.knot_intervals.empty() && job.scheme && job.scheme->knots == NewKnots::none)
+    mesh.warnings.push_back(name + ": knot intervals ignored: " + job.scheme->name +
+                            " knows none; catmull-clark-intervals and doo-sabin-intervals do");
+  if (!job.face_varying_asked) job.face_varying = mesh.face_varying_interpolation.value_or(job.face_varying);
+  if (request.strict) {
+    std::string all;
+    for (const std::string& fault : faults(mesh)) all += "\n  " + fault;
+    if (!all.empty()) throw InvalidMesh(name + ": not a clean manifold:" + all);
+  }
+  job.mesh = std::move(mesh);
+  return job;
+}
+
+std::vector<std::string> faults(const Mesh& mesh) {
+  const Topology topology(view(mesh));
+  std::vector<std::string> all;
+  for (const Topology::Fault& fault : topology.faults()) all.push_back(fault.message);
+  return all;
+}
+
+}  // namespace sublimit

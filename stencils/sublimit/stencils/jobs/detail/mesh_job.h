@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// A mesh and the scheme that is to refine it, requested in words: by options of the program, by arguments in Python.
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sublimit/scheme/refine.h"
+#include "sublimit/schemes/schemes.h"
+
+namespace sublimit {
+
+/// A request. Rules are the words of stencils/files/rule_words.h; empty: the mesh's own.
+struct MeshRequest {
+  std::string scheme = {};     ///< empty: none is needed
+  SchemeOptions options = {};  ///< options of the scheme
+  std::string boundary = {}, creasing = {}, triangles = {}, face_varying = {};
+  bool triangulate = false;                               ///< every face is cut into triangles first
+  bool no_creases = false;                                ///< crease and corner tags are dropped first
+  bool strict = false;                                    ///< a mesh that is no clean manifold is refused
+  std::shared_ptr<const Scheme<double>> own_scheme = {};  ///< a scheme of the caller, instead of a name
+};
+
+/// A mesh with its scheme, ready to be refined.
+struct MeshJob {
+  Mesh mesh;
+  std::optional<Scheme<double>> scheme;
+  SchemeOptions options;  ///< options of the scheme, with those that tags of the mesh select
+  SubdivisionOptions rules;
+  FaceVaryingInterpolation face_varying = FaceVaryingInterpolation::all;
+  bool face_varying_asked = false;  ///< not by the mesh's tag: it must be possible
+};
+
+/// Returns the scheme of a name.
+/// @throws InvalidOption  there is none, or it is one of curves or of points with more than positions; the message
+///                        offers the nearest ones
+Scheme<double> scheme_or_throw(const std::string& name, const SchemeOptions& options = {});
+
+/// Returns scheme and rules of a request before a mesh is read, so that what is misspelt is reported at once.
+/// @throws InvalidOption  as `scheme_or_throw`; a rule by a word that there is not, an option that the own scheme lacks
+MeshJob scheme_job(const MeshRequest& request);
+
+/// Returns scheme, rules and mesh of a request.
+/// @param name  of the mesh, in messages
+/// @throws InvalidMesh  connectivity that no scheme takes; with `strict`, every fault of it
+/// @note  What is accepted with a warning is added to the mesh's.
+MeshJob mesh_job(const MeshRequest& request, Mesh mesh, const std::string& name);
+
+/// Returns what keeps a mesh from being a manifold, in words.
+std::vector<std::string> faults(const Mesh& mesh);
+
+}  // namespace sublimit

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sublimit/stencils/jobs/detail/refined_job.h"
+
+#include <utility>
+
+#include "sublimit/base/error.h"
+#include "sublimit/core/detail/sparse_product.h"
+
+namespace sublimit {
+
+std::vector<FaceVaryingLevel> refined_channel(const MeshJob& job, const std::vector<Level>& levels,
+                                              std::string& why_not, size_t number) {
+  if (number >= job.mesh.face_varying.size()) return {};
+  try {
+    return refine_face_varying(*job.scheme, job.face_varying, job.mesh.face_varying[number], levels);
+  } catch (const Error& error) {
+    const bool unable = error.code() == ErrorCode::unsupported_topology || error.code() == ErrorCode::invalid_option;
+    if (!unable || job.face_varying_asked) throw;
+    why_not = error.what();
+    return {};
+  }
+}
+
+Mesh refined_mesh(const MeshJob& job, int levels, const std::function<void(int)>& progress) {
+  if (job.mesh.face_varying.empty()) return refined_mesh(*job.scheme, job.mesh, levels, job.rules, progress);
+  const std::vector<Level> all = refine(*job.scheme, job.mesh, levels, job.rules, progress);
+  Points points = job.mesh.positions;
+  for (size_t k = 1; k < all.size(); ++k) points = apply(all[k].S, points);
+  Mesh refined = level_mesh(all.back(), std::move(points), job.mesh, job.rules);
+  for (const Topology::Fault& fault : all[0].topology().faults()) refined.warnings.push_back(fault.message);
+  for (size_t c = 0; c < job.mesh.face_varying.size(); ++c) {
+    const Mesh::FaceVarying& given = job.mesh.face_varying[c];
+    std::string why_not;
+    const std::vector<FaceVaryingLevel> channel = refined_channel(job, all, why_not, c);
+    if (channel.empty()) {
+      refined.warnings.push_back((c == 0 ? std::string("texture coordinates are") : "channel '" + given.name + "' is") +
+                                 " left out: " + why_not);
+      continue;
+    }
+    const Topology& t = channel.back().level.topology();
+    Mesh::FaceVarying values{given.name, refined_values(channel, given.values), {}};
+    for (Index f = 0; f < t.num_faces(); ++f) {
+      const auto corners = t.vertices(Face{f});
+      values.indices.insert(values.indices.end(), corners.begin(), corners.end());
+    }
+    refined.face_varying.push_back(std::move(values));
+  }
+  if (!refined.face_varying.empty()) refined.face_varying_interpolation = job.face_varying;
+  return refined;
+}
+
+Mesh without_tags(Mesh mesh) {
+  Mesh bare;
+  bare.positions.swap(mesh.positions);
+  bare.face_sizes = std::move(mesh.face_sizes);
+  bare.face_vertices = std::move(mesh.face_vertices);
+  bare.face_varying = std::move(mesh.face_varying);
+  bare.warnings = std::move(mesh.warnings);
+  return bare;
+}
+
+}  // namespace sublimit

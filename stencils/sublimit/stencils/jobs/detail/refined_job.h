@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// Levels of a job as meshes, with their texture coordinates.
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "sublimit/primvar/face_varying.h"
+#include "sublimit/scheme/refined_mesh.h"
+#include "sublimit/stencils/jobs/detail/mesh_job.h"
+
+namespace sublimit {
+
+/// Returns the levels of one of the mesh's channels, its texture coordinates by default; empty if it has none, or if
+/// the scheme cannot refine them and they were not asked for.
+/// @param why_not  set to the reason if the scheme cannot refine them
+/// @throws Error   the scheme cannot refine them, and they were asked for
+std::vector<FaceVaryingLevel> refined_channel(const MeshJob& job, const std::vector<Level>& levels,
+                                              std::string& why_not, size_t number = 0);
+
+/// Returns level `levels` with remaining tags (`level_mesh`) and all channels.
+/// @param progress  called before each level with its number, if given
+/// @throws Error    as `refined_mesh`, `refined_channel`
+/// @note  The result has only new warnings, not those of the mesh.
+Mesh refined_mesh(const MeshJob& job, int levels, const std::function<void(int)>& progress = {});
+
+/// Returns a mesh of points, faces and values only.
+Mesh without_tags(Mesh mesh);
+
+}  // namespace sublimit

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// Light: how much of the sky a face sees, and from it, a key light, a fill and a highlight the tone of every corner.
+#include "sublimit/stencils/picture/scene.h"
+
+namespace sublimit::picture {
+
+constexpr int tones = 112;  ///< steps of a colour ramp; fewer would show as bands
+
+/// Sets `tone` of every face and corner.
+void light_scene(Scene& scene, const Camera& camera, int sky_directions);
+
+}  // namespace sublimit::picture

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// Pictures of meshes as SVG: panels in rows, one camera, soft shading, hidden faces and lines left out. Only what
+// a depth buffer has seen is written, faces of one tone are merged into one outline, and coordinates are tenths of a
+// pixel, so that a limit surface of 20 000 faces takes some 200 KB.
+#include <Eigen/Core>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sublimit/core/types.h"
+#include "sublimit/stencils/picture/color.h"
+
+namespace sublimit {
+
+struct PictureMesh {
+  Points positions;                  ///< #V x 3
+  std::vector<Index> face_sizes;     ///< corners of each face, >= 3
+  std::vector<Index> face_vertices;  ///< vertices of all faces, one after the other, counter-clockwise
+
+  /// Either, both or none; without them (or where they are zero) a face is flat. Lengths do not matter. A normal that
+  /// is far from the one of its face belongs to the other side of a crease and is not used there.
+  Points vertex_normals;  ///< #V x 3
+  Points corner_normals;  ///< one row per entry of face_vertices
+
+  struct Line {
+    Index tail = 0, head = 0;
+    double strength = 1;  ///< 0..1: from thin amber to strong red
+  };
+  std::vector<Line> creases;
+  struct Ink {
+    Color color = {};
+    double width = 1;  ///< pixels, 0..5
+  };
+  std::optional<Ink> ink;   ///< ink of all creases, for any sharpness
+  std::vector<Index> dots;  ///< vertices to mark
+  double dot_size = 1;      ///< 0..2
+
+  bool faces = true;       ///< false: lines and dots only, which hide nothing
+  bool wireframe = false;  ///< draw all edges
+  Color color = {.42, .60, .70};
+};
+
+struct Panel {
+  std::vector<PictureMesh> layers;
+  std::string caption;
+  std::string note;  ///< a second, smaller line
+};
+
+struct PictureOptions {
+  double panel_width = 400, panel_height = 370;  ///< pixels, captions not included
+  Eigen::Vector3d up = {0, 1, 0};
+  double azimuth = .6, elevation = .36;  ///< direction of the eye, radians; at azimuth 0, +x is to the right
+  double distance = 5;                   ///< distance of the eye, in radii of the scene, > 1; 0: orthographic
+  int sky_directions = 128;              ///< number of directions of light; more take time and reduce grain
+  int tone_step = 1;                     ///< smooth shading has every so manieth tone: small pictures need few
+  bool ground_shadow = true;
+  bool plate = true;         ///< a light background
+  double caption_size = 17;  ///< pixels; notes are smaller
+  /// Alternative text. With a title the picture has the role of an image of that name, as inline pictures need.
+  std::string title = {}, description = {};
+  int columns = 0;  ///< panels in a row, 0: all
+  /// #x3, kept in view though nothing draws them: pictures of what lies within the same ones have the same camera.
+  Points in_view = {};
+};
+
+/// The picture as the text of an SVG file.
+///
+/// Every panel shows the union of its layers; scale and camera are the same for all panels.
+/// @throws InvalidParameter  if a coordinate or normal is not finite, arrays do not fit together, an index is outside
+///                           its array, or an option is outside its range
+/// @note  Deterministic: same build and input, same bytes.
+std::string svg_picture(const std::vector<Panel>& panels, const PictureOptions& options = {});
+
+}  // namespace sublimit

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// JSON as a tree that keeps the digits of numbers as they were written.
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sublimit {
+
+struct JsonValue {
+  enum class Type { null, boolean, number, string, array, object };
+  Type type = Type::null;
+  bool boolean = false;
+  double number = 0;
+  std::string text;  ///< text of a string, or digits of a number
+  std::vector<JsonValue> items;
+  std::vector<std::string> keys;  ///< keys of an object, one for each item
+
+  const JsonValue* find(std::string_view key) const;
+};
+
+/// @param name  of the file, for messages
+/// @throws FormatError  not JSON, with file:line; a key that comes twice in an object; more than 64 levels of nesting;
+///                      numbers beyond the largest double
+JsonValue parse_json(std::string_view text, const std::string& name);
+
+/// A value as messages show it: "an array", "2.5", "\"smooth\"".
+std::string show(const JsonValue& value);
+
+}  // namespace sublimit
