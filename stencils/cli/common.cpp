@@ -177,13 +177,15 @@ void naming_mesh(const Common& common, const std::function<void()>& body) {
   }
 }
 
-std::string with_options(std::string message) {
+std::string in_words_of_the_program(std::string message) {
   constexpr std::pair<std::string_view, std::string_view> options[] = {{"triangulate the mesh", "--triangulate"},
                                                                        {"remove the tag", "--no-creases"},
                                                                        {"not a clean manifold", "--strict"}};
   for (const auto& [what, option] : options)
     if (const size_t at = message.find(what); at != std::string::npos)
       message.insert(at + what.size(), fmt::format(" ({})", option));
+  for (const std::string_view verb : {"`schemes`", "`info`", "`analyze`"})
+    if (const size_t at = message.find(verb); at != std::string::npos) message.insert(at + 1, "sublimit ");
   return message;
 }
 

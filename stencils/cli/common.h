@@ -96,8 +96,8 @@ std::vector<FaceVaryingLevel> refined_channel(const Common& common, const Loaded
 /// Calls `body`, and adds the names of mesh and scheme to its errors about the mesh.
 void naming_mesh(const Common& common, const std::function<void()>& body);
 
-/// A message of the library with the options of the program that would help, behind what they would do.
-std::string with_options(std::string message);
+/// A message of the library with the options that would help, behind what they would do, and verbs as they are typed.
+std::string in_words_of_the_program(std::string message);
 
 /// Fails before any work if an output cannot be written: its extension, its directory, a file in its place that must
 /// not be touched. An empty list takes any extension.

@@ -59,7 +59,7 @@ void print(const MeshInfo& info, const std::string& name) {
                channel.numbers, info.face_varying);
   if (!info.scheme.empty()) {
     fmt::print("  {:<18} {}\n", info.scheme + ":",
-               info.why_not.empty() ? "takes this mesh" : "no: " + with_options(info.why_not));
+               info.why_not.empty() ? "takes this mesh" : "no: " + in_words_of_the_program(info.why_not));
     for (size_t k = 0; k < info.predicted_bytes.size(); ++k)
       fmt::print("    to level {}         about {:.1f} MB\n", k + 1, info.predicted_bytes[k] / 1e6);
   }

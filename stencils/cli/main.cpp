@@ -70,7 +70,7 @@ int run(int argc, char** argv) {
       try {
         return command();
       } catch (const Error& error) {
-        throw Error(error.code(), cli::with_options(error.what()));
+        throw Error(error.code(), cli::in_words_of_the_program(error.what()));
       }
     }
   return line.status;

@@ -12,7 +12,7 @@ set(files_sublimit-cad "^${LIBDIR}/sublimit/libsublimit_opencascade[.]so$")
 set(files_sublimit-implicit "^${LIBDIR}/sublimit/libsublimit_openvdb[.]so$")
 set(files_sublimit-gpu "^${LIBDIR}/sublimit/libsublimit_gpu[.]so$")
 set(files_sublimit-mpi "^bin/sublimit-mpi$")
-set(count_libsublimit-dev 200)
+set(count_libsublimit-dev 120)
 set(count_python3-sublimit 15)
 
 set(all "")

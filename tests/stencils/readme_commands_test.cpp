@@ -68,6 +68,7 @@ constexpr Example examples[] = {
     {"eval/README.md", "cpp", 2, "consumer.eval compiles and runs them"},
     {"eval/README.md", "c", 1, "consumer.eval compiles and runs it"},
     {"eval/sublimit/eval/gpu/README.md", "cpp", 2, "consumer.eval compiles and runs them"},
+    {"stencils/sublimit/distributed/README.md", "cpp", 1, "consumer.lib compiles and runs it"},
     {"stencils/python/README.md", "python", 1, "tests/python/test_docstrings.py runs it"},
     {"eval/table_format.md", "python", 1, "TableInPython.MakesTheSamePoints runs it"},
 };

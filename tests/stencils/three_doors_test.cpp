@@ -238,8 +238,8 @@ class ThreeDoors : public ::testing::Test {
     }
   }
 
-  /// A message without what only its door says: the name of the program, the place in a file, the mesh and the scheme
-  /// that the program names before what is wrong with them, the options that would help.
+  /// A message without what only its door says: the name of the program, also before its verbs, the place in a file,
+  /// the mesh and the scheme before what is wrong with them, the options that would help.
   static std::string bare(std::string message) {
     static const std::string names = [] {
       std::string all = "mesh";  // as Python calls the mesh of a call
@@ -254,7 +254,8 @@ class ThreeDoors : public ::testing::Test {
         {std::regex("^(" + names + "): "), ""},
         {std::regex("^target [0-9]+: "), ""},
         {std::regex("; --clamp moves such places to its rim$"), ""},
-        {std::regex(R"( \(--[a-z][^)]*\))"), ""}};
+        {std::regex(R"( \(--[a-z][^)]*\))"), ""},
+        {std::regex("`sublimit (schemes|info|analyze)`"), "`$1`"}};
     for (const auto& [part, with] : parts) message = std::regex_replace(message, part, with);
     return message;
   }

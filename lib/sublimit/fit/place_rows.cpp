@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <string>
 
 #include "sublimit/base/detail/parallel_for.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 #include "sublimit/fit/scattered_fit.h"
 #include "sublimit/limit/detail/why_outside.h"
 

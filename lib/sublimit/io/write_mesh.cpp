@@ -112,8 +112,8 @@ void check_output(const Mesh& mesh, const std::string& name) {
 
   naming(name, [&] { check_face_names(mesh); });
   for (const std::string& text : mesh.face_names.names)
-    require(std::ranges::none_of(text, [](char c) { return c == '#' || c == '\\' || std::uint8_t(c) < ' '; }), name,
-            "a name of faces has a character that OBJ has no way to write");
+    require(text.find_first_of("#\n\r") == std::string::npos && !text.ends_with('\\'), name,
+            "a name of faces has a character that OBJ has no way to write: the end of a line, # or a last \\");
 
   for (const Mesh::VertexValues& further : mesh.vertex_values) {
     require(std::ssize(further.values) == vertices, name, "there should be a further value for each vertex");

@@ -41,9 +41,7 @@ std::string why_outside(const FaceCount& faces, std::int64_t face, double u, dou
   if (face < 0 || face >= faces.size)
     return "face " + std::to_string(face) + " does not exist; " + faces_in_words(faces);
   if (is_inside(faces, {static_cast<Index>(face), u, v})) return {};
-  const std::string place = "(u, v) = (" + format_number(u) + ", " + format_number(v) + ")";
-  if (!std::isfinite(u) || !std::isfinite(v)) return place + " is not finite; both should be numbers";
-  return place + " is outside the " +
+  return "(u, v) = (" + format_number(u) + ", " + format_number(v) + ") is outside the " +
          (faces.triangles ? "triangle u >= 0, v >= 0, u + v <= 1" : "square 0 <= u, v <= 1");
 }
 

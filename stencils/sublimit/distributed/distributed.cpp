@@ -11,34 +11,30 @@
 #include "sublimit/base/error.h"
 #include "sublimit/distributed/shard_jobs.h"
 #include "sublimit/distributed/spread_readers.h"
+#include "sublimit/mesh/detail/check_mesh.h"
 
 namespace sublimit {
 namespace {
 
-/// @param where  what messages begin with
-/// @param first  number of the first face in the whole
-/// @throws InvalidMesh  sizes below 3, and not as many corners as they say
-void check_faces(const std::string& where, std::span<const Index> sizes, std::int64_t first, size_t corners) {
-  std::int64_t sum = 0;
-  for (size_t f = 0; f < sizes.size(); ++f) {
-    if (sizes[f] < 3)
-      throw InvalidMesh(fmt::format("{}: face {} has {} corners; it should have at least 3", where,
-                                    first + std::int64_t(f), sizes[f]));
-    sum += sizes[f];
-  }
-  if (sum != std::int64_t(corners))
-    throw InvalidMesh(
-        fmt::format("{}: face_sizes are {} corners in all, and face_vertices has {}", where, sum, corners));
-}
-
 /// Checks the arrays and tags of a rank by themselves; `check` looks at the numbers in them.
+/// @param where  what messages begin with
+/// @param first_vertex, first_face  numbers in the whole
 void check_run(const std::string& where, const MeshRun& run, std::int64_t first_vertex, std::int64_t first_face) {
   if (run.positions.rows() > 0 && run.positions.cols() != 3)
     throw InvalidMesh(fmt::format("{}: positions have {} columns; 3 are right", where, run.positions.cols()));
   for (Eigen::Index v = 0; v < run.positions.rows(); ++v)
     if (!run.positions.row(v).allFinite())
       throw InvalidMesh(fmt::format("{}: coordinates of vertex {} are not finite", where, first_vertex + v));
-  check_faces(where, run.face_sizes, first_face, run.face_vertices.size());
+  std::int64_t corners = 0;
+  for (size_t f = 0; f < run.face_sizes.size(); ++f) {
+    if (run.face_sizes[f] < 3)
+      throw InvalidMesh(fmt::format("{}: face {} has {} corners; it should have at least 3", where,
+                                    first_face + std::int64_t(f), run.face_sizes[f]));
+    corners += run.face_sizes[f];
+  }
+  if (corners != std::ssize(run.face_vertices))
+    throw InvalidMesh(fmt::format("{}: the face sizes add up to {} corners, but there are {}", where, corners,
+                                  run.face_vertices.size()));
   for (const MeshRun::Crease& crease : run.creases)
     if (!(crease.sharpness >= 0))
       throw InvalidMesh(fmt::format("{}: a crease from vertex {} to {} has sharpness {}; it should be 0 or more", where,
@@ -177,7 +173,7 @@ MeshRun mesh_run(const Mesh& whole, int rank, int size) {
     throw InvalidParameter(fmt::format("run {} of {}; 0 to {} are right", rank, size, size - 1));
   if (!whole.knot_intervals.empty())
     throw InvalidMesh("knot intervals are those of strips of faces, which no part sees to their ends");
-  check_faces("mesh", whole.face_sizes, 0, whole.face_vertices.size());
+  check_faces(view(whole));
   const Runs vertices = Runs::equal(whole.num_vertices(), size), faces = Runs::equal(whole.num_faces(), size);
   MeshRun run;
   run.positions = whole.positions.middleRows(vertices.begin(rank), vertices.size(rank));

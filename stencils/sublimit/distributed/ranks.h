@@ -2,6 +2,9 @@
 #pragma once
 // Processes of one job, by MPI: what they tell each other, and how they fail together. distributed.h is for programs of
 // your own; of this header they need `Ranks`.
+//
+//   const Ranks ranks(argc, argv);
+//   return ranks.run([&] { if (ranks.is_first()) std::printf("%d ranks\n", ranks.size()); });
 #include <array>
 #include <cstddef>
 #include <cstdint>

@@ -10,6 +10,7 @@
 #include <limits>
 #include <random>
 
+#include "sublimit/limit/limit_map.h"
 #include "support/expect_error.h"
 #include "support/places.h"
 #include "support/tested_schemes.h"
@@ -169,7 +170,7 @@ TEST(ScatteredFit, SaysWhatIsWrongAndWhere) {
   fails([](T& t, Points&, O&) { t.places[1].face = 20; }, {"target 1", "face 20", "faces are 0 to 19"});
   fails([](T& t, Points&, O&) { t.places[1].face = -1; }, {"target 1", "face -1"});
   fails([](T& t, Points&, O&) { t.places[0].u = 1.5; }, {"target 0", "1.5", "outside", "square 0 <= u, v <= 1"});
-  fails([&](T& t, Points&, O&) { t.places[0].v = nan; }, {"target 0", "finite"});
+  fails([&](T& t, Points&, O&) { t.places[0].v = nan; }, {"target 0", "nan", "outside"});
   fails([](T& t, Points&, O&) { t.places[1] = {3, 0.5, 0.5}; }, {"target 1", "face 3", "hole"});
   fails([&](T& t, Points&, O&) { t.values(1, 2) = nan; }, {"target 1", "finite"});
   fails([](T& t, Points&, O&) { t.weights = {1, -2}; }, {"target 1", "-2", ">= 0"});

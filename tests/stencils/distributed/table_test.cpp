@@ -52,7 +52,7 @@ TEST(DistributedTable, IsThatOfOneProcessByAnyNumberOfRanks) {
       const RanksRun run = run_ranks(ranks,
                                      "points " + path("m.obj") + " " + c.scheme + " " + c.levels + " " + c.rows + " " +
                                          path("shards") + " " + path("out"),
-                                     "", 60, SUBLIMIT_TABLE_DRIVER);
+                                     "", 200, SUBLIMIT_TABLE_DRIVER);
       ASSERT_EQ(run.status, 0) << c.name << " by " << ranks << ": " << run.err;
       EXPECT_EQ(read_file(path("out")) == points, true) << c.name << " by " << ranks;
     }
@@ -65,12 +65,12 @@ TEST(DistributedTable, WhatOneRankHasWrongIsAnErrorOfAll) {
   write_mesh(obj, jittered(torus(5, 4)));
   ASSERT_EQ(run_ranks(2, "bake " + obj + " -s catmull-clark -l 1 -o " + shards).status, 0);
   for (const int ranks : {1, 2, 3}) {
-    const RanksRun run = run_ranks(ranks, "errors " + obj + " " + shards, "", 60, SUBLIMIT_TABLE_DRIVER);
+    const RanksRun run = run_ranks(ranks, "errors " + obj + " " + shards, "", 200, SUBLIMIT_TABLE_DRIVER);
     EXPECT_EQ(run.status, 0) << ranks << " ranks: " << run.err;
-    const RanksRun fails = run_ranks(ranks, "fails", "", 60, SUBLIMIT_TABLE_DRIVER);
+    const RanksRun fails = run_ranks(ranks, "fails", "", 200, SUBLIMIT_TABLE_DRIVER);
     EXPECT_EQ(fails.status, 2) << fails.err;
     EXPECT_EQ(fails.error(), "sublimit-mpi: error: level -1 of a table; 1 to 11 are right\n") << ranks;
-    const RanksRun dies = run_ranks(ranks, "dies", "", 60, SUBLIMIT_TABLE_DRIVER);
+    const RanksRun dies = run_ranks(ranks, "dies", "", 200, SUBLIMIT_TABLE_DRIVER);
     EXPECT_EQ(dies.status, 70) << dies.err;
     EXPECT_EQ(dies.error(), "sublimit-mpi: error: rank " + std::to_string(ranks - 1) + ": no reason\n") << ranks;
   }

@@ -28,6 +28,11 @@ void check_measurable(const Points& points, const std::string& what) {
   check<InvalidParameter>(points, what, farthest_coordinate);
 }
 
+void check_in_space(const Points& points) {
+  if (points.rows() > 0 && points.cols() != 3)
+    throw InvalidMesh("control points have " + std::to_string(points.cols()) + " coordinates; 3 are right");
+}
+
 void check_finite_control(const Points& points) {
   check<InvalidMesh>(points, "control point", std::numeric_limits<double>::max());
 }

@@ -18,6 +18,10 @@ inline constexpr double farthest_coordinate = 1e150;
 ///                           point
 void check_measurable(const Points& points, const std::string& what);
 
+/// Throws unless control points have three coordinates, if there are any.
+/// @throws InvalidMesh  says how many they have
+void check_in_space(const Points& points);
+
 /// Throws unless control points of a surface that is bounded or integrated are finite.
 /// @throws InvalidMesh  a coordinate is not finite, naming the first such point
 void check_finite_control(const Points& points);

@@ -7,7 +7,6 @@
 #include "sublimit/core/detail/finite_points.h"
 #include "sublimit/limit/detail/limit_cache.h"
 #include "sublimit/limit/limit_surface.h"
-#include "sublimit/mesh/detail/points_in_space.h"
 #include "sublimit/report/asset/curvature_statistics.h"
 #include "sublimit/report/asset/display_surface.h"
 #include "sublimit/report/asset/seams.h"
@@ -48,7 +47,8 @@ AssetReport asset_report(const Scheme<double>& scheme, const Mesh& mesh, const S
   };
   const auto types = std::make_shared<LimitCache>(scheme);
   const LimitMap surface(scheme, mesh, subdivision, types);
-  check_measurable_control(points_in_space(mesh));
+  check_in_space(mesh.positions);
+  check_measurable_control(mesh.positions);
   const Topology& t = surface.level().topology();
 
   AssetReport report;

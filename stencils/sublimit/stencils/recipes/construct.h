@@ -30,7 +30,9 @@ class Curves {
   const CurveSet& set() const;   ///< the curves without points
   const Points& points() const;  ///< control points, with the weight as the last column if they are rational
   bool rational() const;         ///< true if points are homogeneous: (w x, ..., w)
+  /// Returns how many curves there are.
   Index num_curves() const { return set().num_curves(); }
+  /// Returns how many segments all of them have: one for each span of knots.
   Index num_segments() const { return set().num_segments(); }
 
   /// Evaluates places, in parallel.
