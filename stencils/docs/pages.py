@@ -303,6 +303,8 @@ def python_page(site: Site) -> None:
         tree = ast.parse(path.read_text())
         section = []
         for node in tree.body:
+            if any("overload" in ast.unparse(decorator) for decorator in getattr(node, "decorator_list", [])):
+                continue  # for checkers of types; the function itself follows
             if isinstance(node, ast.FunctionDef) and (node.name in public or is_open and node.name[0] != "_"):
                 section.append(f"### `{node.name}`\n\n```python\n{signature(node)}\n```\n{doc(node)}")
                 if not ast.get_docstring(node):
